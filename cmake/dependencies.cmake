@@ -1,0 +1,27 @@
+# Everything comes from Debian 12's packages; nothing is fetched.
+find_program(MYOID_CCACHE ccache)
+if(MYOID_CCACHE)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${MYOID_CCACHE})
+endif()
+
+find_package(Eigen3 3.4 REQUIRED NO_MODULE)
+find_package(fmt 9 REQUIRED)
+find_package(pugixml REQUIRED)
+find_package(nlohmann_json 3.11 REQUIRED)
+find_package(CLI11 2.1 REQUIRED)
+find_package(TBB REQUIRED)
+find_package(OpenSSL 3 REQUIRED COMPONENTS Crypto)
+find_package(Threads REQUIRED)
+find_path(MYOID_TOMLPLUSPLUS_INCLUDE toml++/toml.h REQUIRED)
+find_path(MYOID_CERES_INCLUDE ceres/jet.h REQUIRED)
+
+# ceres/jet.h only: the program does not link Ceres (decision 0008). Its config header pulls nothing.
+add_library(myoid_jet INTERFACE)
+target_include_directories(myoid_jet SYSTEM INTERFACE ${MYOID_CERES_INCLUDE})
+
+add_library(myoid_toml INTERFACE)
+target_include_directories(myoid_toml SYSTEM INTERFACE ${MYOID_TOMLPLUSPLUS_INCLUDE})
+
+if(MYOID_TESTS)
+  find_package(GTest 1.12 REQUIRED)
+endif()

@@ -1,0 +1,57 @@
+# The layers, lowest first, and which lower layers each may use: written here once. The targets link
+# exactly these; tests/architecture compares every #include with this list.
+set(MYOID_LAYERS core math muscle recording signals model kinematics dynamics forces identification
+                 simulation report pipeline cli)
+set(MYOID_LAYER_core)
+set(MYOID_LAYER_math core)
+set(MYOID_LAYER_muscle core math)
+set(MYOID_LAYER_recording core math)
+set(MYOID_LAYER_signals core math muscle recording)
+set(MYOID_LAYER_model core math muscle recording)
+set(MYOID_LAYER_kinematics core math muscle recording signals model)
+set(MYOID_LAYER_dynamics core math recording signals model kinematics)
+set(MYOID_LAYER_forces core math muscle recording signals model kinematics dynamics)
+set(MYOID_LAYER_identification core math muscle recording signals model kinematics dynamics forces)
+set(MYOID_LAYER_simulation core math muscle recording signals model kinematics dynamics forces)
+set(MYOID_LAYER_report core math muscle recording)
+set(MYOID_LAYER_pipeline core math muscle recording signals model kinematics dynamics forces
+                         identification simulation report)
+set(MYOID_LAYER_cli ${MYOID_LAYER_pipeline} pipeline)
+
+# myoid_layer(NAME [HEADERS ...] [SOURCES ...] [TESTS ...] [EXTERNAL targets...])
+# A folder is a target; its tests are one executable. Everything is listed by name.
+function(myoid_layer name)
+  cmake_parse_arguments(ARG "" "" "HEADERS;SOURCES;TESTS;EXTERNAL" ${ARGN})
+  set(deps)
+  foreach(dep IN LISTS MYOID_LAYER_${name})
+    list(APPEND deps myoid_${dep})
+  endforeach()
+  if(ARG_SOURCES)
+    add_library(myoid_${name} STATIC ${ARG_SOURCES} ${ARG_HEADERS})
+    target_include_directories(myoid_${name} PUBLIC ${PROJECT_SOURCE_DIR})
+    target_link_libraries(myoid_${name} PUBLIC ${deps} ${ARG_EXTERNAL} Eigen3::Eigen fmt::fmt
+                                        PRIVATE myoid_warnings)
+  else()
+    add_library(myoid_${name} INTERFACE)
+    target_include_directories(myoid_${name} INTERFACE ${PROJECT_SOURCE_DIR})
+    target_link_libraries(myoid_${name} INTERFACE ${deps} ${ARG_EXTERNAL} Eigen3::Eigen fmt::fmt)
+  endif()
+  if(MYOID_TESTS AND ARG_TESTS)
+    add_executable(${name}_tests ${ARG_TESTS})
+    target_link_libraries(${name}_tests PRIVATE myoid_${name} myoid_test_support myoid_warnings)
+    if(NOT MYOID_SANITIZE)
+      target_compile_options(${name}_tests PRIVATE -O1)  # quick to build; the library keeps -O2
+    endif()
+    gtest_discover_tests(${name}_tests TEST_PREFIX "${name}." DISCOVERY_TIMEOUT 60
+                         PROPERTIES TIMEOUT 600)
+  endif()
+endfunction()
+
+# Test helpers that no single folder owns.
+if(MYOID_TESTS)
+  add_library(myoid_test_support INTERFACE)
+  target_include_directories(myoid_test_support INTERFACE ${PROJECT_SOURCE_DIR})
+  target_link_libraries(myoid_test_support INTERFACE GTest::gtest GTest::gmock GTest::gtest_main)
+  target_compile_definitions(myoid_test_support INTERFACE
+    MYOID_SOURCE_DIR="${PROJECT_SOURCE_DIR}" MYOID_BINARY_DIR="${PROJECT_BINARY_DIR}")
+endif()

@@ -1,0 +1,55 @@
+#!/usr/bin/env bash
+# Sourced by run-demo and run-tests: installs what is missing on Debian 12, configures and builds
+# the one optimised tree that both share. Idempotent.
+
+MYOID_ROOT="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
+MYOID_BUILD="$MYOID_ROOT/build/release"
+
+# package: why it is needed
+MYOID_PACKAGES=(
+  "g++:compiler" "cmake:build system" "ninja-build:build system" "ccache:quick rebuilds"
+  "libeigen3-dev:linear algebra" "libfmt-dev:text formatting" "libpugixml-dev:.osim files"
+  "libtomlplusplus-dev:study files" "nlohmann-json3-dev:JSON results" "libcli11-dev:command line"
+  "libtbb-dev:threads" "libssl-dev:SHA-256 of the inputs" "libceres-dev:ceres/jet.h (exact derivatives); test oracle"
+  "libsundials-dev:ODE integration"
+  "libgtest-dev:tests" "libgmock-dev:tests" "libbenchmark-dev:benchmarks"
+  "libsimbody-dev:test oracle of the multibody engine"
+)
+
+myoid_log() { printf '%s\n' "$*" >&2; }
+
+myoid_install_packages() {
+  local missing=() entry name
+  for entry in "${MYOID_PACKAGES[@]}"; do
+    name="${entry%%:*}"
+    if ! dpkg-query -W -f='${Status}' "$name" 2>/dev/null | grep -q 'install ok installed'; then
+      missing+=("$name")
+      myoid_log "missing package: $name (${entry#*:})"
+    fi
+  done
+  [ "${#missing[@]}" -eq 0 ] && return 0
+  local as_root=()
+  if [ "$(id -u)" -ne 0 ]; then
+    command -v sudo >/dev/null || {
+      myoid_log "Please install as root:  apt-get install ${missing[*]}"
+      exit 3
+    }
+    as_root=(sudo)
+  fi
+  myoid_log "Installing: ${missing[*]}"
+  "${as_root[@]}" apt-get update -qq >&2
+  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
+    apt-get install -y -qq --no-install-recommends "${missing[@]}" >&2
+}
+
+myoid_build() {  # myoid_build [target...]
+  myoid_log "Configuring and building in $MYOID_BUILD"
+  local log
+  cd "$MYOID_ROOT"
+  log="$(mktemp)"
+  if ! cmake --preset release >"$log" 2>&1; then cat "$log" >&2; exit 1; fi
+  rm -f "$log"
+  local targets=()
+  [ "$#" -gt 0 ] && targets=(--target "$@")
+  cmake --build "$MYOID_BUILD" "${targets[@]}" >&2
+}

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+
+namespace myoid {
+
+/// The caller gave something that cannot be used: a value, a shape, a unit, a name.
+/// The message says what was found, what was expected and how to mend it.
+class InvalidInput : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// A file cannot be read as what it claims to be. `what()` begins with the path and, where
+/// there is one, the line: "dir/file.trc:17: expected ..., found ...; remedy".
+class ReadError : public InvalidInput {
+ public:
+  /// `line` counts from 1; 0 means the file as a whole.
+  ReadError(std::filesystem::path path, std::size_t line, const std::string& message);
+
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+  [[nodiscard]] std::size_t line() const { return line_; }
+
+ private:
+  std::filesystem::path path_;
+  std::size_t line_;
+};
+
+/// A model is inconsistent or needs something that is not supported.
+class ModelError : public InvalidInput {
+ public:
+  using InvalidInput::InvalidInput;
+};
+
+/// The user asked to stop (Ctrl-C); what was finished stays usable.
+class Interrupted : public std::runtime_error {
+ public:
+  Interrupted() : std::runtime_error("interrupted") {}
+};
+
+}  // namespace myoid
