@@ -1,0 +1,141 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "myoid/core/geometry.h"
+
+namespace myoid::pipeline {
+
+/// What a trial is for.
+enum class Use { calibration, validation, mvc, static_pose, passive, isometric };
+[[nodiscard]] std::string_view name(Use use);
+
+struct SubjectSpec {
+  std::string name = "subject";
+  std::optional<double> mass_kg;
+  std::string sex;                 ///< "male", "female" or empty.
+  std::vector<std::string> notes;  ///< Assumptions of the user's own, printed in the report.
+};
+
+/// A point of a body where the held mass of a trial acts.
+struct HeldMassSpec {
+  std::string body;
+  Vec3 p_BP_m = Vec3::Zero();  ///< In the body's frame [m].
+};
+
+struct ModelSpec {
+  std::optional<std::filesystem::path> file;  ///< .osim
+  std::string builtin;                        ///< "arm4" when there is no file.
+  std::optional<double> upper_arm_length_m;   ///< Of the built-in arm.
+  std::optional<double> forearm_length_m;     ///< Of the built-in arm: elbow to wrist.
+  bool horizontal = false;                    ///< Plane of movement of the built-in arm.
+  bool forearm_rotations = false;  ///< Of the built-in arm: free base and forearm rotations.
+  std::string coordinate = "elbow_flexion";  ///< The joint whose torque the muscles share.
+  std::optional<HeldMassSpec> held_mass;
+};
+
+enum class Smoothing { automatic, none, cutoff };
+
+struct MotionSpec {
+  Smoothing smoothing = Smoothing::automatic;
+  double cutoff_hz = 6.0;  ///< -3 dB of the two passes together, when `smoothing` is cutoff.
+  double rate_hz = 100.0;  ///< Of the samples that are analysed.
+};
+
+struct MarkerSpec {
+  std::map<std::string, std::string> rename;  ///< From the file's name to the model's.
+  std::map<std::string, double> weight;       ///< By the model's name; 1 where absent.
+  char up = 'y';                              ///< Vertical axis of the laboratory: 'x', 'y' or 'z'.
+};
+
+/// Coordinates that are measured once, in a posture that is known, and then held.
+struct CalibrationSpec {
+  std::vector<double> window_s;   ///< Start and end in the trial.
+  std::vector<std::string> free;  ///< Found in the window and then locked at their median.
+};
+
+struct IkSpec {
+  std::vector<std::string> unlock;  ///< Coordinates that the model locks and this study frees.
+  std::vector<std::string> lock;    ///< Held at their default value.
+  std::optional<CalibrationSpec> calibrate;
+};
+
+enum class EmgKind { raw, envelope, activation };
+
+struct EmgSpec {
+  EmgKind kind = EmgKind::raw;
+  std::string unit;  ///< "uV", ...; empty: as the file says.
+  bool rectify = true;
+  double highpass_hz = 20.0;
+  double lowpass_hz = 6.0;
+  bool as_published = false;  ///< The uncorrected 6 Hz design of the source paper.
+  double normalise_window_s = 0.5;
+  bool has_mvc = true;  ///< False: no trial is a maximal contraction (set from the trials).
+  std::optional<double> delay_s;  ///< Empty: estimated.
+};
+
+struct MuscleSpec {
+  std::string name;
+  std::vector<std::string> osim;  ///< Muscles of the model that act as this one.
+  std::string emg;                ///< EMG channel.
+  std::optional<std::string>
+      same_as;  ///< Muscle whose channel is used, where there is no electrode.
+  std::map<std::string, double> start;  ///< Starting values by parameter name, SI.
+  std::vector<std::string> fixed;       ///< Parameters held at their start.
+};
+
+struct TrialSpec {
+  std::string name;
+  std::optional<std::filesystem::path> markers;
+  std::optional<std::filesystem::path> motion;
+  std::optional<std::filesystem::path> emg;
+  std::optional<std::filesystem::path>
+      external_torque;  ///< <coordinate>_moment that the surroundings exert [N m].
+  Use use = Use::calibration;
+  double held_mass_kg = 0.0;
+  std::optional<double> start_s, end_s;
+};
+
+struct SharingSpec {
+  std::string objective = "activation";
+  double exponent = 2.0;
+  double reserve_nm = 1.0;  ///< Optimal force of the reserve on the coordinate.
+};
+
+struct IdentifySpec {
+  std::vector<std::string> methods{"paper", "torque"};
+  std::vector<std::string> muscles;  ///< Empty: all.
+  bool priors = true;
+  bool gain = true;  ///< EMG gain per channel as a nuisance with a tight prior.
+  bool cross_validate = true;
+  double max_rate_hz = 50.0;
+};
+
+/// What to do, as read from a study.toml. Paths are absolute or relative to the working directory,
+/// resolved against the file's own folder.
+struct Study {
+  std::filesystem::path file;
+  SubjectSpec subject;
+  ModelSpec model;
+  MotionSpec motion;
+  MarkerSpec markers;
+  IkSpec ik;
+  EmgSpec emg;
+  SharingSpec sharing;
+  IdentifySpec identify;
+  std::vector<MuscleSpec> muscles;
+  std::vector<TrialSpec> trials;
+  std::optional<std::filesystem::path> truth;
+};
+
+/// Reads and validates a study file. Throws ReadError with the line for syntax, unknown keys, wrong
+/// types, names that refer to nothing and numbers out of range. Files that the study names are not
+/// opened: that is `check_study`'s.
+[[nodiscard]] Study read_study(const std::filesystem::path& file);
+[[nodiscard]] Study parse_study(std::string_view text, const std::filesystem::path& file);
+
+}  // namespace myoid::pipeline

@@ -1,0 +1,184 @@
+#include "myoid/recording/toml_table.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "myoid/core/error.h"
+
+namespace myoid::recording {
+
+TomlTable::TomlTable(const toml::table& table, std::filesystem::path file, std::string where)
+    : table_(&table), file_(std::move(file)), where_(std::move(where)) {}
+
+const toml::node* TomlTable::find(std::string_view key) {
+  asked_.emplace(key);
+  return table_->get(key);
+}
+
+void TomlTable::fail(std::string_view key, const std::string& message) const {
+  const toml::node* node = table_->get(key);
+  const auto line = node != nullptr ? node->source().begin.line : table_->source().begin.line;
+  throw ReadError(file_, static_cast<std::size_t>(line),
+                  fmt::format("{} {}: {}", where_, key, message));
+}
+
+std::optional<std::string> TomlTable::text(std::string_view key) {
+  const toml::node* node = find(key);
+  if (node == nullptr) return std::nullopt;
+  if (const auto* value = node->as_string()) return value->get();
+  fail(key, "expected a text in quotes");
+}
+
+std::optional<double> TomlTable::number(std::string_view key) {
+  const toml::node* node = find(key);
+  if (node == nullptr) return std::nullopt;
+  if (const auto value = node->value<double>(); value && node->is_number()) {
+    if (!std::isfinite(*value)) fail(key, "expected a finite number");
+    return *value;
+  }
+  fail(key, "expected a number (decimal point, no unit: the unit stands in the key's name)");
+}
+
+std::optional<bool> TomlTable::flag(std::string_view key) {
+  const toml::node* node = find(key);
+  if (node == nullptr) return std::nullopt;
+  if (const auto* value = node->as_boolean()) return value->get();
+  fail(key, "expected true or false");
+}
+
+std::optional<std::vector<std::string>> TomlTable::texts(std::string_view key) {
+  const toml::node* node = find(key);
+  if (node == nullptr) return std::nullopt;
+  if (const auto* value = node->as_string()) return std::vector<std::string>{value->get()};
+  std::vector<std::string> result;
+  if (const auto* array = node->as_array()) {
+    for (const toml::node& element : *array) {
+      const auto* value = element.as_string();
+      if (value == nullptr) fail(key, "expected a list of texts in quotes");
+      result.push_back(value->get());
+    }
+    return result;
+  }
+  fail(key, "expected a text or a list of texts in quotes");
+}
+
+std::optional<std::vector<double>> TomlTable::numbers(std::string_view key) {
+  const toml::node* node = find(key);
+  if (node == nullptr) return std::nullopt;
+  const auto* array = node->as_array();
+  if (array == nullptr) fail(key, "expected a list of numbers");
+  std::vector<double> result;
+  for (const toml::node& element : *array) {
+    const auto value = element.value<double>();
+    if (!value || !element.is_number()) fail(key, "expected a list of numbers");
+    result.push_back(*value);
+  }
+  return result;
+}
+
+std::optional<TomlTable> TomlTable::table(std::string_view key) {
+  const toml::node* node = find(key);
+  if (node == nullptr) return std::nullopt;
+  if (const auto* value = node->as_table())
+    return TomlTable(*value, file_, fmt::format("[{}]", key));
+  fail(key, fmt::format("expected a table, [{}]", key));
+}
+
+std::vector<TomlTable> TomlTable::tables(std::string_view key) {
+  const toml::node* node = find(key);
+  std::vector<TomlTable> result;
+  if (node == nullptr) return result;
+  const auto* array = node->as_array();
+  if (array == nullptr) fail(key, fmt::format("expected tables, [[{}]] each", key));
+  for (const toml::node& element : *array) {
+    const auto* value = element.as_table();
+    if (value == nullptr) fail(key, fmt::format("expected tables, [[{}]] each", key));
+    result.emplace_back(*value, file_, fmt::format("[[{}]] {}", key, result.size() + 1));
+  }
+  return result;
+}
+
+std::vector<std::string> TomlTable::keys() const {
+  std::vector<std::string> result;
+  for (const auto& entry : *table_) result.emplace_back(entry.first.str());
+  return result;
+}
+
+std::string TomlTable::require_text(std::string_view key, std::string_view what) {
+  if (auto value = text(key)) return *value;
+  throw ReadError(file_, static_cast<std::size_t>(table_->source().begin.line),
+                  fmt::format("{}: '{}' is missing; write {}", where_, key, what));
+}
+
+std::string TomlTable::choice(std::string_view key,
+                              std::string_view otherwise,
+                              const std::vector<std::string>& allowed) {
+  const std::string value = text(key).value_or(std::string(otherwise));
+  if (std::find(allowed.begin(), allowed.end(), value) == allowed.end()) {
+    fail(key, fmt::format("found \"{}\", expected one of {}", value, fmt::join(allowed, ", ")));
+  }
+  return value;
+}
+
+bool TomlTable::is_text(std::string_view key) const {
+  const toml::node* node = table_->get(key);
+  return node != nullptr && node->is_string();
+}
+
+bool TomlTable::is_table(std::string_view key) const {
+  const toml::node* node = table_->get(key);
+  return node != nullptr && node->is_table();
+}
+
+void TomlTable::finish() const {
+  for (const auto& entry : *table_) {
+    const std::string key(entry.first.str());
+    if (asked_.contains(key)) continue;
+    const std::vector<std::string> known(asked_.begin(), asked_.end());
+    const auto near = nearest_word(key, known);
+    fail(key, near ? fmt::format("unknown key; did you mean '{}'?", *near)
+                   : fmt::format("unknown key; known are {}", fmt::join(known, ", ")));
+  }
+}
+
+toml::table parse_toml(std::string_view text, const std::filesystem::path& file) {
+  try {
+    return toml::parse(text, file.string());
+  } catch (const toml::parse_error& error) {
+    throw ReadError(file, static_cast<std::size_t>(error.source().begin.line),
+                    fmt::format("not valid TOML: {}", error.description()));
+  }
+}
+
+std::optional<std::string> nearest_word(std::string_view word,
+                                        const std::vector<std::string>& candidates) {
+  std::optional<std::string> best;
+  std::size_t best_distance = std::max<std::size_t>(2, word.size() / 3) + 1;
+  for (const std::string& candidate : candidates) {
+    // Levenshtein distance, ignoring case, one row at a time.
+    std::vector<std::size_t> row(candidate.size() + 1);
+    std::iota(row.begin(), row.end(), std::size_t{0});
+    const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; };
+    for (std::size_t i = 0; i < word.size(); ++i) {
+      std::size_t diagonal = row[0];
+      row[0] = i + 1;
+      for (std::size_t j = 0; j < candidate.size(); ++j) {
+        const std::size_t replace = diagonal + (lower(word[i]) == lower(candidate[j]) ? 0U : 1U);
+        diagonal = row[j + 1];
+        row[j + 1] = std::min({replace, row[j] + 1, row[j + 1] + 1});
+      }
+    }
+    if (row.back() < best_distance) {
+      best_distance = row.back();
+      best = candidate;
+    }
+  }
+  return best;
+}
+
+}  // namespace myoid::recording

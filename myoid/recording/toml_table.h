@@ -1,0 +1,67 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <toml++/toml.h>
+
+namespace myoid::recording {
+
+/// Reads one table of a TOML file strictly: every key is asked for by name and type, and `finish`
+/// refuses the keys nobody asked for, with the nearest known one. All errors are ReadError with the
+/// line.
+class TomlTable {
+ public:
+  /// `where` is the table's name in messages, "[emg]".
+  TomlTable(const toml::table& table, std::filesystem::path file, std::string where);
+
+  [[nodiscard]] bool has(std::string_view key) const { return table_->contains(key); }
+  [[nodiscard]] std::optional<std::string> text(std::string_view key);
+  [[nodiscard]] std::optional<double> number(std::string_view key);  ///< Integers too; finite.
+  [[nodiscard]] std::optional<bool> flag(std::string_view key);
+  /// A string, or an array of strings.
+  [[nodiscard]] std::optional<std::vector<std::string>> texts(std::string_view key);
+  [[nodiscard]] std::optional<std::vector<double>> numbers(std::string_view key);
+  [[nodiscard]] std::optional<TomlTable> table(std::string_view key);
+  [[nodiscard]] std::vector<TomlTable> tables(std::string_view key);  ///< [[key]]
+  [[nodiscard]] std::vector<std::string> keys() const;
+
+  /// Like the above, but throws if the key is missing; `what` says what to write there.
+  [[nodiscard]] std::string require_text(std::string_view key, std::string_view what);
+
+  /// One of `allowed`; throws listing them.
+  [[nodiscard]] std::string choice(std::string_view key,
+                                   std::string_view otherwise,
+                                   const std::vector<std::string>& allowed);
+
+  /// True if the key holds a string (and not a number or a table).
+  [[nodiscard]] bool is_text(std::string_view key) const;
+  [[nodiscard]] bool is_table(std::string_view key) const;
+
+  /// Throws for the first key that was never asked for.
+  void finish() const;
+
+  /// Throws ReadError at the key's line (or the table's).
+  [[noreturn]] void fail(std::string_view key, const std::string& message) const;
+
+ private:
+  [[nodiscard]] const toml::node* find(std::string_view key);
+
+  const toml::table* table_;
+  std::filesystem::path file_;
+  std::string where_;
+  std::set<std::string, std::less<>> asked_;
+};
+
+/// Parses a TOML text. Throws ReadError with the line of the first syntax error.
+[[nodiscard]] toml::table parse_toml(std::string_view text, const std::filesystem::path& file);
+
+/// The candidate nearest to `word` by edit distance, if it is near enough to be a slip.
+[[nodiscard]] std::optional<std::string> nearest_word(std::string_view word,
+                                                      const std::vector<std::string>& candidates);
+
+}  // namespace myoid::recording

@@ -1,0 +1,58 @@
+#include "myoid/recording/toml_table.h"
+
+#include <functional>
+
+#include <gtest/gtest.h>
+
+#include "myoid/core/error.h"
+
+namespace myoid::recording {
+namespace {
+
+std::string message_of(const std::function<void()>& action) {
+  try {
+    action();
+  } catch (const ReadError& error) {
+    return error.what();
+  }
+  return "(no error)";
+}
+
+TEST(TomlTable, AnUnknownKeyIsRefusedWithItsLineAndTheNearestKnownOne) {
+  const toml::table root = parse_toml("a = 1\nlowpas_hz = 6\n", "s.toml");
+  TomlTable table(root, "s.toml", "[emg]");
+  (void)table.number("a");
+  (void)table.number("lowpass_hz");
+  EXPECT_EQ(message_of([&] { table.finish(); }),
+            "s.toml:2: [emg] lowpas_hz: unknown key; did you mean 'lowpass_hz'?");
+}
+
+TEST(TomlTable, ANumberInQuotesIsRefused) {
+  const toml::table root = parse_toml("mass_kg = \"75\"\n", "s.toml");
+  TomlTable table(root, "s.toml", "[subject]");
+  EXPECT_NE(message_of([&] { (void)table.number("mass_kg"); }).find("expected a number"),
+            std::string::npos);
+}
+
+TEST(TomlTable, ASyntaxErrorNamesItsLine) {
+  EXPECT_NE(message_of([] { (void)parse_toml("a = 1\nb = = 2\n", "s.toml"); }).find("s.toml:2"),
+            std::string::npos);
+}
+
+TEST(TomlTable, AChoiceListsWhatIsAllowed) {
+  const toml::table root = parse_toml("use = \"callibration\"\n", "s.toml");
+  TomlTable table(root, "s.toml", "[[trial]] 1");
+  EXPECT_NE(message_of([&] {
+              (void)table.choice("use", "x", {"calibration", "mvc"});
+            }).find("expected one of calibration, mvc"),
+            std::string::npos);
+}
+
+TEST(NearestWord, ForgivesCaseAndOneSlipButNotAnotherWord) {
+  EXPECT_EQ(nearest_word("bic", {"BIC", "TRI"}), "BIC");
+  EXPECT_EQ(nearest_word("r_elbow_flx", {"r_elbow_flex", "r_shoulder_elev"}), "r_elbow_flex");
+  EXPECT_FALSE(nearest_word("banana", {"BIC", "TRI"}).has_value());
+}
+
+}  // namespace
+}  // namespace myoid::recording
