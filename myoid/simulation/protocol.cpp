@@ -1,0 +1,327 @@
+#include "myoid/simulation/protocol.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <optional>
+#include <set>
+#include <sstream>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "myoid/core/error.h"
+#include "myoid/core/units.h"
+#include "myoid/recording/toml_table.h"
+
+namespace myoid::simulation {
+namespace {
+
+using recording::TomlTable;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+constexpr std::array<std::pair<std::string_view, TrialKind>, 5> kKinds = {
+    {{"flexion", TrialKind::flexion},
+     {"eccentric", TrialKind::eccentric},
+     {"isometric_ramp", TrialKind::isometric_ramp},
+     {"mvc", TrialKind::mvc},
+     {"passive", TrialKind::passive}}};
+
+const std::vector<std::string> kParameterNames = {
+    "optimal_fiber_length",        "force_length_width", "max_shortening_speed",
+    "concentric_curvature",        "eccentric_plateau",  "max_isometric_force",
+    "eccentric_curvature_product", "tendon_slack_length"};
+
+/// Overwrites `value` if the key is there; throws unless lower <= it <= upper.
+void number_into(TomlTable& table,
+                 std::string_view key,
+                 double& value,
+                 double lower,
+                 double upper,
+                 double scale = 1.0) {
+  const std::optional<double> found = table.number(key);
+  if (!found) return;
+  if (*found < lower || *found > upper) {
+    const std::string expected = upper < kInfinity ? fmt::format("from {:g} to {:g}", lower, upper)
+                                                   : fmt::format("of at least {:g}", lower);
+    table.fail(key, fmt::format("found {:g}, expected a number {}", *found, expected));
+  }
+  value = *found * scale;
+}
+
+void count_into(TomlTable& table, std::string_view key, int& value, int lower, int upper) {
+  double number = value;
+  number_into(table, key, number, lower, upper);
+  if (number != std::floor(number)) {
+    table.fail(key, fmt::format("found {:g}, expected a whole number", number));
+  }
+  value = static_cast<int>(number);
+}
+
+/// A range [low, high].
+void range_into(
+    TomlTable& table, std::string_view key, double& low, double& high, double lower, double upper) {
+  if (!table.has(key)) return;
+  const std::vector<double> found = table.numbers(key).value_or(std::vector<double>{});
+  if (found.size() != 2 || found.front() > found.back() || found.front() < lower ||
+      found.back() > upper) {
+    table.fail(key, fmt::format("found [{:g}], expected a range [low, high] between {:g} and {:g}",
+                                fmt::join(found, ", "), lower, upper));
+  }
+  low = found.front();
+  high = found.back();
+}
+
+void read_subject(TomlTable table, VirtualSubject& subject) {
+  subject.name = table.text("name").value_or(subject.name);
+  number_into(table, "mass_kg", subject.mass_kg, 20.0, 250.0);
+  subject.sex = table.choice("sex", subject.sex, {"male", "female"});
+  number_into(table, "upper_arm_length_m", subject.upper_arm_length_m, 0.1, 0.6);
+  number_into(table, "forearm_length_m", subject.forearm_length_m, 0.1, 0.5);
+  table.finish();
+}
+
+void read_truth(TomlTable table, TruthSpec& truth) {
+  number_into(table, "spread", truth.spread, 0.0, 3.0);
+  range_into(table, "emg_delay_s", truth.emg_delay_min_s, truth.emg_delay_max_s, 0.0, 0.2);
+  const auto check = [&table](const std::string& parameter, std::string_view key) {
+    if (std::find(kParameterNames.begin(), kParameterNames.end(), parameter) !=
+        kParameterNames.end()) {
+      return;
+    }
+    const auto near = recording::nearest_word(parameter, kParameterNames);
+    table.fail(key, near ? fmt::format("found \"{}\", which is no parameter of a muscle; did you "
+                                       "mean \"{}\"?",
+                                       parameter, *near)
+                         : fmt::format("found \"{}\", which is no parameter of a muscle; they are "
+                                       "{}",
+                                       parameter, fmt::join(kParameterNames, ", ")));
+  };
+  if (auto vary = table.texts("vary")) {
+    for (const std::string& parameter : *vary) check(parameter, "vary");
+    truth.vary = *std::move(vary);
+  }
+  for (const std::string_view muscle : {"BIC", "BRA", "BRD", "TRI"}) {
+    auto values = table.table(muscle);
+    if (!values) continue;
+    for (const std::string& parameter : values->keys()) {
+      check(parameter, muscle);
+      const double value = values->number(parameter).value_or(0.0);
+      if (!(value > 0.0)) {
+        values->fail(parameter, fmt::format("found {:g}, expected a positive number (SI)", value));
+      }
+      truth.values[std::string(muscle)][parameter] = value;
+    }
+  }
+  table.finish();
+}
+
+void read_emg(TomlTable table, EmgNoise& emg, Protocol& protocol) {
+  number_into(table, "rate_hz", emg.rate_hz, 500.0, 20000.0);
+  range_into(table, "mvc_v", emg.mvc_min_v, emg.mvc_max_v, 1e-6, 0.1);
+  number_into(table, "baseline", emg.baseline, 0.0, 0.5);
+  number_into(table, "hum", emg.hum, 0.0, 0.5);
+  number_into(table, "hum_hz", emg.hum_hz, 10.0, 100.0);
+  number_into(table, "artefact", emg.artefact, 0.0, 0.5);
+  number_into(table, "mvc_window_s", protocol.mvc_window_s, 0.05, 20.0);
+  number_into(table, "lowpass_hz", protocol.lowpass_hz, 1.0, 50.0);
+  table.finish();
+}
+
+/// angle_deg = 70, or angles_deg = [30, 70] for one trial each.
+std::vector<double> read_angles_deg(TomlTable& table) {
+  std::vector<double> angles = {table.number("angle_deg").value_or(70.0)};
+  if (auto several = table.numbers("angles_deg")) {
+    if (table.has("angle_deg"))
+      table.fail("angles_deg", "angle_deg is there too; keep one of them");
+    if (several->empty()) table.fail("angles_deg", "expected at least one angle");
+    angles = *std::move(several);
+  }
+  for (const double angle : angles) {
+    if (angle < 0.0 || angle > 150.0) {
+      table.fail(table.has("angles_deg") ? "angles_deg" : "angle_deg",
+                 fmt::format("found {:g}, expected an angle from 0 (straight) to 150", angle));
+    }
+  }
+  return angles;
+}
+
+Direction read_direction(TomlTable& table) {
+  const std::string word = table.choice("direction", "both", {"flexion", "extension", "both"});
+  if (word == "flexion") return Direction::flexion;
+  return word == "extension" ? Direction::extension : Direction::both;
+}
+
+/// One [[trial]]; several if it names several angles.
+std::vector<TrialProtocol> read_trial(TomlTable table) {
+  TrialProtocol trial;
+  trial.name = table.require_text("name", "a short name: it becomes that of the files");
+  const bool plain = std::all_of(trial.name.begin(), trial.name.end(), [](unsigned char c) {
+    return std::isalnum(c) != 0 || c == '_' || c == '-' || c == '.';
+  });
+  if (trial.name.empty() || !plain || trial.name.front() == '.') {
+    table.fail("name", fmt::format("found \"{}\", expected letters, digits, '_' and '-' only: it "
+                                   "becomes the name of files",
+                                   trial.name));
+  }
+
+  std::vector<std::string> kind_names;
+  for (const auto& kind : kKinds) kind_names.emplace_back(kind.first);
+  static_cast<void>(
+      table.require_text("kind", fmt::format("one of {}", fmt::join(kind_names, ", "))));
+  const std::string kind = table.choice("kind", "", kind_names);
+  for (const auto& [word, value] : kKinds) {
+    if (word == kind) trial.kind = value;
+  }
+  const bool held_still = trial.kind == TrialKind::isometric_ramp || trial.kind == TrialKind::mvc;
+  const std::string usual = trial.kind == TrialKind::isometric_ramp ? "isometric"
+                            : trial.kind == TrialKind::mvc          ? "mvc"
+                            : trial.kind == TrialKind::passive      ? "passive"
+                                                                    : "calibration";
+  trial.use =
+      table.choice("use", usual, {"calibration", "validation", "mvc", "isometric", "passive"});
+  trial.plane = table.choice("plane", "vertical", {"vertical", "horizontal"}) == "horizontal"
+                    ? Plane::horizontal
+                    : Plane::vertical;
+  if (table.has("co_contraction")) {
+    double low = 0.0;
+    double high = 0.0;
+    range_into(table, "co_contraction", low, high, 0.0, 0.5);
+    trial.co_contraction = {low, high};
+  }
+
+  // Every kind has its own keys: one that does not apply is an unknown key.
+  std::vector<TrialProtocol> result;
+  const double no_limit = kInfinity;
+  if (held_still) {
+    if (trial.kind == TrialKind::mvc) {
+      trial.peak = 1.0;
+      trial.rise_s = 1.0;
+      trial.hold_s = 3.0;
+    } else {
+      number_into(table, "peak", trial.peak, 0.0, 0.95);
+    }
+    trial.direction = read_direction(table);
+    number_into(table, "rise_s", trial.rise_s, 0.3, no_limit);
+    number_into(table, "hold_s", trial.hold_s, 0.0, no_limit);
+    number_into(table, "rest_s", trial.rest_s, 0.2, no_limit);
+    count_into(table, "repetitions", trial.repetitions, 1, 100);
+    const bool several = table.has("angles_deg");
+    for (const double angle_deg : read_angles_deg(table)) {
+      TrialProtocol one = trial;
+      one.angle_rad = angle_deg * kDegree;
+      if (several) one.name = fmt::format("{}_{:g}", trial.name, angle_deg);
+      result.push_back(one);
+    }
+  } else {
+    number_into(table, "held_mass_kg", trial.held_mass_kg, 0.0, 50.0);
+    if (trial.kind == TrialKind::flexion) {
+      number_into(table, "frequency_hz", trial.frequency_hz, 0.02, 3.0);
+      number_into(table, "centre_deg", trial.centre_rad, 0.0, 150.0, kDegree);
+      number_into(table, "amplitude_deg", trial.amplitude_rad, 0.0, 75.0, kDegree);
+      number_into(table, "variation", trial.variation, 0.0, 0.5);
+      number_into(table, "duration_s", trial.duration_s, 3.0, 600.0);
+      const double reach_rad = trial.amplitude_rad * (1.0 + 2.0 * trial.variation);
+      if (trial.centre_rad - trial.amplitude_rad < -1e-9 ||
+          trial.centre_rad - trial.amplitude_rad + 2.0 * reach_rad > 150.0 * kDegree) {
+        table.fail(
+            "amplitude_deg",
+            fmt::format("the elbow would move from {:.0f} to {:.0f} degrees; expected within "
+                        "0 to 150: choose another centre_deg or a smaller amplitude",
+                        (trial.centre_rad - trial.amplitude_rad) / kDegree,
+                        (trial.centre_rad - trial.amplitude_rad + 2.0 * reach_rad) / kDegree));
+      }
+    } else {
+      number_into(table, "from_deg", trial.from_rad, 0.0, 150.0, kDegree);
+      number_into(table, "to_deg", trial.to_rad, 0.0, 150.0, kDegree);
+      number_into(table, "raise_s", trial.raise_s, 0.3, no_limit);
+      number_into(table, "lower_s", trial.lower_s, 0.3, no_limit);
+      number_into(table, "rest_s", trial.rest_s, 0.2, no_limit);
+      count_into(table, "repetitions", trial.repetitions, 1, 100);
+      if (!(trial.from_rad < trial.to_rad)) {
+        table.fail("to_deg", fmt::format("found {:g}, expected more than from_deg = {:g}",
+                                         trial.to_rad / kDegree, trial.from_rad / kDegree));
+      }
+    }
+    result.push_back(trial);
+  }
+  table.finish();
+  return result;
+}
+
+}  // namespace
+
+std::string_view name(TrialKind kind) {
+  for (const auto& [word, value] : kKinds) {
+    if (value == kind) return word;
+  }
+  return "unknown";
+}
+
+Protocol parse_protocol(std::string_view text, const std::filesystem::path& file) {
+  const toml::table document = recording::parse_toml(text, file);
+  TomlTable root(document, file, "protocol");
+  Protocol protocol;
+  protocol.file = file;
+  protocol.name = root.text("name").value_or(protocol.name);
+
+  const std::string level = root.choice("level", "L1", {"L0", "L1", "L2"});
+  if (level == "L2") {
+    root.fail("level",
+              "found \"L2\": a truth that differs from the fitted model (elastic tendon, other "
+              "curves, perturbed geometry) is not there yet; expected \"L0\" (no noise) or \"L1\" "
+              "(same model, noise)");
+  }
+  protocol.level = level == "L0" ? Level::noise_free : Level::noisy;
+
+  if (auto table = root.table("subject")) read_subject(*std::move(table), protocol.subject);
+  if (auto table = root.table("truth")) read_truth(*std::move(table), protocol.truth);
+  if (auto table = root.table("control")) {
+    range_into(*table, "co_contraction", protocol.control.co_contraction_min,
+               protocol.control.co_contraction_max, 0.0, 0.5);
+    number_into(*table, "synergy", protocol.control.synergy, 0.0, 1.0);
+    table->finish();
+  }
+  if (auto table = root.table("motion")) {
+    number_into(*table, "rate_hz", protocol.motion.rate_hz, 20.0, 1000.0);
+    number_into(*table, "marker_sd_m", protocol.motion.marker_sd_m, 0.0, 0.05);
+    table->finish();
+  }
+  if (auto table = root.table("emg")) read_emg(*std::move(table), protocol.emg, protocol);
+  if (auto table = root.table("torque")) {
+    number_into(*table, "sd_nm", protocol.torque.sd_nm, 0.0, 20.0);
+    number_into(*table, "bandwidth_hz", protocol.torque.bandwidth_hz, 0.1, 10.0);
+    table->finish();
+  }
+
+  std::set<std::string> names;
+  for (const TomlTable& table : root.tables("trial")) {
+    for (TrialProtocol& trial : read_trial(table)) {
+      if (!names.insert(trial.name).second) {
+        table.fail("name", fmt::format("found \"{}\" a second time; every trial needs its own name",
+                                       trial.name));
+      }
+      protocol.trials.push_back(std::move(trial));
+    }
+  }
+  root.finish();
+  if (protocol.trials.empty()) {
+    throw ReadError(file, 0, "no trial; describe at least one as [[trial]] with name and kind");
+  }
+  return protocol;
+}
+
+Protocol read_protocol(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) throw ReadError(file, 0, "cannot be opened; check the path");
+  std::ostringstream text;
+  text << stream.rdbuf();
+  return parse_protocol(text.str(), file);
+}
+
+}  // namespace myoid::simulation

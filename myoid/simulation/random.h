@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstdint>
+#include <random>
+#include <string_view>
+
+#include <Eigen/Core>
+
+namespace myoid::simulation {
+
+/// A seeded stream of random numbers: the same on every machine with IEEE doubles, because both the
+/// engine (std::mt19937_64, fixed by the standard) and the transformations (ours) are.
+class Random {
+ public:
+  explicit Random(std::uint64_t seed) : engine_(seed) {}
+
+  /// A number in [0, 1), a multiple of 2^-53.
+  [[nodiscard]] double uniform();
+  /// A number in [lower, upper).
+  [[nodiscard]] double uniform(double lower, double upper);
+  /// Standard normal, by the method of Box and Muller.
+  [[nodiscard]] double normal();
+  /// `count` of them.
+  [[nodiscard]] Eigen::VectorXd normals(Eigen::Index count);
+
+ private:
+  std::mt19937_64 engine_;
+  double spare_ = 0.0;
+  bool has_spare_ = false;
+};
+
+/// A seed for one purpose, from the seed of the whole: streams of different names are independent,
+/// so that a further trial or channel leaves the noise of the others as it was. FNV-1a of the name,
+/// mixed by the finalizer of splitmix64.
+[[nodiscard]] std::uint64_t seed_for(std::uint64_t seed, std::string_view purpose);
+
+}  // namespace myoid::simulation
