@@ -285,6 +285,7 @@ Protocol parse_protocol(std::string_view text, const std::filesystem::path& file
     range_into(*table, "co_contraction", protocol.control.co_contraction_min,
                protocol.control.co_contraction_max, 0.0, 0.5);
     number_into(*table, "synergy", protocol.control.synergy, 0.0, 1.0);
+    number_into(*table, "brachialis_synergy", protocol.control.brachialis_synergy, 0.0, 1.0);
     table->finish();
   }
   if (auto table = root.table("motion")) {

@@ -59,6 +59,9 @@ struct ControlSpec {
   /// Standard deviation of ln(BRD / BIC activation), over trials and slowly within each: without it
   /// the two flexors' EMG would be one signal.
   double synergy = 0.35;
+  /// The same of ln(BRA / BIC activation). 0: the brachialis acts exactly as the biceps does, and
+  /// has no electrode. Above 0: it acts on its own, and a wire electrode records it.
+  double brachialis_synergy = 0.0;
 };
 
 struct MarkerNoise {

@@ -1,0 +1,29 @@
+#include "myoid/simulation/control.h"
+
+#include <cmath>
+
+namespace myoid::simulation {
+
+PerMuscle weights(const Coordination& coordination) {
+  return {1.0, std::exp(coordination.brachialis), std::exp(coordination.brachioradialis), 1.0};
+}
+
+PerMuscle activations_for(double torque_nm,
+                          const PerMuscle& capacity_nm,
+                          const Coordination& coordination) {
+  constexpr double kSoftness_nm = 1.0;
+  const double extension_nm = 0.5 * (std::hypot(torque_nm, kSoftness_nm) - torque_nm);
+  const double triceps_nm =
+      extension_nm - coordination.co_contraction * capacity_nm[kTriceps];  // capacity < 0
+
+  const PerMuscle weight = weights(coordination);
+  double flexors_nm = 0.0;
+  for (const std::size_t i : {kBiceps, kBrachialis, kBrachioradialis}) {
+    flexors_nm += weight[i] * capacity_nm[i];
+  }
+  const double effort = (torque_nm + triceps_nm) / flexors_nm;
+  return {effort * weight[kBiceps], effort * weight[kBrachialis], effort * weight[kBrachioradialis],
+          -triceps_nm / capacity_nm[kTriceps]};
+}
+
+}  // namespace myoid::simulation

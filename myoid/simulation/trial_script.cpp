@@ -1,0 +1,145 @@
+#include "myoid/simulation/trial_script.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "myoid/core/units.h"
+#include "myoid/simulation/random.h"
+
+namespace myoid::simulation {
+namespace {
+
+constexpr double kMarginOfFlexion_s = 0.5;  ///< At rest before and after.
+
+/// Raises and lowers (eccentric, passive), or moves there and back.
+void add_lifts(TrialScript& script) {
+  const TrialProtocol& p = script.protocol;
+  double time_s = 0.0;
+  for (int k = 0; k < p.repetitions; ++k) {
+    time_s += p.rest_s;
+    script.motion.moves.push_back({time_s, p.raise_s, p.to_rad - p.from_rad});
+    time_s += p.raise_s + p.rest_s;
+    script.motion.moves.push_back({time_s, p.lower_s, p.from_rad - p.to_rad});
+    time_s += p.lower_s;
+  }
+  script.motion.start_rad = p.from_rad;
+  script.duration_s = time_s + p.rest_s;
+}
+
+void add_oscillation(TrialScript& script, Random& random) {
+  const TrialProtocol& p = script.protocol;
+  SmoothMotion& motion = script.motion;
+  motion.start_rad = p.centre_rad - p.amplitude_rad;
+  motion.amplitude_rad = p.amplitude_rad;
+  motion.oscillation_start_s = kMarginOfFlexion_s;
+  motion.frequency_hz = p.frequency_hz;
+  motion.pace_s = std::max(0.6, 0.5 / p.frequency_hz);
+  motion.cycles = std::max(
+      1, static_cast<int>(std::floor(
+             (p.duration_s - 2.0 * kMarginOfFlexion_s - motion.pace_s) * p.frequency_hz + 1e-9)));
+  motion.amplitude_variation = p.variation;
+  motion.variation_hz = 0.37 * p.frequency_hz;
+  motion.variation_phase_rad = random.uniform(0.0, 2.0 * kPi);
+  script.duration_s = std::max(p.duration_s, motion.end_s() + kMarginOfFlexion_s);
+}
+
+void add_efforts(TrialScript& script, const ControlSpec& control, Random& random) {
+  const TrialProtocol& p = script.protocol;
+  script.motion.start_rad = p.angle_rad;
+  double time_s = 0.0;
+  for (int k = 0; k < p.repetitions; ++k) {
+    for (const bool flexion : {true, false}) {
+      if (p.direction == (flexion ? Direction::extension : Direction::flexion)) continue;
+      Effort effort{
+          .start_s = time_s + p.rest_s, .rise_s = p.rise_s, .hold_s = p.hold_s, .flexion = flexion};
+      // At the greatest effort every muscle does its utmost.
+      if (p.kind != TrialKind::mvc) {
+        effort.coordination.brachioradialis = control.synergy * random.normal();
+        effort.coordination.brachialis = control.brachialis_synergy * random.normal();
+      }
+      script.efforts.push_back(effort);
+      time_s = effort.end_s();
+    }
+  }
+  script.duration_s = time_s + p.rest_s;
+}
+
+}  // namespace
+
+double Effort::level(double time_s) const {
+  return smooth_step(time_s, start_s, rise_s).value -
+         smooth_step(time_s, start_s + rise_s + hold_s, rise_s).value;
+}
+
+double Modulation::operator()(double time_s) const {
+  return 1.0 + depth * std::cos(2.0 * kPi * frequency_hz * time_s + phase_rad);
+}
+
+Coordination TrialScript::coordination(double time_s) const {
+  return {.brachioradialis = mean.brachioradialis + brachioradialis_change(time_s) - 1.0,
+          .brachialis = mean.brachialis + brachialis_change(time_s) - 1.0,
+          .co_contraction = mean.co_contraction * co_contraction_change(time_s)};
+}
+
+PerMuscle TrialScript::prescribed_activations(double time_s) const {
+  PerMuscle a = {0.0, 0.0, 0.0, 0.0};
+  for (const Effort& effort : efforts) {
+    const double level = effort.level(time_s);
+    if (level == 0.0) continue;
+    const double agonist = protocol.peak * level;
+    const double antagonist = mean.co_contraction * co_contraction_change(time_s) * level;
+    const PerMuscle share = weights(effort.coordination);
+    const double largest = std::max({share[kBiceps], share[kBrachialis], share[kBrachioradialis]});
+    for (const std::size_t i : {kBiceps, kBrachialis, kBrachioradialis}) {
+      a[i] += share[i] / largest * (effort.flexion ? agonist : antagonist);
+    }
+    a[kTriceps] += effort.flexion ? antagonist : agonist;
+  }
+  return a;
+}
+
+bool TrialScript::against_dynamometer() const {
+  return protocol.kind == TrialKind::isometric_ramp || protocol.kind == TrialKind::mvc ||
+         protocol.kind == TrialKind::passive;
+}
+
+TrialScript make_script(const TrialProtocol& trial,
+                        const ControlSpec& control,
+                        std::uint64_t seed) {
+  Random random(seed_for(seed, "script." + trial.name));
+  TrialScript script;
+  script.protocol = trial;
+  const bool own_range = !trial.co_contraction.empty();
+  script.mean.co_contraction =
+      random.uniform(own_range ? trial.co_contraction.front() : control.co_contraction_min,
+                     own_range ? trial.co_contraction.back() : control.co_contraction_max);
+  script.co_contraction_change = {.depth = 0.5,
+                                  .frequency_hz = random.uniform(0.07, 0.2),
+                                  .phase_rad = random.uniform(0.0, 2.0 * kPi)};
+  // Of the variance of the synergies, half lies between trials and half within.
+  const auto change = [&random](double sd) {
+    return Modulation{.depth = sd,
+                      .frequency_hz = random.uniform(0.05, 0.15),
+                      .phase_rad = random.uniform(0.0, 2.0 * kPi)};
+  };
+  script.mean.brachioradialis = control.synergy * std::sqrt(0.5) * random.normal();
+  script.brachioradialis_change = change(control.synergy);
+  script.mean.brachialis = control.brachialis_synergy * std::sqrt(0.5) * random.normal();
+  script.brachialis_change = change(control.brachialis_synergy);
+  switch (trial.kind) {
+    case TrialKind::flexion:
+      add_oscillation(script, random);
+      break;
+    case TrialKind::eccentric:
+    case TrialKind::passive:
+      add_lifts(script);
+      break;
+    case TrialKind::isometric_ramp:
+    case TrialKind::mvc:
+      add_efforts(script, control, random);
+      break;
+  }
+  return script;
+}
+
+}  // namespace myoid::simulation
