@@ -1,0 +1,75 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "myoid/core/geometry.h"
+#include "myoid/core/time_series.h"
+#include "myoid/muscle/hill_parameters.h"
+#include "myoid/simulation/control.h"
+#include "myoid/simulation/protocol.h"
+#include "myoid/simulation/trial_script.h"
+
+namespace myoid::simulation {
+
+/// What the virtual person is made of, and what the identification is to find.
+struct Truth {
+  std::array<muscle::HillParameters<double>, 4> muscles;  ///< In the order of kArmMuscles.
+  double emg_delay_s = 0.0;  ///< The muscle does at t what its EMG said at t - delay.
+  PerMuscle mvc_v = {};      ///< Rms of the raw EMG at the greatest effort [V].
+  int draws = 1;             ///< Parameter sets drawn until every trial could be done.
+};
+
+/// The truth over time in one trial, on the clock of the markers.
+struct TrueTrial {
+  TimeSeries motion;      ///< elbow_flexion [rad], its speed and acceleration.
+  TimeSeries torque;      ///< elbow_flexion_moment (of the muscles) and ..._external [N m].
+  TimeSeries activation;  ///< Per muscle: what the muscle does, after the delay.
+  TimeSeries force;       ///< Per muscle [N].
+  TimeSeries length;      ///< Per muscle: fiber length [m].
+};
+
+/// What the instruments recorded of one trial.
+struct VirtualTrial {
+  TrialProtocol protocol;
+  TimeSeries markers;  ///< Per marker "NAME.x", "NAME.y", "NAME.z" [m] in ground, Y up.
+  /// Per electrode: raw EMG [V], or the exact activation (before the delay) in a noise-free
+  /// recording.
+  TimeSeries emg;
+  /// elbow_flexion_moment [N m]: torque that the dynamometer exerts on the forearm about the axis
+  /// of flexion, positive if it flexes. The muscles' is M(q) qddot + ... - gravity - this one.
+  std::optional<TimeSeries> external_torque;
+  TrueTrial truth;
+};
+
+/// A virtual experiment: everything that `write_virtual_recording` puts into files, as values.
+struct VirtualRecording {
+  Protocol protocol;
+  std::uint64_t seed = 0;
+  std::string model_osim;  ///< Text of the model file: the arm with the literature's muscles.
+  std::string held_body;   ///< Body of the model that holds the mass, and where [m].
+  Vec3 held_at_m = Vec3::Zero();
+  Truth truth;
+  std::vector<VirtualTrial> trials;
+};
+
+/// Performs the protocol with a virtual person drawn from the priors with this seed; the same seed
+/// gives the same recording to the bit. The built-in arm (four muscles, rigid tendons):
+///
+/// - a motion with five continuous derivatives is chosen, the torque that it requires is computed,
+///   and shared among the muscles by activations that solve T = sum r_i F_i exactly, with
+///   co-contraction and slowly changing proportions; against a dynamometer the activations are
+///   chosen and the dynamometer exerts what is left;
+/// - the electrode sees the activation `emg_delay_s` earlier; raw EMG is Gaussian noise of
+/// Shwedyk's
+///   spectrum with that amplitude, plus noise of the amplifier, mains and movement artefacts;
+/// - markers follow the model, plus white noise.
+///
+/// If a trial would need an activation above 0.95, another person is drawn. Throws InvalidInput,
+/// naming the trial, if 500 persons could not do it.
+[[nodiscard]] VirtualRecording make_virtual_recording(const Protocol& protocol, std::uint64_t seed);
+
+}  // namespace myoid::simulation

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "myoid/simulation/synthetic_recording.h"
+
+namespace myoid::simulation {
+
+/// The study file that `myoid run` takes, with comments for a reader.
+[[nodiscard]] std::string study_toml(const VirtualRecording& recording);
+
+/// The true values: muscle, parameter, unit, value; the delay of the EMG has muscle "subject".
+[[nodiscard]] std::string truth_csv(const VirtualRecording& recording);
+
+/// Writes model.osim, study.toml, truth.csv, per trial TRIAL.trc, TRIAL_emg.sto and, where a
+/// dynamometer took part, TRIAL_torque.sto, and under truth/ what really happened. Creates the
+/// folder. Files are written whole or not at all; study.toml comes last, so that a folder with one
+/// is complete. Throws InvalidInput if the folder holds files and not `overwrite`, or cannot be
+/// written.
+void write_virtual_recording(const VirtualRecording& recording,
+                             const std::filesystem::path& directory,
+                             bool overwrite = false);
+
+}  // namespace myoid::simulation
