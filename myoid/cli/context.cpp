@@ -1,0 +1,101 @@
+#include "myoid/cli/context.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <mutex>
+
+#include "myoid/core/error.h"
+
+namespace myoid::cli {
+namespace {
+
+bool color_wanted() { return isatty(STDERR_FILENO) != 0 && std::getenv("NO_COLOR") == nullptr; }
+
+/// Draws at most ten times a second; shared by the threads that report.
+struct ProgressBar {
+  std::mutex mutex;
+  std::chrono::steady_clock::time_point begin = std::chrono::steady_clock::now();
+  std::chrono::steady_clock::time_point last{};
+
+  void draw(double share, std::string_view what) {
+    const std::scoped_lock lock(mutex);
+    const auto now = std::chrono::steady_clock::now();
+    if (share < 1.0 && now - last < std::chrono::milliseconds(100)) return;
+    last = now;
+    const double elapsed_s = std::chrono::duration<double>(now - begin).count();
+    const std::string left =
+        share > 0.02 && share < 1.0 ? fmt::format("{:.0f} s left", elapsed_s * (1.0 - share) / share) : "";
+    const int filled = static_cast<int>(share * 24.0);
+    fmt::print(stderr, "\r\033[K[{:=<{}}{: <{}}] {:3.0f} %  {}  {}", "", filled, "", 24 - filled, 100.0 * share,
+               left, what);
+    std::fflush(stderr);
+  }
+};
+
+}  // namespace
+
+void Context::log(std::string_view line) const {
+  if (!quiet) fmt::print(stderr, "{}\n", line);
+}
+
+void Context::warn(std::string_view line) const {
+  if (quiet) return;
+  fmt::print(stderr, color_wanted() ? "\033[33mwarning:\033[0m {}\n" : "warning: {}\n", line);
+}
+
+Progress Context::progress() const {
+  Progress progress{.report = {}, .stop = stop.get_token()};
+  if (!quiet && isatty(STDERR_FILENO) != 0) {
+    const auto bar = std::make_shared<ProgressBar>();
+    progress.report = [bar](double share, std::string_view what) { bar->draw(share, what); };
+  }
+  return progress;
+}
+
+void Context::end_progress() const {
+  if (!quiet && isatty(STDERR_FILENO) != 0) fmt::print(stderr, "\r\033[K");
+}
+
+void Context::refuse_existing(const std::filesystem::path& path) const {
+  if (!overwrite && std::filesystem::exists(path)) {
+    throw InvalidInput(fmt::format("{} exists already; give --overwrite to replace it, or another --out", path.string()));
+  }
+}
+
+void Context::prepare_folder(const std::filesystem::path& folder) const {
+  namespace fs = std::filesystem;
+  if (fs::exists(folder) && !fs::is_directory(folder)) {
+    throw InvalidInput(fmt::format("{} is a file; --out must name a folder", folder.string()));
+  }
+  if (fs::exists(folder) && !fs::is_empty(folder) && !overwrite) {
+    throw InvalidInput(fmt::format("the folder {} is not empty; give --overwrite to write into it, or another --out",
+                                   folder.string()));
+  }
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) throw InvalidInput(fmt::format("cannot create the folder {}: {}", folder.string(), error.message()));
+}
+
+void add_common_options(CLI::App& command, Context& context) {
+  command.add_option("--threads", context.threads, "Number of threads (default: all cores; the result is the same for every number)")
+      ->check(CLI::Range(0, 1024));
+  command.add_option("--seed", context.seed, "Seed of everything random (default 1)");
+  command.add_flag("--json", context.json, "Result for machines on stdout");
+  command.add_flag("--quiet", context.quiet, "Nothing on stderr but errors");
+  command.add_flag("--verbose", context.verbose, "More on stderr: repairs, timings");
+  command.add_option("--start", context.start_s, "First time that is used [s]");
+  command.add_option("--end", context.end_s, "Last time that is used [s]");
+  command.add_flag("--overwrite", context.overwrite, "Replace existing results");
+  command.parse_complete_callback([&context] {
+    if (context.threads > 0) {
+      context.thread_limit = std::make_shared<oneapi::tbb::global_control>(
+          oneapi::tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(context.threads));
+    }
+  });
+}
+
+}  // namespace myoid::cli

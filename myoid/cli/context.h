@@ -1,0 +1,74 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <oneapi/tbb/global_control.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "myoid/core/progress.h"
+
+namespace myoid::cli {
+
+/// Exit codes as promised to scripts.
+enum ExitCode : int {
+  kDone = 0,
+  kInternalError = 1,
+  kWrongCommandLine = 2,
+  kBadInput = 3,
+  kQualityGateFailed = 4,
+  kSomeTrialsFailed = 5,
+  kInterrupted = 130,
+};
+
+/// What every command shares: the common options, progress and log on stderr, and the way to stop.
+struct Context {
+  int threads = 0;             ///< 0: all cores.
+  std::uint64_t seed = 1;
+  bool json = false;
+  bool quiet = false;
+  bool verbose = false;
+  bool overwrite = false;
+  bool strict = false;
+  std::optional<double> start_s, end_s;
+  std::string command_line;
+  std::stop_source stop;
+  int exit_code = kDone;
+  std::shared_ptr<oneapi::tbb::global_control> thread_limit;  ///< While it lives, --threads holds.
+
+  /// One line on stderr, unless --quiet.
+  void log(std::string_view line) const;
+  /// A warning on stderr, unless --quiet.
+  void warn(std::string_view line) const;
+  /// Progress bar with time left on a terminal, nothing elsewhere.
+  [[nodiscard]] Progress progress() const;
+  /// Ends the line of the progress bar.
+  void end_progress() const;
+  /// Throws InvalidInput with the remedy if `path` exists and --overwrite was not given.
+  void refuse_existing(const std::filesystem::path& path) const;
+  /// Creates the folder for results; an existing one that is not empty needs --overwrite.
+  void prepare_folder(const std::filesystem::path& folder) const;
+};
+
+/// Adds --threads, --seed, --json, --quiet, --verbose, --start, --end, --overwrite to a command.
+void add_common_options(CLI::App& command, Context& context);
+
+// One per command, each in a file of its own.
+void add_check(CLI::App& app, Context& context);
+void add_emg(CLI::App& app, Context& context);
+void add_id(CLI::App& app, Context& context);
+void add_identify(CLI::App& app, Context& context);
+void add_ik(CLI::App& app, Context& context);
+void add_info(CLI::App& app, Context& context);
+void add_paths(CLI::App& app, Context& context);
+void add_report(CLI::App& app, Context& context);
+void add_run(CLI::App& app, Context& context);
+void add_so(CLI::App& app, Context& context);
+void add_twin(CLI::App& app, Context& context);
+
+}  // namespace myoid::cli

@@ -1,0 +1,83 @@
+// The program: options, one try, exit code. Everything else is the library.
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <pthread.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <exception>
+#include <thread>
+
+#include "myoid/cli/context.h"
+#include "myoid/core/error.h"
+#include "myoid/core/provenance.h"
+
+namespace {
+
+/// Waits for Ctrl-C (or a polite kill): the first asks the work to stop, the second ends at once.
+void stop_on_signals(std::stop_source stop) {
+  sigset_t signals;
+  sigemptyset(&signals);
+  sigaddset(&signals, SIGINT);
+  sigaddset(&signals, SIGTERM);
+  pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+  std::thread([signals, stop]() mutable {
+    int received = 0;
+    sigwait(&signals, &received);
+    stop.request_stop();
+    sigwait(&signals, &received);
+    _exit(myoid::cli::kInterrupted);
+  }).detach();
+}
+
+int run(int argc, char** argv, myoid::cli::Context& context) {
+  CLI::App app{"Myoid identifies a person's own muscle parameters from motion capture and EMG,\n"
+               "says how sure it is of each, and what the recording could not tell.",
+               "myoid"};
+  app.set_version_flag("--version,-V", std::string(myoid::version()));
+  app.require_subcommand(0, 1);
+  app.footer("myoid COMMAND --help shows a command's purpose, an example and its options.\n"
+             "First steps: myoid twin --protocol examples/demo/protocol.toml --out rec\n"
+             "             myoid run rec/study.toml --out results");
+  myoid::cli::add_run(app, context);
+  myoid::cli::add_check(app, context);
+  myoid::cli::add_info(app, context);
+  myoid::cli::add_emg(app, context);
+  myoid::cli::add_ik(app, context);
+  myoid::cli::add_id(app, context);
+  myoid::cli::add_paths(app, context);
+  myoid::cli::add_so(app, context);
+  myoid::cli::add_identify(app, context);
+  myoid::cli::add_twin(app, context);
+  myoid::cli::add_report(app, context);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    const int code = app.exit(error);
+    return code == 0 ? myoid::cli::kDone : myoid::cli::kWrongCommandLine;
+  }
+  if (app.get_subcommands().empty()) fmt::print("{}", app.help());
+  return context.exit_code;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  using namespace myoid;
+  cli::Context context;
+  for (int i = 0; i < argc; ++i) context.command_line += (i == 0 ? "" : " ") + std::string(i == 0 ? "myoid" : argv[i]);
+  stop_on_signals(context.stop);
+  try {
+    return run(argc, argv, context);
+  } catch (const Interrupted&) {
+    fmt::print(stderr, "\ninterrupted; what was finished stays usable\n");
+    return cli::kInterrupted;
+  } catch (const InvalidInput& error) {
+    fmt::print(stderr, "\nerror: {}\n", error.what());
+    return cli::kBadInput;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "\ninternal error: {}\nPlease report this with the command line and, if you can, the files.\n",
+               error.what());
+    return cli::kInternalError;
+  }
+}

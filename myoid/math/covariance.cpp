@@ -1,0 +1,57 @@
+#include "myoid/math/covariance.h"
+
+#include <Eigen/SVD>
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+
+#include "myoid/core/error.h"
+
+namespace myoid::math {
+
+CovarianceResult covariance(const Eigen::MatrixXd& jacobian, const Eigen::VectorXd& residual,
+                            const CovarianceOptions& options) {
+  if (jacobian.rows() != residual.size()) {
+    throw InvalidInput(fmt::format("covariance: {} rows of J for {} residuals", jacobian.rows(), residual.size()));
+  }
+  if (!jacobian.allFinite() || !residual.allFinite()) throw InvalidInput("covariance: J or r is not finite");
+  const Eigen::Index p = jacobian.cols();
+  Eigen::VectorXd scale(p);
+  for (Eigen::Index j = 0; j < p; ++j) {
+    const double norm = jacobian.col(j).norm();
+    scale[j] = norm > 0.0 ? 1.0 / norm : 1.0;
+  }
+  const Eigen::JacobiSVD<Eigen::MatrixXd, Eigen::HouseholderQRPreconditioner> svd(
+      jacobian * scale.asDiagonal(), Eigen::ComputeThinU | Eigen::ComputeThinV);
+  CovarianceResult result;
+  result.singular_values = Eigen::VectorXd::Zero(p);
+  result.singular_values.head(svd.singularValues().size()) = svd.singularValues();
+  const double largest = p > 0 ? result.singular_values[0] : 0.0;
+  const double smallest = p > 0 ? result.singular_values[p - 1] : 0.0;
+  result.condition = smallest > 0.0 ? largest / smallest : std::numeric_limits<double>::infinity();
+  while (result.rank < p && result.singular_values[result.rank] > options.rank_tolerance * largest) ++result.rank;
+  result.unscaled = Eigen::MatrixXd::Zero(p, p);
+  for (Eigen::Index k = 0; k < result.rank; ++k) {
+    const Eigen::VectorXd direction = scale.cwiseProduct(svd.matrixV().col(k)) / result.singular_values[k];
+    result.unscaled += direction * direction.transpose();
+  }
+  const Eigen::Index freedom = jacobian.rows() - result.rank;
+  result.residual_variance = freedom > 0 ? residual.squaredNorm() / static_cast<double>(freedom) : 0.0;
+  // The full V is needed when J has fewer rows than columns: complete the determined directions.
+  const Eigen::JacobiSVD<Eigen::MatrixXd> square(
+      (scale.asDiagonal() * jacobian.transpose() * jacobian * scale.asDiagonal()).eval(), Eigen::ComputeFullV);
+  const Eigen::MatrixXd& v = svd.matrixV().cols() == p ? svd.matrixV() : square.matrixV();
+  result.undetermined.resize(p, p - result.rank);
+  result.determined.assign(static_cast<std::size_t>(p), true);
+  for (Eigen::Index k = result.rank; k < p; ++k) {
+    for (Eigen::Index j = 0; j < p; ++j) {
+      if (std::abs(v(j, k)) > 1e-6) result.determined[static_cast<std::size_t>(j)] = false;
+    }
+    result.undetermined.col(k - result.rank) = scale.cwiseProduct(v.col(k)).normalized();
+  }
+  return result;
+}
+
+}  // namespace myoid::math

@@ -1,0 +1,243 @@
+#include "myoid/math/least_squares.h"
+
+#include <Eigen/QR>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "myoid/core/error.h"
+
+namespace myoid::math {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// The problem with its bounds filled in, counting evaluations.
+struct Search {
+  const LeastSquaresProblem& problem;
+  const LeastSquaresOptions& options;
+  Eigen::VectorXd lower, upper;
+  LeastSquaresResult result;
+
+  void evaluate(const Eigen::VectorXd& x, Eigen::VectorXd& r, Eigen::MatrixXd* jacobian) {
+    ++result.evaluations;
+    problem.evaluate(x, r, jacobian);
+  }
+  [[nodiscard]] Eigen::VectorXd clipped(const Eigen::VectorXd& x) const { return x.cwiseMax(lower).cwiseMin(upper); }
+};
+
+double column_norm(const Eigen::MatrixXd& jacobian, Eigen::Index j) {
+  const double norm = jacobian.col(j).norm();
+  return norm > 0.0 ? norm : 1.0;
+}
+
+/// max |cos(J column, r)| over the variables that may move.
+double largest_cosine(const Eigen::MatrixXd& jacobian, const Eigen::VectorXd& r, const std::vector<bool>& held) {
+  const double norm = r.norm();
+  if (norm == 0.0) return 0.0;
+  double largest = 0.0;
+  for (Eigen::Index j = 0; j < jacobian.cols(); ++j) {
+    if (!held[static_cast<std::size_t>(j)]) {
+      largest = std::max(largest, std::abs(jacobian.col(j).dot(r)) / (column_norm(jacobian, j) * norm));
+    }
+  }
+  return largest;
+}
+
+bool step_is_small(const Eigen::VectorXd& step, const Eigen::VectorXd& x, double tolerance) {
+  return (step.array().abs() <= tolerance * (x.array().abs() + tolerance)).all();
+}
+
+void finish(Search& search, Termination termination, std::string message) {
+  LeastSquaresResult& result = search.result;
+  result.termination = termination;
+  result.message = std::move(message);
+  result.at_bound.resize(static_cast<std::size_t>(result.x.size()));
+  for (Eigen::Index j = 0; j < result.x.size(); ++j) {
+    const double span = std::max(1e-10 * (1.0 + std::abs(result.x[j])), 0.0);
+    result.at_bound[static_cast<std::size_t>(j)] =
+        result.x[j] - search.lower[j] <= span || search.upper[j] - result.x[j] <= span;
+  }
+}
+
+/// d = argmin |J d + r|, by QR of the column-scaled J.
+void gauss_newton(Search& search) {
+  LeastSquaresResult& result = search.result;
+  const std::vector<bool> none(static_cast<std::size_t>(result.x.size()), false);
+  for (result.iterations = 0; result.iterations < search.options.max_iterations; ++result.iterations) {
+    search.options.progress.check();
+    if (!result.jacobian.allFinite()) {
+      return finish(search, Termination::not_finite, "the Jacobian is not finite; the search left the domain of the model");
+    }
+    Eigen::VectorXd scale(result.x.size());
+    for (Eigen::Index j = 0; j < scale.size(); ++j) scale[j] = 1.0 / column_norm(result.jacobian, j);
+    const Eigen::MatrixXd scaled = result.jacobian * scale.asDiagonal();
+    const Eigen::VectorXd step = scale.cwiseProduct(scaled.colPivHouseholderQr().solve(-result.residual).eval());
+    const Eigen::VectorXd x = search.clipped(result.x + step);
+    Eigen::VectorXd r = result.residual;
+    Eigen::MatrixXd jacobian = result.jacobian;
+    search.evaluate(x, r, &jacobian);
+    const double cost = 0.5 * r.squaredNorm();
+    if (!std::isfinite(cost) || !x.allFinite()) {
+      return finish(search, Termination::not_finite, "a full Gauss-Newton step left the domain of the model");
+    }
+    const Eigen::VectorXd moved = x - result.x;
+    result.x = x;
+    result.residual = r;
+    result.jacobian = jacobian;
+    result.cost = cost;
+    result.cost_history.push_back(cost);
+    if (step_is_small(moved, x, search.options.step_tolerance) ||
+        largest_cosine(jacobian, r, none) <= search.options.gradient_tolerance || cost == 0.0) {
+      ++result.iterations;
+      return finish(search, Termination::converged, "the step is below the tolerance");
+    }
+    if (result.cost > 1e12 * (result.cost_history.front() + 1e-300)) {
+      return finish(search, Termination::no_descent, "plain Gauss-Newton steps diverged");
+    }
+  }
+  finish(search, Termination::iteration_limit, fmt::format("not converged after {} iterations", result.iterations));
+}
+
+void levenberg_marquardt(Search& search) {
+  LeastSquaresResult& result = search.result;
+  const Eigen::Index p = result.x.size();
+  Eigen::VectorXd scale = Eigen::VectorXd::Zero(p);
+  double damping = 1e-3;
+  double growth = 2.0;
+  for (result.iterations = 0; result.iterations < search.options.max_iterations; ++result.iterations) {
+    search.options.progress.check();
+    // Variables that lean on a bound and are pushed further out stay there.
+    const Eigen::VectorXd gradient = result.jacobian.transpose() * result.residual;
+    std::vector<bool> held(static_cast<std::size_t>(p), false);
+    std::vector<Eigen::Index> moving;
+    for (Eigen::Index j = 0; j < p; ++j) {
+      const bool out = (result.x[j] <= search.lower[j] && gradient[j] > 0.0) ||
+                       (result.x[j] >= search.upper[j] && gradient[j] < 0.0);
+      held[static_cast<std::size_t>(j)] = out;
+      if (!out) moving.push_back(j);
+      scale[j] = std::max(scale[j], column_norm(result.jacobian, j));
+    }
+    if (moving.empty()) return finish(search, Termination::converged, "every parameter leans on a bound");
+    if (result.cost == 0.0 ||
+        largest_cosine(result.jacobian, result.residual, held) <= search.options.gradient_tolerance) {
+      return finish(search, Termination::converged, "the gradient vanishes");
+    }
+    const Eigen::Index q = static_cast<Eigen::Index>(moving.size());
+    Eigen::MatrixXd jacobian(result.jacobian.rows(), q);
+    Eigen::VectorXd d(q);
+    for (Eigen::Index k = 0; k < q; ++k) {
+      d[k] = scale[moving[static_cast<std::size_t>(k)]];
+      jacobian.col(k) = result.jacobian.col(moving[static_cast<std::size_t>(k)]) / d[k];
+    }
+    // min |J d + r|^2 + damping |d|^2 in scaled variables, by the triangle of J and one small QR per damping.
+    const Eigen::HouseholderQR<Eigen::MatrixXd> qr(jacobian);
+    const Eigen::Index rows = std::min(jacobian.rows(), q);
+    Eigen::MatrixXd triangle = Eigen::MatrixXd::Zero(q, q);
+    triangle.topRows(rows) = qr.matrixQR().topRows(rows).template triangularView<Eigen::Upper>();
+    Eigen::VectorXd rotated = Eigen::VectorXd::Zero(q);
+    rotated.head(rows) = (qr.householderQ().transpose() * result.residual).eval().head(rows);
+    bool accepted = false;
+    while (!accepted) {
+      Eigen::MatrixXd augmented = Eigen::MatrixXd::Zero(2 * q, q);
+      augmented.topRows(q) = triangle;
+      augmented.bottomRows(q).diagonal().setConstant(std::sqrt(damping));
+      Eigen::VectorXd right = Eigen::VectorXd::Zero(2 * q);
+      right.head(q) = -rotated;
+      const Eigen::VectorXd scaled_step = augmented.colPivHouseholderQr().solve(right);
+      Eigen::VectorXd step = Eigen::VectorXd::Zero(p);
+      for (Eigen::Index k = 0; k < q; ++k) step[moving[static_cast<std::size_t>(k)]] = scaled_step[k] / d[k];
+      const Eigen::VectorXd x = search.clipped(result.x + step);
+      const Eigen::VectorXd moved = x - result.x;
+      if (step_is_small(moved, result.x, search.options.step_tolerance)) {
+        return finish(search, Termination::converged, "the step is below the tolerance");
+      }
+      Eigen::VectorXd r = result.residual;
+      search.evaluate(x, r, nullptr);
+      const double cost = 0.5 * r.squaredNorm();
+      const double model_cost = 0.5 * (result.residual + result.jacobian * moved).squaredNorm();
+      const double promised = result.cost - model_cost;
+      const double ratio = std::isfinite(cost) && promised > 0.0 ? (result.cost - cost) / promised : -1.0;
+      const double previous = result.cost;
+      if (ratio > 1e-4 || (std::isfinite(cost) && cost < result.cost)) {
+        Eigen::MatrixXd next = result.jacobian;
+        search.evaluate(x, r, &next);
+        if (!next.allFinite()) {
+          damping *= growth;
+          growth *= 2.0;
+          if (damping > 1e30) return finish(search, Termination::not_finite, "the Jacobian is not finite");
+          continue;
+        }
+        accepted = true;
+        result.x = x;
+        result.residual = r;
+        result.jacobian = next;
+        result.cost = cost;
+        result.cost_history.push_back(cost);
+        const double cubic = 1.0 - std::pow(2.0 * ratio - 1.0, 3);
+        damping *= std::clamp(cubic, 0.1, 2.0);
+        damping = std::max(damping, 1e-18);
+        growth = 2.0;
+        if (previous - cost <= search.options.cost_tolerance * previous &&
+            promised <= search.options.cost_tolerance * previous) {
+          ++result.iterations;
+          return finish(search, Termination::converged, "the cost falls no further");
+        }
+      } else {
+        if (promised <= search.options.cost_tolerance * result.cost) {
+          return finish(search, Termination::converged, "the cost can fall no further within round-off");
+        }
+        damping *= growth;
+        growth *= 2.0;
+        if (damping > 1e30) return finish(search, Termination::no_descent, "no step lowers the cost");
+      }
+    }
+  }
+  finish(search, Termination::iteration_limit, fmt::format("not converged after {} iterations", result.iterations));
+}
+
+Eigen::VectorXd filled(const Eigen::VectorXd& bound, Eigen::Index size, double otherwise, std::string_view what) {
+  if (bound.size() == 0) return Eigen::VectorXd::Constant(size, otherwise);
+  if (bound.size() != size) {
+    throw InvalidInput(fmt::format("least squares: {} {} bounds for {} parameters", bound.size(), what, size));
+  }
+  return bound;
+}
+
+}  // namespace
+
+std::string_view name(Termination termination) {
+  switch (termination) {
+    case Termination::converged: return "converged";
+    case Termination::iteration_limit: return "iteration_limit";
+    case Termination::no_descent: return "no_descent";
+    case Termination::not_finite: return "not_finite";
+  }
+  return "?";
+}
+
+LeastSquaresResult minimize(const LeastSquaresProblem& problem, const Eigen::VectorXd& start,
+                            const LeastSquaresOptions& options) {
+  const Eigen::Index p = start.size();
+  if (p == 0) throw InvalidInput("least squares: there is no free parameter");
+  if (problem.residual_count <= 0) throw InvalidInput("least squares: there is no residual");
+  Search search{problem, options, filled(problem.lower, p, -kInfinity, "lower"),
+                filled(problem.upper, p, kInfinity, "upper"), {}};
+  LeastSquaresResult& result = search.result;
+  result.x = search.clipped(start);
+  result.residual.setZero(problem.residual_count);
+  result.jacobian.setZero(problem.residual_count, p);
+  search.evaluate(result.x, result.residual, &result.jacobian);
+  result.cost = 0.5 * result.residual.squaredNorm();
+  if (!std::isfinite(result.cost) || !result.jacobian.allFinite()) {
+    throw InvalidInput("least squares: the residual or its Jacobian is not finite at the start");
+  }
+  result.cost_history.push_back(result.cost);
+  options.method == LeastSquaresMethod::gauss_newton ? gauss_newton(search) : levenberg_marquardt(search);
+  return std::move(search.result);
+}
+
+}  // namespace myoid::math

@@ -1,0 +1,66 @@
+#include "myoid/math/zero_phase.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "myoid/core/error.h"
+
+namespace myoid::math {
+namespace {
+
+/// Samples until the slowest pole has decayed to 1e-8.
+Eigen::Index impulse_length(const std::vector<SecondOrderSection>& sections) {
+  double radius = 0.0;
+  for (const SecondOrderSection& s : sections) {
+    const double discriminant = s.a1 * s.a1 - 4.0 * s.a2;
+    const double r = discriminant < 0.0 ? std::sqrt(s.a2)
+                                        : 0.5 * (std::abs(s.a1) + std::sqrt(discriminant));
+    radius = std::max(radius, r);
+  }
+  if (radius <= 0.0) return 1;
+  return static_cast<Eigen::Index>(std::ceil(std::log(1e-8) / std::log(std::min(radius, 1.0 - 1e-9))));
+}
+
+void run(const std::vector<SecondOrderSection>& sections, std::vector<double>& x) {
+  for (const SecondOrderSection& s : sections) {
+    // Transposed direct form II; the states are those of a constant input x[0] forever.
+    const double constant = x.front();
+    const double out = constant * (s.b0 + s.b1 + s.b2) / (1.0 + s.a1 + s.a2);
+    double z2 = s.b2 * constant - s.a2 * out;
+    double z1 = s.b1 * constant - s.a1 * out + z2;
+    for (double& value : x) {
+      const double in = value;
+      value = s.b0 * in + z1;
+      z1 = s.b1 * in - s.a1 * value + z2;
+      z2 = s.b2 * in - s.a2 * value;
+    }
+  }
+}
+
+}  // namespace
+
+Eigen::VectorXd zero_phase(const std::vector<SecondOrderSection>& sections,
+                           const Eigen::Ref<const Eigen::VectorXd>& x) {
+  const Eigen::Index n = x.size();
+  if (n < 4) throw InvalidInput(fmt::format("zero-phase filter: {} samples are too few; at least 4 are needed", n));
+  for (Eigen::Index i = 0; i < n; ++i) {
+    if (!std::isfinite(x[i])) {
+      throw InvalidInput(fmt::format("zero-phase filter: sample {} is not a number; fill the gaps first", i + 1));
+    }
+  }
+  const Eigen::Index pad = std::min<Eigen::Index>(n - 1, 3 * impulse_length(sections));
+  std::vector<double> y;
+  y.reserve(static_cast<std::size_t>(n + 2 * pad));
+  for (Eigen::Index i = pad; i > 0; --i) y.push_back(2.0 * x[0] - x[i]);
+  y.insert(y.end(), x.data(), x.data() + n);
+  for (Eigen::Index i = 1; i <= pad; ++i) y.push_back(2.0 * x[n - 1] - x[n - 1 - i]);
+  run(sections, y);
+  std::reverse(y.begin(), y.end());
+  run(sections, y);
+  std::reverse(y.begin(), y.end());
+  return Eigen::Map<const Eigen::VectorXd>(y.data() + pad, n);
+}
+
+}  // namespace myoid::math

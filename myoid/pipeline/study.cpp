@@ -1,0 +1,325 @@
+#include "myoid/pipeline/study.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <set>
+#include <utility>
+
+#include "myoid/core/error.h"
+#include "myoid/recording/text_file.h"
+#include "myoid/recording/toml_table.h"
+
+namespace myoid::pipeline {
+namespace {
+
+using recording::TomlTable;
+
+double positive(TomlTable& table, std::string_view key, double otherwise) {
+  const double value = table.number(key).value_or(otherwise);
+  if (!(value > 0.0)) table.fail(key, fmt::format("found {}, expected a positive number", value));
+  return value;
+}
+
+SubjectSpec read_subject(TomlTable table) {
+  SubjectSpec subject;
+  subject.name = table.text("name").value_or(subject.name);
+  if (table.has("mass_kg")) {
+    subject.mass_kg = positive(table, "mass_kg", 0.0);
+    if (*subject.mass_kg < 10.0 || *subject.mass_kg > 350.0) {
+      table.fail("mass_kg", fmt::format("found {} kg, expected a person's mass in kilograms", *subject.mass_kg));
+    }
+  }
+  subject.sex = table.choice("sex", "", {"", "male", "female"});
+  if (auto notes = table.texts("notes")) subject.notes = *notes;
+  (void)table.number("age_years");
+  table.finish();
+  return subject;
+}
+
+ModelSpec read_model(TomlTable table, const std::filesystem::path& folder) {
+  ModelSpec model;
+  if (auto file = table.text("file")) model.file = folder / *file;
+  model.builtin = table.choice("builtin", model.file ? "" : "arm4", {"", "arm4"});
+  if (model.file && !model.builtin.empty()) {
+    table.fail("builtin", "give either 'file' or 'builtin', not both");
+  }
+  if (table.has("upper_arm_length_m")) model.upper_arm_length_m = positive(table, "upper_arm_length_m", 0.0);
+  if (table.has("forearm_length_m")) model.forearm_length_m = positive(table, "forearm_length_m", 0.0);
+  model.horizontal = table.choice("plane", "vertical", {"vertical", "horizontal"}) == "horizontal";
+  model.forearm_rotations = table.flag("forearm_rotations").value_or(false);
+  model.coordinate = table.text("coordinate").value_or(model.coordinate);
+  if (auto held = table.table("held_mass")) {
+    HeldMassSpec spec;
+    spec.body = held->require_text("body", "the body that carries the held mass");
+    const auto at = held->numbers("at_m");
+    if (!at || at->size() != 3) held->fail("at_m", "expected the point's three coordinates in the body [m]");
+    spec.p_BP_m = Vec3((*at)[0], (*at)[1], (*at)[2]);
+    held->finish();
+    model.held_mass = spec;
+  }
+  table.finish();
+  return model;
+}
+
+MotionSpec read_motion(TomlTable table) {
+  MotionSpec motion;
+  if (table.has("cutoff_hz")) {
+    motion.smoothing = Smoothing::cutoff;
+    motion.cutoff_hz = positive(table, "cutoff_hz", 6.0);
+    (void)table.choice("smoothing", "cutoff", {"cutoff"});
+  } else {
+    const std::string word = table.choice("smoothing", "auto", {"auto", "none", "cutoff"});
+    motion.smoothing = word == "auto"   ? Smoothing::automatic
+                       : word == "none" ? Smoothing::none
+                                        : Smoothing::cutoff;
+  }
+  motion.rate_hz = positive(table, "rate_hz", motion.rate_hz);
+  table.finish();
+  return motion;
+}
+
+MarkerSpec read_markers(TomlTable table) {
+  MarkerSpec markers;
+  markers.up = table.choice("up", "y", {"x", "y", "z"})[0];
+  if (auto rename = table.table("rename")) {
+    for (const std::string& key : rename->keys()) markers.rename[key] = *rename->text(key);
+  }
+  if (auto weight = table.table("weight")) {
+    for (const std::string& key : weight->keys()) {
+      const double value = *weight->number(key);
+      if (value < 0.0) weight->fail(key, fmt::format("found {}, expected a weight of 0 or more", value));
+      markers.weight[key] = value;
+    }
+  }
+  table.finish();
+  return markers;
+}
+
+IkSpec read_ik(TomlTable table) {
+  IkSpec ik;
+  ik.unlock = table.texts("unlock").value_or(ik.unlock);
+  ik.lock = table.texts("lock").value_or(ik.lock);
+  if (auto calibrate = table.table("calibrate")) {
+    CalibrationSpec spec;
+    spec.window_s = calibrate->numbers("window_s").value_or(std::vector<double>{});
+    if (spec.window_s.size() != 2 || !(spec.window_s[0] < spec.window_s[1])) {
+      calibrate->fail("window_s", "expected [start, end] in seconds, start before end");
+    }
+    spec.free = calibrate->texts("free").value_or(spec.free);
+    if (spec.free.empty()) calibrate->fail("free", "expected the coordinates to find in the window");
+    calibrate->finish();
+    ik.calibrate = spec;
+  }
+  table.finish();
+  return ik;
+}
+
+EmgSpec read_emg(TomlTable table) {
+  EmgSpec emg;
+  const std::string kind = table.choice("kind", "raw", {"raw", "envelope", "activation"});
+  emg.kind = kind == "raw" ? EmgKind::raw : kind == "envelope" ? EmgKind::envelope : EmgKind::activation;
+  emg.unit = table.text("unit").value_or("");
+  emg.rectify = table.flag("rectify").value_or(emg.rectify);
+  emg.highpass_hz = positive(table, "highpass_hz", emg.highpass_hz);
+  emg.lowpass_hz = positive(table, "lowpass_hz", emg.lowpass_hz);
+  emg.as_published = table.flag("as_published").value_or(emg.as_published);
+  (void)table.choice("normalise", "max", {"max"});
+  emg.normalise_window_s = positive(table, "normalise_window_s", emg.normalise_window_s);
+  if (table.is_text("delay_s")) {
+    (void)table.choice("delay_s", "estimate", {"estimate"});
+  } else if (auto delay = table.number("delay_s")) {
+    if (*delay < 0.0 || *delay > 0.3) {
+      table.fail("delay_s", fmt::format("found {} s, expected 0 to 0.3 s or \"estimate\"", *delay));
+    }
+    emg.delay_s = delay;
+  }
+  table.finish();
+  return emg;
+}
+
+MuscleSpec read_muscle(TomlTable table) {
+  MuscleSpec muscle;
+  muscle.name = table.require_text("name", "a short name for the results, name = \"BIC\"");
+  muscle.osim = table.texts("osim").value_or(std::vector<std::string>{muscle.name});
+  if (muscle.osim.empty()) table.fail("osim", "expected at least one muscle of the model");
+  if (table.is_table("emg")) {
+    TomlTable tie = *table.table("emg");
+    muscle.same_as = tie.require_text("same_as", "the muscle whose electrode serves this one too");
+    tie.finish();
+  } else {
+    muscle.emg = table.require_text("emg", "the EMG channel, or { same_as = \"MUSCLE\" } where there is no electrode");
+  }
+  if (auto start = table.table("start")) {
+    for (const std::string& key : start->keys()) muscle.start[key] = *start->number(key);
+  }
+  muscle.fixed = table.texts("fixed").value_or(muscle.fixed);
+  table.finish();
+  return muscle;
+}
+
+Use parse_use(const std::string& word) {
+  if (word == "calibration") return Use::calibration;
+  if (word == "validation") return Use::validation;
+  if (word == "mvc") return Use::mvc;
+  if (word == "static") return Use::static_pose;
+  if (word == "passive") return Use::passive;
+  return Use::isometric;
+}
+
+TrialSpec read_trial(TomlTable table, const std::filesystem::path& folder) {
+  TrialSpec trial;
+  trial.name = table.require_text("name", "a name that is unique in the study");
+  if (trial.name.find_first_of("/\\") != std::string::npos || trial.name.starts_with(".")) {
+    table.fail("name", fmt::format("found \"{}\"; a trial's name becomes a folder: use letters, digits, _ and -", trial.name));
+  }
+  const auto path = [&](std::string_view key) -> std::optional<std::filesystem::path> {
+    const auto text = table.text(key);
+    if (!text) return std::nullopt;
+    if (text->empty()) table.fail(key, "the path is empty");
+    return folder / *text;
+  };
+  trial.markers = path("markers");
+  trial.motion = path("motion");
+  trial.emg = path("emg");
+  trial.external_torque = path("external_torque");
+  if (trial.markers && trial.motion) {
+    table.fail("motion", "give either 'markers' or 'motion', not both: the motion is computed from the markers");
+  }
+  trial.use = parse_use(table.choice("use", "calibration",
+                                     {"calibration", "validation", "mvc", "static", "passive", "isometric"}));
+  if (trial.use != Use::mvc && !trial.markers && !trial.motion) {
+    table.fail("name", fmt::format("trial '{}' has neither 'markers' (.trc) nor 'motion' (.mot); add one", trial.name));
+  }
+  const bool needs_emg = trial.use == Use::calibration || trial.use == Use::validation ||
+                         trial.use == Use::isometric || trial.use == Use::mvc;
+  if (needs_emg && !trial.emg) {
+    table.fail("name", fmt::format("trial '{}' has no 'emg'; a {} trial needs one, or set use = \"static\"",
+                                   trial.name, name(trial.use)));
+  }
+  trial.held_mass_kg = table.number("held_mass_kg").value_or(0.0);
+  if (trial.held_mass_kg < 0.0 || trial.held_mass_kg > 100.0) {
+    table.fail("held_mass_kg", fmt::format("found {} kg, expected 0 to 100 kg", trial.held_mass_kg));
+  }
+  trial.start_s = table.number("start_s");
+  trial.end_s = table.number("end_s");
+  table.finish();
+  return trial;
+}
+
+SharingSpec read_sharing(TomlTable table) {
+  SharingSpec sharing;
+  sharing.objective = table.choice("objective", "activation", {"activation", "force", "stress"});
+  sharing.exponent = table.number("exponent").value_or(sharing.exponent);
+  if (!(sharing.exponent > 1.0)) table.fail("exponent", "expected a number above 1 (2 or 3 is usual)");
+  sharing.reserve_nm = positive(table, "reserve_nm", sharing.reserve_nm);
+  table.finish();
+  return sharing;
+}
+
+IdentifySpec read_identify(TomlTable table) {
+  IdentifySpec identify;
+  if (auto methods = table.texts("method")) identify.methods = *methods;
+  for (const std::string& method : identify.methods) {
+    if (method != "paper" && method != "torque") {
+      table.fail("method", fmt::format("found \"{}\", expected \"paper\" or \"torque\"", method));
+    }
+  }
+  if (auto muscles = table.texts("muscles"); muscles && *muscles != std::vector<std::string>{"all"}) {
+    identify.muscles = *muscles;
+  }
+  identify.priors = table.flag("priors").value_or(identify.priors);
+  identify.gain = table.flag("gain").value_or(identify.gain);
+  identify.cross_validate = table.flag("cross_validate").value_or(identify.cross_validate);
+  identify.max_rate_hz = positive(table, "max_rate_hz", identify.max_rate_hz);
+  table.finish();
+  return identify;
+}
+
+void check_references(const Study& study) {
+  const auto refuse = [&](const std::string& message) { throw ReadError(study.file, 0, message); };
+  if (study.muscles.empty()) {
+    refuse("no [[muscle]]; add one table per muscle to identify, with name, osim and emg");
+  }
+  if (study.trials.empty()) refuse("no [[trial]]; add one table per recording, with name, markers or motion, and emg");
+  std::set<std::string> muscles;
+  for (const MuscleSpec& muscle : study.muscles) {
+    if (!muscles.insert(muscle.name).second) refuse(fmt::format("two [[muscle]] are named '{}'", muscle.name));
+  }
+  for (const MuscleSpec& muscle : study.muscles) {
+    if (!muscle.same_as) continue;
+    const auto other = std::find_if(study.muscles.begin(), study.muscles.end(),
+                                    [&](const MuscleSpec& m) { return m.name == *muscle.same_as; });
+    if (other == study.muscles.end() || other->same_as) {
+      refuse(fmt::format("[[muscle]] {}: emg same_as \"{}\" names no muscle with an electrode; there are {}",
+                         muscle.name, *muscle.same_as, fmt::join(muscles, ", ")));
+    }
+  }
+  for (const std::string& wanted : study.identify.muscles) {
+    if (!muscles.contains(wanted)) {
+      refuse(fmt::format("[identify] muscles: '{}' is no [[muscle]]; there are {}", wanted, fmt::join(muscles, ", ")));
+    }
+  }
+  std::set<std::string> trials;
+  for (const TrialSpec& trial : study.trials) {
+    if (!trials.insert(trial.name).second) refuse(fmt::format("two [[trial]] are named '{}'", trial.name));
+  }
+}
+
+}  // namespace
+
+std::string_view name(Use use) {
+  switch (use) {
+    case Use::calibration: return "calibration";
+    case Use::validation: return "validation";
+    case Use::mvc: return "mvc";
+    case Use::static_pose: return "static";
+    case Use::passive: return "passive";
+    case Use::isometric: return "isometric";
+  }
+  return "?";
+}
+
+Study parse_study(std::string_view text, const std::filesystem::path& file) {
+  const toml::table root = recording::parse_toml(text, file);
+  const std::filesystem::path folder = file.parent_path();
+  TomlTable table(root, file, "study");
+  Study study;
+  study.file = file;
+  if (auto t = table.table("subject")) study.subject = read_subject(*t);
+  if (auto t = table.table("model")) {
+    study.model = read_model(*t, folder);
+  } else {
+    study.model.builtin = "arm4";
+  }
+  if (auto t = table.table("motion")) study.motion = read_motion(*t);
+  if (auto t = table.table("markers")) study.markers = read_markers(*t);
+  if (auto t = table.table("ik")) study.ik = read_ik(*t);
+  if (auto t = table.table("emg")) study.emg = read_emg(*t);
+  if (auto t = table.table("sharing")) study.sharing = read_sharing(*t);
+  if (auto t = table.table("identify")) study.identify = read_identify(*t);
+  for (TomlTable& t : table.tables("muscle")) study.muscles.push_back(read_muscle(t));
+  for (TomlTable& t : table.tables("trial")) study.trials.push_back(read_trial(t, folder));
+  if (auto t = table.table("truth")) {
+    study.truth = folder / t->require_text("file", "the table of true values, truth.csv");
+    t->finish();
+  }
+  table.finish();
+  for (MuscleSpec& muscle : study.muscles) {
+    if (!muscle.same_as) continue;
+    for (const MuscleSpec& other : study.muscles) {
+      if (other.name == *muscle.same_as) muscle.emg = other.emg;
+    }
+  }
+  study.emg.has_mvc = std::any_of(study.trials.begin(), study.trials.end(),
+                                  [](const TrialSpec& t) { return t.use == Use::mvc; });
+  check_references(study);
+  return study;
+}
+
+Study read_study(const std::filesystem::path& file) {
+  return parse_study(recording::read_text_file(file), file);
+}
+
+}  // namespace myoid::pipeline
