@@ -1,0 +1,32 @@
+#include "myoid/muscle/hill_parameters.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <string>
+
+#include "myoid/core/error.h"
+
+namespace myoid::muscle {
+
+const HillField& hill_field(std::string_view name) {
+  std::string names;
+  for (const HillField& field : kHillFields) {
+    if (field.name == name) return field;
+    names += (names.empty() ? "" : ", ") + std::string(field.name);
+  }
+  throw InvalidInput(fmt::format("no muscle parameter is named '{}'; there are {}", name, names));
+}
+
+void validate(const HillParameters<double>& parameters) {
+  for (const HillField& field : kHillFields) {
+    const double value = parameters.*field.member;
+    const bool may_be_zero = field.name == "tendon_slack_length";
+    if (!std::isfinite(value) || value < 0.0 || (value == 0.0 && !may_be_zero)) {
+      throw InvalidInput(fmt::format("{} = {} {}: expected a {} number", field.name, value, symbol(field.unit),
+                                     may_be_zero ? "finite, not negative" : "finite, positive"));
+    }
+  }
+}
+
+}  // namespace myoid::muscle
