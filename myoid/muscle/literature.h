@@ -1,0 +1,94 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string_view>
+
+#include "myoid/core/parameter_set.h"
+#include "myoid/muscle/hill_parameters.h"
+#include "myoid/muscle/thelen.h"
+
+namespace myoid::muscle {
+
+/// A muscle of the elbow as the literature has it, heads lumped into one.
+struct LiteratureMuscle {
+  std::string_view name;
+  double max_isometric_force_n = 0.0;
+  double optimal_fiber_length_m = 0.0;
+  double tendon_slack_length_m = 0.0;  ///< In the geometry of its source: match it to yours.
+  double pennation_rad = 0.0;
+};
+
+/// BIC (long and short head), BRA, BRD, TRI (three heads): Holzbaur, Murray & Delp (2005), Ann
+/// Biomed Eng 33:829-840, as OpenSim's models carry it. F_max are sums, lengths weighted by F_max.
+inline constexpr std::array<LiteratureMuscle, 4> kElbowMuscles = {
+    {{"BIC", 1059.86, 0.1224, 0.2394, 0.0},
+     {"BRA", 987.26, 0.0858, 0.0535, 0.0},
+     {"BRD", 261.33, 0.1726, 0.1330, 0.0},
+     {"TRI", 2047.12, 0.1217, 0.1134, 0.1775}}};
+
+/// What is taken for every muscle of which nothing better is known.
+inline constexpr double kLiteratureWidth = 0.45;      ///< l_sh / l0
+inline constexpr double kLiteratureCurvature = 0.28;  ///< V_sh
+inline constexpr double kLiteraturePlateau = 1.4;     ///< V_ml
+inline constexpr double kLiteratureSlopeRatio =
+    1.5;  ///< S: slopes of f_v at rest, eccentric over concentric
+inline constexpr double kLiteratureSpeed = 10.0;  ///< v_max / l0 [1/s]
+
+/// The numbers above for one muscle: l_sh = 0.45 l0, V_sh = 0.28, V_ml = 1.4, S = 1.5, v_max = 10
+/// l0/s.
+[[nodiscard]] HillParameters<double> literature_parameters(const LiteratureMuscle& muscle);
+
+/// The muscle of this name (BIC, BRA, BRD, TRI); throws InvalidInput listing them.
+[[nodiscard]] const LiteratureMuscle& literature_muscle(std::string_view name);
+
+/// Starting values from a muscle of a model file: l_sh = l0 sqrt(gamma), V_sh = A_f, V_ml = F_len,
+/// v_max = (fiber lengths per second) l0, and P such that the eccentric slope at rest is
+/// `slope_ratio` times the concentric one (Thelen's own is 2). Pennation is dropped.
+[[nodiscard]] HillParameters<double> hill_from_thelen(const ThelenParameters& thelen,
+                                                      double slope_ratio = kLiteratureSlopeRatio);
+
+/// How far people's parameters spread about the literature.
+struct ParameterPrior {
+  std::string_view parameter;
+  double sd = 0.0;  ///< Of ln(value) if `logarithmic`, else in the parameter's unit ...
+  bool logarithmic = false;
+  bool relative = false;  ///< ... or in optimal fiber lengths.
+};
+
+/// Judgement from the spread between published sets; a study may replace any of it. The product P
+/// carries the spreads of V_ml, V_sh and of the slope ratio (ln S 0.5) together.
+inline constexpr std::array<ParameterPrior, 9> kPriors = {
+    {{"max_isometric_force", 0.25, true, false},
+     {"optimal_fiber_length", 0.10, false, true},
+     {"force_length_width", 0.12, false, true},
+     {"concentric_curvature", 0.30, true, false},
+     {"eccentric_curvature_product", 0.65, true, false},
+     {"eccentric_plateau", 0.15, false, false},
+     {"max_shortening_speed", 0.20, true, false},
+     {"tendon_slack_length", 0.05, true, false},
+     {"emg_delay", 0.020, false, false}}};
+
+/// The prior of a parameter about `start_value` (its mean), given the muscle's optimal fiber
+/// length; empty if the table has none of this name.
+[[nodiscard]] std::optional<Prior> literature_prior(std::string_view parameter,
+                                                    double start_value,
+                                                    double optimal_fiber_length_m);
+
+/// Electromechanical delay to expect when the EMG envelope is taken for the activation [s].
+inline constexpr double kLiteratureEmgDelay_s = 0.060;
+
+/// Initial values that the source paper prints in its tables I and II; F_max and v_max it does not
+/// print. Its widths are far below the literature's: do not take them for normalized ones.
+struct PaperMuscle {
+  std::string_view name;
+  double optimal_fiber_length_m = 0.0;
+  double force_length_width_m = 0.0;
+};
+inline constexpr std::array<PaperMuscle, 3> kPaperMuscles = {
+    {{"TRI", 0.216, 0.018}, {"BRD", 0.212, 0.035}, {"BRA", 0.142, 0.035}}};
+inline constexpr double kPaperCurvature = 0.3;          ///< V_sh
+inline constexpr double kPaperCurvatureProduct = 0.12;  ///< V_sh V_shl
+inline constexpr double kPaperPlateau = 1.3;            ///< V_ml
+
+}  // namespace myoid::muscle
