@@ -16,6 +16,7 @@
 
 #include "myoid/core/error.h"
 #include "myoid/core/units.h"
+#include "myoid/muscle/hill_parameters.h"
 #include "myoid/recording/toml_table.h"
 
 namespace myoid::simulation {
@@ -32,10 +33,11 @@ constexpr std::array<std::pair<std::string_view, TrialKind>, 5> kKinds = {
      {"mvc", TrialKind::mvc},
      {"passive", TrialKind::passive}}};
 
-const std::vector<std::string> kParameterNames = {
-    "optimal_fiber_length",        "force_length_width", "max_shortening_speed",
-    "concentric_curvature",        "eccentric_plateau",  "max_isometric_force",
-    "eccentric_curvature_product", "tendon_slack_length"};
+std::vector<std::string> parameter_names() {
+  std::vector<std::string> names;
+  for (const muscle::HillField& field : muscle::kHillFields) names.emplace_back(field.name);
+  return names;
+}
 
 /// Overwrites `value` if the key is there; throws unless lower <= it <= upper.
 void number_into(TomlTable& table,
@@ -89,18 +91,18 @@ void read_subject(TomlTable table, VirtualSubject& subject) {
 void read_truth(TomlTable table, TruthSpec& truth) {
   number_into(table, "spread", truth.spread, 0.0, 3.0);
   range_into(table, "emg_delay_s", truth.emg_delay_min_s, truth.emg_delay_max_s, 0.0, 0.2);
-  const auto check = [&table](const std::string& parameter, std::string_view key) {
-    if (std::find(kParameterNames.begin(), kParameterNames.end(), parameter) !=
-        kParameterNames.end()) {
+  const std::vector<std::string> known = parameter_names();
+  const auto check = [&table, &known](const std::string& parameter, std::string_view key) {
+    if (std::find(known.begin(), known.end(), parameter) != known.end()) {
       return;
     }
-    const auto near = recording::nearest_word(parameter, kParameterNames);
+    const auto near = recording::nearest_word(parameter, known);
     table.fail(key, near ? fmt::format("found \"{}\", which is no parameter of a muscle; did you "
                                        "mean \"{}\"?",
                                        parameter, *near)
                          : fmt::format("found \"{}\", which is no parameter of a muscle; they are "
                                        "{}",
-                                       parameter, fmt::join(kParameterNames, ", ")));
+                                       parameter, fmt::join(known, ", ")));
   };
   if (auto vary = table.texts("vary")) {
     for (const std::string& parameter : *vary) check(parameter, "vary");

@@ -8,16 +8,15 @@
 
 #include "myoid/core/geometry.h"
 #include "myoid/core/time_series.h"
-#include "myoid/muscle/hill_parameters.h"
 #include "myoid/simulation/control.h"
 #include "myoid/simulation/protocol.h"
-#include "myoid/simulation/trial_script.h"
+#include "myoid/simulation/virtual_arm.h"
 
 namespace myoid::simulation {
 
 /// What the virtual person is made of, and what the identification is to find.
 struct Truth {
-  std::array<muscle::HillParameters<double>, 4> muscles;  ///< In the order of kArmMuscles.
+  HillSet muscles;           ///< In the order of kArmMuscles.
   double emg_delay_s = 0.0;  ///< The muscle does at t what its EMG said at t - delay.
   PerMuscle mvc_v = {};      ///< Rms of the raw EMG at the greatest effort [V].
   int draws = 1;             ///< Parameter sets drawn until every trial could be done.

@@ -46,16 +46,20 @@ void add_oscillation(TrialScript& script, Random& random) {
 void add_efforts(TrialScript& script, const ControlSpec& control, Random& random) {
   const TrialProtocol& p = script.protocol;
   script.motion.start_rad = p.angle_rad;
+  const double first_rad = random.uniform(0.0, 2.0 * kPi);
   double time_s = 0.0;
   for (int k = 0; k < p.repetitions; ++k) {
     for (const bool flexion : {true, false}) {
       if (p.direction == (flexion ? Direction::extension : Direction::flexion)) continue;
       Effort effort{
           .start_s = time_s + p.rest_s, .rise_s = p.rise_s, .hold_s = p.hold_s, .flexion = flexion};
-      // At the greatest effort every muscle does its utmost.
-      if (p.kind != TrialKind::mvc) {
-        effort.coordination.brachioradialis = control.synergy * random.normal();
-        effort.coordination.brachialis = control.brachialis_synergy * random.normal();
+      // At the greatest effort every muscle does its utmost. Else the flexors' proportions go
+      // around a circle from effort to effort: each of them leads in turn.
+      if (p.kind != TrialKind::mvc && flexion) {
+        const double angle_rad = first_rad + 2.0 * kPi * k / std::max(p.repetitions, 3);
+        effort.coordination = {
+            .brachioradialis = control.synergy * std::sqrt(2.0) * std::cos(angle_rad),
+            .brachialis = control.brachialis_synergy * std::sqrt(2.0) * std::sin(angle_rad)};
       }
       script.efforts.push_back(effort);
       time_s = effort.end_s();
@@ -116,16 +120,20 @@ TrialScript make_script(const TrialProtocol& trial,
   script.co_contraction_change = {.depth = 0.5,
                                   .frequency_hz = random.uniform(0.07, 0.2),
                                   .phase_rad = random.uniform(0.0, 2.0 * kPi)};
-  // Of the variance of the synergies, half lies between trials and half within.
+  // The proportions of the flexors: about half of their variance lies between trials (somewhere on
+  // a circle), half within.
   const auto change = [&random](double sd) {
     return Modulation{.depth = sd,
                       .frequency_hz = random.uniform(0.05, 0.15),
                       .phase_rad = random.uniform(0.0, 2.0 * kPi)};
   };
-  script.mean.brachioradialis = control.synergy * std::sqrt(0.5) * random.normal();
-  script.brachioradialis_change = change(control.synergy);
-  script.mean.brachialis = control.brachialis_synergy * std::sqrt(0.5) * random.normal();
-  script.brachialis_change = change(control.brachialis_synergy);
+  const double angle_rad = random.uniform(0.0, 2.0 * kPi);
+  const double brachioradialis = 0.5 * control.synergy;
+  const double brachialis = 0.5 * control.brachialis_synergy;
+  script.mean.brachioradialis = brachioradialis * std::cos(angle_rad);
+  script.brachioradialis_change = change(brachioradialis);
+  script.mean.brachialis = brachialis * std::sin(angle_rad);
+  script.brachialis_change = change(brachialis);
   switch (trial.kind) {
     case TrialKind::flexion:
       add_oscillation(script, random);

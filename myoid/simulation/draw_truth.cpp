@@ -1,0 +1,82 @@
+#include "myoid/simulation/draw_truth.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "myoid/muscle/force_velocity.h"
+
+namespace myoid::simulation {
+namespace {
+
+using Hill = muscle::HillParameters<double>;
+
+constexpr double kSharedStrengthSd = 0.2;
+constexpr double kStrengthSd = 0.15;
+constexpr double kFiberLengthSd = 0.10;
+constexpr double kWidthSd = 0.12;  // of l_sh / l_0
+constexpr double kConcentricCurvatureSd = 0.3;
+constexpr double kSpeedSd = 0.2;
+constexpr double kPlateauSd = 0.15;
+constexpr double kSlopeRatioSd = 0.5;
+constexpr double kTendonSd = 0.03;
+constexpr double kLeastWidth = 0.2;
+constexpr double kLeastPlateau = 1.05;
+
+bool varies(const TruthSpec& spec, std::string_view parameter) {
+  return std::find(spec.vary.begin(), spec.vary.end(), parameter) != spec.vary.end();
+}
+
+/// Every number is drawn, whether it is used or not: a parameter that is held leaves the others as
+/// they were.
+Hill draw(const TruthSpec& spec, const Hill& literature, double shared_strength, Random& random) {
+  const auto normal = [&](std::string_view parameter) {
+    const double z = random.normal();
+    return varies(spec, parameter) ? spec.spread * z : 0.0;
+  };
+  Hill p = literature;
+  const double strength = normal("max_isometric_force");
+  p.max_isometric_force_n *= std::exp(kSharedStrengthSd * shared_strength + kStrengthSd * strength);
+  p.optimal_fiber_length_m *= 1.0 + kFiberLengthSd * normal("optimal_fiber_length");
+  p.force_length_width_m +=
+      kWidthSd * normal("force_length_width") * literature.optimal_fiber_length_m;
+  p.concentric_curvature *= std::exp(kConcentricCurvatureSd * normal("concentric_curvature"));
+  p.max_shortening_speed_mps *= std::exp(kSpeedSd * normal("max_shortening_speed"));
+  p.eccentric_plateau += kPlateauSd * normal("eccentric_plateau");
+  p.tendon_slack_length_m *= 1.0 + kTendonSd * normal("tendon_slack_length");
+
+  const double slope = normal("eccentric_curvature_product");
+  if (varies(spec, "eccentric_curvature_product")) {
+    // The slopes of f_v at rest keep their ratio S, but for its own spread.
+    const double ratio = muscle::slope_ratio(literature.velocity_shape());
+    p.eccentric_curvature_product = muscle::curvature_product_from_slope_ratio(
+        ratio * std::exp(kSlopeRatioSd * slope), p.concentric_curvature, p.eccentric_plateau);
+  }
+  return p;
+}
+
+bool sensible(const Hill& p) {
+  return p.optimal_fiber_length_m > 0.0 &&
+         p.force_length_width_m >= kLeastWidth * p.optimal_fiber_length_m &&
+         p.eccentric_plateau >= kLeastPlateau;
+}
+
+}  // namespace
+
+HillSet draw_muscles(const TruthSpec& spec, const HillSet& literature, Random& random) {
+  const double z = random.normal();
+  const double shared_strength = varies(spec, "max_isometric_force") ? spec.spread * z : 0.0;
+  HillSet result;
+  for (std::size_t i = 0; i < result.size(); ++i) {
+    do {
+      result[i] = draw(spec, literature[i], shared_strength, random);
+    } while (!sensible(result[i]));
+    const auto given = spec.values.find(std::string(kArmMuscles[i]));
+    if (given == spec.values.end()) continue;
+    for (const auto& [parameter, value] : given->second)
+      result[i].*(muscle::hill_field(parameter).member) = value;
+  }
+  return result;
+}
+
+}  // namespace myoid::simulation
