@@ -1,0 +1,36 @@
+#include "myoid/recording/emg_reader.h"
+
+#include <gtest/gtest.h>
+
+#include "myoid/core/error.h"
+#include "myoid/recording/atomic_file.h"
+#include "tests/support/temporary_folder.h"
+
+namespace myoid::recording {
+namespace {
+
+const std::string kBody = "endheader\ntime\tbiceps\n0\t100\n0.001\t-50\n";
+
+TEST(ReadEmg, TakesTheUnitFromTheTitle) {
+  const test::TemporaryFolder folder;
+  write_file(folder / "e.sto", "raw surface EMG microvolt 2000 Hz\n" + kBody);
+  const EmgFile file = read_emg(folder / "e.sto", "", false);
+  EXPECT_DOUBLE_EQ(file.data.values()(0, 0), 100e-6);
+  EXPECT_EQ(file.data.channels()[0].unit, Unit::volt);
+}
+
+TEST(ReadEmg, WithoutAUnitItAsksForOne) {
+  const test::TemporaryFolder folder;
+  write_file(folder / "e.sto", "EMG\n" + kBody);
+  try {
+    (void)read_emg(folder / "e.sto", "", false);
+    FAIL();
+  } catch (const ReadError& error) {
+    EXPECT_NE(std::string(error.what()).find("unit = \"uV\""), std::string::npos);
+  }
+  EXPECT_DOUBLE_EQ(read_emg(folder / "e.sto", "mV", false).data.values()(0, 0), 0.1);
+  EXPECT_EQ(read_emg(folder / "e.sto", "", true).data.values()(0, 0), 100.0);
+}
+
+}  // namespace
+}  // namespace myoid::recording

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace myoid::recording {
+
+/// What a reader mended, and where.
+struct Repair {
+  std::size_t line = 0;  ///< Counts from 1; 0: the file as a whole.
+  std::string message;
+};
+
+/// The whole file as bytes. Throws ReadError with the remedy if it is missing, a folder, unreadable or empty.
+[[nodiscard]] std::string read_text_file(const std::filesystem::path& path);
+
+/// The lines of a text without their ends (LF, CRLF or CR), a byte-order mark removed. Views into `text`.
+[[nodiscard]] std::vector<std::string_view> split_lines(std::string_view text);
+
+/// Without blanks, tabs and carriage returns at both ends.
+[[nodiscard]] std::string_view trim(std::string_view text);
+
+/// The fields between separators, untrimmed; an empty text has one empty field.
+[[nodiscard]] std::vector<std::string_view> split(std::string_view line, char separator);
+
+/// The words between runs of blanks and tabs.
+[[nodiscard]] std::vector<std::string_view> split_words(std::string_view line);
+
+/// A number in the C locale, whatever the machine's: "1.5", "+2e-3", "NaN", "Inf", "-infinity". The whole text must be the
+/// number, blanks around it allowed.
+[[nodiscard]] std::optional<double> parse_number(std::string_view text);
+
+/// Shortest decimal text that reads back to the same double.
+[[nodiscard]] std::string format_number(double value);
+
+/// Without case.
+[[nodiscard]] bool equal_ignoring_case(std::string_view a, std::string_view b);
+
+}  // namespace myoid::recording

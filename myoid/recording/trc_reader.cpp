@@ -1,0 +1,141 @@
+#include "myoid/recording/trc_reader.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <set>
+#include <utility>
+
+#include "myoid/core/error.h"
+#include "myoid/core/units.h"
+
+namespace myoid::recording {
+namespace {
+
+constexpr double kGap = std::numeric_limits<double>::quiet_NaN();
+
+/// Key line and value line of the header as pairs.
+std::map<std::string, std::string> read_header(std::string_view keys, std::string_view values, char separator) {
+  std::map<std::string, std::string> header;
+  const auto names = split(keys, separator);
+  const auto cells = split(values, separator);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (const auto name = trim(names[i]); !name.empty()) {
+      header[std::string(name)] = i < cells.size() ? std::string(trim(cells[i])) : "";
+    }
+  }
+  return header;
+}
+
+/// Marker names of the label line: every word after Frame# and Time, wherever the tabs stand.
+std::vector<std::string> read_names(std::string_view line, char separator, std::size_t number, std::vector<Repair>& repairs) {
+  std::vector<std::string> names;
+  std::set<std::string> seen;
+  std::size_t word = 0;
+  for (const std::string_view cell : split(line, separator)) {
+    const std::string_view name = trim(cell);
+    if (name.empty()) continue;
+    if (++word <= 2) {
+      if (word == 2 && name != "Time") repairs.push_back({number, fmt::format("column '{}' read as 'Time'", name)});
+      continue;
+    }
+    std::string unique(name);
+    for (int k = 2; !seen.insert(unique).second; ++k) {
+      const std::string other = fmt::format("{}_{}", name, k);
+      repairs.push_back({number, fmt::format("two markers are named '{}'; the later one is '{}' here", name, other)});
+      unique = other;
+    }
+    names.push_back(unique);
+  }
+  return names;
+}
+
+}  // namespace
+
+TrcFile parse_trc(std::string_view text, const std::filesystem::path& path) {
+  const std::vector<std::string_view> lines = split_lines(text);
+  if (lines.empty() || !trim(lines[0]).starts_with("PathFileType")) {
+    throw ReadError(path, 1, fmt::format("expected 'PathFileType' as the first word, found '{}'; this is not a .trc file",
+                                         lines.empty() ? "" : trim(lines[0]).substr(0, 40)));
+  }
+  if (lines.size() < 5) throw ReadError(path, lines.size(), "the file is cut off: its header has five lines");
+  TrcFile file;
+  const char separator = lines[1].find('\t') == std::string_view::npos && lines[1].find(',') != std::string_view::npos ? ',' : '\t';
+  if (separator == ',') file.repairs.push_back({2, "separated by commas instead of tabs"});
+  const auto header = read_header(lines[1], lines[2], separator);
+  const auto field = [&](const std::string& key) {
+    const auto it = header.find(key);
+    return it == header.end() ? std::string() : it->second;
+  };
+  file.unit = field("Units");
+  const auto unit = parse_unit(file.unit);
+  if (!unit || unit->unit != Unit::meter) {
+    throw ReadError(path, 3, fmt::format("Units: found '{}', expected mm or m; correct the header", file.unit));
+  }
+  file.rate_hz = parse_number(field("DataRate")).value_or(0.0);
+  MarkerSeries& markers = file.markers;
+  markers.names = read_names(lines[3], separator, 4, file.repairs);
+  if (markers.names.empty()) throw ReadError(path, 4, "there are no marker names after Frame# and Time");
+  if (const auto said = parse_number(field("NumMarkers")); said && *said != static_cast<double>(markers.names.size())) {
+    file.repairs.push_back({3, fmt::format("the header says {} markers, there are {} names", *said, markers.names.size())});
+  }
+  if (trim(lines[4]).starts_with("X0")) file.repairs.push_back({5, "coordinates numbered from 0"});
+
+  const std::size_t width = 3 * markers.names.size();
+  std::vector<double> time;
+  Eigen::MatrixXd values(static_cast<Eigen::Index>(lines.size()), static_cast<Eigen::Index>(width));
+  std::size_t zero_line = 0;
+  std::size_t repeated_line = 0;
+  for (std::size_t n = 5; n < lines.size(); ++n) {
+    if (trim(lines[n]).empty()) continue;
+    const auto cells = split(lines[n], separator);
+    if (cells.size() < 2) throw ReadError(path, n + 1, fmt::format("expected frame, time and {} coordinates, found '{}'", width, trim(lines[n])));
+    const auto now = parse_number(cells[1]);
+    if (!now) throw ReadError(path, n + 1, fmt::format("expected the time as a number, found '{}'", trim(cells[1])));
+    if (!time.empty() && *now <= time.back()) {
+      if (*now < time.back()) {
+        throw ReadError(path, n + 1, fmt::format("time goes backwards: {} s after {} s; sort the rows or split the file", *now, time.back()));
+      }
+      if (repeated_line == 0) repeated_line = n + 1;
+      continue;
+    }
+    const auto row = static_cast<Eigen::Index>(time.size());
+    for (std::size_t c = 0; c < width; ++c) {
+      double value = kGap;
+      if (c + 2 < cells.size()) {
+        const std::string_view cell = trim(cells[c + 2]);
+        if (!cell.empty()) {
+          const auto number = parse_number(cell);
+          if (!number) {
+            throw ReadError(path, n + 1, fmt::format("expected a number for {} of marker '{}', found '{}'", "XYZ"[c % 3], markers.names[c / 3], cell));
+          }
+          value = *number * unit->to_si;
+        }
+      }
+      values(row, static_cast<Eigen::Index>(c)) = value;
+    }
+    for (std::size_t m = 0; m < markers.names.size(); ++m) {
+      auto position = values.block<1, 3>(row, static_cast<Eigen::Index>(3 * m));
+      const bool zero = (position.array() == 0.0).all();
+      if (zero && zero_line == 0) zero_line = n + 1;
+      if (zero || !position.allFinite()) position.setConstant(kGap);
+    }
+    time.push_back(*now);
+  }
+  if (time.empty()) throw ReadError(path, lines.size(), "there are no frames after the header; export the file again");
+  if (zero_line > 0) file.repairs.push_back({zero_line, "a marker at exactly 0 0 0 is taken as missing"});
+  if (repeated_line > 0) file.repairs.push_back({repeated_line, "a time stands twice; the first row is kept"});
+  const auto frames = static_cast<Eigen::Index>(time.size());
+  if (const auto said = parse_number(field("NumFrames")); said && *said != static_cast<double>(frames)) {
+    file.repairs.push_back({3, fmt::format("the header says {} frames, there are {}", *said, frames)});
+  }
+  markers.time_s = Eigen::Map<const Eigen::VectorXd>(time.data(), frames);
+  markers.positions_m = values.topRows(frames);
+  return file;
+}
+
+TrcFile read_trc(const std::filesystem::path& path) { return parse_trc(read_text_file(path), path); }
+
+}  // namespace myoid::recording
