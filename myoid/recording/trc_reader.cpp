@@ -90,6 +90,7 @@ TrcFile parse_trc(std::string_view text, const std::filesystem::path& path) {
   std::size_t repeated_line = 0;
   for (std::size_t n = 5; n < lines.size(); ++n) {
     if (trim(lines[n]).empty()) continue;
+    if (lines[n].find_first_not_of(" \t,\r") == std::string_view::npos) continue;
     const auto cells = split(lines[n], separator);
     if (cells.size() < 2) throw ReadError(path, n + 1, fmt::format("expected frame, time and {} coordinates, found '{}'", width, trim(lines[n])));
     const auto now = parse_number(cells[1]);
