@@ -18,6 +18,10 @@ namespace {
 
 constexpr double kGreatestActivation = 0.95;  ///< More cannot be asked of a person.
 constexpr int kMostDraws = 500;
+/// Resolution of the instruments, as steps per unit: 0.01 mm, 0.1 uV, 0.1 mN m.
+constexpr double kMarkerSteps_perm = 1e5;
+constexpr double kEmgSteps_perv = 1e7;
+constexpr double kTorqueSteps_pernm = 1e4;
 constexpr double kArtefactBand_hz = 4.0;
 constexpr double kArtefactSpeed_radps =
     2.0;  ///< At which the artefact has the rms of the protocol.
@@ -141,22 +145,27 @@ struct Laboratory {
   }
 };
 
-TimeSeries record_markers(const Laboratory& laboratory,
-                          const TrialScript& script,
-                          const TimeSeries& motion) {
-  const VirtualArm& arm = *laboratory.arm;
-  std::vector<Channel> channels;
-  for (const std::string& marker : arm.marker_names()) {
-    for (const char* axis : {".x", ".y", ".z"}) channels.push_back({marker + axis, Unit::meter});
-  }
-  Eigen::MatrixXd values(motion.sample_count(), static_cast<Eigen::Index>(channels.size()));
-  const double sd_m = laboratory.exact() ? 0.0 : laboratory.protocol->motion.marker_sd_m;
+/// What an instrument shows of a value: a multiple of its resolution.
+template <typename Derived>
+void quantize(Eigen::MatrixBase<Derived>& values, double per_unit) {
+  values = (values * per_unit).array().round().matrix() / per_unit;
+}
+
+recording::MarkerSeries record_markers(const Laboratory& laboratory,
+                                       const TrialScript& script,
+                                       const TimeSeries& motion) {
+  recording::MarkerSeries markers;
+  markers.time_s = motion.time_s();
+  markers.names = laboratory.arm->marker_names();
+  markers.positions_m = laboratory.arm->markers_m(motion.values().col(0), script.protocol.plane);
+  if (laboratory.exact()) return markers;
   Random random = laboratory.stream("markers", script.protocol.name);
-  for (Eigen::Index k = 0; k < values.rows(); ++k) {
-    values.row(k) = arm.markers_m(motion.values()(k, 0), script.protocol.plane).transpose();
-    if (sd_m > 0.0) values.row(k) += sd_m * random.normals(values.cols()).transpose();
+  const double sd_m = laboratory.protocol->motion.marker_sd_m;
+  for (Eigen::Index k = 0; k < markers.positions_m.rows(); ++k) {
+    markers.positions_m.row(k) += sd_m * random.normals(markers.positions_m.cols()).transpose();
   }
-  return {motion.time_s(), channels, values};
+  quantize(markers.positions_m, kMarkerSteps_perm);
+  return markers;
 }
 
 /// One electrode: Gaussian noise with the amplitude of the muscle's effort, and what disturbs it.
@@ -217,6 +226,7 @@ TimeSeries record_emg(const Laboratory& laboratory, const Performance& performan
   for (std::size_t i = 0; i < signals.size(); ++i) {
     values.col(static_cast<Eigen::Index>(i)) = signals[i];
   }
+  if (!laboratory.exact()) quantize(values, kEmgSteps_perv);
   return {time_s, channels, values};
 }
 

@@ -8,6 +8,7 @@
 
 #include "myoid/core/geometry.h"
 #include "myoid/core/time_series.h"
+#include "myoid/recording/marker_series.h"
 #include "myoid/simulation/control.h"
 #include "myoid/simulation/protocol.h"
 #include "myoid/simulation/virtual_arm.h"
@@ -34,7 +35,7 @@ struct TrueTrial {
 /// What the instruments recorded of one trial.
 struct VirtualTrial {
   TrialProtocol protocol;
-  TimeSeries markers;  ///< Per marker "NAME.x", "NAME.y", "NAME.z" [m] in ground, Y up.
+  recording::MarkerSeries markers;  ///< In ground, Y up.
   /// Per electrode: raw EMG [V], or the exact activation (before the delay) in a noise-free
   /// recording.
   TimeSeries emg;

@@ -5,6 +5,7 @@
 #include "myoid/core/units.h"
 #include "myoid/model/arm4.h"
 #include "myoid/model/kinematic_tree.h"
+#include "myoid/model/osim_reader.h"
 #include "myoid/model/planar_elbow.h"
 #include "myoid/muscle/hill_muscle.h"
 
@@ -25,7 +26,9 @@ struct VirtualArm::Parts {
   HillSet literature;
   std::string osim;
   Vec3 held_at_m = Vec3::Zero();
+  model::BodyModel body_model;
   std::vector<std::string> marker_names;
+  int elbow_coordinate = 0;
 };
 
 VirtualArm::VirtualArm(const VirtualSubject& subject) : parts_(std::make_unique<Parts>()) {
@@ -34,6 +37,12 @@ VirtualArm::VirtualArm(const VirtualSubject& subject) : parts_(std::make_unique<
   parts_->literature = model::arm4_muscles(arm);
   parts_->osim = model::arm4_osim({.person = arm});
   parts_->held_at_m = model::arm4_held_at_m(arm);
+  // Read back from its own text: the markers are those of the file that goes with the recording.
+  parts_->body_model = model::parse_osim(parts_->osim, "model.osim");
+  parts_->elbow_coordinate = parts_->body_model.coordinate_index("elbow_flexion");
+  for (const model::Marker& marker : parts_->body_model.markers) {
+    parts_->marker_names.push_back(marker.name);
+  }
 }
 
 VirtualArm::~VirtualArm() = default;
@@ -68,10 +77,29 @@ const std::string& VirtualArm::held_body() const {
 }
 Vec3 VirtualArm::held_at_m() const { return parts_->held_at_m; }
 
-Eigen::VectorXd VirtualArm::markers_m(double elbow_flexion_rad, Plane plane) const {
-  static_cast<void>(elbow_flexion_rad);
-  static_cast<void>(plane);
-  return {};
+Eigen::MatrixXd VirtualArm::markers_m(const Eigen::Ref<const Eigen::VectorXd>& elbow_flexion_rad,
+                                      Plane plane) const {
+  const model::BodyModel& arm = parts_->body_model;
+  model::BodyState state = model::make_state(arm);
+  Eigen::VectorXd q = arm.default_q();
+  const Vec3 shoulder_rad = model::arm4_shoulder_rad(plane == Plane::horizontal);
+  q(arm.coordinate_index("shoulder_flexion")) = shoulder_rad.x();
+  q(arm.coordinate_index("shoulder_adduction")) = shoulder_rad.y();
+  q(arm.coordinate_index("shoulder_rotation")) = shoulder_rad.z();
+
+  Eigen::MatrixXd result(elbow_flexion_rad.size(),
+                         3 * static_cast<Eigen::Index>(arm.markers.size()));
+  for (Eigen::Index k = 0; k < result.rows(); ++k) {
+    q(parts_->elbow_coordinate) = elbow_flexion_rad(k);
+    model::compute_poses(arm, q, state);
+    Eigen::Index column = 0;
+    for (const model::Marker& marker : arm.markers) {
+      const Pose& X_GB = state.X_GB[static_cast<std::size_t>(marker.body)];
+      result.block<1, 3>(k, column) = (X_GB * marker.p_BM).transpose();
+      column += 3;
+    }
+  }
+  return result;
 }
 
 PerMuscle full_force_n(const MuscleGeometry& geometry, const HillSet& muscles) {

@@ -45,8 +45,9 @@ class VirtualArm {
   [[nodiscard]] const HillSet& literature() const;
 
   [[nodiscard]] const std::vector<std::string>& marker_names() const;
-  /// Positions in ground, x y z of one marker after the other [m].
-  [[nodiscard]] Eigen::VectorXd markers_m(double elbow_flexion_rad, Plane plane) const;
+  /// Positions in ground: a row per angle, x y z of one marker after the other [m].
+  [[nodiscard]] Eigen::MatrixXd markers_m(
+      const Eigen::Ref<const Eigen::VectorXd>& elbow_flexion_rad, Plane plane) const;
 
   [[nodiscard]] const std::string& held_body() const;
   [[nodiscard]] Vec3 held_at_m() const;
