@@ -78,6 +78,7 @@ std::string study_toml(const VirtualRecording& recording) {
     text += fmt::format(
         "[emg]\n"
         "kind = \"raw\"\n"
+        "unit = \"V\"\n"
         "highpass_hz = 20.0\n"
         "lowpass_hz = {}                  # of the envelope\n"
         "normalise = \"max\"\n"
