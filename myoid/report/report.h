@@ -1,0 +1,121 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace myoid::report {
+
+/// What a curve stands for; decides how it is drawn, alike in every figure.
+enum class Role {
+  reference,   ///< Measured, or what the others are compared with: solid blue.
+  literature,  ///< Computed with the literature's parameters: dashed grey.
+  identified,  ///< Computed with the identified parameters: dashed orange-red.
+  truth,       ///< Known truth of a virtual recording: solid black, thin.
+  raw,         ///< As recorded, before processing: thin light grey.
+  band,        ///< Area between y and y_upper: light.
+  points,      ///< Markers without a line; with y_lower/y_upper an error bar.
+};
+
+/// A curve. x and y have one length; NaN in y is a gap. `y_upper` (and `y_lower` for points) have
+/// the same length where used.
+struct Series {
+  std::string name;  ///< In the legend; empty: not there.
+  std::vector<double> x;
+  std::vector<double> y;
+  Role role = Role::reference;
+  std::vector<double>
+      y_lower;  ///< points: lower end of the error bar. band: empty, y is the lower edge.
+  std::vector<double> y_upper;  ///< band: upper edge. points: upper end of the error bar.
+};
+
+struct Axis {
+  std::string label;            ///< "elbow flexion"
+  std::string unit;             ///< "deg", "N m"; empty: dimensionless
+  std::optional<double> lower;  ///< Else from the data.
+  std::optional<double> upper;
+  std::vector<std::string> categories;  ///< Names at x = 0, 1, 2, ...: instead of numbers.
+};
+
+struct Panel {
+  std::string title;
+  Axis x;
+  Axis y;
+  std::vector<Series> series;
+};
+
+struct Figure {
+  std::string id;  ///< Name of its files, "forces_flex_slow": letters, digits, '_' and '-'.
+  std::string title;
+  std::string caption;  ///< What is to be seen, one or two sentences.
+  std::vector<Panel> panels;
+  int columns = 1;  ///< Panels side by side.
+};
+
+/// How a value is to be taken; shown as a small colored word.
+enum class Badge { none, good, weak, bad, info };
+
+struct Cell {
+  std::string text;
+  Badge badge = Badge::none;
+  std::string hint;  ///< A sentence shown when pointing at it, and in print after the table.
+};
+
+struct Table {
+  std::string id;
+  std::string title;
+  std::string caption;
+  std::vector<std::string> columns;
+  std::vector<std::vector<Cell>> rows;  ///< As many cells as columns each.
+};
+
+enum class GateStatus { pass, warn, fail, info };
+
+/// One question that the data had to pass, with the answer.
+struct Gate {
+  std::string name;  ///< "Markers fit the model"
+  GateStatus status = GateStatus::info;
+  std::string value;      ///< "4.1 mm rms"
+  std::string threshold;  ///< "below 10 mm"
+  std::string why;        ///< What follows from it, one sentence.
+};
+
+struct Section {
+  std::string id;
+  std::string heading;
+  std::vector<std::string> paragraphs;  ///< Plain text.
+  std::vector<Gate> gates;
+  std::vector<Table> tables;
+  std::vector<Figure> figures;
+};
+
+struct ProvenanceRow {
+  std::string what;
+  std::string value;
+};
+
+/// Everything that a person needs of a run, as a value without any formatting.
+struct Report {
+  std::string title;
+  std::string subtitle;     ///< Who, when, which data.
+  std::string headline;     ///< The result in two or three sentences.
+  std::vector<Gate> gates;  ///< First of all: may the numbers below be believed?
+  std::vector<Section> sections;
+  std::vector<std::string> assumptions;
+  std::vector<ProvenanceRow> provenance;  ///< Version, inputs with hashes, options.
+};
+
+/// Throws InvalidInput, naming the figure or table, if series have unequal lengths, rows unequal
+/// numbers of cells, or ids are empty, odd or used twice.
+void validate(const Report& report);
+
+/// Writes report.html (one file that works offline: style and drawings inside), figures/ID.svg and
+/// ID.csv, tables/ID.csv and report.json into the folder; each whole or not at all. Calls
+/// `validate`.
+void write_report(const Report& report, const std::filesystem::path& directory);
+
+/// A number for people: `digits` significant ones, no exponent between 1e-4 and 1e6.
+[[nodiscard]] std::string format_value(double value, int digits = 3);
+
+}  // namespace myoid::report
