@@ -49,11 +49,11 @@ TEST(ForceSharing, CubesShareAsTheSquareRootOfTheirStrength) {
 }
 
 TEST(ForceSharing, AMuscleAtItsLimitLeavesTheRestToTheOthers) {
-  SharingProblem p = elbow(60.0);
+  SharingProblem p = elbow(50.0);
   p.upper[0] = 0.5;
   const SharingSolution s = solve_sharing(p);
   EXPECT_EQ(s.activation[0], 0.5);
-  EXPECT_NEAR(p.moment_arm.row(0).dot(p.optimal_force.cwiseProduct(s.activation)), 60.0, 1e-5);
+  EXPECT_NEAR(p.moment_arm.row(0).dot(p.optimal_force.cwiseProduct(s.activation)), 50.0, 1e-5);
   EXPECT_LT(s.kkt_residual, 1e-9);
 }
 
