@@ -1,0 +1,199 @@
+#include "myoid/report/html.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "myoid/report/svg_plot.h"
+#include "myoid/report/tables.h"
+
+namespace myoid::report {
+namespace {
+
+constexpr std::string_view kStyle = R"(
+:root { color-scheme: light; }
+* { box-sizing: border-box; }
+body { margin: 0 auto; max-width: 860px; padding: 28px 24px 60px; background: #fff; color: #22262b;
+  font: 15px/1.5 Helvetica, Arial, sans-serif; }
+h1 { font-size: 26px; line-height: 1.2; margin: 0 0 2px; }
+h2 { font-size: 19px; margin: 38px 0 8px; padding-bottom: 4px; border-bottom: 1px solid #d5d9de; }
+h3 { font-size: 15px; margin: 22px 0 4px; }
+p { margin: 6px 0 10px; max-width: 74ch; }
+.subtitle, .caption, .hints { color: #5a626b; }
+.caption, .hints { font-size: 13px; }
+.headline { font-size: 16px; border-left: 4px solid #1f5fa8; padding: 6px 0 6px 14px; margin: 16px 0; }
+nav { font-size: 13px; margin: 12px 0 0; }
+nav a { margin-right: 14px; white-space: nowrap; }
+a { color: #1f5fa8; }
+.wide { overflow-x: auto; }
+table { border-collapse: collapse; font-size: 13px; margin: 6px 0; }
+th, td { text-align: left; vertical-align: top; padding: 4px 12px 4px 0; border-bottom: 1px solid #e6e8eb; }
+th { font-weight: 600; border-bottom: 1px solid #8a9097; white-space: nowrap; }
+td.number { font-variant-numeric: tabular-nums; }
+.badge { display: inline-block; padding: 0 7px; border-radius: 9px; font-size: 12px; font-weight: 600;
+  white-space: nowrap; border: 1px solid; }
+.pass, .good { color: #14602f; background: #e4f4e9; border-color: #9fd3b1; }
+.warn, .weak { color: #7a4b00; background: #fff3d6; border-color: #e8c778; }
+.fail, .bad { color: #8e1c1c; background: #fde6e4; border-color: #eba8a2; }
+.info { color: #24507f; background: #e6f0fa; border-color: #a9c8e8; }
+figure { margin: 18px 0; break-inside: avoid; }
+figure svg { width: 100%; height: auto; display: block; }
+figcaption { font-size: 13px; color: #5a626b; margin-top: 4px; }
+figcaption b { color: #22262b; }
+ul { margin: 6px 0; padding-left: 20px; }
+li { margin: 3px 0; max-width: 74ch; }
+code { font: 12px/1.4 Menlo, Consolas, monospace; overflow-wrap: anywhere; }
+@media print { body { max-width: none; padding: 0; font-size: 11pt; } nav { display: none; }
+  h2, h3 { break-after: avoid; } tr { break-inside: avoid; } a { color: inherit; text-decoration: none; }
+  .badge { print-color-adjust: exact; -webkit-print-color-adjust: exact; } @page { margin: 16mm; } }
+)";
+
+std::string_view word(GateStatus status) {
+  switch (status) {
+    case GateStatus::pass:
+      return "passed";
+    case GateStatus::warn:
+      return "caution";
+    case GateStatus::fail:
+      return "failed";
+    case GateStatus::info:
+      return "note";
+  }
+  return "";
+}
+
+/// Worst first, else in the order given.
+std::string gates_html(std::vector<Gate> gates) {
+  if (gates.empty()) return "";
+  const auto rank = [](GateStatus status) {
+    switch (status) {
+      case GateStatus::fail:
+        return 0;
+      case GateStatus::warn:
+        return 1;
+      case GateStatus::pass:
+        return 2;
+      case GateStatus::info:
+        return 3;
+    }
+    return 4;
+  };
+  std::stable_sort(gates.begin(), gates.end(),
+                   [&](const Gate& a, const Gate& b) { return rank(a.status) < rank(b.status); });
+  std::string text =
+      "<div class=\"wide\"><table><thead><tr><th></th><th>Question</th><th>Found</th>"
+      "<th>Asked for</th><th>What follows</th></tr></thead><tbody>\n";
+  for (const Gate& gate : gates) {
+    text += fmt::format(
+        "<tr><td><span class=\"badge {}\">{}</span></td><td>{}</td><td class=\"number\">{}</td>"
+        "<td>{}</td><td>{}</td></tr>\n",
+        name(gate.status), word(gate.status), escape_xml(gate.name), escape_xml(gate.value),
+        escape_xml(gate.threshold), escape_xml(gate.why));
+  }
+  return text + "</tbody></table></div>\n";
+}
+
+std::string table_html(const Table& table) {
+  std::string text =
+      fmt::format("<h3 id=\"{}\">{}</h3>\n", escape_xml(table.id), escape_xml(table.title));
+  if (!table.caption.empty()) {
+    text += fmt::format("<p class=\"caption\">{}</p>\n", escape_xml(table.caption));
+  }
+  text += "<div class=\"wide\"><table><thead><tr>";
+  for (const std::string& column : table.columns) {
+    text += fmt::format("<th>{}</th>", escape_xml(column));
+  }
+  text += "</tr></thead><tbody>\n";
+  std::vector<std::string> hints;
+  for (const std::vector<Cell>& row : table.rows) {
+    text += "<tr>";
+    for (const Cell& cell : row) {
+      const std::string hint =
+          cell.hint.empty() ? "" : fmt::format(" title=\"{}\"", escape_xml(cell.hint));
+      if (!cell.hint.empty()) {
+        const std::string line = fmt::format("{}: {}", row.front().text, cell.hint);
+        if (std::find(hints.begin(), hints.end(), line) == hints.end()) hints.push_back(line);
+      }
+      const std::string inner = cell.badge == Badge::none
+                                    ? escape_xml(cell.text)
+                                    : fmt::format("<span class=\"badge {}\">{}</span>",
+                                                  name(cell.badge), escape_xml(cell.text));
+      text += fmt::format("<td class=\"number\"{}>{}</td>", hint, inner);
+    }
+    text += "</tr>\n";
+  }
+  text += "</tbody></table></div>\n";
+  if (!hints.empty()) {
+    // Pointing does not work on paper.
+    text += "<ul class=\"hints\">\n";
+    for (const std::string& hint : hints) text += fmt::format("<li>{}</li>\n", escape_xml(hint));
+    text += "</ul>\n";
+  }
+  return text;
+}
+
+std::string figure_html(const Figure& figure) {
+  return fmt::format("<figure id=\"{}\">\n{}<figcaption><b>{}.</b> {}</figcaption>\n</figure>\n",
+                     escape_xml(figure.id), svg_plot(figure), escape_xml(figure.title),
+                     escape_xml(figure.caption));
+}
+
+std::string section_html(const Section& section) {
+  std::string text = fmt::format("<section>\n<h2 id=\"{}\">{}</h2>\n", escape_xml(section.id),
+                                 escape_xml(section.heading));
+  for (const std::string& paragraph : section.paragraphs) {
+    text += fmt::format("<p>{}</p>\n", escape_xml(paragraph));
+  }
+  text += gates_html(section.gates);
+  for (const Table& table : section.tables) text += table_html(table);
+  for (const Figure& figure : section.figures) text += figure_html(figure);
+  return text + "</section>\n";
+}
+
+}  // namespace
+
+std::string html(const Report& report) {
+  std::string text = fmt::format(
+      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
+      "<title>{0}</title>\n<style>{1}</style>\n</head>\n<body>\n<header>\n<h1>{0}</h1>\n",
+      escape_xml(report.title), kStyle);
+  if (!report.subtitle.empty()) {
+    text += fmt::format("<div class=\"subtitle\">{}</div>\n", escape_xml(report.subtitle));
+  }
+  if (!report.headline.empty()) {
+    text += fmt::format("<div class=\"headline\">{}</div>\n", escape_xml(report.headline));
+  }
+  text += "</header>\n<nav>";
+  if (!report.gates.empty()) text += "<a href=\"#quality\">Quality</a>";
+  for (const Section& section : report.sections) {
+    text +=
+        fmt::format("<a href=\"#{}\">{}</a>", escape_xml(section.id), escape_xml(section.heading));
+  }
+  text += "</nav>\n<main>\n";
+  if (!report.gates.empty()) {
+    text += "<section>\n<h2 id=\"quality\">Quality of the data and of the fit</h2>\n" +
+            gates_html(report.gates) + "</section>\n";
+  }
+  for (const Section& section : report.sections) text += section_html(section);
+  if (!report.assumptions.empty()) {
+    text += "<section>\n<h2 id=\"assumptions\">Assumptions</h2>\n<ul>\n";
+    for (const std::string& assumption : report.assumptions) {
+      text += fmt::format("<li>{}</li>\n", escape_xml(assumption));
+    }
+    text += "</ul>\n</section>\n";
+  }
+  if (!report.provenance.empty()) {
+    text +=
+        "<section>\n<h2 id=\"provenance\">Where this comes from</h2>\n<div class=\"wide\">"
+        "<table><tbody>\n";
+    for (const ProvenanceRow& row : report.provenance) {
+      text += fmt::format("<tr><td>{}</td><td><code>{}</code></td></tr>\n", escape_xml(row.what),
+                          escape_xml(row.value));
+    }
+    text += "</tbody></table></div>\n</section>\n";
+  }
+  return text + "</main>\n</body>\n</html>\n";
+}
+
+}  // namespace myoid::report

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string>
+
+#include "myoid/report/report.h"
+
+namespace myoid::report {
+
+/// The report for machines: the same structure and names as `Report`, indented by two blanks.
+/// Figures carry id, title and caption only; their numbers are in figures/ID.csv.
+[[nodiscard]] std::string report_json(const Report& report);
+
+}  // namespace myoid::report

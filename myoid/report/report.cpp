@@ -1,0 +1,105 @@
+#include "myoid/report/report.h"
+
+#include <cctype>
+#include <cmath>
+#include <set>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "myoid/core/error.h"
+#include "myoid/recording/atomic_file.h"
+#include "myoid/report/html.h"
+#include "myoid/report/json.h"
+#include "myoid/report/svg_plot.h"
+#include "myoid/report/tables.h"
+
+namespace myoid::report {
+namespace {
+
+void check_id(const std::string& id, std::string_view kind, std::set<std::string>& used) {
+  bool plain = !id.empty();
+  for (const char c : id) {
+    plain = plain &&
+            (std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '-' || c == '.');
+  }
+  if (!plain || id.front() == '.') {
+    throw InvalidInput(fmt::format(
+        "the {} id \"{}\" becomes the name of a file: expected letters, digits, '_', '-' or '.'",
+        kind, id));
+  }
+  if (!used.insert(id).second) {
+    throw InvalidInput(fmt::format("two {}s have the id \"{}\"", kind, id));
+  }
+}
+
+void check_series(const Series& series, const std::string& figure) {
+  const std::size_t n = series.x.size();
+  const auto wrong = [&](const std::vector<double>& values, bool may_be_empty) {
+    return values.size() != n && !(may_be_empty && values.empty());
+  };
+  if (wrong(series.y, false) || wrong(series.y_lower, true) ||
+      wrong(series.y_upper, series.role != Role::band)) {
+    throw InvalidInput(fmt::format(
+        "figure \"{}\", series \"{}\": {} x, {} y, {} y_lower and {} y_upper; expected one length",
+        figure, series.name, n, series.y.size(), series.y_lower.size(), series.y_upper.size()));
+  }
+}
+
+}  // namespace
+
+void validate(const Report& report) {
+  std::set<std::string> tables;
+  std::set<std::string> figures;
+  std::set<std::string> sections;
+  for (const Section& section : report.sections) {
+    check_id(section.id, "section", sections);
+    for (const Table& table : section.tables) {
+      check_id(table.id, "table", tables);
+      for (const std::vector<Cell>& row : table.rows) {
+        if (row.size() != table.columns.size() || row.empty()) {
+          throw InvalidInput(fmt::format("table \"{}\": a row of {} cells under {} columns",
+                                         table.id, row.size(), table.columns.size()));
+        }
+      }
+    }
+    for (const Figure& figure : section.figures) {
+      check_id(figure.id, "figure", figures);
+      for (const Panel& panel : figure.panels) {
+        for (const Series& series : panel.series) check_series(series, figure.id);
+      }
+    }
+  }
+}
+
+void write_report(const Report& report, const std::filesystem::path& directory) {
+  validate(report);
+  for (const Section& section : report.sections) {
+    for (const Table& table : section.tables) {
+      recording::write_file(directory / "tables" / (table.id + ".csv"), table_csv(table));
+    }
+    for (const Figure& figure : section.figures) {
+      recording::write_file(directory / "figures" / (figure.id + ".svg"), svg_plot(figure));
+      recording::write_file(directory / "figures" / (figure.id + ".csv"), figure_csv(figure));
+    }
+  }
+  recording::write_file(directory / "report.json", report_json(report));
+  recording::write_file(directory / "report.html", html(report));
+}
+
+std::string format_value(double value, int digits) {
+  if (std::isnan(value)) return "\u2013";
+  if (std::isinf(value)) return value > 0 ? "\u221e" : "\u2212\u221e";
+  if (value == 0.0) return "0";
+  const int magnitude = static_cast<int>(std::floor(std::log10(std::abs(value))));
+  if (magnitude < -4 || magnitude >= 6) return fmt::format("{:.{}e}", value, digits - 1);
+  std::string text = fmt::format("{:.{}f}", value, std::max(0, digits - 1 - magnitude));
+  // Trailing zeros say nothing here: precision is the interval's to tell.
+  if (text.find('.') != std::string::npos) {
+    text.erase(text.find_last_not_of('0') + 1);
+    if (text.back() == '.') text.pop_back();
+  }
+  return text;
+}
+
+}  // namespace myoid::report

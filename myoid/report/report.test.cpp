@@ -1,0 +1,125 @@
+#include "myoid/report/report.h"
+
+#include <fstream>
+#include <limits>
+#include <sstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "myoid/core/error.h"
+#include "myoid/report/html.h"
+#include "myoid/report/json.h"
+#include "myoid/report/tables.h"
+
+namespace myoid::report {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+Report small_report() {
+  Panel panel;
+  panel.title = "BIC, slow";
+  panel.x = {"time", "s"};
+  panel.y = {"force", "N"};
+  panel.series.push_back({.name = "reference", .x = {0, 1}, .y = {2, 3}});
+  Report report;
+  report.title = "Muscles of <S01>";
+  report.headline = "All is well.";
+  report.gates = {{"Markers fit", GateStatus::pass, "3 mm", "below 10 mm", "Go on."},
+                  {"EMG reaches its maximum", GateStatus::fail, "40 %", "above 80 %", "Beware."}};
+  report.sections.push_back(
+      {.id = "parameters",
+       .heading = "Parameters",
+       .paragraphs = {"Text."},
+       .tables = {{.id = "t1",
+                   .title = "Table I",
+                   .columns = {"muscle", "l0, m"},
+                   .rows = {{{"BIC"}, {"0.12", Badge::good, "well determined"}}}}},
+       .figures = {{.id = "f1", .title = "Forces", .caption = "C", .panels = {panel}}}});
+  report.assumptions = {"A rigid tendon."};
+  report.provenance = {{"version", "0.1"}};
+  return report;
+}
+
+TEST(Report, ThePageNeedsNothingElse) {
+  const std::string page = html(small_report());
+  EXPECT_THAT(page, Not(HasSubstr("<script")));
+  EXPECT_THAT(page, Not(HasSubstr("href=\"http")));
+  EXPECT_THAT(page, Not(HasSubstr("src=")));
+  EXPECT_THAT(page, HasSubstr("<svg"));
+  EXPECT_THAT(page, HasSubstr("Muscles of &lt;S01&gt;"));
+}
+
+TEST(Report, QualityComesFirstAndTheWorstOfItBefore) {
+  const std::string page = html(small_report());
+  EXPECT_LT(page.find("EMG reaches its maximum"), page.find("Markers fit"));
+  EXPECT_LT(page.find("Markers fit"), page.find("Table I"));
+}
+
+TEST(Report, HintsAreReadableOnPaperToo) {
+  EXPECT_THAT(html(small_report()), HasSubstr("<li>BIC: well determined</li>"));
+}
+
+TEST(Report, JsonHasTheSameContent) {
+  const auto json = nlohmann::json::parse(report_json(small_report()));
+  EXPECT_EQ(json["gates"][1]["status"], "fail");
+  EXPECT_EQ(json["sections"][0]["tables"][0]["rows"][0][1]["text"], "0.12");
+  EXPECT_EQ(json["sections"][0]["tables"][0]["rows"][0][1]["badge"], "good");
+  Report odd = small_report();
+  odd.subtitle = "caf\xe9";  // not UTF-8
+  EXPECT_NO_THROW(static_cast<void>(report_json(odd)));
+}
+
+TEST(Report, TablesAreQuotedWhereNeeded) {
+  EXPECT_EQ(table_csv(small_report().sections[0].tables[0]), "muscle,\"l0, m\"\nBIC,0.12\n");
+}
+
+TEST(Report, FigureNumbersAreAllThere) {
+  Figure figure = small_report().sections[0].figures[0];
+  figure.panels[0].series[0].y[1] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(figure_csv(figure),
+            "panel,series,role,x,y\n\"BIC, slow\",reference,reference,0,2\n"
+            "\"BIC, slow\",reference,reference,1,\n");
+}
+
+TEST(Report, WritesEveryFileOfTheFolder) {
+  namespace fs = std::filesystem;
+  const fs::path directory = fs::path(MYOID_BINARY_DIR) / "report_test";
+  fs::remove_all(directory);
+  write_report(small_report(), directory);
+  for (const char* file :
+       {"report.html", "report.json", "figures/f1.svg", "figures/f1.csv", "tables/t1.csv"}) {
+    EXPECT_TRUE(fs::exists(directory / file)) << file;
+  }
+  fs::remove_all(directory);
+}
+
+TEST(Report, RefusesWhatCannotBeDrawn) {
+  Report report = small_report();
+  report.sections[0].figures[0].panels[0].series[0].y.push_back(1.0);
+  EXPECT_THROW(validate(report), InvalidInput);
+  report = small_report();
+  report.sections[0].tables[0].rows[0].pop_back();
+  EXPECT_THROW(validate(report), InvalidInput);
+  report = small_report();
+  report.sections[0].figures[0].id = "../x";
+  EXPECT_THROW(validate(report), InvalidInput);
+  report = small_report();
+  report.sections.push_back(report.sections[0]);
+  EXPECT_THROW(validate(report), InvalidInput);
+}
+
+TEST(FormatValue, ShowsSignificantDigitsOnly) {
+  EXPECT_EQ(format_value(0.0), "0");
+  EXPECT_EQ(format_value(1234.56), "1235");
+  EXPECT_EQ(format_value(0.0123456), "0.0123");
+  EXPECT_EQ(format_value(-2.5), "-2.5");
+  EXPECT_EQ(format_value(1.23e-7), "1.23e-07");
+  EXPECT_EQ(format_value(std::numeric_limits<double>::quiet_NaN()), "\u2013");
+}
+
+}  // namespace
+}  // namespace myoid::report
