@@ -23,7 +23,8 @@ class Uniform {
 
 /// Four bodies in a branched tree, every slot of a joint used, oblique axes, curved functions, a coordinate that drives a
 /// rotation and two translations.
-BodyModel crooked_tree(std::uint64_t seed) {
+/// With `shared`, joints' rotations share a coordinate: one and three, two and three, one and two, all three.
+BodyModel crooked_tree(std::uint64_t seed, bool shared = false) {
   Uniform u(seed);
   BodyModel m;
   m.bodies.push_back({.name = "ground"});
@@ -49,6 +50,12 @@ BodyModel crooked_tree(std::uint64_t seed) {
           .function = k == 1 ? Function(make_simm_spline({-2, -1, 0, 1, 2}, {u(), u(), u(), u(), u()})) : Function(Linear{1.0 + 0.3 * u(), u()})};
       joint.translation[static_cast<std::size_t>(k)] = {
           .axis = u.vec().normalized(), .coordinate = k == 2 ? c - 1 : c, .function = Function(Polynomial{{u(), u(), u()}}, 0.1)};
+    }
+    if (shared) {
+      const int sharing[4][3] = {{0, 1, 0}, {0, 1, 1}, {0, 0, 1}, {0, 0, 0}};
+      for (std::size_t k = 0; k < 3; ++k) {
+        joint.rotation[k].coordinate = joint.coordinates[static_cast<std::size_t>(sharing[b - 1][k])];
+      }
     }
     m.joints.push_back(joint);
   }
@@ -128,9 +135,8 @@ TEST(InverseDynamics, TheForcesWorkIsTheChangeOfEnergy) {
   EXPECT_NEAR(tau.dot(qdot), power, 1e-7 * std::max(1.0, std::abs(power)));
 }
 
-TEST(InverseDynamics, LagrangesEquationsGiveTheSameForces) {
+void expect_lagranges_equations(const BodyModel& m) {
   // tau_k = d/dt dL/dqdot_k - dL/dq_k, all by differences of the energy function: independent of Newton-Euler.
-  const BodyModel m = crooked_tree(7);
   Uniform u(8);
   const Eigen::VectorXd q = 0.5 * random_vector(12, u);
   const Eigen::VectorXd qdot = random_vector(12, u);
@@ -160,6 +166,12 @@ TEST(InverseDynamics, LagrangesEquationsGiveTheSameForces) {
         richardson(momentum) - richardson([&](double t) { return kinetic(q + t * e, qdot) - potential(q + t * e); });
     EXPECT_NEAR(tau[k], expected, 1e-7 * std::max(1.0, std::abs(expected))) << k;
   }
+}
+
+TEST(InverseDynamics, LagrangesEquationsGiveTheSameForces) { expect_lagranges_equations(crooked_tree(7)); }
+
+TEST(InverseDynamics, LagrangesEquationsHoldWhereRotationsShareACoordinate) {
+  expect_lagranges_equations(crooked_tree(7, true));
 }
 
 TEST(MassMatrix, IsSymmetricPositiveAndTheKineticEnergysForm) {
