@@ -111,7 +111,10 @@ std::string table_html(const Table& table) {
       const std::string hint =
           cell.hint.empty() ? "" : fmt::format(" title=\"{}\"", escape_xml(cell.hint));
       if (!cell.hint.empty()) {
-        const std::string line = fmt::format("{}: {}", row.front().text, cell.hint);
+        // Rows are known by their first two cells: muscle and parameter.
+        const std::string row_name =
+            row.size() > 2 ? row[0].text + ' ' + row[1].text : row.front().text;
+        const std::string line = fmt::format("{}: {}", row_name, cell.hint);
         if (std::find(hints.begin(), hints.end(), line) == hints.end()) hints.push_back(line);
       }
       const std::string inner = cell.badge == Badge::none
