@@ -1,0 +1,123 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "myoid/core/error.h"
+#include "myoid/math/butterworth.h"
+#include "myoid/signals/emg_envelope.h"
+#include "myoid/signals/filter.h"
+#include "myoid/signals/resample.h"
+
+namespace myoid::signals {
+namespace {
+
+constexpr double kRate_hz = 1000.0;
+
+/// White Gaussian noise (sum of twelve uniform numbers) of this standard deviation.
+TimeSeries gaussian(Eigen::Index n, double sd_v, double offset_v = 0.0) {
+  std::mt19937_64 engine(42);
+  Eigen::MatrixXd x(n, 1);
+  for (double& v : x.reshaped()) {
+    double sum = -6.0;
+    for (int k = 0; k < 12; ++k) sum += static_cast<double>(engine() >> 11) * 0x1.0p-53;
+    v = offset_v + sd_v * sum;
+  }
+  return {Eigen::VectorXd::LinSpaced(n, 0.0, static_cast<double>(n - 1) / kRate_hz), {{"m", Unit::volt}}, x};
+}
+
+TEST(ProcessEmg, OfGaussianNoiseTheEnvelopeIsItsMeanAbsoluteValue) {
+  const EmgStages s = process_emg(gaussian(60000, 1e-4, 5e-4), {.highpass_hz = 1.0});
+  // E|x| = sd sqrt(2/pi); the mean over 60 s of white noise at 1 kHz is good to 0.76/sqrt(60000) = 0.3 %.
+  EXPECT_NEAR(s.envelope.values().mean(), 1e-4 * std::sqrt(2.0 / M_PI), 0.01 * 1e-4);
+}
+
+TEST(ProcessEmg, TheEnvelopesSpreadIsThatOfRectifiedNoiseInItsBand) {
+  const EmgStages s = process_emg(gaussian(120000, 1e-4), {.highpass_hz = 1.0});
+  const Eigen::VectorXd e = s.envelope.values().col(0).segment(2000, 116000);
+  const double cv = std::sqrt((e.array() - e.mean()).square().mean()) / e.mean();
+  // White at 1 kHz: variance of the rectified noise times integral of the filter's power gain over half the rate.
+  double integral = 0.0;
+  const double design = math::two_pass_cutoff_hz(math::FilterBand::low_pass, 2, 6.0, kRate_hz);
+  const auto sections = math::design_butterworth(math::FilterBand::low_pass, 2, design, kRate_hz);
+  for (double f = 0.05; f < 500.0; f += 0.1) integral += 0.1 * std::pow(math::gain(sections, f, kRate_hz), 4);
+  const double expected = std::sqrt((M_PI / 2.0 - 1.0) * integral / 500.0);
+  EXPECT_NEAR(cv, expected, 0.08 * expected);  // some 1400 independent samples: 2 % and the tails
+}
+
+TEST(ProcessEmg, IsProportionalToTheEmg) {
+  const TimeSeries one = gaussian(4000, 1e-4);
+  const TimeSeries two(one.time_s(), one.channels(), 2.0 * one.values());
+  EXPECT_LT((process_emg(two).envelope.values() - 2.0 * process_emg(one).envelope.values()).cwiseAbs().maxCoeff(), 1e-15);
+}
+
+TEST(ProcessEmg, NamesMainsHum) {
+  TimeSeries x = gaussian(10000, 1e-5);
+  Eigen::MatrixXd v = x.values();
+  for (Eigen::Index i = 0; i < v.rows(); ++i) v(i, 0) += 2e-5 * std::sin(2.0 * M_PI * 50.0 * x.time_s()[i]);
+  const EmgStages s = process_emg({x.time_s(), x.channels(), v});
+  ASSERT_EQ(s.findings.size(), 1U);
+  EXPECT_NE(s.findings[0].find("50 Hz"), std::string::npos);
+  EXPECT_TRUE(process_emg(x).findings.empty());
+}
+
+TEST(ProcessEmg, RefusesForcesForEmg) {
+  const TimeSeries x = gaussian(1000, 1.0);
+  EXPECT_THROW((void)process_emg({x.time_s(), {{"m", Unit::newton}}, x.values()}), InvalidInput);
+}
+
+TEST(ZeroPhaseFilter, AsPublishedItsRealCutOffIsBelowTheNominalOne) {
+  // Designed at 6 Hz for one pass, two passes have -3 dB at 4.81 Hz.
+  Eigen::MatrixXd x(8000, 1);
+  const Eigen::VectorXd t = Eigen::VectorXd::LinSpaced(8000, 0.0, 7.999);
+  for (Eigen::Index i = 0; i < 8000; ++i) x(i, 0) = std::sin(2.0 * M_PI * 4.81 * t[i]);
+  const TimeSeries y = zero_phase_filter({t, {{"x"}}, x}, math::FilterBand::low_pass, 6.0, {.corrected = false});
+  const double gain = y.values().col(0).segment(2000, 4000).dot(x.col(0).segment(2000, 4000)) / x.col(0).segment(2000, 4000).squaredNorm();
+  EXPECT_NEAR(gain, std::sqrt(0.5), 0.003);
+}
+
+TEST(ZeroPhaseFilter, RefusesAHoleInTheClock) {
+  Eigen::VectorXd t = Eigen::VectorXd::LinSpaced(100, 0.0, 0.99);
+  t.tail(50).array() += 1.0;
+  EXPECT_THROW((void)zero_phase_filter({t, {{"x"}}, Eigen::MatrixXd::Zero(100, 1)}, math::FilterBand::low_pass, 6.0), InvalidInput);
+}
+
+TimeSeries steps(std::initializer_list<double> levels) {
+  Eigen::MatrixXd x(static_cast<Eigen::Index>(levels.size()) * 2000, 1);
+  Eigen::Index row = 0;
+  for (const double level : levels) {
+    x.middleRows(row, 2000).setConstant(level);
+    row += 2000;
+  }
+  return {Eigen::VectorXd::LinSpaced(x.rows(), 0.0, static_cast<double>(x.rows() - 1) / kRate_hz), {{"m", Unit::volt}}, x};
+}
+
+TEST(Normalisation, TakesTheMaximumOverTheStudyAndSaysWhereItStood) {
+  const TimeSeries task = steps({1e-6, 2e-5, 1e-6});
+  const TimeSeries mvc = steps({1e-6, 1.01e-4});
+  const std::vector<TrialEnvelope> trials{{"task", false, &task}, {"mvc", true, &mvc}};
+  const auto n = find_normalisation(trials);
+  EXPECT_EQ(n[0].source_trial, "mvc");
+  EXPECT_TRUE(n[0].from_mvc);
+  EXPECT_NEAR(n[0].resting_level_v, 1e-6, 1e-15);
+  EXPECT_NEAR(n[0].reference_v, 1e-4, 1e-15);
+  EXPECT_NEAR(normalise(task, n).values()(3000, 0), 0.19, 1e-9);
+  EXPECT_NEAR(normalise(task, n).values()(0, 0), 0.0, 1e-9);
+}
+
+TEST(Normalisation, RefusesAChannelThatNeverMoves) {
+  const TimeSeries flat = steps({1e-6, 1e-6});
+  const std::vector<TrialEnvelope> trials{{"a", false, &flat}};
+  EXPECT_THROW((void)find_normalisation(trials), InvalidInput);
+}
+
+TEST(Resample, PassesThroughItsPointsAndKeepsTheEndsBeyond) {
+  const TimeSeries x(Eigen::Vector4d(0, 1, 2, 3), {{"a"}}, Eigen::Vector4d(0, 1, 0, 1));
+  const TimeSeries y = resample(x, Eigen::Vector3d(-1.0, 1.0, 9.0));
+  EXPECT_NEAR(y.values()(0, 0), 0.0, 1e-15);
+  EXPECT_NEAR(y.values()(1, 0), 1.0, 1e-15);
+  EXPECT_NEAR(y.values()(2, 0), 1.0, 1e-15);
+}
+
+}  // namespace
+}  // namespace myoid::signals
