@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "myoid/model/wrap_cylinder.h"
+#include "myoid/model/wrap_ellipsoid.h"
 
 namespace myoid::model {
 namespace {
@@ -45,11 +46,12 @@ bool is_active(const PathPoint& point, const BodyState& state) {
   return q >= point.condition->lower - kSlack_rad && q <= point.condition->upper + kSlack_rad;
 }
 
-/// Puts the contact of one wrap where it shortens or obstructs the path most; false if there is none.
-bool insert_wrap(const BodyModel& model, const PathWrap& wrap, int number, const BodyState& state, std::vector<Station>& stations) {
+/// Puts the contact of one wrap, if there is any, where it obstructs the path.
+void insert_wrap(const BodyModel& model, const PathWrap& wrap, int number, const BodyState& state, std::vector<Station>& stations) {
   const WrapObject& object = model.wrap_objects[static_cast<std::size_t>(wrap.wrap_object)];
+  if (!object.active) return;
   const auto* cylinder = std::get_if<CylinderShape>(&object.shape);
-  if (!object.active || cylinder == nullptr) return false;
+  const auto* ellipsoid = std::get_if<EllipsoidShape>(&object.shape);
   const Pose X_GW = state.X_GB[static_cast<std::size_t>(object.body)] * object.X_BW;
   const Pose X_WG = X_GW.inverse();
   std::size_t best = stations.size();
@@ -64,7 +66,8 @@ bool insert_wrap(const BodyModel& model, const PathWrap& wrap, int number, const
     if (!in_range(stations[i]) || !in_range(stations[i + 1])) continue;
     const Vec3 p_W = X_WG * stations[i].p_G;
     const Vec3 q_W = X_WG * stations[i + 1].p_G;
-    const auto contact = wrap_cylinder(*cylinder, object.quadrant, p_W, q_W);
+    const auto contact = cylinder != nullptr ? wrap_cylinder(*cylinder, object.quadrant, p_W, q_W)
+                                             : wrap_ellipsoid(*ellipsoid, object.quadrant, wrap.method, p_W, q_W);
     if (!contact) continue;
     const double change = (contact->first_W - p_W).norm() + contact->arc_length_m + (q_W - contact->second_W).norm() - (q_W - p_W).norm();
     if (change < best_change) {
@@ -72,8 +75,9 @@ bool insert_wrap(const BodyModel& model, const PathWrap& wrap, int number, const
       best = i;
       best_contact = *contact;
     }
+    if (ellipsoid != nullptr) break;  // the first piece that cuts an ellipsoid takes it
   }
-  if (best == stations.size()) return false;
+  if (best == stations.size()) return;
   const auto tangent = [&](const Vec3& p_W) {
     Station s;
     s.body = object.body;
@@ -87,7 +91,6 @@ bool insert_wrap(const BodyModel& model, const PathWrap& wrap, int number, const
   first.arc_after_m = best_contact.arc_length_m;
   const auto where = stations.begin() + static_cast<std::ptrdiff_t>(best) + 1;
   stations.insert(where, {first, tangent(best_contact.second_W)});
-  return true;
 }
 
 double total_length(const std::vector<Station>& stations) {
@@ -127,13 +130,14 @@ PathResult compute_path(const BodyModel& model, int muscle, const BodyState& sta
       for (std::size_t w = 0; w < path.wraps.size(); ++w) {
         const int number = static_cast<int>(w);
         std::erase_if(stations, [number](const Station& s) { return s.wrap == number; });
-        if (insert_wrap(model, path.wraps[w], number, state, stations)) result.wrapped = true;
+        insert_wrap(model, path.wraps[w], number, state, stations);
       }
       const double length = total_length(stations);
       if (std::abs(length - last) < 1e-13) break;
       last = length;
     }
   }
+  for (const Station& s : stations) result.wrapped = result.wrapped || s.wrap >= 0;
   result.length_m = total_length(stations);
   const auto count = static_cast<Eigen::Index>(model.coordinates.size());
   result.moment_arm_m = Eigen::VectorXd::Zero(count);
