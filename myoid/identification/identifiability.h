@@ -1,0 +1,30 @@
+#pragma once
+
+#include "myoid/identification/result.h"
+
+namespace myoid::identification {
+
+/// The thresholds of the verdicts, in one place.
+struct VerdictRules {
+  double identified_half_width = 0.15;  ///< 95 % half interval over the value: at most this is `identified` ...
+  double weak_half_width = 0.60;        ///< ... at most this `weak`, beyond it `not_identifiable`.
+  double least_shrinkage = 0.30;        ///< Below, the value is `prior_dominated`.
+  double delay_identified_s = 0.015;    ///< The same for the EMG delay, absolute.
+  double delay_weak_s = 0.05;
+  double flat_plateau = 1.02;           ///< V_ml whose interval reaches below says nothing about P.
+};
+
+/// Context that a verdict needs beyond the estimate itself.
+struct VerdictContext {
+  bool determined = true;          ///< Not in a direction that the data leave open.
+  bool converged = true;
+  std::string failure;             ///< Why not.
+  bool from_mvc = true;            ///< EMG relative to a maximal contraction.
+  bool plateau_is_flat = false;    ///< V_ml of the same muscle not clearly above 1.
+  bool outside_physical = false;   ///< Value outside the physical bounds of its field.
+};
+
+/// Fills `verdict` and `reason` of an estimate whose numbers stand.
+void judge(ParameterEstimate& estimate, const VerdictContext& context, const VerdictRules& rules = {});
+
+}  // namespace myoid::identification

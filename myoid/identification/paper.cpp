@@ -1,0 +1,208 @@
+#include "myoid/identification/paper.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <numeric>
+
+#include "myoid/core/error.h"
+#include "myoid/identification/identifiability.h"
+#include "myoid/identification/muscle_sample.h"
+#include "myoid/math/covariance.h"
+#include "myoid/math/statistics.h"
+#include "myoid/muscle/hill_muscle.h"
+
+namespace myoid::identification {
+namespace {
+
+/// The samples of one muscle in one case, and the stretches of consecutive ones.
+struct CaseData {
+  std::vector<MuscleSample> samples;
+  std::vector<Eigen::Index> pieces;
+  int dropped = 0;
+};
+
+CaseData collect(const StudyData& data, std::size_t muscle, bool shortening) {
+  CaseData result;
+  const MuscleSetup& setup = data.muscles[muscle];
+  const auto column = static_cast<Eigen::Index>(muscle);
+  for (const TrialData& trial : data.trials) {
+    if (!trial.calibration) continue;
+    if (trial.force_n.rows() != trial.time_s.size()) {
+      throw InvalidInput(fmt::format("method paper: trial '{}' has no muscle forces; share the torque first (myoid so)", trial.name));
+    }
+    const Eigen::MatrixXd activation = muscle_activation(data, trial, trial.time_s, 0.0);
+    Eigen::Index run = 0;
+    for (Eigen::Index i = 0; i < trial.time_s.size(); ++i) {
+      const double v = trial.velocity_mps(i, column);
+      const bool here = (v <= 0.0) == shortening;
+      const bool informative = activation(i, column) > 0.0 && v > -setup.start.max_shortening_speed_mps;
+      if (here && !informative) ++result.dropped;
+      if (here && informative) {
+        result.samples.push_back({trial.time_s[i], activation(i, column), trial.length_m(i, column) - setup.start.tendon_slack_length_m, v,
+                                  trial.force_n(i, column)});
+        ++run;
+      } else if (run > 0) {
+        result.pieces.push_back(run);
+        run = 0;
+      }
+    }
+    if (run > 0) result.pieces.push_back(run);
+  }
+  return result;
+}
+
+struct Unknown {
+  const muscle::HillField* field;
+  double muscle::HillForce::*derivative;
+};
+
+std::vector<Unknown> unknowns(bool shortening) {
+  std::vector<Unknown> list{{&muscle::hill_field("optimal_fiber_length"), &muscle::HillForce::by_optimal_fiber_length},
+                            {&muscle::hill_field("force_length_width"), &muscle::HillForce::by_force_length_width}};
+  if (shortening) {
+    list.push_back({&muscle::hill_field("concentric_curvature"), &muscle::HillForce::by_concentric_curvature});
+  } else {
+    list.push_back({&muscle::hill_field("eccentric_curvature_product"), &muscle::HillForce::by_eccentric_curvature_product});
+    list.push_back({&muscle::hill_field("eccentric_plateau"), &muscle::HillForce::by_eccentric_plateau});
+  }
+  return list;
+}
+
+void fit_case(const StudyData& data, std::size_t muscle, bool shortening, const PaperOptions& options, IdentificationResult& result) {
+  const MuscleSetup& setup = data.muscles[muscle];
+  const CaseData samples = collect(data, muscle, shortening);
+  const std::vector<Unknown> list = unknowns(shortening);
+  const auto p = static_cast<Eigen::Index>(list.size());
+  const auto n = static_cast<Eigen::Index>(samples.samples.size());
+  result.samples_dropped += samples.dropped;
+  result.samples_used += static_cast<int>(n);
+  Eigen::VectorXd start(p);
+  for (Eigen::Index j = 0; j < p; ++j) start[j] = setup.start.*list[static_cast<std::size_t>(j)].field->member;
+
+  const double force_scale = std::accumulate(samples.samples.begin(), samples.samples.end(), 0.0,
+                                             [](double sum, const MuscleSample& s) { return std::max(sum, std::abs(s.force_n)); });
+  math::LeastSquaresResult fit;
+  fit.x = start;
+  std::string failure;
+  if (n < 10 * p) {
+    failure = fmt::format("only {} samples in {}", n, shortening ? "shortening" : "lengthening");
+  } else if (!(force_scale > 0.0)) {
+    failure = "force sharing assigned no force to this muscle here";
+  } else {
+    math::LeastSquaresProblem problem;
+    problem.residual_count = n;
+    problem.evaluate = [&](const Eigen::VectorXd& x, Eigen::VectorXd& r, Eigen::MatrixXd* jacobian) {
+      muscle::HillParameters<double> parameters = setup.start;
+      for (Eigen::Index j = 0; j < p; ++j) parameters.*list[static_cast<std::size_t>(j)].field->member = x[j];
+      for (Eigen::Index i = 0; i < n; ++i) {
+        const MuscleSample& s = samples.samples[static_cast<std::size_t>(i)];
+        const muscle::HillForce f = muscle::hill_force_derivatives(s.activation, s.fiber_length_m, s.fiber_velocity_mps, parameters);
+        r[i] = f.force_n - s.force_n;
+        if (jacobian == nullptr) continue;
+        for (Eigen::Index j = 0; j < p; ++j) (*jacobian)(i, j) = f.*list[static_cast<std::size_t>(j)].derivative;
+      }
+    };
+    try {
+      fit = math::minimize(problem, start, {.method = math::LeastSquaresMethod::gauss_newton, .max_iterations = options.max_iterations,
+                                            .step_tolerance = 1e-10, .gradient_tolerance = 1e-13});
+      if (fit.termination != math::Termination::converged) failure = fit.message;
+    } catch (const InvalidInput& error) {
+      failure = error.what();
+    }
+  }
+  result.iterations += fit.iterations;
+  if (!failure.empty()) result.message += fmt::format("{}, {}: {}. ", setup.name, shortening ? "shortening" : "lengthening", failure);
+
+  math::CovarianceResult covariance;
+  double widen = 1.0;
+  const bool computed = fit.residual.size() == n && fit.jacobian.allFinite() && fit.residual.allFinite() && n > p;
+  if (computed) {
+    covariance = math::covariance(fit.jacobian, fit.residual);
+    const double effective = math::effective_sample_size(fit.residual, samples.pieces);
+    widen = static_cast<double>(n) / std::max(effective, 1.0);
+    result.effective_samples += effective;
+  }
+  const double quantile = math::normal_quantile(0.975);
+  for (Eigen::Index j = 0; j < p; ++j) {
+    const muscle::HillField& field = *list[static_cast<std::size_t>(j)].field;
+    ParameterEstimate e;
+    e.muscle = setup.name;
+    e.parameter = std::string(field.name);
+    e.unit = field.unit;
+    e.method = "paper";
+    e.fit_case = shortening ? "shortening" : "lengthening";
+    e.initial = start[j];
+    e.estimate = fit.x[j];
+    VerdictContext context;
+    context.converged = failure.empty();
+    context.failure = failure;
+    context.determined = computed && covariance.determined[static_cast<std::size_t>(j)];
+    if (context.determined && context.converged) {
+      e.std_error = std::sqrt(covariance.unscaled(j, j) * covariance.residual_variance * widen);
+      e.ci_low = e.estimate - quantile * *e.std_error;
+      e.ci_high = e.estimate + quantile * *e.std_error;
+    }
+    const bool moved = e.estimate != e.initial;
+    context.outside_physical = moved && std::isfinite(e.estimate) && (e.estimate < field.bounds.lower || e.estimate > field.bounds.upper);
+    if (!shortening && p == 4 && std::isfinite(fit.x[3])) {
+      const double sd = computed ? std::sqrt(covariance.unscaled(3, 3) * covariance.residual_variance * widen) : 0.0;
+      context.plateau_is_flat = std::abs(fit.x[3] - 1.0) < quantile * sd;
+    }
+    judge(e, context);
+    result.estimates.push_back(std::move(e));
+  }
+}
+
+}  // namespace
+
+IdentificationResult identify_paper(const StudyData& data, const PaperOptions& options) {
+  validate(data);
+  const auto begin = std::chrono::steady_clock::now();
+  IdentificationResult result;
+  result.method = "paper";
+  result.termination = math::Termination::converged;
+  for (std::size_t k = 0; k < data.muscles.size(); ++k) {
+    result.muscles.push_back(data.muscles[k].start);
+    if (!options.muscles.empty() && std::find(options.muscles.begin(), options.muscles.end(), data.muscles[k].name) == options.muscles.end()) continue;
+    fit_case(data, k, true, options, result);
+    fit_case(data, k, false, options, result);
+  }
+  if (!result.message.empty()) result.termination = math::Termination::no_descent;
+  for (const TrialData& trial : data.trials) {
+    TrialFit fit;
+    fit.trial = trial.name;
+    fit.calibration = trial.calibration;
+    fit.time_s = trial.time_s;
+    fit.torque_nm = trial.torque_nm;
+    const Eigen::MatrixXd activation = muscle_activation(data, trial, trial.time_s, 0.0);
+    fit.literature_force_n.resize(trial.time_s.size(), trial.length_m.cols());
+    fit.force_fit_n = fit.literature_force_n;
+    for (std::size_t k = 0; k < data.muscles.size(); ++k) {
+      const auto column = static_cast<Eigen::Index>(k);
+      const MuscleSetup& setup = data.muscles[k];
+      muscle::HillParameters<double> by_case[2] = {setup.start, setup.start};
+      for (const ParameterEstimate& e : result.estimates) {
+        if (e.muscle != setup.name || !std::isfinite(e.estimate)) continue;
+        by_case[e.fit_case == "shortening" ? 0 : 1].*muscle::hill_field(e.parameter).member = e.estimate;
+      }
+      for (Eigen::Index i = 0; i < trial.time_s.size(); ++i) {
+        const double l = trial.length_m(i, column) - setup.start.tendon_slack_length_m;
+        const double v = trial.velocity_mps(i, column);
+        fit.literature_force_n(i, column) = muscle::hill_force(activation(i, column), l, v, setup.start);
+        fit.force_fit_n(i, column) = muscle::hill_force(activation(i, column), l, v, by_case[v <= 0.0 ? 0 : 1]);
+      }
+    }
+    if (trial.moment_arm_m.rows() == trial.time_s.size()) {
+      fit.literature_torque_nm = trial.moment_arm_m.cwiseProduct(fit.literature_force_n).rowwise().sum();
+      fit.torque_fit_nm = trial.moment_arm_m.cwiseProduct(fit.force_fit_n).rowwise().sum();
+    }
+    result.trials.push_back(std::move(fit));
+  }
+  result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  return result;
+}
+
+}  // namespace myoid::identification

@@ -1,0 +1,62 @@
+#include "myoid/identification/study_data.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "myoid/core/error.h"
+#include "myoid/math/spline.h"
+
+namespace myoid::identification {
+
+void validate(const StudyData& data) {
+  if (data.muscles.empty()) throw InvalidInput("identification: there are no muscles");
+  if (data.trials.empty()) throw InvalidInput("identification: there are no trials");
+  for (const MuscleSetup& muscle : data.muscles) {
+    try {
+      muscle::validate(muscle.start);
+    } catch (const InvalidInput& error) {
+      throw InvalidInput(fmt::format("muscle '{}': {}", muscle.name, error.what()));
+    }
+    for (const std::string& name : muscle.fixed) (void)muscle::hill_field(name);
+  }
+  const auto m = static_cast<Eigen::Index>(data.muscles.size());
+  for (const TrialData& trial : data.trials) {
+    const Eigen::Index n = trial.time_s.size();
+    const auto sized = [&](const Eigen::MatrixXd& x) { return x.rows() == n && x.cols() == m; };
+    if (n < 2 || !sized(trial.length_m) || !sized(trial.velocity_mps)) {
+      throw InvalidInput(fmt::format("trial '{}': lengths and velocities must be {} samples x {} muscles", trial.name, n, m));
+    }
+    if (!trial.length_m.allFinite() || !trial.velocity_mps.allFinite() || !trial.moment_arm_m.allFinite() || !trial.torque_nm.allFinite() ||
+        !trial.force_n.allFinite()) {
+      throw InvalidInput(fmt::format("trial '{}': a length, velocity, moment arm, torque or force is not a number", trial.name));
+    }
+    require_finite(trial.activation, fmt::format("trial '{}': activation", trial.name));
+    for (const MuscleSetup& muscle : data.muscles) (void)trial.activation.index(muscle.emg_channel);
+  }
+}
+
+Eigen::MatrixXd muscle_activation(const StudyData& data, const TrialData& trial, const Eigen::VectorXd& time_s, double delay_s,
+                                  Eigen::MatrixXd* slope) {
+  const Eigen::VectorXd& clock = trial.activation.time_s();
+  const Eigen::VectorXd when = (time_s.array() - delay_s).max(clock[0]).min(clock[clock.size() - 1]);
+  Eigen::MatrixXd activation(time_s.size(), static_cast<Eigen::Index>(data.muscles.size()));
+  if (slope != nullptr) slope->resize(activation.rows(), activation.cols());
+  std::map<Eigen::Index, Eigen::Index> done;  // channel -> first muscle that uses it
+  for (std::size_t k = 0; k < data.muscles.size(); ++k) {
+    const auto column = static_cast<Eigen::Index>(k);
+    const Eigen::Index channel = trial.activation.index(data.muscles[k].emg_channel);
+    if (const auto it = done.find(channel); it != done.end()) {
+      activation.col(column) = activation.col(it->second);
+      if (slope != nullptr) slope->col(column) = slope->col(it->second);
+      continue;
+    }
+    done[channel] = column;
+    const math::SplineValues values = math::Spline::interpolate(clock, trial.activation.values().col(channel), 5).evaluate(when);
+    activation.col(column) = values.value.cwiseMax(0.0);
+    if (slope != nullptr) slope->col(column) = (values.value.array() > 0.0).select(values.first, 0.0);
+  }
+  return activation;
+}
+
+}  // namespace myoid::identification
