@@ -1,0 +1,171 @@
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "myoid/dynamics/inverse_dynamics.h"
+#include "myoid/forces/force_sharing.h"
+#include "myoid/kinematics/joint_motion.h"
+#include "myoid/kinematics/muscle_kinematics.h"
+#include "myoid/model/osim_reader.h"
+#include "myoid/muscle/thelen.h"
+#include "myoid/recording/storage_reader.h"
+
+#include "tests/support/data_folder.h"
+#include "tests/support/opensim_lowpass.h"
+
+namespace myoid::forces {
+namespace {
+
+const SharingOptions kAsOpenSim{.reserve_nm = 1e-3, .min_activation = 0.01};
+
+/// The whole way from joint angles to muscle forces, on OpenSim's elbow flexion of arm26, with its
+/// own filter.
+class Arm26Trial : public ::testing::Test {
+ protected:
+  static std::filesystem::path folder() { return test::data_folder() / "opensim/trial_arm26"; }
+  static TimeSeries reference(const std::string& file) {
+    return recording::read_storage(folder() / "opensim" / file).data;
+  }
+
+  void SetUp() override {
+    MYOID_REQUIRE_DATA(folder());
+    model_ = model::read_osim(folder() / "model.osim");
+    const TimeSeries q = recording::to_si(recording::read_storage(folder() / "opensim/ik.mot"),
+                                          [](const std::string&) { return true; });
+    motion_ = kinematics::joint_motion(model_, test::opensim_lowpass(q, 6.0)).motion;
+    torque_ = dynamics::inverse_dynamics(model_, motion_);
+  }
+
+  /// Force of Thelen's muscle at full activation, frames x muscles, from lengths [m] and speeds
+  /// [m/s].
+  [[nodiscard]] Eigen::MatrixXd optimal_forces(const Eigen::MatrixXd& length,
+                                               const Eigen::MatrixXd& speed) const {
+    Eigen::MatrixXd force_n(length.rows(), length.cols());
+    for (Eigen::Index i = 0; i < length.cols(); ++i) {
+      const model::MuscleProperties& p = model_.muscles[static_cast<std::size_t>(i)].properties;
+      const muscle::ThelenParameters thelen{.max_isometric_force_n = p.max_isometric_force_n,
+                                            .optimal_fiber_length_m = p.optimal_fiber_length_m,
+                                            .tendon_slack_length_m = p.tendon_slack_length_m,
+                                            .pennation_at_optimal_rad = p.pennation_at_optimal_rad,
+                                            .max_contraction_velocity = p.max_contraction_velocity,
+                                            .active_shape = p.active_shape,
+                                            .concentric_shape = p.concentric_shape,
+                                            .eccentric_plateau = p.eccentric_plateau,
+                                            .extrapolation = p.force_velocity_extrapolation,
+                                            .max_pennation_rad = p.max_pennation_rad};
+      for (Eigen::Index row = 0; row < length.rows(); ++row) {
+        force_n(row, i) = muscle::thelen_optimal_force(thelen, length(row, i), speed(row, i));
+      }
+    }
+    return force_n;
+  }
+
+  [[nodiscard]] Eigen::VectorXd max_forces() const {
+    Eigen::VectorXd force_n(static_cast<Eigen::Index>(model_.muscles.size()));
+    for (std::size_t i = 0; i < model_.muscles.size(); ++i) {
+      force_n[static_cast<Eigen::Index>(i)] = model_.muscles[i].properties.max_isometric_force_n;
+    }
+    return force_n;
+  }
+
+  /// Difference of a channel from a column of OpenSim's, whose rows are those of the record without
+  /// its added ends.
+  static Eigen::VectorXd difference(const TimeSeries& ours,
+                                    const std::string& channel,
+                                    const TimeSeries& theirs,
+                                    const std::string& column) {
+    Eigen::Index first = 0;
+    (ours.time_s().array() - theirs.time_s()[0]).abs().minCoeff(&first);
+    const Eigen::Index n = theirs.sample_count();
+    EXPECT_LT((ours.time_s().segment(first, n) - theirs.time_s()).cwiseAbs().maxCoeff(), 2e-8)
+        << channel;
+    return (ours.column(channel).segment(first, n) - theirs.column(column)).cwiseAbs();
+  }
+
+  model::BodyModel model_;
+  kinematics::JointMotion motion_;
+  TimeSeries torque_;
+};
+
+TEST_F(Arm26Trial, TorquesOfTheFilteredMotionAreOpenSims) {
+  const TimeSeries theirs = reference("id_filtered.sto");
+  for (const char* name : {"r_shoulder_elev_moment", "r_elbow_flex_moment"}) {
+    EXPECT_LT(difference(torque_, name, theirs, name).maxCoeff(), 6e-9);  // the file has 8 decimals
+  }
+}
+
+TEST_F(Arm26Trial, MuscleForcesFromOpenSimsGeometryAreItsStaticOptimization) {
+  // Lengths, speeds and moment arms are read: what remains is Thelen's muscle and the sharing.
+  // OpenSim's interior-point search stops short of the optimum (1e-8 of its own measure), most
+  // where a muscle comes to its bound of 0.01: 4e-5 in a few frames.
+  const TimeSeries lengths = reference("arm26_Outputs.sto");
+  const TimeSeries moment_arms = reference("arm26_moment_arms.sto");
+  const Eigen::Index n = lengths.sample_count();
+  const auto muscle_count = static_cast<Eigen::Index>(model_.muscles.size());
+  Eigen::MatrixXd length(n, muscle_count), speed(n, muscle_count);
+  std::vector<Channel> names;
+  for (const model::Muscle& muscle : model_.muscles) {
+    const auto column = static_cast<Eigen::Index>(names.size());
+    names.push_back({muscle.name, Unit::meter});
+    length.col(column) = lengths.column(muscle.name + "|length");
+    speed.col(column) = lengths.column(muscle.name + "|lengthening_speed");
+  }
+  std::vector<TimeSeries> arms;
+  for (const model::Coordinate& coordinate : model_.coordinates) {
+    Eigen::MatrixXd values =
+        Eigen::MatrixXd::Zero(n, muscle_count);  // columns of zeros are left out of the file
+    for (const Channel& channel : moment_arms.channels()) {
+      for (Eigen::Index i = 0; i < muscle_count; ++i) {
+        if (channel.name == names[static_cast<std::size_t>(i)].name + "|" + coordinate.name)
+          values.col(i) = moment_arms.column(channel.name);
+      }
+    }
+    arms.emplace_back(lengths.time_s(), names, values);
+  }
+  Eigen::Index first = 0;
+  (torque_.time_s().array() - lengths.time_s()[0]).abs().minCoeff(&first);
+  const TimeSeries torque(lengths.time_s(), torque_.channels(),
+                          torque_.values().middleRows(first, n));
+  const MuscleForces shared =
+      share(arms, torque, optimal_forces(length, speed), max_forces(), kAsOpenSim);
+  for (const model::Muscle& muscle : model_.muscles) {
+    const Eigen::VectorXd d =
+        difference(shared.activation, muscle.name,
+                   reference("so_StaticOptimization_activation.sto"), muscle.name);
+    EXPECT_GT((d.array() < 2e-6).count(), 100) << muscle.name;  // of 121 frames
+    EXPECT_LT(d.maxCoeff(), 5e-5) << muscle.name;
+  }
+}
+
+TEST_F(Arm26Trial, MuscleForcesFromOurGeometryAreOpenSimsWithinItsTangents) {
+  // The same with our own paths. BRA's differ, by 2e-5 m in length and 0.2 mm in moment arm of 10
+  // mm and more, since OpenSim's tangent points on an oblique cylinder are not those of the
+  // shortest way: a percent of its force, which the others make up for.
+  const kinematics::MuscleKinematics muscles = kinematics::muscle_kinematics(model_, motion_);
+  std::vector<TimeSeries> arms;
+  for (const model::Coordinate& coordinate : model_.coordinates)
+    arms.push_back(muscles.moment_arm.at(coordinate.name));
+  const MuscleForces shared =
+      share(arms, torque_, optimal_forces(muscles.length.values(), muscles.velocity.values()),
+            max_forces(), kAsOpenSim);
+  const TimeSeries lengths = reference("arm26_Outputs.sto");
+  for (const model::Muscle& muscle : model_.muscles) {
+    SCOPED_TRACE(muscle.name);
+    const std::string& name = muscle.name;
+    EXPECT_LT(difference(muscles.length, name, lengths, name + "|length").maxCoeff(), 5e-5);
+    EXPECT_LT(difference(muscles.velocity, name, lengths, name + "|lengthening_speed").maxCoeff(),
+              1e-4);
+    EXPECT_LT(
+        difference(shared.activation, name, reference("so_StaticOptimization_activation.sto"), name)
+            .maxCoeff(),
+        1e-3);
+    EXPECT_LT(difference(shared.force, name, reference("so_StaticOptimization_force.sto"), name)
+                  .maxCoeff(),
+              0.5);  // N of 75
+  }
+}
+
+}  // namespace
+}  // namespace myoid::forces
