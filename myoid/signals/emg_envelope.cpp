@@ -104,7 +104,7 @@ std::vector<ChannelNormalisation> find_normalisation(std::span<const TrialEnvelo
         n.relative_sd = 0.7555 / std::sqrt(2.0 * 150.0 * options.window_s);
       }
     }
-    n.reference_v = largest - n.resting_level_v;
+    n.reference_v = std::sqrt(std::max(0.0, largest * largest - n.resting_level_v * n.resting_level_v));
     if (!(n.reference_v > 0.0) || n.reference_v < 1e-3 * largest) {
       throw InvalidInput(fmt::format("EMG channel '{}' never rises above its resting level: was the electrode connected?", channel.name));
     }
@@ -120,7 +120,7 @@ TimeSeries normalise(const TimeSeries& envelope, const std::vector<ChannelNormal
     const ChannelNormalisation& n = normalisation[c];
     channels.push_back({n.channel, Unit::dimensionless});
     values.col(static_cast<Eigen::Index>(c)) =
-        ((envelope.column(n.channel).array() - n.resting_level_v) / n.reference_v).max(0.0).matrix();
+        ((envelope.column(n.channel).array().square() - n.resting_level_v * n.resting_level_v).max(0.0).sqrt() / n.reference_v).matrix();
   }
   return {envelope.time_s(), std::move(channels), std::move(values)};
 }

@@ -100,9 +100,28 @@ TEST(Normalisation, TakesTheMaximumOverTheStudyAndSaysWhereItStood) {
   EXPECT_EQ(n[0].source_trial, "mvc");
   EXPECT_TRUE(n[0].from_mvc);
   EXPECT_NEAR(n[0].resting_level_v, 1e-6, 1e-15);
-  EXPECT_NEAR(n[0].reference_v, 1e-4, 1e-15);
-  EXPECT_NEAR(normalise(task, n).values()(3000, 0), 0.19, 1e-9);
-  EXPECT_NEAR(normalise(task, n).values()(0, 0), 0.0, 1e-9);
+  // Powers add: 101^2 - 1 and 20^2 - 1, in millionths of a volt squared.
+  EXPECT_NEAR(n[0].reference_v, std::sqrt(10200.0) * 1e-6, 1e-15);
+  EXPECT_NEAR(normalise(task, n).values()(3000, 0), std::sqrt(399.0 / 10200.0), 1e-9);
+  EXPECT_NEAR(normalise(task, n).values()(0, 0), 0.0, 1e-8);  // the root of a difference that is round-off
+}
+
+TEST(Normalisation, FindsTheActivationUnderTheNoiseOfTheElectrode) {
+  // Gaussian EMG of known amplitude and independent noise: what is left is the amplitude. Means of 20 s at 1 kHz, white up to the
+  // filters' 20 Hz: 0.7555 / sqrt(2 x 480 Hz x 20 s) = 0.5 % of each mean; four of them, and those of rest and reference.
+  std::mt19937_64 engine(11);
+  std::normal_distribution<double> normal;
+  const Eigen::Index n = 60000;
+  Eigen::MatrixXd x(n, 1);
+  const auto amplitude = [n](Eigen::Index k) { return 3 * k < n ? 0.0 : 3 * k < 2 * n ? 0.05 : 1.0; };
+  for (Eigen::Index k = 0; k < n; ++k) x(k, 0) = 1e-3 * (amplitude(k) * normal(engine) + 0.03 * normal(engine));
+  const TimeSeries raw(Eigen::VectorXd::LinSpaced(n, 0.0, static_cast<double>(n - 1) / 1000.0), {{"m", Unit::volt}}, x);
+  const TimeSeries envelope = process_emg(raw).envelope;
+  const std::vector<TrialEnvelope> trials{{"a", true, &envelope}};
+  const auto found = find_normalisation(trials, {.window_s = 10.0});
+  const Eigen::VectorXd activation = normalise(envelope, found).values().col(0);
+  // The resting level is the lowest of many 1 s means, 3 % low or so: that and the spread of the envelope (14 %) bend the root by 2 %.
+  EXPECT_NEAR(activation.segment(n / 3 + 1000, n / 3 - 2000).mean(), 0.05, 0.0015);
 }
 
 TEST(Normalisation, RefusesAChannelThatNeverMoves) {
