@@ -1,0 +1,146 @@
+// An architecture nobody checks is a drawing: every #include of the library is compared with the
+// list in cmake/layers.cmake.
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <regex>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path kRoot = MYOID_SOURCE_DIR;
+
+std::string content(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::ostringstream text;
+  text << stream.rdbuf();
+  return text.str();
+}
+
+std::vector<std::string> words(const std::string& text) {
+  std::istringstream stream(text);
+  std::vector<std::string> result;
+  for (std::string word; stream >> word;) result.push_back(word);
+  return result;
+}
+
+/// Layer by name: the layers that it may use, from cmake/layers.cmake.
+std::map<std::string, std::set<std::string>> allowed_layers() {
+  const std::string text = content(kRoot / "cmake" / "layers.cmake");
+  const std::regex entry(R"(set\(MYOID_LAYER_(\w+)\s*([^)]*)\))");
+  std::map<std::string, std::set<std::string>> result;
+  for (std::sregex_iterator it(text.begin(), text.end(), entry), end; it != end; ++it) {
+    std::set<std::string>& allowed = result[(*it)[1]];
+    for (const std::string& word : words((*it)[2])) {
+      if (word.starts_with("${MYOID_LAYER_")) {
+        const auto& other = result.at(word.substr(14, word.size() - 15));
+        allowed.insert(other.begin(), other.end());
+      } else {
+        allowed.insert(word);
+      }
+    }
+  }
+  return result;
+}
+
+struct SourceFile {
+  fs::path path;
+  std::string layer;
+  std::string text;
+};
+
+/// Headers and sources of the library and the program, without tests.
+std::vector<SourceFile> sources() {
+  std::vector<SourceFile> result;
+  for (const auto& entry : fs::recursive_directory_iterator(kRoot / "myoid")) {
+    const fs::path& path = entry.path();
+    const std::string file = path.filename().string();
+    if (path.extension() != ".h" && path.extension() != ".cpp") continue;
+    if (file.ends_with(".test.cpp")) continue;
+    const fs::path relative = fs::relative(path, kRoot / "myoid");
+    result.push_back({fs::relative(path, kRoot), relative.begin()->string(), content(path)});
+  }
+  std::sort(result.begin(), result.end(),
+            [](const SourceFile& a, const SourceFile& b) { return a.path < b.path; });
+  return result;
+}
+
+TEST(Architecture, TheListOfLayersIsRead) {
+  const auto layers = allowed_layers();
+  EXPECT_EQ(layers.size(), 14U);
+  EXPECT_TRUE(layers.at("core").empty());
+  EXPECT_TRUE(layers.at("cli").contains("pipeline"));
+  EXPECT_TRUE(layers.at("cli").contains("report"));
+}
+
+TEST(Architecture, EveryIncludeReachesIntoALayerThatIsAllowed) {
+  const auto layers = allowed_layers();
+  const std::regex include(R"(#include "myoid/(\w+)/[^"]*")");
+  int seen = 0;
+  for (const SourceFile& source : sources()) {
+    ASSERT_TRUE(layers.contains(source.layer))
+        << source.path << ": no such layer in cmake/layers.cmake";
+    for (std::sregex_iterator it(source.text.begin(), source.text.end(), include), end; it != end;
+         ++it) {
+      const std::string target = (*it)[1];
+      EXPECT_TRUE(target == source.layer || layers.at(source.layer).contains(target))
+          << source.path << " includes " << target << ", which " << source.layer << " may not use";
+      ++seen;
+    }
+  }
+  EXPECT_GT(seen, 100);  // that the pattern still finds them
+}
+
+TEST(Architecture, TheLayersHaveNoCircle) {
+  const auto layers = allowed_layers();
+  for (const auto& [layer, uses] : layers) {
+    for (const std::string& used : uses) {
+      ASSERT_TRUE(layers.contains(used)) << layer << " uses " << used;
+      EXPECT_FALSE(layers.at(used).contains(layer)) << layer << " and " << used;
+    }
+  }
+}
+
+TEST(Architecture, OnlyTheProgramPrints) {
+  const std::regex printing(R"(std::cout|std::cerr|std::clog|\bprintf\(|fmt::print\()");
+  for (const SourceFile& source : sources()) {
+    if (source.layer == "cli") continue;
+    EXPECT_FALSE(std::regex_search(source.text, printing)) << source.path;
+  }
+}
+
+TEST(Architecture, OnlyReadersWritersAndTheTopTouchFiles) {
+  const std::set<std::string> top = {"recording", "report", "pipeline", "cli"};
+  const std::set<std::string> doors = {"myoid/model/osim_reader.cpp",
+                                       "myoid/simulation/protocol.cpp"};
+  for (const SourceFile& source : sources()) {
+    if (top.contains(source.layer) || doors.contains(source.path.generic_string())) continue;
+    EXPECT_EQ(source.text.find("#include <fstream>"), std::string::npos) << source.path;
+  }
+}
+
+TEST(Architecture, NothingIsDrawnWithoutASeed) {
+  const std::regex unseeded(R"(std::random_device|\brand\(\)|\bsrand\(|Eigen::\w+::Random)");
+  for (const SourceFile& source : sources()) {
+    EXPECT_FALSE(std::regex_search(source.text, unseeded)) << source.path;
+  }
+}
+
+TEST(Architecture, EveryHeaderIsListedForItsTarget) {
+  for (const SourceFile& source : sources()) {
+    const std::string list = content(kRoot / "myoid" / source.layer / "CMakeLists.txt");
+    const std::string file = source.path.filename().string();
+    EXPECT_NE(list.find(file), std::string::npos)
+        << source.path << " is not in the CMakeLists.txt of its folder";
+  }
+}
+
+}  // namespace
