@@ -1,0 +1,112 @@
+// A header is complete in itself, and somebody tests it.
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path kRoot = MYOID_SOURCE_DIR;
+
+/// No test includes these; each with the reason. A missing test is a visible hole: this is the list
+/// of the holes, and it may only become shorter.
+const std::map<std::string, std::string> kWithoutTest = {
+    {"myoid/cli/context.h", "the program's options, exercised by running the program"},
+    {"myoid/identification/cross_validation.h", "owed: held-out movements of a virtual recording"},
+    {"myoid/identification/identifiability.h", "owed: the verdicts of known examples"},
+    {"myoid/identification/muscle_sample.h", "a plain value, exercised by the estimators"},
+    {"myoid/identification/paper.h", "owed: recovery of known parameters"},
+    {"myoid/identification/result.h", "a plain value, exercised by the estimators"},
+    {"myoid/identification/study_data.h", "a plain value, exercised by the estimators"},
+    {"myoid/identification/torque.h", "owed: recovery of known parameters"},
+    {"myoid/identification/torque_model.h", "owed: its Jacobian against differences"},
+    {"myoid/math/covariance.h", "owed: NIST's certified standard deviations"},
+    {"myoid/math/least_squares.h", "owed: NIST's nonlinear regression problems"},
+    {"myoid/muscle/force_velocity.h", "tested as part of hill_muscle"},
+    {"myoid/muscle/hill_parameters.h", "tested as part of hill_muscle"},
+    {"myoid/recording/marker_series.h", "tested as part of trc"},
+    {"myoid/simulation/draw_truth.h", "tested as part of synthetic_recording"},
+    {"myoid/pipeline/result_files.h", "owed: the files of a run, read back"},
+};
+
+std::vector<fs::path> files_below(const fs::path& folder, const std::string& ending) {
+  std::vector<fs::path> result;
+  for (const auto& entry : fs::recursive_directory_iterator(kRoot / folder)) {
+    if (entry.path().filename().string().ends_with(ending)) {
+      result.push_back(fs::relative(entry.path(), kRoot));
+    }
+  }
+  std::sort(result.begin(), result.end());
+  return result;
+}
+
+/// What a file includes, in its order: `<path>` or `"path"`.
+std::vector<std::string> includes(const fs::path& file) {
+  std::ifstream stream(kRoot / file);
+  std::vector<std::string> result;
+  for (std::string line; std::getline(stream, line);) {
+    if (line.starts_with("#include ")) result.push_back(line.substr(9));
+  }
+  return result;
+}
+
+std::string quoted(const fs::path& header) { return '"' + header.generic_string() + '"'; }
+
+/// The header's own source or test, or the one that the build generates (see CMakeLists.txt),
+/// begins with it: that it compiles there is the proof that it needs nothing before it.
+TEST(Headers, EveryHeaderIsTheFirstThingThatSomeSourceIncludes) {
+  const std::string generated = MYOID_HEADERS_ALONE;
+  for (const fs::path& header : files_below("myoid", ".h")) {
+    bool first = generated.find(header.generic_string() + ",") != std::string::npos;
+    for (const char* ending : {".cpp", ".test.cpp"}) {
+      const fs::path source = fs::path(header).replace_extension(ending);
+      if (!fs::exists(kRoot / source)) continue;
+      const auto included = includes(source);
+      first = first || (!included.empty() && included.front() == quoted(header));
+    }
+    EXPECT_TRUE(first) << header
+                       << ": let its .cpp or its .test.cpp include it first, or name it in "
+                       << "tests/architecture/CMakeLists.txt";
+  }
+}
+
+TEST(Headers, EveryHeaderIsIncludedByATestOrTheReasonIsGiven) {
+  std::set<std::string> tested;
+  for (const char* folder : {"myoid", "tests"}) {
+    for (const fs::path& test : files_below(folder, ".test.cpp")) {
+      for (const std::string& include : includes(test)) tested.insert(include);
+    }
+  }
+  for (const fs::path& header : files_below("myoid", ".h")) {
+    EXPECT_TRUE(tested.contains(quoted(header)) || kWithoutTest.contains(header.generic_string()))
+        << header << " is included by no test: write "
+        << fs::path(header).replace_extension(".test.cpp");
+  }
+}
+
+TEST(Headers, EveryTestIsBuilt) {
+  for (const fs::path& test : files_below("myoid", ".test.cpp")) {
+    std::ifstream stream(kRoot / test.parent_path() / "CMakeLists.txt");
+    const std::string list{std::istreambuf_iterator<char>(stream), {}};
+    EXPECT_NE(list.find(test.filename().string()), std::string::npos)
+        << test << " is not in the CMakeLists.txt of its folder";
+  }
+}
+
+TEST(Headers, EveryHeaderIsGuarded) {
+  for (const fs::path& header : files_below("myoid", ".h")) {
+    std::ifstream stream(kRoot / header);
+    std::string first_line;
+    std::getline(stream, first_line);
+    EXPECT_EQ(first_line, "#pragma once") << header;
+  }
+}
+
+}  // namespace
