@@ -115,7 +115,6 @@ class Fit {
     const Eigen::MatrixXd scores = residual.asDiagonal() * weighted;
     const auto lag = static_cast<Eigen::Index>(std::lround(0.4 * model_.rate_hz()));
     Eigen::MatrixXd b = nu * nu * math::newey_west(scores, model_.pieces(), lag);
-    if (!options_.weights) b *= 1.0;
     for (Eigen::Index j = 0; j < a.rows(); ++j) {
       const double sd = model_.free()[static_cast<std::size_t>(j)].prior_sd;
       if (sd > 0.0) {

@@ -21,6 +21,9 @@ struct TorqueOptions {
   /// normalisation, which F_max inherits. Empty: no gains.
   std::map<std::string, double> gain_prior_sd;
   double max_rate_hz = 50.0;          ///< Samples are thinned to at most this; torque and EMG hold 6 Hz.
+  /// Both sides of the residual are low-passed here (two passes, -3 dB). T^ is linear in the envelope, whose noise reaches further
+  /// up than what tells muscles apart: what is cut off would only pull F_max towards zero (errors in the regressors). Empty: not at all.
+  std::optional<double> residual_cutoff_hz = 2.0;
   bool weights = true;                ///< Heteroscedastic weights and the effective number of samples; false: plain least squares.
   int starts = 3;                     ///< The given start and moved ones; the best is kept.
   bool from_mvc = true;               ///< For the verdicts.
@@ -29,7 +32,7 @@ struct TorqueOptions {
 
 /// All muscles of a joint and both branches at once, from all calibration trials, against the torque of inverse dynamics:
 ///
-///   T^(t) = sum_i r_i F_i(g a_i(t - d), l_i, v_i; x_i),     residual (T^ - T)/s
+///   T^(t) = sum_i r_i F_i(g a_i(t - d), l_i, v_i; x_i),     residual L(T^ - T)/s,  L a low-pass
 ///
 /// with unknown F_max, l0, l_sh, V_sh, P and V_ml of each muscle (positive ones as logarithms), the EMG delay d and a gain g per EMG channel;
 /// priors as further residuals; bounds. Levenberg-Marquardt with analytic derivatives. The standard deviation of a sample is

@@ -1,11 +1,12 @@
 #include "myoid/identification/torque_model.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
+
 #include "myoid/core/error.h"
+#include "myoid/math/zero_phase.h"
 
 namespace myoid::identification {
 namespace {
@@ -17,12 +18,13 @@ struct FieldKind {
 };
 
 /// What the method identifies of each muscle; the rest is held.
-constexpr std::array<FieldKind, 6> kIdentified = {{{"max_isometric_force", &muscle::HillForce::by_max_isometric_force, true},
-                                                   {"optimal_fiber_length", &muscle::HillForce::by_optimal_fiber_length, false},
-                                                   {"force_length_width", &muscle::HillForce::by_force_length_width, false},
-                                                   {"concentric_curvature", &muscle::HillForce::by_concentric_curvature, true},
-                                                   {"eccentric_curvature_product", &muscle::HillForce::by_eccentric_curvature_product, true},
-                                                   {"eccentric_plateau", &muscle::HillForce::by_eccentric_plateau, false}}};
+constexpr std::array<FieldKind, 6> kIdentified = {
+    {{"max_isometric_force", &muscle::HillForce::by_max_isometric_force, true},
+     {"optimal_fiber_length", &muscle::HillForce::by_optimal_fiber_length, false},
+     {"force_length_width", &muscle::HillForce::by_force_length_width, false},
+     {"concentric_curvature", &muscle::HillForce::by_concentric_curvature, true},
+     {"eccentric_curvature_product", &muscle::HillForce::by_eccentric_curvature_product, true},
+     {"eccentric_plateau", &muscle::HillForce::by_eccentric_plateau, false}}};
 
 }  // namespace
 
@@ -31,9 +33,12 @@ double FreeParameter::to_value(double z) const { return logarithmic ? std::exp(z
 void TorqueModel::add_parameters(const StudyData& data, const TorqueOptions& options) {
   for (std::size_t k = 0; k < data.muscles.size(); ++k) {
     const MuscleSetup& setup = data.muscles[k];
-    if (!options.muscles.empty() && std::find(options.muscles.begin(), options.muscles.end(), setup.name) == options.muscles.end()) continue;
+    if (!options.muscles.empty() && std::find(options.muscles.begin(), options.muscles.end(),
+                                              setup.name) == options.muscles.end())
+      continue;
     for (const FieldKind& kind : kIdentified) {
-      if (std::find(setup.fixed.begin(), setup.fixed.end(), kind.name) != setup.fixed.end()) continue;
+      if (std::find(setup.fixed.begin(), setup.fixed.end(), kind.name) != setup.fixed.end())
+        continue;
       FreeParameter p;
       p.muscle = static_cast<int>(k);
       p.field = &muscle::hill_field(kind.name);
@@ -50,8 +55,8 @@ void TorqueModel::add_parameters(const StudyData& data, const TorqueOptions& opt
       if (options.priors && prior != setup.priors.end()) {
         p.prior_mean = scale(prior->second.mean);
         p.prior_sd = prior->second.logarithmic == kind.logarithmic ? prior->second.sd
-                     : kind.logarithmic                            ? prior->second.sd / prior->second.mean
-                                                                   : prior->second.sd * prior->second.mean;
+                     : kind.logarithmic ? prior->second.sd / prior->second.mean
+                                        : prior->second.sd * prior->second.mean;
       }
       free_.push_back(p);
     }
@@ -72,7 +77,8 @@ void TorqueModel::add_parameters(const StudyData& data, const TorqueOptions& opt
   }
   if (options.priors) {
     for (const auto& [channel, sd] : options.gain_prior_sd) {
-      if (!(sd > 0.0) || std::find(channels_.begin(), channels_.end(), channel) == channels_.end()) continue;
+      if (!(sd > 0.0) || std::find(channels_.begin(), channels_.end(), channel) == channels_.end())
+        continue;
       FreeParameter p;
       p.kind = FreeParameter::Kind::gain;
       p.channel = channel;
@@ -100,19 +106,25 @@ TorqueModel::TorqueModel(const StudyData& data, const TorqueOptions& options) {
   Eigen::Index total = 0;
   for (const TrialData& trial : data.trials) {
     if (!trial.calibration) continue;
-    if (trial.torque_nm.size() != trial.time_s.size() || trial.moment_arm_m.rows() != trial.time_s.size()) {
-      throw InvalidInput(fmt::format("method torque: trial '{}' has no torque or no moment arms", trial.name));
+    if (trial.torque_nm.size() != trial.time_s.size() ||
+        trial.moment_arm_m.rows() != trial.time_s.size()) {
+      throw InvalidInput(
+          fmt::format("method torque: trial '{}' has no torque or no moment arms", trial.name));
     }
-    const double interval = (trial.time_s[trial.time_s.size() - 1] - trial.time_s[0]) / static_cast<double>(trial.time_s.size() - 1);
-    const auto stride = std::max<Eigen::Index>(1, static_cast<Eigen::Index>(std::lround(1.0 / (interval * options.max_rate_hz))));
+    const double interval = (trial.time_s[trial.time_s.size() - 1] - trial.time_s[0]) /
+                            static_cast<double>(trial.time_s.size() - 1);
+    const auto stride = std::max<Eigen::Index>(
+        1, static_cast<Eigen::Index>(std::lround(1.0 / (interval * options.max_rate_hz))));
     rate_hz_ = 1.0 / (interval * static_cast<double>(stride));
-    // The ends of a trial are left out: splines and filters are unreliable there, and EMG must reach back by the delay.
+    // The ends of a trial are left out: splines and filters are unreliable there, and EMG must
+    // reach back by the delay.
     const double edge_s = 0.1;
     const Eigen::VectorXd& clock = trial.activation.time_s();
     std::vector<Eigen::Index> rows;
     for (Eigen::Index i = 0; i < trial.time_s.size(); i += stride) {
       const double t = trial.time_s[i];
-      const bool inside = t >= trial.time_s[0] + edge_s && t <= trial.time_s[trial.time_s.size() - 1] - edge_s &&
+      const bool inside = t >= trial.time_s[0] + edge_s &&
+                          t <= trial.time_s[trial.time_s.size() - 1] - edge_s &&
                           t - longest_delay_s >= clock[0] && t <= clock[clock.size() - 1];
       if (inside) {
         rows.push_back(i);
@@ -125,7 +137,8 @@ TorqueModel::TorqueModel(const StudyData& data, const TorqueOptions& options) {
     chosen.emplace_back(&trial, std::move(rows));
   }
   if (total == 0) {
-    throw InvalidInput("method torque: no calibration sample is left; EMG and motion must overlap in time");
+    throw InvalidInput(
+        "method torque: no calibration sample is left; EMG and motion must overlap in time");
   }
   time_s_.resize(total);
   torque_.resize(total);
@@ -142,6 +155,16 @@ TorqueModel::TorqueModel(const StudyData& data, const TorqueOptions& options) {
       arm_m_.row(row++) = trial->moment_arm_m.row(i);
     }
     pieces_.push_back(static_cast<Eigen::Index>(rows.size()));
+    const double rate = static_cast<double>(rows.size() - 1) /
+                        (trial->time_s[rows.back()] - trial->time_s[rows.front()]);
+    const bool filtered =
+        options.residual_cutoff_hz && rows.size() >= 4 && *options.residual_cutoff_hz < 0.45 * rate;
+    filter_.push_back(filtered ? math::design_butterworth(
+                                     math::FilterBand::low_pass, 2,
+                                     math::two_pass_cutoff_hz(math::FilterBand::low_pass, 2,
+                                                              *options.residual_cutoff_hz, rate),
+                                     rate)
+                               : std::vector<math::SecondOrderSection>{});
     const Eigen::VectorXd& clock = trial->activation.time_s();
     std::vector<math::Spline> splines;
     for (const std::string& channel : channels_) {
@@ -151,13 +174,28 @@ TorqueModel::TorqueModel(const StudyData& data, const TorqueOptions& options) {
     first_time_s_.push_back(clock[0]);
     last_time_s_.push_back(clock[clock.size() - 1]);
   }
+  smooth(torque_);
+}
+
+void TorqueModel::smooth(Eigen::Ref<Eigen::MatrixXd> columns) const {
+  Eigen::Index first = 0;
+  for (std::size_t piece = 0; piece < pieces_.size(); ++piece) {
+    if (!filter_[piece].empty()) {
+      for (Eigen::Index c = 0; c < columns.cols(); ++c) {
+        columns.col(c).segment(first, pieces_[piece]) =
+            math::zero_phase(filter_[piece], columns.col(c).segment(first, pieces_[piece]));
+      }
+    }
+    first += pieces_[piece];
+  }
 }
 
 std::vector<muscle::HillParameters<double>> TorqueModel::muscles(const Eigen::VectorXd& z) const {
   std::vector<muscle::HillParameters<double>> result = start_;
   for (std::size_t j = 0; j < free_.size(); ++j) {
     if (free_[j].kind == FreeParameter::Kind::muscle) {
-      result[static_cast<std::size_t>(free_[j].muscle)].*free_[j].field->member = free_[j].to_value(z[static_cast<Eigen::Index>(j)]);
+      result[static_cast<std::size_t>(free_[j].muscle)].*free_[j].field->member =
+          free_[j].to_value(z[static_cast<Eigen::Index>(j)]);
     }
   }
   return result;
@@ -170,7 +208,10 @@ double TorqueModel::delay_s(const Eigen::VectorXd& z) const {
   return fixed_delay_s_;
 }
 
-void TorqueModel::evaluate(const Eigen::VectorXd& z, Eigen::VectorXd& predicted, Eigen::MatrixXd* jacobian, Eigen::VectorXd* channel_power) const {
+void TorqueModel::evaluate(const Eigen::VectorXd& z,
+                           Eigen::VectorXd& predicted,
+                           Eigen::MatrixXd* jacobian,
+                           Eigen::VectorXd* channel_power) const {
   const std::vector<muscle::HillParameters<double>> parameters = muscles(z);
   const double delay = delay_s(z);
   std::vector<double> gain(channels_.size(), 1.0);
@@ -181,22 +222,28 @@ void TorqueModel::evaluate(const Eigen::VectorXd& z, Eigen::VectorXd& predicted,
     const auto column = static_cast<Eigen::Index>(j);
     const FreeParameter& p = free_[j];
     if (p.kind == FreeParameter::Kind::delay) delay_column = column;
-    if (p.kind == FreeParameter::Kind::muscle) by_muscle[static_cast<std::size_t>(p.muscle)].emplace_back(column, &p);
+    if (p.kind == FreeParameter::Kind::muscle)
+      by_muscle[static_cast<std::size_t>(p.muscle)].emplace_back(column, &p);
     if (p.kind == FreeParameter::Kind::gain) {
-      const auto c = static_cast<std::size_t>(std::find(channels_.begin(), channels_.end(), p.channel) - channels_.begin());
+      const auto c = static_cast<std::size_t>(
+          std::find(channels_.begin(), channels_.end(), p.channel) - channels_.begin());
       gain[c] = p.to_value(z[column]);
       gain_column[c] = column;
     }
   }
   predicted.setZero(torque_.size());
-  if (jacobian != nullptr) jacobian->setZero(torque_.size(), static_cast<Eigen::Index>(free_.size()));
-  if (channel_power != nullptr) channel_power->setZero(torque_.size());
+  if (jacobian != nullptr)
+    jacobian->setZero(torque_.size(), static_cast<Eigen::Index>(free_.size()));
+  Eigen::MatrixXd by_channel;
+  if (channel_power != nullptr)
+    by_channel.setZero(torque_.size(), static_cast<Eigen::Index>(channels_.size()));
   std::vector<math::SplineValue> envelope(channels_.size());
   std::vector<double> channel_torque(channels_.size());
   Eigen::Index row = 0;
   for (std::size_t piece = 0; piece < pieces_.size(); ++piece) {
     for (Eigen::Index i = 0; i < pieces_[piece]; ++i, ++row) {
-      const double when = std::clamp(time_s_[row] - delay, first_time_s_[piece], last_time_s_[piece]);
+      const double when =
+          std::clamp(time_s_[row] - delay, first_time_s_[piece], last_time_s_[piece]);
       for (std::size_t c = 0; c < channels_.size(); ++c) {
         envelope[c] = envelope_[piece][c].at(when);
         if (envelope[c].value < 0.0) envelope[c] = {};
@@ -207,22 +254,32 @@ void TorqueModel::evaluate(const Eigen::VectorXd& z, Eigen::VectorXd& predicted,
         const auto c = static_cast<std::size_t>(channel_of_muscle_[k]);
         const double activation = gain[c] * envelope[c].value;
         const double arm = arm_m_(row, column);
-        const muscle::HillForce f = muscle::hill_force_derivatives(activation, length_m_(row, column) - parameters[k].tendon_slack_length_m,
-                                                                   velocity_mps_(row, column), parameters[k]);
+        const muscle::HillForce f = muscle::hill_force_derivatives(
+            activation, length_m_(row, column) - parameters[k].tendon_slack_length_m,
+            velocity_mps_(row, column), parameters[k]);
         channel_torque[c] += arm * f.force_n;
         if (jacobian == nullptr) continue;
         for (const auto& [target, p] : by_muscle[k]) {
           const double chain = p->logarithmic ? parameters[k].*p->field->member : 1.0;
           (*jacobian)(row, target) += arm * f.*(p->derivative) * chain;
         }
-        if (delay_column >= 0) (*jacobian)(row, delay_column) -= arm * f.by_activation * gain[c] * envelope[c].first;
-        if (gain_column[c] >= 0) (*jacobian)(row, gain_column[c]) += arm * f.force_n;  // force is proportional to the gain
+        if (delay_column >= 0)
+          (*jacobian)(row, delay_column) -= arm * f.by_activation * gain[c] * envelope[c].first;
+        if (gain_column[c] >= 0)
+          (*jacobian)(row, gain_column[c]) += arm * f.force_n;  // force is proportional to the gain
       }
-      for (const double t : channel_torque) {
-        predicted[row] += t;
-        if (channel_power != nullptr) (*channel_power)[row] += t * t;
+      for (std::size_t c = 0; c < channels_.size(); ++c) {
+        predicted[row] += channel_torque[c];
+        if (channel_power != nullptr)
+          by_channel(row, static_cast<Eigen::Index>(c)) = channel_torque[c];
       }
     }
+  }
+  smooth(predicted);
+  if (jacobian != nullptr) smooth(*jacobian);
+  if (channel_power != nullptr) {
+    smooth(by_channel);
+    *channel_power = by_channel.rowwise().squaredNorm();
   }
 }
 

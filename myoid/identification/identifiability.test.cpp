@@ -1,0 +1,96 @@
+#include "myoid/identification/identifiability.h"
+
+#include <limits>
+#include <string>
+
+#include <gtest/gtest.h>
+
+namespace myoid::identification {
+namespace {
+
+/// An estimate of 1 with the interval 1 -+ half.
+ParameterEstimate estimate(double half, const std::string& parameter = "optimal_fiber_length") {
+  ParameterEstimate e;
+  e.muscle = "BIC";
+  e.parameter = parameter;
+  e.estimate = 1.0;
+  e.std_error = half / 1.96;
+  e.ci_low = 1.0 - half;
+  e.ci_high = 1.0 + half;
+  return e;
+}
+
+Verdict verdict_of(ParameterEstimate e, const VerdictContext& context = {}) {
+  judge(e, context);
+  EXPECT_FALSE(e.reason.empty());
+  return e.verdict;
+}
+
+TEST(Judge, GoesByTheWidthOfTheInterval) {
+  EXPECT_EQ(verdict_of(estimate(0.10)), Verdict::identified);
+  EXPECT_EQ(verdict_of(estimate(0.16)), Verdict::weak);
+  EXPECT_EQ(verdict_of(estimate(0.59)), Verdict::weak);
+  EXPECT_EQ(verdict_of(estimate(0.61)), Verdict::not_identifiable);
+}
+
+TEST(Judge, CallsAValueThatThePriorMadeByItsName) {
+  ParameterEstimate e = estimate(0.05);
+  e.shrinkage = 0.2;
+  EXPECT_EQ(verdict_of(e), Verdict::prior_dominated);
+  e.shrinkage = 0.8;
+  EXPECT_EQ(verdict_of(e), Verdict::identified);
+}
+
+TEST(Judge, NeverTrustsWhatIsNotAnAnswer) {
+  EXPECT_EQ(verdict_of(estimate(0.01), {.determined = false}), Verdict::not_identifiable);
+  EXPECT_EQ(verdict_of(estimate(0.01), {.converged = false, .failure = "why"}),
+            Verdict::not_identifiable);
+  EXPECT_EQ(verdict_of(estimate(0.01), {.outside_physical = true}), Verdict::non_physical);
+  ParameterEstimate bound = estimate(0.01);
+  bound.at_bound = true;
+  EXPECT_EQ(verdict_of(bound), Verdict::not_identifiable);
+  ParameterEstimate nothing = estimate(0.01);
+  nothing.estimate = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(verdict_of(nothing), Verdict::not_identifiable);
+  ParameterEstimate open = estimate(0.01);
+  open.ci_low.reset();
+  EXPECT_EQ(verdict_of(open), Verdict::not_identifiable);
+}
+
+TEST(Judge, AProductWithoutARiseInLengtheningHasNoMeaning) {
+  EXPECT_EQ(verdict_of(estimate(0.01, "eccentric_curvature_product"), {.plateau_is_flat = true}),
+            Verdict::not_identifiable);
+  EXPECT_EQ(verdict_of(estimate(0.01, "eccentric_plateau"), {.plateau_is_flat = true}),
+            Verdict::identified);
+}
+
+TEST(Judge, NamesTheErrorThatTheSourcePapersValuesAreTheSignatureOf) {
+  // Table II: brachialis V_ml 0.147, brachioradialis P -1.29.
+  ParameterEstimate plateau = estimate(0.01, "eccentric_plateau");
+  plateau.estimate = 0.147;
+  judge(plateau, {.outside_physical = true});
+  EXPECT_EQ(plateau.verdict, Verdict::non_physical);
+  EXPECT_NE(plateau.reason.find("co-contraction"), std::string::npos);
+  ParameterEstimate product = estimate(0.01, "eccentric_curvature_product");
+  product.estimate = -1.29;
+  judge(product, {.outside_physical = true});
+  EXPECT_NE(product.reason.find("delay"), std::string::npos);
+}
+
+TEST(Judge, TheDelayIsJudgedInMilliseconds) {
+  ParameterEstimate e = estimate(0.01, "emg_delay");
+  e.estimate = 0.05;
+  EXPECT_EQ(verdict_of(e), Verdict::identified);
+  e = estimate(0.04, "emg_delay");
+  e.estimate = 0.05;
+  EXPECT_EQ(verdict_of(e), Verdict::weak);
+}
+
+TEST(Judge, WithoutAMaximalContractionForceIsRelativeToTheLargestEmg) {
+  ParameterEstimate e = estimate(0.05, "max_isometric_force");
+  judge(e, {.from_mvc = false});
+  EXPECT_NE(e.reason.find("maximal contraction"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace myoid::identification

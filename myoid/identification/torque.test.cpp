@@ -1,0 +1,253 @@
+#include "myoid/identification/torque.h"
+
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "myoid/core/error.h"
+#include "myoid/identification/torque_model.h"
+
+#include "tests/support/elbow_study.h"
+
+namespace myoid::identification {
+namespace {
+
+using test::elbow_study;
+using test::ElbowStudy;
+
+/// What a study holds on an estimate.
+double true_value(const ElbowStudy& study, const ParameterEstimate& e) {
+  if (e.parameter == "emg_delay") return study.delay_s;
+  if (e.parameter == "emg_gain") return 1.0;
+  for (std::size_t k = 0; k < study.data.muscles.size(); ++k) {
+    if (study.data.muscles[k].name == e.muscle)
+      return study.truth[k].*muscle::hill_field(e.parameter).member;
+  }
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
+const ParameterEstimate& find(const IdentificationResult& result,
+                              const std::string& muscle,
+                              const std::string& parameter) {
+  for (const ParameterEstimate& e : result.estimates) {
+    if (e.muscle == muscle && e.parameter == parameter) return e;
+  }
+  throw InvalidInput("no estimate " + muscle + "." + parameter);
+}
+
+TEST(TorqueModel, DerivativesAreThoseOfTheTorque) {
+  const ElbowStudy study = elbow_study({.trials = 1, .seconds = 5.0, .with_priors = true});
+  const TorqueModel model(study.data, {.gain_prior_sd = {{"BIC", 0.1}, {"TRI", 0.2}}});
+  const auto p = static_cast<Eigen::Index>(model.free().size());
+  ASSERT_EQ(p, 4 * 6 + 1 + 2);
+  Eigen::VectorXd z(p);
+  for (Eigen::Index j = 0; j < p; ++j)
+    z[j] = model.free()[static_cast<std::size_t>(j)].start +
+           0.01 * std::sin(1.0 + static_cast<double>(j));
+  Eigen::VectorXd predicted;
+  Eigen::MatrixXd jacobian;
+  model.evaluate(z, predicted, &jacobian, nullptr);
+  for (Eigen::Index j = 0; j < p; ++j) {
+    SCOPED_TRACE(model.free()[static_cast<std::size_t>(j)].label);
+    const double h = 1e-6;
+    Eigen::VectorXd plus, minus;
+    model.evaluate(z + h * Eigen::VectorXd::Unit(p, j), plus, nullptr, nullptr);
+    model.evaluate(z - h * Eigen::VectorXd::Unit(p, j), minus, nullptr, nullptr);
+    const Eigen::VectorXd difference = (plus - minus) / (2.0 * h);
+    // Truncation h^2, round-off 1e-16 * 60 N m / h.
+    EXPECT_LT((jacobian.col(j) - difference).cwiseAbs().maxCoeff(),
+              1e-6 * std::max(1.0, jacobian.col(j).cwiseAbs().maxCoeff()));
+    EXPECT_GT(jacobian.col(j).norm(), 0.0);
+  }
+}
+
+TEST(IdentifyTorque, FindsTheTruthWithoutNoise) {
+  const ElbowStudy study = elbow_study();
+  const IdentificationResult result =
+      identify_torque(study.data, {.priors = false, .weights = false});
+  EXPECT_EQ(result.termination, math::Termination::converged) << result.message;
+  ASSERT_EQ(result.estimates.size(), 25U);
+  for (const ParameterEstimate& e : result.estimates) {
+    const double truth = true_value(study, e);
+    EXPECT_NEAR(e.estimate, truth, 1e-6 * truth) << e.muscle << " " << e.parameter;
+    EXPECT_GT(std::abs(e.initial - truth), 0.02 * truth) << "the start was the truth already";
+    EXPECT_EQ(e.verdict, Verdict::identified) << e.muscle << " " << e.parameter << ": " << e.reason;
+  }
+  for (const TrialFit& fit : result.trials) EXPECT_GT(fit.r2, 1.0 - 1e-10);
+}
+
+TEST(IdentifyTorque, IntervalsHoldTheTruthAsOftenAsTheySay) {
+  // Truth drawn from the priors, torque noise of 1 N m, EMG noise of 10 % below 6 Hz: 10 studies of
+  // 25 parameters. Nominal 95 %; the 25 of a study err together, which leaves a standard deviation
+  // of some 3 %.
+  int inside = 0;
+  int total = 0;
+  double squares = 0.0;
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    const ElbowStudy study = elbow_study({.emg_cv = 0.1,
+                                          .torque_sd_nm = 1.0,
+                                          .truth_from_prior = true,
+                                          .with_priors = true,
+                                          .seed = seed});
+    const IdentificationResult result = identify_torque(study.data, {.starts = 1});
+    ASSERT_EQ(result.termination, math::Termination::converged) << result.message;
+    for (const ParameterEstimate& e : result.estimates) {
+      ASSERT_TRUE(e.ci_low && e.ci_high) << e.parameter;
+      const double truth = true_value(study, e);
+      inside += *e.ci_low <= truth && truth <= *e.ci_high ? 1 : 0;
+      squares += std::pow(4.0 * (e.estimate - truth) / (*e.ci_high - *e.ci_low), 2);
+      ++total;
+    }
+  }
+  EXPECT_GT(inside, 0.88 * total);
+  const double spread =
+      std::sqrt(squares / total);  // about 1 if the intervals are neither too narrow nor too wide
+  EXPECT_GT(spread, 0.7);
+  EXPECT_LT(spread, 1.4);
+}
+
+TEST(IdentifyTorque, ForceAndDelayComeOutOfNoisyRecordings) {
+  const ElbowStudy study = elbow_study(
+      {.delay_s = 0.08, .emg_cv = 0.1, .torque_sd_nm = 1.0, .with_priors = true, .seed = 3});
+  const IdentificationResult result = identify_torque(study.data);
+  EXPECT_NEAR(result.delay_s, 0.08, 0.012);
+  for (std::size_t k = 0; k < 4; ++k) {
+    const double truth = study.truth[k].max_isometric_force_n;
+    EXPECT_NEAR(result.muscles[k].max_isometric_force_n, truth, 0.2 * truth)
+        << study.data.muscles[k].name;
+    EXPECT_NEAR(result.muscles[k].optimal_fiber_length_m, study.truth[k].optimal_fiber_length_m,
+                0.1 * study.truth[k].optimal_fiber_length_m);
+  }
+}
+
+TEST(IdentifyTorque, TwiceTheSameInputIsTwiceTheSameResult) {
+  const ElbowStudy study = elbow_study(
+      {.trials = 2, .seconds = 8.0, .emg_cv = 0.1, .torque_sd_nm = 1.0, .with_priors = true});
+  const IdentificationResult first = identify_torque(study.data);
+  const IdentificationResult second = identify_torque(study.data);
+  for (std::size_t j = 0; j < first.estimates.size(); ++j)
+    EXPECT_EQ(first.estimates[j].estimate, second.estimates[j].estimate);
+}
+
+TEST(IdentifyTorque, AWrongTendonLengthGoesIntoTheOptimalFiberLengthAlone) {
+  // f_l depends on l_mt - l_ts - l0: with a rigid tendon l_ts and l0 are one parameter.
+  ElbowStudy study = elbow_study({.trials = 2});
+  study.data.muscles[0].start.tendon_slack_length_m += 0.004;
+  const IdentificationResult result =
+      identify_torque(study.data, {.priors = false, .weights = false});
+  for (const ParameterEstimate& e : result.estimates) {
+    const double shift = e.muscle == "BIC" && e.parameter == "optimal_fiber_length" ? -0.004 : 0.0;
+    EXPECT_NEAR(e.estimate, true_value(study, e) + shift, 1e-6) << e.muscle << " " << e.parameter;
+  }
+}
+
+TEST(IdentifyTorque, TwoMusclesOnOneSignalAndOnePathAreNotToldApart) {
+  ElbowStudy study = elbow_study({.trials = 2});
+  MuscleSetup twin = study.data.muscles[0];
+  twin.name = "TWIN";
+  study.data.muscles.push_back(twin);
+  for (TrialData& trial : study.data.trials) {
+    for (Eigen::MatrixXd* m :
+         {&trial.length_m, &trial.velocity_mps, &trial.moment_arm_m, &trial.force_n}) {
+      m->conservativeResize(m->rows(), 5);
+      m->col(4) = m->col(0);
+    }
+  }
+  const IdentificationResult result =
+      identify_torque(study.data, {.priors = false, .weights = false, .starts = 1});
+  for (const char* muscle : {"BIC", "TWIN"}) {
+    const ParameterEstimate& e = find(result, muscle, "max_isometric_force");
+    EXPECT_EQ(e.verdict, Verdict::not_identifiable);
+    EXPECT_FALSE(e.std_error);
+  }
+  EXPECT_EQ(find(result, "TRI", "max_isometric_force").verdict, Verdict::identified);
+}
+
+TEST(IdentifyTorque, ATrialOnlyInLengtheningSaysNothingAboutShortening) {
+  // Only the stretches in which BIC lengthens: V_sh does not act there, P and V_ml do.
+  ElbowStudy study = elbow_study({.trials = 1, .seconds = 60.0});
+  study.data.muscles.resize(1);
+  TrialData& trial = study.data.trials[0];
+  const Eigen::Index n = trial.time_s.size();
+  for (Eigen::MatrixXd* m :
+       {&trial.length_m, &trial.velocity_mps, &trial.moment_arm_m, &trial.force_n}) {
+    m->conservativeResize(n, 1);
+  }
+  trial.velocity_mps = trial.velocity_mps.cwiseAbs();
+  Eigen::MatrixXd activation = muscle_activation(study.data, trial, trial.time_s, study.delay_s);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    trial.torque_nm[i] =
+        trial.moment_arm_m(i, 0) *
+        muscle::hill_force(activation(i, 0),
+                           trial.length_m(i, 0) - study.truth[0].tendon_slack_length_m,
+                           trial.velocity_mps(i, 0), study.truth[0]);
+  }
+  const IdentificationResult result =
+      identify_torque(study.data, {.priors = false, .weights = false, .starts = 1});
+  const ParameterEstimate& shortening = find(result, "BIC", "concentric_curvature");
+  EXPECT_EQ(shortening.verdict, Verdict::not_identifiable);
+  EXPECT_EQ(shortening.estimate, shortening.initial);
+  for (const char* parameter : {"eccentric_curvature_product", "eccentric_plateau"}) {
+    const ParameterEstimate& e = find(result, "BIC", parameter);
+    EXPECT_NEAR(e.estimate, true_value(study, e), 1e-5) << parameter;
+    EXPECT_EQ(e.verdict, Verdict::identified) << e.reason;
+  }
+}
+
+TEST(IdentifyTorque, AGainOfTheEmgIsInheritedByTheForceAndWidensItsInterval) {
+  const ElbowStudy study = elbow_study({.torque_sd_nm = 0.5, .with_priors = true});
+  const IdentificationResult sure = identify_torque(study.data, {.starts = 1});
+  const IdentificationResult unsure =
+      identify_torque(study.data, {.gain_prior_sd = {{"BIC", 0.15}}, .starts = 1});
+  EXPECT_GT(*find(unsure, "BIC", "max_isometric_force").std_error,
+            1.5 * *find(sure, "BIC", "max_isometric_force").std_error);
+  EXPECT_NEAR(*find(unsure, "TRI", "max_isometric_force").std_error,
+              *find(sure, "TRI", "max_isometric_force").std_error,
+              0.1 * *find(sure, "TRI", "max_isometric_force").std_error);
+  EXPECT_EQ(find(unsure, "BIC", "emg_gain").verdict, Verdict::prior_dominated);
+}
+
+TEST(IdentifyTorque, HeldParametersStayAndOthersTakeTheirBounds) {
+  ElbowStudy study = elbow_study({.trials = 2, .seconds = 10.0});
+  study.data.muscles[1].fixed = {"concentric_curvature", "force_length_width"};
+  study.data.muscles[2].bounds["optimal_fiber_length"] = {0.165, 0.175};
+  const IdentificationResult result = identify_torque(
+      study.data, {.muscles = {"BRA", "BRD"}, .priors = false, .delay_s = 0.05, .weights = false});
+  EXPECT_EQ(result.estimates.size(), 4U + 6U);
+  EXPECT_EQ(result.muscles[0].max_isometric_force_n,
+            study.data.muscles[0].start.max_isometric_force_n);
+  EXPECT_EQ(result.muscles[1].concentric_curvature,
+            study.data.muscles[1].start.concentric_curvature);
+  EXPECT_GE(result.muscles[2].optimal_fiber_length_m, 0.165);
+  EXPECT_LE(result.muscles[2].optimal_fiber_length_m, 0.175);
+  EXPECT_EQ(result.delay_s, 0.05);
+}
+
+TEST(IdentifyTorque, RefusesWhatDoesNotFitTogether) {
+  ElbowStudy study = elbow_study({.trials = 1, .seconds = 5.0});
+  {
+    StudyData data = study.data;
+    data.trials[0].length_m.conservativeResize(10, 4);
+    EXPECT_THROW((void)identify_torque(data), InvalidInput);
+  }
+  {
+    StudyData data = study.data;
+    data.muscles[2].emg_channel = "nowhere";
+    EXPECT_THROW((void)identify_torque(data), InvalidInput);
+  }
+  {
+    StudyData data = study.data;
+    data.trials[0].torque_nm[7] = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_THROW((void)identify_torque(data), InvalidInput);
+  }
+  {
+    StudyData data = study.data;
+    data.trials[0].calibration = false;
+    EXPECT_THROW((void)identify_torque(data), InvalidInput);
+  }
+}
+
+}  // namespace
+}  // namespace myoid::identification
