@@ -56,7 +56,12 @@ Hill draw(const TruthSpec& spec, const Hill& literature, double shared_strength,
 }
 
 bool sensible(const Hill& p) {
-  return p.optimal_fiber_length_m > 0.0 &&
+  const bool alive = std::all_of(
+      muscle::kHillFields.begin(), muscle::kHillFields.end(), [&p](const muscle::HillField& field) {
+        const double value = p.*(field.member);
+        return value >= field.bounds.lower && value <= field.bounds.upper;
+      });
+  return alive && p.optimal_fiber_length_m > 0.0 &&
          p.force_length_width_m >= kLeastWidth * p.optimal_fiber_length_m &&
          p.eccentric_plateau >= kLeastPlateau;
 }

@@ -11,7 +11,8 @@ namespace myoid::simulation {
 /// 0.12 l_0, ln V_sh 0.3, ln v_max 0.2, V_ml 0.15, ln S 0.5 (slope of f_v in lengthening over that
 /// in shortening, whence V_sh V_shl = (V_ml - 1) V_sh / (S (1 + V_sh))), l_ts 3 %. What `spec.vary`
 /// does not name stays at the literature; what `spec.values` gives is taken from there. Draws
-/// without physical sense (l_sh < 0.2 l_0, V_ml < 1.05) are drawn again.
+/// without physical sense (l_sh < 0.2 l_0, V_ml < 1.05, or beyond the bounds of
+/// muscle::kHillFields) are drawn again.
 [[nodiscard]] HillSet draw_muscles(const TruthSpec& spec,
                                    const HillSet& literature,
                                    Random& random);
