@@ -1,0 +1,18 @@
+#pragma once
+
+#include <string>
+
+#include "myoid/core/provenance.h"
+#include "myoid/pipeline/run_study.h"
+#include "myoid/report/report.h"
+
+namespace myoid::pipeline {
+
+/// Everything a person needs of a run: quality gates, the parameters with intervals and verdicts (the source paper's tables I and II among them),
+/// its figures 2, 6 and 8-10, the held-out torque, what was assumed.
+[[nodiscard]] report::Report study_report(const StudyResult& result, const Provenance& provenance);
+
+/// The full options of a study, defaults included, as JSON.
+[[nodiscard]] std::string study_json(const Study& study);
+
+}  // namespace myoid::pipeline
