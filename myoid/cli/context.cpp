@@ -44,7 +44,7 @@ void Context::log(std::string_view line) const {
 
 void Context::warn(std::string_view line) const {
   if (quiet) return;
-  fmt::print(stderr, color_wanted() ? "\033[33mwarning:\033[0m {}\n" : "warning: {}\n", line);
+  fmt::print(stderr, "{}warning:{} {}\n", color_wanted() ? "\033[33m" : "", color_wanted() ? "\033[0m" : "", line);
 }
 
 Progress Context::progress() const {

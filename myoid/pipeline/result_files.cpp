@@ -243,6 +243,7 @@ void write_results(const StudyResult& result, const Provenance& provenance, cons
   recording::write_file(folder / "parameters.json", parameters_json(result.methods, result.folds, provenance));
   recording::write_file(folder / "parameters.csv", parameters_csv(result.methods));
   ordered_json run = provenance_json(provenance);
+  run["study"] = std::filesystem::absolute(result.study.file).string();
   run["seconds"] = ordered_json::object();
   for (const StageTime& stage : result.times) run["seconds"][stage.stage] = stage.seconds;
   run["trials"] = ordered_json::array();

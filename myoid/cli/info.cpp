@@ -1,0 +1,202 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "myoid/cli/context.h"
+#include "myoid/core/error.h"
+#include "myoid/model/osim_reader.h"
+#include "myoid/pipeline/study.h"
+#include "myoid/recording/csv_reader.h"
+#include "myoid/recording/storage_reader.h"
+#include "myoid/recording/trc_reader.h"
+
+namespace myoid::cli {
+namespace {
+
+using nlohmann::ordered_json;
+
+ordered_json repairs_json(const std::vector<recording::Repair>& repairs) {
+  ordered_json list = ordered_json::array();
+  for (const recording::Repair& r : repairs) list.push_back(r.line > 0 ? fmt::format("line {}: {}", r.line, r.message) : r.message);
+  return list;
+}
+
+ordered_json series_json(const TimeSeries& series) {
+  ordered_json j;
+  j["samples"] = series.sample_count();
+  j["start_s"] = series.time_s()[0];
+  j["duration_s"] = series.time_s()[series.sample_count() - 1] - series.time_s()[0];
+  j["rate_hz"] = series.mean_rate_hz();
+  j["evenly_sampled"] = series.is_uniform();
+  j["channels"] = ordered_json::array();
+  for (std::size_t c = 0; c < series.channels().size(); ++c) {
+    const Eigen::VectorXd x = series.values().col(static_cast<Eigen::Index>(c));
+    double low = INFINITY;
+    double high = -INFINITY;
+    int gaps = 0;
+    for (const double v : x) {
+      if (std::isfinite(v)) {
+        low = std::min(low, v);
+        high = std::max(high, v);
+      } else {
+        ++gaps;
+      }
+    }
+    ordered_json channel{{"name", series.channels()[c].name}};
+    if (series.channels()[c].unit != Unit::dimensionless) channel["unit"] = std::string(symbol(series.channels()[c].unit));
+    if (low <= high) {
+      channel["lowest"] = low;
+      channel["highest"] = high;
+    }
+    if (gaps > 0) channel["gaps"] = gaps;
+    j["channels"].push_back(channel);
+  }
+  return j;
+}
+
+ordered_json trc_json(const std::filesystem::path& path) {
+  const recording::TrcFile file = recording::read_trc(path);
+  ordered_json j{{"kind", "markers (.trc)"}, {"unit", file.unit}, {"frames", file.markers.frame_count()}};
+  const auto& t = file.markers.time_s;
+  j["start_s"] = t[0];
+  j["duration_s"] = t[t.size() - 1] - t[0];
+  j["rate_hz"] = t.size() > 1 ? static_cast<double>(t.size() - 1) / (t[t.size() - 1] - t[0]) : 0.0;
+  j["markers"] = ordered_json::array();
+  for (Eigen::Index m = 0; m < file.markers.marker_count(); ++m) {
+    Eigen::Index missing = 0;
+    for (Eigen::Index f = 0; f < file.markers.frame_count(); ++f) missing += file.markers.missing(f, m) ? 1 : 0;
+    ordered_json marker{{"name", file.markers.names[static_cast<std::size_t>(m)]}};
+    if (missing > 0) marker["missing_frames"] = missing;
+    j["markers"].push_back(marker);
+  }
+  j["repairs"] = repairs_json(file.repairs);
+  return j;
+}
+
+ordered_json storage_json(const std::filesystem::path& path) {
+  const recording::Storage file = recording::read_storage(path);
+  ordered_json j{{"kind", "storage (.mot, .sto)"}, {"title", file.title}, {"angles", file.in_degrees ? "degrees" : "radians"}};
+  j.update(series_json(file.data));
+  j["repairs"] = repairs_json(file.repairs);
+  return j;
+}
+
+ordered_json csv_json(const std::filesystem::path& path) {
+  const recording::CsvTable table = recording::read_csv_table(path);
+  try {
+    const recording::CsvSeries file = recording::read_csv_series(path);
+    ordered_json j{{"kind", "time series (.csv)"}};
+    j.update(series_json(file.data));
+    j["repairs"] = repairs_json(file.repairs);
+    return j;
+  } catch (const ReadError&) {
+    return {{"kind", "table (.csv)"}, {"rows", table.rows.size()}, {"columns", table.names}};
+  }
+}
+
+ordered_json osim_json(const std::filesystem::path& path) {
+  const model::BodyModel m = model::read_osim(path);
+  ordered_json j{{"kind", "OpenSim model"}, {"name", m.name}};
+  double mass = 0.0;
+  for (std::size_t b = 1; b < m.bodies.size(); ++b) {
+    mass += m.bodies[b].mass_kg;
+    j["bodies"].push_back(fmt::format("{} ({:.4g} kg)", m.bodies[b].name, m.bodies[b].mass_kg));
+  }
+  j["mass_kg"] = mass;
+  j["gravity_mps2"] = {m.gravity_G.x(), m.gravity_G.y(), m.gravity_G.z()};
+  for (const model::Joint& joint : m.joints) {
+    j["joints"].push_back(fmt::format("{} ({}): {} -> {}", joint.name, joint.class_name, m.bodies[static_cast<std::size_t>(joint.parent)].name, m.bodies[static_cast<std::size_t>(joint.child)].name));
+  }
+  for (const model::Coordinate& c : m.coordinates) {
+    const bool angle = c.motion == model::MotionType::rotational;
+    const double scale = angle ? 1.0 / kDegree : 1.0;
+    j["coordinates"].push_back(fmt::format("{} [{}] {:.4g} to {:.4g}{}", c.name, angle ? "deg" : c.motion == model::MotionType::translational ? "m" : "coupled", c.lower * scale, c.upper * scale, c.locked ? ", locked" : ""));
+  }
+  j["muscles"] = ordered_json::array();
+  for (const model::Muscle& muscle : m.muscles) {
+    j["muscles"].push_back(fmt::format("{} ({}): F_max {:.4g} N, l0 {:.4g} m, tendon {:.4g} m, {} points, {} wraps", muscle.name, muscle.class_name, muscle.properties.max_isometric_force_n,
+                                       muscle.properties.optimal_fiber_length_m, muscle.properties.tendon_slack_length_m, muscle.path.points.size(), muscle.path.wraps.size()));
+  }
+  for (const model::Marker& marker : m.markers) j["markers"].push_back(marker.name);
+  j["not_supported"] = m.unsupported;
+  j["notes"] = m.notes;
+  return j;
+}
+
+ordered_json study_file_json(const std::filesystem::path& path) {
+  const pipeline::Study study = pipeline::read_study(path);
+  ordered_json j{{"kind", "study"}, {"subject", study.subject.name}, {"coordinate", study.model.coordinate}, {"methods", study.identify.methods}};
+  for (const auto& m : study.muscles) j["muscles"].push_back(fmt::format("{} <- EMG {}", m.name, m.emg));
+  for (const auto& t : study.trials) j["trials"].push_back(fmt::format("{} ({})", t.name, name(t.use)));
+  return j;
+}
+
+ordered_json file_json(const std::filesystem::path& path) {
+  std::string extension = path.extension().string();
+  for (char& c : extension) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c;
+  if (extension == ".trc") return trc_json(path);
+  if (extension == ".mot" || extension == ".sto") return storage_json(path);
+  if (extension == ".csv" || extension == ".tsv") return csv_json(path);
+  if (extension == ".osim") return osim_json(path);
+  if (extension == ".toml") return study_file_json(path);
+  (void)recording::read_text_file(path);  // a missing or empty file is told as such
+  throw ReadError(path, 0, fmt::format("files of kind '{}' are not known; known are .trc, .mot, .sto, .csv, .osim and .toml", extension));
+}
+
+void print(const ordered_json& j, int indent) {
+  const std::string space(static_cast<std::size_t>(indent), ' ');
+  for (const auto& [key, value] : j.items()) {
+    std::string label = key;
+    std::replace(label.begin(), label.end(), '_', ' ');
+    if (value.is_array()) {
+      if (value.empty()) continue;
+      const bool vector = value[0].is_number();
+      if (vector) {
+        fmt::print("{}{}: {}\n", space, label, value.dump());
+        continue;
+      }
+      fmt::print("{}{} ({}):\n", space, label, value.size());
+      for (const auto& item : value) {
+        if (item.is_string()) {
+          fmt::print("{}  {}\n", space, item.get<std::string>());
+        } else {
+          std::string line;
+          for (const auto& [k, v] : item.items()) {
+            line += line.empty() ? "" : k == "unit" ? " [" : "  ";
+            line += k == "name" ? v.get<std::string>() : k == "unit" ? v.get<std::string>() + "]" : fmt::format("{} {}", k, v.is_number_float() ? fmt::format("{:.5g}", v.get<double>()) : v.dump());
+          }
+          fmt::print("{}  {}\n", space, line);
+        }
+      }
+    } else {
+      fmt::print("{}{}: {}\n", space, label, value.is_string() ? value.get<std::string>() : value.is_number_float() ? fmt::format("{:.6g}", value.get<double>()) : value.dump());
+    }
+  }
+}
+
+}  // namespace
+
+void add_info(CLI::App& app, Context& context) {
+  CLI::App& command = *app.add_subcommand("info", "Says what a file holds: channels, units, rates, duration, gaps, repairs; of a model also what is not supported.\n"
+                                                  "Example: myoid info arm.osim flex.trc");
+  const auto files = std::make_shared<std::vector<std::string>>();
+  command.add_option("files", *files, ".trc, .mot, .sto, .csv, .osim or study.toml")->required();
+  add_common_options(command, context);
+  command.callback([&context, files] {
+    ordered_json all = ordered_json::array();
+    for (const std::string& file : *files) {
+      ordered_json j{{"file", file}};
+      j.update(file_json(file));
+      if (!context.json) {
+        print(j, 0);
+        if (files->size() > 1) fmt::print("\n");
+      }
+      all.push_back(std::move(j));
+    }
+    if (context.json) fmt::print("{}\n", all.dump(2));
+  });
+}
+
+}  // namespace myoid::cli
