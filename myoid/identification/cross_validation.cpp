@@ -34,6 +34,7 @@ std::vector<Fold> cross_validate(const StudyData& data, const TorqueOptions& opt
     training.trials[held[f]].calibration = false;
     TorqueOptions once = options;
     once.starts = 1;
+    once.passes = once.warm_start.size() > 0 ? 2 : once.passes;  // the noise hardly changes with one trial
     once.progress.report = nullptr;
     const IdentificationResult fit = identify_torque(training, once);
     const TrialData& trial = data.trials[held[f]];

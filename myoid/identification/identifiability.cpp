@@ -46,8 +46,11 @@ void judge(ParameterEstimate& e, const VerdictContext& context, const VerdictRul
     e.reason = std::move(reason);
   };
   if (!std::isfinite(e.estimate)) return set(Verdict::not_identifiable, context.failure.empty() ? "the fit gave no number" : context.failure);
+  if (!context.converged && !context.outside_physical) return set(Verdict::not_identifiable, "the fit did not converge: " + context.failure);
   if (context.outside_physical) return set(Verdict::non_physical, diagnosis(e));
-  if (!context.converged) return set(Verdict::not_identifiable, "the fit did not converge: " + context.failure);
+  if (!context.bad_company.empty()) {
+    return set(Verdict::not_identifiable, fmt::format("the same fit puts {} where no muscle can be: none of its numbers describes the muscle", context.bad_company));
+  }
   if (e.at_bound) {
     return set(Verdict::not_identifiable, "the best fit leans on a bound: the recording pulls beyond what is physically possible");
   }
@@ -71,7 +74,9 @@ void judge(ParameterEstimate& e, const VerdictContext& context, const VerdictRul
     return set(Verdict::not_identifiable, "the movements are too slow to show a delay");
   }
   const double relative = half / std::max(std::abs(e.estimate), 1e-300);
-  if (relative <= rules.identified_half_width) {
+  if (context.prior_distance > rules.prior_conflict && relative <= rules.weak_half_width) {
+    set(Verdict::weak, fmt::format("{:.1f} spreads away from what is known of this muscle: a simplification of the model, or the EMG, may be what is fitted", context.prior_distance));
+  } else if (relative <= rules.identified_half_width) {
     set(Verdict::identified, fmt::format("known to {:.1f} %", 100.0 * relative));
   } else if (relative <= rules.weak_half_width) {
     set(Verdict::weak, fmt::format("known only to {:.0f} %", 100.0 * relative));

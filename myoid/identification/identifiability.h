@@ -11,6 +11,7 @@ struct VerdictRules {
   double least_shrinkage = 0.30;        ///< Below, the value is `prior_dominated`.
   double delay_identified_s = 0.015;    ///< The same for the EMG delay, absolute.
   double delay_weak_s = 0.05;
+  double prior_conflict = 3.0;          ///< Spreads of the prior away from its mean: at most `weak`.
   double flat_plateau = 1.02;           ///< V_ml whose interval reaches below says nothing about P.
 };
 
@@ -22,6 +23,8 @@ struct VerdictContext {
   bool from_mvc = true;            ///< EMG relative to a maximal contraction.
   bool plateau_is_flat = false;    ///< V_ml of the same muscle not clearly above 1.
   bool outside_physical = false;   ///< Value outside the physical bounds of its field.
+  double prior_distance = 0.0;     ///< |estimate - prior mean| in spreads of the prior; 0 without a prior.
+  std::string bad_company;         ///< Parameter of the same fit that left physiology; empty: none.
 };
 
 /// Fills `verdict` and `reason` of an estimate whose numbers stand.

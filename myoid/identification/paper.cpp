@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "myoid/core/error.h"
@@ -114,6 +115,11 @@ void fit_case(const StudyData& data, std::size_t muscle, bool shortening, const 
     }
   }
   result.iterations += fit.iterations;
+  // l_sh enters squared: its sign means nothing.
+  fit.x[1] = std::abs(fit.x[1]);
+  for (Eigen::Index j = 0; j < p; ++j) {
+    if (!(std::abs(fit.x[j]) <= 1e3 * std::abs(start[j]))) failure = "plain Gauss-Newton steps diverged";
+  }
   if (!failure.empty()) result.message += fmt::format("{}, {}: {}. ", setup.name, shortening ? "shortening" : "lengthening", failure);
 
   math::CovarianceResult covariance;
@@ -126,6 +132,14 @@ void fit_case(const StudyData& data, std::size_t muscle, bool shortening, const 
     result.effective_samples += effective;
   }
   const double quantile = math::normal_quantile(0.975);
+  const auto unphysical = [&](Eigen::Index j) {
+    const muscle::Range bounds = list[static_cast<std::size_t>(j)].field->bounds;
+    return fit.x[j] != start[j] && std::isfinite(fit.x[j]) && (fit.x[j] < bounds.lower || fit.x[j] > bounds.upper);
+  };
+  std::string bad_company;
+  for (Eigen::Index j = 0; j < p; ++j) {
+    if (unphysical(j)) bad_company = std::string(list[static_cast<std::size_t>(j)].field->name);
+  }
   for (Eigen::Index j = 0; j < p; ++j) {
     const muscle::HillField& field = *list[static_cast<std::size_t>(j)].field;
     ParameterEstimate e;
@@ -135,8 +149,9 @@ void fit_case(const StudyData& data, std::size_t muscle, bool shortening, const 
     e.method = "paper";
     e.fit_case = shortening ? "shortening" : "lengthening";
     e.initial = start[j];
-    e.estimate = fit.x[j];
+    e.estimate = std::abs(fit.x[j]) <= 1e3 * std::abs(start[j]) ? fit.x[j] : std::numeric_limits<double>::quiet_NaN();
     VerdictContext context;
+    context.bad_company = bad_company;
     context.converged = failure.empty();
     context.failure = failure;
     context.determined = computed && covariance.determined[static_cast<std::size_t>(j)];
@@ -145,8 +160,7 @@ void fit_case(const StudyData& data, std::size_t muscle, bool shortening, const 
       e.ci_low = e.estimate - quantile * *e.std_error;
       e.ci_high = e.estimate + quantile * *e.std_error;
     }
-    const bool moved = e.estimate != e.initial;
-    context.outside_physical = moved && std::isfinite(e.estimate) && (e.estimate < field.bounds.lower || e.estimate > field.bounds.upper);
+    context.outside_physical = unphysical(j);
     if (!shortening && p == 4 && std::isfinite(fit.x[3])) {
       const double sd = computed ? std::sqrt(covariance.unscaled(3, 3) * covariance.residual_variance * widen) : 0.0;
       context.plateau_is_flat = std::abs(fit.x[3] - 1.0) < quantile * sd;

@@ -62,6 +62,7 @@ struct IdentificationResult {
   std::vector<ParameterEstimate> estimates;
   std::vector<muscle::HillParameters<double>> muscles;  ///< With the estimates (method torque).
   double delay_s = 0.0;
+  Eigen::VectorXd solution;                  ///< In the solver's scale (method torque).
   Eigen::MatrixXd covariance;                ///< Of the free parameters in solver's scale (logarithms where logarithmic).
   std::vector<std::string> free_parameters;  ///< Its rows.
   std::vector<std::string> collinear;        ///< Pairs that the data hardly tell apart, as sentences.

@@ -17,8 +17,6 @@
 namespace myoid::identification {
 namespace {
 
-constexpr int kPasses = 4;
-
 /// Two noise levels: torque, and what is multiplied by the EMG.
 struct NoiseModel {
   double torque_sd_nm = 1.0;
@@ -87,10 +85,12 @@ class Fit {
       noise_.share = 0.25;
       sd_.setConstant(noise_.torque_sd_nm);
     }
-    for (int pass = 0; pass < (options_.weights ? kPasses : 1); ++pass) {
-      fit = math::minimize(problem(), x, {.max_iterations = 200, .step_tolerance = options_.weights ? 1e-8 : 1e-13, .cost_tolerance = options_.weights ? 1e-10 : 1e-15, .progress = options_.progress});
+    if (!options_.weights) return minimize(x, 200, 1e-13, 1e-15);
+    for (int pass = 0; pass < options_.passes; ++pass) {
+      // Only the last pass needs all digits: the weights still move before.
+      const bool last = pass + 1 == options_.passes;
+      fit = minimize(x, 200, last ? 1e-8 : 1e-5, last ? 1e-10 : 1e-5);
       x = fit.x;
-      if (!options_.weights) break;
       model_.evaluate(x, predicted, nullptr, &power);
       const Eigen::VectorXd residual = predicted - model_.torque();
       const double freedom = std::max(0.2, 1.0 - static_cast<double>(model_.free().size()) / std::max(10.0, noise_.share * static_cast<double>(n)));
@@ -102,6 +102,9 @@ class Fit {
     }
     return fit;
   }
+
+  /// A short search from another start with the weights as they stand after `run`.
+  [[nodiscard]] math::LeastSquaresResult glance(const Eigen::VectorXd& start) { return minimize(start, 40, 1e-4, 1e-4); }
 
   /// Covariance of z: A^-1 B A^-1.
   [[nodiscard]] Eigen::MatrixXd covariance(const Eigen::VectorXd& z) const {
@@ -147,6 +150,10 @@ class Fit {
   }
 
  private:
+  [[nodiscard]] math::LeastSquaresResult minimize(const Eigen::VectorXd& start, int iterations, double step, double cost) const {
+    return math::minimize(problem(), start, {.max_iterations = iterations, .step_tolerance = step, .cost_tolerance = cost, .progress = options_.progress});
+  }
+
   [[nodiscard]] math::LeastSquaresProblem problem() const {
     math::LeastSquaresProblem p;
     const Eigen::Index n = model_.sample_count();
@@ -235,6 +242,7 @@ void report_parameters(const Fit& search, const math::LeastSquaresResult& fit, c
       e.shrinkage = 1.0 - sd * sd / (p.prior_sd * p.prior_sd);
     }
     VerdictContext context;
+    if (p.prior_sd > 0.0) context.prior_distance = std::abs(fit.x[at] - p.prior_mean) / p.prior_sd;
     context.determined = by_data_or_prior;
     context.converged = fit.termination == math::Termination::converged;
     context.failure = fit.message;
@@ -289,25 +297,30 @@ IdentificationResult identify_torque(const StudyData& data, const TorqueOptions&
   Eigen::VectorXd start(static_cast<Eigen::Index>(free.size()));
   for (std::size_t j = 0; j < free.size(); ++j) start[static_cast<Eigen::Index>(j)] = free[j].start;
 
-  // The given start, and starts moved by a part of the prior or of the value in alternating directions.
-  math::LeastSquaresResult best;
-  std::optional<Fit> best_search;
-  double best_misfit = std::numeric_limits<double>::infinity();
-  for (int s = 0; s < std::max(1, options.starts); ++s) {
+  if (options.warm_start.size() == start.size()) start = options.warm_start;
+
+  // The given start, and starts moved by a spread of the prior (or a part of the value) in alternating directions.
+  math::LeastSquaresResult best = search.run(start);
+  std::optional<Fit> best_search(search);
+  for (int s = 1; s < options.starts; ++s) {
     Eigen::VectorXd x = start;
-    for (std::size_t j = 0; j < free.size() && s > 0; ++j) {
+    for (std::size_t j = 0; j < free.size(); ++j) {
       const auto at = static_cast<Eigen::Index>(j);
       const double step = free[j].prior_sd > 0.0 ? free[j].prior_sd : free[j].logarithmic ? 0.3 : 0.1 * std::abs(free[j].start);
       const double sign = (j + static_cast<std::size_t>(s)) % 2 == 0 ? 1.0 : -1.0;
       x[at] = std::clamp(x[at] + sign * step, free[j].lower, free[j].upper);
     }
-    Fit attempt(data, options);
+    if (options.weights) {
+      // Most starts lead to the same minimum: a glance tells, at the same weights.
+      const math::LeastSquaresResult look = search.glance(x);
+      if (!(look.cost < (1.0 - 1e-3) * best.cost)) continue;
+      x = look.x;
+    }
+    Fit attempt(search);
     const math::LeastSquaresResult fit = attempt.run(x);
-    const double value = misfit(fit, attempt, options.weights);
-    if (s == 0 || value < best_misfit - 1e-6 * std::abs(best_misfit)) {
-      best_misfit = value;
+    if (misfit(fit, attempt, options.weights) < misfit(best, *best_search, options.weights)) {
       best = fit;
-      best_search.emplace(std::move(attempt));
+      best_search.emplace(attempt);
     }
   }
   const Fit& chosen = *best_search;
@@ -322,6 +335,7 @@ IdentificationResult identify_torque(const StudyData& data, const TorqueOptions&
   result.effective_samples = chosen.noise().share * static_cast<double>(chosen.model().sample_count());
   result.torque_sd_nm = chosen.noise().torque_sd_nm;
   result.emg_cv = chosen.noise().emg_cv;
+  result.solution = best.x;
   result.muscles = chosen.model().muscles(best.x);
   result.delay_s = chosen.model().delay_s(best.x);
   result.covariance = chosen.covariance(best.x);

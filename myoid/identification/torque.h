@@ -25,7 +25,9 @@ struct TorqueOptions {
   /// up than what tells muscles apart: what is cut off would only pull F_max towards zero (errors in the regressors). Empty: not at all.
   std::optional<double> residual_cutoff_hz = 2.0;
   bool weights = true;                ///< Heteroscedastic weights and the effective number of samples; false: plain least squares.
+  int passes = 4;                     ///< Of finding the noise and weighting by it.
   int starts = 3;                     ///< The given start and moved ones; the best is kept.
+  Eigen::VectorXd warm_start;         ///< IdentificationResult::solution of a kindred fit, to begin there; empty: the muscles' start.
   bool from_mvc = true;               ///< For the verdicts.
   Progress progress;
 };

@@ -309,7 +309,11 @@ StudyResult run_study(const Study& study, const RunOptions& options) {
   const bool torque = std::find(study.identify.methods.begin(), study.identify.methods.end(), "torque") != study.identify.methods.end();
   if (study.identify.cross_validate && torque) {
     stages.run("cross-validation", 0.85, [&] {
-      result.folds = identification::cross_validate(result.data, torque_options(study, result, options.progress));
+      identification::TorqueOptions fold_options = torque_options(study, result, options.progress);
+      for (const identification::IdentificationResult& method : result.methods) {
+        if (method.method == "torque") fold_options.warm_start = method.solution;
+      }
+      result.folds = identification::cross_validate(result.data, fold_options);
     });
   }
   options.progress.tell(1.0, "done");
