@@ -63,8 +63,7 @@ void judge(ParameterEstimate& e, const VerdictContext& context, const VerdictRul
   }
   if (e.shrinkage && *e.shrinkage < rules.least_shrinkage) {
     return set(Verdict::prior_dominated,
-               fmt::format("the recording narrows the prior knowledge by only {:.0f} %: the value is mostly the literature's; record faster and loaded "
-                           "movements, and holds at several angles",
+               fmt::format("mostly the literature's value: the recording narrows it by only {:.0f} %",
                            100.0 * std::max(0.0, *e.shrinkage)));
   }
   const double half = 0.5 * (*e.ci_high - *e.ci_low);

@@ -54,7 +54,7 @@ void calibrate(const CalibrationSpec& spec, const recording::MarkerSeries& marke
   window.time_s = markers.time_s.segment(first, last - first);
   window.positions_m = markers.positions_m.middleRows(first, last - first);
   const kinematics::IkResult pose = kinematics::inverse_kinematics(posed, window);
-  for (const std::string& name : spec.free) {
+  for (const std::string& name : spec.hold) {
     Eigen::VectorXd values = pose.q.column(name);
     std::nth_element(values.begin(), values.begin() + values.size() / 2, values.end());
     model::Coordinate& c = model.coordinates[static_cast<std::size_t>(model.coordinate_index(name))];

@@ -108,6 +108,7 @@ IkSpec read_ik(TomlTable table) {
       calibrate->fail("window_s", "expected [start, end] in seconds, start before end");
     }
     spec.free = calibrate->texts("free").value_or(spec.free);
+    spec.hold = calibrate->texts("hold").value_or(spec.free);
     if (spec.free.empty()) calibrate->fail("free", "expected the coordinates to find in the window");
     calibrate->finish();
     ik.calibrate = spec;

@@ -55,7 +55,8 @@ struct MarkerSpec {
 /// Coordinates that are measured once, in a posture that is known, and then held.
 struct CalibrationSpec {
   std::vector<double> window_s;   ///< Start and end in the trial.
-  std::vector<std::string> free;  ///< Found in the window and then locked at their median.
+  std::vector<std::string> free;  ///< Found in the window, all others at their default ...
+  std::vector<std::string> hold;  ///< ... and these of them then locked at their median.
 };
 
 struct IkSpec {
