@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "myoid/cli/context.h"
 #include "myoid/cli/stage_input.h"
@@ -12,6 +13,11 @@
 #include "myoid/recording/trc_reader.h"
 
 namespace myoid::cli {
+namespace {
+
+double rms_of(double sum_of_squares, int count) { return std::sqrt(sum_of_squares / std::max(1, count)); }
+
+}  // namespace
 
 void add_ik(CLI::App& app, Context& context) {
   CLI::App& command = *app.add_subcommand("ik", "Inverse kinematics: markers to joint angles.\n"
@@ -68,8 +74,10 @@ void add_ik(CLI::App& app, Context& context) {
       rms += v * v;
       ++seen;
     }
+    const double worst_mm = 1000.0 * rms_of(rms, seen);
+    if (worst_mm > 40.0) context.warn("the markers lie far from the model's: another model, other units or swapped labels? The angles may still fit, the marker errors do not");
     fmt::print("{} frames, {} not converged, {} without markers; marker error {:.2f} mm rms\n", result.status.size(), result.frames_not_converged, result.frames_without_markers,
-               1000.0 * std::sqrt(rms / std::max(1, seen)));
+               worst_mm);
     if (!result.undetermined.empty()) context.warn(fmt::format("not determined by the markers: {}", fmt::join(result.undetermined, ", ")));
     fmt::print("{}\n{}\n", o->out, errors.string());
     if (result.frames_not_converged > 0) context.exit_code = kQualityGateFailed;

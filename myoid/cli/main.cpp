@@ -70,13 +70,16 @@ int main(int argc, char** argv) {
   try {
     return run(argc, argv, context);
   } catch (const Interrupted&) {
-    fmt::print(stderr, "\ninterrupted; what was finished stays usable\n");
+    context.end_progress();
+    fmt::print(stderr, "interrupted; what was finished stays usable\n");
     return cli::kInterrupted;
   } catch (const InvalidInput& error) {
-    fmt::print(stderr, "\nerror: {}\n", error.what());
+    context.end_progress();
+    fmt::print(stderr, "error: {}\n", error.what());
     return cli::kBadInput;
   } catch (const std::exception& error) {
-    fmt::print(stderr, "\ninternal error: {}\nPlease report this with the command line and, if you can, the files.\n",
+    context.end_progress();
+    fmt::print(stderr, "internal error: {}\nPlease report this with the command line and, if you can, the files.\n",
                error.what());
     return cli::kInternalError;
   }

@@ -82,6 +82,11 @@ void judge(ParameterEstimate& e, const VerdictContext& context, const VerdictRul
   } else {
     set(Verdict::not_identifiable, fmt::format("the interval spans {:.0f} % of the value", 200.0 * relative));
   }
+  if (context.shared_forces && e.verdict == Verdict::identified) {
+    set(Verdict::weak, fmt::format("precise to {:.1f} %, but about the forces that an optimizer assigned, which carry its assumptions and no co-contraction; method "
+                                   "torque does not need them",
+                                   100.0 * relative));
+  }
   if (e.parameter == "max_isometric_force" && !context.from_mvc) {
     e.reason += "; no maximal contraction was recorded, so this is the force at the study's largest EMG, not the muscle's maximum";
   }

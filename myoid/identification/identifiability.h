@@ -24,6 +24,7 @@ struct VerdictContext {
   bool plateau_is_flat = false;    ///< V_ml of the same muscle not clearly above 1.
   bool outside_physical = false;   ///< Value outside the physical bounds of its field.
   double prior_distance = 0.0;     ///< |estimate - prior mean| in spreads of the prior; 0 without a prior.
+  bool shared_forces = false;      ///< The force that was fitted is an optimizer's share of a torque, not measured.
   std::string bad_company;         ///< Parameter of the same fit that left physiology; empty: none.
 };
 

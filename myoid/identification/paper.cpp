@@ -152,6 +152,10 @@ void fit_case(const StudyData& data, std::size_t muscle, bool shortening, const 
     e.estimate = std::abs(fit.x[j]) <= 1e3 * std::abs(start[j]) ? fit.x[j] : std::numeric_limits<double>::quiet_NaN();
     VerdictContext context;
     context.bad_company = bad_company;
+    context.shared_forces = options.shared_forces;
+    if (const auto prior = setup.priors.find(e.parameter); prior != setup.priors.end() && !prior->second.logarithmic && options.shared_forces) {
+      context.prior_distance = std::abs(e.estimate - prior->second.mean) / prior->second.sd;
+    }
     context.converged = failure.empty();
     context.failure = failure;
     context.determined = computed && covariance.determined[static_cast<std::size_t>(j)];

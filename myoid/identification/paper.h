@@ -8,6 +8,7 @@ namespace myoid::identification {
 struct PaperOptions {
   int max_iterations = 100;
   std::vector<std::string> muscles;  ///< Empty: all.
+  bool shared_forces = false;        ///< The forces are an optimizer's: no verdict is then better than `weak`.
 };
 
 /// The source paper's estimator, as published: for every muscle, shortening (v <= 0) and lengthening (v > 0) are fitted apart to the

@@ -215,8 +215,12 @@ std::vector<Pair> pair_markers(const model::BodyModel& model, const recording::M
   if (pairs.empty()) {
     std::vector<std::string> names;
     for (const model::Marker& marker : model.markers) names.push_back(marker.name);
-    throw InvalidInput(fmt::format("no marker of the recording ({}) is in the model ({}); rename them ([markers] rename)",
-                                   fmt::join(markers.names, ", "), fmt::join(names, ", ")));
+    const auto some = [](const std::vector<std::string>& all) {
+      const std::vector<std::string> head(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(all.size(), 12)));
+      return fmt::format("{}{}", fmt::join(head, ", "), all.size() > head.size() ? ", ..." : "");
+    };
+    throw InvalidInput(fmt::format("no marker of the recording ({}) is in the model ({}); rename them ([markers] rename in a study)",
+                                   some(markers.names), some(names)));
   }
   return pairs;
 }

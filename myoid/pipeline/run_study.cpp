@@ -300,7 +300,7 @@ StudyResult run_study(const Study& study, const RunOptions& options) {
     }
     for (const std::string& method : study.identify.methods) {
       if (method == "paper") {
-        result.methods.push_back(identification::identify_paper(result.data, {.muscles = study.identify.muscles}));
+        result.methods.push_back(identification::identify_paper(result.data, {.muscles = study.identify.muscles, .shared_forces = true}));
       } else {
         result.methods.push_back(identification::identify_torque(result.data, torque_options(study, result, options.progress)));
       }
