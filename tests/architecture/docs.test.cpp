@@ -1,0 +1,80 @@
+// Documentation that leads nowhere, or leaves a command out, is noticed.
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <regex>
+#include <set>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path kRoot = MYOID_SOURCE_DIR;
+
+std::string content(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+std::vector<fs::path> pages() {
+  std::vector<fs::path> result{kRoot / "README.md", kRoot / "CHANGELOG.md"};
+  for (const auto& entry : fs::recursive_directory_iterator(kRoot / "docs")) {
+    if (entry.path().extension() == ".md") result.push_back(entry.path());
+  }
+  return result;
+}
+
+TEST(Documentation, EveryLinkLeadsToAFile) {
+  const std::regex link(R"(\]\(([^)#\s]*)(#[^)]*)?\))");
+  int seen = 0;
+  for (const fs::path& page : pages()) {
+    const std::string text = content(page);
+    for (std::sregex_iterator it(text.begin(), text.end(), link), end; it != end; ++it) {
+      const std::string target = (*it)[1];
+      if (target.empty() || target.starts_with("http")) continue;
+      EXPECT_TRUE(fs::exists(page.parent_path() / target)) << page << " points to " << target;
+      ++seen;
+    }
+  }
+  EXPECT_GT(seen, 20);  // that the pattern still finds them
+}
+
+TEST(Documentation, EveryCommandHasItsPage) {
+  const std::regex subcommand(R"re(add_subcommand\("([\w-]+)")re");
+  std::set<std::string> commands;
+  for (const auto& entry : fs::directory_iterator(kRoot / "myoid" / "cli")) {
+    const std::string text = content(entry.path());
+    for (std::sregex_iterator it(text.begin(), text.end(), subcommand), end; it != end; ++it) {
+      commands.insert((*it)[1]);
+    }
+  }
+  EXPECT_TRUE(commands.contains("run"));
+  for (const std::string& command : commands) {
+    const std::string page = content(kRoot / "docs" / "guide" / (command + ".md"));
+    EXPECT_TRUE(page.starts_with("# myoid " + command)) << "docs/guide/" << command << ".md";
+  }
+}
+
+/// The option that a command's source adds: in its page, or among the common ones.
+TEST(Documentation, EveryOptionOfACommandIsInItsPage) {
+  const std::regex option(R"re(add_(?:option|flag)\("(--[\w-]+)")re");
+  int seen = 0;
+  for (const auto& entry : fs::directory_iterator(kRoot / "myoid" / "cli")) {
+    const std::string text = content(entry.path());
+    if (text.find("add_subcommand(") == std::string::npos) continue;
+    const fs::path page = kRoot / "docs" / "guide" / (entry.path().stem().string() + ".md");
+    const std::string explained = content(page);
+    for (std::sregex_iterator it(text.begin(), text.end(), option), end; it != end; ++it) {
+      EXPECT_NE(explained.find((*it)[1].str()), std::string::npos)
+          << page << " leaves out " << (*it)[1];
+      ++seen;
+    }
+  }
+  EXPECT_GT(seen, 30);
+}
+
+}  // namespace
