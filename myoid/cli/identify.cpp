@@ -208,6 +208,7 @@ void add_identify(CLI::App& app, Context& context) {
     context.end_progress();
     Provenance provenance;
     provenance.command = context.command_line;
+    provenance.inputs.push_back({o->muscles, sha256(recording::read_text_file(o->muscles))});
     for (const auto* list : {&o->activations, &o->lengths, &o->velocities, &o->forces, &o->arms, &o->torques}) {
       for (const std::string& path : *list) provenance.inputs.push_back({path, sha256(recording::read_text_file(path))});
     }

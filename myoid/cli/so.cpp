@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "myoid/cli/context.h"
 #include "myoid/cli/stage_input.h"
 #include "myoid/core/error.h"
@@ -60,7 +62,8 @@ void add_so(CLI::App& app, Context& context) {
       }
     }
     forces::SharingOptions options{.objective = o->objective, .exponent = o->exponent, .reserve_nm = o->reserve_nm};
-    for (const model::Muscle& muscle : model.muscles) options.min_activation = muscle.properties.min_control;
+    options.min_activation = 1.0;
+    for (const model::Muscle& muscle : model.muscles) options.min_activation = std::min(options.min_activation, muscle.properties.min_control);
     if (!o->emg.empty()) {
       options.emg = signals::resample(recording::read_storage(o->emg).data, motion.q.time_s());
       options.emg_weight = o->emg_weight;

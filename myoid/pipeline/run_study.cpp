@@ -90,7 +90,10 @@ void compute_motion(const Study& study, const TrialInput& input, TrialResult& tr
   options.cutoff_hz = motion_cutoff_hz(study);
   const double rate = q.mean_rate_hz();
   const double wanted = options.cutoff_hz ? study.motion.rate_hz : rate;
-  if (options.cutoff_hz && *options.cutoff_hz >= 0.45 * rate) options.cutoff_hz.reset();
+  if (options.cutoff_hz && *options.cutoff_hz >= 0.45 * rate) {
+    trial.notes.push_back(fmt::format("motion at {:.0f} Hz is too slow to be smoothed at {:.3g} Hz: not smoothed", rate, *options.cutoff_hz));
+    options.cutoff_hz.reset();
+  }
   const Eigen::VectorXd& clock = q.time_s();
   if (std::abs(wanted - rate) > 0.01 * rate || !q.is_uniform()) options.time_s = signals::even_clock(clock[0], clock[clock.size() - 1], wanted);
   kinematics::MotionResult result = kinematics::joint_motion(trial.model, q, options);

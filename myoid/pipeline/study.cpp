@@ -33,7 +33,6 @@ SubjectSpec read_subject(TomlTable table) {
   }
   subject.sex = table.choice("sex", "", {"", "male", "female"});
   if (auto notes = table.texts("notes")) subject.notes = *notes;
-  (void)table.number("age_years");
   table.finish();
   return subject;
 }

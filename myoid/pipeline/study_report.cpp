@@ -127,7 +127,7 @@ std::vector<Gate> gates(const StudyResult& result) {
   }
   if (const IdentificationResult* torque = method_of(result, "torque")) {
     list.push_back({"Fit converged", torque->termination == math::Termination::converged ? GateStatus::pass : GateStatus::fail, torque->message, "converged", "Only a converged fit is an answer."});
-    const auto count = [&](Verdict v) { return std::count_if(torque->estimates.begin(), torque->estimates.end(), [&](const auto& e) { return e.verdict == v; }); };
+    const auto count = [&](Verdict v) { return std::count_if(torque->estimates.begin(), torque->estimates.end(), [&](const auto& e) { return e.verdict == v && e.parameter != "emg_gain"; }); };
     list.push_back({"Parameters that this recording tells", count(Verdict::identified) > 0 ? GateStatus::pass : GateStatus::warn,
                     fmt::format("{} identified, {} weak, {} prior-dominated, {} not identifiable", count(Verdict::identified), count(Verdict::weak), count(Verdict::prior_dominated),
                                 count(Verdict::not_identifiable)),

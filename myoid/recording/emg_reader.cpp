@@ -74,7 +74,7 @@ EmgFile read_emg(const std::filesystem::path& path, const std::string& unit, boo
   } else if (to_volt) {
     file.data = with_unit(numbers, Unit::volt, *to_volt);
   } else {
-    throw ReadError(path, 0, "the unit of the EMG is not stated in the file; write it in the study as [emg] unit = \"uV\" (or mV, V), or "
+    throw ReadError(path, 0, "the unit of the EMG is not stated in the file; give it as --unit uV (or mV, V), in a study as [emg] unit = \"uV\", or "
                              "kind = \"envelope\" if this is no raw EMG");
   }
   return file;
