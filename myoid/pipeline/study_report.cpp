@@ -228,14 +228,14 @@ Figure curves(const StudyResult& result, const IdentificationResult& method, std
 /// The paper's figure 6: EMG raw, rectified, filtered, of one trial.
 Figure emg_figure(const TrialResult& trial) {
   Figure figure{"emg_" + trial.spec.name, fmt::format("EMG of trial {}: raw, rectified, filtered", trial.spec.name), "Millivolts; the orange line is the envelope.", {}, 2};
-  const TimeSeries& raw = trial.emg->filtered;
+  const TimeSeries& raw = trial.emg->raw;
   const TimeSeries& rectified = trial.emg->rectified;
   const TimeSeries& envelope = trial.emg->envelope;
   for (std::size_t c = 0; c < raw.channels().size(); ++c) {
     const auto column = static_cast<Eigen::Index>(c);
     const std::vector<double> t = to_vector(raw.time_s());
     Panel left{raw.channels()[c].name, {"time", "s", {}, {}, {}}, {"EMG", "mV", {}, {}, {}}, {}};
-    left.series.push_back({"high-passed", t, to_vector(1e3 * raw.values().col(column)), Role::reference, {}, {}});
+    left.series.push_back({"raw, mean removed", t, to_vector(1e3 * raw.values().col(column)), Role::reference, {}, {}});
     Panel right{raw.channels()[c].name, {"time", "s", {}, {}, {}}, {"rectified EMG", "mV", {}, {}, {}}, {}};
     right.series.push_back({"rectified", t, to_vector(1e3 * rectified.values().col(column)), Role::raw, {}, {}});
     right.series.push_back({"envelope", t, to_vector(1e3 * envelope.values().col(column)), Role::identified, {}, {}});
