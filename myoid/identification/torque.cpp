@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdint>
 
 #include "myoid/identification/identifiability.h"
 #include "myoid/identification/torque_model.h"
@@ -302,12 +303,17 @@ IdentificationResult identify_torque(const StudyData& data, const TorqueOptions&
   // The given start, and starts moved by a spread of the prior (or a part of the value) in alternating directions.
   math::LeastSquaresResult best = search.run(start);
   std::optional<Fit> best_search(search);
-  for (int s = 1; s < options.starts; ++s) {
+  const double start_cost = best.cost_history.empty() ? 0.0 : best.cost_history.front();
+  // Without priors there are more false minima, and nothing but the cost to tell them by.
+  const int starts = options.weights ? options.starts : 3 * options.starts;
+  for (int s = 1; s < starts && !(best.cost <= 1e-18 * start_cost); ++s) {
     Eigen::VectorXd x = start;
     for (std::size_t j = 0; j < free.size(); ++j) {
       const auto at = static_cast<Eigen::Index>(j);
       const double step = free[j].prior_sd > 0.0 ? free[j].prior_sd : free[j].logarithmic ? 0.3 : 0.1 * std::abs(free[j].start);
-      const double sign = (j + static_cast<std::size_t>(s)) % 2 == 0 ? 1.0 : -1.0;
+      // Start s turns sign by the bits of a fixed mixing of its number and the parameter's: the same on every machine.
+      const std::uint64_t mixed = (static_cast<std::uint64_t>(s) * 0x9E3779B97F4A7C15ULL) ^ ((j + 1) * 0xD1B54A32D192ED03ULL);
+      const double sign = ((mixed >> 33) & 1U) == 0 ? 1.0 : -1.0;
       x[at] = std::clamp(x[at] + sign * step, free[j].lower, free[j].upper);
     }
     if (options.weights) {

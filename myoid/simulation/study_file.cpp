@@ -98,7 +98,9 @@ std::string study_toml(const VirtualRecording& recording) {
   text +=
       "\n[identify]\n"
       "method = [\"paper\", \"torque\"]\n"
-      "muscles = \"all\"\n"
+      "muscles = \"all\"\n";
+  if (exact) text += "priors = false                   # exact data need no prior knowledge\n";
+  text +=
       "\n[truth]\n"
       "file = \"truth.csv\"               # the report shows it beside the estimates\n";
   return text;
