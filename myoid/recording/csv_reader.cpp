@@ -1,11 +1,12 @@
 #include "myoid/recording/csv_reader.h"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "myoid/core/error.h"
 
@@ -45,6 +46,16 @@ struct NamedUnit {
   std::optional<ScaledUnit> unit;
 };
 
+/// "[mV]" and "(mV)" without their brackets.
+std::string_view trim_brackets(std::string_view cell) {
+  if (cell.size() > 2 && ((cell.front() == '[' && cell.back() == ']') ||
+                          (cell.front() == '(' && cell.back() == ')'))) {
+    cell.remove_prefix(1);
+    cell.remove_suffix(1);
+  }
+  return cell;
+}
+
 NamedUnit take_apart(const std::string& label) {
   for (const auto& [open, close] : {std::pair{'[', ']'}, std::pair{'(', ')'}}) {
     const std::size_t begin = label.rfind(open);
@@ -58,8 +69,26 @@ NamedUnit take_apart(const std::string& label) {
 }
 
 bool is_time(std::string_view name) {
-  return equal_ignoring_case(name, "time") || equal_ignoring_case(name, "t") || equal_ignoring_case(name, "time_s") ||
-         equal_ignoring_case(name, "times") || equal_ignoring_case(name, "time_ms");
+  return equal_ignoring_case(name, "time") || equal_ignoring_case(name, "t") ||
+         equal_ignoring_case(name, "time_s") || equal_ignoring_case(name, "times") ||
+         equal_ignoring_case(name, "time_ms");
+}
+
+/// If the first row holds units instead of numbers ("s", "mV", ...), gives them to the labels that
+/// have none.
+bool take_units_row(const CsvTable& table, std::vector<NamedUnit>& labels) {
+  if (table.rows.empty()) return false;
+  bool any = false;
+  for (const std::string& cell : table.rows[0]) {
+    if (cell.empty()) continue;
+    if (parse_number(cell) || !parse_unit(trim_brackets(cell))) return false;
+    any = true;
+  }
+  for (std::size_t c = 0; any && c < labels.size(); ++c) {
+    if (!labels[c].unit && !table.rows[0][c].empty())
+      labels[c].unit = parse_unit(trim_brackets(table.rows[0][c]));
+  }
+  return any;
 }
 
 }  // namespace
@@ -71,8 +100,11 @@ CsvTable parse_csv_table(std::string_view text, const std::filesystem::path& pat
   while (n < lines.size() && (trim(lines[n]).empty() || trim(lines[n]).starts_with('#'))) ++n;
   if (n == lines.size()) throw ReadError(path, 0, "there is no header row");
   const std::string_view head = lines[n];
+  table.header_line = n + 1;
   const auto count = [&](char c) { return std::count(head.begin(), head.end(), c); };
-  table.separator = count(';') > 0 && count(';') >= count(',') ? ';' : count('\t') > count(',') ? '\t' : ',';
+  table.separator = count(';') > 0 && count(';') >= count(',') ? ';'
+                    : count('\t') > count(',')                 ? '\t'
+                                                               : ',';
   table.names = cells_of(head, table.separator);
   while (!table.names.empty() && table.names.back().empty()) table.names.pop_back();
   for (++n; n < lines.size(); ++n) {
@@ -80,8 +112,9 @@ CsvTable parse_csv_table(std::string_view text, const std::filesystem::path& pat
     std::vector<std::string> cells = cells_of(lines[n], table.separator);
     while (cells.size() > table.names.size() && cells.back().empty()) cells.pop_back();
     if (cells.size() != table.names.size()) {
-      throw ReadError(path, n + 1, fmt::format("expected {} cells as in the header ({}), found {}", table.names.size(),
-                                               fmt::join(table.names, ", "), cells.size()));
+      throw ReadError(path, n + 1,
+                      fmt::format("expected {} cells as in the header ({}), found {}",
+                                  table.names.size(), fmt::join(table.names, ", "), cells.size()));
     }
     table.rows.push_back(std::move(cells));
     table.lines.push_back(n + 1);
@@ -89,7 +122,9 @@ CsvTable parse_csv_table(std::string_view text, const std::filesystem::path& pat
   return table;
 }
 
-CsvTable read_csv_table(const std::filesystem::path& path) { return parse_csv_table(read_text_file(path), path); }
+CsvTable read_csv_table(const std::filesystem::path& path) {
+  return parse_csv_table(read_text_file(path), path);
+}
 
 CsvSeries parse_csv_series(std::string_view text, const std::filesystem::path& path) {
   const CsvTable table = parse_csv_table(text, path);
@@ -99,11 +134,20 @@ CsvSeries parse_csv_series(std::string_view text, const std::filesystem::path& p
   std::vector<Channel> channels;
   std::vector<double> factor;
   std::vector<std::size_t> columns;
-  for (std::size_t c = 0; c < table.names.size(); ++c) {
-    const NamedUnit label = take_apart(table.names[c]);
+  std::vector<NamedUnit> labels;
+  for (const std::string& name : table.names) labels.push_back(take_apart(name));
+  const std::size_t first = take_units_row(table, labels) ? 1 : 0;
+  for (std::size_t c = 0; c < labels.size(); ++c) {
+    const NamedUnit& label = labels[c];
     if (!time_column && is_time(label.name)) {
+      if (label.unit && label.unit->unit != Unit::second) {
+        throw ReadError(path, table.header_line,
+                        fmt::format("column '{}': time is in s or ms", table.names[c]));
+      }
       time_column = c;
-      time_to_s = label.unit ? label.unit->to_si : equal_ignoring_case(label.name, "time_ms") ? 1e-3 : 1.0;
+      time_to_s = label.unit                                   ? label.unit->to_si
+                  : equal_ignoring_case(label.name, "time_ms") ? 1e-3
+                                                               : 1.0;
       continue;
     }
     channels.push_back({label.name, label.unit ? label.unit->unit : Unit::dimensionless});
@@ -111,42 +155,62 @@ CsvSeries parse_csv_series(std::string_view text, const std::filesystem::path& p
     series.has_unit.push_back(label.unit.has_value());
     columns.push_back(c);
   }
-  if (!time_column) {
-    throw ReadError(path, 1, fmt::format("no time column; expected one named time (in s) among {}", fmt::join(table.names, ", ")));
+  for (std::size_t c = 0; c < channels.size(); ++c) {
+    if (channels[c].name.empty())
+      throw ReadError(path, table.header_line,
+                      fmt::format("column {} has no name", columns[c] + 1));
+    for (std::size_t d = 0; d < c; ++d) {
+      if (channels[c].name == channels[d].name) {
+        throw ReadError(path, table.header_line,
+                        fmt::format("two columns are named '{}'; rename one", channels[c].name));
+      }
+    }
   }
-  if (table.rows.empty()) throw ReadError(path, 0, "there are no rows after the header");
-  Eigen::VectorXd time(static_cast<Eigen::Index>(table.rows.size()));
+  if (!time_column) {
+    throw ReadError(path, table.header_line,
+                    fmt::format("no time column; expected one named time (in s) among {}",
+                                fmt::join(table.names, ", ")));
+  }
+  if (table.rows.size() == first)
+    throw ReadError(path, 0, "there are no rows of numbers after the header");
+  Eigen::VectorXd time(static_cast<Eigen::Index>(table.rows.size() - first));
   Eigen::MatrixXd values(time.size(), static_cast<Eigen::Index>(columns.size()));
   std::size_t comma_line = 0;
   const auto number = [&](const std::string& cell, std::size_t line, const std::string& name) {
     if (cell.empty()) return std::numeric_limits<double>::quiet_NaN();
     if (const auto value = parse_number(cell)) return *value;
     if (table.separator != ',') {
-      std::string mended = cell;
-      std::replace(mended.begin(), mended.end(), ',', '.');
-      if (const auto value = parse_number(mended)) {
+      if (const auto value = parse_comma_number(cell)) {
         if (comma_line == 0) comma_line = line;
         return *value;
       }
     }
-    throw ReadError(path, line, fmt::format("column '{}': expected a number, found '{}'", name, cell));
+    throw ReadError(path, line,
+                    fmt::format("column '{}': expected a number, found '{}'", name, cell));
   };
-  for (std::size_t r = 0; r < table.rows.size(); ++r) {
-    const auto row = static_cast<Eigen::Index>(r);
-    time[row] = time_to_s * number(table.rows[r][*time_column], table.lines[r], table.names[*time_column]);
-    if (!(time[row] == time[row])) throw ReadError(path, table.lines[r], "the time is missing");
+  for (std::size_t r = first; r < table.rows.size(); ++r) {
+    const auto row = static_cast<Eigen::Index>(r - first);
+    time[row] =
+        time_to_s * number(table.rows[r][*time_column], table.lines[r], table.names[*time_column]);
+    if (!std::isfinite(time[row])) throw ReadError(path, table.lines[r], "the time is missing");
     if (row > 0 && time[row] <= time[row - 1]) {
-      throw ReadError(path, table.lines[r], fmt::format("time does not increase: {} s after {} s", time[row], time[row - 1]));
+      throw ReadError(
+          path, table.lines[r],
+          fmt::format("time does not increase: {} s after {} s", time[row], time[row - 1]));
     }
     for (std::size_t k = 0; k < columns.size(); ++k) {
-      values(row, static_cast<Eigen::Index>(k)) = factor[k] * number(table.rows[r][columns[k]], table.lines[r], table.names[columns[k]]);
+      values(row, static_cast<Eigen::Index>(k)) =
+          factor[k] * number(table.rows[r][columns[k]], table.lines[r], table.names[columns[k]]);
     }
   }
-  if (comma_line > 0) series.repairs.push_back({comma_line, "comma decimals read as decimal points"});
+  if (comma_line > 0)
+    series.repairs.push_back({comma_line, "comma decimals read as decimal points"});
   series.data = TimeSeries(std::move(time), std::move(channels), std::move(values));
   return series;
 }
 
-CsvSeries read_csv_series(const std::filesystem::path& path) { return parse_csv_series(read_text_file(path), path); }
+CsvSeries read_csv_series(const std::filesystem::path& path) {
+  return parse_csv_series(read_text_file(path), path);
+}
 
 }  // namespace myoid::recording

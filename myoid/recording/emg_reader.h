@@ -10,13 +10,17 @@
 namespace myoid::recording {
 
 struct EmgFile {
-  TimeSeries data;               ///< Volts, or dimensionless if `dimensionless` was asked for.
+  TimeSeries data;  ///< Volts, or dimensionless if `dimensionless` was asked for.
   std::vector<Repair> repairs;
 };
 
-/// EMG from .sto, .mot or .csv. Raw EMG must have a unit: `unit` if given ("uV"), else the one that the file names (a column
-/// "name [mV]", or a word such as microvolt, uV, mV, volt in the title); where there is none, ReadError says how to give it.
-/// With `dimensionless` (envelopes, activations) no unit is looked for.
-[[nodiscard]] EmgFile read_emg(const std::filesystem::path& path, const std::string& unit, bool dimensionless);
+/// EMG from .sto, .mot or a table (.csv, .tsv, .txt). Raw EMG must have a unit: that of its column
+/// ("name [mV]"), else `unit` if given ("uV"), else a word in the title or a header key `unit`
+/// (microvolt, uV, mV, volt, ...); where there is none, ReadError says how to give it. Columns of a
+/// table in newtons or the like are left out, with a note. With `dimensionless` (envelopes,
+/// activations) no unit is looked for.
+[[nodiscard]] EmgFile read_emg(const std::filesystem::path& path,
+                               const std::string& unit,
+                               bool dimensionless);
 
 }  // namespace myoid::recording

@@ -1,7 +1,5 @@
 #include "myoid/recording/text_file.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cerrno>
 #include <charconv>
@@ -9,6 +7,8 @@
 #include <cstring>
 #include <limits>
 #include <memory>
+
+#include <fmt/format.h>
 
 #include "myoid/core/error.h"
 
@@ -25,18 +25,32 @@ std::string read_text_file(const std::filesystem::path& path) {
   std::error_code error;
   const auto status = std::filesystem::status(path, error);
   if (!std::filesystem::exists(status)) {
-    throw ReadError(path, 0, "there is no such file; check the path (paths inside a file are relative to that file's folder)");
+    throw ReadError(path, 0,
+                    "there is no such file; check the path (paths inside a file are relative to "
+                    "that file's folder)");
   }
-  if (std::filesystem::is_directory(status)) throw ReadError(path, 0, "this is a folder; name a file inside it");
-  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), &std::fclose);
+  if (std::filesystem::is_directory(status))
+    throw ReadError(path, 0, "this is a folder; name a file inside it");
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"),
+                                                             &std::fclose);
   if (!file) throw ReadError(path, 0, fmt::format("cannot be opened: {}", std::strerror(errno)));
   std::string text;
   const auto size = std::filesystem::file_size(path, error);
   if (!error) text.reserve(size);
   char buffer[1 << 16];
-  for (std::size_t got = 0; (got = std::fread(buffer, 1, sizeof buffer, file.get())) > 0;) text.append(buffer, got);
-  if (std::ferror(file.get()) != 0) throw ReadError(path, 0, fmt::format("reading failed: {}", std::strerror(errno)));
-  if (text.empty()) throw ReadError(path, 0, "the file is empty; export it again from the program that made it");
+  for (std::size_t got = 0; (got = std::fread(buffer, 1, sizeof buffer, file.get())) > 0;)
+    text.append(buffer, got);
+  if (std::ferror(file.get()) != 0)
+    throw ReadError(path, 0, fmt::format("reading failed: {}", std::strerror(errno)));
+  if (text.empty())
+    throw ReadError(path, 0, "the file is empty; export it again from the program that made it");
+  if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF")) {
+    throw ReadError(path, 0,
+                    "the text is in UTF-16 ('Unicode text'); save it as UTF-8 or plain text");
+  }
+  if (std::string_view(text).substr(0, 4096).find('\0') != std::string_view::npos) {
+    throw ReadError(path, 0, "this is no text but a binary file; export it as text");
+  }
   return text;
 }
 
@@ -84,7 +98,7 @@ std::vector<std::string_view> split_words(std::string_view line) {
 
 std::optional<double> parse_number(std::string_view text) {
   text = trim(text);
-  if (text.starts_with('+')) text.remove_prefix(1);
+  if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
   double value = 0.0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (end != text.data() + text.size() || text.empty()) return std::nullopt;
@@ -98,6 +112,15 @@ std::optional<double> parse_number(std::string_view text) {
   return value;
 }
 
+std::optional<double> parse_comma_number(std::string_view text) {
+  const std::size_t comma = text.find(',');
+  if (comma == std::string_view::npos || text.find('.') != std::string_view::npos)
+    return std::nullopt;
+  std::string mended(text);
+  mended[comma] = '.';
+  return parse_number(mended);
+}
+
 std::string format_number(double value) {
   char buffer[32];
   const auto result = std::to_chars(buffer, buffer + sizeof buffer, value);
@@ -105,7 +128,8 @@ std::string format_number(double value) {
 }
 
 bool equal_ignoring_case(std::string_view a, std::string_view b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](char x, char y) { return lower(x) == lower(y); });
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](char x, char y) { return lower(x) == lower(y); });
 }
 
 }  // namespace myoid::recording

@@ -15,10 +15,12 @@ struct Repair {
   std::string message;
 };
 
-/// The whole file as bytes. Throws ReadError with the remedy if it is missing, a folder, unreadable or empty.
+/// The whole file as bytes. Throws ReadError with the remedy if it is missing, a folder,
+/// unreadable, empty or no text (binary, UTF-16).
 [[nodiscard]] std::string read_text_file(const std::filesystem::path& path);
 
-/// The lines of a text without their ends (LF, CRLF or CR), a byte-order mark removed. Views into `text`.
+/// The lines of a text without their ends (LF, CRLF or CR), a byte-order mark removed. Views into
+/// `text`.
 [[nodiscard]] std::vector<std::string_view> split_lines(std::string_view text);
 
 /// Without blanks, tabs and carriage returns at both ends.
@@ -30,14 +32,18 @@ struct Repair {
 /// The words between runs of blanks and tabs.
 [[nodiscard]] std::vector<std::string_view> split_words(std::string_view line);
 
-/// A number in the C locale, whatever the machine's: "1.5", "+2e-3", "NaN", "Inf", "-infinity". The whole text must be the
-/// number, blanks around it allowed.
+/// A number in the C locale, whatever the machine's: "1.5", "+2e-3", "NaN", "Inf", "-infinity". The
+/// whole text must be the number, blanks around it allowed.
 [[nodiscard]] std::optional<double> parse_number(std::string_view text);
+
+/// The same for a number with a decimal comma, "1,5"; one comma and no point, so that "1,234.5" is
+/// not taken for 1.2345.
+[[nodiscard]] std::optional<double> parse_comma_number(std::string_view text);
 
 /// Shortest decimal text that reads back to the same double.
 [[nodiscard]] std::string format_number(double value);
 
-/// Without case.
+/// Without case (ASCII).
 [[nodiscard]] bool equal_ignoring_case(std::string_view a, std::string_view b);
 
 }  // namespace myoid::recording

@@ -1,12 +1,13 @@
 #include "myoid/recording/trc_reader.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
 #include <set>
 #include <utility>
+
+#include <fmt/format.h>
 
 #include "myoid/core/error.h"
 #include "myoid/core/units.h"
@@ -16,11 +17,18 @@ namespace {
 
 constexpr double kGap = std::numeric_limits<double>::quiet_NaN();
 
-/// Key line and value line of the header as pairs.
-std::map<std::string, std::string> read_header(std::string_view keys, std::string_view values, char separator) {
+/// Key line and value line of the header as pairs: word by word where there are as many values as
+/// keys, however they are separated (real files have two tabs between values), else cell by cell.
+std::map<std::string, std::string> read_header(std::string_view keys,
+                                               std::string_view values,
+                                               char separator) {
   std::map<std::string, std::string> header;
-  const auto names = split(keys, separator);
-  const auto cells = split(values, separator);
+  auto names = separator == ',' ? split(keys, separator) : split_words(keys);
+  auto cells = separator == ',' ? split(values, separator) : split_words(values);
+  if (names.size() != cells.size()) {
+    names = split(keys, separator);
+    cells = split(values, separator);
+  }
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (const auto name = trim(names[i]); !name.empty()) {
       header[std::string(name)] = i < cells.size() ? std::string(trim(cells[i])) : "";
@@ -30,7 +38,11 @@ std::map<std::string, std::string> read_header(std::string_view keys, std::strin
 }
 
 /// Marker names of the label line: every word after Frame# and Time, wherever the tabs stand.
-std::vector<std::string> read_names(std::string_view line, char separator, std::size_t number, std::vector<Repair>& repairs) {
+std::vector<std::string> read_names(std::string_view line,
+                                    char separator,
+                                    const std::filesystem::path& path,
+                                    std::size_t number,
+                                    std::vector<Repair>& repairs) {
   std::vector<std::string> names;
   std::set<std::string> seen;
   std::size_t word = 0;
@@ -38,13 +50,20 @@ std::vector<std::string> read_names(std::string_view line, char separator, std::
     const std::string_view name = trim(cell);
     if (name.empty()) continue;
     if (++word <= 2) {
-      if (word == 2 && name != "Time") repairs.push_back({number, fmt::format("column '{}' read as 'Time'", name)});
+      if (word == 2 && !equal_ignoring_case(name.substr(0, 4), "time")) {
+        throw ReadError(path, number,
+                        fmt::format("expected the second column to be 'Time', found '{}'", name));
+      }
+      if (word == 2 && name != "Time")
+        repairs.push_back({number, fmt::format("column '{}' read as 'Time'", name)});
       continue;
     }
     std::string unique(name);
     for (int k = 2; !seen.insert(unique).second; ++k) {
       const std::string other = fmt::format("{}_{}", name, k);
-      repairs.push_back({number, fmt::format("two markers are named '{}'; the later one is '{}' here", name, other)});
+      repairs.push_back(
+          {number,
+           fmt::format("two markers are named '{}'; the later one is '{}' here", name, other)});
       unique = other;
     }
     names.push_back(unique);
@@ -57,12 +76,19 @@ std::vector<std::string> read_names(std::string_view line, char separator, std::
 TrcFile parse_trc(std::string_view text, const std::filesystem::path& path) {
   const std::vector<std::string_view> lines = split_lines(text);
   if (lines.empty() || !trim(lines[0]).starts_with("PathFileType")) {
-    throw ReadError(path, 1, fmt::format("expected 'PathFileType' as the first word, found '{}'; this is not a .trc file",
-                                         lines.empty() ? "" : trim(lines[0]).substr(0, 40)));
+    throw ReadError(
+        path, 1,
+        fmt::format(
+            "expected 'PathFileType' as the first word, found '{}'; this is not a .trc file",
+            lines.empty() ? "" : trim(lines[0]).substr(0, 40)));
   }
-  if (lines.size() < 5) throw ReadError(path, lines.size(), "the file is cut off: its header has five lines");
+  if (lines.size() < 5)
+    throw ReadError(path, lines.size(), "the file is cut off: its header has five lines");
   TrcFile file;
-  const char separator = lines[1].find('\t') == std::string_view::npos && lines[1].find(',') != std::string_view::npos ? ',' : '\t';
+  const char separator =
+      lines[1].find('\t') == std::string_view::npos && lines[1].find(',') != std::string_view::npos
+          ? ','
+          : '\t';
   if (separator == ',') file.repairs.push_back({2, "separated by commas instead of tabs"});
   const auto header = read_header(lines[1], lines[2], separator);
   const auto field = [&](const std::string& key) {
@@ -72,35 +98,73 @@ TrcFile parse_trc(std::string_view text, const std::filesystem::path& path) {
   file.unit = field("Units");
   const auto unit = parse_unit(file.unit);
   if (!unit || unit->unit != Unit::meter) {
-    throw ReadError(path, 3, fmt::format("Units: found '{}', expected mm or m; correct the header", file.unit));
+    throw ReadError(
+        path, 3, fmt::format("Units: found '{}', expected mm or m; correct the header", file.unit));
   }
   file.rate_hz = parse_number(field("DataRate")).value_or(0.0);
   MarkerSeries& markers = file.markers;
-  markers.names = read_names(lines[3], separator, 4, file.repairs);
-  if (markers.names.empty()) throw ReadError(path, 4, "there are no marker names after Frame# and Time");
-  if (const auto said = parse_number(field("NumMarkers")); said && *said != static_cast<double>(markers.names.size())) {
-    file.repairs.push_back({3, fmt::format("the header says {} markers, there are {} names", *said, markers.names.size())});
+  markers.names = read_names(lines[3], separator, path, 4, file.repairs);
+  if (markers.names.empty())
+    throw ReadError(path, 4, "there are no marker names after Frame# and Time");
+  if (const auto said = parse_number(field("NumMarkers"));
+      said && *said != static_cast<double>(markers.names.size())) {
+    file.repairs.push_back({3, fmt::format("the header says {} markers, there are {} names", *said,
+                                           markers.names.size())});
   }
   if (trim(lines[4]).starts_with("X0")) file.repairs.push_back({5, "coordinates numbered from 0"});
+
+  // Some exporters leave out the line X1 Y1 Z1 ...: then the fifth line is a frame already.
+  const auto fifth = split(lines[4], separator);
+  const bool no_axes = fifth.size() > 2 && parse_number(fifth[0]) && parse_number(fifth[1]);
+  if (no_axes) file.repairs.push_back({5, "the line X1 Y1 Z1 ... is missing"});
 
   const std::size_t width = 3 * markers.names.size();
   std::vector<double> time;
   Eigen::MatrixXd values(static_cast<Eigen::Index>(lines.size()), static_cast<Eigen::Index>(width));
   std::size_t zero_line = 0;
   std::size_t repeated_line = 0;
-  for (std::size_t n = 5; n < lines.size(); ++n) {
+  std::size_t short_line = 0;
+  std::size_t surplus_line = 0;
+  std::size_t comma_line = 0;
+  const auto number_of = [&](std::string_view cell, std::size_t line) {
+    auto number = parse_number(cell);
+    if (!number && separator != ',') {
+      number = parse_comma_number(cell);
+      if (number && comma_line == 0) comma_line = line;
+    }
+    return number;
+  };
+  for (std::size_t n = no_axes ? 4 : 5; n < lines.size(); ++n) {
     if (trim(lines[n]).empty()) continue;
     if (lines[n].find_first_not_of(" \t,\r") == std::string_view::npos) continue;
     const auto cells = split(lines[n], separator);
-    if (cells.size() < 2) throw ReadError(path, n + 1, fmt::format("expected frame, time and {} coordinates, found '{}'", width, trim(lines[n])));
-    const auto now = parse_number(cells[1]);
-    if (!now) throw ReadError(path, n + 1, fmt::format("expected the time as a number, found '{}'", trim(cells[1])));
+    if (cells.size() < 2)
+      throw ReadError(path, n + 1,
+                      fmt::format("expected frame, time and {} coordinates, found '{}'", width,
+                                  trim(lines[n])));
+    const auto now = number_of(cells[1], n + 1);
+    if (!now || !std::isfinite(*now))
+      throw ReadError(path, n + 1,
+                      fmt::format("expected the time as a number, found '{}'", trim(cells[1])));
     if (!time.empty() && *now <= time.back()) {
       if (*now < time.back()) {
-        throw ReadError(path, n + 1, fmt::format("time goes backwards: {} s after {} s; sort the rows or split the file", *now, time.back()));
+        throw ReadError(
+            path, n + 1,
+            fmt::format("time goes backwards: {} s after {} s; sort the rows or split the file",
+                        *now, time.back()));
       }
       if (repeated_line == 0) repeated_line = n + 1;
       continue;
+    }
+    if (cells.size() < width + 2) {
+      if (n + 1 == lines.size()) {
+        // The last row of a file that was cut off: its last number may be cut off too.
+        file.repairs.push_back(
+            {n + 1, fmt::format("the last row has {} of {} cells and is left out", cells.size(),
+                                width + 2)});
+        break;
+      }
+      if (short_line == 0) short_line = n + 1;
     }
     const auto row = static_cast<Eigen::Index>(time.size());
     for (std::size_t c = 0; c < width; ++c) {
@@ -108,9 +172,11 @@ TrcFile parse_trc(std::string_view text, const std::filesystem::path& path) {
       if (c + 2 < cells.size()) {
         const std::string_view cell = trim(cells[c + 2]);
         if (!cell.empty()) {
-          const auto number = parse_number(cell);
+          const auto number = number_of(cell, n + 1);
           if (!number) {
-            throw ReadError(path, n + 1, fmt::format("expected a number for {} of marker '{}', found '{}'", "XYZ"[c % 3], markers.names[c / 3], cell));
+            throw ReadError(path, n + 1,
+                            fmt::format("expected a number for {} of marker '{}', found '{}'",
+                                        "XYZ"[c % 3], markers.names[c / 3], cell));
           }
           value = *number * unit->to_si;
         }
@@ -123,20 +189,38 @@ TrcFile parse_trc(std::string_view text, const std::filesystem::path& path) {
       if (zero && zero_line == 0) zero_line = n + 1;
       if (zero || !position.allFinite()) position.setConstant(kGap);
     }
+    for (std::size_t c = width + 2; c < cells.size() && surplus_line == 0; ++c) {
+      if (!trim(cells[c]).empty()) surplus_line = n + 1;
+    }
     time.push_back(*now);
   }
-  if (time.empty()) throw ReadError(path, lines.size(), "there are no frames after the header; export the file again");
-  if (zero_line > 0) file.repairs.push_back({zero_line, "a marker at exactly 0 0 0 is taken as missing"});
-  if (repeated_line > 0) file.repairs.push_back({repeated_line, "a time stands twice; the first row is kept"});
+  if (time.empty())
+    throw ReadError(path, lines.size(),
+                    "there are no frames after the header; export the file again");
+  if (zero_line > 0)
+    file.repairs.push_back({zero_line, "a marker at exactly 0 0 0 is taken as missing"});
+  if (comma_line > 0) file.repairs.push_back({comma_line, "comma decimals read as decimal points"});
+  if (short_line > 0)
+    file.repairs.push_back(
+        {short_line, "a row ends early; the markers behind its end are taken as missing"});
+  if (surplus_line > 0)
+    file.repairs.push_back(
+        {surplus_line, "a row has more numbers than there are markers; the surplus is ignored"});
+  if (repeated_line > 0)
+    file.repairs.push_back({repeated_line, "a time stands twice; the first row is kept"});
   const auto frames = static_cast<Eigen::Index>(time.size());
-  if (const auto said = parse_number(field("NumFrames")); said && *said != static_cast<double>(frames)) {
-    file.repairs.push_back({3, fmt::format("the header says {} frames, there are {}", *said, frames)});
+  if (const auto said = parse_number(field("NumFrames"));
+      said && *said != static_cast<double>(frames)) {
+    file.repairs.push_back(
+        {3, fmt::format("the header says {} frames, there are {}", *said, frames)});
   }
   markers.time_s = Eigen::Map<const Eigen::VectorXd>(time.data(), frames);
   markers.positions_m = values.topRows(frames);
   return file;
 }
 
-TrcFile read_trc(const std::filesystem::path& path) { return parse_trc(read_text_file(path), path); }
+TrcFile read_trc(const std::filesystem::path& path) {
+  return parse_trc(read_text_file(path), path);
+}
 
 }  // namespace myoid::recording

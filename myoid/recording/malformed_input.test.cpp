@@ -1,0 +1,343 @@
+// What files may do to the readers: cut off anywhere, one byte changed, numbers that would be
+// understood wrongly.
+
+#include <algorithm>
+#include <clocale>
+#include <functional>
+#include <random>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "myoid/core/error.h"
+#include "myoid/recording/atomic_file.h"
+#include "myoid/recording/csv_reader.h"
+#include "myoid/recording/emg_reader.h"
+#include "myoid/recording/storage_reader.h"
+#include "myoid/recording/toml_table.h"
+#include "myoid/recording/trc_reader.h"
+
+#include "tests/support/data_folder.h"
+#include "tests/support/temporary_folder.h"
+
+namespace myoid::recording {
+namespace {
+
+const std::string kTrc =
+    "PathFileType\t4\t(X/Y/Z)\tf.trc\n"
+    "DataRate\tCameraRate\tNumFrames\tNumMarkers\tUnits\tOrigDataRate\tOrigDataStartFrame\tOrigNumF"
+    "rames\n"
+    "100\t100\t3\t2\tmm\t100\t1\t3\n"
+    "Frame#\tTime\ta\t\t\tb\t\t\n"
+    "\t\tX1\tY1\tZ1\tX2\tY2\tZ2\n"
+    "\n"
+    "1\t0\t1\t2\t3\t4\t5\t6\n"
+    "2\t0.01\t1.5\t2.5\t3.5\t\t\t\n"
+    "3\t0.02\t1\t2\t3\t4\t5\t6\n";
+const std::string kVersionOne =
+    "Coordinates\nversion=1\nnRows=2\nnColumns=3\ninDegrees="
+    "yes\n\nendheader\ntime\tq\ttx\n0\t90\t1\n0.1\t-1.5e1\t2\n";
+const std::string kVectors =
+    "DataType=Vec3\nversion=3\nOpenSimVersion=4.5\nendheader\ntime\ta\tb\n0\t1,2,3\t4,5,6\n0.5\t7,"
+    "8,9\t1,1,1\n";
+const std::string kTable = "Time (ms);biceps [mV];\"a;b\"\n0;1,5;2\n10;;3\n";
+
+struct Format {
+  std::string name;
+  std::string text;
+  std::function<void(std::string_view)> read;
+};
+
+std::vector<Format> formats() {
+  return {{"trc", kTrc, [](std::string_view t) { (void)parse_trc(t, "f.trc"); }},
+          {"storage 1", kVersionOne, [](std::string_view t) { (void)parse_storage(t, "f.mot"); }},
+          {"storage 3", kVectors, [](std::string_view t) { (void)parse_storage(t, "f.sto"); }},
+          {"table", kTable, [](std::string_view t) { (void)parse_csv_series(t, "f.csv"); }},
+          {"toml", "a = 1\n[emg]\nunit = \"uV\"\nlist = [1, 2.5]\n",
+           [](std::string_view t) { (void)parse_toml(t, "f.toml"); }}};
+}
+
+/// Reading gives data or a ReadError that begins with the path; anything else fails the test (or
+/// the process).
+void expect_data_or_error(const Format& format, const std::string& text, const std::string& what) {
+  try {
+    format.read(text);
+  } catch (const ReadError& error) {
+    EXPECT_EQ(std::string(error.what()).rfind("f.", 0), 0U)
+        << format.name << ", " << what << ": " << error.what();
+  } catch (const std::exception& error) {
+    ADD_FAILURE() << format.name << ", " << what << ": " << error.what();
+  }
+}
+
+template <class Action>
+std::string refusal(Action&& action) {
+  try {
+    action();
+  } catch (const ReadError& error) {
+    return error.what();
+  }
+  return "(no error)";
+}
+
+std::string all(const std::vector<Repair>& repairs) {
+  std::string text;
+  for (const Repair& r : repairs) text += std::to_string(r.line) + ": " + r.message + "\n";
+  return text;
+}
+
+std::string with(std::string text, const std::string& old, const std::string& replacement) {
+  const std::size_t at = text.find(old);
+  EXPECT_NE(at, std::string::npos) << old;
+  return text.replace(at, old.size(), replacement);
+}
+
+TEST(AnyReader, CutOffAtAnyByteGivesDataOrAnErrorThatNamesTheFile) {
+  for (const Format& format : formats()) {
+    format.read(format.text);  // whole, it is good
+    for (std::size_t n = 0; n < format.text.size(); ++n)
+      expect_data_or_error(format, format.text.substr(0, n), "cut at " + std::to_string(n));
+  }
+}
+
+TEST(AnyReader, AnyByteReplacedByAnOddOneGivesDataOrAnErrorThatNamesTheFile) {
+  const std::string odd{'\0', '\t', '\n', '\r', ' ', ',',    '-',    '+',
+                        '"',  '=',  '9',  'e',  'n', '\x7F', '\xC3', '\xFF'};
+  for (const Format& format : formats()) {
+    for (std::size_t n = 0; n < format.text.size(); ++n) {
+      for (const char c : odd) {
+        std::string text = format.text;
+        text[n] = c;
+        expect_data_or_error(format, text,
+                             "byte " + std::to_string(n) + " = " + std::to_string(int(c)));
+      }
+    }
+  }
+}
+
+TEST(AnyReader, PiecesLostDoubledAndSwappedGiveDataOrAnErrorThatNamesTheFile) {
+  std::mt19937_64 engine(20261121);
+  const auto below = [&](std::size_t n) { return static_cast<std::size_t>(engine() % n); };
+  for (const Format& format : formats()) {
+    for (int trial = 0; trial < 2000; ++trial) {
+      std::string text = format.text;
+      for (std::size_t edits = 1 + below(3); edits > 0 && !text.empty(); --edits) {
+        const std::size_t at = below(text.size());
+        const std::string piece = text.substr(at, 1 + below(12));
+        switch (below(3)) {
+          case 0:
+            text.erase(at, piece.size());
+            break;
+          case 1:
+            text.insert(at, piece);
+            break;
+          default:
+            text.erase(at, piece.size());
+            text.insert(below(text.size() + 1), piece);
+        }
+      }
+      expect_data_or_error(format, text, "trial " + std::to_string(trial));
+    }
+  }
+}
+
+// --- Numbers that would be understood wrongly without a word
+// ------------------------------------------------------------------
+
+TEST(ParseStorage, BlanksAndCaseInTheHeaderDoNotTurnDegreesIntoRadians) {
+  for (const std::string line :
+       {"inDegrees = yes", "indegrees=YES", "InDegrees=true", "inDegrees yes"}) {
+    EXPECT_TRUE(parse_storage(with(kVersionOne, "inDegrees=yes", line), "f.sto").in_degrees)
+        << line;
+  }
+  for (const std::string line : {"inDegrees=no", "inDegrees = No"}) {
+    EXPECT_FALSE(parse_storage(with(kVersionOne, "inDegrees=yes", line), "f.sto").in_degrees)
+        << line;
+  }
+  EXPECT_NE(refusal([] {
+              (void)parse_storage(with(kVersionOne, "inDegrees=yes", "inDegrees=maybe"), "f.sto");
+            }).find("f.sto:5: inDegrees: found 'maybe'"),
+            std::string::npos);
+}
+
+TEST(ParseStorage, AnEmptyCellNeverShiftsTheOthers) {
+  const std::string head = "x\nendheader\ntime\ta\tb\n";
+  EXPECT_NE(refusal([&] {
+              (void)parse_storage(head + "0\t\t2\n", "f.sto");
+            }).find("f.sto:4: expected 3 numbers, found 2"),
+            std::string::npos);
+  EXPECT_NE(refusal([&] {
+              (void)parse_storage(head + "0\t\t2\t3\t4\n", "f.sto");
+            }).find("f.sto:4: a cell is empty"),
+            std::string::npos);
+  EXPECT_EQ(all(parse_storage(head + "0\t\t2\t3\n", "f.sto").repairs),
+            "4: two tabs in a row taken as one, since the numbers are as many as the columns\n");
+}
+
+TEST(ParseStorage, ACommaInsideANumberIsNoSeparator) {
+  const std::string head = "x\nendheader\ntime\ta\tb\n";
+  EXPECT_NE(refusal([&] {
+              (void)parse_storage(head + "0.5\t1,5\t2.5\n", "f.sto");
+            }).find("f.sto:4: expected a number in column 2 ('a'), found '1,5'"),
+            std::string::npos);
+}
+
+TEST(ParseStorage, AVectorOfTooFewElementsDoesNotBorrowFromTheNext) {
+  EXPECT_NE(refusal([] {
+              (void)parse_storage(with(kVectors, "1,2,3\t4,5,6", "1,2\t3,4,5,6"), "f.sto");
+            }).find("f.sto:6: expected a number"),
+            std::string::npos);
+}
+
+TEST(ParseStorage, ANumberTooLargeIsNotZero) {
+  EXPECT_NE(refusal([] {
+              (void)parse_storage(with(kVersionOne, "\t90\t", "\t1e999\t"), "f.sto");
+            }).find("found '1e999'"),
+            std::string::npos);
+  EXPECT_EQ(parse_storage(with(kVersionOne, "\t90\t", "\t1e-999\t"), "f.sto").data.values()(0, 0),
+            0.0);
+}
+
+TEST(ParseTrc, CommaDecimalsAreReadAndSaid) {
+  const TrcFile file = parse_trc(with(with(kTrc, "1.5\t2.5", "1,5\t2,5"), "0.01", "0,01"), "f.trc");
+  EXPECT_DOUBLE_EQ(file.markers.positions_m(1, 0), 1.5e-3);
+  EXPECT_EQ(file.markers.time_s[1], 0.01);
+  EXPECT_EQ(all(file.repairs), "8: comma decimals read as decimal points\n");
+}
+
+TEST(ParseTrc, WithoutTheLineOfAxesTheFirstFrameIsNotLost) {
+  const TrcFile file = parse_trc(with(kTrc, "\t\tX1\tY1\tZ1\tX2\tY2\tZ2\n\n", ""), "f.trc");
+  EXPECT_EQ(file.markers.frame_count(), 3);
+  EXPECT_EQ(all(file.repairs), "5: the line X1 Y1 Z1 ... is missing\n");
+}
+
+TEST(ParseTrc, ARowThatEndsEarlyIsSaidAndTheLastOneOfACutFileLeftOut) {
+  const TrcFile inside =
+      parse_trc(with(kTrc, "1\t0\t1\t2\t3\t4\t5\t6\n", "1\t0\t1\t2\t3\n"), "f.trc");
+  EXPECT_TRUE(inside.markers.missing(0, 1));
+  EXPECT_EQ(all(inside.repairs),
+            "7: a row ends early; the markers behind its end are taken as missing\n");
+  const TrcFile cut =
+      parse_trc(kTrc.substr(0, kTrc.size() - 4), "f.trc");  // "... 4 5" and the 6 is gone
+  EXPECT_EQ(cut.markers.frame_count(), 2);
+  EXPECT_EQ(all(cut.repairs),
+            "9: the last row has 7 of 8 cells and is left out\n3: the header says 3 frames, there "
+            "are 2\n");
+}
+
+TEST(ParseTrc, RefusesATimeThatIsNoTimeAndASecondColumnThatIsNone) {
+  EXPECT_NE(refusal([] {
+              (void)parse_trc(with(kTrc, "0.01", "nan"), "f.trc");
+            }).find("f.trc:8: expected the time"),
+            std::string::npos);
+  EXPECT_NE(refusal([] {
+              (void)parse_trc(with(kTrc, "\tTime\t", "\t"), "f.trc");
+            }).find("f.trc:4: expected the second column to be 'Time', found 'a'"),
+            std::string::npos);
+}
+
+TEST(ParseTrc, NumbersWithoutAMarkerAreSaid) {
+  EXPECT_EQ(all(parse_trc(with(kTrc, "4\t5\t6\n2", "4\t5\t6\t7\n2"), "f.trc").repairs),
+            "7: a row has more numbers than there are markers; the surplus is ignored\n");
+}
+
+TEST(CsvSeries, TakesUnitsFromARowBelowTheHeader) {
+  const CsvSeries s =
+      parse_csv_series("time,biceps,angle\nms,[uV],deg\n0,100,180\n1,-50,90\n", "f.csv");
+  EXPECT_EQ(s.data.time_s()[1], 1e-3);
+  EXPECT_DOUBLE_EQ(s.data.column("biceps")[0], 1e-4);
+  EXPECT_EQ(s.data.channels()[1].unit, Unit::radian);
+}
+
+TEST(CsvSeries, RefusesAClockInMillimetersAndTwoColumnsOfOneName) {
+  EXPECT_NE(refusal([] {
+              (void)parse_csv_series("# from the lab\ntime [mm],a\n0,1\n", "f.csv");
+            }).find("f.csv:2: column 'time [mm]'"),
+            std::string::npos);
+  EXPECT_NE(refusal([] {
+              (void)parse_csv_series("time,a,a\n0,1,1\n", "f.csv");
+            }).find("f.csv:1: two columns are named 'a'"),
+            std::string::npos);
+}
+
+TEST(ReadEmg, AUnitIsAppliedOnceWhoeverStatesIt) {
+  const test::TemporaryFolder folder;
+  write_file(folder / "e.csv", "time,biceps [mV],triceps,force [N]\n0,2,3,100\n0.001,2,3,100\n");
+  const EmgFile file = read_emg(folder / "e.csv", "mV", false);
+  EXPECT_DOUBLE_EQ(file.data.column("biceps")[0], 2e-3);
+  EXPECT_DOUBLE_EQ(file.data.column("triceps")[0], 3e-3);
+  EXPECT_EQ(file.data.channel_count(), 2);  // newtons are no EMG
+  EXPECT_EQ(file.repairs.size(), 2U);
+  EXPECT_NE(refusal([&] {
+              (void)read_emg(folder / "e.csv", "", false);
+            }).find("unit of the EMG is not stated"),
+            std::string::npos);
+}
+
+TEST(ReadTextFile, TellsTextFromWhatIsNone) {
+  const test::TemporaryFolder folder;
+  write_file(folder / "a.trc", std::string("\xFF\xFE"
+                                           "P\0a\0",
+                                           6));
+  EXPECT_NE(refusal([&] { (void)read_trc(folder / "a.trc"); }).find("UTF-16"), std::string::npos);
+  write_file(folder / "b.sto", std::string("\x02\x50\0\0", 4));
+  EXPECT_NE(refusal([&] { (void)read_storage(folder / "b.sto"); }).find("binary"),
+            std::string::npos);
+}
+
+TEST(AnyReader, AGermanLocaleChangesNothing) {
+  const char* const before = std::setlocale(LC_ALL, nullptr);
+  const std::string restore = before != nullptr ? before : "C";
+  if (std::setlocale(LC_ALL, "de_DE.UTF-8") == nullptr)
+    GTEST_SKIP() << "no locale de_DE.UTF-8 here";
+  EXPECT_EQ(parse_storage(kVersionOne, "f.sto").data.values()(1, 0), -15.0);
+  EXPECT_EQ(format_number(0.5), "0.5");
+  std::setlocale(LC_ALL, restore.c_str());
+}
+
+TEST(AnyReader, EveryRecordingOfTheSharedDataReads) {
+  const auto root = test::data_folder();
+  MYOID_REQUIRE_DATA(root / "trc");
+  // Refused, and rightly: no content, or no marker in it.
+  const std::vector<std::string> refused{"Empty.trc", "Truncated.trc",
+                                         "10002-20130626160334-Unnamed.trc"};
+  int count = 0;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(root)) {
+    const std::string extension = entry.path().extension().string();
+    const bool odd = std::find(refused.begin(), refused.end(), entry.path().filename().string()) !=
+                     refused.end();
+    if (odd || (extension != ".trc" && extension != ".mot" && extension != ".sto") ||
+        entry.file_size() > 2000000)
+      continue;
+    ++count;
+    try {
+      if (extension == ".trc") {
+        const Eigen::MatrixXd p = read_trc(entry.path()).markers.positions_m;
+        EXPECT_GT(p.array().isFinite().count(), 0) << entry.path();
+        EXPECT_LT(p.array().isFinite().select(p.array().abs(), 0.0).maxCoeff(), 10.0)
+            << entry.path();  // meters: a laboratory's size
+      } else {
+        EXPECT_GT(read_storage(entry.path()).data.sample_count(), 0) << entry.path();
+      }
+    } catch (const std::exception& error) {
+      ADD_FAILURE() << error.what();
+    }
+  }
+  EXPECT_GT(count, 100);
+}
+
+TEST(ParseTrc, HeaderValuesTwoTabsApartAreReadInTheirOrder) {
+  EXPECT_EQ(
+      parse_trc(with(kTrc, "100\t100\t3\t2\tmm\t", "  100.0\t\t  100.0\t\t 3\t\t 2\t\t mm\t "),
+                "f.trc")
+          .unit,
+      "mm");
+  const auto path = test::data_folder() / "gait-emg/markers_walk.trc";
+  MYOID_REQUIRE_DATA(path);
+  const TrcFile file = read_trc(path);
+  EXPECT_TRUE(file.repairs.empty()) << all(file.repairs);
+  EXPECT_DOUBLE_EQ(file.markers.positions_m(0, 0), -0.652630);
+}
+
+}  // namespace
+}  // namespace myoid::recording
