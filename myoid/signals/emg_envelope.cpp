@@ -76,6 +76,13 @@ EmgStages process_emg(const TimeSeries& raw, const EnvelopeOptions& options) {
                                 options.rectify ? Eigen::MatrixXd(stages.filtered.values().cwiseAbs()) : stages.filtered.values());
   const TimeSeries smooth = zero_phase_filter(stages.rectified, math::FilterBand::low_pass, options.lowpass_hz,
                                               {.order = 2, .corrected = !options.as_published});
+  for (Eigen::Index c = 0; c < raw.channel_count(); ++c) {
+    const double share = (smooth.values().col(c).array() < 0.0).cast<double>().mean();
+    if (share > 0.01) {
+      stages.findings.push_back(fmt::format("channel '{}': the filter undershoots in {:.1f} % of the samples; the envelope is 0 there",
+                                            raw.channels()[static_cast<std::size_t>(c)].name, 100.0 * share));
+    }
+  }
   stages.envelope = TimeSeries(raw.time_s(), raw.channels(), smooth.values().cwiseMax(0.0));
   return stages;
 }

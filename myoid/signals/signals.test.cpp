@@ -61,6 +61,15 @@ TEST(ProcessEmg, NamesMainsHum) {
   EXPECT_TRUE(process_emg(x).findings.empty());
 }
 
+TEST(ProcessEmg, AnEnvelopeThatWouldBeNegativeIsSaid) {
+  Eigen::MatrixXd x = Eigen::MatrixXd::Zero(4000, 1);
+  x.middleRows(2000, 30).setConstant(1e-3);  // a burst: the low-pass rings below 0 on both sides
+  const EmgStages s = process_emg({Eigen::VectorXd::LinSpaced(4000, 0.0, 3.999), {{"m", Unit::volt}}, x}, {.highpass_hz = 1.0, .lowpass_hz = 20.0, .rectify = false});
+  ASSERT_EQ(s.findings.size(), 1U);
+  EXPECT_NE(s.findings[0].find("undershoots"), std::string::npos);
+  EXPECT_EQ(s.envelope.values().minCoeff(), 0.0);
+}
+
 TEST(ProcessEmg, RefusesForcesForEmg) {
   const TimeSeries x = gaussian(1000, 1.0);
   EXPECT_THROW((void)process_emg({x.time_s(), {{"m", Unit::newton}}, x.values()}), InvalidInput);
