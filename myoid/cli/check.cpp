@@ -1,6 +1,6 @@
-#include <fmt/format.h>
-
 #include <algorithm>
+
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "myoid/cli/context.h"
@@ -9,22 +9,30 @@
 namespace myoid::cli {
 
 void add_check(CLI::App& app, Context& context) {
-  CLI::App& command = *app.add_subcommand("check", "Reads every input of a study and says what is wrong with it, worst first; computes nothing.\n"
-                                                   "Example: myoid check study.toml");
+  CLI::App& command = *app.add_subcommand("check",
+                                          "Reads every input of a study and says what is wrong "
+                                          "with it, worst first; computes nothing.\n"
+                                          "Example: myoid check study.toml");
   const auto study_file = std::make_shared<std::string>();
   command.add_option("study", *study_file, "study.toml")->required();
   add_common_options(command, context);
   command.callback([&context, study_file] {
     const pipeline::Study study = pipeline::read_study(*study_file);
     const std::vector<pipeline::Finding> findings = pipeline::check_study(study);
-    const auto errors = std::count_if(findings.begin(), findings.end(), [](const auto& f) { return f.level == pipeline::Finding::Level::error; });
+    const auto errors = std::count_if(findings.begin(), findings.end(), [](const auto& f) {
+      return f.level == pipeline::Finding::Level::error;
+    });
     if (context.json) {
       nlohmann::ordered_json json = nlohmann::ordered_json::array();
-      for (const auto& f : findings) json.push_back({{"level", std::string(name(f.level))}, {"where", f.where}, {"message", f.message}});
+      for (const auto& f : findings)
+        json.push_back(
+            {{"level", std::string(name(f.level))}, {"where", f.where}, {"message", f.message}});
       fmt::print("{}\n", json.dump(2));
     } else {
-      for (const auto& f : findings) fmt::print("{:<8} {}: {}\n", name(f.level), f.where, f.message);
-      fmt::print("{} trials, {} muscles: {} errors, {} remarks\n", study.trials.size(), study.muscles.size(), errors, static_cast<long>(findings.size()) - errors);
+      for (const auto& f : findings)
+        fmt::print("{:<8} {}: {}\n", name(f.level), f.where, f.message);
+      fmt::print("{} trials, {} muscles: {} errors, {} remarks\n", study.trials.size(),
+                 study.muscles.size(), errors, static_cast<long>(findings.size()) - errors);
     }
     if (errors > 0) context.exit_code = kBadInput;
   });

@@ -1,12 +1,12 @@
 #include "myoid/cli/context.h"
 
-#include <fmt/format.h>
-#include <unistd.h>
-
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <mutex>
+
+#include <fmt/format.h>
+#include <unistd.h>
 
 #include "myoid/core/error.h"
 
@@ -27,11 +27,12 @@ struct ProgressBar {
     if (share < 1.0 && now - last < std::chrono::milliseconds(100)) return;
     last = now;
     const double elapsed_s = std::chrono::duration<double>(now - begin).count();
-    const std::string left =
-        share > 0.02 && share < 1.0 ? fmt::format("{:.0f} s left", elapsed_s * (1.0 - share) / share) : "";
+    const std::string left = share > 0.02 && share < 1.0
+                                 ? fmt::format("{:.0f} s left", elapsed_s * (1.0 - share) / share)
+                                 : "";
     const int filled = static_cast<int>(share * 24.0);
-    fmt::print(stderr, "\r\033[K[{:=<{}}{: <{}}] {:3.0f} %  {}  {}", "", filled, "", 24 - filled, 100.0 * share,
-               left, what);
+    fmt::print(stderr, "\r\033[K[{:=<{}}{: <{}}] {:3.0f} %  {}  {}", "", filled, "", 24 - filled,
+               100.0 * share, left, what);
     std::fflush(stderr);
   }
 };
@@ -44,7 +45,8 @@ void Context::log(std::string_view line) const {
 
 void Context::warn(std::string_view line) const {
   if (quiet) return;
-  fmt::print(stderr, "{}warning:{} {}\n", color_wanted() ? "\033[33m" : "", color_wanted() ? "\033[0m" : "", line);
+  fmt::print(stderr, "{}warning:{} {}\n", color_wanted() ? "\033[33m" : "",
+             color_wanted() ? "\033[0m" : "", line);
 }
 
 Progress Context::progress() const {
@@ -62,7 +64,8 @@ void Context::end_progress() const {
 
 void Context::refuse_existing(const std::filesystem::path& path) const {
   if (!overwrite && std::filesystem::exists(path)) {
-    throw InvalidInput(fmt::format("{} exists already; give --overwrite to replace it, or another --out", path.string()));
+    throw InvalidInput(fmt::format(
+        "{} exists already; give --overwrite to replace it, or another --out", path.string()));
   }
 }
 
@@ -72,16 +75,21 @@ void Context::prepare_folder(const std::filesystem::path& folder) const {
     throw InvalidInput(fmt::format("{} is a file; --out must name a folder", folder.string()));
   }
   if (fs::exists(folder) && !fs::is_empty(folder) && !overwrite) {
-    throw InvalidInput(fmt::format("the folder {} is not empty; give --overwrite to write into it, or another --out",
-                                   folder.string()));
+    throw InvalidInput(fmt::format(
+        "the folder {} is not empty; give --overwrite to write into it, or another --out",
+        folder.string()));
   }
   std::error_code error;
   fs::create_directories(folder, error);
-  if (error) throw InvalidInput(fmt::format("cannot create the folder {}: {}", folder.string(), error.message()));
+  if (error)
+    throw InvalidInput(
+        fmt::format("cannot create the folder {}: {}", folder.string(), error.message()));
 }
 
 void add_common_options(CLI::App& command, Context& context) {
-  command.add_option("--threads", context.threads, "Number of threads (default: all cores; the result is the same for every number)")
+  command
+      .add_option("--threads", context.threads,
+                  "Number of threads (default: all cores; the result is the same for every number)")
       ->check(CLI::Range(0, 1024));
   command.add_option("--seed", context.seed, "Seed of everything random (default 1)");
   command.add_flag("--json", context.json, "Result for machines on stdout");
@@ -93,7 +101,8 @@ void add_common_options(CLI::App& command, Context& context) {
   command.parse_complete_callback([&context] {
     if (context.threads > 0) {
       context.thread_limit = std::make_shared<oneapi::tbb::global_control>(
-          oneapi::tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(context.threads));
+          oneapi::tbb::global_control::max_allowed_parallelism,
+          static_cast<std::size_t>(context.threads));
     }
   });
 }

@@ -1,8 +1,5 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
-#include <oneapi/tbb/global_control.h>
-
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -10,6 +7,9 @@
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include <CLI/CLI.hpp>
+#include <oneapi/tbb/global_control.h>
 
 #include "myoid/core/progress.h"
 
@@ -28,7 +28,7 @@ enum ExitCode : int {
 
 /// What every command shares: the common options, progress and log on stderr, and the way to stop.
 struct Context {
-  int threads = 0;             ///< 0: all cores.
+  int threads = 0;  ///< 0: all cores.
   std::uint64_t seed = 1;
   bool json = false;
   bool quiet = false;

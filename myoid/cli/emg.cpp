@@ -9,8 +9,11 @@
 namespace myoid::cli {
 
 void add_emg(CLI::App& app, Context& context) {
-  CLI::App& command = *app.add_subcommand("emg", "Raw EMG to activation: high-pass, rectify, low-pass, resting level, normalized to the largest effort in the files given.\n"
-                                                 "Example: myoid emg flex.sto --mvc mvc.sto --out activation.sto");
+  CLI::App& command =
+      *app.add_subcommand("emg",
+                          "Raw EMG to activation: high-pass, rectify, low-pass, resting level, "
+                          "normalized to the largest effort in the files given.\n"
+                          "Example: myoid emg flex.sto --mvc mvc.sto --out activation.sto");
   struct Options {
     std::string in, out, unit, envelope;
     std::vector<std::string> mvc;
@@ -20,33 +23,45 @@ void add_emg(CLI::App& app, Context& context) {
   const auto o = std::make_shared<Options>();
   command.add_option("in", o->in, "EMG (.sto, .mot, .csv)")->required();
   command.add_option("--out", o->out, "Activation 0..1 (.sto)")->required();
-  command.add_option("--mvc", o->mvc, "Maximal contractions to normalize by, repeated (default: the largest effort in the file itself)");
-  command.add_option("--unit", o->unit, "Unit of the numbers where the file does not say: V, mV, uV");
+  command.add_option("--mvc", o->mvc,
+                     "Maximal contractions to normalize by, repeated (default: the largest effort "
+                     "in the file itself)");
+  command.add_option("--unit", o->unit,
+                     "Unit of the numbers where the file does not say: V, mV, uV");
   command.add_option("--highpass", o->chain.highpass_hz, "High-pass [Hz] (default 20)");
-  command.add_option("--lowpass", o->chain.lowpass_hz, "Low-pass of the rectified EMG, -3 dB of both passes [Hz] (default 6)");
-  command.add_flag("--as-published", o->chain.as_published, "As the source paper: no high-pass, low-pass designed for one pass");
-  command.add_option("--window", o->window_s, "Window of the mean that counts as 1 [s] (default 0.5)");
+  command.add_option("--lowpass", o->chain.lowpass_hz,
+                     "Low-pass of the rectified EMG, -3 dB of both passes [Hz] (default 6)");
+  command.add_flag("--as-published", o->chain.as_published,
+                   "As the source paper: no high-pass, low-pass designed for one pass");
+  command.add_option("--window", o->window_s,
+                     "Window of the mean that counts as 1 [s] (default 0.5)");
   command.add_option("--envelope", o->envelope, "Also write the envelope [V] here (.sto)");
   add_common_options(command, context);
   command.callback([&context, o] {
     context.refuse_existing(o->out);
     const auto process = [&](const std::string& path) {
       recording::EmgFile file = recording::read_emg(path, o->unit, false);
-      for (const recording::Repair& repair : file.repairs) context.warn(fmt::format("{}:{}: {}", path, repair.line, repair.message));
+      for (const recording::Repair& repair : file.repairs)
+        context.warn(fmt::format("{}:{}: {}", path, repair.line, repair.message));
       signals::EmgStages stages = signals::process_emg(file.data, o->chain);
-      for (const std::string& finding : stages.findings) context.warn(fmt::format("{}: {}", path, finding));
+      for (const std::string& finding : stages.findings)
+        context.warn(fmt::format("{}: {}", path, finding));
       return stages.envelope;
     };
     const TimeSeries envelope = process(o->in);
     std::vector<TimeSeries> maximal;
     for (const std::string& path : o->mvc) maximal.push_back(process(path));
     std::vector<signals::TrialEnvelope> trials{{o->in, false, &envelope}};
-    for (std::size_t i = 0; i < maximal.size(); ++i) trials.push_back({o->mvc[i], true, &maximal[i]});
+    for (std::size_t i = 0; i < maximal.size(); ++i)
+      trials.push_back({o->mvc[i], true, &maximal[i]});
     const auto normalisation = signals::find_normalisation(trials, {.window_s = o->window_s});
-    recording::write_storage(o->out, cut(signals::normalise(envelope, normalisation), context), {.title = "Activation"});
-    if (!o->envelope.empty()) recording::write_storage(o->envelope, cut(envelope, context), {.title = "EMG envelope volt"});
+    recording::write_storage(o->out, cut(signals::normalise(envelope, normalisation), context),
+                             {.title = "Activation"});
+    if (!o->envelope.empty())
+      recording::write_storage(o->envelope, cut(envelope, context), {.title = "EMG envelope volt"});
     for (const auto& n : normalisation) {
-      fmt::print("{:<24} rest {:8.2f} uV   1 = {:8.2f} uV  ({} at {:.2f} s{})\n", n.channel, 1e6 * n.resting_level_v, 1e6 * n.reference_v, n.source_trial, n.source_time_s,
+      fmt::print("{:<24} rest {:8.2f} uV   1 = {:8.2f} uV  ({} at {:.2f} s{})\n", n.channel,
+                 1e6 * n.resting_level_v, 1e6 * n.reference_v, n.source_trial, n.source_time_s,
                  n.from_mvc ? "" : "; no MVC: relative to this file's largest effort");
     }
     fmt::print("{}\n", o->out);

@@ -1,27 +1,30 @@
-#include "myoid/kinematics/inverse_kinematics.h"
+#include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
-#include <cmath>
-
 #include "myoid/cli/context.h"
 #include "myoid/cli/stage_input.h"
 #include "myoid/core/error.h"
+#include "myoid/kinematics/inverse_kinematics.h"
 #include "myoid/pipeline/result_files.h"
 #include "myoid/recording/trc_reader.h"
 
 namespace myoid::cli {
 namespace {
 
-double rms_of(double sum_of_squares, int count) { return std::sqrt(sum_of_squares / std::max(1, count)); }
+double rms_of(double sum_of_squares, int count) {
+  return std::sqrt(sum_of_squares / std::max(1, count));
+}
 
 }  // namespace
 
 void add_ik(CLI::App& app, Context& context) {
-  CLI::App& command = *app.add_subcommand("ik", "Inverse kinematics: markers to joint angles.\n"
-                                                "Example: myoid ik --model arm.osim --markers flex.trc --out ik.mot");
+  CLI::App& command =
+      *app.add_subcommand("ik",
+                          "Inverse kinematics: markers to joint angles.\n"
+                          "Example: myoid ik --model arm.osim --markers flex.trc --out ik.mot");
   struct Options {
     std::string model, markers, out, up = "y";
     std::vector<std::string> weights, lock, unlock;
@@ -29,23 +32,32 @@ void add_ik(CLI::App& app, Context& context) {
   const auto o = std::make_shared<Options>();
   command.add_option("--model", o->model, "OpenSim model (.osim), or arm4")->required();
   command.add_option("--markers", o->markers, "Markers (.trc)")->required();
-  command.add_option("--out", o->out, "Joint angles (.mot); the marker errors go beside it")->required();
-  command.add_option("--up", o->up, "Vertical axis of the laboratory: x, y or z (default y)")->check(CLI::IsMember({"x", "y", "z"}));
+  command.add_option("--out", o->out, "Joint angles (.mot); the marker errors go beside it")
+      ->required();
+  command.add_option("--up", o->up, "Vertical axis of the laboratory: x, y or z (default y)")
+      ->check(CLI::IsMember({"x", "y", "z"}));
   command.add_option("--weight", o->weights, "MARKER=WEIGHT, repeated; 1 where not given");
   command.add_option("--lock", o->lock, "Coordinate held at its default value, repeated");
-  command.add_option("--unlock", o->unlock, "Coordinate freed although the model locks it, repeated");
+  command.add_option("--unlock", o->unlock,
+                     "Coordinate freed although the model locks it, repeated");
   add_common_options(command, context);
   command.callback([&context, o] {
     context.refuse_existing(o->out);
     model::BodyModel model = load_model(o->model, context);
-    for (const std::string& name : o->lock) model.coordinates[static_cast<std::size_t>(model.coordinate_index(name))].locked = true;
-    for (const std::string& name : o->unlock) model.coordinates[static_cast<std::size_t>(model.coordinate_index(name))].locked = false;
+    for (const std::string& name : o->lock)
+      model.coordinates[static_cast<std::size_t>(model.coordinate_index(name))].locked = true;
+    for (const std::string& name : o->unlock)
+      model.coordinates[static_cast<std::size_t>(model.coordinate_index(name))].locked = false;
     recording::TrcFile file = recording::read_trc(o->markers);
-    for (const recording::Repair& repair : file.repairs) context.warn(fmt::format("{}:{}: {}", o->markers, repair.line, repair.message));
-    recording::MarkerSeries markers = recording::rotated(std::move(file.markers), recording::rotation_to_y_up(o->up[0]));
+    for (const recording::Repair& repair : file.repairs)
+      context.warn(fmt::format("{}:{}: {}", o->markers, repair.line, repair.message));
+    recording::MarkerSeries markers =
+        recording::rotated(std::move(file.markers), recording::rotation_to_y_up(o->up[0]));
     if (context.start_s || context.end_s) {
       Eigen::Index first = 0;
-      while (first < markers.frame_count() && markers.time_s[first] < context.start_s.value_or(-1e300)) ++first;
+      while (first < markers.frame_count() &&
+             markers.time_s[first] < context.start_s.value_or(-1e300))
+        ++first;
       Eigen::Index last = markers.frame_count();
       while (last > first && markers.time_s[last - 1] > context.end_s.value_or(1e300)) --last;
       if (last == first) throw InvalidInput("no frames lie between --start and --end");
@@ -55,7 +67,9 @@ void add_ik(CLI::App& app, Context& context) {
     kinematics::IkOptions options{.progress = context.progress()};
     for (const std::string& pair : o->weights) {
       const std::size_t equal = pair.rfind('=');
-      const auto value = equal == std::string::npos ? std::nullopt : recording::parse_number(pair.substr(equal + 1));
+      const auto value = equal == std::string::npos
+                             ? std::nullopt
+                             : recording::parse_number(pair.substr(equal + 1));
       if (!value) throw InvalidInput(fmt::format("--weight {}: expected MARKER=NUMBER", pair));
       options.marker_weights[pair.substr(0, equal)] = *value;
     }
@@ -75,10 +89,16 @@ void add_ik(CLI::App& app, Context& context) {
       ++seen;
     }
     const double worst_mm = 1000.0 * rms_of(rms, seen);
-    if (worst_mm > 40.0) context.warn("the markers lie far from the model's: another model, other units or swapped labels? The angles may still fit, the marker errors do not");
-    fmt::print("{} frames, {} not converged, {} without markers; marker error {:.2f} mm rms\n", result.status.size(), result.frames_not_converged, result.frames_without_markers,
+    if (worst_mm > 40.0)
+      context.warn(
+          "the markers lie far from the model's: another model, other units or swapped labels? The "
+          "angles may still fit, the marker errors do not");
+    fmt::print("{} frames, {} not converged, {} without markers; marker error {:.2f} mm rms\n",
+               result.status.size(), result.frames_not_converged, result.frames_without_markers,
                worst_mm);
-    if (!result.undetermined.empty()) context.warn(fmt::format("not determined by the markers: {}", fmt::join(result.undetermined, ", ")));
+    if (!result.undetermined.empty())
+      context.warn(
+          fmt::format("not determined by the markers: {}", fmt::join(result.undetermined, ", ")));
     fmt::print("{}\n{}\n", o->out, errors.string());
     if (result.frames_not_converged > 0) context.exit_code = kQualityGateFailed;
   });

@@ -1,7 +1,7 @@
+#include <cmath>
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "myoid/cli/context.h"
@@ -19,7 +19,8 @@ using nlohmann::ordered_json;
 
 ordered_json repairs_json(const std::vector<recording::Repair>& repairs) {
   ordered_json list = ordered_json::array();
-  for (const recording::Repair& r : repairs) list.push_back(r.line > 0 ? fmt::format("line {}: {}", r.line, r.message) : r.message);
+  for (const recording::Repair& r : repairs)
+    list.push_back(r.line > 0 ? fmt::format("line {}: {}", r.line, r.message) : r.message);
   return list;
 }
 
@@ -45,7 +46,8 @@ ordered_json series_json(const TimeSeries& series) {
       }
     }
     ordered_json channel{{"name", series.channels()[c].name}};
-    if (series.channels()[c].unit != Unit::dimensionless) channel["unit"] = std::string(symbol(series.channels()[c].unit));
+    if (series.channels()[c].unit != Unit::dimensionless)
+      channel["unit"] = std::string(symbol(series.channels()[c].unit));
     if (low <= high) {
       channel["lowest"] = low;
       channel["highest"] = high;
@@ -58,7 +60,8 @@ ordered_json series_json(const TimeSeries& series) {
 
 ordered_json trc_json(const std::filesystem::path& path) {
   const recording::TrcFile file = recording::read_trc(path);
-  ordered_json j{{"kind", "markers (.trc)"}, {"unit", file.unit}, {"frames", file.markers.frame_count()}};
+  ordered_json j{
+      {"kind", "markers (.trc)"}, {"unit", file.unit}, {"frames", file.markers.frame_count()}};
   const auto& t = file.markers.time_s;
   j["start_s"] = t[0];
   j["duration_s"] = t[t.size() - 1] - t[0];
@@ -66,7 +69,8 @@ ordered_json trc_json(const std::filesystem::path& path) {
   j["markers"] = ordered_json::array();
   for (Eigen::Index m = 0; m < file.markers.marker_count(); ++m) {
     Eigen::Index missing = 0;
-    for (Eigen::Index f = 0; f < file.markers.frame_count(); ++f) missing += file.markers.missing(f, m) ? 1 : 0;
+    for (Eigen::Index f = 0; f < file.markers.frame_count(); ++f)
+      missing += file.markers.missing(f, m) ? 1 : 0;
     ordered_json marker{{"name", file.markers.names[static_cast<std::size_t>(m)]}};
     if (missing > 0) marker["missing_frames"] = missing;
     j["markers"].push_back(marker);
@@ -77,7 +81,9 @@ ordered_json trc_json(const std::filesystem::path& path) {
 
 ordered_json storage_json(const std::filesystem::path& path) {
   const recording::Storage file = recording::read_storage(path);
-  ordered_json j{{"kind", "storage (.mot, .sto)"}, {"title", file.title}, {"angles", file.in_degrees ? "degrees" : "radians"}};
+  ordered_json j{{"kind", "storage (.mot, .sto)"},
+                 {"title", file.title},
+                 {"angles", file.in_degrees ? "degrees" : "radians"}};
   j.update(series_json(file.data));
   j["repairs"] = repairs_json(file.repairs);
   return j;
@@ -107,17 +113,27 @@ ordered_json osim_json(const std::filesystem::path& path) {
   j["mass_kg"] = mass;
   j["gravity_mps2"] = {m.gravity_G.x(), m.gravity_G.y(), m.gravity_G.z()};
   for (const model::Joint& joint : m.joints) {
-    j["joints"].push_back(fmt::format("{} ({}): {} -> {}", joint.name, joint.class_name, m.bodies[static_cast<std::size_t>(joint.parent)].name, m.bodies[static_cast<std::size_t>(joint.child)].name));
+    j["joints"].push_back(fmt::format("{} ({}): {} -> {}", joint.name, joint.class_name,
+                                      m.bodies[static_cast<std::size_t>(joint.parent)].name,
+                                      m.bodies[static_cast<std::size_t>(joint.child)].name));
   }
   for (const model::Coordinate& c : m.coordinates) {
     const bool angle = c.motion == model::MotionType::rotational;
     const double scale = angle ? 1.0 / kDegree : 1.0;
-    j["coordinates"].push_back(fmt::format("{} [{}] {:.4g} to {:.4g}{}", c.name, angle ? "deg" : c.motion == model::MotionType::translational ? "m" : "coupled", c.lower * scale, c.upper * scale, c.locked ? ", locked" : ""));
+    j["coordinates"].push_back(
+        fmt::format("{} [{}] {:.4g} to {:.4g}{}", c.name,
+                    angle                                          ? "deg"
+                    : c.motion == model::MotionType::translational ? "m"
+                                                                   : "coupled",
+                    c.lower * scale, c.upper * scale, c.locked ? ", locked" : ""));
   }
   j["muscles"] = ordered_json::array();
   for (const model::Muscle& muscle : m.muscles) {
-    j["muscles"].push_back(fmt::format("{} ({}): F_max {:.4g} N, l0 {:.4g} m, tendon {:.4g} m, {} points, {} wraps", muscle.name, muscle.class_name, muscle.properties.max_isometric_force_n,
-                                       muscle.properties.optimal_fiber_length_m, muscle.properties.tendon_slack_length_m, muscle.path.points.size(), muscle.path.wraps.size()));
+    j["muscles"].push_back(fmt::format(
+        "{} ({}): F_max {:.4g} N, l0 {:.4g} m, tendon {:.4g} m, {} points, {} wraps", muscle.name,
+        muscle.class_name, muscle.properties.max_isometric_force_n,
+        muscle.properties.optimal_fiber_length_m, muscle.properties.tendon_slack_length_m,
+        muscle.path.points.size(), muscle.path.wraps.size()));
   }
   for (const model::Marker& marker : m.markers) j["markers"].push_back(marker.name);
   j["not_supported"] = m.unsupported;
@@ -127,9 +143,14 @@ ordered_json osim_json(const std::filesystem::path& path) {
 
 ordered_json study_file_json(const std::filesystem::path& path) {
   const pipeline::Study study = pipeline::read_study(path);
-  ordered_json j{{"kind", "study"}, {"subject", study.subject.name}, {"coordinate", study.model.coordinate}, {"methods", study.identify.methods}};
-  for (const auto& m : study.muscles) j["muscles"].push_back(fmt::format("{} <- EMG {}", m.name, m.emg));
-  for (const auto& t : study.trials) j["trials"].push_back(fmt::format("{} ({})", t.name, name(t.use)));
+  ordered_json j{{"kind", "study"},
+                 {"subject", study.subject.name},
+                 {"coordinate", study.model.coordinate},
+                 {"methods", study.identify.methods}};
+  for (const auto& m : study.muscles)
+    j["muscles"].push_back(fmt::format("{} <- EMG {}", m.name, m.emg));
+  for (const auto& t : study.trials)
+    j["trials"].push_back(fmt::format("{} ({})", t.name, name(t.use)));
   return j;
 }
 
@@ -142,7 +163,11 @@ ordered_json file_json(const std::filesystem::path& path) {
   if (extension == ".osim") return osim_json(path);
   if (extension == ".toml") return study_file_json(path);
   (void)recording::read_text_file(path);  // a missing or empty file is told as such
-  throw ReadError(path, 0, fmt::format("files of kind '{}' are not known; known are .trc, .mot, .sto, .csv, .osim and .toml", extension));
+  throw ReadError(
+      path, 0,
+      fmt::format(
+          "files of kind '{}' are not known; known are .trc, .mot, .sto, .csv, .osim and .toml",
+          extension));
 }
 
 void print(const ordered_json& j, int indent) {
@@ -165,13 +190,21 @@ void print(const ordered_json& j, int indent) {
           std::string line;
           for (const auto& [k, v] : item.items()) {
             line += line.empty() ? "" : k == "unit" ? " [" : "  ";
-            line += k == "name" ? v.get<std::string>() : k == "unit" ? v.get<std::string>() + "]" : fmt::format("{} {}", k, v.is_number_float() ? fmt::format("{:.5g}", v.get<double>()) : v.dump());
+            line += k == "name" ? v.get<std::string>()
+                    : k == "unit"
+                        ? v.get<std::string>() + "]"
+                        : fmt::format("{} {}", k,
+                                      v.is_number_float() ? fmt::format("{:.5g}", v.get<double>())
+                                                          : v.dump());
           }
           fmt::print("{}  {}\n", space, line);
         }
       }
     } else {
-      fmt::print("{}{}: {}\n", space, label, value.is_string() ? value.get<std::string>() : value.is_number_float() ? fmt::format("{:.6g}", value.get<double>()) : value.dump());
+      fmt::print("{}{}: {}\n", space, label,
+                 value.is_string()         ? value.get<std::string>()
+                 : value.is_number_float() ? fmt::format("{:.6g}", value.get<double>())
+                                           : value.dump());
     }
   }
 }
@@ -179,8 +212,11 @@ void print(const ordered_json& j, int indent) {
 }  // namespace
 
 void add_info(CLI::App& app, Context& context) {
-  CLI::App& command = *app.add_subcommand("info", "Says what a file holds: channels, units, rates, duration, gaps, repairs; of a model also what is not supported.\n"
-                                                  "Example: myoid info arm.osim flex.trc");
+  CLI::App& command =
+      *app.add_subcommand("info",
+                          "Says what a file holds: channels, units, rates, duration, gaps, "
+                          "repairs; of a model also what is not supported.\n"
+                          "Example: myoid info arm.osim flex.trc");
   const auto files = std::make_shared<std::vector<std::string>>();
   command.add_option("files", *files, ".trc, .mot, .sto, .csv, .osim or study.toml")->required();
   add_common_options(command, context);

@@ -1,12 +1,12 @@
 // The program: options, one try, exit code. Everything else is the library.
+#include <csignal>
+#include <exception>
+#include <thread>
+
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <pthread.h>
 #include <unistd.h>
-
-#include <csignal>
-#include <exception>
-#include <thread>
 
 #include "myoid/cli/context.h"
 #include "myoid/core/error.h"
@@ -31,14 +31,16 @@ void stop_on_signals(std::stop_source stop) {
 }
 
 int run(int argc, char** argv, myoid::cli::Context& context) {
-  CLI::App app{"Myoid identifies a person's own muscle parameters from motion capture and EMG,\n"
-               "says how sure it is of each, and what the recording could not tell.",
-               "myoid"};
+  CLI::App app{
+      "Myoid identifies a person's own muscle parameters from motion capture and EMG,\n"
+      "says how sure it is of each, and what the recording could not tell.",
+      "myoid"};
   app.set_version_flag("--version,-V", std::string(myoid::version()));
   app.require_subcommand(0, 1);
-  app.footer("myoid COMMAND --help shows a command's purpose, an example and its options.\n"
-             "First steps: myoid twin --protocol examples/demo/protocol.toml --out rec\n"
-             "             myoid run rec/study.toml --out results");
+  app.footer(
+      "myoid COMMAND --help shows a command's purpose, an example and its options.\n"
+      "First steps: myoid twin --protocol examples/demo/protocol.toml --out rec\n"
+      "             myoid run rec/study.toml --out results");
   myoid::cli::add_run(app, context);
   myoid::cli::add_check(app, context);
   myoid::cli::add_info(app, context);
@@ -65,7 +67,8 @@ int run(int argc, char** argv, myoid::cli::Context& context) {
 int main(int argc, char** argv) {
   using namespace myoid;
   cli::Context context;
-  for (int i = 0; i < argc; ++i) context.command_line += (i == 0 ? "" : " ") + std::string(i == 0 ? "myoid" : argv[i]);
+  for (int i = 0; i < argc; ++i)
+    context.command_line += (i == 0 ? "" : " ") + std::string(i == 0 ? "myoid" : argv[i]);
   stop_on_signals(context.stop);
   try {
     return run(argc, argv, context);
@@ -79,7 +82,9 @@ int main(int argc, char** argv) {
     return cli::kBadInput;
   } catch (const std::exception& error) {
     context.end_progress();
-    fmt::print(stderr, "internal error: {}\nPlease report this with the command line and, if you can, the files.\n",
+    fmt::print(stderr,
+               "internal error: {}\nPlease report this with the command line and, if you can, the "
+               "files.\n",
                error.what());
     return cli::kInternalError;
   }

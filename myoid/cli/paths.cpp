@@ -8,8 +8,10 @@
 namespace myoid::cli {
 
 void add_paths(CLI::App& app, Context& context) {
-  CLI::App& command = *app.add_subcommand("paths", "Musculotendon lengths, velocities and moment arms along a motion.\n"
-                                                   "Example: myoid paths --model arm.osim --motion ik.mot --out paths");
+  CLI::App& command =
+      *app.add_subcommand("paths",
+                          "Musculotendon lengths, velocities and moment arms along a motion.\n"
+                          "Example: myoid paths --model arm.osim --motion ik.mot --out paths");
   struct Options {
     std::string model, motion, out;
     double cutoff_hz = 0.0;
@@ -18,7 +20,8 @@ void add_paths(CLI::App& app, Context& context) {
   command.add_option("--model", o->model, "OpenSim model (.osim), or arm4")->required();
   command.add_option("--motion", o->motion, "Joint angles (.mot, .sto)")->required();
   command.add_option("--out", o->out, "Folder for MuscleAnalysis_*.sto [m, m/s]")->required();
-  command.add_option("--lowpass", o->cutoff_hz, "Smooth the angles, -3 dB at this frequency [Hz] (default: not smoothed)");
+  command.add_option("--lowpass", o->cutoff_hz,
+                     "Smooth the angles, -3 dB at this frequency [Hz] (default: not smoothed)");
   add_common_options(command, context);
   command.callback([&context, o] {
     const model::BodyModel model = load_model(o->model, context);

@@ -1,7 +1,6 @@
 #include "myoid/report/report.h"
 
 #include <fmt/format.h>
-
 #include <nlohmann/json.hpp>
 
 #include "myoid/cli/context.h"
@@ -13,8 +12,11 @@
 namespace myoid::cli {
 
 void add_report(CLI::App& app, Context& context) {
-  CLI::App& command = *app.add_subcommand("report", "Rebuilds the report of a finished run from its recordings, provided that none of them has changed since.\n"
-                                                    "Example: myoid report results");
+  CLI::App& command =
+      *app.add_subcommand("report",
+                          "Rebuilds the report of a finished run from its recordings, provided "
+                          "that none of them has changed since.\n"
+                          "Example: myoid report results");
   const auto folder = std::make_shared<std::string>();
   command.add_option("folder", *folder, "Folder of a run (with run.json)")->required();
   add_common_options(command, context);
@@ -24,15 +26,23 @@ void add_report(CLI::App& app, Context& context) {
     try {
       run = nlohmann::ordered_json::parse(recording::read_text_file(path));
     } catch (const nlohmann::json::exception& error) {
-      throw ReadError(path, 0, fmt::format("not a run's record: {}; run the study again", error.what()));
+      throw ReadError(path, 0,
+                      fmt::format("not a run's record: {}; run the study again", error.what()));
     }
-    if (!run.contains("study")) throw ReadError(path, 0, "does not name its study; run the study again");
+    if (!run.contains("study"))
+      throw ReadError(path, 0, "does not name its study; run the study again");
     const pipeline::Study study = pipeline::read_study(run["study"].get<std::string>());
-    const pipeline::StudyResult result = pipeline::run_study(study, {.progress = context.progress()});
+    const pipeline::StudyResult result =
+        pipeline::run_study(study, {.progress = context.progress()});
     for (const InputFile& now : result.inputs) {
       for (const auto& then : run["inputs"]) {
-        if (std::filesystem::path(then["path"].get<std::string>()).filename() == std::filesystem::path(now.path).filename() && then["sha256"] != now.sha256) {
-          throw ReadError(now.path, 0, fmt::format("has changed since the run in {}; run the study again (myoid run)", *folder));
+        if (std::filesystem::path(then["path"].get<std::string>()).filename() ==
+                std::filesystem::path(now.path).filename() &&
+            then["sha256"] != now.sha256) {
+          throw ReadError(
+              now.path, 0,
+              fmt::format("has changed since the run in {}; run the study again (myoid run)",
+                          *folder));
         }
       }
     }

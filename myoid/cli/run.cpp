@@ -1,10 +1,10 @@
-#include <fmt/color.h>
-#include <fmt/format.h>
-#include <unistd.h>
-
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
+
+#include <fmt/color.h>
+#include <fmt/format.h>
+#include <unistd.h>
 
 #include "myoid/cli/context.h"
 #include "myoid/core/error.h"
@@ -23,19 +23,30 @@ using identification::Verdict;
 void print_table(const pipeline::StudyResult& result) {
   for (const identification::IdentificationResult& method : result.methods) {
     fmt::print("\nmethod {}: {}\n", method.method, method.message);
-    fmt::print("{:<8} {:<28} {:<12} {:>11} {:>11} {:>25}  {}\n", "muscle", "parameter", "case", "initial", "estimate", "95 % interval", "verdict");
+    fmt::print("{:<8} {:<28} {:<12} {:>11} {:>11} {:>25}  {}\n", "muscle", "parameter", "case",
+               "initial", "estimate", "95 % interval", "verdict");
     for (const ParameterEstimate& e : method.estimates) {
-      const std::string interval = e.ci_low && e.ci_high ? fmt::format("[{}, {}]", report::format_value(*e.ci_low), report::format_value(*e.ci_high)) : "-";
-      const std::string unit = e.unit == Unit::dimensionless ? "" : fmt::format(" {}", symbol(e.unit));
-      fmt::print("{:<8} {:<28} {:<12} {:>11} {:>11} {:>25}  {}\n", e.muscle, e.parameter + (unit.empty() ? "" : " [" + unit.substr(1) + "]"), e.fit_case,
-                 report::format_value(e.initial), std::isfinite(e.estimate) ? report::format_value(e.estimate) : "-", interval, identification::name(e.verdict));
+      const std::string interval = e.ci_low && e.ci_high
+                                       ? fmt::format("[{}, {}]", report::format_value(*e.ci_low),
+                                                     report::format_value(*e.ci_high))
+                                       : "-";
+      const std::string unit =
+          e.unit == Unit::dimensionless ? "" : fmt::format(" {}", symbol(e.unit));
+      fmt::print("{:<8} {:<28} {:<12} {:>11} {:>11} {:>25}  {}\n", e.muscle,
+                 e.parameter + (unit.empty() ? "" : " [" + unit.substr(1) + "]"), e.fit_case,
+                 report::format_value(e.initial),
+                 std::isfinite(e.estimate) ? report::format_value(e.estimate) : "-", interval,
+                 identification::name(e.verdict));
     }
   }
   if (!result.folds.empty()) {
-    fmt::print("\nleave one trial out: torque predicted for a trial that took no part in the fit\n");
-    fmt::print("{:<20} {:>10} {:>8} {:>26} {:>8}\n", "trial", "RMSE [N m]", "R2", "literature x gain: RMSE", "R2");
+    fmt::print(
+        "\nleave one trial out: torque predicted for a trial that took no part in the fit\n");
+    fmt::print("{:<20} {:>10} {:>8} {:>26} {:>8}\n", "trial", "RMSE [N m]", "R2",
+               "literature x gain: RMSE", "R2");
     for (const identification::Fold& f : result.folds) {
-      fmt::print("{:<20} {:>10.2f} {:>8.3f} {:>26.2f} {:>8.3f}\n", f.trial, f.identified.rmse_nm, f.identified.r2, f.literature.rmse_nm, f.literature.r2);
+      fmt::print("{:<20} {:>10.2f} {:>8.3f} {:>26.2f} {:>8.3f}\n", f.trial, f.identified.rmse_nm,
+                 f.identified.r2, f.literature.rmse_nm, f.literature.r2);
     }
   }
 }
@@ -43,8 +54,10 @@ void print_table(const pipeline::StudyResult& result) {
 }  // namespace
 
 void add_run(CLI::App& app, Context& context) {
-  CLI::App& command = *app.add_subcommand("run", "The whole pipeline, from a study's recordings to muscle parameters with their uncertainty.\n"
-                                                 "Example: myoid run study.toml --out results");
+  CLI::App& command = *app.add_subcommand(
+      "run",
+      "The whole pipeline, from a study's recordings to muscle parameters with their uncertainty.\n"
+      "Example: myoid run study.toml --out results");
   struct Options {
     std::string study;
     std::string out;
@@ -58,7 +71,8 @@ void add_run(CLI::App& app, Context& context) {
     const auto begin = std::chrono::steady_clock::now();
     const pipeline::Study study = pipeline::read_study(options->study);
     context.prepare_folder(options->out);
-    const pipeline::StudyResult result = pipeline::run_study(study, {.progress = context.progress()});
+    const pipeline::StudyResult result =
+        pipeline::run_study(study, {.progress = context.progress()});
     Provenance provenance;
     provenance.command = context.command_line;
     provenance.inputs = result.inputs;
@@ -67,7 +81,8 @@ void add_run(CLI::App& app, Context& context) {
     report::write_report(pipeline::study_report(result, provenance), options->out);
     context.end_progress();
     for (const pipeline::TrialResult& trial : result.trials) {
-      if (!trial.failure.empty()) context.warn(fmt::format("trial {}: {}", trial.spec.name, trial.failure));
+      if (!trial.failure.empty())
+        context.warn(fmt::format("trial {}: {}", trial.spec.name, trial.failure));
       for (const std::string& note : trial.notes) {
         if (context.verbose) context.log(fmt::format("{}: {}", trial.spec.name, note));
       }
@@ -76,7 +91,8 @@ void add_run(CLI::App& app, Context& context) {
       fmt::print("{}", pipeline::parameters_json(result.methods, result.folds, provenance));
     } else {
       print_table(result);
-      const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+      const double seconds =
+          std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
       context.log(fmt::format("\n{:.1f} s", seconds));
       fmt::print("\nreport: {}/report.html\n", options->out);
     }
@@ -84,7 +100,8 @@ void add_run(CLI::App& app, Context& context) {
     for (const identification::IdentificationResult& method : result.methods) {
       if (method.method != "torque") continue;
       gate = gate || method.termination != math::Termination::converged;
-      for (const ParameterEstimate& e : method.estimates) gate = gate || (context.strict && e.verdict == Verdict::not_identifiable);
+      for (const ParameterEstimate& e : method.estimates)
+        gate = gate || (context.strict && e.verdict == Verdict::not_identifiable);
     }
     if (gate) context.exit_code = kQualityGateFailed;
     if (result.failed_trials > 0) context.exit_code = kSomeTrialsFailed;

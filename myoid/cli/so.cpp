@@ -1,6 +1,6 @@
-#include <fmt/format.h>
-
 #include <algorithm>
+
+#include <fmt/format.h>
 
 #include "myoid/cli/context.h"
 #include "myoid/cli/stage_input.h"
@@ -16,8 +16,10 @@
 namespace myoid::cli {
 
 void add_so(CLI::App& app, Context& context) {
-  CLI::App& command = *app.add_subcommand("so", "Muscle force sharing (static optimization): which forces make the torques?\n"
-                                                "Example: myoid so --model arm.osim --motion ik.mot --lowpass 6 --out so");
+  CLI::App& command = *app.add_subcommand(
+      "so",
+      "Muscle force sharing (static optimization): which forces make the torques?\n"
+      "Example: myoid so --model arm.osim --motion ik.mot --lowpass 6 --out so");
   struct Options {
     std::string model, motion, out, objective = "activation", emg;
     std::vector<std::string> coordinates;
@@ -27,13 +29,19 @@ void add_so(CLI::App& app, Context& context) {
   command.add_option("--model", o->model, "OpenSim model (.osim), or arm4")->required();
   command.add_option("--motion", o->motion, "Joint angles (.mot, .sto)")->required();
   command.add_option("--out", o->out, "Folder for StaticOptimization_*")->required();
-  command.add_option("--objective", o->objective, "activation, force or stress (default activation)")->check(CLI::IsMember({"activation", "force", "stress"}));
+  command
+      .add_option("--objective", o->objective, "activation, force or stress (default activation)")
+      ->check(CLI::IsMember({"activation", "force", "stress"}));
   command.add_option("--exponent", o->exponent, "Exponent of the sum, above 1 (default 2)");
   command.add_option("--emg", o->emg, "Measured activations by muscle name (.sto), to stay near");
   command.add_option("--emg-weight", o->emg_weight, "Weight of that term (default 1)");
-  command.add_option("--reserve", o->reserve_nm, "Optimal torque of the reserve on every coordinate [N m] (default 1)");
-  command.add_option("--coordinate", o->coordinates, "Coordinate whose torque the muscles balance, repeated (default: all that are not locked)");
-  command.add_option("--lowpass", o->cutoff_hz, "Smooth the angles, -3 dB at this frequency [Hz] (default: not smoothed)");
+  command.add_option("--reserve", o->reserve_nm,
+                     "Optimal torque of the reserve on every coordinate [N m] (default 1)");
+  command.add_option(
+      "--coordinate", o->coordinates,
+      "Coordinate whose torque the muscles balance, repeated (default: all that are not locked)");
+  command.add_option("--lowpass", o->cutoff_hz,
+                     "Smooth the angles, -3 dB at this frequency [Hz] (default: not smoothed)");
   add_common_options(command, context);
   command.callback([&context, o] {
     const model::BodyModel model = load_model(o->model, context);
@@ -45,7 +53,10 @@ void add_so(CLI::App& app, Context& context) {
     std::vector<TimeSeries> arms;
     std::vector<std::string> columns;
     for (const model::Coordinate& c : model.coordinates) {
-      const bool wanted = o->coordinates.empty() ? !c.locked : std::find(o->coordinates.begin(), o->coordinates.end(), c.name) != o->coordinates.end();
+      const bool wanted = o->coordinates.empty()
+                              ? !c.locked
+                              : std::find(o->coordinates.begin(), o->coordinates.end(), c.name) !=
+                                    o->coordinates.end();
       if (!wanted) continue;
       arms.push_back(muscles.moment_arm.at(c.name));
       columns.push_back(dynamics::generalized_force_name(c));
@@ -55,23 +66,30 @@ void add_so(CLI::App& app, Context& context) {
     Eigen::MatrixXd optimal(motion.sample_count(), count);
     Eigen::VectorXd greatest(count);
     for (Eigen::Index m = 0; m < count; ++m) {
-      const muscle::ThelenParameters p = pipeline::thelen_parameters(model.muscles[static_cast<std::size_t>(m)].properties);
+      const muscle::ThelenParameters p =
+          pipeline::thelen_parameters(model.muscles[static_cast<std::size_t>(m)].properties);
       greatest[m] = p.max_isometric_force_n;
       for (Eigen::Index i = 0; i < optimal.rows(); ++i) {
-        optimal(i, m) = muscle::thelen_optimal_force(p, muscles.length.values()(i, m), muscles.velocity.values()(i, m));
+        optimal(i, m) = muscle::thelen_optimal_force(p, muscles.length.values()(i, m),
+                                                     muscles.velocity.values()(i, m));
       }
     }
-    forces::SharingOptions options{.objective = o->objective, .exponent = o->exponent, .reserve_nm = o->reserve_nm};
+    forces::SharingOptions options{
+        .objective = o->objective, .exponent = o->exponent, .reserve_nm = o->reserve_nm};
     options.min_activation = 1.0;
-    for (const model::Muscle& muscle : model.muscles) options.min_activation = std::min(options.min_activation, muscle.properties.min_control);
+    for (const model::Muscle& muscle : model.muscles)
+      options.min_activation = std::min(options.min_activation, muscle.properties.min_control);
     if (!o->emg.empty()) {
       options.emg = signals::resample(recording::read_storage(o->emg).data, motion.q.time_s());
       options.emg_weight = o->emg_weight;
     }
-    const forces::MuscleForces shared = forces::share(arms, torques.select(columns), optimal, greatest, options);
+    const forces::MuscleForces shared =
+        forces::share(arms, torques.select(columns), optimal, greatest, options);
     pipeline::write_shared_forces(shared, o->out);
-    fmt::print("{} frames: {} not solved, {} where a reserve helps; largest KKT residual {:.1e}\n{}\n", shared.status.size(), shared.frames_not_solved, shared.frames_with_reserve,
-               shared.kkt_residual.maxCoeff(), o->out);
+    fmt::print(
+        "{} frames: {} not solved, {} where a reserve helps; largest KKT residual {:.1e}\n{}\n",
+        shared.status.size(), shared.frames_not_solved, shared.frames_with_reserve,
+        shared.kkt_residual.maxCoeff(), o->out);
     if (shared.frames_not_solved > 0) context.exit_code = kQualityGateFailed;
   });
 }

@@ -8,8 +8,10 @@
 namespace myoid::cli {
 
 void add_twin(CLI::App& app, Context& context) {
-  CLI::App& command = *app.add_subcommand("twin", "A virtual recording whose truth is known: markers, raw EMG, model, study.toml, truth.csv.\n"
-                                                  "Example: myoid twin --model arm4 --protocol examples/demo/protocol.toml --seed 1 --out rec");
+  CLI::App& command = *app.add_subcommand(
+      "twin",
+      "A virtual recording whose truth is known: markers, raw EMG, model, study.toml, truth.csv.\n"
+      "Example: myoid twin --model arm4 --protocol examples/demo/protocol.toml --seed 1 --out rec");
   struct Options {
     std::string model = "arm4";
     std::string protocol;
@@ -21,9 +23,12 @@ void add_twin(CLI::App& app, Context& context) {
   command.add_option("--out", options->out, "Folder for the recording")->required();
   add_common_options(command, context);
   command.callback([&context, options] {
-    if (options->model != "arm4") throw InvalidInput(fmt::format("--model {}: virtual recordings are made with arm4 only", options->model));
+    if (options->model != "arm4")
+      throw InvalidInput(
+          fmt::format("--model {}: virtual recordings are made with arm4 only", options->model));
     const simulation::Protocol protocol = simulation::read_protocol(options->protocol);
-    const simulation::VirtualRecording recording = simulation::make_virtual_recording(protocol, context.seed);
+    const simulation::VirtualRecording recording =
+        simulation::make_virtual_recording(protocol, context.seed);
     simulation::write_virtual_recording(recording, options->out, context.overwrite);
     context.log(fmt::format("{} trials, seed {}", recording.trials.size(), context.seed));
     fmt::print("{}/study.toml\n", options->out);

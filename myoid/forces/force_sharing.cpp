@@ -1,14 +1,13 @@
 #include "myoid/forces/force_sharing.h"
 
-#include <Eigen/Cholesky>
-
-#include <fmt/format.h>
-#include <oneapi/tbb/blocked_range.h>
-#include <oneapi/tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
+
+#include <Eigen/Cholesky>
+#include <fmt/format.h>
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/parallel_for.h>
 
 #include "myoid/core/error.h"
 #include "myoid/forces/optimality.h"
@@ -19,14 +18,22 @@ namespace {
 void check(const SharingProblem& problem) {
   const Eigen::Index n = problem.optimal_force.size();
   const Eigen::Index m = problem.torque.size();
-  const auto optional_size = [n](const Eigen::VectorXd& v) { return v.size() == 0 || v.size() == n; };
-  if (problem.moment_arm.rows() != m || problem.moment_arm.cols() != n || problem.lower.size() != n || problem.upper.size() != n ||
-      problem.reserve.size() != m || !optional_size(problem.weight) || !optional_size(problem.emg)) {
-    throw InvalidInput(fmt::format("force sharing: sizes disagree for {} muscles and {} coordinates", n, m));
+  const auto optional_size = [n](const Eigen::VectorXd& v) {
+    return v.size() == 0 || v.size() == n;
+  };
+  if (problem.moment_arm.rows() != m || problem.moment_arm.cols() != n ||
+      problem.lower.size() != n || problem.upper.size() != n || problem.reserve.size() != m ||
+      !optional_size(problem.weight) || !optional_size(problem.emg)) {
+    throw InvalidInput(
+        fmt::format("force sharing: sizes disagree for {} muscles and {} coordinates", n, m));
   }
-  if (!(problem.exponent > 1.0)) throw InvalidInput(fmt::format("force sharing: exponent {}, expected above 1", problem.exponent));
-  if (!(problem.reserve.array() > 0.0).all()) throw InvalidInput("force sharing: every coordinate needs a reserve above 0");
-  if (problem.emg.size() > 0 && problem.exponent != 2.0) throw InvalidInput("force sharing: an EMG term needs exponent 2");
+  if (!(problem.exponent > 1.0))
+    throw InvalidInput(
+        fmt::format("force sharing: exponent {}, expected above 1", problem.exponent));
+  if (!(problem.reserve.array() > 0.0).all())
+    throw InvalidInput("force sharing: every coordinate needs a reserve above 0");
+  if (problem.emg.size() > 0 && problem.exponent != 2.0)
+    throw InvalidInput("force sharing: an EMG term needs exponent 2");
 }
 
 /// x(lambda) and its slope; the optimum for given multipliers, one muscle at a time.
@@ -35,7 +42,8 @@ struct Response {
   double slope = 0.0;  ///< dx / d(pull)
 };
 
-Response respond(double pull, double w, double p, double lower, double upper, double emg_weight, double emg) {
+Response respond(
+    double pull, double w, double p, double lower, double upper, double emg_weight, double emg) {
   Response r;
   if (emg_weight > 0.0) {
     r.slope = 1.0 / (2.0 * (w + emg_weight));
@@ -46,7 +54,8 @@ Response respond(double pull, double w, double p, double lower, double upper, do
   } else {
     const double size = std::pow(std::abs(pull) / (p * w), 1.0 / (p - 1.0));
     r.x = std::copysign(size, pull);
-    // The slope grows without bound towards 0 for p > 2; there it is cut, which only shortens steps.
+    // The slope grows without bound towards 0 for p > 2; there it is cut, which only shortens
+    // steps.
     r.slope = std::min(size / ((p - 1.0) * std::max(std::abs(pull), 1e-300)), 1e6);
   }
   if (r.x <= lower) return {lower, 0.0};
@@ -58,10 +67,14 @@ Response respond(double pull, double w, double p, double lower, double upper, do
 
 std::string_view name(SharingStatus status) {
   switch (status) {
-    case SharingStatus::optimal: return "optimal";
-    case SharingStatus::reserve_used: return "reserve_used";
-    case SharingStatus::not_solved: return "not_solved";
-    case SharingStatus::not_finite: return "not_finite";
+    case SharingStatus::optimal:
+      return "optimal";
+    case SharingStatus::reserve_used:
+      return "reserve_used";
+    case SharingStatus::not_solved:
+      return "not_solved";
+    case SharingStatus::not_finite:
+      return "not_finite";
   }
   return "?";
 }
@@ -74,7 +87,8 @@ SharingSolution solve_sharing(const SharingProblem& problem) {
   solution.activation = problem.lower;
   solution.reserve_torque = Eigen::VectorXd::Zero(m);
   solution.multiplier = Eigen::VectorXd::Zero(m);
-  if (!problem.moment_arm.allFinite() || !problem.optimal_force.allFinite() || !problem.torque.allFinite()) {
+  if (!problem.moment_arm.allFinite() || !problem.optimal_force.allFinite() ||
+      !problem.torque.allFinite()) {
     solution.status = SharingStatus::not_finite;
     return solution;
   }
@@ -86,7 +100,8 @@ SharingSolution solve_sharing(const SharingProblem& problem) {
     double dual = 0.0;
   };
   const auto evaluate = [&](const Eigen::VectorXd& lambda) {
-    Point point{Eigen::VectorXd(n), Eigen::VectorXd(m), Eigen::VectorXd(n), Eigen::VectorXd(m), problem.torque, lambda.dot(problem.torque)};
+    Point point{Eigen::VectorXd(n), Eigen::VectorXd(m), Eigen::VectorXd(n),
+                Eigen::VectorXd(m), problem.torque,     lambda.dot(problem.torque)};
     const Eigen::VectorXd pull = a.transpose() * lambda;
     for (Eigen::Index i = 0; i < n; ++i) {
       const double w = problem.weight.size() > 0 ? problem.weight[i] : 1.0;
@@ -113,11 +128,14 @@ SharingSolution solve_sharing(const SharingProblem& problem) {
     for (Eigen::Index k = 0; k < m; ++k) {
       const double strength = a.row(k).cwiseAbs().sum() + problem.reserve[k];
       const double level = std::min(1.0, std::abs(problem.torque[k]) / strength) + 1e-6;
-      lambda[k] = std::copysign(p * std::pow(level, p - 1.0) / std::max(a.row(k).cwiseAbs().maxCoeff(), problem.reserve[k]), problem.torque[k]);
+      lambda[k] = std::copysign(p * std::pow(level, p - 1.0) /
+                                    std::max(a.row(k).cwiseAbs().maxCoeff(), problem.reserve[k]),
+                                problem.torque[k]);
     }
   }
   Point now = evaluate(lambda);
-  const double scale = std::max({problem.torque.cwiseAbs().maxCoeff(), a.size() > 0 ? a.cwiseAbs().maxCoeff() * 1e-3 : 0.0, 1e-9});
+  const double scale = std::max({problem.torque.cwiseAbs().maxCoeff(),
+                                 a.size() > 0 ? a.cwiseAbs().maxCoeff() * 1e-3 : 0.0, 1e-9});
   for (solution.iterations = 0; solution.iterations < 300; ++solution.iterations) {
     if (now.gap.cwiseAbs().maxCoeff() <= 1e-14 * scale) break;
     Eigen::MatrixXd hessian = a * now.slope_x.asDiagonal() * a.transpose();
@@ -128,7 +146,8 @@ SharingSolution solve_sharing(const SharingProblem& problem) {
     for (double share = 1.0; share > 1e-12; share *= 0.5) {
       Point next = evaluate(lambda + share * step);
       const bool better = next.dual >= now.dual + 1e-4 * share * rise ||
-                          (next.gap.cwiseAbs().maxCoeff() < now.gap.cwiseAbs().maxCoeff() && next.dual >= now.dual - 1e-12 * std::abs(now.dual));
+                          (next.gap.cwiseAbs().maxCoeff() < now.gap.cwiseAbs().maxCoeff() &&
+                           next.dual >= now.dual - 1e-12 * std::abs(now.dual));
       if (better) {
         lambda += share * step;
         now = std::move(next);
@@ -142,16 +161,21 @@ SharingSolution solve_sharing(const SharingProblem& problem) {
   solution.reserve_torque = problem.reserve.cwiseProduct(now.y);
   solution.multiplier = lambda;
   solution.kkt_residual = kkt_residual(problem, solution);
-  solution.status = solution.kkt_residual <= 1e-9 ? SharingStatus::optimal : SharingStatus::not_solved;
+  solution.status =
+      solution.kkt_residual <= 1e-9 ? SharingStatus::optimal : SharingStatus::not_solved;
   return solution;
 }
 
-MuscleForces share(const std::vector<TimeSeries>& moment_arms, const TimeSeries& torques, const Eigen::MatrixXd& optimal_force_n,
-                   const Eigen::VectorXd& max_isometric_force_n, const SharingOptions& options) {
+MuscleForces share(const std::vector<TimeSeries>& moment_arms,
+                   const TimeSeries& torques,
+                   const Eigen::MatrixXd& optimal_force_n,
+                   const Eigen::VectorXd& max_isometric_force_n,
+                   const SharingOptions& options) {
   const Eigen::Index frames = torques.sample_count();
   const Eigen::Index coordinates = torques.channel_count();
   if (static_cast<Eigen::Index>(moment_arms.size()) != coordinates || moment_arms.empty()) {
-    throw InvalidInput(fmt::format("force sharing: {} moment-arm tables for {} torques", moment_arms.size(), coordinates));
+    throw InvalidInput(fmt::format("force sharing: {} moment-arm tables for {} torques",
+                                   moment_arms.size(), coordinates));
   }
   const Eigen::Index muscles = moment_arms[0].channel_count();
   for (const TimeSeries& arms : moment_arms) {
@@ -159,7 +183,8 @@ MuscleForces share(const std::vector<TimeSeries>& moment_arms, const TimeSeries&
       throw InvalidInput("force sharing: moment arms and torques are not on one clock");
     }
   }
-  if (optimal_force_n.rows() != frames || optimal_force_n.cols() != muscles || max_isometric_force_n.size() != muscles) {
+  if (optimal_force_n.rows() != frames || optimal_force_n.cols() != muscles ||
+      max_isometric_force_n.size() != muscles) {
     throw InvalidInput("force sharing: forces and moment arms disagree in size");
   }
   Eigen::MatrixXd emg;
@@ -167,49 +192,60 @@ MuscleForces share(const std::vector<TimeSeries>& moment_arms, const TimeSeries&
     std::vector<std::string> names;
     for (const Channel& channel : moment_arms[0].channels()) names.push_back(channel.name);
     emg = options.emg.select(names).values();
-    if (emg.rows() != frames) throw InvalidInput("force sharing: the EMG is not on the clock of the motion; resample it first");
+    if (emg.rows() != frames)
+      throw InvalidInput(
+          "force sharing: the EMG is not on the clock of the motion; resample it first");
   }
   Eigen::MatrixXd activation(frames, muscles);
   Eigen::MatrixXd reserve(frames, coordinates);
   MuscleForces result;
   result.status.resize(static_cast<std::size_t>(frames));
   result.kkt_residual.resize(frames);
-  oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<Eigen::Index>(0, frames, 128), [&](const auto& range) {
-    for (Eigen::Index frame = range.begin(); frame != range.end(); ++frame) {
-      SharingProblem problem;
-      problem.moment_arm.resize(coordinates, muscles);
-      for (Eigen::Index k = 0; k < coordinates; ++k) problem.moment_arm.row(k) = moment_arms[static_cast<std::size_t>(k)].values().row(frame);
-      problem.optimal_force = optimal_force_n.row(frame).transpose();
-      problem.torque = torques.values().row(frame).transpose();
-      problem.lower = Eigen::VectorXd::Constant(muscles, options.min_activation);
-      problem.upper = Eigen::VectorXd::Constant(muscles, options.max_activation);
-      problem.reserve = Eigen::VectorXd::Constant(coordinates, options.reserve_nm);
-      problem.exponent = options.exponent;
-      if (options.objective == "force" || options.objective == "stress") {
-        // (F_i)^p or (F_i / F_max)^p instead of (F_i / F_opt)^p, relative to the mean so that reserves weigh alike.
-        problem.weight = options.objective == "force" ? problem.optimal_force : problem.optimal_force.cwiseQuotient(max_isometric_force_n).eval();
-        const double mean = std::max(problem.weight.mean(), 1e-12);
-        problem.weight = (problem.weight / mean).cwiseMax(1e-6).array().pow(options.exponent);
-      }
-      if (emg.size() > 0) {
-        problem.emg = emg.row(frame).transpose();
-        problem.emg_weight = options.emg_weight;
-      }
-      const SharingSolution solution = solve_sharing(problem);
-      activation.row(frame) = solution.activation.transpose();
-      reserve.row(frame) = solution.reserve_torque.transpose();
-      result.status[static_cast<std::size_t>(frame)] = solution.status;
-      result.kkt_residual[frame] = solution.kkt_residual;
-    }
-  });
+  oneapi::tbb::parallel_for(
+      oneapi::tbb::blocked_range<Eigen::Index>(0, frames, 128), [&](const auto& range) {
+        for (Eigen::Index frame = range.begin(); frame != range.end(); ++frame) {
+          SharingProblem problem;
+          problem.moment_arm.resize(coordinates, muscles);
+          for (Eigen::Index k = 0; k < coordinates; ++k)
+            problem.moment_arm.row(k) =
+                moment_arms[static_cast<std::size_t>(k)].values().row(frame);
+          problem.optimal_force = optimal_force_n.row(frame).transpose();
+          problem.torque = torques.values().row(frame).transpose();
+          problem.lower = Eigen::VectorXd::Constant(muscles, options.min_activation);
+          problem.upper = Eigen::VectorXd::Constant(muscles, options.max_activation);
+          problem.reserve = Eigen::VectorXd::Constant(coordinates, options.reserve_nm);
+          problem.exponent = options.exponent;
+          if (options.objective == "force" || options.objective == "stress") {
+            // (F_i)^p or (F_i / F_max)^p instead of (F_i / F_opt)^p, relative to the mean so that
+            // reserves weigh alike.
+            problem.weight =
+                options.objective == "force"
+                    ? problem.optimal_force
+                    : problem.optimal_force.cwiseQuotient(max_isometric_force_n).eval();
+            const double mean = std::max(problem.weight.mean(), 1e-12);
+            problem.weight = (problem.weight / mean).cwiseMax(1e-6).array().pow(options.exponent);
+          }
+          if (emg.size() > 0) {
+            problem.emg = emg.row(frame).transpose();
+            problem.emg_weight = options.emg_weight;
+          }
+          const SharingSolution solution = solve_sharing(problem);
+          activation.row(frame) = solution.activation.transpose();
+          reserve.row(frame) = solution.reserve_torque.transpose();
+          result.status[static_cast<std::size_t>(frame)] = solution.status;
+          result.kkt_residual[frame] = solution.kkt_residual;
+        }
+      });
   const Eigen::RowVectorXd greatest = torques.values().cwiseAbs().colwise().maxCoeff();
   for (Eigen::Index frame = 0; frame < frames; ++frame) {
     SharingStatus& status = result.status[static_cast<std::size_t>(frame)];
-    if (status == SharingStatus::optimal && (reserve.row(frame).array().abs() > 0.05 * greatest.array().max(1e-9)).any()) {
+    if (status == SharingStatus::optimal &&
+        (reserve.row(frame).array().abs() > 0.05 * greatest.array().max(1e-9)).any()) {
       status = SharingStatus::reserve_used;
     }
     if (status == SharingStatus::reserve_used) ++result.frames_with_reserve;
-    if (status == SharingStatus::not_solved || status == SharingStatus::not_finite) ++result.frames_not_solved;
+    if (status == SharingStatus::not_solved || status == SharingStatus::not_finite)
+      ++result.frames_not_solved;
   }
   const auto channels = [&](Unit unit) {
     std::vector<Channel> list = moment_arms[0].channels();
@@ -223,8 +259,10 @@ MuscleForces share(const std::vector<TimeSeries>& moment_arms, const TimeSeries&
     }
     channel.name += "_reserve";
   }
-  result.force = TimeSeries(torques.time_s(), channels(Unit::newton), activation.cwiseProduct(optimal_force_n));
-  result.activation = TimeSeries(torques.time_s(), channels(Unit::dimensionless), std::move(activation));
+  result.force = TimeSeries(torques.time_s(), channels(Unit::newton),
+                            activation.cwiseProduct(optimal_force_n));
+  result.activation =
+      TimeSeries(torques.time_s(), channels(Unit::dimensionless), std::move(activation));
   result.reserve = TimeSeries(torques.time_s(), std::move(reserve_channels), std::move(reserve));
   return result;
 }

@@ -1,10 +1,10 @@
 #pragma once
 
-#include <Eigen/Core>
-
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include <Eigen/Core>
 
 #include "myoid/core/time_series.h"
 
@@ -15,7 +15,8 @@ namespace myoid::forces {
 ///   minimize  sum_i w_i |x_i|^p + W sum_i (x_i - e_i)^2 + sum_k |y_k|^p
 ///   subject to  sum_i r_ki F_i^opt x_i + T_k y_k = tau_k,   lower <= x <= upper,   y free
 ///
-/// x are activations (forces F_i = F_i^opt x_i), y the commands of the reserve actuators of optimal torque T_k.
+/// x are activations (forces F_i = F_i^opt x_i), y the commands of the reserve actuators of optimal
+/// torque T_k.
 struct SharingProblem {
   Eigen::MatrixXd moment_arm;     ///< Coordinates x muscles: r [m].
   Eigen::VectorXd optimal_force;  ///< F^opt [N]: force at full activation, here and now.
@@ -29,10 +30,11 @@ struct SharingProblem {
 };
 
 enum class SharingStatus {
-  optimal,      ///< Torques balanced, optimality certified.
-  reserve_used, ///< Optimal, but a reserve carries more than 5 % of its coordinate's greatest torque in the series.
-  not_solved,   ///< The search gave up; see the residual.
-  not_finite,   ///< An input was not a number.
+  optimal,       ///< Torques balanced, optimality certified.
+  reserve_used,  ///< Optimal, but a reserve carries more than 5 % of its coordinate's greatest
+                 ///< torque in the series.
+  not_solved,    ///< The search gave up; see the residual.
+  not_finite,    ///< An input was not a number.
 };
 [[nodiscard]] std::string_view name(SharingStatus status);
 
@@ -40,42 +42,48 @@ struct SharingSolution {
   Eigen::VectorXd activation;      ///< x
   Eigen::VectorXd reserve_torque;  ///< T y [N m]
   Eigen::VectorXd multiplier;      ///< lambda of the torque balance.
-  double kkt_residual = 0.0;       ///< Largest violation of the optimality conditions, relative: see optimality.h.
+  double kkt_residual =
+      0.0;  ///< Largest violation of the optimality conditions, relative: see optimality.h.
   int iterations = 0;
   SharingStatus status = SharingStatus::not_solved;
 };
 
-/// Solves the convex problem by Newton's method on its dual: the activations follow from the multipliers in closed form,
-/// x_i = clip((sum_k lambda_k r_ki F_i / (p w_i))^(1/(p-1))), and the reserves keep the dual strictly concave. Exact to round-off.
-/// Throws InvalidInput if sizes disagree, p <= 1, a reserve is not positive, or an EMG term is asked for with p other than 2.
+/// Solves the convex problem by Newton's method on its dual: the activations follow from the
+/// multipliers in closed form, x_i = clip((sum_k lambda_k r_ki F_i / (p w_i))^(1/(p-1))), and the
+/// reserves keep the dual strictly concave. Exact to round-off. Throws InvalidInput if sizes
+/// disagree, p <= 1, a reserve is not positive, or an EMG term is asked for with p other than 2.
 [[nodiscard]] SharingSolution solve_sharing(const SharingProblem& problem);
 
 struct SharingOptions {
-  std::string objective = "activation";  ///< activation: w = 1; force: w = F_opt^p / mean F_opt^p; stress: w as force, F_max
+  std::string objective = "activation";  ///< activation: w = 1; force: w = F_opt^p / mean F_opt^p;
+                                         ///< stress: w as force, F_max
   double exponent = 2.0;
   double reserve_nm = 1.0;
   double min_activation = 0.0;
   double max_activation = 1.0;
-  TimeSeries emg;                        ///< Optional: activations by muscle name, on the same clock.
+  TimeSeries emg;  ///< Optional: activations by muscle name, on the same clock.
   double emg_weight = 0.0;
 };
 
 /// Shared forces over time; channels of `force` and `activation` are the muscles.
 struct MuscleForces {
-  TimeSeries force;       ///< [N]
-  TimeSeries activation;  ///< [-]
-  TimeSeries reserve;     ///< "<coordinate>_reserve" [N m]
+  TimeSeries force;                   ///< [N]
+  TimeSeries activation;              ///< [-]
+  TimeSeries reserve;                 ///< "<coordinate>_reserve" [N m]
   std::vector<SharingStatus> status;  ///< Per frame.
   Eigen::VectorXd kkt_residual;       ///< Per frame.
   int frames_not_solved = 0;
   int frames_with_reserve = 0;
 };
 
-/// Shares the torques of one or more coordinates in every frame. `moment_arms` has one series per coordinate, in the order of
-/// `torques`' channels; `optimal_force_n` is frames x muscles; all on one clock. `max_isometric_force_n` serves the objective
-/// `stress`. Parallel over frames; the same for every number of threads.
-[[nodiscard]] MuscleForces share(const std::vector<TimeSeries>& moment_arms, const TimeSeries& torques,
-                                 const Eigen::MatrixXd& optimal_force_n, const Eigen::VectorXd& max_isometric_force_n,
+/// Shares the torques of one or more coordinates in every frame. `moment_arms` has one series per
+/// coordinate, in the order of `torques`' channels; `optimal_force_n` is frames x muscles; all on
+/// one clock. `max_isometric_force_n` serves the objective `stress`. Parallel over frames; the same
+/// for every number of threads.
+[[nodiscard]] MuscleForces share(const std::vector<TimeSeries>& moment_arms,
+                                 const TimeSeries& torques,
+                                 const Eigen::MatrixXd& optimal_force_n,
+                                 const Eigen::VectorXd& max_isometric_force_n,
                                  const SharingOptions& options = {});
 
 }  // namespace myoid::forces

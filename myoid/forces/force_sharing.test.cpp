@@ -1,9 +1,9 @@
 #include "myoid/forces/force_sharing.h"
 
-#include <gtest/gtest.h>
-
 #include <cmath>
 #include <random>
+
+#include <gtest/gtest.h>
 
 #include "myoid/core/error.h"
 #include "myoid/forces/optimality.h"
@@ -11,7 +11,8 @@
 namespace myoid::forces {
 namespace {
 
-constexpr double kSmallReserve_nm = 1e-4;  // makes the reserve's part negligible: its share is (T / sum)^2
+constexpr double kSmallReserve_nm =
+    1e-4;  // makes the reserve's part negligible: its share is (T / sum)^2
 
 SharingProblem elbow(double torque_nm) {
   SharingProblem p;
@@ -95,7 +96,8 @@ Eigen::VectorXd by_projected_gradient(const SharingProblem& p) {
   Eigen::VectorXd y = x;
   double t = 1.0;
   for (int i = 0; i < 200000; ++i) {
-    const Eigen::VectorXd gradient = 2.0 * y + 2.0 * scaled.transpose() * (scaled * y - p.torque.cwiseQuotient(p.reserve));
+    const Eigen::VectorXd gradient =
+        2.0 * y + 2.0 * scaled.transpose() * (scaled * y - p.torque.cwiseQuotient(p.reserve));
     const Eigen::VectorXd next = (y - gradient / lipschitz).cwiseMax(p.lower).cwiseMin(p.upper);
     const double t_next = 0.5 * (1.0 + std::sqrt(1.0 + 4.0 * t * t));
     y = next + (t - 1.0) / t_next * (next - x);

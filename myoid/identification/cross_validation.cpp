@@ -1,9 +1,9 @@
 #include "myoid/identification/cross_validation.h"
 
-#include <oneapi/tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
+
+#include <oneapi/tbb/parallel_for.h>
 
 namespace myoid::identification {
 
@@ -34,7 +34,8 @@ std::vector<Fold> cross_validate(const StudyData& data, const TorqueOptions& opt
     training.trials[held[f]].calibration = false;
     TorqueOptions once = options;
     once.starts = 1;
-    once.passes = once.warm_start.size() > 0 ? 2 : once.passes;  // the noise hardly changes with one trial
+    once.passes =
+        once.warm_start.size() > 0 ? 2 : once.passes;  // the noise hardly changes with one trial
     once.progress.report = nullptr;
     const IdentificationResult fit = identify_torque(training, once);
     const TrialData& trial = data.trials[held[f]];
@@ -61,7 +62,8 @@ std::vector<Fold> cross_validate(const StudyData& data, const TorqueOptions& opt
     fold.literature_nm = fold.gain * predict(data, trial, literature, literature_delay).torque_nm;
     fold.identified = score(fold.measured_nm, fold.predicted_nm);
     fold.literature = score(fold.measured_nm, fold.literature_nm);
-    fold.constant = score(fold.measured_nm, Eigen::VectorXd::Constant(fold.measured_nm.size(), sum / count));
+    fold.constant =
+        score(fold.measured_nm, Eigen::VectorXd::Constant(fold.measured_nm.size(), sum / count));
   });
   return folds;
 }

@@ -19,14 +19,16 @@ struct Score {
 /// One trial left out.
 struct Fold {
   std::string trial;
-  Score identified;          ///< Fitted on the other trials.
-  Score literature;          ///< Literature parameters with the one gain that fits the other trials best.
-  Score constant;            ///< Mean torque of the other trials.
-  double gain = 1.0;         ///< That gain.
+  Score identified;   ///< Fitted on the other trials.
+  Score literature;   ///< Literature parameters with the one gain that fits the other trials best.
+  Score constant;     ///< Mean torque of the other trials.
+  double gain = 1.0;  ///< That gain.
   Eigen::VectorXd time_s, measured_nm, predicted_nm, literature_nm;
 };
 
-/// Leave-one-trial-out over the calibration trials, folds in parallel. At least two trials are needed; empty otherwise.
-[[nodiscard]] std::vector<Fold> cross_validate(const StudyData& data, const TorqueOptions& options = {});
+/// Leave-one-trial-out over the calibration trials, folds in parallel. At least two trials are
+/// needed; empty otherwise.
+[[nodiscard]] std::vector<Fold> cross_validate(const StudyData& data,
+                                               const TorqueOptions& options = {});
 
 }  // namespace myoid::identification

@@ -1,8 +1,8 @@
 #include "myoid/identification/identifiability.h"
 
-#include <fmt/format.h>
-
 #include <cmath>
+
+#include <fmt/format.h>
 
 namespace myoid::identification {
 namespace {
@@ -11,19 +11,26 @@ namespace {
 std::string diagnosis(const ParameterEstimate& e) {
   const std::string& p = e.parameter;
   if (p == "eccentric_plateau" && e.estimate < 1.0) {
-    return "force in lengthening below the isometric one contradicts muscle physiology: EMG and assigned force disagree in gain while "
-           "lengthening (co-contraction that force sharing set to zero, or F_max too high), not a property of the muscle";
+    return "force in lengthening below the isometric one contradicts muscle physiology: EMG and "
+           "assigned force disagree in gain while "
+           "lengthening (co-contraction that force sharing set to zero, or F_max too high), not a "
+           "property of the muscle";
   }
   if (p == "eccentric_curvature_product" && e.estimate <= 0.0) {
-    return "a product that is not positive is no force-velocity curve: the velocity effect in lengthening is not resolved (an EMG delay "
+    return "a product that is not positive is no force-velocity curve: the velocity effect in "
+           "lengthening is not resolved (an EMG delay "
            "that was not accounted for does this)";
   }
   if (p == "concentric_curvature") {
-    return e.estimate > 1.0 ? "a curvature above 1 means a straight line: the velocity effect in shortening is not resolved (an EMG delay that "
+    return e.estimate > 1.0 ? "a curvature above 1 means a straight line: the velocity effect in "
+                              "shortening is not resolved (an EMG delay that "
                               "was not accounted for does this)"
-                            : "a curvature this small is below that of the slowest muscle: co-contraction that force sharing set to zero does this";
+                            : "a curvature this small is below that of the slowest muscle: "
+                              "co-contraction that force sharing set to zero does this";
   }
-  if (p == "force_length_width") return "a width this size is no muscle's: co-contraction set to zero, or a wrong F_max, distorts the curve";
+  if (p == "force_length_width")
+    return "a width this size is no muscle's: co-contraction set to zero, or a wrong F_max, "
+           "distorts the curve";
   return "the value lies outside what a muscle can have: the fit describes something else";
 }
 
@@ -31,11 +38,16 @@ std::string diagnosis(const ParameterEstimate& e) {
 
 std::string_view name(Verdict verdict) {
   switch (verdict) {
-    case Verdict::identified: return "identified";
-    case Verdict::weak: return "weak";
-    case Verdict::prior_dominated: return "prior_dominated";
-    case Verdict::not_identifiable: return "not_identifiable";
-    case Verdict::non_physical: return "non_physical";
+    case Verdict::identified:
+      return "identified";
+    case Verdict::weak:
+      return "weak";
+    case Verdict::prior_dominated:
+      return "prior_dominated";
+    case Verdict::not_identifiable:
+      return "not_identifiable";
+    case Verdict::non_physical:
+      return "non_physical";
   }
   return "?";
 }
@@ -45,50 +57,74 @@ void judge(ParameterEstimate& e, const VerdictContext& context, const VerdictRul
     e.verdict = verdict;
     e.reason = std::move(reason);
   };
-  if (!std::isfinite(e.estimate)) return set(Verdict::not_identifiable, context.failure.empty() ? "the fit gave no number" : context.failure);
-  if (!context.converged && !context.outside_physical) return set(Verdict::not_identifiable, "the fit did not converge: " + context.failure);
+  if (!std::isfinite(e.estimate))
+    return set(Verdict::not_identifiable,
+               context.failure.empty() ? "the fit gave no number" : context.failure);
+  if (!context.converged && !context.outside_physical)
+    return set(Verdict::not_identifiable, "the fit did not converge: " + context.failure);
   if (context.outside_physical) return set(Verdict::non_physical, diagnosis(e));
   if (!context.bad_company.empty()) {
-    return set(Verdict::not_identifiable, fmt::format("the same fit puts {} where no muscle can be: none of its numbers describes the muscle", context.bad_company));
+    return set(
+        Verdict::not_identifiable,
+        fmt::format(
+            "the same fit puts {} where no muscle can be: none of its numbers describes the muscle",
+            context.bad_company));
   }
   if (e.at_bound) {
-    return set(Verdict::not_identifiable, "the best fit leans on a bound: the recording pulls beyond what is physically possible");
+    return set(
+        Verdict::not_identifiable,
+        "the best fit leans on a bound: the recording pulls beyond what is physically possible");
   }
   if (!context.determined || !e.std_error || !e.ci_low || !e.ci_high) {
-    return set(Verdict::not_identifiable, "other parameters can make up for any change of it: the recording cannot tell them apart");
+    return set(
+        Verdict::not_identifiable,
+        "other parameters can make up for any change of it: the recording cannot tell them apart");
   }
   if (e.parameter == "eccentric_curvature_product" && context.plateau_is_flat) {
-    return set(e.shrinkage && *e.shrinkage < rules.least_shrinkage ? Verdict::prior_dominated : Verdict::not_identifiable,
-               "no rise of force in lengthening is resolved (V_ml not clearly above 1), and without one this number has no effect");
+    return set(e.shrinkage && *e.shrinkage < rules.least_shrinkage ? Verdict::prior_dominated
+                                                                   : Verdict::not_identifiable,
+               "no rise of force in lengthening is resolved (V_ml not clearly above 1), and "
+               "without one this number has no effect");
   }
   if (e.shrinkage && *e.shrinkage < rules.least_shrinkage) {
-    return set(Verdict::prior_dominated,
-               fmt::format("mostly the literature's value: the recording narrows it by only {:.0f} %",
-                           100.0 * std::max(0.0, *e.shrinkage)));
+    return set(
+        Verdict::prior_dominated,
+        fmt::format("mostly the literature's value: the recording narrows it by only {:.0f} %",
+                    100.0 * std::max(0.0, *e.shrinkage)));
   }
   const double half = 0.5 * (*e.ci_high - *e.ci_low);
   if (e.parameter == "emg_delay") {
-    if (half <= rules.delay_identified_s) return set(Verdict::identified, fmt::format("known to {:.0f} ms", 1000.0 * half));
-    if (half <= rules.delay_weak_s) return set(Verdict::weak, fmt::format("known only to {:.0f} ms; faster movements tell more", 1000.0 * half));
+    if (half <= rules.delay_identified_s)
+      return set(Verdict::identified, fmt::format("known to {:.0f} ms", 1000.0 * half));
+    if (half <= rules.delay_weak_s)
+      return set(Verdict::weak,
+                 fmt::format("known only to {:.0f} ms; faster movements tell more", 1000.0 * half));
     return set(Verdict::not_identifiable, "the movements are too slow to show a delay");
   }
   const double relative = half / std::max(std::abs(e.estimate), 1e-300);
   if (context.prior_distance > rules.prior_conflict && relative <= rules.weak_half_width) {
-    set(Verdict::weak, fmt::format("{:.1f} spreads away from what is known of this muscle: a simplification of the model, or the EMG, may be what is fitted", context.prior_distance));
+    set(Verdict::weak, fmt::format("{:.1f} spreads away from what is known of this muscle: a "
+                                   "simplification of the model, or the EMG, may be what is fitted",
+                                   context.prior_distance));
   } else if (relative <= rules.identified_half_width) {
     set(Verdict::identified, fmt::format("known to {:.1f} %", 100.0 * relative));
   } else if (relative <= rules.weak_half_width) {
     set(Verdict::weak, fmt::format("known only to {:.0f} %", 100.0 * relative));
   } else {
-    set(Verdict::not_identifiable, fmt::format("the interval spans {:.0f} % of the value", 200.0 * relative));
+    set(Verdict::not_identifiable,
+        fmt::format("the interval spans {:.0f} % of the value", 200.0 * relative));
   }
   if (context.shared_forces && e.verdict == Verdict::identified) {
-    set(Verdict::weak, fmt::format("precise to {:.1f} %, but about the forces that an optimizer assigned, which carry its assumptions and no co-contraction; method "
-                                   "torque does not need them",
-                                   100.0 * relative));
+    set(Verdict::weak,
+        fmt::format("precise to {:.1f} %, but about the forces that an optimizer assigned, which "
+                    "carry its assumptions and no co-contraction; method "
+                    "torque does not need them",
+                    100.0 * relative));
   }
   if (e.parameter == "max_isometric_force" && !context.from_mvc) {
-    e.reason += "; no maximal contraction was recorded, so this is the force at the study's largest EMG, not the muscle's maximum";
+    e.reason +=
+        "; no maximal contraction was recorded, so this is the force at the study's largest EMG, "
+        "not the muscle's maximum";
   }
 }
 

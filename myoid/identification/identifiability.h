@@ -6,29 +6,34 @@ namespace myoid::identification {
 
 /// The thresholds of the verdicts, in one place.
 struct VerdictRules {
-  double identified_half_width = 0.15;  ///< 95 % half interval over the value: at most this is `identified` ...
-  double weak_half_width = 0.60;        ///< ... at most this `weak`, beyond it `not_identifiable`.
-  double least_shrinkage = 0.30;        ///< Below, the value is `prior_dominated`.
-  double delay_identified_s = 0.015;    ///< The same for the EMG delay, absolute.
+  double identified_half_width =
+      0.15;  ///< 95 % half interval over the value: at most this is `identified` ...
+  double weak_half_width = 0.60;      ///< ... at most this `weak`, beyond it `not_identifiable`.
+  double least_shrinkage = 0.30;      ///< Below, the value is `prior_dominated`.
+  double delay_identified_s = 0.015;  ///< The same for the EMG delay, absolute.
   double delay_weak_s = 0.05;
-  double prior_conflict = 3.0;          ///< Spreads of the prior away from its mean: at most `weak`.
-  double flat_plateau = 1.02;           ///< V_ml whose interval reaches below says nothing about P.
+  double prior_conflict = 3.0;  ///< Spreads of the prior away from its mean: at most `weak`.
+  double flat_plateau = 1.02;   ///< V_ml whose interval reaches below says nothing about P.
 };
 
 /// Context that a verdict needs beyond the estimate itself.
 struct VerdictContext {
-  bool determined = true;          ///< Not in a direction that the data leave open.
+  bool determined = true;  ///< Not in a direction that the data leave open.
   bool converged = true;
-  std::string failure;             ///< Why not.
-  bool from_mvc = true;            ///< EMG relative to a maximal contraction.
-  bool plateau_is_flat = false;    ///< V_ml of the same muscle not clearly above 1.
-  bool outside_physical = false;   ///< Value outside the physical bounds of its field.
-  double prior_distance = 0.0;     ///< |estimate - prior mean| in spreads of the prior; 0 without a prior.
-  bool shared_forces = false;      ///< The force that was fitted is an optimizer's share of a torque, not measured.
-  std::string bad_company;         ///< Parameter of the same fit that left physiology; empty: none.
+  std::string failure;            ///< Why not.
+  bool from_mvc = true;           ///< EMG relative to a maximal contraction.
+  bool plateau_is_flat = false;   ///< V_ml of the same muscle not clearly above 1.
+  bool outside_physical = false;  ///< Value outside the physical bounds of its field.
+  double prior_distance =
+      0.0;  ///< |estimate - prior mean| in spreads of the prior; 0 without a prior.
+  bool shared_forces =
+      false;  ///< The force that was fitted is an optimizer's share of a torque, not measured.
+  std::string bad_company;  ///< Parameter of the same fit that left physiology; empty: none.
 };
 
 /// Fills `verdict` and `reason` of an estimate whose numbers stand.
-void judge(ParameterEstimate& estimate, const VerdictContext& context, const VerdictRules& rules = {});
+void judge(ParameterEstimate& estimate,
+           const VerdictContext& context,
+           const VerdictRules& rules = {});
 
 }  // namespace myoid::identification

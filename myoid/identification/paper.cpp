@@ -1,12 +1,12 @@
 #include "myoid/identification/paper.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <limits>
 #include <numeric>
+
+#include <fmt/format.h>
 
 #include "myoid/core/error.h"
 #include "myoid/identification/identifiability.h"
@@ -32,17 +32,21 @@ CaseData collect(const StudyData& data, std::size_t muscle, bool shortening) {
   for (const TrialData& trial : data.trials) {
     if (!trial.calibration) continue;
     if (trial.force_n.rows() != trial.time_s.size()) {
-      throw InvalidInput(fmt::format("method paper: trial '{}' has no muscle forces; share the torque first (myoid so)", trial.name));
+      throw InvalidInput(fmt::format(
+          "method paper: trial '{}' has no muscle forces; share the torque first (myoid so)",
+          trial.name));
     }
     const Eigen::MatrixXd activation = muscle_activation(data, trial, trial.time_s, 0.0);
     Eigen::Index run = 0;
     for (Eigen::Index i = 0; i < trial.time_s.size(); ++i) {
       const double v = trial.velocity_mps(i, column);
       const bool here = (v <= 0.0) == shortening;
-      const bool informative = activation(i, column) > 0.0 && v > -setup.start.max_shortening_speed_mps;
+      const bool informative =
+          activation(i, column) > 0.0 && v > -setup.start.max_shortening_speed_mps;
       if (here && !informative) ++result.dropped;
       if (here && informative) {
-        result.samples.push_back({trial.time_s[i], activation(i, column), trial.length_m(i, column) - setup.start.tendon_slack_length_m, v,
+        result.samples.push_back({trial.time_s[i], activation(i, column),
+                                  trial.length_m(i, column) - setup.start.tendon_slack_length_m, v,
                                   trial.force_n(i, column)});
         ++run;
       } else if (run > 0) {
@@ -61,18 +65,26 @@ struct Unknown {
 };
 
 std::vector<Unknown> unknowns(bool shortening) {
-  std::vector<Unknown> list{{&muscle::hill_field("optimal_fiber_length"), &muscle::HillForce::by_optimal_fiber_length},
-                            {&muscle::hill_field("force_length_width"), &muscle::HillForce::by_force_length_width}};
+  std::vector<Unknown> list{
+      {&muscle::hill_field("optimal_fiber_length"), &muscle::HillForce::by_optimal_fiber_length},
+      {&muscle::hill_field("force_length_width"), &muscle::HillForce::by_force_length_width}};
   if (shortening) {
-    list.push_back({&muscle::hill_field("concentric_curvature"), &muscle::HillForce::by_concentric_curvature});
+    list.push_back(
+        {&muscle::hill_field("concentric_curvature"), &muscle::HillForce::by_concentric_curvature});
   } else {
-    list.push_back({&muscle::hill_field("eccentric_curvature_product"), &muscle::HillForce::by_eccentric_curvature_product});
-    list.push_back({&muscle::hill_field("eccentric_plateau"), &muscle::HillForce::by_eccentric_plateau});
+    list.push_back({&muscle::hill_field("eccentric_curvature_product"),
+                    &muscle::HillForce::by_eccentric_curvature_product});
+    list.push_back(
+        {&muscle::hill_field("eccentric_plateau"), &muscle::HillForce::by_eccentric_plateau});
   }
   return list;
 }
 
-void fit_case(const StudyData& data, std::size_t muscle, bool shortening, const PaperOptions& options, IdentificationResult& result) {
+void fit_case(const StudyData& data,
+              std::size_t muscle,
+              bool shortening,
+              const PaperOptions& options,
+              IdentificationResult& result) {
   const MuscleSetup& setup = data.muscles[muscle];
   const CaseData samples = collect(data, muscle, shortening);
   const std::vector<Unknown> list = unknowns(shortening);
@@ -81,10 +93,12 @@ void fit_case(const StudyData& data, std::size_t muscle, bool shortening, const 
   result.samples_dropped += samples.dropped;
   result.samples_used += static_cast<int>(n);
   Eigen::VectorXd start(p);
-  for (Eigen::Index j = 0; j < p; ++j) start[j] = setup.start.*list[static_cast<std::size_t>(j)].field->member;
+  for (Eigen::Index j = 0; j < p; ++j)
+    start[j] = setup.start.*list[static_cast<std::size_t>(j)].field->member;
 
-  const double force_scale = std::accumulate(samples.samples.begin(), samples.samples.end(), 0.0,
-                                             [](double sum, const MuscleSample& s) { return std::max(sum, std::abs(s.force_n)); });
+  const double force_scale = std::accumulate(
+      samples.samples.begin(), samples.samples.end(), 0.0,
+      [](double sum, const MuscleSample& s) { return std::max(sum, std::abs(s.force_n)); });
   math::LeastSquaresResult fit;
   fit.x = start;
   std::string failure;
@@ -95,20 +109,27 @@ void fit_case(const StudyData& data, std::size_t muscle, bool shortening, const 
   } else {
     math::LeastSquaresProblem problem;
     problem.residual_count = n;
-    problem.evaluate = [&](const Eigen::VectorXd& x, Eigen::VectorXd& r, Eigen::MatrixXd* jacobian) {
+    problem.evaluate = [&](const Eigen::VectorXd& x, Eigen::VectorXd& r,
+                           Eigen::MatrixXd* jacobian) {
       muscle::HillParameters<double> parameters = setup.start;
-      for (Eigen::Index j = 0; j < p; ++j) parameters.*list[static_cast<std::size_t>(j)].field->member = x[j];
+      for (Eigen::Index j = 0; j < p; ++j)
+        parameters.*list[static_cast<std::size_t>(j)].field->member = x[j];
       for (Eigen::Index i = 0; i < n; ++i) {
         const MuscleSample& s = samples.samples[static_cast<std::size_t>(i)];
-        const muscle::HillForce f = muscle::hill_force_derivatives(s.activation, s.fiber_length_m, s.fiber_velocity_mps, parameters);
+        const muscle::HillForce f = muscle::hill_force_derivatives(
+            s.activation, s.fiber_length_m, s.fiber_velocity_mps, parameters);
         r[i] = f.force_n - s.force_n;
         if (jacobian == nullptr) continue;
-        for (Eigen::Index j = 0; j < p; ++j) (*jacobian)(i, j) = f.*list[static_cast<std::size_t>(j)].derivative;
+        for (Eigen::Index j = 0; j < p; ++j)
+          (*jacobian)(i, j) = f.*list[static_cast<std::size_t>(j)].derivative;
       }
     };
     try {
-      fit = math::minimize(problem, start, {.method = math::LeastSquaresMethod::gauss_newton, .max_iterations = options.max_iterations,
-                                            .step_tolerance = 1e-10, .gradient_tolerance = 1e-13});
+      fit = math::minimize(problem, start,
+                           {.method = math::LeastSquaresMethod::gauss_newton,
+                            .max_iterations = options.max_iterations,
+                            .step_tolerance = 1e-10,
+                            .gradient_tolerance = 1e-13});
       if (fit.termination != math::Termination::converged) failure = fit.message;
     } catch (const InvalidInput& error) {
       failure = error.what();
@@ -118,13 +139,17 @@ void fit_case(const StudyData& data, std::size_t muscle, bool shortening, const 
   // l_sh enters squared: its sign means nothing.
   fit.x[1] = std::abs(fit.x[1]);
   for (Eigen::Index j = 0; j < p; ++j) {
-    if (!(std::abs(fit.x[j]) <= 1e3 * std::abs(start[j]))) failure = "plain Gauss-Newton steps diverged";
+    if (!(std::abs(fit.x[j]) <= 1e3 * std::abs(start[j])))
+      failure = "plain Gauss-Newton steps diverged";
   }
-  if (!failure.empty()) result.message += fmt::format("{}, {}: {}. ", setup.name, shortening ? "shortening" : "lengthening", failure);
+  if (!failure.empty())
+    result.message +=
+        fmt::format("{}, {}: {}. ", setup.name, shortening ? "shortening" : "lengthening", failure);
 
   math::CovarianceResult covariance;
   double widen = 1.0;
-  const bool computed = fit.residual.size() == n && fit.jacobian.allFinite() && fit.residual.allFinite() && n > p;
+  const bool computed =
+      fit.residual.size() == n && fit.jacobian.allFinite() && fit.residual.allFinite() && n > p;
   if (computed) {
     covariance = math::covariance(fit.jacobian, fit.residual);
     const double effective = math::effective_sample_size(fit.residual, samples.pieces);
@@ -134,7 +159,8 @@ void fit_case(const StudyData& data, std::size_t muscle, bool shortening, const 
   const double quantile = math::normal_quantile(0.975);
   const auto unphysical = [&](Eigen::Index j) {
     const muscle::Range bounds = list[static_cast<std::size_t>(j)].field->bounds;
-    return fit.x[j] != start[j] && std::isfinite(fit.x[j]) && (fit.x[j] < bounds.lower || fit.x[j] > bounds.upper);
+    return fit.x[j] != start[j] && std::isfinite(fit.x[j]) &&
+           (fit.x[j] < bounds.lower || fit.x[j] > bounds.upper);
   };
   std::string bad_company;
   for (Eigen::Index j = 0; j < p; ++j) {
@@ -149,11 +175,14 @@ void fit_case(const StudyData& data, std::size_t muscle, bool shortening, const 
     e.method = "paper";
     e.fit_case = shortening ? "shortening" : "lengthening";
     e.initial = start[j];
-    e.estimate = std::abs(fit.x[j]) <= 1e3 * std::abs(start[j]) ? fit.x[j] : std::numeric_limits<double>::quiet_NaN();
+    e.estimate = std::abs(fit.x[j]) <= 1e3 * std::abs(start[j])
+                     ? fit.x[j]
+                     : std::numeric_limits<double>::quiet_NaN();
     VerdictContext context;
     context.bad_company = bad_company;
     context.shared_forces = options.shared_forces;
-    if (const auto prior = setup.priors.find(e.parameter); prior != setup.priors.end() && !prior->second.logarithmic && options.shared_forces) {
+    if (const auto prior = setup.priors.find(e.parameter);
+        prior != setup.priors.end() && !prior->second.logarithmic && options.shared_forces) {
       context.prior_distance = std::abs(e.estimate - prior->second.mean) / prior->second.sd;
     }
     context.converged = failure.empty();
@@ -166,7 +195,9 @@ void fit_case(const StudyData& data, std::size_t muscle, bool shortening, const 
     }
     context.outside_physical = unphysical(j);
     if (!shortening && p == 4 && std::isfinite(fit.x[3])) {
-      const double sd = computed ? std::sqrt(covariance.unscaled(3, 3) * covariance.residual_variance * widen) : 0.0;
+      const double sd =
+          computed ? std::sqrt(covariance.unscaled(3, 3) * covariance.residual_variance * widen)
+                   : 0.0;
       context.plateau_is_flat = std::abs(fit.x[3] - 1.0) < quantile * sd;
     }
     judge(e, context);
@@ -184,7 +215,9 @@ IdentificationResult identify_paper(const StudyData& data, const PaperOptions& o
   result.termination = math::Termination::converged;
   for (std::size_t k = 0; k < data.muscles.size(); ++k) {
     result.muscles.push_back(data.muscles[k].start);
-    if (!options.muscles.empty() && std::find(options.muscles.begin(), options.muscles.end(), data.muscles[k].name) == options.muscles.end()) continue;
+    if (!options.muscles.empty() && std::find(options.muscles.begin(), options.muscles.end(),
+                                              data.muscles[k].name) == options.muscles.end())
+      continue;
     fit_case(data, k, true, options, result);
     fit_case(data, k, false, options, result);
   }
@@ -204,17 +237,21 @@ IdentificationResult identify_paper(const StudyData& data, const PaperOptions& o
       muscle::HillParameters<double> by_case[2] = {setup.start, setup.start};
       for (const ParameterEstimate& e : result.estimates) {
         if (e.muscle != setup.name || !std::isfinite(e.estimate)) continue;
-        by_case[e.fit_case == "shortening" ? 0 : 1].*muscle::hill_field(e.parameter).member = e.estimate;
+        by_case[e.fit_case == "shortening" ? 0 : 1].*muscle::hill_field(e.parameter).member =
+            e.estimate;
       }
       for (Eigen::Index i = 0; i < trial.time_s.size(); ++i) {
         const double l = trial.length_m(i, column) - setup.start.tendon_slack_length_m;
         const double v = trial.velocity_mps(i, column);
-        fit.literature_force_n(i, column) = muscle::hill_force(activation(i, column), l, v, setup.start);
-        fit.force_fit_n(i, column) = muscle::hill_force(activation(i, column), l, v, by_case[v <= 0.0 ? 0 : 1]);
+        fit.literature_force_n(i, column) =
+            muscle::hill_force(activation(i, column), l, v, setup.start);
+        fit.force_fit_n(i, column) =
+            muscle::hill_force(activation(i, column), l, v, by_case[v <= 0.0 ? 0 : 1]);
       }
     }
     if (trial.moment_arm_m.rows() == trial.time_s.size()) {
-      fit.literature_torque_nm = trial.moment_arm_m.cwiseProduct(fit.literature_force_n).rowwise().sum();
+      fit.literature_torque_nm =
+          trial.moment_arm_m.cwiseProduct(fit.literature_force_n).rowwise().sum();
       fit.torque_fit_nm = trial.moment_arm_m.cwiseProduct(fit.force_fit_n).rowwise().sum();
     }
     result.trials.push_back(std::move(fit));

@@ -51,8 +51,8 @@ TEST(IdentifyPaper, FindsTheTruthFromTrueForces) {
 }
 
 TEST(IdentifyPaper, ADelayThatIsIgnoredLeavesNoValueTrustedThatIsFarOff) {
-  // An EMG delay of 60 ms, unknown to the method, distorts the curves, the product P most (16 to 400 %): whatever is more than 30 %
-  // off must not be called identified.
+  // An EMG delay of 60 ms, unknown to the method, distorts the curves, the product P most (16 to
+  // 400 %): whatever is more than 30 % off must not be called identified.
   const ElbowStudy study = study_for_paper(0.06);
   const IdentificationResult result = identify_paper(study.data);
   int wrong_and_trusted = 0;

@@ -1,8 +1,8 @@
 #include "myoid/identification/study_data.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
+
+#include <fmt/format.h>
 
 #include "myoid/core/error.h"
 #include "myoid/math/spline.h"
@@ -25,21 +25,29 @@ void validate(const StudyData& data) {
     const Eigen::Index n = trial.time_s.size();
     const auto sized = [&](const Eigen::MatrixXd& x) { return x.rows() == n && x.cols() == m; };
     if (n < 2 || !sized(trial.length_m) || !sized(trial.velocity_mps)) {
-      throw InvalidInput(fmt::format("trial '{}': lengths and velocities must be {} samples x {} muscles", trial.name, n, m));
+      throw InvalidInput(fmt::format(
+          "trial '{}': lengths and velocities must be {} samples x {} muscles", trial.name, n, m));
     }
-    if (!trial.length_m.allFinite() || !trial.velocity_mps.allFinite() || !trial.moment_arm_m.allFinite() || !trial.torque_nm.allFinite() ||
+    if (!trial.length_m.allFinite() || !trial.velocity_mps.allFinite() ||
+        !trial.moment_arm_m.allFinite() || !trial.torque_nm.allFinite() ||
         !trial.force_n.allFinite()) {
-      throw InvalidInput(fmt::format("trial '{}': a length, velocity, moment arm, torque or force is not a number", trial.name));
+      throw InvalidInput(
+          fmt::format("trial '{}': a length, velocity, moment arm, torque or force is not a number",
+                      trial.name));
     }
     require_finite(trial.activation, fmt::format("trial '{}': activation", trial.name));
     for (const MuscleSetup& muscle : data.muscles) (void)trial.activation.index(muscle.emg_channel);
   }
 }
 
-Eigen::MatrixXd muscle_activation(const StudyData& data, const TrialData& trial, const Eigen::VectorXd& time_s, double delay_s,
+Eigen::MatrixXd muscle_activation(const StudyData& data,
+                                  const TrialData& trial,
+                                  const Eigen::VectorXd& time_s,
+                                  double delay_s,
                                   Eigen::MatrixXd* slope) {
   const Eigen::VectorXd& clock = trial.activation.time_s();
-  const Eigen::VectorXd when = (time_s.array() - delay_s).max(clock[0]).min(clock[clock.size() - 1]);
+  const Eigen::VectorXd when =
+      (time_s.array() - delay_s).max(clock[0]).min(clock[clock.size() - 1]);
   Eigen::MatrixXd activation(time_s.size(), static_cast<Eigen::Index>(data.muscles.size()));
   if (slope != nullptr) slope->resize(activation.rows(), activation.cols());
   std::map<Eigen::Index, Eigen::Index> done;  // channel -> first muscle that uses it
@@ -52,9 +60,11 @@ Eigen::MatrixXd muscle_activation(const StudyData& data, const TrialData& trial,
       continue;
     }
     done[channel] = column;
-    const math::SplineValues values = math::Spline::interpolate(clock, trial.activation.values().col(channel), 5).evaluate(when);
+    const math::SplineValues values =
+        math::Spline::interpolate(clock, trial.activation.values().col(channel), 5).evaluate(when);
     activation.col(column) = values.value.cwiseMax(0.0);
-    if (slope != nullptr) slope->col(column) = (values.value.array() > 0.0).select(values.first, 0.0);
+    if (slope != nullptr)
+      slope->col(column) = (values.value.array() > 0.0).select(values.first, 0.0);
   }
   return activation;
 }

@@ -1,14 +1,13 @@
 #include "myoid/identification/torque.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/QR>
-
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdint>
+
+#include <Eigen/Cholesky>
+#include <Eigen/QR>
+#include <fmt/format.h>
 
 #include "myoid/identification/identifiability.h"
 #include "myoid/identification/torque_model.h"
@@ -24,11 +23,17 @@ struct NoiseModel {
   double emg_cv = 0.0;
   double share = 1.0;  ///< nu: effective over all samples.
 
-  [[nodiscard]] double sd(double channel_power) const { return std::sqrt(torque_sd_nm * torque_sd_nm + emg_cv * emg_cv * channel_power); }
+  [[nodiscard]] double sd(double channel_power) const {
+    return std::sqrt(torque_sd_nm * torque_sd_nm + emg_cv * emg_cv * channel_power);
+  }
 };
 
-/// Both variances by weighted regression of the squared residuals on [1, channel power], neither negative.
-void estimate_noise(const Eigen::VectorXd& residual, const Eigen::VectorXd& power, double freedom_share, NoiseModel& noise) {
+/// Both variances by weighted regression of the squared residuals on [1, channel power], neither
+/// negative.
+void estimate_noise(const Eigen::VectorXd& residual,
+                    const Eigen::VectorXd& power,
+                    double freedom_share,
+                    NoiseModel& noise) {
   const Eigen::VectorXd squared = residual.array().square() / freedom_share;
   double a = squared.mean();
   double b = 0.0;
@@ -60,8 +65,10 @@ void estimate_noise(const Eigen::VectorXd& residual, const Eigen::VectorXd& powe
 
 class Fit {
  public:
-  Fit(const StudyData& data, const TorqueOptions& options) : options_(options), model_(data, options) {
-    const double typical = std::sqrt(model_.torque().squaredNorm() / static_cast<double>(model_.sample_count()));
+  Fit(const StudyData& data, const TorqueOptions& options)
+      : options_(options), model_(data, options) {
+    const double typical =
+        std::sqrt(model_.torque().squaredNorm() / static_cast<double>(model_.sample_count()));
     floor_nm_ = 1e-9 * std::max(typical, 1e-3);
     for (const FreeParameter& p : model_.free()) {
       if (p.prior_sd > 0.0) ++prior_count_;
@@ -82,7 +89,8 @@ class Fit {
     Eigen::VectorXd x = start;
     if (options_.weights) {
       // First guess of the noise: a tenth of the torque.
-      noise_.torque_sd_nm = std::max(0.1 * std::sqrt(model_.torque().squaredNorm() / static_cast<double>(n)), floor_nm_);
+      noise_.torque_sd_nm = std::max(
+          0.1 * std::sqrt(model_.torque().squaredNorm() / static_cast<double>(n)), floor_nm_);
       noise_.share = 0.25;
       sd_.setConstant(noise_.torque_sd_nm);
     }
@@ -94,18 +102,23 @@ class Fit {
       x = fit.x;
       model_.evaluate(x, predicted, nullptr, &power);
       const Eigen::VectorXd residual = predicted - model_.torque();
-      const double freedom = std::max(0.2, 1.0 - static_cast<double>(model_.free().size()) / std::max(10.0, noise_.share * static_cast<double>(n)));
+      const double freedom =
+          std::max(0.2, 1.0 - static_cast<double>(model_.free().size()) /
+                                  std::max(10.0, noise_.share * static_cast<double>(n)));
       estimate_noise(residual, power, freedom, noise_);
       noise_.torque_sd_nm = std::max(noise_.torque_sd_nm, floor_nm_);
       for (Eigen::Index i = 0; i < n; ++i) sd_[i] = noise_.sd(power[i]);
       const Eigen::VectorXd standardized = residual.cwiseQuotient(sd_);
-      noise_.share = math::effective_sample_size(standardized, model_.pieces()) / static_cast<double>(n);
+      noise_.share =
+          math::effective_sample_size(standardized, model_.pieces()) / static_cast<double>(n);
     }
     return fit;
   }
 
   /// A short search from another start with the weights as they stand after `run`.
-  [[nodiscard]] math::LeastSquaresResult glance(const Eigen::VectorXd& start) { return minimize(start, 40, 1e-4, 1e-4); }
+  [[nodiscard]] math::LeastSquaresResult glance(const Eigen::VectorXd& start) {
+    return minimize(start, 40, 1e-4, 1e-4);
+  }
 
   /// Covariance of z: A^-1 B A^-1.
   [[nodiscard]] Eigen::MatrixXd covariance(const Eigen::VectorXd& z) const {
@@ -128,13 +141,18 @@ class Fit {
     }
     // Scaled to unit diagonal before inverting; near-zero directions stay near-infinite.
     const Eigen::VectorXd scale = a.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
-    const Eigen::MatrixXd inverse =
-        scale.asDiagonal() * (scale.asDiagonal() * a * scale.asDiagonal()).eval().completeOrthogonalDecomposition().pseudoInverse() * scale.asDiagonal();
+    const Eigen::MatrixXd inverse = scale.asDiagonal() *
+                                    (scale.asDiagonal() * a * scale.asDiagonal())
+                                        .eval()
+                                        .completeOrthogonalDecomposition()
+                                        .pseudoInverse() *
+                                    scale.asDiagonal();
     const Eigen::MatrixXd sandwich = inverse * b * inverse;
     // Few effective samples make B itself unsure: never below the model-based covariance.
     Eigen::MatrixXd result = sandwich;
     for (Eigen::Index j = 0; j < a.rows(); ++j) {
-      const double factor = std::sqrt(std::max(1.0, inverse(j, j) / std::max(sandwich(j, j), 1e-300)));
+      const double factor =
+          std::sqrt(std::max(1.0, inverse(j, j) / std::max(sandwich(j, j), 1e-300)));
       if (options_.weights && factor > 1.0) {
         result.row(j) *= factor;
         result.col(j) *= factor;
@@ -147,12 +165,21 @@ class Fit {
     Eigen::VectorXd predicted;
     Eigen::MatrixXd jacobian;
     model_.evaluate(z, predicted, &jacobian, nullptr);
-    return math::covariance(sd_.cwiseInverse().asDiagonal() * jacobian, (predicted - model_.torque()).cwiseQuotient(sd_), {.rank_tolerance = 1e-7});
+    return math::covariance(sd_.cwiseInverse().asDiagonal() * jacobian,
+                            (predicted - model_.torque()).cwiseQuotient(sd_),
+                            {.rank_tolerance = 1e-7});
   }
 
  private:
-  [[nodiscard]] math::LeastSquaresResult minimize(const Eigen::VectorXd& start, int iterations, double step, double cost) const {
-    return math::minimize(problem(), start, {.max_iterations = iterations, .step_tolerance = step, .cost_tolerance = cost, .progress = options_.progress});
+  [[nodiscard]] math::LeastSquaresResult minimize(const Eigen::VectorXd& start,
+                                                  int iterations,
+                                                  double step,
+                                                  double cost) const {
+    return math::minimize(problem(), start,
+                          {.max_iterations = iterations,
+                           .step_tolerance = step,
+                           .cost_tolerance = cost,
+                           .progress = options_.progress});
   }
 
   [[nodiscard]] math::LeastSquaresProblem problem() const {
@@ -166,7 +193,8 @@ class Fit {
       p.lower[j] = model_.free()[static_cast<std::size_t>(j)].lower;
       p.upper[j] = model_.free()[static_cast<std::size_t>(j)].upper;
     }
-    p.evaluate = [this, n, count](const Eigen::VectorXd& z, Eigen::VectorXd& r, Eigen::MatrixXd* jacobian) {
+    p.evaluate = [this, n, count](const Eigen::VectorXd& z, Eigen::VectorXd& r,
+                                  Eigen::MatrixXd* jacobian) {
       Eigen::VectorXd predicted;
       Eigen::MatrixXd derivative;
       model_.evaluate(z, predicted, jacobian != nullptr ? &derivative : nullptr, nullptr);
@@ -199,10 +227,14 @@ class Fit {
 /// Cost with everything in it that changes between starts: -2 log posterior up to a constant.
 double misfit(const math::LeastSquaresResult& fit, const Fit& search, bool weights) {
   if (!weights) return fit.cost;
-  return 2.0 * fit.cost + 2.0 * search.noise().share * search.standard_deviation().array().log().sum();
+  return 2.0 * fit.cost +
+         2.0 * search.noise().share * search.standard_deviation().array().log().sum();
 }
 
-void report_parameters(const Fit& search, const math::LeastSquaresResult& fit, const StudyData& data, const TorqueOptions& options,
+void report_parameters(const Fit& search,
+                       const math::LeastSquaresResult& fit,
+                       const StudyData& data,
+                       const TorqueOptions& options,
                        IdentificationResult& result) {
   const std::vector<FreeParameter>& free = search.model().free();
   const math::CovarianceResult rank = search.rank(fit.x);
@@ -212,7 +244,9 @@ void report_parameters(const Fit& search, const math::LeastSquaresResult& fit, c
   for (std::size_t j = 0; j < free.size(); ++j) {
     if (free[j].kind == FreeParameter::Kind::muscle && free[j].field->name == "eccentric_plateau") {
       const auto at = static_cast<Eigen::Index>(j);
-      flat[static_cast<std::size_t>(free[j].muscle)] = fit.x[at] - quantile * std::sqrt(std::max(0.0, result.covariance(at, at))) < VerdictRules{}.flat_plateau;
+      flat[static_cast<std::size_t>(free[j].muscle)] =
+          fit.x[at] - quantile * std::sqrt(std::max(0.0, result.covariance(at, at))) <
+          VerdictRules{}.flat_plateau;
     }
   }
   for (std::size_t j = 0; j < free.size(); ++j) {
@@ -223,7 +257,9 @@ void report_parameters(const Fit& search, const math::LeastSquaresResult& fit, c
     e.fit_case = "both";
     e.muscle = p.label.substr(0, p.label.find('.'));
     e.parameter = p.label.substr(p.label.find('.') + 1);
-    e.unit = p.kind == FreeParameter::Kind::muscle ? p.field->unit : p.kind == FreeParameter::Kind::delay ? Unit::second : Unit::dimensionless;
+    e.unit = p.kind == FreeParameter::Kind::muscle  ? p.field->unit
+             : p.kind == FreeParameter::Kind::delay ? Unit::second
+                                                    : Unit::dimensionless;
     e.initial = p.to_value(p.start);
     e.estimate = p.to_value(fit.x[at]);
     e.at_bound = fit.at_bound[j];
@@ -248,11 +284,14 @@ void report_parameters(const Fit& search, const math::LeastSquaresResult& fit, c
     context.converged = fit.termination == math::Termination::converged;
     context.failure = fit.message;
     context.from_mvc = options.from_mvc;
-    context.plateau_is_flat = p.kind == FreeParameter::Kind::muscle && flat[static_cast<std::size_t>(p.muscle)];
+    context.plateau_is_flat =
+        p.kind == FreeParameter::Kind::muscle && flat[static_cast<std::size_t>(p.muscle)];
     judge(e, context);
     if (p.kind == FreeParameter::Kind::gain) {
       e.verdict = Verdict::prior_dominated;
-      e.reason = "carries the uncertainty of the EMG normalisation into the intervals of F_max; the recording cannot tell it from F_max";
+      e.reason =
+          "carries the uncertainty of the EMG normalisation into the intervals of F_max; the "
+          "recording cannot tell it from F_max";
     }
     result.free_parameters.push_back(p.label);
     result.estimates.push_back(std::move(e));
@@ -261,9 +300,12 @@ void report_parameters(const Fit& search, const math::LeastSquaresResult& fit, c
     for (std::size_t j = 0; j < i; ++j) {
       const auto a = static_cast<Eigen::Index>(i);
       const auto b = static_cast<Eigen::Index>(j);
-      const double correlation = result.covariance(a, b) / std::sqrt(result.covariance(a, a) * result.covariance(b, b));
-      if (std::abs(correlation) > 0.9 && free[i].kind != FreeParameter::Kind::gain && free[j].kind != FreeParameter::Kind::gain) {
-        result.collinear.push_back(fmt::format("{} and {} (correlation {:.2f})", free[j].label, free[i].label, correlation));
+      const double correlation =
+          result.covariance(a, b) / std::sqrt(result.covariance(a, a) * result.covariance(b, b));
+      if (std::abs(correlation) > 0.9 && free[i].kind != FreeParameter::Kind::gain &&
+          free[j].kind != FreeParameter::Kind::gain) {
+        result.collinear.push_back(fmt::format("{} and {} (correlation {:.2f})", free[j].label,
+                                               free[i].label, correlation));
       }
     }
   }
@@ -271,22 +313,29 @@ void report_parameters(const Fit& search, const math::LeastSquaresResult& fit, c
 
 }  // namespace
 
-double coefficient_of_determination(const Eigen::VectorXd& reference, const Eigen::VectorXd& predicted) {
+double coefficient_of_determination(const Eigen::VectorXd& reference,
+                                    const Eigen::VectorXd& predicted) {
   const double total = (reference.array() - reference.mean()).square().sum();
   return total > 0.0 ? 1.0 - (reference - predicted).squaredNorm() / total : 0.0;
 }
 
-Prediction predict(const StudyData& data, const TrialData& trial, const std::vector<muscle::HillParameters<double>>& muscles, double delay_s) {
+Prediction predict(const StudyData& data,
+                   const TrialData& trial,
+                   const std::vector<muscle::HillParameters<double>>& muscles,
+                   double delay_s) {
   const Eigen::MatrixXd activation = muscle_activation(data, trial, trial.time_s, delay_s);
   Prediction p;
   p.force_n.resize(trial.time_s.size(), trial.length_m.cols());
   for (Eigen::Index k = 0; k < p.force_n.cols(); ++k) {
     const auto& parameters = muscles[static_cast<std::size_t>(k)];
     for (Eigen::Index i = 0; i < p.force_n.rows(); ++i) {
-      p.force_n(i, k) = muscle::hill_force(activation(i, k), trial.length_m(i, k) - parameters.tendon_slack_length_m, trial.velocity_mps(i, k), parameters);
+      p.force_n(i, k) = muscle::hill_force(activation(i, k),
+                                           trial.length_m(i, k) - parameters.tendon_slack_length_m,
+                                           trial.velocity_mps(i, k), parameters);
     }
   }
-  if (trial.moment_arm_m.rows() == trial.time_s.size()) p.torque_nm = trial.moment_arm_m.cwiseProduct(p.force_n).rowwise().sum();
+  if (trial.moment_arm_m.rows() == trial.time_s.size())
+    p.torque_nm = trial.moment_arm_m.cwiseProduct(p.force_n).rowwise().sum();
   return p;
 }
 
@@ -300,7 +349,8 @@ IdentificationResult identify_torque(const StudyData& data, const TorqueOptions&
 
   if (options.warm_start.size() == start.size()) start = options.warm_start;
 
-  // The given start, and starts moved by a spread of the prior (or a part of the value) in alternating directions.
+  // The given start, and starts moved by a spread of the prior (or a part of the value) in
+  // alternating directions.
   math::LeastSquaresResult best = search.run(start);
   std::optional<Fit> best_search(search);
   const double start_cost = best.cost_history.empty() ? 0.0 : best.cost_history.front();
@@ -310,9 +360,13 @@ IdentificationResult identify_torque(const StudyData& data, const TorqueOptions&
     Eigen::VectorXd x = start;
     for (std::size_t j = 0; j < free.size(); ++j) {
       const auto at = static_cast<Eigen::Index>(j);
-      const double step = free[j].prior_sd > 0.0 ? free[j].prior_sd : free[j].logarithmic ? 0.3 : 0.1 * std::abs(free[j].start);
-      // Start s turns sign by the bits of a fixed mixing of its number and the parameter's: the same on every machine.
-      const std::uint64_t mixed = (static_cast<std::uint64_t>(s) * 0x9E3779B97F4A7C15ULL) ^ ((j + 1) * 0xD1B54A32D192ED03ULL);
+      const double step = free[j].prior_sd > 0.0 ? free[j].prior_sd
+                          : free[j].logarithmic  ? 0.3
+                                                 : 0.1 * std::abs(free[j].start);
+      // Start s turns sign by the bits of a fixed mixing of its number and the parameter's: the
+      // same on every machine.
+      const std::uint64_t mixed = (static_cast<std::uint64_t>(s) * 0x9E3779B97F4A7C15ULL) ^
+                                  ((j + 1) * 0xD1B54A32D192ED03ULL);
       const double sign = ((mixed >> 33) & 1U) == 0 ? 1.0 : -1.0;
       x[at] = std::clamp(x[at] + sign * step, free[j].lower, free[j].upper);
     }
@@ -338,7 +392,8 @@ IdentificationResult identify_torque(const StudyData& data, const TorqueOptions&
   result.iterations = best.iterations;
   result.samples_used = static_cast<int>(chosen.model().sample_count());
   result.samples_dropped = chosen.model().dropped();
-  result.effective_samples = chosen.noise().share * static_cast<double>(chosen.model().sample_count());
+  result.effective_samples =
+      chosen.noise().share * static_cast<double>(chosen.model().sample_count());
   result.torque_sd_nm = chosen.noise().torque_sd_nm;
   result.emg_cv = chosen.noise().emg_cv;
   result.solution = best.x;
@@ -347,7 +402,8 @@ IdentificationResult identify_torque(const StudyData& data, const TorqueOptions&
   result.covariance = chosen.covariance(best.x);
   if (!options.weights) {
     // Plain least squares: the residuals' own variance.
-    const double freedom = std::max(1.0, static_cast<double>(chosen.model().sample_count()) - static_cast<double>(free.size()));
+    const double freedom = std::max(
+        1.0, static_cast<double>(chosen.model().sample_count()) - static_cast<double>(free.size()));
     result.torque_sd_nm = std::sqrt(2.0 * best.cost / freedom);
   }
   report_parameters(chosen, best, data, options, result);
@@ -363,7 +419,8 @@ IdentificationResult identify_torque(const StudyData& data, const TorqueOptions&
     fit.torque_nm = trial.torque_nm;
     Prediction before = predict(data, trial, literature, literature_delay);
     Prediction after = predict(data, trial, result.muscles, result.delay_s);
-    fit.rmse_nm = std::sqrt((after.torque_nm - trial.torque_nm).squaredNorm() / static_cast<double>(trial.time_s.size()));
+    fit.rmse_nm = std::sqrt((after.torque_nm - trial.torque_nm).squaredNorm() /
+                            static_cast<double>(trial.time_s.size()));
     fit.r2 = coefficient_of_determination(trial.torque_nm, after.torque_nm);
     fit.literature_force_n = std::move(before.force_n);
     fit.literature_torque_nm = std::move(before.torque_nm);

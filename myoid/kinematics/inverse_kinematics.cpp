@@ -1,16 +1,15 @@
 #include "myoid/kinematics/inverse_kinematics.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/QR>
-#include <Eigen/SVD>
-
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
+
+#include <Eigen/Cholesky>
+#include <Eigen/QR>
+#include <Eigen/SVD>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "myoid/core/error.h"
 #include "myoid/kinematics/joint_motion.h"
@@ -29,7 +28,10 @@ struct Pair {
 class Solver {
  public:
   Solver(const model::BodyModel& model, const IkOptions& options, std::vector<Pair> pairs)
-      : model_(model), options_(options), pairs_(std::move(pairs)), state_(model::make_state(model)) {
+      : model_(model),
+        options_(options),
+        pairs_(std::move(pairs)),
+        state_(model::make_state(model)) {
     for (std::size_t c = 0; c < model.coordinates.size(); ++c) {
       if (!model.coordinates[c].locked) free_.push_back(static_cast<Eigen::Index>(c));
     }
@@ -37,7 +39,8 @@ class Solver {
     const auto rows = static_cast<Eigen::Index>(3 * pairs_.size() + options.tasks.size());
     residual_.setZero(rows);
     jacobian_.setZero(rows, n);
-    for (const CoordinateTask& task : options.tasks) task_index_.push_back(model.coordinate_index(task.coordinate));
+    for (const CoordinateTask& task : options.tasks)
+      task_index_.push_back(model.coordinate_index(task.coordinate));
     seen_.assign(pairs_.size(), false);
     target_.assign(pairs_.size(), Vec3::Zero());
   }
@@ -68,7 +71,8 @@ class Solver {
       const auto row = static_cast<Eigen::Index>(3 * i);
       const Vec3 p_GM = state_.X_GB[static_cast<std::size_t>(marker.body)] * marker.p_BM;
       residual_.segment<3>(row) = root * (p_GM - target_[i]);
-      const Eigen::Matrix3Xd full = model::station_jacobian(model_, state_, marker.body, marker.p_BM);
+      const Eigen::Matrix3Xd full =
+          model::station_jacobian(model_, state_, marker.body, marker.p_BM);
       for (std::size_t k = 0; k < free_.size(); ++k) {
         jacobian_.block<3, 1>(row, static_cast<Eigen::Index>(k)) = root * full.col(free_[k]);
       }
@@ -108,9 +112,11 @@ class Solver {
       Eigen::MatrixXd normal = jacobian_.transpose() * jacobian_;
       // Clamped coordinates at their end that are pushed beyond stay.
       for (Eigen::Index k = 0; k < n; ++k) {
-        const auto& coordinate = model_.coordinates[static_cast<std::size_t>(free_[static_cast<std::size_t>(k)])];
+        const auto& coordinate =
+            model_.coordinates[static_cast<std::size_t>(free_[static_cast<std::size_t>(k)])];
         const double value = pose.q[free_[static_cast<std::size_t>(k)]];
-        if (coordinate.clamped && ((value <= coordinate.lower && gradient[k] > 0.0) || (value >= coordinate.upper && gradient[k] < 0.0))) {
+        if (coordinate.clamped && ((value <= coordinate.lower && gradient[k] > 0.0) ||
+                                   (value >= coordinate.upper && gradient[k] < 0.0))) {
           gradient[k] = 0.0;
           normal.row(k).setZero();
           normal.col(k).setZero();
@@ -194,7 +200,9 @@ class Solver {
   Eigen::MatrixXd jacobian_;
 };
 
-std::vector<Pair> pair_markers(const model::BodyModel& model, const recording::MarkerSeries& markers, const IkOptions& options,
+std::vector<Pair> pair_markers(const model::BodyModel& model,
+                               const recording::MarkerSeries& markers,
+                               const IkOptions& options,
                                std::vector<std::string>& notes) {
   std::vector<Pair> pairs;
   for (std::size_t i = 0; i < model.markers.size(); ++i) {
@@ -206,41 +214,52 @@ std::vector<Pair> pair_markers(const model::BodyModel& model, const recording::M
     }
     const auto weight = options.marker_weights.find(name);
     const double w = weight == options.marker_weights.end() ? 1.0 : weight->second;
-    if (!(w >= 0.0)) throw InvalidInput(fmt::format("marker '{}': weight {}, expected 0 or more", name, w));
+    if (!(w >= 0.0))
+      throw InvalidInput(fmt::format("marker '{}': weight {}, expected 0 or more", name, w));
     pairs.push_back({i, it - markers.names.begin(), w});
   }
   for (const std::string& name : markers.names) {
-    if (!model.find_marker(name)) notes.push_back(fmt::format("marker '{}' of the recording is not in the model", name));
+    if (!model.find_marker(name))
+      notes.push_back(fmt::format("marker '{}' of the recording is not in the model", name));
   }
   if (pairs.empty()) {
     std::vector<std::string> names;
     for (const model::Marker& marker : model.markers) names.push_back(marker.name);
     const auto some = [](const std::vector<std::string>& all) {
-      const std::vector<std::string> head(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(all.size(), 12)));
+      const std::vector<std::string> head(
+          all.begin(),
+          all.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(all.size(), 12)));
       return fmt::format("{}{}", fmt::join(head, ", "), all.size() > head.size() ? ", ..." : "");
     };
-    throw InvalidInput(fmt::format("no marker of the recording ({}) is in the model ({}); rename them ([markers] rename in a study)",
-                                   some(markers.names), some(names)));
+    throw InvalidInput(
+        fmt::format("no marker of the recording ({}) is in the model ({}); rename them ([markers] "
+                    "rename in a study)",
+                    some(markers.names), some(names)));
   }
   return pairs;
 }
 
 }  // namespace
 
-IkResult inverse_kinematics(const model::BodyModel& model, const recording::MarkerSeries& markers, const IkOptions& options) {
+IkResult inverse_kinematics(const model::BodyModel& model,
+                            const recording::MarkerSeries& markers,
+                            const IkOptions& options) {
   IkResult result;
   Solver solver(model, options, pair_markers(model, markers, options, result.notes));
-  if (solver.free().empty()) throw ModelError("inverse kinematics: every coordinate of the model is locked");
+  if (solver.free().empty())
+    throw ModelError("inverse kinematics: every coordinate of the model is locked");
   const Eigen::Index frames = markers.frame_count();
   const auto coordinates = static_cast<Eigen::Index>(model.coordinates.size());
   Eigen::MatrixXd q(frames, coordinates);
-  Eigen::MatrixXd errors = Eigen::MatrixXd::Constant(frames, 3 + static_cast<Eigen::Index>(solver.pairs().size()), 0.0);
+  Eigen::MatrixXd errors =
+      Eigen::MatrixXd::Constant(frames, 3 + static_cast<Eigen::Index>(solver.pairs().size()), 0.0);
   Eigen::VectorXd posture = model.default_q();
   std::vector<bool> undetermined(solver.free().size(), false);
   for (Eigen::Index frame = 0; frame < frames; ++frame) {
     if (frame % 256 == 0) {
       options.progress.check();
-      options.progress.tell(static_cast<double>(frame) / static_cast<double>(frames), "inverse kinematics");
+      options.progress.tell(static_cast<double>(frame) / static_cast<double>(frames),
+                            "inverse kinematics");
     }
     solver.set_targets(markers, frame);
     if (solver.seen_count() == 0) {
@@ -254,8 +273,10 @@ IkResult inverse_kinematics(const model::BodyModel& model, const recording::Mark
     Solver::Pose pose = solver.solve(posture);
     if (frame == 0 || !pose.converged) {
       // A second start guards against a stall; the better of the two counts.
-      const Solver::Pose again = solver.solve(frame == 0 ? Eigen::VectorXd(posture.array() + 0.3) : model.default_q());
-      if ((again.converged && !pose.converged) || again.cost < pose.cost * (1.0 - 1e-9)) pose = again;
+      const Solver::Pose again =
+          solver.solve(frame == 0 ? Eigen::VectorXd(posture.array() + 0.3) : model.default_q());
+      if ((again.converged && !pose.converged) || again.cost < pose.cost * (1.0 - 1e-9))
+        pose = again;
     }
     solver.linearize(pose.q);
     if (frame % 16 == 0 || frame + 1 == frames) solver.collect_undetermined(undetermined);
@@ -278,13 +299,19 @@ IkResult inverse_kinematics(const model::BodyModel& model, const recording::Mark
     errors(frame, 2) = largest;
   }
   std::vector<Channel> channels;
-  for (const model::Coordinate& coordinate : model.coordinates) channels.push_back({coordinate.name, coordinate_unit(coordinate, 0)});
+  for (const model::Coordinate& coordinate : model.coordinates)
+    channels.push_back({coordinate.name, coordinate_unit(coordinate, 0)});
   result.q = TimeSeries(markers.time_s, std::move(channels), std::move(q));
-  std::vector<Channel> error_channels{{"total_squared_error", Unit::dimensionless}, {"marker_error_RMS", Unit::meter}, {"marker_error_max", Unit::meter}};
-  for (const Pair& pair : solver.pairs()) error_channels.push_back({model.markers[pair.model].name, Unit::meter});
+  std::vector<Channel> error_channels{{"total_squared_error", Unit::dimensionless},
+                                      {"marker_error_RMS", Unit::meter},
+                                      {"marker_error_max", Unit::meter}};
+  for (const Pair& pair : solver.pairs())
+    error_channels.push_back({model.markers[pair.model].name, Unit::meter});
   result.errors = TimeSeries(markers.time_s, std::move(error_channels), std::move(errors));
   for (std::size_t k = 0; k < undetermined.size(); ++k) {
-    if (undetermined[k]) result.undetermined.push_back(model.coordinates[static_cast<std::size_t>(solver.free()[k])].name);
+    if (undetermined[k])
+      result.undetermined.push_back(
+          model.coordinates[static_cast<std::size_t>(solver.free()[k])].name);
   }
   return result;
 }

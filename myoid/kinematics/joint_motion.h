@@ -9,7 +9,8 @@
 
 namespace myoid::kinematics {
 
-/// Coordinates, their rates and accelerations on one clock; channels are the model's coordinates, in its order.
+/// Coordinates, their rates and accelerations on one clock; channels are the model's coordinates,
+/// in its order.
 struct JointMotion {
   TimeSeries q;      ///< [rad] or [m]
   TimeSeries qdot;   ///< [rad/s] or [m/s]
@@ -19,7 +20,8 @@ struct JointMotion {
 };
 
 struct MotionOptions {
-  /// -3 dB of the quintic smoothing spline [Hz]; empty: the interpolating quintic spline, no smoothing.
+  /// -3 dB of the quintic smoothing spline [Hz]; empty: the interpolating quintic spline, no
+  /// smoothing.
   std::optional<double> cutoff_hz;
   /// Clock of the result; empty: that of the input.
   std::optional<Eigen::VectorXd> time_s;
@@ -27,13 +29,16 @@ struct MotionOptions {
 
 struct MotionResult {
   JointMotion motion;
-  std::vector<std::string> notes;  ///< Coordinates that were missing and take their default, columns that are no coordinate.
+  std::vector<std::string> notes;  ///< Coordinates that were missing and take their default,
+                                   ///< columns that are no coordinate.
 };
 
-/// Values and two derivatives of every coordinate by a quintic spline. `q` has radians and meters; coordinates that it lacks
-/// rest at their default value. Throws InvalidInput if no column is a coordinate of the model, a value is not finite, or fewer
-/// than four samples are given.
-[[nodiscard]] MotionResult joint_motion(const model::BodyModel& model, const TimeSeries& q, const MotionOptions& options = {});
+/// Values and two derivatives of every coordinate by a quintic spline. `q` has radians and meters;
+/// coordinates that it lacks rest at their default value. Throws InvalidInput if no column is a
+/// coordinate of the model, a value is not finite, or fewer than four samples are given.
+[[nodiscard]] MotionResult joint_motion(const model::BodyModel& model,
+                                        const TimeSeries& q,
+                                        const MotionOptions& options = {});
 
 /// Unit of a coordinate, its rate or acceleration (order 0, 1, 2).
 [[nodiscard]] Unit coordinate_unit(const model::Coordinate& coordinate, int order);

@@ -1,6 +1,6 @@
-#include <gtest/gtest.h>
-
 #include <cmath>
+
+#include <gtest/gtest.h>
 
 #include "myoid/core/error.h"
 #include "myoid/kinematics/inverse_kinematics.h"
@@ -10,6 +10,7 @@
 #include "myoid/model/osim_reader.h"
 #include "myoid/recording/storage_reader.h"
 #include "myoid/recording/trc_reader.h"
+
 #include "tests/support/data_folder.h"
 
 namespace myoid::kinematics {
@@ -20,7 +21,8 @@ model::BodyModel arm() { return model::parse_osim(model::arm4_osim({}), "arm4.os
 /// Markers of the model along coordinates of our own.
 recording::MarkerSeries markers_of(const model::BodyModel& m, const Eigen::MatrixXd& q) {
   recording::MarkerSeries series;
-  series.time_s = Eigen::VectorXd::LinSpaced(q.rows(), 0.0, 0.01 * static_cast<double>(q.rows() - 1));
+  series.time_s =
+      Eigen::VectorXd::LinSpaced(q.rows(), 0.0, 0.01 * static_cast<double>(q.rows() - 1));
   series.positions_m.resize(q.rows(), static_cast<Eigen::Index>(3 * m.markers.size()));
   for (const model::Marker& marker : m.markers) series.names.push_back(marker.name);
   model::BodyState state = model::make_state(m);
@@ -37,7 +39,8 @@ recording::MarkerSeries markers_of(const model::BodyModel& m, const Eigen::Matri
 Eigen::MatrixXd swing(const model::BodyModel& m, Eigen::Index frames) {
   Eigen::MatrixXd q(frames, static_cast<Eigen::Index>(m.coordinates.size()));
   for (Eigen::Index i = 0; i < frames; ++i) {
-    for (Eigen::Index c = 0; c < q.cols(); ++c) q(i, c) = 0.4 + 0.3 * std::sin(0.1 * static_cast<double>(i) + static_cast<double>(c));
+    for (Eigen::Index c = 0; c < q.cols(); ++c)
+      q(i, c) = 0.4 + 0.3 * std::sin(0.1 * static_cast<double>(i) + static_cast<double>(c));
   }
   return q;
 }
@@ -55,8 +58,10 @@ TEST(InverseKinematics, AMissingMarkerIsLeftOutOfItsFrames) {
   const model::BodyModel m = arm();
   const Eigen::MatrixXd q = swing(m, 30);
   recording::MarkerSeries markers = markers_of(m, q);
-  const auto wrist = std::find(markers.names.begin(), markers.names.end(), "r_wrist") - markers.names.begin();
-  for (Eigen::Index frame = 10; frame < 20; ++frame) markers.positions_m.block<1, 3>(frame, 3 * wrist).setConstant(NAN);
+  const auto wrist =
+      std::find(markers.names.begin(), markers.names.end(), "r_wrist") - markers.names.begin();
+  for (Eigen::Index frame = 10; frame < 20; ++frame)
+    markers.positions_m.block<1, 3>(frame, 3 * wrist).setConstant(NAN);
   const IkResult result = inverse_kinematics(m, markers);
   EXPECT_LT((result.q.values() - q).cwiseAbs().maxCoeff(), 1e-9);
   EXPECT_TRUE(std::isnan(result.errors.column("r_wrist")[15]));
@@ -94,14 +99,18 @@ TEST(InverseKinematics, AgreesWithOpenSimsConvergedSolution) {
   const auto folder = test::data_folder() / "opensim/trial_arm26";
   MYOID_REQUIRE_DATA(folder);
   const model::BodyModel m = model::read_osim(folder / "model.osim");
-  const IkResult result = inverse_kinematics(m, recording::read_trc(folder / "arm26_elbow_flex.trc").markers);
+  const IkResult result =
+      inverse_kinematics(m, recording::read_trc(folder / "arm26_elbow_flex.trc").markers);
   const recording::Storage tight = recording::read_storage(folder / "opensim/ik_tight.mot");
   ASSERT_EQ(result.q.sample_count(), tight.data.sample_count());
   for (const char* name : {"r_shoulder_elev", "r_elbow_flex"}) {
     // The reference has 8 decimals; 0.002 degrees is what its own convergence promises.
-    EXPECT_LT((result.q.column(name) / kDegree - tight.data.column(name)).cwiseAbs().maxCoeff(), 0.002) << name;
+    EXPECT_LT((result.q.column(name) / kDegree - tight.data.column(name)).cwiseAbs().maxCoeff(),
+              0.002)
+        << name;
   }
-  const recording::Storage errors = recording::read_storage(folder / "opensim/tight_ik_marker_errors.sto");
+  const recording::Storage errors =
+      recording::read_storage(folder / "opensim/tight_ik_marker_errors.sto");
   const Eigen::VectorXd theirs = errors.data.column("total_squared_error");
   // Ours is never above theirs by more than the eighth decimal they print.
   EXPECT_LE((result.errors.column("total_squared_error") - theirs).maxCoeff(), 0.51e-8);
@@ -118,7 +127,10 @@ TEST(JointMotion, DifferentiatesEveryCoordinateAndRestsWhereTheMotionIsSilent) {
 }
 
 TEST(JointMotion, RefusesAMotionOfAnotherModel) {
-  EXPECT_THROW((void)joint_motion(arm(), {Eigen::VectorXd::LinSpaced(5, 0, 1), {{"knee"}}, Eigen::MatrixXd::Zero(5, 1)}), InvalidInput);
+  EXPECT_THROW(
+      (void)joint_motion(
+          arm(), {Eigen::VectorXd::LinSpaced(5, 0, 1), {{"knee"}}, Eigen::MatrixXd::Zero(5, 1)}),
+      InvalidInput);
 }
 
 }  // namespace

@@ -1,9 +1,9 @@
 #include "myoid/kinematics/muscle_kinematics.h"
 
+#include <utility>
+
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
-
-#include <utility>
 
 #include "myoid/model/kinematic_tree.h"
 #include "myoid/model/muscle_path.h"
@@ -16,20 +16,23 @@ MuscleKinematics muscle_kinematics(const model::BodyModel& model, const JointMot
   const auto coordinates = static_cast<Eigen::Index>(model.coordinates.size());
   Eigen::MatrixXd length(frames, muscles);
   Eigen::MatrixXd velocity(frames, muscles);
-  std::vector<Eigen::MatrixXd> arms(static_cast<std::size_t>(coordinates), Eigen::MatrixXd(frames, muscles));
-  oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<Eigen::Index>(0, frames, 64), [&](const auto& range) {
-    model::BodyState state = model::make_state(model);
-    for (Eigen::Index frame = range.begin(); frame != range.end(); ++frame) {
-      model::compute_poses(model, motion.q.values().row(frame).transpose(), state);
-      model::compute_velocities(model, motion.qdot.values().row(frame).transpose(), state);
-      for (Eigen::Index m = 0; m < muscles; ++m) {
-        const model::PathResult path = model::compute_path(model, static_cast<int>(m), state);
-        length(frame, m) = path.length_m;
-        velocity(frame, m) = path.speed_mps;
-        for (Eigen::Index c = 0; c < coordinates; ++c) arms[static_cast<std::size_t>(c)](frame, m) = path.moment_arm_m[c];
-      }
-    }
-  });
+  std::vector<Eigen::MatrixXd> arms(static_cast<std::size_t>(coordinates),
+                                    Eigen::MatrixXd(frames, muscles));
+  oneapi::tbb::parallel_for(
+      oneapi::tbb::blocked_range<Eigen::Index>(0, frames, 64), [&](const auto& range) {
+        model::BodyState state = model::make_state(model);
+        for (Eigen::Index frame = range.begin(); frame != range.end(); ++frame) {
+          model::compute_poses(model, motion.q.values().row(frame).transpose(), state);
+          model::compute_velocities(model, motion.qdot.values().row(frame).transpose(), state);
+          for (Eigen::Index m = 0; m < muscles; ++m) {
+            const model::PathResult path = model::compute_path(model, static_cast<int>(m), state);
+            length(frame, m) = path.length_m;
+            velocity(frame, m) = path.speed_mps;
+            for (Eigen::Index c = 0; c < coordinates; ++c)
+              arms[static_cast<std::size_t>(c)](frame, m) = path.moment_arm_m[c];
+          }
+        }
+      });
   const auto channels = [&](Unit unit) {
     std::vector<Channel> result;
     for (const model::Muscle& muscle : model.muscles) result.push_back({muscle.name, unit});
@@ -37,10 +40,12 @@ MuscleKinematics muscle_kinematics(const model::BodyModel& model, const JointMot
   };
   const Eigen::VectorXd& time = motion.q.time_s();
   MuscleKinematics result{TimeSeries(time, channels(Unit::meter), std::move(length)),
-                          TimeSeries(time, channels(Unit::meter_per_second), std::move(velocity)), {}};
+                          TimeSeries(time, channels(Unit::meter_per_second), std::move(velocity)),
+                          {}};
   for (std::size_t c = 0; c < model.coordinates.size(); ++c) {
     if (model.coordinates[c].locked) continue;
-    result.moment_arm.emplace(model.coordinates[c].name, TimeSeries(time, channels(Unit::meter), std::move(arms[c])));
+    result.moment_arm.emplace(model.coordinates[c].name,
+                              TimeSeries(time, channels(Unit::meter), std::move(arms[c])));
   }
   return result;
 }

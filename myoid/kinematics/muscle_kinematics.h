@@ -11,12 +11,15 @@ namespace myoid::kinematics {
 
 /// Muscles over time; channels are the muscles, in the model's order.
 struct MuscleKinematics {
-  TimeSeries length;                           ///< Musculotendon length [m].
-  TimeSeries velocity;                         ///< dl/dt [m/s], lengthening positive.
-  std::map<std::string, TimeSeries> moment_arm;  ///< By coordinate: r = -dl/dq [m], for every coordinate that is not locked.
+  TimeSeries length;    ///< Musculotendon length [m].
+  TimeSeries velocity;  ///< dl/dt [m/s], lengthening positive.
+  std::map<std::string, TimeSeries>
+      moment_arm;  ///< By coordinate: r = -dl/dq [m], for every coordinate that is not locked.
 };
 
-/// Lengths, velocities and moment arms of all muscles along a motion. Parallel over frames; the same for every number of threads.
-[[nodiscard]] MuscleKinematics muscle_kinematics(const model::BodyModel& model, const JointMotion& motion);
+/// Lengths, velocities and moment arms of all muscles along a motion. Parallel over frames; the
+/// same for every number of threads.
+[[nodiscard]] MuscleKinematics muscle_kinematics(const model::BodyModel& model,
+                                                 const JointMotion& motion);
 
 }  // namespace myoid::kinematics

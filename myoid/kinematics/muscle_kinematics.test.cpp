@@ -1,9 +1,9 @@
 #include "myoid/kinematics/muscle_kinematics.h"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 #include <oneapi/tbb/global_control.h>
-
-#include <cmath>
 
 #include "myoid/model/arm4.h"
 #include "myoid/model/osim_reader.h"
@@ -24,7 +24,9 @@ TEST(MuscleKinematics, LengthsChangeByTheIntegralOfTheVelocity) {
     // Simpson over an even number of intervals: error h^4.
     double integral = 0.0;
     for (Eigen::Index i = 100; i + 2 <= 400; i += 2) {
-      integral += 0.01 / 3.0 * (k.velocity.values()(i, c) + 4.0 * k.velocity.values()(i + 1, c) + k.velocity.values()(i + 2, c));
+      integral += 0.01 / 3.0 *
+                  (k.velocity.values()(i, c) + 4.0 * k.velocity.values()(i + 1, c) +
+                   k.velocity.values()(i + 2, c));
     }
     EXPECT_NEAR(k.length.values()(400, c) - k.length.values()(100, c), integral, 1e-8);
   }
@@ -37,7 +39,8 @@ TEST(MuscleKinematics, PowerBalances) {
   const MuscleKinematics k = muscle_kinematics(m, motion);
   const Eigen::VectorXd rate = motion.qdot.column("elbow_flexion");
   for (Eigen::Index c = 0; c < k.length.channel_count(); ++c) {
-    const Eigen::VectorXd sum = k.velocity.values().col(c) + k.moment_arm.at("elbow_flexion").values().col(c).cwiseProduct(rate);
+    const Eigen::VectorXd sum = k.velocity.values().col(c) +
+                                k.moment_arm.at("elbow_flexion").values().col(c).cwiseProduct(rate);
     EXPECT_LT(sum.cwiseAbs().maxCoeff(), 1e-15);
   }
 }

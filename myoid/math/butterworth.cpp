@@ -1,9 +1,9 @@
 #include "myoid/math/butterworth.h"
 
-#include <fmt/format.h>
-
 #include <cmath>
 #include <complex>
+
+#include <fmt/format.h>
 
 #include "myoid/core/error.h"
 #include "myoid/core/units.h"
@@ -12,21 +12,28 @@ namespace myoid::math {
 namespace {
 
 void check(int order, double cutoff_hz, double rate_hz) {
-  if (order < 1) throw InvalidInput(fmt::format("Butterworth filter: found order {}, expected 1 or more", order));
+  if (order < 1)
+    throw InvalidInput(
+        fmt::format("Butterworth filter: found order {}, expected 1 or more", order));
   if (!(cutoff_hz > 0.0) || !(cutoff_hz < 0.5 * rate_hz)) {
-    throw InvalidInput(fmt::format(
-        "Butterworth filter: a cut-off of {} Hz does not fit data sampled at {} Hz; it must lie between 0 and {} Hz",
-        cutoff_hz, rate_hz, 0.5 * rate_hz));
+    throw InvalidInput(
+        fmt::format("Butterworth filter: a cut-off of {} Hz does not fit data sampled at {} Hz; it "
+                    "must lie between 0 and {} Hz",
+                    cutoff_hz, rate_hz, 0.5 * rate_hz));
   }
 }
 
 }  // namespace
 
-std::vector<SecondOrderSection> design_butterworth(FilterBand band, int order, double cutoff_hz, double rate_hz) {
+std::vector<SecondOrderSection> design_butterworth(FilterBand band,
+                                                   int order,
+                                                   double cutoff_hz,
+                                                   double rate_hz) {
   check(order, cutoff_hz, rate_hz);
   const double w = std::tan(kPi * cutoff_hz / rate_hz);
   std::vector<SecondOrderSection> sections;
-  // Pole pairs of the prototype: s^2 + 2 sin(theta) w s + w^2, theta = pi (2k+1) / (2 order); s = (1 - z^-1)/(1 + z^-1).
+  // Pole pairs of the prototype: s^2 + 2 sin(theta) w s + w^2, theta = pi (2k+1) / (2 order); s =
+  // (1 - z^-1)/(1 + z^-1).
   for (int k = 0; k < order / 2; ++k) {
     const double damping = 2.0 * std::sin(kPi * (2.0 * k + 1.0) / (2.0 * order)) * w;
     const double a0 = 1.0 + damping + w * w;

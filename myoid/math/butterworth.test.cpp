@@ -1,8 +1,8 @@
 #include "myoid/math/butterworth.h"
 
-#include <gtest/gtest.h>
-
 #include <cmath>
+
+#include <gtest/gtest.h>
 
 #include "myoid/core/error.h"
 
@@ -37,8 +37,10 @@ TEST(Butterworth, FollowsTheAnalogPrototypeAtPreWarpedFrequencies) {
 }
 
 TEST(Butterworth, PassesAConstantOrStopsIt) {
-  EXPECT_NEAR(gain(design_butterworth(FilterBand::low_pass, 3, 6.0, 100.0), 0.0, 100.0), 1.0, kRoundOff);
-  EXPECT_NEAR(gain(design_butterworth(FilterBand::high_pass, 3, 6.0, 100.0), 0.0, 100.0), 0.0, kRoundOff);
+  EXPECT_NEAR(gain(design_butterworth(FilterBand::low_pass, 3, 6.0, 100.0), 0.0, 100.0), 1.0,
+              kRoundOff);
+  EXPECT_NEAR(gain(design_butterworth(FilterBand::high_pass, 3, 6.0, 100.0), 0.0, 100.0), 0.0,
+              kRoundOff);
 }
 
 TEST(TwoPassCutOff, MakesTheTwoPassesTogetherMinusThreeDecibel) {

@@ -1,12 +1,11 @@
 #include "myoid/math/least_squares.h"
 
-#include <Eigen/QR>
-
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include <Eigen/QR>
+#include <fmt/format.h>
 
 #include "myoid/core/error.h"
 
@@ -26,7 +25,9 @@ struct Search {
     ++result.evaluations;
     problem.evaluate(x, r, jacobian);
   }
-  [[nodiscard]] Eigen::VectorXd clipped(const Eigen::VectorXd& x) const { return x.cwiseMax(lower).cwiseMin(upper); }
+  [[nodiscard]] Eigen::VectorXd clipped(const Eigen::VectorXd& x) const {
+    return x.cwiseMax(lower).cwiseMin(upper);
+  }
 };
 
 double column_norm(const Eigen::MatrixXd& jacobian, Eigen::Index j) {
@@ -35,13 +36,16 @@ double column_norm(const Eigen::MatrixXd& jacobian, Eigen::Index j) {
 }
 
 /// max |cos(J column, r)| over the variables that may move.
-double largest_cosine(const Eigen::MatrixXd& jacobian, const Eigen::VectorXd& r, const std::vector<bool>& held) {
+double largest_cosine(const Eigen::MatrixXd& jacobian,
+                      const Eigen::VectorXd& r,
+                      const std::vector<bool>& held) {
   const double norm = r.norm();
   if (norm == 0.0) return 0.0;
   double largest = 0.0;
   for (Eigen::Index j = 0; j < jacobian.cols(); ++j) {
     if (!held[static_cast<std::size_t>(j)]) {
-      largest = std::max(largest, std::abs(jacobian.col(j).dot(r)) / (column_norm(jacobian, j) * norm));
+      largest =
+          std::max(largest, std::abs(jacobian.col(j).dot(r)) / (column_norm(jacobian, j) * norm));
     }
   }
   return largest;
@@ -67,22 +71,27 @@ void finish(Search& search, Termination termination, std::string message) {
 void gauss_newton(Search& search) {
   LeastSquaresResult& result = search.result;
   const std::vector<bool> none(static_cast<std::size_t>(result.x.size()), false);
-  for (result.iterations = 0; result.iterations < search.options.max_iterations; ++result.iterations) {
+  for (result.iterations = 0; result.iterations < search.options.max_iterations;
+       ++result.iterations) {
     search.options.progress.check();
     if (!result.jacobian.allFinite()) {
-      return finish(search, Termination::not_finite, "the Jacobian is not finite; the search left the domain of the model");
+      return finish(search, Termination::not_finite,
+                    "the Jacobian is not finite; the search left the domain of the model");
     }
     Eigen::VectorXd scale(result.x.size());
-    for (Eigen::Index j = 0; j < scale.size(); ++j) scale[j] = 1.0 / column_norm(result.jacobian, j);
+    for (Eigen::Index j = 0; j < scale.size(); ++j)
+      scale[j] = 1.0 / column_norm(result.jacobian, j);
     const Eigen::MatrixXd scaled = result.jacobian * scale.asDiagonal();
-    const Eigen::VectorXd step = scale.cwiseProduct(scaled.colPivHouseholderQr().solve(-result.residual).eval());
+    const Eigen::VectorXd step =
+        scale.cwiseProduct(scaled.colPivHouseholderQr().solve(-result.residual).eval());
     const Eigen::VectorXd x = search.clipped(result.x + step);
     Eigen::VectorXd r = result.residual;
     Eigen::MatrixXd jacobian = result.jacobian;
     search.evaluate(x, r, &jacobian);
     const double cost = 0.5 * r.squaredNorm();
     if (!std::isfinite(cost) || !x.allFinite()) {
-      return finish(search, Termination::not_finite, "a full Gauss-Newton step left the domain of the model");
+      return finish(search, Termination::not_finite,
+                    "a full Gauss-Newton step left the domain of the model");
     }
     const Eigen::VectorXd moved = x - result.x;
     result.x = x;
@@ -99,7 +108,8 @@ void gauss_newton(Search& search) {
       return finish(search, Termination::no_descent, "plain Gauss-Newton steps diverged");
     }
   }
-  finish(search, Termination::iteration_limit, fmt::format("not converged after {} iterations", result.iterations));
+  finish(search, Termination::iteration_limit,
+         fmt::format("not converged after {} iterations", result.iterations));
 }
 
 void levenberg_marquardt(Search& search) {
@@ -108,7 +118,8 @@ void levenberg_marquardt(Search& search) {
   Eigen::VectorXd scale = Eigen::VectorXd::Zero(p);
   double damping = 1e-3;
   double growth = 2.0;
-  for (result.iterations = 0; result.iterations < search.options.max_iterations; ++result.iterations) {
+  for (result.iterations = 0; result.iterations < search.options.max_iterations;
+       ++result.iterations) {
     search.options.progress.check();
     // Variables that lean on a bound and are pushed further out stay there.
     const Eigen::VectorXd gradient = result.jacobian.transpose() * result.residual;
@@ -121,9 +132,10 @@ void levenberg_marquardt(Search& search) {
       if (!out) moving.push_back(j);
       scale[j] = std::max(scale[j], column_norm(result.jacobian, j));
     }
-    if (moving.empty()) return finish(search, Termination::converged, "every parameter leans on a bound");
-    if (result.cost == 0.0 ||
-        largest_cosine(result.jacobian, result.residual, held) <= search.options.gradient_tolerance) {
+    if (moving.empty())
+      return finish(search, Termination::converged, "every parameter leans on a bound");
+    if (result.cost == 0.0 || largest_cosine(result.jacobian, result.residual, held) <=
+                                  search.options.gradient_tolerance) {
       return finish(search, Termination::converged, "the gradient vanishes");
     }
     const Eigen::Index q = static_cast<Eigen::Index>(moving.size());
@@ -133,7 +145,8 @@ void levenberg_marquardt(Search& search) {
       d[k] = scale[moving[static_cast<std::size_t>(k)]];
       jacobian.col(k) = result.jacobian.col(moving[static_cast<std::size_t>(k)]) / d[k];
     }
-    // min |J d + r|^2 + damping |d|^2 in scaled variables, by the triangle of J and one small QR per damping.
+    // min |J d + r|^2 + damping |d|^2 in scaled variables, by the triangle of J and one small QR
+    // per damping.
     const Eigen::HouseholderQR<Eigen::MatrixXd> qr(jacobian);
     const Eigen::Index rows = std::min(jacobian.rows(), q);
     Eigen::MatrixXd triangle = Eigen::MatrixXd::Zero(q, q);
@@ -149,7 +162,8 @@ void levenberg_marquardt(Search& search) {
       right.head(q) = -rotated;
       const Eigen::VectorXd scaled_step = augmented.colPivHouseholderQr().solve(right);
       Eigen::VectorXd step = Eigen::VectorXd::Zero(p);
-      for (Eigen::Index k = 0; k < q; ++k) step[moving[static_cast<std::size_t>(k)]] = scaled_step[k] / d[k];
+      for (Eigen::Index k = 0; k < q; ++k)
+        step[moving[static_cast<std::size_t>(k)]] = scaled_step[k] / d[k];
       const Eigen::VectorXd x = search.clipped(result.x + step);
       const Eigen::VectorXd moved = x - result.x;
       if (step_is_small(moved, result.x, search.options.step_tolerance)) {
@@ -160,7 +174,8 @@ void levenberg_marquardt(Search& search) {
       const double cost = 0.5 * r.squaredNorm();
       const double model_cost = 0.5 * (result.residual + result.jacobian * moved).squaredNorm();
       const double promised = result.cost - model_cost;
-      const double ratio = std::isfinite(cost) && promised > 0.0 ? (result.cost - cost) / promised : -1.0;
+      const double ratio =
+          std::isfinite(cost) && promised > 0.0 ? (result.cost - cost) / promised : -1.0;
       const double previous = result.cost;
       if (ratio > 1e-4 || (std::isfinite(cost) && cost < result.cost)) {
         Eigen::MatrixXd next = result.jacobian;
@@ -168,7 +183,8 @@ void levenberg_marquardt(Search& search) {
         if (!next.allFinite()) {
           damping *= growth;
           growth *= 2.0;
-          if (damping > 1e30) return finish(search, Termination::not_finite, "the Jacobian is not finite");
+          if (damping > 1e30)
+            return finish(search, Termination::not_finite, "the Jacobian is not finite");
           continue;
         }
         accepted = true;
@@ -188,21 +204,28 @@ void levenberg_marquardt(Search& search) {
         }
       } else {
         if (promised <= search.options.cost_tolerance * result.cost) {
-          return finish(search, Termination::converged, "the cost can fall no further within round-off");
+          return finish(search, Termination::converged,
+                        "the cost can fall no further within round-off");
         }
         damping *= growth;
         growth *= 2.0;
-        if (damping > 1e30) return finish(search, Termination::no_descent, "no step lowers the cost");
+        if (damping > 1e30)
+          return finish(search, Termination::no_descent, "no step lowers the cost");
       }
     }
   }
-  finish(search, Termination::iteration_limit, fmt::format("not converged after {} iterations", result.iterations));
+  finish(search, Termination::iteration_limit,
+         fmt::format("not converged after {} iterations", result.iterations));
 }
 
-Eigen::VectorXd filled(const Eigen::VectorXd& bound, Eigen::Index size, double otherwise, std::string_view what) {
+Eigen::VectorXd filled(const Eigen::VectorXd& bound,
+                       Eigen::Index size,
+                       double otherwise,
+                       std::string_view what) {
   if (bound.size() == 0) return Eigen::VectorXd::Constant(size, otherwise);
   if (bound.size() != size) {
-    throw InvalidInput(fmt::format("least squares: {} {} bounds for {} parameters", bound.size(), what, size));
+    throw InvalidInput(
+        fmt::format("least squares: {} {} bounds for {} parameters", bound.size(), what, size));
   }
   return bound;
 }
@@ -211,21 +234,29 @@ Eigen::VectorXd filled(const Eigen::VectorXd& bound, Eigen::Index size, double o
 
 std::string_view name(Termination termination) {
   switch (termination) {
-    case Termination::converged: return "converged";
-    case Termination::iteration_limit: return "iteration_limit";
-    case Termination::no_descent: return "no_descent";
-    case Termination::not_finite: return "not_finite";
+    case Termination::converged:
+      return "converged";
+    case Termination::iteration_limit:
+      return "iteration_limit";
+    case Termination::no_descent:
+      return "no_descent";
+    case Termination::not_finite:
+      return "not_finite";
   }
   return "?";
 }
 
-LeastSquaresResult minimize(const LeastSquaresProblem& problem, const Eigen::VectorXd& start,
+LeastSquaresResult minimize(const LeastSquaresProblem& problem,
+                            const Eigen::VectorXd& start,
                             const LeastSquaresOptions& options) {
   const Eigen::Index p = start.size();
   if (p == 0) throw InvalidInput("least squares: there is no free parameter");
   if (problem.residual_count <= 0) throw InvalidInput("least squares: there is no residual");
-  Search search{problem, options, filled(problem.lower, p, -kInfinity, "lower"),
-                filled(problem.upper, p, kInfinity, "upper"), {}};
+  Search search{problem,
+                options,
+                filled(problem.lower, p, -kInfinity, "lower"),
+                filled(problem.upper, p, kInfinity, "upper"),
+                {}};
   LeastSquaresResult& result = search.result;
   result.x = search.clipped(start);
   result.residual.setZero(problem.residual_count);
@@ -236,7 +267,8 @@ LeastSquaresResult minimize(const LeastSquaresProblem& problem, const Eigen::Vec
     throw InvalidInput("least squares: the residual or its Jacobian is not finite at the start");
   }
   result.cost_history.push_back(result.cost);
-  options.method == LeastSquaresMethod::gauss_newton ? gauss_newton(search) : levenberg_marquardt(search);
+  options.method == LeastSquaresMethod::gauss_newton ? gauss_newton(search)
+                                                     : levenberg_marquardt(search);
   return std::move(search.result);
 }
 

@@ -1,20 +1,20 @@
 #pragma once
 
-#include <Eigen/Core>
-
 #include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include <Eigen/Core>
+
 #include "myoid/core/progress.h"
 
 namespace myoid::math {
 
-/// Residuals and, when `jacobian` is not null, their derivatives at x. Sizes are preset by the caller:
-/// r has `residual_count` entries, J is residual_count x parameter_count.
-using ResidualFunction = std::function<void(const Eigen::VectorXd& x, Eigen::VectorXd& residual,
-                                            Eigen::MatrixXd* jacobian)>;
+/// Residuals and, when `jacobian` is not null, their derivatives at x. Sizes are preset by the
+/// caller: r has `residual_count` entries, J is residual_count x parameter_count.
+using ResidualFunction = std::function<void(
+    const Eigen::VectorXd& x, Eigen::VectorXd& residual, Eigen::MatrixXd* jacobian)>;
 
 struct LeastSquaresProblem {
   Eigen::Index residual_count = 0;
@@ -24,16 +24,18 @@ struct LeastSquaresProblem {
 };
 
 enum class LeastSquaresMethod {
-  gauss_newton,         ///< Full steps d of J d = -r by column-pivoted QR, no damping, as the source paper.
+  gauss_newton,  ///< Full steps d of J d = -r by column-pivoted QR, no damping, as the source
+                 ///< paper.
   levenberg_marquardt,  ///< More's scaling, gain ratio, projected onto the bounds.
 };
 
 struct LeastSquaresOptions {
   LeastSquaresMethod method = LeastSquaresMethod::levenberg_marquardt;
   int max_iterations = 200;
-  double step_tolerance = 1e-12;      ///< Stop when |d| <= tol (|x| + tol), in scaled variables.
-  double cost_tolerance = 1e-15;      ///< Stop when the cost falls by less than this share.
-  double gradient_tolerance = 1e-14;  ///< Stop when every |cos(J column, r)| (free variables) is below.
+  double step_tolerance = 1e-12;  ///< Stop when |d| <= tol (|x| + tol), in scaled variables.
+  double cost_tolerance = 1e-15;  ///< Stop when the cost falls by less than this share.
+  double gradient_tolerance =
+      1e-14;  ///< Stop when every |cos(J column, r)| (free variables) is below.
   Progress progress;
 };
 
@@ -43,20 +45,20 @@ enum class Termination { converged, iteration_limit, no_descent, not_finite };
 
 struct LeastSquaresResult {
   Termination termination = Termination::no_descent;
-  std::string message;        ///< One sentence for a person: which rule stopped the search.
-  Eigen::VectorXd x;          ///< The minimum.
-  Eigen::VectorXd residual;   ///< r(x).
-  Eigen::MatrixXd jacobian;   ///< dr/dx at x.
-  double cost = 0.0;          ///< 1/2 |r|^2.
+  std::string message;       ///< One sentence for a person: which rule stopped the search.
+  Eigen::VectorXd x;         ///< The minimum.
+  Eigen::VectorXd residual;  ///< r(x).
+  Eigen::MatrixXd jacobian;  ///< dr/dx at x.
+  double cost = 0.0;         ///< 1/2 |r|^2.
   int iterations = 0;
-  int evaluations = 0;        ///< Of the residual, with or without the Jacobian.
-  std::vector<bool> at_bound; ///< Per parameter: the minimum leans on a bound.
+  int evaluations = 0;               ///< Of the residual, with or without the Jacobian.
+  std::vector<bool> at_bound;        ///< Per parameter: the minimum leans on a bound.
   std::vector<double> cost_history;  ///< Cost at the start and after each accepted step.
 };
 
-/// Minimizes C(x) = 1/2 |r(x)|^2 subject to lower <= x <= upper, from `start` (clipped to the bounds).
-/// Throws InvalidInput if sizes disagree or r is not finite at the start. A search that fails does not
-/// throw: read `termination`. Same input, same result.
+/// Minimizes C(x) = 1/2 |r(x)|^2 subject to lower <= x <= upper, from `start` (clipped to the
+/// bounds). Throws InvalidInput if sizes disagree or r is not finite at the start. A search that
+/// fails does not throw: read `termination`. Same input, same result.
 [[nodiscard]] LeastSquaresResult minimize(const LeastSquaresProblem& problem,
                                           const Eigen::VectorXd& start,
                                           const LeastSquaresOptions& options = {});

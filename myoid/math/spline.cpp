@@ -1,10 +1,10 @@
 #include "myoid/math/spline.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
+
+#include <fmt/format.h>
 
 #include "myoid/core/error.h"
 #include "myoid/core/units.h"
@@ -14,8 +14,9 @@ namespace {
 
 constexpr std::array<double, 4> kFactorial{1.0, 1.0, 2.0, 6.0};
 
-/// B-splines M_j of degree m - 1 over t_j .. t_{j+m} with unit integral: the divided difference of order m is
-/// [t_j .. t_{j+m}] s = 1/m! * integral M_j s^(m) (Peano). Value of the `count` ones that live on interval i.
+/// B-splines M_j of degree m - 1 over t_j .. t_{j+m} with unit integral: the divided difference of
+/// order m is [t_j .. t_{j+m}] s = 1/m! * integral M_j s^(m) (Peano). Value of the `count` ones
+/// that live on interval i.
 double basis(const Eigen::VectorXd& t, Eigen::Index j, int m, double at, Eigen::Index interval) {
   if (interval < j || interval >= j + m) return 0.0;
   if (m == 1) return 1.0 / (t[j + 1] - t[j]);
@@ -42,11 +43,13 @@ Band gram(const Eigen::VectorXd& t, int m) {
     for (std::size_t g = 0; g < 3; ++g) {
       const double at = t[i] + half * (1.0 + node[g]);
       std::array<double, 3> value{};
-      for (Eigen::Index j = first; j <= last; ++j) value[static_cast<std::size_t>(j - first)] = basis(t, j, m, at, i);
+      for (Eigen::Index j = first; j <= last; ++j)
+        value[static_cast<std::size_t>(j - first)] = basis(t, j, m, at, i);
       for (Eigen::Index j = first; j <= last; ++j) {
         for (Eigen::Index k = j; k <= last; ++k) {
           band(j, k - j) += weight[g] * half * value[static_cast<std::size_t>(j - first)] *
-                            value[static_cast<std::size_t>(k - first)] / kFactorial[static_cast<std::size_t>(m)];
+                            value[static_cast<std::size_t>(k - first)] /
+                            kFactorial[static_cast<std::size_t>(m)];
         }
       }
     }
@@ -94,7 +97,11 @@ struct Fit {
 };
 
 /// (G/m! + lambda m! Q'Q) c = Q'y,  g = y - lambda m! Q c.
-Fit fit(const Eigen::VectorXd& t, const Eigen::VectorXd& y, int m, double lambda, const Band& gram_band,
+Fit fit(const Eigen::VectorXd& t,
+        const Eigen::VectorXd& y,
+        int m,
+        double lambda,
+        const Band& gram_band,
         const Eigen::MatrixXd& q) {
   const Eigen::Index count = q.rows();
   Band a = gram_band;
@@ -116,28 +123,37 @@ Fit fit(const Eigen::VectorXd& t, const Eigen::VectorXd& y, int m, double lambda
   Fit result;
   result.c = scale.cwiseProduct(solve_band(std::move(a), scale.cwiseProduct(right)));
   result.g = y;
-  for (Eigen::Index j = 0; j < count; ++j) result.g.segment(j, m + 1) -= factor * result.c[j] * q.row(j).transpose();
+  for (Eigen::Index j = 0; j < count; ++j)
+    result.g.segment(j, m + 1) -= factor * result.c[j] * q.row(j).transpose();
   (void)t;
   return result;
 }
 
 void check(const Eigen::VectorXd& t, const Eigen::VectorXd& y, Eigen::Index least) {
-  if (t.size() != y.size()) throw InvalidInput(fmt::format("spline: {} times for {} values", t.size(), y.size()));
+  if (t.size() != y.size())
+    throw InvalidInput(fmt::format("spline: {} times for {} values", t.size(), y.size()));
   if (t.size() < least) {
-    throw InvalidInput(fmt::format("spline: {} samples are too few; at least {} are needed", t.size(), least));
+    throw InvalidInput(
+        fmt::format("spline: {} samples are too few; at least {} are needed", t.size(), least));
   }
   for (Eigen::Index i = 0; i < t.size(); ++i) {
     if (!std::isfinite(t[i]) || !std::isfinite(y[i])) {
-      throw InvalidInput(fmt::format("spline: sample {} is not a number; fill the gaps first", i + 1));
+      throw InvalidInput(
+          fmt::format("spline: sample {} is not a number; fill the gaps first", i + 1));
     }
     if (i > 0 && !(t[i] > t[i - 1])) {
-      throw InvalidInput(fmt::format("spline: time does not increase at sample {} ({} s after {} s)", i + 1, t[i], t[i - 1]));
+      throw InvalidInput(fmt::format(
+          "spline: time does not increase at sample {} ({} s after {} s)", i + 1, t[i], t[i - 1]));
     }
   }
 }
 
-/// Polynomial of s^(m) on interval i by rising power of (t - t_i): degree m - 1, found from m points.
-std::array<double, 3> highest_derivative(const Eigen::VectorXd& t, const Eigen::VectorXd& c, int m, Eigen::Index i) {
+/// Polynomial of s^(m) on interval i by rising power of (t - t_i): degree m - 1, found from m
+/// points.
+std::array<double, 3> highest_derivative(const Eigen::VectorXd& t,
+                                         const Eigen::VectorXd& c,
+                                         int m,
+                                         Eigen::Index i) {
   const double h = t[i + 1] - t[i];
   const auto value = [&](double share) {
     double sum = 0.0;
@@ -199,7 +215,8 @@ Spline::Spline(const Eigen::VectorXd& t, const Eigen::VectorXd& g, const Eigen::
       const double h2 = t[i + 2] - t[i + 1];
       const SplineValue end = horner(a, h);
       const double onward = ((next[2] * h2 + next[1]) * h2 + next[0]) * h2 * h2 * h2;
-      const double particular2 = end.value - g[i] + end.first * h2 + 0.5 * end.second * h2 * h2 + onward;
+      const double particular2 =
+          end.value - g[i] + end.first * h2 + 0.5 * end.second * h2 * h2 + onward;
       const double total = h + h2;
       const double d1 = (g[i + 1] - g[i] - particular) / h;
       const double d2 = (g[i + 2] - g[i] - particular2) / total;
@@ -215,11 +232,14 @@ Spline::Spline(const Eigen::VectorXd& t, const Eigen::VectorXd& g, const Eigen::
   // Beyond the ends s^(m) vanishes.
   const SplineValue first = horner(coefficients_.col(1), 0.0);
   const SplineValue last = horner(coefficients_.col(n - 1), t[n - 1] - t[n - 2]);
-  coefficients_.col(0).head(3) << first.value, (m > 1 ? first.first : 0.0), (m > 2 ? 0.5 * first.second : 0.0);
-  coefficients_.col(n).head(3) << last.value, (m > 1 ? last.first : 0.0), (m > 2 ? 0.5 * last.second : 0.0);
+  coefficients_.col(0).head(3) << first.value, (m > 1 ? first.first : 0.0),
+      (m > 2 ? 0.5 * first.second : 0.0);
+  coefficients_.col(n).head(3) << last.value, (m > 1 ? last.first : 0.0),
+      (m > 2 ? 0.5 * last.second : 0.0);
 }
 
-Spline Spline::interpolate(const Eigen::Ref<const Eigen::VectorXd>& t, const Eigen::Ref<const Eigen::VectorXd>& y,
+Spline Spline::interpolate(const Eigen::Ref<const Eigen::VectorXd>& t,
+                           const Eigen::Ref<const Eigen::VectorXd>& y,
                            int degree) {
   if (degree != 1 && degree != 3 && degree != 5) {
     throw InvalidInput(fmt::format("spline: found degree {}, expected 1, 3 or 5", degree));
@@ -231,7 +251,8 @@ Spline Spline::interpolate(const Eigen::Ref<const Eigen::VectorXd>& t, const Eig
   return {times, y, result.c, m};
 }
 
-Spline Spline::smooth(const Eigen::Ref<const Eigen::VectorXd>& t, const Eigen::Ref<const Eigen::VectorXd>& y,
+Spline Spline::smooth(const Eigen::Ref<const Eigen::VectorXd>& t,
+                      const Eigen::Ref<const Eigen::VectorXd>& y,
                       const SmoothingOptions& options) {
   constexpr int m = 3;
   check(t, y, m + 1);
@@ -249,14 +270,18 @@ Spline Spline::smooth(const Eigen::Ref<const Eigen::VectorXd>& t, const Eigen::R
   double lambda = 0.0;
   if (options.cutoff_hz) {
     if (!(*options.cutoff_hz > 0.0)) {
-      throw InvalidInput(fmt::format("smoothing spline: found a cut-off of {} Hz, expected a positive one", *options.cutoff_hz));
+      throw InvalidInput(
+          fmt::format("smoothing spline: found a cut-off of {} Hz, expected a positive one",
+                      *options.cutoff_hz));
     }
     lambda = lambda_of(*options.cutoff_hz);
   } else {
     if (!(*options.noise_sd >= 0.0)) {
-      throw InvalidInput(fmt::format("smoothing spline: found a noise of {}, expected 0 or more", *options.noise_sd));
+      throw InvalidInput(fmt::format("smoothing spline: found a noise of {}, expected 0 or more",
+                                     *options.noise_sd));
     }
-    // The residual rises with lambda: bisect its logarithm between cut-offs of the whole record and half the rate.
+    // The residual rises with lambda: bisect its logarithm between cut-offs of the whole record and
+    // half the rate.
     double low = std::log(lambda_of(0.5 / h));
     double high = std::log(lambda_of(0.1 / (h * static_cast<double>(times.size()))));
     const double wanted = *options.noise_sd * *options.noise_sd * static_cast<double>(times.size());
@@ -275,12 +300,14 @@ SplineValue Spline::at(double t) const {
   const double* begin = knots_.data();
   const Eigen::Index interval = std::upper_bound(begin, begin + knots_.size(), t) - begin;
   const double left = knots_[std::max<Eigen::Index>(0, interval - 1)];
-  // The last knot itself belongs to the last interval's polynomial as well as to the one beyond: same value.
+  // The last knot itself belongs to the last interval's polynomial as well as to the one beyond:
+  // same value.
   return horner(coefficients_.col(interval), t - left);
 }
 
 SplineValues Spline::evaluate(const Eigen::Ref<const Eigen::VectorXd>& t) const {
-  SplineValues values{Eigen::VectorXd(t.size()), Eigen::VectorXd(t.size()), Eigen::VectorXd(t.size())};
+  SplineValues values{Eigen::VectorXd(t.size()), Eigen::VectorXd(t.size()),
+                      Eigen::VectorXd(t.size())};
   for (Eigen::Index i = 0; i < t.size(); ++i) {
     const SplineValue v = at(t[i]);
     values.value[i] = v.value;

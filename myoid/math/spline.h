@@ -1,9 +1,9 @@
 #pragma once
 
-#include <Eigen/Core>
-
 #include <optional>
 #include <vector>
+
+#include <Eigen/Core>
 
 namespace myoid::math {
 
@@ -19,29 +19,35 @@ struct SplineValues {
 };
 
 struct SmoothingOptions {
-  /// Frequency at which the spline passes 1/sqrt(2) of the amplitude [Hz], for evenly spaced samples.
+  /// Frequency at which the spline passes 1/sqrt(2) of the amplitude [Hz], for evenly spaced
+  /// samples.
   std::optional<double> cutoff_hz;
-  /// Standard deviation of the noise in y's unit; the penalty is then the largest whose residual does not exceed it.
+  /// Standard deviation of the noise in y's unit; the penalty is then the largest whose residual
+  /// does not exceed it.
   std::optional<double> noise_sd;
 };
 
-/// A natural spline of degree 2m - 1 (m = 1, 2, 3: linear, cubic, quintic) over strictly increasing, possibly uneven
-/// knots: it minimizes  sum (y_i - s(t_i))^2 + lambda * integral (s^(m))^2, and with lambda = 0 it interpolates. At both ends
-/// and beyond, s^(m) and all higher derivatives vanish (a quintic goes on as a parabola, a cubic as a line); there it says
-/// nothing about the data.
+/// A natural spline of degree 2m - 1 (m = 1, 2, 3: linear, cubic, quintic) over strictly
+/// increasing, possibly uneven knots: it minimizes  sum (y_i - s(t_i))^2 + lambda * integral
+/// (s^(m))^2, and with lambda = 0 it interpolates. At both ends and beyond, s^(m) and all higher
+/// derivatives vanish (a quintic goes on as a parabola, a cubic as a line); there it says nothing
+/// about the data.
 class Spline {
  public:
-  /// The natural spline through the points; what OpenSim's tools use (degree 5) to differentiate a motion.
-  /// Degree 1, 3 or 5; needs at least (degree + 1)/2 + 1 points. Throws InvalidInput if values are not finite, sizes differ or
-  /// times do not strictly increase. O(n).
+  /// The natural spline through the points; what OpenSim's tools use (degree 5) to differentiate a
+  /// motion. Degree 1, 3 or 5; needs at least (degree + 1)/2 + 1 points. Throws InvalidInput if
+  /// values are not finite, sizes differ or times do not strictly increase. O(n).
   [[nodiscard]] static Spline interpolate(const Eigen::Ref<const Eigen::VectorXd>& t,
-                                          const Eigen::Ref<const Eigen::VectorXd>& y, int degree = 5);
+                                          const Eigen::Ref<const Eigen::VectorXd>& y,
+                                          int degree = 5);
 
-  /// The quintic smoothing spline. In the middle of evenly spaced data, with interval h, it passes a frequency f with the gain
+  /// The quintic smoothing spline. In the middle of evenly spaced data, with interval h, it passes
+  /// a frequency f with the gain
   ///   1 / (1 + lambda h (2 pi f)^6).
   /// Exactly one option must be given. Throws like `interpolate`.
   [[nodiscard]] static Spline smooth(const Eigen::Ref<const Eigen::VectorXd>& t,
-                                     const Eigen::Ref<const Eigen::VectorXd>& y, const SmoothingOptions& options);
+                                     const Eigen::Ref<const Eigen::VectorXd>& y,
+                                     const SmoothingOptions& options);
 
   [[nodiscard]] SplineValue at(double t) const;
   [[nodiscard]] SplineValues evaluate(const Eigen::Ref<const Eigen::VectorXd>& t) const;
@@ -50,7 +56,8 @@ class Spline {
   Spline(const Eigen::VectorXd& t, const Eigen::VectorXd& g, const Eigen::VectorXd& c, int m);
 
   Eigen::VectorXd knots_;
-  Eigen::MatrixXd coefficients_;  ///< 6 x (n + 1): per interval, by rising power of (t - left knot); before first and after last too.
+  Eigen::MatrixXd coefficients_;  ///< 6 x (n + 1): per interval, by rising power of (t - left
+                                  ///< knot); before first and after last too.
 };
 
 }  // namespace myoid::math

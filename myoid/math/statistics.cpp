@@ -9,7 +9,8 @@
 namespace myoid::math {
 
 double normal_quantile(double p) {
-  if (!(p > 0.0 && p < 1.0)) throw InvalidInput("normal quantile: the probability must lie between 0 and 1");
+  if (!(p > 0.0 && p < 1.0))
+    throw InvalidInput("normal quantile: the probability must lie between 0 and 1");
   // Bisection on the distribution function: simple and exact to round-off.
   const auto distribution = [](double x) { return 0.5 * std::erfc(-x / std::sqrt(2.0)); };
   double low = -40.0;
@@ -21,7 +22,8 @@ double normal_quantile(double p) {
   return 0.5 * (low + high);
 }
 
-double effective_sample_size(const Eigen::Ref<const Eigen::VectorXd>& x, const std::vector<Eigen::Index>& pieces) {
+double effective_sample_size(const Eigen::Ref<const Eigen::VectorXd>& x,
+                             const std::vector<Eigen::Index>& pieces) {
   const Eigen::Index n = x.size();
   if (n < 2) return static_cast<double>(n);
   const Eigen::VectorXd centered = x.array() - x.mean();
@@ -32,7 +34,9 @@ double effective_sample_size(const Eigen::Ref<const Eigen::VectorXd>& x, const s
     double product = 0.0;
     Eigen::Index begin = 0;
     for (const Eigen::Index length : pieces) {
-      if (lag < length) product += centered.segment(begin, length - lag).dot(centered.segment(begin + lag, length - lag));
+      if (lag < length)
+        product +=
+            centered.segment(begin, length - lag).dot(centered.segment(begin + lag, length - lag));
       begin += length;
     }
     if (product <= 0.0) break;
@@ -41,14 +45,17 @@ double effective_sample_size(const Eigen::Ref<const Eigen::VectorXd>& x, const s
   return std::max(1.0, static_cast<double>(n) / (1.0 + 2.0 * sum));
 }
 
-Eigen::MatrixXd newey_west(const Eigen::MatrixXd& scores, const std::vector<Eigen::Index>& pieces, Eigen::Index lag) {
+Eigen::MatrixXd newey_west(const Eigen::MatrixXd& scores,
+                           const std::vector<Eigen::Index>& pieces,
+                           Eigen::Index lag) {
   Eigen::MatrixXd sum = scores.transpose() * scores;
   for (Eigen::Index l = 1; l <= lag; ++l) {
     const double weight = 1.0 - static_cast<double>(l) / static_cast<double>(lag + 1);
     Eigen::Index begin = 0;
     for (const Eigen::Index length : pieces) {
       if (l < length) {
-        const Eigen::MatrixXd g = scores.middleRows(begin + l, length - l).transpose() * scores.middleRows(begin, length - l);
+        const Eigen::MatrixXd g = scores.middleRows(begin + l, length - l).transpose() *
+                                  scores.middleRows(begin, length - l);
         sum += weight * (g + g.transpose());
       }
       begin += length;

@@ -1,9 +1,9 @@
 #include "myoid/math/statistics.h"
 
-#include <gtest/gtest.h>
-
 #include <cmath>
 #include <random>
+
+#include <gtest/gtest.h>
 
 namespace myoid::math {
 namespace {
@@ -28,7 +28,8 @@ TEST(NormalQuantile, HasTheTabulatedValues) {
 TEST(EffectiveSampleSize, OfAnAutoregressiveSeriesIsTheClosedForm) {
   // rho_k = rho^k: n_eff = n (1 - rho)/(1 + rho).
   const Eigen::Index n = 200000;
-  EXPECT_NEAR(effective_sample_size(autoregressive(n, 0.8), {n}) / static_cast<double>(n), 0.2 / 1.8, 0.01);
+  EXPECT_NEAR(effective_sample_size(autoregressive(n, 0.8), {n}) / static_cast<double>(n),
+              0.2 / 1.8, 0.01);
 }
 
 TEST(NeweyWest, OfAnAutoregressiveScoreTendsToItsLongRunVariance) {

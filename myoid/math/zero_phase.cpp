@@ -1,9 +1,9 @@
 #include "myoid/math/zero_phase.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
+
+#include <fmt/format.h>
 
 #include "myoid/core/error.h"
 
@@ -15,12 +15,13 @@ Eigen::Index impulse_length(const std::vector<SecondOrderSection>& sections) {
   double radius = 0.0;
   for (const SecondOrderSection& s : sections) {
     const double discriminant = s.a1 * s.a1 - 4.0 * s.a2;
-    const double r = discriminant < 0.0 ? std::sqrt(s.a2)
-                                        : 0.5 * (std::abs(s.a1) + std::sqrt(discriminant));
+    const double r =
+        discriminant < 0.0 ? std::sqrt(s.a2) : 0.5 * (std::abs(s.a1) + std::sqrt(discriminant));
     radius = std::max(radius, r);
   }
   if (radius <= 0.0) return 1;
-  return static_cast<Eigen::Index>(std::ceil(std::log(1e-8) / std::log(std::min(radius, 1.0 - 1e-9))));
+  return static_cast<Eigen::Index>(
+      std::ceil(std::log(1e-8) / std::log(std::min(radius, 1.0 - 1e-9))));
 }
 
 void run(const std::vector<SecondOrderSection>& sections, std::vector<double>& x) {
@@ -44,10 +45,13 @@ void run(const std::vector<SecondOrderSection>& sections, std::vector<double>& x
 Eigen::VectorXd zero_phase(const std::vector<SecondOrderSection>& sections,
                            const Eigen::Ref<const Eigen::VectorXd>& x) {
   const Eigen::Index n = x.size();
-  if (n < 4) throw InvalidInput(fmt::format("zero-phase filter: {} samples are too few; at least 4 are needed", n));
+  if (n < 4)
+    throw InvalidInput(
+        fmt::format("zero-phase filter: {} samples are too few; at least 4 are needed", n));
   for (Eigen::Index i = 0; i < n; ++i) {
     if (!std::isfinite(x[i])) {
-      throw InvalidInput(fmt::format("zero-phase filter: sample {} is not a number; fill the gaps first", i + 1));
+      throw InvalidInput(
+          fmt::format("zero-phase filter: sample {} is not a number; fill the gaps first", i + 1));
     }
   }
   const Eigen::Index pad = std::min<Eigen::Index>(n - 1, 3 * impulse_length(sections));

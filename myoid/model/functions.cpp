@@ -1,9 +1,9 @@
 #include "myoid/model/functions.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
+
+#include <fmt/format.h>
 
 #include "myoid/core/error.h"
 
@@ -12,7 +12,9 @@ namespace {
 
 FunctionValue value_of(const Constant& f, double) { return {f.value, 0.0, 0.0}; }
 
-FunctionValue value_of(const Linear& f, double x) { return {f.slope * x + f.intercept, f.slope, 0.0}; }
+FunctionValue value_of(const Linear& f, double x) {
+  return {f.slope * x + f.intercept, f.slope, 0.0};
+}
 
 FunctionValue value_of(const Polynomial& f, double x) {
   FunctionValue v;
@@ -27,7 +29,8 @@ FunctionValue value_of(const Polynomial& f, double x) {
 /// Interval that holds x, 0 .. n-2; the outer ones also take what lies beyond.
 std::size_t interval(const std::vector<double>& knots, double x) {
   const auto upper = std::upper_bound(knots.begin(), knots.end(), x);
-  const auto index = static_cast<std::size_t>(std::max<std::ptrdiff_t>(0, upper - knots.begin() - 1));
+  const auto index =
+      static_cast<std::size_t>(std::max<std::ptrdiff_t>(0, upper - knots.begin() - 1));
   return std::min(index, knots.size() - 2);
 }
 
@@ -43,8 +46,8 @@ FunctionValue value_of(const SimmSpline& f, double x) {
   if (x > f.x.back()) return {f.y[last] + f.b[last] * (x - f.x[last]), f.b[last], 0.0};
   const std::size_t i = interval(f.x, x);
   const double u = x - f.x[i];
-  return {f.y[i] + u * (f.b[i] + u * (f.c[i] + u * f.d[i])), f.b[i] + u * (2.0 * f.c[i] + 3.0 * u * f.d[i]),
-          2.0 * f.c[i] + 6.0 * u * f.d[i]};
+  return {f.y[i] + u * (f.b[i] + u * (f.c[i] + u * f.d[i])),
+          f.b[i] + u * (2.0 * f.c[i] + 3.0 * u * f.d[i]), 2.0 * f.c[i] + 6.0 * u * f.d[i]};
 }
 
 }  // namespace
@@ -52,21 +55,24 @@ FunctionValue value_of(const SimmSpline& f, double x) {
 SimmSpline make_simm_spline(std::vector<double> x, std::vector<double> y) {
   const std::size_t n = x.size();
   if (n != y.size() || n < 2) {
-    throw InvalidInput(fmt::format("spline function: {} x for {} y; at least two pairs are needed", n, y.size()));
+    throw InvalidInput(
+        fmt::format("spline function: {} x for {} y; at least two pairs are needed", n, y.size()));
   }
   for (std::size_t i = 1; i < n; ++i) {
     if (!(x[i] > x[i - 1])) {
-      throw InvalidInput(fmt::format("spline function: x does not increase ({} after {})", x[i], x[i - 1]));
+      throw InvalidInput(
+          fmt::format("spline function: x does not increase ({} after {})", x[i], x[i - 1]));
     }
   }
-  SimmSpline s{std::move(x), std::move(y), std::vector<double>(n), std::vector<double>(n), std::vector<double>(n)};
+  SimmSpline s{std::move(x), std::move(y), std::vector<double>(n), std::vector<double>(n),
+               std::vector<double>(n)};
   auto& [xs, ys, b, c, d] = s;
   if (n == 2) {
     b[0] = b[1] = (ys[1] - ys[0]) / (xs[1] - xs[0]);
     return s;
   }
-  // Tridiagonal system for c: b diagonal, d off-diagonal, c right side. The third derivative at the ends comes from the
-  // four outer points; with three points it is taken as zero.
+  // Tridiagonal system for c: b diagonal, d off-diagonal, c right side. The third derivative at the
+  // ends comes from the four outer points; with three points it is taken as zero.
   const std::size_t last = n - 1;
   d[0] = xs[1] - xs[0];
   c[1] = (ys[1] - ys[0]) / d[0];
@@ -82,7 +88,8 @@ SimmSpline make_simm_spline(std::vector<double> x, std::vector<double> y) {
   c[last] = 0.0;
   if (n > 3) {
     const double at_start = c[2] / (xs[3] - xs[1]) - c[1] / (xs[2] - xs[0]);
-    const double at_end = c[last - 1] / (xs[last] - xs[last - 2]) - c[last - 2] / (xs[last - 1] - xs[last - 3]);
+    const double at_end =
+        c[last - 1] / (xs[last] - xs[last - 2]) - c[last - 2] / (xs[last - 1] - xs[last - 3]);
     c[0] = at_start * d[0] * d[0] / (xs[3] - xs[0]);
     c[last] = -at_end * d[last - 1] * d[last - 1] / (xs[last] - xs[last - 3]);
   }

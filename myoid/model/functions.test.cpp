@@ -1,8 +1,8 @@
 #include "myoid/model/functions.h"
 
-#include <gtest/gtest.h>
-
 #include <cmath>
+
+#include <gtest/gtest.h>
 
 #include "myoid/core/error.h"
 

@@ -11,7 +11,8 @@ std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 void check_size(const BodyModel& model, Eigen::Index size, std::string_view what) {
   if (size != static_cast<Eigen::Index>(model.coordinates.size())) {
-    throw InvalidInput(fmt::format("{}: {} values for {} coordinates", what, size, model.coordinates.size()));
+    throw InvalidInput(
+        fmt::format("{}: {} values for {} coordinates", what, size, model.coordinates.size()));
   }
 }
 
@@ -19,7 +20,8 @@ double argument(const TransformAxis& axis, const Eigen::Ref<const Eigen::VectorX
   return axis.coordinate < 0 ? 0.0 : q[axis.coordinate];
 }
 
-/// A joint at one posture: X_FM, and each axis turned into F with the function's value and derivatives.
+/// A joint at one posture: X_FM, and each axis turned into F with the function's value and
+/// derivatives.
 struct JointPosture {
   Pose X_FM;
   std::array<Vec3, 3> axis_F;
@@ -33,7 +35,8 @@ JointPosture posture(const Joint& joint, const Eigen::Ref<const Eigen::VectorXd>
     const TransformAxis& axis = joint.rotation[i];
     p.angle[i] = evaluate(axis.function, argument(axis, q));
     p.axis_F[i] = p.X_FM.R * axis.axis;
-    if (p.angle[i].value != 0.0) p.X_FM.R = p.X_FM.R * Eigen::AngleAxisd(p.angle[i].value, axis.axis).toRotationMatrix();
+    if (p.angle[i].value != 0.0)
+      p.X_FM.R = p.X_FM.R * Eigen::AngleAxisd(p.angle[i].value, axis.axis).toRotationMatrix();
   }
   for (std::size_t i = 0; i < 3; ++i) {
     const TransformAxis& axis = joint.translation[i];
@@ -43,12 +46,15 @@ JointPosture posture(const Joint& joint, const Eigen::Ref<const Eigen::VectorXd>
   return p;
 }
 
-/// Velocity of M in F and the part of its acceleration that does not come from qddot, expressed in F.
+/// Velocity of M in F and the part of its acceleration that does not come from qddot, expressed in
+/// F.
 struct RelativeMotion {
   Vec3 w = Vec3::Zero(), v = Vec3::Zero(), alpha = Vec3::Zero(), a = Vec3::Zero();
 };
 
-RelativeMotion relative_motion(const Joint& joint, const JointPosture& p, const Eigen::Ref<const Eigen::VectorXd>& qdot,
+RelativeMotion relative_motion(const Joint& joint,
+                               const JointPosture& p,
+                               const Eigen::Ref<const Eigen::VectorXd>& qdot,
                                const Eigen::Ref<const Eigen::VectorXd>& qddot) {
   RelativeMotion m;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -64,7 +70,8 @@ RelativeMotion relative_motion(const Joint& joint, const JointPosture& p, const 
     const int c = joint.translation[i].coordinate;
     if (c < 0) continue;
     m.v += p.shift[i].first * qdot[c] * joint.translation[i].axis;
-    m.a += (p.shift[i].second * qdot[c] * qdot[c] + p.shift[i].first * qddot[c]) * joint.translation[i].axis;
+    m.a += (p.shift[i].second * qdot[c] * qdot[c] + p.shift[i].first * qddot[c]) *
+           joint.translation[i].axis;
   }
   return m;
 }
@@ -84,7 +91,9 @@ BodyState make_state(const BodyModel& model) {
   return state;
 }
 
-void compute_poses(const BodyModel& model, const Eigen::Ref<const Eigen::VectorXd>& q, BodyState& state) {
+void compute_poses(const BodyModel& model,
+                   const Eigen::Ref<const Eigen::VectorXd>& q,
+                   BodyState& state) {
   check_size(model, q.size(), "posture");
   state.q = q;
   for (const Joint& joint : model.joints) {
@@ -107,7 +116,9 @@ void compute_poses(const BodyModel& model, const Eigen::Ref<const Eigen::VectorX
   }
 }
 
-void compute_velocities(const BodyModel& model, const Eigen::Ref<const Eigen::VectorXd>& qdot, BodyState& state) {
+void compute_velocities(const BodyModel& model,
+                        const Eigen::Ref<const Eigen::VectorXd>& qdot,
+                        BodyState& state) {
   check_size(model, qdot.size(), "velocity");
   state.qdot = qdot;
   state.w_GB[0].setZero();
@@ -116,7 +127,8 @@ void compute_velocities(const BodyModel& model, const Eigen::Ref<const Eigen::Ve
     const std::size_t b = at(joint.child);
     const std::size_t parent = at(joint.parent);
     state.w_GB[b] = state.w_GB[parent];
-    state.v_GB[b] = state.v_GB[parent] + state.w_GB[parent].cross(state.X_GB[b].p - state.X_GB[parent].p);
+    state.v_GB[b] =
+        state.v_GB[parent] + state.w_GB[parent].cross(state.X_GB[b].p - state.X_GB[parent].p);
     for (const int c : joint.coordinates) {
       state.w_GB[b] += qdot[c] * state.H_w_G[at(c)];
       state.v_GB[b] += qdot[c] * state.H_v_G[at(c)];
@@ -124,8 +136,12 @@ void compute_velocities(const BodyModel& model, const Eigen::Ref<const Eigen::Ve
   }
 }
 
-Eigen::Matrix3Xd station_jacobian(const BodyModel& model, const BodyState& state, BodyIndex body, const Vec3& p_BP) {
-  Eigen::Matrix3Xd jacobian = Eigen::Matrix3Xd::Zero(3, static_cast<Eigen::Index>(model.coordinates.size()));
+Eigen::Matrix3Xd station_jacobian(const BodyModel& model,
+                                  const BodyState& state,
+                                  BodyIndex body,
+                                  const Vec3& p_BP) {
+  Eigen::Matrix3Xd jacobian =
+      Eigen::Matrix3Xd::Zero(3, static_cast<Eigen::Index>(model.coordinates.size()));
   const Vec3 p_GP = state.X_GB[at(body)] * p_BP;
   for (BodyIndex b = body; b != 0;) {
     const Joint& joint = model.joints[at(model.joint_of_body[at(b)])];
@@ -137,10 +153,12 @@ Eigen::Matrix3Xd station_jacobian(const BodyModel& model, const BodyState& state
   return jacobian;
 }
 
-Eigen::VectorXd inverse_dynamics(const BodyModel& model, const Eigen::Ref<const Eigen::VectorXd>& q,
+Eigen::VectorXd inverse_dynamics(const BodyModel& model,
+                                 const Eigen::Ref<const Eigen::VectorXd>& q,
                                  const Eigen::Ref<const Eigen::VectorXd>& qdot,
                                  const Eigen::Ref<const Eigen::VectorXd>& qddot,
-                                 const std::vector<BodyWrench>& external, BodyState& state) {
+                                 const std::vector<BodyWrench>& external,
+                                 BodyState& state) {
   check_size(model, qddot.size(), "acceleration");
   compute_poses(model, q, state);
   compute_velocities(model, qdot, state);
@@ -162,8 +180,8 @@ Eigen::VectorXd inverse_dynamics(const BodyModel& model, const Eigen::Ref<const 
     const Vec3 w_rel = X_GF.R * m.w;
     const Vec3 v_rel = X_GF.R * m.v;
     alpha[b] = alpha[parent] + w_P.cross(w_rel) + X_GF.R * m.alpha;
-    const Vec3 a_M = a[parent] + alpha[parent].cross(rho) + w_P.cross(w_P.cross(rho)) + 2.0 * w_P.cross(v_rel) +
-                     X_GF.R * m.a;
+    const Vec3 a_M = a[parent] + alpha[parent].cross(rho) + w_P.cross(w_P.cross(rho)) +
+                     2.0 * w_P.cross(v_rel) + X_GF.R * m.a;
     const Vec3 r = state.X_GB[b].p - p_GM;
     const Vec3& w = state.w_GB[b];
     a[b] = a_M + alpha[b].cross(r) + w.cross(w.cross(r));
@@ -194,7 +212,9 @@ Eigen::VectorXd inverse_dynamics(const BodyModel& model, const Eigen::Ref<const 
   return tau;
 }
 
-Eigen::MatrixXd mass_matrix(const BodyModel& model, const Eigen::Ref<const Eigen::VectorXd>& q, BodyState& state) {
+Eigen::MatrixXd mass_matrix(const BodyModel& model,
+                            const Eigen::Ref<const Eigen::VectorXd>& q,
+                            BodyState& state) {
   const Eigen::Index n = static_cast<Eigen::Index>(model.coordinates.size());
   BodyModel weightless = model;
   weightless.gravity_G.setZero();

@@ -1,8 +1,8 @@
 #pragma once
 
-#include <Eigen/Core>
-
 #include <vector>
+
+#include <Eigen/Core>
 
 #include "myoid/core/geometry.h"
 #include "myoid/model/body_model.h"
@@ -11,13 +11,14 @@ namespace myoid::model {
 
 /// What a posture makes of a model: one per thread, reused from frame to frame without allocation.
 struct BodyState {
-  Eigen::VectorXd q;      ///< Coordinates [rad | m].
-  Eigen::VectorXd qdot;   ///< Their rates.
-  std::vector<Pose> X_GB; ///< Pose of each body in ground.
-  std::vector<Vec3> w_GB; ///< Angular velocity of each body, expressed in ground [rad/s].
-  std::vector<Vec3> v_GB; ///< Velocity of each body's origin, expressed in ground [m/s].
-  /// Columns of the geometric Jacobian: per coordinate the angular velocity H_w and the velocity of the child
-  /// frame's origin that unit speed gives the child body of its joint, expressed in ground.
+  Eigen::VectorXd q;       ///< Coordinates [rad | m].
+  Eigen::VectorXd qdot;    ///< Their rates.
+  std::vector<Pose> X_GB;  ///< Pose of each body in ground.
+  std::vector<Vec3> w_GB;  ///< Angular velocity of each body, expressed in ground [rad/s].
+  std::vector<Vec3> v_GB;  ///< Velocity of each body's origin, expressed in ground [m/s].
+  /// Columns of the geometric Jacobian: per coordinate the angular velocity H_w and the velocity of
+  /// the child frame's origin that unit speed gives the child body of its joint, expressed in
+  /// ground.
   std::vector<Vec3> H_w_G;
   std::vector<Vec3> H_v_G;  ///< Of the *child body's origin*.
 };
@@ -25,13 +26,20 @@ struct BodyState {
 [[nodiscard]] BodyState make_state(const BodyModel& model);
 
 /// Fills X_GB and the Jacobian columns from q. Throws InvalidInput if q has the wrong size.
-void compute_poses(const BodyModel& model, const Eigen::Ref<const Eigen::VectorXd>& q, BodyState& state);
+void compute_poses(const BodyModel& model,
+                   const Eigen::Ref<const Eigen::VectorXd>& q,
+                   BodyState& state);
 
 /// Fills w_GB, v_GB from qdot; compute_poses must have been called for the same q.
-void compute_velocities(const BodyModel& model, const Eigen::Ref<const Eigen::VectorXd>& qdot, BodyState& state);
+void compute_velocities(const BodyModel& model,
+                        const Eigen::Ref<const Eigen::VectorXd>& qdot,
+                        BodyState& state);
 
 /// Jacobian of the ground position of point p_BP fixed in `body` by all coordinates: 3 x nq.
-[[nodiscard]] Eigen::Matrix3Xd station_jacobian(const BodyModel& model, const BodyState& state, BodyIndex body, const Vec3& p_BP);
+[[nodiscard]] Eigen::Matrix3Xd station_jacobian(const BodyModel& model,
+                                                const BodyState& state,
+                                                BodyIndex body,
+                                                const Vec3& p_BP);
 
 /// Force and moment on a body, applied at its origin, expressed in ground.
 struct BodyWrench {
@@ -40,14 +48,19 @@ struct BodyWrench {
   Vec3 m_G = Vec3::Zero();  ///< [N m], about the body's origin.
 };
 
-/// Generalized forces tau that produce qddot at (q, qdot) under gravity and `external`, by recursive
-/// Newton-Euler: tau = M qddot + C - gravity - external. Coordinates in model order, [N m] or [N].
-[[nodiscard]] Eigen::VectorXd inverse_dynamics(const BodyModel& model, const Eigen::Ref<const Eigen::VectorXd>& q,
+/// Generalized forces tau that produce qddot at (q, qdot) under gravity and `external`, by
+/// recursive Newton-Euler: tau = M qddot + C - gravity - external. Coordinates in model order, [N
+/// m] or [N].
+[[nodiscard]] Eigen::VectorXd inverse_dynamics(const BodyModel& model,
+                                               const Eigen::Ref<const Eigen::VectorXd>& q,
                                                const Eigen::Ref<const Eigen::VectorXd>& qdot,
                                                const Eigen::Ref<const Eigen::VectorXd>& qddot,
-                                               const std::vector<BodyWrench>& external, BodyState& state);
+                                               const std::vector<BodyWrench>& external,
+                                               BodyState& state);
 
 /// Joint-space mass matrix, nq x nq.
-[[nodiscard]] Eigen::MatrixXd mass_matrix(const BodyModel& model, const Eigen::Ref<const Eigen::VectorXd>& q, BodyState& state);
+[[nodiscard]] Eigen::MatrixXd mass_matrix(const BodyModel& model,
+                                          const Eigen::Ref<const Eigen::VectorXd>& q,
+                                          BodyState& state);
 
 }  // namespace myoid::model

@@ -1,9 +1,9 @@
 #include "myoid/model/kinematic_tree.h"
 
-#include <gtest/gtest.h>
-
 #include <cmath>
 #include <random>
+
+#include <gtest/gtest.h>
 
 #include "myoid/core/error.h"
 
@@ -21,9 +21,9 @@ class Uniform {
   std::mt19937_64 engine_;
 };
 
-/// Four bodies in a branched tree, every slot of a joint used, oblique axes, curved functions, a coordinate that drives a
-/// rotation and two translations.
-/// With `shared`, joints' rotations share a coordinate: one and three, two and three, one and two, all three.
+/// Four bodies in a branched tree, every slot of a joint used, oblique axes, curved functions, a
+/// coordinate that drives a rotation and two translations. With `shared`, joints' rotations share a
+/// coordinate: one and three, two and three, one and two, all three.
 BodyModel crooked_tree(std::uint64_t seed, bool shared = false) {
   Uniform u(seed);
   BodyModel m;
@@ -46,15 +46,21 @@ BodyModel crooked_tree(std::uint64_t seed, bool shared = false) {
       m.coordinates.push_back({.name = "q" + std::to_string(c), .joint = b - 1});
       joint.coordinates.push_back(c);
       joint.rotation[static_cast<std::size_t>(k)] = {
-          .axis = u.vec().normalized(), .coordinate = c,
-          .function = k == 1 ? Function(make_simm_spline({-2, -1, 0, 1, 2}, {u(), u(), u(), u(), u()})) : Function(Linear{1.0 + 0.3 * u(), u()})};
+          .axis = u.vec().normalized(),
+          .coordinate = c,
+          .function = k == 1
+                          ? Function(make_simm_spline({-2, -1, 0, 1, 2}, {u(), u(), u(), u(), u()}))
+                          : Function(Linear{1.0 + 0.3 * u(), u()})};
       joint.translation[static_cast<std::size_t>(k)] = {
-          .axis = u.vec().normalized(), .coordinate = k == 2 ? c - 1 : c, .function = Function(Polynomial{{u(), u(), u()}}, 0.1)};
+          .axis = u.vec().normalized(),
+          .coordinate = k == 2 ? c - 1 : c,
+          .function = Function(Polynomial{{u(), u(), u()}}, 0.1)};
     }
     if (shared) {
       const int sharing[4][3] = {{0, 1, 0}, {0, 1, 1}, {0, 0, 1}, {0, 0, 0}};
       for (std::size_t k = 0; k < 3; ++k) {
-        joint.rotation[k].coordinate = joint.coordinates[static_cast<std::size_t>(sharing[b - 1][k])];
+        joint.rotation[k].coordinate =
+            joint.coordinates[static_cast<std::size_t>(sharing[b - 1][k])];
       }
     }
     m.joints.push_back(joint);
@@ -97,7 +103,9 @@ TEST(KinematicTree, VelocitiesAreTheJacobianTimesTheRates) {
   compute_velocities(m, qdot, state);
   const Vec3 p_BP(0.1, -0.2, 0.3);
   for (int b = 1; b <= 4; ++b) {
-    const Vec3 v = state.v_GB[static_cast<std::size_t>(b)] + state.w_GB[static_cast<std::size_t>(b)].cross(state.X_GB[static_cast<std::size_t>(b)].R * p_BP);
+    const Vec3 v = state.v_GB[static_cast<std::size_t>(b)] +
+                   state.w_GB[static_cast<std::size_t>(b)].cross(
+                       state.X_GB[static_cast<std::size_t>(b)].R * p_BP);
     EXPECT_LT((station_jacobian(m, state, b, p_BP) * qdot - v).norm(), 1e-13);
   }
 }
@@ -136,7 +144,8 @@ TEST(InverseDynamics, TheForcesWorkIsTheChangeOfEnergy) {
 }
 
 void expect_lagranges_equations(const BodyModel& m) {
-  // tau_k = d/dt dL/dqdot_k - dL/dq_k, all by differences of the energy function: independent of Newton-Euler.
+  // tau_k = d/dt dL/dqdot_k - dL/dq_k, all by differences of the energy function: independent of
+  // Newton-Euler.
   Uniform u(8);
   const Eigen::VectorXd q = 0.5 * random_vector(12, u);
   const Eigen::VectorXd qdot = random_vector(12, u);
@@ -145,7 +154,9 @@ void expect_lagranges_equations(const BodyModel& m) {
   const Eigen::VectorXd tau = inverse_dynamics(m, q, qdot, qddot, {}, state);
   BodyModel weightless = m;
   weightless.gravity_G.setZero();
-  const auto kinetic = [&](const Eigen::VectorXd& x, const Eigen::VectorXd& v) { return energy(weightless, x, v); };
+  const auto kinetic = [&](const Eigen::VectorXd& x, const Eigen::VectorXd& v) {
+    return energy(weightless, x, v);
+  };
   const Eigen::VectorXd zero = Eigen::VectorXd::Zero(12);
   const auto potential = [&](const Eigen::VectorXd& x) { return energy(m, x, zero); };
   const double h = 1e-3;
@@ -162,13 +173,16 @@ void expect_lagranges_equations(const BodyModel& m) {
       const double narrow = (f(0.5 * h) - f(-0.5 * h)) / h;
       return (4.0 * narrow - wide) / 3.0;  // error h^4
     };
-    const double expected =
-        richardson(momentum) - richardson([&](double t) { return kinetic(q + t * e, qdot) - potential(q + t * e); });
+    const double expected = richardson(momentum) - richardson([&](double t) {
+                              return kinetic(q + t * e, qdot) - potential(q + t * e);
+                            });
     EXPECT_NEAR(tau[k], expected, 1e-7 * std::max(1.0, std::abs(expected))) << k;
   }
 }
 
-TEST(InverseDynamics, LagrangesEquationsGiveTheSameForces) { expect_lagranges_equations(crooked_tree(7)); }
+TEST(InverseDynamics, LagrangesEquationsGiveTheSameForces) {
+  expect_lagranges_equations(crooked_tree(7));
+}
 
 TEST(InverseDynamics, LagrangesEquationsHoldWhereRotationsShareACoordinate) {
   expect_lagranges_equations(crooked_tree(7, true));
@@ -196,7 +210,8 @@ TEST(InverseDynamics, AnExternalWrenchActsThroughItsJacobian) {
   const Vec3 f(3.0, -2.0, 5.0);
   const Eigen::VectorXd with = inverse_dynamics(m, q, rest, rest, {{.body = 3, .f_G = f}}, state);
   const Eigen::VectorXd without = inverse_dynamics(m, q, rest, rest, {}, state);
-  EXPECT_LT((without - with - station_jacobian(m, state, 3, Vec3::Zero()).transpose() * f).norm(), 1e-12);
+  EXPECT_LT((without - with - station_jacobian(m, state, 3, Vec3::Zero()).transpose() * f).norm(),
+            1e-12);
 }
 
 TEST(Finalize, RefusesABodyThatHangsOnNothing) {

@@ -15,13 +15,17 @@ struct Station {
   BodyIndex body = 0;
   Vec3 p_B = Vec3::Zero();
   Vec3 p_G = Vec3::Zero();
-  int source = -1;                    ///< Number in the muscle's points, or -1 for a tangent point.
-  int wrap = -1;                      ///< Number in the muscle's wraps for a tangent point.
-  double arc_after_m = 0.0;           ///< Length on the wrap object from here to the next station; the piece is not straight.
+  int source = -1;  ///< Number in the muscle's points, or -1 for a tangent point.
+  int wrap = -1;    ///< Number in the muscle's wraps for a tangent point.
+  double arc_after_m =
+      0.0;  ///< Length on the wrap object from here to the next station; the piece is not straight.
   bool on_wrap_after = false;
 };
 
-Station station_of(const BodyModel& model, const PathPoint& point, int number, const BodyState& state) {
+Station station_of(const BodyModel& model,
+                   const PathPoint& point,
+                   int number,
+                   const BodyState& state) {
   Station s;
   s.body = point.body;
   s.p_B = point.p_BP;
@@ -33,7 +37,8 @@ Station station_of(const BodyModel& model, const PathPoint& point, int number, c
       const Coordinate& coordinate = model.coordinates[static_cast<std::size_t>(moving.coordinate)];
       q = std::clamp(state.q[moving.coordinate], coordinate.lower, coordinate.upper);
     }
-    for (std::size_t k = 0; k < 3; ++k) s.p_B[static_cast<Eigen::Index>(k)] = evaluate(moving.location[k], q).value;
+    for (std::size_t k = 0; k < 3; ++k)
+      s.p_B[static_cast<Eigen::Index>(k)] = evaluate(moving.location[k], q).value;
   }
   s.p_G = state.X_GB[static_cast<std::size_t>(s.body)] * s.p_B;
   return s;
@@ -47,7 +52,11 @@ bool is_active(const PathPoint& point, const BodyState& state) {
 }
 
 /// Puts the contact of one wrap, if there is any, where it obstructs the path.
-void insert_wrap(const BodyModel& model, const PathWrap& wrap, int number, const BodyState& state, std::vector<Station>& stations) {
+void insert_wrap(const BodyModel& model,
+                 const PathWrap& wrap,
+                 int number,
+                 const BodyState& state,
+                 std::vector<Station>& stations) {
   const WrapObject& object = model.wrap_objects[static_cast<std::size_t>(wrap.wrap_object)];
   if (!object.active) return;
   const auto* cylinder = std::get_if<CylinderShape>(&object.shape);
@@ -61,15 +70,18 @@ void insert_wrap(const BodyModel& model, const PathWrap& wrap, int number, const
     if (stations[i].on_wrap_after) continue;
     const auto in_range = [&](const Station& s) {
       if (s.source < 0) return true;
-      return (wrap.range_start < 1 || s.source + 1 >= wrap.range_start) && (wrap.range_end < 1 || s.source + 1 <= wrap.range_end);
+      return (wrap.range_start < 1 || s.source + 1 >= wrap.range_start) &&
+             (wrap.range_end < 1 || s.source + 1 <= wrap.range_end);
     };
     if (!in_range(stations[i]) || !in_range(stations[i + 1])) continue;
     const Vec3 p_W = X_WG * stations[i].p_G;
     const Vec3 q_W = X_WG * stations[i + 1].p_G;
-    const auto contact = cylinder != nullptr ? wrap_cylinder(*cylinder, object.quadrant, p_W, q_W)
-                                             : wrap_ellipsoid(*ellipsoid, object.quadrant, wrap.method, p_W, q_W);
+    const auto contact = cylinder != nullptr
+                             ? wrap_cylinder(*cylinder, object.quadrant, p_W, q_W)
+                             : wrap_ellipsoid(*ellipsoid, object.quadrant, wrap.method, p_W, q_W);
     if (!contact) continue;
-    const double change = (contact->first_W - p_W).norm() + contact->arc_length_m + (q_W - contact->second_W).norm() - (q_W - p_W).norm();
+    const double change = (contact->first_W - p_W).norm() + contact->arc_length_m +
+                          (q_W - contact->second_W).norm() - (q_W - p_W).norm();
     if (change < best_change) {
       best_change = change;
       best = i;
@@ -96,7 +108,8 @@ void insert_wrap(const BodyModel& model, const PathWrap& wrap, int number, const
 double total_length(const std::vector<Station>& stations) {
   double length = 0.0;
   for (std::size_t i = 0; i + 1 < stations.size(); ++i) {
-    length += stations[i].on_wrap_after ? stations[i].arc_after_m : (stations[i + 1].p_G - stations[i].p_G).norm();
+    length += stations[i].on_wrap_after ? stations[i].arc_after_m
+                                        : (stations[i + 1].p_G - stations[i].p_G).norm();
   }
   return length;
 }
@@ -109,7 +122,8 @@ Vec3 moving_rate(const BodyModel& model, const PathPoint& point, const BodyState
   const double q = state.q[moving.coordinate];
   if (q < coordinate.lower || q > coordinate.upper) return Vec3::Zero();
   Vec3 rate;
-  for (std::size_t k = 0; k < 3; ++k) rate[static_cast<Eigen::Index>(k)] = evaluate(moving.location[k], q).first;
+  for (std::size_t k = 0; k < 3; ++k)
+    rate[static_cast<Eigen::Index>(k)] = evaluate(moving.location[k], q).first;
   return state.X_GB[static_cast<std::size_t>(point.body)].R * rate;
 }
 
@@ -119,7 +133,8 @@ PathResult compute_path(const BodyModel& model, int muscle, const BodyState& sta
   const MusclePath& path = model.muscles[static_cast<std::size_t>(muscle)].path;
   std::vector<Station> stations;
   for (std::size_t i = 0; i < path.points.size(); ++i) {
-    if (is_active(path.points[i], state)) stations.push_back(station_of(model, path.points[i], static_cast<int>(i), state));
+    if (is_active(path.points[i], state))
+      stations.push_back(station_of(model, path.points[i], static_cast<int>(i), state));
   }
   PathResult result;
   if (!path.wraps.empty()) {
@@ -151,13 +166,17 @@ PathResult compute_path(const BodyModel& model, int muscle, const BodyState& sta
     const Vec3 u = along / length;
     // A piece within one body changes only by the points' own motion in it.
     if (a.body != b.body) {
-      result.moment_arm_m.noalias() -= (station_jacobian(model, state, b.body, b.p_B) - station_jacobian(model, state, a.body, a.p_B)).transpose() * u;
+      result.moment_arm_m.noalias() -= (station_jacobian(model, state, b.body, b.p_B) -
+                                        station_jacobian(model, state, a.body, a.p_B))
+                                           .transpose() *
+                                       u;
     }
     const auto add_moving = [&](const Station& s, double sign) {
       if (s.source < 0) return;
       const PathPoint& point = path.points[static_cast<std::size_t>(s.source)];
       if (point.moving && point.moving->coordinate >= 0) {
-        result.moment_arm_m[point.moving->coordinate] -= sign * u.dot(moving_rate(model, point, state));
+        result.moment_arm_m[point.moving->coordinate] -=
+            sign * u.dot(moving_rate(model, point, state));
       }
     };
     add_moving(b, 1.0);

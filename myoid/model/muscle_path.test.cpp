@@ -1,14 +1,15 @@
 #include "myoid/model/muscle_path.h"
 
-#include <gtest/gtest.h>
-
 #include <cmath>
+
+#include <gtest/gtest.h>
 
 #include "myoid/model/arm4.h"
 #include "myoid/model/osim_reader.h"
 #include "myoid/model/planar_elbow.h"
 #include "myoid/model/wrap_cylinder.h"
 #include "myoid/recording/storage_reader.h"
+
 #include "tests/support/data_folder.h"
 
 namespace myoid::model {
@@ -23,14 +24,17 @@ BodyModel pulley(double radius, Quadrant quadrant) {
   joint.name = "elbow";
   joint.child = 1;
   joint.coordinates = {0};
-  for (std::size_t k = 0; k < 3; ++k) joint.rotation[k].axis = joint.translation[k].axis = Vec3::Unit(static_cast<Eigen::Index>((k + 2) % 3));
+  for (std::size_t k = 0; k < 3; ++k)
+    joint.rotation[k].axis = joint.translation[k].axis =
+        Vec3::Unit(static_cast<Eigen::Index>((k + 2) % 3));
   joint.rotation[0].coordinate = 0;
   joint.rotation[0].function = Linear{};
   m.joints = {joint};
   m.wrap_objects = {{.name = "w", .quadrant = quadrant, .shape = CylinderShape{radius, 0.2}}};
   Muscle muscle;
   muscle.name = "TRI";
-  muscle.path.points = {{.name = "a", .body = 0, .p_BP = {-0.025, 0.25, 0.01}}, {.name = "b", .body = 1, .p_BP = {-0.03, -0.05, -0.01}}};
+  muscle.path.points = {{.name = "a", .body = 0, .p_BP = {-0.025, 0.25, 0.01}},
+                        {.name = "b", .body = 1, .p_BP = {-0.03, -0.05, -0.01}}};
   muscle.path.wraps = {{.wrap_object = 0}};
   m.muscles = {muscle};
   return finalize(m);
@@ -58,7 +62,8 @@ TEST(MusclePath, TheMomentArmIsMinusTheDerivativeOfTheLength) {
   const BodyModel m = pulley(0.02, -1);
   const double h = 1e-6;
   for (const double q : {0.4, 0.9, 1.7}) {
-    EXPECT_NEAR(path_at(m, q).moment_arm_m[0], -(path_at(m, q + h).length_m - path_at(m, q - h).length_m) / (2.0 * h), 1e-9);
+    EXPECT_NEAR(path_at(m, q).moment_arm_m[0],
+                -(path_at(m, q + h).length_m - path_at(m, q - h).length_m) / (2.0 * h), 1e-9);
   }
 }
 
@@ -78,14 +83,18 @@ TEST(MusclePath, TheLengthIsContinuousWhereThePathLeavesTheCylinder) {
 }
 
 TEST(MusclePath, TheSpeedIsMinusMomentArmTimesRate) {
-  EXPECT_DOUBLE_EQ(path_at(pulley(0.02, -1), 1.0, 2.0).speed_mps, -2.0 * path_at(pulley(0.02, -1), 1.0).moment_arm_m[0]);
+  EXPECT_DOUBLE_EQ(path_at(pulley(0.02, -1), 1.0, 2.0).speed_mps,
+                   -2.0 * path_at(pulley(0.02, -1), 1.0).moment_arm_m[0]);
 }
 
 TEST(WrapCylinder, AQuarterTurnIsMeasuredInClosedForm) {
-  // From (1,1) to (-1,1) about the unit circle's... radius 1 at the origin, over the top: tangents vanish in length.
-  const auto contact = wrap_cylinder({.radius_m = 0.5, .length_m = 2.0}, 0, {1.0, 0.2, 0.0}, {-1.0, 0.2, 0.0});
+  // From (1,1) to (-1,1) about the unit circle's... radius 1 at the origin, over the top: tangents
+  // vanish in length.
+  const auto contact =
+      wrap_cylinder({.radius_m = 0.5, .length_m = 2.0}, 0, {1.0, 0.2, 0.0}, {-1.0, 0.2, 0.0});
   ASSERT_TRUE(contact);
-  // Symmetric: each tangent sqrt(1.04 - 0.25); angle between = pi - 2 atan(0.2) - 2 acos(0.5/sqrt(1.04)).
+  // Symmetric: each tangent sqrt(1.04 - 0.25); angle between = pi - 2 atan(0.2) - 2
+  // acos(0.5/sqrt(1.04)).
   const double angle = M_PI - 2.0 * std::atan(0.2) - 2.0 * std::acos(0.5 / std::sqrt(1.04));
   EXPECT_NEAR(contact->arc_length_m, 0.5 * angle, 1e-14);
   EXPECT_NEAR(contact->first_W.x(), -contact->second_W.x(), 1e-14);
@@ -102,7 +111,8 @@ TEST(Arm4, TheModelFileHasTheClosedFormsLengthsAndMomentArms) {
     q[coordinate] = degrees * kDegree;
     compute_poses(m, q, state);
     for (int i = 0; i < 4; ++i) {
-      const PathResult p = compute_path(m, m.muscle_index(elbow.muscles[static_cast<std::size_t>(i)].name), state);
+      const PathResult p =
+          compute_path(m, m.muscle_index(elbow.muscles[static_cast<std::size_t>(i)].name), state);
       const MuscleTravel t = travel(elbow.muscles[static_cast<std::size_t>(i)], degrees * kDegree);
       EXPECT_NEAR(p.length_m, t.length_m, 1e-12) << i << " at " << degrees;
       EXPECT_NEAR(p.moment_arm_m[coordinate], t.moment_arm_m, 1e-12) << i << " at " << degrees;
@@ -129,7 +139,8 @@ TEST(MusclePath, LengthsOfArm26AreOpenSimsWhereNoEllipsoidIsTouched) {
   const auto root = test::data_folder() / "opensim/arm26";
   MYOID_REQUIRE_DATA(root);
   const BodyModel m = read_osim(root / "model.osim");
-  const recording::Storage q_file = recording::read_storage(root / "opensim/smooth_Kinematics_q.sto");
+  const recording::Storage q_file =
+      recording::read_storage(root / "opensim/smooth_Kinematics_q.sto");
   const recording::Storage outputs = recording::read_storage(root / "opensim/smooth_Outputs.sto");
   BodyState state = make_state(m);
   for (const char* name : {"TRIlat", "TRImed", "BRA"}) {
@@ -137,7 +148,8 @@ TEST(MusclePath, LengthsOfArm26AreOpenSimsWhereNoEllipsoidIsTouched) {
     double worst = 0.0;
     for (Eigen::Index row = 0; row < q_file.data.sample_count(); ++row) {
       compute_poses(m, q_file.data.values().row(row).transpose() * kDegree, state);
-      worst = std::max(worst, std::abs(compute_path(m, m.muscle_index(name), state).length_m - reference[row]));
+      worst = std::max(
+          worst, std::abs(compute_path(m, m.muscle_index(name), state).length_m - reference[row]));
     }
     // OpenSim's path over a cylinder is not the shortest one; 0.3 mm is what its tangents are off.
     EXPECT_LT(worst, 3e-4) << name;

@@ -1,15 +1,15 @@
 #include "myoid/model/osim_reader.h"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <map>
-#include <pugixml.hpp>
 #include <set>
 #include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <pugixml.hpp>
 
 #include "myoid/core/error.h"
 #include "myoid/recording/text_file.h"
@@ -50,8 +50,10 @@ class Reader {
  private:
   [[noreturn]] void fail(pugi::xml_node where, const std::string& message) const {
     const auto offset = std::max<std::ptrdiff_t>(0, where.offset_debug());
-    const auto end = xml_.begin() + std::min<std::ptrdiff_t>(offset, static_cast<std::ptrdiff_t>(xml_.size()));
-    throw ReadError(path_, static_cast<std::size_t>(1 + std::count(xml_.begin(), end, '\n')), message);
+    const auto end =
+        xml_.begin() + std::min<std::ptrdiff_t>(offset, static_cast<std::ptrdiff_t>(xml_.size()));
+    throw ReadError(path_, static_cast<std::size_t>(1 + std::count(xml_.begin(), end, '\n')),
+                    message);
   }
 
   /// The child of this name, or the one that `<defaults>` has for this class.
@@ -75,14 +77,16 @@ class Reader {
     const auto node = property(object, name);
     if (!node || text_of(node).empty()) return otherwise;
     const auto values = numbers(node);
-    if (values.size() != 1) fail(node, fmt::format("<{}>: expected one number, found {}", name, values.size()));
+    if (values.size() != 1)
+      fail(node, fmt::format("<{}>: expected one number, found {}", name, values.size()));
     return values[0];
   }
   Vec3 vec3(pugi::xml_node object, const char* name, const Vec3& otherwise) const {
     const auto node = property(object, name);
     if (!node || text_of(node).empty()) return otherwise;
     const auto values = numbers(node);
-    if (values.size() != 3) fail(node, fmt::format("<{}>: expected three numbers, found {}", name, values.size()));
+    if (values.size() != 3)
+      fail(node, fmt::format("<{}>: expected three numbers, found {}", name, values.size()));
     return {values[0], values[1], values[2]};
   }
   bool flag(pugi::xml_node object, const char* name, bool otherwise) const {
@@ -93,7 +97,9 @@ class Reader {
     if (equal_ignoring_case(text, "false") || text == "0") return false;
     fail(node, fmt::format("<{}>: expected true or false, found '{}'", name, text));
   }
-  std::string word(pugi::xml_node object, const char* name) const { return text_of(property(object, name)); }
+  std::string word(pugi::xml_node object, const char* name) const {
+    return text_of(property(object, name));
+  }
 
   /// The objects of a set: <XSet><objects>...</objects></XSet>.
   static auto objects(pugi::xml_node set) { return set.child("objects").children(); }
@@ -101,7 +107,10 @@ class Reader {
   void read_prototypes(pugi::xml_node defaults);
   void read_bodies(pugi::xml_node model);
   void collect_frames(pugi::xml_node parent, const std::string& owner);
-  FixedFrame resolve(pugi::xml_node where, std::string name, const std::string& owner, int depth = 0) const;
+  FixedFrame resolve(pugi::xml_node where,
+                     std::string name,
+                     const std::string& owner,
+                     int depth = 0) const;
   BodyIndex whole_body(pugi::xml_node where, const FixedFrame& frame) const;
 
   void read_joints(pugi::xml_node model);
@@ -123,7 +132,7 @@ class Reader {
   std::filesystem::path path_;
   BodyModel model_;
   std::map<std::string, pugi::xml_node> prototypes_;
-  std::map<std::string, OffsetFrame> frames_;           ///< By absolute path.
+  std::map<std::string, OffsetFrame> frames_;  ///< By absolute path.
   std::set<std::string> unsupported_wraps_;
 };
 
@@ -147,14 +156,16 @@ void Reader::read_bodies(pugi::xml_node model) {
   collect_frames(model.child("components"), "");
   for (const auto node : objects(model.child("ComponentSet"))) {
     if (std::strcmp(node.name(), "PhysicalOffsetFrame") == 0) {
-      frames_[std::string("/componentset/") + node.attribute("name").value()] = {node, "/componentset"};
+      frames_[std::string("/componentset/") + node.attribute("name").value()] = {node,
+                                                                                 "/componentset"};
     }
   }
   for (const auto node : objects(model.child("BodySet"))) {
     Body body;
     body.name = node.attribute("name").value();
     if (body.name.empty()) fail(node, "a body has no name");
-    if (model_.find_body(body.name)) fail(node, fmt::format("two bodies are named '{}'", body.name));
+    if (model_.find_body(body.name))
+      fail(node, fmt::format("two bodies are named '{}'", body.name));
     body.mass_kg = number(node, "mass", std::nan(""));
     if (!(body.mass_kg >= 0.0) || !std::isfinite(body.mass_kg)) {
       fail(node, fmt::format("body '{}': expected a mass of 0 or more in kg", body.name));
@@ -162,7 +173,9 @@ void Reader::read_bodies(pugi::xml_node model) {
     body.p_BBcm_B = vec3(node, "mass_center", Vec3::Zero());
     if (const auto inertia = property(node, "inertia")) {
       const auto v = numbers(inertia);
-      if (v.size() != 6) fail(inertia, fmt::format("body '{}': expected six numbers xx yy zz xy xz yz, found {}", body.name, v.size()));
+      if (v.size() != 6)
+        fail(inertia, fmt::format("body '{}': expected six numbers xx yy zz xy xz yz, found {}",
+                                  body.name, v.size()));
       body.I_BBcm_B << v[0], v[3], v[4], v[3], v[1], v[5], v[4], v[5], v[2];
     }
     if (body.mass_kg == 0.0) body.I_BBcm_B.setZero();
@@ -171,7 +184,10 @@ void Reader::read_bodies(pugi::xml_node model) {
   }
 }
 
-FixedFrame Reader::resolve(pugi::xml_node where, std::string name, const std::string& owner, int depth) const {
+FixedFrame Reader::resolve(pugi::xml_node where,
+                           std::string name,
+                           const std::string& owner,
+                           int depth) const {
   if (depth > 32) fail(where, fmt::format("frame '{}' refers to itself", name));
   std::vector<std::string> candidates;
   if (name.starts_with('/')) {
@@ -195,7 +211,8 @@ FixedFrame Reader::resolve(pugi::xml_node where, std::string name, const std::st
       if (const auto body = model_.find_body(path.substr(9))) return {*body, {}};
     }
     if (const auto it = frames_.find(path); it != frames_.end()) {
-      const FixedFrame parent = resolve(it->second.node, word(it->second.node, "socket_parent"), it->second.owner, depth + 1);
+      const FixedFrame parent = resolve(it->second.node, word(it->second.node, "socket_parent"),
+                                        it->second.owner, depth + 1);
       const Pose X{rotation_body_xyz(vec3(it->second.node, "orientation", Vec3::Zero())),
                    vec3(it->second.node, "translation", Vec3::Zero())};
       return {parent.body, parent.X_BF * X};
@@ -208,8 +225,11 @@ Function Reader::read_function(pugi::xml_node node) const {
   const std::string kind = node.name();
   if (kind == "Constant") return Constant{number(node, "value", 0.0)};
   if (kind == "LinearFunction") {
-    const auto c = node.child("coefficients") ? numbers(node.child("coefficients")) : std::vector<double>{1.0, 0.0};
-    if (c.size() != 2) fail(node, fmt::format("<coefficients>: expected slope and intercept, found {} numbers", c.size()));
+    const auto c = node.child("coefficients") ? numbers(node.child("coefficients"))
+                                              : std::vector<double>{1.0, 0.0};
+    if (c.size() != 2)
+      fail(node,
+           fmt::format("<coefficients>: expected slope and intercept, found {} numbers", c.size()));
     return Linear{c[0], c[1]};
   }
   if (kind == "PolynomialFunction") return Polynomial{numbers(node.child("coefficients"))};
@@ -221,7 +241,8 @@ Function Reader::read_function(pugi::xml_node node) const {
     function.scale *= number(node, "scale", 1.0);
     return function;
   }
-  const bool spline = kind == "SimmSpline" || kind == "NaturalCubicSpline" || kind == "natCubicSpline";
+  const bool spline =
+      kind == "SimmSpline" || kind == "NaturalCubicSpline" || kind == "natCubicSpline";
   if (spline || kind == "PiecewiseLinearFunction") {
     std::vector<double> x = numbers(node.child("x"));
     std::vector<double> y = numbers(node.child("y"));
@@ -240,7 +261,8 @@ void Reader::read_coordinates(pugi::xml_node joint, std::vector<std::string>& na
   for (const auto node : joint.child("coordinates").children("Coordinate")) {
     Coordinate c;
     c.name = node.attribute("name").value();
-    if (model_.find_coordinate(c.name)) fail(node, fmt::format("two coordinates are named '{}'", c.name));
+    if (model_.find_coordinate(c.name))
+      fail(node, fmt::format("two coordinates are named '{}'", c.name));
     c.default_value = number(node, "default_value", 0.0);
     if (const auto range = property(node, "range")) {
       const auto v = numbers(range);
@@ -251,7 +273,8 @@ void Reader::read_coordinates(pugi::xml_node joint, std::vector<std::string>& na
     c.clamped = flag(node, "clamped", false);
     c.locked = flag(node, "locked", false);
     if (flag(node, "prescribed", false) && node.child("prescribed_function").first_child()) {
-      model_.notes.push_back(fmt::format("coordinate '{}' is prescribed; it is held at its default value", c.name));
+      model_.notes.push_back(
+          fmt::format("coordinate '{}' is prescribed; it is held at its default value", c.name));
       c.locked = true;
     }
     names.push_back(c.name);
@@ -260,7 +283,8 @@ void Reader::read_coordinates(pugi::xml_node joint, std::vector<std::string>& na
 }
 
 void Reader::set_custom_axes(pugi::xml_node node, Joint& joint) {
-  const char* slots[6] = {"rotation1", "rotation2", "rotation3", "translation1", "translation2", "translation3"};
+  const char* slots[6] = {"rotation1",    "rotation2",    "rotation3",
+                          "translation1", "translation2", "translation3"};
   std::vector<int> order;
   for (std::size_t k = 0; k < 6; ++k) {
     TransformAxis& axis = k < 3 ? joint.rotation[k] : joint.translation[k - 3];
@@ -274,7 +298,8 @@ void Reader::set_custom_axes(pugi::xml_node node, Joint& joint) {
     const std::string coordinate = word(slot, "coordinates");
     if (!coordinate.empty()) {
       const auto index = model_.find_coordinate(coordinate);
-      if (!index) fail(slot, fmt::format("<coordinates>: the joint has no coordinate '{}'", coordinate));
+      if (!index)
+        fail(slot, fmt::format("<coordinates>: the joint has no coordinate '{}'", coordinate));
       axis.coordinate = *index;
       if (std::find(order.begin(), order.end(), *index) == order.end()) order.push_back(*index);
     }
@@ -324,7 +349,8 @@ void Reader::set_axes(pugi::xml_node node, Joint& joint, const std::vector<std::
   std::size_t used = 0;
   const auto drive = [&](TransformAxis& axis, Eigen::Index direction) {
     if (used >= joint.coordinates.size()) {
-      fail(node, fmt::format("joint '{}' ({}): {} coordinates are too few", joint.name, joint.class_name, names.size()));
+      fail(node, fmt::format("joint '{}' ({}): {} coordinates are too few", joint.name,
+                             joint.class_name, names.size()));
     }
     axis.axis = Vec3::Unit(direction);
     axis.coordinate = joint.coordinates[used++];
@@ -346,9 +372,10 @@ void Reader::set_axes(pugi::xml_node node, Joint& joint, const std::vector<std::
       for (std::size_t k = 0; k < 3; ++k) drive(joint.translation[k], static_cast<Eigen::Index>(k));
     }
     if (kind != "GimbalJoint") {
-      model_.notes.push_back(fmt::format("joint '{}' ({}): its speeds are the rates of its coordinates here; OpenSim's inverse "
-                                         "dynamics takes them as angular velocities and differs there",
-                                         joint.name, kind));
+      model_.notes.push_back(fmt::format(
+          "joint '{}' ({}): its speeds are the rates of its coordinates here; OpenSim's inverse "
+          "dynamics takes them as angular velocities and differs there",
+          joint.name, kind));
     }
   } else if (kind == "PlanarJoint") {
     drive(joint.rotation[0], 2);
@@ -356,7 +383,8 @@ void Reader::set_axes(pugi::xml_node node, Joint& joint, const std::vector<std::
     drive(joint.translation[0], 0);
     drive(joint.translation[1], 1);
   } else {
-    model_.unsupported.push_back(fmt::format("joint '{}' of kind {} is held at its default position", joint.name, kind));
+    model_.unsupported.push_back(
+        fmt::format("joint '{}' of kind {} is held at its default position", joint.name, kind));
   }
 }
 
@@ -364,12 +392,14 @@ void Reader::set_motion_types(Joint& joint) {
   for (const int index : joint.coordinates) {
     MotionType type = MotionType::coupled;
     for (const TransformAxis& axis : joint.translation) {
-      if (axis.coordinate == index && std::holds_alternative<Linear>(axis.function.form)) type = MotionType::translational;
+      if (axis.coordinate == index && std::holds_alternative<Linear>(axis.function.form))
+        type = MotionType::translational;
     }
     for (const TransformAxis& axis : joint.rotation) {
       if (axis.coordinate != index) continue;
       const auto* line = std::get_if<Linear>(&axis.function.form);
-      if (line != nullptr && std::abs(std::abs(line->slope * axis.function.scale) - 1.0) < 1e-12) type = MotionType::rotational;
+      if (line != nullptr && std::abs(std::abs(line->slope * axis.function.scale) - 1.0) < 1e-12)
+        type = MotionType::rotational;
     }
     model_.coordinates[static_cast<std::size_t>(index)].motion = type;
   }
@@ -406,7 +436,8 @@ void Reader::read_markers(pugi::xml_node model) {
     if (std::strcmp(node.name(), "Marker") != 0) continue;
     Marker marker;
     marker.name = node.attribute("name").value();
-    const FixedFrame frame = resolve(node, word(node, "socket_parent_frame"), "/markerset/" + marker.name);
+    const FixedFrame frame =
+        resolve(node, word(node, "socket_parent_frame"), "/markerset/" + marker.name);
     marker.body = frame.body;
     marker.p_BM = frame.X_BF * vec3(node, "location", Vec3::Zero());
     model_.markers.push_back(std::move(marker));
@@ -419,12 +450,14 @@ void Reader::read_wrap_objects(pugi::xml_node holder, const std::string& frame_p
     wrap.name = node.attribute("name").value();
     const FixedFrame frame = resolve(node, frame_path, "");
     wrap.body = frame.body;
-    wrap.X_BW = frame.X_BF * Pose{rotation_body_xyz(vec3(node, "xyz_body_rotation", Vec3::Zero())), vec3(node, "translation", Vec3::Zero())};
+    wrap.X_BW = frame.X_BF * Pose{rotation_body_xyz(vec3(node, "xyz_body_rotation", Vec3::Zero())),
+                                  vec3(node, "translation", Vec3::Zero())};
     wrap.active = flag(node, "active", true);
     const std::string quadrant = word(node, "quadrant");
     if (!quadrant.empty() && quadrant != "all" && !equal_ignoring_case(quadrant, "Unassigned")) {
       const int axis = quadrant.back() - 'x' + 1;
-      if (axis < 1 || axis > 3) fail(node, fmt::format("<quadrant>: expected all, x, -x, ..., found '{}'", quadrant));
+      if (axis < 1 || axis > 3)
+        fail(node, fmt::format("<quadrant>: expected all, x, -x, ..., found '{}'", quadrant));
       wrap.quadrant = quadrant.front() == '-' ? -axis : axis;
     }
     const std::string kind = node.name();
@@ -441,7 +474,8 @@ void Reader::read_wrap_objects(pugi::xml_node holder, const std::string& frame_p
 }
 
 int Reader::coordinate_of_socket(pugi::xml_node where, const std::string& text) const {
-  const std::string name = text.substr(text.find_last_of('/') == std::string::npos ? 0 : text.find_last_of('/') + 1);
+  const std::string name =
+      text.substr(text.find_last_of('/') == std::string::npos ? 0 : text.find_last_of('/') + 1);
   const auto index = model_.find_coordinate(name);
   if (!index) fail(where, fmt::format("there is no coordinate '{}'", text));
   return *index;
@@ -468,7 +502,8 @@ PathPoint Reader::read_point(pugi::xml_node node, const std::string& muscle) {
       if (!socket.empty()) moving.coordinate = coordinate_of_socket(node, socket);
     }
     if (frame.X_BF.p != Vec3::Zero() || frame.X_BF.R != Mat3::Identity()) {
-      fail(node, fmt::format("moving point '{}' sits on an offset frame; that is not supported", point.name));
+      fail(node, fmt::format("moving point '{}' sits on an offset frame; that is not supported",
+                             point.name));
     }
     point.moving = std::move(moving);
     return point;
@@ -486,7 +521,8 @@ PathPoint Reader::read_point(pugi::xml_node node, const std::string& muscle) {
     }
     point.condition = condition;
   } else if (kind != "PathPoint") {
-    model_.unsupported.push_back(fmt::format("muscle '{}': path point of kind {} taken as fixed", muscle, kind));
+    model_.unsupported.push_back(
+        fmt::format("muscle '{}': path point of kind {} taken as fixed", muscle, kind));
   }
   return point;
 }
@@ -509,14 +545,17 @@ Muscle Reader::read_muscle(pugi::xml_node node) {
   p.max_muscle_strain = number(node, "FmaxMuscleStrain", p.max_muscle_strain);
   p.concentric_shape = number(node, "Af", p.concentric_shape);
   p.eccentric_plateau = number(node, "Flen", p.eccentric_plateau);
-  p.force_velocity_extrapolation = number(node, "fv_linear_extrap_threshold", p.force_velocity_extrapolation);
+  p.force_velocity_extrapolation =
+      number(node, "fv_linear_extrap_threshold", p.force_velocity_extrapolation);
   p.max_pennation_rad = number(node, "maximum_pennation_angle", p.max_pennation_rad);
   p.activation_time_s = number(node, "activation_time_constant", thelen ? 0.015 : 0.01);
   p.deactivation_time_s = number(node, "deactivation_time_constant", thelen ? 0.05 : 0.04);
   p.min_control = number(node, "min_control", 0.01);
   p.max_control = number(node, "max_control", 1.0);
   if (!thelen) {
-    model_.notes.push_back(fmt::format("muscle '{}' is a {}; its force law is taken as Thelen's with the same numbers", muscle.name, muscle.class_name));
+    model_.notes.push_back(
+        fmt::format("muscle '{}' is a {}; its force law is taken as Thelen's with the same numbers",
+                    muscle.name, muscle.class_name));
   }
   pugi::xml_node geometry = node.child("GeometryPath");
   if (!geometry) {
@@ -526,7 +565,8 @@ Muscle Reader::read_muscle(pugi::xml_node node) {
     if (!geometry) geometry = node.child("path").child("GeometryPath");
   }
   if (!geometry) fail(node, fmt::format("muscle '{}' has no <GeometryPath>", muscle.name));
-  for (const auto point : objects(geometry.child("PathPointSet"))) muscle.path.points.push_back(read_point(point, muscle.name));
+  for (const auto point : objects(geometry.child("PathPointSet")))
+    muscle.path.points.push_back(read_point(point, muscle.name));
   for (const auto wrap_node : objects(geometry.child("PathWrapSet"))) {
     const std::string name = word(wrap_node, "wrap_object");
     PathWrap wrap;
@@ -534,12 +574,18 @@ Muscle Reader::read_muscle(pugi::xml_node node) {
       if (model_.wrap_objects[w].name == name) wrap.wrap_object = static_cast<int>(w);
     }
     if (wrap.wrap_object < 0) {
-      if (!unsupported_wraps_.contains(name)) fail(wrap_node, fmt::format("there is no wrap object '{}'", name));
-      model_.unsupported.push_back(fmt::format("muscle '{}' runs straight where it should wrap over '{}' (sphere and torus are not supported)", muscle.name, name));
+      if (!unsupported_wraps_.contains(name))
+        fail(wrap_node, fmt::format("there is no wrap object '{}'", name));
+      model_.unsupported.push_back(
+          fmt::format("muscle '{}' runs straight where it should wrap over '{}' (sphere and torus "
+                      "are not supported)",
+                      muscle.name, name));
       continue;
     }
     const std::string method = word(wrap_node, "method");
-    wrap.method = method == "midpoint" ? WrapMethod::midpoint : method == "axial" ? WrapMethod::axial : WrapMethod::hybrid;
+    wrap.method = method == "midpoint" ? WrapMethod::midpoint
+                  : method == "axial"  ? WrapMethod::axial
+                                       : WrapMethod::hybrid;
     if (const auto range = property(wrap_node, "range")) {
       const auto v = numbers(range);
       if (v.size() == 2) {
@@ -566,7 +612,9 @@ void Reader::read_forces(pugi::xml_node set) {
       actuator.max_control = number(node, "max_control", actuator.max_control);
       model_.actuators.push_back(std::move(actuator));
     } else if (flag(node, "appliesForce", true)) {
-      model_.unsupported.push_back(fmt::format("force '{}' of kind {} is not part of inverse dynamics here", node.attribute("name").value(), kind));
+      model_.unsupported.push_back(
+          fmt::format("force '{}' of kind {} is not part of inverse dynamics here",
+                      node.attribute("name").value(), kind));
     }
   }
 }
@@ -574,7 +622,8 @@ void Reader::read_forces(pugi::xml_node set) {
 void Reader::read_constraints(pugi::xml_node model) {
   for (const auto node : objects(model.child("ConstraintSet"))) {
     if (!flag(node, "isEnforced", true)) continue;
-    model_.unsupported.push_back(fmt::format("constraint '{}' of kind {} is not enforced", node.attribute("name").value(), node.name()));
+    model_.unsupported.push_back(fmt::format("constraint '{}' of kind {} is not enforced",
+                                             node.attribute("name").value(), node.name()));
   }
 }
 
@@ -582,17 +631,24 @@ BodyModel Reader::read() {
   pugi::xml_document document;
   const auto parsed = document.load_buffer(xml_.data(), xml_.size(), pugi::parse_default);
   if (!parsed) {
-    const auto end = xml_.begin() + std::clamp<std::ptrdiff_t>(parsed.offset, 0, static_cast<std::ptrdiff_t>(xml_.size()));
-    throw ReadError(path_, static_cast<std::size_t>(1 + std::count(xml_.begin(), end, '\n')),
-                    fmt::format("not valid XML: {}; the file may be cut off", parsed.description()));
+    const auto end = xml_.begin() + std::clamp<std::ptrdiff_t>(
+                                        parsed.offset, 0, static_cast<std::ptrdiff_t>(xml_.size()));
+    throw ReadError(
+        path_, static_cast<std::size_t>(1 + std::count(xml_.begin(), end, '\n')),
+        fmt::format("not valid XML: {}; the file may be cut off", parsed.description()));
   }
   const auto root = document.child("OpenSimDocument");
-  if (!root) throw ReadError(path_, 1, "expected <OpenSimDocument> as the root; this is not an OpenSim file");
+  if (!root)
+    throw ReadError(path_, 1,
+                    "expected <OpenSimDocument> as the root; this is not an OpenSim file");
   const int version = root.attribute("Version").as_int();
   const auto model = root.child("Model");
-  if (!model) fail(root, "the document has no <Model>; this is another kind of OpenSim file (a set-up?)");
+  if (!model)
+    fail(root, "the document has no <Model>; this is another kind of OpenSim file (a set-up?)");
   if (version < 30517) {
-    fail(root, fmt::format("document version {} is too old: open the model in OpenSim 4 and save it again", version));
+    fail(root, fmt::format(
+                   "document version {} is too old: open the model in OpenSim 4 and save it again",
+                   version));
   }
   model_.name = model.attribute("name").value();
   read_prototypes(model.child("defaults"));
@@ -611,7 +667,9 @@ BodyModel Reader::read() {
 
 }  // namespace
 
-BodyModel parse_osim(std::string_view xml, const std::filesystem::path& path) { return Reader(xml, path).read(); }
+BodyModel parse_osim(std::string_view xml, const std::filesystem::path& path) {
+  return Reader(xml, path).read();
+}
 
 BodyModel read_osim(const std::filesystem::path& path) {
   const std::string text = recording::read_text_file(path);

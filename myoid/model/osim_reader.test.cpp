@@ -6,6 +6,7 @@
 #include "myoid/model/arm4.h"
 #include "myoid/model/kinematic_tree.h"
 #include "myoid/recording/storage_reader.h"
+
 #include "tests/support/data_folder.h"
 
 namespace myoid::model {
@@ -29,20 +30,27 @@ TEST(ParseOsim, ReadsOurOwnArm) {
 }
 
 TEST(ParseOsim, RefusesWhatIsNoModelWithTheRemedy) {
-  EXPECT_NE(message_of("<OpenSimDocument Version=\"40000\"><Mod").find("not valid XML"), std::string::npos);
-  EXPECT_NE(message_of("<html></html>").find("not an OpenSim file"), std::string::npos);
-  EXPECT_NE(message_of("<OpenSimDocument Version=\"20303\"><Model/></OpenSimDocument>").find("save it again"), std::string::npos);
-  EXPECT_NE(message_of("<OpenSimDocument Version=\"40000\">\n<Model>\n<BodySet><objects>\n<Body name=\"b\"><mass>x</mass></Body></objects></BodySet></Model></OpenSimDocument>")
-                .find("m.osim:4: <mass>: expected numbers, found 'x'"),
+  EXPECT_NE(message_of("<OpenSimDocument Version=\"40000\"><Mod").find("not valid XML"),
             std::string::npos);
+  EXPECT_NE(message_of("<html></html>").find("not an OpenSim file"), std::string::npos);
+  EXPECT_NE(message_of("<OpenSimDocument Version=\"20303\"><Model/></OpenSimDocument>")
+                .find("save it again"),
+            std::string::npos);
+  EXPECT_NE(
+      message_of("<OpenSimDocument Version=\"40000\">\n<Model>\n<BodySet><objects>\n<Body "
+                 "name=\"b\"><mass>x</mass></Body></objects></BodySet></Model></OpenSimDocument>")
+          .find("m.osim:4: <mass>: expected numbers, found 'x'"),
+      std::string::npos);
 }
 
 /// Marker locations of OpenSim along a motion; the greatest distance to ours [m].
 double worst_marker_error(const std::string& folder, const std::string& motion) {
   const auto root = test::data_folder() / "opensim" / folder;
   const BodyModel m = read_osim(root / "model.osim");
-  const recording::Storage q_file = recording::read_storage(root / "opensim" / (motion + "_Kinematics_q.sto"));
-  const recording::Storage reference = recording::read_storage(root / "opensim" / (motion + "_OutputsVec3.sto"));
+  const recording::Storage q_file =
+      recording::read_storage(root / "opensim" / (motion + "_Kinematics_q.sto"));
+  const recording::Storage reference =
+      recording::read_storage(root / "opensim" / (motion + "_OutputsVec3.sto"));
   const TimeSeries q = recording::to_si(q_file, [&](const std::string& name) {
     const auto c = m.find_coordinate(name);
     return c && m.coordinates[static_cast<std::size_t>(*c)].motion == MotionType::rotational;
@@ -52,13 +60,15 @@ double worst_marker_error(const std::string& folder, const std::string& motion) 
   for (Eigen::Index row = 0; row < q.sample_count(); ++row) {
     Eigen::VectorXd posture = m.default_q();
     for (std::size_t c = 0; c < m.coordinates.size(); ++c) {
-      if (const auto column = q.find(m.coordinates[c].name)) posture[static_cast<Eigen::Index>(c)] = q.values()(row, *column);
+      if (const auto column = q.find(m.coordinates[c].name))
+        posture[static_cast<Eigen::Index>(c)] = q.values()(row, *column);
     }
     compute_poses(m, posture, state);
     for (const Marker& marker : m.markers) {
       const Vec3 p = state.X_GB[static_cast<std::size_t>(marker.body)] * marker.p_BM;
       for (int k = 0; k < 3; ++k) {
-        const auto column = reference.data.find("/markerset/" + marker.name + "|location_" + std::to_string(k + 1));
+        const auto column =
+            reference.data.find("/markerset/" + marker.name + "|location_" + std::to_string(k + 1));
         if (column) worst = std::max(worst, std::abs(reference.data.values()(row, *column) - p[k]));
       }
     }

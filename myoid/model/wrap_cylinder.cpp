@@ -11,7 +11,7 @@ namespace {
 /// The way around in one sense of rotation about z (+1 or -1), in the plane.
 struct WayRound {
   double first_angle = 0.0;
-  double turned = 0.0;   ///< 0 .. 2 pi
+  double turned = 0.0;  ///< 0 .. 2 pi
   double tangent1 = 0.0, tangent2 = 0.0;
 
   [[nodiscard]] double length(double radius) const { return tangent1 + radius * turned + tangent2; }
@@ -33,7 +33,10 @@ WayRound way_round(double radius, const Vec3& p, const Vec3& q, int sense) {
 
 }  // namespace
 
-std::optional<WrapContact> wrap_cylinder(const CylinderShape& cylinder, Quadrant quadrant, const Vec3& p_W, const Vec3& q_W) {
+std::optional<WrapContact> wrap_cylinder(const CylinderShape& cylinder,
+                                         Quadrant quadrant,
+                                         const Vec3& p_W,
+                                         const Vec3& q_W) {
   const double radius = cylinder.radius_m;
   const double d1 = std::hypot(p_W.x(), p_W.y());
   const double d2 = std::hypot(q_W.x(), q_W.y());
@@ -41,24 +44,28 @@ std::optional<WrapContact> wrap_cylinder(const CylinderShape& cylinder, Quadrant
 
   // Point of the chord that is nearest to the axis.
   const Eigen::Vector2d chord = (q_W - p_W).head<2>();
-  const double along = chord.squaredNorm() > 0.0 ? -p_W.head<2>().dot(chord) / chord.squaredNorm() : 0.0;
+  const double along =
+      chord.squaredNorm() > 0.0 ? -p_W.head<2>().dot(chord) / chord.squaredNorm() : 0.0;
   const Eigen::Vector2d nearest = p_W.head<2>() + along * chord;
   const bool cuts = along > 0.0 && along < 1.0 && nearest.norm() < radius;
 
   int sense = 1;
   if (quadrant == 0 || std::abs(quadrant) > 2) {
     if (!cuts) return std::nullopt;
-    sense = way_round(radius, p_W, q_W, 1).turned <= way_round(radius, p_W, q_W, -1).turned ? 1 : -1;
+    sense =
+        way_round(radius, p_W, q_W, 1).turned <= way_round(radius, p_W, q_W, -1).turned ? 1 : -1;
   } else {
     const Eigen::Index axis = std::abs(quadrant) - 1;
     const double side = quadrant > 0 ? 1.0 : -1.0;
     const bool first_active = side * p_W[axis] > 0.0;
     const bool second_active = side * q_W[axis] > 0.0;
     if (first_active || second_active) {
-      const bool wrong_side = first_active != second_active && along > 0.0 && along < 1.0 && side * nearest[axis] < 0.0;
+      const bool wrong_side =
+          first_active != second_active && along > 0.0 && along < 1.0 && side * nearest[axis] < 0.0;
       if (!cuts && !wrong_side) return std::nullopt;
     }
-    // A turn of nearly a whole circle belongs to a way on which the straight line lies free of the cylinder.
+    // A turn of nearly a whole circle belongs to a way on which the straight line lies free of the
+    // cylinder.
     const auto activity = [&](int s) {
       const WayRound way = way_round(radius, p_W, q_W, s);
       const double angle = way.middle_angle(s);
@@ -72,10 +79,13 @@ std::optional<WrapContact> wrap_cylinder(const CylinderShape& cylinder, Quadrant
   const double rise = (q_W.z() - p_W.z()) / planar;
   const double last_angle = way.first_angle + sense * way.turned;
   WrapContact contact;
-  contact.first_W = {radius * std::cos(way.first_angle), radius * std::sin(way.first_angle), p_W.z() + rise * way.tangent1};
-  contact.second_W = {radius * std::cos(last_angle), radius * std::sin(last_angle), q_W.z() - rise * way.tangent2};
+  contact.first_W = {radius * std::cos(way.first_angle), radius * std::sin(way.first_angle),
+                     p_W.z() + rise * way.tangent1};
+  contact.second_W = {radius * std::cos(last_angle), radius * std::sin(last_angle),
+                      q_W.z() - rise * way.tangent2};
   const double half = 0.5 * cylinder.length_m;
-  if (std::abs(contact.first_W.z()) > half && std::abs(contact.second_W.z()) > half) return std::nullopt;
+  if (std::abs(contact.first_W.z()) > half && std::abs(contact.second_W.z()) > half)
+    return std::nullopt;
   contact.arc_length_m = radius * way.turned * std::hypot(1.0, rise);
   return contact;
 }

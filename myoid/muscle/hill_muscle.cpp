@@ -2,7 +2,9 @@
 
 namespace myoid::muscle {
 
-HillForce hill_force_derivatives(double activation, double fiber_length_m, double fiber_velocity_mps,
+HillForce hill_force_derivatives(double activation,
+                                 double fiber_length_m,
+                                 double fiber_velocity_mps,
                                  const HillParameters<double>& p) {
   HillForce result;
   const double v = fiber_velocity_mps;

@@ -23,7 +23,8 @@ TEST(ForceLength, IsOneAtTheOptimumAndHalfAtHalfTheFullWidth) {
 }
 
 TEST(ForceLength, DoesNotDependOnTheUnitOfLength) {
-  EXPECT_EQ(force_length(0.13 * 1024.0, 0.12 * 1024.0, 0.05 * 1024.0), force_length(0.13, 0.12, 0.05));
+  EXPECT_EQ(force_length(0.13 * 1024.0, 0.12 * 1024.0, 0.05 * 1024.0),
+            force_length(0.13, 0.12, 0.05));
 }
 
 TEST(ForceVelocity, IsZeroAtMaximalShorteningAndOneAtRest) {
@@ -34,7 +35,8 @@ TEST(ForceVelocity, IsZeroAtMaximalShorteningAndOneAtRest) {
 
 TEST(ForceVelocity, HasTheValuesWorkedOutByHand) {
   // V_sh = 0.3: f_v(-0.1 vm) = 0.3*0.9/0.4, f_v(-0.3 vm) = 0.3*0.7/0.6;
-  // P = 0.12, V_ml = 1.3: f_v(0.05 vm) = 0.185/0.17, f_v(0.1 vm) = 0.25/0.22, f_v(0.2 vm) = 0.38/0.32.
+  // P = 0.12, V_ml = 1.3: f_v(0.05 vm) = 0.185/0.17, f_v(0.1 vm) = 0.25/0.22, f_v(0.2 vm) =
+  // 0.38/0.32.
   const auto shape = kTriceps.velocity_shape();
   const double vm = shape.max_shortening_speed_mps;
   EXPECT_NEAR(force_velocity(-0.1 * vm, shape), 0.675, 1e-14);
@@ -107,7 +109,9 @@ TEST(HillMuscle, DerivativesByTheStateAgreeWithCentralDifferences) {
   for (const double v : {-0.7, -0.05, 0.05, 2.0}) {
     const double l = 0.14;
     const HillForce d = hill_force_derivatives(0.4, l, v, kTriceps);
-    const auto force = [](double a, double length, double speed) { return hill_force(a, length, speed, kTriceps); };
+    const auto force = [](double a, double length, double speed) {
+      return hill_force(a, length, speed, kTriceps);
+    };
     // Truncation h^2 f'''/6 with f''' up to F_max / l_sh^3: some 1e-3 N/m.
     EXPECT_NEAR(d.by_fiber_length, (force(0.4, l + h, v) - force(0.4, l - h, v)) / (2 * h), 1e-2);
     EXPECT_NEAR(d.by_fiber_velocity, (force(0.4, l, v + h) - force(0.4, l, v - h)) / (2 * h), 1e-2);

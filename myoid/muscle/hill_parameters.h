@@ -8,7 +8,8 @@
 
 namespace myoid::muscle {
 
-/// The numbers of one muscle: what the source paper identifies, and what it takes from the literature.
+/// The numbers of one muscle: what the source paper identifies, and what it takes from the
+/// literature.
 template <typename T = double>
 struct HillParameters {
   T max_isometric_force_n{};        ///< F_max [N]
@@ -18,10 +19,12 @@ struct HillParameters {
   T eccentric_curvature_product{};  ///< P = V_sh V_shl [-]
   T eccentric_plateau{};            ///< V_ml [-]
   T max_shortening_speed_mps{};     ///< v_max [m/s]
-  T tendon_slack_length_m{};        ///< l_t0 [m]: fiber length = musculotendon length - l_t0 when the tendon is rigid.
+  T tendon_slack_length_m{};  ///< l_t0 [m]: fiber length = musculotendon length - l_t0 when the
+                              ///< tendon is rigid.
 
   [[nodiscard]] ForceVelocityShape<T> velocity_shape() const {
-    return {max_shortening_speed_mps, concentric_curvature, eccentric_curvature_product, eccentric_plateau};
+    return {max_shortening_speed_mps, concentric_curvature, eccentric_curvature_product,
+            eccentric_plateau};
   }
 };
 
@@ -30,7 +33,8 @@ struct Range {
   double upper = 0.0;
 };
 
-/// One row per field: the only place where a name, a symbol, a unit and the physical bounds are written.
+/// One row per field: the only place where a name, a symbol, a unit and the physical bounds are
+/// written.
 struct HillField {
   std::string_view name;
   std::string_view symbol;
@@ -40,21 +44,54 @@ struct HillField {
 };
 
 inline constexpr std::array kHillFields = {
-    HillField{"max_isometric_force", "F_max", Unit::newton, &HillParameters<double>::max_isometric_force_n, {5.0, 20000.0}},
-    HillField{"optimal_fiber_length", "l_m0", Unit::meter, &HillParameters<double>::optimal_fiber_length_m, {0.01, 0.60}},
-    HillField{"force_length_width", "l_msh", Unit::meter, &HillParameters<double>::force_length_width_m, {0.005, 0.60}},
-    HillField{"concentric_curvature", "V_sh", Unit::dimensionless, &HillParameters<double>::concentric_curvature, {0.05, 1.0}},
-    HillField{"eccentric_curvature_product", "V_sh V_shl", Unit::dimensionless, &HillParameters<double>::eccentric_curvature_product, {0.005, 1.0}},
-    HillField{"eccentric_plateau", "V_ml", Unit::dimensionless, &HillParameters<double>::eccentric_plateau, {1.0, 2.0}},
-    HillField{"max_shortening_speed", "v_max", Unit::meter_per_second, &HillParameters<double>::max_shortening_speed_mps, {0.05, 10.0}},
-    HillField{"tendon_slack_length", "l_t0", Unit::meter, &HillParameters<double>::tendon_slack_length_m, {0.0, 1.0}},
+    HillField{"max_isometric_force",
+              "F_max",
+              Unit::newton,
+              &HillParameters<double>::max_isometric_force_n,
+              {5.0, 20000.0}},
+    HillField{"optimal_fiber_length",
+              "l_m0",
+              Unit::meter,
+              &HillParameters<double>::optimal_fiber_length_m,
+              {0.01, 0.60}},
+    HillField{"force_length_width",
+              "l_msh",
+              Unit::meter,
+              &HillParameters<double>::force_length_width_m,
+              {0.005, 0.60}},
+    HillField{"concentric_curvature",
+              "V_sh",
+              Unit::dimensionless,
+              &HillParameters<double>::concentric_curvature,
+              {0.05, 1.0}},
+    HillField{"eccentric_curvature_product",
+              "V_sh V_shl",
+              Unit::dimensionless,
+              &HillParameters<double>::eccentric_curvature_product,
+              {0.005, 1.0}},
+    HillField{"eccentric_plateau",
+              "V_ml",
+              Unit::dimensionless,
+              &HillParameters<double>::eccentric_plateau,
+              {1.0, 2.0}},
+    HillField{"max_shortening_speed",
+              "v_max",
+              Unit::meter_per_second,
+              &HillParameters<double>::max_shortening_speed_mps,
+              {0.05, 10.0}},
+    HillField{"tendon_slack_length",
+              "l_t0",
+              Unit::meter,
+              &HillParameters<double>::tendon_slack_length_m,
+              {0.0, 1.0}},
 };
 
 /// The row of this name; throws InvalidInput listing the names there are.
 [[nodiscard]] const HillField& hill_field(std::string_view name);
 
-/// Throws InvalidInput, naming the field and its value, unless all are positive and finite (tendon_slack_length may be 0).
-/// Values outside the physical bounds are allowed: they are a verdict, not an error.
+/// Throws InvalidInput, naming the field and its value, unless all are positive and finite
+/// (tendon_slack_length may be 0). Values outside the physical bounds are allowed: they are a
+/// verdict, not an error.
 void validate(const HillParameters<double>& parameters);
 
 }  // namespace myoid::muscle

@@ -5,7 +5,8 @@
 
 namespace myoid::muscle {
 
-RigidTendonFiber rigid_tendon_fiber(const ThelenParameters& p, double musculotendon_length_m,
+RigidTendonFiber rigid_tendon_fiber(const ThelenParameters& p,
+                                    double musculotendon_length_m,
                                     double musculotendon_velocity_mps) {
   const double height = p.optimal_fiber_length_m * std::sin(p.pennation_at_optimal_rad);
   const double shortest = height > 0.0 ? height / std::sin(p.max_pennation_rad) : 0.0;
@@ -18,14 +19,17 @@ RigidTendonFiber rigid_tendon_fiber(const ThelenParameters& p, double musculoten
   }
   fiber.at_minimum = fiber.fiber_length_m <= shortest;
   if (height > 0.0 && fiber.fiber_length_m > 0.0) {
-    const double pennation = std::min(std::asin(std::min(1.0, height / fiber.fiber_length_m)), p.max_pennation_rad);
+    const double pennation =
+        std::min(std::asin(std::min(1.0, height / fiber.fiber_length_m)), p.max_pennation_rad);
     fiber.cos_pennation = std::cos(pennation);
   }
   fiber.fiber_velocity_mps = musculotendon_velocity_mps * fiber.cos_pennation;
   return fiber;
 }
 
-double thelen_force_velocity(const ThelenParameters& p, double activation, double normalized_velocity) {
+double thelen_force_velocity(const ThelenParameters& p,
+                             double activation,
+                             double normalized_velocity) {
   const double slowed = 0.25 + 0.75 * activation;
   const double af = p.concentric_shape;
   const double flen = p.eccentric_plateau;
@@ -35,7 +39,8 @@ double thelen_force_velocity(const ThelenParameters& p, double activation, doubl
     if (v < -1.0) return 0.0;  // the line goes on below zero; a muscle does not push
     return (1.0 + v) / (1.0 - v / af);
   }
-  // Eccentric: v = (f - 1)(Flen - 1)/((2 + 2/Af)(Flen - f)), linear beyond f* = extrapolation * Flen.
+  // Eccentric: v = (f - 1)(Flen - 1)/((2 + 2/Af)(Flen - f)), linear beyond f* = extrapolation *
+  // Flen.
   const double k = (2.0 + 2.0 / af) / (flen - 1.0);
   const double limit = p.extrapolation * flen;
   const double v_limit = (limit - 1.0) / (k * (flen - limit));
@@ -44,13 +49,16 @@ double thelen_force_velocity(const ThelenParameters& p, double activation, doubl
   return limit + (v - v_limit) / slope;
 }
 
-double thelen_optimal_force(const ThelenParameters& p, double musculotendon_length_m,
+double thelen_optimal_force(const ThelenParameters& p,
+                            double musculotendon_length_m,
                             double musculotendon_velocity_mps) {
-  const RigidTendonFiber fiber = rigid_tendon_fiber(p, musculotendon_length_m, musculotendon_velocity_mps);
+  const RigidTendonFiber fiber =
+      rigid_tendon_fiber(p, musculotendon_length_m, musculotendon_velocity_mps);
   if (fiber.at_minimum) return 0.0;
   const double stretch = fiber.fiber_length_m / p.optimal_fiber_length_m - 1.0;
   const double fl = std::exp(-stretch * stretch / p.active_shape);
-  const double v = fiber.fiber_velocity_mps / (p.optimal_fiber_length_m * p.max_contraction_velocity);
+  const double v =
+      fiber.fiber_velocity_mps / (p.optimal_fiber_length_m * p.max_contraction_velocity);
   return p.max_isometric_force_n * fl * thelen_force_velocity(p, 1.0, v) * fiber.cos_pennation;
 }
 

@@ -1,8 +1,8 @@
 #include "myoid/muscle/thelen.h"
 
-#include <gtest/gtest.h>
-
 #include <cmath>
+
+#include <gtest/gtest.h>
 
 namespace myoid::muscle {
 namespace {
@@ -32,9 +32,11 @@ TEST(ThelenForceVelocity, IsContinuousWhereTheLineBegins) {
 }
 
 TEST(RigidTendonFiber, KeepsItsWidth) {
-  const ThelenParameters p{.optimal_fiber_length_m = 0.1, .tendon_slack_length_m = 0.2, .pennation_at_optimal_rad = 0.3};
+  const ThelenParameters p{
+      .optimal_fiber_length_m = 0.1, .tendon_slack_length_m = 0.2, .pennation_at_optimal_rad = 0.3};
   const RigidTendonFiber fiber = rigid_tendon_fiber(p, 0.31, 0.4);
-  EXPECT_NEAR(fiber.fiber_length_m * std::sqrt(1.0 - fiber.cos_pennation * fiber.cos_pennation), 0.1 * std::sin(0.3), 1e-15);
+  EXPECT_NEAR(fiber.fiber_length_m * std::sqrt(1.0 - fiber.cos_pennation * fiber.cos_pennation),
+              0.1 * std::sin(0.3), 1e-15);
   EXPECT_NEAR(fiber.fiber_length_m * fiber.cos_pennation, 0.11, 1e-15);
   EXPECT_NEAR(fiber.fiber_velocity_mps, 0.4 * fiber.cos_pennation, 1e-15);
 }

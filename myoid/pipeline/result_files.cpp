@@ -1,8 +1,8 @@
 #include "myoid/pipeline/result_files.h"
 
-#include <fmt/format.h>
-
 #include <cmath>
+
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "myoid/pipeline/study_model.h"
@@ -37,13 +37,16 @@ ordered_json provenance_json(const Provenance& provenance) {
   json["version"] = provenance.version;
   json["command"] = provenance.command;
   json["inputs"] = ordered_json::array();
-  for (const InputFile& file : provenance.inputs) json["inputs"].push_back({{"path", file.path}, {"sha256", file.sha256}});
-  json["options"] = provenance.options_json.empty() ? ordered_json::object() : ordered_json::parse(provenance.options_json);
+  for (const InputFile& file : provenance.inputs)
+    json["inputs"].push_back({{"path", file.path}, {"sha256", file.sha256}});
+  json["options"] = provenance.options_json.empty() ? ordered_json::object()
+                                                    : ordered_json::parse(provenance.options_json);
   return json;
 }
 
-/// Marker errors may hold gaps, which other tools do not read: a missing marker is written as a distance of 0 would lie, so its column is left to
-/// the frames that have it; frames without any marker are left out.
+/// Marker errors may hold gaps, which other tools do not read: a missing marker is written as a
+/// distance of 0 would lie, so its column is left to the frames that have it; frames without any
+/// marker are left out.
 TimeSeries without_gaps(const TimeSeries& series) {
   std::vector<Eigen::Index> rows;
   for (Eigen::Index r = 0; r < series.sample_count(); ++r) {
@@ -58,17 +61,23 @@ TimeSeries without_gaps(const TimeSeries& series) {
   Eigen::VectorXd time(static_cast<Eigen::Index>(rows.size()));
   Eigen::MatrixXd values(time.size(), static_cast<Eigen::Index>(columns.size()));
   std::vector<Channel> channels;
-  for (const Eigen::Index c : columns) channels.push_back(series.channels()[static_cast<std::size_t>(c)]);
+  for (const Eigen::Index c : columns)
+    channels.push_back(series.channels()[static_cast<std::size_t>(c)]);
   for (std::size_t i = 0; i < rows.size(); ++i) {
     time[static_cast<Eigen::Index>(i)] = series.time_s()[rows[i]];
-    for (std::size_t k = 0; k < columns.size(); ++k) values(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k)) = series.values()(rows[i], columns[k]);
+    for (std::size_t k = 0; k < columns.size(); ++k)
+      values(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k)) =
+          series.values()(rows[i], columns[k]);
   }
   return {std::move(time), std::move(channels), std::move(values)};
 }
 
 /// reference, literature and identified force of every muscle, on the clock of the motion.
-TimeSeries identified_forces(const StudyResult& result, const identification::TrialData& data, const IdentificationResult& method) {
-  const auto fit = std::find_if(method.trials.begin(), method.trials.end(), [&](const auto& t) { return t.trial == data.name; });
+TimeSeries identified_forces(const StudyResult& result,
+                             const identification::TrialData& data,
+                             const IdentificationResult& method) {
+  const auto fit = std::find_if(method.trials.begin(), method.trials.end(),
+                                [&](const auto& t) { return t.trial == data.name; });
   std::vector<Channel> channels;
   const auto muscles = static_cast<Eigen::Index>(result.data.muscles.size());
   Eigen::MatrixXd values(data.time_s.size(), 3 * muscles);
@@ -89,15 +98,19 @@ void write_identified_model(const StudyResult& result, const std::filesystem::pa
     if (method.method != "torque") continue;
     std::vector<IdentifiedMuscle> muscles;
     for (std::size_t m = 0; m < result.data.muscles.size(); ++m) {
-      IdentifiedMuscle muscle{result.data.muscles[m].name, result.data.muscles[m].start, method.muscles[m], {}};
+      IdentifiedMuscle muscle{
+          result.data.muscles[m].name, result.data.muscles[m].start, method.muscles[m], {}};
       for (const ParameterEstimate& e : method.estimates) {
-        const bool sure = e.verdict == identification::Verdict::identified || e.verdict == identification::Verdict::weak;
+        const bool sure = e.verdict == identification::Verdict::identified ||
+                          e.verdict == identification::Verdict::weak;
         if (e.muscle == muscle.group && sure) muscle.changed.push_back(e.parameter);
       }
       muscles.push_back(std::move(muscle));
     }
-    const std::string stem = result.study.model.file ? result.study.model.file->stem().string() : "arm4";
-    recording::write_file(folder / (stem + "_identified.osim"), identified_model(result.study, result.model_text, muscles));
+    const std::string stem =
+        result.study.model.file ? result.study.model.file->stem().string() : "arm4";
+    recording::write_file(folder / (stem + "_identified.osim"),
+                          identified_model(result.study, result.model_text, muscles));
   }
 }
 
@@ -105,19 +118,24 @@ void write_identified_model(const StudyResult& result, const std::filesystem::pa
 
 std::string parameters_csv(const std::vector<IdentificationResult>& methods) {
   std::string text =
-      "muscle,parameter,unit,method,case,initial,estimate,std_error,ci_low,ci_high,prior_mean,prior_sd,shrinkage,at_bound,verdict,reason\n";
+      "muscle,parameter,unit,method,case,initial,estimate,std_error,ci_low,ci_high,prior_mean,"
+      "prior_sd,shrinkage,at_bound,verdict,reason\n";
   for (const IdentificationResult& method : methods) {
     for (const ParameterEstimate& e : method.estimates) {
-      text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", e.muscle, e.parameter, symbol(e.unit), e.method, e.fit_case,
-                          number_or_empty(e.initial), number_or_empty(e.estimate), number_or_empty(e.std_error), number_or_empty(e.ci_low),
-                          number_or_empty(e.ci_high), number_or_empty(e.prior_mean), number_or_empty(e.prior_sd), number_or_empty(e.shrinkage),
-                          e.at_bound ? "true" : "false", identification::name(e.verdict), quoted(e.reason));
+      text += fmt::format(
+          "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", e.muscle, e.parameter,
+          symbol(e.unit), e.method, e.fit_case, number_or_empty(e.initial),
+          number_or_empty(e.estimate), number_or_empty(e.std_error), number_or_empty(e.ci_low),
+          number_or_empty(e.ci_high), number_or_empty(e.prior_mean), number_or_empty(e.prior_sd),
+          number_or_empty(e.shrinkage), e.at_bound ? "true" : "false",
+          identification::name(e.verdict), quoted(e.reason));
     }
   }
   return text;
 }
 
-std::string parameters_json(const std::vector<IdentificationResult>& methods, const std::vector<identification::Fold>& folds,
+std::string parameters_json(const std::vector<IdentificationResult>& methods,
+                            const std::vector<identification::Fold>& folds,
                             const Provenance& provenance) {
   ordered_json json;
   json["provenance"] = provenance_json(provenance);
@@ -155,92 +173,127 @@ std::string parameters_json(const std::vector<IdentificationResult>& methods, co
                                 {"verdict", std::string(identification::name(e.verdict))},
                                 {"reason", e.reason}});
     }
-    m["covariance"] = {{"parameters", method.free_parameters}, {"scale", "natural logarithm of F_max, V_sh, P and gains; SI otherwise"}};
+    m["covariance"] = {{"parameters", method.free_parameters},
+                       {"scale", "natural logarithm of F_max, V_sh, P and gains; SI otherwise"}};
     ordered_json rows = ordered_json::array();
     for (Eigen::Index r = 0; r < method.covariance.rows(); ++r) {
       ordered_json row = ordered_json::array();
-      for (Eigen::Index c = 0; c < method.covariance.cols(); ++c) row.push_back(number_or_null(method.covariance(r, c)));
+      for (Eigen::Index c = 0; c < method.covariance.cols(); ++c)
+        row.push_back(number_or_null(method.covariance(r, c)));
       rows.push_back(row);
     }
     m["covariance"]["matrix"] = rows;
     m["trials"] = ordered_json::array();
     for (const identification::TrialFit& t : method.trials) {
-      m["trials"].push_back({{"trial", t.trial}, {"calibration", t.calibration}, {"rmse_nm", number_or_null(t.rmse_nm)}, {"r2", number_or_null(t.r2)}});
+      m["trials"].push_back({{"trial", t.trial},
+                             {"calibration", t.calibration},
+                             {"rmse_nm", number_or_null(t.rmse_nm)},
+                             {"r2", number_or_null(t.r2)}});
     }
     json["methods"].push_back(m);
   }
   const auto score_json = [](const identification::Score& s) {
-    return ordered_json{{"rmse_nm", number_or_null(s.rmse_nm)}, {"nrmse_range", number_or_null(s.nrmse_range)}, {"r2", number_or_null(s.r2)}, {"vaf", number_or_null(s.vaf)}};
+    return ordered_json{{"rmse_nm", number_or_null(s.rmse_nm)},
+                        {"nrmse_range", number_or_null(s.nrmse_range)},
+                        {"r2", number_or_null(s.r2)},
+                        {"vaf", number_or_null(s.vaf)}};
   };
   json["leave_one_trial_out"] = ordered_json::array();
   for (const identification::Fold& f : folds) {
-    json["leave_one_trial_out"].push_back({{"trial", f.trial}, {"identified", score_json(f.identified)}, {"literature_with_gain", score_json(f.literature)},
-                                           {"gain", number_or_null(f.gain)}, {"constant", score_json(f.constant)}});
+    json["leave_one_trial_out"].push_back({{"trial", f.trial},
+                                           {"identified", score_json(f.identified)},
+                                           {"literature_with_gain", score_json(f.literature)},
+                                           {"gain", number_or_null(f.gain)},
+                                           {"constant", score_json(f.constant)}});
   }
   return json.dump(2) + "\n";
 }
 
-void write_motion(const model::BodyModel& model, const TimeSeries& q, const std::filesystem::path& path, const std::vector<std::string>& comments) {
+void write_motion(const model::BodyModel& model,
+                  const TimeSeries& q,
+                  const std::filesystem::path& path,
+                  const std::vector<std::string>& comments) {
   // Only rotational coordinates are written in degrees; a coupled one stays as it is.
   std::vector<Channel> channels = q.channels();
   for (Channel& channel : channels) {
     const auto c = model.find_coordinate(channel.name);
-    if (c && model.coordinates[static_cast<std::size_t>(*c)].motion != model::MotionType::rotational) channel.unit = Unit::meter;
+    if (c &&
+        model.coordinates[static_cast<std::size_t>(*c)].motion != model::MotionType::rotational)
+      channel.unit = Unit::meter;
   }
-  recording::write_storage(path, {q.time_s(), std::move(channels), q.values()}, {.title = "Coordinates", .angles_in_degrees = true, .comments = comments});
+  recording::write_storage(
+      path, {q.time_s(), std::move(channels), q.values()},
+      {.title = "Coordinates", .angles_in_degrees = true, .comments = comments});
 }
 
 void write_marker_errors(const kinematics::IkResult& ik, const std::filesystem::path& path) {
   recording::write_storage(path, without_gaps(ik.errors), {.title = "Model Marker Errors from IK"});
 }
 
-void write_muscle_kinematics(const kinematics::MuscleKinematics& muscles, const std::filesystem::path& folder) {
-  recording::write_storage(folder / "MuscleAnalysis_Length.sto", muscles.length, {.title = "Length"});
-  recording::write_storage(folder / "MuscleAnalysis_MuscleTendonVelocity.sto", muscles.velocity, {.title = "MuscleTendonVelocity"});
+void write_muscle_kinematics(const kinematics::MuscleKinematics& muscles,
+                             const std::filesystem::path& folder) {
+  recording::write_storage(folder / "MuscleAnalysis_Length.sto", muscles.length,
+                           {.title = "Length"});
+  recording::write_storage(folder / "MuscleAnalysis_MuscleTendonVelocity.sto", muscles.velocity,
+                           {.title = "MuscleTendonVelocity"});
   for (const auto& [coordinate, arms] : muscles.moment_arm) {
-    recording::write_storage(folder / ("MuscleAnalysis_MomentArm_" + coordinate + ".sto"), arms, {.title = "MomentArm_" + coordinate});
+    recording::write_storage(folder / ("MuscleAnalysis_MomentArm_" + coordinate + ".sto"), arms,
+                             {.title = "MomentArm_" + coordinate});
   }
 }
 
 void write_shared_forces(const forces::MuscleForces& shared, const std::filesystem::path& folder) {
   const auto with_reserves = [&](const TimeSeries& muscles) {
     std::vector<Channel> channels = muscles.channels();
-    Eigen::MatrixXd values(muscles.sample_count(), muscles.channel_count() + shared.reserve.channel_count());
+    Eigen::MatrixXd values(muscles.sample_count(),
+                           muscles.channel_count() + shared.reserve.channel_count());
     values << muscles.values(), shared.reserve.values();
     for (const Channel& channel : shared.reserve.channels()) channels.push_back(channel);
     return TimeSeries(muscles.time_s(), std::move(channels), std::move(values));
   };
-  recording::write_storage(folder / "StaticOptimization_force.sto", with_reserves(shared.force), {.title = "Static Optimization"});
-  recording::write_storage(folder / "StaticOptimization_activation.sto", shared.activation, {.title = "Static Optimization"});
+  recording::write_storage(folder / "StaticOptimization_force.sto", with_reserves(shared.force),
+                           {.title = "Static Optimization"});
+  recording::write_storage(folder / "StaticOptimization_activation.sto", shared.activation,
+                           {.title = "Static Optimization"});
   std::string status = "time_s,status,kkt_residual\n";
   for (std::size_t i = 0; i < shared.status.size(); ++i) {
     const auto row = static_cast<Eigen::Index>(i);
-    status += fmt::format("{},{},{}\n", recording::format_number(shared.force.time_s()[row]), forces::name(shared.status[i]),
+    status += fmt::format("{},{},{}\n", recording::format_number(shared.force.time_s()[row]),
+                          forces::name(shared.status[i]),
                           recording::format_number(shared.kkt_residual[row]));
   }
   recording::write_file(folder / "StaticOptimization_status.csv", status);
 }
 
-void write_results(const StudyResult& result, const Provenance& provenance, const std::filesystem::path& folder) {
+void write_results(const StudyResult& result,
+                   const Provenance& provenance,
+                   const std::filesystem::path& folder) {
   const std::vector<std::string> comments{fmt::format("Made by myoid {}.", provenance.version)};
   for (const TrialResult& trial : result.trials) {
     const std::filesystem::path place = folder / trial.spec.name;
-    if (!trial.activation.empty()) recording::write_storage(place / "activation.sto", trial.activation, {.title = "Activation", .comments = comments});
+    if (!trial.activation.empty())
+      recording::write_storage(place / "activation.sto", trial.activation,
+                               {.title = "Activation", .comments = comments});
     if (!trial.has_motion()) continue;
     write_motion(trial.model, trial.motion.q, place / "ik.mot", comments);
     if (trial.ik) write_marker_errors(*trial.ik, place / "ik_marker_errors.sto");
-    recording::write_storage(place / "id.sto", trial.generalized_forces, {.title = "Inverse Dynamics Generalized Forces", .comments = comments});
+    recording::write_storage(
+        place / "id.sto", trial.generalized_forces,
+        {.title = "Inverse Dynamics Generalized Forces", .comments = comments});
     write_muscle_kinematics(trial.muscles, place);
     write_shared_forces(trial.shared, place);
   }
   for (const IdentificationResult& method : result.methods) {
     if (method.method != "torque" && result.methods.size() > 1) continue;
     for (const identification::TrialData& data : result.data.trials) {
-      recording::write_storage(folder / data.name / "identified_forces.sto", identified_forces(result, data, method), {.title = "Forces", .comments = comments});
+      recording::write_storage(folder / data.name / "identified_forces.sto",
+                               identified_forces(result, data, method),
+                               {.title = "Forces", .comments = comments});
     }
   }
   write_identified_model(result, folder);
-  recording::write_file(folder / "parameters.json", parameters_json(result.methods, result.folds, provenance));
+  recording::write_file(folder / "parameters.json",
+                        parameters_json(result.methods, result.folds, provenance));
   recording::write_file(folder / "parameters.csv", parameters_csv(result.methods));
   ordered_json run = provenance_json(provenance);
   run["study"] = std::filesystem::absolute(result.study.file).string();
@@ -248,7 +301,10 @@ void write_results(const StudyResult& result, const Provenance& provenance, cons
   for (const StageTime& stage : result.times) run["seconds"][stage.stage] = stage.seconds;
   run["trials"] = ordered_json::array();
   for (const TrialResult& trial : result.trials) {
-    run["trials"].push_back({{"name", trial.spec.name}, {"use", std::string(name(trial.spec.use))}, {"failure", trial.failure}, {"notes", trial.notes}});
+    run["trials"].push_back({{"name", trial.spec.name},
+                             {"use", std::string(name(trial.spec.use))},
+                             {"failure", trial.failure},
+                             {"notes", trial.notes}});
   }
   recording::write_file(folder / "run.json", run.dump(2) + "\n");
 }

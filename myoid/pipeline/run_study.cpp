@@ -1,12 +1,12 @@
 #include "myoid/pipeline/run_study.h"
 
-#include <fmt/format.h>
-#include <oneapi/tbb/parallel_for.h>
-
 #include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cmath>
+
+#include <fmt/format.h>
+#include <oneapi/tbb/parallel_for.h>
 
 #include "myoid/core/error.h"
 #include "myoid/dynamics/held_mass.h"
@@ -23,7 +23,8 @@ namespace {
 /// Measures the stages and tells how far the run is.
 class Stages {
  public:
-  Stages(const RunOptions& options, std::vector<StageTime>& times) : options_(options), times_(times) {}
+  Stages(const RunOptions& options, std::vector<StageTime>& times)
+      : options_(options), times_(times) {}
 
   template <typename Work>
   void run(const std::string& name, double from, Work work) {
@@ -31,7 +32,8 @@ class Stages {
     options_.progress.tell(from, name);
     const auto begin = std::chrono::steady_clock::now();
     work();
-    times_.push_back({name, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count()});
+    times_.push_back(
+        {name, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count()});
   }
 
  private:
@@ -40,24 +42,30 @@ class Stages {
 };
 
 /// Coordinates that are the same throughout a trial: found where the posture is known, then held.
-void calibrate(const CalibrationSpec& spec, const recording::MarkerSeries& markers, model::BodyModel& model) {
+void calibrate(const CalibrationSpec& spec,
+               const recording::MarkerSeries& markers,
+               model::BodyModel& model) {
   model::BodyModel posed = model;
   for (model::Coordinate& c : posed.coordinates) c.locked = true;
-  for (const std::string& name : spec.free) posed.coordinates[static_cast<std::size_t>(posed.coordinate_index(name))].locked = false;
+  for (const std::string& name : spec.free)
+    posed.coordinates[static_cast<std::size_t>(posed.coordinate_index(name))].locked = false;
   recording::MarkerSeries window;
   window.names = markers.names;
   Eigen::Index first = 0;
   while (first < markers.frame_count() && markers.time_s[first] < spec.window_s[0]) ++first;
   Eigen::Index last = first;
   while (last < markers.frame_count() && markers.time_s[last] <= spec.window_s[1]) ++last;
-  if (last - first < 2) throw InvalidInput(fmt::format("[ik] calibrate: no frames between {} and {} s", spec.window_s[0], spec.window_s[1]));
+  if (last - first < 2)
+    throw InvalidInput(fmt::format("[ik] calibrate: no frames between {} and {} s",
+                                   spec.window_s[0], spec.window_s[1]));
   window.time_s = markers.time_s.segment(first, last - first);
   window.positions_m = markers.positions_m.middleRows(first, last - first);
   const kinematics::IkResult pose = kinematics::inverse_kinematics(posed, window);
   for (const std::string& name : spec.hold) {
     Eigen::VectorXd values = pose.q.column(name);
     std::nth_element(values.begin(), values.begin() + values.size() / 2, values.end());
-    model::Coordinate& c = model.coordinates[static_cast<std::size_t>(model.coordinate_index(name))];
+    model::Coordinate& c =
+        model.coordinates[static_cast<std::size_t>(model.coordinate_index(name))];
     c.default_value = values[values.size() / 2];
     c.locked = true;
   }
@@ -65,9 +73,12 @@ void calibrate(const CalibrationSpec& spec, const recording::MarkerSeries& marke
 
 std::optional<double> motion_cutoff_hz(const Study& study) {
   switch (study.motion.smoothing) {
-    case Smoothing::none: return std::nullopt;
-    case Smoothing::cutoff: return study.motion.cutoff_hz;
-    case Smoothing::automatic: break;
+    case Smoothing::none:
+      return std::nullopt;
+    case Smoothing::cutoff:
+      return study.motion.cutoff_hz;
+    case Smoothing::automatic:
+      break;
   }
   return study.emg.lowpass_hz;  // torque and EMG prediction then hold the same band
 }
@@ -91,11 +102,14 @@ void compute_motion(const Study& study, const TrialInput& input, TrialResult& tr
   const double rate = q.mean_rate_hz();
   const double wanted = options.cutoff_hz ? study.motion.rate_hz : rate;
   if (options.cutoff_hz && *options.cutoff_hz >= 0.45 * rate) {
-    trial.notes.push_back(fmt::format("motion at {:.0f} Hz is too slow to be smoothed at {:.3g} Hz: not smoothed", rate, *options.cutoff_hz));
+    trial.notes.push_back(
+        fmt::format("motion at {:.0f} Hz is too slow to be smoothed at {:.3g} Hz: not smoothed",
+                    rate, *options.cutoff_hz));
     options.cutoff_hz.reset();
   }
   const Eigen::VectorXd& clock = q.time_s();
-  if (std::abs(wanted - rate) > 0.01 * rate || !q.is_uniform()) options.time_s = signals::even_clock(clock[0], clock[clock.size() - 1], wanted);
+  if (std::abs(wanted - rate) > 0.01 * rate || !q.is_uniform())
+    options.time_s = signals::even_clock(clock[0], clock[clock.size() - 1], wanted);
   kinematics::MotionResult result = kinematics::joint_motion(trial.model, q, options);
   trial.motion = std::move(result.motion);
   trial.notes.insert(trial.notes.end(), result.notes.begin(), result.notes.end());
@@ -104,7 +118,8 @@ void compute_motion(const Study& study, const TrialInput& input, TrialResult& tr
 void compute_forces(const Study& study, const TrialInput& input, TrialResult& trial) {
   trial.generalized_forces = dynamics::inverse_dynamics(trial.model, trial.motion);
   trial.muscles = kinematics::muscle_kinematics(trial.model, trial.motion);
-  const auto& coordinate = trial.model.coordinates[static_cast<std::size_t>(trial.model.coordinate_index(study.model.coordinate))];
+  const auto& coordinate = trial.model.coordinates[static_cast<std::size_t>(
+      trial.model.coordinate_index(study.model.coordinate))];
   const std::string column = dynamics::generalized_force_name(coordinate);
   Eigen::VectorXd torque = trial.generalized_forces.column(column);
   if (input.external_torque) {
@@ -117,17 +132,23 @@ void compute_forces(const Study& study, const TrialInput& input, TrialResult& tr
   Eigen::MatrixXd optimal(trial.motion.sample_count(), count);
   Eigen::VectorXd greatest(count);
   for (Eigen::Index m = 0; m < count; ++m) {
-    const muscle::ThelenParameters p = thelen_parameters(trial.model.muscles[static_cast<std::size_t>(m)].properties);
+    const muscle::ThelenParameters p =
+        thelen_parameters(trial.model.muscles[static_cast<std::size_t>(m)].properties);
     greatest[m] = p.max_isometric_force_n;
     for (Eigen::Index i = 0; i < optimal.rows(); ++i) {
-      optimal(i, m) = muscle::thelen_optimal_force(p, trial.muscles.length.values()(i, m), trial.muscles.velocity.values()(i, m));
+      optimal(i, m) = muscle::thelen_optimal_force(p, trial.muscles.length.values()(i, m),
+                                                   trial.muscles.velocity.values()(i, m));
     }
   }
-  trial.shared = forces::share({trial.muscles.moment_arm.at(study.model.coordinate)}, trial.muscle_torque, optimal, greatest,
-                               {.objective = study.sharing.objective, .exponent = study.sharing.exponent, .reserve_nm = study.sharing.reserve_nm});
+  trial.shared = forces::share({trial.muscles.moment_arm.at(study.model.coordinate)},
+                               trial.muscle_torque, optimal, greatest,
+                               {.objective = study.sharing.objective,
+                                .exponent = study.sharing.exponent,
+                                .reserve_nm = study.sharing.reserve_nm});
 }
 
-/// The envelope at about 250 Hz: it holds nothing above some 15 Hz, and splines through it are quicker.
+/// The envelope at about 250 Hz: it holds nothing above some 15 Hz, and splines through it are
+/// quicker.
 TimeSeries thinned(const TimeSeries& series, double rate_hz) {
   const auto stride = static_cast<Eigen::Index>(std::floor(series.mean_rate_hz() / rate_hz));
   if (stride <= 1) return series;
@@ -141,14 +162,17 @@ TimeSeries thinned(const TimeSeries& series, double rate_hz) {
   return {time, series.channels(), std::move(values)};
 }
 
-identification::TrialData trial_data(const Study& study, const TrialResult& trial, const std::vector<MuscleGroup>& groups) {
+identification::TrialData trial_data(const Study& study,
+                                     const TrialResult& trial,
+                                     const std::vector<MuscleGroup>& groups) {
   identification::TrialData data;
   data.name = trial.spec.name;
   data.calibration = trial.spec.use == Use::calibration || trial.spec.use == Use::isometric;
   data.time_s = trial.motion.q.time_s();
   const auto n = data.time_s.size();
   const auto m = static_cast<Eigen::Index>(groups.size());
-  data.length_m = data.velocity_mps = data.moment_arm_m = data.force_n = Eigen::MatrixXd::Zero(n, m);
+  data.length_m = data.velocity_mps = data.moment_arm_m = data.force_n =
+      Eigen::MatrixXd::Zero(n, m);
   const Eigen::MatrixXd& arms = trial.muscles.moment_arm.at(study.model.coordinate).values();
   for (Eigen::Index g = 0; g < m; ++g) {
     const MuscleGroup& group = groups[static_cast<std::size_t>(g)];
@@ -179,24 +203,31 @@ std::vector<TrueValue> read_truth(const std::filesystem::path& path) {
   std::vector<TrueValue> truth;
   for (std::size_t r = 0; r < table.rows.size(); ++r) {
     const auto number = recording::parse_number(table.rows[r][value]);
-    if (!number) throw ReadError(path, table.lines[r], fmt::format("expected a number, found '{}'", table.rows[r][value]));
+    if (!number)
+      throw ReadError(path, table.lines[r],
+                      fmt::format("expected a number, found '{}'", table.rows[r][value]));
     truth.push_back({table.rows[r][muscle], table.rows[r][parameter], *number});
   }
   return truth;
 }
 
-void process_all_emg(const Study& study, const std::vector<TrialInput>& inputs, StudyResult& result) {
+void process_all_emg(const Study& study,
+                     const std::vector<TrialInput>& inputs,
+                     StudyResult& result) {
   const auto with_emg = [&](std::size_t i) { return inputs[i].emg.has_value(); };
   if (study.emg.kind == EmgKind::raw) {
     oneapi::tbb::parallel_for(std::size_t{0}, inputs.size(), [&](std::size_t i) {
       if (!with_emg(i)) return;
-      result.trials[i].emg = signals::process_emg(*inputs[i].emg, {.highpass_hz = study.emg.highpass_hz,
-                                                                   .lowpass_hz = study.emg.lowpass_hz,
-                                                                   .rectify = study.emg.rectify,
-                                                                   .as_published = study.emg.as_published});
+      result.trials[i].emg =
+          signals::process_emg(*inputs[i].emg, {.highpass_hz = study.emg.highpass_hz,
+                                                .lowpass_hz = study.emg.lowpass_hz,
+                                                .rectify = study.emg.rectify,
+                                                .as_published = study.emg.as_published});
     });
     for (TrialResult& trial : result.trials) {
-      if (trial.emg) trial.notes.insert(trial.notes.end(), trial.emg->findings.begin(), trial.emg->findings.end());
+      if (trial.emg)
+        trial.notes.insert(trial.notes.end(), trial.emg->findings.begin(),
+                           trial.emg->findings.end());
     }
   }
   if (study.emg.kind == EmgKind::activation) {
@@ -208,18 +239,24 @@ void process_all_emg(const Study& study, const std::vector<TrialInput>& inputs, 
   std::vector<signals::TrialEnvelope> envelopes;
   for (std::size_t i = 0; i < inputs.size(); ++i) {
     if (!with_emg(i)) continue;
-    const TimeSeries& envelope = study.emg.kind == EmgKind::raw ? result.trials[i].emg->envelope : *inputs[i].emg;
+    const TimeSeries& envelope =
+        study.emg.kind == EmgKind::raw ? result.trials[i].emg->envelope : *inputs[i].emg;
     envelopes.push_back({study.trials[i].name, study.trials[i].use == Use::mvc, &envelope});
   }
-  result.normalisation = signals::find_normalisation(envelopes, {.window_s = study.emg.normalise_window_s});
+  result.normalisation =
+      signals::find_normalisation(envelopes, {.window_s = study.emg.normalise_window_s});
   for (std::size_t i = 0; i < inputs.size(); ++i) {
     if (!with_emg(i)) continue;
-    const TimeSeries& envelope = study.emg.kind == EmgKind::raw ? result.trials[i].emg->envelope : *inputs[i].emg;
-    result.trials[i].activation = thinned(signals::normalise(envelope, result.normalisation), 250.0);
+    const TimeSeries& envelope =
+        study.emg.kind == EmgKind::raw ? result.trials[i].emg->envelope : *inputs[i].emg;
+    result.trials[i].activation =
+        thinned(signals::normalise(envelope, result.normalisation), 250.0);
   }
 }
 
-identification::TorqueOptions torque_options(const Study& study, const StudyResult& result, const Progress& progress) {
+identification::TorqueOptions torque_options(const Study& study,
+                                             const StudyResult& result,
+                                             const Progress& progress) {
   identification::TorqueOptions options;
   options.muscles = study.identify.muscles;
   options.priors = study.identify.priors;
@@ -229,7 +266,8 @@ identification::TorqueOptions torque_options(const Study& study, const StudyResu
   options.from_mvc = study.emg.has_mvc || study.emg.kind == EmgKind::activation;
   options.progress.stop = progress.stop;
   if (study.identify.gain) {
-    for (const signals::ChannelNormalisation& n : result.normalisation) options.gain_prior_sd[n.channel] = n.relative_sd;
+    for (const signals::ChannelNormalisation& n : result.normalisation)
+      options.gain_prior_sd[n.channel] = n.relative_sd;
   }
   return options;
 }
@@ -247,15 +285,18 @@ StudyResult run_study(const Study& study, const RunOptions& options) {
     result.model_text = model_text(study);
     result.model = load_model(study);
     result.inputs.push_back({study.file.string(), sha256(recording::read_text_file(study.file))});
-    if (study.model.file) result.inputs.push_back({study.model.file->string(), sha256(result.model_text)});
+    if (study.model.file)
+      result.inputs.push_back({study.model.file->string(), sha256(result.model_text)});
     if (study.truth) result.truth = read_truth(*study.truth);
-    oneapi::tbb::parallel_for(std::size_t{0}, study.trials.size(),
-                              [&](std::size_t i) { inputs[i] = read_trial_input(study, study.trials[i], result.model); });
+    oneapi::tbb::parallel_for(std::size_t{0}, study.trials.size(), [&](std::size_t i) {
+      inputs[i] = read_trial_input(study, study.trials[i], result.model);
+    });
     for (std::size_t i = 0; i < inputs.size(); ++i) {
       result.trials[i].spec = study.trials[i];
       result.trials[i].notes = inputs[i].notes;
       for (const InputFile& file : inputs[i].files) {
-        const bool known = std::any_of(result.inputs.begin(), result.inputs.end(), [&](const InputFile& f) { return f.path == file.path; });
+        const bool known = std::any_of(result.inputs.begin(), result.inputs.end(),
+                                       [&](const InputFile& f) { return f.path == file.path; });
         if (!known) result.inputs.push_back(file);
       }
     }
@@ -276,21 +317,25 @@ StudyResult run_study(const Study& study, const RunOptions& options) {
           } else if (!study.model.file) {
             held = {"forearm_hand", model::arm4_held_at_m()};
           } else {
-            throw InvalidInput("held_mass_kg is given, but [model] held_mass does not say where it acts");
+            throw InvalidInput(
+                "held_mass_kg is given, but [model] held_mass does not say where it acts");
           }
-          trial.model = dynamics::with_held_mass(std::move(trial.model), held.body, held.p_BP_m, trial.spec.held_mass_kg);
+          trial.model = dynamics::with_held_mass(std::move(trial.model), held.body, held.p_BP_m,
+                                                 trial.spec.held_mass_kg);
         }
         compute_motion(study, inputs[i], trial);
         if (trial.motion.q.sample_count() > 0) compute_forces(study, inputs[i], trial);
       } catch (const InvalidInput& error) {
         trial.failure = error.what();
       }
-      options.progress.tell(0.3 + 0.4 * ++done / static_cast<double>(study.trials.size()), trial.spec.name);
+      options.progress.tell(0.3 + 0.4 * ++done / static_cast<double>(study.trials.size()),
+                            trial.spec.name);
     });
     for (const TrialResult& trial : result.trials) {
       if (!trial.failure.empty()) ++result.failed_trials;
     }
-    if (result.failed_trials == static_cast<int>(result.trials.size())) throw InvalidInput(result.trials.front().failure);
+    if (result.failed_trials == static_cast<int>(result.trials.size()))
+      throw InvalidInput(result.trials.front().failure);
   });
 
   stages.run("identification", 0.7, [&] {
@@ -298,18 +343,23 @@ StudyResult run_study(const Study& study, const RunOptions& options) {
     result.data.muscles = muscle_setups(study, result.model);
     for (const TrialResult& trial : result.trials) {
       if (!trial.has_motion() || trial.activation.empty()) continue;
-      if (trial.spec.use == Use::mvc || trial.spec.use == Use::static_pose || trial.spec.use == Use::passive) continue;
+      if (trial.spec.use == Use::mvc || trial.spec.use == Use::static_pose ||
+          trial.spec.use == Use::passive)
+        continue;
       result.data.trials.push_back(trial_data(study, trial, groups));
     }
     for (const std::string& method : study.identify.methods) {
       if (method == "paper") {
-        result.methods.push_back(identification::identify_paper(result.data, {.muscles = study.identify.muscles, .shared_forces = true}));
+        result.methods.push_back(identification::identify_paper(
+            result.data, {.muscles = study.identify.muscles, .shared_forces = true}));
       } else {
-        result.methods.push_back(identification::identify_torque(result.data, torque_options(study, result, options.progress)));
+        result.methods.push_back(identification::identify_torque(
+            result.data, torque_options(study, result, options.progress)));
       }
     }
   });
-  const bool torque = std::find(study.identify.methods.begin(), study.identify.methods.end(), "torque") != study.identify.methods.end();
+  const bool torque = std::find(study.identify.methods.begin(), study.identify.methods.end(),
+                                "torque") != study.identify.methods.end();
   if (study.identify.cross_validate && torque) {
     stages.run("cross-validation", 0.85, [&] {
       identification::TorqueOptions fold_options = torque_options(study, result, options.progress);
@@ -325,16 +375,21 @@ StudyResult run_study(const Study& study, const RunOptions& options) {
 
 std::string_view name(Finding::Level level) {
   switch (level) {
-    case Finding::Level::error: return "error";
-    case Finding::Level::warning: return "warning";
-    case Finding::Level::note: return "note";
+    case Finding::Level::error:
+      return "error";
+    case Finding::Level::warning:
+      return "warning";
+    case Finding::Level::note:
+      return "note";
   }
   return "?";
 }
 
 std::vector<Finding> check_study(const Study& study) {
   std::vector<Finding> findings;
-  const auto add = [&](Finding::Level level, std::string where, std::string message) { findings.push_back({level, std::move(where), std::move(message)}); };
+  const auto add = [&](Finding::Level level, std::string where, std::string message) {
+    findings.push_back({level, std::move(where), std::move(message)});
+  };
   std::optional<model::BodyModel> model;
   try {
     model = load_model(study);
@@ -345,7 +400,9 @@ std::vector<Finding> check_study(const Study& study) {
     add(Finding::Level::error, "model", error.what());
   }
   if (!study.emg.has_mvc && study.emg.kind == EmgKind::raw) {
-    add(Finding::Level::warning, "study", "no trial is a maximal contraction (use = \"mvc\"): F_max will mean the force at the study's largest EMG");
+    add(Finding::Level::warning, "study",
+        "no trial is a maximal contraction (use = \"mvc\"): F_max will mean the force at the "
+        "study's largest EMG");
   }
   for (const TrialSpec& spec : study.trials) {
     if (!model) break;
@@ -355,29 +412,39 @@ std::vector<Finding> check_study(const Study& study) {
       if (input.markers) {
         for (Eigen::Index m = 0; m < input.markers->marker_count(); ++m) {
           Eigen::Index gaps = 0;
-          for (Eigen::Index f = 0; f < input.markers->frame_count(); ++f) gaps += input.markers->missing(f, m) ? 1 : 0;
+          for (Eigen::Index f = 0; f < input.markers->frame_count(); ++f)
+            gaps += input.markers->missing(f, m) ? 1 : 0;
           if (gaps > 0) {
-            add(gaps > input.markers->frame_count() / 4 ? Finding::Level::warning : Finding::Level::note, spec.name,
-                fmt::format("marker '{}' is missing in {:.1f} % of the frames", input.markers->names[static_cast<std::size_t>(m)],
-                            100.0 * static_cast<double>(gaps) / static_cast<double>(input.markers->frame_count())));
+            add(gaps > input.markers->frame_count() / 4 ? Finding::Level::warning
+                                                        : Finding::Level::note,
+                spec.name,
+                fmt::format("marker '{}' is missing in {:.1f} % of the frames",
+                            input.markers->names[static_cast<std::size_t>(m)],
+                            100.0 * static_cast<double>(gaps) /
+                                static_cast<double>(input.markers->frame_count())));
           }
         }
       }
       if (input.emg && study.emg.kind == EmgKind::raw) {
         if (input.emg->mean_rate_hz() < 800.0) {
-          add(Finding::Level::warning, spec.name, fmt::format("EMG at {:.0f} Hz: 1000 Hz or more is needed for raw EMG", input.emg->mean_rate_hz()));
+          add(Finding::Level::warning, spec.name,
+              fmt::format("EMG at {:.0f} Hz: 1000 Hz or more is needed for raw EMG",
+                          input.emg->mean_rate_hz()));
         }
-        const signals::EmgStages emg = signals::process_emg(*input.emg, {.highpass_hz = study.emg.highpass_hz, .lowpass_hz = study.emg.lowpass_hz});
+        const signals::EmgStages emg = signals::process_emg(
+            *input.emg, {.highpass_hz = study.emg.highpass_hz, .lowpass_hz = study.emg.lowpass_hz});
         for (const std::string& text : emg.findings) add(Finding::Level::warning, spec.name, text);
       }
       if (spec.held_mass_kg > 0.0 && study.model.file && !study.model.held_mass) {
-        add(Finding::Level::error, spec.name, "held_mass_kg is given, but [model] held_mass does not say where it acts");
+        add(Finding::Level::error, spec.name,
+            "held_mass_kg is given, but [model] held_mass does not say where it acts");
       }
     } catch (const InvalidInput& error) {
       add(Finding::Level::error, spec.name, error.what());
     }
   }
-  std::stable_sort(findings.begin(), findings.end(), [](const Finding& a, const Finding& b) { return a.level < b.level; });
+  std::stable_sort(findings.begin(), findings.end(),
+                   [](const Finding& a, const Finding& b) { return a.level < b.level; });
   return findings;
 }
 

@@ -22,17 +22,18 @@ namespace myoid::pipeline {
 /// Everything that was found about one trial, stage by stage.
 struct TrialResult {
   TrialSpec spec;
-  model::BodyModel model;                       ///< With the trial's held mass and calibrated coordinates.
-  std::optional<kinematics::IkResult> ik;       ///< If it began with markers.
-  kinematics::JointMotion motion;               ///< On the clock of the analysis; empty for an MVC trial without motion.
-  std::optional<signals::EmgStages> emg;        ///< If its EMG was raw.
-  TimeSeries activation;                        ///< Per EMG channel, 0..1.
-  TimeSeries generalized_forces;                ///< Inverse dynamics, all coordinates.
-  kinematics::MuscleKinematics muscles;         ///< Of the model's muscles.
-  TimeSeries muscle_torque;                     ///< Of the study's coordinate: what the muscles provide [N m].
-  forces::MuscleForces shared;                  ///< Of the model's muscles.
-  std::vector<std::string> notes;               ///< Repairs and remarks, with file and line.
-  std::string failure;                          ///< Why it could not be computed; empty: it could.
+  model::BodyModel model;  ///< With the trial's held mass and calibrated coordinates.
+  std::optional<kinematics::IkResult> ik;  ///< If it began with markers.
+  kinematics::JointMotion
+      motion;  ///< On the clock of the analysis; empty for an MVC trial without motion.
+  std::optional<signals::EmgStages> emg;  ///< If its EMG was raw.
+  TimeSeries activation;                  ///< Per EMG channel, 0..1.
+  TimeSeries generalized_forces;          ///< Inverse dynamics, all coordinates.
+  kinematics::MuscleKinematics muscles;   ///< Of the model's muscles.
+  TimeSeries muscle_torque;        ///< Of the study's coordinate: what the muscles provide [N m].
+  forces::MuscleForces shared;     ///< Of the model's muscles.
+  std::vector<std::string> notes;  ///< Repairs and remarks, with file and line.
+  std::string failure;             ///< Why it could not be computed; empty: it could.
 
   [[nodiscard]] bool has_motion() const { return motion.q.sample_count() > 0 && failure.empty(); }
 };
@@ -50,11 +51,11 @@ struct TrueValue {
 
 struct StudyResult {
   Study study;
-  model::BodyModel model;                       ///< The study's model, without held mass.
-  std::string model_text;                       ///< As read or made.
-  std::vector<TrialResult> trials;              ///< In the study's order.
+  model::BodyModel model;           ///< The study's model, without held mass.
+  std::string model_text;           ///< As read or made.
+  std::vector<TrialResult> trials;  ///< In the study's order.
   std::vector<signals::ChannelNormalisation> normalisation;  ///< Empty if EMG came as activations.
-  identification::StudyData data;               ///< What the estimators saw.
+  identification::StudyData data;                            ///< What the estimators saw.
   std::vector<identification::IdentificationResult> methods;
   std::vector<identification::Fold> folds;
   std::vector<TrueValue> truth;
@@ -67,9 +68,10 @@ struct RunOptions {
   Progress progress;
 };
 
-/// All stages in order: EMG, motion, inverse dynamics, muscle paths, force sharing, identification, cross-validation; trials in parallel,
-/// the same numbers for every number of threads. Throws ReadError or InvalidInput for input that cannot be used (nothing is computed then: all
-/// files are read first), Interrupted when stopped. A trial whose computation fails is marked and left out.
+/// All stages in order: EMG, motion, inverse dynamics, muscle paths, force sharing, identification,
+/// cross-validation; trials in parallel, the same numbers for every number of threads. Throws
+/// ReadError or InvalidInput for input that cannot be used (nothing is computed then: all files are
+/// read first), Interrupted when stopped. A trial whose computation fails is marked and left out.
 [[nodiscard]] StudyResult run_study(const Study& study, const RunOptions& options = {});
 
 /// What reading all inputs brings to light, without computing anything.
@@ -81,8 +83,8 @@ struct Finding {
 };
 [[nodiscard]] std::string_view name(Finding::Level level);
 
-/// Reads every input of the study, checks units, rates, names, gaps, overlap of EMG and motion, and MVC; worst first. Does not throw for what is
-/// wrong with an input: that is a finding.
+/// Reads every input of the study, checks units, rates, names, gaps, overlap of EMG and motion, and
+/// MVC; worst first. Does not throw for what is wrong with an input: that is a finding.
 [[nodiscard]] std::vector<Finding> check_study(const Study& study);
 
 }  // namespace myoid::pipeline

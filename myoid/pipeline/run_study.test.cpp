@@ -1,10 +1,10 @@
 #include "myoid/pipeline/run_study.h"
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cmath>
 #include <functional>
+
+#include <gtest/gtest.h>
 #include <pugixml.hpp>
 
 #include "myoid/core/error.h"
@@ -16,6 +16,7 @@
 #include "myoid/recording/csv_reader.h"
 #include "myoid/recording/storage_reader.h"
 #include "myoid/simulation/write_recording.h"
+
 #include "tests/support/temporary_folder.h"
 
 namespace myoid::pipeline {
@@ -27,8 +28,10 @@ struct ExactRun {
   StudyResult result;
 
   ExactRun() {
-    const auto protocol = simulation::read_protocol(std::string(MYOID_SOURCE_DIR) + "/examples/protocols/noise_free.toml");
-    simulation::write_virtual_recording(simulation::make_virtual_recording(protocol, 3), folder / "recording");
+    const auto protocol = simulation::read_protocol(std::string(MYOID_SOURCE_DIR) +
+                                                    "/examples/protocols/noise_free.toml");
+    simulation::write_virtual_recording(simulation::make_virtual_recording(protocol, 3),
+                                        folder / "recording");
     Study study = read_study(folder / "recording/study.toml");
     study.identify.cross_validate = false;
     result = run_study(study);
@@ -68,13 +71,18 @@ TEST(WriteResults, LeavesTheFilesThatArePromised) {
   const auto out = run.folder / "results";
   write_results(run.result, {}, out);
   const std::string trial = run.result.data.trials.front().name;
-  for (const std::string name : {"ik.mot", "ik_marker_errors.sto", "id.sto", "MuscleAnalysis_Length.sto", "MuscleAnalysis_MuscleTendonVelocity.sto",
-                                 "MuscleAnalysis_MomentArm_elbow_flexion.sto", "StaticOptimization_force.sto", "StaticOptimization_activation.sto", "activation.sto",
-                                 "identified_forces.sto"}) {
+  for (const std::string name :
+       {"ik.mot", "ik_marker_errors.sto", "id.sto", "MuscleAnalysis_Length.sto",
+        "MuscleAnalysis_MuscleTendonVelocity.sto", "MuscleAnalysis_MomentArm_elbow_flexion.sto",
+        "StaticOptimization_force.sto", "StaticOptimization_activation.sto", "activation.sto",
+        "identified_forces.sto"}) {
     EXPECT_GT(recording::read_storage(out / trial / name).data.sample_count(), 10) << name;
   }
   const recording::CsvTable table = recording::read_csv_table(out / "parameters.csv");
-  const std::vector<std::string> columns{"muscle", "parameter", "unit", "method", "case", "initial", "estimate", "std_error", "ci_low", "ci_high", "prior_mean", "prior_sd", "shrinkage", "at_bound", "verdict", "reason"};
+  const std::vector<std::string> columns{"muscle",    "parameter", "unit",       "method",
+                                         "case",      "initial",   "estimate",   "std_error",
+                                         "ci_low",    "ci_high",   "prior_mean", "prior_sd",
+                                         "shrinkage", "at_bound",  "verdict",    "reason"};
   EXPECT_EQ(table.names, columns);
   EXPECT_TRUE(std::filesystem::exists(out / "run.json"));
   EXPECT_TRUE(std::filesystem::exists(out / "parameters.json"));
@@ -82,8 +90,11 @@ TEST(WriteResults, LeavesTheFilesThatArePromised) {
 
 TEST(IdentifiedModel, DiffersFromTheInputOnlyInIdentifiedNumbers) {
   const StudyResult& result = ExactRun::get().result;
-  IdentifiedMuscle muscle{"BIC", result.data.muscles[0].start, result.data.muscles[0].start, {"max_isometric_force"}};
-  EXPECT_EQ(identified_model(result.study, result.model_text, {{"BIC", muscle.start, muscle.identified, {}}}), result.model_text);
+  IdentifiedMuscle muscle{
+      "BIC", result.data.muscles[0].start, result.data.muscles[0].start, {"max_isometric_force"}};
+  EXPECT_EQ(identified_model(result.study, result.model_text,
+                             {{"BIC", muscle.start, muscle.identified, {}}}),
+            result.model_text);
   muscle.identified.max_isometric_force_n *= 2.0;
   const std::string changed = identified_model(result.study, result.model_text, {muscle});
   pugi::xml_document before;
@@ -91,9 +102,11 @@ TEST(IdentifiedModel, DiffersFromTheInputOnlyInIdentifiedNumbers) {
   ASSERT_TRUE(before.load_string(result.model_text.c_str()));
   ASSERT_TRUE(after.load_string(changed.c_str()));
   const char* path = "//*[@name='BIC']/max_isometric_force";
-  EXPECT_DOUBLE_EQ(after.select_node(path).node().text().as_double(), 2.0 * before.select_node(path).node().text().as_double());
+  EXPECT_DOUBLE_EQ(after.select_node(path).node().text().as_double(),
+                   2.0 * before.select_node(path).node().text().as_double());
   const char* other = "//*[@name='TRI']/max_isometric_force";
-  EXPECT_EQ(std::string(after.select_node(other).node().text().get()), before.select_node(other).node().text().get());
+  EXPECT_EQ(std::string(after.select_node(other).node().text().get()),
+            before.select_node(other).node().text().get());
 }
 
 TEST(StudyReport, HasGatesTablesAndFiguresThatFitTogether) {
@@ -104,7 +117,8 @@ TEST(StudyReport, HasGatesTablesAndFiguresThatFitTogether) {
   for (const report::Section& section : report.sections) {
     for (const report::Table& table : section.tables) tables.push_back(table.id);
   }
-  for (const std::string wanted : {"parameters_torque", "table_1_shortening", "table_2_lengthening", "trials"}) {
+  for (const std::string wanted :
+       {"parameters_torque", "table_1_shortening", "table_2_lengthening", "trials"}) {
     EXPECT_NE(std::find(tables.begin(), tables.end(), wanted), tables.end()) << wanted;
   }
 }
@@ -112,26 +126,32 @@ TEST(StudyReport, HasGatesTablesAndFiguresThatFitTogether) {
 TEST(ReadTrialInput, RefusesDegreesThatAreSaidToBeRadians) {
   const test::TemporaryFolder folder;
   std::string text = "motion\nversion=1\ninDegrees=no\nendheader\ntime\telbow_flexion\n";
-  for (int i = 0; i < 20; ++i) text += std::to_string(0.01 * i) + "\t" + std::to_string(5 * i) + "\n";
+  for (int i = 0; i < 20; ++i)
+    text += std::to_string(0.01 * i) + "\t" + std::to_string(5 * i) + "\n";
   recording::write_file(folder / "m.mot", text);
   const Study& study = ExactRun::get().result.study;
   TrialSpec trial;
   trial.name = "t";
   trial.motion = folder / "m.mot";
   trial.use = Use::static_pose;
-  const std::string message = message_of([&] { (void)read_trial_input(study, trial, ExactRun::get().result.model); });
+  const std::string message =
+      message_of([&] { (void)read_trial_input(study, trial, ExactRun::get().result.model); });
   EXPECT_NE(message.find("these are degrees"), std::string::npos) << message;
   EXPECT_NE(message.find("m.mot"), std::string::npos) << message;
 }
 
 TEST(ReadTrialInput, AMissingEmgChannelIsNamedWithThoseThereAre) {
   const test::TemporaryFolder folder;
-  recording::write_file(folder / "e.sto", "EMG\nendheader\ntime\tBICC\tBRA\tBRD\tTRI\n0\t0\t0\t0\t0\n1\t0\t0\t0\t0\n");
+  recording::write_file(
+      folder / "e.sto",
+      "EMG\nendheader\ntime\tBICC\tBRA\tBRD\tTRI\n0\t0\t0\t0\t0\n1\t0\t0\t0\t0\n");
   TrialSpec trial;
   trial.name = "t";
   trial.emg = folder / "e.sto";
   trial.use = Use::mvc;
-  const std::string message = message_of([&] { (void)read_trial_input(ExactRun::get().result.study, trial, ExactRun::get().result.model); });
+  const std::string message = message_of([&] {
+    (void)read_trial_input(ExactRun::get().result.study, trial, ExactRun::get().result.model);
+  });
   EXPECT_NE(message.find("no EMG channel 'BIC'"), std::string::npos) << message;
   EXPECT_NE(message.find("did you mean 'BICC'"), std::string::npos) << message;
 }

@@ -1,11 +1,11 @@
 #include "myoid/pipeline/study.h"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
 #include <algorithm>
 #include <set>
 #include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "myoid/core/error.h"
 #include "myoid/recording/text_file.h"
@@ -28,7 +28,8 @@ SubjectSpec read_subject(TomlTable table) {
   if (table.has("mass_kg")) {
     subject.mass_kg = positive(table, "mass_kg", 0.0);
     if (*subject.mass_kg < 10.0 || *subject.mass_kg > 350.0) {
-      table.fail("mass_kg", fmt::format("found {} kg, expected a person's mass in kilograms", *subject.mass_kg));
+      table.fail("mass_kg", fmt::format("found {} kg, expected a person's mass in kilograms",
+                                        *subject.mass_kg));
     }
   }
   subject.sex = table.choice("sex", "", {"", "male", "female"});
@@ -44,8 +45,10 @@ ModelSpec read_model(TomlTable table, const std::filesystem::path& folder) {
   if (model.file && !model.builtin.empty()) {
     table.fail("builtin", "give either 'file' or 'builtin', not both");
   }
-  if (table.has("upper_arm_length_m")) model.upper_arm_length_m = positive(table, "upper_arm_length_m", 0.0);
-  if (table.has("forearm_length_m")) model.forearm_length_m = positive(table, "forearm_length_m", 0.0);
+  if (table.has("upper_arm_length_m"))
+    model.upper_arm_length_m = positive(table, "upper_arm_length_m", 0.0);
+  if (table.has("forearm_length_m"))
+    model.forearm_length_m = positive(table, "forearm_length_m", 0.0);
   model.horizontal = table.choice("plane", "vertical", {"vertical", "horizontal"}) == "horizontal";
   model.forearm_rotations = table.flag("forearm_rotations").value_or(false);
   model.coordinate = table.text("coordinate").value_or(model.coordinate);
@@ -53,7 +56,8 @@ ModelSpec read_model(TomlTable table, const std::filesystem::path& folder) {
     HeldMassSpec spec;
     spec.body = held->require_text("body", "the body that carries the held mass");
     const auto at = held->numbers("at_m");
-    if (!at || at->size() != 3) held->fail("at_m", "expected the point's three coordinates in the body [m]");
+    if (!at || at->size() != 3)
+      held->fail("at_m", "expected the point's three coordinates in the body [m]");
     spec.p_BP_m = Vec3((*at)[0], (*at)[1], (*at)[2]);
     held->finish();
     model.held_mass = spec;
@@ -88,7 +92,8 @@ MarkerSpec read_markers(TomlTable table) {
   if (auto weight = table.table("weight")) {
     for (const std::string& key : weight->keys()) {
       const double value = *weight->number(key);
-      if (value < 0.0) weight->fail(key, fmt::format("found {}, expected a weight of 0 or more", value));
+      if (value < 0.0)
+        weight->fail(key, fmt::format("found {}, expected a weight of 0 or more", value));
       markers.weight[key] = value;
     }
   }
@@ -108,7 +113,8 @@ IkSpec read_ik(TomlTable table) {
     }
     spec.free = calibrate->texts("free").value_or(spec.free);
     spec.hold = calibrate->texts("hold").value_or(spec.free);
-    if (spec.free.empty()) calibrate->fail("free", "expected the coordinates to find in the window");
+    if (spec.free.empty())
+      calibrate->fail("free", "expected the coordinates to find in the window");
     calibrate->finish();
     ik.calibrate = spec;
   }
@@ -119,7 +125,9 @@ IkSpec read_ik(TomlTable table) {
 EmgSpec read_emg(TomlTable table) {
   EmgSpec emg;
   const std::string kind = table.choice("kind", "raw", {"raw", "envelope", "activation"});
-  emg.kind = kind == "raw" ? EmgKind::raw : kind == "envelope" ? EmgKind::envelope : EmgKind::activation;
+  emg.kind = kind == "raw"        ? EmgKind::raw
+             : kind == "envelope" ? EmgKind::envelope
+                                  : EmgKind::activation;
   emg.unit = table.text("unit").value_or("");
   emg.rectify = table.flag("rectify").value_or(emg.rectify);
   emg.highpass_hz = positive(table, "highpass_hz", emg.highpass_hz);
@@ -149,7 +157,8 @@ MuscleSpec read_muscle(TomlTable table) {
     muscle.same_as = tie.require_text("same_as", "the muscle whose electrode serves this one too");
     tie.finish();
   } else {
-    muscle.emg = table.require_text("emg", "the EMG channel, or { same_as = \"MUSCLE\" } where there is no electrode");
+    muscle.emg = table.require_text(
+        "emg", "the EMG channel, or { same_as = \"MUSCLE\" } where there is no electrode");
   }
   if (auto start = table.table("start")) {
     for (const std::string& key : start->keys()) muscle.start[key] = *start->number(key);
@@ -172,7 +181,10 @@ TrialSpec read_trial(TomlTable table, const std::filesystem::path& folder) {
   TrialSpec trial;
   trial.name = table.require_text("name", "a name that is unique in the study");
   if (trial.name.find_first_of("/\\") != std::string::npos || trial.name.starts_with(".")) {
-    table.fail("name", fmt::format("found \"{}\"; a trial's name becomes a folder: use letters, digits, _ and -", trial.name));
+    table.fail(
+        "name",
+        fmt::format("found \"{}\"; a trial's name becomes a folder: use letters, digits, _ and -",
+                    trial.name));
   }
   const auto path = [&](std::string_view key) -> std::optional<std::filesystem::path> {
     const auto text = table.text(key);
@@ -185,22 +197,29 @@ TrialSpec read_trial(TomlTable table, const std::filesystem::path& folder) {
   trial.emg = path("emg");
   trial.external_torque = path("external_torque");
   if (trial.markers && trial.motion) {
-    table.fail("motion", "give either 'markers' or 'motion', not both: the motion is computed from the markers");
+    table.fail(
+        "motion",
+        "give either 'markers' or 'motion', not both: the motion is computed from the markers");
   }
-  trial.use = parse_use(table.choice("use", "calibration",
-                                     {"calibration", "validation", "mvc", "static", "passive", "isometric"}));
+  trial.use = parse_use(
+      table.choice("use", "calibration",
+                   {"calibration", "validation", "mvc", "static", "passive", "isometric"}));
   if (trial.use != Use::mvc && !trial.markers && !trial.motion) {
-    table.fail("name", fmt::format("trial '{}' has neither 'markers' (.trc) nor 'motion' (.mot); add one", trial.name));
+    table.fail("name",
+               fmt::format("trial '{}' has neither 'markers' (.trc) nor 'motion' (.mot); add one",
+                           trial.name));
   }
   const bool needs_emg = trial.use == Use::calibration || trial.use == Use::validation ||
                          trial.use == Use::isometric || trial.use == Use::mvc;
   if (needs_emg && !trial.emg) {
-    table.fail("name", fmt::format("trial '{}' has no 'emg'; a {} trial needs one, or set use = \"static\"",
-                                   trial.name, name(trial.use)));
+    table.fail("name",
+               fmt::format("trial '{}' has no 'emg'; a {} trial needs one, or set use = \"static\"",
+                           trial.name, name(trial.use)));
   }
   trial.held_mass_kg = table.number("held_mass_kg").value_or(0.0);
   if (trial.held_mass_kg < 0.0 || trial.held_mass_kg > 100.0) {
-    table.fail("held_mass_kg", fmt::format("found {} kg, expected 0 to 100 kg", trial.held_mass_kg));
+    table.fail("held_mass_kg",
+               fmt::format("found {} kg, expected 0 to 100 kg", trial.held_mass_kg));
   }
   trial.start_s = table.number("start_s");
   trial.end_s = table.number("end_s");
@@ -212,7 +231,8 @@ SharingSpec read_sharing(TomlTable table) {
   SharingSpec sharing;
   sharing.objective = table.choice("objective", "activation", {"activation", "force", "stress"});
   sharing.exponent = table.number("exponent").value_or(sharing.exponent);
-  if (!(sharing.exponent > 1.0)) table.fail("exponent", "expected a number above 1 (2 or 3 is usual)");
+  if (!(sharing.exponent > 1.0))
+    table.fail("exponent", "expected a number above 1 (2 or 3 is usual)");
   sharing.reserve_nm = positive(table, "reserve_nm", sharing.reserve_nm);
   table.finish();
   return sharing;
@@ -226,7 +246,8 @@ IdentifySpec read_identify(TomlTable table) {
       table.fail("method", fmt::format("found \"{}\", expected \"paper\" or \"torque\"", method));
     }
   }
-  if (auto muscles = table.texts("muscles"); muscles && *muscles != std::vector<std::string>{"all"}) {
+  if (auto muscles = table.texts("muscles");
+      muscles && *muscles != std::vector<std::string>{"all"}) {
     identify.muscles = *muscles;
   }
   identify.priors = table.flag("priors").value_or(identify.priors);
@@ -242,28 +263,33 @@ void check_references(const Study& study) {
   if (study.muscles.empty()) {
     refuse("no [[muscle]]; add one table per muscle to identify, with name, osim and emg");
   }
-  if (study.trials.empty()) refuse("no [[trial]]; add one table per recording, with name, markers or motion, and emg");
+  if (study.trials.empty())
+    refuse("no [[trial]]; add one table per recording, with name, markers or motion, and emg");
   std::set<std::string> muscles;
   for (const MuscleSpec& muscle : study.muscles) {
-    if (!muscles.insert(muscle.name).second) refuse(fmt::format("two [[muscle]] are named '{}'", muscle.name));
+    if (!muscles.insert(muscle.name).second)
+      refuse(fmt::format("two [[muscle]] are named '{}'", muscle.name));
   }
   for (const MuscleSpec& muscle : study.muscles) {
     if (!muscle.same_as) continue;
     const auto other = std::find_if(study.muscles.begin(), study.muscles.end(),
                                     [&](const MuscleSpec& m) { return m.name == *muscle.same_as; });
     if (other == study.muscles.end() || other->same_as) {
-      refuse(fmt::format("[[muscle]] {}: emg same_as \"{}\" names no muscle with an electrode; there are {}",
-                         muscle.name, *muscle.same_as, fmt::join(muscles, ", ")));
+      refuse(fmt::format(
+          "[[muscle]] {}: emg same_as \"{}\" names no muscle with an electrode; there are {}",
+          muscle.name, *muscle.same_as, fmt::join(muscles, ", ")));
     }
   }
   for (const std::string& wanted : study.identify.muscles) {
     if (!muscles.contains(wanted)) {
-      refuse(fmt::format("[identify] muscles: '{}' is no [[muscle]]; there are {}", wanted, fmt::join(muscles, ", ")));
+      refuse(fmt::format("[identify] muscles: '{}' is no [[muscle]]; there are {}", wanted,
+                         fmt::join(muscles, ", ")));
     }
   }
   std::set<std::string> trials;
   for (const TrialSpec& trial : study.trials) {
-    if (!trials.insert(trial.name).second) refuse(fmt::format("two [[trial]] are named '{}'", trial.name));
+    if (!trials.insert(trial.name).second)
+      refuse(fmt::format("two [[trial]] are named '{}'", trial.name));
   }
 }
 
@@ -271,12 +297,18 @@ void check_references(const Study& study) {
 
 std::string_view name(Use use) {
   switch (use) {
-    case Use::calibration: return "calibration";
-    case Use::validation: return "validation";
-    case Use::mvc: return "mvc";
-    case Use::static_pose: return "static";
-    case Use::passive: return "passive";
-    case Use::isometric: return "isometric";
+    case Use::calibration:
+      return "calibration";
+    case Use::validation:
+      return "validation";
+    case Use::mvc:
+      return "mvc";
+    case Use::static_pose:
+      return "static";
+    case Use::passive:
+      return "passive";
+    case Use::isometric:
+      return "isometric";
   }
   return "?";
 }

@@ -113,7 +113,8 @@ struct IdentifySpec {
   bool priors = true;
   bool gain = true;  ///< EMG gain per channel as a nuisance with a tight prior.
   bool cross_validate = true;
-  double max_rate_hz = 25.0;         ///< Torque and prediction are compared below 2 Hz: more samples add nothing.
+  double max_rate_hz =
+      25.0;  ///< Torque and prediction are compared below 2 Hz: more samples add nothing.
 };
 
 /// What to do, as read from a study.toml. Paths are absolute or relative to the working directory,

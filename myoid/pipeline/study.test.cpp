@@ -1,8 +1,8 @@
 #include "myoid/pipeline/study.h"
 
-#include <gtest/gtest.h>
-
 #include <string>
+
+#include <gtest/gtest.h>
 
 #include "myoid/core/error.h"
 
@@ -74,7 +74,8 @@ TEST(ParseStudy, TwoTrialsOfOneNameAreRefused) {
 }
 
 TEST(ParseStudy, ADelayInMillisecondsIsRefused) {
-  EXPECT_NE(message_of(kMinimal + "[emg]\ndelay_s = 60\n").find("expected 0 to 0.3 s"), std::string::npos);
+  EXPECT_NE(message_of(kMinimal + "[emg]\ndelay_s = 60\n").find("expected 0 to 0.3 s"),
+            std::string::npos);
 }
 
 }  // namespace

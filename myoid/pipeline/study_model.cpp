@@ -1,9 +1,9 @@
 #include "myoid/pipeline/study_model.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
+
+#include <fmt/format.h>
 #include <pugixml.hpp>
 
 #include "myoid/core/error.h"
@@ -54,7 +54,8 @@ model::Arm4Options arm_options(const Study& study, const recording::MarkerSeries
       options.person.upper_arm_length_m = kUpperArmOverForearm * *measured;
     }
   }
-  if (study.model.upper_arm_length_m) options.person.upper_arm_length_m = *study.model.upper_arm_length_m;
+  if (study.model.upper_arm_length_m)
+    options.person.upper_arm_length_m = *study.model.upper_arm_length_m;
   return options;
 }
 
@@ -66,24 +67,29 @@ std::string model_text(const Study& study, const recording::MarkerSeries* marker
 }
 
 model::BodyModel load_model(const Study& study, const recording::MarkerSeries* markers) {
-  model::BodyModel model = model::parse_osim(model_text(study, markers), study.model.file.value_or("arm4.osim"));
+  model::BodyModel model =
+      model::parse_osim(model_text(study, markers), study.model.file.value_or("arm4.osim"));
   (void)model.coordinate_index(study.model.coordinate);
   for (const MuscleSpec& muscle : study.muscles) {
     for (const std::string& name : muscle.osim) {
       try {
         (void)model.muscle_index(name);
       } catch (const ModelError& error) {
-        throw ModelError(fmt::format("{}: [[muscle]] {}: {}", study.file.string(), muscle.name, error.what()));
+        throw ModelError(
+            fmt::format("{}: [[muscle]] {}: {}", study.file.string(), muscle.name, error.what()));
       }
     }
   }
-  for (const std::string& name : study.ik.unlock) model.coordinates[static_cast<std::size_t>(model.coordinate_index(name))].locked = false;
-  for (const std::string& name : study.ik.lock) model.coordinates[static_cast<std::size_t>(model.coordinate_index(name))].locked = true;
+  for (const std::string& name : study.ik.unlock)
+    model.coordinates[static_cast<std::size_t>(model.coordinate_index(name))].locked = false;
+  for (const std::string& name : study.ik.lock)
+    model.coordinates[static_cast<std::size_t>(model.coordinate_index(name))].locked = true;
   if (study.model.held_mass && !model.find_body(study.model.held_mass->body)) {
     std::string names;
-    for (std::size_t i = 1; i < model.bodies.size(); ++i) names += (i == 1 ? "" : ", ") + model.bodies[i].name;
-    throw ModelError(fmt::format("{}: [model] held_mass: the model has no body '{}'; there are {}", study.file.string(),
-                                 study.model.held_mass->body, names));
+    for (std::size_t i = 1; i < model.bodies.size(); ++i)
+      names += (i == 1 ? "" : ", ") + model.bodies[i].name;
+    throw ModelError(fmt::format("{}: [model] held_mass: the model has no body '{}'; there are {}",
+                                 study.file.string(), study.model.held_mass->body, names));
   }
   return model;
 }
@@ -108,7 +114,8 @@ std::vector<MuscleGroup> muscle_groups(const Study& study, const model::BodyMode
     double sum = 0.0;
     for (const std::string& name : spec.osim) {
       group.members.push_back(model.muscle_index(name));
-      group.weights.push_back(model.muscles[static_cast<std::size_t>(group.members.back())].properties.max_isometric_force_n);
+      group.weights.push_back(model.muscles[static_cast<std::size_t>(group.members.back())]
+                                  .properties.max_isometric_force_n);
       sum += group.weights.back();
     }
     for (double& w : group.weights) w /= sum;
@@ -117,7 +124,8 @@ std::vector<MuscleGroup> muscle_groups(const Study& study, const model::BodyMode
   return groups;
 }
 
-std::vector<identification::MuscleSetup> muscle_setups(const Study& study, const model::BodyModel& model) {
+std::vector<identification::MuscleSetup> muscle_setups(const Study& study,
+                                                       const model::BodyModel& model) {
   std::vector<identification::MuscleSetup> setups;
   const std::vector<MuscleGroup> groups = muscle_groups(study, model);
   for (std::size_t g = 0; g < groups.size(); ++g) {
@@ -127,16 +135,19 @@ std::vector<identification::MuscleSetup> muscle_setups(const Study& study, const
     setup.emg_channel = spec.emg;
     setup.start = {};
     for (std::size_t i = 0; i < groups[g].members.size(); ++i) {
-      const auto head = muscle::hill_from_thelen(thelen_parameters(model.muscles[static_cast<std::size_t>(groups[g].members[i])].properties));
+      const auto head = muscle::hill_from_thelen(thelen_parameters(
+          model.muscles[static_cast<std::size_t>(groups[g].members[i])].properties));
       for (const muscle::HillField& field : muscle::kHillFields) {
         const double share = field.name == "max_isometric_force" ? 1.0 : groups[g].weights[i];
         setup.start.*field.member += share * head.*field.member;
       }
     }
-    for (const auto& [name, value] : spec.start) setup.start.*muscle::hill_field(name).member = value;
+    for (const auto& [name, value] : spec.start)
+      setup.start.*muscle::hill_field(name).member = value;
     setup.fixed = spec.fixed;
     for (const muscle::HillField& field : muscle::kHillFields) {
-      if (const auto prior = muscle::literature_prior(field.name, setup.start.*field.member, setup.start.optimal_fiber_length_m)) {
+      if (const auto prior = muscle::literature_prior(field.name, setup.start.*field.member,
+                                                      setup.start.optimal_fiber_length_m)) {
         setup.priors[std::string(field.name)] = *prior;
       }
     }
@@ -146,43 +157,59 @@ std::vector<identification::MuscleSetup> muscle_setups(const Study& study, const
   return setups;
 }
 
-std::string identified_model(const Study& study, const std::string& osim, const std::vector<IdentifiedMuscle>& muscles) {
+std::string identified_model(const Study& study,
+                             const std::string& osim,
+                             const std::vector<IdentifiedMuscle>& muscles) {
   pugi::xml_document document;
-  if (!document.load_buffer(osim.data(), osim.size())) throw ModelError("the model cannot be read again to write the identified one");
+  if (!document.load_buffer(osim.data(), osim.size()))
+    throw ModelError("the model cannot be read again to write the identified one");
   struct Edit {
     std::size_t at, length;
     std::string text;
   };
   std::vector<Edit> edits;
-  const auto edit = [&](pugi::xml_node muscle, const char* name, double factor, std::optional<double> value) {
+  const auto edit = [&](pugi::xml_node muscle, const char* name, double factor,
+                        std::optional<double> value) {
     const pugi::xml_node element = muscle.child(name);
     const pugi::xml_node text = element.first_child();
     if (!text || text.type() != pugi::node_pcdata) return;
     const auto old = recording::parse_number(text.value());
     if (!old) return;
     const auto at = static_cast<std::size_t>(text.offset_debug());
-    edits.push_back({at, std::string_view(text.value()).size(), recording::format_number(value.value_or(*old * factor))});
+    edits.push_back({at, std::string_view(text.value()).size(),
+                     recording::format_number(value.value_or(*old * factor))});
   };
   for (const IdentifiedMuscle& muscle : muscles) {
-    const auto spec = std::find_if(study.muscles.begin(), study.muscles.end(), [&](const MuscleSpec& m) { return m.name == muscle.group; });
+    const auto spec = std::find_if(study.muscles.begin(), study.muscles.end(),
+                                   [&](const MuscleSpec& m) { return m.name == muscle.group; });
     if (spec == study.muscles.end()) continue;
-    const auto changed = [&](std::string_view name) { return std::find(muscle.changed.begin(), muscle.changed.end(), name) != muscle.changed.end(); };
+    const auto changed = [&](std::string_view name) {
+      return std::find(muscle.changed.begin(), muscle.changed.end(), name) != muscle.changed.end();
+    };
     for (const std::string& name : spec->osim) {
-      const auto found = document.select_node(fmt::format("//ForceSet/objects/*[@name='{}']", name).c_str());
+      const auto found =
+          document.select_node(fmt::format("//ForceSet/objects/*[@name='{}']", name).c_str());
       if (!found) continue;
       const pugi::xml_node node = found.node();
       if (changed("max_isometric_force")) {
-        edit(node, "max_isometric_force", muscle.identified.max_isometric_force_n / muscle.start.max_isometric_force_n, std::nullopt);
+        edit(node, "max_isometric_force",
+             muscle.identified.max_isometric_force_n / muscle.start.max_isometric_force_n,
+             std::nullopt);
       }
       if (changed("optimal_fiber_length")) {
-        edit(node, "optimal_fiber_length", muscle.identified.optimal_fiber_length_m / muscle.start.optimal_fiber_length_m, std::nullopt);
+        edit(node, "optimal_fiber_length",
+             muscle.identified.optimal_fiber_length_m / muscle.start.optimal_fiber_length_m,
+             std::nullopt);
       }
       if (changed("force_length_width") || changed("optimal_fiber_length")) {
-        const double ratio = muscle.identified.force_length_width_m / muscle.identified.optimal_fiber_length_m;
+        const double ratio =
+            muscle.identified.force_length_width_m / muscle.identified.optimal_fiber_length_m;
         edit(node, "KshapeActive", 1.0, ratio * ratio);
       }
-      if (changed("concentric_curvature")) edit(node, "Af", 1.0, muscle.identified.concentric_curvature);
-      if (changed("eccentric_plateau")) edit(node, "Flen", 1.0, muscle.identified.eccentric_plateau);
+      if (changed("concentric_curvature"))
+        edit(node, "Af", 1.0, muscle.identified.concentric_curvature);
+      if (changed("eccentric_plateau"))
+        edit(node, "Flen", 1.0, muscle.identified.eccentric_plateau);
     }
   }
   std::sort(edits.begin(), edits.end(), [](const Edit& a, const Edit& b) { return a.at > b.at; });

@@ -12,34 +12,44 @@
 
 namespace myoid::pipeline {
 
-/// The study's model as text: its file, or the built-in arm made for the subject. `markers`, if given, set the built-in arm's forearm
-/// length (elbow to middle of the styloids) where the study does not; the upper arm follows in de Leva's proportion.
-[[nodiscard]] std::string model_text(const Study& study, const recording::MarkerSeries* markers = nullptr);
+/// The study's model as text: its file, or the built-in arm made for the subject. `markers`, if
+/// given, set the built-in arm's forearm length (elbow to middle of the styloids) where the study
+/// does not; the upper arm follows in de Leva's proportion.
+[[nodiscard]] std::string model_text(const Study& study,
+                                     const recording::MarkerSeries* markers = nullptr);
 
-/// The model itself. Throws ReadError, or ModelError if the study's coordinate, muscles or held-mass body are not in it, with the names
-/// that are.
-[[nodiscard]] model::BodyModel load_model(const Study& study, const recording::MarkerSeries* markers = nullptr);
+/// The model itself. Throws ReadError, or ModelError if the study's coordinate, muscles or
+/// held-mass body are not in it, with the names that are.
+[[nodiscard]] model::BodyModel load_model(const Study& study,
+                                          const recording::MarkerSeries* markers = nullptr);
 
 /// Thelen's parameters of a model's muscle.
 [[nodiscard]] muscle::ThelenParameters thelen_parameters(const model::MuscleProperties& properties);
 
-/// What is identified: one entry per [[muscle]], heads lumped with their F_max as weights, with the priors of the literature.
-[[nodiscard]] std::vector<identification::MuscleSetup> muscle_setups(const Study& study, const model::BodyModel& model);
+/// What is identified: one entry per [[muscle]], heads lumped with their F_max as weights, with the
+/// priors of the literature.
+[[nodiscard]] std::vector<identification::MuscleSetup> muscle_setups(const Study& study,
+                                                                     const model::BodyModel& model);
 
-/// Columns of the model's muscles that make up each [[muscle]], and their weights (F_max, summing to 1).
+/// Columns of the model's muscles that make up each [[muscle]], and their weights (F_max, summing
+/// to 1).
 struct MuscleGroup {
   std::vector<int> members;
   std::vector<double> weights;
 };
-[[nodiscard]] std::vector<MuscleGroup> muscle_groups(const Study& study, const model::BodyModel& model);
+[[nodiscard]] std::vector<MuscleGroup> muscle_groups(const Study& study,
+                                                     const model::BodyModel& model);
 
-/// The model's text in which only the identified numbers changed: F_max, optimal fiber length, KshapeActive, Af and Flen of the muscles of
-/// each group, in the proportion in which the group's changed. Everything else stays byte for byte.
+/// The model's text in which only the identified numbers changed: F_max, optimal fiber length,
+/// KshapeActive, Af and Flen of the muscles of each group, in the proportion in which the group's
+/// changed. Everything else stays byte for byte.
 struct IdentifiedMuscle {
   std::string group;
   muscle::HillParameters<double> start, identified;
   std::vector<std::string> changed;  ///< Parameter names that may be taken over.
 };
-[[nodiscard]] std::string identified_model(const Study& study, const std::string& osim, const std::vector<IdentifiedMuscle>& muscles);
+[[nodiscard]] std::string identified_model(const Study& study,
+                                           const std::string& osim,
+                                           const std::vector<IdentifiedMuscle>& muscles);
 
 }  // namespace myoid::pipeline

@@ -1,12 +1,12 @@
 #include "myoid/pipeline/study_report.h"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <set>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
 
 #include "myoid/muscle/hill_muscle.h"
 
@@ -28,15 +28,22 @@ using report::Section;
 using report::Series;
 using report::Table;
 
-std::vector<double> to_vector(const Eigen::Ref<const Eigen::VectorXd>& v) { return {v.data(), v.data() + v.size()}; }
+std::vector<double> to_vector(const Eigen::Ref<const Eigen::VectorXd>& v) {
+  return {v.data(), v.data() + v.size()};
+}
 
 Badge badge(Verdict verdict) {
   switch (verdict) {
-    case Verdict::identified: return Badge::good;
-    case Verdict::weak: return Badge::weak;
-    case Verdict::prior_dominated: return Badge::info;
-    case Verdict::not_identifiable: return Badge::none;
-    case Verdict::non_physical: return Badge::bad;
+    case Verdict::identified:
+      return Badge::good;
+    case Verdict::weak:
+      return Badge::weak;
+    case Verdict::prior_dominated:
+      return Badge::info;
+    case Verdict::not_identifiable:
+      return Badge::none;
+    case Verdict::non_physical:
+      return Badge::bad;
   }
   return Badge::none;
 }
@@ -50,16 +57,21 @@ const IdentificationResult* method_of(const StudyResult& result, std::string_vie
 
 std::string with_unit(double value, Unit unit) {
   if (!std::isfinite(value)) return "-";
-  return unit == Unit::dimensionless ? format_value(value) : fmt::format("{} {}", format_value(value), symbol(unit));
+  return unit == Unit::dimensionless ? format_value(value)
+                                     : fmt::format("{} {}", format_value(value), symbol(unit));
 }
 
 std::string interval(const ParameterEstimate& e) {
-  return e.ci_low && e.ci_high ? fmt::format("{} to {}", format_value(*e.ci_low), format_value(*e.ci_high)) : "none";
+  return e.ci_low && e.ci_high
+             ? fmt::format("{} to {}", format_value(*e.ci_low), format_value(*e.ci_high))
+             : "none";
 }
 
 std::optional<double> truth_of(const StudyResult& result, const ParameterEstimate& e) {
   for (const TrueValue& t : result.truth) {
-    if (t.parameter == e.parameter && (t.muscle == e.muscle || (e.muscle == "subject" && t.parameter == "emg_delay"))) return t.value;
+    if (t.parameter == e.parameter &&
+        (t.muscle == e.muscle || (e.muscle == "subject" && t.parameter == "emg_delay")))
+      return t.value;
   }
   return std::nullopt;
 }
@@ -100,37 +112,64 @@ std::vector<Gate> gates(const StudyResult& result) {
     }
   }
   if (result.failed_trials > 0) {
-    list.push_back({"Every trial could be computed", GateStatus::fail, fmt::format("{} of {} failed", result.failed_trials, result.trials.size()), "all",
-                    "The others are reported; the failures are listed under the trials."});
+    list.push_back({"Every trial could be computed", GateStatus::fail,
+                    fmt::format("{} of {} failed", result.failed_trials, result.trials.size()),
+                    "all", "The others are reported; the failures are listed under the trials."});
   }
   if (any_ik) {
-    list.push_back({"Inverse kinematics converged", unconverged + blind == 0 ? GateStatus::pass : GateStatus::warn,
-                    fmt::format("{} of {} frames", frames - unconverged - blind, frames), "all frames", "A frame that did not converge has no trustworthy angle."});
-    list.push_back({"Markers fit the model", worst_rms < 0.02 ? GateStatus::pass : worst_rms < 0.04 ? GateStatus::warn : GateStatus::fail,
-                    fmt::format("{:.1f} mm rms in the worst frame", 1000.0 * worst_rms), "below 20 mm", "Larger errors mean wrong labels or a model of another size."});
+    list.push_back({"Inverse kinematics converged",
+                    unconverged + blind == 0 ? GateStatus::pass : GateStatus::warn,
+                    fmt::format("{} of {} frames", frames - unconverged - blind, frames),
+                    "all frames", "A frame that did not converge has no trustworthy angle."});
+    list.push_back({"Markers fit the model",
+                    worst_rms < 0.02   ? GateStatus::pass
+                    : worst_rms < 0.04 ? GateStatus::warn
+                                       : GateStatus::fail,
+                    fmt::format("{:.1f} mm rms in the worst frame", 1000.0 * worst_rms),
+                    "below 20 mm", "Larger errors mean wrong labels or a model of another size."});
     if (!open.empty()) {
-      list.push_back({"Markers determine every coordinate", GateStatus::warn, fmt::format("open: {}", fmt::join(open, ", ")), "none open",
+      list.push_back({"Markers determine every coordinate", GateStatus::warn,
+                      fmt::format("open: {}", fmt::join(open, ", ")), "none open",
                       "These coordinates keep their value where the markers do not tell."});
     }
   }
-  list.push_back({"Force sharing certified optimal", unsolved == 0 ? GateStatus::pass : GateStatus::fail,
-                  fmt::format("{} of {} frames", sharing_frames - unsolved, sharing_frames), "all frames, residual below 1e-9", "Concerns the reference forces of method paper only."});
+  list.push_back(
+      {"Force sharing certified optimal", unsolved == 0 ? GateStatus::pass : GateStatus::fail,
+       fmt::format("{} of {} frames", sharing_frames - unsolved, sharing_frames),
+       "all frames, residual below 1e-9", "Concerns the reference forces of method paper only."});
   const double share = sharing_frames > 0 ? 100.0 * reserves / sharing_frames : 0.0;
-  list.push_back({"Muscles strong enough for the torque", share < 5.0 ? GateStatus::pass : GateStatus::warn, fmt::format("reserve used in {:.1f} % of frames", share), "below 5 %",
+  list.push_back({"Muscles strong enough for the torque",
+                  share < 5.0 ? GateStatus::pass : GateStatus::warn,
+                  fmt::format("reserve used in {:.1f} % of frames", share), "below 5 %",
                   "Where a reserve acts, the literature's muscles could not provide the torque."});
   if (!result.normalisation.empty()) {
-    const bool mvc = std::all_of(result.normalisation.begin(), result.normalisation.end(), [](const auto& n) { return n.from_mvc; });
+    const bool mvc = std::all_of(result.normalisation.begin(), result.normalisation.end(),
+                                 [](const auto& n) { return n.from_mvc; });
     std::string sources;
-    for (const auto& n : result.normalisation) sources += fmt::format("{}{}: {}", sources.empty() ? "" : "; ", n.channel, n.source_trial);
-    list.push_back({"EMG relative to a maximal contraction", mvc ? GateStatus::pass : GateStatus::warn, sources, "every channel from an MVC trial",
-                    mvc ? "F_max means the maximal force." : "F_max below means the force at the study's largest EMG, not the muscle's maximum; forces and torques are right all the same."});
+    for (const auto& n : result.normalisation)
+      sources += fmt::format("{}{}: {}", sources.empty() ? "" : "; ", n.channel, n.source_trial);
+    list.push_back({"EMG relative to a maximal contraction",
+                    mvc ? GateStatus::pass : GateStatus::warn, sources,
+                    "every channel from an MVC trial",
+                    mvc ? "F_max means the maximal force."
+                        : "F_max below means the force at the study's largest EMG, not the "
+                          "muscle's maximum; forces and torques are right all the same."});
   }
   if (const IdentificationResult* torque = method_of(result, "torque")) {
-    list.push_back({"Fit converged", torque->termination == math::Termination::converged ? GateStatus::pass : GateStatus::fail, torque->message, "converged", "Only a converged fit is an answer."});
-    const auto count = [&](Verdict v) { return std::count_if(torque->estimates.begin(), torque->estimates.end(), [&](const auto& e) { return e.verdict == v && e.parameter != "emg_gain"; }); };
-    list.push_back({"Parameters that this recording tells", count(Verdict::identified) > 0 ? GateStatus::pass : GateStatus::warn,
-                    fmt::format("{} identified, {} weak, {} prior-dominated, {} not identifiable", count(Verdict::identified), count(Verdict::weak), count(Verdict::prior_dominated),
-                                count(Verdict::not_identifiable)),
+    list.push_back(
+        {"Fit converged",
+         torque->termination == math::Termination::converged ? GateStatus::pass : GateStatus::fail,
+         torque->message, "converged", "Only a converged fit is an answer."});
+    const auto count = [&](Verdict v) {
+      return std::count_if(torque->estimates.begin(), torque->estimates.end(), [&](const auto& e) {
+        return e.verdict == v && e.parameter != "emg_gain";
+      });
+    };
+    list.push_back({"Parameters that this recording tells",
+                    count(Verdict::identified) > 0 ? GateStatus::pass : GateStatus::warn,
+                    fmt::format("{} identified, {} weak, {} prior-dominated, {} not identifiable",
+                                count(Verdict::identified), count(Verdict::weak),
+                                count(Verdict::prior_dominated), count(Verdict::not_identifiable)),
                     "those you need", "Use a number only if its verdict allows it."});
   }
   if (!result.folds.empty()) {
@@ -143,25 +182,42 @@ std::vector<Gate> gates(const StudyResult& result) {
       better += f.identified.rmse_nm < f.literature.rmse_nm ? 1 : 0;
     }
     const double n = static_cast<double>(result.folds.size());
-    list.push_back({"Predicts torque it has not seen", better * 2 > static_cast<int>(result.folds.size()) ? GateStatus::pass : GateStatus::warn,
-                    fmt::format("{:.2f} N m rms, literature with best gain {:.2f} N m", ours / n, theirs / n), "better than the literature's parameters",
-                    fmt::format("Better in {} of {} trials left out.", better, result.folds.size())});
+    list.push_back(
+        {"Predicts torque it has not seen",
+         better * 2 > static_cast<int>(result.folds.size()) ? GateStatus::pass : GateStatus::warn,
+         fmt::format("{:.2f} N m rms, literature with best gain {:.2f} N m", ours / n, theirs / n),
+         "better than the literature's parameters",
+         fmt::format("Better in {} of {} trials left out.", better, result.folds.size())});
   }
   return list;
 }
 
 Table torque_table(const StudyResult& result, const IdentificationResult& method) {
-  Table table{"parameters_torque", "Identified parameters (method torque)",
-              "All muscles and both branches at once against the joint torque. Interval: 95 %, for correlated residuals. Prior: the literature's mean and spread.", {}, {}};
+  Table table{"parameters_torque",
+              "Identified parameters (method torque)",
+              "All muscles and both branches at once against the joint torque. Interval: 95 %, for "
+              "correlated residuals. Prior: the literature's mean and spread.",
+              {},
+              {}};
   table.columns = {"muscle", "parameter", "prior", "estimate", "95 % interval", "verdict", "why"};
   if (!result.truth.empty()) table.columns.insert(table.columns.begin() + 5, "truth");
   for (const ParameterEstimate& e : method.estimates) {
-    std::vector<Cell> row{{e.muscle}, {spelled(e.parameter)}, {e.prior_mean ? fmt::format("{} ± {}", with_unit(*e.prior_mean, e.unit), format_value(*e.prior_sd, 2)) : "-"},
-                          {with_unit(e.estimate, e.unit)}, {interval(e)}, {spelled(std::string(identification::name(e.verdict))), badge(e.verdict)}, {e.reason}};
+    std::vector<Cell> row{{e.muscle},
+                          {spelled(e.parameter)},
+                          {e.prior_mean ? fmt::format("{} ± {}", with_unit(*e.prior_mean, e.unit),
+                                                      format_value(*e.prior_sd, 2))
+                                        : "-"},
+                          {with_unit(e.estimate, e.unit)},
+                          {interval(e)},
+                          {spelled(std::string(identification::name(e.verdict))), badge(e.verdict)},
+                          {e.reason}};
     if (!result.truth.empty()) {
       const auto truth = truth_of(result, e);
       const bool inside = truth && e.ci_low && *truth >= *e.ci_low && *truth <= *e.ci_high;
-      row.insert(row.begin() + 5, Cell{truth ? with_unit(*truth, e.unit) : "-", !truth || !e.ci_low ? Badge::none : inside ? Badge::good : Badge::weak});
+      row.insert(row.begin() + 5,
+                 Cell{truth ? with_unit(*truth, e.unit) : "-", !truth || !e.ci_low ? Badge::none
+                                                               : inside            ? Badge::good
+                                                                                   : Badge::weak});
     }
     table.rows.push_back(std::move(row));
   }
@@ -171,13 +227,22 @@ Table torque_table(const StudyResult& result, const IdentificationResult& method
 /// The source paper's table I or II.
 Table paper_table(const IdentificationResult& method, bool shortening) {
   Table table{shortening ? "table_1_shortening" : "table_2_lengthening",
-              shortening ? "Table I: parameters from shortening (method paper)" : "Table II: parameters from lengthening (method paper)",
-              "Each muscle fitted apart to the force that force sharing assigned to it, plain Gauss-Newton, as published; intervals and verdicts are ours.", {}, {}};
+              shortening ? "Table I: parameters from shortening (method paper)"
+                         : "Table II: parameters from lengthening (method paper)",
+              "Each muscle fitted apart to the force that force sharing assigned to it, plain "
+              "Gauss-Newton, as published; intervals and verdicts are ours.",
+              {},
+              {}};
   table.columns = {"muscle", "parameter", "initial", "estimate", "95 % interval", "verdict", "why"};
   for (const ParameterEstimate& e : method.estimates) {
     if ((e.fit_case == "shortening") != shortening) continue;
-    table.rows.push_back({{e.muscle}, {spelled(e.parameter)}, {with_unit(e.initial, e.unit)}, {with_unit(e.estimate, e.unit)}, {interval(e)},
-                          {spelled(std::string(identification::name(e.verdict))), badge(e.verdict)}, {e.reason}});
+    table.rows.push_back({{e.muscle},
+                          {spelled(e.parameter)},
+                          {with_unit(e.initial, e.unit)},
+                          {with_unit(e.estimate, e.unit)},
+                          {interval(e)},
+                          {spelled(std::string(identification::name(e.verdict))), badge(e.verdict)},
+                          {e.reason}});
   }
   return table;
 }
@@ -186,8 +251,12 @@ Table paper_table(const IdentificationResult& method, bool shortening) {
 Figure curves(const StudyResult& result, const IdentificationResult& method, std::size_t m) {
   const auto& setup = result.data.muscles[m];
   const auto& found = method.muscles[m];
-  Figure figure{"curves_" + setup.name, fmt::format("{}: force-length and force-velocity relations", setup.name),
-                "Grey dashed: literature; orange dashed: identified. The shaded range is what the recording visited.", {}, 2};
+  Figure figure{"curves_" + setup.name,
+                fmt::format("{}: force-length and force-velocity relations", setup.name),
+                "Grey dashed: literature; orange dashed: identified. The shaded range is what the "
+                "recording visited.",
+                {},
+                2};
   double low = 1e9;
   double high = -1e9;
   double fastest = 0.05;
@@ -210,16 +279,31 @@ Figure curves(const StudyResult& result, const IdentificationResult& method, std
   const double span = 1.6 * setup.start.force_length_width_m;
   Panel length{"", {"fiber length", "m", {}, {}, {}}, {"force / (a F_max)", "", {}, {}, {}}, {}};
   length.series.push_back({"visited", {low, high}, {0.0, 0.0}, Role::band, {}, {1.0, 1.0}});
-  const auto [lx, ly] = sample(l0 - span, l0 + span, [&](double x) { return muscle::force_length(x, setup.start.optimal_fiber_length_m, setup.start.force_length_width_m); });
+  const auto [lx, ly] = sample(l0 - span, l0 + span, [&](double x) {
+    return muscle::force_length(x, setup.start.optimal_fiber_length_m,
+                                setup.start.force_length_width_m);
+  });
   length.series.push_back({"literature", lx, ly, Role::literature, {}, {}});
-  const auto [ix, iy] = sample(l0 - span, l0 + span, [&](double x) { return muscle::force_length(x, found.optimal_fiber_length_m, found.force_length_width_m); });
+  const auto [ix, iy] = sample(l0 - span, l0 + span, [&](double x) {
+    return muscle::force_length(x, found.optimal_fiber_length_m, found.force_length_width_m);
+  });
   length.series.push_back({"identified", ix, iy, Role::identified, {}, {}});
   const double v = setup.start.max_shortening_speed_mps;
-  Panel velocity{"", {"fiber velocity (lengthening positive)", "m/s", {}, {}, {}}, {"force / isometric force", "", {}, {}, {}}, {}};
-  velocity.series.push_back({"visited", {-fastest, fastest}, {0.0, 0.0}, Role::band, {}, {found.eccentric_plateau, found.eccentric_plateau}});
-  const auto [vx, vy] = sample(-v, v, [&](double x) { return muscle::force_velocity(x, setup.start.velocity_shape()); });
+  Panel velocity{"",
+                 {"fiber velocity (lengthening positive)", "m/s", {}, {}, {}},
+                 {"force / isometric force", "", {}, {}, {}},
+                 {}};
+  velocity.series.push_back({"visited",
+                             {-fastest, fastest},
+                             {0.0, 0.0},
+                             Role::band,
+                             {},
+                             {found.eccentric_plateau, found.eccentric_plateau}});
+  const auto [vx, vy] = sample(
+      -v, v, [&](double x) { return muscle::force_velocity(x, setup.start.velocity_shape()); });
   velocity.series.push_back({"literature", vx, vy, Role::literature, {}, {}});
-  const auto [wx, wy] = sample(-v, v, [&](double x) { return muscle::force_velocity(x, found.velocity_shape()); });
+  const auto [wx, wy] =
+      sample(-v, v, [&](double x) { return muscle::force_velocity(x, found.velocity_shape()); });
   velocity.series.push_back({"identified", wx, wy, Role::identified, {}, {}});
   figure.panels = {length, velocity};
   return figure;
@@ -227,7 +311,11 @@ Figure curves(const StudyResult& result, const IdentificationResult& method, std
 
 /// The paper's figure 6: EMG raw, rectified, filtered, of one trial.
 Figure emg_figure(const TrialResult& trial) {
-  Figure figure{"emg_" + trial.spec.name, fmt::format("EMG of trial {}: raw, rectified, filtered", trial.spec.name), "Millivolts; the orange line is the envelope.", {}, 2};
+  Figure figure{"emg_" + trial.spec.name,
+                fmt::format("EMG of trial {}: raw, rectified, filtered", trial.spec.name),
+                "Millivolts; the orange line is the envelope.",
+                {},
+                2};
   const TimeSeries& raw = trial.emg->raw;
   const TimeSeries& rectified = trial.emg->rectified;
   const TimeSeries& envelope = trial.emg->envelope;
@@ -235,10 +323,18 @@ Figure emg_figure(const TrialResult& trial) {
     const auto column = static_cast<Eigen::Index>(c);
     const std::vector<double> t = to_vector(raw.time_s());
     Panel left{raw.channels()[c].name, {"time", "s", {}, {}, {}}, {"EMG", "mV", {}, {}, {}}, {}};
-    left.series.push_back({"raw, mean removed", t, to_vector(1e3 * raw.values().col(column)), Role::reference, {}, {}});
-    Panel right{raw.channels()[c].name, {"time", "s", {}, {}, {}}, {"rectified EMG", "mV", {}, {}, {}}, {}};
-    right.series.push_back({"rectified", t, to_vector(1e3 * rectified.values().col(column)), Role::raw, {}, {}});
-    right.series.push_back({"envelope", t, to_vector(1e3 * envelope.values().col(column)), Role::identified, {}, {}});
+    left.series.push_back({"raw, mean removed",
+                           t,
+                           to_vector(1e3 * raw.values().col(column)),
+                           Role::reference,
+                           {},
+                           {}});
+    Panel right{
+        raw.channels()[c].name, {"time", "s", {}, {}, {}}, {"rectified EMG", "mV", {}, {}, {}}, {}};
+    right.series.push_back(
+        {"rectified", t, to_vector(1e3 * rectified.values().col(column)), Role::raw, {}, {}});
+    right.series.push_back(
+        {"envelope", t, to_vector(1e3 * envelope.values().col(column)), Role::identified, {}, {}});
     figure.panels.push_back(left);
     figure.panels.push_back(right);
   }
@@ -246,33 +342,57 @@ Figure emg_figure(const TrialResult& trial) {
 }
 
 /// The paper's figures 8-10: force of every muscle over one trial.
-Figure force_figure(const StudyResult& result, const identification::TrialData& data, const IdentificationResult& method) {
-  const auto fit = std::find_if(method.trials.begin(), method.trials.end(), [&](const auto& t) { return t.trial == data.name; });
-  Figure figure{fmt::format("forces_{}_{}", method.method, data.name), fmt::format("Muscle forces in trial {} (method {})", data.name, method.method),
-                "Blue: force that force sharing assigns (no co-contraction). Grey dashed: literature's parameters with the measured EMG. Orange dashed: identified parameters.", {}, 2};
+Figure force_figure(const StudyResult& result,
+                    const identification::TrialData& data,
+                    const IdentificationResult& method) {
+  const auto fit = std::find_if(method.trials.begin(), method.trials.end(),
+                                [&](const auto& t) { return t.trial == data.name; });
+  Figure figure{
+      fmt::format("forces_{}_{}", method.method, data.name),
+      fmt::format("Muscle forces in trial {} (method {})", data.name, method.method),
+      "Blue: force that force sharing assigns (no co-contraction). Grey dashed: literature's "
+      "parameters with the measured EMG. Orange dashed: identified parameters.",
+      {},
+      2};
   const std::vector<double> t = to_vector(data.time_s);
   for (std::size_t m = 0; m < result.data.muscles.size(); ++m) {
     const auto c = static_cast<Eigen::Index>(m);
     const Eigen::VectorXd error = fit->force_fit_n.col(c) - data.force_n.col(c);
     const bool finite = error.allFinite();
-    Panel panel{finite ? fmt::format("{}: identified against shared {:.0f} N rms", result.data.muscles[m].name, std::sqrt(error.squaredNorm() / static_cast<double>(error.size())))
-                       : result.data.muscles[m].name,
-                {"time", "s", {}, {}, {}}, {"force", "N", {}, {}, {}}, {}};
+    Panel panel{
+        finite
+            ? fmt::format("{}: identified against shared {:.0f} N rms", result.data.muscles[m].name,
+                          std::sqrt(error.squaredNorm() / static_cast<double>(error.size())))
+            : result.data.muscles[m].name,
+        {"time", "s", {}, {}, {}},
+        {"force", "N", {}, {}, {}},
+        {}};
     panel.series.push_back({"shared", t, to_vector(data.force_n.col(c)), Role::reference, {}, {}});
-    panel.series.push_back({"literature", t, to_vector(fit->literature_force_n.col(c)), Role::literature, {}, {}});
-    if (finite) panel.series.push_back({"identified", t, to_vector(fit->force_fit_n.col(c)), Role::identified, {}, {}});
+    panel.series.push_back(
+        {"literature", t, to_vector(fit->literature_force_n.col(c)), Role::literature, {}, {}});
+    if (finite)
+      panel.series.push_back(
+          {"identified", t, to_vector(fit->force_fit_n.col(c)), Role::identified, {}, {}});
     figure.panels.push_back(std::move(panel));
   }
   return figure;
 }
 
 Figure torque_figure(const StudyResult& result) {
-  Figure figure{"torque_held_out", "Joint torque predicted for trials that took no part in the fit",
-                "Blue: inverse dynamics. Orange dashed: muscles identified on the other trials. Grey dashed: literature's muscles with one best gain.", {}, 2};
+  Figure figure{"torque_held_out",
+                "Joint torque predicted for trials that took no part in the fit",
+                "Blue: inverse dynamics. Orange dashed: muscles identified on the other trials. "
+                "Grey dashed: literature's muscles with one best gain.",
+                {},
+                2};
   for (const auto& f : result.folds) {
     const std::vector<double> t = to_vector(f.time_s);
-    Panel panel{fmt::format("{}: R2 {:.2f}", f.trial, f.identified.r2), {"time", "s", {}, {}, {}}, {"torque", "N m", {}, {}, {}}, {}};
-    panel.series.push_back({"inverse dynamics", t, to_vector(f.measured_nm), Role::reference, {}, {}});
+    Panel panel{fmt::format("{}: R2 {:.2f}", f.trial, f.identified.r2),
+                {"time", "s", {}, {}, {}},
+                {"torque", "N m", {}, {}, {}},
+                {}};
+    panel.series.push_back(
+        {"inverse dynamics", t, to_vector(f.measured_nm), Role::reference, {}, {}});
     panel.series.push_back({"literature", t, to_vector(f.literature_nm), Role::literature, {}, {}});
     panel.series.push_back({"identified", t, to_vector(f.predicted_nm), Role::identified, {}, {}});
     figure.panels.push_back(std::move(panel));
@@ -281,20 +401,35 @@ Figure torque_figure(const StudyResult& result) {
 }
 
 Table fold_table(const StudyResult& result) {
-  Table table{"leave_one_trial_out", "Leave-one-trial-out prediction of the joint torque",
-              "R2 = 1 - SSE/SST, negative when worse than the trial's own mean. NRMSE is RMSE over the range. Baselines: the literature's parameters with the one gain that fits the other "
-              "trials best, and the other trials' mean torque.",
-              {"trial", "RMSE [N m]", "NRMSE", "R2", "VAF", "literature x gain: RMSE [N m]", "R2", "constant: RMSE [N m]"}, {}};
+  Table table{
+      "leave_one_trial_out",
+      "Leave-one-trial-out prediction of the joint torque",
+      "R2 = 1 - SSE/SST, negative when worse than the trial's own mean. NRMSE is RMSE over the "
+      "range. Baselines: the literature's parameters with the one gain that fits the other "
+      "trials best, and the other trials' mean torque.",
+      {"trial", "RMSE [N m]", "NRMSE", "R2", "VAF", "literature x gain: RMSE [N m]", "R2",
+       "constant: RMSE [N m]"},
+      {}};
   for (const auto& f : result.folds) {
-    table.rows.push_back({{f.trial}, {fmt::format("{:.2f}", f.identified.rmse_nm)}, {fmt::format("{:.1f} %", 100.0 * f.identified.nrmse_range)},
-                          {fmt::format("{:.3f}", f.identified.r2), f.identified.r2 > f.literature.r2 ? Badge::good : Badge::weak}, {fmt::format("{:.3f}", f.identified.vaf)},
-                          {fmt::format("{:.2f}", f.literature.rmse_nm)}, {fmt::format("{:.3f}", f.literature.r2)}, {fmt::format("{:.2f}", f.constant.rmse_nm)}});
+    table.rows.push_back({{f.trial},
+                          {fmt::format("{:.2f}", f.identified.rmse_nm)},
+                          {fmt::format("{:.1f} %", 100.0 * f.identified.nrmse_range)},
+                          {fmt::format("{:.3f}", f.identified.r2),
+                           f.identified.r2 > f.literature.r2 ? Badge::good : Badge::weak},
+                          {fmt::format("{:.3f}", f.identified.vaf)},
+                          {fmt::format("{:.2f}", f.literature.rmse_nm)},
+                          {fmt::format("{:.3f}", f.literature.r2)},
+                          {fmt::format("{:.2f}", f.constant.rmse_nm)}});
   }
   return table;
 }
 
 Table trial_table(const StudyResult& result) {
-  Table table{"trials", "Trials", "What was recorded and how it went.", {"trial", "use", "duration", "held mass", "elbow range", "torque range", "status"}, {}};
+  Table table{"trials",
+              "Trials",
+              "What was recorded and how it went.",
+              {"trial", "use", "duration", "held mass", "elbow range", "torque range", "status"},
+              {}};
   for (const TrialResult& t : result.trials) {
     std::vector<Cell> row{{t.spec.name}, {std::string(name(t.spec.use))}};
     if (t.has_motion()) {
@@ -303,11 +438,13 @@ Table trial_table(const StudyResult& result) {
       row.push_back({fmt::format("{:.1f} s", clock[clock.size() - 1] - clock[0])});
       row.push_back({fmt::format("{} kg", format_value(t.spec.held_mass_kg))});
       row.push_back({fmt::format("{:.0f} to {:.0f} deg", q.minCoeff(), q.maxCoeff())});
-      row.push_back({fmt::format("{:.1f} to {:.1f} N m", t.muscle_torque.values().minCoeff(), t.muscle_torque.values().maxCoeff())});
+      row.push_back({fmt::format("{:.1f} to {:.1f} N m", t.muscle_torque.values().minCoeff(),
+                                 t.muscle_torque.values().maxCoeff())});
     } else {
       for (int k = 0; k < 4; ++k) row.push_back({"-"});
     }
-    row.push_back(t.failure.empty() ? Cell{"ok", Badge::good} : Cell{"failed", Badge::bad, t.failure});
+    row.push_back(t.failure.empty() ? Cell{"ok", Badge::good}
+                                    : Cell{"failed", Badge::bad, t.failure});
     table.rows.push_back(std::move(row));
   }
   return table;
@@ -315,23 +452,41 @@ Table trial_table(const StudyResult& result) {
 
 std::vector<std::string> assumptions(const StudyResult& result) {
   std::vector<std::string> list = result.study.subject.notes;
-  list.push_back("The tendon is taken as rigid: fiber length = musculotendon length - tendon slack length. Optimal fiber length and tendon slack length then act only together; the slack length is held.");
-  list.push_back("Pennation and passive muscle force are neglected, as in the source paper; the muscles are effective ones that stand for all heads lumped into them.");
+  list.push_back(
+      "The tendon is taken as rigid: fiber length = musculotendon length - tendon slack length. "
+      "Optimal fiber length and tendon slack length then act only together; the slack length is "
+      "held.");
+  list.push_back(
+      "Pennation and passive muscle force are neglected, as in the source paper; the muscles are "
+      "effective ones that stand for all heads lumped into them.");
   list.push_back("v_max is held at its starting value; an error in it goes into V_sh.");
-  list.push_back("At low activation the optimal length is longer than at full activation (about 15 %); the l0 given here belongs to the activations of this recording.");
+  list.push_back(
+      "At low activation the optimal length is longer than at full activation (about 15 %); the l0 "
+      "given here belongs to the activations of this recording.");
   for (const auto& muscle : result.study.muscles) {
-    if (muscle.same_as) list.push_back(fmt::format("{} has no electrode: it is taken to act as {} does. Their strengths can hardly be told apart.", muscle.name, *muscle.same_as));
+    if (muscle.same_as)
+      list.push_back(
+          fmt::format("{} has no electrode: it is taken to act as {} does. Their strengths can "
+                      "hardly be told apart.",
+                      muscle.name, *muscle.same_as));
   }
-  if (!result.study.subject.mass_kg) list.push_back("Body mass is not given: 73 kg is assumed for the built-in arm's inertia.");
-  list.push_back(fmt::format("EMG: high-pass {} Hz, rectified, low-pass {} Hz{}; largest {} s mean over the study counts as 1.", result.study.emg.highpass_hz, result.study.emg.lowpass_hz,
-                             result.study.emg.as_published ? " designed for one pass, as published" : " (-3 dB of both passes)", result.study.emg.normalise_window_s));
+  if (!result.study.subject.mass_kg)
+    list.push_back("Body mass is not given: 73 kg is assumed for the built-in arm's inertia.");
+  list.push_back(
+      fmt::format("EMG: high-pass {} Hz, rectified, low-pass {} Hz{}; largest {} s mean over the "
+                  "study counts as 1.",
+                  result.study.emg.highpass_hz, result.study.emg.lowpass_hz,
+                  result.study.emg.as_published ? " designed for one pass, as published"
+                                                : " (-3 dB of both passes)",
+                  result.study.emg.normalise_window_s));
   for (const std::string& text : result.model.unsupported) list.push_back("Model: " + text + ".");
   return list;
 }
 
 std::string headline(const StudyResult& result) {
   const IdentificationResult* torque = method_of(result, "torque");
-  if (torque == nullptr) return "Parameters by the source paper's method, each with an interval and a verdict.";
+  if (torque == nullptr)
+    return "Parameters by the source paper's method, each with an interval and a verdict.";
   std::vector<std::string> sure;
   int total = 0;
   for (const ParameterEstimate& e : torque->estimates) {
@@ -339,8 +494,11 @@ std::string headline(const StudyResult& result) {
     ++total;
     if (e.verdict == Verdict::identified) sure.push_back(e.muscle + " " + spelled(e.parameter));
   }
-  std::string text = sure.empty() ? fmt::format("This recording identifies none of {} parameters with certainty.", total)
-                                  : fmt::format("This recording identifies {} of {} parameters: {}.", sure.size(), total, fmt::join(sure, ", "));
+  std::string text =
+      sure.empty()
+          ? fmt::format("This recording identifies none of {} parameters with certainty.", total)
+          : fmt::format("This recording identifies {} of {} parameters: {}.", sure.size(), total,
+                        fmt::join(sure, ", "));
   if (!result.folds.empty()) {
     double r2 = 0.0;
     double base = 0.0;
@@ -348,7 +506,10 @@ std::string headline(const StudyResult& result) {
       r2 += f.identified.r2 / static_cast<double>(result.folds.size());
       base += f.literature.r2 / static_cast<double>(result.folds.size());
     }
-    text += fmt::format(" Torque of trials left out of the fit is predicted with R2 = {:.2f} on average (literature's parameters with a best gain: {:.2f}).", r2, base);
+    text += fmt::format(
+        " Torque of trials left out of the fit is predicted with R2 = {:.2f} on average "
+        "(literature's parameters with a best gain: {:.2f}).",
+        r2, base);
   }
   return text;
 }
@@ -358,7 +519,8 @@ std::string headline(const StudyResult& result) {
 report::Report study_report(const StudyResult& result, const Provenance& provenance) {
   report::Report report;
   report.title = fmt::format("Muscle parameters of {}", result.study.subject.name);
-  report.subtitle = fmt::format("{} trials; joint coordinate {}; model {}", result.trials.size(), spelled(result.study.model.coordinate), result.model.name);
+  report.subtitle = fmt::format("{} trials; joint coordinate {}; model {}", result.trials.size(),
+                                spelled(result.study.model.coordinate), result.model.name);
   report.headline = headline(result);
   report.gates = gates(result);
   const IdentificationResult* torque = method_of(result, "torque");
@@ -366,20 +528,33 @@ report::Report study_report(const StudyResult& result, const Provenance& provena
 
   if (torque != nullptr) {
     Section section{"parameters", "Parameters", {}, {}, {}, {}};
-    section.paragraphs.push_back(fmt::format("{} samples, worth {:.0f} independent ones; torque noise {:.2f} N m; EMG noise {:.0f} % of the torque of each channel; EMG delay {:.0f} ms.", torque->samples_used,
-                                             torque->effective_samples, torque->torque_sd_nm, 100.0 * torque->emg_cv, 1000.0 * torque->delay_s));
-    if (!torque->collinear.empty()) section.paragraphs.push_back(fmt::format("Hardly told apart: {}.", fmt::join(torque->collinear, "; ")));
+    section.paragraphs.push_back(
+        fmt::format("{} samples, worth {:.0f} independent ones; torque noise {:.2f} N m; EMG noise "
+                    "{:.0f} % of the torque of each channel; EMG delay {:.0f} ms.",
+                    torque->samples_used, torque->effective_samples, torque->torque_sd_nm,
+                    100.0 * torque->emg_cv, 1000.0 * torque->delay_s));
+    if (!torque->collinear.empty())
+      section.paragraphs.push_back(
+          fmt::format("Hardly told apart: {}.", fmt::join(torque->collinear, "; ")));
     section.tables.push_back(torque_table(result, *torque));
-    for (std::size_t m = 0; m < result.data.muscles.size(); ++m) section.figures.push_back(curves(result, *torque, m));
+    for (std::size_t m = 0; m < result.data.muscles.size(); ++m)
+      section.figures.push_back(curves(result, *torque, m));
     report.sections.push_back(std::move(section));
   }
   if (!result.folds.empty()) {
-    report.sections.push_back({"validation", "Validation on trials left out", {}, {}, {fold_table(result)}, {torque_figure(result)}});
+    report.sections.push_back({"validation",
+                               "Validation on trials left out",
+                               {},
+                               {},
+                               {fold_table(result)},
+                               {torque_figure(result)}});
   }
   if (paper != nullptr) {
     Section section{"paper", "The source paper's method beside it", {}, {}, {}, {}};
     section.paragraphs.push_back(
-        "Published in 2006: every muscle alone, shortening and lengthening apart, against forces that an optimization assigned. Those forces know nothing of co-contraction or of the person's own "
+        "Published in 2006: every muscle alone, shortening and lengthening apart, against forces "
+        "that an optimization assigned. Those forces know nothing of co-contraction or of the "
+        "person's own "
         "strength, so that its numbers often leave physiology; the verdicts say where.");
     section.tables = {paper_table(*paper, true), paper_table(*paper, false)};
     report.sections.push_back(std::move(section));
@@ -389,14 +564,19 @@ report::Report study_report(const StudyResult& result, const Provenance& provena
     if (torque != nullptr) forces.figures.push_back(force_figure(result, data, *torque));
     if (forces.figures.size() >= 6) break;  // the others are in the CSV files
   }
-  if (paper != nullptr && !result.data.trials.empty()) forces.figures.push_back(force_figure(result, result.data.trials.front(), *paper));
+  if (paper != nullptr && !result.data.trials.empty())
+    forces.figures.push_back(force_figure(result, result.data.trials.front(), *paper));
   report.sections.push_back(std::move(forces));
-  const auto task = std::find_if(result.trials.begin(), result.trials.end(), [](const TrialResult& t) { return t.emg && t.spec.use == Use::calibration; });
-  if (task != result.trials.end()) report.sections.push_back({"emg", "EMG", {}, {}, {}, {emg_figure(*task)}});
+  const auto task =
+      std::find_if(result.trials.begin(), result.trials.end(),
+                   [](const TrialResult& t) { return t.emg && t.spec.use == Use::calibration; });
+  if (task != result.trials.end())
+    report.sections.push_back({"emg", "EMG", {}, {}, {}, {emg_figure(*task)}});
   Section trials{"trials", "Trials", {}, {}, {trial_table(result)}, {}};
   std::vector<std::string> notes;
   for (const TrialResult& t : result.trials) {
-    for (const std::string& note : t.notes) notes.push_back(fmt::format("{}: {}", t.spec.name, note));
+    for (const std::string& note : t.notes)
+      notes.push_back(fmt::format("{}: {}", t.spec.name, note));
   }
   if (notes.size() > 12) {
     notes.resize(12);
@@ -406,10 +586,13 @@ report::Report study_report(const StudyResult& result, const Provenance& provena
   report.sections.push_back(std::move(trials));
 
   report.assumptions = assumptions(result);
-  report.provenance.push_back({"program", fmt::format("{} {}", provenance.program, provenance.version)});
+  report.provenance.push_back(
+      {"program", fmt::format("{} {}", provenance.program, provenance.version)});
   report.provenance.push_back({"command", provenance.command});
-  for (const InputFile& file : provenance.inputs) report.provenance.push_back({file.path, "sha256 " + file.sha256});
-  for (const StageTime& t : result.times) report.provenance.push_back({"time: " + t.stage, fmt::format("{:.2f} s", t.seconds)});
+  for (const InputFile& file : provenance.inputs)
+    report.provenance.push_back({file.path, "sha256 " + file.sha256});
+  for (const StageTime& t : result.times)
+    report.provenance.push_back({"time: " + t.stage, fmt::format("{:.2f} s", t.seconds)});
   report.provenance.push_back({"options", provenance.options_json});
   return report;
 }
@@ -418,18 +601,34 @@ std::string study_json(const Study& study) {
   nlohmann::ordered_json j;
   j["subject"] = {{"name", study.subject.name}, {"sex", study.subject.sex}};
   if (study.subject.mass_kg) j["subject"]["mass_kg"] = *study.subject.mass_kg;
-  j["model"] = {{"file", study.model.file ? study.model.file->string() : ""}, {"builtin", study.model.builtin}, {"coordinate", study.model.coordinate}};
+  j["model"] = {{"file", study.model.file ? study.model.file->string() : ""},
+                {"builtin", study.model.builtin},
+                {"coordinate", study.model.coordinate}};
   const char* smoothing[] = {"auto", "none", "cutoff"};
-  j["motion"] = {{"smoothing", smoothing[static_cast<int>(study.motion.smoothing)]}, {"cutoff_hz", study.motion.cutoff_hz}, {"rate_hz", study.motion.rate_hz}};
+  j["motion"] = {{"smoothing", smoothing[static_cast<int>(study.motion.smoothing)]},
+                 {"cutoff_hz", study.motion.cutoff_hz},
+                 {"rate_hz", study.motion.rate_hz}};
   const char* kinds[] = {"raw", "envelope", "activation"};
-  j["emg"] = {{"kind", kinds[static_cast<int>(study.emg.kind)]}, {"highpass_hz", study.emg.highpass_hz}, {"lowpass_hz", study.emg.lowpass_hz}, {"as_published", study.emg.as_published},
+  j["emg"] = {{"kind", kinds[static_cast<int>(study.emg.kind)]},
+              {"highpass_hz", study.emg.highpass_hz},
+              {"lowpass_hz", study.emg.lowpass_hz},
+              {"as_published", study.emg.as_published},
               {"normalise_window_s", study.emg.normalise_window_s}};
-  j["emg"]["delay_s"] = study.emg.delay_s ? nlohmann::ordered_json(*study.emg.delay_s) : nlohmann::ordered_json("estimate");
-  j["sharing"] = {{"objective", study.sharing.objective}, {"exponent", study.sharing.exponent}, {"reserve_nm", study.sharing.reserve_nm}};
-  j["identify"] = {{"method", study.identify.methods}, {"priors", study.identify.priors}, {"gain", study.identify.gain}, {"max_rate_hz", study.identify.max_rate_hz},
+  j["emg"]["delay_s"] = study.emg.delay_s ? nlohmann::ordered_json(*study.emg.delay_s)
+                                          : nlohmann::ordered_json("estimate");
+  j["sharing"] = {{"objective", study.sharing.objective},
+                  {"exponent", study.sharing.exponent},
+                  {"reserve_nm", study.sharing.reserve_nm}};
+  j["identify"] = {{"method", study.identify.methods},
+                   {"priors", study.identify.priors},
+                   {"gain", study.identify.gain},
+                   {"max_rate_hz", study.identify.max_rate_hz},
                    {"cross_validate", study.identify.cross_validate}};
-  for (const MuscleSpec& m : study.muscles) j["muscle"].push_back({{"name", m.name}, {"osim", m.osim}, {"emg", m.emg}, {"fixed", m.fixed}});
-  for (const TrialSpec& t : study.trials) j["trial"].push_back({{"name", t.name}, {"use", std::string(name(t.use))}, {"held_mass_kg", t.held_mass_kg}});
+  for (const MuscleSpec& m : study.muscles)
+    j["muscle"].push_back({{"name", m.name}, {"osim", m.osim}, {"emg", m.emg}, {"fixed", m.fixed}});
+  for (const TrialSpec& t : study.trials)
+    j["trial"].push_back(
+        {{"name", t.name}, {"use", std::string(name(t.use))}, {"held_mass_kg", t.held_mass_kg}});
   return j.dump();
 }
 

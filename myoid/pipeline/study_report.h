@@ -8,8 +8,9 @@
 
 namespace myoid::pipeline {
 
-/// Everything a person needs of a run: quality gates, the parameters with intervals and verdicts (the source paper's tables I and II among them),
-/// its figures 2, 6 and 8-10, the held-out torque, what was assumed.
+/// Everything a person needs of a run: quality gates, the parameters with intervals and verdicts
+/// (the source paper's tables I and II among them), its figures 2, 6 and 8-10, the held-out torque,
+/// what was assumed.
 [[nodiscard]] report::Report study_report(const StudyResult& result, const Provenance& provenance);
 
 /// The full options of a study, defaults included, as JSON.

@@ -15,15 +15,18 @@ namespace myoid::pipeline {
 /// The files of one trial as values: SI, laboratory turned to y up, markers renamed to the model's.
 struct TrialInput {
   std::optional<recording::MarkerSeries> markers;
-  std::optional<TimeSeries> motion;            ///< Coordinates [rad | m].
-  std::optional<TimeSeries> emg;               ///< [V], or dimensionless for envelopes and activations.
-  std::optional<TimeSeries> external_torque;   ///< [N m]
+  std::optional<TimeSeries> motion;  ///< Coordinates [rad | m].
+  std::optional<TimeSeries> emg;     ///< [V], or dimensionless for envelopes and activations.
+  std::optional<TimeSeries> external_torque;  ///< [N m]
   std::vector<std::string> notes;
   std::vector<InputFile> files;
 };
 
-/// Reads one trial. Throws ReadError (file, line, found, expected, remedy) or InvalidInput: a missing EMG channel, angles that are degrees
-/// where radians are said, no overlap in time between EMG and motion.
-[[nodiscard]] TrialInput read_trial_input(const Study& study, const TrialSpec& trial, const model::BodyModel& model);
+/// Reads one trial. Throws ReadError (file, line, found, expected, remedy) or InvalidInput: a
+/// missing EMG channel, angles that are degrees where radians are said, no overlap in time between
+/// EMG and motion.
+[[nodiscard]] TrialInput read_trial_input(const Study& study,
+                                          const TrialSpec& trial,
+                                          const model::BodyModel& model);
 
 }  // namespace myoid::pipeline

@@ -1,13 +1,13 @@
 #include "myoid/recording/atomic_file.h"
 
+#include <cerrno>
+#include <cstring>
+#include <string>
+
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/stat.h>
 #include <unistd.h>
-
-#include <cerrno>
-#include <cstring>
-#include <string>
 
 #include "myoid/core/error.h"
 
@@ -16,15 +16,16 @@ namespace myoid::recording {
 void write_file(const std::filesystem::path& path, std::string_view content) {
   const auto fail = [&](std::string_view what) {
     const int cause = errno;
-    throw InvalidInput(fmt::format("{}: {}: {}{}", path.string(), what, std::strerror(cause),
-                                   cause == ENOSPC ? "; free some space or choose another folder" : ""));
+    throw InvalidInput(
+        fmt::format("{}: {}: {}{}", path.string(), what, std::strerror(cause),
+                    cause == ENOSPC ? "; free some space or choose another folder" : ""));
   };
   std::error_code error;
   if (path.has_parent_path()) {
     std::filesystem::create_directories(path.parent_path(), error);
     if (error) {
-      throw InvalidInput(fmt::format("{}: cannot create the folder {}: {}", path.string(), path.parent_path().string(),
-                                     error.message()));
+      throw InvalidInput(fmt::format("{}: cannot create the folder {}: {}", path.string(),
+                                     path.parent_path().string(), error.message()));
     }
   }
   std::string temporary = path.string() + ".XXXXXX";

@@ -4,6 +4,7 @@
 
 #include "myoid/core/error.h"
 #include "myoid/recording/text_file.h"
+
 #include "tests/support/temporary_folder.h"
 
 namespace myoid::recording {
@@ -19,9 +20,11 @@ TEST(WriteFile, MakesTheFolderAndReplacesTheFile) {
 TEST(WriteFile, LeavesNothingBehindWhenItFails) {
   const test::TemporaryFolder folder;
   std::filesystem::create_directories(folder / "taken/inside");
-  EXPECT_THROW(write_file(folder / "taken", "x"), InvalidInput);  // a folder that is not empty cannot be replaced
+  EXPECT_THROW(write_file(folder / "taken", "x"),
+               InvalidInput);  // a folder that is not empty cannot be replaced
   std::size_t entries = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(folder.path())) entries += entry.exists() ? 1 : 0;
+  for (const auto& entry : std::filesystem::directory_iterator(folder.path()))
+    entries += entry.exists() ? 1 : 0;
   EXPECT_EQ(entries, 1U);
 }
 

@@ -4,6 +4,7 @@
 
 #include "myoid/core/error.h"
 #include "myoid/recording/atomic_file.h"
+
 #include "tests/support/temporary_folder.h"
 
 namespace myoid::recording {

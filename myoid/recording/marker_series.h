@@ -1,23 +1,27 @@
 #pragma once
 
-#include <Eigen/Core>
-
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include <Eigen/Core>
 
 #include "myoid/core/geometry.h"
 
 namespace myoid::recording {
 
-/// Marker positions over time, in the laboratory's frame. A missing marker is NaN in all three coordinates.
+/// Marker positions over time, in the laboratory's frame. A missing marker is NaN in all three
+/// coordinates.
 struct MarkerSeries {
   Eigen::VectorXd time_s;          ///< Strictly increasing.
   std::vector<std::string> names;  ///< Unique.
-  Eigen::MatrixXd positions_m;     ///< Frames x (3 markers): x, y, z of the first marker, then the second, ...
+  Eigen::MatrixXd
+      positions_m;  ///< Frames x (3 markers): x, y, z of the first marker, then the second, ...
 
   [[nodiscard]] Eigen::Index frame_count() const { return time_s.size(); }
-  [[nodiscard]] Eigen::Index marker_count() const { return static_cast<Eigen::Index>(names.size()); }
+  [[nodiscard]] Eigen::Index marker_count() const {
+    return static_cast<Eigen::Index>(names.size());
+  }
   [[nodiscard]] Vec3 position(Eigen::Index frame, Eigen::Index marker) const {
     return positions_m.block<1, 3>(frame, 3 * marker).transpose();
   }
@@ -26,11 +30,12 @@ struct MarkerSeries {
   }
 };
 
-/// The same markers with every position turned by R: p_new = R p. For a laboratory whose vertical is not y.
+/// The same markers with every position turned by R: p_new = R p. For a laboratory whose vertical
+/// is not y.
 [[nodiscard]] MarkerSeries rotated(MarkerSeries markers, const Mat3& R);
 
-/// The rotation that brings the laboratory's vertical ('x', 'y' or 'z') to y, turning about the axis that stays: z up becomes
-/// y up by x -> x, y -> -z, z -> y.
+/// The rotation that brings the laboratory's vertical ('x', 'y' or 'z') to y, turning about the
+/// axis that stays: z up becomes y up by x -> x, y -> -z, z -> y.
 [[nodiscard]] Mat3 rotation_to_y_up(char up);
 
 }  // namespace myoid::recording

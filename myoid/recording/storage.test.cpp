@@ -1,16 +1,19 @@
-#include <gtest/gtest.h>
-
 #include <cmath>
+
+#include <gtest/gtest.h>
 
 #include "myoid/core/error.h"
 #include "myoid/recording/storage_reader.h"
 #include "myoid/recording/storage_writer.h"
+
 #include "tests/support/data_folder.h"
 
 namespace myoid::recording {
 namespace {
 
-const std::string kPlain = "Coordinates\nversion=1\nnRows=3\nnColumns=3\ninDegrees=yes\n\nendheader\ntime\tq1\ttx\n0\t90\t1\n0.1\t180\t2\n0.2\t-45\t3\n";
+const std::string kPlain =
+    "Coordinates\nversion=1\nnRows=3\nnColumns=3\ninDegrees="
+    "yes\n\nendheader\ntime\tq1\ttx\n0\t90\t1\n0.1\t180\t2\n0.2\t-45\t3\n";
 
 std::string message_of(const std::string& text) {
   try {
@@ -30,26 +33,34 @@ TEST(ParseStorage, ReadsVersionOne) {
 }
 
 TEST(ToSi, ConvertsAnglesOnly) {
-  const TimeSeries si = to_si(parse_storage(kPlain, "f.mot"), [](const std::string& name) { return name == "q1"; });
+  const TimeSeries si =
+      to_si(parse_storage(kPlain, "f.mot"), [](const std::string& name) { return name == "q1"; });
   EXPECT_DOUBLE_EQ(si.values()(0, 0), kPi / 2.0);
   EXPECT_EQ(si.channels()[0].unit, Unit::radian);
   EXPECT_EQ(si.values()(2, 1), 3.0);
 }
 
 TEST(ParseStorage, ReadsSimmsKindAsDegrees) {
-  const Storage s = parse_storage("name m\ndatacolumns 2\ndatarows 1\nrange 0 0\nendheader\ntime q\n0 10\n", "f.mot");
+  const Storage s = parse_storage(
+      "name m\ndatacolumns 2\ndatarows 1\nrange 0 0\nendheader\ntime q\n0 10\n", "f.mot");
   EXPECT_TRUE(s.in_degrees);
   EXPECT_EQ(s.data.values()(0, 0), 10.0);
 }
 
 TEST(ParseStorage, ReadsVersionThreeWithThreeNumbersACell) {
-  const Storage s = parse_storage("DataType=Vec3\nversion=3\nOpenSimVersion=4.5\nendheader\ntime\ta\tb\n0\t1,2,3\t4,5,6\n0.5\t7,8,9\t1,1,1\n", "f.sto");
+  const Storage s = parse_storage(
+      "DataType=Vec3\nversion=3\nOpenSimVersion=4.5\nendheader\ntime\ta\tb\n0\t1,2,3\t4,5,6\n0."
+      "5\t7,8,9\t1,1,1\n",
+      "f.sto");
   EXPECT_EQ(s.data.column("a_3"), Eigen::Vector2d(3, 9));
   EXPECT_EQ(s.data.channel_count(), 6);
 }
 
 TEST(ParseStorage, MendsWhatCanBeMendedAndSaysSo) {
-  const Storage s = parse_storage("x\r\nnRows=9\r\nnColumns=2\r\nendheader\r\nTime\tq\tq\t\r\n0\t1\t2\t\r\n\r\n0\t1\t2\r\n1\tnan\t3\t4\r\n", "f.sto");
+  const Storage s = parse_storage(
+      "x\r\nnRows=9\r\nnColumns="
+      "2\r\nendheader\r\nTime\tq\tq\t\r\n0\t1\t2\t\r\n\r\n0\t1\t2\r\n1\tnan\t3\t4\r\n",
+      "f.sto");
   EXPECT_EQ(s.data.sample_count(), 2);
   EXPECT_TRUE(std::isnan(s.data.values()(1, 0)));
   EXPECT_TRUE(s.data.find("q_2").has_value());
@@ -70,11 +81,17 @@ TEST(ParseStorage, ReadsCommaDecimals) {
 }
 
 TEST(ParseStorage, TellsTheLineOfWhatItRefuses) {
-  EXPECT_NE(message_of("x\nendheader\ntime\tq\n0\t1\n1\n").find("f.sto:5: expected 2 numbers, found 1"), std::string::npos);
-  EXPECT_NE(message_of("x\nendheader\ntime\tq\n0\tabc\n").find("f.sto:4: expected a number in column 2 ('q'), found 'abc'"), std::string::npos);
-  EXPECT_NE(message_of("x\nendheader\ntime\tq\n1\t1\n0\t1\n").find("f.sto:5: time goes backwards"), std::string::npos);
+  EXPECT_NE(
+      message_of("x\nendheader\ntime\tq\n0\t1\n1\n").find("f.sto:5: expected 2 numbers, found 1"),
+      std::string::npos);
+  EXPECT_NE(message_of("x\nendheader\ntime\tq\n0\tabc\n")
+                .find("f.sto:4: expected a number in column 2 ('q'), found 'abc'"),
+            std::string::npos);
+  EXPECT_NE(message_of("x\nendheader\ntime\tq\n1\t1\n0\t1\n").find("f.sto:5: time goes backwards"),
+            std::string::npos);
   EXPECT_NE(message_of("x\nno header end\n").find("no line 'endheader'"), std::string::npos);
-  EXPECT_NE(message_of("x\nendheader\nt\tq\n").find("first column to be 'time'"), std::string::npos);
+  EXPECT_NE(message_of("x\nendheader\nt\tq\n").find("first column to be 'time'"),
+            std::string::npos);
   EXPECT_NE(message_of("x\nendheader\ntime\tq\n").find("no rows"), std::string::npos);
 }
 
@@ -92,14 +109,16 @@ TEST(FormatStorage, RoundTripsToTheLastBit) {
   Eigen::MatrixXd values(3, 2);
   values << 0.1, 1e-17, -2.0 / 7.0, 1e5, 3.0, std::nextafter(1.0, 2.0);
   const TimeSeries series(time, {{"a"}, {"b"}}, values);
-  const Storage back = parse_storage(format_storage(series, {.title = "t", .comments = {"made by hand"}}), "f.sto");
+  const Storage back =
+      parse_storage(format_storage(series, {.title = "t", .comments = {"made by hand"}}), "f.sto");
   EXPECT_EQ(back.data.values(), values);
   EXPECT_EQ(back.data.time_s(), time);
   EXPECT_TRUE(back.repairs.empty());
 }
 
 TEST(FormatStorage, WritesDegreesWhereAsked) {
-  const TimeSeries series(Eigen::VectorXd::Zero(1), {{"q", Unit::radian}, {"x", Unit::meter}}, Eigen::RowVector2d(kPi, 2.0));
+  const TimeSeries series(Eigen::VectorXd::Zero(1), {{"q", Unit::radian}, {"x", Unit::meter}},
+                          Eigen::RowVector2d(kPi, 2.0));
   const Storage back = parse_storage(format_storage(series, {.angles_in_degrees = true}), "f.mot");
   EXPECT_TRUE(back.in_degrees);
   EXPECT_DOUBLE_EQ(back.data.values()(0, 0), 180.0);
@@ -107,7 +126,10 @@ TEST(FormatStorage, WritesDegreesWhereAsked) {
 }
 
 TEST(FormatStorage, RefusesAGap) {
-  EXPECT_THROW((void)format_storage({Eigen::VectorXd::Zero(1), {{"q"}}, Eigen::MatrixXd::Constant(1, 1, std::nan(""))}, {}), InvalidInput);
+  EXPECT_THROW(
+      (void)format_storage(
+          {Eigen::VectorXd::Zero(1), {{"q"}}, Eigen::MatrixXd::Constant(1, 1, std::nan(""))}, {}),
+      InvalidInput);
 }
 
 TEST(ReadStorage, EveryResultFileOfTheSharedDataReads) {

@@ -1,8 +1,8 @@
 #include "myoid/recording/storage_writer.h"
 
-#include <fmt/format.h>
-
 #include <cmath>
+
+#include <fmt/format.h>
 
 #include "myoid/core/error.h"
 #include "myoid/recording/atomic_file.h"
@@ -12,8 +12,9 @@ namespace myoid::recording {
 
 std::string format_storage(const TimeSeries& series, const StorageFormat& format) {
   require_finite(series, "storage file");
-  std::string text = fmt::format("{}\nversion=1\nnRows={}\nnColumns={}\ninDegrees={}\n\n", format.title, series.sample_count(),
-                                 series.channel_count() + 1, format.angles_in_degrees ? "yes" : "no");
+  std::string text = fmt::format("{}\nversion=1\nnRows={}\nnColumns={}\ninDegrees={}\n\n",
+                                 format.title, series.sample_count(), series.channel_count() + 1,
+                                 format.angles_in_degrees ? "yes" : "no");
   text += "Units are S.I. units (second, meters, Newtons, ...)\n";
   if (format.angles_in_degrees) text += "Angles are in degrees.\n";
   for (const std::string& comment : format.comments) text += comment + "\n";
@@ -23,7 +24,8 @@ std::string format_storage(const TimeSeries& series, const StorageFormat& format
   for (Eigen::Index row = 0; row < series.sample_count(); ++row) {
     text += format_number(series.time_s()[row]);
     for (Eigen::Index c = 0; c < series.channel_count(); ++c) {
-      const bool degrees = format.angles_in_degrees && series.channels()[static_cast<std::size_t>(c)].unit == Unit::radian;
+      const bool degrees = format.angles_in_degrees &&
+                           series.channels()[static_cast<std::size_t>(c)].unit == Unit::radian;
       text += '\t';
       text += format_number(degrees ? series.values()(row, c) / kDegree : series.values()(row, c));
     }
@@ -32,7 +34,9 @@ std::string format_storage(const TimeSeries& series, const StorageFormat& format
   return text;
 }
 
-void write_storage(const std::filesystem::path& path, const TimeSeries& series, const StorageFormat& format) {
+void write_storage(const std::filesystem::path& path,
+                   const TimeSeries& series,
+                   const StorageFormat& format) {
   write_file(path, format_storage(series, format));
 }
 

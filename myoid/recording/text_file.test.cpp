@@ -1,10 +1,10 @@
 #include "myoid/recording/text_file.h"
 
-#include <gtest/gtest.h>
-
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+
+#include <gtest/gtest.h>
 
 #include "myoid/core/error.h"
 
@@ -15,7 +15,9 @@ TEST(SplitLines, TreatsAllThreeKindsOfLineEndsAlike) {
   const std::vector<std::string_view> expected{"a", "b", "", "c"};
   EXPECT_EQ(split_lines("a\nb\n\nc\n"), expected);
   EXPECT_EQ(split_lines("a\r\nb\r\n\r\nc"), expected);
-  EXPECT_EQ(split_lines("\xEF\xBB\xBF" "a\rb\r\rc"), expected);
+  EXPECT_EQ(split_lines("\xEF\xBB\xBF"
+                        "a\rb\r\rc"),
+            expected);
 }
 
 TEST(ParseNumber, TakesTheFormsThatOccurAndNothingElse) {
@@ -29,7 +31,8 @@ TEST(ParseNumber, TakesTheFormsThatOccurAndNothingElse) {
 }
 
 TEST(FormatNumber, ReadsBackToTheSameDouble) {
-  for (const double x : {0.1, 1.0 / 3.0, -2.5e-17, 1e300}) EXPECT_EQ(parse_number(format_number(x)), x);
+  for (const double x : {0.1, 1.0 / 3.0, -2.5e-17, 1e300})
+    EXPECT_EQ(parse_number(format_number(x)), x);
 }
 
 TEST(ReadTextFile, SaysWhatIsWrongWithAPath) {

@@ -1,10 +1,11 @@
-#include <gtest/gtest.h>
-
 #include <cmath>
+
+#include <gtest/gtest.h>
 
 #include "myoid/core/error.h"
 #include "myoid/recording/trc_reader.h"
 #include "myoid/recording/trc_writer.h"
+
 #include "tests/support/data_folder.h"
 
 namespace myoid::recording {
@@ -54,8 +55,11 @@ TEST(Trc, AMarkerAtExactlyZeroIsMissingAndThisIsSaid) {
 
 TEST(Trc, MendsCarriageReturnsAMissingBlankLineAndWrongCounts) {
   const std::string text =
-      "PathFileType\t4\t(X/Y/Z)\tC:\\lab\\f.trc\r\nDataRate\tCameraRate\tNumFrames\tNumMarkers\tUnits\r\n100\t100\t7\t3\tmm\r\n"
-      "Frame#\tTimes\ta\t\tb\r\n\t\tX0\tY0\tZ0\r\n1\t0\t1\t2\t3\t4\t5\t6\t\t\t\r\n2\t0.01\t1\t2\tNaN\t4\t5\t6\r\n";
+      "PathFileType\t4\t(X/Y/"
+      "Z)\tC:\\lab\\f."
+      "trc\r\nDataRate\tCameraRate\tNumFrames\tNumMarkers\tUnits\r\n100\t100\t7\t3\tmm\r\n"
+      "Frame#\tTimes\ta\t\tb\r\n\t\tX0\tY0\tZ0\r\n1\t0\t1\t2\t3\t4\t5\t6\t\t\t\r\n2\t0."
+      "01\t1\t2\tNaN\t4\t5\t6\r\n";
   const TrcFile file = parse_trc(text, "f.trc");
   EXPECT_EQ(file.markers.frame_count(), 2);
   EXPECT_EQ(file.markers.names.size(), 2U);
@@ -70,7 +74,9 @@ TEST(Trc, TellsWhatItRefusesAndWhere) {
   EXPECT_NE(message_of(bad).find("f.trc:3: Units: found 'inch'"), std::string::npos);
   bad = good;
   bad.replace(bad.find("300"), 3, "3x0");
-  EXPECT_NE(message_of(bad).find("f.trc:7: expected a number for Z of marker 'a', found '3x0'"), std::string::npos) << message_of(bad);
+  EXPECT_NE(message_of(bad).find("f.trc:7: expected a number for Z of marker 'a', found '3x0'"),
+            std::string::npos)
+      << message_of(bad);
   EXPECT_NE(message_of("name,x\n1,2\n").find("expected 'PathFileType'"), std::string::npos);
 }
 
@@ -89,7 +95,8 @@ TEST(Trc, FilesOfRealLaboratoriesRead) {
   MYOID_REQUIRE_DATA(root / "trc");
   EXPECT_GT(read_trc(root / "trc/Knee.trc").markers.frame_count(), 100);
   EXPECT_GT(read_trc(root / "trc/UpperLimbStatic.trc").markers.frame_count(), 10);
-  EXPECT_THROW((void)read_trc(root / "trc/10002-20130626160334-Unnamed.trc"), ReadError);  // no marker in it
+  EXPECT_THROW((void)read_trc(root / "trc/10002-20130626160334-Unnamed.trc"),
+               ReadError);  // no marker in it
   EXPECT_GT(read_trc(root / "elbow-emg/load2p75_T1_imu_landmarks.trc").markers.frame_count(), 5000);
   EXPECT_GT(read_trc(root / "box-lift/markers.trc").markers.frame_count(), 10);
   EXPECT_THROW((void)read_trc(root / "trc/Empty.trc"), ReadError);

@@ -7,8 +7,9 @@
 
 namespace myoid::recording {
 
-/// Text of a .trc file exactly as OpenSim 4 reads it, in millimeters; gaps are empty cells. `file_name` stands in its first
-/// line. Throws InvalidInput if there is no frame or no marker, or a name holds a blank.
+/// Text of a .trc file exactly as OpenSim 4 reads it, in millimeters; gaps are empty cells.
+/// `file_name` stands in its first line. Throws InvalidInput if there is no frame or no marker, or
+/// a name holds a blank.
 [[nodiscard]] std::string format_trc(const MarkerSeries& markers, const std::string& file_name);
 
 /// Writes it, whole or not at all.

@@ -10,10 +10,11 @@
 namespace myoid::signals {
 
 struct EnvelopeOptions {
-  double highpass_hz = 20.0;   ///< Removes offset and movement artefact; 4th order (2nd, both ways).
-  double lowpass_hz = 6.0;     ///< Of the rectified EMG; -3 dB of both passes together.
+  double highpass_hz = 20.0;  ///< Removes offset and movement artefact; 4th order (2nd, both ways).
+  double lowpass_hz = 6.0;    ///< Of the rectified EMG; -3 dB of both passes together.
   bool rectify = true;
-  bool as_published = false;   ///< No high-pass and the low-pass designed at `lowpass_hz` for one pass, as the source paper did.
+  bool as_published = false;  ///< No high-pass and the low-pass designed at `lowpass_hz` for one
+                              ///< pass, as the source paper did.
 };
 
 /// One trial's EMG on its way to the envelope, for looking at.
@@ -22,12 +23,14 @@ struct EmgStages {
   TimeSeries filtered;   ///< High-passed [V].
   TimeSeries rectified;  ///< |filtered| [V].
   TimeSeries envelope;   ///< Low-passed, never negative [V].
-  std::vector<std::string> findings;  ///< Mains hum, a rate too low for the EMG, an envelope clipped at 0.
+  std::vector<std::string>
+      findings;  ///< Mains hum, a rate too low for the EMG, an envelope clipped at 0.
 };
 
-/// Raw EMG -> mean removed -> high-pass -> rectified -> low-pass, every filter without delay. The envelope is the local mean of the
-/// rectified EMG: for Gaussian EMG sqrt(2/pi) times its standard deviation. Its relative spread is about 0.76 / sqrt(2 B T), 14 % at
-/// 6 Hz. Negative values of the filter's undershoot are set to 0. Throws InvalidInput unless `raw` is in volts and finite.
+/// Raw EMG -> mean removed -> high-pass -> rectified -> low-pass, every filter without delay. The
+/// envelope is the local mean of the rectified EMG: for Gaussian EMG sqrt(2/pi) times its standard
+/// deviation. Its relative spread is about 0.76 / sqrt(2 B T), 14 % at 6 Hz. Negative values of the
+/// filter's undershoot are set to 0. Throws InvalidInput unless `raw` is in volts and finite.
 [[nodiscard]] EmgStages process_emg(const TimeSeries& raw, const EnvelopeOptions& options = {});
 
 /// The envelope of one trial, for finding the level that counts as 1.
@@ -40,26 +43,31 @@ struct TrialEnvelope {
 /// What one EMG channel is measured against.
 struct ChannelNormalisation {
   std::string channel;
-  double resting_level_v = 0.0;   ///< Lowest 1 s mean over the study: the noise of the electrode.
-  double reference_v = 0.0;       ///< sqrt(m^2 - rest^2), m the largest moving mean over the study: activation 1.
-  double relative_sd = 0.0;       ///< Uncertainty of the reference: spread of a window's mean about its expectation.
-  std::string source_trial;       ///< Where the maximum was found ...
-  double source_time_s = 0.0;     ///< ... the middle of its window ...
-  bool from_mvc = false;          ///< ... and whether that trial is a maximal contraction.
+  double resting_level_v = 0.0;  ///< Lowest 1 s mean over the study: the noise of the electrode.
+  double reference_v =
+      0.0;  ///< sqrt(m^2 - rest^2), m the largest moving mean over the study: activation 1.
+  double relative_sd =
+      0.0;  ///< Uncertainty of the reference: spread of a window's mean about its expectation.
+  std::string source_trial;    ///< Where the maximum was found ...
+  double source_time_s = 0.0;  ///< ... the middle of its window ...
+  bool from_mvc = false;       ///< ... and whether that trial is a maximal contraction.
 };
 
 struct NormalisationOptions {
-  double window_s = 0.5;          ///< Of the moving mean.
+  double window_s = 0.5;  ///< Of the moving mean.
 };
 
-/// One entry per channel of the first trial. All trials must have the same channels. The maximum of noisy means lies above the
-/// mean of the maximum; `relative_sd` is the size of that. Throws InvalidInput if a channel is missing somewhere or flat.
-[[nodiscard]] std::vector<ChannelNormalisation> find_normalisation(std::span<const TrialEnvelope> trials,
-                                                                   const NormalisationOptions& options = {});
+/// One entry per channel of the first trial. All trials must have the same channels. The maximum of
+/// noisy means lies above the mean of the maximum; `relative_sd` is the size of that. Throws
+/// InvalidInput if a channel is missing somewhere or flat.
+[[nodiscard]] std::vector<ChannelNormalisation> find_normalisation(
+    std::span<const TrialEnvelope> trials, const NormalisationOptions& options = {});
 
-/// sqrt(envelope^2 - resting level^2) / reference, 0 below the resting level, not limited above; dimensionless. The noise of the
-/// electrode is independent of the muscle's signal: their powers add, not their amplitudes. Subtracting the amplitude would make an
-/// activation of 0.1 read 16 % low where the noise at rest is 1.8 % of the maximum.
-[[nodiscard]] TimeSeries normalise(const TimeSeries& envelope, const std::vector<ChannelNormalisation>& normalisation);
+/// sqrt(envelope^2 - resting level^2) / reference, 0 below the resting level, not limited above;
+/// dimensionless. The noise of the electrode is independent of the muscle's signal: their powers
+/// add, not their amplitudes. Subtracting the amplitude would make an activation of 0.1 read 16 %
+/// low where the noise at rest is 1.8 % of the maximum.
+[[nodiscard]] TimeSeries normalise(const TimeSeries& envelope,
+                                   const std::vector<ChannelNormalisation>& normalisation);
 
 }  // namespace myoid::signals

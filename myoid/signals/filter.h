@@ -6,13 +6,17 @@
 namespace myoid::signals {
 
 struct FilterOptions {
-  int order = 2;                  ///< Of one pass.
-  bool corrected = true;          ///< -3 dB of the two passes together at the cut-off; false: of one pass, as the source paper.
+  int order = 2;          ///< Of one pass.
+  bool corrected = true;  ///< -3 dB of the two passes together at the cut-off; false: of one pass,
+                          ///< as the source paper.
 };
 
-/// Every channel filtered forwards and backwards by a Butterworth filter: no delay. The clock must be even. Throws InvalidInput if it
-/// is not, if a value is not finite, or the cut-off does not lie below half the rate.
-[[nodiscard]] TimeSeries zero_phase_filter(const TimeSeries& series, math::FilterBand band, double cutoff_hz,
+/// Every channel filtered forwards and backwards by a Butterworth filter: no delay. The clock must
+/// be even. Throws InvalidInput if it is not, if a value is not finite, or the cut-off does not lie
+/// below half the rate.
+[[nodiscard]] TimeSeries zero_phase_filter(const TimeSeries& series,
+                                           math::FilterBand band,
+                                           double cutoff_hz,
                                            const FilterOptions& options = {});
 
 }  // namespace myoid::signals

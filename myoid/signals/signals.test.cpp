@@ -1,7 +1,7 @@
-#include <gtest/gtest.h>
-
 #include <cmath>
 #include <random>
+
+#include <gtest/gtest.h>
 
 #include "myoid/core/error.h"
 #include "myoid/math/butterworth.h"
@@ -23,12 +23,15 @@ TimeSeries gaussian(Eigen::Index n, double sd_v, double offset_v = 0.0) {
     for (int k = 0; k < 12; ++k) sum += static_cast<double>(engine() >> 11) * 0x1.0p-53;
     v = offset_v + sd_v * sum;
   }
-  return {Eigen::VectorXd::LinSpaced(n, 0.0, static_cast<double>(n - 1) / kRate_hz), {{"m", Unit::volt}}, x};
+  return {Eigen::VectorXd::LinSpaced(n, 0.0, static_cast<double>(n - 1) / kRate_hz),
+          {{"m", Unit::volt}},
+          x};
 }
 
 TEST(ProcessEmg, OfGaussianNoiseTheEnvelopeIsItsMeanAbsoluteValue) {
   const EmgStages s = process_emg(gaussian(60000, 1e-4, 5e-4), {.highpass_hz = 1.0});
-  // E|x| = sd sqrt(2/pi); the mean over 60 s of white noise at 1 kHz is good to 0.76/sqrt(60000) = 0.3 %.
+  // E|x| = sd sqrt(2/pi); the mean over 60 s of white noise at 1 kHz is good to 0.76/sqrt(60000) =
+  // 0.3 %.
   EXPECT_NEAR(s.envelope.values().mean(), 1e-4 * std::sqrt(2.0 / M_PI), 0.01 * 1e-4);
 }
 
@@ -36,11 +39,13 @@ TEST(ProcessEmg, TheEnvelopesSpreadIsThatOfRectifiedNoiseInItsBand) {
   const EmgStages s = process_emg(gaussian(120000, 1e-4), {.highpass_hz = 1.0});
   const Eigen::VectorXd e = s.envelope.values().col(0).segment(2000, 116000);
   const double cv = std::sqrt((e.array() - e.mean()).square().mean()) / e.mean();
-  // White at 1 kHz: variance of the rectified noise times integral of the filter's power gain over half the rate.
+  // White at 1 kHz: variance of the rectified noise times integral of the filter's power gain over
+  // half the rate.
   double integral = 0.0;
   const double design = math::two_pass_cutoff_hz(math::FilterBand::low_pass, 2, 6.0, kRate_hz);
   const auto sections = math::design_butterworth(math::FilterBand::low_pass, 2, design, kRate_hz);
-  for (double f = 0.05; f < 500.0; f += 0.1) integral += 0.1 * std::pow(math::gain(sections, f, kRate_hz), 4);
+  for (double f = 0.05; f < 500.0; f += 0.1)
+    integral += 0.1 * std::pow(math::gain(sections, f, kRate_hz), 4);
   const double expected = std::sqrt((M_PI / 2.0 - 1.0) * integral / 500.0);
   EXPECT_NEAR(cv, expected, 0.08 * expected);  // some 1400 independent samples: 2 % and the tails
 }
@@ -48,13 +53,17 @@ TEST(ProcessEmg, TheEnvelopesSpreadIsThatOfRectifiedNoiseInItsBand) {
 TEST(ProcessEmg, IsProportionalToTheEmg) {
   const TimeSeries one = gaussian(4000, 1e-4);
   const TimeSeries two(one.time_s(), one.channels(), 2.0 * one.values());
-  EXPECT_LT((process_emg(two).envelope.values() - 2.0 * process_emg(one).envelope.values()).cwiseAbs().maxCoeff(), 1e-15);
+  EXPECT_LT((process_emg(two).envelope.values() - 2.0 * process_emg(one).envelope.values())
+                .cwiseAbs()
+                .maxCoeff(),
+            1e-15);
 }
 
 TEST(ProcessEmg, NamesMainsHum) {
   TimeSeries x = gaussian(10000, 1e-5);
   Eigen::MatrixXd v = x.values();
-  for (Eigen::Index i = 0; i < v.rows(); ++i) v(i, 0) += 2e-5 * std::sin(2.0 * M_PI * 50.0 * x.time_s()[i]);
+  for (Eigen::Index i = 0; i < v.rows(); ++i)
+    v(i, 0) += 2e-5 * std::sin(2.0 * M_PI * 50.0 * x.time_s()[i]);
   const EmgStages s = process_emg({x.time_s(), x.channels(), v});
   ASSERT_EQ(s.findings.size(), 1U);
   EXPECT_NE(s.findings[0].find("50 Hz"), std::string::npos);
@@ -64,7 +73,9 @@ TEST(ProcessEmg, NamesMainsHum) {
 TEST(ProcessEmg, AnEnvelopeThatWouldBeNegativeIsSaid) {
   Eigen::MatrixXd x = Eigen::MatrixXd::Zero(4000, 1);
   x.middleRows(2000, 30).setConstant(1e-3);  // a burst: the low-pass rings below 0 on both sides
-  const EmgStages s = process_emg({Eigen::VectorXd::LinSpaced(4000, 0.0, 3.999), {{"m", Unit::volt}}, x}, {.highpass_hz = 1.0, .lowpass_hz = 20.0, .rectify = false});
+  const EmgStages s =
+      process_emg({Eigen::VectorXd::LinSpaced(4000, 0.0, 3.999), {{"m", Unit::volt}}, x},
+                  {.highpass_hz = 1.0, .lowpass_hz = 20.0, .rectify = false});
   ASSERT_EQ(s.findings.size(), 1U);
   EXPECT_NE(s.findings[0].find("undershoots"), std::string::npos);
   EXPECT_EQ(s.envelope.values().minCoeff(), 0.0);
@@ -80,15 +91,19 @@ TEST(ZeroPhaseFilter, AsPublishedItsRealCutOffIsBelowTheNominalOne) {
   Eigen::MatrixXd x(8000, 1);
   const Eigen::VectorXd t = Eigen::VectorXd::LinSpaced(8000, 0.0, 7.999);
   for (Eigen::Index i = 0; i < 8000; ++i) x(i, 0) = std::sin(2.0 * M_PI * 4.81 * t[i]);
-  const TimeSeries y = zero_phase_filter({t, {{"x"}}, x}, math::FilterBand::low_pass, 6.0, {.corrected = false});
-  const double gain = y.values().col(0).segment(2000, 4000).dot(x.col(0).segment(2000, 4000)) / x.col(0).segment(2000, 4000).squaredNorm();
+  const TimeSeries y =
+      zero_phase_filter({t, {{"x"}}, x}, math::FilterBand::low_pass, 6.0, {.corrected = false});
+  const double gain = y.values().col(0).segment(2000, 4000).dot(x.col(0).segment(2000, 4000)) /
+                      x.col(0).segment(2000, 4000).squaredNorm();
   EXPECT_NEAR(gain, std::sqrt(0.5), 0.003);
 }
 
 TEST(ZeroPhaseFilter, RefusesAHoleInTheClock) {
   Eigen::VectorXd t = Eigen::VectorXd::LinSpaced(100, 0.0, 0.99);
   t.tail(50).array() += 1.0;
-  EXPECT_THROW((void)zero_phase_filter({t, {{"x"}}, Eigen::MatrixXd::Zero(100, 1)}, math::FilterBand::low_pass, 6.0), InvalidInput);
+  EXPECT_THROW((void)zero_phase_filter({t, {{"x"}}, Eigen::MatrixXd::Zero(100, 1)},
+                                       math::FilterBand::low_pass, 6.0),
+               InvalidInput);
 }
 
 TimeSeries steps(std::initializer_list<double> levels) {
@@ -98,7 +113,9 @@ TimeSeries steps(std::initializer_list<double> levels) {
     x.middleRows(row, 2000).setConstant(level);
     row += 2000;
   }
-  return {Eigen::VectorXd::LinSpaced(x.rows(), 0.0, static_cast<double>(x.rows() - 1) / kRate_hz), {{"m", Unit::volt}}, x};
+  return {Eigen::VectorXd::LinSpaced(x.rows(), 0.0, static_cast<double>(x.rows() - 1) / kRate_hz),
+          {{"m", Unit::volt}},
+          x};
 }
 
 TEST(Normalisation, TakesTheMaximumOverTheStudyAndSaysWhereItStood) {
@@ -112,24 +129,31 @@ TEST(Normalisation, TakesTheMaximumOverTheStudyAndSaysWhereItStood) {
   // Powers add: 101^2 - 1 and 20^2 - 1, in millionths of a volt squared.
   EXPECT_NEAR(n[0].reference_v, std::sqrt(10200.0) * 1e-6, 1e-15);
   EXPECT_NEAR(normalise(task, n).values()(3000, 0), std::sqrt(399.0 / 10200.0), 1e-9);
-  EXPECT_NEAR(normalise(task, n).values()(0, 0), 0.0, 1e-8);  // the root of a difference that is round-off
+  EXPECT_NEAR(normalise(task, n).values()(0, 0), 0.0,
+              1e-8);  // the root of a difference that is round-off
 }
 
 TEST(Normalisation, FindsTheActivationUnderTheNoiseOfTheElectrode) {
-  // Gaussian EMG of known amplitude and independent noise: what is left is the amplitude. Means of 20 s at 1 kHz, white up to the
-  // filters' 20 Hz: 0.7555 / sqrt(2 x 480 Hz x 20 s) = 0.5 % of each mean; four of them, and those of rest and reference.
+  // Gaussian EMG of known amplitude and independent noise: what is left is the amplitude. Means of
+  // 20 s at 1 kHz, white up to the filters' 20 Hz: 0.7555 / sqrt(2 x 480 Hz x 20 s) = 0.5 % of each
+  // mean; four of them, and those of rest and reference.
   std::mt19937_64 engine(11);
   std::normal_distribution<double> normal;
   const Eigen::Index n = 60000;
   Eigen::MatrixXd x(n, 1);
-  const auto amplitude = [n](Eigen::Index k) { return 3 * k < n ? 0.0 : 3 * k < 2 * n ? 0.05 : 1.0; };
-  for (Eigen::Index k = 0; k < n; ++k) x(k, 0) = 1e-3 * (amplitude(k) * normal(engine) + 0.03 * normal(engine));
-  const TimeSeries raw(Eigen::VectorXd::LinSpaced(n, 0.0, static_cast<double>(n - 1) / 1000.0), {{"m", Unit::volt}}, x);
+  const auto amplitude = [n](Eigen::Index k) {
+    return 3 * k < n ? 0.0 : 3 * k < 2 * n ? 0.05 : 1.0;
+  };
+  for (Eigen::Index k = 0; k < n; ++k)
+    x(k, 0) = 1e-3 * (amplitude(k) * normal(engine) + 0.03 * normal(engine));
+  const TimeSeries raw(Eigen::VectorXd::LinSpaced(n, 0.0, static_cast<double>(n - 1) / 1000.0),
+                       {{"m", Unit::volt}}, x);
   const TimeSeries envelope = process_emg(raw).envelope;
   const std::vector<TrialEnvelope> trials{{"a", true, &envelope}};
   const auto found = find_normalisation(trials, {.window_s = 10.0});
   const Eigen::VectorXd activation = normalise(envelope, found).values().col(0);
-  // The resting level is the lowest of many 1 s means, 3 % low or so: that and the spread of the envelope (14 %) bend the root by 2 %.
+  // The resting level is the lowest of many 1 s means, 3 % low or so: that and the spread of the
+  // envelope (14 %) bend the root by 2 %.
   EXPECT_NEAR(activation.segment(n / 3 + 1000, n / 3 - 2000).mean(), 0.05, 0.0015);
 }
 
