@@ -44,7 +44,7 @@ TEST(Documentation, EveryLinkLeadsToAFile) {
 }
 
 TEST(Documentation, EveryCommandHasItsPage) {
-  const std::regex subcommand(R"re(add_subcommand\("([\w-]+)")re");
+  const std::regex subcommand(R"re(add_subcommand\(\s*"([\w-]+)")re");
   std::set<std::string> commands;
   for (const auto& entry : fs::directory_iterator(kRoot / "myoid" / "cli")) {
     const std::string text = content(entry.path());
@@ -61,7 +61,7 @@ TEST(Documentation, EveryCommandHasItsPage) {
 
 /// The option that a command's source adds: in its page, or among the common ones.
 TEST(Documentation, EveryOptionOfACommandIsInItsPage) {
-  const std::regex option(R"re(add_(?:option|flag)\("(--[\w-]+)")re");
+  const std::regex option(R"re(add_(?:option|flag)\(\s*"(--[\w-]+)")re");
   int seen = 0;
   for (const auto& entry : fs::directory_iterator(kRoot / "myoid" / "cli")) {
     const std::string text = content(entry.path());
