@@ -1,5 +1,6 @@
 #include "myoid/cli/context.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -69,12 +70,17 @@ void Context::refuse_existing(const std::filesystem::path& path) const {
   }
 }
 
-void Context::prepare_folder(const std::filesystem::path& folder) const {
+void Context::prepare_folder(const std::filesystem::path& folder,
+                             std::string_view unless_only) const {
   namespace fs = std::filesystem;
+  const auto counts = [&](const fs::directory_entry& entry) {
+    return entry.path().filename() != unless_only;
+  };
   if (fs::exists(folder) && !fs::is_directory(folder)) {
     throw InvalidInput(fmt::format("{} is a file; --out must name a folder", folder.string()));
   }
-  if (fs::exists(folder) && !fs::is_empty(folder) && !overwrite) {
+  if (!overwrite && fs::exists(folder) &&
+      std::any_of(fs::directory_iterator(folder), fs::directory_iterator(), counts)) {
     throw InvalidInput(fmt::format(
         "the folder {} is not empty; give --overwrite to write into it, or another --out",
         folder.string()));

@@ -51,8 +51,8 @@ struct Context {
   void end_progress() const;
   /// Throws InvalidInput with the remedy if `path` exists and --overwrite was not given.
   void refuse_existing(const std::filesystem::path& path) const;
-  /// Creates the folder for results; an existing one that is not empty needs --overwrite.
-  void prepare_folder(const std::filesystem::path& folder) const;
+  /// Creates the folder for results; one that holds anything but `unless_only` needs --overwrite.
+  void prepare_folder(const std::filesystem::path& folder, std::string_view unless_only = "") const;
 };
 
 /// Adds --threads, --seed, --json, --quiet, --verbose, --start, --end, --overwrite to a command.

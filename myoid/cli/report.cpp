@@ -6,6 +6,7 @@
 #include "myoid/cli/context.h"
 #include "myoid/core/error.h"
 #include "myoid/pipeline/run_study.h"
+#include "myoid/pipeline/study_json.h"
 #include "myoid/pipeline/study_report.h"
 #include "myoid/recording/text_file.h"
 

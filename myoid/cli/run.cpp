@@ -1,6 +1,8 @@
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
+#include <filesystem>
 
 #include <fmt/color.h>
 #include <fmt/format.h>
@@ -10,6 +12,7 @@
 #include "myoid/core/error.h"
 #include "myoid/pipeline/result_files.h"
 #include "myoid/pipeline/run_study.h"
+#include "myoid/pipeline/study_json.h"
 #include "myoid/pipeline/study_report.h"
 #include "myoid/report/report.h"
 
@@ -18,6 +21,9 @@ namespace {
 
 using identification::ParameterEstimate;
 using identification::Verdict;
+
+/// In --out: what an interrupted or repeated run need not compute again.
+constexpr const char* kStageFolder = ".stages";
 
 /// The table on stdout: what was found, how sure, and whether to believe it.
 void print_table(const pipeline::StudyResult& result) {
@@ -70,9 +76,10 @@ void add_run(CLI::App& app, Context& context) {
   command.callback([&context, options] {
     const auto begin = std::chrono::steady_clock::now();
     const pipeline::Study study = pipeline::read_study(options->study);
-    context.prepare_folder(options->out);
+    context.prepare_folder(options->out, kStageFolder);
     const pipeline::StudyResult result =
-        pipeline::run_study(study, {.progress = context.progress()});
+        pipeline::run_study(study, {.progress = context.progress(),
+                                    .store = std::filesystem::path(options->out) / kStageFolder});
     Provenance provenance;
     provenance.command = context.command_line;
     provenance.inputs = result.inputs;
@@ -80,6 +87,11 @@ void add_run(CLI::App& app, Context& context) {
     pipeline::write_results(result, provenance, options->out);
     report::write_report(pipeline::study_report(result, provenance), options->out);
     context.end_progress();
+    const auto reused = std::count_if(result.trials.begin(), result.trials.end(),
+                                      [](const auto& trial) { return trial.ik_reused; });
+    if (reused > 0)
+      context.log(
+          fmt::format("inverse kinematics of {} trials reused: same input as before", reused));
     for (const pipeline::TrialResult& trial : result.trials) {
       if (!trial.failure.empty())
         context.warn(fmt::format("trial {}: {}", trial.spec.name, trial.failure));

@@ -12,6 +12,7 @@
 #include "myoid/dynamics/held_mass.h"
 #include "myoid/dynamics/inverse_dynamics.h"
 #include "myoid/model/arm4.h"
+#include "myoid/pipeline/stage_store.h"
 #include "myoid/pipeline/study_model.h"
 #include "myoid/pipeline/trial_input.h"
 #include "myoid/recording/csv_reader.h"
@@ -83,13 +84,31 @@ std::optional<double> motion_cutoff_hz(const Study& study) {
   return study.emg.lowpass_hz;  // torque and EMG prediction then hold the same band
 }
 
-void compute_motion(const Study& study, const TrialInput& input, TrialResult& trial) {
+/// Inverse kinematics, or what an earlier run found from the same input.
+void solve_ik(const Study& study,
+              const recording::MarkerSeries& markers,
+              std::string_view model_text,
+              StageStore* store,
+              TrialResult& trial) {
+  const std::string key = store != nullptr ? ik_key(study, model_text, markers) : "";
+  if (store != nullptr) trial.ik = store->find(key);
+  trial.ik_reused = trial.ik.has_value();
+  if (trial.ik_reused) return;
+  kinematics::IkOptions options;
+  options.marker_weights = study.markers.weight;
+  trial.ik = kinematics::inverse_kinematics(trial.model, markers, options);
+  if (store != nullptr) store->keep(key, *trial.ik);
+}
+
+void compute_motion(const Study& study,
+                    const TrialInput& input,
+                    std::string_view model_text,
+                    StageStore* store,
+                    TrialResult& trial) {
   TimeSeries q;
   if (input.markers) {
     if (study.ik.calibrate) calibrate(*study.ik.calibrate, *input.markers, trial.model);
-    kinematics::IkOptions options;
-    options.marker_weights = study.markers.weight;
-    trial.ik = kinematics::inverse_kinematics(trial.model, *input.markers, options);
+    solve_ik(study, *input.markers, model_text, store, trial);
     trial.notes.insert(trial.notes.end(), trial.ik->notes.begin(), trial.ik->notes.end());
     q = trial.ik->q;
   } else if (input.motion) {
@@ -303,6 +322,8 @@ StudyResult run_study(const Study& study, const RunOptions& options) {
   });
   stages.run("EMG", 0.15, [&] { process_all_emg(study, inputs, result); });
 
+  std::optional<StageStore> store;
+  if (options.store) store.emplace(*options.store);
   stages.run("motion and forces", 0.3, [&] {
     std::atomic<int> done = 0;
     oneapi::tbb::parallel_for(std::size_t{0}, study.trials.size(), [&](std::size_t i) {
@@ -323,7 +344,7 @@ StudyResult run_study(const Study& study, const RunOptions& options) {
           trial.model = dynamics::with_held_mass(std::move(trial.model), held.body, held.p_BP_m,
                                                  trial.spec.held_mass_kg);
         }
-        compute_motion(study, inputs[i], trial);
+        compute_motion(study, inputs[i], result.model_text, store ? &*store : nullptr, trial);
         if (trial.motion.q.sample_count() > 0) compute_forces(study, inputs[i], trial);
       } catch (const InvalidInput& error) {
         trial.failure = error.what();
@@ -334,6 +355,7 @@ StudyResult run_study(const Study& study, const RunOptions& options) {
     for (const TrialResult& trial : result.trials) {
       if (!trial.failure.empty()) ++result.failed_trials;
     }
+    if (store) store->remove_unused();
     if (result.failed_trials == static_cast<int>(result.trials.size()))
       throw InvalidInput(result.trials.front().failure);
   });

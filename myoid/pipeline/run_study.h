@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <map>
 #include <optional>
 #include <string>
@@ -24,6 +25,7 @@ struct TrialResult {
   TrialSpec spec;
   model::BodyModel model;  ///< With the trial's held mass and calibrated coordinates.
   std::optional<kinematics::IkResult> ik;  ///< If it began with markers.
+  bool ik_reused = false;                  ///< Taken from an earlier run with the same input.
   kinematics::JointMotion
       motion;  ///< On the clock of the analysis; empty for an MVC trial without motion.
   std::optional<signals::EmgStages> emg;  ///< If its EMG was raw.
@@ -66,6 +68,8 @@ struct StudyResult {
 
 struct RunOptions {
   Progress progress;
+  /// Where inverse kinematics is kept between runs; empty: nowhere.
+  std::optional<std::filesystem::path> store;
 };
 
 /// All stages in order: EMG, motion, inverse dynamics, muscle paths, force sharing, identification,

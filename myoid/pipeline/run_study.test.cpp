@@ -34,7 +34,7 @@ struct ExactRun {
                                         folder / "recording");
     Study study = read_study(folder / "recording/study.toml");
     study.identify.cross_validate = false;
-    result = run_study(study);
+    result = run_study(study, {.store = folder / "stages"});
   }
   static const ExactRun& get() {
     static const ExactRun run;
@@ -49,6 +49,24 @@ std::string message_of(const std::function<void()>& action) {
     return error.what();
   }
   return "(no error)";
+}
+
+TEST(RunStudy, ASecondRunReusesInverseKinematicsAndFindsTheSame) {
+  const ExactRun& first = ExactRun::get();
+  Study study = first.result.study;
+  study.identify.methods = {"paper"};
+  study.emg.lowpass_hz = 5.0;
+  const StudyResult second = run_study(study, {.store = first.folder / "stages"});
+  ASSERT_EQ(second.trials.size(), first.result.trials.size());
+  int with_markers = 0;
+  for (std::size_t i = 0; i < second.trials.size(); ++i) {
+    if (!second.trials[i].ik) continue;
+    ++with_markers;
+    EXPECT_FALSE(first.result.trials[i].ik_reused);
+    EXPECT_TRUE(second.trials[i].ik_reused);
+    EXPECT_EQ(first.result.trials[i].ik->q.values(), second.trials[i].ik->q.values());
+  }
+  EXPECT_GT(with_markers, 0);
 }
 
 TEST(RunStudy, FromExactFilesEveryParameterIsTheTruthToAMillionth) {

@@ -6,7 +6,6 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <nlohmann/json.hpp>
 
 #include "myoid/muscle/hill_muscle.h"
 
@@ -595,41 +594,6 @@ report::Report study_report(const StudyResult& result, const Provenance& provena
     report.provenance.push_back({"time: " + t.stage, fmt::format("{:.2f} s", t.seconds)});
   report.provenance.push_back({"options", provenance.options_json});
   return report;
-}
-
-std::string study_json(const Study& study) {
-  nlohmann::ordered_json j;
-  j["subject"] = {{"name", study.subject.name}, {"sex", study.subject.sex}};
-  if (study.subject.mass_kg) j["subject"]["mass_kg"] = *study.subject.mass_kg;
-  j["model"] = {{"file", study.model.file ? study.model.file->string() : ""},
-                {"builtin", study.model.builtin},
-                {"coordinate", study.model.coordinate}};
-  const char* smoothing[] = {"auto", "none", "cutoff"};
-  j["motion"] = {{"smoothing", smoothing[static_cast<int>(study.motion.smoothing)]},
-                 {"cutoff_hz", study.motion.cutoff_hz},
-                 {"rate_hz", study.motion.rate_hz}};
-  const char* kinds[] = {"raw", "envelope", "activation"};
-  j["emg"] = {{"kind", kinds[static_cast<int>(study.emg.kind)]},
-              {"highpass_hz", study.emg.highpass_hz},
-              {"lowpass_hz", study.emg.lowpass_hz},
-              {"as_published", study.emg.as_published},
-              {"normalise_window_s", study.emg.normalise_window_s}};
-  j["emg"]["delay_s"] = study.emg.delay_s ? nlohmann::ordered_json(*study.emg.delay_s)
-                                          : nlohmann::ordered_json("estimate");
-  j["sharing"] = {{"objective", study.sharing.objective},
-                  {"exponent", study.sharing.exponent},
-                  {"reserve_nm", study.sharing.reserve_nm}};
-  j["identify"] = {{"method", study.identify.methods},
-                   {"priors", study.identify.priors},
-                   {"gain", study.identify.gain},
-                   {"max_rate_hz", study.identify.max_rate_hz},
-                   {"cross_validate", study.identify.cross_validate}};
-  for (const MuscleSpec& m : study.muscles)
-    j["muscle"].push_back({{"name", m.name}, {"osim", m.osim}, {"emg", m.emg}, {"fixed", m.fixed}});
-  for (const TrialSpec& t : study.trials)
-    j["trial"].push_back(
-        {{"name", t.name}, {"use", std::string(name(t.use))}, {"held_mass_kg", t.held_mass_kg}});
-  return j.dump();
 }
 
 }  // namespace myoid::pipeline

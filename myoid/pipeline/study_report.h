@@ -1,7 +1,5 @@
 #pragma once
 
-#include <string>
-
 #include "myoid/core/provenance.h"
 #include "myoid/pipeline/run_study.h"
 #include "myoid/report/report.h"
@@ -12,8 +10,5 @@ namespace myoid::pipeline {
 /// (the source paper's tables I and II among them), its figures 2, 6 and 8-10, the held-out torque,
 /// what was assumed.
 [[nodiscard]] report::Report study_report(const StudyResult& result, const Provenance& provenance);
-
-/// The full options of a study, defaults included, as JSON.
-[[nodiscard]] std::string study_json(const Study& study);
 
 }  // namespace myoid::pipeline

@@ -1,0 +1,110 @@
+#include "myoid/pipeline/study_json.h"
+
+#include <nlohmann/json.hpp>
+
+namespace myoid::pipeline {
+namespace {
+
+using nlohmann::ordered_json;
+
+template <typename T>
+ordered_json or_null(const std::optional<T>& value) {
+  return value ? ordered_json(*value) : ordered_json(nullptr);
+}
+
+ordered_json or_null(const std::optional<std::filesystem::path>& path) {
+  return path ? ordered_json(path->string()) : ordered_json(nullptr);
+}
+
+ordered_json model_json(const ModelSpec& model) {
+  ordered_json j = {{"file", or_null(model.file)},
+                    {"builtin", model.builtin},
+                    {"upper_arm_length_m", or_null(model.upper_arm_length_m)},
+                    {"forearm_length_m", or_null(model.forearm_length_m)},
+                    {"horizontal", model.horizontal},
+                    {"forearm_rotations", model.forearm_rotations},
+                    {"coordinate", model.coordinate},
+                    {"held_mass", nullptr}};
+  if (model.held_mass) {
+    const Vec3& p = model.held_mass->p_BP_m;
+    j["held_mass"] = {{"body", model.held_mass->body}, {"point_m", {p.x(), p.y(), p.z()}}};
+  }
+  return j;
+}
+
+ordered_json ik_json(const IkSpec& ik) {
+  ordered_json j = {{"unlock", ik.unlock}, {"lock", ik.lock}, {"calibrate", nullptr}};
+  if (ik.calibrate) {
+    j["calibrate"] = {{"window_s", ik.calibrate->window_s},
+                      {"free", ik.calibrate->free},
+                      {"hold", ik.calibrate->hold}};
+  }
+  return j;
+}
+
+ordered_json emg_json(const EmgSpec& emg) {
+  const char* kinds[] = {"raw", "envelope", "activation"};
+  ordered_json j = {{"kind", kinds[static_cast<int>(emg.kind)]},
+                    {"unit", emg.unit},
+                    {"rectify", emg.rectify},
+                    {"highpass_hz", emg.highpass_hz},
+                    {"lowpass_hz", emg.lowpass_hz},
+                    {"as_published", emg.as_published},
+                    {"normalise_window_s", emg.normalise_window_s}};
+  j["delay_s"] = emg.delay_s ? ordered_json(*emg.delay_s) : ordered_json("estimate");
+  return j;
+}
+
+ordered_json trial_json(const TrialSpec& trial) {
+  return {{"name", trial.name},
+          {"markers", or_null(trial.markers)},
+          {"motion", or_null(trial.motion)},
+          {"emg", or_null(trial.emg)},
+          {"external_torque", or_null(trial.external_torque)},
+          {"use", std::string(name(trial.use))},
+          {"held_mass_kg", trial.held_mass_kg},
+          {"start_s", or_null(trial.start_s)},
+          {"end_s", or_null(trial.end_s)}};
+}
+
+}  // namespace
+
+std::string study_json(const Study& study) {
+  const char* smoothing[] = {"auto", "none", "cutoff"};
+  ordered_json j;
+  j["subject"] = {{"name", study.subject.name},
+                  {"mass_kg", or_null(study.subject.mass_kg)},
+                  {"sex", study.subject.sex},
+                  {"notes", study.subject.notes}};
+  j["model"] = model_json(study.model);
+  j["motion"] = {{"smoothing", smoothing[static_cast<int>(study.motion.smoothing)]},
+                 {"cutoff_hz", study.motion.cutoff_hz},
+                 {"rate_hz", study.motion.rate_hz}};
+  j["markers"] = {{"rename", study.markers.rename},
+                  {"weight", study.markers.weight},
+                  {"up", std::string(1, study.markers.up)}};
+  j["ik"] = ik_json(study.ik);
+  j["emg"] = emg_json(study.emg);
+  j["sharing"] = {{"objective", study.sharing.objective},
+                  {"exponent", study.sharing.exponent},
+                  {"reserve_nm", study.sharing.reserve_nm}};
+  j["identify"] = {{"method", study.identify.methods},
+                   {"muscles", study.identify.muscles},
+                   {"priors", study.identify.priors},
+                   {"gain", study.identify.gain},
+                   {"max_rate_hz", study.identify.max_rate_hz},
+                   {"cross_validate", study.identify.cross_validate}};
+  for (const MuscleSpec& m : study.muscles) {
+    j["muscle"].push_back({{"name", m.name},
+                           {"osim", m.osim},
+                           {"emg", m.emg},
+                           {"same_as", or_null(m.same_as)},
+                           {"start", m.start},
+                           {"fixed", m.fixed}});
+  }
+  for (const TrialSpec& t : study.trials) j["trial"].push_back(trial_json(t));
+  j["truth"] = or_null(study.truth);
+  return j.dump();
+}
+
+}  // namespace myoid::pipeline
