@@ -1,0 +1,125 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "myoid/muscle/scalar.h"
+
+namespace myoid::muscle {
+
+/// The curves of De Groote, Kinney, Rao & Fregly (2016), Ann Biomed Eng 44:2922-2936, infinitely
+/// smooth, with the constants as OpenSim's muscle of that name carries them (full precision, so
+/// that the curves pass through (1, 1), (-1, 0), (0, 1)). Lengths in optimal fiber lengths or
+/// tendon slack lengths, velocities in v_max, forces in F_max.
+
+/// Active force-length multiplier: three bells exp(-(l - b2)^2 / (2 (b3 + b4 l)^2)) b1.
+template <typename T>
+[[nodiscard]] CurvePoint<T> de_groote_force_length(const T& l) {
+  using std::exp;
+  constexpr std::array<std::array<double, 4>, 3> b{
+      {{0.8150671134243542, 1.055033428970575, 0.162384573599574, 0.063303448465465},
+       {0.433004984392647, 0.716775413397760, -0.029947116970696, 0.200356847296188},
+       {0.1, 1.0, 0.353553390593274, 0.0}}};
+  CurvePoint<T> point{T(0.0), 0.0};
+  for (const auto& k : b) {
+    const T width = T(k[2]) + T(k[3]) * l;
+    const T z = (l - T(k[1])) / width;
+    const T bell = T(k[0]) * exp(T(-0.5) * z * z);
+    point.value = point.value + bell;
+    const double w = value_of(width);
+    point.slope -= value_of(bell) * value_of(z) * (1.0 - value_of(z) * k[3]) / w;
+  }
+  return point;
+}
+
+inline constexpr std::array<double, 4> kDeGrooteVelocity{-0.3211346127989808, -8.149, -0.374,
+                                                         0.8825327733249912};
+
+/// Force-velocity multiplier d1 asinh(d2 v + d3) + d4; 0 at v = -1 and *negative below*, 1 at rest,
+/// 1.794 at v = 1. It has no plateau.
+template <typename T>
+[[nodiscard]] CurvePoint<T> de_groote_force_velocity(const T& v) {
+  using std::log;
+  using std::sqrt;
+  const auto& [d1, d2, d3, d4] = kDeGrooteVelocity;
+  const T x = T(d2) * v + T(d3);
+  const T root = sqrt(x * x + T(1.0));
+  // log(x + root) loses digits for x < 0, where it is -log(root - x).
+  const T asinh_x = value_of(x) < 0.0 ? -log(root - x) : log(root + x);
+  return {T(d1) * asinh_x + T(d4), d1 * d2 / value_of(root)};
+}
+
+/// The velocity at which the multiplier is `f`: (sinh((f - d4) / d1) - d3) / d2. The published
+/// supplement omits d3.
+[[nodiscard]] inline double de_groote_inverse_force_velocity(double f) {
+  const auto& [d1, d2, d3, d4] = kDeGrooteVelocity;
+  return (std::sinh((f - d4) / d1) - d3) / d2;
+}
+
+/// The velocity at which strength f + damping v = force, all over F_max; strength > 0, damping >=
+/// 0. In x = asinh(d2 v + d3) this is -a x - b sinh(x) = rest, odd and monotone: Newton from beyond
+/// the root never leaves its side.
+[[nodiscard]] inline double solve_de_groote_velocity(double strength,
+                                                     double damping,
+                                                     double force) {
+  const auto& [d1, d2, d3, d4] = kDeGrooteVelocity;
+  const double a = -strength * d1;
+  const double b = -damping / d2;
+  const double rest = strength * d4 - b * (-d3) - force;
+  const double r = std::abs(rest);
+  double x = r / a;
+  if (b > 0.0) {
+    x = std::min(x, std::asinh(r / b));
+    for (int k = 0; k < 60; ++k) {
+      const double step = (a * x + b * std::sinh(x) - r) / (a + b * std::cosh(x));
+      x -= step;
+      if (std::abs(step) <= 1e-16 * (1.0 + x)) break;
+    }
+  }
+  return (std::sinh(rest < 0.0 ? -x : x) - d3) / d2;
+}
+
+/// Passive multiplier (exp(k (l - 1) / e) - o) / (exp(k) - o), o = exp(k (0.2 - 1) / e): 0 at l =
+/// 0.2, 1 at l = 1 + e. Published: k = 4, e = 0.6.
+template <typename T>
+[[nodiscard]] CurvePoint<T> de_groote_passive(const T& l, const T& strain, const T& shape) {
+  using std::exp;
+  const T rate = shape / strain;
+  const T offset = exp(T(-0.8) * rate);
+  const T scale = T(1.0) / (exp(shape) - offset);
+  const T e = exp(rate * (l - T(1.0)));
+  return {(e - offset) * scale, value_of(e * scale * rate)};
+}
+
+/// Its integral from l = 0.2, the energy over F_max l0.
+template <typename T>
+[[nodiscard]] T de_groote_passive_energy(const T& l, const T& strain, const T& shape) {
+  using std::exp;
+  const T rate = shape / strain;
+  const T offset = exp(T(-0.8) * rate);
+  return ((exp(rate * (l - T(1.0))) - offset) / rate - offset * (l - T(0.2))) /
+         (exp(shape) - offset);
+}
+
+/// Tendon multiplier (exp(k e) - 1) / 5 with k = ln(6) / e0, over the strain e; 1 at e0 (published:
+/// 0.049). The published curve goes on below slack, to a push of F_max / 5; here it is 0 there.
+template <typename T>
+[[nodiscard]] CurvePoint<T> de_groote_tendon(const T& strain, const T& strain_at_max_force) {
+  using std::exp;
+  if (value_of(strain) <= 0.0) return {T(0.0), 0.0};
+  const T rate = T(std::log(6.0)) / strain_at_max_force;
+  const T e = exp(rate * strain);
+  return {T(0.2) * (e - T(1.0)), value_of(T(0.2) * rate * e)};
+}
+
+/// Its integral from slack, the energy over F_max l_t0.
+template <typename T>
+[[nodiscard]] T de_groote_tendon_energy(const T& strain, const T& strain_at_max_force) {
+  using std::exp;
+  if (value_of(strain) <= 0.0) return T(0.0);
+  const T rate = T(std::log(6.0)) / strain_at_max_force;
+  return T(0.2) * ((exp(rate * strain) - T(1.0)) / rate - strain);
+}
+
+}  // namespace myoid::muscle

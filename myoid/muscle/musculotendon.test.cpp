@@ -1,0 +1,333 @@
+#include "myoid/muscle/musculotendon.h"
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <ceres/jet.h>
+#include <gtest/gtest.h>
+
+#include "myoid/core/error.h"
+#include "myoid/core/units.h"
+
+namespace myoid::muscle {
+namespace {
+
+constexpr HillParameters<double> kBicepsLong{.max_isometric_force_n = 624.3,
+                                             .optimal_fiber_length_m = 0.1157,
+                                             .force_length_width_m = 0.0818,
+                                             .concentric_curvature = 0.3,
+                                             .eccentric_curvature_product = 0.04615,
+                                             .eccentric_plateau = 1.4,
+                                             .max_shortening_speed_mps = 1.157,
+                                             .tendon_slack_length_m = 0.2723};
+
+struct Case {
+  std::string name;
+  MusculotendonLaws laws;
+  double pennation_rad = 0.0;
+  double damping = 0.1;
+};
+
+std::vector<Case> cases() {
+  std::vector<Case> all;
+  for (const TendonMode mode : {TendonMode::rigid, TendonMode::equilibrium, TendonMode::mass}) {
+    const std::string suffix = mode == TendonMode::rigid         ? ", rigid"
+                               : mode == TendonMode::equilibrium ? ", equilibrium"
+                                                                 : ", mass";
+    for (const double pennation : {0.0, 0.3}) {
+      all.push_back({"paper" + suffix, paper_laws(mode), pennation});
+      all.push_back({"Thelen" + suffix, thelen_laws(mode), pennation});
+      all.push_back({"De Groote" + suffix, de_groote_laws(mode), pennation});
+      all.push_back({"Millard" + suffix, millard_laws(mode), pennation});
+    }
+  }
+  all.push_back({"paper, undamped", paper_laws(TendonMode::equilibrium), 0.2, 0.0});
+  all.push_back({"Thelen, undamped", thelen_laws(), 0.2, 0.0});
+  return all;
+}
+
+MusculotendonParameters<double> parameters_of(const Case& c) {
+  MusculotendonParameters<double> p = published_defaults(kBicepsLong, c.laws);
+  p.pennation_at_optimal_rad = c.pennation_rad;
+  p.damping = c.damping;
+  p.optimal_length_shift = 0.15;
+  return p;
+}
+
+using Input = MusculotendonInput<double>;
+using State = MusculotendonState<double>;
+
+TEST(Musculotendon, TendonAndFiberPullAlikeInTheSteadyState) {
+  for (const Case& c : cases()) {
+    const Musculotendon<double> unit(parameters_of(c), c.laws);
+    for (const double a : {0.0, 0.02, 0.3, 1.0}) {
+      for (const double length : {0.33, 0.37, 0.40, 0.44}) {
+        const Input input{a, length, 0.0};
+        const State state = equilibrium_state(unit, input);
+        const MusculotendonOutput<double> o = musculotendon_output(unit, input, state);
+        // Round-off: the tendon's length 0.3 m to half an ulp, 3e-17, times 2e5 N/m is 1e-11 N.
+        if (o.slack) {
+          EXPECT_LE(o.fiber_force_n * o.cos_pennation, 1e-9) << c.name << " a " << a;
+        } else {
+          EXPECT_NEAR(o.tendon_force_n, o.fiber_force_n * o.cos_pennation, 1e-9)
+              << c.name << " a " << a << " l " << length;
+        }
+        const MusculotendonRate<double> rate = musculotendon_rate(unit, input, state);
+        EXPECT_NEAR(rate.fiber_length_rate_mps, 0.0, 1e-9) << c.name << " a " << a;
+        EXPECT_NEAR(rate.fiber_velocity_rate_mps2, 0.0, 1e-8) << c.name;
+        EXPECT_EQ(rate.tendon_force_n, o.tendon_force_n);
+      }
+    }
+  }
+}
+
+TEST(Musculotendon, PowersOfAllElementsAddUpToThatOfThePath) {
+  for (const Case& c : cases()) {
+    const Musculotendon<double> unit(parameters_of(c), c.laws);
+    for (const double a : {0.0, 0.3, 1.0}) {
+      for (const double velocity : {-1.3, -0.4, 0.0, 0.3, 2.0}) {
+        for (const double fiber : {0.06, 0.11, 0.14, 0.19}) {
+          const Input input{a, 0.40, velocity};
+          const MusculotendonOutput<double> o =
+              musculotendon_output(unit, input, {fiber, 0.7 * velocity});
+          const double sum = o.active_power_w + o.passive_power_w + o.viscous_power_w +
+                             o.tendon_power_w + o.kinetic_power_w;
+          const double scale = std::abs(o.active_power_w) + std::abs(o.passive_power_w) +
+                               std::abs(o.viscous_power_w) + std::abs(o.tendon_power_w) +
+                               std::abs(o.kinetic_power_w) + 1.0;
+          EXPECT_NEAR(sum, o.musculotendon_power_w, 1e-12 * scale) << c.name << " a " << a;
+        }
+      }
+    }
+  }
+}
+
+TEST(Musculotendon, EquilibriumVelocityBalancesTheForcesWhereverTheFiberIs) {
+  // From fibers far too short (tendon stretched to twice F_max and more: the eccentric plateau) to
+  // slack tendons, at no, little and full activation.
+  for (const Case& c : cases()) {
+    if (c.laws.mode != TendonMode::equilibrium) continue;
+    const Musculotendon<double> unit(parameters_of(c), c.laws);
+    for (const double a : {0.0, 1e-6, 0.01, 0.5, 1.0}) {
+      for (double fiber = 0.04; fiber < 0.2; fiber += 0.0037) {
+        const Input input{a, 0.41, 0.0};
+        const MusculotendonOutput<double> o = musculotendon_output(unit, input, {fiber, 0.0});
+        const double scale = 1.0 + std::abs(o.active_force_n) + std::abs(o.viscous_force_n) +
+                             std::abs(o.passive_force_n) + o.tendon_force_n;
+        EXPECT_NEAR(o.tendon_force_n / o.cos_pennation, o.fiber_force_n, 1e-11 * scale)
+            << c.name << " a " << a << " fiber " << fiber << " v " << o.fiber_velocity_mps;
+      }
+    }
+  }
+}
+
+TEST(Musculotendon, DerivativesByStatesInputsAndParametersAreExact) {
+  constexpr int kInputs = 5;
+  using Jet = ceres::Jet<double, kInputs + kMusculotendonParameterCount>;
+  for (const Case& c : cases()) {
+    const MusculotendonParameters<double> p = parameters_of(c);
+    for (const double a : {0.2, 0.9}) {
+      for (const double velocity : {-0.31, 0.22}) {
+        const double inputs[kInputs] = {a, 0.405, velocity, 0.1273, 0.8 * velocity};
+        const auto value = [&](const MusculotendonParameters<double>& q, const double* x) {
+          const Musculotendon<double> unit(q, c.laws);
+          const auto r = musculotendon_rate<double>(unit, {x[0], x[1], x[2]}, {x[3], x[4]});
+          return std::array<double, 3>{r.fiber_length_rate_mps, r.fiber_velocity_rate_mps2,
+                                       r.tendon_force_n};
+        };
+        MusculotendonParameters<Jet> lifted_p = lifted<Jet>(p);
+        int k = kInputs;
+        visit_parameters(lifted_p, [&](std::string_view, Unit, Jet& field) { field.v[k++] = 1.0; });
+        const Musculotendon<Jet> unit(lifted_p, c.laws);
+        Jet x[kInputs];
+        for (int i = 0; i < kInputs; ++i) x[i] = Jet(inputs[i], i);
+        const auto r = musculotendon_rate<Jet>(unit, {x[0], x[1], x[2]}, {x[3], x[4]});
+        const Jet exact[3] = {r.fiber_length_rate_mps, r.fiber_velocity_rate_mps2,
+                              r.tendon_force_n};
+        for (int i = 0; i < kInputs + kMusculotendonParameterCount; ++i) {
+          MusculotendonParameters<double> up = p, down = p;
+          double x_up[kInputs], x_down[kInputs];
+          std::copy(inputs, inputs + kInputs, x_up);
+          std::copy(inputs, inputs + kInputs, x_down);
+          double size = 0.0;
+          if (i < kInputs) {
+            size = std::abs(inputs[i]);
+            x_up[i] += 1e-6 * size;
+            x_down[i] -= 1e-6 * size;
+          } else {
+            int n = kInputs;
+            visit_parameters(up, [&](std::string_view, Unit, double& f) {
+              if (n++ == i) f += 1e-6 * (size = std::abs(f));
+            });
+            n = kInputs;
+            visit_parameters(down, [&](std::string_view, Unit, double& f) {
+              if (n++ == i) f -= 1e-6 * std::abs(f);
+            });
+          }
+          if (size == 0.0) continue;  // no pennation, no damping: one-sided
+          const auto hi = value(up, x_up);
+          const auto lo = value(down, x_down);
+          for (std::size_t out = 0; out < 3; ++out) {
+            // Relative change by a relative step 1e-6: truncation 1e-12 times third derivatives
+            // (the tendon's, about (l_t / 0.01 m)^3 = 3e4), rounding 1e-16 / 1e-6 times the
+            // stiffness amplification of the same 30.
+            const double difference = (hi[out] - lo[out]) / 2e-6;
+            const double scale =
+                std::abs(exact[out].v[i] * size) + std::abs(value(p, inputs)[out]) + 1e-3;
+            EXPECT_NEAR(exact[out].v[i] * size / scale, difference / scale, 2e-6)
+                << c.name << " output " << out << " by " << i << " a " << a << " v " << velocity;
+          }
+        }
+      }
+    }
+  }
+}
+
+/// Runge-Kutta of order four with a fixed step over `duration`; the path moves as
+/// l(t) = middle + swing sin(w t). Returns the state and the works of all elements.
+struct Drive {
+  double middle_m = 0.4;
+  double swing_m = 0.0;
+  double frequency_radps = 0.0;
+  double activation = 0.5;
+  [[nodiscard]] Input at(double t) const {
+    return {activation, middle_m + swing_m * std::sin(frequency_radps * t),
+            swing_m * frequency_radps * std::cos(frequency_radps * t)};
+  }
+};
+
+template <typename Observe>
+State integrate(const Musculotendon<double>& unit,
+                const Drive& drive,
+                State state,
+                double duration_s,
+                int steps,
+                const Observe& observe) {
+  const double h = duration_s / steps;
+  const auto rate = [&](double t, const State& s) {
+    return musculotendon_rate(unit, drive.at(t), s);
+  };
+  const auto moved = [](const State& s, const MusculotendonRate<double>& r, double dt) {
+    return State{s.fiber_length_m + dt * r.fiber_length_rate_mps,
+                 s.fiber_velocity_mps + dt * r.fiber_velocity_rate_mps2};
+  };
+  observe(0.0, state);
+  for (int k = 0; k < steps; ++k) {
+    const double t = k * h;
+    const auto k1 = rate(t, state);
+    const auto k2 = rate(t + 0.5 * h, moved(state, k1, 0.5 * h));
+    const auto k3 = rate(t + 0.5 * h, moved(state, k2, 0.5 * h));
+    const auto k4 = rate(t + h, moved(state, k3, h));
+    for (const auto& [r, weight] : {std::pair(k1, 1.0), {k2, 2.0}, {k3, 2.0}, {k4, 1.0}}) {
+      state = moved(state, r, weight * h / 6.0);
+    }
+    observe((k + 1) * h, state);
+  }
+  return state;
+}
+
+TEST(Musculotendon, MassOnItsTendonRingsAtTheRootOfStiffnessOverMass) {
+  // Passive, undamped: F_t = k (x - slack) alone moves the mass: omega = sqrt(k / M), 667 rad/s for
+  // the long head of the biceps (science: 670).
+  MusculotendonParameters<double> p = published_defaults(kBicepsLong, paper_laws());
+  p.damping = 0.0;
+  const Musculotendon<double> unit(p, paper_laws());
+  const double stiffness = 624.3 / (0.033 * 0.2723);
+  const double omega = std::sqrt(stiffness / p.muscle_mass_kg);
+  EXPECT_NEAR(omega, 670.0, 20.0);
+  // Released with the tendon 3 mm long: x reaches the slack length after a quarter period.
+  const Drive drive{.middle_m = 0.3900, .activation = 0.0};
+  const double start = 0.3900 - 0.2723 - 0.003;
+  const double quarter = 0.5 * kPi / omega;
+  const State end =
+      integrate(unit, drive, {start, 0.0}, quarter, 2000, [](double, const State&) {});
+  EXPECT_NEAR(end.fiber_length_m, 0.3900 - 0.2723, 1e-9);  // RK4: (pi/4000)^4 of 3 mm
+  EXPECT_NEAR(end.fiber_velocity_mps, 0.003 * omega, 1e-7);
+}
+
+TEST(Musculotendon, WorkOfAllElementsClosesWithTheStoredEnergies) {
+  for (const Case& c : cases()) {
+    if (c.laws.mode == TendonMode::rigid || c.damping == 0.0) continue;
+    const Musculotendon<double> unit(parameters_of(c), c.laws);
+    const Drive drive{.middle_m = 0.41, .swing_m = 0.01, .frequency_radps = 6.0};
+    double path = 0.0, active = 0.0, viscous = 0.0, size = 0.0;
+    double before = 0.0, stored_at_start = 0.0, stored = 0.0;
+    MusculotendonOutput<double> last;
+    // A massive fiber's fastest rate is a F_max 2 (1 + 1/V_sh) / (v_max M) = 15000 1/s.
+    const int steps = c.laws.mode == TendonMode::mass ? 30000 : 6000;
+    const double duration = 1.5;
+    const double h = duration / steps;
+    integrate(unit, drive, equilibrium_state(unit, drive.at(0.0)), duration, steps,
+              [&](double t, const State& s) {
+                const auto o = musculotendon_output(unit, drive.at(t), s);
+                stored = o.passive_energy_j + o.tendon_energy_j + o.kinetic_energy_j;
+                if (t == 0.0) {
+                  stored_at_start = stored;
+                } else {
+                  path += 0.5 * h * (last.musculotendon_power_w + o.musculotendon_power_w);
+                  active += 0.5 * h * (last.active_power_w + o.active_power_w);
+                  viscous += 0.5 * h * (last.viscous_power_w + o.viscous_power_w);
+                  size += h * std::abs(o.active_power_w);
+                }
+                last = o;
+                before = t;
+              });
+    EXPECT_NEAR(before, duration, 1e-9);
+    // Trapezoids: h^2/12 w^2 relative 2e-7 where smooth, and a little at the kinks of v = 0.
+    EXPECT_NEAR(active + viscous - (stored - stored_at_start), path, 1e-5 * size) << c.name;
+  }
+}
+
+TEST(Musculotendon, ThreeTendonModesAgreeInSlowMovement) {
+  // A stiff tendon (short, 1 % strain) in a 0.1 Hz movement: force within one per cent.
+  HillParameters<double> hill = kBicepsLong;
+  hill.tendon_slack_length_m = 0.05;
+  const Drive drive{.middle_m = 0.165, .swing_m = 0.01, .frequency_radps = 0.6, .activation = 0.4};
+  double force[3];
+  for (const TendonMode mode : {TendonMode::rigid, TendonMode::equilibrium, TendonMode::mass}) {
+    MusculotendonParameters<double> p = published_defaults(hill, paper_laws(mode));
+    p.tendon_strain = 0.01;
+    const Musculotendon<double> unit(p, paper_laws(mode));
+    const State end = integrate(unit, drive, equilibrium_state(unit, drive.at(0.0)), 1.0, 20000,
+                                [](double, const State&) {});
+    force[static_cast<int>(mode)] = musculotendon_output(unit, drive.at(1.0), end).tendon_force_n;
+  }
+  EXPECT_NEAR(force[1] / force[0], 1.0, 0.01);
+  EXPECT_NEAR(force[2] / force[0], 1.0, 0.01);
+  EXPECT_NEAR(force[2] / force[1], 1.0, 1e-3);
+}
+
+TEST(Musculotendon, EventsChangeSignAtTheKinks) {
+  const Musculotendon<double> unit(published_defaults(kBicepsLong, paper_laws()), paper_laws());
+  const Input input{0.5, 0.39, 0.0};
+  const auto taut = musculotendon_events(unit, input, {0.1170, 0.01});
+  const auto slack = musculotendon_events(unit, input, {0.1180, -1.2});
+  EXPECT_GT(taut[0], 0.0);
+  EXPECT_LT(slack[0], 0.0);
+  EXPECT_GT(taut[1], 0.0);
+  EXPECT_LT(slack[1], 0.0);
+  EXPECT_GT(taut[2], 0.0);
+  EXPECT_LT(slack[2], 0.0);
+}
+
+TEST(Musculotendon, RefusesWhatMakesNoUnit) {
+  const auto refuses = [](auto change, const MusculotendonLaws& laws) {
+    MusculotendonParameters<double> p = published_defaults(kBicepsLong, laws);
+    change(p);
+    EXPECT_THROW(Musculotendon<double>(p, laws), InvalidInput);
+  };
+  refuses([](auto& p) { p.tendon_strain = 0.0; }, paper_laws());
+  refuses([](auto& p) { p.damping = -0.1; }, paper_laws());
+  refuses([](auto& p) { p.muscle_mass_kg = 0.0; }, paper_laws());
+  refuses([](auto& p) { p.pennation_at_optimal_rad = 1.6; }, paper_laws());
+  refuses([](auto& p) { p.hill.tendon_slack_length_m = 0.0; }, paper_laws());
+  refuses([](auto& p) { p.damping = 0.0; }, millard_laws());
+  refuses([](auto& p) { p.damping = 0.0; }, de_groote_laws());
+  refuses([](auto& p) { p.hill.eccentric_plateau = 0.9; }, paper_laws(TendonMode::equilibrium));
+  refuses([](auto& p) { p.hill.eccentric_plateau = 1.04; }, thelen_laws());
+  refuses([](auto& p) { p.hill.max_isometric_force_n = std::nan(""); }, paper_laws());
+}
+
+}  // namespace
+}  // namespace myoid::muscle

@@ -1,0 +1,469 @@
+#pragma once
+
+// The bodies of musculotendon.h's templates; include that.
+
+#include <algorithm>
+#include <cmath>
+#include <type_traits>
+
+#include "myoid/muscle/de_groote.h"
+#include "myoid/muscle/force_length.h"
+#include "myoid/muscle/musculotendon.h"
+#include "myoid/muscle/thelen_curves.h"
+
+namespace myoid::muscle {
+namespace musculotendon_detail {
+
+inline constexpr double kLeastCosine = 0.1;  ///< acos is the greatest pennation.
+inline constexpr double kLimitStiffness =
+    100;  ///< [F_max / l0] of the spring at the shortest length.
+
+/// The fiber's reach along the tendon, and what d(reach)/dl_m = 1 / cos(alpha) needs.
+template <typename T>
+struct Reach {
+  T along_m{};
+  T cosine{};
+};
+
+template <typename T>
+Reach<T> reach(const Musculotendon<T>& unit, const T& l) {
+  using std::sqrt;
+  const T& h = unit.height_m();
+  if (value_of(h) == 0.0) return {l, T(1.0)};
+  const T& shortest = unit.shortest_fiber_m();
+  if (value_of(l) >= value_of(shortest)) {
+    const T along = sqrt(l * l - h * h);
+    return {along, along / l};
+  }
+  const T along = sqrt(shortest * shortest - h * h);
+  const T cosine = along / shortest;
+  return {along + (l - shortest) / cosine, cosine};
+}
+
+template <typename T>
+CurvePoint<T> length_multiplier(const Musculotendon<T>& unit, const T& activation, const T& l) {
+  const MusculotendonParameters<T>& p = unit.parameters();
+  const T& l0 = p.hill.optimal_fiber_length_m;
+  const T shifted = l / (T(1.0) + p.optimal_length_shift * (T(1.0) - activation));
+  switch (unit.laws().length) {
+    case LengthLaw::gaussian: {
+      const T& width = p.hill.force_length_width_m;
+      const T f = force_length(shifted, l0, width);
+      const double w = value_of(width);
+      return {f, -2.0 * value_of(f) * value_of(shifted - l0) / (w * w) * value_of(l0)};
+    }
+    case LengthLaw::de_groote:
+      return de_groote_force_length<T>(shifted / l0);
+    case LengthLaw::millard:
+      return unit.millard().force_length()(T(shifted / l0));
+  }
+  return {};
+}
+
+/// f_v over the velocity in v_max.
+template <typename T>
+CurvePoint<T> velocity_law(const Musculotendon<T>& unit, const T& activation, const T& velocity) {
+  switch (unit.laws().velocity) {
+    case VelocityLaw::hill:
+      return velocity_multiplier<T>(unit.hyperbola(), velocity);
+    case VelocityLaw::thelen: {
+      const T speed = thelen_speed(activation);
+      CurvePoint<T> point = velocity_multiplier<T>(unit.hyperbola(), velocity / speed);
+      point.slope /= value_of(speed);
+      return point;
+    }
+    case VelocityLaw::de_groote:
+      return de_groote_force_velocity(velocity);
+    case VelocityLaw::millard:
+      return unit.millard().force_velocity()(velocity);
+  }
+  return {};
+}
+
+/// Passive force over F_max, with the spring at the shortest length; and, on demand, its energy
+/// over F_max l0.
+template <typename T>
+CurvePoint<T> passive_law(const Musculotendon<T>& unit, const T& l) {
+  const MusculotendonParameters<T>& p = unit.parameters();
+  const T normalized = l / p.hill.optimal_fiber_length_m;
+  CurvePoint<T> point{T(0.0), 0.0};
+  switch (unit.laws().passive) {
+    case PassiveLaw::none:
+      break;
+    case PassiveLaw::thelen:
+      point = thelen_passive<T>(normalized, p.passive_strain, p.passive_shape);
+      break;
+    case PassiveLaw::de_groote:
+      point = de_groote_passive<T>(normalized, p.passive_strain, p.passive_shape);
+      break;
+    case PassiveLaw::millard:
+      point = unit.millard().passive()(normalized);
+      break;
+  }
+  if (value_of(l) < value_of(unit.shortest_fiber_m())) {
+    const T push = (l - unit.shortest_fiber_m()) / p.hill.optimal_fiber_length_m;
+    point.value = point.value + T(kLimitStiffness) * push;
+    point.slope += kLimitStiffness;
+  }
+  return point;
+}
+
+template <typename T>
+T passive_energy(const Musculotendon<T>& unit, const T& l) {
+  const MusculotendonParameters<T>& p = unit.parameters();
+  const T normalized = l / p.hill.optimal_fiber_length_m;
+  T energy(0.0);
+  switch (unit.laws().passive) {
+    case PassiveLaw::none:
+      break;
+    case PassiveLaw::thelen:
+      energy = thelen_passive_energy<T>(normalized, p.passive_strain, p.passive_shape);
+      break;
+    case PassiveLaw::de_groote:
+      energy = de_groote_passive_energy<T>(normalized, p.passive_strain, p.passive_shape);
+      break;
+    case PassiveLaw::millard:
+      energy = unit.millard().passive().integral(normalized);
+      break;
+  }
+  if (value_of(l) < value_of(unit.shortest_fiber_m())) {
+    const T push = (l - unit.shortest_fiber_m()) / p.hill.optimal_fiber_length_m;
+    energy = energy + T(0.5 * kLimitStiffness) * push * push;
+  }
+  return energy * p.hill.max_isometric_force_n * p.hill.optimal_fiber_length_m;
+}
+
+/// Tendon force over F_max at a strain.
+template <typename T>
+CurvePoint<T> tendon_law(const Musculotendon<T>& unit, const T& strain) {
+  const T& e0 = unit.parameters().tendon_strain;
+  if (value_of(strain) <= 0.0) return {T(0.0), 0.0};
+  switch (unit.laws().tendon) {
+    case TendonLaw::linear:
+      return {strain / e0, 1.0 / value_of(e0)};
+    case TendonLaw::thelen:
+      return thelen_tendon(strain, e0);
+    case TendonLaw::de_groote:
+      return de_groote_tendon(strain, e0);
+    case TendonLaw::millard: {
+      CurvePoint<T> point = unit.millard().tendon()(T(strain / e0));
+      point.slope /= value_of(e0);
+      return point;
+    }
+  }
+  return {};
+}
+
+template <typename T>
+T tendon_energy(const Musculotendon<T>& unit, const T& strain) {
+  const MusculotendonParameters<T>& p = unit.parameters();
+  const T& e0 = p.tendon_strain;
+  if (value_of(strain) <= 0.0) return T(0.0);
+  T energy(0.0);
+  switch (unit.laws().tendon) {
+    case TendonLaw::linear:
+      energy = T(0.5) * strain * strain / e0;
+      break;
+    case TendonLaw::thelen:
+      energy = thelen_tendon_energy(strain, e0);
+      break;
+    case TendonLaw::de_groote:
+      energy = de_groote_tendon_energy(strain, e0);
+      break;
+    case TendonLaw::millard:
+      energy = unit.millard().tendon().integral(T(strain / e0)) * e0;
+      break;
+  }
+  return energy * p.hill.max_isometric_force_n * p.hill.tendon_slack_length_m;
+}
+
+/// The velocity [v_max] at which strength f_v + damping v = force (all over F_max).
+inline double solve_velocity_law(VelocityLaw law,
+                                 const VelocityHyperbola<double>& hyperbola,
+                                 const MillardCurves& millard,
+                                 double activation,
+                                 double strength,
+                                 double damping,
+                                 double force) {
+  if (strength == 0.0) return force / damping;
+  switch (law) {
+    case VelocityLaw::hill:
+      return solve_velocity(hyperbola, strength, damping, force);
+    case VelocityLaw::thelen: {
+      const double speed = thelen_speed(activation);
+      return speed * solve_velocity(hyperbola, strength, damping * speed, force);
+    }
+    case VelocityLaw::de_groote:
+      return solve_de_groote_velocity(strength, damping, force);
+    case VelocityLaw::millard:
+      return millard.force_velocity().solve(strength, damping, force);
+  }
+  return 0.0;
+}
+
+/// What every mode needs at one instant; forces over F_max, velocities over v_max.
+template <typename T>
+struct Instant {
+  T length_m{};
+  Reach<T> reach{};
+  T strain{};  ///< Of the tendon.
+  CurvePoint<T> length{}, velocity{}, passive{}, tendon{};
+  T strength{};  ///< a f_l
+  T speed{};     ///< v / v_max
+  bool floored = false;
+};
+
+template <typename T>
+void contract(const Musculotendon<T>& unit, const MusculotendonInput<T>& input, Instant<T>& now) {
+  now.length = length_multiplier(unit, input.activation, now.length_m);
+  now.strength = input.activation * now.length.value;
+  if (unit.undamped_equilibrium() && value_of(now.strength) < kLeastStrength) {
+    now.strength = T(kLeastStrength);
+    now.floored = true;
+  }
+  now.passive = passive_law(unit, now.length_m);
+}
+
+/// The equilibrium's velocity, with its derivatives: one Newton step in T from the solution in
+/// numbers, whose residual in T carries them (implicit function theorem).
+template <typename T>
+void solve_speed(const Musculotendon<T>& unit,
+                 const T& activation,
+                 const T& force,
+                 Instant<T>& now) {
+  const T& damping = unit.parameters().damping;
+  const VelocityHyperbola<T>& h = unit.hyperbola();
+  const double speed =
+      solve_velocity_law(unit.laws().velocity,
+                         {value_of(h.concentric_curvature), value_of(h.eccentric_curvature_product),
+                          value_of(h.eccentric_plateau), value_of(h.tangent_from), h.tangent_below},
+                         unit.millard(), value_of(activation), value_of(now.strength),
+                         value_of(damping), value_of(force));
+  now.speed = T(speed);
+  now.velocity = velocity_law(unit, activation, now.speed);
+  if constexpr (!std::is_same_v<T, double>) {
+    const T miss = force - now.strength * now.velocity.value - damping * now.speed;
+    now.speed =
+        now.speed + miss / T(value_of(now.strength) * now.velocity.slope + value_of(damping));
+    now.velocity = velocity_law(unit, activation, now.speed);
+  }
+}
+
+template <typename T>
+Instant<T> instant(const Musculotendon<T>& unit,
+                   const MusculotendonInput<T>& input,
+                   const MusculotendonState<T>& state) {
+  using std::sqrt;
+  const MusculotendonParameters<T>& p = unit.parameters();
+  const T& slack_length = p.hill.tendon_slack_length_m;
+  Instant<T> now;
+  if (unit.laws().mode == TendonMode::rigid) {
+    const T along = input.length_m - slack_length;
+    now.length_m = unit.shortest_fiber_m();
+    now.reach = reach(unit, now.length_m);
+    if (value_of(along) > value_of(now.reach.along_m)) {
+      const T& h = unit.height_m();
+      now.length_m = value_of(h) == 0.0 ? along : sqrt(along * along + h * h);
+      now.reach = {along, along / now.length_m};
+      now.speed = input.velocity_mps * now.reach.cosine / p.hill.max_shortening_speed_mps;
+      contract(unit, input, now);
+      now.velocity = velocity_law(unit, input.activation, now.speed);
+      now.tendon.value =
+          (now.strength * now.velocity.value + now.passive.value + p.damping * now.speed) *
+          now.reach.cosine;
+    }
+    if (!(value_of(now.tendon.value) > 0.0)) {  // the tendon hangs, and the fiber in it rests
+      Instant<T> hanging;
+      hanging.length_m = now.length_m;
+      hanging.reach = now.reach;
+      return hanging;
+    }
+    return now;
+  }
+  now.length_m = state.fiber_length_m;
+  now.reach = reach(unit, now.length_m);
+  now.strain = (input.length_m - now.reach.along_m) / slack_length - T(1.0);
+  now.tendon = tendon_law(unit, now.strain);
+  contract(unit, input, now);
+  if (unit.laws().mode == TendonMode::mass) {
+    now.speed = state.fiber_velocity_mps / p.hill.max_shortening_speed_mps;
+    now.velocity = velocity_law(unit, input.activation, now.speed);
+  } else {
+    const T force = now.tendon.value / now.reach.cosine - now.passive.value;
+    solve_speed(unit, input.activation, force, now);
+  }
+  return now;
+}
+
+/// (F_t / cos(alpha) - F_m) / F_max.
+template <typename T>
+T imbalance(const Musculotendon<T>& unit, const Instant<T>& now) {
+  return now.tendon.value / now.reach.cosine - now.strength * now.velocity.value -
+         now.passive.value - unit.parameters().damping * now.speed;
+}
+
+}  // namespace musculotendon_detail
+
+template <typename T>
+Musculotendon<T>::Musculotendon(const MusculotendonParameters<T>& parameters,
+                                const MusculotendonLaws& laws,
+                                const MillardShape& millard)
+    : p_(parameters), laws_(laws), millard_(millard) {
+  using std::sin;
+  MusculotendonParameters<double> numbers;
+  double* fields[kMusculotendonParameterCount];
+  int k = 0;
+  visit_parameters(numbers, [&](std::string_view, Unit, double& field) { fields[k++] = &field; });
+  k = 0;
+  visit_parameters(p_, [&](std::string_view, Unit, const T& v) { *fields[k++] = value_of(v); });
+  validate(numbers, laws_);
+
+  const HillParameters<T>& hill = p_.hill;
+  undamped_equilibrium_ = laws_.mode == TendonMode::equilibrium && numbers.damping == 0.0;
+  if (laws_.velocity == VelocityLaw::thelen) {
+    hyperbola_ = thelen_hyperbola<T>(hill.concentric_curvature, hill.eccentric_plateau);
+  } else {
+    hyperbola_ = {hill.concentric_curvature, hill.eccentric_curvature_product,
+                  hill.eccentric_plateau, T(undamped_equilibrium_ ? 0.95 : 1.0), false};
+  }
+  hyperbola_.tangent_below = undamped_equilibrium_;
+  shortest_ = T(0.01) * hill.optimal_fiber_length_m;
+  if (numbers.pennation_at_optimal_rad > 0.0) {
+    height_ = hill.optimal_fiber_length_m * sin(p_.pennation_at_optimal_rad);
+    const double least = musculotendon_detail::kLeastCosine;
+    const T most_pennate = height_ / T(std::sqrt(1.0 - least * least));
+    if (value_of(most_pennate) > value_of(shortest_)) shortest_ = most_pennate;
+  } else {
+    height_ = T(0.0);
+  }
+  damping_ = p_.damping * hill.max_isometric_force_n / hill.max_shortening_speed_mps;
+}
+
+template <typename T>
+MusculotendonRate<T> musculotendon_rate(const Musculotendon<T>& unit,
+                                        const MusculotendonInput<T>& input,
+                                        const MusculotendonState<T>& state) {
+  namespace detail = musculotendon_detail;
+  const detail::Instant<T> now = detail::instant(unit, input, state);
+  const MusculotendonParameters<T>& p = unit.parameters();
+  MusculotendonRate<T> rate{now.speed * p.hill.max_shortening_speed_mps, T(0.0),
+                            now.tendon.value * p.hill.max_isometric_force_n};
+  if (unit.laws().mode == TendonMode::mass) {
+    rate.fiber_length_rate_mps = state.fiber_velocity_mps;
+    rate.fiber_velocity_rate_mps2 =
+        detail::imbalance(unit, now) * p.hill.max_isometric_force_n / p.muscle_mass_kg;
+  }
+  return rate;
+}
+
+template <typename T>
+MusculotendonOutput<T> musculotendon_output(const Musculotendon<T>& unit,
+                                            const MusculotendonInput<T>& input,
+                                            const MusculotendonState<T>& state) {
+  namespace detail = musculotendon_detail;
+  const detail::Instant<T> now = detail::instant(unit, input, state);
+  const MusculotendonParameters<T>& p = unit.parameters();
+  const T& f_max = p.hill.max_isometric_force_n;
+  const TendonMode mode = unit.laws().mode;
+  MusculotendonOutput<T> o;
+  o.fiber_length_m = now.length_m;
+  o.fiber_velocity_mps = mode == TendonMode::mass ? state.fiber_velocity_mps
+                                                  : now.speed * p.hill.max_shortening_speed_mps;
+  o.cos_pennation = now.reach.cosine;
+  o.tendon_length_m = input.length_m - now.reach.along_m;
+  o.tendon_velocity_mps = input.velocity_mps - o.fiber_velocity_mps / now.reach.cosine;
+  o.length_multiplier = now.length.value;
+  o.velocity_multiplier = now.velocity.value;
+  o.active_force_n = now.strength * now.velocity.value * f_max;
+  o.passive_force_n = now.passive.value * f_max;
+  o.viscous_force_n = unit.damping_nspm() * o.fiber_velocity_mps;
+  o.fiber_force_n = o.active_force_n + o.passive_force_n + o.viscous_force_n;
+  o.tendon_force_n = now.tendon.value * f_max;
+  o.active_power_w = -o.active_force_n * o.fiber_velocity_mps;
+  o.passive_power_w = -o.passive_force_n * o.fiber_velocity_mps;
+  o.viscous_power_w = -o.viscous_force_n * o.fiber_velocity_mps;
+  o.tendon_power_w = -o.tendon_force_n * o.tendon_velocity_mps;
+  o.musculotendon_power_w = -o.tendon_force_n * input.velocity_mps;
+  o.passive_energy_j = detail::passive_energy(unit, now.length_m);
+  o.kinetic_power_w = T(0.0);
+  o.kinetic_energy_j = T(0.0);
+  if (mode == TendonMode::rigid) {
+    o.tendon_velocity_mps = T(0.0);
+    o.tendon_power_w = T(0.0);
+    o.tendon_energy_j = T(0.0);
+  } else {
+    o.tendon_energy_j = detail::tendon_energy(unit, now.strain);
+    o.tendon_stiffness_npm =
+        value_of(f_max) * now.tendon.slope / value_of(p.hill.tendon_slack_length_m);
+  }
+  if (mode == TendonMode::mass) {
+    o.fiber_acceleration_mps2 = detail::imbalance(unit, now) * f_max / p.muscle_mass_kg;
+    o.kinetic_power_w = -p.muscle_mass_kg * o.fiber_velocity_mps * o.fiber_acceleration_mps2;
+    o.kinetic_energy_j = T(0.5) * p.muscle_mass_kg * o.fiber_velocity_mps * o.fiber_velocity_mps;
+  }
+  const double share = now.floored ? 0.0 : value_of(input.activation) * now.length.slope;
+  o.fiber_stiffness_npm = value_of(f_max) / value_of(p.hill.optimal_fiber_length_m) *
+                          (share * value_of(now.velocity.value) + now.passive.slope);
+  o.slack = !(value_of(now.tendon.value) > 0.0);
+  o.at_shortest = !(value_of(now.length_m) > value_of(unit.shortest_fiber_m()));
+  o.floored = now.floored;
+  return o;
+}
+
+template <typename T>
+MusculotendonState<T> equilibrium_state(const Musculotendon<T>& unit,
+                                        const MusculotendonInput<T>& input) {
+  namespace detail = musculotendon_detail;
+  using std::sqrt;
+  const MusculotendonParameters<T>& p = unit.parameters();
+  const T& v_max = p.hill.max_shortening_speed_mps;
+  if (unit.laws().mode == TendonMode::rigid) {
+    const detail::Instant<T> now = detail::instant(unit, input, {});
+    return {now.length_m, now.speed * v_max};
+  }
+  // A fiber of length l, while the tendon keeps its length.
+  const auto steady = [&](const T& l) {
+    detail::Instant<T> now;
+    now.length_m = l;
+    now.reach = detail::reach(unit, l);
+    now.strain = (input.length_m - now.reach.along_m) / p.hill.tendon_slack_length_m - T(1.0);
+    now.tendon = detail::tendon_law(unit, now.strain);
+    detail::contract(unit, input, now);
+    now.speed = input.velocity_mps * now.reach.cosine / v_max;
+    now.velocity = detail::velocity_law(unit, input.activation, now.speed);
+    return now;
+  };
+  const auto miss = [&](double l) { return value_of(detail::imbalance(unit, steady(T(l)))); };
+  const auto state_at = [&](const T& l) {
+    return MusculotendonState<T>{l, steady(l).speed * v_max};
+  };
+
+  // From the length at which the tendon is just slack, down to where it pulls more than the fiber.
+  const T slack_along = input.length_m - p.hill.tendon_slack_length_m;
+  T slack_length = unit.shortest_fiber_m();
+  if (value_of(slack_along) > value_of(detail::reach(unit, slack_length).along_m)) {
+    const T& h = unit.height_m();
+    slack_length = value_of(h) == 0.0 ? slack_along : sqrt(slack_along * slack_along + h * h);
+  }
+  double high = value_of(slack_length);
+  if (!(miss(high) < 0.0)) return state_at(slack_length);
+  double low = 0.5 * value_of(unit.shortest_fiber_m());
+  while (low > 1e-6 * high && !(miss(low) > 0.0)) low *= 0.5;
+  if (!(miss(low) > 0.0)) return state_at(unit.shortest_fiber_m());
+
+  // Bisection keeps a fiber that would lengthen at `low` and shorten at `high`: a stable balance.
+  double l = 0.5 * (low + high);
+  while (l > low && l < high) {
+    (miss(l) > 0.0 ? low : high) = l;
+    l = 0.5 * (low + high);
+  }
+  if constexpr (std::is_same_v<T, double>) {
+    return state_at(l);
+  } else {
+    const double h = 1e-6 * l;
+    const double slope = (miss(l + h) - miss(l - h)) / (2.0 * h);
+    return state_at(T(l) - detail::imbalance(unit, steady(T(l))) / T(slope));
+  }
+}
+
+}  // namespace myoid::muscle

@@ -1,0 +1,114 @@
+#pragma once
+
+#include <string_view>
+#include <type_traits>
+
+#include "myoid/core/units.h"
+#include "myoid/muscle/hill_parameters.h"
+
+namespace myoid::muscle {
+
+/// What stands between fiber and bone.
+enum class TendonMode {
+  rigid,        ///< No state: the fiber follows the path.
+  equilibrium,  ///< State l_m: massless, fiber and tendon pull alike at every instant.
+  mass,         ///< States l_m, dl_m/dt: the source paper's equation (5).
+};
+
+/// Active force over length: the paper's Gaussian (Thelen's too), or a published curve.
+enum class LengthLaw { gaussian, de_groote, millard };
+/// Active force over velocity: the paper's hyperbolas, Thelen's (whose speed falls with
+/// activation), ...
+enum class VelocityLaw { hill, thelen, de_groote, millard };
+/// Passive force of the fiber; the paper has none.
+enum class PassiveLaw { none, thelen, de_groote, millard };
+/// Tendon force over strain: the paper's line, or a curve with a toe.
+enum class TendonLaw { linear, thelen, de_groote, millard };
+
+/// Which law each element of a musculotendon unit follows.
+struct MusculotendonLaws {
+  TendonMode mode = TendonMode::equilibrium;
+  LengthLaw length = LengthLaw::gaussian;
+  VelocityLaw velocity = VelocityLaw::hill;
+  PassiveLaw passive = PassiveLaw::none;
+  TendonLaw tendon = TendonLaw::linear;
+};
+
+/// The numbers of one musculotendon unit. The laws read those they need: De Groote's and Millard's
+/// length and velocity curves take only l0, v_max and F_max of `hill`; Thelen's A_f is V_sh, his
+/// F_len V_ml, his gamma (l_sh / l0)^2, and P follows from A_f and F_len.
+template <typename T = double>
+struct MusculotendonParameters {
+  HillParameters<T> hill;
+  T tendon_strain{0.033};  ///< e0 [-]: (l_t - l_t0) / l_t0 at F_max; k_t = F_max / (e0 l_t0).
+  T damping{0.1};          ///< beta [-]: B_m = beta F_max / v_max.
+  T muscle_mass_kg{0.1};   ///< M_m [kg], at the node between fiber and tendon. Mode `mass`.
+  T pennation_at_optimal_rad{0};  ///< alpha0 [rad], at l0.
+  T passive_strain{0.6};          ///< (l_m - l0) / l0 at which the passive force is F_max.
+  T passive_shape{4.0};           ///< k_pe [-] of the exponential passive laws.
+  T optimal_length_shift{0.0};    ///< gamma [-]: l_opt(a) = l0 (1 + gamma (1 - a)); 0.15 published.
+};
+
+/// Calls f(name, unit, field) for every parameter, the Hill parameters first, in one fixed order:
+/// the order of sensitivities, tables and files.
+template <typename Parameters, typename F>
+void visit_parameters(Parameters& p, F&& f) {
+  f(std::string_view("max_isometric_force"), Unit::newton, p.hill.max_isometric_force_n);
+  f(std::string_view("optimal_fiber_length"), Unit::meter, p.hill.optimal_fiber_length_m);
+  f(std::string_view("force_length_width"), Unit::meter, p.hill.force_length_width_m);
+  f(std::string_view("concentric_curvature"), Unit::dimensionless, p.hill.concentric_curvature);
+  f(std::string_view("eccentric_curvature_product"), Unit::dimensionless,
+    p.hill.eccentric_curvature_product);
+  f(std::string_view("eccentric_plateau"), Unit::dimensionless, p.hill.eccentric_plateau);
+  f(std::string_view("max_shortening_speed"), Unit::meter_per_second,
+    p.hill.max_shortening_speed_mps);
+  f(std::string_view("tendon_slack_length"), Unit::meter, p.hill.tendon_slack_length_m);
+  f(std::string_view("tendon_strain"), Unit::dimensionless, p.tendon_strain);
+  f(std::string_view("damping"), Unit::dimensionless, p.damping);
+  f(std::string_view("muscle_mass"), Unit::kilogram, p.muscle_mass_kg);
+  f(std::string_view("pennation_at_optimal"), Unit::radian, p.pennation_at_optimal_rad);
+  f(std::string_view("passive_strain"), Unit::dimensionless, p.passive_strain);
+  f(std::string_view("passive_shape"), Unit::dimensionless, p.passive_shape);
+  f(std::string_view("optimal_length_shift"), Unit::dimensionless, p.optimal_length_shift);
+}
+inline constexpr int kMusculotendonParameterCount = 15;
+
+/// The same numbers in another scalar, without derivatives: seed them afterwards.
+template <typename T>
+[[nodiscard]] MusculotendonParameters<T> lifted(const MusculotendonParameters<double>& p) {
+  MusculotendonParameters<T> result;
+  T* fields[kMusculotendonParameterCount];
+  int k = 0;
+  visit_parameters(result, [&](std::string_view, Unit, T& field) { fields[k++] = &field; });
+  k = 0;
+  visit_parameters(p,
+                   [&](std::string_view, Unit, const double& value) { *fields[k++] = T(value); });
+  return result;
+}
+
+/// What a muscle of this strength and length weighs [kg]: density 1060 kg/m^3, F_max / (0.5 MPa) of
+/// cross-section, l0 long. All of it moving as one with the node; a uniform bar held at its origin
+/// has a third of it there.
+[[nodiscard]] inline double muscle_mass_kg(double max_isometric_force_n,
+                                           double optimal_fiber_length_m) {
+  return 1060.0 * max_isometric_force_n / 0.5e6 * optimal_fiber_length_m;
+}
+
+/// The laws of the source paper: Gaussian, hyperbolas, linear tendon, no passive force; and the
+/// sets of the three publications.
+[[nodiscard]] MusculotendonLaws paper_laws(TendonMode mode = TendonMode::mass);
+[[nodiscard]] MusculotendonLaws thelen_laws(TendonMode mode = TendonMode::equilibrium);
+[[nodiscard]] MusculotendonLaws de_groote_laws(TendonMode mode = TendonMode::equilibrium);
+[[nodiscard]] MusculotendonLaws millard_laws(TendonMode mode = TendonMode::equilibrium);
+
+/// The Hill parameters with what the publication of these laws takes for the rest: tendon strain
+/// 0.033 (linear), 0.04 (Thelen), 0.049 (De Groote, Millard); passive strain 0.6 and shape 5
+/// (Thelen) or 4; damping 0.1; the mass of `muscle_mass_kg`; no pennation, no shift of the optimum.
+[[nodiscard]] MusculotendonParameters<double> published_defaults(const HillParameters<double>& hill,
+                                                                 const MusculotendonLaws& laws);
+
+/// Throws InvalidInput, naming the field, its value and what these laws need, unless a
+/// musculotendon unit can be made of the numbers.
+void validate(const MusculotendonParameters<double>& parameters, const MusculotendonLaws& laws);
+
+}  // namespace myoid::muscle
