@@ -5,6 +5,7 @@
 #include <limits>
 
 #include <Eigen/QR>
+#include <Eigen/SVD>
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
@@ -112,12 +113,79 @@ void gauss_newton(Search& search) {
          fmt::format("not converged after {} iterations", result.iterations));
 }
 
+/// The linear problem of one iteration in scaled variables, min |J d + r| with |d| <= radius, ready
+/// to be solved for any radius: by the SVD of the triangle of J,
+///
+///   d(mu) = -sum_i s_i u_i / (s_i^2 + mu) v_i ,     |d(mu)| = radius  unless  |d(0)| <= radius.
+class TrustRegion {
+ public:
+  TrustRegion(const Eigen::MatrixXd& jacobian, const Eigen::VectorXd& residual) {
+    const Eigen::Index rows = std::min(jacobian.rows(), jacobian.cols());
+    const Eigen::HouseholderQR<Eigen::MatrixXd> qr(jacobian);
+    const Eigen::MatrixXd triangle =
+        qr.matrixQR().topRows(rows).template triangularView<Eigen::Upper>();
+    Eigen::VectorXd rotated = residual;
+    rotated.applyOnTheLeft(qr.householderQ().adjoint());
+    svd_.compute(triangle, Eigen::ComputeThinU | Eigen::ComputeThinV);
+    projected_ = svd_.matrixU().transpose() * rotated.head(rows);
+    rank_floor_ = 1e-15 * (rows > 0 ? svd_.singularValues()[0] : 0.0);
+  }
+
+  /// The step, and whether the radius bounds it.
+  [[nodiscard]] Eigen::VectorXd step(double radius) const {
+    if (length(0.0) <= radius) return step_of(0.0);
+    // Newton on 1/|d(mu)| - 1/radius, which is concave and nearly linear in mu; kept in a bracket.
+    double low = 0.0;
+    double high = svd_.singularValues().cwiseProduct(projected_).norm() / radius;
+    double mu = 1e-3 * high;
+    for (int i = 0; i < 60; ++i) {
+      const double size = length(mu);
+      if (std::abs(size - radius) <= 1e-2 * radius) break;
+      (size > radius ? low : high) = mu;
+      const double next = mu + (size - radius) / radius * size * size / half_slope(mu);
+      mu = next > low && next < high ? next : std::max(std::sqrt(low * high), 1e-3 * high);
+    }
+    return step_of(mu);
+  }
+
+ private:
+  [[nodiscard]] double coefficient(Eigen::Index i, double mu) const {
+    const double s = svd_.singularValues()[i];
+    return s <= rank_floor_ ? 0.0 : s * projected_[i] / (s * s + mu);
+  }
+  [[nodiscard]] double length(double mu) const {
+    double sum = 0.0;
+    for (Eigen::Index i = 0; i < projected_.size(); ++i) sum += std::pow(coefficient(i, mu), 2);
+    return std::sqrt(sum);
+  }
+  /// -d(|d|^2)/dmu / 2.
+  [[nodiscard]] double half_slope(double mu) const {
+    double sum = 0.0;
+    for (Eigen::Index i = 0; i < projected_.size(); ++i) {
+      const double s = svd_.singularValues()[i];
+      if (s > rank_floor_) sum += std::pow(coefficient(i, mu), 2) / (s * s + mu);
+    }
+    return sum;
+  }
+  [[nodiscard]] Eigen::VectorXd step_of(double mu) const {
+    Eigen::VectorXd d = Eigen::VectorXd::Zero(svd_.matrixV().rows());
+    for (Eigen::Index i = 0; i < projected_.size(); ++i)
+      d -= coefficient(i, mu) * svd_.matrixV().col(i);
+    return d;
+  }
+
+  Eigen::JacobiSVD<Eigen::MatrixXd> svd_;
+  Eigen::VectorXd projected_;
+  double rank_floor_ = 0.0;
+};
+
+/// More's trust region (1978): |D d| <= radius, D the greatest column norms so far, so that the
+/// search does not depend on the units of the parameters. The radius follows the gain ratio.
 void levenberg_marquardt(Search& search) {
   LeastSquaresResult& result = search.result;
   const Eigen::Index p = result.x.size();
   Eigen::VectorXd scale = Eigen::VectorXd::Zero(p);
-  double damping = 1e-3;
-  double growth = 2.0;
+  double radius = 0.0;
   for (result.iterations = 0; result.iterations < search.options.max_iterations;
        ++result.iterations) {
     search.options.progress.check();
@@ -140,36 +208,30 @@ void levenberg_marquardt(Search& search) {
     }
     const Eigen::Index q = static_cast<Eigen::Index>(moving.size());
     Eigen::MatrixXd jacobian(result.jacobian.rows(), q);
-    Eigen::VectorXd d(q);
     for (Eigen::Index k = 0; k < q; ++k) {
-      d[k] = scale[moving[static_cast<std::size_t>(k)]];
-      jacobian.col(k) = result.jacobian.col(moving[static_cast<std::size_t>(k)]) / d[k];
+      const Eigen::Index j = moving[static_cast<std::size_t>(k)];
+      jacobian.col(k) = result.jacobian.col(j) / scale[j];
     }
-    // min |J d + r|^2 + damping |d|^2 in scaled variables, by the triangle of J and one small QR
-    // per damping.
-    const Eigen::HouseholderQR<Eigen::MatrixXd> qr(jacobian);
-    const Eigen::Index rows = std::min(jacobian.rows(), q);
-    Eigen::MatrixXd triangle = Eigen::MatrixXd::Zero(q, q);
-    triangle.topRows(rows) = qr.matrixQR().topRows(rows).template triangularView<Eigen::Upper>();
-    Eigen::VectorXd rotated = Eigen::VectorXd::Zero(q);
-    rotated.head(rows) = (qr.householderQ().transpose() * result.residual).eval().head(rows);
+    const TrustRegion region(jacobian, result.residual);
+    if (result.iterations == 0) {
+      const double size = scale.cwiseProduct(result.x).norm();
+      radius = search.options.initial_radius * (size > 0.0 ? size : 1.0);
+    }
     bool accepted = false;
     while (!accepted) {
-      Eigen::MatrixXd augmented = Eigen::MatrixXd::Zero(2 * q, q);
-      augmented.topRows(q) = triangle;
-      augmented.bottomRows(q).diagonal().setConstant(std::sqrt(damping));
-      Eigen::VectorXd right = Eigen::VectorXd::Zero(2 * q);
-      right.head(q) = -rotated;
-      const Eigen::VectorXd scaled_step = augmented.colPivHouseholderQr().solve(right);
+      const Eigen::VectorXd scaled_step = region.step(radius);
       Eigen::VectorXd step = Eigen::VectorXd::Zero(p);
-      for (Eigen::Index k = 0; k < q; ++k)
-        step[moving[static_cast<std::size_t>(k)]] = scaled_step[k] / d[k];
+      for (Eigen::Index k = 0; k < q; ++k) {
+        const Eigen::Index j = moving[static_cast<std::size_t>(k)];
+        step[j] = scaled_step[k] / scale[j];
+      }
       const Eigen::VectorXd x = search.clipped(result.x + step);
       const Eigen::VectorXd moved = x - result.x;
-      if (step_is_small(moved, result.x, search.options.step_tolerance)) {
-        return finish(search, Termination::converged, "the step is below the tolerance");
-      }
+      const bool last = step_is_small(moved, result.x, search.options.step_tolerance);
+      const double size = scale.cwiseProduct(moved).norm();
+      if (result.cost_history.size() == 1) radius = std::min(radius, scaled_step.norm());
       Eigen::VectorXd r = result.residual;
+      Eigen::MatrixXd next = result.jacobian;
       search.evaluate(x, r, nullptr);
       const double cost = 0.5 * r.squaredNorm();
       const double model_cost = 0.5 * (result.residual + result.jacobian * moved).squaredNorm();
@@ -178,38 +240,38 @@ void levenberg_marquardt(Search& search) {
           std::isfinite(cost) && promised > 0.0 ? (result.cost - cost) / promised : -1.0;
       const double previous = result.cost;
       if (ratio > 1e-4 || (std::isfinite(cost) && cost < result.cost)) {
-        Eigen::MatrixXd next = result.jacobian;
         search.evaluate(x, r, &next);
-        if (!next.allFinite()) {
-          damping *= growth;
-          growth *= 2.0;
-          if (damping > 1e30)
-            return finish(search, Termination::not_finite, "the Jacobian is not finite");
-          continue;
-        }
-        accepted = true;
+        accepted = next.allFinite();
+      }
+      if (accepted) {
         result.x = x;
         result.residual = r;
         result.jacobian = next;
         result.cost = cost;
         result.cost_history.push_back(cost);
-        const double cubic = 1.0 - std::pow(2.0 * ratio - 1.0, 3);
-        damping *= std::clamp(cubic, 0.1, 2.0);
-        damping = std::max(damping, 1e-18);
-        growth = 2.0;
+        if (ratio >= 0.75) radius = std::max(radius, 2.0 * size);
+        if (ratio <= 0.25) radius = 0.5 * std::min(radius, size);
         if (previous - cost <= search.options.cost_tolerance * previous &&
             promised <= search.options.cost_tolerance * previous) {
           ++result.iterations;
           return finish(search, Termination::converged, "the cost falls no further");
         }
-      } else {
+      }
+      if (last) {
+        return finish(search, Termination::converged, "the step is below the tolerance");
+      }
+      if (!accepted) {
         if (promised <= search.options.cost_tolerance * result.cost) {
           return finish(search, Termination::converged,
                         "the cost can fall no further within round-off");
         }
-        damping *= growth;
-        growth *= 2.0;
-        if (damping > 1e30)
+        // The minimum of the parabola through the cost and its slope here and the cost there.
+        const double slope = gradient.dot(moved);
+        const double rise = cost - previous;
+        const double shrink =
+            std::isfinite(rise) && rise > slope ? -0.5 * slope / (rise - slope) : 0.1;
+        radius = std::clamp(shrink, 0.1, 0.5) * std::min(radius, size);
+        if (radius < 1e-300)
           return finish(search, Termination::no_descent, "no step lowers the cost");
       }
     }

@@ -26,12 +26,13 @@ struct LeastSquaresProblem {
 enum class LeastSquaresMethod {
   gauss_newton,  ///< Full steps d of J d = -r by column-pivoted QR, no damping, as the source
                  ///< paper.
-  levenberg_marquardt,  ///< More's scaling, gain ratio, projected onto the bounds.
+  levenberg_marquardt,  ///< More's scaled trust region, projected onto the bounds.
 };
 
 struct LeastSquaresOptions {
   LeastSquaresMethod method = LeastSquaresMethod::levenberg_marquardt;
   int max_iterations = 200;
+  double initial_radius = 3.0;    ///< Of the trust region, in units of |D x| at the start.
   double step_tolerance = 1e-12;  ///< Stop when |d| <= tol (|x| + tol), in scaled variables.
   double cost_tolerance = 1e-15;  ///< Stop when the cost falls by less than this share.
   double gradient_tolerance =
