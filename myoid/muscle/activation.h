@@ -1,71 +1,125 @@
 #pragma once
 
+#include <cmath>
+
 #include <Eigen/Core>
+
+#include "myoid/muscle/scalar.h"
 
 namespace myoid::muscle {
 
-/// Time constants of the way from excitation to activation. That of the excitation is not given by
-/// the source paper; 30 to 50 ms are usual.
-struct ActivationTimes {
-  double excitation_time_s = 0.040;    ///< tau_ne
-  double activation_time_s = 0.015;    ///< tau_ac, while the activation rises
-  double deactivation_time_s = 0.050;  ///< tau_deac, while it falls; 60 ms in old age
+/// How activation follows excitation.
+enum class ActivationLaw {
+  envelope,   ///< a = u: the envelope is the activation, as in the source paper's experiment.
+  two_lags,   ///< u -> e -> a, the source paper's equation (1).
+  thelen,     ///< One lag whose time depends on a: Thelen (2003).
+  de_groote,  ///< The same, smooth in u - a: De Groote et al. (2016).
+  recursive,  ///< Two lags, rising and falling alike: the recursive filter of Buchanan et al.
+              ///< (2004).
 };
 
-/// Throws InvalidInput unless all are positive and finite.
-void validate(const ActivationTimes& times);
-
-struct ActivationState {
-  double filtered_excitation = 0.0;  ///< e
-  double activation = 0.0;           ///< a
+/// A law with its constants. `recursive` takes tau_ne and tau_ac for its two time constants,
+/// `thelen` and `de_groote` do not use tau_ne.
+template <typename T = double>
+struct ActivationDynamics {
+  ActivationLaw law = ActivationLaw::two_lags;
+  T excitation_time_s{0.040};    ///< tau_ne; not given by the source paper, 30 to 50 ms are usual.
+  T activation_time_s{0.015};    ///< tau_ac
+  T deactivation_time_s{0.050};  ///< tau_deac; 60 ms in old age.
+  double steepness = 10.0;       ///< b of `de_groote`.
 };
 
-/// The state a time `interval_s` later, under a constant excitation u in 0..1:
-///
-///   de/dt = (u - e) / tau_ne,   da/dt = (e - a) / tau,   tau = tau_ac if e >= a, else tau_deac
-///
-/// e exactly; a exactly for an e held at its new value, hence to first order in the interval, and
-/// stable for any interval (explicit Euler steps of 33 ms are not: tau_ac is 15 ms). Equation (1)
-/// of the source paper.
-[[nodiscard]] ActivationState step_activation(const ActivationState& state,
-                                              double excitation,
-                                              double interval_s,
-                                              const ActivationTimes& times);
+/// Throws InvalidInput unless all times and the steepness are positive and finite.
+void validate(const ActivationDynamics<double>& dynamics);
 
-/// Activation over time, from excitation on a uniform clock; starts at rest with e = a = the first
-/// excitation. Throws InvalidInput unless the rate is positive and the times are valid.
+/// e and a; laws of one state leave e as it is.
+template <typename T = double>
+struct ActivationPoint {
+  T filtered_excitation{};  ///< e
+  T activation{};           ///< a
+};
+
+/// States that the law integrates: 0, 1 (a) or 2 (e, then a).
+[[nodiscard]] constexpr int state_size(ActivationLaw law) {
+  switch (law) {
+    case ActivationLaw::envelope:
+      return 0;
+    case ActivationLaw::thelen:
+    case ActivationLaw::de_groote:
+      return 1;
+    case ActivationLaw::two_lags:
+    case ActivationLaw::recursive:
+      return 2;
+  }
+  return 0;
+}
+
+/// The right-hand side (de/dt, da/dt) [1/s] under excitation u in 0..1:
+///   two_lags:  (u - e) / tau_ne,  (e - a) / tau,  tau = tau_ac if e >= a, else tau_deac
+///   thelen:    0,  (u - a) / (tau_ac z) if u > a, else (u - a) z / tau_deac,  z = 1/2 + 3/2 a
+///   de_groote: 0,  ((f + 1/2) / (tau_ac z) + (1/2 - f) z / tau_deac) (u - a),
+///              f = tanh(b (u - a)) / 2
+///   recursive: (u - e) / tau_ne,  (e - a) / tau_ac
+///   envelope:  0, 0 (a is u)
+template <typename T>
+[[nodiscard]] ActivationPoint<T> activation_rate(const ActivationDynamics<T>& d,
+                                                 const T& excitation,
+                                                 const ActivationPoint<T>& state) {
+  using std::tanh;
+  const T& e = state.filtered_excitation;
+  const T& a = state.activation;
+  const T& u = excitation;
+  const T z = T(0.5) + T(1.5) * a;
+  switch (d.law) {
+    case ActivationLaw::envelope:
+      return {T(0.0), T(0.0)};
+    case ActivationLaw::two_lags: {
+      const bool rises = value_of(e) >= value_of(a);
+      return {(u - e) / d.excitation_time_s,
+              (e - a) / (rises ? d.activation_time_s : d.deactivation_time_s)};
+    }
+    case ActivationLaw::thelen:
+      if (value_of(u) > value_of(a)) return {T(0.0), (u - a) / (d.activation_time_s * z)};
+      return {T(0.0), (u - a) * z / d.deactivation_time_s};
+    case ActivationLaw::de_groote: {
+      const T f = T(0.5) * tanh(T(d.steepness) * (u - a));
+      return {T(0.0), ((f + T(0.5)) / (d.activation_time_s * z) +
+                       (T(0.5) - f) * z / d.deactivation_time_s) *
+                          (u - a)};
+    }
+    case ActivationLaw::recursive:
+      return {(u - e) / d.excitation_time_s, (e - a) / d.activation_time_s};
+  }
+  return {};
+}
+
+/// Zero where the right-hand side has a kink: e - a (two_lags), u - a (thelen); 1 for the smooth
+/// laws.
+[[nodiscard]] double activation_event(const ActivationDynamics<double>& dynamics,
+                                      double excitation,
+                                      const ActivationPoint<double>& state);
+
+/// The state under a constant excitation, everything settled: e = a = u.
+template <typename T>
+[[nodiscard]] ActivationPoint<T> settled_activation(const T& excitation) {
+  return {excitation, excitation};
+}
+
+/// The state `interval_s` later under an excitation that is held: exact to round-off for any
+/// interval, in closed form (the switch of `two_lags` is located; the rise of `thelen` solves one
+/// scalar equation). Only `de_groote` has no closed form: Runge-Kutta steps of at most a twentieth
+/// of its shortest time constant, to 1e-7 of the activation's change.
+[[nodiscard]] ActivationPoint<double> step_activation(const ActivationDynamics<double>& dynamics,
+                                                      double excitation,
+                                                      const ActivationPoint<double>& state,
+                                                      double interval_s);
+
+/// Activation over time from excitation on a uniform clock, each sample held to the next; begins
+/// settled on the first. Throws InvalidInput unless the rate is positive and the dynamics are
+/// valid.
 [[nodiscard]] Eigen::VectorXd activation_from_excitation(
     const Eigen::Ref<const Eigen::VectorXd>& excitation,
     double rate_hz,
-    const ActivationTimes& times = {});
-
-/// da/dt [1/s] of Thelen (2003): (u - a) / tau with tau = tau_ac (0.5 + 1.5 a) while u > a, and
-/// tau_deac / (0.5 + 1.5 a) else. tau_ne is not used.
-[[nodiscard]] double thelen_activation_rate(double excitation,
-                                            double activation,
-                                            const ActivationTimes& times);
-
-/// da/dt [1/s] of De Groote et al. (2016), smooth in both arguments:
-///   f = tanh(b (u - a)) / 2, z = 0.5 + 1.5 a,
-///   da/dt = ((f + 1/2) / (tau_ac z) + (1/2 - f) z / tau_deac) (u - a).
-/// b = 10 comes near the nominal time constants; b = 0.1 was published.
-[[nodiscard]] double smooth_activation_rate(double excitation,
-                                            double activation,
-                                            const ActivationTimes& times,
-                                            double steepness = 10.0);
-
-/// Activation of the normalized EMG u of Lloyd & Besier (2003): (exp(A u) - 1) / (exp(A) - 1), with
-/// shape A in (-3, 0]; linear at A = 0, where a series is used. 0 at u = 0, 1 at u = 1.
-[[nodiscard]] double shaped_activation(double normalized_emg, double shape);
-
-/// The second-order critically or over-damped response to the EMG envelope (Buchanan et al. 2004):
-/// two lags with these time constants, gain 1 at rest, exact for an envelope that is held between
-/// samples in each lag. Written with time constants, not with the recursion's coefficients, which
-/// change their meaning with the rate. Starts at rest on the first value. Throws InvalidInput
-/// unless the rate and the times are positive.
-[[nodiscard]] Eigen::VectorXd two_lag_activation(const Eigen::Ref<const Eigen::VectorXd>& envelope,
-                                                 double rate_hz,
-                                                 double first_time_s,
-                                                 double second_time_s);
+    const ActivationDynamics<double>& dynamics);
 
 }  // namespace myoid::muscle
