@@ -1,0 +1,53 @@
+#pragma once
+
+#include <functional>
+#include <limits>
+#include <string>
+
+#include <Eigen/Core>
+
+#include "myoid/math/least_squares.h"
+
+namespace myoid::math {
+
+/// A cost to be minimized without derivatives. Where it is not finite it counts as +inf: a wall.
+using CostFunction = std::function<double(const Eigen::VectorXd& x)>;
+
+struct DirectSearchProblem {
+  CostFunction cost;
+  Eigen::VectorXd lower;  ///< One per parameter; -inf, or all empty, where there is none.
+  Eigen::VectorXd upper;
+};
+
+struct DirectSearchResult {
+  Termination termination = Termination::no_descent;
+  std::string message;  ///< One sentence for a person: which rule stopped the search.
+  Eigen::VectorXd x;    ///< The best point met.
+  double cost = std::numeric_limits<double>::infinity();
+  int evaluations = 0;
+  int iterations = 0;  ///< Simplex moves, or temperatures.
+  int restarts = 0;    ///< New simplices at the end of the one before; 0 in annealing.
+};
+
+/// 1/2 |r(x)|^2 of a least-squares problem with its bounds: the same minimum for rival solvers.
+[[nodiscard]] DirectSearchProblem direct_search_problem(const LeastSquaresProblem& problem);
+
+/// The problem as the searches use it: bounds filled in, evaluations counted, x clipped.
+/// Throws InvalidInput if sizes disagree, lower > upper, or a bound is NaN.
+class CountedCost {
+ public:
+  CountedCost(const DirectSearchProblem& problem, Eigen::Index parameters);
+
+  [[nodiscard]] double operator()(const Eigen::VectorXd& x);
+  [[nodiscard]] Eigen::VectorXd clipped(const Eigen::VectorXd& x) const;
+  [[nodiscard]] const Eigen::VectorXd& lower() const { return lower_; }
+  [[nodiscard]] const Eigen::VectorXd& upper() const { return upper_; }
+  [[nodiscard]] int evaluations() const { return evaluations_; }
+
+ private:
+  const CostFunction& cost_;
+  Eigen::VectorXd lower_, upper_;
+  int evaluations_ = 0;
+};
+
+}  // namespace myoid::math

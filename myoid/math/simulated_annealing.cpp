@@ -1,0 +1,159 @@
+#include "myoid/math/simulated_annealing.h"
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "myoid/core/error.h"
+#include "myoid/math/random.h"
+
+namespace myoid::math {
+namespace {
+
+void validate(const CountedCost& cost, const AnnealingOptions& options) {
+  if (!cost.lower().allFinite() || !cost.upper().allFinite())
+    throw InvalidInput("simulated annealing: every parameter needs two finite bounds");
+  if (!(options.cooling > 0.0 && options.cooling < 1.0)) {
+    throw InvalidInput(
+        fmt::format("simulated annealing: cooling is {}; between 0 and 1", options.cooling));
+  }
+  if (options.cycles < 1 || options.adjustments < 1 || options.stop_temperatures < 1 ||
+      !(options.first_temperature >= 0.0)) {
+    throw InvalidInput(
+        "simulated annealing: cycles, adjustments and stop_temperatures must be at least 1, the "
+        "first temperature not negative");
+  }
+}
+
+double uniform_between(Random& random, double low, double high) {
+  return std::clamp(low + random.uniform() * (high - low), low, high);
+}
+
+/// Spread of the cost over the box; walls are left out.
+double spread_of_costs(CountedCost& cost, Random& random) {
+  const Eigen::Index p = cost.lower().size();
+  double sum = 0.0, squares = 0.0;
+  int finite = 0;
+  for (Eigen::Index i = 0; i < 20 * p; ++i) {
+    Eigen::VectorXd x(p);
+    for (Eigen::Index j = 0; j < p; ++j)
+      x[j] = uniform_between(random, cost.lower()[j], cost.upper()[j]);
+    const double value = cost(x);
+    if (!std::isfinite(value)) continue;
+    ++finite;
+    const double change = value - sum;  // running mean (Welford), safe for huge costs
+    sum += change / finite;
+    squares += change * (value - sum);
+  }
+  const double spread = finite > 1 ? std::sqrt(squares / (finite - 1)) : 0.0;
+  return std::isfinite(spread) && spread > 0.0 ? spread : 1.0;
+}
+
+/// One temperature's walk: the point, the steps, and the best point met.
+struct Walk {
+  CountedCost& cost;
+  Random& random;
+  const AnnealingOptions& options;
+  Eigen::VectorXd x, best, step;
+  double current = 0.0, lowest = 0.0;
+
+  bool spent() const { return cost.evaluations() >= options.max_evaluations; }
+
+  /// Returns whether the move of parameter j was accepted.
+  bool try_move(Eigen::Index j, double temperature) {
+    const double low = cost.lower()[j], high = cost.upper()[j];
+    Eigen::VectorXd next = x;
+    next[j] += (2.0 * random.uniform() - 1.0) * step[j];
+    if (next[j] < low || next[j] > high) next[j] = uniform_between(random, low, high);
+    const double value = cost(next);
+    const double luck = random.uniform();  // always drawn: the stream does not depend on the cost
+    if (!(value <= current) && !(luck < std::exp((current - value) / temperature))) return false;
+    x = next;
+    current = value;
+    if (value < lowest) {
+      lowest = value;
+      best = next;
+    }
+    return true;
+  }
+
+  void at(double temperature) {
+    const Eigen::Index p = x.size();
+    for (int adjustment = 0; adjustment < options.adjustments && !spent(); ++adjustment) {
+      std::vector<int> accepted(static_cast<std::size_t>(p), 0);
+      for (int cycle = 0; cycle < options.cycles && !spent(); ++cycle) {
+        for (Eigen::Index j = 0; j < p && !spent(); ++j) {
+          if (step[j] > 0.0 && try_move(j, temperature)) ++accepted[static_cast<std::size_t>(j)];
+        }
+      }
+      for (Eigen::Index j = 0; j < p; ++j) {
+        const double share =
+            static_cast<double>(accepted[static_cast<std::size_t>(j)]) / options.cycles;
+        if (share > 0.6) step[j] *= 1.0 + options.step_growth * (share - 0.6) / 0.4;
+        if (share < 0.4) step[j] /= 1.0 + options.step_growth * (0.4 - share) / 0.4;
+        step[j] = std::min(step[j], cost.upper()[j] - cost.lower()[j]);
+      }
+    }
+  }
+};
+
+}  // namespace
+
+DirectSearchResult simulated_annealing(const DirectSearchProblem& problem,
+                                       const Eigen::VectorXd& start,
+                                       const AnnealingOptions& options) {
+  CountedCost cost(problem, start.size());
+  validate(cost, options);
+  if (!start.allFinite()) throw InvalidInput("simulated annealing: the start is not finite");
+  Random random(options.seed);
+  const Eigen::VectorXd inside = cost.clipped(start);
+  const double first_cost = cost(inside);
+  if (!std::isfinite(first_cost))
+    throw InvalidInput("simulated annealing: no finite cost at the start");
+  const double first_temperature =
+      options.first_temperature > 0.0 ? options.first_temperature : spread_of_costs(cost, random);
+  Walk walk{.cost = cost,
+            .random = random,
+            .options = options,
+            .x = inside,
+            .best = inside,
+            .step = cost.upper() - cost.lower(),
+            .current = first_cost,
+            .lowest = first_cost};
+  DirectSearchResult result;
+  std::deque<double> ends;
+  double temperature = first_temperature;
+  for (;; temperature *= options.cooling) {
+    options.progress.check();
+    walk.at(temperature);
+    if (walk.spent()) {
+      result.termination = Termination::iteration_limit;
+      result.message = fmt::format("not frozen after {} evaluations", cost.evaluations());
+      break;
+    }
+    ++result.iterations;
+    const double tolerance = options.cost_tolerance * (std::abs(walk.lowest) + first_temperature);
+    ends.push_back(walk.current);
+    if (static_cast<int>(ends.size()) > options.stop_temperatures) ends.pop_front();
+    const bool frozen = static_cast<int>(ends.size()) == options.stop_temperatures &&
+                        std::all_of(ends.begin(), ends.end(),
+                                    [&](double end) { return end - walk.lowest <= tolerance; });
+    if (frozen) {
+      result.termination = Termination::converged;
+      result.message =
+          fmt::format("{} temperatures in a row ended at the best cost", options.stop_temperatures);
+      break;
+    }
+    walk.x = walk.best;
+    walk.current = walk.lowest;
+  }
+  result.x = walk.best;
+  result.cost = walk.lowest;
+  result.evaluations = cost.evaluations();
+  return result;
+}
+
+}  // namespace myoid::math
