@@ -1,6 +1,8 @@
 #include "myoid/identification/identifiability.h"
 
+#include <algorithm>
 #include <cmath>
+#include <map>
 
 #include <fmt/format.h>
 
@@ -70,6 +72,10 @@ void judge(ParameterEstimate& e, const VerdictContext& context, const VerdictRul
             "the same fit puts {} where no muscle can be: none of its numbers describes the muscle",
             context.bad_company));
   }
+  if (e.at_bound && e.parameter == "emg_delay" && e.estimate <= 0.0 && e.ci_high) {
+    return set(*e.ci_high <= rules.delay_identified_s ? Verdict::identified : Verdict::weak,
+               "no delay: EMG and torque go together");
+  }
   if (e.at_bound) {
     return set(
         Verdict::not_identifiable,
@@ -125,6 +131,54 @@ void judge(ParameterEstimate& e, const VerdictContext& context, const VerdictRul
     e.reason +=
         "; no maximal contraction was recorded, so this is the force at the study's largest EMG, "
         "not the muscle's maximum";
+  }
+}
+
+void diagnose(IdentificationResult& result) {
+  struct Pattern {
+    std::optional<double> width_ratio, curvature, product, plateau;
+    bool plateau_near_one = false;
+  };
+  std::map<std::string, Pattern> patterns;
+  for (const ParameterEstimate& e : result.estimates) {
+    // What is mostly the prior's says nothing about the data.
+    if (!std::isfinite(e.estimate) || (e.shrinkage && *e.shrinkage < 0.3)) continue;
+    Pattern& p = patterns[e.muscle];
+    if (e.parameter == "force_length_width" && e.initial > 0.0) {
+      const double ratio = e.estimate / e.initial;
+      p.width_ratio = std::min(p.width_ratio.value_or(ratio), ratio);
+    }
+    if (e.parameter == "concentric_curvature") p.curvature = e.estimate;
+    if (e.parameter == "eccentric_curvature_product") p.product = e.estimate;
+    if (e.parameter == "eccentric_plateau") {
+      p.plateau = e.estimate;
+      p.plateau_near_one = std::abs(e.estimate - 1.0) < 0.12;
+    }
+  }
+  for (const auto& [muscle, p] : patterns) {
+    const bool straight = p.curvature && *p.curvature > 2.0;
+    const bool bent = p.curvature && *p.curvature < 0.12;
+    const bool narrow = p.width_ratio && *p.width_ratio < 0.5;
+    if ((p.product && *p.product <= 0.0 && p.plateau_near_one) || straight) {
+      result.diagnoses.push_back(fmt::format(
+          "{}: emg_delay_ignored: no effect of velocity is resolved (V_sh very large, "
+          "or V_sh V_shl not positive with V_ml near 1), as when the force lags the EMG "
+          "and no delay is allowed for",
+          muscle));
+    }
+    if (p.plateau && *p.plateau < 0.6 && p.product && std::abs(*p.product) < 0.15) {
+      result.diagnoses.push_back(fmt::format(
+          "{}: gain_mismatch: V_ml far below 1 with V_sh V_shl near 0 is a step in gain between "
+          "shortening and lengthening: EMG is there while (almost) no force is assigned "
+          "(co-contraction, or F_max or the EMG gain too high)",
+          muscle));
+    }
+    if (narrow && (bent || (p.product && *p.product <= 0.0) || (p.plateau && *p.plateau > 1.6))) {
+      result.diagnoses.push_back(fmt::format(
+          "{}: co_contraction_zeroed: a narrow force-length curve with a strongly bent "
+          "force-velocity curve is what is left when an optimizer sets the antagonist to zero",
+          muscle));
+    }
   }
 }
 

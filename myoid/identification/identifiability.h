@@ -36,4 +36,9 @@ void judge(ParameterEstimate& estimate,
            const VerdictContext& context,
            const VerdictRules& rules = {});
 
+/// Names, in `result.diagnoses`, the single errors whose signature the estimates carry: an EMG
+/// delay that was not accounted for, co-contraction that force sharing set to zero, EMG and force
+/// that disagree in gain. Found by simulation of each error alone; a signature is no proof.
+void diagnose(IdentificationResult& result);
+
 }  // namespace myoid::identification

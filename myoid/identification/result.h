@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 
 #include "myoid/core/units.h"
+#include "myoid/identification/parameters.h"
 #include "myoid/math/least_squares.h"
 #include "myoid/muscle/hill_parameters.h"
 
@@ -23,17 +24,25 @@ enum class Verdict {
 };
 [[nodiscard]] std::string_view name(Verdict verdict);
 
+/// The 95 % interval that one way of reckoning gives.
+struct RouteInterval {
+  std::string route;                ///< sandwich | cluster | bootstrap | profile
+  std::optional<double> low, high;  ///< Empty: open on that side.
+};
+
 /// One row of parameters.csv.
 struct ParameterEstimate {
   std::string muscle;  ///< Or the EMG channel, or "subject".
   std::string parameter;
   Unit unit = Unit::dimensionless;
-  std::string method;    ///< paper | torque
+  std::string method;    ///< paper | force | torque
   std::string fit_case;  ///< shortening | lengthening | both
   double initial = 0.0;
   double estimate = 0.0;
   std::optional<double> std_error;
-  std::optional<double> ci_low, ci_high;  ///< 95 %
+  std::optional<double> ci_low, ci_high;  ///< 95 %, by the first of `routes`.
+  std::vector<RouteInterval> routes;      ///< At least two, where they were asked for.
+  bool routes_disagree = false;           ///< One is more than half as wide again as another.
   std::optional<double> prior_mean, prior_sd;
   std::optional<double> shrinkage;  ///< 1 - posterior variance / prior variance.
   bool at_bound = false;
@@ -55,18 +64,36 @@ struct TrialFit {
   double r2 = 0.0;  ///< 1 - SSE/SST.
 };
 
+/// Whether the two branches of method `paper` agree on what they share.
+struct BranchTest {
+  std::string muscle;
+  double length_difference_m = 0.0;  ///< l0 in lengthening minus in shortening.
+  double width_difference_m = 0.0;
+  double wald = 0.0;  ///< Chi-square with two degrees of freedom if both are the same.
+  double p_value = 1.0;
+};
+
 struct IdentificationResult {
   std::string method;
   math::Termination termination = math::Termination::no_descent;
   std::string message;
   std::vector<ParameterEstimate> estimates;
-  std::vector<muscle::HillParameters<double>> muscles;  ///< With the estimates (method torque).
-  double delay_s = 0.0;
-  Eigen::VectorXd solution;  ///< In the solver's scale (method torque).
+  std::vector<muscle::HillParameters<double>> muscles;  ///< With the estimates (force, torque).
+  ModelValues values;        ///< All numbers of the model with the estimates (force, torque).
+  bool dynamics = false;     ///< The envelope passes the lags of equation (1).
+  double delay_s = 0.0;      ///< Of the first channel.
+  Eigen::VectorXd solution;  ///< In the solver's scale (force, torque).
   Eigen::MatrixXd
       covariance;  ///< Of the free parameters in solver's scale (logarithms where logarithmic).
   std::vector<std::string> free_parameters;  ///< Its rows.
-  std::vector<std::string> collinear;  ///< Pairs that the data hardly tell apart, as sentences.
+  std::vector<std::string> collinear;     ///< Sets that the data hardly tell apart, as sentences.
+  std::vector<std::string> undetermined;  ///< Combinations that the data leave open, as sentences.
+  std::vector<std::string> diagnoses;     ///< What a pattern of values is the signature of.
+  std::vector<std::string> warnings;
+  std::vector<BranchTest> branch_tests;  ///< Method paper.
+  int bootstrap_replicates = 0;          ///< Converged ones.
+  int bootstrap_failed = 0;
+  bool exact = false;  ///< The data are free of noise: fitted as they are, without priors.
   int samples_used = 0;
   int samples_dropped = 0;
   double effective_samples = 0.0;

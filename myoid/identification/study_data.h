@@ -9,6 +9,7 @@
 
 #include "myoid/core/parameter_set.h"
 #include "myoid/core/time_series.h"
+#include "myoid/identification/muscle_law.h"
 #include "myoid/muscle/hill_parameters.h"
 
 namespace myoid::identification {
@@ -20,26 +21,54 @@ struct MuscleSetup {
   muscle::HillParameters<double> start;  ///< Literature or model; also the means of the priors.
   std::vector<std::string> fixed;        ///< Parameters held at their start.
   std::map<std::string, muscle::Range> bounds;  ///< Instead of the physical ones.
-  std::map<std::string, Prior> priors;          ///< Absent: no prior for that parameter.
+  /// Absent: no prior for that parameter. With one for `eccentric_slope_ratio` that ratio is the
+  /// unknown and V_sh V_shl follows from it.
+  std::map<std::string, Prior> priors;
+  MuscleExtras extras;  ///< What the source paper's law leaves out.
+};
+
+/// What is asked of a parameter beyond the defaults; later rules win.
+struct ParameterRule {
+  std::string parameter;            ///< A name of `parameter_fields()`.
+  std::vector<std::string> owners;  ///< Muscles, EMG channels or joints; empty: all.
+  std::optional<bool> free;
+  std::optional<double> value;  ///< Start, or what it is held at.
+  std::optional<double> lower, upper;
+  std::optional<double> prior_mean, prior_sd;  ///< In the parameter's unit.
+  bool tie = false;  ///< One unknown for all owners: their ratios to the starting values are equal.
+};
+
+/// A further joint of a trial, n samples. Motion is needed for joint viscosity, stiffness and
+/// inertia.
+struct JointData {
+  std::string name;
+  Eigen::VectorXd torque_nm;
+  Eigen::MatrixXd moment_arm_m;                                    ///< n x m
+  Eigen::VectorXd angle_rad, velocity_radps, acceleration_radps2;  ///< Empty, or n.
 };
 
 /// One trial on the clock of the motion: n samples, m muscles.
 struct TrialData {
   std::string name;
   bool calibration = true;   ///< False: only predicted (validation).
+  std::string condition;     ///< Trials of one condition (load, speed) have one name; may be empty.
   Eigen::VectorXd time_s;    ///< n
   Eigen::MatrixXd length_m;  ///< n x m: musculotendon length; fiber length = this - tendon slack
                              ///< length (rigid tendon).
   Eigen::MatrixXd velocity_mps;  ///< n x m
   Eigen::MatrixXd moment_arm_m;  ///< n x m: r = -dl/dq.
   Eigen::VectorXd torque_nm;     ///< n: what the muscles together must provide.
-  Eigen::MatrixXd force_n;       ///< n x m: from force sharing, for method `paper`; may be empty.
-  TimeSeries activation;         ///< Envelope of each EMG channel, 0..1, on its own clock.
+  Eigen::MatrixXd force_n;  ///< n x m: from force sharing, for `paper` and `force`; may be empty.
+  TimeSeries activation;    ///< Envelope of each EMG channel, 0..1, on its own clock.
+  std::string joint = "joint";  ///< Name of the joint of `torque_nm`.
+  Eigen::VectorXd angle_rad, velocity_radps, acceleration_radps2;  ///< Of it: empty, or n.
+  std::vector<JointData> more_joints;  ///< Method `torque` fits them too.
 };
 
 struct StudyData {
   std::vector<MuscleSetup> muscles;
   std::vector<TrialData> trials;
+  std::vector<ParameterRule> rules;
 };
 
 /// Throws InvalidInput, naming trial and muscle, unless sizes agree, values are finite and every

@@ -3,312 +3,56 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstdint>
 
-#include <Eigen/Cholesky>
-#include <Eigen/QR>
-#include <fmt/format.h>
-
-#include "myoid/identification/identifiability.h"
-#include "myoid/identification/torque_model.h"
-#include "myoid/math/covariance.h"
-#include "myoid/math/statistics.h"
+#include "myoid/identification/estimates.h"
+#include "myoid/identification/estimator.h"
+#include "myoid/muscle/hill_muscle.h"
 
 namespace myoid::identification {
 namespace {
 
-/// Two noise levels: torque, and what is multiplied by the EMG.
-struct NoiseModel {
-  double torque_sd_nm = 1.0;
-  double emg_cv = 0.0;
-  double share = 1.0;  ///< nu: effective over all samples.
-
-  [[nodiscard]] double sd(double channel_power) const {
-    return std::sqrt(torque_sd_nm * torque_sd_nm + emg_cv * emg_cv * channel_power);
+void add_predictions(const StudyData& data,
+                     const TorqueOptions& options,
+                     IdentificationResult& result) {
+  ModelValues literature = result.values;
+  for (std::size_t k = 0; k < data.muscles.size(); ++k)
+    literature.muscles[k] = muscle_values(data.muscles[k].start, data.muscles[k].extras);
+  for (ChannelValues& channel : literature.channels) {
+    channel[kDelay] = options.delay_s.value_or(options.delay_prior_mean_s);
+    channel[kGain] = 1.0;
+    channel[kShape] = 0.0;
   }
-};
-
-/// Both variances by weighted regression of the squared residuals on [1, channel power], neither
-/// negative.
-void estimate_noise(const Eigen::VectorXd& residual,
-                    const Eigen::VectorXd& power,
-                    double freedom_share,
-                    NoiseModel& noise) {
-  const Eigen::VectorXd squared = residual.array().square() / freedom_share;
-  double a = squared.mean();
-  double b = 0.0;
-  const double floor = 1e-6 * a + 1e-300;
-  for (int pass = 0; pass < 20; ++pass) {
-    const Eigen::ArrayXd weight = (a + b * power.array()).max(floor).square().inverse();
-    const double s0 = weight.sum();
-    const double s1 = (weight * power.array()).sum();
-    const double s2 = (weight * power.array().square()).sum();
-    const double y0 = (weight * squared.array()).sum();
-    const double y1 = (weight * power.array() * squared.array()).sum();
-    const double determinant = s0 * s2 - s1 * s1;
-    double next_a = determinant > 1e-12 * s0 * s2 ? (s2 * y0 - s1 * y1) / determinant : y0 / s0;
-    double next_b = determinant > 1e-12 * s0 * s2 ? (s0 * y1 - s1 * y0) / determinant : 0.0;
-    if (next_b < 0.0) {
-      next_b = 0.0;
-      next_a = y0 / s0;
-    } else if (next_a < 0.05 * squared.mean()) {
-      // Torque is never without noise: at least a share of the whole.
-      next_a = 0.05 * squared.mean();
-      next_b = std::max(0.0, (y1 - next_a * s1) / std::max(s2, 1e-300));
+  for (const TrialData& trial : data.trials) {
+    TrialFit fit;
+    fit.trial = trial.name;
+    fit.calibration = trial.calibration;
+    fit.time_s = trial.time_s;
+    fit.torque_nm = trial.torque_nm;
+    Prediction before = predict(data, trial, literature, options.dynamics);
+    Prediction after = predict(data, trial, result.values, options.dynamics);
+    if (after.torque_nm.size() == trial.torque_nm.size()) {
+      fit.rmse_nm = std::sqrt((after.torque_nm - trial.torque_nm).squaredNorm() /
+                              static_cast<double>(trial.time_s.size()));
+      fit.r2 = coefficient_of_determination(trial.torque_nm, after.torque_nm);
     }
-    a = next_a;
-    b = next_b;
+    fit.literature_force_n = std::move(before.force_n);
+    fit.literature_torque_nm = std::move(before.torque_nm);
+    fit.force_fit_n = std::move(after.force_n);
+    fit.torque_fit_nm = std::move(after.torque_nm);
+    result.trials.push_back(std::move(fit));
   }
-  noise.torque_sd_nm = std::sqrt(std::max(a, 0.0));
-  noise.emg_cv = std::min(std::sqrt(b), 1.0);
 }
 
-class Fit {
- public:
-  Fit(const StudyData& data, const TorqueOptions& options)
-      : options_(options), model_(data, options) {
-    const double typical =
-        std::sqrt(model_.torque().squaredNorm() / static_cast<double>(model_.sample_count()));
-    floor_nm_ = 1e-9 * std::max(typical, 1e-3);
-    for (const FreeParameter& p : model_.free()) {
-      if (p.prior_sd > 0.0) ++prior_count_;
-    }
-  }
-
-  [[nodiscard]] const TorqueModel& model() const { return model_; }
-  [[nodiscard]] const NoiseModel& noise() const { return noise_; }
-  [[nodiscard]] const Eigen::VectorXd& standard_deviation() const { return sd_; }
-
-  math::LeastSquaresResult run(const Eigen::VectorXd& start) {
-    const Eigen::Index n = model_.sample_count();
-    sd_ = Eigen::VectorXd::Ones(n);
-    noise_ = {};
-    Eigen::VectorXd predicted;
-    Eigen::VectorXd power;
-    math::LeastSquaresResult fit;
-    Eigen::VectorXd x = start;
-    if (options_.weights) {
-      // First guess of the noise: a tenth of the torque.
-      noise_.torque_sd_nm = std::max(
-          0.1 * std::sqrt(model_.torque().squaredNorm() / static_cast<double>(n)), floor_nm_);
-      noise_.share = 0.25;
-      sd_.setConstant(noise_.torque_sd_nm);
-    }
-    if (!options_.weights) return minimize(x, 200, 1e-13, 1e-15);
-    for (int pass = 0; pass < options_.passes; ++pass) {
-      // Only the last pass needs all digits: the weights still move before.
-      const bool last = pass + 1 == options_.passes;
-      fit = minimize(x, 200, last ? 1e-8 : 1e-5, last ? 1e-10 : 1e-5);
-      x = fit.x;
-      model_.evaluate(x, predicted, nullptr, &power);
-      const Eigen::VectorXd residual = predicted - model_.torque();
-      const double freedom =
-          std::max(0.2, 1.0 - static_cast<double>(model_.free().size()) /
-                                  std::max(10.0, noise_.share * static_cast<double>(n)));
-      estimate_noise(residual, power, freedom, noise_);
-      noise_.torque_sd_nm = std::max(noise_.torque_sd_nm, floor_nm_);
-      for (Eigen::Index i = 0; i < n; ++i) sd_[i] = noise_.sd(power[i]);
-      const Eigen::VectorXd standardized = residual.cwiseQuotient(sd_);
-      noise_.share =
-          math::effective_sample_size(standardized, model_.pieces()) / static_cast<double>(n);
-    }
-    return fit;
-  }
-
-  /// A short search from another start with the weights as they stand after `run`.
-  [[nodiscard]] math::LeastSquaresResult glance(const Eigen::VectorXd& start) {
-    return minimize(start, 40, 1e-4, 1e-4);
-  }
-
-  /// Covariance of z: A^-1 B A^-1.
-  [[nodiscard]] Eigen::MatrixXd covariance(const Eigen::VectorXd& z) const {
-    Eigen::VectorXd predicted;
-    Eigen::MatrixXd jacobian;
-    model_.evaluate(z, predicted, &jacobian, nullptr);
-    const Eigen::MatrixXd weighted = sd_.cwiseInverse().asDiagonal() * jacobian;
-    const Eigen::VectorXd residual = (predicted - model_.torque()).cwiseQuotient(sd_);
-    const double nu = noise_.share;
-    Eigen::MatrixXd a = nu * weighted.transpose() * weighted;
-    const Eigen::MatrixXd scores = residual.asDiagonal() * weighted;
-    const auto lag = static_cast<Eigen::Index>(std::lround(0.4 * model_.rate_hz()));
-    Eigen::MatrixXd b = nu * nu * math::newey_west(scores, model_.pieces(), lag);
-    for (Eigen::Index j = 0; j < a.rows(); ++j) {
-      const double sd = model_.free()[static_cast<std::size_t>(j)].prior_sd;
-      if (sd > 0.0) {
-        a(j, j) += 1.0 / (sd * sd);
-        b(j, j) += 1.0 / (sd * sd);
-      }
-    }
-    // Scaled to unit diagonal before inverting; near-zero directions stay near-infinite.
-    const Eigen::VectorXd scale = a.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
-    const Eigen::MatrixXd inverse = scale.asDiagonal() *
-                                    (scale.asDiagonal() * a * scale.asDiagonal())
-                                        .eval()
-                                        .completeOrthogonalDecomposition()
-                                        .pseudoInverse() *
-                                    scale.asDiagonal();
-    const Eigen::MatrixXd sandwich = inverse * b * inverse;
-    // Few effective samples make B itself unsure: never below the model-based covariance.
-    Eigen::MatrixXd result = sandwich;
-    for (Eigen::Index j = 0; j < a.rows(); ++j) {
-      const double factor =
-          std::sqrt(std::max(1.0, inverse(j, j) / std::max(sandwich(j, j), 1e-300)));
-      if (options_.weights && factor > 1.0) {
-        result.row(j) *= factor;
-        result.col(j) *= factor;
-      }
-    }
-    return result;
-  }
-
-  [[nodiscard]] math::CovarianceResult rank(const Eigen::VectorXd& z) const {
-    Eigen::VectorXd predicted;
-    Eigen::MatrixXd jacobian;
-    model_.evaluate(z, predicted, &jacobian, nullptr);
-    return math::covariance(sd_.cwiseInverse().asDiagonal() * jacobian,
-                            (predicted - model_.torque()).cwiseQuotient(sd_),
-                            {.rank_tolerance = 1e-7});
-  }
-
- private:
-  [[nodiscard]] math::LeastSquaresResult minimize(const Eigen::VectorXd& start,
-                                                  int iterations,
-                                                  double step,
-                                                  double cost) const {
-    return math::minimize(problem(), start,
-                          {.max_iterations = iterations,
-                           .step_tolerance = step,
-                           .cost_tolerance = cost,
-                           .progress = options_.progress});
-  }
-
-  [[nodiscard]] math::LeastSquaresProblem problem() const {
-    math::LeastSquaresProblem p;
-    const Eigen::Index n = model_.sample_count();
-    const auto count = static_cast<Eigen::Index>(model_.free().size());
-    p.residual_count = n + prior_count_;
-    p.lower.resize(count);
-    p.upper.resize(count);
-    for (Eigen::Index j = 0; j < count; ++j) {
-      p.lower[j] = model_.free()[static_cast<std::size_t>(j)].lower;
-      p.upper[j] = model_.free()[static_cast<std::size_t>(j)].upper;
-    }
-    p.evaluate = [this, n, count](const Eigen::VectorXd& z, Eigen::VectorXd& r,
-                                  Eigen::MatrixXd* jacobian) {
-      Eigen::VectorXd predicted;
-      Eigen::MatrixXd derivative;
-      model_.evaluate(z, predicted, jacobian != nullptr ? &derivative : nullptr, nullptr);
-      const Eigen::VectorXd weight = std::sqrt(noise_.share) * sd_.cwiseInverse();
-      r.head(n) = weight.cwiseProduct(predicted - model_.torque());
-      if (jacobian != nullptr) {
-        jacobian->topRows(n) = weight.asDiagonal() * derivative;
-        jacobian->bottomRows(prior_count_).setZero();
-      }
-      Eigen::Index row = n;
-      for (Eigen::Index j = 0; j < count; ++j) {
-        const FreeParameter& f = model_.free()[static_cast<std::size_t>(j)];
-        if (!(f.prior_sd > 0.0)) continue;
-        r[row] = (z[j] - f.prior_mean) / f.prior_sd;
-        if (jacobian != nullptr) (*jacobian)(row, j) = 1.0 / f.prior_sd;
-        ++row;
-      }
-    };
-    return p;
-  }
-
-  const TorqueOptions& options_;
-  TorqueModel model_;
-  NoiseModel noise_;
-  Eigen::VectorXd sd_;
-  double floor_nm_ = 0.0;
-  Eigen::Index prior_count_ = 0;
-};
-
-/// Cost with everything in it that changes between starts: -2 log posterior up to a constant.
-double misfit(const math::LeastSquaresResult& fit, const Fit& search, bool weights) {
-  if (!weights) return fit.cost;
-  return 2.0 * fit.cost +
-         2.0 * search.noise().share * search.standard_deviation().array().log().sum();
-}
-
-void report_parameters(const Fit& search,
-                       const math::LeastSquaresResult& fit,
-                       const StudyData& data,
-                       const TorqueOptions& options,
-                       IdentificationResult& result) {
-  const std::vector<FreeParameter>& free = search.model().free();
-  const math::CovarianceResult rank = search.rank(fit.x);
-  result.condition = rank.condition;
-  const double quantile = math::normal_quantile(0.975);
-  std::vector<bool> flat(data.muscles.size(), false);
-  for (std::size_t j = 0; j < free.size(); ++j) {
-    if (free[j].kind == FreeParameter::Kind::muscle && free[j].field->name == "eccentric_plateau") {
-      const auto at = static_cast<Eigen::Index>(j);
-      flat[static_cast<std::size_t>(free[j].muscle)] =
-          fit.x[at] - quantile * std::sqrt(std::max(0.0, result.covariance(at, at))) <
-          VerdictRules{}.flat_plateau;
-    }
-  }
-  for (std::size_t j = 0; j < free.size(); ++j) {
-    const FreeParameter& p = free[j];
-    const auto at = static_cast<Eigen::Index>(j);
-    ParameterEstimate e;
-    e.method = "torque";
-    e.fit_case = "both";
-    e.muscle = p.label.substr(0, p.label.find('.'));
-    e.parameter = p.label.substr(p.label.find('.') + 1);
-    e.unit = p.kind == FreeParameter::Kind::muscle  ? p.field->unit
-             : p.kind == FreeParameter::Kind::delay ? Unit::second
-                                                    : Unit::dimensionless;
-    e.initial = p.to_value(p.start);
-    e.estimate = p.to_value(fit.x[at]);
-    e.at_bound = fit.at_bound[j];
-    const double sd = std::sqrt(std::max(0.0, result.covariance(at, at)));
-    const bool by_data_or_prior = rank.determined[j] || p.prior_sd > 0.0;
-    if (by_data_or_prior && std::isfinite(sd)) {
-      e.std_error = p.logarithmic ? e.estimate * sd : sd;
-      e.ci_low = p.to_value(fit.x[at] - quantile * sd);
-      e.ci_high = p.to_value(fit.x[at] + quantile * sd);
-      // A bound is knowledge, too: no interval reaches where no muscle lives.
-      e.ci_low = std::max(*e.ci_low, p.to_value(p.lower));
-      e.ci_high = std::min(*e.ci_high, p.to_value(p.upper));
-    }
-    if (p.prior_sd > 0.0) {
-      e.prior_mean = p.to_value(p.prior_mean);
-      e.prior_sd = p.logarithmic ? *e.prior_mean * p.prior_sd : p.prior_sd;
-      e.shrinkage = 1.0 - sd * sd / (p.prior_sd * p.prior_sd);
-    }
-    VerdictContext context;
-    if (p.prior_sd > 0.0) context.prior_distance = std::abs(fit.x[at] - p.prior_mean) / p.prior_sd;
-    context.determined = by_data_or_prior;
-    context.converged = fit.termination == math::Termination::converged;
-    context.failure = fit.message;
-    context.from_mvc = options.from_mvc;
-    context.plateau_is_flat =
-        p.kind == FreeParameter::Kind::muscle && flat[static_cast<std::size_t>(p.muscle)];
-    judge(e, context);
-    if (p.kind == FreeParameter::Kind::gain) {
-      e.verdict = Verdict::prior_dominated;
-      e.reason =
-          "carries the uncertainty of the EMG normalisation into the intervals of F_max; the "
-          "recording cannot tell it from F_max";
-    }
-    result.free_parameters.push_back(p.label);
-    result.estimates.push_back(std::move(e));
-  }
-  for (std::size_t i = 0; i < free.size(); ++i) {
-    for (std::size_t j = 0; j < i; ++j) {
-      const auto a = static_cast<Eigen::Index>(i);
-      const auto b = static_cast<Eigen::Index>(j);
-      const double correlation =
-          result.covariance(a, b) / std::sqrt(result.covariance(a, a) * result.covariance(b, b));
-      if (std::abs(correlation) > 0.9 && free[i].kind != FreeParameter::Kind::gain &&
-          free[j].kind != FreeParameter::Kind::gain) {
-        result.collinear.push_back(fmt::format("{} and {} (correlation {:.2f})", free[j].label,
-                                               free[i].label, correlation));
-      }
-    }
-  }
+IdentificationResult finish(const Estimator& estimator,
+                            const Estimator::Solution& solution,
+                            const StudyData& data,
+                            std::chrono::steady_clock::time_point begin) {
+  const TorqueOptions& options = estimator.options();
+  IdentificationResult result;
+  report_estimates(estimator, solution, data, {.method = "torque"}, result);
+  if (options.predictions) add_predictions(data, options, result);
+  result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  return result;
 }
 
 }  // namespace
@@ -339,97 +83,98 @@ Prediction predict(const StudyData& data,
   return p;
 }
 
+Prediction predict(const StudyData& data,
+                   const TrialData& trial,
+                   const ModelValues& values,
+                   bool dynamics) {
+  const Eigen::Index n = trial.time_s.size();
+  Prediction p;
+  p.force_n.resize(n, trial.length_m.cols());
+  std::vector<std::string> channels;
+  std::vector<std::vector<Activation>> activations;
+  for (std::size_t k = 0; k < data.muscles.size(); ++k) {
+    const std::string& name = data.muscles[k].emg_channel;
+    auto it = std::find(channels.begin(), channels.end(), name);
+    const auto c = static_cast<std::size_t>(it - channels.begin());
+    if (it == channels.end()) {
+      channels.push_back(name);
+      activations.push_back(
+          activation(Envelope(trial.activation.time_s(), trial.activation.column(name)),
+                     trial.time_s, values.channels[c], dynamics));
+    }
+    const auto column = static_cast<Eigen::Index>(k);
+    for (Eigen::Index i = 0; i < n; ++i) {
+      p.force_n(i, column) =
+          tension(activations[c][static_cast<std::size_t>(i)].value, trial.length_m(i, column),
+                  trial.velocity_mps(i, column), values.muscles[k])
+              .force_n;
+    }
+  }
+  if (trial.moment_arm_m.rows() == n) {
+    p.torque_nm = trial.moment_arm_m.cwiseProduct(p.force_n).rowwise().sum();
+    if (!values.joints.empty()) {
+      const JointValues& joint = values.joints.front();
+      p.torque_nm.array() += joint[kOffset];
+      if (trial.angle_rad.size() == n && trial.velocity_radps.size() == n &&
+          trial.acceleration_radps2.size() == n) {
+        p.torque_nm -= joint[kViscosity] * trial.velocity_radps +
+                       joint[kInertia] * trial.acceleration_radps2 +
+                       joint[kStiffness] * trial.angle_rad;
+      }
+    }
+  }
+  return p;
+}
+
 IdentificationResult identify_torque(const StudyData& data, const TorqueOptions& options) {
   validate(data);
   const auto begin = std::chrono::steady_clock::now();
-  Fit search(data, options);
-  const std::vector<FreeParameter>& free = search.model().free();
-  Eigen::VectorXd start(static_cast<Eigen::Index>(free.size()));
-  for (std::size_t j = 0; j < free.size(); ++j) start[static_cast<Eigen::Index>(j)] = free[j].start;
-
+  const Estimator estimator(data, options);
+  Eigen::VectorXd start = estimator.model().parameters().start();
   if (options.warm_start.size() == start.size()) start = options.warm_start;
+  return finish(estimator, estimator.solve_from_all_starts(start), data, begin);
+}
 
-  // The given start, and starts moved by a spread of the prior (or a part of the value) in
-  // alternating directions.
-  math::LeastSquaresResult best = search.run(start);
-  std::optional<Fit> best_search(search);
-  const double start_cost = best.cost_history.empty() ? 0.0 : best.cost_history.front();
-  // Without priors there are more false minima, and nothing but the cost to tell them by.
-  const int starts = options.weights ? options.starts : 3 * options.starts;
-  for (int s = 1; s < starts && !(best.cost <= 1e-18 * start_cost); ++s) {
-    Eigen::VectorXd x = start;
-    for (std::size_t j = 0; j < free.size(); ++j) {
-      const auto at = static_cast<Eigen::Index>(j);
-      const double step = free[j].prior_sd > 0.0 ? free[j].prior_sd
-                          : free[j].logarithmic  ? 0.3
-                                                 : 0.1 * std::abs(free[j].start);
-      // Start s turns sign by the bits of a fixed mixing of its number and the parameter's: the
-      // same on every machine.
-      const std::uint64_t mixed = (static_cast<std::uint64_t>(s) * 0x9E3779B97F4A7C15ULL) ^
-                                  ((j + 1) * 0xD1B54A32D192ED03ULL);
-      const double sign = ((mixed >> 33) & 1U) == 0 ? 1.0 : -1.0;
-      x[at] = std::clamp(x[at] + sign * step, free[j].lower, free[j].upper);
+IdentificationResult identify_torque_or_exact(const StudyData& data,
+                                              const TorqueOptions& options,
+                                              const std::vector<std::string>& speed_may_be_free) {
+  validate(data);
+  const auto begin = std::chrono::steady_clock::now();
+  TorqueOptions plain = options;
+  plain.priors = false;
+  plain.weights = false;
+  plain.residual_cutoff_hz.reset();
+  plain.gain_prior_sd.clear();
+  StudyData freed = data;
+  for (const std::string& muscle : speed_may_be_free)
+    freed.rules.push_back({.parameter = "max_shortening_speed", .owners = {muscle}, .free = true});
+  for (const StudyData* study : {&data, static_cast<const StudyData*>(&freed)}) {
+    if (study == &freed && speed_may_be_free.empty()) break;
+    const Estimator estimator(*study, plain);
+    const double size = estimator.model().measured().squaredNorm();
+    const auto exact = [&](const Estimator::Solution& s) {
+      return 2.0 * s.search.cost <= 1e-12 * size;
+    };
+    const Eigen::VectorXd start = estimator.model().parameters().start();
+    std::optional<Estimator::Solution> found;
+    for (int s = 0; s < 12 && !found; ++s) {
+      Eigen::VectorXd x = s == 0 ? start : estimator.moved_start(start, s);
+      for (std::size_t j = 0; j < estimator.free().size(); ++j) {
+        // A delay has minima of its own: begin at several.
+        const FreeParameter& f = estimator.free()[j];
+        if (f.field->scope == Scope::channel && f.field->field == kDelay)
+          x[static_cast<Eigen::Index>(j)] = f.lower + (f.upper - f.lower) * 0.2 * (s % 4);
+      }
+      Estimator::Solution attempt = estimator.solve(x);
+      if (exact(attempt)) found = std::move(attempt);
     }
-    if (options.weights) {
-      // Most starts lead to the same minimum: a glance tells, at the same weights.
-      const math::LeastSquaresResult look = search.glance(x);
-      if (!(look.cost < (1.0 - 1e-3) * best.cost)) continue;
-      x = look.x;
-    }
-    Fit attempt(search);
-    const math::LeastSquaresResult fit = attempt.run(x);
-    if (misfit(fit, attempt, options.weights) < misfit(best, *best_search, options.weights)) {
-      best = fit;
-      best_search.emplace(attempt);
+    if (found) {
+      IdentificationResult result = finish(estimator, *found, *study, begin);
+      result.exact = true;
+      return result;
     }
   }
-  const Fit& chosen = *best_search;
-
-  IdentificationResult result;
-  result.method = "torque";
-  result.termination = best.termination;
-  result.message = best.message;
-  result.iterations = best.iterations;
-  result.samples_used = static_cast<int>(chosen.model().sample_count());
-  result.samples_dropped = chosen.model().dropped();
-  result.effective_samples =
-      chosen.noise().share * static_cast<double>(chosen.model().sample_count());
-  result.torque_sd_nm = chosen.noise().torque_sd_nm;
-  result.emg_cv = chosen.noise().emg_cv;
-  result.solution = best.x;
-  result.muscles = chosen.model().muscles(best.x);
-  result.delay_s = chosen.model().delay_s(best.x);
-  result.covariance = chosen.covariance(best.x);
-  if (!options.weights) {
-    // Plain least squares: the residuals' own variance.
-    const double freedom = std::max(
-        1.0, static_cast<double>(chosen.model().sample_count()) - static_cast<double>(free.size()));
-    result.torque_sd_nm = std::sqrt(2.0 * best.cost / freedom);
-  }
-  report_parameters(chosen, best, data, options, result);
-
-  std::vector<muscle::HillParameters<double>> literature;
-  for (const MuscleSetup& setup : data.muscles) literature.push_back(setup.start);
-  const double literature_delay = options.delay_s.value_or(options.delay_prior_mean_s);
-  for (const TrialData& trial : data.trials) {
-    TrialFit fit;
-    fit.trial = trial.name;
-    fit.calibration = trial.calibration;
-    fit.time_s = trial.time_s;
-    fit.torque_nm = trial.torque_nm;
-    Prediction before = predict(data, trial, literature, literature_delay);
-    Prediction after = predict(data, trial, result.muscles, result.delay_s);
-    fit.rmse_nm = std::sqrt((after.torque_nm - trial.torque_nm).squaredNorm() /
-                            static_cast<double>(trial.time_s.size()));
-    fit.r2 = coefficient_of_determination(trial.torque_nm, after.torque_nm);
-    fit.literature_force_n = std::move(before.force_n);
-    fit.literature_torque_nm = std::move(before.torque_nm);
-    fit.force_fit_n = std::move(after.force_n);
-    fit.torque_fit_nm = std::move(after.torque_nm);
-    result.trials.push_back(std::move(fit));
-  }
-  result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  return result;
+  return identify_torque(data, options);
 }
 
 }  // namespace myoid::identification

@@ -1,0 +1,176 @@
+#include "myoid/identification/envelope.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "myoid/math/spline.h"
+
+namespace myoid::identification {
+namespace {
+
+/// The lags' output at the samples of the envelope, and what it changes by with each time constant.
+struct Lagged {
+  Eigen::VectorXd value, slope;
+  Eigen::MatrixXd by_time, slope_by_time;  ///< n x 3
+};
+
+Lagged lagged(const Envelope& envelope, const ChannelValues& c) {
+  const Eigen::VectorXd& t = envelope.time_s();
+  const Eigen::VectorXd& u = envelope.samples();
+  Lagged r{Eigen::VectorXd(t.size()), Eigen::VectorXd(t.size()), Eigen::MatrixXd(t.size(), 3),
+           Eigen::MatrixXd(t.size(), 3)};
+  double e = u[0], a = u[0];
+  double e_ne = 0.0;
+  Eigen::Vector3d a_by = Eigen::Vector3d::Zero();
+  for (Eigen::Index i = 0; i < t.size(); ++i) {
+    if (i > 0) {
+      const double h = t[i] - t[i - 1];
+      const double input = 0.5 * (u[i - 1] + u[i]);
+      const double tau_ne = c[kExcitationTime];
+      const double keep_e = std::exp(-h / tau_ne);
+      // Mean of e over the interval drives a.
+      const double e_before = e, e_ne_before = e_ne;
+      e = input + keep_e * (e_before - input);
+      e_ne = keep_e * (e_ne_before + (e_before - input) * h / (tau_ne * tau_ne));
+      const double middle = 0.5 * (e + e_before);
+      const double middle_ne = 0.5 * (e_ne + e_ne_before);
+      const bool rising = middle >= a;
+      const double tau = rising ? c[kActivationTime] : c[kDeactivationTime];
+      const double keep = std::exp(-h / tau);
+      const double gap = a - middle;
+      a = middle + keep * gap;
+      a_by *= keep;
+      a_by[0] += (1.0 - keep) * middle_ne;
+      a_by[rising ? 1 : 2] += keep * gap * h / (tau * tau);
+    }
+    r.value[i] = a;
+    const int branch = e >= a ? 1 : 2;
+    const double tau = branch == 1 ? c[kActivationTime] : c[kDeactivationTime];
+    r.slope[i] = (e - a) / tau;
+    r.by_time.row(i) = a_by.transpose();
+    Eigen::Vector3d gap_by = -a_by;
+    gap_by[0] += e_ne;
+    r.slope_by_time.row(i) = gap_by.transpose() / tau;
+    r.slope_by_time(i, branch) -= (e - a) / (tau * tau);
+  }
+  return r;
+}
+
+/// (exp(A u) - 1) / (exp(A) - 1), its slope in u and in A.
+void shape(double u, double A, double& value, double& by_u, double& by_a) {
+  if (std::abs(A) < 1e-4) {
+    value = u + 0.5 * A * u * (u - 1.0);
+    by_u = 1.0 + A * (u - 0.5);
+    by_a = 0.5 * u * (u - 1.0);
+    return;
+  }
+  const double below = std::expm1(A);
+  const double above = std::expm1(A * u);
+  value = above / below;
+  by_u = A * (above + 1.0) / below;
+  by_a = (u * (above + 1.0) * below - above * (below + 1.0)) / (below * below);
+}
+
+}  // namespace
+
+Envelope::Envelope(const Eigen::VectorXd& time_s, const Eigen::VectorXd& values)
+    : time_s_(time_s), samples_(values) {
+  const Eigen::Index n = time_s.size();
+  const math::SplineValues knots =
+      math::Spline::interpolate(time_s, values, n >= 4 ? 5 : 1).evaluate(time_s);
+  table_.resize(6, std::max<Eigen::Index>(n - 1, 1));
+  for (Eigen::Index i = 0; i + 1 < n; ++i) {
+    // The quintic with these values, slopes and curvatures at both ends is the spline itself.
+    const double h = time_s[i + 1] - time_s[i];
+    const double y0 = values[i], y1 = values[i + 1];
+    const double d0 = h * knots.first[i], d1 = h * knots.first[i + 1];
+    const double c0 = 0.5 * h * h * knots.second[i], c1 = 0.5 * h * h * knots.second[i + 1];
+    const double dy = y1 - y0 - d0 - c0;
+    const double dd = d1 - d0 - 2.0 * c0;
+    const double dc = c1 - c0;
+    const double b3 = 10.0 * dy - 4.0 * dd + dc;
+    const double b4 = -15.0 * dy + 7.0 * dd - 2.0 * dc;
+    const double b5 = 6.0 * dy - 3.0 * dd + dc;
+    const double r = 1.0 / h;
+    table_.col(i) << y0, d0 * r, c0 * r * r, b3 * r * r * r, b4 * r * r * r * r,
+        b5 * r * r * r * r * r;
+  }
+  const double step = (time_s[n - 1] - time_s[0]) / static_cast<double>(n - 1);
+  bool even = true;
+  for (Eigen::Index i = 1; i < n && even; ++i)
+    even = std::abs(time_s[i] - time_s[0] - step * static_cast<double>(i)) < 1e-4 * step;
+  rate_hz_ = even ? 1.0 / step : 0.0;
+}
+
+Envelope::Value Envelope::at(double time_s) const {
+  const Eigen::Index n = time_s_.size();
+  if (time_s <= time_s_[0]) return {std::max(0.0, samples_[0]), 0.0};
+  if (time_s >= time_s_[n - 1]) return {std::max(0.0, samples_[n - 1]), 0.0};
+  Eigen::Index i = 0;
+  if (rate_hz_ > 0.0) {
+    i = std::clamp<Eigen::Index>(static_cast<Eigen::Index>((time_s - time_s_[0]) * rate_hz_), 0,
+                                 n - 2);
+    if (time_s < time_s_[i]) --i;
+    if (i + 1 < n - 1 && time_s >= time_s_[i + 1]) ++i;
+  } else {
+    i = std::upper_bound(time_s_.data(), time_s_.data() + n, time_s) - time_s_.data() - 1;
+  }
+  const double x = time_s - time_s_[i];
+  const double* c = table_.col(i).data();
+  const double value = c[0] + x * (c[1] + x * (c[2] + x * (c[3] + x * (c[4] + x * c[5]))));
+  if (value < 0.0) return {};
+  return {value, c[1] + x * (2.0 * c[2] + x * (3.0 * c[3] + x * (4.0 * c[4] + x * 5.0 * c[5])))};
+}
+
+std::vector<Activation> activation(const Envelope& envelope,
+                                   const Eigen::Ref<const Eigen::VectorXd>& time_s,
+                                   const ChannelValues& c,
+                                   bool dynamics) {
+  std::vector<Activation> result(static_cast<std::size_t>(time_s.size()));
+  Lagged lag;
+  Eigen::Index at = 0;
+  if (dynamics) lag = lagged(envelope, c);
+  for (Eigen::Index s = 0; s < time_s.size(); ++s) {
+    Activation& a = result[static_cast<std::size_t>(s)];
+    const double when = time_s[s] - c[kDelay];
+    double value = 0.0, slope = 0.0;
+    Eigen::Vector3d by_time = Eigen::Vector3d::Zero();
+    if (!dynamics) {
+      const Envelope::Value v = envelope.at(when);
+      value = v.value;
+      slope = v.slope;
+    } else {
+      const Eigen::VectorXd& t = envelope.time_s();
+      const Eigen::Index n = t.size();
+      const double inside = std::clamp(when, t[0], t[n - 1]);
+      while (at + 2 < n && t[at + 1] <= inside) ++at;
+      const double h = t[at + 1] - t[at];
+      const double x = (inside - t[at]) / h;
+      // Cubic through values and slopes.
+      const double y0 = lag.value[at], y1 = lag.value[at + 1];
+      const double d0 = h * lag.slope[at], d1 = h * lag.slope[at + 1];
+      const double c2 = 3.0 * (y1 - y0) - 2.0 * d0 - d1;
+      const double c3 = d0 + d1 - 2.0 * (y1 - y0);
+      value = std::max(0.0, y0 + x * (d0 + x * (c2 + x * c3)));
+      slope = inside == when ? (d0 + x * (2.0 * c2 + x * 3.0 * c3)) / h : 0.0;
+      const double rise = x * x * (3.0 - 2.0 * x);
+      by_time = ((1.0 - rise) * lag.by_time.row(at) + rise * lag.by_time.row(at + 1) +
+                 h * x * (1.0 - x) *
+                     ((1.0 - x) * lag.slope_by_time.row(at) - x * lag.slope_by_time.row(at + 1)))
+                    .transpose();
+    }
+    const double u = c[kGain] * value;
+    double by_u = 1.0, by_shape = 0.5 * u * (u - 1.0);
+    a.value = u;
+    if (c[kShape] != 0.0) shape(u, c[kShape], a.value, by_u, by_shape);
+    if (c[kShape] == 0.0) by_u = 1.0;
+    a.by_field[kDelay] = -by_u * c[kGain] * slope;
+    a.by_field[kGain] = by_u * value;
+    a.by_field[kShape] = by_shape;
+    for (int k = 0; k < 3; ++k)
+      a.by_field[static_cast<std::size_t>(kExcitationTime + k)] = by_u * c[kGain] * by_time[k];
+  }
+  return result;
+}
+
+}  // namespace myoid::identification

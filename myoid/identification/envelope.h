@@ -1,0 +1,52 @@
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "myoid/identification/parameters.h"
+
+namespace myoid::identification {
+
+/// One EMG channel of one trial, ready to be read at any delay: the quintic spline through its
+/// samples as a table of polynomials, found by division where the clock is even.
+class Envelope {
+ public:
+  Envelope(const Eigen::VectorXd& time_s, const Eigen::VectorXd& values);
+
+  struct Value {
+    double value = 0.0;
+    double slope = 0.0;  ///< d/dt
+  };
+  /// Beyond the ends the end value; never negative.
+  [[nodiscard]] Value at(double time_s) const;
+
+  [[nodiscard]] double first_s() const { return time_s_[0]; }
+  [[nodiscard]] double last_s() const { return time_s_[time_s_.size() - 1]; }
+  [[nodiscard]] const Eigen::VectorXd& time_s() const { return time_s_; }
+  [[nodiscard]] const Eigen::VectorXd& samples() const { return samples_; }
+
+ private:
+  Eigen::VectorXd time_s_, samples_;
+  Eigen::MatrixXd table_;  ///< 6 x intervals: powers of (t - left).
+  double rate_hz_ = 0.0;   ///< Of an even clock; 0: uneven.
+};
+
+/// Activation at one instant, before the muscle's share, and its derivatives.
+struct Activation {
+  double value = 0.0;
+  std::array<double, kChannelFieldCount> by_field{};
+};
+
+/// Activation of a channel at `time_s` (n): a(t) = shape(g env(t - d)), and with `dynamics` the
+/// envelope first passes the two lags of equation (1),
+///
+///   de/dt = (u - e) / tau_ne,   da/dt = (e - a) / (tau_ac if e >= a, tau_deac if e < a),
+///
+/// integrated exactly for an input that is constant between the samples of the envelope.
+[[nodiscard]] std::vector<Activation> activation(const Envelope& envelope,
+                                                 const Eigen::Ref<const Eigen::VectorXd>& time_s,
+                                                 const ChannelValues& channel,
+                                                 bool dynamics);
+
+}  // namespace myoid::identification

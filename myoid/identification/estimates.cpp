@@ -1,0 +1,335 @@
+#include "myoid/identification/estimates.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Eigenvalues>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "myoid/identification/identifiability.h"
+#include "myoid/identification/uncertainty.h"
+#include "myoid/math/statistics.h"
+
+namespace myoid::identification {
+namespace {
+
+/// Widths of two intervals that differ by more than this speak of different things.
+constexpr double kDisagreement = 1.5;
+
+struct Intervals {
+  Sandwich sandwich;
+  std::optional<BootstrapResult> bootstrap;
+  std::optional<std::vector<Interval>> profiles;
+};
+
+/// Scale of a row: what a number of the solver is in the row's unit.
+struct RowScale {
+  const FreeParameter* parameter = nullptr;
+  double ratio = 1.0;
+  [[nodiscard]] double value(double z) const { return ratio * parameter->to_value(z); }
+};
+
+void add_routes(ParameterEstimate& e,
+                const RowScale& row,
+                const Intervals& intervals,
+                Eigen::Index at,
+                double z,
+                double quantile) {
+  const FreeParameter& p = *row.parameter;
+  const auto clipped = [&](double x) { return row.value(std::clamp(x, p.lower, p.upper)); };
+  const auto normal = [&](const std::string& route, double variance) {
+    const double sd = std::sqrt(std::max(0.0, variance));
+    if (!std::isfinite(sd)) return;
+    // A bound is knowledge, too: no interval reaches where no muscle lives.
+    e.routes.push_back({route, clipped(z - quantile * sd), clipped(z + quantile * sd)});
+  };
+  normal("sandwich", intervals.sandwich.newey_west(at, at));
+  if (intervals.sandwich.cluster) normal("cluster", (*intervals.sandwich.cluster)(at, at));
+  const auto add = [&](const std::string& route, const Interval& interval) {
+    RouteInterval r{route, {}, {}};
+    if (interval.low) r.low = clipped(*interval.low);
+    if (interval.high) r.high = clipped(*interval.high);
+    if (r.low || r.high || route == "profile") e.routes.push_back(r);
+  };
+  const auto index = static_cast<std::size_t>(at);
+  if (intervals.bootstrap) add("bootstrap", intervals.bootstrap->intervals[index]);
+  if (intervals.profiles) add("profile", (*intervals.profiles)[index]);
+}
+
+void compare_routes(ParameterEstimate& e, IdentificationResult& result) {
+  double least = 0.0, most = 0.0;
+  std::string narrow, wide;
+  for (const RouteInterval& r : e.routes) {
+    if (!r.low || !r.high) {
+      result.warnings.push_back(fmt::format(
+          "{} {}: the profile is open {}: the data do not bound it there", e.muscle, e.parameter,
+          !r.low && !r.high ? "on both sides"
+          : r.low           ? "above"
+                            : "below"));
+      continue;
+    }
+    const double width = *r.high - *r.low;
+    if (narrow.empty() || width < least) {
+      least = width;
+      narrow = r.route;
+    }
+    if (wide.empty() || width > most) {
+      most = width;
+      wide = r.route;
+    }
+  }
+  e.routes_disagree = !narrow.empty() && most > kDisagreement * least;
+  if (e.routes_disagree) {
+    result.warnings.push_back(fmt::format(
+        "{} {}: the interval by {} is {:.1f} times as wide as that by {}; trust the wider one",
+        e.muscle, e.parameter, wide, most / std::max(least, 1e-300), narrow));
+  }
+}
+
+/// Draws from a normal distribution with this covariance, the same in every run.
+Eigen::MatrixXd draws_about(const Eigen::VectorXd& mean, const Eigen::MatrixXd& covariance, int n) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(covariance);
+  const Eigen::MatrixXd root =
+      eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal();
+  Eigen::MatrixXd result(n, mean.size());
+  // Quasi-random: the additive recurrence with square roots of primes, through the normal quantile.
+  const double primes[] = {2.0, 3.0, 5.0};
+  for (int i = 0; i < n; ++i) {
+    Eigen::VectorXd u(mean.size());
+    for (Eigen::Index j = 0; j < mean.size(); ++j) {
+      const double x = (i + 0.5) * std::sqrt(primes[j % 3]) + 0.37 * static_cast<double>(j);
+      u[j] = math::normal_quantile(std::clamp(x - std::floor(x), 1e-6, 1.0 - 1e-6));
+    }
+    result.row(i) = (mean + root * u).transpose();
+  }
+  return result;
+}
+
+/// Standard deviation of ln x and quantiles of x.
+struct Spread {
+  double log_sd = 0.0;
+  double low = 0.0, high = 0.0;
+};
+
+Spread spread_of(std::vector<double> logs) {
+  std::sort(logs.begin(), logs.end());
+  const auto at = [&](double share) {
+    return logs[static_cast<std::size_t>(share * static_cast<double>(logs.size() - 1))];
+  };
+  // Robust: the far tail is where V_ml comes down to 1 and the logarithm has no end.
+  return {(at(0.8413) - at(0.1587)) / 2.0, std::exp(at(0.025)), std::exp(at(0.975))};
+}
+
+struct Positions {
+  Eigen::Index curvature = -1, plateau = -1, ratio = -1;
+};
+
+/// ln P of draws of (ln V_sh, V_ml, ln S).
+std::vector<double> log_products(const Eigen::MatrixXd& draws) {
+  std::vector<double> logs;
+  for (Eigen::Index i = 0; i < draws.rows(); ++i) {
+    const double vsh = std::exp(draws(i, 0));
+    const double rise = std::max(draws(i, 1) - 1.0, 0.002);
+    logs.push_back(std::log(rise) + draws(i, 0) - draws(i, 2) - std::log1p(vsh));
+  }
+  return logs;
+}
+
+}  // namespace
+
+void report_estimates(const Estimator& estimator,
+                      const Estimator::Solution& solution,
+                      const StudyData& data,
+                      const EstimateContext& context,
+                      IdentificationResult& result) {
+  const EstimatorOptions& options = estimator.options();
+  const ResidualModel& model = estimator.model();
+  const std::vector<FreeParameter>& free = estimator.free();
+  const Eigen::VectorXd& z = solution.search.x;
+  result.method = context.method;
+  result.termination = solution.search.termination;
+  result.message = solution.search.message;
+  result.iterations = solution.search.iterations;
+  result.samples_used = static_cast<int>(model.sample_count());
+  result.samples_dropped = model.dropped();
+  result.effective_samples = solution.weighting.share * static_cast<double>(model.sample_count());
+  result.torque_sd_nm = solution.weighting.noise.front().torque_sd_nm;
+  result.emg_cv = solution.weighting.noise.front().emg_cv;
+  result.solution = z;
+  result.values = model.parameters().values(z);
+  result.dynamics = options.dynamics;
+  for (const MuscleValues& values : result.values.muscles)
+    result.muscles.push_back(hill_parameters(values));
+  result.delay_s = result.values.channels.front()[kDelay];
+
+  Intervals intervals;
+  intervals.sandwich = sandwich(estimator, solution);
+  result.covariance = intervals.sandwich.newey_west;
+  result.condition = intervals.sandwich.condition;
+  if (options.intervals.bootstrap > 0) {
+    intervals.bootstrap = bootstrap(estimator, solution);
+    result.bootstrap_replicates = static_cast<int>(intervals.bootstrap->replicates.rows());
+    result.bootstrap_failed = intervals.bootstrap->failed;
+  }
+  if (options.intervals.profile)
+    intervals.profiles = profile(estimator, solution, result.covariance);
+
+  const double quantile = math::normal_quantile(0.975);
+  const auto muscles = data.muscles.size();
+  std::vector<bool> flat(muscles, false);
+  std::vector<Positions> positions(muscles);
+  for (std::size_t j = 0; j < free.size(); ++j) {
+    if (free[j].field->scope != Scope::muscle) continue;
+    const auto at = static_cast<Eigen::Index>(j);
+    for (const FreeParameter::Target& target : free[j].targets) {
+      Positions& p = positions[static_cast<std::size_t>(target.owner)];
+      if (free[j].field->field == kCurvature) p.curvature = at;
+      if (free[j].field->field == kSlopeRatio) p.ratio = at;
+      if (free[j].field->field != kPlateau) continue;
+      p.plateau = at;
+      flat[static_cast<std::size_t>(target.owner)] =
+          z[at] - quantile * std::sqrt(std::max(0.0, result.covariance(at, at))) <
+          VerdictRules{}.flat_plateau;
+    }
+  }
+  const auto judged = [&](ParameterEstimate e, const FreeParameter& p, double prior_distance,
+                          bool determined, int owner) {
+    VerdictContext v;
+    v.prior_distance = prior_distance;
+    v.determined = determined;
+    v.converged = solution.search.termination == math::Termination::converged;
+    v.failure = solution.search.message;
+    v.from_mvc = options.from_mvc;
+    v.plateau_is_flat = p.field->scope == Scope::muscle && flat[static_cast<std::size_t>(owner)];
+    judge(e, v);
+    if (p.field->scope == Scope::channel && p.field->field == kGain) {
+      e.verdict = Verdict::prior_dominated;
+      e.reason =
+          "carries the uncertainty of the EMG normalisation into the intervals of F_max; the "
+          "recording cannot tell it from F_max";
+    }
+    compare_routes(e, result);
+    result.estimates.push_back(std::move(e));
+  };
+  const auto owner_name = [&](const FreeParameter& p, const FreeParameter::Target& target) {
+    const auto k = static_cast<std::size_t>(target.owner);
+    if (p.owner == "subject") return p.owner;
+    return p.field->scope == Scope::muscle    ? data.muscles[k].name
+           : p.field->scope == Scope::channel ? model.parameters().channels()[k]
+                                              : model.parameters().joints()[k];
+  };
+  for (std::size_t j = 0; j < free.size(); ++j) {
+    const FreeParameter& p = free[j];
+    const auto at = static_cast<Eigen::Index>(j);
+    result.free_parameters.push_back(p.label);
+    const double sd = std::sqrt(std::max(0.0, result.covariance(at, at)));
+    const bool determined = intervals.sandwich.determined[j] || p.prior_sd > 0.0;
+    for (const FreeParameter::Target& target : p.targets) {
+      if (p.owner == "subject" && &target != &p.targets.front()) break;
+      const RowScale row{&p, target.ratio};
+      ParameterEstimate e;
+      e.method = context.method;
+      e.fit_case = "both";
+      e.muscle = owner_name(p, target);
+      e.parameter = std::string(p.field->name);
+      e.unit = p.field->unit;
+      e.initial = row.value(p.start);
+      e.estimate = row.value(z[at]);
+      e.at_bound = solution.search.at_bound[j];
+      if (determined && std::isfinite(sd)) {
+        e.std_error = p.field->logarithmic ? e.estimate * sd : std::abs(target.ratio) * sd;
+        add_routes(e, row, intervals, at, z[at], quantile);
+        if (!e.routes.empty()) {
+          e.ci_low = e.routes.front().low;
+          e.ci_high = e.routes.front().high;
+        }
+      }
+      double distance = 0.0;
+      if (p.prior_sd > 0.0) {
+        e.prior_mean = row.value(p.prior_mean);
+        e.prior_sd =
+            p.field->logarithmic ? *e.prior_mean * p.prior_sd : std::abs(target.ratio) * p.prior_sd;
+        e.shrinkage = 1.0 - sd * sd / (p.prior_sd * p.prior_sd);
+        distance = std::abs(z[at] - p.prior_mean) / p.prior_sd;
+      }
+      judged(std::move(e), p, distance, determined, target.owner);
+    }
+    // Where the slope ratio is the unknown, the product follows.
+    if (p.field->scope != Scope::muscle || p.field->field != kSlopeRatio) continue;
+    for (const FreeParameter::Target& target : p.targets) {
+      const auto k = static_cast<std::size_t>(target.owner);
+      const Positions& where = positions[k];
+      ParameterEstimate e;
+      e.method = context.method;
+      e.fit_case = "both";
+      e.muscle = data.muscles[k].name;
+      e.parameter = "eccentric_curvature_product";
+      e.initial = data.muscles[k].start.eccentric_curvature_product;
+      e.estimate = result.values.muscles[k][kProduct];
+      if (where.curvature >= 0 && where.plateau >= 0) {
+        const std::vector<Eigen::Index> three{where.curvature, where.plateau, at};
+        constexpr int kDraws = 2000;
+        const Spread posterior =
+            spread_of(log_products(draws_about(z(three), result.covariance(three, three), kDraws)));
+        e.std_error = e.estimate * posterior.log_sd;
+        e.ci_low = posterior.low;
+        e.ci_high = posterior.high;
+        e.routes.push_back({"sandwich", e.ci_low, e.ci_high});
+        if (intervals.bootstrap && intervals.bootstrap->replicates.rows() >= 40) {
+          const Spread boot =
+              spread_of(log_products(intervals.bootstrap->replicates(Eigen::all, three)));
+          e.routes.push_back({"bootstrap", boot.low, boot.high});
+        }
+        Eigen::Vector3d mean = z(three);
+        Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+        bool all_priors = true;
+        for (int i = 0; i < 3; ++i) {
+          const FreeParameter& f =
+              free[static_cast<std::size_t>(three[static_cast<std::size_t>(i)])];
+          all_priors = all_priors && f.prior_sd > 0.0;
+          mean[i] = f.prior_mean;
+          spread(i, i) = f.prior_sd * f.prior_sd;
+        }
+        if (all_priors) {
+          const Spread prior = spread_of(log_products(draws_about(mean, spread, kDraws)));
+          e.prior_mean = std::exp(std::log(std::max(mean[1] - 1.0, 0.002)) + mean[0] - mean[2] -
+                                  std::log1p(std::exp(mean[0])));
+          e.prior_sd = *e.prior_mean * prior.log_sd;
+          e.shrinkage = 1.0 - std::pow(posterior.log_sd / prior.log_sd, 2);
+        }
+      }
+      judged(std::move(e), p, 0.0, determined, target.owner);
+    }
+  }
+
+  const auto is_gain = [&](Eigen::Index j) {
+    const ParameterField& field = *free[static_cast<std::size_t>(j)].field;
+    return field.scope == Scope::channel && field.field == kGain;
+  };
+  const auto label = [&](Eigen::Index j) { return free[static_cast<std::size_t>(j)].label; };
+  for (const CollinearSet& set : collinear_sets(intervals.sandwich.information)) {
+    // A gain is a nuisance that is known to go with F_max.
+    if (std::any_of(set.parameters.begin(), set.parameters.end(), is_gain)) continue;
+    std::vector<std::string> names;
+    for (const Eigen::Index j : set.parameters) names.push_back(label(j));
+    result.collinear.push_back(
+        fmt::format("{} (collinearity index {:.0f})", fmt::join(names, ", "), set.index));
+  }
+  for (Eigen::Index k = 0; k < intervals.sandwich.undetermined.cols(); ++k) {
+    std::vector<std::string> parts;
+    for (Eigen::Index j = 0; j < z.size(); ++j) {
+      const double share = intervals.sandwich.undetermined(j, k);
+      if (std::abs(share) > 0.05) parts.push_back(fmt::format("{:+.2f} {}", share, label(j)));
+    }
+    result.undetermined.push_back(fmt::format("{}", fmt::join(parts, " ")));
+  }
+  if (result.bootstrap_failed > 0) {
+    result.warnings.push_back(fmt::format("{} of {} bootstrap replicates did not converge",
+                                          result.bootstrap_failed,
+                                          result.bootstrap_failed + result.bootstrap_replicates));
+  }
+  diagnose(result);
+}
+
+}  // namespace myoid::identification

@@ -1,0 +1,81 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "myoid/identification/normal_search.h"
+#include "myoid/identification/residual_model.h"
+
+namespace myoid::identification {
+
+/// Two noise levels of a joint: of the torque, and of what is multiplied by the EMG.
+struct NoiseLevel {
+  double torque_sd_nm = 1.0;
+  double emg_cv = 0.0;
+};
+
+/// How much a sample counts: held within a pass of the search.
+struct Weighting {
+  Eigen::VectorXd sd_nm;          ///< Per sample.
+  double share = 1.0;             ///< nu: effective over all samples.
+  std::vector<NoiseLevel> noise;  ///< Per joint.
+};
+
+/// Residual, weights and priors of one study: the cost that is minimized,
+///
+///   C(z) = 1/2 nu sum_i m_i rho((T^_i - T_i) / s_i) + 1/2 sum_j ((z_j - prior_j) / sd_j)^2
+///
+/// with multiplicities m_i that are 1 but for bootstrap replicates.
+class Estimator {
+ public:
+  Estimator(const StudyData& data, const EstimatorOptions& options);
+
+  [[nodiscard]] const ResidualModel& model() const { return *model_; }
+  [[nodiscard]] const std::vector<FreeParameter>& free() const {
+    return model_->parameters().free();
+  }
+  [[nodiscard]] const EstimatorOptions& options() const { return options_; }
+  [[nodiscard]] const Eigen::VectorXd& lower() const { return lower_; }
+  [[nodiscard]] const Eigen::VectorXd& upper() const { return upper_; }
+
+  /// Departures from the plain cost, for replicates.
+  struct Variant {
+    Eigen::VectorXd multiplicity;  ///< Per sample; empty: 1.
+    Eigen::VectorXd prior_mean;    ///< Per variable; empty: the priors' own.
+  };
+  [[nodiscard]] NormalEquations normal_equations(const Eigen::VectorXd& z,
+                                                 const Weighting& weighting,
+                                                 bool derivatives,
+                                                 const Variant& variant = {}) const;
+
+  struct Solution {
+    NormalSearchResult search;
+    Weighting weighting;
+    double misfit = 0.0;  ///< -2 log posterior up to a constant: comparable between starts.
+  };
+  /// Weights and parameters in turn, EstimatorOptions::passes times.
+  [[nodiscard]] Solution solve(const Eigen::VectorXd& start) const;
+  /// From several starts; the best.
+  [[nodiscard]] Solution solve_from_all_starts(const Eigen::VectorXd& start) const;
+  /// With given weights.
+  [[nodiscard]] NormalSearchResult search(const Eigen::VectorXd& start,
+                                          const Weighting& weighting,
+                                          double step_tolerance,
+                                          double cost_tolerance,
+                                          int iterations = 200,
+                                          const Variant& variant = {},
+                                          const std::vector<bool>& held = {}) const;
+  /// Start number s: the given one moved by a spread of the prior in a fixed pattern of signs.
+  [[nodiscard]] Eigen::VectorXd moved_start(const Eigen::VectorXd& start, int s) const;
+
+ private:
+  void find_noise(const Evaluation& at, Weighting& weighting) const;
+
+  EstimatorOptions options_;
+  std::shared_ptr<const ResidualModel> model_;
+  Eigen::VectorXd lower_, upper_, prior_mean_, prior_precision_;
+  double floor_nm_ = 0.0;
+};
+
+}  // namespace myoid::identification

@@ -1,0 +1,77 @@
+#pragma once
+
+#include <array>
+#include <string_view>
+
+#include "myoid/core/units.h"
+#include "myoid/muscle/hill_parameters.h"
+
+namespace myoid::identification {
+
+/// What equations (2)-(4) of the source paper leave out of a muscle. All of it is off by default.
+struct MuscleExtras {
+  double pennation_angle_rad = 0.0;  ///< At the optimal fiber length; fixed width l0 sin(alpha).
+  double passive_force = 0.0;        ///< Of the stretched fiber at `passive_strain`, over F_max.
+  double passive_strain = 0.6;       ///< l / l0 - 1 at which it is reached.
+  double passive_shape = 4.0;        ///< Exponent of its rise.
+  double length_activation = 0.0;    ///< gamma: optimal length l0 (1 + gamma (1 - a)).
+  double tendon_strain = 0.0;        ///< Of the tendon at F_max; 0: rigid.
+  double activation_share = 1.0;     ///< Activation of the muscle over that of its EMG channel.
+};
+
+/// The numbers of a muscle in the order in which derivatives are kept. The first eight are
+/// muscle::kHillFields.
+enum MuscleField : int {
+  kMaxForce,
+  kFiberLength,
+  kWidth,
+  kCurvature,
+  kProduct,
+  kPlateau,
+  kSpeed,
+  kSlack,
+  kPennation,
+  kPassiveForce,
+  kPassiveStrain,
+  kPassiveShape,
+  kLengthActivation,
+  kTendonStrain,
+  kShare,
+  kMuscleFieldCount
+};
+using MuscleValues = std::array<double, kMuscleFieldCount>;
+
+[[nodiscard]] MuscleValues muscle_values(const muscle::HillParameters<double>& hill,
+                                         const MuscleExtras& extras = {});
+[[nodiscard]] muscle::HillParameters<double> hill_parameters(const MuscleValues& values);
+[[nodiscard]] MuscleExtras muscle_extras(const MuscleValues& values);
+
+/// Tension of a muscle-tendon unit and its partial derivatives.
+struct Tension {
+  double force_n = 0.0;
+  std::array<double, kMuscleFieldCount> by_field{};  ///< By the share too.
+  double by_activation = 0.0;  ///< By the activation of the channel, before the share.
+  double by_length = 0.0;      ///< By the musculotendon length [N/m].
+  double by_velocity = 0.0;    ///< By its rate [N s/m].
+};
+
+/// Tension [N] at a channel's activation, musculotendon length [m] and rate [m/s]:
+///
+///   F = F_max [ a f_l(l; l0 (1 + gamma (1 - a))) f_v(v) + f_p(l) ] cos(alpha),   a = share *
+///   activation f_p = c (exp(k (l/l0 - 1) / e) - 1) / (exp(k) - 1)  for l > l0, 0 below
+///
+/// f_l and f_v as in muscle/force_length.h and force_velocity.h. Rigid tendon: l cos(alpha) = l_mt
+/// - l_ts, v = v_mt cos(alpha). With a tendon strain e0 > 0 at F_max (and l_ts > 0) the tendon is
+/// elastic and quasi-static,
+///
+///   F / F_max = 0.2 (exp(ln(6) strain / e0) - 1),   l cos(alpha) = l_mt - l_ts (1 + strain),
+///
+/// solved to round-off for every sample; the rate at which the tendon itself stretches is left out
+/// of v. Derivatives are exact (implicit function theorem). Where the tendon is slack (l_mt <= l_ts
+/// with pennation) the tension is 0.
+[[nodiscard]] Tension tension(double activation,
+                              double length_m,
+                              double velocity_mps,
+                              const MuscleValues& values);
+
+}  // namespace myoid::identification

@@ -1,0 +1,97 @@
+#include "myoid/identification/muscle_law.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "myoid/model/arm4.h"
+#include "myoid/muscle/hill_muscle.h"
+
+namespace myoid::identification {
+namespace {
+
+MuscleValues everything_on() {
+  return muscle_values(model::arm4_muscles()[3], {.pennation_angle_rad = 0.2,
+                                                  .passive_force = 0.8,
+                                                  .passive_strain = 0.5,
+                                                  .passive_shape = 3.5,
+                                                  .length_activation = 0.12,
+                                                  .tendon_strain = 0.04,
+                                                  .activation_share = 0.9});
+}
+
+TEST(Tension, IsThePapersLawWhenNothingElseIsOn) {
+  const auto hill = model::arm4_muscles()[0];
+  const MuscleValues values = muscle_values(hill);
+  for (const double v : {-2.0, -0.4, -0.01, 0.0, 0.02, 0.5}) {
+    for (const double l : {0.30, 0.36, 0.42}) {
+      const double expected = muscle::hill_force(0.35, l - hill.tendon_slack_length_m, v, hill);
+      EXPECT_NEAR(tension(0.35, l, v, values).force_n, expected, 1e-12 * (1.0 + expected));
+    }
+  }
+}
+
+TEST(Tension, OfAnElasticTendonIsThatOfTheMuscleBehindIt) {
+  const MuscleValues p = everything_on();
+  const double l_mt = p[kSlack] * 1.02 + p[kFiberLength] * 1.1;
+  const double force = tension(0.5, l_mt, 0.0, p).force_n;
+  ASSERT_GT(force, 10.0);
+  // Strain from the tendon's own law, then the fiber from geometry: an independent way round.
+  const double strain = p[kTendonStrain] * std::log1p(force / p[kMaxForce] / 0.2) / std::log(6.0);
+  const double along = l_mt - p[kSlack] * (1.0 + strain);
+  const double h = p[kFiberLength] * std::sin(p[kPennation]);
+  const double l = std::sqrt(along * along + h * h);
+  const double a = 0.9 * 0.5;
+  const double l0 = p[kFiberLength] * (1.0 + p[kLengthActivation] * (1.0 - a));
+  const double active = a * std::exp(-std::pow((l - l0) / p[kWidth], 2));
+  const double stretch = l / p[kFiberLength] - 1.0;
+  const double passive =
+      stretch > 0.0 ? 0.8 * std::expm1(3.5 * stretch / 0.5) / std::expm1(3.5) : 0.0;
+  EXPECT_NEAR(force, p[kMaxForce] * (active + passive) * along / l, 1e-9 * force);
+}
+
+TEST(Tension, OfAVeryStiffTendonIsThatOfARigidOne) {
+  MuscleValues rigid = everything_on();
+  rigid[kTendonStrain] = 0.0;
+  MuscleValues stiff = rigid;
+  stiff[kTendonStrain] = 1e-9;
+  const double l_mt = rigid[kSlack] + 0.95 * rigid[kFiberLength];
+  EXPECT_NEAR(tension(0.4, l_mt, -0.2, stiff).force_n, tension(0.4, l_mt, -0.2, rigid).force_n,
+              1e-5 * tension(0.4, l_mt, -0.2, rigid).force_n);
+}
+
+TEST(Tension, DerivativesAreThoseOfDifferences) {
+  for (const bool elastic : {false, true}) {
+    MuscleValues p = everything_on();
+    if (!elastic) p[kTendonStrain] = 0.0;
+    for (const double v : {-0.3, 0.25}) {
+      const double l_mt = p[kSlack] * 1.02 + p[kFiberLength] * 1.15;
+      const Tension t = tension(0.4, l_mt, v, p);
+      // Central differences: truncation h^2 and round-off 1e-13 / h, both about 1e-8 relative.
+      const auto near = [&](double derivative, double plus, double minus, double h) {
+        EXPECT_NEAR(derivative, (plus - minus) / (2.0 * h),
+                    1e-5 * (std::abs(derivative) + 1e-2 * t.force_n));
+      };
+      for (int f = 0; f < kMuscleFieldCount; ++f) {
+        if (!elastic && f == kTendonStrain) continue;
+        SCOPED_TRACE(f);
+        const auto i = static_cast<std::size_t>(f);
+        const double h = 1e-5 * p[i];
+        MuscleValues up = p, down = p;
+        up[i] += h;
+        down[i] -= h;
+        near(t.by_field[i], tension(0.4, l_mt, v, up).force_n, tension(0.4, l_mt, v, down).force_n,
+             h);
+      }
+      near(t.by_activation, tension(0.40001, l_mt, v, p).force_n,
+           tension(0.39999, l_mt, v, p).force_n, 1e-5);
+      near(t.by_length, tension(0.4, l_mt + 1e-6, v, p).force_n,
+           tension(0.4, l_mt - 1e-6, v, p).force_n, 1e-6);
+      near(t.by_velocity, tension(0.4, l_mt, v + 1e-5, p).force_n,
+           tension(0.4, l_mt, v - 1e-5, p).force_n, 1e-5);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace myoid::identification

@@ -1,0 +1,75 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "myoid/core/progress.h"
+
+namespace myoid::identification {
+
+/// How V_sh V_shl is found.
+enum class Eccentric {
+  automatic,    ///< By the slope ratio where a prior for it is given, else the product itself.
+  product,      ///< P = V_sh V_shl.
+  slope_ratio,  ///< S = f_v'(0+) / f_v'(0-), P = (V_ml - 1) V_sh / (S (1 + V_sh)).
+  smooth,       ///< S = 1 held: f_v without a kink.
+};
+
+/// What a large residual counts.
+enum class Loss {
+  square,
+  huber,   ///< Linear beyond 1.345 standard deviations.
+  cauchy,  ///< Logarithmic, scale 2.385.
+};
+
+/// How intervals are made beside the sandwich.
+struct IntervalOptions {
+  int bootstrap = 0;               ///< Replicates; 0: none.
+  double bootstrap_block_s = 0.0;  ///< Blocks of this length [s]; 0: whole trials if there are at
+                                   ///< least 8, else 2 s.
+  bool profile = false;            ///< Profile likelihood of every parameter.
+  std::uint64_t seed = 1;
+};
+
+/// What all estimators but `paper` have in common.
+struct EstimatorOptions {
+  std::vector<std::string> muscles;  ///< To identify; the others keep their start. Empty: all.
+  bool priors = true;
+  std::optional<double> delay_s;  ///< Held at this; empty: estimated, with a prior.
+  double delay_prior_mean_s = 0.06;
+  double delay_prior_sd_s = 0.02;
+  double delay_limit_s = 0.15;
+  bool delay_per_channel = false;  ///< One delay for each EMG channel; false: one for all.
+  /// EMG channels whose gain is a nuisance about 1, with the standard deviation of its logarithm:
+  /// the uncertainty of the normalisation, which F_max inherits. Empty: no gains.
+  std::map<std::string, double> gain_prior_sd;
+  double max_rate_hz = 50.0;  ///< Samples are thinned to at most this; torque and EMG hold 6 Hz.
+  /// Both sides of the residual are low-passed here (two passes, -3 dB). T^ is linear in the
+  /// envelope, whose noise reaches further up than what tells muscles apart: what is cut off would
+  /// only pull F_max towards zero (errors in the regressors). Empty: not at all.
+  std::optional<double> residual_cutoff_hz = 2.0;
+  bool weights = true;  ///< Heteroscedastic weights and the effective number of samples; false:
+                        ///< plain least squares.
+  double angle_sd_rad = 0.0;         ///< Error of the joint angle, propagated into every sample ...
+  double angle_rate_sd_radps = 0.0;  ///< ... and of its rate.
+  Loss loss = Loss::square;
+  Eccentric eccentric = Eccentric::automatic;
+  bool normalised = false;     ///< l_sh and v_max keep their ratio to l0.
+  bool dynamics = false;       ///< Envelope -> activation by the two lags of equation (1).
+  bool gauss_newton = false;   ///< Plain full steps instead of Levenberg-Marquardt.
+  int passes = 4;              ///< Of finding the noise and weighting by it.
+  int starts = 3;              ///< The given start and moved ones; the best is kept.
+  Eigen::VectorXd warm_start;  ///< IdentificationResult::solution of a kindred fit, to begin there;
+                               ///< empty: the muscles' start.
+  bool from_mvc = true;        ///< For the verdicts.
+  bool predictions = true;     ///< Fill IdentificationResult::trials.
+  IntervalOptions intervals;
+  Progress progress;
+};
+
+}  // namespace myoid::identification

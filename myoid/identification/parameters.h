@@ -1,0 +1,120 @@
+#pragma once
+
+#include <array>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "myoid/identification/options.h"
+#include "myoid/identification/study_data.h"
+
+namespace myoid::identification {
+
+/// Whose number a parameter is.
+enum class Scope { muscle, channel, joint };
+
+/// Unknown of the force-velocity relation from which V_sh V_shl follows; no MuscleValues entry.
+inline constexpr int kSlopeRatio = kMuscleFieldCount;
+
+/// Numbers of an EMG channel.
+enum ChannelField : int {
+  kDelay,
+  kGain,
+  kShape,  ///< A of (exp(A u) - 1) / (exp(A) - 1); 0: linear.
+  kExcitationTime,
+  kActivationTime,
+  kDeactivationTime,
+  kChannelFieldCount
+};
+using ChannelValues = std::array<double, kChannelFieldCount>;
+
+/// Numbers of a joint, by which its torque is less than that of the muscles:
+///   T = sum r F - viscosity qdot - inertia qddot - stiffness q + offset
+enum JointField : int { kViscosity, kInertia, kStiffness, kOffset, kJointFieldCount };
+using JointValues = std::array<double, kJointFieldCount>;
+
+/// One row per number that can be identified: the only place of its name, unit and bounds.
+struct ParameterField {
+  std::string_view name;
+  Scope scope = Scope::muscle;
+  int field = 0;
+  Unit unit = Unit::dimensionless;
+  bool logarithmic = false;  ///< The solver sees ln(value).
+  muscle::Range bounds;
+  double prior_sd = 0.0;  ///< About the start where a prior is wanted and none given: of ln(value)
+                          ///< if logarithmic; 0: none.
+  std::string_view meaning;
+};
+[[nodiscard]] std::span<const ParameterField> parameter_fields();
+/// The row of this name; throws InvalidInput listing the names there are.
+[[nodiscard]] const ParameterField& parameter_field(std::string_view name);
+
+/// All numbers of the model.
+struct ModelValues {
+  std::vector<MuscleValues> muscles;
+  std::vector<ChannelValues> channels;
+  std::vector<JointValues> joints;
+};
+
+/// One entry of the solver's vector.
+struct FreeParameter {
+  const ParameterField* field = nullptr;
+  std::string owner;  ///< Muscle, channel, joint; several joined by '+' when tied; "subject".
+  std::string label;  ///< "BIC.max_isometric_force"
+  struct Target {
+    int owner = 0;
+    double ratio = 1.0;  ///< Its value over that of the unknown.
+  };
+  std::vector<Target> targets;
+  double start = 0.0;  ///< In the solver's scale, like the next four.
+  double lower = 0.0;
+  double upper = 0.0;
+  double prior_mean = 0.0;
+  double prior_sd = 0.0;  ///< 0: no prior.
+
+  [[nodiscard]] double to_value(double z) const;
+};
+
+/// From the solver's vector to the numbers of the model.
+class ParameterMap {
+ public:
+  /// Throws InvalidInput for names that refer to nothing and starts that cannot be.
+  ParameterMap(const StudyData& data, const EstimatorOptions& options);
+
+  [[nodiscard]] const std::vector<FreeParameter>& free() const { return free_; }
+  [[nodiscard]] Eigen::Index size() const { return static_cast<Eigen::Index>(free_.size()); }
+  [[nodiscard]] Eigen::VectorXd start() const;
+  [[nodiscard]] const std::vector<std::string>& channels() const { return channels_; }
+  [[nodiscard]] const std::vector<std::string>& joints() const { return joints_; }
+  [[nodiscard]] int channel_of_muscle(std::size_t muscle) const {
+    return channel_of_muscle_[muscle];
+  }
+  [[nodiscard]] double longest_delay_s() const { return longest_delay_s_; }
+
+  /// d value / d z of a number of the model.
+  struct Chain {
+    Scope scope = Scope::muscle;
+    int owner = 0;
+    int field = 0;
+    Eigen::Index variable = 0;
+    double slope = 1.0;
+  };
+  [[nodiscard]] ModelValues values(const Eigen::VectorXd& z,
+                                   std::vector<Chain>* chains = nullptr) const;
+  /// At the start, nothing identified.
+  [[nodiscard]] const ModelValues& held() const { return held_; }
+
+ private:
+  std::vector<FreeParameter> free_;
+  ModelValues held_;
+  std::vector<std::string> channels_, joints_;
+  std::vector<int> channel_of_muscle_;
+  std::vector<double> slope_ratio_;  ///< Per muscle; 0: the product is the parameter.
+  bool normalised_ = false;
+  double longest_delay_s_ = 0.0;
+};
+
+}  // namespace myoid::identification

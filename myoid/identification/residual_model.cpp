@@ -1,0 +1,266 @@
+#include "myoid/identification/residual_model.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <oneapi/tbb/parallel_for.h>
+
+#include "myoid/core/error.h"
+
+namespace myoid::identification {
+namespace {
+
+/// Forwards and backwards through the filter, all rows of `x` at once; the ends reflected.
+void smooth(const std::vector<math::SecondOrderSection>& sections, Eigen::Ref<Eigen::MatrixXd> x) {
+  if (sections.empty()) return;
+  const Eigen::Index rows = x.rows();
+  const Eigen::Index n = x.cols();
+  double radius = 0.0;
+  for (const math::SecondOrderSection& s : sections) {
+    const double discriminant = s.a1 * s.a1 - 4.0 * s.a2;
+    radius =
+        std::max(radius, discriminant < 0.0 ? std::sqrt(s.a2)
+                                            : 0.5 * (std::abs(s.a1) + std::sqrt(discriminant)));
+  }
+  const double length = std::ceil(std::log(1e-4) / std::log(std::clamp(radius, 1e-3, 1.0 - 1e-9)));
+  const Eigen::Index pad = std::min<Eigen::Index>(n - 1, static_cast<Eigen::Index>(length));
+  Eigen::MatrixXd y(rows, n + 2 * pad);
+  y.middleCols(pad, n) = x;
+  for (Eigen::Index i = 1; i <= pad; ++i) {
+    y.col(pad - i) = 2.0 * x.col(0) - x.col(i);
+    y.col(pad + n - 1 + i) = 2.0 * x.col(n - 1) - x.col(n - 1 - i);
+  }
+  Eigen::VectorXd z1(rows), z2(rows), in(rows);
+  for (const math::SecondOrderSection& s : sections) {
+    const double steady = (s.b0 + s.b1 + s.b2) / (1.0 + s.a1 + s.a2);
+    for (const bool forwards : {true, false}) {
+      const Eigen::Index begin = forwards ? 0 : y.cols() - 1;
+      const Eigen::Index step = forwards ? 1 : -1;
+      z2 = (s.b2 - s.a2 * steady) * y.col(begin);
+      z1 = (s.b1 - s.a1 * steady) * y.col(begin) + z2;
+      for (Eigen::Index i = begin; i >= 0 && i < y.cols(); i += step) {
+        in = y.col(i);
+        y.col(i) = s.b0 * in + z1;
+        z1 = s.b1 * in - s.a1 * y.col(i) + z2;
+        z2 = s.b2 * in - s.a2 * y.col(i);
+      }
+    }
+  }
+  x = y.middleCols(pad, n);
+}
+
+}  // namespace
+
+ResidualModel::ResidualModel(const StudyData& data, const EstimatorOptions& options)
+    : map_(data, options),
+      dynamics_(options.dynamics),
+      angle_sd_rad_(options.angle_sd_rad),
+      angle_rate_sd_radps_(options.angle_rate_sd_radps) {
+  for (std::size_t i = 0; i < data.trials.size(); ++i) {
+    if (data.trials[i].calibration) add_trial(data, static_cast<int>(i), options);
+  }
+  if (pieces_.empty()) {
+    throw InvalidInput(
+        "identification: no calibration sample is left; EMG and motion must overlap in time");
+  }
+}
+
+void ResidualModel::add_trial(const StudyData& data, int index, const EstimatorOptions& options) {
+  const TrialData& trial = data.trials[static_cast<std::size_t>(index)];
+  const Eigen::Index all = trial.time_s.size();
+  if (trial.torque_nm.size() != all || trial.moment_arm_m.rows() != all) {
+    throw InvalidInput(fmt::format("trial '{}' has no torque or no moment arms", trial.name));
+  }
+  const double span = trial.time_s[all - 1] - trial.time_s[0];
+  const double interval = span / static_cast<double>(all - 1);
+  const auto stride = std::max<Eigen::Index>(
+      1, static_cast<Eigen::Index>(std::lround(1.0 / (interval * options.max_rate_hz))));
+  // The ends of a trial are left out: splines and filters are unreliable there, and EMG must reach
+  // back by the delay.
+  const double edge_s = std::min(0.1, 0.02 * span);
+  const Eigen::VectorXd& clock = trial.activation.time_s();
+  const double reach_s = std::min(map_.longest_delay_s(), 0.1 * span);
+  std::vector<Eigen::Index> rows;
+  for (Eigen::Index i = 0; i < all; i += stride) {
+    const double t = trial.time_s[i];
+    const bool inside = t >= trial.time_s[0] + edge_s && t <= trial.time_s[all - 1] - edge_s &&
+                        t - reach_s >= clock[0] - 1e-9 && t <= clock[clock.size() - 1] + 1e-9;
+    if (inside) {
+      rows.push_back(i);
+    } else {
+      ++dropped_;
+    }
+  }
+  if (rows.size() < 2) return;
+  const auto n = static_cast<Eigen::Index>(rows.size());
+  Block block;
+  block.trial = index;
+  block.time_s = trial.time_s(rows);
+  block.length_m = trial.length_m(rows, Eigen::all);
+  block.velocity_mps = trial.velocity_mps(rows, Eigen::all);
+  const double rate =
+      static_cast<double>(n - 1) / (trial.time_s[rows.back()] - trial.time_s[rows.front()]);
+  rate_hz_ = std::max(rate_hz_, rate);
+  if (options.residual_cutoff_hz && n >= 4 && *options.residual_cutoff_hz < 0.45 * rate) {
+    block.filter = math::design_butterworth(
+        math::FilterBand::low_pass, 2,
+        math::two_pass_cutoff_hz(math::FilterBand::low_pass, 2, *options.residual_cutoff_hz, rate),
+        rate);
+  }
+  for (const std::string& channel : map_.channels())
+    block.envelopes.emplace_back(clock, trial.activation.column(channel));
+
+  const auto add_joint = [&](const std::string& name, const Eigen::VectorXd& torque,
+                             const Eigen::MatrixXd& arm, const Eigen::VectorXd& q,
+                             const Eigen::VectorXd& qdot, const Eigen::VectorXd& qddot) {
+    Block::Joint joint;
+    joint.joint = static_cast<int>(std::find(map_.joints().begin(), map_.joints().end(), name) -
+                                   map_.joints().begin());
+    joint.first = measured_.size();
+    joint.arm_m = arm(rows, Eigen::all);
+    if (q.size() == all && qdot.size() == all && qddot.size() == all) {
+      joint.motion.resize(n, 3);
+      joint.motion.col(0) = q(rows);
+      joint.motion.col(1) = qdot(rows);
+      joint.motion.col(2) = qddot(rows);
+    }
+    Eigen::MatrixXd target = torque(rows).transpose();
+    smooth(block.filter, target);
+    measured_.conservativeResize(joint.first + n);
+    measured_.tail(n) = target.row(0).transpose();
+    pieces_.push_back({index, joint.joint, joint.first, n});
+    block.joints.push_back(std::move(joint));
+  };
+  add_joint(trial.joint, trial.torque_nm, trial.moment_arm_m, trial.angle_rad, trial.velocity_radps,
+            trial.acceleration_radps2);
+  for (const JointData& joint : trial.more_joints)
+    add_joint(joint.name, joint.torque_nm, joint.moment_arm_m, joint.angle_rad,
+              joint.velocity_radps, joint.acceleration_radps2);
+  for (const FreeParameter& p : map_.free()) {
+    if (p.field->scope != Scope::joint || p.field->field == kOffset) continue;
+    for (const Block::Joint& joint : block.joints) {
+      if (joint.motion.size() == 0) {
+        throw InvalidInput(
+            fmt::format("{}: the motion of joint '{}' is not given for trial '{}'", p.label,
+                        map_.joints()[static_cast<std::size_t>(joint.joint)], trial.name));
+      }
+    }
+  }
+  blocks_.push_back(std::move(block));
+}
+
+std::vector<Eigen::Index> ResidualModel::piece_lengths() const {
+  std::vector<Eigen::Index> lengths;
+  for (const Piece& piece : pieces_) lengths.push_back(piece.count);
+  return lengths;
+}
+
+void ResidualModel::evaluate(const Eigen::VectorXd& z, Depth depth, Evaluation& out) const {
+  std::vector<ParameterMap::Chain> chains;
+  const bool gradient = depth != Depth::value;
+  const ModelValues values = map_.values(z, gradient ? &chains : nullptr);
+  out.predicted.setZero(measured_.size());
+  if (gradient) out.gradient.setZero(map_.size(), measured_.size());
+  if (depth == Depth::noise) {
+    out.emg_power.setZero(measured_.size());
+    out.motion_variance.setZero(measured_.size());
+  }
+  // Every block writes rows of its own: the result does not depend on the number of threads.
+  oneapi::tbb::parallel_for(std::size_t{0}, blocks_.size(), [&](std::size_t b) {
+    evaluate_block(blocks_[b], values, chains, depth, out);
+  });
+}
+
+void ResidualModel::evaluate_block(const Block& block,
+                                   const ModelValues& values,
+                                   const std::vector<ParameterMap::Chain>& chains,
+                                   Depth depth,
+                                   Evaluation& out) const {
+  const Eigen::Index n = block.time_s.size();
+  const auto channels = static_cast<Eigen::Index>(map_.channels().size());
+  const bool with_gradient = depth != Depth::value;
+  const bool with_noise = depth == Depth::noise;
+  std::vector<std::vector<Activation>> activations;
+  for (std::size_t c = 0; c < block.envelopes.size(); ++c)
+    activations.push_back(
+        activation(block.envelopes[c], block.time_s, values.channels[c], dynamics_));
+  std::vector<std::vector<ParameterMap::Chain>> of_muscle(values.muscles.size());
+  std::vector<std::vector<ParameterMap::Chain>> of_channel(block.envelopes.size());
+  std::vector<ParameterMap::Chain> of_joint;
+  for (const ParameterMap::Chain& chain : chains) {
+    const auto owner = static_cast<std::size_t>(chain.owner);
+    if (chain.scope == Scope::muscle) of_muscle[owner].push_back(chain);
+    if (chain.scope == Scope::channel) of_channel[owner].push_back(chain);
+    if (chain.scope == Scope::joint) of_joint.push_back(chain);
+  }
+  std::vector<Eigen::MatrixXd> by_channel(
+      block.joints.size(), Eigen::MatrixXd::Zero(with_noise ? channels : 0, with_noise ? n : 0));
+  for (std::size_t k = 0; k < values.muscles.size(); ++k) {
+    const auto column = static_cast<Eigen::Index>(k);
+    const auto c = static_cast<std::size_t>(map_.channel_of_muscle(k));
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const Activation& a = activations[c][static_cast<std::size_t>(i)];
+      const Tension t = tension(a.value, block.length_m(i, column), block.velocity_mps(i, column),
+                                values.muscles[k]);
+      for (std::size_t j = 0; j < block.joints.size(); ++j) {
+        const Block::Joint& joint = block.joints[j];
+        const double arm = joint.arm_m(i, column);
+        const Eigen::Index row = joint.first + i;
+        out.predicted[row] += arm * t.force_n;
+        if (with_gradient) {
+          double* gradient = out.gradient.data() + row * out.gradient.rows();
+          for (const ParameterMap::Chain& chain : of_muscle[k])
+            gradient[chain.variable] +=
+                arm * t.by_field[static_cast<std::size_t>(chain.field)] * chain.slope;
+          for (const ParameterMap::Chain& chain : of_channel[c])
+            gradient[chain.variable] += arm * t.by_activation *
+                                        a.by_field[static_cast<std::size_t>(chain.field)] *
+                                        chain.slope;
+        }
+        if (with_noise) {
+          // What a relative error of the envelope does to the torque; for a force proportional to
+          // the activation that is the torque itself.
+          by_channel[j](static_cast<Eigen::Index>(c), i) += arm * t.by_activation * a.value;
+          // dq moves every length by -r dq.
+          const double by_angle = -arm * arm * t.by_length;
+          const double by_rate = -arm * arm * t.by_velocity;
+          out.motion_variance[row] +=
+              std::pow(by_angle * angle_sd_rad_, 2) + std::pow(by_rate * angle_rate_sd_radps_, 2);
+        }
+      }
+    }
+  }
+  for (std::size_t j = 0; j < block.joints.size(); ++j) {
+    const Block::Joint& joint = block.joints[j];
+    const auto which = static_cast<std::size_t>(joint.joint);
+    const JointValues& p = values.joints[which];
+    if (joint.motion.size() > 0) {
+      out.predicted.segment(joint.first, n) -= p[kViscosity] * joint.motion.col(1) +
+                                               p[kInertia] * joint.motion.col(2) +
+                                               p[kStiffness] * joint.motion.col(0);
+    }
+    out.predicted.segment(joint.first, n).array() += p[kOffset];
+    for (const ParameterMap::Chain& chain : of_joint) {
+      if (chain.owner != joint.joint) continue;
+      auto row = out.gradient.row(chain.variable).segment(joint.first, n);
+      if (chain.field == kOffset) row.array() += chain.slope;
+      if (joint.motion.size() == 0) continue;
+      if (chain.field == kViscosity) row -= chain.slope * joint.motion.col(1).transpose();
+      if (chain.field == kInertia) row -= chain.slope * joint.motion.col(2).transpose();
+      if (chain.field == kStiffness) row -= chain.slope * joint.motion.col(0).transpose();
+    }
+    if (!block.filter.empty()) {
+      Eigen::MatrixXd line = out.predicted.segment(joint.first, n).transpose();
+      smooth(block.filter, line);
+      out.predicted.segment(joint.first, n) = line.row(0).transpose();
+      if (with_gradient) smooth(block.filter, out.gradient.middleCols(joint.first, n));
+    }
+    if (with_noise) {
+      smooth(block.filter, by_channel[j]);
+      out.emg_power.segment(joint.first, n) = by_channel[j].colwise().squaredNorm().transpose();
+    }
+  }
+}
+
+}  // namespace myoid::identification

@@ -1,0 +1,79 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "myoid/identification/envelope.h"
+#include "myoid/identification/parameters.h"
+#include "myoid/math/butterworth.h"
+
+namespace myoid::identification {
+
+/// Consecutive rows of the residual: one joint of one trial.
+struct Piece {
+  int trial = 0;  ///< In StudyData::trials.
+  int joint = 0;
+  Eigen::Index first = 0, count = 0;
+};
+
+/// What the model says at one point of the search; rows as in the pieces.
+struct Evaluation {
+  Eigen::VectorXd predicted;        ///< Low-passed as `measured()`.
+  Eigen::MatrixXd gradient;         ///< p x n: column i is d predicted_i / dz.
+  Eigen::VectorXd emg_power;        ///< n: sum over channels of their torque squared.
+  Eigen::VectorXd motion_variance;  ///< n: from the errors of angle and rate.
+};
+
+/// The one residual of all estimators: predicted minus measured torque (or force: one muscle with a
+/// moment arm of 1) over the samples of the calibration trials, thinned and low-passed.
+class ResidualModel {
+ public:
+  ResidualModel(const StudyData& data, const EstimatorOptions& options);
+
+  [[nodiscard]] const ParameterMap& parameters() const { return map_; }
+  [[nodiscard]] const std::vector<Piece>& pieces() const { return pieces_; }
+  [[nodiscard]] std::vector<Eigen::Index> piece_lengths() const;
+  [[nodiscard]] Eigen::Index sample_count() const { return measured_.size(); }
+  [[nodiscard]] const Eigen::VectorXd& measured() const { return measured_; }
+  [[nodiscard]] double rate_hz() const { return rate_hz_; }
+  [[nodiscard]] int dropped() const { return dropped_; }
+  [[nodiscard]] int joint_count() const { return static_cast<int>(map_.joints().size()); }
+
+  enum class Depth { value, gradient, noise };  ///< What of the Evaluation is filled.
+  void evaluate(const Eigen::VectorXd& z, Depth depth, Evaluation& out) const;
+
+ private:
+  struct Block {
+    int trial = 0;
+    Eigen::VectorXd time_s;
+    Eigen::MatrixXd length_m, velocity_mps;  ///< n x m
+    std::vector<Envelope> envelopes;         ///< Per channel.
+    struct Joint {
+      int joint = 0;
+      Eigen::Index first = 0;
+      Eigen::MatrixXd arm_m;
+      Eigen::MatrixXd motion;  ///< n x 3: angle, rate, acceleration; empty if not known.
+    };
+    std::vector<Joint> joints;
+    std::vector<math::SecondOrderSection> filter;
+  };
+  void add_trial(const StudyData& data, int trial, const EstimatorOptions& options);
+  void evaluate_block(const Block& block,
+                      const ModelValues& values,
+                      const std::vector<ParameterMap::Chain>& chains,
+                      Depth depth,
+                      Evaluation& out) const;
+
+  ParameterMap map_;
+  std::vector<Block> blocks_;
+  std::vector<Piece> pieces_;
+  Eigen::VectorXd measured_;
+  bool dynamics_ = false;
+  double angle_sd_rad_ = 0.0, angle_rate_sd_radps_ = 0.0;
+  double rate_hz_ = 0.0;
+  int dropped_ = 0;
+};
+
+}  // namespace myoid::identification

@@ -1,0 +1,346 @@
+#include "myoid/identification/uncertainty.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+#include <Eigen/Eigenvalues>
+#include <oneapi/tbb/parallel_for.h>
+
+#include "myoid/core/units.h"
+#include "myoid/math/statistics.h"
+
+namespace myoid::identification {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kChiSquare95 = 3.841458820694124;
+
+/// A stream of numbers that depends on the seed and the stream's number alone (SplitMix64).
+class Stream {
+ public:
+  Stream(std::uint64_t seed, std::uint64_t number)
+      : state_(seed * 0xD1342543DE82EF95ULL + number * 0x9E3779B97F4A7C15ULL + 1) {
+    for (int i = 0; i < 4; ++i) (void)next();
+  }
+  std::uint64_t next() {
+    std::uint64_t x = (state_ += 0x9E3779B97F4A7C15ULL);
+    x = (x ^ (x >> 30)) * 0xBF58476D1CE4E5B9ULL;
+    x = (x ^ (x >> 27)) * 0x94D049BB133111EBULL;
+    return x ^ (x >> 31);
+  }
+  double uniform() { return static_cast<double>(next() >> 11) * 0x1.0p-53; }
+  std::size_t below(std::size_t count) {
+    return std::min(count - 1, static_cast<std::size_t>(uniform() * static_cast<double>(count)));
+  }
+  double normal() {
+    const double radius = std::sqrt(-2.0 * std::log(1.0 - uniform()));
+    return radius * std::cos(2.0 * kPi * uniform());
+  }
+
+ private:
+  std::uint64_t state_;
+};
+
+Eigen::MatrixXd inverse_of(const Eigen::MatrixXd& a) {
+  // Scaled to unit diagonal before inverting; near-zero directions stay near-infinite.
+  const Eigen::VectorXd scale = a.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
+  const Eigen::MatrixXd scaled = scale.asDiagonal() * a * scale.asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scaled);
+  const Eigen::VectorXd values =
+      eigen.eigenvalues().cwiseMax(1e-14 * eigen.eigenvalues().maxCoeff()).cwiseInverse();
+  return scale.asDiagonal() * eigen.eigenvectors() * values.asDiagonal() *
+         eigen.eigenvectors().transpose() * scale.asDiagonal();
+}
+
+/// Rows that are drawn together.
+struct Block {
+  int stratum = 0;  ///< Trial; 0 for all where whole trials are drawn.
+  std::vector<std::pair<Eigen::Index, Eigen::Index>> rows;  ///< First and count.
+};
+
+std::vector<Block> blocks_of(const ResidualModel& model, double block_s) {
+  std::vector<Block> blocks;
+  int trial = -1;
+  std::size_t first_of_trial = 0;
+  for (const Piece& piece : model.pieces()) {
+    const bool same = piece.trial == trial;
+    if (!same) first_of_trial = blocks.size();
+    trial = piece.trial;
+    Eigen::Index count = 1;
+    if (block_s > 0.0) {
+      count = std::max<Eigen::Index>(
+          1, static_cast<Eigen::Index>(
+                 std::lround(static_cast<double>(piece.count) / (model.rate_hz() * block_s))));
+    }
+    for (Eigen::Index b = 0; b < count; ++b) {
+      const Eigen::Index begin = piece.count * b / count;
+      const Eigen::Index end = piece.count * (b + 1) / count;
+      // Joints of one trial are drawn together.
+      const std::size_t at = first_of_trial + static_cast<std::size_t>(b);
+      if (!same || at >= blocks.size()) blocks.push_back({block_s > 0.0 ? trial : 0, {}});
+      blocks[same ? at : blocks.size() - 1].rows.emplace_back(piece.first + begin, end - begin);
+    }
+  }
+  return blocks;
+}
+
+double quantile(std::vector<double> values, double share) {
+  std::sort(values.begin(), values.end());
+  const double at = share * static_cast<double>(values.size() - 1);
+  const auto below = static_cast<std::size_t>(at);
+  const std::size_t above = std::min(below + 1, values.size() - 1);
+  return values[below] + (at - static_cast<double>(below)) * (values[above] - values[below]);
+}
+
+}  // namespace
+
+Sandwich sandwich(const Estimator& estimator, const Estimator::Solution& solution) {
+  const ResidualModel& model = estimator.model();
+  const Eigen::VectorXd& z = solution.search.x;
+  const Weighting& weighting = solution.weighting;
+  Evaluation at;
+  model.evaluate(z, ResidualModel::Depth::gradient, at);
+  Eigen::VectorXd sd = weighting.sd_nm;
+  if (!estimator.options().weights)
+    sd.setConstant(std::max(weighting.noise[0].torque_sd_nm, 1e-300));
+  const Eigen::MatrixXd weighted = at.gradient * sd.cwiseInverse().asDiagonal();
+  const Eigen::VectorXd residual = (at.predicted - model.measured()).cwiseQuotient(sd);
+  const double nu = weighting.share;
+  Sandwich result;
+  result.information = nu * weighted * weighted.transpose();
+  Eigen::MatrixXd a = result.information;
+  Eigen::VectorXd precision = Eigen::VectorXd::Zero(z.size());
+  for (Eigen::Index j = 0; j < z.size(); ++j) {
+    const double prior_sd = estimator.free()[static_cast<std::size_t>(j)].prior_sd;
+    if (prior_sd > 0.0) precision[j] = 1.0 / (prior_sd * prior_sd);
+  }
+  a.diagonal() += precision;
+  result.model_based = inverse_of(a);
+
+  // What the data alone determine: eigenvectors of the unit-column information.
+  const Eigen::VectorXd norm = result.information.diagonal().cwiseSqrt();
+  const double largest_norm = norm.maxCoeff();
+  Eigen::VectorXd unit(z.size());
+  for (Eigen::Index j = 0; j < z.size(); ++j) unit[j] = norm[j] > 0.0 ? 1.0 / norm[j] : 0.0;
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(
+      unit.asDiagonal() * result.information * unit.asDiagonal());
+  const Eigen::VectorXd& values = eigen.eigenvalues();  // rising
+  const double top = values[values.size() - 1];
+  result.condition = values[0] > 0.0 ? std::sqrt(top / values[0]) : kInfinity;
+  std::vector<Eigen::Index> open;
+  for (Eigen::Index k = 0; k < values.size(); ++k) {
+    // Squares of singular values: their own round-off is 1e-16 of the largest.
+    if (values[k] <= 1e-13 * top || !(largest_norm > 0.0)) open.push_back(k);
+  }
+  result.rank = static_cast<int>(values.size()) - static_cast<int>(open.size());
+  result.undetermined = eigen.eigenvectors()(Eigen::all, open);
+  result.determined.assign(static_cast<std::size_t>(z.size()), true);
+  for (Eigen::Index j = 0; j < z.size(); ++j) {
+    result.determined[static_cast<std::size_t>(j)] =
+        norm[j] > 0.0 && result.undetermined.row(j).norm() < 1e-3;
+  }
+
+  Eigen::MatrixXd scores = (weighted * residual.asDiagonal()).transpose();
+  const auto lag = static_cast<Eigen::Index>(std::lround(0.4 * model.rate_hz()));
+  Eigen::MatrixXd b = nu * nu * math::newey_west(scores, model.piece_lengths(), lag);
+  b.diagonal() += precision;
+  result.newey_west = result.model_based * b * result.model_based;
+  if (estimator.options().weights) {
+    // Few effective samples make B itself unsure: never below the model-based covariance.
+    for (Eigen::Index j = 0; j < a.rows(); ++j) {
+      const double factor = std::sqrt(
+          std::max(1.0, result.model_based(j, j) / std::max(result.newey_west(j, j), 1e-300)));
+      if (factor > 1.0) {
+        result.newey_west.row(j) *= factor;
+        result.newey_west.col(j) *= factor;
+      }
+    }
+  }
+
+  std::vector<int> trials;
+  for (const Piece& piece : model.pieces()) {
+    if (trials.empty() || trials.back() != piece.trial) trials.push_back(piece.trial);
+  }
+  const auto clusters = static_cast<double>(trials.size());
+  if (trials.size() >= 8) {
+    Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(z.size(), z.size());
+    for (const int trial : trials) {
+      Eigen::VectorXd g = Eigen::VectorXd::Zero(z.size());
+      for (const Piece& piece : model.pieces()) {
+        if (piece.trial == trial)
+          g += scores.middleRows(piece.first, piece.count).colwise().sum().transpose();
+      }
+      sum += g * g.transpose();
+    }
+    sum *= nu * nu * clusters / (clusters - 1.0);
+    sum.diagonal() += precision;
+    result.cluster = result.model_based * sum * result.model_based;
+  }
+  return result;
+}
+
+BootstrapResult bootstrap(const Estimator& estimator, const Estimator::Solution& solution) {
+  const ResidualModel& model = estimator.model();
+  const IntervalOptions& options = estimator.options().intervals;
+  const std::vector<Block> blocks = blocks_of(model, options.bootstrap_block_s);
+  const auto count = static_cast<std::size_t>(std::max(0, options.bootstrap));
+  const Eigen::Index p = solution.search.x.size();
+  std::vector<Eigen::VectorXd> found(count);
+  std::atomic<int> done = 0;
+  oneapi::tbb::parallel_for(std::size_t{0}, count, [&](std::size_t k) {
+    estimator.options().progress.check();
+    Stream random(options.seed, k + 1);
+    Estimator::Variant variant;
+    variant.multiplicity = Eigen::VectorXd::Zero(model.sample_count());
+    for (std::size_t first = 0; first < blocks.size();) {
+      std::size_t end = first;
+      while (end < blocks.size() && blocks[end].stratum == blocks[first].stratum) ++end;
+      for (std::size_t draw = first; draw < end; ++draw) {
+        const Block& block = blocks[first + random.below(end - first)];
+        for (const auto& [begin, length] : block.rows)
+          variant.multiplicity.segment(begin, length).array() += 1.0;
+      }
+      first = end;
+    }
+    variant.prior_mean = Eigen::VectorXd::Zero(p);
+    for (Eigen::Index j = 0; j < p; ++j) {
+      const FreeParameter& f = estimator.free()[static_cast<std::size_t>(j)];
+      if (f.prior_sd > 0.0) variant.prior_mean[j] = f.prior_mean + f.prior_sd * random.normal();
+    }
+    const NormalSearchResult fit =
+        estimator.search(solution.search.x, solution.weighting, 1e-4, 1e-3, 30, variant);
+    if (fit.termination == math::Termination::converged) found[k] = fit.x;
+    estimator.options().progress.tell(static_cast<double>(++done) / static_cast<double>(count),
+                                      "bootstrap");
+  });
+  BootstrapResult result;
+  std::vector<std::size_t> good;
+  for (std::size_t k = 0; k < count; ++k) {
+    if (found[k].size() > 0) {
+      good.push_back(k);
+    } else {
+      ++result.failed;
+    }
+  }
+  result.replicates.resize(static_cast<Eigen::Index>(good.size()), p);
+  for (std::size_t i = 0; i < good.size(); ++i)
+    result.replicates.row(static_cast<Eigen::Index>(i)) = found[good[i]].transpose();
+  result.intervals.resize(static_cast<std::size_t>(p));
+  if (good.size() >= 40) {
+    for (Eigen::Index j = 0; j < p; ++j) {
+      const std::vector<double> values(result.replicates.col(j).begin(),
+                                       result.replicates.col(j).end());
+      result.intervals[static_cast<std::size_t>(j)] = {quantile(values, 0.025),
+                                                       quantile(values, 0.975)};
+    }
+  }
+  return result;
+}
+
+std::vector<Interval> profile(const Estimator& estimator,
+                              const Estimator::Solution& solution,
+                              const Eigen::MatrixXd& covariance) {
+  const Eigen::Index p = solution.search.x.size();
+  std::vector<Interval> intervals(static_cast<std::size_t>(p));
+  const double minimum = solution.search.cost;
+  std::atomic<int> done = 0;
+  oneapi::tbb::parallel_for(Eigen::Index{0}, 2 * p, [&](Eigen::Index task) {
+    estimator.options().progress.check();
+    const Eigen::Index j = task / 2;
+    const double side = task % 2 == 0 ? -1.0 : 1.0;
+    const double bound = side < 0.0 ? estimator.lower()[j] : estimator.upper()[j];
+    const double reach = std::abs(bound - solution.search.x[j]);
+    const double sd = std::sqrt(std::max(covariance(j, j), 1e-300));
+    std::vector<bool> held(static_cast<std::size_t>(p), false);
+    held[static_cast<std::size_t>(j)] = true;
+    // sqrt(2 (C - C_min)) is nearly proportional to the distance: the secant converges in two or
+    // three fits.
+    const double goal = std::sqrt(kChiSquare95);
+    double near = 0.0, near_value = 0.0;
+    double far = std::min(goal * sd, reach);
+    Eigen::VectorXd x = solution.search.x;
+    std::optional<double> answer;
+    for (int step = 0; step < 8 && far > 0.0; ++step) {
+      Eigen::VectorXd start = x;
+      start[j] = solution.search.x[j] + side * far;
+      const NormalSearchResult fit =
+          estimator.search(start, solution.weighting, 1e-4, 1e-4, 40, {}, held);
+      const double value = std::sqrt(std::max(0.0, 2.0 * (fit.cost - minimum)));
+      if (std::abs(value - goal) < 0.02 * goal) {
+        answer = far;
+        break;
+      }
+      if (value < goal) {
+        if (far >= reach * (1.0 - 1e-12)) break;  // open: the bound comes first
+        x = fit.x;
+        near = far;
+        near_value = value;
+        const double slope = value / far;
+        far = std::min({reach, slope > 0.0 ? far * goal / value * 1.02 : 4.0 * far, 4.0 * far});
+      } else {
+        const double middle =
+            near + (far - near) * (goal - near_value) / std::max(value - near_value, 1e-12);
+        far = std::clamp(middle, near + 0.05 * (far - near), near + 0.95 * (far - near));
+        answer = far;  // good enough if the steps run out
+      }
+    }
+    Interval& interval = intervals[static_cast<std::size_t>(j)];
+    if (answer) {
+      const double value = solution.search.x[j] + side * *answer;
+      (side < 0.0 ? interval.low : interval.high) = value;
+    }
+    estimator.options().progress.tell(static_cast<double>(++done) / static_cast<double>(2 * p),
+                                      "profiles");
+  });
+  return intervals;
+}
+
+std::vector<CollinearSet> collinear_sets(const Eigen::MatrixXd& information,
+                                         double limit,
+                                         std::size_t count) {
+  const Eigen::Index p = information.rows();
+  std::vector<CollinearSet> found;
+  std::vector<Eigen::Index> usable;
+  for (Eigen::Index j = 0; j < p; ++j) {
+    if (information(j, j) > 0.0) usable.push_back(j);
+  }
+  const Eigen::VectorXd scale = information.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
+  const Eigen::MatrixXd unit = scale.asDiagonal() * information * scale.asDiagonal();
+  const auto contains_smaller = [&](const std::vector<Eigen::Index>& set) {
+    return std::any_of(found.begin(), found.end(), [&](const CollinearSet& other) {
+      return other.parameters.size() < set.size() &&
+             std::includes(set.begin(), set.end(), other.parameters.begin(),
+                           other.parameters.end());
+    });
+  };
+  const auto consider = [&](const std::vector<Eigen::Index>& set) {
+    if (contains_smaller(set)) return;
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(unit(set, set),
+                                                               Eigen::EigenvaluesOnly);
+    const double smallest = eigen.eigenvalues()[0];
+    const double index = smallest > 1e-16 ? 1.0 / std::sqrt(smallest) : 1e8;
+    if (index > limit) found.push_back({set, index});
+  };
+  const std::size_t n = usable.size();
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = i + 1; j < n; ++j) consider({usable[i], usable[j]});
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = i + 1; j < n; ++j)
+      for (std::size_t k = j + 1; k < n; ++k) consider({usable[i], usable[j], usable[k]});
+  if (n <= 40) {
+    for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t j = i + 1; j < n; ++j)
+        for (std::size_t k = j + 1; k < n; ++k)
+          for (std::size_t l = k + 1; l < n; ++l)
+            consider({usable[i], usable[j], usable[k], usable[l]});
+  }
+  std::stable_sort(found.begin(), found.end(),
+                   [](const CollinearSet& a, const CollinearSet& b) { return a.index > b.index; });
+  if (found.size() > count) found.resize(count);
+  return found;
+}
+
+}  // namespace myoid::identification

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "myoid/identification/estimator.h"
+
+namespace myoid::identification {
+
+/// What the curvature at the minimum says; all in the solver's scale.
+struct Sandwich {
+  Eigen::MatrixXd newey_west;  ///< A^-1 B A^-1, B from autocovariances within trials up to 0.4 s;
+                               ///< never below A^-1 where weights are used.
+  std::optional<Eigen::MatrixXd> cluster;  ///< B from the sums of scores over trials; with at least
+                                           ///< 8 trials.
+  Eigen::MatrixXd model_based;             ///< A^-1
+  Eigen::MatrixXd information;             ///< Of the data alone, nu J'WJ.
+  int rank = 0;                            ///< Of the data with unit columns, tolerance 1e-7.
+  double condition = 0.0;                  ///< Of J with unit columns.
+  std::vector<bool> determined;            ///< By the data alone.
+  Eigen::MatrixXd undetermined;            ///< Unit columns: combinations the data leave free.
+};
+[[nodiscard]] Sandwich sandwich(const Estimator& estimator, const Estimator::Solution& solution);
+
+/// An interval of one parameter in the solver's scale; empty where the route gives none.
+struct Interval {
+  std::optional<double> low, high;
+};
+
+struct BootstrapResult {
+  Eigen::MatrixXd replicates;  ///< Converged ones, rows.
+  int failed = 0;
+  std::vector<Interval> intervals;  ///< 2.5 and 97.5 % quantiles.
+};
+/// Refits to resampled data: blocks are drawn with replacement within each trial (whole trials if
+/// `bootstrap_block_s` is 0), and prior means are drawn from the priors; weights are those of the
+/// solution. Replicates run in parallel; number k depends on the seed and k alone.
+[[nodiscard]] BootstrapResult bootstrap(const Estimator& estimator,
+                                        const Estimator::Solution& solution);
+
+/// Where 2 (C - C_min) reaches 3.84 when all other parameters adapt; empty where it does not within
+/// the bounds: the profile is open there.
+[[nodiscard]] std::vector<Interval> profile(const Estimator& estimator,
+                                            const Estimator::Solution& solution,
+                                            const Eigen::MatrixXd& covariance);
+
+/// Parameters that the data hardly tell apart: the collinearity index 1 / sqrt(smallest eigenvalue)
+/// of S'S, S the sensitivities with unit columns (Brun and others 2001).
+struct CollinearSet {
+  std::vector<Eigen::Index> parameters;
+  double index = 0.0;
+};
+/// Sets of two to four with an index above `limit`, none containing a smaller one, worst first, at
+/// most `count`. `information` is J'WJ.
+[[nodiscard]] std::vector<CollinearSet> collinear_sets(const Eigen::MatrixXd& information,
+                                                       double limit = 10.0,
+                                                       std::size_t count = 12);
+
+}  // namespace myoid::identification
