@@ -99,6 +99,11 @@ BezierCurve::BezierCurve(std::span<const CurveKnot> knots, std::span<const doubl
     s.from = p;
     s.x = quintic(p.x, p.x + c * (meet_x - p.x), q.x + c * (meet_x - q.x), q.x);
     s.y = quintic(p.y, p.y + c * (meet_y - p.y), q.y + c * (meet_y - q.y), q.y);
+    s.cells_per_x = kCells / (q.x - p.x);
+    for (int cell = 0; cell <= kCells; ++cell) {
+      const double u = solve_parameter(s.x, s.y, 1.0, 0.0, p.x + cell / s.cells_per_x);
+      s.guess[static_cast<std::size_t>(cell)] = {u, 1.0 / (derivative(s.x, u) * s.cells_per_x)};
+    }
     s.area_before = area_;
     area_ += area(s.x, s.y, 1.0);
   }
@@ -112,11 +117,30 @@ const BezierCurve::Segment& BezierCurve::segment_at(double x) const {
   return segments_[static_cast<std::size_t>(k)];
 }
 
+/// u where x(u) = x: a cubic through the neighboring cells' ends is off by a few 1e-3 at most, in
+/// sharp corners, and three Newton steps square that three times; should they not, the bracket
+/// decides.
+double BezierCurve::parameter_at(const Segment& s, double x) {
+  const double position = (x - s.from.x) * s.cells_per_x;
+  const int cell = std::min(static_cast<int>(position), kCells - 1);
+  const double t = position - cell;
+  const auto& [u0, d0] = s.guess[static_cast<std::size_t>(cell)];
+  const auto& [u1, d1] = s.guess[static_cast<std::size_t>(cell) + 1];
+  const double rise = u1 - u0;
+  double u = u0 + t * (d0 + t * (3.0 * rise - 2.0 * d0 - d1 + t * (d0 + d1 - 2.0 * rise)));
+  double step = 0.0;
+  for (int k = 0; k < 3; ++k) {
+    step = (value(s.x, u) - x) / derivative(s.x, u);
+    u -= step;
+  }
+  return std::abs(step) < 1e-9 ? u : solve_parameter(s.x, s.y, 1.0, 0.0, x);
+}
+
 CurvePoint<double> BezierCurve::at(double x) const {
   if (x <= first_.x) return {first_.y + first_.slope * (x - first_.x), first_.slope};
   if (x >= last_.x) return {last_.y + last_.slope * (x - last_.x), last_.slope};
   const Segment& s = segment_at(x);
-  const double u = solve_parameter(s.x, s.y, 1.0, 0.0, x);
+  const double u = parameter_at(s, x);
   return {value(s.y, u), derivative(s.y, u) / derivative(s.x, u)};
 }
 
@@ -130,7 +154,7 @@ double BezierCurve::integral_to(double x) const {
     return area_ + last_.y * d + 0.5 * last_.slope * d * d;
   }
   const Segment& s = segment_at(x);
-  return s.area_before + area(s.x, s.y, solve_parameter(s.x, s.y, 1.0, 0.0, x));
+  return s.area_before + area(s.x, s.y, parameter_at(s, x));
 }
 
 double BezierCurve::solve(double strength, double damping, double force) const {

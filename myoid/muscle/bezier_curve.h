@@ -49,17 +49,22 @@ class BezierCurve {
   [[nodiscard]] const CurveKnot& last() const { return last_; }
 
  private:
+  static constexpr int kCells = 8;
   using Quintic = std::array<double, 6>;  ///< Coefficients, lowest power first.
   struct Segment {
     CurveKnot from;
     Quintic x;
     Quintic y;
     double area_before = 0.0;  ///< Integral of y from the first knot to this segment.
+    /// u and du per cell at x evenly spaced from `from.x`: where Newton begins.
+    std::array<std::array<double, 2>, kCells + 1> guess{};
+    double cells_per_x = 0.0;
   };
 
   [[nodiscard]] CurvePoint<double> at(double x) const;
   [[nodiscard]] double integral_to(double x) const;
   [[nodiscard]] const Segment& segment_at(double x) const;
+  [[nodiscard]] static double parameter_at(const Segment& s, double x);
 
   int count_ = 0;
   std::array<Segment, kMaxSegments> segments_;

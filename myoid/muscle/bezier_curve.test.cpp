@@ -2,6 +2,8 @@
 
 #include <array>
 #include <cmath>
+#include <random>
+#include <utility>
 
 #include <ceres/jet.h>
 #include <gtest/gtest.h>
@@ -18,48 +20,58 @@ BezierCurve sigmoid() {
   return BezierCurve(knots, curviness);
 }
 
-/// The same curve by de Casteljau's construction, with the parameter found by bisection: another
+/// A corner by de Casteljau's construction, with the parameter found by bisection: another
 /// algorithm.
-double by_casteljau(double x) {
-  const auto corner = [](CurveKnot p, CurveKnot q, double c, double at) {
-    const double cx = (q.y - p.y - q.x * q.slope + p.x * p.slope) / (p.slope - q.slope);
-    const double cy = q.y + (cx - q.x) * q.slope;
-    const auto point = [&](double u) {
-      std::array<double, 6> px{p.x,
-                               p.x + c * (cx - p.x),
-                               p.x + c * (cx - p.x),
-                               q.x + c * (cx - q.x),
-                               q.x + c * (cx - q.x),
-                               q.x};
-      std::array<double, 6> py{p.y,
-                               p.y + c * (cy - p.y),
-                               p.y + c * (cy - p.y),
-                               q.y + c * (cy - q.y),
-                               q.y + c * (cy - q.y),
-                               q.y};
-      for (std::size_t n = 5; n > 0; --n) {
-        for (std::size_t i = 0; i < n; ++i) {
-          px[i] += u * (px[i + 1] - px[i]);
-          py[i] += u * (py[i + 1] - py[i]);
-        }
+double by_casteljau(const CurveKnot& p, const CurveKnot& q, double c, double at) {
+  const double cx = (q.y - p.y - q.x * q.slope + p.x * p.slope) / (p.slope - q.slope);
+  const double cy = q.y + (cx - q.x) * q.slope;
+  const auto point = [&](double u) {
+    std::array<double, 6> px{
+        p.x, p.x + c * (cx - p.x), p.x + c * (cx - p.x), q.x + c * (cx - q.x), q.x + c * (cx - q.x),
+        q.x};
+    std::array<double, 6> py{
+        p.y, p.y + c * (cy - p.y), p.y + c * (cy - p.y), q.y + c * (cy - q.y), q.y + c * (cy - q.y),
+        q.y};
+    for (std::size_t n = 5; n > 0; --n) {
+      for (std::size_t i = 0; i < n; ++i) {
+        px[i] += u * (px[i + 1] - px[i]);
+        py[i] += u * (py[i + 1] - py[i]);
       }
-      return std::pair(px[0], py[0]);
-    };
-    double low = 0.0, high = 1.0;
-    for (int k = 0; k < 60; ++k) {
-      const double u = 0.5 * (low + high);
-      (point(u).first < at ? low : high) = u;
     }
-    return point(low).second;
+    return std::pair(px[0], py[0]);
   };
-  return x < 0.0 ? corner({-1.0, 0.0, 0.1}, {0.0, 1.0, 3.0}, 0.6, x)
-                 : corner({0.0, 1.0, 3.0}, {1.0, 1.5, 0.2}, 0.8, x);
+  double low = 0.0, high = 1.0;
+  for (int k = 0; k < 60; ++k) {
+    const double u = 0.5 * (low + high);
+    (point(u).first < at ? low : high) = u;
+  }
+  return point(low).second;
 }
 
 TEST(BezierCurve, IsThatOfDeCasteljausConstruction) {
   const BezierCurve curve = sigmoid();
   for (double x = -0.99; x < 1.0; x += 0.07) {
-    EXPECT_NEAR(curve(x).value, by_casteljau(x), 1e-14) << x;
+    const double expected = x < 0.0 ? by_casteljau({-1.0, 0.0, 0.1}, {0.0, 1.0, 3.0}, 0.6, x)
+                                    : by_casteljau({0.0, 1.0, 3.0}, {1.0, 1.5, 0.2}, 0.8, x);
+    EXPECT_NEAR(curve(x).value, expected, 1e-14) << x;
+  }
+}
+
+TEST(BezierCurve, IsFoundInCornersOfAnySharpness) {
+  std::mt19937_64 random(311);
+  std::uniform_real_distribution<double> share(0.0, 1.0);
+  for (int k = 0; k < 300; ++k) {
+    const double meet = 0.02 + 0.96 * share(random);
+    const CurveKnot p{0.0, 0.0, 4.0 * share(random)};
+    const double steep = p.slope + std::pow(10.0, 3.0 * share(random));
+    const CurveKnot q{1.0, p.slope * meet + steep * (1.0 - meet), steep};
+    const double c = 0.1 + 0.9 * share(random);
+    const BezierCurve curve(std::array{p, q}, std::array{c});
+    for (int i = 0; i < 30; ++i) {
+      const double x = share(random);
+      EXPECT_NEAR(curve(x).value, by_casteljau(p, q, c, x), 1e-13 * (1.0 + steep))
+          << "corner " << k << ", c " << c << ", tangents meet at " << meet;
+    }
   }
 }
 

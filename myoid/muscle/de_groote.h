@@ -72,7 +72,10 @@ template <typename T>
   if (b > 0.0) {
     x = std::min(x, std::asinh(r / b));
     for (int k = 0; k < 60; ++k) {
-      const double step = (a * x + b * std::sinh(x) - r) / (a + b * std::cosh(x));
+      const double e = std::exp(x);
+      const double half = 0.5 * b * e;
+      const double other = 0.5 * b / e;
+      const double step = (a * x + half - other - r) / (a + half + other);
       x -= step;
       if (std::abs(step) <= 1e-16 * (1.0 + x)) break;
     }

@@ -97,7 +97,7 @@ std::array<double, kMusculotendonEventCount> musculotendon_events(
     const MusculotendonInput<double>& input,
     const MusculotendonState<double>& state) {
   namespace detail = musculotendon_detail;
-  const detail::Instant<double> now = detail::instant(unit, input, state);
+  const detail::Instant<double> now = detail::instant(unit, input, state, detail::Depth::all);
   const MusculotendonParameters<double>& p = unit.parameters();
   const double law_speed = unit.laws().velocity == VelocityLaw::thelen
                                ? now.speed / thelen_speed(input.activation)
