@@ -1,58 +1,10 @@
 #pragma once
 
 #include <array>
-#include <cmath>
 
-#include "myoid/muscle/millard.h"
-#include "myoid/muscle/musculotendon_parameters.h"
-#include "myoid/muscle/velocity_hyperbola.h"
+#include "myoid/muscle/musculotendon_unit.h"
 
 namespace myoid::muscle {
-
-/// A fiber in series with a tendon, between two points of the skeleton: parameters, laws and what
-/// follows from them, immutable. `T` is double, or ceres::Jet for exact derivatives by states,
-/// inputs and parameters: lift the parameters with `lifted`, seed them, and build a
-/// Musculotendon<Jet>.
-///
-///   along(l_m) = sqrt(l_m^2 - h^2),  h = l0 sin(alpha0),  cos(alpha) = along / l_m
-///   l_t = l_mt - along(l_m),         F_t = F_max f_t((l_t - l_t0) / l_t0),  never negative
-///   F_m = F_max (a f_l f_v + f_pe) + B_m v,   B_m = beta F_max / v_max
-///
-///   mass:         M_m dv/dt = F_t / cos(alpha) - F_m          (equation (5) of the source paper)
-///   equilibrium:  F_t = F_m cos(alpha), solved for v = dl_m/dt
-///   rigid:        l_t = l_t0, F_t = F_m cos(alpha)
-///
-/// Below its shortest length (a hundredth of l0, or cos(alpha) = 0.1) the fiber is held by a stiff
-/// spring, and its line of pull keeps its angle. With zero damping the equilibrium needs a f_l f_v
-/// to be invertible: the velocity law goes on as its tangents (below -v_max, above 95 % of the
-/// plateau) and a f_l is at least `kLeastStrength`. docs/theory/muscle.md derives all this.
-template <typename T = double>
-class Musculotendon {
- public:
-  /// Throws InvalidInput if the parameters make no unit under these laws.
-  explicit Musculotendon(const MusculotendonParameters<T>& parameters,
-                         const MusculotendonLaws& laws = {},
-                         const MillardShape& millard = {});
-
-  [[nodiscard]] const MusculotendonParameters<T>& parameters() const { return p_; }
-  [[nodiscard]] const MusculotendonLaws& laws() const { return laws_; }
-  [[nodiscard]] const MillardCurves& millard() const { return millard_; }
-  [[nodiscard]] const VelocityHyperbola<T>& hyperbola() const { return hyperbola_; }
-  [[nodiscard]] const T& height_m() const { return height_; }  ///< h
-  [[nodiscard]] const T& shortest_fiber_m() const { return shortest_; }
-  [[nodiscard]] const T& damping_nspm() const { return damping_; }  ///< B_m
-  [[nodiscard]] bool undamped_equilibrium() const { return undamped_equilibrium_; }
-
- private:
-  MusculotendonParameters<T> p_;
-  MusculotendonLaws laws_;
-  MillardCurves millard_;
-  VelocityHyperbola<T> hyperbola_;
-  T height_{};
-  T shortest_{};
-  T damping_{};
-  bool undamped_equilibrium_ = false;
-};
 
 /// States that the mode integrates: rigid 0, equilibrium 1 (l_m), mass 2 (l_m, then dl_m/dt).
 [[nodiscard]] constexpr int state_size(TendonMode mode) {

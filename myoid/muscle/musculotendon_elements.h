@@ -7,13 +7,12 @@
 
 #include "myoid/muscle/de_groote.h"
 #include "myoid/muscle/force_length.h"
-#include "myoid/muscle/musculotendon.h"
+#include "myoid/muscle/musculotendon_unit.h"
 #include "myoid/muscle/thelen_curves.h"
 
 namespace myoid::muscle {
 namespace musculotendon_detail {
 
-inline constexpr double kLeastCosine = 0.1;  ///< acos is the greatest pennation.
 inline constexpr double kLimitStiffness =
     100;  ///< [F_max / l0] of the spring at the shortest length.
 

@@ -122,41 +122,6 @@ T imbalance(const Musculotendon<T>& unit, const Instant<T>& now) {
 }  // namespace musculotendon_detail
 
 template <typename T>
-Musculotendon<T>::Musculotendon(const MusculotendonParameters<T>& parameters,
-                                const MusculotendonLaws& laws,
-                                const MillardShape& millard)
-    : p_(parameters), laws_(laws), millard_(millard) {
-  using std::sin;
-  MusculotendonParameters<double> numbers;
-  double* fields[kMusculotendonParameterCount];
-  int k = 0;
-  visit_parameters(numbers, [&](std::string_view, Unit, double& field) { fields[k++] = &field; });
-  k = 0;
-  visit_parameters(p_, [&](std::string_view, Unit, const T& v) { *fields[k++] = value_of(v); });
-  validate(numbers, laws_);
-
-  const HillParameters<T>& hill = p_.hill;
-  undamped_equilibrium_ = laws_.mode == TendonMode::equilibrium && numbers.damping == 0.0;
-  if (laws_.velocity == VelocityLaw::thelen) {
-    hyperbola_ = thelen_hyperbola<T>(hill.concentric_curvature, hill.eccentric_plateau);
-  } else {
-    hyperbola_ = {hill.concentric_curvature, hill.eccentric_curvature_product,
-                  hill.eccentric_plateau, T(undamped_equilibrium_ ? 0.95 : 1.0), false};
-  }
-  hyperbola_.tangent_below = undamped_equilibrium_;
-  shortest_ = T(0.01) * hill.optimal_fiber_length_m;
-  if (numbers.pennation_at_optimal_rad > 0.0) {
-    height_ = hill.optimal_fiber_length_m * sin(p_.pennation_at_optimal_rad);
-    const double least = musculotendon_detail::kLeastCosine;
-    const T most_pennate = height_ / T(std::sqrt(1.0 - least * least));
-    if (value_of(most_pennate) > value_of(shortest_)) shortest_ = most_pennate;
-  } else {
-    height_ = T(0.0);
-  }
-  damping_ = p_.damping * hill.max_isometric_force_n / hill.max_shortening_speed_mps;
-}
-
-template <typename T>
 MusculotendonRate<T> musculotendon_rate(const Musculotendon<T>& unit,
                                         const MusculotendonInput<T>& input,
                                         const MusculotendonState<T>& state) {
