@@ -1,0 +1,152 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include "myoid/math/runge_kutta.h"
+#include "myoid/muscle/activation.h"
+#include "myoid/simulation/excitation.h"
+
+namespace myoid::simulation {
+
+/// The activation that follows an excitation, as a function of time that costs a polynomial:
+/// activation does not depend on the motion, so that its equations are solved once, beforehand.
+/// Between two nodes of the excitation u is linear; steps end at the nodes and at the law's kinks;
+/// the local error is below `kActivationTolerance`. Continuous with its first derivative where u
+/// does not jump. `T`: double, or ceres::Jet for derivatives by the time constants.
+template <typename T = double>
+class ActivationSignal {
+ public:
+  /// Begins at `start_s` with this state, and goes on as far as it is extended.
+  ActivationSignal(const muscle::ActivationDynamics<T>& dynamics,
+                   double start_s,
+                   const muscle::ActivationPoint<T>& state)
+      : dynamics_(dynamics), stepper_(2, options()), signs_(1), end_(start_s), state_(state) {}
+
+  /// The whole way under `excitation`; begins settled on its first value unless a state is given.
+  ActivationSignal(const muscle::ActivationDynamics<T>& dynamics,
+                   const Signal& excitation,
+                   double start_s,
+                   double end_s)
+      : ActivationSignal(dynamics,
+                         start_s,
+                         muscle::settled_activation(T(value_at(excitation, start_s)))) {
+    extend(excitation, end_s);
+  }
+
+  /// Goes on to `end_s` under the excitation's part of that time.
+  void extend(const Signal& excitation, double end_s) {
+    const auto& t = excitation.time_s;
+    std::size_t next = static_cast<std::size_t>(std::upper_bound(t.begin(), t.end(), end_) - t.begin());
+    double from = value_at(excitation, end_);
+    while (end_ < end_s) {
+      const bool inside = next < t.size() && t[next] < end_s;
+      const double until = inside ? t[next] : end_s;
+      // The value on the left of a jump.
+      const double to = inside ? excitation.value[next] : value_left_of(excitation, until);
+      extend(until, from, to);
+      if (inside) {
+        while (next + 1 < t.size() && t[next + 1] == t[next]) ++next;
+        from = excitation.value[next];
+        ++next;
+      }
+    }
+  }
+
+  /// Goes on to `end_s` while the excitation goes linearly `from` .. `to`.
+  void extend(double end_s, double from, double to) {
+    if (!(end_s > end_)) return;
+    const double begin = end_;
+    const double slope = (to - from) / (end_s - begin);
+    if (dynamics_.law == muscle::ActivationLaw::envelope) {
+      start_.push_back(begin);
+      piece_.push_back({T(from), T(slope), T(0.0), T(0.0), T(0.0)});
+      state_ = {T(to), T(to)};
+      end_ = end_s;
+      return;
+    }
+    const auto excitation = [&](double t) { return from + slope * (t - begin); };
+    const auto rate = [&](double t, const T* y, T* ydot) {
+      const auto d = muscle::activation_rate(dynamics_, T(excitation(t)), {y[0], y[1]});
+      ydot[0] = d.filtered_excitation;
+      ydot[1] = d.activation;
+    };
+    const auto events = [&](double t, const T* y, double* g) {
+      g[0] = muscle::activation_event(plain_dynamics(), excitation(t),
+                                      {math::plain(y[0]), math::plain(y[1])});
+    };
+    const std::array<T, 2> y{state_.filtered_excitation, state_.activation};
+    double g = 0.0;
+    events(begin, y.data(), &g);
+    signs_.start({&g, 1});
+    status_ = stepper_.start(begin, y, rate);
+    if (status_ == math::OdeStatus::done) {
+      status_ = math::integrate(stepper_, end_s, rate, 1, events, signs_, [&](const auto& s) {
+        start_.push_back(s.previous_time_s());
+        piece_.push_back(s.polynomial(1));
+        return true;
+      });
+    }
+    state_ = {stepper_.state()[0], stepper_.state()[1]};
+    end_ = end_s;
+  }
+
+  /// a at this time; held before the beginning and after the end. `hint` remembers the piece, for
+  /// times that follow one another; each user has its own, 0 at first.
+  [[nodiscard]] T at(double time_s, std::size_t& hint) const {
+    if (piece_.empty() || time_s >= end_) return state_.activation;
+    if (time_s <= start_.front()) return piece_.front()[0];
+    if (hint >= piece_.size()) hint = 0;
+    const bool here = start_[hint] <= time_s && (hint + 1 == start_.size() || time_s < start_[hint + 1]);
+    if (!here) {
+      if (hint + 2 < start_.size() && start_[hint + 1] <= time_s && time_s < start_[hint + 2]) {
+        ++hint;
+      } else {
+        hint = static_cast<std::size_t>(std::upper_bound(start_.begin(), start_.end(), time_s) -
+                                        start_.begin()) -
+               1;
+      }
+    }
+    const double s = time_s - start_[hint];
+    const std::array<T, 5>& c = piece_[hint];
+    return c[0] + s * (c[1] + s * (c[2] + s * (c[3] + s * c[4])));
+  }
+
+  [[nodiscard]] double end_s() const { return end_; }
+  [[nodiscard]] const muscle::ActivationPoint<T>& state() const { return state_; }  ///< At the end.
+  /// Not `done`: the times are not as the law needs them; what follows is not to be used.
+  [[nodiscard]] math::OdeStatus status() const { return status_; }
+  [[nodiscard]] std::size_t piece_count() const { return piece_.size(); }
+
+ private:
+  static double value_left_of(const Signal& excitation, double time_s) {
+    const auto& t = excitation.time_s;
+    const auto at = static_cast<std::size_t>(std::lower_bound(t.begin(), t.end(), time_s) - t.begin());
+    return at < t.size() && t[at] == time_s ? excitation.value[at] : value_at(excitation, time_s);
+  }
+  static math::OdeOptions options() {
+    math::OdeOptions o;
+    o.relative_tolerance = kActivationTolerance;
+    o.absolute_tolerance = kActivationTolerance;
+    return o;
+  }
+  muscle::ActivationDynamics<double> plain_dynamics() const {
+    return {dynamics_.law, math::plain(dynamics_.excitation_time_s),
+            math::plain(dynamics_.activation_time_s), math::plain(dynamics_.deactivation_time_s),
+            dynamics_.steepness};
+  }
+
+  static constexpr double kActivationTolerance = 1e-10;
+
+  muscle::ActivationDynamics<T> dynamics_;
+  math::RungeKutta<T> stepper_;
+  math::EventSigns signs_;
+  double end_ = 0.0;
+  muscle::ActivationPoint<T> state_;
+  math::OdeStatus status_ = math::OdeStatus::done;
+  std::vector<double> start_;
+  std::vector<std::array<T, 5>> piece_;
+};
+
+}  // namespace myoid::simulation
