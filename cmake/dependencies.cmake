@@ -22,6 +22,16 @@ target_include_directories(myoid_jet SYSTEM INTERFACE ${MYOID_CERES_INCLUDE})
 add_library(myoid_toml INTERFACE)
 target_include_directories(myoid_toml SYSTEM INTERFACE ${MYOID_TOMLPLUSPLUS_INCLUDE})
 
+# CVODES and the serial vectors and dense matrices that it works with. By hand: the distribution's
+# config names static libraries and an MPI that are not needed.
+find_path(MYOID_SUNDIALS_INCLUDE cvodes/cvodes.h REQUIRED)
+add_library(myoid_sundials INTERFACE)
+target_include_directories(myoid_sundials SYSTEM INTERFACE ${MYOID_SUNDIALS_INCLUDE})
+foreach(part cvodes nvecserial sunmatrixdense sunlinsoldense)
+  find_library(MYOID_SUNDIALS_${part} sundials_${part} REQUIRED)
+  target_link_libraries(myoid_sundials INTERFACE ${MYOID_SUNDIALS_${part}})
+endforeach()
+
 if(MYOID_TESTS)
   find_package(GTest 1.12 REQUIRED)
 endif()

@@ -22,7 +22,7 @@ enum class OdeStatus {
 
 struct OdeOptions {
   double relative_tolerance = 1e-8;
-  double absolute_tolerance = 1e-10;  ///< Of every state ...
+  double absolute_tolerance = 1e-10;        ///< Of every state ...
   std::vector<double> absolute_tolerances;  ///< ... or, if not empty, of each.
   double max_step_s = std::numeric_limits<double>::infinity();
   double first_step_s = 0.0;  ///< 0: chosen.

@@ -71,7 +71,7 @@ class RungeKutta {
         ++statistics_.rejected;
         step_ = h * (std::isfinite(error) ? std::max(0.2, 0.9 * std::pow(error, -0.2)) : 0.1);
         if (step_ < 1e-14 * std::max(1.0, std::abs(time_))) {
-          return !evaluated            ? OdeStatus::rate_failed
+          return !evaluated             ? OdeStatus::rate_failed
                  : std::isfinite(error) ? OdeStatus::step_too_small
                                         : OdeStatus::not_finite;
         }
@@ -174,16 +174,16 @@ class RungeKutta {
   }
 
   double error_norm(double h) const {
-    static constexpr double kError[] = {71.0 / 57600.0,      0.0,         -71.0 / 16695.0,
-                                        71.0 / 1920.0,       -17253.0 / 339200.0,
-                                        22.0 / 525.0,        -1.0 / 40.0};
+    static constexpr double kError[] = {
+        71.0 / 57600.0,      0.0,          -71.0 / 16695.0, 71.0 / 1920.0,
+        -17253.0 / 339200.0, 22.0 / 525.0, -1.0 / 40.0};
     double sum = 0.0;
     for (std::size_t i = 0; i < n_; ++i) {
       double e = 0.0;
       for (std::size_t s = 0; s < 7; ++s) e += kError[s] * plain(k_[s][i]);
       const double scale =
-          tolerance(i) + options_.relative_tolerance *
-                             std::max(std::abs(plain(y_[i])), std::abs(plain(next_[i])));
+          tolerance(i) +
+          options_.relative_tolerance * std::max(std::abs(plain(y_[i])), std::abs(plain(next_[i])));
       sum += (h * e / scale) * (h * e / scale);
     }
     return std::sqrt(sum / static_cast<double>(n_));
@@ -195,12 +195,11 @@ class RungeKutta {
   }
 
   void accept(double h) {
-    static constexpr double kDense[] = {-12715105075.0 / 11282082432.0, 0.0,
-                                        87487479700.0 / 32700410799.0,
-                                        -10690763975.0 / 1880347072.0,
-                                        701980252875.0 / 199316789632.0,
-                                        -1453857185.0 / 822651844.0,
-                                        69997945.0 / 29380423.0};
+    static constexpr double kDense[] = {
+        -12715105075.0 / 11282082432.0,  0.0,
+        87487479700.0 / 32700410799.0,   -10690763975.0 / 1880347072.0,
+        701980252875.0 / 199316789632.0, -1453857185.0 / 822651844.0,
+        69997945.0 / 29380423.0};
     for (std::size_t i = 0; i < n_; ++i) {
       const T difference = next_[i] - y_[i];
       const T bend = h * k_[0][i] - difference;
@@ -223,13 +222,12 @@ class RungeKutta {
     double y_norm = 0.0;
     double rate_norm = 0.0;
     for (std::size_t i = 0; i < n_; ++i) {
-      const double scale =
-          tolerance(i) + options_.relative_tolerance * std::abs(plain(y_[i]));
+      const double scale = tolerance(i) + options_.relative_tolerance * std::abs(plain(y_[i]));
       y_norm += std::pow(plain(y_[i]) / scale, 2);
       rate_norm += std::pow(plain(k_[0][i]) / scale, 2);
     }
-    const double h = y_norm > 1e-10 && rate_norm > 1e-10 ? 0.01 * std::sqrt(y_norm / rate_norm)
-                                                         : 1e-6;
+    const double h =
+        y_norm > 1e-10 && rate_norm > 1e-10 ? 0.01 * std::sqrt(y_norm / rate_norm) : 1e-6;
     return std::min(h, 1e-3);
   }
 
@@ -241,89 +239,5 @@ class RungeKutta {
   std::array<std::vector<T>, 7> k_;
   std::array<std::vector<T>, 5> dense_;
 };
-
-/// Finds where the signs of `events` change, so that no step crosses a kink of the right-hand side.
-/// A quantity counts as changed once it is beyond its zero by more than `kEventDeadband`; until it
-/// has left its zero for the first time it has no sign.
-inline constexpr double kEventDeadband = 1e-10;
-class EventSigns {
- public:
-  explicit EventSigns(std::size_t count) : sign_(count, 0) {}
-
-  void start(std::span<const double> g) {
-    std::fill(sign_.begin(), sign_.end(), 0);
-    learn(g);
-  }
-  /// True if one of them is on the other side of zero.
-  [[nodiscard]] bool crossed(std::span<const double> g) const {
-    for (std::size_t i = 0; i < sign_.size(); ++i) {
-      if (g[i] * sign_[i] < -kEventDeadband) return true;
-    }
-    return false;
-  }
-  /// Takes the signs of what is clearly off zero.
-  void learn(std::span<const double> g) {
-    for (std::size_t i = 0; i < sign_.size(); ++i) {
-      if (std::abs(g[i]) > kEventDeadband) sign_[i] = g[i] > 0.0 ? 1 : -1;
-    }
-  }
-  /// Here one of them has crossed: it gets its new sign, and those at their zeros too have none
-  /// until they have left them.
-  void pass(std::span<const double> g) {
-    for (std::size_t i = 0; i < sign_.size(); ++i) {
-      if (g[i] * sign_[i] < -kEventDeadband) {
-        sign_[i] = -sign_[i];
-      } else if (std::abs(g[i]) < 1e3 * kEventDeadband) {
-        sign_[i] = 0;
-      }
-    }
-  }
-
- private:
-  std::vector<int> sign_;
-};
-
-/// Integrates to `end_s`, through located events. `events(t, y, g)` writes what changes sign at the
-/// kinks; `on_step(stepper)` sees every step, and ends the integration by returning false.
-template <typename T, typename Rate, typename Events, typename OnStep>
-OdeStatus integrate(RungeKutta<T>& stepper,
-                    double end_s,
-                    Rate&& rate,
-                    std::size_t event_count,
-                    Events&& events,
-                    EventSigns& signs,
-                    OnStep&& on_step) {
-  std::vector<double> g(event_count);
-  std::vector<T> y(stepper.size());
-  while (stepper.time_s() < end_s) {
-    if (const OdeStatus status = stepper.step(end_s, rate); status != OdeStatus::done)
-      return status;
-    if (event_count > 0) {
-      events(stepper.time_s(), stepper.state().data(), g.data());
-      if (signs.crossed(g)) {
-        double low = stepper.previous_time_s();
-        double high = stepper.time_s();
-        for (int i = 0; i < 60 && high - low > 1e-13 * std::max(1.0, high); ++i) {
-          const double middle = 0.5 * (low + high);
-          stepper.interpolate(middle, y);
-          events(middle, y.data(), g.data());
-          (signs.crossed(g) ? high : low) = middle;
-        }
-        // Done again, the step ends a little before or behind; either way the kink is passed.
-        stepper.interpolate(high, y);
-        events(high, y.data(), g.data());
-        signs.pass(g);
-        if (high < stepper.time_s()) {
-          if (const OdeStatus status = stepper.shorten(high, rate); status != OdeStatus::done)
-            return status;
-        }
-      } else {
-        signs.learn(g);
-      }
-    }
-    if (!on_step(stepper)) return OdeStatus::stopped;
-  }
-  return OdeStatus::done;
-}
 
 }  // namespace myoid::math

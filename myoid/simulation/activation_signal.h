@@ -4,6 +4,7 @@
 #include <array>
 #include <vector>
 
+#include "myoid/math/ode_events.h"
 #include "myoid/math/runge_kutta.h"
 #include "myoid/muscle/activation.h"
 #include "myoid/simulation/excitation.h"
@@ -29,16 +30,16 @@ class ActivationSignal {
                    const Signal& excitation,
                    double start_s,
                    double end_s)
-      : ActivationSignal(dynamics,
-                         start_s,
-                         muscle::settled_activation(T(value_at(excitation, start_s)))) {
+      : ActivationSignal(
+            dynamics, start_s, muscle::settled_activation(T(value_at(excitation, start_s)))) {
     extend(excitation, end_s);
   }
 
   /// Goes on to `end_s` under the excitation's part of that time.
   void extend(const Signal& excitation, double end_s) {
     const auto& t = excitation.time_s;
-    std::size_t next = static_cast<std::size_t>(std::upper_bound(t.begin(), t.end(), end_) - t.begin());
+    std::size_t next =
+        static_cast<std::size_t>(std::upper_bound(t.begin(), t.end(), end_) - t.begin());
     double from = value_at(excitation, end_);
     while (end_ < end_s) {
       const bool inside = next < t.size() && t[next] < end_s;
@@ -82,11 +83,12 @@ class ActivationSignal {
     signs_.start({&g, 1});
     status_ = stepper_.start(begin, y, rate);
     if (status_ == math::OdeStatus::done) {
-      status_ = math::integrate(stepper_, end_s, rate, 1, events, signs_, [&](const auto& s) {
+      const auto keep = [&](const auto& s) {
         start_.push_back(s.previous_time_s());
         piece_.push_back(s.polynomial(1));
         return true;
-      });
+      };
+      status_ = math::integrate(stepper_, end_s, signs_, events, keep, rate);
     }
     state_ = {stepper_.state()[0], stepper_.state()[1]};
     end_ = end_s;
@@ -98,7 +100,8 @@ class ActivationSignal {
     if (piece_.empty() || time_s >= end_) return state_.activation;
     if (time_s <= start_.front()) return piece_.front()[0];
     if (hint >= piece_.size()) hint = 0;
-    const bool here = start_[hint] <= time_s && (hint + 1 == start_.size() || time_s < start_[hint + 1]);
+    const bool here =
+        start_[hint] <= time_s && (hint + 1 == start_.size() || time_s < start_[hint + 1]);
     if (!here) {
       if (hint + 2 < start_.size() && start_[hint + 1] <= time_s && time_s < start_[hint + 2]) {
         ++hint;
@@ -122,7 +125,8 @@ class ActivationSignal {
  private:
   static double value_left_of(const Signal& excitation, double time_s) {
     const auto& t = excitation.time_s;
-    const auto at = static_cast<std::size_t>(std::lower_bound(t.begin(), t.end(), time_s) - t.begin());
+    const auto at =
+        static_cast<std::size_t>(std::lower_bound(t.begin(), t.end(), time_s) - t.begin());
     return at < t.size() && t[at] == time_s ? excitation.value[at] : value_at(excitation, time_s);
   }
   static math::OdeOptions options() {

@@ -26,7 +26,8 @@ Arm<double> make_arm(const ArmSetup& setup) {
   arm.static_moment_kgm = elbow.static_moment_kgm;
   arm.held_mass_kg = setup.held_mass_kg;
   arm.held_at_m = elbow.held_at_m;
-  arm.gravity_mps2 = setup.plane == Plane::vertical ? kStandardGravity : 0.0;
+  arm.gravity_mps2 = setup.horizontal ? 0.0 : kStandardGravity;
+  arm.joint = setup.joint;
   validate(arm);
   return arm;
 }
@@ -47,15 +48,7 @@ void validate(const Arm<double>& arm) {
   require(arm.held_mass_kg, arm.held_mass_kg >= 0.0, "held_mass_kg", "0 or more");
   require(arm.held_at_m, true, "held_at_m", "a finite number");
   require(arm.gravity_mps2, true, "gravity_mps2", "a finite number");
-  const ArmJoint<double>& j = arm.joint;
-  require(j.viscosity_nmspr, j.viscosity_nmspr >= 0.0, "viscosity_nmspr", "0 or more");
-  require(j.stiffness_nmpr, j.stiffness_nmpr >= 0.0, "stiffness_nmpr", "0 or more");
-  require(j.stop_stiffness_nmpr2, j.stop_stiffness_nmpr2 >= 0.0, "stop_stiffness_nmpr2",
-          "0 or more");
-  require(j.stop_damping_nmspr3, j.stop_damping_nmspr3 >= 0.0, "stop_damping_nmspr3", "0 or more");
-  require(j.rest_rad, true, "rest_rad", "a finite number");
-  require(j.lower_rad, j.lower_rad < j.upper_rad, "lower_rad", "less than upper_rad");
-  require(j.upper_rad, true, "upper_rad", "a finite number");
+  muscle::validate(arm.joint);
   for (const ArmMuscle<double>& m : arm.muscles) {
     try {
       muscle::validate(m.parameters, m.laws);

@@ -6,8 +6,8 @@
 #include "myoid/model/arm4.h"
 #include "myoid/model/planar_elbow.h"
 #include "myoid/muscle/activation.h"
+#include "myoid/muscle/joint_passive.h"
 #include "myoid/muscle/musculotendon_parameters.h"
-#include "myoid/simulation/protocol.h"
 
 namespace myoid::simulation {
 
@@ -33,45 +33,28 @@ struct ArmMuscle {
   muscle::ActivationDynamics<T> activation;
 };
 
-/// What acts at the joint besides muscles and load:
-///
-///   T = - B_l qdot - K (q - q_0) - stop,
-///   stop = (k_s + d_s qdot) x^2  beyond the upper limit, x = q - q_hi; likewise below the lower
-///   one
-///
-/// Stops set in without a jump in slope.
-template <typename T = double>
-struct ArmJoint {
-  T viscosity_nmspr{0.2};       ///< B_l [N m s/rad]
-  T stiffness_nmpr{0.0};        ///< K [N m/rad]
-  T rest_rad{1.2};              ///< q_0
-  T lower_rad{-0.05};           ///< Where the stops begin.
-  T upper_rad{2.5};
-  T stop_stiffness_nmpr2{2e3};  ///< k_s [N m/rad^2]
-  T stop_damping_nmspr3{2e2};   ///< d_s [N m s/rad^3]
-};
-
 /// An upper arm at rest, a forearm with hand and what it holds on a hinge, and any number of
 /// muscles: equation (8) of the source paper, as corrected,
 ///
-///   (J + m d^2) qddot = sum_i r_i(q) F_t,i - (S + m d) g sin q + T_joint + T_ext
+///   (J + m d^2) qddot = sum_i r_i(q) F_t,i - (S + m d) g sin q + T_joint(q, qdot) + T_ext
 template <typename T = double>
 struct Arm {
   std::vector<ArmMuscle<T>> muscles;
-  ArmJoint<T> joint;
-  T inertia_kgm2{};       ///< J, of forearm and hand about the elbow.
-  T static_moment_kgm{};  ///< S, mass times distance of its center.
-  T held_mass_kg{0.0};    ///< m
-  T held_at_m{};          ///< d
-  T gravity_mps2{};       ///< g in the plane of movement, along the upper arm; 0: horizontal.
+  muscle::JointPassive<T> joint;  ///< Viscosity B_l, stiffness, stops.
+  T inertia_kgm2{};               ///< J, of forearm and hand about the elbow.
+  T static_moment_kgm{};          ///< S, mass times distance of its center.
+  T held_mass_kg{0.0};            ///< m
+  T held_at_m{};                  ///< d
+  T gravity_mps2{};  ///< g in the plane of movement, along the upper arm; 0: horizontal.
 };
 
 struct ArmSetup {
   model::ArmOptions person;
-  Plane plane = Plane::vertical;
+  bool horizontal = false;  ///< The axis of the elbow is vertical: gravity does not act.
   double held_mass_kg = 0.0;
   muscle::MusculotendonLaws laws = muscle::paper_laws(muscle::TendonMode::rigid);
   muscle::ActivationDynamics<double> activation;
+  muscle::JointPassive<double> joint = muscle::elbow_passive();
 };
 
 /// The built-in arm: paths, inertia and Hill parameters of `model::planar_elbow` and

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cmath>
-#include <span>
 #include <vector>
 
 #include "myoid/muscle/musculotendon.h"
@@ -22,36 +21,13 @@ template <typename T>
   using std::sin;
   using std::sqrt;
   HingeTravel<T> result{path.constant_m + path.pulley_m * angle_rad, -path.pulley_m};
-  if (math::plain(path.above_m) == 0.0) return result;
+  if (muscle::value_of(path.above_m) == 0.0) return result;
   const T psi = path.straight_rad - angle_rad;
   const T product = path.above_m * path.below_m;
-  const T across = sqrt(path.above_m * path.above_m + path.below_m * path.below_m -
-                        2.0 * product * cos(psi));
+  const T across =
+      sqrt(path.above_m * path.above_m + path.below_m * path.below_m - 2.0 * product * cos(psi));
   result.length_m += across;
   result.moment_arm_m += product * sin(psi) / across;
-  return result;
-}
-
-/// What the joint itself exerts.
-template <typename T>
-struct JointTorque {
-  T elastic_nm{};   ///< Stiffness and the stops' springs.
-  T viscous_nm{};   ///< Viscosity and the stops' dampers.
-  T energy_j{};     ///< Stored in the springs.
-};
-
-template <typename T>
-[[nodiscard]] JointTorque<T> joint_torque(const ArmJoint<T>& joint, const T& q, const T& qdot) {
-  const T off = q - joint.rest_rad;
-  JointTorque<T> result{-joint.stiffness_nmpr * off, -joint.viscosity_nmspr * qdot,
-                        0.5 * joint.stiffness_nmpr * off * off};
-  const auto stop = [&](const T& x, double direction) {
-    result.elastic_nm -= direction * joint.stop_stiffness_nmpr2 * x * x;
-    result.viscous_nm -= joint.stop_damping_nmspr3 * x * x * qdot;
-    result.energy_j += joint.stop_stiffness_nmpr2 * x * x * x / 3.0;
-  };
-  if (math::plain(q) > math::plain(joint.upper_rad)) stop(q - joint.upper_rad, 1.0);
-  if (math::plain(q) < math::plain(joint.lower_rad)) stop(joint.lower_rad - q, -1.0);
   return result;
 }
 
@@ -106,8 +82,7 @@ class ArmDynamics {
   /// dy/dt. `activation` has one value per muscle.
   void rate(const T* activation, const T& external_nm, const T* y, T* ydot) const {
     T torque = external_nm + gravity_torque_nm(y[0]);
-    const JointTorque<T> joint = joint_torque(arm_.joint, y[0], y[1]);
-    torque += joint.elastic_nm + joint.viscous_nm;
+    torque += muscle::joint_passive(arm_.joint, y[0], y[1]).torque_nm;
     for (std::size_t i = 0; i < units_.size(); ++i) {
       T arm_m{};
       const auto in = input(i, activation[i], y, arm_m);

@@ -13,8 +13,9 @@ namespace myoid::simulation {
 void validate(const Signal& signal, std::string_view what) {
   const auto& t = signal.time_s;
   if (t.empty() || t.size() != signal.value.size()) {
-    throw InvalidInput(fmt::format("{}: {} times and {} values, expected as many of both, at least one",
-                                   what, t.size(), signal.value.size()));
+    throw InvalidInput(
+        fmt::format("{}: {} times and {} values, expected as many of both, at least one", what,
+                    t.size(), signal.value.size()));
   }
   for (std::size_t k = 0; k < t.size(); ++k) {
     if (!std::isfinite(t[k]) || !std::isfinite(signal.value[k])) {
@@ -43,7 +44,8 @@ void validate_excitation(const Signal& signal, std::string_view what) {
 
 double value_at(const Signal& signal, double time_s) {
   const auto& t = signal.time_s;
-  const auto after = static_cast<std::size_t>(std::upper_bound(t.begin(), t.end(), time_s) - t.begin());
+  const auto after =
+      static_cast<std::size_t>(std::upper_bound(t.begin(), t.end(), time_s) - t.begin());
   if (after == 0) return signal.value.front();
   if (after == t.size()) return signal.value.back();
   const double share = (time_s - t[after - 1]) / (t[after] - t[after - 1]);
