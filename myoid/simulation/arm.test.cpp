@@ -3,31 +3,21 @@
 #include <gtest/gtest.h>
 
 #include "myoid/core/error.h"
-#include "myoid/simulation/arm_dynamics.h"
 
 namespace myoid::simulation {
 namespace {
 
-TEST(Arm, ItsPathsAreThoseOfThePlanarElbow) {
-  const Arm<double> arm = make_arm();
-  const model::PlanarElbow elbow = model::planar_elbow();
-  ASSERT_EQ(arm.muscles.size(), 4u);
-  for (std::size_t i = 0; i < 4; ++i) {
-    for (const double q : {0.0, 0.8, 2.2}) {
-      const auto ours = travel(arm.muscles[i].path, q);
-      const auto theirs = model::travel(elbow.muscles[i], q);
-      EXPECT_NEAR(ours.length_m, theirs.length_m, 1e-15);
-      EXPECT_NEAR(ours.moment_arm_m, theirs.moment_arm_m, 1e-15);
-    }
+TEST(Arm, IsThePlanarElbowWithTheLiteraturesMuscles) {
+  const Arm<double> arm = make_arm({.held_mass_kg = 2.0});
+  const auto muscles = model::arm4_muscles();
+  ASSERT_EQ(arm.muscles.size(), muscles.size());
+  for (std::size_t i = 0; i < muscles.size(); ++i) {
+    EXPECT_EQ(arm.muscles[i].parameters.hill.max_isometric_force_n,
+              muscles[i].max_isometric_force_n);
   }
-}
-
-TEST(Arm, StatesAreThoseOfTheTendonMode) {
-  for (const auto& [mode, count] :
-       {std::pair{muscle::TendonMode::rigid, 2u}, std::pair{muscle::TendonMode::equilibrium, 6u},
-        std::pair{muscle::TendonMode::mass, 10u}}) {
-    EXPECT_EQ(ArmDynamics<double>(with_tendon_mode(make_arm(), mode)).state_count(), count);
-  }
+  EXPECT_EQ(arm.held_mass_kg, 2.0);
+  EXPECT_GT(arm.gravity_mps2, 9.8);
+  EXPECT_EQ(make_arm({.horizontal = true}).gravity_mps2, 0.0);
 }
 
 TEST(Arm, WhatCannotMoveIsRefused) {
