@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <vector>
+
+namespace myoid::recording {
+
+/// Bytes of a file, or of memory, part by part: large recordings need not stand in memory twice.
+class ByteSource {
+ public:
+  /// Throws ReadError with the remedy if the file is missing, a folder, unreadable or empty.
+  explicit ByteSource(const std::filesystem::path& path);
+  ByteSource(std::span<const std::byte> memory, std::filesystem::path path);
+  ~ByteSource();
+  ByteSource(const ByteSource&) = delete;
+  ByteSource& operator=(const ByteSource&) = delete;
+
+  [[nodiscard]] std::uint64_t size() const { return size_; }
+
+  /// `count` bytes from `offset`, valid until the next call. Precondition: they lie inside the
+  /// file. Throws ReadError if the file became shorter meanwhile or cannot be read.
+  [[nodiscard]] std::span<const std::byte> view(std::uint64_t offset, std::size_t count);
+
+ private:
+  std::filesystem::path path_;
+  std::span<const std::byte> memory_;
+  std::vector<std::byte> buffer_;
+  std::uint64_t size_ = 0;
+  int descriptor_ = -1;
+};
+
+}  // namespace myoid::recording

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "myoid/recording/c3d_bytes.h"
+#include "myoid/recording/c3d_file.h"
+
+namespace myoid::recording {
+
+/// The groups and parameters whose first record begins at byte `begin`, none reaching `limit` or
+/// beyond. Records are linked by the distance to the next; a record that cannot be one (a name with
+/// control characters, an end behind the limit) ends the list with a note that names the byte, and
+/// what was read before it stays. Never throws on any bytes.
+[[nodiscard]] std::vector<C3dGroup> parse_c3d_parameters(std::span<const std::byte> bytes,
+                                                         std::size_t begin,
+                                                         std::size_t limit,
+                                                         const C3dBytes& number,
+                                                         std::vector<Repair>& repairs);
+
+/// The parameter section as bytes: four bytes of head, records, zeros up to a whole number of
+/// blocks. Throws InvalidInput if a name, description or record is too long for the format.
+[[nodiscard]] std::vector<std::byte> format_c3d_parameters(const std::vector<C3dGroup>& groups,
+                                                           const C3dBytes& number);
+
+}  // namespace myoid::recording

@@ -1,0 +1,379 @@
+#include "myoid/recording/c3d_reader.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <set>
+#include <string>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "myoid/core/error.h"
+#include "myoid/recording/byte_source.h"
+#include "myoid/recording/c3d_bytes.h"
+#include "myoid/recording/c3d_layout.h"
+#include "myoid/recording/c3d_parameters.h"
+
+namespace myoid::recording {
+namespace {
+
+constexpr std::size_t kBlock = 512;
+constexpr std::size_t kChunk = std::size_t{1} << 20U;  ///< Bytes taken from the file at a time.
+
+/// The texts of NAME, NAME2, NAME3, ... one after the other.
+std::vector<std::string> all_texts(const C3dFile& file, std::string_view group, std::string name) {
+  std::vector<std::string> list;
+  for (int block = 1;; ++block) {
+    const C3dParameter* p = file.find(group, block == 1 ? name : fmt::format("{}{}", name, block));
+    if (p == nullptr) return list;
+    for (std::string& text : texts(*p)) list.push_back(std::move(text));
+  }
+}
+
+/// The numbers of NAME, NAME2, ...
+std::vector<double> all_numbers(const C3dFile& file, std::string_view group, std::string name) {
+  std::vector<double> list;
+  for (int block = 1;; ++block) {
+    const C3dParameter* p = file.find(group, block == 1 ? name : fmt::format("{}{}", name, block));
+    if (p == nullptr) return list;
+    list.insert(list.end(), p->numbers.begin(), p->numbers.end());
+  }
+}
+
+/// `count` names, none empty, none twice.
+std::vector<std::string> unique_names(std::vector<std::string> names,
+                                      std::size_t count,
+                                      std::string_view parameter,
+                                      std::string_view stem,
+                                      std::vector<Repair>& repairs) {
+  const std::size_t given = std::min(names.size(), count);
+  names.resize(count);
+  std::size_t empty = 0;
+  std::vector<std::string> renamed;
+  std::set<std::string> seen(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(given));
+  std::set<std::string> used;
+  for (std::size_t i = 0; i < count; ++i) {
+    std::string name = names[i];
+    if (name.empty()) {
+      name = fmt::format("{}_{}", stem, i + 1);
+      ++empty;
+    }
+    if (used.contains(name)) {
+      const std::string base = name;
+      for (int k = 2;
+           used.contains(name) || (seen.contains(name) && name != names[i]) || name == base; ++k)
+        name = fmt::format("{}_{}", base, k);
+      renamed.push_back(name);
+    }
+    used.insert(name);
+    names[i] = std::move(name);
+  }
+  if (given < count) {
+    repairs.push_back({0, fmt::format("{} has {} names for {} columns; the others are called "
+                                      "'{}_{}' and so on",
+                                      parameter, given, count, stem, given + 1)});
+  } else if (empty > 0) {
+    repairs.push_back({0, fmt::format("{}: {} names are empty; called '{}_N' by their place",
+                                      parameter, empty, stem)});
+  }
+  if (!renamed.empty()) {
+    const std::size_t shown = std::min<std::size_t>(renamed.size(), 8);
+    repairs.push_back(
+        {0,
+         fmt::format(
+             "{}: {} names stand twice; the later ones are called {}{}", parameter, renamed.size(),
+             fmt::join(renamed.begin(), renamed.begin() + static_cast<std::ptrdiff_t>(shown), ", "),
+             shown < renamed.size() ? ", ..." : "")});
+  }
+  return names;
+}
+
+void read_channels(C3dFile& file, const C3dLayout& layout) {
+  const std::size_t count = layout.channels;
+  if (count == 0) return;
+  const auto names = unique_names(all_texts(file, "ANALOG", "LABELS"), count, "ANALOG:LABELS",
+                                  "analog", file.repairs);
+  const auto units = all_texts(file, "ANALOG", "UNITS");
+  const auto scales = all_numbers(file, "ANALOG", "SCALE");
+  auto offsets = all_numbers(file, "ANALOG", "OFFSET");
+  auto general = number_at(file.find("ANALOG", "GEN_SCALE"), 0);
+  const auto few = [&](std::string_view name, std::size_t have, std::string_view instead) {
+    if (have < count)
+      file.repairs.push_back({0, fmt::format("ANALOG:{} has {} values for {} channels; {} for the "
+                                             "others",
+                                             name, have, count, instead)});
+  };
+  few("UNITS", units.size(), "no unit is assumed");
+  few("SCALE", scales.size(), "1 is assumed");
+  few("OFFSET", offsets.size(), "0 is assumed");
+  if (!general) {
+    file.repairs.push_back({0, "ANALOG:GEN_SCALE is missing; 1 is assumed"});
+    general = 1.0;
+  }
+  const C3dParameter* format = file.find("ANALOG", "FORMAT");
+  if (format != nullptr && !texts(*format).empty() &&
+      equal_ignoring_case(texts(*format)[0], "UNSIGNED")) {
+    for (double& offset : offsets) offset += offset < 0.0 ? 65536.0 : 0.0;
+  }
+  for (std::size_t c = 0; c < count; ++c) {
+    C3dChannel channel;
+    channel.name = names[c];
+    if (c < units.size()) channel.unit_text = units[c];
+    if (c < offsets.size()) channel.offset = offsets[c];
+    channel.scale = *general * (c < scales.size() ? scales[c] : 1.0);
+    if (!std::isfinite(channel.scale) || !std::isfinite(channel.offset)) {
+      file.repairs.push_back({0, fmt::format("channel '{}': scale or offset is not a number; its "
+                                             "samples are left as gaps",
+                                             channel.name)});
+      channel.scale = std::nan("");
+      channel.offset = 0.0;
+    }
+    file.channels.push_back(std::move(channel));
+  }
+}
+
+/// Events of the EVENT group: minutes and seconds.
+void read_group_events(C3dFile& file) {
+  const double used = number_at(file.find("EVENT", "USED"), 0).value_or(0.0);
+  const auto times = all_numbers(file, "EVENT", "TIMES");
+  const std::size_t count =
+      std::min(used > 0.0 && used < 65536.0 ? static_cast<std::size_t>(used) : 0, times.size());
+  if (count == 0) return;
+  const bool pairs = times.size() >= 2 * count;
+  if (!pairs)
+    file.repairs.push_back({0, fmt::format("EVENT:TIMES has {} numbers for {} events instead of "
+                                           "two for each; taken as seconds",
+                                           times.size(), count)});
+  const auto labels = all_texts(file, "EVENT", "LABELS");
+  const auto contexts = all_texts(file, "EVENT", "CONTEXTS");
+  const auto subjects = all_texts(file, "EVENT", "SUBJECTS");
+  const auto text = [](const std::vector<std::string>& list, std::size_t i) {
+    return i < list.size() ? list[i] : std::string();
+  };
+  for (std::size_t i = 0; i < count; ++i) {
+    const double time_s = pairs ? 60.0 * times[2 * i] + times[2 * i + 1] : times[i];
+    if (!std::isfinite(time_s) || std::abs(time_s) > 1e7) {
+      file.repairs.push_back(
+          {0, fmt::format("EVENT:TIMES: the time of event {} is {} s; left out", i + 1, time_s)});
+      continue;
+    }
+    file.events.push_back({time_s, text(labels, i), text(contexts, i), text(subjects, i)});
+  }
+}
+
+/// Events of the header: up to 18 times with labels of four characters.
+void read_header_events(C3dFile& file, std::span<const std::byte> head, const C3dBytes& number) {
+  const auto at = [&](std::size_t word) { return &head[2 * (word - 1)]; };
+  if (number.u16(at(150)) != 12345) return;
+  const std::size_t count = std::min<std::size_t>(number.u16(at(151)), 18);
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto time_s = static_cast<double>(number.real(at(153) + 4 * i));
+    std::string label;
+    for (std::size_t k = 0; k < 4; ++k) label += static_cast<char>(*(at(199) + 4 * i + k));
+    if (!std::isfinite(time_s) || std::abs(time_s) > 1e7) {
+      file.repairs.push_back(
+          {0, fmt::format("the time of event {} in the header is {} s; left out", i + 1, time_s)});
+      continue;
+    }
+    file.events.push_back({time_s, to_utf8(label), "", ""});
+  }
+}
+
+/// One frame of the file into the two tables.
+struct FrameReader {
+  const C3dLayout& layout;
+  C3dBytes number;
+  bool is_unsigned;
+
+  void points(const std::byte* p, float* out) const {
+    const std::size_t count = 4 * layout.points;
+    if (!layout.integer) return reals(p, out, count);
+    for (std::size_t i = 0; i < count; i += 4, p += 8) {
+      // The product in double and then rounded: what a file of reals of the same data holds.
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        out[i + axis] = static_cast<float>(static_cast<double>(number.i16(p + 2 * axis)) *
+                                           static_cast<double>(layout.scale));
+      out[i + 3] = static_cast<float>(number.i16(p + 6));
+    }
+  }
+
+  void analog(const std::byte* p, float* out) const {
+    const std::size_t count = layout.channels * layout.analog_per_frame;
+    if (!layout.integer) return reals(p, out, count);
+    for (std::size_t i = 0; i < count; ++i, p += 2)
+      out[i] = is_unsigned ? static_cast<float>(number.u16(p)) : static_cast<float>(number.i16(p));
+  }
+
+ private:
+  void reals(const std::byte* p, float* out, std::size_t count) const {
+    if (count == 0) return;
+    if (number.processor == C3dProcessor::intel) {
+      std::memcpy(out, p, 4 * count);
+      return;
+    }
+    for (std::size_t i = 0; i < count; ++i) out[i] = number.real(p + 4 * i);
+  }
+};
+
+void read_samples(C3dFile& file, const C3dLayout& layout, ByteSource& source) {
+  const C3dParameter* format = file.find("ANALOG", "FORMAT");
+  const bool is_unsigned = format != nullptr && !texts(*format).empty() &&
+                           equal_ignoring_case(texts(*format)[0], "UNSIGNED");
+  const FrameReader reader{layout, {file.processor}, is_unsigned};
+  const auto ratio = static_cast<Eigen::Index>(layout.analog_per_frame);
+  file.points.resize(layout.frames, static_cast<Eigen::Index>(4 * layout.points));
+  file.analog.resize(layout.channels == 0 ? 0 : layout.frames * ratio,
+                     static_cast<Eigen::Index>(layout.channels));
+  const std::uint64_t bytes = layout.frame_bytes();
+  const std::uint64_t point_bytes = 4 * layout.points * (layout.integer ? 2U : 4U);
+  const auto per_chunk = static_cast<std::int64_t>(std::max<std::uint64_t>(1, kChunk / bytes));
+  for (std::int64_t frame = 0; frame < layout.frames; frame += per_chunk) {
+    const std::int64_t count = std::min(per_chunk, layout.frames - frame);
+    const auto part = source.view(layout.data_offset + static_cast<std::uint64_t>(frame) * bytes,
+                                  static_cast<std::size_t>(count) * bytes);
+    for (std::int64_t k = 0; k < count; ++k) {
+      const std::byte* p = part.data() + static_cast<std::size_t>(k) * bytes;
+      if (layout.points > 0) reader.points(p, file.points.row(frame + k).data());
+      if (layout.channels > 0)
+        reader.analog(p + point_bytes, file.analog.row((frame + k) * ratio).data());
+    }
+  }
+}
+
+void read_rates(C3dFile& file,
+                const C3dHeader& header,
+                const C3dLayout& layout,
+                const std::filesystem::path& path) {
+  const auto good = [](double rate) { return std::isfinite(rate) && rate > 1e-3 && rate < 1e7; };
+  const double said = number_at(file.find("POINT", "RATE"), 0).value_or(0.0);
+  const double analog = number_at(file.find("ANALOG", "RATE"), 0).value_or(0.0);
+  const auto in_header = static_cast<double>(header.rate_hz);
+  const auto ratio = static_cast<double>(layout.analog_per_frame);
+  file.point_rate_hz = good(said) ? said : in_header;
+  if (!good(file.point_rate_hz)) {
+    if (layout.channels == 0 || !good(analog)) {
+      throw ReadError(
+          path, 0,
+          fmt::format("the frame rate is {} in the header and {} in POINT:RATE; correct "
+                      "one of them",
+                      in_header, said));
+    }
+    file.point_rate_hz = analog / ratio;
+    file.repairs.push_back(
+        {0, fmt::format("no frame rate; taken as {} Hz from ANALOG:RATE", file.point_rate_hz)});
+  } else if (good(said) && good(in_header) && std::abs(said - in_header) > 1e-3 * said) {
+    file.repairs.push_back({0, fmt::format("the frame rate is {} Hz in POINT:RATE and {} Hz in the "
+                                           "header; the parameter is taken",
+                                           said, in_header)});
+  } else if (!good(said)) {
+    file.repairs.push_back(
+        {0, fmt::format("POINT:RATE is missing; {} Hz from the header", in_header)});
+  }
+  if (layout.channels > 0 && good(analog) &&
+      std::abs(analog - file.point_rate_hz * ratio) > 1e-3 * analog) {
+    file.repairs.push_back(
+        {0, fmt::format("ANALOG:RATE says {} Hz, but {} samples stand in each "
+                        "frame: {} Hz is taken",
+                        analog, layout.analog_per_frame, file.point_rate_hz * ratio)});
+  }
+}
+
+C3dFile read(ByteSource& source, const std::filesystem::path& path) {
+  if (source.size() < kBlock)
+    throw ReadError(path, 0,
+                    fmt::format("the file has {} bytes; a C3D file begins with a header of 512: it "
+                                "is cut off or none",
+                                source.size()));
+  const auto first = source.view(0, kBlock);
+  const std::vector<std::byte> head(first.begin(), first.end());
+  if (head[1] != std::byte{0x50}) {
+    throw ReadError(path, 0,
+                    fmt::format("the second byte is 0x{:02x}, in a C3D file it is 0x50; this is "
+                                "another format",
+                                static_cast<unsigned>(head[1])));
+  }
+  C3dFile file;
+
+  // The parameter section, wherever it is.
+  const auto block = static_cast<std::size_t>(head[0]);
+  std::size_t begin = block == 0 ? 0 : (block - 1) * kBlock;
+  bool known = false;
+  for (const std::size_t candidate : {begin, kBlock}) {
+    if (known || candidate < kBlock || candidate + 4 > source.size()) continue;
+    const auto code = static_cast<std::uint8_t>(source.view(candidate, 4)[3]);
+    if (code < 84 || code > 86) continue;
+    known = true;
+    file.processor = static_cast<C3dProcessor>(code);
+    if (candidate != begin)
+      file.repairs.push_back({0, fmt::format("no parameters at block {}, where the header says; "
+                                             "found at block 2",
+                                             block)});
+    begin = candidate;
+  }
+  if (!known) {
+    const auto guess = guess_processor(head, source.size());
+    if (!guess)
+      throw ReadError(path, 0,
+                      fmt::format("no parameter section at block {}, and the header makes no sense "
+                                  "for any of the three processors; the file is damaged",
+                                  block));
+    file.processor = *guess;
+    file.repairs.push_back(
+        {0, fmt::format("there is no parameter section (byte 1 says block {}); the header is read "
+                        "as {}'s, and points and channels have no names, units or scales",
+                        block,
+                        *guess == C3dProcessor::intel ? "Intel"
+                        : *guess == C3dProcessor::sgi ? "SGI"
+                                                      : "DEC")});
+  }
+  const C3dBytes number{file.processor};
+  const C3dHeader header = read_c3d_header(head, number);
+  if (known) {
+    constexpr std::uint64_t kMost = std::uint64_t{1} << 25U;
+    const std::uint64_t data =
+        header.data_block == 0 ? 0 : (header.data_block - 1) * std::uint64_t{kBlock};
+    const std::uint64_t limit =
+        std::min(data > begin ? std::min(data, source.size()) : source.size(), begin + kMost);
+    file.groups = parse_c3d_parameters(source.view(0, static_cast<std::size_t>(limit)), begin + 4,
+                                       static_cast<std::size_t>(limit), number, file.repairs);
+  }
+
+  const C3dLayout layout = find_c3d_layout(header, file, source.size(), path, file.repairs);
+  file.integer = layout.integer;
+  file.point_scale = layout.scale;
+  file.first_frame = layout.first_frame;
+  file.analog_per_frame = static_cast<int>(layout.analog_per_frame);
+  read_rates(file, header, layout, path);
+  file.point_labels = unique_names(all_texts(file, "POINT", "LABELS"), layout.points,
+                                   "POINT:LABELS", "point", file.repairs);
+  if (const C3dParameter* unit = file.find("POINT", "UNITS");
+      unit != nullptr && !texts(*unit).empty())
+    file.point_unit = texts(*unit)[0];
+  if (file.point_unit.empty()) {
+    file.point_unit = "mm";
+    if (layout.points > 0)
+      file.repairs.push_back(
+          {0, "POINT:UNITS is missing; mm is assumed: compare a known distance"});
+  }
+  read_channels(file, layout);
+  read_group_events(file);
+  if (file.events.empty()) read_header_events(file, head, number);
+  read_samples(file, layout, source);
+  return file;
+}
+
+}  // namespace
+
+C3dFile read_c3d(const std::filesystem::path& path) {
+  ByteSource source(path);
+  return read(source, path);
+}
+
+C3dFile parse_c3d(std::span<const std::byte> bytes, const std::filesystem::path& path) {
+  ByteSource source(bytes, path);
+  return read(source, path);
+}
+
+}  // namespace myoid::recording

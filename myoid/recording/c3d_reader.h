@@ -1,0 +1,26 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <span>
+
+#include "myoid/recording/c3d_file.h"
+
+namespace myoid::recording {
+
+/// Reads a .c3d file: Intel, DEC and SGI, integers and reals, parameters and data at any block,
+/// LABELS2 and so on, unsigned samples, more than 65535 frames (POINT:LONG_FRAMES,
+/// TRIAL:ACTUAL_START_FIELD). Header, parameters and size of the file must tell one story; where
+/// they do not, the one that the size confirms is taken. Mended with a note that names the
+/// parameter, byte or frame: counts, rates and scales that disagree, a damaged end of the parameter
+/// section, a missing one (Intel, DEC or SGI found from the header), labels that are missing or
+/// twice there, a last frame that is cut off. Data of a ROTATION group are left out, with a note.
+/// Throws ReadError if this is no C3D file, if the counts cannot be reconciled, if there is no rate
+/// or no whole frame. 10 to 100 times quicker than the disk: a frame of reals is copied as it is.
+[[nodiscard]] C3dFile read_c3d(const std::filesystem::path& path);
+
+/// The same from memory; `path` stands in the messages.
+[[nodiscard]] C3dFile parse_c3d(std::span<const std::byte> bytes,
+                                const std::filesystem::path& path);
+
+}  // namespace myoid::recording
