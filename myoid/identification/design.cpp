@@ -27,8 +27,8 @@ class Designer {
     persons_ = problem.catalogue.front().per_person.size();
     for (const MovementInformation& movement : problem.catalogue) {
       if (movement.per_person.size() != persons_ || persons_ == 0)
-        throw InvalidInput(fmt::format("design: movement '{}' is not given for every person",
-                                       movement.name));
+        throw InvalidInput(
+            fmt::format("design: movement '{}' is not given for every person", movement.name));
       std::size_t able = 0;
       for (const Eigen::MatrixXd& m : movement.per_person) {
         if (m.size() == 0) continue;

@@ -32,8 +32,8 @@ enum class DesignCriterion {
 
 struct DesignOptions {
   DesignCriterion criterion = DesignCriterion::d_optimal;
-  int movements = 8;      ///< To choose.
-  int most_of_each = 2;   ///< Repetitions of one movement.
+  int movements = 8;                                          ///< To choose.
+  int most_of_each = 2;                                       ///< Repetitions of one movement.
   double budget_s = std::numeric_limits<double>::infinity();  ///< Of recording time.
   double least_feasible = 0.8;  ///< Share of the persons who must be able to do a movement.
 };
@@ -46,9 +46,9 @@ struct DesignStep {
 
 struct DesignResult {
   double prior_criterion = 0.0;
-  Eigen::VectorXd prior_sd;       ///< p
-  std::vector<DesignStep> steps;  ///< The most telling first.
-  int exchanges = 0;              ///< Improvements after the greedy choice.
+  Eigen::VectorXd prior_sd;             ///< p
+  std::vector<DesignStep> steps;        ///< The most telling first.
+  int exchanges = 0;                    ///< Improvements after the greedy choice.
   std::vector<std::size_t> infeasible;  ///< Movements that too few persons could do.
 };
 

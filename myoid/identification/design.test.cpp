@@ -66,8 +66,7 @@ TEST(ChooseMovements, FindsNearlyWhatTryingAllTriplesFinds) {
 }
 
 TEST(ChooseMovements, EveryStepShrinksTheIntervalsAndTheCriterion) {
-  for (const DesignCriterion criterion :
-       {DesignCriterion::d_optimal, DesignCriterion::a_optimal}) {
+  for (const DesignCriterion criterion : {DesignCriterion::d_optimal, DesignCriterion::a_optimal}) {
     const DesignResult result =
         choose_movements(random_problem(5, 6, 20, 4), {.criterion = criterion, .movements = 6});
     Eigen::VectorXd sd = result.prior_sd;

@@ -12,6 +12,7 @@
 #include "myoid/dynamics/held_mass.h"
 #include "myoid/dynamics/inverse_dynamics.h"
 #include "myoid/model/arm4.h"
+#include "myoid/pipeline/lumped_muscles.h"
 #include "myoid/pipeline/stage_store.h"
 #include "myoid/pipeline/study_model.h"
 #include "myoid/pipeline/trial_input.h"
@@ -188,21 +189,14 @@ identification::TrialData trial_data(const Study& study,
   data.name = trial.spec.name;
   data.calibration = trial.spec.use == Use::calibration || trial.spec.use == Use::isometric;
   data.time_s = trial.motion.q.time_s();
-  const auto n = data.time_s.size();
-  const auto m = static_cast<Eigen::Index>(groups.size());
-  data.length_m = data.velocity_mps = data.moment_arm_m = data.force_n =
-      Eigen::MatrixXd::Zero(n, m);
-  const Eigen::MatrixXd& arms = trial.muscles.moment_arm.at(study.model.coordinate).values();
-  for (Eigen::Index g = 0; g < m; ++g) {
-    const MuscleGroup& group = groups[static_cast<std::size_t>(g)];
-    for (std::size_t i = 0; i < group.members.size(); ++i) {
-      const Eigen::Index c = group.members[i];
-      const double w = group.weights[i];
-      data.length_m.col(g) += w * trial.muscles.length.values().col(c);
-      data.velocity_mps.col(g) += w * trial.muscles.velocity.values().col(c);
-      data.moment_arm_m.col(g) += w * arms.col(c);
-      data.force_n.col(g) += trial.shared.force.values().col(c);
-    }
+  LumpedMuscles lumped = lumped_muscles(trial.muscles, groups, study.model.coordinate);
+  data.length_m = std::move(lumped.length_m);
+  data.velocity_mps = std::move(lumped.velocity_mps);
+  data.moment_arm_m = std::move(lumped.moment_arm_m);
+  data.force_n = Eigen::MatrixXd::Zero(data.length_m.rows(), data.length_m.cols());
+  for (Eigen::Index g = 0; g < data.force_n.cols(); ++g) {
+    for (const int head : groups[static_cast<std::size_t>(g)].members)
+      data.force_n.col(g) += trial.shared.force.values().col(head);
   }
   data.torque_nm = trial.muscle_torque.values().col(0);
   data.activation = trial.activation;

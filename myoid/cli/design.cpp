@@ -1,0 +1,204 @@
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "myoid/cli/context.h"
+#include "myoid/core/error.h"
+#include "myoid/pipeline/design_study.h"
+#include "myoid/report/report.h"
+
+namespace myoid::cli {
+namespace {
+
+using identification::ParameterEstimate;
+using identification::Verdict;
+
+/// The elbow of the source paper: surface electrodes on three muscles, the brachialis taken to act
+/// as the biceps does.
+pipeline::Study arm4_study(bool wire) {
+  pipeline::Study study;
+  study.model.builtin = "arm4";
+  for (const char* name : {"BIC", "BRA", "BRD", "TRI"}) {
+    pipeline::MuscleSpec muscle;
+    muscle.name = name;
+    muscle.osim = {name};
+    muscle.emg = muscle.name == "BRA" && !wire ? "BIC" : name;
+    study.muscles.push_back(std::move(muscle));
+  }
+  return study;
+}
+
+/// Half the interval: of the delay in ms, of all others as a percentage of the value.
+double half_width(const ParameterEstimate& e) {
+  const double half = 0.5 * (*e.ci_high - *e.ci_low);
+  return e.parameter == "emg_delay" ? 1e3 * half : 100.0 * half / std::abs(e.estimate);
+}
+
+int identified(const std::vector<ParameterEstimate>& estimates) {
+  return static_cast<int>(std::count_if(estimates.begin(), estimates.end(), [](const auto& e) {
+    return e.verdict == Verdict::identified;
+  }));
+}
+
+/// Median over the targets but the delay.
+double median_half_width(const std::vector<ParameterEstimate>& estimates) {
+  std::vector<double> widths;
+  for (const ParameterEstimate& e : estimates) {
+    if (e.parameter != "emg_delay" || estimates.size() == 1) widths.push_back(half_width(e));
+  }
+  std::nth_element(widths.begin(), widths.begin() + static_cast<std::ptrdiff_t>(widths.size() / 2),
+                   widths.end());
+  return widths[widths.size() / 2];
+}
+
+void print_plan(const pipeline::DesignStudyResult& result) {
+  fmt::print("{:>2}  {:<58} {:>6} {:>6} {:>11} {:>15}\n", "", "movement", "time", "rest",
+             "median 95 %", "identified");
+  fmt::print("{:>2}  {:<58} {:>6} {:>6} {:>11} {:>15}\n", "", "", "[s]", "[s]", "[+- %]",
+             fmt::format("of {}", result.beforehand.size()));
+  fmt::print("{:>2}  {:<58} {:>6} {:>6} {:>11.0f} {:>15}\n", 0, "what is known beforehand", "", "",
+             median_half_width(result.beforehand), identified(result.beforehand));
+  for (std::size_t i = 0; i < result.plan.size(); ++i) {
+    const pipeline::PlannedMovement& m = result.plan[i];
+    fmt::print("{:>2}  {:<58} {:>6.0f} {:>6.0f} {:>11.1f} {:>15}\n", i + 1,
+               m.movement.description(), m.movement.duration_s, m.rest_before_s,
+               median_half_width(m.expected), identified(m.expected));
+  }
+  if (result.plan.empty()) return;
+  fmt::print("\nexpected 95 % interval, as +- % of the value (the delay: +- ms)\n{:<38} {:>11}",
+             "target", "beforehand");
+  for (std::size_t i = 0; i < result.plan.size(); ++i) fmt::print(" {:>7}", i + 1);
+  fmt::print("  verdict\n");
+  for (std::size_t t = 0; t < result.beforehand.size(); ++t) {
+    const ParameterEstimate& before = result.beforehand[t];
+    fmt::print("{:<38} {:>11.1f}", before.muscle + "." + before.parameter, half_width(before));
+    for (const pipeline::PlannedMovement& m : result.plan)
+      fmt::print(" {:>7.1f}", half_width(m.expected[t]));
+    fmt::print("  {}\n", identification::name(result.plan.back().expected[t].verdict));
+  }
+}
+
+nlohmann::ordered_json estimates_json(const std::vector<ParameterEstimate>& estimates) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const ParameterEstimate& e : estimates) {
+    list.push_back({{"muscle", e.muscle},
+                    {"parameter", e.parameter},
+                    {"unit", symbol(e.unit)},
+                    {"value", e.estimate},
+                    {"ci_low", *e.ci_low},
+                    {"ci_high", *e.ci_high},
+                    {"verdict", std::string(identification::name(e.verdict))}});
+  }
+  return list;
+}
+
+void print_json(const pipeline::DesignStudyResult& result) {
+  nlohmann::ordered_json json;
+  json["catalogue_size"] = result.catalogue_size;
+  json["beforehand"] = estimates_json(result.beforehand);
+  json["plan"] = nlohmann::ordered_json::array();
+  for (const pipeline::PlannedMovement& m : result.plan) {
+    json["plan"].push_back({{"movement", m.movement.description()},
+                            {"duration_s", m.movement.duration_s},
+                            {"rest_before_s", m.rest_before_s},
+                            {"fatigued_share", m.fatigued_share},
+                            {"expected", estimates_json(m.expected)}});
+  }
+  fmt::print("{}\n", json.dump(2));
+}
+
+}  // namespace
+
+void add_design(CLI::App& app, Context& context) {
+  CLI::App& command = *app.add_subcommand(
+      "design",
+      "Which movements to record so that the target parameters become identifiable.\n"
+      "Example: myoid design --model arm4 --targets max_isometric_force BIC.force_length_width");
+  struct Options {
+    std::string study, model, after, criterion = "D";
+    bool wire = false, no_dynamometer = false;
+    pipeline::DesignStudyOptions design;
+  };
+  const auto options = std::make_shared<Options>();
+  pipeline::DesignStudyOptions& design = options->design;
+  command.add_option("study", options->study,
+                     "study.toml: model, muscles and electrodes as they are (or --model arm4)");
+  command.add_option("--model", options->model, "The built-in arm: arm4");
+  command.add_flag("--wire", options->wire,
+                   "With arm4: the brachialis has a wire electrode of its own");
+  command
+      .add_option("--targets", design.targets,
+                  "all, parameters, muscles or MUSCLE.PARAMETER (default all)")
+      ->capture_default_str();
+  command.add_option("--after", options->after,
+                     "Folder of a finished run: what it found is known beforehand");
+  command
+      .add_option("--criterion", options->criterion,
+                  "D: volume of the confidence ellipsoid, A: sum of relative variances")
+      ->check(CLI::IsMember({"D", "A"}))
+      ->capture_default_str();
+  command.add_option("--movements", design.choice.movements, "How many to choose")
+      ->check(CLI::Range(1, 50))
+      ->capture_default_str();
+  command.add_option("--repeat", design.choice.most_of_each, "The same movement at most so often")
+      ->check(CLI::Range(1, 50))
+      ->capture_default_str();
+  command.add_option("--budget", design.choice.budget_s, "Recording time at most [s]")
+      ->check(CLI::PositiveNumber);
+  command
+      .add_option("--fatigue", design.fatigued_share,
+                  "Share of a muscle that may be fatigued at any time")
+      ->check(CLI::Range(0.001, 1.0))
+      ->capture_default_str();
+  command.add_option("--masses", design.catalogue.held_masses_kg, "Held masses there are [kg]")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  command.add_flag("--no-dynamometer", options->no_dynamometer,
+                   "No isokinetic movement (isometric torque can be measured still)");
+  command.add_option("--persons", design.persons, "Drawn from what is known, to average over")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  command
+      .add_option("--torque-noise", design.torque_sd_nm,
+                  "Standard deviation of the joint torque's error below 2 Hz [N m]")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command.add_option("--emg-noise", design.emg_cv, "Relative noise of the EMG envelope below 2 Hz")
+      ->check(CLI::Range(0.0, 1.0))
+      ->capture_default_str();
+  add_common_options(command, context);
+  command.callback([&context, options] {
+    pipeline::DesignStudyOptions& choice = options->design;
+    if (options->study.empty() == options->model.empty())
+      throw InvalidInput("design: give either a study.toml or --model arm4");
+    if (!options->model.empty() && options->model != "arm4")
+      throw InvalidInput(fmt::format(
+          "--model {}: only arm4 is built in; for another model write a study.toml that names it",
+          options->model));
+    const pipeline::Study study =
+        options->study.empty() ? arm4_study(options->wire) : pipeline::read_study(options->study);
+    choice.choice.criterion = options->criterion == "A"
+                                  ? identification::DesignCriterion::a_optimal
+                                  : identification::DesignCriterion::d_optimal;
+    choice.catalogue.dynamometer = !options->no_dynamometer;
+    choice.seed = context.seed;
+    choice.progress = context.progress();
+    if (!options->after.empty()) choice.earlier = pipeline::read_earlier_run(options->after);
+    const pipeline::DesignStudyResult result = pipeline::design_study(study, choice);
+    context.end_progress();
+    context.log(fmt::format(
+        "{} movements in the catalogue, {} beyond the strength of too many, {} too tiring; {} "
+        "persons; {} exchanges",
+        result.catalogue_size, result.too_hard, result.too_tiring, choice.persons,
+        result.exchanges));
+    if (context.json) {
+      print_json(result);
+    } else {
+      print_plan(result);
+    }
+  });
+}
+
+}  // namespace myoid::cli

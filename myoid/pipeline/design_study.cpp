@@ -1,0 +1,409 @@
+#include "myoid/pipeline/design_study.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <numeric>
+
+#include <Eigen/Cholesky>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <oneapi/tbb/parallel_for.h>
+
+#include "myoid/core/error.h"
+#include "myoid/identification/identifiability.h"
+#include "myoid/identification/torque_model.h"
+#include "myoid/muscle/fatigue.h"
+#include "myoid/pipeline/study_model.h"
+#include "myoid/simulation/random.h"
+
+namespace myoid::pipeline {
+namespace {
+
+using identification::FreeParameter;
+using identification::ParameterEstimate;
+using identification::StudyData;
+using identification::TorqueModel;
+using identification::TorqueOptions;
+using identification::TrialData;
+
+/// What is known before the recording, in the estimator's scale.
+struct Knowledge {
+  Eigen::VectorXd mean;
+  Eigen::MatrixXd covariance;
+  Eigen::MatrixXd precision;
+};
+
+Knowledge knowledge_of(const std::vector<FreeParameter>& free,
+                       const std::optional<EarlierRun>& earlier) {
+  const auto p = static_cast<Eigen::Index>(free.size());
+  Knowledge known{Eigen::VectorXd(p), Eigen::MatrixXd::Zero(p, p), {}};
+  for (Eigen::Index j = 0; j < p; ++j) {
+    const FreeParameter& f = free[static_cast<std::size_t>(j)];
+    const double sd = f.prior_sd > 0.0 ? f.prior_sd : 0.25 * (f.upper - f.lower);
+    known.mean[j] = f.prior_sd > 0.0 ? f.prior_mean : f.start;
+    known.covariance(j, j) = sd * sd;
+  }
+  if (earlier) {
+    std::vector<std::pair<Eigen::Index, Eigen::Index>> pairs;
+    for (Eigen::Index j = 0; j < p; ++j) {
+      const auto it = std::find(earlier->parameters.begin(), earlier->parameters.end(),
+                                free[static_cast<std::size_t>(j)].label);
+      if (it == earlier->parameters.end()) continue;
+      const Eigen::Index from = it - earlier->parameters.begin();
+      if (std::isfinite(earlier->estimate[from])) pairs.emplace_back(j, from);
+    }
+    for (const auto& [a, from_a] : pairs) {
+      const bool logarithmic = free[static_cast<std::size_t>(a)].logarithmic;
+      known.mean[a] = logarithmic ? std::log(earlier->estimate[from_a]) : earlier->estimate[from_a];
+      for (const auto& [b, from_b] : pairs)
+        known.covariance(a, b) = earlier->covariance(from_a, from_b);
+    }
+  }
+  const Eigen::LLT<Eigen::MatrixXd> factor(known.covariance);
+  if (factor.info() != Eigen::Success)
+    throw InvalidInput("design: the covariance of the earlier run is not positive definite");
+  known.precision = factor.solve(Eigen::MatrixXd::Identity(p, p));
+  return known;
+}
+
+/// Persons drawn from the knowledge; the first is its mean.
+std::vector<Eigen::VectorXd> draw_persons(const std::vector<FreeParameter>& free,
+                                          const Knowledge& known,
+                                          const DesignStudyOptions& options) {
+  const Eigen::LLT<Eigen::MatrixXd> factor(known.covariance);
+  simulation::Random random(simulation::seed_for(options.seed, "design persons"));
+  std::vector<Eigen::VectorXd> persons;
+  for (int k = 0; k < options.persons; ++k) {
+    Eigen::VectorXd z = known.mean;
+    if (k > 0) z += factor.matrixL() * random.normals(z.size());
+    for (Eigen::Index j = 0; j < z.size(); ++j) {
+      const FreeParameter& f = free[static_cast<std::size_t>(j)];
+      z[j] = std::clamp(z[j], f.lower, f.upper);
+    }
+    persons.push_back(std::move(z));
+  }
+  return persons;
+}
+
+/// J' W J nu of one trial at the truth: the estimator's weights and effective number of samples.
+Eigen::MatrixXd information_of(const StudyData& data,
+                               const TorqueOptions& torque,
+                               const Eigen::VectorXd& z,
+                               double torque_sd_nm,
+                               double emg_cv) {
+  const TorqueModel model(data, torque);
+  Eigen::VectorXd predicted;
+  Eigen::VectorXd power;
+  Eigen::MatrixXd jacobian;
+  model.evaluate(z, predicted, &jacobian, &power);
+  const Eigen::VectorXd weight =
+      (torque_sd_nm * torque_sd_nm + emg_cv * emg_cv * power.array()).inverse();
+  const double share = std::min(1.0, 2.0 * torque.residual_cutoff_hz.value() / model.rate_hz());
+  return share * jacobian.transpose() * weight.asDiagonal() * jacobian;
+}
+
+std::vector<Eigen::Index> targets_of(const std::vector<FreeParameter>& free,
+                                     const std::vector<std::string>& wanted) {
+  std::vector<Eigen::Index> targets;
+  for (std::size_t j = 0; j < free.size(); ++j) {
+    const std::string& label = free[j].label;
+    const std::size_t dot = label.find('.');
+    const std::string owner = label.substr(0, dot);
+    const std::string parameter = label.substr(dot + 1);
+    const bool nuisance = free[j].kind == FreeParameter::Kind::gain;
+    for (const std::string& w : wanted) {
+      if (w == label || w == owner || w == parameter || (w == "all" && !nuisance)) {
+        targets.push_back(static_cast<Eigen::Index>(j));
+        break;
+      }
+    }
+  }
+  for (const std::string& w : wanted) {
+    const bool known =
+        w == "all" || std::any_of(free.begin(), free.end(), [&](const auto& f) {
+          const std::size_t dot = f.label.find('.');
+          return f.label == w || f.label.substr(0, dot) == w || f.label.substr(dot + 1) == w;
+        });
+    if (known) continue;
+    std::string names;
+    for (const FreeParameter& f : free) names += (names.empty() ? "" : ", ") + f.label;
+    throw InvalidInput(fmt::format(
+        "target '{}' is no parameter, muscle or muscle.parameter that can be identified; there are "
+        "{}",
+        w, names));
+  }
+  return targets;
+}
+
+/// What an interval of this width would be called.
+ParameterEstimate expected_estimate(const FreeParameter& f,
+                                    double mean,
+                                    double sd,
+                                    double prior_sd) {
+  ParameterEstimate e;
+  const std::size_t dot = f.label.find('.');
+  e.muscle = f.label.substr(0, dot);
+  e.parameter = f.label.substr(dot + 1);
+  e.unit = f.field != nullptr                     ? f.field->unit
+           : f.kind == FreeParameter::Kind::delay ? Unit::second
+                                                  : Unit::dimensionless;
+  e.method = "torque";
+  e.fit_case = "both";
+  e.initial = e.estimate = f.to_value(mean);
+  e.ci_low = f.to_value(std::max(mean - 1.96 * sd, f.lower));
+  e.ci_high = f.to_value(std::min(mean + 1.96 * sd, f.upper));
+  e.std_error = f.logarithmic ? e.estimate * sd : sd;
+  e.prior_mean = e.estimate;
+  e.prior_sd = f.logarithmic ? e.estimate * prior_sd : prior_sd;
+  e.shrinkage = 1.0 - sd * sd / (prior_sd * prior_sd);
+  identification::judge(e, {});
+  return e;
+}
+
+/// Mean activation of each muscle over the persons who can do it, per half second.
+struct Effort {
+  std::vector<std::vector<double>> activation;  ///< Per muscle.
+};
+constexpr double kFatigueStep_s = 0.5;
+
+Effort effort_of(const std::vector<std::optional<TrialData>>& performances,
+                 const std::vector<identification::MuscleSetup>& muscles,
+                 double duration_s) {
+  Effort effort;
+  const auto steps = static_cast<std::size_t>(std::ceil(duration_s / kFatigueStep_s));
+  for (const identification::MuscleSetup& setup : muscles) {
+    std::vector<double> sum(steps, 0.0);
+    double count = 0.0;
+    for (const std::optional<TrialData>& trial : performances) {
+      if (!trial) continue;
+      ++count;
+      const Eigen::VectorXd a = trial->activation.column(setup.emg_channel);
+      const Eigen::VectorXd& clock = trial->activation.time_s();
+      for (std::size_t s = 0; s < steps; ++s) {
+        const double from = static_cast<double>(s) * kFatigueStep_s;
+        const auto begin =
+            std::lower_bound(clock.data(), clock.data() + clock.size(), from) - clock.data();
+        const auto end =
+            std::lower_bound(clock.data(), clock.data() + clock.size(), from + kFatigueStep_s) -
+            clock.data();
+        if (end > begin) sum[s] += a.segment(begin, end - begin).mean();
+      }
+    }
+    for (double& x : sum) x /= std::max(count, 1.0);
+    effort.activation.push_back(std::move(sum));
+  }
+  return effort;
+}
+
+using Tiredness = std::vector<muscle::FatigueState<double>>;
+
+double worst(const Tiredness& state) {
+  double most = 0.0;
+  for (const auto& s : state) most = std::max(most, s.fatigued);
+  return most;
+}
+
+void work(const Effort& effort, const muscle::FatigueRates<double>& rates, Tiredness& state) {
+  for (std::size_t k = 0; k < state.size(); ++k) {
+    for (const double a : effort.activation[k])
+      state[k] = muscle::step_fatigue(rates, a, state[k], kFatigueStep_s);
+  }
+}
+
+void rest(double duration_s, const muscle::FatigueRates<double>& rates, Tiredness& state) {
+  for (auto& s : state) s = muscle::step_fatigue(rates, 0.0, s, duration_s);
+}
+
+/// Puts rests before movements until none ends with more than the budget.
+void plan_rests(const std::vector<const Effort*>& efforts,
+                double budget,
+                const muscle::FatigueRates<double>& rates,
+                std::vector<PlannedMovement>& plan) {
+  if (plan.empty()) return;
+  Tiredness state(efforts.front()->activation.size());
+  for (std::size_t i = 0; i < plan.size(); ++i) {
+    Tiredness before = state;
+    constexpr double kRestStep_s = 15.0;
+    constexpr double kLongestRest_s = 1800.0;
+    for (;;) {
+      state = before;
+      work(*efforts[i], rates, state);
+      if (worst(state) <= budget || plan[i].rest_before_s >= kLongestRest_s) break;
+      plan[i].rest_before_s += kRestStep_s;
+      rest(kRestStep_s, rates, before);
+    }
+    plan[i].fatigued_share = worst(state);
+  }
+}
+
+}  // namespace
+
+EarlierRun read_earlier_run(const std::filesystem::path& folder) {
+  const std::filesystem::path file = folder / "parameters.json";
+  std::ifstream stream(file);
+  if (!stream)
+    throw ReadError(file, 0,
+                    "there is no such file; --after must name the folder of a finished "
+                    "`myoid run` or `myoid identify`");
+  try {
+    const nlohmann::json all = nlohmann::json::parse(stream);
+    for (const nlohmann::json& method : all.at("methods")) {
+      if (method.at("method") != "torque") continue;
+      EarlierRun run;
+      run.parameters = method.at("covariance").at("parameters");
+      const nlohmann::json& rows = method.at("covariance").at("matrix");
+      const auto p = static_cast<Eigen::Index>(run.parameters.size());
+      run.covariance.resize(p, p);
+      run.estimate.setConstant(p, std::nan(""));
+      for (Eigen::Index a = 0; a < p; ++a) {
+        for (Eigen::Index b = 0; b < p; ++b)
+          run.covariance(a, b) =
+              rows.at(static_cast<std::size_t>(a)).at(static_cast<std::size_t>(b));
+      }
+      for (const nlohmann::json& e : method.at("estimates")) {
+        const std::string label =
+            e.at("muscle").get<std::string>() + "." + e.at("parameter").get<std::string>();
+        const auto it = std::find(run.parameters.begin(), run.parameters.end(), label);
+        if (it == run.parameters.end()) continue;
+        run.estimate[it - run.parameters.begin()] = e.at("estimate").get<double>();
+      }
+      run.torque_sd_nm = method.at("torque_sd_nm");
+      run.emg_cv = method.at("emg_cv");
+      return run;
+    }
+  } catch (const nlohmann::json::exception& error) {
+    throw ReadError(
+        file, 0,
+        fmt::format("is not what `myoid run` writes ({}); run the study again", error.what()));
+  }
+  throw ReadError(file, 0, "holds no fit by method torque; run the study with method = \"torque\"");
+}
+
+DesignStudyResult design_study(const Study& study, const DesignStudyOptions& options) {
+  const model::BodyModel model = load_model(study);
+  StudyData data;
+  data.muscles = muscle_setups(study, model);
+  if (data.muscles.empty()) throw InvalidInput("design: the study has no [[muscle]]");
+  TorqueOptions torque;
+  torque.muscles = study.identify.muscles;
+  torque.delay_s = study.emg.delay_s;
+  torque.max_rate_hz = 25.0;
+  for (const identification::MuscleSetup& m : data.muscles)
+    torque.gain_prior_sd[m.emg_channel] = options.gain_sd;
+
+  const model::Coordinate& coordinate =
+      model.coordinates[static_cast<std::size_t>(model.coordinate_index(study.model.coordinate))];
+  CatalogueOptions catalogue_options = options.catalogue;
+  catalogue_options.coordinate = coordinate.name;
+  catalogue_options.planes = catalogue_options.planes && !study.model.file;
+  if (study.model.file && !study.model.held_mass) catalogue_options.held_masses_kg = {0.0};
+  const std::vector<Movement> movements =
+      movement_catalogue(coordinate.lower, coordinate.upper, catalogue_options);
+
+  options.progress.tell(0.05, "movements");
+  std::vector<MovementCourse> courses(movements.size());
+  oneapi::tbb::parallel_for(std::size_t{0}, movements.size(), [&](std::size_t i) {
+    options.progress.check();
+    courses[i] = movement_course(study, movements[i]);
+  });
+
+  // The estimator's parameters: from any trial that someone can do.
+  const auto person_of = [&](const std::vector<muscle::HillParameters<double>>& muscles,
+                             double delay_s, int k) {
+    MovementPerson person;
+    person.muscles = muscles;
+    person.emg_delay_s = delay_s;
+    person.seed = simulation::seed_for(options.seed, fmt::format("person {}", k));
+    return person;
+  };
+  std::vector<muscle::HillParameters<double>> start;
+  for (const identification::MuscleSetup& m : data.muscles) start.push_back(m.start);
+  std::optional<TorqueModel> shape;
+  for (std::size_t i = 0; i < courses.size() && !shape; ++i) {
+    if (auto trial = perform(courses[i], data.muscles, person_of(start, 0.06, 0))) {
+      data.trials = {std::move(*trial)};
+      shape.emplace(data, torque);
+    }
+  }
+  if (!shape)
+    throw InvalidInput("design: no movement of the catalogue is within the muscles' strength");
+  const std::vector<FreeParameter> free = shape->free();
+  const Knowledge known = knowledge_of(free, options.earlier);
+  const std::vector<Eigen::VectorXd> persons = draw_persons(free, known, options);
+  const double torque_sd = options.earlier && options.earlier->torque_sd_nm > 1e-3
+                               ? options.earlier->torque_sd_nm
+                               : options.torque_sd_nm;
+  const double emg_cv = options.earlier && options.earlier->torque_sd_nm > 1e-3
+                            ? options.earlier->emg_cv
+                            : options.emg_cv;
+
+  options.progress.tell(0.2, "information");
+  identification::DesignProblem problem;
+  for (const FreeParameter& f : free) problem.parameters.push_back(f.label);
+  problem.prior_precision = known.precision;
+  problem.targets = targets_of(free, options.targets);
+  problem.catalogue.resize(movements.size());
+  std::vector<Effort> efforts(movements.size());
+  const muscle::FatigueRates<double> rates = muscle::published_fatigue_rates("elbow_rest");
+  std::vector<char> tiring(movements.size(), 0);
+  oneapi::tbb::parallel_for(std::size_t{0}, movements.size(), [&](std::size_t i) {
+    options.progress.check();
+    identification::MovementInformation& information = problem.catalogue[i];
+    information.name = movements[i].description();
+    information.duration_s = movements[i].duration_s;
+    std::vector<std::optional<TrialData>> performances;
+    for (std::size_t k = 0; k < persons.size(); ++k) {
+      std::optional<TrialData> trial = perform(
+          courses[i], data.muscles,
+          person_of(shape->muscles(persons[k]), shape->delay_s(persons[k]), static_cast<int>(k)));
+      if (trial) {
+        StudyData one;
+        one.muscles = data.muscles;
+        one.trials = {*trial};
+        information.per_person.push_back(
+            information_of(one, torque, persons[k], torque_sd, emg_cv));
+      } else {
+        information.per_person.emplace_back();
+      }
+      performances.push_back(std::move(trial));
+    }
+    efforts[i] = effort_of(performances, data.muscles, movements[i].duration_s);
+    Tiredness fresh(data.muscles.size());
+    work(efforts[i], rates, fresh);
+    if (worst(fresh) > options.fatigued_share) {
+      tiring[i] = 1;
+      for (Eigen::MatrixXd& m : information.per_person) m.resize(0, 0);
+    }
+  });
+
+  options.progress.tell(0.6, "choice");
+  const identification::DesignResult choice =
+      identification::choose_movements(problem, options.choice);
+
+  DesignStudyResult result;
+  result.catalogue_size = movements.size();
+  result.too_tiring = static_cast<std::size_t>(std::accumulate(tiring.begin(), tiring.end(), 0));
+  result.too_hard = choice.infeasible.size() - result.too_tiring;
+  result.exchanges = choice.exchanges;
+  const auto expected = [&](const Eigen::VectorXd& sd) {
+    std::vector<ParameterEstimate> estimates;
+    for (const Eigen::Index j : problem.targets) {
+      const FreeParameter& f = free[static_cast<std::size_t>(j)];
+      const double prior_sd = f.prior_sd > 0.0 ? f.prior_sd : choice.prior_sd[j];
+      estimates.push_back(expected_estimate(f, known.mean[j], sd[j], prior_sd));
+    }
+    return estimates;
+  };
+  result.beforehand = expected(choice.prior_sd);
+  std::vector<const Effort*> chosen;
+  for (const identification::DesignStep& step : choice.steps) {
+    result.plan.push_back({movements[step.movement], 0.0, 0.0, expected(step.sd)});
+    chosen.push_back(&efforts[step.movement]);
+  }
+  plan_rests(chosen, options.fatigued_share, rates, result.plan);
+  options.progress.tell(1.0, "done");
+  return result;
+}
+
+}  // namespace myoid::pipeline

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "myoid/core/progress.h"
+#include "myoid/identification/design.h"
+#include "myoid/identification/result.h"
+#include "myoid/pipeline/movement.h"
+
+namespace myoid::pipeline {
+
+/// What a finished run found (its parameters.json, method torque): what is known before the next
+/// recording.
+struct EarlierRun {
+  std::vector<std::string> parameters;  ///< "BIC.max_isometric_force"
+  Eigen::VectorXd estimate;             ///< SI.
+  Eigen::MatrixXd covariance;  ///< In the estimator's scale (logarithms where it uses them).
+  double torque_sd_nm = 0.0;
+  double emg_cv = 0.0;
+};
+
+/// Throws ReadError if the folder holds no parameters.json with a fit by method torque.
+[[nodiscard]] EarlierRun read_earlier_run(const std::filesystem::path& folder);
+
+struct DesignStudyOptions {
+  identification::DesignOptions choice;
+  CatalogueOptions catalogue;
+  /// "all", a parameter ("max_isometric_force"), a muscle ("BIC") or both
+  /// ("BIC.force_length_width").
+  std::vector<std::string> targets = {"all"};
+  int persons = 12;              ///< Drawn from what is known beforehand.
+  double torque_sd_nm = 0.3;     ///< Noise of the joint torque below 2 Hz.
+  double emg_cv = 0.087;         ///< Relative noise of the EMG envelope below 2 Hz.
+  double gain_sd = 0.05;         ///< Of ln(EMG gain), per channel: how well MVCs scale the EMG.
+  double fatigued_share = 0.05;  ///< Greatest share of any muscle that may be fatigued at any time.
+  std::uint64_t seed = 1;
+  std::optional<EarlierRun> earlier;
+  Progress progress;
+};
+
+/// One movement of the plan.
+struct PlannedMovement {
+  Movement movement;
+  double rest_before_s = 0.0;   ///< So that fatigue stays within its budget.
+  double fatigued_share = 0.0;  ///< Of the most tired muscle, at the end.
+  /// Per target: what the estimate and its interval are expected to be after this movement.
+  std::vector<identification::ParameterEstimate> expected;
+};
+
+struct DesignStudyResult {
+  std::vector<identification::ParameterEstimate> beforehand;  ///< Per target.
+  std::vector<PlannedMovement> plan;                          ///< The most telling first.
+  std::size_t catalogue_size = 0;
+  std::size_t too_hard = 0;    ///< Movements that too few of the persons could do ...
+  std::size_t too_tiring = 0;  ///< ... or that alone exceed the fatigue budget.
+  int exchanges = 0;
+};
+
+/// Which movements to record so that the targets become identifiable: Bayesian D- or A-optimal over
+/// a catalogue, for persons drawn from the priors (or from an earlier run's posterior), with the
+/// estimator's own model, weights and effective number of samples. Fatigue by the three-compartment
+/// model at the elbow's published rates; a movement that alone would tire a muscle beyond the
+/// budget is left out, and rests are put before those that need them. Throws InvalidInput for
+/// unknown targets.
+[[nodiscard]] DesignStudyResult design_study(const Study& study,
+                                             const DesignStudyOptions& options = {});
+
+}  // namespace myoid::pipeline

@@ -1,0 +1,199 @@
+#include "myoid/pipeline/design_study.h"
+
+#include <cmath>
+#include <fstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "myoid/core/error.h"
+#include "myoid/identification/torque.h"
+#include "myoid/math/butterworth.h"
+#include "myoid/math/zero_phase.h"
+#include "myoid/muscle/hill_muscle.h"
+#include "myoid/pipeline/study_model.h"
+#include "myoid/simulation/random.h"
+
+#include "tests/support/temporary_folder.h"
+
+namespace myoid::pipeline {
+namespace {
+
+using testing::HasSubstr;
+
+Study arm_study() {
+  Study study;
+  study.model.builtin = "arm4";
+  for (const char* name : {"BIC", "BRA", "BRD", "TRI"})
+    study.muscles.push_back({.name = name, .osim = {name}, .emg = name});
+  return study;
+}
+
+MovementPerson typical(const std::vector<identification::MuscleSetup>& setups) {
+  MovementPerson person;
+  for (const auto& s : setups) person.muscles.push_back(s.start);
+  return person;
+}
+
+TEST(Movement, TheMusclesOfAPerformanceExertTheTorqueThatTheMotionRequires) {
+  const Study study = arm_study();
+  const auto setups = muscle_setups(study, load_model(study));
+  const MovementPerson person = typical(setups);
+  for (const bool horizontal : {false, true}) {
+    const MovementCourse course = movement_course(study, {.horizontal = horizontal,
+                                                          .held_mass_kg = 1.0,
+                                                          .lowest_rad = 0.5,
+                                                          .highest_rad = 2.0,
+                                                          .frequency_hz = 0.6});
+    const auto trial = perform(course, setups, person);
+    ASSERT_TRUE(trial);
+    const Eigen::Index lead = course.time_s.size() - trial->time_s.size();
+    // Sum of r a F over the muscles, by hand, with the EMG read a delay earlier.
+    for (Eigen::Index i = 0; i < trial->time_s.size(); i += 17) {
+      double torque = 0.0;
+      for (Eigen::Index k = 0; k < 4; ++k) {
+        const auto& p = person.muscles[static_cast<std::size_t>(k)];
+        const double a = trial->activation.values()(lead + i, k);
+        EXPECT_GE(a, person.co_contraction);
+        torque += trial->moment_arm_m(i, k) *
+                  muscle::hill_force(a, trial->length_m(i, k) - p.tendon_slack_length_m,
+                                     trial->velocity_mps(i, k), p);
+      }
+      EXPECT_NEAR(torque, course.required_torque_nm[lead + i], 1e-9);
+      EXPECT_NEAR(trial->activation.time_s()[lead + i], trial->time_s[i] - person.emg_delay_s,
+                  1e-12);
+    }
+  }
+}
+
+TEST(Movement, WhatIsTooHeavyCannotBePerformed) {
+  const Study study = arm_study();
+  const auto setups = muscle_setups(study, load_model(study));
+  const MovementCourse course = movement_course(
+      study, {.held_mass_kg = 30.0, .lowest_rad = 0.5, .highest_rad = 2.0, .frequency_hz = 0.5});
+  EXPECT_FALSE(perform(course, setups, typical(setups)));
+}
+
+TEST(Movement, AnIsokineticMovementKeepsItsSpeedOverMostOfTheRange) {
+  const MovementCourse course = movement_course(arm_study(), {.kind = MovementKind::isokinetic,
+                                                              .lowest_rad = 0.3,
+                                                              .highest_rad = 2.1,
+                                                              .speed_radps = 1.0,
+                                                              .level = 0.5,
+                                                              .duration_s = 8.0});
+  // The speed shows in the brachialis: dl/dt = -r dq/dt.
+  int steady = 0;
+  for (Eigen::Index i = 0; i < course.time_s.size(); ++i) {
+    const double speed =
+        std::abs(course.muscles.velocity_mps(i, 1) / course.muscles.moment_arm_m(i, 1));
+    steady += std::abs(speed - 1.0) < 0.15 ? 1 : 0;
+  }
+  EXPECT_GT(steady, static_cast<int>(0.75 * static_cast<double>(course.time_s.size())));
+}
+
+TEST(DesignStudy, ItsExpectedSpreadIsTheSpreadThatIdentificationHas) {
+  // The plan for one person, the mean of what is known, is carried out by that person ten times
+  // with the noise that the plan assumed; the errors of all estimates, in expected standard
+  // deviations, must have a root mean square of about one. The prior takes part in the estimate
+  // but not in this person (it is exactly the prior's mean), which shrinks the errors: below 1.
+  const Study study = arm_study();
+  DesignStudyOptions options;
+  options.persons = 1;
+  options.choice.movements = 5;
+  const DesignStudyResult design = design_study(study, options);
+  ASSERT_EQ(design.plan.size(), 5U);
+  identification::StudyData data;
+  data.muscles = muscle_setups(study, load_model(study));
+  const MovementPerson person = typical(data.muscles);
+  constexpr double kRate_hz = 50.0;
+  const double above_2_hz = std::sqrt(2.0 * 2.0 / kRate_hz);  // of white noise stays below
+  const auto envelope_filter = math::design_butterworth(
+      math::FilterBand::low_pass, 2,
+      math::two_pass_cutoff_hz(math::FilterBand::low_pass, 2, 3.0, kRate_hz), kRate_hz);
+  double square = 0.0;
+  double expected_square = 0.0;
+  int count = 0;
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    simulation::Random random(seed);
+    data.trials.clear();
+    for (const PlannedMovement& planned : design.plan) {
+      auto trial = perform(movement_course(study, planned.movement), data.muscles, person);
+      ASSERT_TRUE(trial);
+      trial->torque_nm +=
+          options.torque_sd_nm / above_2_hz * random.normals(trial->torque_nm.size());
+      // The envelope's noise reaches up to 3 Hz, as after a filter.
+      Eigen::MatrixXd noisy = trial->activation.values();
+      for (Eigen::Index c = 0; c < noisy.cols(); ++c) {
+        const Eigen::VectorXd noise =
+            math::zero_phase(envelope_filter, random.normals(noisy.rows()));
+        noisy.col(c).array() *= 1.0 + options.emg_cv / above_2_hz * noise.array();
+      }
+      trial->activation =
+          TimeSeries(trial->activation.time_s(), trial->activation.channels(), noisy);
+      data.trials.push_back(std::move(*trial));
+    }
+    const auto found = identification::identify_torque(
+        data, {.gain_prior_sd = {{"BIC", 0.05}, {"BRA", 0.05}, {"BRD", 0.05}, {"TRI", 0.05}},
+               .max_rate_hz = 25.0,
+               .starts = 1});
+    for (const auto& e : found.estimates) {
+      for (const auto& expected : design.plan.back().expected) {
+        if (e.muscle != expected.muscle || e.parameter != expected.parameter) continue;
+        const double sd = *expected.std_error;
+        square += std::pow((e.estimate - expected.estimate) / sd, 2);
+        expected_square += std::pow(*e.std_error / sd, 2);
+        ++count;
+      }
+    }
+  }
+  ASSERT_EQ(count, 250);
+  const double rms = std::sqrt(square / count);
+  EXPECT_GT(rms, 0.3);
+  EXPECT_LT(rms, 1.1);
+  // The standard error that identification states must agree with what the plan promised.
+  EXPECT_NEAR(std::sqrt(expected_square / count), 1.0, 0.25);
+}
+
+TEST(DesignStudy, MoreMovementsTellMoreAndFatigueStaysInItsBudget) {
+  DesignStudyOptions options;
+  options.persons = 3;
+  options.choice.movements = 6;
+  options.targets = {"max_isometric_force", "TRI.optimal_fiber_length"};
+  const DesignStudyResult result = design_study(arm_study(), options);
+  ASSERT_EQ(result.beforehand.size(), 5U);
+  ASSERT_EQ(result.plan.size(), 6U);
+  std::vector<double> sd;
+  for (const auto& e : result.beforehand) sd.push_back(*e.std_error);
+  for (const PlannedMovement& planned : result.plan) {
+    EXPECT_LE(planned.fatigued_share, options.fatigued_share);
+    for (std::size_t t = 0; t < sd.size(); ++t) {
+      EXPECT_LE(*planned.expected[t].std_error, sd[t] * (1.0 + 1e-12));
+      sd[t] = *planned.expected[t].std_error;
+    }
+  }
+}
+
+TEST(DesignStudy, RefusesATargetThatIsNoneAndNamesThoseThereAre) {
+  DesignStudyOptions options;
+  options.targets = {"BIC.max_isometric_froce"};
+  options.persons = 1;
+  try {
+    (void)design_study(arm_study(), options);
+    FAIL();
+  } catch (const InvalidInput& error) {
+    EXPECT_THAT(error.what(), HasSubstr("BIC.max_isometric_froce"));
+    EXPECT_THAT(error.what(), HasSubstr("TRI.force_length_width"));
+  }
+}
+
+TEST(ReadEarlierRun, SaysWhatIsWrongWithAFolderThatHoldsNoRun) {
+  const test::TemporaryFolder folder;
+  EXPECT_THROW((void)read_earlier_run(folder.path()), ReadError);
+  std::ofstream(folder / "parameters.json") << R"({"methods": [{"method": "paper"}]})";
+  EXPECT_THROW((void)read_earlier_run(folder.path()), ReadError);
+  std::ofstream(folder / "parameters.json") << "{\"methods\": [";
+  EXPECT_THROW((void)read_earlier_run(folder.path()), ReadError);
+}
+
+}  // namespace
+}  // namespace myoid::pipeline
