@@ -12,7 +12,7 @@
 
 #include "myoid/core/error.h"
 #include "myoid/identification/identifiability.h"
-#include "myoid/identification/torque_model.h"
+#include "myoid/identification/residual_model.h"
 #include "myoid/muscle/fatigue.h"
 #include "myoid/pipeline/study_model.h"
 #include "myoid/simulation/random.h"
@@ -20,11 +20,11 @@
 namespace myoid::pipeline {
 namespace {
 
+using identification::EstimatorOptions;
 using identification::FreeParameter;
 using identification::ParameterEstimate;
+using identification::ResidualModel;
 using identification::StudyData;
-using identification::TorqueModel;
-using identification::TorqueOptions;
 using identification::TrialData;
 
 /// What is known before the recording, in the estimator's scale.
@@ -54,7 +54,7 @@ Knowledge knowledge_of(const std::vector<FreeParameter>& free,
       if (std::isfinite(earlier->estimate[from])) pairs.emplace_back(j, from);
     }
     for (const auto& [a, from_a] : pairs) {
-      const bool logarithmic = free[static_cast<std::size_t>(a)].logarithmic;
+      const bool logarithmic = free[static_cast<std::size_t>(a)].field->logarithmic;
       known.mean[a] = logarithmic ? std::log(earlier->estimate[from_a]) : earlier->estimate[from_a];
       for (const auto& [b, from_b] : pairs)
         known.covariance(a, b) = earlier->covariance(from_a, from_b);
@@ -88,19 +88,17 @@ std::vector<Eigen::VectorXd> draw_persons(const std::vector<FreeParameter>& free
 
 /// J' W J nu of one trial at the truth: the estimator's weights and effective number of samples.
 Eigen::MatrixXd information_of(const StudyData& data,
-                               const TorqueOptions& torque,
+                               const EstimatorOptions& torque,
                                const Eigen::VectorXd& z,
                                double torque_sd_nm,
                                double emg_cv) {
-  const TorqueModel model(data, torque);
-  Eigen::VectorXd predicted;
-  Eigen::VectorXd power;
-  Eigen::MatrixXd jacobian;
-  model.evaluate(z, predicted, &jacobian, &power);
+  const ResidualModel model(data, torque);
+  identification::Evaluation at;
+  model.evaluate(z, ResidualModel::Depth::noise, at);
   const Eigen::VectorXd weight =
-      (torque_sd_nm * torque_sd_nm + emg_cv * emg_cv * power.array()).inverse();
+      (torque_sd_nm * torque_sd_nm + emg_cv * emg_cv * at.emg_power.array()).inverse();
   const double share = std::min(1.0, 2.0 * torque.residual_cutoff_hz.value() / model.rate_hz());
-  return share * jacobian.transpose() * weight.asDiagonal() * jacobian;
+  return share * at.gradient * weight.asDiagonal() * at.gradient.transpose();
 }
 
 std::vector<Eigen::Index> targets_of(const std::vector<FreeParameter>& free,
@@ -111,7 +109,7 @@ std::vector<Eigen::Index> targets_of(const std::vector<FreeParameter>& free,
     const std::size_t dot = label.find('.');
     const std::string owner = label.substr(0, dot);
     const std::string parameter = label.substr(dot + 1);
-    const bool nuisance = free[j].kind == FreeParameter::Kind::gain;
+    const bool nuisance = free[j].field->name == "emg_gain";
     for (const std::string& w : wanted) {
       if (w == label || w == owner || w == parameter || (w == "all" && !nuisance)) {
         targets.push_back(static_cast<Eigen::Index>(j));
@@ -145,17 +143,15 @@ ParameterEstimate expected_estimate(const FreeParameter& f,
   const std::size_t dot = f.label.find('.');
   e.muscle = f.label.substr(0, dot);
   e.parameter = f.label.substr(dot + 1);
-  e.unit = f.field != nullptr                     ? f.field->unit
-           : f.kind == FreeParameter::Kind::delay ? Unit::second
-                                                  : Unit::dimensionless;
+  e.unit = f.field->unit;
   e.method = "torque";
   e.fit_case = "both";
   e.initial = e.estimate = f.to_value(mean);
   e.ci_low = f.to_value(std::max(mean - 1.96 * sd, f.lower));
   e.ci_high = f.to_value(std::min(mean + 1.96 * sd, f.upper));
-  e.std_error = f.logarithmic ? e.estimate * sd : sd;
+  e.std_error = f.field->logarithmic ? e.estimate * sd : sd;
   e.prior_mean = e.estimate;
-  e.prior_sd = f.logarithmic ? e.estimate * prior_sd : prior_sd;
+  e.prior_sd = f.field->logarithmic ? e.estimate * prior_sd : prior_sd;
   e.shrinkage = 1.0 - sd * sd / (prior_sd * prior_sd);
   identification::judge(e, {});
   return e;
@@ -285,7 +281,7 @@ DesignStudyResult design_study(const Study& study, const DesignStudyOptions& opt
   StudyData data;
   data.muscles = muscle_setups(study, model);
   if (data.muscles.empty()) throw InvalidInput("design: the study has no [[muscle]]");
-  TorqueOptions torque;
+  EstimatorOptions torque;
   torque.muscles = study.identify.muscles;
   torque.delay_s = study.emg.delay_s;
   torque.max_rate_hz = 25.0;
@@ -309,26 +305,27 @@ DesignStudyResult design_study(const Study& study, const DesignStudyOptions& opt
   });
 
   // The estimator's parameters: from any trial that someone can do.
-  const auto person_of = [&](const std::vector<muscle::HillParameters<double>>& muscles,
-                             double delay_s, int k) {
+  const auto person_of = [&](const identification::ModelValues& values, int k) {
     MovementPerson person;
-    person.muscles = muscles;
-    person.emg_delay_s = delay_s;
+    person.muscles = values.muscles;
+    person.emg_delay_s = values.channels.empty() ? person.emg_delay_s
+                                                 : values.channels.front()[identification::kDelay];
     person.seed = simulation::seed_for(options.seed, fmt::format("person {}", k));
     return person;
   };
-  std::vector<muscle::HillParameters<double>> start;
-  for (const identification::MuscleSetup& m : data.muscles) start.push_back(m.start);
-  std::optional<TorqueModel> shape;
+  identification::ModelValues start;
+  for (const identification::MuscleSetup& m : data.muscles)
+    start.muscles.push_back(identification::muscle_values(m.start, m.extras));
+  std::optional<ResidualModel> shape;
   for (std::size_t i = 0; i < courses.size() && !shape; ++i) {
-    if (auto trial = perform(courses[i], data.muscles, person_of(start, 0.06, 0))) {
+    if (auto trial = perform(courses[i], data.muscles, person_of(start, 0))) {
       data.trials = {std::move(*trial)};
       shape.emplace(data, torque);
     }
   }
   if (!shape)
     throw InvalidInput("design: no movement of the catalogue is within the muscles' strength");
-  const std::vector<FreeParameter> free = shape->free();
+  const std::vector<FreeParameter> free = shape->parameters().free();
   const Knowledge known = knowledge_of(free, options.earlier);
   const std::vector<Eigen::VectorXd> persons = draw_persons(free, known, options);
   const double torque_sd = options.earlier && options.earlier->torque_sd_nm > 1e-3
@@ -354,9 +351,9 @@ DesignStudyResult design_study(const Study& study, const DesignStudyOptions& opt
     information.duration_s = movements[i].duration_s;
     std::vector<std::optional<TrialData>> performances;
     for (std::size_t k = 0; k < persons.size(); ++k) {
-      std::optional<TrialData> trial = perform(
-          courses[i], data.muscles,
-          person_of(shape->muscles(persons[k]), shape->delay_s(persons[k]), static_cast<int>(k)));
+      std::optional<TrialData> trial =
+          perform(courses[i], data.muscles,
+                  person_of(shape->parameters().values(persons[k]), static_cast<int>(k)));
       if (trial) {
         StudyData one;
         one.muscles = data.muscles;

@@ -31,7 +31,7 @@ Study arm_study() {
 
 MovementPerson typical(const std::vector<identification::MuscleSetup>& setups) {
   MovementPerson person;
-  for (const auto& s : setups) person.muscles.push_back(s.start);
+  for (const auto& s : setups) person.muscles.push_back(identification::muscle_values(s.start));
   return person;
 }
 
@@ -52,7 +52,7 @@ TEST(Movement, TheMusclesOfAPerformanceExertTheTorqueThatTheMotionRequires) {
     for (Eigen::Index i = 0; i < trial->time_s.size(); i += 17) {
       double torque = 0.0;
       for (Eigen::Index k = 0; k < 4; ++k) {
-        const auto& p = person.muscles[static_cast<std::size_t>(k)];
+        const auto& p = setups[static_cast<std::size_t>(k)].start;
         const double a = trial->activation.values()(lead + i, k);
         EXPECT_GE(a, person.co_contraction);
         torque += trial->moment_arm_m(i, k) *

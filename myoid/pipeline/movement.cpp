@@ -10,7 +10,6 @@
 #include "myoid/dynamics/held_mass.h"
 #include "myoid/dynamics/inverse_dynamics.h"
 #include "myoid/model/arm4.h"
-#include "myoid/muscle/hill_muscle.h"
 #include "myoid/pipeline/study_model.h"
 #include "myoid/simulation/random.h"
 
@@ -270,11 +269,12 @@ std::optional<identification::TrialData> perform(
   for (Eigen::Index i = 0; i < n; ++i) {
     std::fill(capacity.begin(), capacity.end(), 0.0);
     for (Eigen::Index k = 0; k < m; ++k) {
-      const auto& p = person.muscles[static_cast<std::size_t>(k)];
       capacity[channel_of[static_cast<std::size_t>(k)]] +=
           course.muscles.moment_arm_m(i, k) *
-          muscle::hill_force(1.0, course.muscles.length_m(i, k) - p.tendon_slack_length_m,
-                             course.muscles.velocity_mps(i, k), p);
+          identification::tension(1.0, course.muscles.length_m(i, k),
+                                  course.muscles.velocity_mps(i, k),
+                                  person.muscles[static_cast<std::size_t>(k)])
+              .force_n;
     }
     double most_share = 0.0;
     double up = 0.0;  // sum of squares of what the channels can do in either direction

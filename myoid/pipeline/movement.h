@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "myoid/identification/muscle_law.h"
 #include "myoid/identification/study_data.h"
 #include "myoid/pipeline/lumped_muscles.h"
 #include "myoid/pipeline/study.h"
@@ -28,7 +29,7 @@ struct Movement {
   double speed_radps = 0.0;   ///< isokinetic.
   double level = 0.0;         ///< isometric, isokinetic: greatest activation.
   bool positive = true;       ///< isometric, isokinetic: effort in the coordinate's direction.
-  std::string direction;  ///< Name of that direction: "flexion".
+  std::string direction;      ///< Name of that direction: "flexion".
   double duration_s = 10.0;
 
   /// "swing 0.6 Hz, 15-122 deg, 2 kg, vertical"
@@ -45,7 +46,7 @@ struct CatalogueOptions {
   int angles = 6;           ///< Isometric postures over the range.
   bool planes = true;       ///< Both planes (built-in arm) or the model's posture only.
   bool dynamometer = true;  ///< False: no isokinetic movement.
-  std::string coordinate;  ///< Names the directions of effort.
+  std::string coordinate;   ///< Names the directions of effort.
 };
 
 /// All combinations over the coordinate's range [rad], less a tenth of it at each end: swings over
@@ -73,7 +74,7 @@ struct MovementCourse {
 
 /// How the virtual persons act.
 struct MovementPerson {
-  std::vector<muscle::HillParameters<double>> muscles;  ///< In the study's order.
+  std::vector<identification::MuscleValues> muscles;  ///< In the study's order.
   double emg_delay_s = 0.06;
   double co_contraction = 0.05;  ///< Least activation of every muscle.
   double synergy = 0.35;  ///< Spread of ln(share of each EMG channel), over trials and within.
