@@ -1,0 +1,205 @@
+#include "myoid/simulation/simulation_model.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "myoid/core/error.h"
+#include "myoid/core/units.h"
+#include "myoid/model/muscle_path.h"
+#include "myoid/muscle/literature.h"
+#include "myoid/simulation/simulation_run.h"
+#include "myoid/simulation/tree_dynamics.h"
+
+namespace myoid::simulation {
+namespace {
+
+MuscleCurves curves_of(const model::Muscle& muscle, MuscleCurves wanted) {
+  if (wanted != MuscleCurves::file) return wanted;
+  if (muscle.class_name.find("Millard") != std::string::npos) return MuscleCurves::millard;
+  if (muscle.class_name.find("DeGroote") != std::string::npos) return MuscleCurves::de_groote;
+  return MuscleCurves::thelen;
+}
+
+muscle::MusculotendonLaws laws_of(MuscleCurves curves, muscle::TendonMode mode) {
+  switch (curves) {
+    case MuscleCurves::paper:
+      return muscle::paper_laws(mode);
+    case MuscleCurves::de_groote:
+      return muscle::de_groote_laws(mode);
+    case MuscleCurves::millard:
+      return muscle::millard_laws(mode);
+    case MuscleCurves::file:
+    case MuscleCurves::thelen:
+      break;
+  }
+  return muscle::thelen_laws(mode);
+}
+
+ModelMuscle muscle_of(const model::Muscle& m, int index, const ModelSetup& setup) {
+  const model::MuscleProperties& p = m.properties;
+  const MuscleCurves curves = curves_of(m, setup.curves);
+  ModelMuscle result{
+      .name = m.name, .index = index, .parameters = {}, .laws = {}, .activation = {}};
+  result.laws = laws_of(curves, setup.mode);
+  const muscle::ThelenParameters thelen{.max_isometric_force_n = p.max_isometric_force_n,
+                                        .optimal_fiber_length_m = p.optimal_fiber_length_m,
+                                        .tendon_slack_length_m = p.tendon_slack_length_m,
+                                        .pennation_at_optimal_rad = p.pennation_at_optimal_rad,
+                                        .max_contraction_velocity = p.max_contraction_velocity,
+                                        .active_shape = p.active_shape,
+                                        .concentric_shape = p.concentric_shape,
+                                        .eccentric_plateau = p.eccentric_plateau,
+                                        .extrapolation = p.force_velocity_extrapolation,
+                                        .max_pennation_rad = p.max_pennation_rad};
+  result.parameters = muscle::published_defaults(muscle::hill_from_thelen(thelen), result.laws);
+  result.parameters.pennation_at_optimal_rad = p.pennation_at_optimal_rad;
+  if (curves == MuscleCurves::thelen) {
+    result.parameters.tendon_strain = p.max_tendon_strain;
+    result.parameters.passive_strain = p.max_muscle_strain;
+    result.parameters.passive_shape = p.passive_shape;
+    if (setup.mode == muscle::TendonMode::equilibrium) result.parameters.damping = 0.0;
+  }
+  result.activation.law = setup.activation;
+  result.activation.excitation_time_s = setup.excitation_time_s;
+  result.activation.activation_time_s = p.activation_time_s;
+  result.activation.deactivation_time_s = p.deactivation_time_s;
+  try {
+    muscle::validate(result.parameters, result.laws);
+    muscle::validate(result.activation);
+  } catch (const InvalidInput& error) {
+    throw InvalidInput(fmt::format("muscle {}: {}", m.name, error.what()));
+  }
+  return result;
+}
+
+muscle::JointPassive<double> joint_of(const model::Coordinate& coordinate,
+                                      const ModelSetup& setup) {
+  muscle::JointPassive<double> joint;
+  joint.viscosity_nms_per_rad = setup.joint_viscosity;
+  if (setup.stops && coordinate.clamped) {
+    const double width =
+        coordinate.motion == model::MotionType::translational ? 0.003 : 3.0 * kDegree;
+    joint.lower_stop_torque_nm = joint.upper_stop_torque_nm = 1.0;
+    joint.lower_stop_rad = coordinate.lower;
+    joint.upper_stop_rad = coordinate.upper;
+    joint.lower_stop_width_rad = joint.upper_stop_width_rad = width;
+  }
+  return joint;
+}
+
+/// A model as `SimulationRun` moves it; see HingeSkeleton.
+class TreeSkeleton {
+ public:
+  explicit TreeSkeleton(const SimulationModel& model)
+      : model_(&model), dynamics_(model.body), n_(model.muscles.size()) {
+    for (const ModelMuscle& m : model.muscles) units_.emplace_back(m.parameters, m.laws);
+    const auto nq = static_cast<Eigen::Index>(coordinate_count());
+    q_.setConstant(nq, std::nan(""));
+    qdot_.setConstant(nq, std::nan(""));
+    paths_.resize(n_);
+    passive_.resize(coordinate_count());
+    forces_.resize(coordinate_count());
+  }
+
+  [[nodiscard]] std::size_t coordinate_count() const { return model_->body.coordinates.size(); }
+  [[nodiscard]] const std::string& coordinate_name(std::size_t k) const {
+    return model_->body.coordinates[k].name;
+  }
+  [[nodiscard]] bool is_rotational(std::size_t k) const {
+    return model_->body.coordinates[k].motion != model::MotionType::translational;
+  }
+  [[nodiscard]] std::size_t muscle_count() const { return n_; }
+  [[nodiscard]] const std::string& muscle_name(std::size_t i) const {
+    return model_->muscles[i].name;
+  }
+  [[nodiscard]] const muscle::Musculotendon<double>& unit(std::size_t i) const { return units_[i]; }
+  [[nodiscard]] const muscle::ActivationDynamics<double>& activation(std::size_t i) const {
+    return model_->muscles[i].activation;
+  }
+
+  void set(const double* q, const double* qdot) {
+    const auto nq = static_cast<Eigen::Index>(coordinate_count());
+    const Eigen::Map<const Eigen::VectorXd> here(q, nq);
+    const Eigen::Map<const Eigen::VectorXd> speed(qdot, nq);
+    if (here == q_ && speed == qdot_) return;
+    q_ = here;
+    qdot_ = speed;
+    dynamics_.set(q_, qdot_);
+    for (std::size_t i = 0; i < n_; ++i)
+      paths_[i] = model::compute_path(model_->body, model_->muscles[i].index, dynamics_.state());
+    for (std::size_t k = 0; k < coordinate_count(); ++k)
+      passive_[k] = muscle::joint_passive(model_->joints[k], q[k], qdot[k]);
+  }
+  [[nodiscard]] double length_m(std::size_t i) const { return paths_[i].length_m; }
+  [[nodiscard]] double velocity_mps(std::size_t i) const { return paths_[i].speed_mps; }
+  [[nodiscard]] double moment_arm_m(std::size_t i, std::size_t k) const {
+    return paths_[i].moment_arm_m[static_cast<Eigen::Index>(k)];
+  }
+  void accelerate(const double* tau, const char* prescribed, double* qddot, double* device) {
+    for (std::size_t k = 0; k < forces_.size(); ++k) forces_[k] = tau[k] + passive_[k].torque_nm;
+    if (!dynamics_.accelerate(forces_.data(), prescribed, qddot, device)) {
+      throw ModelError(
+          "the mass matrix of the free coordinates is not positive: a coordinate moves bodies "
+          "without mass or inertia; give them some, or lock the coordinate");
+    }
+  }
+  [[nodiscard]] double gravity(std::size_t k) const {
+    return dynamics_.gravity()[static_cast<Eigen::Index>(k)];
+  }
+  [[nodiscard]] double joint_elastic(std::size_t k) const { return passive_[k].elastic_torque_nm; }
+  [[nodiscard]] double joint_viscous(std::size_t k) const { return passive_[k].viscous_torque_nm; }
+  [[nodiscard]] double kinetic_energy_j() const { return dynamics_.kinetic_energy_j(); }
+  [[nodiscard]] double gravity_energy_j() const { return dynamics_.gravity_energy_j(); }
+  [[nodiscard]] double joint_elastic_energy_j() const {
+    double sum = 0.0;
+    for (const auto& joint : passive_) sum += joint.stored_energy_j;
+    return sum;
+  }
+
+ private:
+  const SimulationModel* model_;
+  TreeDynamics dynamics_;
+  std::size_t n_;
+  std::vector<muscle::Musculotendon<double>> units_;
+  Eigen::VectorXd q_, qdot_;
+  std::vector<model::PathResult> paths_;
+  std::vector<muscle::JointPassiveOutput<double>> passive_;
+  std::vector<double> forces_;
+};
+
+}  // namespace
+
+SimulationModel make_simulation_model(model::BodyModel body, const ModelSetup& setup) {
+  SimulationModel result;
+  for (std::size_t i = 0; i < body.muscles.size(); ++i) {
+    if (body.muscles[i].applies_force)
+      result.muscles.push_back(muscle_of(body.muscles[i], static_cast<int>(i), setup));
+  }
+  for (const model::Coordinate& coordinate : body.coordinates)
+    result.joints.push_back(joint_of(coordinate, setup));
+  result.body = std::move(body);
+  return result;
+}
+
+SimulationStart default_start(const SimulationModel& model) {
+  const Eigen::VectorXd q = model.body.default_q();
+  return {.q = std::vector<double>(q.begin(), q.end())};
+}
+
+std::vector<Device> default_devices(const SimulationModel& model) {
+  std::vector<Device> devices;
+  for (const model::Coordinate& coordinate : model.body.coordinates)
+    devices.push_back(coordinate.locked ? locked() : Device{});
+  return devices;
+}
+
+Simulation simulate(const SimulationModel& model,
+                    const SimulationInput& input,
+                    const SimulationStart& start,
+                    const SimulationOptions& options) {
+  SimulationRun<TreeSkeleton> run(TreeSkeleton(model), input, start, options);
+  return run.go();
+}
+
+}  // namespace myoid::simulation

@@ -1,0 +1,134 @@
+#include "myoid/simulation/simulation_model.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "myoid/core/error.h"
+#include "myoid/model/arm4.h"
+#include "myoid/model/kinematic_tree.h"
+#include "myoid/model/osim_reader.h"
+#include "myoid/simulation/forward_simulation.h"
+
+#include "tests/support/data_folder.h"
+
+namespace myoid::simulation {
+namespace {
+
+using muscle::TendonMode;
+
+model::BodyModel arm4() { return model::parse_osim(model::arm4_osim(), "arm4.osim"); }
+
+std::vector<Signal> bursting() {
+  const Burst flex[] = {{0.2, 0.25, 0.3}, {1.2, 0.25, 0.3}};
+  const Burst extend[] = {{0.6, 0.25, 0.2}};
+  const Signal flexor = bursts(flex, 0.02);
+  return {flexor, flexor, flexor, bursts(extend, 0.02)};
+}
+
+// The file's arm, its shoulder locked, and the closed form: two descriptions of one thing.
+TEST(SimulationModel, TheArmsFileMovesAsItsClosedFormDoes) {
+  for (const TendonMode mode : {TendonMode::rigid, TendonMode::equilibrium, TendonMode::mass}) {
+    ArmSetup setup;
+    setup.laws = muscle::thelen_laws(mode);
+    Arm<double> arm = make_arm(setup);  // its stops keep it where the file's paths hold
+    SimulationModel model = make_simulation_model(
+        arm4(), {.mode = mode, .activation = muscle::ActivationLaw::two_lags, .stops = false});
+    model.joints[3] = arm.joint;
+    for (std::size_t i = 0; i < 4; ++i) {
+      arm.muscles[i].parameters = model.muscles[i].parameters;
+      arm.muscles[i].activation = model.muscles[i].activation;
+    }
+    const SimulationOptions options{.end_s = 2.0, .output_rate_hz = 50.0, .energy = true};
+    const Simulation closed = simulate(arm, {.excitation = bursting()}, {.q = {1.0}}, options);
+    SimulationStart start = default_start(model);
+    start.q[3] = 1.0;
+    const Simulation tree =
+        simulate(model, {.excitation = bursting(), .device = {locked(), locked(), locked(), {}}},
+                 start, options);
+    ASSERT_EQ(tree.status, math::OdeStatus::done) << tree.message;
+    // Both to the tolerance of 1e-8, whose local errors accumulate.
+    EXPECT_LT((tree.motion.column("elbow_flexion") - closed.motion.column("elbow_flexion"))
+                  .cwiseAbs()
+                  .maxCoeff(),
+              1e-5);
+    EXPECT_LT((tree.torque.column("elbow_flexion/muscles") - closed.torque.column("muscles"))
+                  .cwiseAbs()
+                  .maxCoeff(),
+              2e-3);
+    EXPECT_LT(energy_balance(tree).worst, 1e-6) << energy_balance(tree).where;
+    EXPECT_LT(tree.motion.column("shoulder_flexion").cwiseAbs().maxCoeff(), 1e-15);
+  }
+}
+
+TEST(SimulationModel, FourCoordinatesFreeKeepTheirEnergyAndRequireTheirTorque) {
+  const SimulationModel model = make_simulation_model(arm4(), {.joint_viscosity = 0.1});
+  SimulationStart start = default_start(model);
+  start.q = {0.3, -0.4, 0.2, 1.0};
+  const Simulation s = simulate(model, {.excitation = bursting()}, start,
+                                {.end_s = 2.0, .output_rate_hz = 20.0, .energy = true});
+  ASSERT_EQ(s.status, math::OdeStatus::done) << s.message;
+  EXPECT_LT(energy_balance(s).worst, 1e-6) << energy_balance(s).where;
+  model::BodyState state = model::make_state(model.body);
+  for (Eigen::Index row = 0; row < s.motion.sample_count(); ++row) {
+    Eigen::VectorXd q(4);
+    Eigen::VectorXd qdot(4);
+    Eigen::VectorXd qddot(4);
+    Eigen::VectorXd tau(4);
+    for (Eigen::Index k = 0; k < 4; ++k) {
+      q[k] = s.motion.values()(row, 3 * k);
+      qdot[k] = s.motion.values()(row, 3 * k + 1);
+      qddot[k] = s.motion.values()(row, 3 * k + 2);
+      tau[k] = s.torque.values()(row, 5 * k) + s.torque.values()(row, 5 * k + 2);
+    }
+    const Eigen::VectorXd required = model::inverse_dynamics(model.body, q, qdot, qddot, {}, state);
+    EXPECT_LT((required - tau).cwiseAbs().maxCoeff(), 1e-8) << row;
+  }
+}
+
+TEST(SimulationModel, AModelOfOthersWithWrappedPathsMoves) {
+  const auto file = test::data_folder() / "opensim/arm26/model.osim";
+  MYOID_REQUIRE_DATA(file);
+  for (const TendonMode mode : {TendonMode::rigid, TendonMode::equilibrium, TendonMode::mass}) {
+    model::BodyModel body = model::read_osim(file);
+    // Over an ellipsoid the moment arm is not quite the derivative of the length (muscle_path.h).
+    std::erase_if(body.muscles, [&](const model::Muscle& m) {
+      return std::any_of(m.path.wraps.begin(), m.path.wraps.end(), [&](const auto& wrap) {
+        return std::holds_alternative<model::EllipsoidShape>(
+            body.wrap_objects[static_cast<std::size_t>(wrap.wrap_object)].shape);
+      });
+    });
+    ASSERT_GE(body.muscles.size(), 3u);
+    // A stretched fiber whose rigid tendon goes slack leaves its passive energy behind: the paper's
+    // curves have none.
+    const SimulationModel model = make_simulation_model(
+        std::move(body),
+        {.mode = mode,
+         .curves = mode == TendonMode::rigid ? MuscleCurves::paper : MuscleCurves::file});
+    SimulationInput input{.excitation = std::vector<Signal>(model.muscles.size(), constant(0.05)),
+                          .device = default_devices(model)};
+    for (std::size_t i = 0; i < model.muscles.size(); ++i) {
+      if (model.muscles[i].name == "BRA") input.excitation[i] = step(0.1, 0.5, 0.05);
+    }
+    const Simulation s = simulate(model, input, default_start(model),
+                                  {.end_s = 0.5, .output_rate_hz = 50.0, .energy = true});
+    ASSERT_EQ(s.status, math::OdeStatus::done) << s.message;
+    EXPECT_LT(energy_balance(s).worst, 1e-6) << energy_balance(s).where;
+    EXPECT_GT(s.motion.column("r_elbow_flex").maxCoeff(), 0.3);
+  }
+}
+
+TEST(SimulationModel, AMuscleThatMakesNoUnitIsNamed) {
+  model::BodyModel body = arm4();
+  body.muscles[2].properties.optimal_fiber_length_m = -1.0;
+  try {
+    (void)make_simulation_model(body);
+    FAIL();
+  } catch (const InvalidInput& error) {
+    EXPECT_NE(std::string(error.what()).find(body.muscles[2].name), std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace myoid::simulation

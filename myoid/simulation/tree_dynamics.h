@@ -1,0 +1,58 @@
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+
+#include "myoid/model/kinematic_tree.h"
+
+namespace myoid::simulation {
+
+/// The equations of motion of a tree of bodies at one state: M(q) qddot + C(q, qdot) = tau +
+/// gravity. Composite bodies about the ground's origin, from the tips inward:
+///
+///   M_cd = w_d . L_c + v_d . P_c,   P_c = m v_c + w_c x h,   L_c = h x v_c + I w_c
+///
+/// with m, h, I mass, first moment and inertia of all bodies that coordinate c carries, and w, v
+/// the angular velocity and the velocity of the point at the ground's origin per unit of a
+/// coordinate's speed. C from the recursive Newton-Euler method (kinematic_tree.h). Not to be
+/// shared by threads.
+class TreeDynamics {
+ public:
+  explicit TreeDynamics(const model::BodyModel& model);
+
+  /// Everything below is for this state.
+  void set(const Eigen::Ref<const Eigen::VectorXd>& q,
+           const Eigen::Ref<const Eigen::VectorXd>& qdot);
+
+  [[nodiscard]] const model::BodyState& state() const { return state_; }
+  [[nodiscard]] const Eigen::MatrixXd& mass_matrix() const { return mass_; }
+  [[nodiscard]] const Eigen::VectorXd& gravity() const { return gravity_; }
+  [[nodiscard]] const Eigen::VectorXd& coriolis() const { return coriolis_; }
+  [[nodiscard]] double kinetic_energy_j() const { return kinetic_; }
+  [[nodiscard]] double gravity_energy_j() const { return potential_; }
+
+  /// Accelerations of the free coordinates under generalized forces `tau` besides gravity. Where
+  /// `prescribed` is not 0, qddot is taken as it is and `device` gets the force this takes; else
+  /// device is 0. False if the mass matrix of the free coordinates is not positive.
+  [[nodiscard]] bool accelerate(const double* tau,
+                                const char* prescribed,
+                                double* qddot,
+                                double* device);
+
+ private:
+  const model::BodyModel* model_;
+  model::BodyState state_;
+  Eigen::MatrixXd mass_, reduced_;
+  Eigen::VectorXd gravity_, coriolis_, rest_, rhs_;
+  std::vector<double> composite_mass_;
+  std::vector<Vec3> moment_;
+  std::vector<Mat3> inertia_;
+  std::vector<Vec3> v_origin_;
+  std::vector<int> free_;
+  Eigen::LLT<Eigen::MatrixXd> factor_;
+  double kinetic_ = 0.0, potential_ = 0.0;
+};
+
+}  // namespace myoid::simulation
