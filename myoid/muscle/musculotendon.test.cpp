@@ -301,6 +301,50 @@ TEST(Musculotendon, ThreeTendonModesAgreeInSlowMovement) {
   EXPECT_NEAR(force[2] / force[1], 1.0, 1e-3);
 }
 
+TEST(Musculotendon, OptimalLengthGrowsAsTheActivationFalls) {
+  // l_opt(a) = l0 (1 + gamma (1 - a)): the peak of f_l at a = 0.2, gamma = 0.15 lies at 1.12 l0.
+  for (const MusculotendonLaws& laws :
+       {paper_laws(), de_groote_laws(TendonMode::mass), millard_laws(TendonMode::mass)}) {
+    MusculotendonParameters<double> p = published_defaults(kBicepsLong, laws);
+    const Musculotendon<double> plain(p, laws);
+    p.optimal_length_shift = 0.15;
+    const Musculotendon<double> shifted(p, laws);
+    for (const double l : {0.8, 1.0, 1.2}) {
+      const double fiber = l * 0.1157;
+      EXPECT_NEAR(
+          musculotendon_output(shifted, Input{0.2, 0.4, 0.0}, State{1.12 * fiber, 0.0})
+              .length_multiplier,
+          musculotendon_output(plain, Input{0.2, 0.4, 0.0}, State{fiber, 0.0}).length_multiplier,
+          1e-14);
+    }
+    EXPECT_EQ(
+        musculotendon_output(shifted, Input{1.0, 0.4, 0.0}, State{0.1, 0.0}).length_multiplier,
+        musculotendon_output(plain, Input{1.0, 0.4, 0.0}, State{0.1, 0.0}).length_multiplier);
+  }
+}
+
+TEST(Musculotendon, TendonTakesWhatTheFiberGivesAlsoBelowTheShortestLength) {
+  // dl_t/dl_m = -1 / cos(alpha), so that no power is lost; at 0.3 rad the shortest fiber is 0.0344
+  // m.
+  MusculotendonParameters<double> p = published_defaults(kBicepsLong, paper_laws());
+  p.pennation_at_optimal_rad = 0.3;
+  const Musculotendon<double> unit(p, paper_laws());
+  EXPECT_NEAR(unit.shortest_fiber_m(), 0.1157 * std::sin(0.3) / std::sqrt(0.99), 1e-15);
+  const double h = 1e-7;
+  for (const double l : {0.031, 0.0343, 0.04, 0.12}) {
+    const auto tendon = [&](double fiber) {
+      return musculotendon_output(unit, Input{0.5, 0.4, 0.0}, State{fiber, 0.0});
+    };
+    const double slope = (tendon(l + h).tendon_length_m - tendon(l - h).tendon_length_m) / (2 * h);
+    // Truncation h^2 / 6 times 1 / (l cos^5) at most 1e8 / m^2; rounding 1e-17 / h.
+    EXPECT_NEAR(slope, -1.0 / tendon(l).cos_pennation, 1e-5) << l;
+    EXPECT_EQ(tendon(l).at_shortest, l < 0.0344);
+  }
+  // Pressed below, it pushes back.
+  EXPECT_LT(musculotendon_output(unit, Input{0.0, 0.4, 0.0}, State{0.030, 0.0}).passive_force_n,
+            0.0);
+}
+
 TEST(Musculotendon, EventsChangeSignAtTheKinks) {
   const Musculotendon<double> unit(published_defaults(kBicepsLong, paper_laws()), paper_laws());
   const Input input{0.5, 0.39, 0.0};
