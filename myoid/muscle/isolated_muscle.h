@@ -1,0 +1,61 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include <Eigen/Core>
+
+#include "myoid/core/progress.h"
+#include "myoid/core/time_series.h"
+#include "myoid/math/ode.h"
+#include "myoid/muscle/activation.h"
+#include "myoid/muscle/musculotendon.h"
+
+namespace myoid::muscle {
+
+/// A muscle in a testing machine: its whole length is imposed, its drive given.
+struct IsolatedMuscleInput {
+  /// Samples of the length of fiber and tendon together [s], [m]; at least two, any spacing.
+  /// Between them a cubic that keeps their shape (no overshoot, continuous velocity).
+  Eigen::VectorXd time_s, length_m;
+
+  /// Samples of the drive, in 0..1; straight between them, constant outside. Times may be empty if
+  /// there is one value: constant.
+  Eigen::VectorXd drive_time_s, drive;
+  /// True: the drive is an excitation, and the activation follows it by `dynamics`. False: it is
+  /// the activation.
+  bool drive_is_excitation = false;
+  ActivationDynamics<double> dynamics{
+      .law = ActivationLaw::thelen, .activation_time_s = 0.010, .deactivation_time_s = 0.040};
+  /// Activation at the first time, with an excitation; empty: settled on the first drive.
+  std::optional<double> initial_activation;
+};
+
+struct IsolatedMuscleOptions {
+  Eigen::VectorXd output_time_s;  ///< Within the samples of the length; empty: those times.
+  double relative_tolerance = 1e-9;
+  double absolute_tolerance = 1e-12;  ///< [m], [m/s], [-]
+  Progress progress;
+};
+
+/// The simulated experiment. On failure the series ends where the integration did.
+struct IsolatedMuscleResult {
+  math::OdeStatus status = math::OdeStatus::done;
+  std::string message;  ///< One sentence.
+  math::OdeStatistics statistics;
+  /// activation, musculotendon_length [m], musculotendon_velocity [m/s], fiber_length [m],
+  /// fiber_velocity [m/s], pennation [rad], tendon_length [m], active_fiber_force,
+  /// passive_fiber_force (elastic and viscous), fiber_force, tendon_force [N].
+  TimeSeries series;
+};
+
+/// Integrates the muscle from equilibrium at the first sample (length, velocity and activation
+/// there) along the imposed length, ending a step at every sample of length and drive. Throws
+/// InvalidInput if sizes differ, times do not strictly increase, a value is not finite, a drive
+/// lies outside 0..1 or an output time outside the samples; Interrupted on request.
+[[nodiscard]] IsolatedMuscleResult simulate_isolated_muscle(
+    const Musculotendon<double>& unit,
+    const IsolatedMuscleInput& input,
+    const IsolatedMuscleOptions& options = {});
+
+}  // namespace myoid::muscle
