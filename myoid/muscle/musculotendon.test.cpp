@@ -323,6 +323,26 @@ TEST(Musculotendon, OptimalLengthGrowsAsTheActivationFalls) {
   }
 }
 
+TEST(Musculotendon, ARigidTendonDoesNotPushAndLosesNoEnergyWhenItGoesSlack) {
+  // A stretched, shortening fiber: the damper would push. Its passive spring still gives its
+  // energy, and the damper takes it.
+  const MusculotendonLaws laws = thelen_laws(TendonMode::rigid);
+  const Musculotendon<double> unit(published_defaults(kBicepsLong, laws), laws);
+  const double length = 0.2723 + 1.1 * 0.1157, velocity = -1.1, h = 1e-7;
+  const auto at = [&](double path) {
+    return musculotendon_output(unit, Input{0.01, path, velocity}, State{});
+  };
+  const auto o = at(length);
+  EXPECT_TRUE(o.slack);
+  EXPECT_EQ(o.tendon_force_n, 0.0);
+  EXPECT_GT(o.passive_force_n, 0.0);
+  EXPECT_EQ(o.fiber_force_n, 0.0);
+  EXPECT_LT(o.viscous_power_w, 0.0);
+  const double slope =
+      (at(length + h).passive_energy_j - at(length - h).passive_energy_j) / (2 * h);
+  EXPECT_NEAR(o.passive_power_w, -slope * velocity, 1e-6);  // truncation and 1e-16 / h
+}
+
 TEST(Musculotendon, TendonTakesWhatTheFiberGivesAlsoBelowTheShortestLength) {
   // dl_t/dl_m = -1 / cos(alpha), so that no power is lost; at 0.3 rad the shortest fiber is 0.0344
   // m.

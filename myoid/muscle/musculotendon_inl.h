@@ -20,6 +20,7 @@ struct Instant {
   CurvePoint<T> length{}, velocity{}, passive{}, tendon{};
   T strength{};  ///< a f_l
   T speed{};     ///< v / v_max
+  T viscous{};   ///< Mode `rigid`: the damper's force over F_max.
   bool floored = false;
 };
 
@@ -85,15 +86,14 @@ Instant<T> instant(const Musculotendon<T>& unit,
       now.speed = input.velocity_mps * now.reach.cosine / p.hill.max_shortening_speed_mps;
       contract(unit, input, now);
       now.velocity = velocity_law(unit, input.activation, now.speed);
-      now.tendon.value =
-          (now.strength * now.velocity.value + now.passive.value + p.damping * now.speed) *
-          now.reach.cosine;
-    }
-    if (!(value_of(now.tendon.value) > 0.0)) {  // the tendon hangs, and the fiber in it rests
-      Instant<T> hanging;
-      hanging.length_m = now.length_m;
-      hanging.reach = now.reach;
-      return hanging;
+      const T pull = now.strength * now.velocity.value + now.passive.value;
+      const T total = pull + p.damping * now.speed;
+      if (value_of(total) > 0.0) {
+        now.viscous = p.damping * now.speed;
+        now.tendon.value = total * now.reach.cosine;
+      } else {  // a tendon does not push: the damper gives way
+        now.viscous = -pull;
+      }
     }
     return now;
   }
@@ -158,7 +158,8 @@ MusculotendonOutput<T> musculotendon_output(const Musculotendon<T>& unit,
   o.velocity_multiplier = now.velocity.value;
   o.active_force_n = now.strength * now.velocity.value * f_max;
   o.passive_force_n = now.passive.value * f_max;
-  o.viscous_force_n = unit.damping_nspm() * o.fiber_velocity_mps;
+  o.viscous_force_n =
+      mode == TendonMode::rigid ? now.viscous * f_max : unit.damping_nspm() * o.fiber_velocity_mps;
   o.fiber_force_n = o.active_force_n + o.passive_force_n + o.viscous_force_n;
   o.tendon_force_n = now.tendon.value * f_max;
   o.active_power_w = -o.active_force_n * o.fiber_velocity_mps;

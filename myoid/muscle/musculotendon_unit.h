@@ -25,7 +25,9 @@ inline constexpr double kLeastPennationCosine = 0.1;
 ///
 ///   mass:         M_m dv/dt = F_t / cos(alpha) - F_m          (equation (5) of the source paper)
 ///   equilibrium:  F_t = F_m cos(alpha), solved for v = dl_m/dt
-///   rigid:        l_t = l_t0, F_t = F_m cos(alpha)
+///   rigid:        l_t = l_t0, F_t = F_m cos(alpha); a tendon does not push: where B_m v would make
+///   F_m
+///                 negative, the damper gives way to F_m = 0
 ///
 /// Below its shortest length (a hundredth of l0, or cos(alpha) = 0.1) the fiber is held by a stiff
 /// spring, and its line of pull keeps its angle. With zero damping the equilibrium needs a f_l f_v
