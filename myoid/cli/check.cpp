@@ -17,7 +17,8 @@ void add_check(CLI::App& app, Context& context) {
   command.add_option("study", *study_file, "study.toml")->required();
   add_common_options(command, context);
   command.callback([&context, study_file] {
-    const pipeline::Study study = pipeline::read_study(*study_file);
+    pipeline::Study study = pipeline::read_study(*study_file);
+    pipeline::restrict_trials(study, context.start_s, context.end_s);
     const std::vector<pipeline::Finding> findings = pipeline::check_study(study);
     const auto errors = std::count_if(findings.begin(), findings.end(), [](const auto& f) {
       return f.level == pipeline::Finding::Level::error;

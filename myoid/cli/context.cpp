@@ -41,6 +41,7 @@ struct ProgressBar {
 }  // namespace
 
 void Context::log(std::string_view line) const {
+  std::fflush(stdout);  // so that the two streams stay in order where they go to one place
   if (!quiet) fmt::print(stderr, "{}\n", line);
 }
 

@@ -33,13 +33,18 @@ void add_report(CLI::App& app, Context& context) {
     if (!run.contains("study"))
       throw ReadError(path, 0, "does not name its study; run the study again");
     const pipeline::Study study = pipeline::read_study(run["study"].get<std::string>());
-    const pipeline::StudyResult result =
-        pipeline::run_study(study, {.progress = context.progress()});
+    const auto then = [&](const char* key) -> std::optional<double> {
+      return run.contains(key) && run[key].is_number() ? std::optional<double>(run[key])
+                                                       : std::nullopt;
+    };
+    const pipeline::StudyResult result = pipeline::run_study(
+        study,
+        {.start_s = then("start_s"), .end_s = then("end_s"), .progress = context.progress()});
     for (const InputFile& now : result.inputs) {
-      for (const auto& then : run["inputs"]) {
-        if (std::filesystem::path(then["path"].get<std::string>()).filename() ==
+      for (const auto& recorded : run["inputs"]) {
+        if (std::filesystem::path(recorded["path"].get<std::string>()).filename() ==
                 std::filesystem::path(now.path).filename() &&
-            then["sha256"] != now.sha256) {
+            recorded["sha256"] != now.sha256) {
           throw ReadError(
               now.path, 0,
               fmt::format("has changed since the run in {}; run the study again (myoid run)",
@@ -50,7 +55,7 @@ void add_report(CLI::App& app, Context& context) {
     Provenance provenance;
     provenance.command = run.value("command", context.command_line);
     provenance.inputs = result.inputs;
-    provenance.options_json = pipeline::study_json(study);
+    provenance.options_json = pipeline::study_json(result.study);
     report::write_report(pipeline::study_report(result, provenance), *folder);
     context.end_progress();
     fmt::print("{}/report.html\n", *folder);

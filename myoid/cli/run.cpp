@@ -10,6 +10,7 @@
 
 #include "myoid/cli/context.h"
 #include "myoid/core/error.h"
+#include "myoid/pipeline/quality_gates.h"
 #include "myoid/pipeline/result_files.h"
 #include "myoid/pipeline/run_study.h"
 #include "myoid/pipeline/study_json.h"
@@ -25,26 +26,33 @@ using identification::Verdict;
 /// In --out: what an interrupted or repeated run need not compute again.
 constexpr const char* kStageFolder = ".stages";
 
-/// The table on stdout: what was found, how sure, and whether to believe it.
-void print_table(const pipeline::StudyResult& result) {
-  for (const identification::IdentificationResult& method : result.methods) {
-    fmt::print("\nmethod {}: {}\n", method.method, method.message);
-    fmt::print("{:<8} {:<28} {:<12} {:>11} {:>11} {:>25}  {}\n", "muscle", "parameter", "case",
-               "initial", "estimate", "95 % interval", "verdict");
-    for (const ParameterEstimate& e : method.estimates) {
-      const std::string interval = e.ci_low && e.ci_high
-                                       ? fmt::format("[{}, {}]", report::format_value(*e.ci_low),
-                                                     report::format_value(*e.ci_high))
-                                       : "-";
-      const std::string unit =
-          e.unit == Unit::dimensionless ? "" : fmt::format(" {}", symbol(e.unit));
-      fmt::print("{:<8} {:<28} {:<12} {:>11} {:>11} {:>25}  {}\n", e.muscle,
-                 e.parameter + (unit.empty() ? "" : " [" + unit.substr(1) + "]"), e.fit_case,
-                 report::format_value(e.initial),
-                 std::isfinite(e.estimate) ? report::format_value(e.estimate) : "-", interval,
-                 identification::name(e.verdict));
-    }
+void print_method(const identification::IdentificationResult& method) {
+  std::size_t owner = 6;
+  std::size_t parameter = 9;
+  const auto labelled = [](const ParameterEstimate& e) {
+    return e.unit == Unit::dimensionless ? e.parameter
+                                         : fmt::format("{} [{}]", e.parameter, symbol(e.unit));
+  };
+  for (const ParameterEstimate& e : method.estimates) {
+    owner = std::max(owner, e.muscle.size());
+    parameter = std::max(parameter, labelled(e).size());
   }
+  fmt::print("\nmethod {}: {}\n", method.method, method.message);
+  fmt::print("{:<{}}  {:<{}}  {:<11} {:>10} {:>10} {:>24}  {}\n", "muscle", owner, "parameter",
+             parameter, "case", "initial", "estimate", "95 % interval", "verdict");
+  for (const ParameterEstimate& e : method.estimates) {
+    const std::string interval =
+        e.ci_low && e.ci_high
+            ? fmt::format("[{}]", report::format_interval(*e.ci_low, *e.ci_high, ", "))
+            : "-";
+    fmt::print("{:<{}}  {:<{}}  {:<11} {:>10} {:>10} {:>24}  {}\n", e.muscle, owner, labelled(e),
+               parameter, e.fit_case, report::format_value(e.initial),
+               std::isfinite(e.estimate) ? report::format_value(e.estimate) : "-", interval,
+               identification::name(e.verdict));
+  }
+}
+
+void print_predictions(const pipeline::StudyResult& result) {
   if (!result.folds.empty()) {
     fmt::print(
         "\nleave one trial out: torque predicted for a trial that took no part in the fit\n");
@@ -55,6 +63,42 @@ void print_table(const pipeline::StudyResult& result) {
                  f.identified.r2, f.literature.rmse_nm, f.literature.r2);
     }
   }
+  for (const identification::IdentificationResult& method : result.methods) {
+    if (method.method != "torque") continue;
+    bool first = true;
+    for (const identification::TrialFit& t : method.trials) {
+      if (t.calibration) continue;
+      if (first)
+        fmt::print("\nvalidation trials\n{:<20} {:>10} {:>8}\n", "trial", "RMSE [N m]", "R2");
+      first = false;
+      fmt::print("{:<20} {:>10.2f} {:>8.3f}\n", t.trial, t.rmse_nm, t.r2);
+    }
+  }
+}
+
+void print_gates(const std::vector<report::Gate>& gates) {
+  fmt::print("\nquality gates\n");
+  for (const report::Gate& gate : gates) {
+    const char* status = gate.status == report::GateStatus::pass   ? "ok"
+                         : gate.status == report::GateStatus::warn ? "caution"
+                         : gate.status == report::GateStatus::fail ? "FAILED"
+                                                                   : "-";
+    fmt::print("{:<8} {}: {}\n", status, gate.name, gate.value);
+    if (gate.status == report::GateStatus::fail)
+      fmt::print("{:<8} expected: {}. {}\n", "", gate.threshold, gate.why);
+  }
+}
+
+/// The results on stdout: what was found by the method that knows how sure it is, how it predicts,
+/// then the source paper's, then whether to believe it.
+void print_results(const pipeline::StudyResult& result, const std::vector<report::Gate>& gates) {
+  for (const bool paper : {false, true}) {
+    for (const identification::IdentificationResult& method : result.methods) {
+      if ((method.method == "paper") == paper) print_method(method);
+    }
+    if (!paper) print_predictions(result);
+  }
+  print_gates(gates);
 }
 
 }  // namespace
@@ -78,15 +122,25 @@ void add_run(CLI::App& app, Context& context) {
     const pipeline::Study study = pipeline::read_study(options->study);
     context.prepare_folder(options->out, kStageFolder);
     const pipeline::StudyResult result =
-        pipeline::run_study(study, {.progress = context.progress(),
+        pipeline::run_study(study, {.start_s = context.start_s,
+                                    .end_s = context.end_s,
+                                    .progress = context.progress(),
                                     .store = std::filesystem::path(options->out) / kStageFolder});
     Provenance provenance;
     provenance.command = context.command_line;
     provenance.inputs = result.inputs;
-    provenance.options_json = pipeline::study_json(study);
+    provenance.options_json = pipeline::study_json(result.study);
+    pipeline::remove_results(options->out);
     pipeline::write_results(result, provenance, options->out);
     report::write_report(pipeline::study_report(result, provenance), options->out);
     context.end_progress();
+    const std::vector<report::Gate> gates = pipeline::quality_gates(result);
+    if (context.json || context.quiet) {
+      for (const report::Gate& g : gates) {
+        if (g.status == report::GateStatus::fail)
+          context.warn(fmt::format("quality gate failed: {}: {}", g.name, g.value));
+      }
+    }
     const auto reused = std::count_if(result.trials.begin(), result.trials.end(),
                                       [](const auto& trial) { return trial.ik_reused; });
     if (reused > 0)
@@ -102,13 +156,15 @@ void add_run(CLI::App& app, Context& context) {
     if (context.json) {
       fmt::print("{}", pipeline::parameters_json(result.methods, result.folds, provenance));
     } else {
-      print_table(result);
+      print_results(result, gates);
       const double seconds =
           std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
       context.log(fmt::format("\n{:.1f} s", seconds));
       fmt::print("\nreport: {}/report.html\n", options->out);
     }
-    bool gate = false;
+    bool gate = std::any_of(gates.begin(), gates.end(), [](const report::Gate& g) {
+      return g.status == report::GateStatus::fail;
+    });
     for (const identification::IdentificationResult& method : result.methods) {
       if (method.method != "torque") continue;
       gate = gate || method.termination != math::Termination::converged;

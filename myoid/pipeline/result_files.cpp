@@ -1,10 +1,12 @@
 #include "myoid/pipeline/result_files.h"
 
 #include <cmath>
+#include <fstream>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "myoid/pipeline/quality_gates.h"
 #include "myoid/pipeline/study_model.h"
 #include "myoid/recording/atomic_file.h"
 #include "myoid/recording/storage_writer.h"
@@ -93,7 +95,11 @@ TimeSeries identified_forces(const StudyResult& result,
   return {data.time_s, std::move(channels), values.array().isFinite().select(values, 0.0)};
 }
 
+/// Only numbers that are `identified`; F_max only if it means the maximum (EMG relative to an MVC);
+/// no model at all if the motion failed its gates.
 void write_identified_model(const StudyResult& result, const std::filesystem::path& folder) {
+  if (motion_is_unreliable(result)) return;
+  const bool from_mvc = result.study.emg.kind == EmgKind::activation || result.study.emg.has_mvc;
   for (const IdentificationResult& method : result.methods) {
     if (method.method != "torque") continue;
     std::vector<IdentifiedMuscle> muscles;
@@ -101,8 +107,8 @@ void write_identified_model(const StudyResult& result, const std::filesystem::pa
       IdentifiedMuscle muscle{
           result.data.muscles[m].name, result.data.muscles[m].start, method.muscles[m], {}};
       for (const ParameterEstimate& e : method.estimates) {
-        const bool sure = e.verdict == identification::Verdict::identified ||
-                          e.verdict == identification::Verdict::weak;
+        const bool sure = e.verdict == identification::Verdict::identified &&
+                          (from_mvc || e.parameter != "max_isometric_force");
         if (e.muscle == muscle.group && sure) muscle.changed.push_back(e.parameter);
       }
       muscles.push_back(std::move(muscle));
@@ -149,10 +155,15 @@ std::string parameters_json(const std::vector<IdentificationResult>& methods,
     m["samples_used"] = method.samples_used;
     m["samples_dropped"] = method.samples_dropped;
     m["effective_samples"] = number_or_null(method.effective_samples);
-    m["torque_sd_nm"] = number_or_null(method.torque_sd_nm);
-    m["emg_cv"] = number_or_null(method.emg_cv);
-    m["condition"] = number_or_null(method.condition);
-    m["emg_delay_s"] = method.delay_s;
+    // Method paper knows neither noise nor delay, and predicts forces, not torque.
+    const bool paper = method.method == "paper";
+    const auto unless_paper = [&](double value) {
+      return paper ? ordered_json(nullptr) : number_or_null(value);
+    };
+    m["torque_sd_nm"] = unless_paper(method.torque_sd_nm);
+    m["emg_cv"] = unless_paper(method.emg_cv);
+    m["condition"] = unless_paper(method.condition);
+    m["emg_delay_s"] = unless_paper(method.delay_s);
     m["hardly_told_apart"] = method.collinear;
     m["estimates"] = ordered_json::array();
     for (const ParameterEstimate& e : method.estimates) {
@@ -187,8 +198,8 @@ std::string parameters_json(const std::vector<IdentificationResult>& methods,
     for (const identification::TrialFit& t : method.trials) {
       m["trials"].push_back({{"trial", t.trial},
                              {"calibration", t.calibration},
-                             {"rmse_nm", number_or_null(t.rmse_nm)},
-                             {"r2", number_or_null(t.r2)}});
+                             {"rmse_nm", unless_paper(t.rmse_nm)},
+                             {"r2", unless_paper(t.r2)}});
     }
     json["methods"].push_back(m);
   }
@@ -265,6 +276,38 @@ void write_shared_forces(const forces::MuscleForces& shared, const std::filesyst
   recording::write_file(folder / "StaticOptimization_status.csv", status);
 }
 
+void remove_results(const std::filesystem::path& folder) {
+  namespace fs = std::filesystem;
+  std::ifstream stream(folder / "run.json");
+  if (!stream) return;
+  const ordered_json run = ordered_json::parse(stream, nullptr, false);
+  if (run.is_discarded() || !run.contains("trials")) return;
+  std::error_code ignored;
+  for (const ordered_json& trial : run["trials"]) {
+    const std::string name = trial.value("name", "");
+    if (name.empty() || name.find('/') != std::string::npos || name == "..") continue;
+    for (const auto& entry : fs::directory_iterator(folder / name, ignored)) {
+      const std::string file = entry.path().filename().string();
+      const bool ours = file == "ik.mot" || file == "ik_marker_errors.sto" || file == "id.sto" ||
+                        file == "activation.sto" || file == "identified_forces.sto" ||
+                        file.starts_with("MuscleAnalysis_") ||
+                        file.starts_with("StaticOptimization_");
+      if (ours) fs::remove(entry.path(), ignored);
+    }
+    fs::remove(folder / name, ignored);  // only if nothing else is in it
+  }
+  for (const char* place : {"figures", "tables"}) {
+    for (const auto& entry : fs::directory_iterator(folder / place, ignored)) {
+      const fs::path extension = entry.path().extension();
+      if (extension == ".svg" || extension == ".csv") fs::remove(entry.path(), ignored);
+    }
+  }
+  for (const auto& entry : fs::directory_iterator(folder, ignored)) {
+    const std::string file = entry.path().filename().string();
+    if (file.ends_with("_identified.osim")) fs::remove(entry.path(), ignored);
+  }
+}
+
 void write_results(const StudyResult& result,
                    const Provenance& provenance,
                    const std::filesystem::path& folder) {
@@ -297,6 +340,8 @@ void write_results(const StudyResult& result,
   recording::write_file(folder / "parameters.csv", parameters_csv(result.methods));
   ordered_json run = provenance_json(provenance);
   run["study"] = std::filesystem::absolute(result.study.file).string();
+  run["start_s"] = number_or_null(result.start_s);
+  run["end_s"] = number_or_null(result.end_s);
   run["seconds"] = ordered_json::object();
   for (const StageTime& stage : result.times) run["seconds"][stage.stage] = stage.seconds;
   run["trials"] = ordered_json::array();

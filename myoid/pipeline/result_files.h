@@ -28,6 +28,10 @@ void write_results(const StudyResult& result,
                    const Provenance& provenance,
                    const std::filesystem::path& folder);
 
+/// Removes what an earlier run, told by its run.json, left in the folder, so that files of two
+/// studies never stand side by side. Files of other names stay.
+void remove_results(const std::filesystem::path& folder);
+
 /// Writers of single stages, for the commands that end there.
 void write_motion(const model::BodyModel& model,
                   const TimeSeries& q,

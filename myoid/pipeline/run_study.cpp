@@ -13,6 +13,7 @@
 #include "myoid/dynamics/inverse_dynamics.h"
 #include "myoid/model/arm4.h"
 #include "myoid/pipeline/lumped_muscles.h"
+#include "myoid/pipeline/quality_gates.h"
 #include "myoid/pipeline/stage_store.h"
 #include "myoid/pipeline/study_model.h"
 #include "myoid/pipeline/trial_input.h"
@@ -287,9 +288,13 @@ identification::TorqueOptions torque_options(const Study& study,
 
 }  // namespace
 
-StudyResult run_study(const Study& study, const RunOptions& options) {
+StudyResult run_study(const Study& whole, const RunOptions& options) {
   StudyResult result;
-  result.study = study;
+  result.start_s = options.start_s;
+  result.end_s = options.end_s;
+  result.study = whole;
+  restrict_trials(result.study, options.start_s, options.end_s);
+  const Study& study = result.study;
   Stages stages(options, result.times);
   std::vector<TrialInput> inputs(study.trials.size());
   result.trials.resize(study.trials.size());
@@ -385,6 +390,7 @@ StudyResult run_study(const Study& study, const RunOptions& options) {
       result.folds = identification::cross_validate(result.data, fold_options);
     });
   }
+  demote_by_gates(result);
   options.progress.tell(1.0, "done");
   return result;
 }

@@ -53,9 +53,10 @@ struct TrueValue {
 
 struct StudyResult {
   Study study;
-  model::BodyModel model;           ///< The study's model, without held mass.
-  std::string model_text;           ///< As read or made.
-  std::vector<TrialResult> trials;  ///< In the study's order.
+  std::optional<double> start_s, end_s;  ///< As RunOptions had them.
+  model::BodyModel model;                ///< The study's model, without held mass.
+  std::string model_text;                ///< As read or made.
+  std::vector<TrialResult> trials;       ///< In the study's order.
   std::vector<signals::ChannelNormalisation> normalisation;  ///< Empty if EMG came as activations.
   identification::StudyData data;                            ///< What the estimators saw.
   std::vector<identification::IdentificationResult> methods;
@@ -67,6 +68,7 @@ struct StudyResult {
 };
 
 struct RunOptions {
+  std::optional<double> start_s, end_s;  ///< Of every trial [s]; empty: as the study says.
   Progress progress;
   /// Where inverse kinematics is kept between runs; empty: nowhere.
   std::optional<std::filesystem::path> store;

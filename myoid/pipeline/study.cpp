@@ -180,7 +180,8 @@ Use parse_use(const std::string& word) {
 TrialSpec read_trial(TomlTable table, const std::filesystem::path& folder) {
   TrialSpec trial;
   trial.name = table.require_text("name", "a name that is unique in the study");
-  if (trial.name.find_first_of("/\\") != std::string::npos || trial.name.starts_with(".")) {
+  if (trial.name.empty() || trial.name.find_first_of("/\\") != std::string::npos ||
+      trial.name.starts_with(".") || trial.name == "figures" || trial.name == "tables") {
     table.fail(
         "name",
         fmt::format("found \"{}\"; a trial's name becomes a folder: use letters, digits, _ and -",
@@ -348,6 +349,19 @@ Study parse_study(std::string_view text, const std::filesystem::path& file) {
                                   [](const TrialSpec& t) { return t.use == Use::mvc; });
   check_references(study);
   return study;
+}
+
+void restrict_trials(Study& study, std::optional<double> start_s, std::optional<double> end_s) {
+  for (TrialSpec& trial : study.trials) {
+    if (start_s) trial.start_s = std::max(*start_s, trial.start_s.value_or(*start_s));
+    if (end_s) trial.end_s = std::min(*end_s, trial.end_s.value_or(*end_s));
+    if (trial.start_s && trial.end_s && *trial.start_s >= *trial.end_s) {
+      throw InvalidInput(
+          fmt::format("trial '{}': it would begin at {} s and end at {} s; --start "
+                      "must be before --end, and both within the trial's own times",
+                      trial.name, *trial.start_s, *trial.end_s));
+    }
+  }
 }
 
 Study read_study(const std::filesystem::path& file) {

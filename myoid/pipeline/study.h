@@ -134,6 +134,10 @@ struct Study {
   std::optional<std::filesystem::path> truth;
 };
 
+/// Keeps of every trial only what lies between these times [s] on its own clock. Throws
+/// InvalidInput if nothing is left of one, naming it.
+void restrict_trials(Study& study, std::optional<double> start_s, std::optional<double> end_s);
+
 /// Reads and validates a study file. Throws ReadError with the line for syntax, unknown keys, wrong
 /// types, names that refer to nothing and numbers out of range. Files that the study names are not
 /// opened: that is `check_study`'s.

@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "myoid/muscle/hill_muscle.h"
+#include "myoid/pipeline/quality_gates.h"
 
 namespace myoid::pipeline {
 namespace {
@@ -19,8 +21,6 @@ using report::Badge;
 using report::Cell;
 using report::Figure;
 using report::format_value;
-using report::Gate;
-using report::GateStatus;
 using report::Panel;
 using report::Role;
 using report::Section;
@@ -29,6 +29,19 @@ using report::Table;
 
 std::vector<double> to_vector(const Eigen::Ref<const Eigen::VectorXd>& v) {
   return {v.data(), v.data() + v.size()};
+}
+
+/// Predicted values as a curve; a gap at the beginning, where the EMG of a delay earlier was not
+/// recorded.
+std::vector<double> after_delay(const Eigen::Ref<const Eigen::VectorXd>& predicted,
+                                const Eigen::VectorXd& time_s,
+                                double delay_s) {
+  std::vector<double> curve = to_vector(predicted);
+  for (std::size_t i = 0; i < curve.size(); ++i) {
+    if (time_s[static_cast<Eigen::Index>(i)] < time_s[0] + delay_s)
+      curve[i] = std::numeric_limits<double>::quiet_NaN();
+  }
+  return curve;
 }
 
 Badge badge(Verdict verdict) {
@@ -61,9 +74,7 @@ std::string with_unit(double value, Unit unit) {
 }
 
 std::string interval(const ParameterEstimate& e) {
-  return e.ci_low && e.ci_high
-             ? fmt::format("{} to {}", format_value(*e.ci_low), format_value(*e.ci_high))
-             : "none";
+  return e.ci_low && e.ci_high ? report::format_interval(*e.ci_low, *e.ci_high) : "none";
 }
 
 std::optional<double> truth_of(const StudyResult& result, const ParameterEstimate& e) {
@@ -80,117 +91,6 @@ std::string spelled(std::string text) {
   return text;
 }
 
-/// Gates: may the numbers below be believed?
-std::vector<Gate> gates(const StudyResult& result) {
-  std::vector<Gate> list;
-  int frames = 0;
-  int unconverged = 0;
-  int blind = 0;
-  double worst_rms = 0.0;
-  bool any_ik = false;
-  int sharing_frames = 0;
-  int unsolved = 0;
-  int reserves = 0;
-  std::set<std::string> open;
-  for (const TrialResult& t : result.trials) {
-    if (t.ik) {
-      any_ik = true;
-      frames += static_cast<int>(t.ik->status.size());
-      unconverged += t.ik->frames_not_converged;
-      blind += t.ik->frames_without_markers;
-      const Eigen::VectorXd rms = t.ik->errors.column("marker_error_RMS");
-      for (const double v : rms) {
-        if (std::isfinite(v)) worst_rms = std::max(worst_rms, v);
-      }
-      open.insert(t.ik->undetermined.begin(), t.ik->undetermined.end());
-    }
-    if (t.has_motion()) {
-      sharing_frames += static_cast<int>(t.shared.status.size());
-      unsolved += t.shared.frames_not_solved;
-      reserves += t.shared.frames_with_reserve;
-    }
-  }
-  if (result.failed_trials > 0) {
-    list.push_back({"Every trial could be computed", GateStatus::fail,
-                    fmt::format("{} of {} failed", result.failed_trials, result.trials.size()),
-                    "all", "The others are reported; the failures are listed under the trials."});
-  }
-  if (any_ik) {
-    list.push_back({"Inverse kinematics converged",
-                    unconverged + blind == 0 ? GateStatus::pass : GateStatus::warn,
-                    fmt::format("{} of {} frames", frames - unconverged - blind, frames),
-                    "all frames", "A frame that did not converge has no trustworthy angle."});
-    list.push_back({"Markers fit the model",
-                    worst_rms < 0.02   ? GateStatus::pass
-                    : worst_rms < 0.04 ? GateStatus::warn
-                                       : GateStatus::fail,
-                    fmt::format("{:.1f} mm rms in the worst frame", 1000.0 * worst_rms),
-                    "below 20 mm", "Larger errors mean wrong labels or a model of another size."});
-    if (!open.empty()) {
-      list.push_back({"Markers determine every coordinate", GateStatus::warn,
-                      fmt::format("open: {}", fmt::join(open, ", ")), "none open",
-                      "These coordinates keep their value where the markers do not tell."});
-    }
-  }
-  list.push_back(
-      {"Force sharing certified optimal", unsolved == 0 ? GateStatus::pass : GateStatus::fail,
-       fmt::format("{} of {} frames", sharing_frames - unsolved, sharing_frames),
-       "all frames, residual below 1e-9", "Concerns the reference forces of method paper only."});
-  const double share = sharing_frames > 0 ? 100.0 * reserves / sharing_frames : 0.0;
-  list.push_back({"Muscles strong enough for the torque",
-                  share < 5.0 ? GateStatus::pass : GateStatus::warn,
-                  fmt::format("reserve used in {:.1f} % of frames", share), "below 5 %",
-                  "Where a reserve acts, the literature's muscles could not provide the torque."});
-  if (!result.normalisation.empty()) {
-    const bool mvc = std::all_of(result.normalisation.begin(), result.normalisation.end(),
-                                 [](const auto& n) { return n.from_mvc; });
-    std::string sources;
-    for (const auto& n : result.normalisation)
-      sources += fmt::format("{}{}: {}", sources.empty() ? "" : "; ", n.channel, n.source_trial);
-    list.push_back({"EMG relative to a maximal contraction",
-                    mvc ? GateStatus::pass : GateStatus::warn, sources,
-                    "every channel from an MVC trial",
-                    mvc ? "F_max means the maximal force."
-                        : "F_max below means the force at the study's largest EMG, not the "
-                          "muscle's maximum; forces and torques are right all the same."});
-  }
-  if (const IdentificationResult* torque = method_of(result, "torque")) {
-    list.push_back(
-        {"Fit converged",
-         torque->termination == math::Termination::converged ? GateStatus::pass : GateStatus::fail,
-         torque->message, "converged", "Only a converged fit is an answer."});
-    const auto count = [&](Verdict v) {
-      return std::count_if(torque->estimates.begin(), torque->estimates.end(), [&](const auto& e) {
-        return e.verdict == v && e.parameter != "emg_gain";
-      });
-    };
-    list.push_back({"Parameters that this recording tells",
-                    count(Verdict::identified) > 0 ? GateStatus::pass : GateStatus::warn,
-                    fmt::format("{} identified, {} weak, {} prior-dominated, {} not identifiable",
-                                count(Verdict::identified), count(Verdict::weak),
-                                count(Verdict::prior_dominated), count(Verdict::not_identifiable)),
-                    "those you need", "Use a number only if its verdict allows it."});
-  }
-  if (!result.folds.empty()) {
-    double ours = 0.0;
-    double theirs = 0.0;
-    int better = 0;
-    for (const auto& f : result.folds) {
-      ours += f.identified.rmse_nm;
-      theirs += f.literature.rmse_nm;
-      better += f.identified.rmse_nm < f.literature.rmse_nm ? 1 : 0;
-    }
-    const double n = static_cast<double>(result.folds.size());
-    list.push_back(
-        {"Predicts torque it has not seen",
-         better * 2 > static_cast<int>(result.folds.size()) ? GateStatus::pass : GateStatus::warn,
-         fmt::format("{:.2f} N m rms, literature with best gain {:.2f} N m", ours / n, theirs / n),
-         "better than the literature's parameters",
-         fmt::format("Better in {} of {} trials left out.", better, result.folds.size())});
-  }
-  return list;
-}
-
 Table torque_table(const StudyResult& result, const IdentificationResult& method) {
   Table table{"parameters_torque",
               "Identified parameters (method torque)",
@@ -198,6 +98,8 @@ Table torque_table(const StudyResult& result, const IdentificationResult& method
               "correlated residuals. Prior: the literature's mean and spread.",
               {},
               {}};
+  if (!result.truth.empty())
+    table.caption += " Truth: green if it lies in the interval, else marked.";
   table.columns = {"muscle", "parameter", "prior", "estimate", "95 % interval", "verdict", "why"};
   if (!result.truth.empty()) table.columns.insert(table.columns.begin() + 5, "truth");
   for (const ParameterEstimate& e : method.estimates) {
@@ -246,16 +148,32 @@ Table paper_table(const IdentificationResult& method, bool shortening) {
   return table;
 }
 
+/// The literature's numbers with those of the truth in their place; empty without a truth.
+std::optional<muscle::HillParameters<double>> true_muscle(
+    const StudyResult& result, const identification::MuscleSetup& setup) {
+  std::optional<muscle::HillParameters<double>> muscle;
+  for (const TrueValue& t : result.truth) {
+    if (t.muscle != setup.name) continue;
+    for (const muscle::HillField& field : muscle::kHillFields) {
+      if (field.name != t.parameter) continue;
+      if (!muscle) muscle = setup.start;
+      (*muscle).*field.member = t.value;
+    }
+  }
+  return muscle;
+}
+
 /// The paper's figure 2 for one muscle: force-length and force-velocity, literature and identified.
 Figure curves(const StudyResult& result, const IdentificationResult& method, std::size_t m) {
   const auto& setup = result.data.muscles[m];
   const auto& found = method.muscles[m];
-  Figure figure{"curves_" + setup.name,
-                fmt::format("{}: force-length and force-velocity relations", setup.name),
-                "Grey dashed: literature; orange dashed: identified. The shaded range is what the "
-                "recording visited.",
-                {},
-                2};
+  Figure figure{
+      "curves_" + setup.name,
+      fmt::format("{}: force-length and force-velocity relations", setup.name),
+      "Grey dotted: literature; orange dashed: identified; thin black: the truth of a virtual "
+      "recording. The shaded range is what the recording visited.",
+      {},
+      2};
   double low = 1e9;
   double high = -1e9;
   double fastest = 0.05;
@@ -287,23 +205,33 @@ Figure curves(const StudyResult& result, const IdentificationResult& method, std
     return muscle::force_length(x, found.optimal_fiber_length_m, found.force_length_width_m);
   });
   length.series.push_back({"identified", ix, iy, Role::identified, {}, {}});
+  const auto truth = true_muscle(result, setup);
+  if (truth) {
+    const auto [tx, ty] = sample(l0 - span, l0 + span, [&](double x) {
+      return muscle::force_length(x, truth->optimal_fiber_length_m, truth->force_length_width_m);
+    });
+    length.series.push_back({"truth", tx, ty, Role::truth, {}, {}});
+  }
   const double v = setup.start.max_shortening_speed_mps;
   Panel velocity{"",
                  {"fiber velocity (lengthening positive)", "m/s", {}, {}, {}},
                  {"force / isometric force", "", {}, {}, {}},
                  {}};
-  velocity.series.push_back({"visited",
-                             {-fastest, fastest},
-                             {0.0, 0.0},
-                             Role::band,
-                             {},
-                             {found.eccentric_plateau, found.eccentric_plateau}});
+  double highest = std::max(setup.start.eccentric_plateau, found.eccentric_plateau);
+  if (truth) highest = std::max(highest, truth->eccentric_plateau);
+  velocity.series.push_back(
+      {"visited", {-fastest, fastest}, {0.0, 0.0}, Role::band, {}, {highest, highest}});
   const auto [vx, vy] = sample(
       -v, v, [&](double x) { return muscle::force_velocity(x, setup.start.velocity_shape()); });
   velocity.series.push_back({"literature", vx, vy, Role::literature, {}, {}});
   const auto [wx, wy] =
       sample(-v, v, [&](double x) { return muscle::force_velocity(x, found.velocity_shape()); });
   velocity.series.push_back({"identified", wx, wy, Role::identified, {}, {}});
+  if (truth) {
+    const auto [tx, ty] =
+        sample(-v, v, [&](double x) { return muscle::force_velocity(x, truth->velocity_shape()); });
+    velocity.series.push_back({"truth", tx, ty, Role::truth, {}, {}});
+  }
   figure.panels = {length, velocity};
   return figure;
 }
@@ -349,7 +277,7 @@ Figure force_figure(const StudyResult& result,
   Figure figure{
       fmt::format("forces_{}_{}", method.method, data.name),
       fmt::format("Muscle forces in trial {} (method {})", data.name, method.method),
-      "Blue: force that force sharing assigns (no co-contraction). Grey dashed: literature's "
+      "Blue: force that force sharing assigns (no co-contraction). Grey dotted: literature's "
       "parameters with the measured EMG. Orange dashed: identified parameters.",
       {},
       2};
@@ -377,11 +305,11 @@ Figure force_figure(const StudyResult& result,
   return figure;
 }
 
-Figure torque_figure(const StudyResult& result) {
+Figure torque_figure(const StudyResult& result, double delay_s) {
   Figure figure{"torque_held_out",
                 "Joint torque predicted for trials that took no part in the fit",
                 "Blue: inverse dynamics. Orange dashed: muscles identified on the other trials. "
-                "Grey dashed: literature's muscles with one best gain.",
+                "Grey dotted: literature's muscles with one best gain.",
                 {},
                 2};
   for (const auto& f : result.folds) {
@@ -392,8 +320,18 @@ Figure torque_figure(const StudyResult& result) {
                 {}};
     panel.series.push_back(
         {"inverse dynamics", t, to_vector(f.measured_nm), Role::reference, {}, {}});
-    panel.series.push_back({"literature", t, to_vector(f.literature_nm), Role::literature, {}, {}});
-    panel.series.push_back({"identified", t, to_vector(f.predicted_nm), Role::identified, {}, {}});
+    panel.series.push_back({"literature",
+                            t,
+                            after_delay(f.literature_nm, f.time_s, delay_s),
+                            Role::literature,
+                            {},
+                            {}});
+    panel.series.push_back({"identified",
+                            t,
+                            after_delay(f.predicted_nm, f.time_s, delay_s),
+                            Role::identified,
+                            {},
+                            {}});
     figure.panels.push_back(std::move(panel));
   }
   return figure;
@@ -410,17 +348,67 @@ Table fold_table(const StudyResult& result) {
        "constant: RMSE [N m]"},
       {}};
   for (const auto& f : result.folds) {
-    table.rows.push_back({{f.trial},
-                          {fmt::format("{:.2f}", f.identified.rmse_nm)},
-                          {fmt::format("{:.1f} %", 100.0 * f.identified.nrmse_range)},
-                          {fmt::format("{:.3f}", f.identified.r2),
-                           f.identified.r2 > f.literature.r2 ? Badge::good : Badge::weak},
-                          {fmt::format("{:.3f}", f.identified.vaf)},
-                          {fmt::format("{:.2f}", f.literature.rmse_nm)},
-                          {fmt::format("{:.3f}", f.literature.r2)},
-                          {fmt::format("{:.2f}", f.constant.rmse_nm)}});
+    table.rows.push_back(
+        {{f.trial},
+         {fmt::format("{:.2f}", f.identified.rmse_nm)},
+         {fmt::format("{:.1f} %", 100.0 * f.identified.nrmse_range)},
+         {fmt::format("{:.3f}", f.identified.r2),
+          f.identified.r2 > std::max(0.0, f.literature.r2) ? Badge::good : Badge::weak},
+         {fmt::format("{:.3f}", f.identified.vaf)},
+         {fmt::format("{:.2f}", f.literature.rmse_nm)},
+         {fmt::format("{:.3f}", f.literature.r2)},
+         {fmt::format("{:.2f}", f.constant.rmse_nm)}});
   }
   return table;
+}
+
+/// Trials that were held back for validation.
+Table validation_table(const IdentificationResult& method) {
+  Table table{"validation_trials",
+              "Trials held back for validation",
+              "Joint torque predicted with the muscles identified on the calibration trials.",
+              {"trial", "RMSE [N m]", "R2"},
+              {}};
+  for (const identification::TrialFit& t : method.trials) {
+    if (t.calibration) continue;
+    table.rows.push_back({{t.trial},
+                          {fmt::format("{:.2f}", t.rmse_nm)},
+                          {fmt::format("{:.3f}", t.r2), t.r2 > 0.0 ? Badge::good : Badge::weak}});
+  }
+  return table;
+}
+
+Figure validation_figure(const IdentificationResult& method) {
+  Figure figure{"torque_validation",
+                "Joint torque predicted for the trials held back",
+                "Blue: inverse dynamics. Orange dashed: muscles identified on the calibration "
+                "trials. Grey dotted: literature's muscles.",
+                {},
+                2};
+  for (const identification::TrialFit& t : method.trials) {
+    if (t.calibration) continue;
+    const std::vector<double> clock = to_vector(t.time_s);
+    Panel panel{fmt::format("{}: R2 {:.2f}", t.trial, t.r2),
+                {"time", "s", {}, {}, {}},
+                {"torque", "N m", {}, {}, {}},
+                {}};
+    panel.series.push_back(
+        {"inverse dynamics", clock, to_vector(t.torque_nm), Role::reference, {}, {}});
+    panel.series.push_back({"literature",
+                            clock,
+                            after_delay(t.literature_torque_nm, t.time_s, method.delay_s),
+                            Role::literature,
+                            {},
+                            {}});
+    panel.series.push_back({"identified",
+                            clock,
+                            after_delay(t.torque_fit_nm, t.time_s, method.delay_s),
+                            Role::identified,
+                            {},
+                            {}});
+    figure.panels.push_back(std::move(panel));
+  }
+  return figure;
 }
 
 Table trial_table(const StudyResult& result) {
@@ -521,7 +509,7 @@ report::Report study_report(const StudyResult& result, const Provenance& provena
   report.subtitle = fmt::format("{} trials; joint coordinate {}; model {}", result.trials.size(),
                                 spelled(result.study.model.coordinate), result.model.name);
   report.headline = headline(result);
-  report.gates = gates(result);
+  report.gates = quality_gates(result);
   const IdentificationResult* torque = method_of(result, "torque");
   const IdentificationResult* paper = method_of(result, "paper");
 
@@ -529,9 +517,11 @@ report::Report study_report(const StudyResult& result, const Provenance& provena
     Section section{"parameters", "Parameters", {}, {}, {}, {}};
     section.paragraphs.push_back(
         fmt::format("{} samples, worth {:.0f} independent ones; torque noise {:.2f} N m; EMG noise "
-                    "{:.0f} % of the torque of each channel; EMG delay {:.0f} ms.",
+                    "{} of the torque of each channel; EMG delay {:.0f} ms.",
                     torque->samples_used, torque->effective_samples, torque->torque_sd_nm,
-                    100.0 * torque->emg_cv, 1000.0 * torque->delay_s));
+                    torque->emg_cv < 0.005 ? std::string("too small to be told from it, below 1 %")
+                                           : fmt::format("{:.0f} %", 100.0 * torque->emg_cv),
+                    1000.0 * torque->delay_s));
     if (!torque->collinear.empty())
       section.paragraphs.push_back(
           fmt::format("Hardly told apart: {}.", fmt::join(torque->collinear, "; ")));
@@ -546,7 +536,16 @@ report::Report study_report(const StudyResult& result, const Provenance& provena
                                {},
                                {},
                                {fold_table(result)},
-                               {torque_figure(result)}});
+                               {torque_figure(result, torque != nullptr ? torque->delay_s : 0.0)}});
+  }
+  if (torque != nullptr && std::any_of(torque->trials.begin(), torque->trials.end(),
+                                       [](const auto& t) { return !t.calibration; })) {
+    report.sections.push_back({"validation_trials",
+                               "Validation on trials held back",
+                               {},
+                               {},
+                               {validation_table(*torque)},
+                               {validation_figure(*torque)}});
   }
   if (paper != nullptr) {
     Section section{"paper", "The source paper's method beside it", {}, {}, {}, {}};
@@ -559,12 +558,21 @@ report::Report study_report(const StudyResult& result, const Provenance& provena
     report.sections.push_back(std::move(section));
   }
   Section forces{"forces", "Muscle forces", {}, {}, {}, {}};
-  for (const auto& data : result.data.trials) {
-    if (torque != nullptr) forces.figures.push_back(force_figure(result, data, *torque));
-    if (forces.figures.size() >= 6) break;  // the others are in the CSV files
+  std::vector<const identification::TrialData*> shown;
+  for (const auto& data : result.data.trials) shown.push_back(&data);
+  // Those with the most movement first; all are in the trials' folders.
+  std::stable_sort(shown.begin(), shown.end(), [](const auto* a, const auto* b) {
+    const auto range = [](const identification::TrialData* d) {
+      return (d->length_m.colwise().maxCoeff() - d->length_m.colwise().minCoeff()).maxCoeff();
+    };
+    return std::lround(100.0 * range(a)) > std::lround(100.0 * range(b));
+  });
+  if (shown.size() > 6) shown.resize(6);
+  if (torque != nullptr) {
+    for (const auto* data : shown) forces.figures.push_back(force_figure(result, *data, *torque));
   }
   if (paper != nullptr && !result.data.trials.empty())
-    forces.figures.push_back(force_figure(result, result.data.trials.front(), *paper));
+    forces.figures.push_back(force_figure(result, *shown.front(), *paper));
   report.sections.push_back(std::move(forces));
   const auto task =
       std::find_if(result.trials.begin(), result.trials.end(),

@@ -28,7 +28,7 @@ a { color: #1f5fa8; }
 .wide { overflow-x: auto; }
 table { border-collapse: collapse; font-size: 13px; margin: 6px 0; }
 th, td { text-align: left; vertical-align: top; padding: 4px 12px 4px 0; border-bottom: 1px solid #e6e8eb; }
-th { font-weight: 600; border-bottom: 1px solid #8a9097; white-space: nowrap; }
+th { font-weight: 600; border-bottom: 1px solid #8a9097; vertical-align: bottom; }
 td.number { font-variant-numeric: tabular-nums; }
 .badge { display: inline-block; padding: 0 7px; border-radius: 9px; font-size: 12px; font-weight: 600;
   white-space: nowrap; border: 1px solid; }

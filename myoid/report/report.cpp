@@ -1,6 +1,7 @@
 #include "myoid/report/report.h"
 
 #include <cctype>
+#include <algorithm>
 #include <cmath>
 #include <set>
 #include <string>
@@ -100,6 +101,16 @@ std::string format_value(double value, int digits) {
     if (text.back() == '.') text.pop_back();
   }
   return text;
+}
+
+std::string format_interval(double lower, double upper, std::string_view between) {
+  const double width = std::abs(upper - lower);
+  const double size = std::max(std::abs(lower), std::abs(upper));
+  if (!std::isfinite(width) || !(width > 0.0) || size < 1e-4 || size >= 1e6)
+    return format_value(lower) + std::string(between) + format_value(upper);
+  // Two digits of the width, the same decimals at both ends, trailing zeros kept.
+  const int decimals = std::clamp(1 - static_cast<int>(std::floor(std::log10(width))), 0, 9);
+  return fmt::format("{:.{}f}{}{:.{}f}", lower, decimals, between, upper, decimals);
 }
 
 }  // namespace myoid::report

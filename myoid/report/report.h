@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace myoid::report {
@@ -117,5 +118,10 @@ void write_report(const Report& report, const std::filesystem::path& directory);
 
 /// A number for people: `digits` significant ones, no exponent between 1e-4 and 1e6.
 [[nodiscard]] std::string format_value(double value, int digits = 3);
+
+/// "0.1363 to 0.1371": both ends with the decimals that show two digits of the width.
+[[nodiscard]] std::string format_interval(double lower,
+                                          double upper,
+                                          std::string_view between = " to ");
 
 }  // namespace myoid::report

@@ -121,5 +121,12 @@ TEST(FormatValue, ShowsSignificantDigitsOnly) {
   EXPECT_EQ(format_value(std::numeric_limits<double>::quiet_NaN()), "\u2013");
 }
 
+TEST(FormatInterval, ShowsTwoDigitsOfTheWidthWithTheSameDecimalsAtBothEnds) {
+  EXPECT_EQ(format_interval(0.13631, 0.13714), "0.13631 to 0.13714");
+  EXPECT_EQ(format_interval(1.0, 1.5), "1.00 to 1.50");
+  EXPECT_EQ(format_interval(507.3, 845.1, ", "), "507, 845");
+  EXPECT_EQ(format_interval(0.0, 0.02), "0.000 to 0.020");
+}
+
 }  // namespace
 }  // namespace myoid::report

@@ -1,0 +1,198 @@
+#include "myoid/pipeline/quality_gates.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "myoid/core/units.h"
+
+namespace myoid::pipeline {
+namespace {
+
+using identification::IdentificationResult;
+using identification::Verdict;
+using report::Gate;
+using report::GateStatus;
+
+constexpr double kLostFrames = 0.05;      ///< Share of frames without a pose that is a failure.
+constexpr double kMarkerError_m = 0.020;  ///< Rms over the markers of a frame; twice it fails.
+constexpr double kLeastRange_deg = 5.0;   ///< A joint that moves less was not moved.
+
+const IdentificationResult* torque_of(const StudyResult& result) {
+  for (const IdentificationResult& m : result.methods) {
+    if (m.method == "torque") return &m;
+  }
+  return nullptr;
+}
+
+/// Of the study's coordinate in the trial that moves it most; empty if no trial is meant to.
+std::optional<double> largest_range_deg(const StudyResult& result) {
+  std::optional<double> largest;
+  for (const TrialResult& t : result.trials) {
+    const bool still = t.spec.use == Use::mvc || t.spec.use == Use::static_pose ||
+                       t.spec.use == Use::isometric || t.spec.external_torque;
+    if (!t.has_motion() || still) continue;
+    const Eigen::VectorXd q = t.motion.q.column(result.study.model.coordinate) / kDegree;
+    largest = std::max(largest.value_or(0.0), q.maxCoeff() - q.minCoeff());
+  }
+  return largest;
+}
+
+}  // namespace
+
+std::vector<report::Gate> quality_gates(const StudyResult& result) {
+  std::vector<Gate> list;
+  int frames = 0;
+  int unconverged = 0;
+  int blind = 0;
+  double worst_rms = 0.0;
+  double sum_of_squares = 0.0;
+  double frames_with_markers = 0.0;
+  bool any_ik = false;
+  int sharing_frames = 0;
+  int unsolved = 0;
+  int reserves = 0;
+  std::set<std::string> open;
+  for (const TrialResult& t : result.trials) {
+    if (t.ik) {
+      any_ik = true;
+      frames += static_cast<int>(t.ik->status.size());
+      unconverged += t.ik->frames_not_converged;
+      blind += t.ik->frames_without_markers;
+      const Eigen::VectorXd rms = t.ik->errors.column("marker_error_RMS");
+      for (const double v : rms) {
+        if (!std::isfinite(v)) continue;
+        worst_rms = std::max(worst_rms, v);
+        sum_of_squares += v * v;
+        ++frames_with_markers;
+      }
+      open.insert(t.ik->undetermined.begin(), t.ik->undetermined.end());
+    }
+    if (t.has_motion()) {
+      sharing_frames += static_cast<int>(t.shared.status.size());
+      unsolved += t.shared.frames_not_solved;
+      reserves += t.shared.frames_with_reserve;
+    }
+  }
+  if (result.failed_trials > 0) {
+    list.push_back({"Every trial could be computed", GateStatus::fail,
+                    fmt::format("{} of {} failed", result.failed_trials, result.trials.size()),
+                    "all", "The others are reported; the failures are listed under the trials."});
+  }
+  if (any_ik) {
+    const int lost = unconverged + blind;
+    list.push_back({"Inverse kinematics converged",
+                    lost == 0                     ? GateStatus::pass
+                    : lost > kLostFrames * frames ? GateStatus::fail
+                                                  : GateStatus::warn,
+                    fmt::format("{} of {} frames", frames - lost, frames),
+                    fmt::format("all frames; fails below {:.0f} %", 100.0 * (1.0 - kLostFrames)),
+                    "A frame that did not converge has no trustworthy angle."});
+    const double rms = std::sqrt(sum_of_squares / std::max(frames_with_markers, 1.0));
+    list.push_back({"Markers fit the model",
+                    rms >= 2.0 * kMarkerError_m   ? GateStatus::fail
+                    : worst_rms >= kMarkerError_m ? GateStatus::warn
+                                                  : GateStatus::pass,
+                    fmt::format("{:.1f} mm rms, {:.1f} mm in the worst frame", 1000.0 * rms,
+                                1000.0 * worst_rms),
+                    "every frame below 20 mm; fails at 40 mm rms",
+                    "Larger errors mean wrong labels or units, or a model of another size."});
+    if (!open.empty()) {
+      list.push_back({"Markers determine every coordinate", GateStatus::warn,
+                      fmt::format("open: {}", fmt::join(open, ", ")), "none open",
+                      "These coordinates keep their value where the markers do not tell."});
+    }
+  }
+  if (const auto range = largest_range_deg(result); range && *range < kLeastRange_deg) {
+    list.push_back({"The joint moves", GateStatus::fail,
+                    fmt::format("{:.2g} degrees in the trial that moves it most", *range),
+                    "5 degrees or more",
+                    "Were radians declared as degrees, or is the coordinate another one?"});
+  }
+  list.push_back(
+      {"Force sharing certified optimal", unsolved == 0 ? GateStatus::pass : GateStatus::fail,
+       fmt::format("{} of {} frames", sharing_frames - unsolved, sharing_frames),
+       "all frames, residual below 1e-9", "Concerns the reference forces of method paper only."});
+  const double share = sharing_frames > 0 ? 100.0 * reserves / sharing_frames : 0.0;
+  list.push_back({"Muscles strong enough for the torque",
+                  share < 5.0 ? GateStatus::pass : GateStatus::warn,
+                  fmt::format("reserve used in {:.1f} % of frames", share), "below 5 %",
+                  "Where a reserve acts, the literature's muscles could not provide the torque."});
+  if (!result.normalisation.empty()) {
+    const bool mvc = std::all_of(result.normalisation.begin(), result.normalisation.end(),
+                                 [](const auto& n) { return n.from_mvc; });
+    std::string sources;
+    for (const auto& n : result.normalisation)
+      sources += fmt::format("{}{}: {}", sources.empty() ? "" : "; ", n.channel, n.source_trial);
+    list.push_back({"EMG relative to a maximal contraction",
+                    mvc ? GateStatus::pass : GateStatus::warn, sources,
+                    "every channel from an MVC trial",
+                    mvc ? "F_max means the maximal force."
+                        : "F_max below means the force at the study's largest EMG, not the "
+                          "muscle's maximum; forces and torques are right all the same."});
+  }
+  if (const IdentificationResult* torque = torque_of(result)) {
+    list.push_back(
+        {"Fit converged",
+         torque->termination == math::Termination::converged ? GateStatus::pass : GateStatus::fail,
+         torque->message, "converged", "Only a converged fit is an answer."});
+    const auto count = [&](Verdict v) {
+      return std::count_if(torque->estimates.begin(), torque->estimates.end(), [&](const auto& e) {
+        return e.verdict == v && e.parameter != "emg_gain";
+      });
+    };
+    list.push_back({"Parameters that this recording tells",
+                    count(Verdict::identified) > 0 ? GateStatus::pass : GateStatus::warn,
+                    fmt::format("{} identified, {} weak, {} prior-dominated, {} not identifiable",
+                                count(Verdict::identified), count(Verdict::weak),
+                                count(Verdict::prior_dominated), count(Verdict::not_identifiable)),
+                    "those you need", "Use a number only if its verdict allows it."});
+  }
+  if (!result.folds.empty()) {
+    double ours = 0.0;
+    double theirs = 0.0;
+    double r2 = 0.0;
+    int better = 0;
+    for (const auto& f : result.folds) {
+      ours += f.identified.rmse_nm;
+      theirs += f.literature.rmse_nm;
+      r2 += f.identified.r2 / static_cast<double>(result.folds.size());
+      better += f.identified.rmse_nm < f.literature.rmse_nm ? 1 : 0;
+    }
+    const double n = static_cast<double>(result.folds.size());
+    list.push_back(
+        {"Predicts torque it has not seen",
+         better * 2 > static_cast<int>(result.folds.size()) && r2 > 0.0 ? GateStatus::pass
+                                                                        : GateStatus::warn,
+         fmt::format("{:.2f} N m rms (mean R2 {:.2f}), literature with best gain {:.2f} N m",
+                     ours / n, r2, theirs / n),
+         "R2 above 0 and better than the literature's parameters",
+         fmt::format("Better in {} of {} trials left out.", better, result.folds.size())});
+  }
+  return list;
+}
+
+bool motion_is_unreliable(const StudyResult& result) {
+  static const std::set<std::string> of_motion{"Inverse kinematics converged",
+                                               "Markers fit the model", "The joint moves"};
+  const std::vector<Gate> gates = quality_gates(result);
+  return std::any_of(gates.begin(), gates.end(), [&](const Gate& g) {
+    return g.status == GateStatus::fail && of_motion.contains(g.name);
+  });
+}
+
+void demote_by_gates(StudyResult& result) {
+  if (!motion_is_unreliable(result)) return;
+  for (IdentificationResult& method : result.methods) {
+    for (identification::ParameterEstimate& e : method.estimates) {
+      if (e.verdict != Verdict::identified) continue;
+      e.verdict = Verdict::weak;
+      e.reason = "The motion it rests on failed its quality gate: mend that first.";
+    }
+  }
+}
+
+}  // namespace myoid::pipeline

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <vector>
+
+#include "myoid/pipeline/run_study.h"
+#include "myoid/report/report.h"
+
+namespace myoid::pipeline {
+
+/// May the numbers of this run be believed? Input, inverse kinematics, force sharing, EMG, fit and
+/// prediction, each with what was found, what is expected and why. The same list heads the report,
+/// goes to the terminal, and decides exit code 4.
+[[nodiscard]] std::vector<report::Gate> quality_gates(const StudyResult& result);
+
+/// True if a gate failed on which the motion rests (inverse kinematics, markers, angles): no
+/// parameter can then be better than the motion it was computed from.
+[[nodiscard]] bool motion_is_unreliable(const StudyResult& result);
+
+/// Where the motion is unreliable, every `identified` parameter becomes `weak`, with that reason.
+void demote_by_gates(StudyResult& result);
+
+}  // namespace myoid::pipeline
