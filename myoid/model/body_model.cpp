@@ -1,5 +1,7 @@
 #include "myoid/model/body_model.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
@@ -87,42 +89,148 @@ int BodyModel::muscle_index(std::string_view n) const {
   return index_by_name(muscles, n, "muscle");
 }
 
+bool BodyModel::is_constrained(int coordinate) const {
+  const Coordinate& c = coordinates[static_cast<std::size_t>(coordinate)];
+  return c.locked || c.prescribed || c.is_free_to_satisfy_constraints ||
+         std::any_of(couplers.begin(), couplers.end(),
+                     [&](const CoordinateCoupler& k) { return k.dependent == coordinate; });
+}
+
 Eigen::VectorXd BodyModel::default_q() const {
   Eigen::VectorXd q(static_cast<Eigen::Index>(coordinates.size()));
   for (std::size_t i = 0; i < coordinates.size(); ++i)
     q[static_cast<Eigen::Index>(i)] = coordinates[i].default_value;
+  // A coupler's independent coordinate may itself depend on another.
+  for (std::size_t round = 0; round < couplers.size(); ++round) {
+    for (const CoordinateCoupler& c : couplers)
+      q[c.dependent] = evaluate(c.function, q[c.independent]).value;
+  }
   return q;
 }
 
-BodyModel finalize(BodyModel model) {
-  if (model.bodies.empty()) throw ModelError("the model has no ground");
-  check_references(model);
-  std::vector<bool> placed(model.bodies.size(), false);
-  placed[0] = true;
-  std::vector<Joint> ordered;
-  std::vector<bool> used(model.joints.size(), false);
-  for (bool progress = true; progress;) {
-    progress = false;
-    for (std::size_t j = 0; j < model.joints.size(); ++j) {
-      const Joint& joint = model.joints[j];
-      if (used[j] || !placed[static_cast<std::size_t>(joint.parent)]) continue;
-      if (placed[static_cast<std::size_t>(joint.child)]) {
-        throw ModelError(fmt::format(
-            "body '{}' is the child of two joints ('{}' closes a loop); loops are not supported",
-            model.bodies[static_cast<std::size_t>(joint.child)].name, joint.name));
-      }
-      placed[static_cast<std::size_t>(joint.child)] = true;
-      used[j] = true;
-      progress = true;
-      ordered.push_back(joint);
+namespace {
+
+/// A second copy of body `b`, for a joint that closes a loop: the mass is shared among the copies,
+/// which a weld constraint keeps together.
+BodyIndex add_copy(BodyModel& model, BodyIndex b, int number) {
+  Body copy = model.bodies[static_cast<std::size_t>(b)];
+  copy.name += fmt::format("_slave_{}", number);
+  model.bodies.push_back(copy);
+  const auto index = static_cast<BodyIndex>(model.bodies.size()) - 1;
+  model.constraints.push_back(
+      {fmt::format("{}_loop_{}", model.bodies[static_cast<std::size_t>(b)].name, number),
+       "WeldConstraint",
+       FrameConstraint{.body1 = b, .body2 = index, .X_BF1 = {}, .X_BF2 = {}, .rotation_too = true}});
+  return index;
+}
+
+/// Cuts loops: of the joints with one child all but the first get a copy of the child.
+void cut_loops(BodyModel& model) {
+  std::vector<std::vector<std::size_t>> joints_of(model.bodies.size());
+  for (std::size_t j = 0; j < model.joints.size(); ++j)
+    joints_of[static_cast<std::size_t>(model.joints[j].child)].push_back(j);
+  if (!joints_of[0].empty()) {
+    throw ModelError(fmt::format("joint '{}' has ground as its child; expected ground as a parent",
+                                 model.joints[joints_of[0][0]].name));
+  }
+  for (std::size_t b = 1; b < joints_of.size(); ++b) {
+    const auto copies = static_cast<double>(joints_of[b].size());
+    for (std::size_t k = 1; k < joints_of[b].size(); ++k) {
+      Joint& joint = model.joints[joints_of[b][k]];
+      joint.child = add_copy(model, static_cast<BodyIndex>(b), static_cast<int>(k));
+      model.bodies.back().mass_kg /= copies;
+      model.bodies.back().I_BBcm_B /= copies;
+      model.notes.push_back(fmt::format(
+          "joint '{}' closes a loop: it is cut there and held by a weld constraint", joint.name));
+    }
+    if (joints_of[b].size() > 1) {
+      model.bodies[b].mass_kg /= copies;
+      model.bodies[b].I_BBcm_B /= copies;
     }
   }
+}
+
+/// Joints in the order in which OpenSim builds the tree: level by level, in the order of the file; a
+/// body without mass at once with the heaviest that hangs on it.
+std::vector<Joint> tree_order(const BodyModel& model) {
+  std::vector<int> level(model.bodies.size(), -1);
+  level[0] = 0;
+  std::vector<bool> used(model.joints.size(), false);
+  std::vector<Joint> ordered;
+  const auto place = [&](std::size_t j) {
+    used[j] = true;
+    const Joint& joint = model.joints[j];
+    level[static_cast<std::size_t>(joint.child)] = level[static_cast<std::size_t>(joint.parent)] + 1;
+    ordered.push_back(joint);
+  };
+  for (int current = 0; static_cast<std::size_t>(current) < model.bodies.size(); ++current) {
+    for (std::size_t j = 0; j < model.joints.size(); ++j) {
+      if (used[j] || level[static_cast<std::size_t>(model.joints[j].parent)] != current) continue;
+      place(j);
+      for (BodyIndex end = model.joints[j].child;
+           model.bodies[static_cast<std::size_t>(end)].mass_kg == 0.0;) {
+        std::optional<std::size_t> heaviest;
+        for (std::size_t k = 0; k < model.joints.size(); ++k) {
+          if (used[k] || model.joints[k].parent != end) continue;
+          const auto mass = [&](std::size_t i) {
+            return model.bodies[static_cast<std::size_t>(model.joints[i].child)].mass_kg;
+          };
+          if (!heaviest || mass(k) > mass(*heaviest)) heaviest = k;
+        }
+        if (!heaviest) break;
+        place(*heaviest);
+        end = model.joints[*heaviest].child;
+      }
+    }
+  }
+  return ordered;
+}
+
+void check_tree(const BodyModel& model, const std::vector<Joint>& ordered) {
+  if (ordered.size() != model.joints.size()) {
+    for (const Joint& joint : model.joints) {
+      const auto same = [&](const Joint& o) { return o.child == joint.child; };
+      if (std::none_of(ordered.begin(), ordered.end(), same)) {
+        throw ModelError(fmt::format(
+            "body '{}' is not connected to ground by joints: joint '{}' hangs on '{}', which hangs "
+            "on it or on nothing",
+            model.bodies[static_cast<std::size_t>(joint.child)].name, joint.name,
+            model.bodies[static_cast<std::size_t>(joint.parent)].name));
+      }
+    }
+  }
+  std::vector<bool> placed(model.bodies.size(), false);
+  placed[0] = true;
+  for (const Joint& joint : ordered) placed[static_cast<std::size_t>(joint.child)] = true;
   for (std::size_t b = 0; b < placed.size(); ++b) {
     if (!placed[b]) {
       throw ModelError(
           fmt::format("body '{}' is not connected to ground by joints", model.bodies[b].name));
     }
   }
+  // What hangs on a joint that moves must have a mass somewhere.
+  std::vector<bool> has_mass(model.bodies.size(), false);
+  for (std::size_t j = ordered.size(); j-- > 0;) {
+    const auto child = static_cast<std::size_t>(ordered[j].child);
+    if (model.bodies[child].mass_kg > 0.0) has_mass[child] = true;
+    if (!has_mass[child] && !ordered[j].coordinates.empty()) {
+      throw ModelError(fmt::format(
+          "body '{}' and all that hangs on it have no mass, but joint '{}' lets it move; expected a "
+          "mass above 0 kg, or a WeldJoint",
+          model.bodies[child].name, ordered[j].name));
+    }
+    if (has_mass[child]) has_mass[static_cast<std::size_t>(ordered[j].parent)] = true;
+  }
+}
+
+}  // namespace
+
+BodyModel finalize(BodyModel model) {
+  if (model.bodies.empty()) throw ModelError("the model has no ground");
+  check_references(model);
+  cut_loops(model);
+  std::vector<Joint> ordered = tree_order(model);
+  check_tree(model, ordered);
   model.joints = std::move(ordered);
   model.joint_of_body.assign(model.bodies.size(), -1);
   for (std::size_t j = 0; j < model.joints.size(); ++j) {

@@ -10,6 +10,7 @@
 
 #include "myoid/core/geometry.h"
 #include "myoid/core/units.h"
+#include "myoid/model/compat.h"
 #include "myoid/model/functions.h"
 
 namespace myoid::model {
@@ -36,6 +37,9 @@ struct Coordinate {
   double upper = 10.0;
   bool clamped = false;
   bool locked = false;
+  double default_speed = 0.0;          ///< [rad/s] or [m/s]
+  std::optional<Function> prescribed;  ///< Value over time [s], if the file prescribes it.
+  bool is_free_to_satisfy_constraints = false;
 };
 
 /// One of the six axes of a joint: turns about, or moves along, `axis` by function(q of
@@ -48,8 +52,9 @@ struct TransformAxis {
   Function function = Constant{0.0};
 };
 
-/// X_PB = X_PF X_FM(q) X_BM^-1; X_FM: rotation R(a1,f1) R(a2,f2) R(a3,f3), translation sum f_i a_i
-/// in F. Every OpenSim joint whose speeds are the coordinates' rates is written in this form.
+/// X_PB = X_PF X_FM(q) X_BM^-1; X_FM: rotation R = R(a1,f1) R(a2,f2) R(a3,f3), translation
+/// sum f_i a_i in F, on an ellipsoid also radii * (third column of R), element by element. Every
+/// OpenSim joint is written in this form, the speeds being the coordinates' rates.
 struct Joint {
   std::string name;
   std::string class_name;  ///< As in the file: "CustomJoint", "PinJoint", ...
@@ -60,6 +65,7 @@ struct Joint {
   std::vector<int> coordinates;  ///< Indices in BodyModel::coordinates.
   std::array<TransformAxis, 3> rotation;
   std::array<TransformAxis, 3> translation;
+  std::optional<Vec3> ellipsoid_radii_m;  ///< EllipsoidJoint: the origin of M moves on this surface.
 };
 
 struct Marker {
@@ -96,6 +102,15 @@ struct EllipsoidShape {
   Vec3 radii_m = Vec3(0.05, 0.05, 0.05);
 };
 
+struct SphereShape {
+  double radius_m = 1.0;
+};
+/// Ring about z: a circle of radius `outer_radius_m` as the axis of a tube of `inner_radius_m`.
+struct TorusShape {
+  double inner_radius_m = 0.01;
+  double outer_radius_m = 0.05;
+};
+
 /// Which side of a wrap object counts: 0 all, else +-1 x, +-2 y, +-3 z.
 using Quadrant = int;
 
@@ -105,7 +120,7 @@ struct WrapObject {
   Pose X_BW;  ///< Wrap frame in the body.
   Quadrant quadrant = 0;
   bool active = true;
-  std::variant<CylinderShape, EllipsoidShape> shape;
+  std::variant<CylinderShape, EllipsoidShape, SphereShape, TorusShape> shape;
 };
 
 enum class WrapMethod { hybrid, midpoint, axial };
@@ -121,6 +136,39 @@ struct PathWrap {
 struct MusclePath {
   std::vector<PathPoint> points;
   std::vector<PathWrap> wraps;
+};
+
+/// Corner points and slopes of Millard's curves (force by normalized length, velocity or strain).
+struct MillardCurves {
+  double active_min_length = 0.4441, active_transition_length = 0.73, active_max_length = 1.8123;
+  double active_shallow_slope = 0.8616, active_minimum = 0.1;
+  double concentric_slope_at_vmax = 0.0, concentric_slope_near_vmax = 0.25;
+  double isometric_slope = 5.0;
+  double eccentric_slope_at_vmax = 0.0, eccentric_slope_near_vmax = 0.15, eccentric_force = 1.4;
+  double concentric_curviness = 0.6, eccentric_curviness = 0.9;
+  double fiber_strain_at_zero_force = 0.0, fiber_strain_at_one_force = 0.7;
+  /// Negative: as the class computes them where the file gives none.
+  double fiber_stiffness_at_low_force = -1.0, fiber_stiffness_at_one_force = -1.0;
+  double fiber_curviness = -1.0;
+  double tendon_strain_at_one_force = 0.049, tendon_stiffness_at_one_force = -1.0;
+  double tendon_force_at_toe_end = -1.0, tendon_curviness = -1.0;
+  double fiber_damping = 0.1;
+  bool ignore_tendon_compliance = false, ignore_activation_dynamics = false;
+};
+
+/// Curves of Schutte1993Muscle and Delp1990Muscle; empty where the class's own hold.
+struct SchutteCurves {
+  double time_scale_s = 0.1, activation1 = 7.667, activation2 = 1.459854, damping = 0.05;
+  std::optional<Function> active_force_length, passive_force_length, tendon_force_length;
+  std::optional<Function> force_velocity;
+};
+
+/// DeGrooteFregly2016Muscle beside the shared numbers.
+struct DeGrooteCurves {
+  double active_width_scale = 1.0, fiber_damping = 0.0;
+  double passive_fiber_strain_at_one_force = 0.6, tendon_strain_at_one_force = 0.049;
+  bool ignore_passive_fiber_force = false, ignore_tendon_compliance = false;
+  bool ignore_activation_dynamics = false, tendon_dynamics_implicit = false;
 };
 
 /// The numbers of a muscle as the model file has them, SI. Fields that a class does not have keep
@@ -141,8 +189,12 @@ struct MuscleProperties {
   double max_pennation_rad = 1.4706289056333368;  ///< acos(0.1)
   double activation_time_s = 0.015;
   double deactivation_time_s = 0.05;
+  double minimum_activation = 0.01;
+  double default_activation = 0.05;
+  double default_fiber_length_m = 0.1;
   double min_control = 0.01;
   double max_control = 1.0;
+  std::variant<std::monostate, MillardCurves, SchutteCurves, DeGrooteCurves> curves;
 };
 
 struct Muscle {
@@ -160,10 +212,116 @@ struct CoordinateActuator {
   double optimal_force = 1.0;  ///< [N m] or [N]
   double min_control = -std::numeric_limits<double>::infinity();
   double max_control = std::numeric_limits<double>::infinity();
+  bool applies_force = true;
 };
 
-/// A person as a multibody system: an immutable value once read. Joints are in tree order (a
-/// parent's joint stands before its child's); `joint_of_body[b]` is the joint whose child is body b
+/// A force of optimal_force times control along `direction` at a point of a body (PointActuator).
+struct PointActuator {
+  std::string name;
+  BodyIndex body = 0;
+  Vec3 point = Vec3::Zero();
+  bool point_is_global = false;
+  Vec3 direction = Vec3::UnitX();  ///< Unit.
+  bool force_is_global = false;
+  double optimal_force = 1.0;
+  double min_control = -std::numeric_limits<double>::infinity();
+  double max_control = std::numeric_limits<double>::infinity();
+  bool applies_force = true;
+};
+
+/// A torque of optimal_force times control about `axis`: on body A, and reversed on body B.
+struct TorqueActuator {
+  std::string name;
+  BodyIndex body_a = 0, body_b = 0;
+  Vec3 axis = Vec3::UnitZ();    ///< Unit.
+  bool torque_is_global = true;  ///< Else the axis is given in body A.
+  double optimal_force = 1.0;
+  double min_control = -std::numeric_limits<double>::infinity();
+  double max_control = std::numeric_limits<double>::infinity();
+  bool applies_force = true;
+};
+
+/// OpenSim's CoordinateLimitForce, in SI: beyond a limit the stiffness rises smoothly to its full
+/// value over `transition`.
+struct CoordinateLimitForce {
+  int coordinate = -1;
+  double upper_limit = 0.0, lower_limit = 0.0;          ///< [rad] or [m]
+  double upper_stiffness = 1.0, lower_stiffness = 1.0;  ///< [N m/rad] or [N/m]
+  double damping = 0.001;                               ///< [N m s/rad] or [N s/m]
+  double transition = 0.1;                              ///< [rad] or [m]
+};
+/// -stiffness (q - rest) - viscosity qdot on one coordinate (SpringGeneralizedForce).
+struct CoordinateSpring {
+  int coordinate = -1;
+  double stiffness = 0.0, rest = 0.0, viscosity = 0.0;
+};
+/// Linear spring and damper between frames F1 (on body 1) and F2, in rotation (body-fixed X-Y-Z
+/// angles of F2 in F1) and translation (in F1).
+struct Bushing {
+  BodyIndex body1 = 0, body2 = 0;
+  Pose X_BF1, X_BF2;
+  Vec3 rotational_stiffness = Vec3::Zero(), translational_stiffness = Vec3::Zero();
+  Vec3 rotational_damping = Vec3::Zero(), translational_damping = Vec3::Zero();
+};
+/// stiffness (length - rest) along the line between two points.
+struct PointSpring {
+  BodyIndex body1 = 0, body2 = 0;
+  Vec3 p_B1 = Vec3::Zero(), p_B2 = Vec3::Zero();
+  double stiffness_npm = 0.0, rest_length_m = 0.0;
+};
+/// Tension along a path: stiffness (length - rest)(1 + dissipation dl/dt), none when slack.
+struct PathSpring {
+  MusclePath path;
+  double stiffness_npm = 0.0, rest_length_m = 0.0, dissipation = 0.0;
+};
+/// Tension along a path: scale times a curve of length / resting length, none when slack.
+struct Ligament {
+  MusclePath path;
+  double rest_length_m = 0.0, scale_n = 1.0;
+  Function force_length;
+};
+/// A force of the model that is neither muscle nor actuator, and acts in inverse dynamics.
+struct PassiveForce {
+  std::string name;
+  std::string class_name;
+  std::variant<CoordinateLimitForce, CoordinateSpring, Bushing, PointSpring, PathSpring, Ligament>
+      law;
+};
+
+/// q_dependent = function(q_independent) (CoordinateCouplerConstraint; its scale is in the
+/// function).
+struct CoordinateCoupler {
+  std::string name;
+  int dependent = -1;
+  int independent = -1;
+  Function function;
+};
+
+/// Two frames that stay together: their origins (PointConstraint) or altogether (WeldConstraint).
+struct FrameConstraint {
+  BodyIndex body1 = 0, body2 = 0;
+  Pose X_BF1, X_BF2;
+  bool rotation_too = false;
+};
+/// Two points at a fixed distance (ConstantDistanceConstraint).
+struct DistanceConstraint {
+  BodyIndex body1 = 0, body2 = 0;
+  Vec3 p_B1 = Vec3::Zero(), p_B2 = Vec3::Zero();
+  double distance_m = 0.0;
+};
+/// A point of body 2 on a line of body 1 (PointOnLineConstraint).
+struct LineConstraint {
+  BodyIndex body1 = 0, body2 = 0;
+  Vec3 direction = Vec3::UnitX(), p_B1 = Vec3::Zero(), p_B2 = Vec3::Zero();
+};
+struct LoopConstraint {
+  std::string name;
+  std::string class_name;
+  std::variant<FrameConstraint, DistanceConstraint, LineConstraint> law;
+};
+
+/// A person as a multibody system: an immutable value once read. Joints are in tree order, breadth
+/// first (a parent's joint stands before its child's); `joint_of_body[b]` is the joint whose child is body b
 /// (-1 for ground). Coordinates are in the file's JointSet order. One model may serve many threads;
 /// what changes with the posture lives in a BodyState (kinematic_tree.h).
 struct BodyModel {
@@ -177,6 +335,13 @@ struct BodyModel {
   std::vector<WrapObject> wrap_objects;
   std::vector<Muscle> muscles;
   std::vector<CoordinateActuator> actuators;
+  std::vector<PointActuator> point_actuators;
+  std::vector<TorqueActuator> torque_actuators;
+  std::vector<PassiveForce> passive_forces;
+  std::vector<CoordinateCoupler> couplers;   ///< Enforced ones.
+  std::vector<LoopConstraint> constraints;   ///< Enforced ones other than couplers.
+  Compat compat;  ///< Exact, or OpenSim's way of computing paths (compat.h).
+  int document_version = 0;
   std::vector<std::string> notes;  ///< What was repaired or ignored while reading, a sentence each.
   std::vector<std::string>
       unsupported;  ///< What would make results wrong; commands that need it refuse.
@@ -188,7 +353,9 @@ struct BodyModel {
   /// Like find_..., but throws ModelError listing the names there are.
   [[nodiscard]] int coordinate_index(std::string_view name) const;
   [[nodiscard]] int muscle_index(std::string_view name) const;
-  /// Coordinate values of the default pose.
+  /// The coordinate takes no value of its own: locked, prescribed or the dependent one of a coupler.
+  [[nodiscard]] bool is_constrained(int coordinate) const;
+  /// Coordinate values of the default pose; dependent coordinates as their couplers say.
   [[nodiscard]] Eigen::VectorXd default_q() const;
 };
 

@@ -50,20 +50,65 @@ FunctionValue value_of(const SimmSpline& f, double x) {
           f.b[i] + u * (2.0 * f.c[i] + 3.0 * u * f.d[i]), 2.0 * f.c[i] + 6.0 * u * f.d[i]};
 }
 
-}  // namespace
-
-SimmSpline make_simm_spline(std::vector<double> x, std::vector<double> y) {
+void check_knots(const std::vector<double>& x, const std::vector<double>& y) {
   const std::size_t n = x.size();
   if (n != y.size() || n < 2) {
     throw InvalidInput(
         fmt::format("spline function: {} x for {} y; at least two pairs are needed", n, y.size()));
   }
-  for (std::size_t i = 1; i < n; ++i) {
-    if (!(x[i] > x[i - 1])) {
+  for (std::size_t i = 0; i < n; ++i) {
+    if (i > 0 && !(x[i] > x[i - 1])) {
       throw InvalidInput(
           fmt::format("spline function: x does not increase ({} after {})", x[i], x[i - 1]));
     }
+    if (!std::isfinite(x[i]) || !std::isfinite(y[i]))
+      throw InvalidInput(fmt::format("spline function: ({}, {}) is not finite", x[i], y[i]));
   }
+}
+
+}  // namespace
+
+PiecewiseLinear make_piecewise_linear(std::vector<double> x, std::vector<double> y) {
+  check_knots(x, y);
+  return {std::move(x), std::move(y)};
+}
+
+SimmSpline make_natural_spline(std::vector<double> x, std::vector<double> y) {
+  check_knots(x, y);
+  const std::size_t n = x.size();
+  // Second derivatives m: tridiagonal, with m = 0 at both ends.
+  std::vector<double> m(n, 0.0);
+  std::vector<double> right(n, 0.0);
+  std::vector<double> diagonal(n, 1.0);
+  for (std::size_t i = 1; i + 1 < n; ++i) {
+    const double left_h = x[i] - x[i - 1];
+    const double right_h = x[i + 1] - x[i];
+    diagonal[i] = 2.0 * (left_h + right_h);
+    right[i] = 6.0 * ((y[i + 1] - y[i]) / right_h - (y[i] - y[i - 1]) / left_h);
+    if (i > 1) {
+      const double factor = left_h / diagonal[i - 1];
+      diagonal[i] -= factor * left_h;
+      right[i] -= factor * right[i - 1];
+    }
+  }
+  for (std::size_t i = n - 1; i-- > 1;)
+    m[i] = (right[i] - (x[i + 1] - x[i]) * m[i + 1]) / diagonal[i];
+  SimmSpline s{std::move(x), std::move(y), std::vector<double>(n), std::vector<double>(n),
+               std::vector<double>(n)};
+  for (std::size_t i = 0; i + 1 < n; ++i) {
+    const double h = s.x[i + 1] - s.x[i];
+    s.b[i] = (s.y[i + 1] - s.y[i]) / h - h * (2.0 * m[i] + m[i + 1]) / 6.0;
+    s.c[i] = 0.5 * m[i];
+    s.d[i] = (m[i + 1] - m[i]) / (6.0 * h);
+  }
+  const double h = s.x[n - 1] - s.x[n - 2];
+  s.b[n - 1] = s.b[n - 2] + h * (2.0 * s.c[n - 2] + 3.0 * h * s.d[n - 2]);
+  return s;
+}
+
+SimmSpline make_simm_spline(std::vector<double> x, std::vector<double> y) {
+  check_knots(x, y);
+  const std::size_t n = x.size();
   SimmSpline s{std::move(x), std::move(y), std::vector<double>(n), std::vector<double>(n),
                std::vector<double>(n)};
   auto& [xs, ys, b, c, d] = s;

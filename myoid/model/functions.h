@@ -38,6 +38,10 @@ struct Function {
 
 /// Throws InvalidInput if sizes differ, fewer than two knots, or x does not increase.
 [[nodiscard]] SimmSpline make_simm_spline(std::vector<double> x, std::vector<double> y);
+[[nodiscard]] PiecewiseLinear make_piecewise_linear(std::vector<double> x, std::vector<double> y);
+/// The natural cubic spline (second derivative 0 at the ends), linear beyond them: OpenSim's
+/// GCVSpline of half order 2. Throws as make_simm_spline.
+[[nodiscard]] SimmSpline make_natural_spline(std::vector<double> x, std::vector<double> y);
 
 struct FunctionValue {
   double value = 0.0;

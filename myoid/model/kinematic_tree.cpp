@@ -43,6 +43,7 @@ JointPosture posture(const Joint& joint, const Eigen::Ref<const Eigen::VectorXd>
     p.shift[i] = evaluate(axis.function, argument(axis, q));
     p.X_FM.p += p.shift[i].value * axis.axis;
   }
+  if (joint.ellipsoid_radii_m) p.X_FM.p += joint.ellipsoid_radii_m->cwiseProduct(p.X_FM.R.col(2));
   return p;
 }
 
@@ -72,6 +73,11 @@ RelativeMotion relative_motion(const Joint& joint,
     m.v += p.shift[i].first * qdot[c] * joint.translation[i].axis;
     m.a += (p.shift[i].second * qdot[c] * qdot[c] + p.shift[i].first * qddot[c]) *
            joint.translation[i].axis;
+  }
+  if (joint.ellipsoid_radii_m) {
+    const Vec3 up = p.X_FM.R.col(2);
+    m.v += joint.ellipsoid_radii_m->cwiseProduct(m.w.cross(up));
+    m.a += joint.ellipsoid_radii_m->cwiseProduct(m.alpha.cross(up) + m.w.cross(m.w.cross(up)));
   }
   return m;
 }
@@ -106,7 +112,11 @@ void compute_poses(const BodyModel& model,
     for (const int c : joint.coordinates) state.H_w_G[at(c)] = state.H_v_G[at(c)] = Vec3::Zero();
     for (std::size_t i = 0; i < 3; ++i) {
       if (const int c = joint.rotation[i].coordinate; c >= 0) {
-        state.H_w_G[at(c)] += X_GF.R * (p.angle[i].first * p.axis_F[i]);
+        const Vec3 w_F = p.angle[i].first * p.axis_F[i];
+        state.H_w_G[at(c)] += X_GF.R * w_F;
+        if (joint.ellipsoid_radii_m)
+          state.H_v_G[at(c)] +=
+              X_GF.R * joint.ellipsoid_radii_m->cwiseProduct(w_F.cross(p.X_FM.R.col(2)));
       }
       if (const int c = joint.translation[i].coordinate; c >= 0) {
         state.H_v_G[at(c)] += X_GF.R * (p.shift[i].first * joint.translation[i].axis);

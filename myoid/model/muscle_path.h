@@ -1,11 +1,34 @@
 #pragma once
 
+#include <array>
+#include <vector>
+
 #include <Eigen/Core>
 
 #include "myoid/model/body_model.h"
 #include "myoid/model/kinematic_tree.h"
 
 namespace myoid::model {
+
+/// A point the path runs through at this posture.
+struct PathStation {
+  BodyIndex body = 0;
+  Vec3 p_B = Vec3::Zero();
+  Vec3 p_G = Vec3::Zero();
+  int source = -1;  ///< Number in the path's points, or -1 for a tangent point.
+  int wrap = -1;    ///< Number in the path's wraps for a tangent point.
+  bool on_wrap_after = false;  ///< From here to the next station the path lies on the object,
+  double arc_after_m = 0.0;    ///< for this length.
+};
+
+/// Space for computing paths, reused from call to call without allocation; one per thread. After a
+/// call `stations` is the path.
+struct PathWorkspace {
+  std::vector<PathStation> stations;
+  std::vector<std::array<Vec3, 2>> first_seen_G;  ///< Per wrap, for Compat::stale_wrap_points.
+  std::vector<char> is_seen;
+  std::vector<int> order;
+};
 
 /// A muscle at one posture.
 struct PathResult {
@@ -15,14 +38,51 @@ struct PathResult {
   bool wrapped = false;          ///< It lies on a wrap object.
 };
 
-/// Length of a muscle's path from origin to insertion through the points that are active at this
-/// posture and around its wrap objects, with the exact derivatives: r_k = -sum over the straight
-/// pieces of u . (dp_end/dq_k - dp_begin/dq_k), u the unit vector along the piece, tangent points
-/// held on their object. A moving point's location is taken within its coordinate's range, where
-/// its derivative is zero beyond. Over an ellipsoid the path is OpenSim's, which is not the
-/// shortest (wrap_ellipsoid.h): there r is the moment of the unit tension, as OpenSim's, and
-/// differs from -dl/dq by some tenths of a millimeter. `speed_mps` is -r . qdot. `compute_poses`
-/// (and for the speed `compute_velocities`) must have been called on the state.
+/// Length of a path from its first point to its last through the points that are active at this
+/// posture and around its wrap objects, with the derivatives by every coordinate on its own.
+///
+/// `exact` (BodyModel::compat without switches): r = -dl/dq of this very length. Over cylinders and
+/// spheres the path is the shortest, and r the moment of the unit tension along the straight pieces;
+/// over an ellipsoid or a torus it is OpenSim's construction, which is not the shortest, and the
+/// tangent points' own motion counts too. A moving point's location is taken within its
+/// coordinate's range, where its derivative is zero beyond. `speed_mps` is -r . qdot.
+///
+/// With Compat::opensim_paths all is as OpenSim 4.5.2 computes it (compat.h): r the moments of the
+/// unit tension, speed from the velocities of the points.
+///
+/// `compute_poses` (and for the speed `compute_velocities`) must have been called on the state.
+void compute_path(const BodyModel& model,
+                  const MusclePath& path,
+                  const BodyState& state,
+                  PathWorkspace& workspace,
+                  PathResult& result);
 [[nodiscard]] PathResult compute_path(const BodyModel& model, int muscle, const BodyState& state);
+
+/// The stations of a path without wrap objects; the first step of every way to compute a path.
+void place_points(const BodyModel& model,
+                  const MusclePath& path,
+                  const BodyState& state,
+                  PathWorkspace& workspace);
+
+/// Sum of the straight pieces and of the arcs.
+[[nodiscard]] double length_of(const std::vector<PathStation>& stations);
+
+/// Adds to `arm` minus the derivative by each coordinate of u . (p_b - p_a), where the points are
+/// fixed in bodies a and b: exactly zero for coordinates that do not move one against the other.
+void add_pair_moment(const BodyModel& model,
+                     const BodyState& state,
+                     BodyIndex a,
+                     const Vec3& p_GA,
+                     BodyIndex b,
+                     const Vec3& p_GB,
+                     const Vec3& u_G,
+                     Eigen::VectorXd& arm);
+
+/// Derivative of a moving point's location by its coordinate, in ground; `beyond_range`: also where
+/// the coordinate has left its range (as OpenSim).
+[[nodiscard]] Vec3 moving_rate(const BodyModel& model,
+                               const PathPoint& point,
+                               const BodyState& state,
+                               bool beyond_range);
 
 }  // namespace myoid::model

@@ -7,20 +7,34 @@
 
 namespace myoid::model {
 
-/// Reads an OpenSim model, document version 30517 or 40000 and later, as a BodyModel.
+struct OsimOptions {
+  Compat compat;  ///< Becomes BodyModel::compat; also decides how old documents are rounded.
+};
+
+/// Reads an OpenSim model, document version 10600 to 4xxxx, as a BodyModel.
 ///
-/// Joints: Weld, Pin, Slider, Universal, Gimbal, Ball, Free, Planar, Custom, each written as six
-/// axes. (Ball and Free: their speeds are the rates of the coordinates here, so that inverse
-/// dynamics is right in them.) Functions: Constant, Linear, Polynomial, PiecewiseLinear, SimmSpline
-/// and NaturalCubicSpline, Multiplier. Path points: fixed, conditional, moving. Wrap objects:
-/// cylinder and ellipsoid. Every muscle class: the numbers they share; Thelen's own. Coordinate
-/// actuators. Values that an object omits come from `<defaults>`, then from the class.
+/// Joints: Weld, Pin, Slider, Universal, Gimbal, Ball, Free, Planar, Ellipsoid, Scapulothoracic,
+/// Custom. (Where OpenSim's speeds are angular velocities they are the rates of the coordinates
+/// here, so that inverse dynamics is right.) A loop of joints is cut as OpenSim does. Functions:
+/// Constant, Linear, Polynomial, PiecewiseLinear, SimmSpline and NaturalCubicSpline, cubic
+/// GCVSpline, Multiplier. Path points: fixed, conditional, moving. Wrap objects: cylinder,
+/// ellipsoid, sphere, torus. Muscles of every class with the curves of Thelen, Millard, Schutte and
+/// DeGrooteFregly. Actuators: Coordinate-, Point-, Torque-. Passive forces: limit forces, bushings,
+/// springs, ligaments. Constraints: couplers of one coordinate, weld, point, distance, point on
+/// line. Values that an object omits come from `<defaults>`, then from the class.
 ///
-/// What cannot be taken as it is stands in `BodyModel::unsupported` (constraints, other joints and
-/// wrap objects, with the names of what they would change); what was left out without harm in
-/// `notes`. Throws ReadError with the line for bad XML, a missing element, an unknown frame or a
-/// text that is no number; ModelError for a tree that does not close.
-[[nodiscard]] BodyModel read_osim(const std::filesystem::path& path);
-[[nodiscard]] BodyModel parse_osim(std::string_view xml, const std::filesystem::path& path);
+/// What cannot be taken as it is stands in `BodyModel::unsupported` with what it would change; what
+/// was left out without harm in `notes`. Throws ReadError with the line for bad XML, a missing
+/// element or socket, an unknown frame or a text that is no number; ModelError for a tree that does
+/// not close or cannot be moved.
+[[nodiscard]] BodyModel read_osim(const std::filesystem::path& path,
+                                  const OsimOptions& options = {});
+[[nodiscard]] BodyModel parse_osim(std::string_view xml,
+                                   const std::filesystem::path& path,
+                                   const OsimOptions& options = {});
+
+/// Reads the force set of a file whose root holds a <ForceSet> (reserve actuators) into a copy of
+/// the model.
+[[nodiscard]] BodyModel with_force_set(BodyModel model, const std::filesystem::path& path);
 
 }  // namespace myoid::model

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <string_view>
+
+namespace myoid::model {
+
+/// Where OpenSim 4.5.2 departs from what a model's geometry means: one switch each, all of them
+/// here. With none set (`exact`, the default) lengths are continuous wherever the geometry is and
+/// moment arms are -dl/dq. The switches from `stale_wrap_points` to `approximate_torus` act only
+/// where `opensim_paths` is set.
+struct Compat {
+  /// Paths by OpenSim's constructions: tangent points on a cylinder by one slide along its
+  /// generators (for several objects by at most 100 slides to 0.1 degree), an ellipsoid's arc as a
+  /// polyline of 1 mm chords, several objects in turn until the length changes by less than 0.5 mm;
+  /// moment arms from the forces of unit tension, speeds from the points' velocities.
+  bool opensim_paths = false;
+  /// With several wrap objects the straight pieces end where a wrap point was when it was first
+  /// computed at this posture; arcs belong to where it was last.
+  bool stale_wrap_points = false;
+  /// A cylinder's long way round is 2 pi - theta also where theta is negative.
+  bool long_turn_of_negative_angle = false;
+  /// The far side of a sphere has a negative arc, and a quadrant's decision takes 1 m for the length
+  /// of the segment.
+  bool negative_sphere_arc = false;
+  /// The point of a torus nearest to a line comes from a residual with a factor of 2 too much.
+  bool approximate_torus = false;
+  /// An ellipsoid's quadrant with method midpoint or axial mirrors without returning to the surface.
+  bool mirrored_without_fan = false;
+  /// A moving path point beside a point of the same body does not count in moment arms.
+  bool unseen_moving_points = false;
+  /// Offsets of joints and inertias of documents before 30500 rounded to six digits.
+  bool six_digit_offsets = false;
+  /// Static optimization: Millard's cos(pennation) at the normalized fiber length.
+  bool normalized_pennation = false;
+
+  [[nodiscard]] bool operator==(const Compat&) const = default;
+};
+
+/// OpenSim 4.5.2 with all of its defects.
+inline constexpr Compat kOpenSim452{.opensim_paths = true,
+                                    .stale_wrap_points = true,
+                                    .long_turn_of_negative_angle = true,
+                                    .negative_sphere_arc = true,
+                                    .approximate_torus = true,
+                                    .mirrored_without_fan = true,
+                                    .unseen_moving_points = true,
+                                    .six_digit_offsets = true,
+                                    .normalized_pennation = true};
+
+/// "exact" or "opensim"; throws InvalidInput for anything else.
+[[nodiscard]] Compat parse_compat(std::string_view name);
+/// "exact" or "opensim".
+[[nodiscard]] std::string_view name_of(const Compat& compat);
+
+}  // namespace myoid::model

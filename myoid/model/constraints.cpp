@@ -1,0 +1,238 @@
+#include "myoid/model/constraints.h"
+
+#include <cmath>
+#include <vector>
+
+#include <Eigen/QR>
+#include <fmt/format.h>
+
+#include "myoid/core/error.h"
+
+namespace myoid::model {
+namespace {
+
+std::size_t at(int index) { return static_cast<std::size_t>(index); }
+
+Eigen::Index rows_of(const LoopConstraint& constraint) {
+  if (const auto* frame = std::get_if<FrameConstraint>(&constraint.law))
+    return frame->rotation_too ? 6 : 3;
+  return std::holds_alternative<DistanceConstraint>(constraint.law) ? 1 : 2;
+}
+
+Eigen::Index loop_rows(const BodyModel& model) {
+  Eigen::Index rows = 0;
+  for (const LoopConstraint& constraint : model.constraints) rows += rows_of(constraint);
+  return rows;
+}
+
+/// Angular velocity of a body by each coordinate: 3 x nq.
+Eigen::Matrix3Xd angular_jacobian(const BodyModel& model, const BodyState& state, BodyIndex body) {
+  Eigen::Matrix3Xd J =
+      Eigen::Matrix3Xd::Zero(3, static_cast<Eigen::Index>(model.coordinates.size()));
+  for (BodyIndex b = body; b != 0;) {
+    const Joint& joint = model.joints[at(model.joint_of_body[at(b)])];
+    for (const int c : joint.coordinates) J.col(c) = state.H_w_G[at(c)];
+    b = joint.parent;
+  }
+  return J;
+}
+
+/// Two directions across a unit vector.
+std::array<Vec3, 2> across(const Vec3& u) {
+  Eigen::Index least = 0;
+  u.cwiseAbs().minCoeff(&least);
+  const Vec3 v = u.cross(Vec3::Unit(least)).normalized();
+  return {v, u.cross(v)};
+}
+
+/// Errors and, if asked, their Jacobian.
+void evaluate_loops(const BodyModel& model,
+                    const BodyState& state,
+                    Eigen::VectorXd& errors,
+                    Eigen::MatrixXd* jacobian) {
+  const auto count = static_cast<Eigen::Index>(model.coordinates.size());
+  errors.resize(loop_rows(model));
+  if (jacobian != nullptr) jacobian->resize(errors.size(), count);
+  Eigen::Index row = 0;
+  const auto relative = [&](BodyIndex b1, const Vec3& p1, BodyIndex b2, const Vec3& p2) {
+    return Eigen::Matrix3Xd(station_jacobian(model, state, b2, p2) -
+                            station_jacobian(model, state, b1, p1));
+  };
+  for (const LoopConstraint& constraint : model.constraints) {
+    if (const auto* f = std::get_if<FrameConstraint>(&constraint.law)) {
+      const Pose X_GF1 = state.X_GB[at(f->body1)] * f->X_BF1;
+      const Pose X_GF2 = state.X_GB[at(f->body2)] * f->X_BF2;
+      errors.segment<3>(row) = X_GF2.p - X_GF1.p;
+      if (jacobian != nullptr) {
+        jacobian->middleRows<3>(row) = relative(f->body1, f->X_BF1.p, f->body2, f->X_BF2.p);
+      }
+      if (f->rotation_too) {
+        // Half the sum of the cross products of the axes: the sine of the angle, about its axis.
+        Vec3 sine = Vec3::Zero();
+        for (int k = 0; k < 3; ++k) sine += 0.5 * X_GF1.R.col(k).cross(X_GF2.R.col(k));
+        errors.segment<3>(row + 3) = sine;
+        if (jacobian != nullptr) {
+          jacobian->middleRows<3>(row + 3) = angular_jacobian(model, state, f->body2) -
+                                             angular_jacobian(model, state, f->body1);
+        }
+      }
+    } else if (const auto* d = std::get_if<DistanceConstraint>(&constraint.law)) {
+      const Vec3 between =
+          state.X_GB[at(d->body2)] * d->p_B2 - state.X_GB[at(d->body1)] * d->p_B1;
+      errors[row] = between.norm() - d->distance_m;
+      if (jacobian != nullptr) {
+        jacobian->row(row) = between.normalized().transpose() *
+                             relative(d->body1, d->p_B1, d->body2, d->p_B2);
+      }
+    } else {
+      const auto& line = std::get<LineConstraint>(constraint.law);
+      const Pose& X_GB1 = state.X_GB[at(line.body1)];
+      const Vec3 p_G = state.X_GB[at(line.body2)] * line.p_B2;
+      // The follower as a point of body 1, which moves with it.
+      const Vec3 p_B1 = X_GB1.inverse() * p_G;
+      const auto directions = across(line.direction);
+      for (int k = 0; k < 2; ++k) {
+        const Vec3 u_G = X_GB1.R * directions[static_cast<std::size_t>(k)];
+        errors[row + k] = directions[static_cast<std::size_t>(k)].dot(p_B1 - line.p_B1);
+        if (jacobian != nullptr) {
+          jacobian->row(row + k) =
+              u_G.transpose() * relative(line.body1, p_B1, line.body2, line.p_B2);
+        }
+      }
+    }
+    row += rows_of(constraint);
+  }
+}
+
+}  // namespace
+
+void apply_couplers(const BodyModel& model, Eigen::VectorXd& q) {
+  for (std::size_t round = 0; round <= model.couplers.size(); ++round) {
+    bool changed = false;
+    for (const CoordinateCoupler& c : model.couplers) {
+      const double value = evaluate(c.function, q[c.independent]).value;
+      changed = changed || value != q[c.dependent];
+      q[c.dependent] = value;
+    }
+    if (!changed || !q.allFinite()) return;
+  }
+  throw ModelError("coordinate couplers depend on each other in a circle");
+}
+
+Eigen::VectorXd constraint_errors(const BodyModel& model, const BodyState& state) {
+  Eigen::VectorXd errors;
+  evaluate_loops(model, state, errors, nullptr);
+  return errors;
+}
+
+Eigen::MatrixXd constraint_jacobian(const BodyModel& model, const BodyState& state) {
+  const auto couplers = static_cast<Eigen::Index>(model.couplers.size());
+  const auto count = static_cast<Eigen::Index>(model.coordinates.size());
+  Eigen::MatrixXd A = Eigen::MatrixXd::Zero(couplers + loop_rows(model), count);
+  for (Eigen::Index k = 0; k < couplers; ++k) {
+    const CoordinateCoupler& c = model.couplers[static_cast<std::size_t>(k)];
+    A(k, c.dependent) = 1.0;
+    A(k, c.independent) -= evaluate(c.function, state.q[c.independent]).first;
+  }
+  if (!model.constraints.empty()) {
+    Eigen::VectorXd errors;
+    Eigen::MatrixXd loops;
+    evaluate_loops(model, state, errors, &loops);
+    A.bottomRows(loops.rows()) = loops;
+  }
+  return A;
+}
+
+Eigen::MatrixXd coupling_matrix(const BodyModel& model, const BodyState& state) {
+  const auto count = static_cast<Eigen::Index>(model.coordinates.size());
+  Eigen::MatrixXd C = Eigen::MatrixXd::Identity(count, count);
+  if (model.couplers.empty() && model.constraints.empty()) return C;
+  const Eigen::MatrixXd A = constraint_jacobian(model, state);
+  std::vector<Eigen::Index> involved;
+  for (Eigen::Index c = 0; c < count; ++c) {
+    if (A.col(c).cwiseAbs().maxCoeff() > 0.0) involved.push_back(c);
+  }
+  const auto n = static_cast<Eigen::Index>(involved.size());
+  Eigen::MatrixXd reduced(A.rows(), n);
+  for (Eigen::Index k = 0; k < n; ++k) reduced.col(k) = A.col(involved[static_cast<std::size_t>(k)]);
+  for (Eigen::Index k = 0; k < n; ++k) {
+    Eigen::MatrixXd rows = reduced;
+    for (Eigen::Index j = 0; j < n; ++j) {
+      const int c = static_cast<int>(involved[static_cast<std::size_t>(j)]);
+      if (j == k || !model.coordinates[at(c)].locked) continue;
+      rows.conservativeResize(rows.rows() + 1, n);
+      rows.bottomRows<1>().setZero();
+      rows(rows.rows() - 1, j) = 1.0;
+    }
+    // The nearest rates to the unit rate that obey all rows.
+    const Eigen::VectorXd unit = Eigen::VectorXd::Unit(n, k);
+    const Eigen::VectorXd rates =
+        unit - rows.completeOrthogonalDecomposition().solve(rows * unit);
+    const Eigen::Index c = involved[static_cast<std::size_t>(k)];
+    C.col(c).setZero();
+    if (!(std::abs(rates[k]) > 1e-12)) continue;
+    for (Eigen::Index j = 0; j < n; ++j)
+      C(involved[static_cast<std::size_t>(j)], c) = rates[j] / rates[k];
+  }
+  return C;
+}
+
+AssemblyResult assemble(const BodyModel& model,
+                        const Eigen::Ref<const Eigen::VectorXd>& q,
+                        double accuracy) {
+  AssemblyResult result{q, 0.0, true};
+  apply_couplers(model, result.q);
+  if (model.constraints.empty()) return result;
+  const Eigen::VectorXd wished = result.q;
+  BodyState state = make_state(model);
+  std::vector<Eigen::Index> free;
+  Eigen::VectorXd loose;  // inverse root of the weight of each free coordinate
+  for (std::size_t c = 0; c < model.coordinates.size(); ++c) {
+    const Coordinate& k = model.coordinates[c];
+    if (k.locked || k.prescribed) continue;
+    const auto depends = [&](const CoordinateCoupler& o) { return o.dependent == static_cast<int>(c); };
+    if (std::any_of(model.couplers.begin(), model.couplers.end(), depends)) continue;
+    free.push_back(static_cast<Eigen::Index>(c));
+    loose.conservativeResize(loose.size() + 1);
+    loose[loose.size() - 1] = k.is_free_to_satisfy_constraints ? 1e3 : 1.0;
+  }
+  const auto n = static_cast<Eigen::Index>(free.size());
+  result.converged = false;
+  for (int iteration = 0; iteration < 100; ++iteration) {
+    compute_poses(model, result.q, state);
+    Eigen::VectorXd errors;
+    Eigen::MatrixXd J;
+    evaluate_loops(model, state, errors, &J);
+    result.error = errors.cwiseAbs().maxCoeff();
+    // Dependent coordinates follow: dq = T dq_free.
+    Eigen::MatrixXd T =
+        Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(model.coordinates.size()), n);
+    for (Eigen::Index k = 0; k < n; ++k) T(free[static_cast<std::size_t>(k)], k) = loose[k];
+    for (std::size_t round = 0; round < model.couplers.size(); ++round) {
+      for (const CoordinateCoupler& c : model.couplers)
+        T.row(c.dependent) = evaluate(c.function, result.q[c.independent]).first * T.row(c.independent);
+    }
+    const Eigen::MatrixXd A = J * T;
+    Eigen::VectorXd back(n);  // towards the wish, in scaled coordinates
+    for (Eigen::Index k = 0; k < n; ++k) {
+      const Eigen::Index c = free[static_cast<std::size_t>(k)];
+      back[k] = (wished[c] - result.q[c]) / loose[k];
+    }
+    // Nearest point to the wish on the linearized constraints.
+    const Eigen::VectorXd step =
+        back - A.completeOrthogonalDecomposition().solve(Eigen::VectorXd(A * back + errors));
+    if (result.error < accuracy && step.cwiseAbs().maxCoeff() < 1e-10) {
+      result.converged = true;
+      break;
+    }
+    const double longest = step.cwiseAbs().maxCoeff();
+    const double share = longest > 0.5 ? 0.5 / longest : 1.0;
+    for (Eigen::Index k = 0; k < n; ++k)
+      result.q[free[static_cast<std::size_t>(k)]] += share * loose[k] * step[k];
+    apply_couplers(model, result.q);
+  }
+  result.converged = result.error < accuracy;
+  return result;
+}
+
+}  // namespace myoid::model

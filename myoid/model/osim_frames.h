@@ -1,0 +1,80 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <string_view>
+
+#include "myoid/model/body_model.h"
+#include "myoid/model/osim_xml.h"
+
+namespace myoid::model {
+
+/// A frame fixed to a body.
+struct FixedFrame {
+  BodyIndex body = 0;
+  Pose X_BF;
+};
+
+/// What the parts of the reader share: the document, the model as far as it is read, and the frames
+/// by their paths.
+struct OsimReading {
+  const OsimXml& xml;
+  Compat compat;
+  BodyModel model;
+
+  struct OffsetFrame {
+    pugi::xml_node node;
+    std::string owner;  ///< Path of the component that holds it.
+  };
+  std::map<std::string, OffsetFrame, std::less<>> frames;  ///< By absolute path.
+
+  /// Documents before this have joints inside bodies and name bodies instead of sockets.
+  [[nodiscard]] bool is_old() const { return xml.version() < 30500; }
+};
+
+/// Reads the bodies (with the inertia of old documents) and collects the offset frames of ground,
+/// bodies, joints and the model. Throws ReadError for a body without a name, with the name of
+/// another or without a mass.
+void read_bodies(OsimReading& reading, pugi::xml_node model);
+
+/// The target of a socket in any of its three spellings (<socket_x>, <socket_x_connectee_name>,
+/// <connectors>), or the text of <old_name>; empty if there is none.
+[[nodiscard]] std::string socket(const OsimReading& reading,
+                                 pugi::xml_node node,
+                                 std::string_view name,
+                                 const char* old_name = nullptr);
+
+/// The frame a name stands for, seen from the component `owner`: a body, ground or an offset frame,
+/// chained as they may be. Throws ReadError if there is none or it refers to itself.
+[[nodiscard]] FixedFrame resolve_frame(const OsimReading& reading,
+                                       pugi::xml_node where,
+                                       std::string name,
+                                       const std::string& owner);
+
+/// The frame that a socket of `node` names; throws ReadError if the socket is missing.
+[[nodiscard]] FixedFrame frame_of(const OsimReading& reading,
+                                  pugi::xml_node node,
+                                  std::string_view socket_name,
+                                  const std::string& owner,
+                                  const char* old_name = "body");
+
+/// The pose that two properties of an element give: location (translation) and body-fixed X-Y-Z
+/// angles. With `rounded` as OpenSim converts old documents, to six digits.
+[[nodiscard]] Pose pose_of(const OsimReading& reading,
+                           pugi::xml_node node,
+                           const char* location,
+                           const char* orientation,
+                           bool rounded = false);
+
+/// The coordinate that a socket or a text names, by its last part; throws ReadError if unknown.
+[[nodiscard]] int coordinate_named(const OsimReading& reading,
+                                   pugi::xml_node where,
+                                   std::string_view text);
+
+/// Whether a force or constraint is switched on, in any version: `positive` (appliesForce,
+/// isEnforced) or the old isDisabled.
+[[nodiscard]] bool is_enabled(const OsimReading& reading,
+                              pugi::xml_node node,
+                              const char* positive);
+
+}  // namespace myoid::model
