@@ -5,6 +5,7 @@
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
 
+#include "myoid/model/constraints.h"
 #include "myoid/model/kinematic_tree.h"
 #include "myoid/model/muscle_path.h"
 
@@ -21,11 +22,18 @@ MuscleKinematics muscle_kinematics(const model::BodyModel& model, const JointMot
   oneapi::tbb::parallel_for(
       oneapi::tbb::blocked_range<Eigen::Index>(0, frames, 64), [&](const auto& range) {
         model::BodyState state = model::make_state(model);
+        model::PathWorkspace workspace;
+        model::PathResult path;
+        const bool is_coupled = !model.couplers.empty() || !model.constraints.empty();
+        Eigen::MatrixXd coupling;
         for (Eigen::Index frame = range.begin(); frame != range.end(); ++frame) {
           model::compute_poses(model, motion.q.values().row(frame).transpose(), state);
           model::compute_velocities(model, motion.qdot.values().row(frame).transpose(), state);
+          if (is_coupled) coupling = model::coupling_matrix(model, state);
           for (Eigen::Index m = 0; m < muscles; ++m) {
-            const model::PathResult path = model::compute_path(model, static_cast<int>(m), state);
+            model::compute_path(model, model.muscles[static_cast<std::size_t>(m)].path, state,
+                                workspace, path);
+            if (is_coupled) path.moment_arm_m = (coupling.transpose() * path.moment_arm_m).eval();
             length(frame, m) = path.length_m;
             velocity(frame, m) = path.speed_mps;
             for (Eigen::Index c = 0; c < coordinates; ++c)

@@ -13,8 +13,9 @@ namespace myoid::kinematics {
 struct MuscleKinematics {
   TimeSeries length;    ///< Musculotendon length [m].
   TimeSeries velocity;  ///< dl/dt [m/s], lengthening positive.
-  std::map<std::string, TimeSeries>
-      moment_arm;  ///< By coordinate: r = -dl/dq [m], for every coordinate that is not locked.
+  /// By coordinate, for every one that is not locked: r = -dl/dq [m], where coordinates that a
+  /// constraint couples move along, as OpenSim defines it (coupling_matrix in model/constraints.h).
+  std::map<std::string, TimeSeries> moment_arm;
 };
 
 /// Lengths, velocities and moment arms of all muscles along a motion. Parallel over frames; the

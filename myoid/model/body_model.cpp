@@ -120,7 +120,8 @@ BodyIndex add_copy(BodyModel& model, BodyIndex b, int number) {
   model.constraints.push_back(
       {fmt::format("{}_loop_{}", model.bodies[static_cast<std::size_t>(b)].name, number),
        "WeldConstraint",
-       FrameConstraint{.body1 = b, .body2 = index, .X_BF1 = {}, .X_BF2 = {}, .rotation_too = true}});
+       FrameConstraint{
+           .body1 = b, .body2 = index, .X_BF1 = {}, .X_BF2 = {}, .rotation_too = true}});
   return index;
 }
 
@@ -150,8 +151,8 @@ void cut_loops(BodyModel& model) {
   }
 }
 
-/// Joints in the order in which OpenSim builds the tree: level by level, in the order of the file; a
-/// body without mass at once with the heaviest that hangs on it.
+/// Joints in the order in which OpenSim builds the tree: level by level, in the order of the file;
+/// a body without mass at once with the heaviest that hangs on it.
 std::vector<Joint> tree_order(const BodyModel& model) {
   std::vector<int> level(model.bodies.size(), -1);
   level[0] = 0;
@@ -160,7 +161,8 @@ std::vector<Joint> tree_order(const BodyModel& model) {
   const auto place = [&](std::size_t j) {
     used[j] = true;
     const Joint& joint = model.joints[j];
-    level[static_cast<std::size_t>(joint.child)] = level[static_cast<std::size_t>(joint.parent)] + 1;
+    level[static_cast<std::size_t>(joint.child)] =
+        level[static_cast<std::size_t>(joint.parent)] + 1;
     ordered.push_back(joint);
   };
   for (int current = 0; static_cast<std::size_t>(current) < model.bodies.size(); ++current) {
@@ -214,10 +216,11 @@ void check_tree(const BodyModel& model, const std::vector<Joint>& ordered) {
     const auto child = static_cast<std::size_t>(ordered[j].child);
     if (model.bodies[child].mass_kg > 0.0) has_mass[child] = true;
     if (!has_mass[child] && !ordered[j].coordinates.empty()) {
-      throw ModelError(fmt::format(
-          "body '{}' and all that hangs on it have no mass, but joint '{}' lets it move; expected a "
-          "mass above 0 kg, or a WeldJoint",
-          model.bodies[child].name, ordered[j].name));
+      throw ModelError(
+          fmt::format("body '{}' and all that hangs on it have no mass, but joint '{}' lets it "
+                      "move; expected a "
+                      "mass above 0 kg, or a WeldJoint",
+                      model.bodies[child].name, ordered[j].name));
     }
     if (has_mass[child]) has_mass[static_cast<std::size_t>(ordered[j].parent)] = true;
   }

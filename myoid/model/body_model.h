@@ -65,7 +65,8 @@ struct Joint {
   std::vector<int> coordinates;  ///< Indices in BodyModel::coordinates.
   std::array<TransformAxis, 3> rotation;
   std::array<TransformAxis, 3> translation;
-  std::optional<Vec3> ellipsoid_radii_m;  ///< EllipsoidJoint: the origin of M moves on this surface.
+  std::optional<Vec3>
+      ellipsoid_radii_m;  ///< EllipsoidJoint: the origin of M moves on this surface.
 };
 
 struct Marker {
@@ -233,7 +234,7 @@ struct PointActuator {
 struct TorqueActuator {
   std::string name;
   BodyIndex body_a = 0, body_b = 0;
-  Vec3 axis = Vec3::UnitZ();    ///< Unit.
+  Vec3 axis = Vec3::UnitZ();     ///< Unit.
   bool torque_is_global = true;  ///< Else the axis is given in body A.
   double optimal_force = 1.0;
   double min_control = -std::numeric_limits<double>::infinity();
@@ -321,7 +322,8 @@ struct LoopConstraint {
 };
 
 /// A person as a multibody system: an immutable value once read. Joints are in tree order, breadth
-/// first (a parent's joint stands before its child's); `joint_of_body[b]` is the joint whose child is body b
+/// first (a parent's joint stands before its child's); `joint_of_body[b]` is the joint whose child
+/// is body b
 /// (-1 for ground). Coordinates are in the file's JointSet order. One model may serve many threads;
 /// what changes with the posture lives in a BodyState (kinematic_tree.h).
 struct BodyModel {
@@ -338,8 +340,8 @@ struct BodyModel {
   std::vector<PointActuator> point_actuators;
   std::vector<TorqueActuator> torque_actuators;
   std::vector<PassiveForce> passive_forces;
-  std::vector<CoordinateCoupler> couplers;   ///< Enforced ones.
-  std::vector<LoopConstraint> constraints;   ///< Enforced ones other than couplers.
+  std::vector<CoordinateCoupler> couplers;  ///< Enforced ones.
+  std::vector<LoopConstraint> constraints;  ///< Enforced ones other than couplers.
   Compat compat;  ///< Exact, or OpenSim's way of computing paths (compat.h).
   int document_version = 0;
   std::vector<std::string> notes;  ///< What was repaired or ignored while reading, a sentence each.
@@ -353,7 +355,8 @@ struct BodyModel {
   /// Like find_..., but throws ModelError listing the names there are.
   [[nodiscard]] int coordinate_index(std::string_view name) const;
   [[nodiscard]] int muscle_index(std::string_view name) const;
-  /// The coordinate takes no value of its own: locked, prescribed or the dependent one of a coupler.
+  /// The coordinate takes no value of its own: locked, prescribed or the dependent one of a
+  /// coupler.
   [[nodiscard]] bool is_constrained(int coordinate) const;
   /// Coordinate values of the default pose; dependent coordinates as their couplers say.
   [[nodiscard]] Eigen::VectorXd default_q() const;

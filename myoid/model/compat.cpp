@@ -12,8 +12,6 @@ Compat parse_compat(std::string_view name) {
   throw InvalidInput(fmt::format("compat: expected exact or opensim, found '{}'", name));
 }
 
-std::string_view name_of(const Compat& compat) {
-  return compat == Compat{} ? "exact" : "opensim";
-}
+std::string_view name_of(const Compat& compat) { return compat == Compat{} ? "exact" : "opensim"; }
 
 }  // namespace myoid::model

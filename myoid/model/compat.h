@@ -19,12 +19,13 @@ struct Compat {
   bool stale_wrap_points = false;
   /// A cylinder's long way round is 2 pi - theta also where theta is negative.
   bool long_turn_of_negative_angle = false;
-  /// The far side of a sphere has a negative arc, and a quadrant's decision takes 1 m for the length
-  /// of the segment.
+  /// The far side of a sphere has a negative arc, and a quadrant's decision takes 1 m for the
+  /// length of the segment.
   bool negative_sphere_arc = false;
   /// The point of a torus nearest to a line comes from a residual with a factor of 2 too much.
   bool approximate_torus = false;
-  /// An ellipsoid's quadrant with method midpoint or axial mirrors without returning to the surface.
+  /// An ellipsoid's quadrant with method midpoint or axial mirrors without returning to the
+  /// surface.
   bool mirrored_without_fan = false;
   /// A moving path point beside a point of the same body does not count in moment arms.
   bool unseen_moving_points = false;

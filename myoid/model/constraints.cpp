@@ -72,17 +72,16 @@ void evaluate_loops(const BodyModel& model,
         for (int k = 0; k < 3; ++k) sine += 0.5 * X_GF1.R.col(k).cross(X_GF2.R.col(k));
         errors.segment<3>(row + 3) = sine;
         if (jacobian != nullptr) {
-          jacobian->middleRows<3>(row + 3) = angular_jacobian(model, state, f->body2) -
-                                             angular_jacobian(model, state, f->body1);
+          jacobian->middleRows<3>(row + 3) =
+              angular_jacobian(model, state, f->body2) - angular_jacobian(model, state, f->body1);
         }
       }
     } else if (const auto* d = std::get_if<DistanceConstraint>(&constraint.law)) {
-      const Vec3 between =
-          state.X_GB[at(d->body2)] * d->p_B2 - state.X_GB[at(d->body1)] * d->p_B1;
+      const Vec3 between = state.X_GB[at(d->body2)] * d->p_B2 - state.X_GB[at(d->body1)] * d->p_B1;
       errors[row] = between.norm() - d->distance_m;
       if (jacobian != nullptr) {
-        jacobian->row(row) = between.normalized().transpose() *
-                             relative(d->body1, d->p_B1, d->body2, d->p_B2);
+        jacobian->row(row) =
+            between.normalized().transpose() * relative(d->body1, d->p_B1, d->body2, d->p_B2);
       }
     } else {
       const auto& line = std::get<LineConstraint>(constraint.law);
@@ -154,7 +153,8 @@ Eigen::MatrixXd coupling_matrix(const BodyModel& model, const BodyState& state) 
   }
   const auto n = static_cast<Eigen::Index>(involved.size());
   Eigen::MatrixXd reduced(A.rows(), n);
-  for (Eigen::Index k = 0; k < n; ++k) reduced.col(k) = A.col(involved[static_cast<std::size_t>(k)]);
+  for (Eigen::Index k = 0; k < n; ++k)
+    reduced.col(k) = A.col(involved[static_cast<std::size_t>(k)]);
   for (Eigen::Index k = 0; k < n; ++k) {
     Eigen::MatrixXd rows = reduced;
     for (Eigen::Index j = 0; j < n; ++j) {
@@ -166,8 +166,7 @@ Eigen::MatrixXd coupling_matrix(const BodyModel& model, const BodyState& state) 
     }
     // The nearest rates to the unit rate that obey all rows.
     const Eigen::VectorXd unit = Eigen::VectorXd::Unit(n, k);
-    const Eigen::VectorXd rates =
-        unit - rows.completeOrthogonalDecomposition().solve(rows * unit);
+    const Eigen::VectorXd rates = unit - rows.completeOrthogonalDecomposition().solve(rows * unit);
     const Eigen::Index c = involved[static_cast<std::size_t>(k)];
     C.col(c).setZero();
     if (!(std::abs(rates[k]) > 1e-12)) continue;
@@ -190,7 +189,9 @@ AssemblyResult assemble(const BodyModel& model,
   for (std::size_t c = 0; c < model.coordinates.size(); ++c) {
     const Coordinate& k = model.coordinates[c];
     if (k.locked || k.prescribed) continue;
-    const auto depends = [&](const CoordinateCoupler& o) { return o.dependent == static_cast<int>(c); };
+    const auto depends = [&](const CoordinateCoupler& o) {
+      return o.dependent == static_cast<int>(c);
+    };
     if (std::any_of(model.couplers.begin(), model.couplers.end(), depends)) continue;
     free.push_back(static_cast<Eigen::Index>(c));
     loose.conservativeResize(loose.size() + 1);
@@ -210,7 +211,8 @@ AssemblyResult assemble(const BodyModel& model,
     for (Eigen::Index k = 0; k < n; ++k) T(free[static_cast<std::size_t>(k)], k) = loose[k];
     for (std::size_t round = 0; round < model.couplers.size(); ++round) {
       for (const CoordinateCoupler& c : model.couplers)
-        T.row(c.dependent) = evaluate(c.function, result.q[c.independent]).first * T.row(c.independent);
+        T.row(c.dependent) =
+            evaluate(c.function, result.q[c.independent]).first * T.row(c.independent);
     }
     const Eigen::MatrixXd A = J * T;
     Eigen::VectorXd back(n);  // towards the wish, in scaled coordinates

@@ -63,8 +63,17 @@ void add_pair_moment(const BodyModel& model,
                      const Vec3& p_GB,
                      const Vec3& u_G,
                      Eigen::VectorXd& arm) {
-  // Up both branches to where they meet; joints stand in tree order.
-  while (a != b) {
+  // Up both branches to where they meet, and from there on only if the pair makes a moment; joints
+  // stand in tree order.
+  const Vec3 along = p_GB - p_GA;
+  const Vec3 moment = along.cross(u_G);
+  for (bool is_couple = moment.norm() > 1e-12 * along.norm(); a != b || (is_couple && a != 0);) {
+    if (a == b) {
+      const Joint& joint = model.joints[at(model.joint_of_body[at(a)])];
+      for (const int c : joint.coordinates) arm[c] -= state.H_w_G[at(c)].dot(moment);
+      a = b = joint.parent;
+      continue;
+    }
     const bool up_b = model.joint_of_body[at(b)] > model.joint_of_body[at(a)];
     const BodyIndex body = up_b ? b : a;
     const Joint& joint = model.joints[at(model.joint_of_body[at(body)])];

@@ -15,8 +15,8 @@ struct PathStation {
   BodyIndex body = 0;
   Vec3 p_B = Vec3::Zero();
   Vec3 p_G = Vec3::Zero();
-  int source = -1;  ///< Number in the path's points, or -1 for a tangent point.
-  int wrap = -1;    ///< Number in the path's wraps for a tangent point.
+  int source = -1;             ///< Number in the path's points, or -1 for a tangent point.
+  int wrap = -1;               ///< Number in the path's wraps for a tangent point.
   bool on_wrap_after = false;  ///< From here to the next station the path lies on the object,
   double arc_after_m = 0.0;    ///< for this length.
 };
@@ -42,9 +42,9 @@ struct PathResult {
 /// posture and around its wrap objects, with the derivatives by every coordinate on its own.
 ///
 /// `exact` (BodyModel::compat without switches): r = -dl/dq of this very length. Over cylinders and
-/// spheres the path is the shortest, and r the moment of the unit tension along the straight pieces;
-/// over an ellipsoid or a torus it is OpenSim's construction, which is not the shortest, and the
-/// tangent points' own motion counts too. A moving point's location is taken within its
+/// spheres the path is the shortest, and r the moment of the unit tension along the straight
+/// pieces; over an ellipsoid or a torus it is OpenSim's construction, which is not the shortest,
+/// and the tangent points' own motion counts too. A moving point's location is taken within its
 /// coordinate's range, where its derivative is zero beyond. `speed_mps` is -r . qdot.
 ///
 /// With Compat::opensim_paths all is as OpenSim 4.5.2 computes it (compat.h): r the moments of the
@@ -68,7 +68,8 @@ void place_points(const BodyModel& model,
 [[nodiscard]] double length_of(const std::vector<PathStation>& stations);
 
 /// Adds to `arm` minus the derivative by each coordinate of u . (p_b - p_a), where the points are
-/// fixed in bodies a and b: exactly zero for coordinates that do not move one against the other.
+/// fixed in bodies a and b: exactly zero for coordinates that do not move one against the other,
+/// where u points from one to the other.
 void add_pair_moment(const BodyModel& model,
                      const BodyState& state,
                      BodyIndex a,

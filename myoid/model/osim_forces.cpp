@@ -34,8 +34,8 @@ void read_common(const OsimReading& r, pugi::xml_node node, Actuator& actuator) 
 CoordinateLimitForce read_limit(const OsimReading& r, pugi::xml_node node, int coordinate) {
   CoordinateLimitForce f;
   f.coordinate = coordinate;
-  const bool angle = r.model.coordinates[static_cast<std::size_t>(coordinate)].motion ==
-                     MotionType::rotational;
+  const bool angle =
+      r.model.coordinates[static_cast<std::size_t>(coordinate)].motion == MotionType::rotational;
   const double unit_rad = angle ? kDegree : 1.0;  // limits in degrees, stiffness per degree
   f.upper_limit = unit_rad * r.xml.number(node, "upper_limit", 0.0);
   f.lower_limit = unit_rad * r.xml.number(node, "lower_limit", 0.0);
@@ -153,10 +153,11 @@ void read_force(OsimReading& r, pugi::xml_node node) {
                       r.xml.number(node, "pcsa_force", 1.0), Constant{0.0}};
     const auto curve = function_in(r, r.xml.property(node, "force_length_curve"));
     if (!curve || !(ligament.rest_length_m > 0.0)) {
-      r.model.unsupported.push_back(fmt::format(
-          "force '{}' of kind Ligament has no curve or resting length of its own; it is left out of "
-          "inverse dynamics",
-          name));
+      r.model.unsupported.push_back(
+          fmt::format("force '{}' of kind Ligament has no curve or resting length of its own; it "
+                      "is left out of "
+                      "inverse dynamics",
+                      name));
       return;
     }
     ligament.force_length = *curve;
@@ -193,18 +194,17 @@ void read_constraints(OsimReading& r, pugi::xml_node set) {
       CoordinateCoupler coupler;
       coupler.name = name;
       coupler.independent = coordinate_named(r, node, independent[0]);
-      coupler.dependent =
-          coordinate_named(r, node, r.xml.word(node, "dependent_coordinate_name"));
+      coupler.dependent = coordinate_named(r, node, r.xml.word(node, "dependent_coordinate_name"));
       coupler.function = *function;
       coupler.function.scale *= r.xml.number(node, "scale_factor", 1.0);
       if (coupler.independent == coupler.dependent)
         r.xml.fail(node, fmt::format("constraint '{}' couples a coordinate with itself", name));
       for (const CoordinateCoupler& other : r.model.couplers) {
         if (other.dependent == coupler.dependent) {
-          r.xml.fail(node, fmt::format("constraints '{}' and '{}' both set coordinate '{}'",
-                                       other.name, name,
-                                       r.model.coordinates[static_cast<std::size_t>(coupler.dependent)]
-                                           .name));
+          r.xml.fail(
+              node,
+              fmt::format("constraints '{}' and '{}' both set coordinate '{}'", other.name, name,
+                          r.model.coordinates[static_cast<std::size_t>(coupler.dependent)].name));
         }
       }
       r.model.couplers.push_back(std::move(coupler));

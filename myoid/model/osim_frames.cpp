@@ -21,7 +21,10 @@ double six_digits(double value) {
   return std::strtod(text, nullptr);
 }
 
-void collect_frames(OsimReading& r, pugi::xml_node parent, const std::string& owner, int depth = 0) {
+void collect_frames(OsimReading& r,
+                    pugi::xml_node parent,
+                    const std::string& owner,
+                    int depth = 0) {
   if (depth > 64) r.xml.fail(parent, "frames are nested more than 64 deep");
   for (const auto node : parent.children()) {
     if (std::strcmp(node.name(), "PhysicalOffsetFrame") == 0) {
@@ -152,8 +155,9 @@ FixedFrame frame_of(const OsimReading& r,
                     const char* old_name) {
   std::string target = socket(r, node, socket_name, old_name);
   if (target.empty()) {
-    r.xml.fail(node, fmt::format("{} '{}': the socket '{}' is missing; expected the name of a frame",
-                                 node.name(), OsimXml::name_of(node), socket_name));
+    r.xml.fail(node,
+               fmt::format("{} '{}': the socket '{}' is missing; expected the name of a frame",
+                           node.name(), OsimXml::name_of(node), socket_name));
   }
   return resolve_frame(r, node, std::move(target), owner);
 }

@@ -54,7 +54,8 @@ pugi::xml_node transform_axis(const OsimReading& r, pugi::xml_node node, std::si
   std::size_t translations = 3;
   for (const auto axis : OsimXml::objects(node.child("TransformAxisSet"))) {
     if (axis.type() != pugi::node_element) continue;
-    if ((r.xml.flag(axis, "is_rotation", false) ? rotations++ : translations++) == slot) return axis;
+    if ((r.xml.flag(axis, "is_rotation", false) ? rotations++ : translations++) == slot)
+      return axis;
   }
   return {};
 }
@@ -74,9 +75,10 @@ void set_custom_axes(OsimReading& r, pugi::xml_node node, Joint& joint) {
     const auto names = slot.child("coordinates") ? r.xml.words(slot, "coordinates")
                                                  : r.xml.words(slot, "coordinate");
     if (names.size() > 1) {
-      r.xml.fail(slot, fmt::format("<coordinates>: an axis of joint '{}' depends on {} coordinates; "
-                                   "only one is supported",
-                                   joint.name, names.size()));
+      r.xml.fail(slot,
+                 fmt::format("<coordinates>: an axis of joint '{}' depends on {} coordinates; "
+                             "only one is supported",
+                             joint.name, names.size()));
     }
     if (!names.empty()) {
       const auto index = r.model.find_coordinate(names[0]);
@@ -114,11 +116,12 @@ void set_custom_axes(OsimReading& r, pugi::xml_node node, Joint& joint) {
       if (axis.coordinate >= 0) axis.coordinate = moved.at(axis.coordinate);
     }
   }
-  const Mat3 axes = (Mat3() << joint.rotation[0].axis, joint.rotation[1].axis, joint.rotation[2].axis)
-                        .finished();
-  if (axes.col(0).cross(axes.col(1)).norm() < 1e-5 || axes.col(1).cross(axes.col(2)).norm() < 1e-5) {
-    r.xml.fail(node, fmt::format("joint '{}': two successive axes of rotation are parallel",
-                                 joint.name));
+  const Mat3 axes =
+      (Mat3() << joint.rotation[0].axis, joint.rotation[1].axis, joint.rotation[2].axis).finished();
+  if (axes.col(0).cross(axes.col(1)).norm() < 1e-5 ||
+      axes.col(1).cross(axes.col(2)).norm() < 1e-5) {
+    r.xml.fail(node,
+               fmt::format("joint '{}': two successive axes of rotation are parallel", joint.name));
   }
 }
 
@@ -297,11 +300,10 @@ void read_joint(OsimReading& r, pugi::xml_node node, BodyIndex enclosing) {
     return;
   }
   if (!set_axes(r, node, joint)) {
-    r.model.unsupported.push_back(
-        fmt::format("joint '{}' of kind {} is held at its default position; body '{}' and what "
-                    "hangs on it are misplaced",
-                    joint.name, joint.class_name,
-                    r.model.bodies[static_cast<std::size_t>(joint.child)].name));
+    r.model.unsupported.push_back(fmt::format(
+        "joint '{}' of kind {} is held at its default position; body '{}' and what "
+        "hangs on it are misplaced",
+        joint.name, joint.class_name, r.model.bodies[static_cast<std::size_t>(joint.child)].name));
   }
   set_motion_types(r, joint);
   r.model.joints.push_back(std::move(joint));

@@ -47,7 +47,8 @@ void read_wraps_of(OsimReading& r, pugi::xml_node holder, const FixedFrame& fram
     wrap.quadrant = read_quadrant(r, node);
     const std::string_view kind = node.name();
     if (kind == "WrapCylinder") {
-      wrap.shape = CylinderShape{positive(r, node, "radius", 1.0), r.xml.number(node, "length", 1.0)};
+      wrap.shape =
+          CylinderShape{positive(r, node, "radius", 1.0), r.xml.number(node, "length", 1.0)};
     } else if (kind == "WrapSphere") {
       wrap.shape = SphereShape{positive(r, node, "radius", 1.0)};
     } else if (kind == "WrapTorus") {
@@ -84,11 +85,12 @@ PathPoint::Moving read_moving(OsimReading& r, pugi::xml_node node) {
     if (target.empty()) continue;
     const int coordinate = coordinate_named(r, node, target);
     if (moving.coordinate >= 0 && coordinate != moving.coordinate) {
-      r.xml.fail(node, fmt::format("moving point '{}' depends on two coordinates, '{}' and '{}'; "
-                                   "one is expected",
-                                   OsimXml::name_of(node),
-                                   r.model.coordinates[static_cast<std::size_t>(moving.coordinate)].name,
-                                   target));
+      r.xml.fail(node,
+                 fmt::format("moving point '{}' depends on two coordinates, '{}' and '{}'; "
+                             "one is expected",
+                             OsimXml::name_of(node),
+                             r.model.coordinates[static_cast<std::size_t>(moving.coordinate)].name,
+                             target));
     }
     moving.coordinate = coordinate;
   }
@@ -103,8 +105,9 @@ PathPoint read_point(OsimReading& r, pugi::xml_node node, const std::string& own
   const std::string_view kind = node.name();
   if (kind == "MovingPathPoint" || kind == "MovingMusclePoint") {
     if (frame.X_BF.p != Vec3::Zero() || frame.X_BF.R != Mat3::Identity()) {
-      r.xml.fail(node, fmt::format("moving point '{}' sits on an offset frame; that is not supported",
-                                   point.name));
+      r.xml.fail(node,
+                 fmt::format("moving point '{}' sits on an offset frame; that is not supported",
+                             point.name));
     }
     point.moving = read_moving(r, node);
     return point;
@@ -126,8 +129,8 @@ PathPoint read_point(OsimReading& r, pugi::xml_node node, const std::string& own
     }
     point.condition = condition;
   } else if (kind != "PathPoint" && kind != "MusclePoint") {
-    r.model.unsupported.push_back(
-        fmt::format("path of '{}': point '{}' of kind {} is taken as fixed", owner, point.name, kind));
+    r.model.unsupported.push_back(fmt::format(
+        "path of '{}': point '{}' of kind {} is taken as fixed", owner, point.name, kind));
   }
   return point;
 }
@@ -153,7 +156,8 @@ PathWrap read_path_wrap(OsimReading& r, pugi::xml_node node, const std::string& 
     wrap.method = WrapMethod::axial;
   } else if (!method.empty() && !equal_ignoring_case(method, "hybrid") &&
              !equal_ignoring_case(method, "Unassigned")) {
-    r.xml.fail(node, fmt::format("<method>: expected hybrid, midpoint or axial, found '{}'", method));
+    r.xml.fail(node,
+               fmt::format("<method>: expected hybrid, midpoint or axial, found '{}'", method));
   }
   if (const auto range = r.xml.property(node, "range")) {
     const auto v = r.xml.numbers(range);
@@ -228,8 +232,7 @@ DeGrooteCurves de_groote_curves(const OsimReading& r, pugi::xml_node node) {
   c.ignore_passive_fiber_force = r.xml.flag(node, "ignore_passive_fiber_force", false);
   c.ignore_tendon_compliance = r.xml.flag(node, "ignore_tendon_compliance", false);
   c.ignore_activation_dynamics = r.xml.flag(node, "ignore_activation_dynamics", false);
-  c.tendon_dynamics_implicit =
-      r.xml.word(node, "tendon_compliance_dynamics_mode") == "implicit";
+  c.tendon_dynamics_implicit = r.xml.word(node, "tendon_compliance_dynamics_mode") == "implicit";
   return c;
 }
 
@@ -258,8 +261,7 @@ MusclePath read_path(OsimReading& r, pugi::xml_node node) {
   pugi::xml_node geometry = node.child("GeometryPath");
   if (!geometry) geometry = OsimXml::first_element(node.child("path"));
   if (!geometry && (node.child("MusclePointSet") || node.child("PathPointSet"))) geometry = node;
-  if (!geometry)
-    r.xml.fail(node, fmt::format("{} '{}' has no <GeometryPath>", node.name(), owner));
+  if (!geometry) r.xml.fail(node, fmt::format("{} '{}' has no <GeometryPath>", node.name(), owner));
   const std::string_view kind = geometry.name();
   if (kind.ends_with("Path") && kind != "GeometryPath") {
     r.xml.fail(geometry, fmt::format("{} '{}': a path of kind <{}> is not supported; expected "
@@ -295,8 +297,8 @@ Muscle read_muscle(OsimReading& r, pugi::xml_node node) {
   const bool thelen = muscle.class_name.starts_with("Thelen2003Muscle");
   const bool de_groote = muscle.class_name.starts_with("DeGrooteFregly2016");
   const bool millard = muscle.class_name.starts_with("Millard2012");
-  const bool schutte = muscle.class_name.starts_with("Schutte1993") ||
-                       muscle.class_name.starts_with("Delp1990");
+  const bool schutte =
+      muscle.class_name.starts_with("Schutte1993") || muscle.class_name.starts_with("Delp1990");
   MuscleProperties& p = muscle.properties;
   const auto set = [&](const char* name, double& value) {
     value = r.xml.number(node, name, value);
@@ -340,10 +342,11 @@ Muscle read_muscle(OsimReading& r, pugi::xml_node node) {
     p.curves = schutte_curves(r, node);
   } else if (de_groote) {
     p.curves = de_groote_curves(r, node);
-  } else if (!thelen) {
-    r.model.notes.push_back(
-        fmt::format("muscle '{}' is a {}; its force law is taken as Thelen's with the numbers it has",
-                    muscle.name, muscle.class_name));
+  }
+  if (!thelen) {
+    r.model.notes.push_back(fmt::format(
+        "muscle '{}' is a {}; its force law is taken as Thelen's with the numbers it has",
+        muscle.name, muscle.class_name));
   }
   muscle.path = read_path(r, node);
   return muscle;

@@ -52,9 +52,10 @@ BodyModel parse_osim(std::string_view text,
              "the document has no <Model>; this is another kind of OpenSim file (a set-up?)");
   }
   if (xml.version() < 10600) {
-    xml.fail(xml.root(), fmt::format("document version {} is too old (before 10600): open the model "
-                                     "in OpenSim and save it again",
-                                     xml.version()));
+    xml.fail(xml.root(),
+             fmt::format("document version {} is too old (before 10600): open the model "
+                         "in OpenSim and save it again",
+                         xml.version()));
   }
   xml.set_prototypes(model.child("defaults"));
   OsimReading r{xml, options.compat, {}, {}};
@@ -71,8 +72,8 @@ BodyModel parse_osim(std::string_view text,
   if (!skeleton.child("BodySet")) xml.fail(model, "the model has no <BodySet>");
   read_bodies(r, skeleton);
   read_joints(r, skeleton);
-  read_markers(r, skeleton.child("MarkerSet") ? skeleton.child("MarkerSet")
-                                              : model.child("MarkerSet"));
+  read_markers(
+      r, skeleton.child("MarkerSet") ? skeleton.child("MarkerSet") : model.child("MarkerSet"));
   read_wrap_objects(r, skeleton);
   read_forces(r, model.child("ForceSet") ? model.child("ForceSet") : model.child("ActuatorSet"));
   read_constraints(r, skeleton.child("ConstraintSet") ? skeleton.child("ConstraintSet")

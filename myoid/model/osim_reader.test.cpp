@@ -33,7 +33,7 @@ TEST(ParseOsim, RefusesWhatIsNoModelWithTheRemedy) {
   EXPECT_NE(message_of("<OpenSimDocument Version=\"40000\"><Mod").find("not valid XML"),
             std::string::npos);
   EXPECT_NE(message_of("<html></html>").find("not an OpenSim file"), std::string::npos);
-  EXPECT_NE(message_of("<OpenSimDocument Version=\"20303\"><Model/></OpenSimDocument>")
+  EXPECT_NE(message_of("<OpenSimDocument Version=\"10500\"><Model/></OpenSimDocument>")
                 .find("save it again"),
             std::string::npos);
   EXPECT_NE(

@@ -190,8 +190,7 @@ void compute_opensim_path(const BodyModel& model,
     const double length = along.norm();
     if (length == 0.0) continue;
     const Vec3 u = along / length;
-    result.speed_mps +=
-        (velocity(model, path, state, b) - velocity(model, path, state, a)).dot(u);
+    result.speed_mps += (velocity(model, path, state, b) - velocity(model, path, state, a)).dot(u);
     const bool one_body = a.body == b.body;
     if (one_body && model.compat.unseen_moving_points) continue;
     if (!one_body) {

@@ -116,8 +116,8 @@ class Helix {
     theta_ = std::atan2(first.x() * second.y() - first.y() * second.x(),
                         first.x() * second.x() + first.y() * second.y());
     if (long_way_) {
-      theta_ = compat_.long_turn_of_negative_angle ? 2.0 * kPi - theta_
-                                                   : 2.0 * kPi - std::abs(theta_);
+      theta_ =
+          compat_.long_turn_of_negative_angle ? 2.0 * kPi - theta_ : 2.0 * kPi - std::abs(theta_);
     }
     length_ = std::sqrt(radius_ * theta_ * (radius_ * theta_) + rise_ * rise_);
   }
@@ -152,11 +152,8 @@ struct ChosenTangents {
 };
 
 /// The pair of tangent points on the side that counts.
-ChosenTangents choose_on_side(const Side& side,
-                              const Tangents& t1,
-                              const Tangents& t2,
-                              const Vec3& p,
-                              const Vec3& q) {
+ChosenTangents choose_on_side(
+    const Side& side, const Tangents& t1, const Tangents& t2, const Vec3& p, const Vec3& q) {
   const Vec3 foot1(0.0, 0.0, p.z());
   const Vec3 foot2(0.0, 0.0, q.z());
   const auto angle = [&](const Vec3& r1, const Vec3& r2) {
@@ -192,7 +189,10 @@ ChosenTangents choose_on_side(const Side& side,
   return c;
 }
 
-ChosenTangents choose_nearest(const Tangents& t1, const Tangents& t2, const Vec3& p, const Vec3& q) {
+ChosenTangents choose_nearest(const Tangents& t1,
+                              const Tangents& t2,
+                              const Vec3& p,
+                              const Vec3& q) {
   const Vec3 foot1(0.0, 0.0, p.z());
   const Vec3 foot2(0.0, 0.0, q.z());
   const Vec3 a1 = unit_or_zero(t1.a - foot1);
@@ -220,8 +220,8 @@ ChosenTangents choose_nearest(const Tangents& t1, const Tangents& t2, const Vec3
   return c;
 }
 
-/// Moves the tangent points, found across the axis, along their generators into the plane through p,
-/// q and the apex of the path over the cylinder.
+/// Moves the tangent points, found across the axis, along their generators into the plane through
+/// p, q and the apex of the path over the cylinder.
 void slide_to_plane(const Vec3& p, const Vec3& q, double radius, ChosenTangents& c) {
   const Vec3 foot1(0.0, 0.0, p.z());
   const Vec3 foot2(0.0, 0.0, q.z());
@@ -263,8 +263,7 @@ OpenSimContact contact(const CylinderShape& cylinder,
     return result;
   }
   const double half = 0.5 * cylinder.length_m;
-  const NearestOfLines near =
-      nearest_of_lines(p, q, Vec3(0.0, 0.0, -half), Vec3(0.0, 0.0, half));
+  const NearestOfLines near = nearest_of_lines(p, q, Vec3(0.0, 0.0, -half), Vec3(0.0, 0.0, half));
   const bool hit = !near.parallel && (near.on_first - near.on_second).squaredNorm() < r2 &&
                    near.share > 0.0 && near.share < 1.0;
   WrapAction action = WrapAction::wrapped;
@@ -453,8 +452,8 @@ double levenberg_marquardt_1(const Residual& residual) {
       const double f_trial = residual(trial);
       ++calls;
       const double norm_trial = std::abs(f_trial);
-      const double actual = 0.1 * norm_trial < norm ? 1.0 - (norm_trial / norm) * (norm_trial / norm)
-                                                    : -1.0;
+      const double actual =
+          0.1 * norm_trial < norm ? 1.0 - (norm_trial / norm) * (norm_trial / norm) : -1.0;
       const double t1 = std::abs(slope * step) / norm;
       const double t2 = std::sqrt(par) * length / norm;
       const double predicted = t1 * t1 + t2 * t2 / 0.5;
@@ -500,8 +499,8 @@ NearCircle near_circle(const Vec3& begin, const Vec3& end, double R, const Compa
   });
   NearCircle near;
   near.on_line = begin + u * n;
-  near.distance = std::sqrt(near.on_line.squaredNorm() + R * R -
-                            2.0 * R * near.on_line.head<2>().norm());
+  near.distance =
+      std::sqrt(near.on_line.squaredNorm() + R * R - 2.0 * R * near.on_line.head<2>().norm());
   return near;
 }
 

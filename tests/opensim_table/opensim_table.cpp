@@ -45,7 +45,8 @@ struct Errors {
   }
   [[nodiscard]] std::string text() const {
     if (count == 0) return "-";
-    return above == 0 ? fmt::format("{:.1e}", worst) : fmt::format("{:.1e} ({} of {})", worst, above, count);
+    return above == 0 ? fmt::format("{:.1e}", worst)
+                      : fmt::format("{:.1e} ({} of {})", worst, above, count);
   }
 };
 
@@ -78,14 +79,19 @@ struct Column {
   std::string name;
 };
 
-int run_case(const std::filesystem::path& folder, const std::string& motion, int worst, bool& good) {
+int run_case(const std::filesystem::path& folder,
+             const std::string& motion,
+             int worst,
+             bool& good) {
   const auto file = [&](const char* suffix) { return folder / "opensim" / (motion + suffix); };
   if (!std::filesystem::exists(file("_Kinematics_q.sto"))) return 0;
-  const model::BodyModel m = model::read_osim(folder / "model.osim", {.compat = model::kOpenSim452});
+  const model::BodyModel m =
+      model::read_osim(folder / "model.osim", {.compat = model::kOpenSim452});
   const TimeSeries q = recording::to_si(
       recording::read_storage(file("_Kinematics_q.sto")), [&](const std::string& name) {
         const auto c = m.find_coordinate(name);
-        return c && m.coordinates[static_cast<std::size_t>(*c)].motion == model::MotionType::rotational;
+        return c &&
+               m.coordinates[static_cast<std::size_t>(*c)].motion == model::MotionType::rotational;
       });
   const kinematics::JointMotion motion_q = kinematics::joint_motion(m, q).motion;
   const bool assembled = !m.couplers.empty() || !m.constraints.empty();
