@@ -125,55 +125,34 @@ BodyIndex add_copy(BodyModel& model, BodyIndex b, int number) {
   return index;
 }
 
-/// Cuts loops: of the joints with one child all but the first get a copy of the child.
-void cut_loops(BodyModel& model) {
-  std::vector<std::vector<std::size_t>> joints_of(model.bodies.size());
-  for (std::size_t j = 0; j < model.joints.size(); ++j)
-    joints_of[static_cast<std::size_t>(model.joints[j].child)].push_back(j);
-  if (!joints_of[0].empty()) {
-    throw ModelError(fmt::format("joint '{}' has ground as its child; expected ground as a parent",
-                                 model.joints[joints_of[0][0]].name));
-  }
-  for (std::size_t b = 1; b < joints_of.size(); ++b) {
-    const auto copies = static_cast<double>(joints_of[b].size());
-    for (std::size_t k = 1; k < joints_of[b].size(); ++k) {
-      Joint& joint = model.joints[joints_of[b][k]];
-      joint.child = add_copy(model, static_cast<BodyIndex>(b), static_cast<int>(k));
-      model.bodies.back().mass_kg /= copies;
-      model.bodies.back().I_BBcm_B /= copies;
-      model.notes.push_back(fmt::format(
-          "joint '{}' closes a loop: it is cut there and held by a weld constraint", joint.name));
-    }
-    if (joints_of[b].size() > 1) {
-      model.bodies[b].mass_kg /= copies;
-      model.bodies[b].I_BBcm_B /= copies;
-    }
-  }
-}
-
 /// Joints in the order in which OpenSim builds the tree: level by level, in the order of the file;
 /// a body without mass at once with the heaviest that hangs on it.
-std::vector<Joint> tree_order(const BodyModel& model) {
+std::vector<std::size_t> tree_order(const BodyModel& model) {
   std::vector<int> level(model.bodies.size(), -1);
   level[0] = 0;
   std::vector<bool> used(model.joints.size(), false);
-  std::vector<Joint> ordered;
+  std::vector<std::size_t> ordered;
   const auto place = [&](std::size_t j) {
     used[j] = true;
     const Joint& joint = model.joints[j];
     level[static_cast<std::size_t>(joint.child)] =
         level[static_cast<std::size_t>(joint.parent)] + 1;
-    ordered.push_back(joint);
+    ordered.push_back(j);
+  };
+  const auto is_placed = [&](std::size_t j) {
+    return level[static_cast<std::size_t>(model.joints[j].child)] >= 0;
   };
   for (int current = 0; static_cast<std::size_t>(current) < model.bodies.size(); ++current) {
     for (std::size_t j = 0; j < model.joints.size(); ++j) {
-      if (used[j] || level[static_cast<std::size_t>(model.joints[j].parent)] != current) continue;
+      if (used[j] || is_placed(j) ||
+          level[static_cast<std::size_t>(model.joints[j].parent)] != current)
+        continue;
       place(j);
       for (BodyIndex end = model.joints[j].child;
            model.bodies[static_cast<std::size_t>(end)].mass_kg == 0.0;) {
         std::optional<std::size_t> heaviest;
         for (std::size_t k = 0; k < model.joints.size(); ++k) {
-          if (used[k] || model.joints[k].parent != end) continue;
+          if (used[k] || is_placed(k) || model.joints[k].parent != end) continue;
           const auto mass = [&](std::size_t i) {
             return model.bodies[static_cast<std::size_t>(model.joints[i].child)].mass_kg;
           };
@@ -186,6 +165,40 @@ std::vector<Joint> tree_order(const BodyModel& model) {
     }
   }
   return ordered;
+}
+
+/// Cuts loops: a joint whose child another joint has placed first gets a copy of the child.
+void cut_loops(BodyModel& model) {
+  const std::vector<std::size_t> placed = tree_order(model);
+  std::vector<bool> in_tree(model.joints.size(), false);
+  std::vector<int> copies(model.bodies.size(), 1);
+  for (const std::size_t j : placed) in_tree[j] = true;
+  std::vector<bool> has_joint(model.bodies.size(), false);
+  for (const std::size_t j : placed)
+    has_joint[static_cast<std::size_t>(model.joints[j].child)] = true;
+  const std::size_t bodies = model.bodies.size();
+  std::vector<std::size_t> cut;
+  for (std::size_t j = 0; j < model.joints.size(); ++j) {
+    const auto child = static_cast<std::size_t>(model.joints[j].child);
+    if (in_tree[j] || (child != 0 && !has_joint[child])) continue;
+    if (child == 0) {
+      throw ModelError(
+          fmt::format("joint '{}' has ground as its child; expected ground as the parent",
+                      model.joints[j].name));
+    }
+    ++copies[child];
+    cut.push_back(j);
+  }
+  for (std::size_t b = 0; b < bodies; ++b) {
+    model.bodies[b].mass_kg /= copies[b];
+    model.bodies[b].I_BBcm_B /= copies[b];
+  }
+  for (const std::size_t j : cut) {
+    Joint& joint = model.joints[j];
+    joint.child = add_copy(model, joint.child, static_cast<int>(model.bodies.size()));
+    model.notes.push_back(fmt::format(
+        "joint '{}' closes a loop: it is cut there and held by a weld constraint", joint.name));
+  }
 }
 
 void check_tree(const BodyModel& model, const std::vector<Joint>& ordered) {
@@ -232,7 +245,8 @@ BodyModel finalize(BodyModel model) {
   if (model.bodies.empty()) throw ModelError("the model has no ground");
   check_references(model);
   cut_loops(model);
-  std::vector<Joint> ordered = tree_order(model);
+  std::vector<Joint> ordered;
+  for (const std::size_t j : tree_order(model)) ordered.push_back(model.joints[j]);
   check_tree(model, ordered);
   model.joints = std::move(ordered);
   model.joint_of_body.assign(model.bodies.size(), -1);

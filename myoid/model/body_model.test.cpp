@@ -27,13 +27,39 @@ TEST(Finalize, PutsAParentsJointBeforeItsChilds) {
   EXPECT_EQ(m.joint_of_body, (std::vector<int>{-1, 0, 1}));
 }
 
-TEST(Finalize, RefusesALoop) {
+TEST(Finalize, CutsALoopWhereTheLongerWayCloses) {
   BodyModel m = two_bodies_in_the_wrong_order();
+  m.bodies[1].mass_kg = 1.0;
+  m.bodies[2].mass_kg = 2.0;
   Joint extra;
   extra.name = "extra";
   extra.child = 2;
   m.joints.push_back(extra);
+  m = finalize(m);
+  // "extra" reaches the lower body from ground first; "elbow" gets a copy with half of the mass.
+  ASSERT_EQ(m.bodies.size(), 4U);
+  EXPECT_EQ(m.bodies[2].mass_kg, 1.0);
+  EXPECT_EQ(m.bodies[3].mass_kg, 1.0);
+  EXPECT_EQ(m.joints[static_cast<std::size_t>(m.joint_of_body[2])].name, "extra");
+  EXPECT_EQ(m.joints[static_cast<std::size_t>(m.joint_of_body[3])].name, "elbow");
+  ASSERT_EQ(m.constraints.size(), 1U);
+  EXPECT_EQ(m.constraints[0].class_name, "WeldConstraint");
+}
+
+TEST(Finalize, RefusesBodiesThatHangOnEachOther) {
+  BodyModel m = two_bodies_in_the_wrong_order();
+  m.joints[1].parent = 2;
   EXPECT_THROW((void)finalize(m), ModelError);
+}
+
+TEST(Finalize, RefusesAMovingBodyWithoutMass) {
+  BodyModel m = two_bodies_in_the_wrong_order();
+  m.coordinates = {{.name = "q"}};
+  m.joints[0].coordinates = {0};
+  m.bodies[1].mass_kg = 1.0;
+  EXPECT_THROW((void)finalize(m), ModelError);
+  m.bodies[2].mass_kg = 1.0;
+  EXPECT_NO_THROW((void)finalize(m));
 }
 
 TEST(CoordinateIndex, TellsTheNamesThereAre) {
