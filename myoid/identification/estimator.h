@@ -19,6 +19,8 @@ struct NoiseLevel {
 struct Weighting {
   Eigen::VectorXd sd_nm;          ///< Per sample.
   double share = 1.0;             ///< nu: effective over all samples.
+  Eigen::VectorXd emg_variance;   ///< Per sample: c_a^2 of its joint; empty: no correction.
+  double offset = 0.0;            ///< Keeps the corrected cost positive.
   std::vector<NoiseLevel> noise;  ///< Per joint.
 };
 
@@ -26,7 +28,16 @@ struct Weighting {
 ///
 ///   C(z) = 1/2 nu sum_i m_i rho((T^_i - T_i) / s_i) + 1/2 sum_j ((z_j - prior_j) / sd_j)^2
 ///
-/// with multiplicities m_i that are 1 but for bootstrap replicates.
+/// with multiplicities m_i that are 1 but for bootstrap replicates. The EMG, by which T^ is
+/// multiplied, has errors of its own: they make the squared residual larger by c_a^2 sum_channels
+/// T_channel^2 on average, the more so the greater the muscles are taken to be, so that plain least
+/// squares makes them too weak, above all where co-contracting muscles cancel (attenuation by
+/// errors in the regressors). With `EstimatorOptions::correct_attenuation` that expectation is
+/// subtracted,
+///
+///   rho -> rho - c_a^2 sum_channels T_channel(z)^2 / s_i^2,
+///
+/// and from J'J, in the same way, what noise alone contributes to it.
 class Estimator {
  public:
   Estimator(const StudyData& data, const EstimatorOptions& options);
@@ -66,11 +77,20 @@ class Estimator {
                                           int iterations = 200,
                                           const Variant& variant = {},
                                           const std::vector<bool>& held = {}) const;
+  /// Per-sample contributions to the gradient (p x n), and nu J'WJ of the data with noise taken
+  /// out.
+  struct Scores {
+    Eigen::MatrixXd scores;
+    Eigen::MatrixXd information;
+  };
+  [[nodiscard]] Scores scores(const Solution& solution) const;
   /// Start number s: the given one moved by a spread of the prior in a fixed pattern of signs.
   [[nodiscard]] Eigen::VectorXd moved_start(const Eigen::VectorXd& start, int s) const;
 
  private:
   void find_noise(const Evaluation& at, Weighting& weighting) const;
+  /// c_a^2 times the part of J'WJ that is within channels, taken away; what is left is positive.
+  void correct_curvature(const Weighting& weighting, Eigen::MatrixXd& information) const;
 
   EstimatorOptions options_;
   std::shared_ptr<const ResidualModel> model_;

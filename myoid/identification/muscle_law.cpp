@@ -212,4 +212,51 @@ Tension tension(double activation, double length_m, double velocity_mps, const M
   return t;
 }
 
+bool is_plain(const MuscleValues& p) {
+  return p[kPennation] == 0.0 && p[kPassiveForce] == 0.0 && p[kLengthActivation] == 0.0 &&
+         (p[kTendonStrain] == 0.0 || p[kSlack] == 0.0);
+}
+
+void plain_tension(
+    double activation, double length_m, double velocity_mps, const MuscleValues& p, Tension& t) {
+  const double a = p[kShare] * activation;
+  const double v = velocity_mps;
+  const double vm = p[kSpeed];
+  const double inverse_width = 1.0 / p[kWidth];
+  const double z = (length_m - p[kSlack] - p[kFiberLength]) * inverse_width;
+  const double strength = p[kMaxForce] * std::exp(-z * z);  // at full activation, at rest
+  const double active = a * strength;
+  double fv = 0.0, fv_v = 0.0, fv_vm = 0.0, fv_sh = 0.0, fv_p = 0.0, fv_ml = 0.0;
+  if (v > 0.0) {
+    const double below = 1.0 / (p[kProduct] * vm + v);
+    fv = (p[kProduct] * vm + p[kPlateau] * v) * below;
+    const double flat = v * (1.0 - p[kPlateau]) * below * below;
+    fv_p = vm * flat;
+    fv_vm = p[kProduct] * flat;
+    fv_ml = v * below;
+    fv_v = p[kProduct] * vm * (p[kPlateau] - 1.0) * below * below;
+  } else if (v > -vm) {
+    const double vsh = p[kCurvature];
+    const double below = 1.0 / (vsh * vm - v);
+    fv = vsh * (vm + v) * below;
+    fv_sh = -v * (vm + v) * below * below;
+    const double bend = vsh * (1.0 + vsh) * below * below;
+    fv_vm = -v * bend;
+    fv_v = vm * bend;
+  }
+  t.force_n = active * fv;
+  t.by_activation = p[kShare] * strength * fv;
+  t.by_length = -2.0 * z * inverse_width * t.force_n;
+  t.by_velocity = active * fv_v;
+  t.by_field[kMaxForce] = t.force_n / p[kMaxForce];
+  t.by_field[kFiberLength] = -t.by_length;
+  t.by_field[kWidth] = 2.0 * z * z * inverse_width * t.force_n;
+  t.by_field[kCurvature] = active * fv_sh;
+  t.by_field[kProduct] = active * fv_p;
+  t.by_field[kPlateau] = active * fv_ml;
+  t.by_field[kSpeed] = active * fv_vm;
+  t.by_field[kSlack] = -t.by_length;
+  t.by_field[kShare] = strength * fv * activation;
+}
+
 }  // namespace myoid::identification

@@ -74,4 +74,15 @@ struct Tension {
                               double velocity_mps,
                               const MuscleValues& values);
 
+/// Whether only the paper's law acts (and the share): then `plain_tension` gives the same, sooner.
+[[nodiscard]] bool is_plain(const MuscleValues& values);
+
+/// As `tension` where `is_plain`; of the derivatives by field only the first eight and the share's
+/// are set, the others are left as they are.
+void plain_tension(double activation,
+                   double length_m,
+                   double velocity_mps,
+                   const MuscleValues& values,
+                   Tension& out);
+
 }  // namespace myoid::identification

@@ -52,9 +52,11 @@ struct EstimatorOptions {
   /// Both sides of the residual are low-passed here (two passes, -3 dB). T^ is linear in the
   /// envelope, whose noise reaches further up than what tells muscles apart: what is cut off would
   /// only pull F_max towards zero (errors in the regressors). Empty: not at all.
-  std::optional<double> residual_cutoff_hz = 2.0;
+  std::optional<double> residual_cutoff_hz = 1.5;
   bool weights = true;  ///< Heteroscedastic weights and the effective number of samples; false:
                         ///< plain least squares.
+  bool correct_attenuation = true;   ///< Take the errors of the EMG as errors of a regressor; needs
+                                     ///< `weights`. See estimator.h.
   double angle_sd_rad = 0.0;         ///< Error of the joint angle, propagated into every sample ...
   double angle_rate_sd_radps = 0.0;  ///< ... and of its rate.
   Loss loss = Loss::square;

@@ -60,6 +60,18 @@ ResidualModel::ResidualModel(const StudyData& data, const EstimatorOptions& opti
   for (std::size_t i = 0; i < data.trials.size(); ++i) {
     if (data.trials[i].calibration) add_trial(data, static_cast<int>(i), options);
   }
+  for (const FreeParameter& p : map_.free()) {
+    int channel = -1;
+    for (const FreeParameter::Target& target : p.targets) {
+      const int here = p.field->scope == Scope::muscle
+                           ? map_.channel_of_muscle(static_cast<std::size_t>(target.owner))
+                       : p.field->scope == Scope::channel ? target.owner
+                                                          : -1;
+      channel = &target == &p.targets.front() || here == channel ? here : -1;
+      if (channel < 0) break;
+    }
+    channel_of_variable_.push_back(channel);
+  }
   if (pieces_.empty()) {
     throw InvalidInput(
         "identification: no calibration sample is left; EMG and motion must overlap in time");
@@ -162,10 +174,8 @@ void ResidualModel::evaluate(const Eigen::VectorXd& z, Depth depth, Evaluation& 
   const ModelValues values = map_.values(z, gradient ? &chains : nullptr);
   out.predicted.setZero(measured_.size());
   if (gradient) out.gradient.setZero(map_.size(), measured_.size());
-  if (depth == Depth::noise) {
-    out.emg_power.setZero(measured_.size());
-    out.motion_variance.setZero(measured_.size());
-  }
+  out.channel_torque.setZero(static_cast<Eigen::Index>(map_.channels().size()), measured_.size());
+  if (depth == Depth::noise) out.motion_variance.setZero(measured_.size());
   // Every block writes rows of its own: the result does not depend on the number of threads.
   oneapi::tbb::parallel_for(std::size_t{0}, blocks_.size(), [&](std::size_t b) {
     evaluate_block(blocks_[b], values, chains, depth, out);
@@ -178,7 +188,6 @@ void ResidualModel::evaluate_block(const Block& block,
                                    Depth depth,
                                    Evaluation& out) const {
   const Eigen::Index n = block.time_s.size();
-  const auto channels = static_cast<Eigen::Index>(map_.channels().size());
   const bool with_gradient = depth != Depth::value;
   const bool with_noise = depth == Depth::noise;
   std::vector<std::vector<Activation>> activations;
@@ -194,20 +203,32 @@ void ResidualModel::evaluate_block(const Block& block,
     if (chain.scope == Scope::channel) of_channel[owner].push_back(chain);
     if (chain.scope == Scope::joint) of_joint.push_back(chain);
   }
-  std::vector<Eigen::MatrixXd> by_channel(
-      block.joints.size(), Eigen::MatrixXd::Zero(with_noise ? channels : 0, with_noise ? n : 0));
   for (std::size_t k = 0; k < values.muscles.size(); ++k) {
     const auto column = static_cast<Eigen::Index>(k);
     const auto c = static_cast<std::size_t>(map_.channel_of_muscle(k));
+    const bool plain =
+        is_plain(values.muscles[k]) &&
+        std::all_of(of_muscle[k].begin(), of_muscle[k].end(), [](const ParameterMap::Chain& chain) {
+          return chain.field <= kSlack || chain.field == kShare;
+        });
+    Tension t;
     for (Eigen::Index i = 0; i < n; ++i) {
       const Activation& a = activations[c][static_cast<std::size_t>(i)];
-      const Tension t = tension(a.value, block.length_m(i, column), block.velocity_mps(i, column),
-                                values.muscles[k]);
+      const double length_m = block.length_m(i, column);
+      const double velocity_mps = block.velocity_mps(i, column);
+      if (plain) {
+        plain_tension(a.value, length_m, velocity_mps, values.muscles[k], t);
+      } else {
+        t = tension(a.value, length_m, velocity_mps, values.muscles[k]);
+      }
       for (std::size_t j = 0; j < block.joints.size(); ++j) {
         const Block::Joint& joint = block.joints[j];
         const double arm = joint.arm_m(i, column);
         const Eigen::Index row = joint.first + i;
         out.predicted[row] += arm * t.force_n;
+        // What a relative error of the envelope does to the torque; for a force proportional to the
+        // activation that is the torque itself.
+        out.channel_torque(static_cast<Eigen::Index>(c), row) += arm * t.by_activation * a.value;
         if (with_gradient) {
           double* gradient = out.gradient.data() + row * out.gradient.rows();
           for (const ParameterMap::Chain& chain : of_muscle[k])
@@ -219,9 +240,6 @@ void ResidualModel::evaluate_block(const Block& block,
                                         chain.slope;
         }
         if (with_noise) {
-          // What a relative error of the envelope does to the torque; for a force proportional to
-          // the activation that is the torque itself.
-          by_channel[j](static_cast<Eigen::Index>(c), i) += arm * t.by_activation * a.value;
           // dq moves every length by -r dq.
           const double by_angle = -arm * arm * t.by_length;
           const double by_rate = -arm * arm * t.by_velocity;
@@ -255,10 +273,7 @@ void ResidualModel::evaluate_block(const Block& block,
       smooth(block.filter, line);
       out.predicted.segment(joint.first, n) = line.row(0).transpose();
       if (with_gradient) smooth(block.filter, out.gradient.middleCols(joint.first, n));
-    }
-    if (with_noise) {
-      smooth(block.filter, by_channel[j]);
-      out.emg_power.segment(joint.first, n) = by_channel[j].colwise().squaredNorm().transpose();
+      smooth(block.filter, out.channel_torque.middleCols(joint.first, n));
     }
   }
 }

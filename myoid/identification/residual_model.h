@@ -22,7 +22,8 @@ struct Piece {
 struct Evaluation {
   Eigen::VectorXd predicted;        ///< Low-passed as `measured()`.
   Eigen::MatrixXd gradient;         ///< p x n: column i is d predicted_i / dz.
-  Eigen::VectorXd emg_power;        ///< n: sum over channels of their torque squared.
+  Eigen::MatrixXd channel_torque;   ///< C x n: what each EMG channel's relative error is multiplied
+                                    ///< by, low-passed likewise.
   Eigen::VectorXd motion_variance;  ///< n: from the errors of angle and rate.
 };
 
@@ -39,9 +40,15 @@ class ResidualModel {
   [[nodiscard]] const Eigen::VectorXd& measured() const { return measured_; }
   [[nodiscard]] double rate_hz() const { return rate_hz_; }
   [[nodiscard]] int dropped() const { return dropped_; }
+  /// EMG channel on which a variable acts alone; -1: several, or none.
+  [[nodiscard]] int channel_of_variable(Eigen::Index j) const {
+    return channel_of_variable_[static_cast<std::size_t>(j)];
+  }
   [[nodiscard]] int joint_count() const { return static_cast<int>(map_.joints().size()); }
 
-  enum class Depth { value, gradient, noise };  ///< What of the Evaluation is filled.
+  /// What of the Evaluation is filled: the prediction and the torque of the channels; also the
+  /// gradient; also the variance from motion.
+  enum class Depth { value, gradient, noise };
   void evaluate(const Eigen::VectorXd& z, Depth depth, Evaluation& out) const;
 
  private:
@@ -70,6 +77,7 @@ class ResidualModel {
   std::vector<Block> blocks_;
   std::vector<Piece> pieces_;
   Eigen::VectorXd measured_;
+  std::vector<int> channel_of_variable_;
   bool dynamics_ = false;
   double angle_sd_rad_ = 0.0, angle_rate_sd_radps_ = 0.0;
   double rate_hz_ = 0.0;

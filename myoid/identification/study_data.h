@@ -71,6 +71,11 @@ struct StudyData {
   std::vector<ParameterRule> rules;
 };
 
+/// What the literature knows beforehand of a muscle that starts here (muscle/literature.h), with
+/// the spread of the slope ratio (ln S 0.5) in place of that of V_sh V_shl where V_ml > 1.
+[[nodiscard]] std::map<std::string, Prior> literature_priors(
+    const muscle::HillParameters<double>& start);
+
 /// Throws InvalidInput, naming trial and muscle, unless sizes agree, values are finite and every
 /// EMG channel is there.
 void validate(const StudyData& data);

@@ -100,17 +100,9 @@ double quantile(std::vector<double> values, double share) {
 Sandwich sandwich(const Estimator& estimator, const Estimator::Solution& solution) {
   const ResidualModel& model = estimator.model();
   const Eigen::VectorXd& z = solution.search.x;
-  const Weighting& weighting = solution.weighting;
-  Evaluation at;
-  model.evaluate(z, ResidualModel::Depth::gradient, at);
-  Eigen::VectorXd sd = weighting.sd_nm;
-  if (!estimator.options().weights)
-    sd.setConstant(std::max(weighting.noise[0].torque_sd_nm, 1e-300));
-  const Eigen::MatrixXd weighted = at.gradient * sd.cwiseInverse().asDiagonal();
-  const Eigen::VectorXd residual = (at.predicted - model.measured()).cwiseQuotient(sd);
-  const double nu = weighting.share;
+  const Estimator::Scores by_sample = estimator.scores(solution);
   Sandwich result;
-  result.information = nu * weighted * weighted.transpose();
+  result.information = by_sample.information;
   Eigen::MatrixXd a = result.information;
   Eigen::VectorXd precision = Eigen::VectorXd::Zero(z.size());
   for (Eigen::Index j = 0; j < z.size(); ++j) {
@@ -143,9 +135,9 @@ Sandwich sandwich(const Estimator& estimator, const Estimator::Solution& solutio
         norm[j] > 0.0 && result.undetermined.row(j).norm() < 1e-3;
   }
 
-  Eigen::MatrixXd scores = (weighted * residual.asDiagonal()).transpose();
+  const Eigen::MatrixXd scores = by_sample.scores.transpose();
   const auto lag = static_cast<Eigen::Index>(std::lround(0.4 * model.rate_hz()));
-  Eigen::MatrixXd b = nu * nu * math::newey_west(scores, model.piece_lengths(), lag);
+  Eigen::MatrixXd b = math::newey_west(scores, model.piece_lengths(), lag);
   b.diagonal() += precision;
   result.newey_west = result.model_based * b * result.model_based;
   if (estimator.options().weights) {
@@ -175,7 +167,7 @@ Sandwich sandwich(const Estimator& estimator, const Estimator::Solution& solutio
       }
       sum += g * g.transpose();
     }
-    sum *= nu * nu * clusters / (clusters - 1.0);
+    sum *= clusters / (clusters - 1.0);
     sum.diagonal() += precision;
     result.cluster = result.model_based * sum * result.model_based;
   }

@@ -145,12 +145,7 @@ std::vector<identification::MuscleSetup> muscle_setups(const Study& study,
     for (const auto& [name, value] : spec.start)
       setup.start.*muscle::hill_field(name).member = value;
     setup.fixed = spec.fixed;
-    for (const muscle::HillField& field : muscle::kHillFields) {
-      if (const auto prior = muscle::literature_prior(field.name, setup.start.*field.member,
-                                                      setup.start.optimal_fiber_length_m)) {
-        setup.priors[std::string(field.name)] = *prior;
-      }
-    }
+    setup.priors = identification::literature_priors(setup.start);
     muscle::validate(setup.start);
     setups.push_back(std::move(setup));
   }
