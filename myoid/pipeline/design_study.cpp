@@ -95,8 +95,8 @@ Eigen::MatrixXd information_of(const StudyData& data,
   const ResidualModel model(data, torque);
   identification::Evaluation at;
   model.evaluate(z, ResidualModel::Depth::noise, at);
-  const Eigen::VectorXd weight =
-      (torque_sd_nm * torque_sd_nm + emg_cv * emg_cv * at.emg_power.array()).inverse();
+  const Eigen::ArrayXd power = at.channel_torque.colwise().squaredNorm().transpose();
+  const Eigen::VectorXd weight = (torque_sd_nm * torque_sd_nm + emg_cv * emg_cv * power).inverse();
   const double share = std::min(1.0, 2.0 * torque.residual_cutoff_hz.value() / model.rate_hz());
   return share * at.gradient * weight.asDiagonal() * at.gradient.transpose();
 }
