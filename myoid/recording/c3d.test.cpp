@@ -5,6 +5,10 @@
 #include <gtest/gtest.h>
 
 #include "myoid/core/error.h"
+#include "myoid/recording/byte_source.h"
+#include "myoid/recording/c3d_file.h"
+#include "myoid/recording/c3d_layout.h"
+#include "myoid/recording/c3d_parameters.h"
 #include "myoid/recording/c3d_reader.h"
 #include "myoid/recording/c3d_writer.h"
 
@@ -281,6 +285,68 @@ TEST(C3d, NoBytesWhateverMakeAnythingButAReadError) {
     }
   }
   EXPECT_GT(read, 1000);  // most damage is not fatal
+}
+
+TEST(C3d, AByteSourceGivesTheBytesOfTheFile) {
+  const test::TemporaryFolder folder;
+  write_c3d(folder / "small.c3d", small_file());
+  const auto bytes = format_c3d(small_file());
+  ByteSource source(folder / "small.c3d");
+  ASSERT_EQ(source.size(), bytes.size());
+  const auto part = source.view(500, 20);
+  EXPECT_TRUE(std::equal(part.begin(), part.end(), bytes.begin() + 500));
+}
+
+TEST(C3d, TheHeaderAloneTellsTheProcessor) {
+  for (const auto processor : {C3dProcessor::intel, C3dProcessor::dec, C3dProcessor::sgi}) {
+    const auto bytes = format_c3d(small_file(), {.processor = processor});
+    EXPECT_EQ(guess_processor(bytes, bytes.size()), processor);
+    EXPECT_EQ(read_c3d_header(bytes, {processor}).points, 3U);
+  }
+}
+
+TEST(C3d, ParametersComeBackAndDamagedOnesEndTheList) {
+  C3dGroup group{.id = 5, .name = "MANUFACTURER", .description = "who made it", .locked = true};
+  group.parameters = {
+      {.name = "COMPANY",
+       .description = "name",
+       .type = C3dType::text,
+       .dimensions = {4},
+       .text = "Acme"},
+      {.name = "VERSION",
+       .locked = true,
+       .type = C3dType::real,
+       .dimensions = {2, 1},
+       .numbers = {1.5, -2.25}},
+      {.name = "YEAR", .type = C3dType::integer, .numbers = {-7}},
+      {.name = "FLAGS", .type = C3dType::byte, .dimensions = {3}, .numbers = {0, 128, 255}}};
+  for (const auto processor : {C3dProcessor::intel, C3dProcessor::dec, C3dProcessor::sgi}) {
+    auto bytes = format_c3d_parameters({group}, {processor});
+    std::vector<Repair> repairs;
+    EXPECT_EQ(parse_c3d_parameters(bytes, 4, bytes.size(), {processor}, repairs),
+              std::vector{group});
+    EXPECT_TRUE(repairs.empty());
+    // A distance that leads out of the section.
+    std::size_t year = 0;
+    while (static_cast<char>(bytes[year]) != 'Y' || static_cast<char>(bytes[year + 1]) != 'E')
+      ++year;
+    bytes[year + 4] = bytes[year + 5] = std::byte{0xFF};
+    const auto rest = parse_c3d_parameters(bytes, 4, bytes.size(), {processor}, repairs);
+    ASSERT_EQ(rest.size(), 1U);
+    EXPECT_EQ(rest[0].parameters.size(), 2U);
+    EXPECT_TRUE(noted(repairs, "damaged at byte"));
+  }
+}
+
+TEST(C3d, TextOfUnknownOriginBecomesUtf8) {
+  EXPECT_EQ(to_utf8("Muskel \xB5V"), "Muskel µV");
+  EXPECT_EQ(to_utf8("µV  "), "µV");
+  EXPECT_EQ(to_utf8("a\x01"
+                    "b"),
+            "a b");
+  EXPECT_EQ(parse_c3d_unit("\xB5V")->to_si, 1e-6);
+  EXPECT_EQ(parse_c3d_unit("ntmm")->unit, Unit::newton_meter);
+  EXPECT_FALSE(parse_c3d_unit("d.u."));
 }
 
 TEST(C3d, TheReaderOfFilesAndTheReaderOfMemoryAgree) {

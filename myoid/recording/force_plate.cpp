@@ -1,0 +1,247 @@
+#include "myoid/recording/force_plate.h"
+
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include <Eigen/Geometry>
+#include <fmt/format.h>
+
+#include "myoid/core/error.h"
+
+namespace myoid::recording {
+namespace {
+
+/// What FORCE_PLATFORM says about one plate.
+struct Description {
+  int type = 0;
+  Eigen::Matrix<double, 3, 4> corners_m;
+  Vec3 origin_m = Vec3::Zero();
+  std::vector<Eigen::Index> channels;
+  Eigen::Matrix<double, 6, 6> calibration = Eigen::Matrix<double, 6, 6>::Identity();
+};
+
+using Wrench = Eigen::Matrix<double, Eigen::Dynamic, 6>;
+
+std::size_t channels_of_type(int type) { return type == 3 ? 8 : 6; }
+
+/// Empty if something is missing or cannot be; the note says what.
+std::optional<Description> describe(const C3dFile& file,
+                                    std::size_t plate,
+                                    double to_m,
+                                    std::vector<Repair>& repairs) {
+  const auto refuse = [&](const std::string& why) {
+    repairs.push_back({0, fmt::format("force plate {} is left out: {}", plate + 1, why)});
+    return std::nullopt;
+  };
+  const auto number = [&](const char* name, std::size_t index) {
+    return number_at(file.find("FORCE_PLATFORM", name), index);
+  };
+  Description d;
+  d.type = static_cast<int>(number("TYPE", plate).value_or(0.0));
+  if (d.type < 1 || d.type > 4)
+    return refuse(fmt::format("FORCE_PLATFORM:TYPE is {}, types 1 to 4 are understood", d.type));
+  for (Eigen::Index corner = 0; corner < 4; ++corner) {
+    for (Eigen::Index axis = 0; axis < 3; ++axis) {
+      const auto value = number("CORNERS", 12 * plate + 3 * static_cast<std::size_t>(corner) +
+                                               static_cast<std::size_t>(axis));
+      if (!value) return refuse("FORCE_PLATFORM:CORNERS is missing or too short");
+      d.corners_m(axis, corner) = to_m * *value;
+    }
+  }
+  const Vec3 a = d.corners_m.col(0) - d.corners_m.col(1);
+  const Vec3 b = d.corners_m.col(0) - d.corners_m.col(3);
+  if (!(a.cross(b).norm() > 1e-3 * (a.squaredNorm() + b.squaredNorm())) ||
+      !(a.norm() > 0.01 && b.norm() > 0.01))
+    return refuse("FORCE_PLATFORM:CORNERS are no quadrangle");
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto value = number("ORIGIN", 3 * plate + axis);
+    if (!value) {
+      repairs.push_back({0, fmt::format("force plate {}: FORCE_PLATFORM:ORIGIN is missing; the "
+                                        "moments are taken about the surface",
+                                        plate + 1)});
+      d.origin_m.setZero();
+      break;
+    }
+    d.origin_m[static_cast<Eigen::Index>(axis)] = to_m * *value;
+  }
+  if (d.type == 3) {
+    if (d.origin_m[0] < 0.0 || d.origin_m[1] < 0.0) {
+      repairs.push_back(
+          {0, fmt::format("force plate {}: the distances a, b of FORCE_PLATFORM:ORIGIN "
+                          "are negative; taken as positive",
+                          plate + 1)});
+      d.origin_m.head<2>() = d.origin_m.head<2>().cwiseAbs().eval();
+    }
+    if (d.origin_m[2] > 0.0) {
+      repairs.push_back({0, fmt::format("force plate {}: a_z0 in FORCE_PLATFORM:ORIGIN is above 0; "
+                                        "its sign is turned",
+                                        plate + 1)});
+      d.origin_m[2] = -d.origin_m[2];
+    }
+  } else if (d.origin_m[2] > 0.0) {
+    repairs.push_back(
+        {0, fmt::format("force plate {}: FORCE_PLATFORM:ORIGIN points from the surface "
+                        "to the transducer instead of the other way; turned round",
+                        plate + 1)});
+    d.origin_m = -d.origin_m;
+  }
+
+  const C3dParameter* channel = file.find("FORCE_PLATFORM", "CHANNEL");
+  const std::size_t count = channels_of_type(d.type);
+  const std::size_t stride =
+      channel != nullptr && !channel->dimensions.empty() ? channel->dimensions[0] : count;
+  for (std::size_t c = 0; c < count; ++c) {
+    const double value = c < stride ? number_at(channel, stride * plate + c).value_or(0.0) : 0.0;
+    if (!(value >= 1.0 && value <= static_cast<double>(file.channels.size())))
+      return refuse(fmt::format("FORCE_PLATFORM:CHANNEL names channel {}; there are {}", value,
+                                file.channels.size()));
+    d.channels.push_back(static_cast<Eigen::Index>(value) - 1);
+  }
+  if (d.type == 4) {
+    for (Eigen::Index column = 0; column < 6; ++column) {
+      for (Eigen::Index row = 0; row < 6; ++row) {
+        const auto value =
+            number("CAL_MATRIX", 36 * plate + static_cast<std::size_t>(6 * column + row));
+        if (!value) return refuse("FORCE_PLATFORM:CAL_MATRIX is missing or too short");
+        d.calibration(row, column) = *value;
+      }
+    }
+  }
+  return d;
+}
+
+/// Channels times their factor to SI; a force in volts or of unknown unit keeps its number.
+Eigen::MatrixXd channel_values(const C3dFile& file,
+                               const Description& d,
+                               std::size_t plate,
+                               double to_m,
+                               std::vector<Repair>& repairs) {
+  Eigen::MatrixXd values(file.analog.rows(), static_cast<Eigen::Index>(d.channels.size()));
+  std::vector<std::string> assumed;
+  for (std::size_t c = 0; c < d.channels.size(); ++c) {
+    const C3dChannel& channel = file.channels[static_cast<std::size_t>(d.channels[c])];
+    double factor = 1.0;
+    if (d.type != 4) {  // a calibration matrix takes the numbers as they are
+      const bool length = d.type == 1 && (c == 3 || c == 4);
+      const bool moment = (d.type == 2 && c >= 3) || (d.type == 1 && c == 5);
+      const Unit expected = length ? Unit::meter : moment ? Unit::newton_meter : Unit::newton;
+      const auto unit = parse_c3d_unit(channel.unit_text);
+      if (unit && unit->unit == expected) {
+        factor = unit->to_si;
+      } else {
+        factor = length || moment ? to_m : 1.0;
+        assumed.push_back(fmt::format("{} [{}]", channel.name, channel.unit_text));
+      }
+    }
+    for (Eigen::Index i = 0; i < values.rows(); ++i) {
+      values(i, static_cast<Eigen::Index>(c)) =
+          factor * channel.scale *
+          (static_cast<double>(file.analog(i, d.channels[c])) - channel.offset);
+    }
+  }
+  if (!assumed.empty())
+    repairs.push_back({0, fmt::format("force plate {}: {} channels, the first {}, do not have the "
+                                      "unit of a force, moment or length; taken as N and N times "
+                                      "the points' unit",
+                                      plate + 1, assumed.size(), assumed[0])});
+  return values;
+}
+
+/// Force and moment about the middle of the surface, in the plate's frame.
+Wrench surface_wrench(const Description& d, const Eigen::MatrixXd& v, double to_m) {
+  Wrench w(v.rows(), 6);
+  if (d.type == 1) {
+    w.leftCols<3>() = v.leftCols<3>();
+    w.col(3) = v.col(4).cwiseProduct(v.col(2));
+    w.col(4) = -v.col(3).cwiseProduct(v.col(2));
+    w.col(5) = v.col(5) + v.col(3).cwiseProduct(v.col(1)) - v.col(4).cwiseProduct(v.col(0));
+    return w;
+  }
+  Vec3 o = d.origin_m;  // from the transducer to the middle of the surface
+  if (d.type == 3) {
+    const double a = d.origin_m[0];
+    const double b = d.origin_m[1];
+    w.col(0) = v.col(0) + v.col(1);
+    w.col(1) = v.col(2) + v.col(3);
+    w.col(2) = v.col(4) + v.col(5) + v.col(6) + v.col(7);
+    w.col(3) = b * (v.col(4) + v.col(5) - v.col(6) - v.col(7));
+    w.col(4) = a * (-v.col(4) + v.col(5) + v.col(6) - v.col(7));
+    w.col(5) = b * (v.col(1) - v.col(0)) + a * (v.col(2) - v.col(3));
+    o = Vec3(0.0, 0.0, d.origin_m[2]);
+  } else if (d.type == 4) {
+    w = v * d.calibration.transpose();
+    w.rightCols<3>() *= to_m;
+  } else {
+    w = v;
+  }
+  for (Eigen::Index i = 0; i < w.rows(); ++i) {
+    const Vec3 force = w.block<1, 3>(i, 0).transpose();
+    w.block<1, 3>(i, 3) -= o.cross(force).transpose();
+  }
+  return w;
+}
+
+}  // namespace
+
+std::vector<ForcePlate> force_plates(const C3dFile& file,
+                                     std::vector<Repair>& repairs,
+                                     double least_force_n) {
+  std::vector<ForcePlate> plates;
+  const C3dParameter* types = file.find("FORCE_PLATFORM", "TYPE");
+  const double used =
+      number_at(file.find("FORCE_PLATFORM", "USED"), 0)
+          .value_or(types == nullptr ? 0.0 : static_cast<double>(types->numbers.size()));
+  if (!(used >= 1.0) || file.analog.size() == 0) return plates;
+  const auto length = parse_c3d_unit(file.point_unit);
+  const double to_m = length && length->unit == Unit::meter ? length->to_si : 1e-3;
+  for (std::size_t n = 0; n < static_cast<std::size_t>(std::min(used, 255.0)); ++n) {
+    const auto d = describe(file, n, to_m, repairs);
+    if (!d) continue;
+    ForcePlate plate;
+    plate.number = static_cast<int>(n) + 1;
+    plate.type = d->type;
+    plate.corners_m = d->corners_m;
+    plate.channels = d->channels;
+    plate.p_GP_m = d->corners_m.rowwise().mean();
+    const Vec3 x = (d->corners_m.col(0) - d->corners_m.col(1)).normalized();
+    const Vec3 z = x.cross(Vec3(d->corners_m.col(0) - d->corners_m.col(3))).normalized();
+    plate.R_GP.col(0) = x;
+    plate.R_GP.col(1) = z.cross(x);
+    plate.R_GP.col(2) = z;
+    const Wrench w = surface_wrench(*d, channel_values(file, *d, n, to_m, repairs), to_m);
+    const Eigen::Index samples = w.rows();
+    plate.time_s.resize(samples);
+    plate.force_n = w.leftCols<3>() * plate.R_GP.transpose();
+    plate.moment_nm = w.rightCols<3>() * plate.R_GP.transpose();
+    plate.pressure_center_m.resize(samples, 3);
+    plate.free_moment_nm.resize(samples, 3);
+    const double start = static_cast<double>(file.first_frame - 1) * file.analog_per_frame;
+    for (Eigen::Index i = 0; i < samples; ++i) {
+      plate.time_s[i] = (start + static_cast<double>(i)) / file.analog_rate_hz();
+      if (!(std::abs(w(i, 2)) >= least_force_n)) {
+        plate.pressure_center_m.row(i).setConstant(std::numeric_limits<double>::quiet_NaN());
+        plate.free_moment_nm.row(i).setZero();
+        continue;
+      }
+      const double px = -w(i, 4) / w(i, 2);
+      const double py = w(i, 3) / w(i, 2);
+      const double tz = w(i, 5) - px * w(i, 1) + py * w(i, 0);
+      plate.pressure_center_m.row(i) = (plate.p_GP_m + plate.R_GP * Vec3(px, py, 0.0)).transpose();
+      plate.free_moment_nm.row(i) = (tz * plate.R_GP.col(2)).transpose();
+    }
+    plates.push_back(std::move(plate));
+  }
+  return plates;
+}
+
+int force_sign(const ForcePlate& plate, const Vec3& up_G, double least_force_n) {
+  const Eigen::VectorXd up = plate.force_n * up_G.normalized();
+  double most = 0.0;
+  for (const double f : up) {
+    if (std::isfinite(f) && std::abs(f) > std::abs(most)) most = f;
+  }
+  return std::abs(most) < least_force_n ? 0 : most > 0.0 ? 1 : -1;
+}
+
+}  // namespace myoid::recording
