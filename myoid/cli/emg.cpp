@@ -3,6 +3,7 @@
 #include "myoid/cli/context.h"
 #include "myoid/cli/stage_input.h"
 #include "myoid/recording/emg_reader.h"
+#include "myoid/recording/recording.h"
 #include "myoid/recording/storage_writer.h"
 #include "myoid/signals/emg_envelope.h"
 
@@ -21,7 +22,7 @@ void add_emg(CLI::App& app, Context& context) {
     double window_s = 0.5;
   };
   const auto o = std::make_shared<Options>();
-  command.add_option("in", o->in, "EMG (.sto, .mot, .csv)")->required();
+  command.add_option("in", o->in, "EMG (.c3d, .edf, .bdf, .anc, .csv, .sto, .mot)")->required();
   command.add_option("--out", o->out, "Activation 0..1 (.sto)")->required();
   command.add_option("--mvc", o->mvc,
                      "Maximal contractions to normalize by, repeated (default: the largest effort "
@@ -42,7 +43,7 @@ void add_emg(CLI::App& app, Context& context) {
     const auto process = [&](const std::string& path) {
       recording::EmgFile file = recording::read_emg(path, o->unit, false);
       for (const recording::Repair& repair : file.repairs)
-        context.warn(fmt::format("{}:{}: {}", path, repair.line, repair.message));
+        context.warn(fmt::format("{}: {}", path, recording::to_string(repair)));
       signals::EmgStages stages = signals::process_emg(file.data, o->chain);
       for (const std::string& finding : stages.findings)
         context.warn(fmt::format("{}: {}", path, finding));

@@ -9,7 +9,7 @@
 #include "myoid/core/error.h"
 #include "myoid/kinematics/inverse_kinematics.h"
 #include "myoid/pipeline/result_files.h"
-#include "myoid/recording/trc_reader.h"
+#include "myoid/recording/recording.h"
 
 namespace myoid::cli {
 namespace {
@@ -31,7 +31,7 @@ void add_ik(CLI::App& app, Context& context) {
   };
   const auto o = std::make_shared<Options>();
   command.add_option("--model", o->model, "OpenSim model (.osim), or arm4")->required();
-  command.add_option("--markers", o->markers, "Markers (.trc)")->required();
+  command.add_option("--markers", o->markers, "Markers (.trc, .c3d)")->required();
   command.add_option("--out", o->out, "Joint angles (.mot); the marker errors go beside it")
       ->required();
   command.add_option("--up", o->up, "Vertical axis of the laboratory: x, y or z (default y)")
@@ -48,9 +48,9 @@ void add_ik(CLI::App& app, Context& context) {
       model.coordinates[static_cast<std::size_t>(model.coordinate_index(name))].locked = true;
     for (const std::string& name : o->unlock)
       model.coordinates[static_cast<std::size_t>(model.coordinate_index(name))].locked = false;
-    recording::TrcFile file = recording::read_trc(o->markers);
+    recording::MarkerFile file = recording::read_markers(o->markers);
     for (const recording::Repair& repair : file.repairs)
-      context.warn(fmt::format("{}:{}: {}", o->markers, repair.line, repair.message));
+      context.warn(fmt::format("{}: {}", o->markers, recording::to_string(repair)));
     recording::MarkerSeries markers =
         recording::rotated(std::move(file.markers), recording::rotation_to_y_up(o->up[0]));
     if (context.start_s || context.end_s) {

@@ -8,7 +8,9 @@
 #include "myoid/core/error.h"
 #include "myoid/model/osim_reader.h"
 #include "myoid/pipeline/study.h"
+#include "myoid/recording/c3d_reader.h"
 #include "myoid/recording/csv_reader.h"
+#include "myoid/recording/recording.h"
 #include "myoid/recording/storage_reader.h"
 #include "myoid/recording/trc_reader.h"
 
@@ -19,8 +21,7 @@ using nlohmann::ordered_json;
 
 ordered_json repairs_json(const std::vector<recording::Repair>& repairs) {
   ordered_json list = ordered_json::array();
-  for (const recording::Repair& r : repairs)
-    list.push_back(r.line > 0 ? fmt::format("line {}: {}", r.line, r.message) : r.message);
+  for (const recording::Repair& r : repairs) list.push_back(recording::to_string(r));
   return list;
 }
 
@@ -79,6 +80,87 @@ ordered_json trc_json(const std::filesystem::path& path) {
   return j;
 }
 
+ordered_json events_json(const std::vector<recording::C3dEvent>& events) {
+  ordered_json list = ordered_json::array();
+  for (const recording::C3dEvent& e : events) {
+    ordered_json j{{"name", e.label.empty() ? "event" : e.label}, {"time_s", e.time_s}};
+    if (!e.context.empty()) j["context"] = e.context;
+    list.push_back(j);
+  }
+  return list;
+}
+
+/// Everything a C3D file says, with the numbers of its channels in the unit as written.
+ordered_json c3d_json(const std::filesystem::path& path) {
+  recording::C3dFile file = recording::read_c3d(path);
+  std::vector<recording::Repair> repairs = file.repairs;
+  const auto frames = file.frame_count();
+  ordered_json j{{"kind", "C3D"},
+                 {"processor", file.processor == recording::C3dProcessor::intel ? "Intel"
+                               : file.processor == recording::C3dProcessor::dec ? "DEC"
+                                                                                : "SGI"},
+                 {"samples", file.integer ? "16-bit integers" : "32-bit reals"},
+                 {"frames", frames},
+                 {"first_frame", file.first_frame},
+                 {"start_s", file.start_s()},
+                 {"duration_s", static_cast<double>(frames - 1) / file.point_rate_hz},
+                 {"rate_hz", file.point_rate_hz}};
+  if (!file.point_labels.empty()) j["point_unit"] = file.point_unit;
+  const auto columns = recording::marker_columns(file);
+  j["markers"] = ordered_json::array();
+  std::vector<bool> is_marker(file.point_labels.size(), false);
+  for (const Eigen::Index c : columns) {
+    is_marker[static_cast<std::size_t>(c)] = true;
+    Eigen::Index missing = 0;
+    for (Eigen::Index k = 0; k < frames; ++k) {
+      const auto p = file.points.block<1, 3>(k, 4 * c);
+      missing += file.points(k, 4 * c + 3) < 0.0F || !p.allFinite() || p.isZero(0.0F) ? 1 : 0;
+    }
+    ordered_json marker{{"name", file.point_labels[static_cast<std::size_t>(c)]}};
+    if (missing > 0) marker["missing_frames"] = missing;
+    j["markers"].push_back(marker);
+  }
+  j["other_points"] = ordered_json::array();
+  for (std::size_t c = 0; c < is_marker.size(); ++c)
+    if (!is_marker[c]) j["other_points"].push_back(file.point_labels[c]);
+  if (!file.channels.empty()) j["analog_rate_hz"] = file.analog_rate_hz();
+  j["channels"] = ordered_json::array();
+  if (file.analog.rows() > 0) {
+    const Eigen::RowVectorXf low = file.analog.colwise().minCoeff();
+    const Eigen::RowVectorXf high = file.analog.colwise().maxCoeff();
+    for (std::size_t c = 0; c < file.channels.size(); ++c) {
+      const recording::C3dChannel& channel = file.channels[c];
+      const auto at = static_cast<Eigen::Index>(c);
+      const double a = (static_cast<double>(low[at]) - channel.offset) * channel.scale;
+      const double b = (static_cast<double>(high[at]) - channel.offset) * channel.scale;
+      ordered_json entry{{"name", channel.name}};
+      if (!channel.unit_text.empty()) entry["unit"] = channel.unit_text;
+      entry["lowest"] = std::min(a, b);
+      entry["highest"] = std::max(a, b);
+      j["channels"].push_back(entry);
+    }
+  }
+  j["force_plates"] = ordered_json::array();
+  for (const recording::ForcePlate& plate : recording::force_plates(file, repairs)) {
+    j["force_plates"].push_back({{"name", fmt::format("plate {}", plate.number)},
+                                 {"type", plate.type},
+                                 {"largest_force_n", plate.force_n.rowwise().norm().maxCoeff()}});
+  }
+  j["events"] = events_json(file.events);
+  j["repairs"] = repairs_json(repairs);
+  return j;
+}
+
+/// EDF, BDF, ANC: channels in SI.
+ordered_json recording_json(const std::filesystem::path& path, const char* kind) {
+  const recording::Recording file = recording::read_recording(path);
+  ordered_json j{{"kind", kind}};
+  j.update(series_json(file.analog));
+  j["events"] = events_json(file.events);
+  j["repairs"] = repairs_json(file.repairs);
+  return j;
+}
+
 ordered_json storage_json(const std::filesystem::path& path) {
   const recording::Storage file = recording::read_storage(path);
   ordered_json j{{"kind", "storage (.mot, .sto)"},
@@ -90,14 +172,10 @@ ordered_json storage_json(const std::filesystem::path& path) {
 }
 
 ordered_json csv_json(const std::filesystem::path& path) {
-  const recording::CsvTable table = recording::read_csv_table(path);
   try {
-    const recording::CsvSeries file = recording::read_csv_series(path);
-    ordered_json j{{"kind", "time series (.csv)"}};
-    j.update(series_json(file.data));
-    j["repairs"] = repairs_json(file.repairs);
-    return j;
+    return recording_json(path, "time series (.csv)");
   } catch (const ReadError&) {
+    const recording::CsvTable table = recording::read_csv_table(path);
     return {{"kind", "table (.csv)"}, {"rows", table.rows.size()}, {"columns", table.names}};
   }
 }
@@ -155,18 +233,21 @@ ordered_json study_file_json(const std::filesystem::path& path) {
 }
 
 ordered_json file_json(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  for (char& c : extension) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c;
+  const std::string extension = recording::extension_of(path);
   if (extension == ".trc") return trc_json(path);
   if (extension == ".mot" || extension == ".sto") return storage_json(path);
-  if (extension == ".csv" || extension == ".tsv") return csv_json(path);
+  if (extension == ".csv" || extension == ".tsv" || extension == ".txt") return csv_json(path);
+  if (extension == ".c3d") return c3d_json(path);
+  if (extension == ".edf" || extension == ".bdf") return recording_json(path, "EMG (.edf, .bdf)");
+  if (extension == ".anc") return recording_json(path, "analog channels (.anc)");
   if (extension == ".osim") return osim_json(path);
   if (extension == ".toml") return study_file_json(path);
   (void)recording::read_text_file(path);  // a missing or empty file is told as such
   throw ReadError(
       path, 0,
       fmt::format(
-          "files of kind '{}' are not known; known are .trc, .mot, .sto, .csv, .osim and .toml",
+          "files of kind '{}' are not known; known are .c3d, .trc, .mot, .sto, .csv, .tsv, .txt, "
+          ".edf, .bdf, .anc, .osim and .toml",
           extension));
 }
 
@@ -218,7 +299,10 @@ void add_info(CLI::App& app, Context& context) {
                           "repairs; of a model also what is not supported.\n"
                           "Example: myoid info arm.osim flex.trc");
   const auto files = std::make_shared<std::vector<std::string>>();
-  command.add_option("files", *files, ".trc, .mot, .sto, .csv, .osim or study.toml")->required();
+  command
+      .add_option("files", *files,
+                  ".c3d, .trc, .mot, .sto, .csv, .edf, .bdf, .anc, .osim or study.toml")
+      ->required();
   add_common_options(command, context);
   command.callback([&context, files] {
     ordered_json all = ordered_json::array();

@@ -6,11 +6,12 @@
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
+#include "myoid/recording/byte_source.h"
 #include "myoid/recording/emg_reader.h"
+#include "myoid/recording/recording.h"
 #include "myoid/recording/storage_reader.h"
 #include "myoid/recording/text_file.h"
 #include "myoid/recording/toml_table.h"
-#include "myoid/recording/trc_reader.h"
 
 namespace myoid::pipeline {
 namespace {
@@ -29,10 +30,7 @@ void add_repairs(const std::filesystem::path& path,
 recording::MarkerSeries read_markers(const Study& study,
                                      const std::filesystem::path& path,
                                      std::vector<std::string>& notes) {
-  if (!recording::equal_ignoring_case(path.extension().string(), ".trc")) {
-    throw ReadError(path, 0, "markers are read from .trc files; convert the recording first");
-  }
-  recording::TrcFile file = recording::read_trc(path);
+  recording::MarkerFile file = recording::read_markers(path);
   add_repairs(path, file.repairs, notes);
   for (std::string& name : file.markers.names) {
     if (const auto it = study.markers.rename.find(name); it != study.markers.rename.end())
@@ -117,7 +115,7 @@ TrialInput read_trial_input(const Study& study,
                             const model::BodyModel& model) {
   TrialInput input;
   const auto remember = [&](const std::filesystem::path& path) {
-    input.files.push_back({path.string(), sha256(recording::read_text_file(path))});
+    input.files.push_back({path.string(), sha256(recording::read_bytes(path))});
   };
   const double start = trial.start_s.value_or(-1e300);
   const double end = trial.end_s.value_or(1e300);

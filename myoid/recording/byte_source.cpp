@@ -1,5 +1,6 @@
 #include "myoid/recording/byte_source.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <utility>
@@ -62,6 +63,19 @@ std::span<const std::byte> ByteSource::view(std::uint64_t offset, std::size_t co
     done += static_cast<std::size_t>(got);
   }
   return {buffer_.data(), count};
+}
+
+std::string read_bytes(const std::filesystem::path& path) {
+  ByteSource source(path);
+  std::string bytes;
+  bytes.reserve(source.size());
+  constexpr std::uint64_t kChunk = std::uint64_t{1} << 20U;
+  for (std::uint64_t at = 0; at < source.size(); at += kChunk) {
+    const auto part =
+        source.view(at, static_cast<std::size_t>(std::min(kChunk, source.size() - at)));
+    bytes.append(reinterpret_cast<const char*>(part.data()), part.size());
+  }
+  return bytes;
 }
 
 }  // namespace myoid::recording

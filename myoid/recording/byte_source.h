@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace myoid::recording {
@@ -31,5 +32,8 @@ class ByteSource {
   std::uint64_t size_ = 0;
   int descriptor_ = -1;
 };
+
+/// The whole file, whatever it holds, for its hash. Throws like ByteSource.
+[[nodiscard]] std::string read_bytes(const std::filesystem::path& path);
 
 }  // namespace myoid::recording

@@ -295,6 +295,8 @@ TEST(C3d, AByteSourceGivesTheBytesOfTheFile) {
   ASSERT_EQ(source.size(), bytes.size());
   const auto part = source.view(500, 20);
   EXPECT_TRUE(std::equal(part.begin(), part.end(), bytes.begin() + 500));
+  EXPECT_EQ(read_bytes(folder / "small.c3d"),
+            std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
 }
 
 TEST(C3d, TheHeaderAloneTellsTheProcessor) {

@@ -6,7 +6,11 @@
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
+#include "myoid/recording/anc_reader.h"
+#include "myoid/recording/c3d_reader.h"
 #include "myoid/recording/csv_reader.h"
+#include "myoid/recording/edf_reader.h"
+#include "myoid/recording/emg_table.h"
 #include "myoid/recording/storage_reader.h"
 
 namespace myoid::recording {
@@ -67,10 +71,47 @@ std::optional<TimeSeries> volts_of(const CsvSeries& series,
   return TimeSeries(chosen.time_s(), chosen.channels(), std::move(values));
 }
 
-bool is_table(const std::filesystem::path& path) {
+/// The channels of every kind of file that may name their units.
+std::optional<CsvSeries> read_channels(const std::filesystem::path& path, bool voltages_only) {
   const std::string extension = path.extension().string();
-  return equal_ignoring_case(extension, ".csv") || equal_ignoring_case(extension, ".tsv") ||
-         equal_ignoring_case(extension, ".txt");
+  const auto is = [&](const char* ending) { return equal_ignoring_case(extension, ending); };
+  if (is(".csv") || is(".tsv") || is(".txt")) return read_emg_table(path);
+  if (is(".anc")) {
+    AncFile file = read_anc(path);
+    const auto count = static_cast<std::size_t>(file.data.channel_count());
+    return CsvSeries{std::move(file.data), std::vector<bool>(count, true), std::move(file.repairs)};
+  }
+  if (is(".edf") || is(".bdf")) {
+    EdfFile file = read_edf(path);
+    return CsvSeries{std::move(file.data), std::move(file.has_unit), std::move(file.repairs)};
+  }
+  if (is(".c3d")) {
+    C3dFile file = read_c3d(path);
+    if (file.channels.empty())
+      throw ReadError(path, 0, "the C3D file holds no analog channels, so no EMG");
+    file.points.resize(0, 0);
+    CsvSeries series;
+    std::vector<Eigen::Index> columns;
+    std::size_t others = 0;
+    for (std::size_t c = 0; c < file.channels.size(); ++c) {
+      const auto unit = parse_c3d_unit(file.channels[c].unit_text);
+      if (voltages_only && unit && unit->unit != Unit::volt) {
+        ++others;
+        continue;
+      }
+      columns.push_back(static_cast<Eigen::Index>(c));
+      series.has_unit.push_back(unit.has_value());
+    }
+    if (columns.empty())
+      throw ReadError(path, 0, "none of the analog channels is a voltage, so there is no EMG");
+    if (others > 0)
+      file.repairs.push_back(
+          {0, fmt::format("{} analog channels are no voltages (forces, ...); left out", others)});
+    series.data = c3d_analog(file, columns);
+    series.repairs = std::move(file.repairs);
+    return series;
+  }
+  return std::nullopt;
 }
 
 }  // namespace
@@ -86,11 +127,10 @@ EmgFile read_emg(const std::filesystem::path& path, const std::string& unit, boo
   }
   EmgFile file;
   std::optional<TimeSeries> series;
-  if (is_table(path)) {
-    CsvSeries table = read_csv_series(path);
-    file.repairs = std::move(table.repairs);
-    series = dimensionless ? with_unit(table.data, Unit::dimensionless, 1.0)
-                           : volts_of(table, to_volt, file.repairs);
+  if (std::optional<CsvSeries> table = read_channels(path, !dimensionless)) {
+    file.repairs = std::move(table->repairs);
+    series = dimensionless ? with_unit(table->data, Unit::dimensionless, 1.0)
+                           : volts_of(*table, to_volt, file.repairs);
   } else {
     Storage storage = read_storage(path);
     file.repairs = std::move(storage.repairs);

@@ -14,11 +14,11 @@ struct EmgFile {
   std::vector<Repair> repairs;
 };
 
-/// EMG from .sto, .mot or a table (.csv, .tsv, .txt). Raw EMG must have a unit: that of its column
-/// ("name [mV]"), else `unit` if given ("uV"), else a word in the title or a header key `unit`
-/// (microvolt, uV, mV, volt, ...); where there is none, ReadError says how to give it. Columns of a
-/// table in newtons or the like are left out, with a note. With `dimensionless` (envelopes,
-/// activations) no unit is looked for.
+/// EMG from .c3d, .edf, .bdf, .anc, .sto, .mot or a table (.csv, .tsv, .txt; see `read_emg_table`).
+/// Raw EMG must have a unit: that of its channel ("name [mV]"), else `unit` if given ("uV"), else a
+/// word in the title or a header key `unit` (microvolt, uV, mV, volt, ...); where there is none,
+/// ReadError says how to give it. Channels in newtons or the like are left out, with a note. With
+/// `dimensionless` (envelopes, activations) no unit is looked for.
 [[nodiscard]] EmgFile read_emg(const std::filesystem::path& path,
                                const std::string& unit,
                                bool dimensionless);

@@ -1,0 +1,321 @@
+#include "myoid/recording/edf_reader.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <string>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "myoid/core/error.h"
+#include "myoid/recording/byte_source.h"
+
+namespace myoid::recording {
+namespace {
+
+constexpr std::size_t kHead = 256;
+
+struct Signal {
+  std::string label, dimension;
+  double physical_min = 0.0, physical_max = 0.0, digital_min = 0.0, digital_max = 0.0;
+  std::size_t per_record = 0;
+  std::size_t offset = 0;  ///< Of its samples in a record [bytes].
+  bool annotations = false;
+};
+
+struct Header {
+  bool bdf = false;
+  bool gaps = false;  ///< EDF+D: each record says its own time.
+  bool plus = false;
+  std::size_t bytes = 0;
+  std::int64_t records = -1;
+  double record_s = 0.0;
+  std::vector<Signal> signals;
+  std::size_t sample_bytes = 2;
+  std::uint64_t record_bytes = 0;
+};
+
+std::string field(std::span<const std::byte> bytes, std::size_t at, std::size_t length) {
+  std::string text;
+  for (const std::byte b : bytes.subspan(at, length)) text += static_cast<char>(b);
+  return to_utf8(text.substr(0, text.find('\0')));
+}
+
+/// A number of the header; a decimal comma is noted.
+std::optional<double> number(const std::string& text, std::vector<Repair>& repairs) {
+  if (const auto value = parse_number(text)) return value;
+  const auto value = parse_comma_number(text);
+  if (value)
+    repairs.push_back({0, fmt::format("'{}' in the header read with a decimal comma", text)});
+  return value;
+}
+
+Header read_header(ByteSource& source,
+                   const std::filesystem::path& path,
+                   std::vector<Repair>& repairs) {
+  if (source.size() < 2 * kHead)
+    throw ReadError(path, 0,
+                    fmt::format("the file has {} bytes, less than the header of one signal: it is "
+                                "cut off, or no EDF file",
+                                source.size()));
+  Header header;
+  const auto view = source.view(0, kHead);
+  const std::vector<std::byte> head(view.begin(), view.end());
+  header.bdf = head[0] == std::byte{0xFF};
+  const std::string version = field(head, header.bdf ? 1 : 0, header.bdf ? 7 : 8);
+  if (header.bdf ? version != "BIOSEMI" : version != "0") {
+    throw ReadError(path, 0,
+                    fmt::format("expected '0' (EDF) or 0xFF 'BIOSEMI' (BDF) in the first 8 bytes, "
+                                "found '{}'; this is another format",
+                                version));
+  }
+  header.sample_bytes = header.bdf ? 3 : 2;
+  const std::string kind = field(head, 192, 44);
+  header.plus = kind.starts_with("EDF+") || kind.starts_with("BDF+");
+  header.gaps = kind.starts_with("EDF+D") || kind.starts_with("BDF+D");
+  const auto required = [&](std::size_t at, std::size_t length, const char* what) {
+    const std::string text = field(head, at, length);
+    const auto value = number(text, repairs);
+    if (!value)
+      throw ReadError(path, 0,
+                      fmt::format("byte {}: {}: expected a number, found '{}'", at, what, text));
+    return *value;
+  };
+  const double count = required(252, 4, "number of signals");
+  header.record_s = required(244, 8, "duration of a record [s]");
+  const double records = number(field(head, 236, 8), repairs).value_or(-1.0);
+  header.records = std::abs(records) < 1e15 ? static_cast<std::int64_t>(records) : -1;
+  if (!(count >= 1.0 && count <= 4096.0) || count != std::floor(count))
+    throw ReadError(path, 0, fmt::format("byte 252: {} signals; expected 1 to 4096", count));
+  const auto signals = static_cast<std::size_t>(count);
+  header.bytes = kHead * (signals + 1);
+  if (source.size() < header.bytes)
+    throw ReadError(path, 0,
+                    fmt::format("{} signals need a header of {} bytes, the file has {}: it is cut "
+                                "off",
+                                signals, header.bytes, source.size()));
+  if (const double said = required(184, 8, "bytes of the header");
+      said != static_cast<double>(header.bytes))
+    repairs.push_back({0, fmt::format("the header says it has {} bytes; with {} signals it has {}",
+                                      said, signals, header.bytes)});
+  const auto rest = source.view(0, header.bytes);
+  // The fields stand signal by signal, one kind after the other.
+  const auto of = [&](std::size_t before, std::size_t length, std::size_t s) {
+    return field(rest, kHead + before * signals + length * s, length);
+  };
+  for (std::size_t s = 0; s < signals; ++s) {
+    Signal signal;
+    signal.label = of(0, 16, s);
+    signal.annotations = signal.label == "EDF Annotations" || signal.label == "BDF Annotations";
+    signal.dimension = of(96, 8, s);
+    const auto value = [&](std::size_t before, const char* what) {
+      const std::string text = of(before, 8, s);
+      const auto v = number(text, repairs);
+      if (!v || !std::isfinite(*v))
+        throw ReadError(path, 0,
+                        fmt::format("signal '{}': {}: expected a number, found '{}'", signal.label,
+                                    what, text));
+      return *v;
+    };
+    signal.physical_min = value(104, "physical minimum");
+    signal.physical_max = value(112, "physical maximum");
+    signal.digital_min = value(120, "digital minimum");
+    signal.digital_max = value(128, "digital maximum");
+    const double per_record = value(216, "samples in a record");
+    if (!(per_record >= 0.0 && per_record <= 1e7) || per_record != std::floor(per_record))
+      throw ReadError(path, 0,
+                      fmt::format("signal '{}': {} samples in a record", signal.label, per_record));
+    signal.per_record = static_cast<std::size_t>(per_record);
+    signal.offset = static_cast<std::size_t>(header.record_bytes);
+    header.record_bytes += signal.per_record * header.sample_bytes;
+    header.signals.push_back(std::move(signal));
+  }
+  if (header.record_bytes == 0) throw ReadError(path, 0, "the signals have no samples");
+  return header;
+}
+
+std::int32_t sample(const std::byte* p, bool bdf) {
+  const auto byte = [&](std::size_t i) { return static_cast<std::uint32_t>(p[i]); };
+  if (bdf)
+    return static_cast<std::int32_t>((byte(2) << 24U) | (byte(1) << 16U) | (byte(0) << 8U)) >> 8;
+  return static_cast<std::int16_t>(static_cast<std::uint16_t>((byte(1) << 8U) | byte(0)));
+}
+
+/// Time-stamped annotation lists: "+onset[\x15duration]\x14text\x14...\x14\0". The first list of a
+/// record without a text is the record's own time.
+std::optional<double> read_annotations(std::string_view bytes, std::vector<C3dEvent>& events) {
+  std::optional<double> record_time;
+  bool first = true;
+  while (!bytes.empty()) {
+    const std::size_t end = bytes.find('\0');
+    std::string_view list = bytes.substr(0, end);
+    bytes.remove_prefix(end == std::string_view::npos ? bytes.size() : end + 1);
+    if (list.empty()) continue;
+    const std::size_t head = list.find('\x14');
+    if (head == std::string_view::npos) continue;
+    const std::string_view stamp = list.substr(0, head);
+    const auto onset = parse_number(stamp.substr(0, stamp.find('\x15')));
+    if (!onset || !std::isfinite(*onset)) continue;
+    if (first) record_time = onset;
+    first = false;
+    list.remove_prefix(head + 1);
+    while (!list.empty()) {
+      const std::size_t stop = list.find('\x14');
+      if (const std::string label = to_utf8(list.substr(0, stop)); !label.empty())
+        events.push_back({*onset, label, "", ""});
+      list.remove_prefix(stop == std::string_view::npos ? list.size() : stop + 1);
+    }
+  }
+  return record_time;
+}
+
+/// The signals to take: those of one rate.
+std::vector<std::size_t> choose(const Header& header, std::vector<Repair>& repairs) {
+  std::map<std::size_t, std::vector<std::size_t>> by_rate;
+  std::size_t best = 0;
+  bool best_in_volts = false;
+  std::vector<std::string> broken;
+  for (std::size_t s = 0; s < header.signals.size(); ++s) {
+    const Signal& signal = header.signals[s];
+    if (signal.annotations || signal.per_record == 0) continue;
+    if (signal.digital_min == signal.digital_max || signal.physical_min == signal.physical_max) {
+      broken.push_back(signal.label);
+      continue;
+    }
+    by_rate[signal.per_record].push_back(s);
+    const auto unit = parse_c3d_unit(signal.dimension);
+    const bool volts = unit && unit->unit == Unit::volt;
+    if ((volts && !best_in_volts) || (volts == best_in_volts && signal.per_record > best)) {
+      best = signal.per_record;
+      best_in_volts = volts;
+    }
+  }
+  if (!broken.empty())
+    repairs.push_back({0, fmt::format("signals left out, since their least and largest values are "
+                                      "the same in the header: {}",
+                                      fmt::join(broken, ", "))});
+  for (const auto& [per_record, list] : by_rate) {
+    if (per_record == best) continue;
+    repairs.push_back(
+        {0,
+         fmt::format("{} signals at {:.6g} Hz are left out, the first '{}'; those "
+                     "at {:.6g} Hz are taken",
+                     list.size(), static_cast<double>(per_record) / header.record_s,
+                     header.signals[list[0]].label, static_cast<double>(best) / header.record_s)});
+  }
+  return by_rate[best];
+}
+
+EdfFile read(ByteSource& source, const std::filesystem::path& path) {
+  EdfFile file;
+  const Header header = read_header(source, path, file.repairs);
+  const std::uint64_t available = source.size() - header.bytes;
+  auto records = static_cast<std::int64_t>(available / header.record_bytes);
+  if (header.records >= 0 && header.records < records) {
+    file.repairs.push_back({0, fmt::format("the header says {} records, the file has {}; {} are "
+                                           "taken",
+                                           header.records, records, header.records)});
+    records = header.records;
+  } else if (header.records != records || available % header.record_bytes != 0) {
+    file.repairs.push_back(
+        {0, fmt::format("the header says {} records, the file has {} whole ones, "
+                        "which are taken",
+                        header.records, records)});
+  }
+  if (records <= 0) throw ReadError(path, 0, "the file holds no whole record of samples");
+  const std::vector<std::size_t> chosen = choose(header, file.repairs);
+  if (chosen.empty()) throw ReadError(path, 0, "the file holds no signals with samples");
+  if (!(header.record_s > 0.0))
+    throw ReadError(
+        path, 0,
+        fmt::format("byte 244: a record lasts {} s, so there is no rate", header.record_s));
+
+  std::vector<Channel> channels;
+  std::vector<double> gain;
+  std::vector<double> base;
+  std::set<std::string> seen;
+  for (const std::size_t s : chosen) {
+    const Signal& signal = header.signals[s];
+    const auto unit = parse_c3d_unit(signal.dimension);
+    const double to_si = unit ? unit->to_si : 1.0;
+    file.has_unit.push_back(unit.has_value());
+    gain.push_back(to_si * (signal.physical_max - signal.physical_min) /
+                   (signal.digital_max - signal.digital_min));
+    base.push_back(to_si * signal.physical_min - gain.back() * signal.digital_min);
+    const std::string stem = signal.label.empty() ? fmt::format("signal_{}", s + 1) : signal.label;
+    std::string name = stem;
+    for (int k = 2; !seen.insert(name).second; ++k) {
+      const std::string other = fmt::format("{}_{}", stem, k);
+      file.repairs.push_back(
+          {0, fmt::format("two signals are named '{}'; the later one is '{}' here", stem, other)});
+      name = other;
+    }
+    channels.push_back({name, unit ? unit->unit : Unit::dimensionless});
+  }
+
+  const auto per_record = static_cast<Eigen::Index>(header.signals[chosen[0]].per_record);
+  const double dt = header.record_s / static_cast<double>(per_record);
+  Eigen::VectorXd time(records * per_record);
+  Eigen::MatrixXd values(time.size(), static_cast<Eigen::Index>(chosen.size()));
+  std::optional<double> previous;
+  for (std::int64_t r = 0; r < records; ++r) {
+    const auto record =
+        source.view(header.bytes + static_cast<std::uint64_t>(r) * header.record_bytes,
+                    static_cast<std::size_t>(header.record_bytes));
+    std::optional<double> onset;
+    for (const Signal& signal : header.signals) {
+      if (!signal.annotations) continue;
+      const auto* text = reinterpret_cast<const char*>(record.data() + signal.offset);
+      const auto time_of_record =
+          read_annotations({text, signal.per_record * header.sample_bytes}, file.events);
+      if (!onset) onset = time_of_record;
+    }
+    double begin = static_cast<double>(r) * header.record_s;
+    if (header.gaps) {
+      if (!onset)
+        throw ReadError(path, 0,
+                        fmt::format("record {} does not say its time, as EDF+D must", r + 1));
+      begin = *onset;
+      if (previous && begin < *previous - 0.5 * dt)
+        throw ReadError(
+            path, 0,
+            fmt::format("record {} begins at {} s, before the one before it ends", r + 1, begin));
+      if (previous && begin > *previous + 0.5 * dt)
+        file.repairs.push_back(
+            {0, fmt::format("the recording pauses from {:.6g} s to {:.6g} s", *previous, begin)});
+      previous = begin + header.record_s;
+    }
+    for (Eigen::Index i = 0; i < per_record; ++i)
+      time[r * per_record + i] = begin + static_cast<double>(i) * dt;
+    for (std::size_t c = 0; c < chosen.size(); ++c) {
+      const std::byte* p = record.data() + header.signals[chosen[c]].offset;
+      for (Eigen::Index i = 0; i < per_record; ++i, p += header.sample_bytes) {
+        values(r * per_record + i, static_cast<Eigen::Index>(c)) =
+            base[c] + gain[c] * static_cast<double>(sample(p, header.bdf));
+      }
+    }
+  }
+  try {
+    file.data = TimeSeries(std::move(time), std::move(channels), std::move(values));
+  } catch (const InvalidInput& error) {
+    throw ReadError(path, 0, error.what());
+  }
+  return file;
+}
+
+}  // namespace
+
+EdfFile read_edf(const std::filesystem::path& path) {
+  ByteSource source(path);
+  return read(source, path);
+}
+
+EdfFile parse_edf(std::span<const std::byte> bytes, const std::filesystem::path& path) {
+  ByteSource source(bytes, path);
+  return read(source, path);
+}
+
+}  // namespace myoid::recording

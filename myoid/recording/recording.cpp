@@ -1,0 +1,97 @@
+#include "myoid/recording/recording.h"
+
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "myoid/core/error.h"
+#include "myoid/recording/anc_reader.h"
+#include "myoid/recording/c3d_reader.h"
+#include "myoid/recording/edf_reader.h"
+#include "myoid/recording/emg_table.h"
+#include "myoid/recording/storage_reader.h"
+#include "myoid/recording/trc_reader.h"
+
+namespace myoid::recording {
+
+std::string extension_of(const std::filesystem::path& path) {
+  std::string extension = path.extension().string();
+  for (char& c : extension) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c;
+  return extension;
+}
+
+std::string to_string(const Repair& repair) {
+  return repair.line > 0 ? fmt::format("line {}: {}", repair.line, repair.message) : repair.message;
+}
+
+MarkerFile read_markers(const std::filesystem::path& path) {
+  const std::string extension = extension_of(path);
+  if (extension == ".trc") {
+    TrcFile file = read_trc(path);
+    return {std::move(file.markers), std::move(file.unit), std::move(file.repairs)};
+  }
+  if (extension != ".c3d") {
+    throw ReadError(path, 0,
+                    fmt::format("markers are read from .trc and .c3d files, not from '{}'; export "
+                                "the recording as one of these",
+                                extension));
+  }
+  C3dFile file = read_c3d(path);
+  MarkerFile result;
+  result.unit = file.point_unit;
+  result.repairs = std::move(file.repairs);
+  try {
+    result.markers = c3d_markers(file, result.repairs);
+  } catch (const InvalidInput& error) {
+    throw ReadError(path, 0, error.what());
+  }
+  return result;
+}
+
+Recording read_recording(const std::filesystem::path& path) {
+  const std::string extension = extension_of(path);
+  Recording recording;
+  if (extension == ".trc") {
+    TrcFile file = read_trc(path);
+    recording.markers = std::move(file.markers);
+    recording.repairs = std::move(file.repairs);
+  } else if (extension == ".c3d") {
+    C3dFile file = read_c3d(path);
+    recording.repairs = std::move(file.repairs);
+    recording.events = std::move(file.events);
+    recording.plates = force_plates(file, recording.repairs);
+    try {
+      if (!marker_columns(file).empty()) recording.markers = c3d_markers(file, recording.repairs);
+    } catch (const InvalidInput& error) {
+      throw ReadError(path, 0, error.what());
+    }
+    file.points.resize(0, 0);  // a large file need not stand in memory three times
+    if (!file.channels.empty()) recording.analog = c3d_analog(file);
+  } else if (extension == ".edf" || extension == ".bdf") {
+    EdfFile file = read_edf(path);
+    recording.analog = std::move(file.data);
+    recording.events = std::move(file.events);
+    recording.repairs = std::move(file.repairs);
+  } else if (extension == ".anc") {
+    AncFile file = read_anc(path);
+    recording.analog = std::move(file.data);
+    recording.repairs = std::move(file.repairs);
+  } else if (extension == ".csv" || extension == ".tsv" || extension == ".txt") {
+    CsvSeries file = read_emg_table(path);
+    recording.analog = std::move(file.data);
+    recording.repairs = std::move(file.repairs);
+  } else if (extension == ".sto" || extension == ".mot") {
+    Storage file = read_storage(path);
+    recording.analog = std::move(file.data);
+    recording.repairs = std::move(file.repairs);
+  } else {
+    throw ReadError(
+        path, 0,
+        fmt::format("recordings of kind '{}' are not known; known are .c3d, .trc, .edf, "
+                    ".bdf, .anc, .csv, .tsv, .txt, .sto and .mot",
+                    extension));
+  }
+  return recording;
+}
+
+}  // namespace myoid::recording

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "myoid/core/time_series.h"
+#include "myoid/recording/c3d_file.h"
+#include "myoid/recording/force_plate.h"
+#include "myoid/recording/marker_series.h"
+#include "myoid/recording/text_file.h"
+
+namespace myoid::recording {
+
+/// Markers of a file, in meters.
+struct MarkerFile {
+  MarkerSeries markers;
+  std::string unit;  ///< As written.
+  std::vector<Repair> repairs;
+};
+
+/// Markers from .trc or .c3d, by the ending of the name. Throws ReadError, also where a .c3d file
+/// holds none.
+[[nodiscard]] MarkerFile read_markers(const std::filesystem::path& path);
+
+/// One trial as measured: what a single file holds of it, in SI, on the file's own clock, in the
+/// laboratory's frame. Parts that the file does not have are empty.
+struct Recording {
+  MarkerSeries markers;
+  TimeSeries analog;  ///< EMG and all other channels; one without a known unit is dimensionless.
+  std::vector<ForcePlate> plates;
+  std::vector<C3dEvent> events;
+  std::vector<Repair> repairs;
+};
+
+/// Everything in a .c3d file, the markers of a .trc file, or the channels of an .edf, .bdf, .anc,
+/// .csv, .tsv, .txt, .sto or .mot file (the last two without units). Throws ReadError.
+[[nodiscard]] Recording read_recording(const std::filesystem::path& path);
+
+/// "line 3: message", or the message alone where a repair has no line.
+[[nodiscard]] std::string to_string(const Repair& repair);
+
+/// The ending of the name in small letters, with its point: ".c3d".
+[[nodiscard]] std::string extension_of(const std::filesystem::path& path);
+
+}  // namespace myoid::recording
