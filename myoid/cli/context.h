@@ -60,6 +60,7 @@ void add_common_options(CLI::App& command, Context& context);
 
 // One per command, each in a file of its own.
 void add_check(CLI::App& app, Context& context);
+void add_convert(CLI::App& app, Context& context);
 void add_design(CLI::App& app, Context& context);
 void add_emg(CLI::App& app, Context& context);
 void add_id(CLI::App& app, Context& context);

@@ -44,6 +44,7 @@ int run(int argc, char** argv, myoid::cli::Context& context) {
   myoid::cli::add_run(app, context);
   myoid::cli::add_check(app, context);
   myoid::cli::add_info(app, context);
+  myoid::cli::add_convert(app, context);
   myoid::cli::add_emg(app, context);
   myoid::cli::add_ik(app, context);
   myoid::cli::add_id(app, context);

@@ -1,0 +1,320 @@
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Geometry>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "myoid/cli/context.h"
+#include "myoid/cli/stage_input.h"
+#include "myoid/core/error.h"
+#include "myoid/recording/atomic_file.h"
+#include "myoid/recording/c3d_reader.h"
+#include "myoid/recording/c3d_writer.h"
+#include "myoid/recording/emg_reader.h"
+#include "myoid/recording/ground_reaction.h"
+#include "myoid/recording/recording.h"
+#include "myoid/recording/storage_writer.h"
+#include "myoid/recording/trc_writer.h"
+
+namespace myoid::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Options {
+  std::string in, out, what, up = "y", unit, analog;
+  std::vector<std::string> turns, bodies, channels;
+  double least_force_n = 10.0;
+};
+
+/// "x:-90" after "z:90": turns about the laboratory's axes, one after the other.
+Mat3 rotation_of(const Options& o) {
+  Mat3 R = recording::rotation_to_y_up(o.up[0]);
+  for (const std::string& turn : o.turns) {
+    const auto degrees = turn.size() > 2 && turn[1] == ':'
+                             ? recording::parse_number(std::string_view(turn).substr(2))
+                             : std::nullopt;
+    if (!degrees || std::string_view("xyz").find(turn[0]) == std::string_view::npos ||
+        !std::isfinite(*degrees))
+      throw InvalidInput(fmt::format("--rotate {}: expected AXIS:DEGREES, as x:-90", turn));
+    const Vec3 axis = turn[0] == 'x'   ? Vec3::UnitX().eval()
+                      : turn[0] == 'y' ? Vec3::UnitY().eval()
+                                       : Vec3::UnitZ().eval();
+    R = Eigen::AngleAxisd(*degrees * kDegree, axis).toRotationMatrix() * R;
+  }
+  // Turns by right angles stay exact.
+  return R.unaryExpr(
+      [](double x) { return std::abs(x - std::round(x)) < 1e-15 ? std::round(x) : x; });
+}
+
+recording::MarkerSeries cut_markers(recording::MarkerSeries m, const Context& context) {
+  if (!context.start_s && !context.end_s) return m;
+  Eigen::Index first = 0;
+  while (first < m.frame_count() && m.time_s[first] < context.start_s.value_or(-1e300)) ++first;
+  Eigen::Index last = m.frame_count();
+  while (last > first && m.time_s[last - 1] > context.end_s.value_or(1e300)) --last;
+  if (last == first) throw InvalidInput("no frames lie between --start and --end");
+  m.time_s = m.time_s.segment(first, last - first).eval();
+  m.positions_m = m.positions_m.middleRows(first, last - first).eval();
+  return m;
+}
+
+/// .trc cannot hold blanks in names.
+void without_blanks(recording::MarkerSeries& markers, std::vector<recording::Repair>& repairs) {
+  std::size_t changed = 0;
+  for (std::string& name : markers.names) {
+    if (name.find_first_of(" \t") == std::string::npos) continue;
+    std::replace(name.begin(), name.end(), ' ', '_');
+    std::replace(name.begin(), name.end(), '\t', '_');
+    ++changed;
+  }
+  if (changed > 0)
+    repairs.push_back({0, fmt::format("blanks in {} marker names became '_'", changed)});
+}
+
+bool all_in_volts(const TimeSeries& series) {
+  return series.channel_count() > 0 &&
+         std::all_of(series.channels().begin(), series.channels().end(),
+                     [](const Channel& c) { return c.unit == Unit::volt; });
+}
+
+/// Channels as a storage or table file, their units beside them.
+void write_channels(const fs::path& out, const TimeSeries& series) {
+  const std::string extension = recording::extension_of(out);
+  if (extension == ".csv") {
+    std::vector<Channel> named = series.channels();
+    for (Channel& c : named) {
+      if (c.unit != Unit::dimensionless) c.name = fmt::format("{} [{}]", c.name, symbol(c.unit));
+    }
+    recording::write_csv(out, TimeSeries(series.time_s(), std::move(named), series.values()));
+    return;
+  }
+  recording::StorageFormat format;
+  format.title = out.stem().string();
+  if (all_in_volts(series)) {
+    format.comments.emplace_back("unit=V");
+  } else {
+    for (const Channel& c : series.channels())
+      format.comments.push_back(fmt::format("channel {} [{}]", c.name, symbol(c.unit)));
+  }
+  // Column labels are separated by tabs: none inside a name.
+  std::vector<Channel> named = series.channels();
+  for (Channel& c : named) std::replace(c.name.begin(), c.name.end(), '\t', ' ');
+  recording::write_storage(out, TimeSeries(series.time_s(), std::move(named), series.values()),
+                           format);
+}
+
+class Converter {
+ public:
+  Converter(const Options& options, const Context& context)
+      : o_(options), context_(context), R_(rotation_of(options)) {}
+
+  void run() {
+    const fs::path out = o_.out;
+    const std::string from = recording::extension_of(o_.in);
+    const std::string to = recording::extension_of(out);
+    const bool folder = to.empty();
+    if (!folder && to != ".trc" && to != ".sto" && to != ".mot" && to != ".csv" && to != ".c3d")
+      throw InvalidInput(
+          fmt::format("{}: files of kind '{}' are not written; expected .c3d, .trc, .sto, .mot, "
+                      ".csv or a folder",
+                      o_.out, to));
+    if (folder) {
+      everything(out);
+    } else if (to == ".c3d") {
+      to_c3d(out, from);
+    } else if (to == ".trc" || o_.what == "markers") {
+      if (to != ".trc") throw InvalidInput("markers are written as .trc or .c3d");
+      markers(out);
+    } else if (o_.what == "plates") {
+      plates(out, recording::read_recording(o_.in));
+    } else {
+      channels(out);
+    }
+    for (const std::string& file : written_) fmt::print("{}\n", file);
+  }
+
+ private:
+  void report(const std::vector<recording::Repair>& repairs) const {
+    for (const recording::Repair& repair : repairs)
+      context_.warn(fmt::format("{}: {}", o_.in, recording::to_string(repair)));
+  }
+
+  void wrote(const fs::path& path) { written_.push_back(path.string()); }
+
+  void write_markers(const fs::path& out,
+                     recording::MarkerSeries markers,
+                     std::vector<recording::Repair>& repairs) {
+    context_.refuse_existing(out);
+    without_blanks(markers, repairs);
+    recording::write_trc(out, recording::rotated(cut_markers(std::move(markers), context_), R_));
+    wrote(out);
+  }
+
+  void markers(const fs::path& out) {
+    recording::MarkerFile file = recording::read_markers(o_.in);
+    write_markers(out, std::move(file.markers), file.repairs);
+    report(file.repairs);
+  }
+
+  [[nodiscard]] TimeSeries chosen(const TimeSeries& series) const {
+    return cut(o_.channels.empty() ? series : series.select(o_.channels), context_);
+  }
+
+  void channels(const fs::path& out) {
+    context_.refuse_existing(out);
+    if (o_.what == "emg" || !o_.unit.empty()) {
+      recording::EmgFile file = recording::read_emg(o_.in, o_.unit, false);
+      report(file.repairs);
+      write_channels(out, chosen(file.data));
+    } else {
+      recording::Recording file = recording::read_recording(o_.in);
+      report(file.repairs);
+      if (file.analog.empty())
+        throw ReadError(o_.in, 0,
+                        "there are no analog channels to write; markers go to a .trc file");
+      write_channels(out, chosen(file.analog));
+    }
+    wrote(out);
+  }
+
+  void plates(const fs::path& out, recording::Recording file) {
+    context_.refuse_existing(out);
+    report(file.repairs);
+    std::vector<recording::Repair> notes;
+    if (file.plates.empty())
+      throw ReadError(o_.in, 0, "there are no force plates that are understood");
+    const TimeSeries loads = recording::ground_reaction(
+        file.plates, {.R_YG = R_, .least_force_n = o_.least_force_n}, notes);
+    report(notes);
+    recording::write_storage(out, cut(loads, context_),
+                             {.title = out.stem().string(), .comments = {}});
+    wrote(out);
+    std::vector<int> numbers;
+    for (const recording::ForcePlate& plate : file.plates) numbers.push_back(plate.number);
+    if (o_.bodies.size() > numbers.size())
+      throw InvalidInput(
+          fmt::format("--body: {} bodies for {} force plates", o_.bodies.size(), numbers.size()));
+    if (o_.bodies.empty()) {
+      context_.log(
+          "give --body BODY for each plate to write the ExternalLoads file too (\"\" leaves one "
+          "out)");
+      return;
+    }
+    const fs::path xml = fs::path(out).replace_extension(".xml");
+    context_.refuse_existing(xml);
+    recording::write_file(xml,
+                          recording::format_external_loads(out.stem().string(), numbers, o_.bodies,
+                                                           out.filename().string()));
+    wrote(xml);
+  }
+
+  void everything(const fs::path& folder) {
+    recording::Recording file = recording::read_recording(o_.in);
+    const std::string stem = fs::path(o_.in).stem().string();
+    report(file.repairs);
+    file.repairs.clear();
+    if (file.markers.frame_count() > 0) {
+      write_markers(folder / (stem + ".trc"), file.markers, file.repairs);
+      report(file.repairs);
+      file.repairs.clear();
+    }
+    if (!file.analog.empty()) {
+      const fs::path out = folder / (stem + "_analog.sto");
+      context_.refuse_existing(out);
+      write_channels(out, chosen(file.analog));
+      wrote(out);
+      std::vector<std::string> volts;
+      for (const Channel& c : file.analog.channels())
+        if (c.unit == Unit::volt) volts.push_back(c.name);
+      if (o_.channels.empty() && !volts.empty() &&
+          volts.size() < static_cast<std::size_t>(file.analog.channel_count())) {
+        const fs::path emg = folder / (stem + "_emg.sto");
+        context_.refuse_existing(emg);
+        write_channels(emg, cut(file.analog.select(volts), context_));
+        wrote(emg);
+      }
+    }
+    if (!file.plates.empty()) plates(folder / (stem + "_grf.mot"), std::move(file));
+  }
+
+  void to_c3d(const fs::path& out, const std::string& from) {
+    context_.refuse_existing(out);
+    if (from == ".c3d") {
+      if (!R_.isIdentity(0.0) || context_.start_s || context_.end_s)
+        throw InvalidInput(
+            "a C3D file is rewritten as it is; convert it to .trc to turn or cut it");
+      recording::C3dFile file = recording::read_c3d(o_.in);
+      report(file.repairs);
+      recording::write_c3d(out, file);
+      wrote(out);
+      return;
+    }
+    recording::Recording file = recording::read_recording(o_.in);
+    report(file.repairs);
+    TimeSeries analog = file.analog;
+    if (!o_.analog.empty()) {
+      recording::Recording other =
+          o_.unit.empty() ? recording::read_recording(o_.analog) : recording::Recording{};
+      if (!o_.unit.empty()) other.analog = recording::read_emg(o_.analog, o_.unit, false).data;
+      for (const recording::Repair& repair : other.repairs)
+        context_.warn(fmt::format("{}: {}", o_.analog, recording::to_string(repair)));
+      analog = other.analog;
+    }
+    recording::MarkerSeries markers = file.markers;
+    if (markers.frame_count() > 0)
+      markers = recording::rotated(cut_markers(std::move(markers), context_), R_);
+    recording::write_c3d(out,
+                         recording::make_c3d(markers, analog.empty() ? analog : chosen(analog)));
+    wrote(out);
+  }
+
+  const Options& o_;
+  const Context& context_;
+  Mat3 R_;
+  std::vector<std::string> written_;
+};
+
+}  // namespace
+
+void add_convert(CLI::App& app, Context& context) {
+  CLI::App& command = *app.add_subcommand(
+      "convert",
+      "Writes a recording in another format: C3D, TRC, STO/MOT, CSV; EDF, BDF and ANC are read.\n"
+      "Example: myoid convert walk.c3d walk/ --up z --body calcn_r --body calcn_l");
+  const auto o = std::make_shared<Options>();
+  command.add_option("in", o->in, ".c3d, .trc, .edf, .bdf, .anc, .csv, .tsv, .txt, .sto or .mot")
+      ->required();
+  command
+      .add_option("out", o->out, ".c3d, .trc, .sto, .mot, .csv, or a folder for everything in it")
+      ->required();
+  command
+      .add_option("--what", o->what,
+                  "markers, channels, emg (voltages only) or plates; by default markers for .trc, "
+                  "plates for .mot from .c3d, else channels")
+      ->check(CLI::IsMember({"markers", "channels", "emg", "plates"}));
+  command.add_option("--up", o->up, "Vertical axis of the laboratory, turned to y: x, y or z")
+      ->check(CLI::IsMember({"x", "y", "z"}));
+  command.add_option("--rotate", o->turns,
+                     "AXIS:DEGREES, repeated: further turns, one after another");
+  command.add_option("--unit", o->unit, "Unit of EMG where the file does not say: V, mV, uV");
+  command.add_option("--channel", o->channels, "Only this channel, repeated");
+  command.add_option("--analog", o->analog,
+                     "Channels to go with the markers of a .trc into a .c3d");
+  command.add_option("--body", o->bodies,
+                     "Body of the model that stands on plate 1, 2, ...: writes ExternalLoads too");
+  command
+      .add_option("--least-force", o->least_force_n,
+                  "Below it a plate counts as unloaded [N] (default 10)")
+      ->check(CLI::PositiveNumber);
+  add_common_options(command, context);
+  command.callback([&context, o] {
+    if (o->what.empty() && recording::extension_of(o->out) == ".mot" &&
+        recording::extension_of(o->in) == ".c3d")
+      o->what = "plates";
+    Converter(*o, context).run();
+  });
+}
+
+}  // namespace myoid::cli

@@ -1,0 +1,144 @@
+#include "myoid/recording/ground_reaction.h"
+
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "myoid/core/error.h"
+
+namespace myoid::recording {
+namespace {
+
+std::string escaped(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    if (c == '&') {
+      out += "&amp;";
+    } else if (c == '<') {
+      out += "&lt;";
+    } else if (c == '>') {
+      out += "&gt;";
+    } else if (c == '"') {
+      out += "&quot;";
+    } else {
+      out += c;
+    }
+  }
+  return out;
+}
+
+/// Fills the rows that are NaN straight between their neighbors, and constant at the ends; with
+/// `fallback` where there are no others.
+void bridge(Eigen::Ref<Eigen::MatrixXd> points, const Vec3& fallback) {
+  Eigen::Index last = -1;
+  const Eigen::Index n = points.rows();
+  for (Eigen::Index i = 0; i <= n; ++i) {
+    if (i < n && !points.row(i).allFinite()) continue;
+    for (Eigen::Index k = last + 1; k < i; ++k) {
+      if (last < 0 && i == n) {
+        points.row(k) = fallback.transpose();
+      } else if (last < 0) {
+        points.row(k) = points.row(i);
+      } else if (i == n) {
+        points.row(k) = points.row(last);
+      } else {
+        const double share = static_cast<double>(k - last) / static_cast<double>(i - last);
+        points.row(k) = (1.0 - share) * points.row(last) + share * points.row(i);
+      }
+    }
+    last = i;
+  }
+}
+
+}  // namespace
+
+TimeSeries ground_reaction(const std::vector<ForcePlate>& plates,
+                           const GroundReactionOptions& options,
+                           std::vector<Repair>& repairs) {
+  if (plates.empty()) throw InvalidInput("there are no force plates that are understood");
+  const Mat3& R = options.R_YG;
+  const Eigen::Index samples = plates[0].time_s.size();
+  std::vector<Channel> channels;
+  Eigen::MatrixXd values(samples, static_cast<Eigen::Index>(9 * plates.size()));
+  for (std::size_t k = 0; k < plates.size(); ++k) {
+    const ForcePlate& plate = plates[k];
+    const char* const axes = "xyz";
+    for (int a = 0; a < 3; ++a)
+      channels.push_back({fmt::format("ground_force_{}_v{}", plate.number, axes[a]), Unit::newton});
+    for (int a = 0; a < 3; ++a)
+      channels.push_back({fmt::format("ground_force_{}_p{}", plate.number, axes[a]), Unit::meter});
+    for (int a = 0; a < 3; ++a)
+      channels.push_back(
+          {fmt::format("ground_torque_{}_{}", plate.number, axes[a]), Unit::newton_meter});
+    const Vec3 up_G = R.transpose() * Vec3::UnitY();
+    const int sign = force_sign(plate, up_G, options.least_force_n);
+    if (sign < 0)
+      repairs.push_back(
+          {0, fmt::format("force plate {} pulls down: the file holds the force on the "
+                          "plate; turned round to act on the person",
+                          plate.number)});
+    if (sign == 0)
+      repairs.push_back({0, fmt::format("force plate {} is never loaded with {} N", plate.number,
+                                        options.least_force_n)});
+    auto block = values.middleCols(static_cast<Eigen::Index>(9 * k), 9);
+    const double turn = sign < 0 ? -1.0 : 1.0;
+    Eigen::Index unloaded = 0;
+    Eigen::Index broken = 0;
+    Eigen::Index pulling = 0;
+    for (Eigen::Index i = 0; i < samples; ++i) {
+      const Vec3 force = plate.force_n.row(i).transpose();
+      const Vec3 point = plate.pressure_center_m.row(i).transpose();
+      if (!force.allFinite()) ++broken;
+      const double push = turn * force.dot(up_G);
+      const bool loaded = point.allFinite() && push >= options.least_force_n;
+      if (push <= -options.least_force_n) ++pulling;
+      if (!loaded) ++unloaded;
+      block.block<1, 3>(i, 0) = loaded ? (turn * (R * force)).transpose().eval()
+                                       : Eigen::RowVector3d(Eigen::RowVector3d::Zero());
+      block.block<1, 3>(i, 3) =
+          loaded ? (R * point).transpose().eval()
+                 : Eigen::RowVector3d(Eigen::RowVector3d::Constant(std::nan("")));
+      block.block<1, 3>(i, 6) =
+          loaded ? (turn * (R * Vec3(plate.free_moment_nm.row(i).transpose()))).transpose().eval()
+                 : Eigen::RowVector3d(Eigen::RowVector3d::Zero());
+    }
+    bridge(block.middleCols(3, 3), R * plate.p_GP_m);
+    if (broken > 0)
+      repairs.push_back({0, fmt::format("force plate {}: {} samples are no numbers; taken as 0",
+                                        plate.number, broken)});
+    if (sign != 0)
+      repairs.push_back(
+          {0, fmt::format("force plate {}: {} of {} samples are below {} N and set to "
+                          "0",
+                          plate.number, unloaded, samples, options.least_force_n)});
+  }
+  return {plates[0].time_s, std::move(channels), std::move(values)};
+}
+
+std::string format_external_loads(const std::string& name,
+                                  const std::vector<int>& plate_numbers,
+                                  const std::vector<std::string>& bodies,
+                                  const std::string& data_file) {
+  std::string text =
+      "<?xml version=\"1.0\" encoding=\"UTF-8\" ?>\n<OpenSimDocument Version=\"40000\">\n";
+  text += fmt::format("\t<ExternalLoads name=\"{}\">\n\t\t<objects>\n", escaped(name));
+  for (std::size_t k = 0; k < plate_numbers.size() && k < bodies.size(); ++k) {
+    if (bodies[k].empty()) continue;
+    const int n = plate_numbers[k];
+    text += fmt::format("\t\t\t<ExternalForce name=\"plate_{}\">\n", n);
+    text += fmt::format("\t\t\t\t<applied_to_body>{}</applied_to_body>\n", escaped(bodies[k]));
+    text += "\t\t\t\t<force_expressed_in_body>ground</force_expressed_in_body>\n";
+    text += "\t\t\t\t<point_expressed_in_body>ground</point_expressed_in_body>\n";
+    text += fmt::format("\t\t\t\t<force_identifier>ground_force_{}_v</force_identifier>\n", n);
+    text += fmt::format("\t\t\t\t<point_identifier>ground_force_{}_p</point_identifier>\n", n);
+    text += fmt::format("\t\t\t\t<torque_identifier>ground_torque_{}_</torque_identifier>\n", n);
+    text += "\t\t\t</ExternalForce>\n";
+  }
+  text += fmt::format("\t\t</objects>\n\t\t<groups />\n\t\t<datafile>{}</datafile>\n",
+                      escaped(data_file));
+  text += "\t</ExternalLoads>\n</OpenSimDocument>\n";
+  return text;
+}
+
+}  // namespace myoid::recording

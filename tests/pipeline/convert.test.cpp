@@ -1,0 +1,77 @@
+// Recordings there and back again through the program.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "program.h"
+#include "tests/support/temporary_folder.h"
+
+namespace {
+
+using myoid::test::Finished;
+using myoid::test::myoid;
+using myoid::test::read_text;
+using myoid::test::TemporaryFolder;
+using myoid::test::write_text;
+using testing::HasSubstr;
+
+const std::string kTrc =
+    "PathFileType\t4\t(X/Y/Z)\ta.trc\nDataRate\tCameraRate\tNumFrames\tNumMarkers\tUnits\t"
+    "OrigDataRate\tOrigDataStartFrame\tOrigNumFrames\n100\t100\t4\t2\tmm\t100\t1\t4\n"
+    "Frame#\tTime\tA\t\t\tB\t\t\n\t\tX1\tY1\tZ1\tX2\tY2\tZ2\n\n"
+    "1\t0\t1.5\t2.5\t3.5\t10\t20\t30\n2\t0.01\t1.25\t2.25\t3.25\t\t\t\n"
+    "3\t0.02\t1\t2\t3\t11\t21\t31\n4\t0.03\t-1\t-2\t-3\t12\t22\t32\n";
+
+TEST(Convert, MarkersAndEmgGoIntoAC3dAndComeBack) {
+  const TemporaryFolder folder;
+  write_text(folder / "a.trc", kTrc);
+  write_text(folder / "e.csv",
+             "time,Biceps [mV]\n0,1\n0.005,2\n0.01,3\n0.015,4\n0.02,5\n0.025,6\n"
+             "0.03,7\n0.035,8\n");
+  const std::string c3d = (folder / "a.c3d").string();
+  const Finished there =
+      myoid({"convert", (folder / "a.trc").string(), c3d, "--analog", (folder / "e.csv").string()});
+  ASSERT_EQ(there.exit_code, 0) << there.err;
+  const Finished back = myoid({"convert", c3d, (folder / "b.trc").string()});
+  ASSERT_EQ(back.exit_code, 0) << back.err;
+  // These numbers are exact in 32 bits; only the name in the first line differs.
+  std::string expected = kTrc;
+  expected.replace(expected.find("a.trc"), 5, "b.trc");
+  const auto rows = [](const std::string& text) { return text.substr(text.find("\n1\t0\t")); };
+  EXPECT_EQ(rows(read_text(folder / "b.trc")), rows(expected));
+  const Finished emg = myoid({"convert", c3d, (folder / "b.csv").string()});
+  ASSERT_EQ(emg.exit_code, 0) << emg.err;
+  EXPECT_THAT(read_text(folder / "b.csv"), HasSubstr("time_s,Biceps [V]\n0,0.001"));
+  const Finished again = myoid({"convert", c3d, (folder / "b.csv").string()});
+  EXPECT_EQ(again.exit_code, 3);
+  EXPECT_THAT(again.err, HasSubstr("--overwrite"));
+}
+
+TEST(Convert, TurnsTheLaboratory) {
+  const TemporaryFolder folder;
+  write_text(folder / "a.trc", kTrc);
+  const std::string out = (folder / "b.trc").string();
+  ASSERT_EQ(myoid({"convert", (folder / "a.trc").string(), out, "--up", "z"}).exit_code, 0);
+  EXPECT_THAT(read_text(out), HasSubstr("\n1\t0\t1.5\t3.5\t-2.5\t10\t30\t-20\n"));
+  ASSERT_EQ(myoid({"convert", (folder / "a.trc").string(), out, "--overwrite", "--up", "z",
+                   "--rotate", "y:90"})
+                .exit_code,
+            0);
+  EXPECT_THAT(read_text(out), HasSubstr("\n1\t0\t-2.5\t3.5\t-1.5\t"));
+  const Finished wrong =
+      myoid({"convert", (folder / "a.trc").string(), out, "--overwrite", "--rotate", "q:90"});
+  EXPECT_EQ(wrong.exit_code, 3);
+  EXPECT_THAT(wrong.err, HasSubstr("AXIS:DEGREES"));
+}
+
+TEST(Convert, WhatCannotBeWrittenIsSaid) {
+  const TemporaryFolder folder;
+  write_text(folder / "a.trc", kTrc);
+  const std::string in = (folder / "a.trc").string();
+  for (const char* out : {"b.xyz", "b.sto"}) {
+    const Finished result = myoid({"convert", in, (folder / out).string()});
+    EXPECT_EQ(result.exit_code, 3) << out;
+    EXPECT_FALSE(std::filesystem::exists(folder / out));
+  }
+}
+
+}  // namespace
