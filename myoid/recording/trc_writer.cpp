@@ -7,6 +7,16 @@
 #include "myoid/recording/text_file.h"
 
 namespace myoid::recording {
+namespace {
+
+/// In millimeters, with the fewest digits that read back to the same meters: 15 where these do.
+std::string millimeters(double meters) {
+  const std::string text = fmt::format("{:.15g}", 1000.0 * meters);
+  const auto back = parse_number(text);
+  return back && *back * 1e-3 == meters ? format_number(*back) : format_number(1000.0 * meters);
+}
+
+}  // namespace
 
 std::string format_trc(const MarkerSeries& markers, const std::string& file_name) {
   const Eigen::Index frames = markers.frame_count();
@@ -40,7 +50,7 @@ std::string format_trc(const MarkerSeries& markers, const std::string& file_name
       for (Eigen::Index axis = 0; axis < 3; ++axis) {
         text += '\t';
         if (!markers.missing(frame, m))
-          text += format_number(1000.0 * markers.positions_m(frame, 3 * m + axis));
+          text += millimeters(markers.positions_m(frame, 3 * m + axis));
       }
     }
     text += '\n';
