@@ -51,6 +51,7 @@ int run(int argc, char** argv, myoid::cli::Context& context) {
   myoid::cli::add_paths(app, context);
   myoid::cli::add_so(app, context);
   myoid::cli::add_identify(app, context);
+  myoid::cli::add_muscle(app, context);
   myoid::cli::add_twin(app, context);
   myoid::cli::add_design(app, context);
   myoid::cli::add_report(app, context);

@@ -1,0 +1,224 @@
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "myoid/cli/context.h"
+#include "myoid/core/error.h"
+#include "myoid/core/provenance.h"
+#include "myoid/muscle/isolated_muscle.h"
+#include "myoid/pipeline/muscle_file.h"
+#include "myoid/recording/csv_reader.h"
+#include "myoid/recording/storage_reader.h"
+#include "myoid/recording/storage_writer.h"
+#include "myoid/recording/text_file.h"
+
+namespace myoid::cli {
+namespace {
+
+struct Options {
+  std::string muscle, length, out, column, activation, excitation, measured, initial = "0.01";
+  double scale = 1.0, offset_m = 0.0, isometric_n = 0.0, tolerance = 1e-9;
+};
+
+/// One column of a .sto, .mot, .csv, .tsv or .txt file: the only one, or the one of this name.
+struct Column {
+  Eigen::VectorXd time_s, values;
+  std::string name;
+};
+
+Column read_column(const std::string& path, const std::string& wanted) {
+  const std::string extension = std::filesystem::path(path).extension().string();
+  const bool is_table = extension == ".csv" || extension == ".tsv" || extension == ".txt";
+  const TimeSeries series =
+      is_table ? recording::read_csv_series(path).data : recording::read_storage(path).data;
+  std::string names;
+  for (const Channel& channel : series.channels())
+    names += (names.empty() ? "" : ", ") + channel.name;
+  if (wanted.empty() && series.channel_count() != 1) {
+    throw ReadError(path, 0, fmt::format("has the columns {}: choose one with --column", names));
+  }
+  if (!wanted.empty() && !series.find(wanted)) {
+    throw ReadError(path, 0, fmt::format("has no column '{}'; there are {}", wanted, names));
+  }
+  const Eigen::Index at = wanted.empty() ? 0 : *series.find(wanted);
+  Column column{series.time_s(), series.values().col(at),
+                series.channels()[static_cast<std::size_t>(at)].name};
+  if (!column.values.allFinite()) {
+    throw ReadError(path, 0, fmt::format("column '{}' has gaps: fill them first", column.name));
+  }
+  return column;
+}
+
+std::optional<double> as_number(const std::string& text) {
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error == std::errc() && end == text.data() + text.size()) return value;
+  return std::nullopt;
+}
+
+/// A number, or a file with the drive over time.
+void read_drive(const Options& o, const Context& context, muscle::IsolatedMuscleInput& input) {
+  input.drive_is_excitation = !o.excitation.empty();
+  const std::string& drive = input.drive_is_excitation ? o.excitation : o.activation;
+  if (const std::optional<double> constant = as_number(drive)) {
+    input.drive = Eigen::VectorXd::Constant(1, *constant);
+    return;
+  }
+  const Column column = read_column(drive, "");
+  input.drive_time_s = column.time_s;
+  input.drive = column.values;
+  const Eigen::Index last = column.time_s.size() - 1;
+  if (column.time_s(0) > input.time_s(0) ||
+      column.time_s(last) < input.time_s(input.time_s.size() - 1)) {
+    context.warn(fmt::format("{} covers {:g} to {:g} s only; beyond, its first and last value hold",
+                             drive, column.time_s(0), column.time_s(last)));
+  }
+}
+
+void cut(Column& column, const Context& context) {
+  if (!context.start_s && !context.end_s) return;
+  const TimeSeries all(column.time_s, {{column.name, Unit::dimensionless}}, column.values);
+  const Eigen::Index last = all.sample_count() - 1;
+  const TimeSeries part = all.slice(context.start_s.value_or(all.time_s()(0)),
+                                    context.end_s.value_or(all.time_s()(last)));
+  column.time_s = part.time_s();
+  column.values = part.values().col(0);
+}
+
+/// Mean absolute difference from a measured force at its times, over a force.
+struct Comparison {
+  double error_n = 0.0;
+  double share = 0.0;
+  Eigen::Index samples = 0;
+};
+
+void run(const Options& o, Context& context) {
+  if (o.activation.empty() == o.excitation.empty()) {
+    throw InvalidInput("give the drive once: --activation or --excitation, a number or a file");
+  }
+  const pipeline::MuscleFile file = pipeline::read_muscle_file(o.muscle);
+  const muscle::Musculotendon<double> unit(file.parameters, file.laws, file.millard);
+
+  Column length = read_column(o.length, o.column);
+  cut(length, context);
+  muscle::IsolatedMuscleInput input;
+  input.time_s = length.time_s;
+  input.length_m = (o.scale * length.values.array() + o.offset_m).matrix();
+  if (input.length_m.size() > 0 && !(input.length_m.minCoeff() > 0.0)) {
+    throw InvalidInput(
+        fmt::format("{}: the muscle would be {:g} m long; expected a positive length "
+                    "in m (see --scale and --offset)",
+                    o.length, input.length_m.minCoeff()));
+  }
+  const double usual =
+      file.parameters.hill.optimal_fiber_length_m + file.parameters.hill.tendon_slack_length_m;
+  if (input.length_m.size() > 0 &&
+      (input.length_m.mean() > 3.0 * usual || input.length_m.mean() < 0.3 * usual)) {
+    context.warn(
+        fmt::format("the length is {:g} m on average, fiber and tendon together are about "
+                    "{:g} m: is it in meters? (see --scale)",
+                    input.length_m.mean(), usual));
+  }
+  read_drive(o, context, input);
+  input.dynamics = file.activation;
+  if (o.initial != "settled") {
+    input.initial_activation = as_number(o.initial);
+    if (!input.initial_activation) {
+      throw InvalidInput(fmt::format(
+          "--initial-activation {}: expected a number in 0 to 1, or `settled`", o.initial));
+    }
+  }
+
+  muscle::IsolatedMuscleOptions options;
+  options.relative_tolerance = o.tolerance;
+  options.absolute_tolerance = 1e-3 * o.tolerance;
+  options.progress = context.progress();
+  std::optional<Column> measured;
+  if (!o.measured.empty()) {
+    measured = read_column(o.measured, "");
+    options.output_time_s = measured->time_s;
+  }
+  const muscle::IsolatedMuscleResult result = simulate_isolated_muscle(unit, input, options);
+  context.end_progress();
+  if (!o.out.empty()) {
+    recording::write_storage(
+        o.out, result.series,
+        {.title = file.name,
+         .comments = {"myoid " + std::string(version()), context.command_line}});
+  }
+  if (result.status != math::OdeStatus::done) {
+    context.warn(fmt::format("the simulation ended early, after {} of its samples: {}",
+                             result.series.sample_count(), result.message));
+    context.exit_code = kQualityGateFailed;
+    return;
+  }
+
+  const Eigen::VectorXd force = result.series.column("tendon_force");
+  std::optional<Comparison> comparison;
+  if (measured) {
+    const double over =
+        o.isometric_n > 0.0 ? o.isometric_n : file.parameters.hill.max_isometric_force_n;
+    const double error = (force - measured->values).cwiseAbs().mean();
+    comparison = Comparison{error, error / over, force.size()};
+  }
+  if (context.json) {
+    nlohmann::json json{{"muscle", file.name},
+                        {"samples", force.size()},
+                        {"least_force_n", force.minCoeff()},
+                        {"greatest_force_n", force.maxCoeff()}};
+    if (comparison) {
+      json["mean_absolute_error_n"] = comparison->error_n;
+      json["mean_absolute_error"] = comparison->share;
+    }
+    fmt::print("{}\n", json.dump(2));
+    return;
+  }
+  fmt::print("{}: {} samples, force {:.4g} to {:.4g} N\n", file.name, force.size(),
+             force.minCoeff(), force.maxCoeff());
+  if (comparison) {
+    fmt::print("mean absolute error {:.4g} N, {:.2f} % of {:.4g} N, over {} samples\n",
+               comparison->error_n, 100.0 * comparison->share,
+               comparison->error_n / comparison->share, comparison->samples);
+  }
+  if (!o.out.empty()) fmt::print("{}\n", o.out);
+}
+
+}  // namespace
+
+void add_muscle(CLI::App& app, Context& context) {
+  CLI::App& command =
+      *app.add_subcommand("muscle",
+                          "One muscle alone: which force does it make under an imposed length?\n"
+                          "Example: myoid muscle --muscle soleus.toml --length length.sto "
+                          "--excitation 1 --out force.sto");
+  const auto o = std::make_shared<Options>();
+  command.add_option("--muscle", o->muscle, "The muscle (.toml)")->required();
+  command
+      .add_option("--length", o->length,
+                  "Length of fiber and tendon together over time [m] (.sto, .mot, .csv)")
+      ->required();
+  command.add_option("--column", o->column, "Which column of it (default: the only one)");
+  command.add_option("--scale", o->scale, "Its numbers times this ... (default 1)");
+  command.add_option("--offset", o->offset_m, "... plus this are the length [m] (default 0)");
+  command.add_option("--activation", o->activation, "Activation, a number in 0..1 or a file");
+  command.add_option("--excitation", o->excitation, "Excitation, a number in 0..1 or a file");
+  command.add_option("--initial-activation", o->initial,
+                     "Activation at the start, with --excitation: a number, or `settled` on the "
+                     "first excitation (default 0.01: at rest)");
+  command.add_option("--measured", o->measured, "Measured force over time [N], to compare");
+  command.add_option("--isometric-force", o->isometric_n,
+                     "Force that the error is related to [N] (default: F_max of the muscle)");
+  command.add_option("--tolerance", o->tolerance, "Relative, of the integration (default 1e-9)")
+      ->check(CLI::Range(1e-13, 1e-3));
+  command.add_option("--out", o->out, "Forces, lengths, velocities, activation over time (.sto)");
+  add_common_options(command, context);
+  command.callback([&context, o] {
+    if (!o->out.empty()) context.refuse_existing(o->out);
+    run(*o, context);
+  });
+}
+
+}  // namespace myoid::cli
