@@ -1,0 +1,82 @@
+// The command `muscle` as a user runs it.
+#include <cmath>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "program.h"
+#include "tests/support/temporary_folder.h"
+
+namespace {
+
+using myoid::test::Finished;
+using myoid::test::myoid;
+using myoid::test::read_text;
+using myoid::test::TemporaryFolder;
+using myoid::test::write_text;
+using testing::AllOf;
+using testing::HasSubstr;
+
+const std::string kSoleus = MYOID_SOURCE_DIR "/examples/rat_soleus/muscle.toml";
+
+/// Half a second of a sine, in millimeters about the middle.
+std::string displacement() {
+  std::string text = "time,displacement\n";
+  for (int k = 0; k <= 100; ++k) {
+    text += std::to_string(0.005 * k) + "," + std::to_string(std::sin(0.1 * k)) + "\n";
+  }
+  return text;
+}
+
+TEST(MuscleCommand, WritesTheForceUnderAnImposedLength) {
+  const TemporaryFolder folder;
+  write_text(folder / "d.csv", displacement());
+  const std::vector<std::string> command{"muscle",         "--muscle",     kSoleus, "--length",
+                                         folder / "d.csv", "--scale",      "0.001", "--offset",
+                                         "0.0321",         "--excitation", "1",     "--out",
+                                         folder / "f.sto"};
+  const Finished done = myoid(command);
+  EXPECT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_THAT(done.out, AllOf(HasSubstr("rat soleus: 101 samples"), HasSubstr("f.sto")));
+  EXPECT_THAT(read_text(folder / "f.sto"),
+              AllOf(HasSubstr("tendon_force"), HasSubstr("activation")));
+  // Not twice, and what it wrote it can compare with.
+  EXPECT_EQ(myoid(command).exit_code, 3);
+}
+
+TEST(MuscleCommand, ComparesWithAMeasuredForce) {
+  const TemporaryFolder folder;
+  write_text(folder / "d.csv", displacement());
+  write_text(folder / "f.csv", "time,force\n0.1,1.0\n0.2,1.1\n0.3,1.0\n");
+  const Finished done =
+      myoid({"muscle", "--muscle", kSoleus, "--length", folder / "d.csv", "--scale", "0.001",
+             "--offset", "0.0321", "--activation", "1", "--measured", folder / "f.csv",
+             "--isometric-force", "1.17", "--json"});
+  EXPECT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_THAT(done.out, AllOf(HasSubstr("\"samples\": 3"), HasSubstr("mean_absolute_error")));
+}
+
+TEST(MuscleCommand, SaysWhatItCannotUse) {
+  const TemporaryFolder folder;
+  write_text(folder / "d.csv", displacement());
+  const auto run = [&](std::vector<std::string> more) {
+    std::vector<std::string> command{"muscle", "--muscle", kSoleus, "--length", folder / "d.csv"};
+    command.insert(command.end(), more.begin(), more.end());
+    return myoid(command);
+  };
+  // Millimeters taken for meters are negative here and there.
+  Finished done = run({"--activation", "1"});
+  EXPECT_EQ(done.exit_code, 3);
+  EXPECT_THAT(done.err, HasSubstr("--scale"));
+  done = run({"--scale", "0.001", "--offset", "0.0321"});
+  EXPECT_EQ(done.exit_code, 3);
+  EXPECT_THAT(done.err, HasSubstr("--activation or --excitation"));
+  done = run({"--scale", "0.001", "--offset", "0.0321", "--activation", "1.5"});
+  EXPECT_EQ(done.exit_code, 3);
+  EXPECT_THAT(done.err, HasSubstr("1.5"));
+  done = run({"--scale", "0.001", "--offset", "0.0321", "--activation", "1", "--column", "length"});
+  EXPECT_EQ(done.exit_code, 3);
+  EXPECT_THAT(done.err, HasSubstr("displacement"));
+}
+
+}  // namespace
