@@ -117,10 +117,10 @@ void run(const Options& o, Context& context) {
       file.parameters.hill.optimal_fiber_length_m + file.parameters.hill.tendon_slack_length_m;
   if (input.length_m.size() > 0 &&
       (input.length_m.mean() > 3.0 * usual || input.length_m.mean() < 0.3 * usual)) {
-    context.warn(
-        fmt::format("the length is {:g} m on average, fiber and tendon together are about "
-                    "{:g} m: is it in meters? (see --scale)",
-                    input.length_m.mean(), usual));
+    throw InvalidInput(fmt::format(
+        "{}: the length is {:g} m on average, fiber and tendon together are about {:g} m; "
+        "expected meters (see --scale and --offset)",
+        o.length, input.length_m.mean(), usual));
   }
   read_drive(o, context, input);
   input.dynamics = file.activation;

@@ -68,6 +68,9 @@ TEST(MuscleCommand, SaysWhatItCannotUse) {
   Finished done = run({"--activation", "1"});
   EXPECT_EQ(done.exit_code, 3);
   EXPECT_THAT(done.err, HasSubstr("--scale"));
+  done = run({"--offset", "40", "--activation", "1"});
+  EXPECT_EQ(done.exit_code, 3);
+  EXPECT_THAT(done.err, HasSubstr("expected meters"));
   done = run({"--scale", "0.001", "--offset", "0.0321"});
   EXPECT_EQ(done.exit_code, 3);
   EXPECT_THAT(done.err, HasSubstr("--activation or --excitation"));
