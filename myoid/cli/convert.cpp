@@ -9,6 +9,7 @@
 #include "myoid/cli/stage_input.h"
 #include "myoid/core/error.h"
 #include "myoid/recording/atomic_file.h"
+#include "myoid/recording/bids_derivative.h"
 #include "myoid/recording/c3d_reader.h"
 #include "myoid/recording/c3d_writer.h"
 #include "myoid/recording/emg_reader.h"
@@ -23,7 +24,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Options {
-  std::string in, out, what, up = "y", unit, analog;
+  std::string in, out, what, up = "y", unit, analog, subject = "01";
   std::vector<std::string> turns, bodies, channels;
   double least_force_n = 10.0;
 };
@@ -115,6 +116,12 @@ class Converter {
     const std::string from = recording::extension_of(o_.in);
     const std::string to = recording::extension_of(out);
     const bool folder = to.empty();
+    if (fs::is_directory(o_.in)) {
+      context_.prepare_folder(out);
+      for (const fs::path& file : recording::write_bids_derivative(o_.in, out, o_.subject))
+        fmt::print("{}\n", file.string());
+      return;
+    }
     if (!folder && to != ".trc" && to != ".sto" && to != ".mot" && to != ".csv" && to != ".c3d")
       throw InvalidInput(
           fmt::format("{}: files of kind '{}' are not written; expected .c3d, .trc, .sto, .mot, "
@@ -284,7 +291,11 @@ void add_convert(CLI::App& app, Context& context) {
       "Writes a recording in another format: C3D, TRC, STO/MOT, CSV; EDF, BDF and ANC are read.\n"
       "Example: myoid convert walk.c3d walk/ --up z --body calcn_r --body calcn_l");
   const auto o = std::make_shared<Options>();
-  command.add_option("in", o->in, ".c3d, .trc, .edf, .bdf, .anc, .csv, .tsv, .txt, .sto or .mot")
+  command
+      .add_option(
+          "in", o->in,
+          ".c3d, .trc, .edf, .bdf, .anc, .csv, .tsv, .txt, .sto, .mot, BIDS _motion.tsv, or "
+          "the folder of a finished run")
       ->required();
   command
       .add_option("out", o->out, ".c3d, .trc, .sto, .mot, .csv, or a folder for everything in it")
@@ -308,6 +319,9 @@ void add_convert(CLI::App& app, Context& context) {
       .add_option("--least-force", o->least_force_n,
                   "Below it a plate counts as unloaded [N] (default 10)")
       ->check(CLI::PositiveNumber);
+  command.add_option("--subject", o->subject,
+                     "Label of the person where IN is a folder of results, written as a BIDS "
+                     "derivative (default 01)");
   add_common_options(command, context);
   command.callback([&context, o] {
     if (o->what.empty() && recording::extension_of(o->out) == ".mot" &&

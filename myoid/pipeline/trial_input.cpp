@@ -91,6 +91,30 @@ TimeSeries read_motion(const std::filesystem::path& path,
   return motion;
 }
 
+/// A muscle of the study may name its EMG by the muscle that the electrode is on (EMG-BIDS).
+void name_by_target_muscle(const Study& study,
+                           const std::filesystem::path& path,
+                           recording::EmgFile& file,
+                           std::vector<std::string>& notes) {
+  std::vector<Channel> channels = file.data.channels();
+  bool renamed = false;
+  for (const MuscleSpec& muscle : study.muscles) {
+    if (file.data.find(muscle.emg)) continue;
+    std::vector<std::size_t> targets;
+    for (std::size_t c = 0; c < channels.size(); ++c) {
+      const auto it = file.target_muscle.find(channels[c].name);
+      if (it != file.target_muscle.end() && recording::equal_ignoring_case(it->second, muscle.emg))
+        targets.push_back(c);
+    }
+    if (targets.size() != 1) continue;
+    notes.push_back(fmt::format("{}: channel '{}' is on {}", path.filename().string(),
+                                channels[targets[0]].name, muscle.emg));
+    channels[targets[0]].name = muscle.emg;
+    renamed = true;
+  }
+  if (renamed) file.data = TimeSeries(file.data.time_s(), std::move(channels), file.data.values());
+}
+
 void require_channels(const Study& study,
                       const std::filesystem::path& path,
                       const TimeSeries& emg) {
@@ -147,6 +171,7 @@ TrialInput read_trial_input(const Study& study,
     recording::EmgFile file =
         recording::read_emg(*trial.emg, study.emg.unit, study.emg.kind != EmgKind::raw);
     add_repairs(*trial.emg, file.repairs, input.notes);
+    name_by_target_muscle(study, *trial.emg, file, input.notes);
     require_channels(study, *trial.emg, file.data);
     std::vector<std::string> wanted;
     for (const MuscleSpec& muscle : study.muscles) {

@@ -7,6 +7,7 @@
 
 #include "myoid/core/error.h"
 #include "myoid/recording/anc_reader.h"
+#include "myoid/recording/bids.h"
 #include "myoid/recording/c3d_reader.h"
 #include "myoid/recording/csv_reader.h"
 #include "myoid/recording/edf_reader.h"
@@ -114,6 +115,56 @@ std::optional<CsvSeries> read_channels(const std::filesystem::path& path, bool v
   return std::nullopt;
 }
 
+/// EMG-BIDS: only the EMG channels that are not bad, with the unit of the table where the file has
+/// none, and the muscle each is for.
+void apply_bids(const std::filesystem::path& path, CsvSeries& series, EmgFile& file) {
+  const auto channels = bids_channels_of(path);
+  if (!channels) return;
+  std::vector<std::string> kept;
+  std::vector<bool> has_unit;
+  std::vector<Channel> renewed;
+  std::vector<double> factors;
+  std::string bad;
+  std::size_t others = 0;
+  for (const BidsChannel& channel : *channels) {
+    const auto column = series.data.find(channel.name);
+    if (!column) {
+      series.repairs.push_back({0, fmt::format("channel '{}' of the _channels.tsv is not in the "
+                                               "file",
+                                               channel.name)});
+      continue;
+    }
+    if (!equal_ignoring_case(channel.type, "EMG")) {
+      ++others;
+      continue;
+    }
+    if (channel.bad) {
+      bad += (bad.empty() ? "" : ", ") + channel.name;
+      continue;
+    }
+    const auto c = static_cast<std::size_t>(*column);
+    const auto unit = parse_c3d_unit(channel.unit);
+    const bool take = !series.has_unit[c] && unit;
+    kept.push_back(channel.name);
+    has_unit.push_back(series.has_unit[c] || take);
+    renewed.push_back({channel.name, take ? unit->unit : series.data.channels()[c].unit});
+    factors.push_back(take ? unit->to_si : 1.0);
+    if (!channel.target_muscle.empty()) file.target_muscle[channel.name] = channel.target_muscle;
+  }
+  if (kept.empty())
+    throw ReadError(path, 0, "none of the channels of its _channels.tsv is EMG and good");
+  if (others > 0)
+    series.repairs.push_back(
+        {0, fmt::format("{} channels are no EMG by the _channels.tsv; left out", others)});
+  if (!bad.empty())
+    series.repairs.push_back({0, fmt::format("channels marked as bad are left out: {}", bad)});
+  Eigen::MatrixXd values = series.data.select(kept).values();
+  for (std::size_t c = 0; c < factors.size(); ++c)
+    values.col(static_cast<Eigen::Index>(c)) *= factors[c];
+  series.data = TimeSeries(series.data.time_s(), std::move(renewed), std::move(values));
+  series.has_unit = std::move(has_unit);
+}
+
 }  // namespace
 
 EmgFile read_emg(const std::filesystem::path& path, const std::string& unit, bool dimensionless) {
@@ -128,6 +179,7 @@ EmgFile read_emg(const std::filesystem::path& path, const std::string& unit, boo
   EmgFile file;
   std::optional<TimeSeries> series;
   if (std::optional<CsvSeries> table = read_channels(path, !dimensionless)) {
+    apply_bids(path, *table, file);
     file.repairs = std::move(table->repairs);
     series = dimensionless ? with_unit(table->data, Unit::dimensionless, 1.0)
                            : volts_of(*table, to_volt, file.repairs);

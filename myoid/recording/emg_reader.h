@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,7 @@ namespace myoid::recording {
 
 struct EmgFile {
   TimeSeries data;  ///< Volts, or dimensionless if `dimensionless` was asked for.
+  std::map<std::string, std::string> target_muscle;  ///< By channel; of EMG-BIDS.
   std::vector<Repair> repairs;
 };
 

@@ -96,6 +96,20 @@ bool is_time(const Label& label) {
          (!label.unit || label.unit->unit == Unit::second);
 }
 
+/// Columns of times. A second one called just "t" or "T" is a channel (a trigger, a torque), unless
+/// the first has the same name.
+std::vector<bool> time_columns_of(const std::vector<Label>& labels) {
+  std::vector<bool> result;
+  std::optional<std::string> first;
+  for (const Label& label : labels) {
+    const bool time =
+        is_time(label) && (!first || *first == label.name || lower(label.name) != "t");
+    if (time && !first) first = label.name;
+    result.push_back(time);
+  }
+  return result;
+}
+
 bool is_counter(const std::string& name) {
   static const std::set<std::string> kWords{
       "frame",      "frames",        "frame#",  "sample", "samples", "sub frame", "subframe",
@@ -222,10 +236,12 @@ bool is_plain(const std::vector<std::string_view>& lines, const Layout& layout) 
   while (n < lines.size() && (trim(lines[n]).empty() || trim(lines[n]).starts_with('#'))) ++n;
   if (n != layout.names_row) return false;
   std::size_t times = 0;
-  for (const Label& label : layout.labels) {
+  const std::vector<bool> time = time_columns_of(layout.labels);
+  for (std::size_t c = 0; c < layout.labels.size(); ++c) {
+    const Label& label = layout.labels[c];
     if (is_counter(label.name) || label.name.find(',') != std::string::npos) return false;
     const std::string name = lower(label.name);
-    if (is_time(label)) {
+    if (time[c]) {
       if (name != "time" && name != "t" && name != "times" && name != "time_s" && name != "time_ms")
         return false;
       ++times;
@@ -276,9 +292,10 @@ CsvSeries parse_emg_table(std::string_view text, const std::filesystem::path& pa
   std::vector<Column> columns;
   std::vector<std::optional<std::size_t>> clock;
   std::size_t unnamed = 0;
+  const std::vector<bool> is_time_column = time_columns_of(layout->labels);
   for (std::size_t c = 0; c < layout->labels.size(); ++c) {
     const Label& label = layout->labels[c];
-    if (is_time(label)) {
+    if (is_time_column[c]) {
       time_columns.push_back(c);
     } else if (is_counter(label.name)) {
       counters.push_back(label.name);

@@ -56,6 +56,16 @@ TEST(EmgTable, WithoutATimeColumnTheStatedRateIsTheClock) {
   EXPECT_THROW(static_cast<void>(parse_emg_table("Export\n" + body, "a.txt")), ReadError);
 }
 
+TEST(EmgTable, ATriggerCalledTIsNoSecondClock) {
+  const CsvSeries s = parse_emg_table("time,E1 [mV],T\n0,1,0\n0.001,2,5\n0.002,3,0\n", "a.csv");
+  EXPECT_EQ(s.data.channel_count(), 2);
+  EXPECT_DOUBLE_EQ(s.data.column("T")[1], 5.0);
+  EXPECT_TRUE(s.repairs.empty());
+  const CsvSeries pairs = parse_emg_table("t,E1 [mV],t,E2 [mV]\n0,1,0,2\n1,3,1,4\n", "a.csv");
+  EXPECT_EQ(pairs.data.channel_count(), 2);
+  EXPECT_DOUBLE_EQ(pairs.data.column("E2")[1], 4e-3);
+}
+
 TEST(EmgTable, WhatIsWrongIsSaidWithItsLine) {
   try {
     static_cast<void>(

@@ -6,6 +6,7 @@
 
 #include "myoid/core/error.h"
 #include "myoid/recording/anc_reader.h"
+#include "myoid/recording/bids.h"
 #include "myoid/recording/c3d_reader.h"
 #include "myoid/recording/edf_reader.h"
 #include "myoid/recording/emg_table.h"
@@ -30,10 +31,16 @@ MarkerFile read_markers(const std::filesystem::path& path) {
     TrcFile file = read_trc(path);
     return {std::move(file.markers), std::move(file.unit), std::move(file.repairs)};
   }
+  if (is_bids_motion(path)) {
+    BidsMotion motion = read_bids_motion(path);
+    if (motion.markers.frame_count() == 0)
+      throw ReadError(path, 0, "there are no positions (POS) among the channels, so no markers");
+    return {std::move(motion.markers), "m", std::move(motion.repairs)};
+  }
   if (extension != ".c3d") {
     throw ReadError(path, 0,
-                    fmt::format("markers are read from .trc and .c3d files, not from '{}'; export "
-                                "the recording as one of these",
+                    fmt::format("markers are read from .trc and .c3d files and from BIDS "
+                                "_motion.tsv, not from '{}'; export the recording as one of these",
                                 extension));
   }
   C3dFile file = read_c3d(path);
@@ -55,6 +62,11 @@ Recording read_recording(const std::filesystem::path& path) {
     TrcFile file = read_trc(path);
     recording.markers = std::move(file.markers);
     recording.repairs = std::move(file.repairs);
+  } else if (is_bids_motion(path)) {
+    BidsMotion motion = read_bids_motion(path);
+    recording.markers = std::move(motion.markers);
+    recording.analog = std::move(motion.angles);
+    recording.repairs = std::move(motion.repairs);
   } else if (extension == ".c3d") {
     C3dFile file = read_c3d(path);
     recording.repairs = std::move(file.repairs);

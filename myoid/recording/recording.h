@@ -19,8 +19,8 @@ struct MarkerFile {
   std::vector<Repair> repairs;
 };
 
-/// Markers from .trc or .c3d, by the ending of the name. Throws ReadError, also where a .c3d file
-/// holds none.
+/// Markers from .trc, .c3d or a Motion-BIDS `_motion.tsv`, by the ending of the name. Throws
+/// ReadError, also where a .c3d file holds none.
 [[nodiscard]] MarkerFile read_markers(const std::filesystem::path& path);
 
 /// One trial as measured: what a single file holds of it, in SI, on the file's own clock, in the

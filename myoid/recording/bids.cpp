@@ -1,0 +1,212 @@
+#include "myoid/recording/bids.h"
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <utility>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "myoid/core/error.h"
+#include "myoid/recording/c3d_file.h"
+
+namespace myoid::recording {
+namespace {
+
+/// "sub-01_task-elbow_emg.edf" without its last part.
+std::string stem_without_suffix(const std::filesystem::path& data) {
+  const std::string stem = data.stem().string();
+  const std::size_t bar = stem.rfind('_');
+  return bar == std::string::npos ? std::string() : stem.substr(0, bar);
+}
+
+std::string cell_text(std::string_view cell) {
+  const std::string text = to_utf8(trim(cell));
+  return text == "n/a" ? std::string() : text;
+}
+
+std::vector<BidsChannel> read_channels(const std::filesystem::path& path) {
+  const std::string text = read_text_file(path);
+  const auto lines = split_lines(text);
+  std::map<std::string, std::size_t> column;
+  const auto head = split(lines.empty() ? std::string_view() : lines[0], '\t');
+  for (std::size_t c = 0; c < head.size(); ++c) column.try_emplace(cell_text(head[c]), c);
+  for (const char* required : {"name", "type", "units"}) {
+    if (!column.contains(required))
+      throw ReadError(
+          path, 1, fmt::format("there is no column '{}', which every _channels.tsv has", required));
+  }
+  std::vector<BidsChannel> channels;
+  for (std::size_t n = 1; n < lines.size(); ++n) {
+    if (trim(lines[n]).empty()) continue;
+    const auto cells = split(lines[n], '\t');
+    const auto value = [&](const char* name) {
+      const auto it = column.find(name);
+      return it != column.end() && it->second < cells.size() ? cell_text(cells[it->second])
+                                                             : std::string();
+    };
+    BidsChannel channel{value("name"),
+                        value("type"),
+                        value("units"),
+                        value("component"),
+                        value("tracked_point"),
+                        value("target_muscle"),
+                        equal_ignoring_case(value("status"), "bad")};
+    if (channel.name.empty()) throw ReadError(path, n + 1, "the channel has no name");
+    channels.push_back(std::move(channel));
+  }
+  if (channels.empty()) throw ReadError(path, 0, "there are no channels below the header");
+  return channels;
+}
+
+/// SamplingFrequency of a sidecar.
+double rate_of(const std::filesystem::path& path) {
+  const auto json = nlohmann::json::parse(read_text_file(path), nullptr, false);
+  if (!json.is_object()) throw ReadError(path, 0, "this is no JSON object");
+  const auto it = json.find("SamplingFrequency");
+  const double rate = it != json.end() && it->is_number() ? it->get<double>() : 0.0;
+  if (!(rate > 0.0 && rate < 1e7))
+    throw ReadError(path, 0,
+                    "SamplingFrequency [Hz] is missing; the sidecar of motion data needs it");
+  return rate;
+}
+
+}  // namespace
+
+bool is_bids_motion(const std::filesystem::path& path) {
+  return path.filename().string().ends_with("_motion.tsv");
+}
+
+std::optional<std::vector<BidsChannel>> bids_channels_of(const std::filesystem::path& data) {
+  const std::string stem = stem_without_suffix(data);
+  const auto path = data.parent_path() / (stem + "_channels.tsv");
+  if (stem.empty() || !std::filesystem::exists(path)) return std::nullopt;
+  return read_channels(path);
+}
+
+BidsMotion read_bids_motion(const std::filesystem::path& path) {
+  const auto channels = bids_channels_of(path);
+  if (!channels) {
+    throw ReadError(path, 0,
+                    fmt::format("motion data need '{}_channels.tsv' beside them: it names the "
+                                "columns",
+                                stem_without_suffix(path)));
+  }
+  const double rate = rate_of(std::filesystem::path(path).replace_extension(".json"));
+  const std::string text = read_text_file(path);
+  const auto lines = split_lines(text);
+  Eigen::MatrixXd values(static_cast<Eigen::Index>(lines.size()),
+                         static_cast<Eigen::Index>(channels->size()));
+  Eigen::Index rows = 0;
+  for (std::size_t n = 0; n < lines.size(); ++n) {
+    if (trim(lines[n]).empty()) continue;
+    const auto cells = split(lines[n], '\t');
+    if (cells.size() != channels->size())
+      throw ReadError(
+          path, n + 1,
+          fmt::format("{} columns for {} channels; a _motion.tsv has no header row and a "
+                      "column for each row of its _channels.tsv",
+                      cells.size(), channels->size()));
+    for (std::size_t c = 0; c < cells.size(); ++c) {
+      const std::string_view cell = trim(cells[c]);
+      const auto number = cell == "n/a" || cell.empty()
+                              ? std::optional(std::numeric_limits<double>::quiet_NaN())
+                              : parse_number(cell);
+      if (!number)
+        throw ReadError(
+            path, n + 1,
+            fmt::format("channel '{}': expected a number, found '{}'", (*channels)[c].name, cell));
+      values(rows, static_cast<Eigen::Index>(c)) = *number;
+    }
+    ++rows;
+  }
+  if (rows == 0) throw ReadError(path, 0, "there are no rows of numbers");
+
+  BidsMotion motion;
+  Eigen::VectorXd time(rows);
+  for (Eigen::Index i = 0; i < rows; ++i) time[i] = static_cast<double>(i) / rate;
+  const auto unit_of = [&](const BidsChannel& channel, Unit expected) {
+    const auto unit = parse_c3d_unit(channel.unit);
+    if (!unit || unit->unit != expected)
+      throw ReadError(path, 0,
+                      fmt::format("channel '{}' of type {}: its unit '{}' is not one of [{}]",
+                                  channel.name, channel.type, channel.unit, symbol(expected)));
+    return unit->to_si;
+  };
+  std::vector<std::string> points;
+  std::map<std::string, std::array<int, 3>> axes;
+  std::vector<Channel> angle_channels;
+  std::vector<std::pair<std::size_t, double>> angle_columns;
+  std::size_t others = 0;
+  for (std::size_t c = 0; c < channels->size(); ++c) {
+    const BidsChannel& channel = (*channels)[c];
+    const std::size_t axis =
+        channel.component.size() == 1
+            ? std::string_view("xyz").find(static_cast<char>(channel.component[0] | 0x20))
+            : std::string_view::npos;
+    if (equal_ignoring_case(channel.type, "POS") && axis < 3) {
+      const std::string& point =
+          channel.tracked_point.empty() ? channel.name : channel.tracked_point;
+      if (!axes.contains(point)) {
+        points.push_back(point);
+        axes[point] = {-1, -1, -1};
+      }
+      axes[point][axis] = static_cast<int>(c);
+    } else if (equal_ignoring_case(channel.type, "JNTANG")) {
+      angle_channels.push_back({channel.name, Unit::radian});
+      angle_columns.emplace_back(c, unit_of(channel, Unit::radian));
+    } else {
+      ++others;
+    }
+  }
+  if (others > 0)
+    motion.repairs.push_back(
+        {0, fmt::format("{} channels are neither positions nor joint angles; left out", others)});
+  motion.markers.time_s = time;
+  Eigen::MatrixXd positions(rows, static_cast<Eigen::Index>(3 * points.size()));
+  Eigen::Index width = 0;
+  for (const std::string& point : points) {
+    const auto& column = axes[point];
+    if (column[0] < 0 || column[1] < 0 || column[2] < 0) {
+      motion.repairs.push_back(
+          {0, fmt::format("point '{}' does not have x, y and z; left out", point)});
+      continue;
+    }
+    motion.markers.names.push_back(point);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      positions.col(width++) =
+          unit_of((*channels)[static_cast<std::size_t>(column[axis])], Unit::meter) *
+          values.col(column[axis]).head(rows);
+    }
+  }
+  motion.markers.positions_m = positions.leftCols(width);
+  for (Eigen::Index k = 0; k < rows; ++k) {
+    for (Eigen::Index m = 0; m < motion.markers.marker_count(); ++m) {
+      if (motion.markers.missing(k, m))
+        motion.markers.positions_m.block<1, 3>(k, 3 * m).setConstant(
+            std::numeric_limits<double>::quiet_NaN());
+    }
+  }
+  if (!angle_channels.empty()) {
+    Eigen::MatrixXd angles(rows, static_cast<Eigen::Index>(angle_columns.size()));
+    for (std::size_t c = 0; c < angle_columns.size(); ++c)
+      angles.col(static_cast<Eigen::Index>(c)) =
+          angle_columns[c].second *
+          values.col(static_cast<Eigen::Index>(angle_columns[c].first)).head(rows);
+    try {
+      motion.angles = TimeSeries(time, std::move(angle_channels), std::move(angles));
+    } catch (const InvalidInput& error) {
+      throw ReadError(path, 0, error.what());
+    }
+  }
+  if (motion.markers.names.empty()) {
+    motion.markers = {};
+    if (motion.angles.empty())
+      throw ReadError(path, 0, "no channel is a position (POS) or a joint angle (JNTANG)");
+  }
+  return motion;
+}
+
+}  // namespace myoid::recording
