@@ -1,0 +1,10 @@
+#include "myoid/recording/anc_reader.h"
+
+#include "fuzz.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  myoid::fuzz::read([&] {
+    static_cast<void>(myoid::recording::parse_anc(myoid::fuzz::text(data, size), "fuzz.anc"));
+  });
+  return 0;
+}
