@@ -1,37 +1,121 @@
+#include <atomic>
+#include <mutex>
+
 #include <fmt/format.h>
+#include <oneapi/tbb/parallel_for.h>
 
 #include "myoid/cli/context.h"
 #include "myoid/core/error.h"
+#include "myoid/recording/atomic_file.h"
 #include "myoid/simulation/protocol.h"
 #include "myoid/simulation/write_recording.h"
 
 namespace myoid::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct TwinOptions {
+  std::string model = "arm4";
+  std::string protocol;
+  std::string level;
+  std::string out;
+  int subjects = 1;
+  bool truth_only = false;
+};
+
+simulation::Protocol protocol_of(const TwinOptions& options) {
+  std::optional<simulation::Level> level;
+  for (const simulation::Level known :
+       {simulation::Level::noise_free, simulation::Level::noisy, simulation::Level::different}) {
+    if (options.level == simulation::name(known)) level = known;
+  }
+  simulation::Protocol protocol = simulation::read_protocol(options.protocol, level);
+  protocol.seven_heads = options.model == "arm7";
+  if (protocol.seven_heads && protocol.level != simulation::Level::different) {
+    throw InvalidInput(
+        fmt::format("--model arm7 with level {}: only a person at level L2 has seven heads; add "
+                    "--level L2 or choose arm4",
+                    simulation::name(protocol.level)));
+  }
+  return protocol;
+}
+
+/// One person's folder under the common one: seeds make the names.
+fs::path folder_of(const fs::path& out, std::uint64_t seed) {
+  return out / fmt::format("person_{:06}", seed);
+}
+
+/// Many persons, one seed after the other; the table holds a line each.
+void make_many(const TwinOptions& options, Context& context) {
+  const simulation::Protocol protocol = protocol_of(options);
+  const fs::path out = options.out;
+  context.prepare_folder(out);
+  const Progress progress = context.progress();
+  const auto count = static_cast<std::size_t>(options.subjects);
+  std::vector<std::string> lines(count);
+  std::atomic<std::size_t> done = 0;
+  oneapi::tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
+    progress.check();
+    const std::uint64_t seed = context.seed + i;
+    const simulation::VirtualRecording recording =
+        simulation::make_virtual_recording(protocol, seed);
+    if (!options.truth_only)
+      simulation::write_virtual_recording(recording, folder_of(out, seed), context.overwrite);
+    lines[i] = simulation::truth_row(recording);
+    progress.tell(static_cast<double>(++done) / static_cast<double>(count),
+                  fmt::format("{} of {} persons", done.load(), count));
+  });
+  context.end_progress();
+  std::string table = simulation::truth_header() + "\n";
+  for (const std::string& line : lines) table += line + "\n";
+  recording::write_file(out / "persons.csv", table);
+  context.log(
+      fmt::format("{} persons, seeds {} to {}", count, context.seed, context.seed + count - 1));
+  fmt::print("{}\n", (out / "persons.csv").string());
+}
+
+void make_one(const TwinOptions& options, Context& context) {
+  const simulation::VirtualRecording recording =
+      simulation::make_virtual_recording(protocol_of(options), context.seed);
+  simulation::write_virtual_recording(recording, options.out, context.overwrite);
+  context.log(fmt::format("{} trials, level {}, seed {}", recording.trials.size(),
+                          simulation::name(recording.protocol.level), context.seed));
+  fmt::print("{}/study.toml\n", options.out);
+}
+
+}  // namespace
 
 void add_twin(CLI::App& app, Context& context) {
   CLI::App& command = *app.add_subcommand(
       "twin",
       "A virtual recording whose truth is known: markers, raw EMG, model, study.toml, truth.csv.\n"
       "Example: myoid twin --model arm4 --protocol examples/demo/protocol.toml --seed 1 --out rec");
-  struct Options {
-    std::string model = "arm4";
-    std::string protocol;
-    std::string out;
-  };
-  const auto options = std::make_shared<Options>();
-  command.add_option("--model", options->model, "Built-in arm: arm4 (default)");
+  const auto options = std::make_shared<TwinOptions>();
+  command
+      .add_option("--model", options->model,
+                  "Model that goes with the recording: arm4 (four muscles, default) or arm7 (seven "
+                  "heads, level L2)")
+      ->check(CLI::IsMember({"arm4", "arm7"}));
   command.add_option("--protocol", options->protocol, "What is recorded, a .toml file")->required();
+  command
+      .add_option("--level", options->level,
+                  "L0 exact, L1 noise, L2 another truth than the model; default: as the protocol "
+                  "says")
+      ->check(CLI::IsMember({"L0", "L1", "L2"}));
+  command
+      .add_option("--subjects", options->subjects,
+                  "So many persons, seeds counting up from --seed, a folder each, and persons.csv")
+      ->check(CLI::Range(1, 1000000));
+  command.add_flag("--truth-only", options->truth_only,
+                   "With --subjects: persons.csv only, no recordings");
   command.add_option("--out", options->out, "Folder for the recording")->required();
   add_common_options(command, context);
-  command.callback([&context, options] {
-    if (options->model != "arm4")
-      throw InvalidInput(
-          fmt::format("--model {}: virtual recordings are made with arm4 only", options->model));
-    const simulation::Protocol protocol = simulation::read_protocol(options->protocol);
-    const simulation::VirtualRecording recording =
-        simulation::make_virtual_recording(protocol, context.seed);
-    simulation::write_virtual_recording(recording, options->out, context.overwrite);
-    context.log(fmt::format("{} trials, seed {}", recording.trials.size(), context.seed));
-    fmt::print("{}/study.toml\n", options->out);
+  command.callback([&context, &command, options] {
+    const bool many = command.count("--subjects") > 0;
+    if (options->truth_only && !many)
+      throw InvalidInput("--truth-only needs --subjects: one person's truth is in truth.csv");
+    many ? make_many(*options, context) : make_one(*options, context);
   });
 }
 

@@ -7,13 +7,12 @@
 #include <fmt/format.h>
 
 #include "myoid/core/units.h"
+#include "myoid/model/arm_osim.h"
 #include "myoid/muscle/literature.h"
 
 namespace myoid::model {
 namespace {
 
-constexpr std::array<double, 4> kOptimalAt_rad = {85.0 * kDegree, 75.0 * kDegree, 95.0 * kDegree,
-                                                  60.0 * kDegree};
 constexpr double kTrunkHeight_m = 1.40;
 constexpr double kShoulderOffset_m = 0.17;
 constexpr double kElbowHigh_rad = 150.0 * kDegree;
@@ -149,10 +148,11 @@ std::string path_points(const PlanarMuscle& muscle,
   return points;
 }
 
-std::string muscle_text(const PlanarMuscle& path,
-                        const muscle::HillParameters<double>& p,
+std::string muscle_text(const MuscleText& muscle,
                         double upper_arm_m,
                         std::string_view insertion_body) {
+  const PlanarMuscle& path = muscle.path;
+  const muscle::HillParameters<double>& p = muscle.hill;
   // Thelen's numbers of the same curves: gamma = (l_sh / l0)^2, A_f = V_sh, F_len = V_ml.
   const double width = p.force_length_width_m / p.optimal_fiber_length_m;
   return fmt::format(
@@ -163,14 +163,14 @@ std::string muscle_text(const PlanarMuscle& path,
       "          <max_isometric_force>{}</max_isometric_force>\n"
       "          <optimal_fiber_length>{}</optimal_fiber_length>\n"
       "          <tendon_slack_length>{}</tendon_slack_length>\n"
-      "          <pennation_angle_at_optimal>0</pennation_angle_at_optimal>\n"
+      "          <pennation_angle_at_optimal>{}</pennation_angle_at_optimal>\n"
       "          <max_contraction_velocity>{}</max_contraction_velocity>\n"
       "          <KshapeActive>{}</KshapeActive>\n"
       "          <Af>{}</Af>\n"
       "          <Flen>{}</Flen>\n"
       "        </Thelen2003Muscle>\n",
       path.name, path_points(path, upper_arm_m, insertion_body), p.max_isometric_force_n,
-      p.optimal_fiber_length_m, p.tendon_slack_length_m,
+      p.optimal_fiber_length_m, p.tendon_slack_length_m, muscle.pennation_at_optimal_rad,
       p.max_shortening_speed_mps / p.optimal_fiber_length_m, width * width, p.concentric_curvature,
       p.eccentric_plateau);
 }
@@ -214,7 +214,7 @@ std::array<muscle::HillParameters<double>, 4> arm4_muscles(const ArmOptions& opt
   for (std::size_t i = 0; i < result.size(); ++i) {
     result[i] = muscle::literature_parameters(muscle::literature_muscle(elbow.muscles[i].name));
     result[i].tendon_slack_length_m =
-        travel(elbow.muscles[i], kOptimalAt_rad[i]).length_m - result[i].optimal_fiber_length_m;
+        travel(elbow.muscles[i], kArmOptimalAt_rad[i]).length_m - result[i].optimal_fiber_length_m;
   }
   return result;
 }
@@ -226,6 +226,17 @@ Vec3 arm4_shoulder_rad(bool horizontal) {
 Vec3 arm4_held_at_m(const ArmOptions& options) { return {0.0, -held_at_m(options), 0.0}; }
 
 std::string arm4_osim(const Arm4Options& options) {
+  const PlanarElbow elbow = planar_elbow(options.person);
+  const std::array<muscle::HillParameters<double>, 4> parameters = arm4_muscles(options.person);
+  std::vector<MuscleText> muscles;
+  for (std::size_t i = 0; i < parameters.size(); ++i)
+    muscles.push_back({elbow.muscles[i], parameters[i]});
+  return arm_osim(options, "arm4", muscles);
+}
+
+std::string arm_osim(const Arm4Options& options,
+                     std::string_view name,
+                     const std::vector<MuscleText>& muscles) {
   const SegmentInertia upper = upper_arm(options.person);
   const SegmentInertia forearm = forearm_with_hand(options.person);
   const double upper_m = options.person.upper_arm_length_m;
@@ -276,18 +287,14 @@ std::string arm4_osim(const Arm4Options& options) {
                      {"forearm_rotation", Vec3::UnitY(), 0.0, -kPi, kPi, true}});
   }
 
-  const PlanarElbow elbow = planar_elbow(options.person);
-  const std::array<muscle::HillParameters<double>, 4> parameters = arm4_muscles(options.person);
   std::string forces;
-  for (std::size_t i = 0; i < parameters.size(); ++i) {
-    forces +=
-        muscle_text(elbow.muscles[i], parameters[i], upper_m, rotations ? "ulna" : "forearm_hand");
-  }
+  for (const MuscleText& muscle : muscles)
+    forces += muscle_text(muscle, upper_m, rotations ? "ulna" : "forearm_hand");
 
   return fmt::format(
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
       "<OpenSimDocument Version=\"40000\">\n"
-      "  <Model name=\"arm4\">\n"
+      "  <Model name=\"{}\">\n"
       "    <length_units>meters</length_units>\n"
       "    <force_units>N</force_units>\n"
       "    <gravity>0 {} 0</gravity>\n"
@@ -298,7 +305,7 @@ std::string arm4_osim(const Arm4Options& options) {
       "    <MarkerSet name=\"markerset\">\n      <objects>\n{}      </objects>\n    </MarkerSet>\n"
       "  </Model>\n"
       "</OpenSimDocument>\n",
-      -kStandardGravity, bodies, joints, forces, markers(options));
+      name, -kStandardGravity, bodies, joints, forces, markers(options));
 }
 
 }  // namespace myoid::model

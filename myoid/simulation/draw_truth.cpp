@@ -13,6 +13,7 @@ using Hill = muscle::HillParameters<double>;
 
 constexpr double kSharedStrengthSd = 0.2;
 constexpr double kStrengthSd = 0.15;
+constexpr double kWholeStrengthSd = 0.25;  // of both together
 constexpr double kFiberLengthSd = 0.10;
 constexpr double kWidthSd = 0.12;  // of l_sh / l_0
 constexpr double kConcentricCurvatureSd = 0.3;
@@ -32,11 +33,15 @@ bool varies(const TruthSpec& spec, std::string_view parameter) {
 Hill draw(const TruthSpec& spec, const Hill& literature, double shared_strength, Random& random) {
   const auto normal = [&](std::string_view parameter) {
     const double z = random.normal();
-    return varies(spec, parameter) ? spec.spread * z : 0.0;
+    return varies(spec, parameter) ? spec.spread * z + spec.offset : 0.0;
+  };
+  const auto offset_of = [&spec](std::string_view parameter) {
+    return varies(spec, parameter) ? spec.offset : 0.0;
   };
   Hill p = literature;
-  const double strength = normal("max_isometric_force");
-  p.max_isometric_force_n *= std::exp(kSharedStrengthSd * shared_strength + kStrengthSd * strength);
+  const double strength = normal("max_isometric_force") - offset_of("max_isometric_force");
+  p.max_isometric_force_n *= std::exp(kSharedStrengthSd * shared_strength + kStrengthSd * strength +
+                                      kWholeStrengthSd * offset_of("max_isometric_force"));
   p.optimal_fiber_length_m *= 1.0 + kFiberLengthSd * normal("optimal_fiber_length");
   p.force_length_width_m +=
       kWidthSd * normal("force_length_width") * literature.optimal_fiber_length_m;

@@ -24,12 +24,16 @@ namespace {
 
 using recording::TomlTable;
 
+constexpr std::array<std::pair<std::string_view, Level>, 3> kLevels = {
+    {{"L0", Level::noise_free}, {"L1", Level::noisy}, {"L2", Level::different}}};
+
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-constexpr std::array<std::pair<std::string_view, TrialKind>, 5> kKinds = {
+constexpr std::array<std::pair<std::string_view, TrialKind>, 6> kKinds = {
     {{"flexion", TrialKind::flexion},
      {"eccentric", TrialKind::eccentric},
      {"isometric_ramp", TrialKind::isometric_ramp},
+     {"isokinetic", TrialKind::isokinetic},
      {"mvc", TrialKind::mvc},
      {"passive", TrialKind::passive}}};
 
@@ -88,8 +92,13 @@ void read_subject(TomlTable table, VirtualSubject& subject) {
   table.finish();
 }
 
-void read_truth(TomlTable table, TruthSpec& truth) {
+void read_truth(TomlTable table, Level level, TruthSpec& truth) {
   number_into(table, "spread", truth.spread, 0.0, 3.0);
+  number_into(table, "offset", truth.offset, -3.0, 3.0);
+  truth.curves = table.choice("curves", truth.curves, {"any", "de_groote", "millard"});
+  range_into(table, "tendon_strain", truth.tendon_strain_min, truth.tendon_strain_max, 0.005, 0.15);
+  number_into(table, "moment_arm_sd", truth.moment_arm_sd, 0.0, 0.3);
+  number_into(table, "inertia_sd", truth.inertia_sd, 0.0, 0.3);
   range_into(table, "emg_delay_s", truth.emg_delay_min_s, truth.emg_delay_max_s, 0.0, 0.2);
   const std::vector<std::string> known = parameter_names();
   const auto check = [&table, &known](const std::string& parameter, std::string_view key) {
@@ -111,6 +120,11 @@ void read_truth(TomlTable table, TruthSpec& truth) {
   for (const std::string_view muscle : {"BIC", "BRA", "BRD", "TRI"}) {
     auto values = table.table(muscle);
     if (!values) continue;
+    if (level == Level::different)
+      table.fail(
+          muscle,
+          "values of single muscles are for levels L0 and L1: at L2 a person has seven heads "
+          "with other laws; remove them, or choose another level");
     for (const std::string& parameter : values->keys()) {
       check(parameter, muscle);
       const double value = values->number(parameter).value_or(0.0);
@@ -130,6 +144,9 @@ void read_emg(TomlTable table, EmgNoise& emg, Protocol& protocol) {
   number_into(table, "hum", emg.hum, 0.0, 0.5);
   number_into(table, "hum_hz", emg.hum_hz, 10.0, 100.0);
   number_into(table, "artefact", emg.artefact, 0.0, 0.5);
+  range_into(table, "crosstalk", emg.crosstalk_min, emg.crosstalk_max, 0.0, 0.5);
+  range_into(table, "mvc_effort", emg.effort_min, emg.effort_max, 0.3, 1.0);
+  range_into(table, "exponent", emg.exponent_min, emg.exponent_max, 0.5, 3.0);
   number_into(table, "mvc_window_s", protocol.mvc_window_s, 0.05, 20.0);
   number_into(table, "lowpass_hz", protocol.lowpass_hz, 1.0, 50.0);
   table.finish();
@@ -159,6 +176,26 @@ Direction read_direction(TomlTable& table) {
   return word == "extension" ? Direction::extension : Direction::both;
 }
 
+void read_isokinetic(TomlTable& table, TrialProtocol& trial) {
+  trial.hold_s = 0.3;
+  trial.rise_s = 0.5;
+  number_into(table, "peak", trial.peak, 0.0, 0.95);
+  trial.direction = read_direction(table);
+  const std::string mode = table.choice("mode", "both", {"concentric", "eccentric", "both"});
+  trial.concentric = mode != "eccentric";
+  trial.eccentric = mode != "concentric";
+  number_into(table, "speed_deg_per_s", trial.speed_radps, 1.0, 600.0, kDegree);
+  number_into(table, "from_deg", trial.from_rad, 0.0, 150.0, kDegree);
+  number_into(table, "to_deg", trial.to_rad, 0.0, 150.0, kDegree);
+  number_into(table, "rise_s", trial.rise_s, 0.3, kInfinity);
+  number_into(table, "rest_s", trial.rest_s, 0.2, kInfinity);
+  count_into(table, "repetitions", trial.repetitions, 1, 100);
+  if (!(trial.from_rad + 5.0 * kDegree < trial.to_rad)) {
+    table.fail("to_deg", fmt::format("found {:g}, expected at least 5 more than from_deg = {:g}",
+                                     trial.to_rad / kDegree, trial.from_rad / kDegree));
+  }
+}
+
 /// One [[trial]]; several if it names several angles.
 std::vector<TrialProtocol> read_trial(TomlTable table) {
   TrialProtocol trial;
@@ -181,7 +218,9 @@ std::vector<TrialProtocol> read_trial(TomlTable table) {
     if (word == kind) trial.kind = value;
   }
   const bool held_still = trial.kind == TrialKind::isometric_ramp || trial.kind == TrialKind::mvc;
+  const bool moved = trial.kind == TrialKind::isokinetic;
   const std::string usual = trial.kind == TrialKind::isometric_ramp ? "isometric"
+                            : trial.kind == TrialKind::isokinetic   ? "isometric"
                             : trial.kind == TrialKind::mvc          ? "mvc"
                             : trial.kind == TrialKind::passive      ? "passive"
                                                                     : "calibration";
@@ -200,7 +239,10 @@ std::vector<TrialProtocol> read_trial(TomlTable table) {
   // Every kind has its own keys: one that does not apply is an unknown key.
   std::vector<TrialProtocol> result;
   const double no_limit = kInfinity;
-  if (held_still) {
+  if (moved) {
+    read_isokinetic(table, trial);
+    result.push_back(trial);
+  } else if (held_still) {
     if (trial.kind == TrialKind::mvc) {
       trial.peak = 1.0;
       trial.rise_s = 1.0;
@@ -227,6 +269,7 @@ std::vector<TrialProtocol> read_trial(TomlTable table) {
       number_into(table, "centre_deg", trial.centre_rad, 0.0, 150.0, kDegree);
       number_into(table, "amplitude_deg", trial.amplitude_rad, 0.0, 75.0, kDegree);
       number_into(table, "variation", trial.variation, 0.0, 0.5);
+      number_into(table, "warm_up_s", trial.warm_up_s, 0.0, 600.0);
       number_into(table, "duration_s", trial.duration_s, 3.0, 600.0);
       const double reach_rad = trial.amplitude_rad * (1.0 + 2.0 * trial.variation);
       if (trial.centre_rad - trial.amplitude_rad < -1e-9 ||
@@ -265,40 +308,79 @@ std::string_view name(TrialKind kind) {
   return "unknown";
 }
 
-Protocol parse_protocol(std::string_view text, const std::filesystem::path& file) {
+std::string_view name(Level level) {
+  for (const auto& [word, value] : kLevels) {
+    if (value == level) return word;
+  }
+  return "unknown";
+}
+
+Protocol default_protocol(Level level) {
+  Protocol protocol;
+  protocol.level = level;
+  if (level != Level::different) return protocol;
+  protocol.motion.soft_tissue = 1.0;
+  protocol.motion.misplacement_m = 0.005;
+  protocol.motion.dropouts_per_min = 2.0;
+  protocol.motion.frame_jitter_sd_s = 0.0002;
+  protocol.emg.crosstalk_min = 0.05;
+  protocol.emg.crosstalk_max = 0.10;
+  protocol.emg.effort_min = 0.8;
+  protocol.emg.exponent_max = 1.5;
+  protocol.sync = {.offset_sd_s = 0.008, .drift_ppm = 50.0};
+  protocol.fatigue.on = true;
+  return protocol;
+}
+
+Protocol parse_protocol(std::string_view text,
+                        const std::filesystem::path& file,
+                        std::optional<Level> level) {
   const toml::table document = recording::parse_toml(text, file);
   TomlTable root(document, file, "protocol");
-  Protocol protocol;
+  const std::string word = root.choice("level", "L1", {"L0", "L1", "L2"});
+  for (const auto& [known, value] : kLevels) {
+    if (!level && known == word) level = value;
+  }
+  Protocol protocol = default_protocol(*level);
   protocol.file = file;
   protocol.name = root.text("name").value_or(protocol.name);
 
-  const std::string level = root.choice("level", "L1", {"L0", "L1", "L2"});
-  if (level == "L2") {
-    root.fail("level",
-              "found \"L2\": a truth that differs from the fitted model (elastic tendon, other "
-              "curves, perturbed geometry) is not there yet; expected \"L0\" (no noise) or \"L1\" "
-              "(same model, noise)");
-  }
-  protocol.level = level == "L0" ? Level::noise_free : Level::noisy;
-
   if (auto table = root.table("subject")) read_subject(*std::move(table), protocol.subject);
-  if (auto table = root.table("truth")) read_truth(*std::move(table), protocol.truth);
+  if (auto table = root.table("truth")) read_truth(*std::move(table), *level, protocol.truth);
   if (auto table = root.table("control")) {
     range_into(*table, "co_contraction", protocol.control.co_contraction_min,
                protocol.control.co_contraction_max, 0.0, 0.5);
     number_into(*table, "synergy", protocol.control.synergy, 0.0, 1.0);
     number_into(*table, "brachialis_synergy", protocol.control.brachialis_synergy, 0.0, 1.0);
+    number_into(*table, "motor_noise", protocol.control.motor_noise, 0.0, 0.3);
     table->finish();
   }
   if (auto table = root.table("motion")) {
     number_into(*table, "rate_hz", protocol.motion.rate_hz, 20.0, 1000.0);
     number_into(*table, "marker_sd_m", protocol.motion.marker_sd_m, 0.0, 0.05);
+    number_into(*table, "soft_tissue", protocol.motion.soft_tissue, 0.0, 5.0);
+    number_into(*table, "misplacement_m", protocol.motion.misplacement_m, 0.0, 0.05);
+    number_into(*table, "dropouts_per_min", protocol.motion.dropouts_per_min, 0.0, 60.0);
+    number_into(*table, "frame_jitter_sd_s", protocol.motion.frame_jitter_sd_s, 0.0, 0.01);
     table->finish();
   }
   if (auto table = root.table("emg")) read_emg(*std::move(table), protocol.emg, protocol);
   if (auto table = root.table("torque")) {
     number_into(*table, "sd_nm", protocol.torque.sd_nm, 0.0, 20.0);
     number_into(*table, "bandwidth_hz", protocol.torque.bandwidth_hz, 0.1, 10.0);
+    table->finish();
+  }
+
+  if (auto table = root.table("sync")) {
+    number_into(*table, "offset_sd_s", protocol.sync.offset_sd_s, 0.0, 0.1);
+    number_into(*table, "drift_ppm", protocol.sync.drift_ppm, 0.0, 1000.0);
+    table->finish();
+  }
+  if (auto table = root.table("fatigue")) {
+    protocol.fatigue.on = table->flag("on").value_or(true);
+    protocol.fatigue.rates = table->choice(
+        "rates", protocol.fatigue.rates, {"elbow", "elbow_rest", "elbow_flexor", "elbow_extensor"});
+    number_into(*table, "rest_s", protocol.fatigue.rest_s, 0.0, 3600.0);
     table->finish();
   }
 
@@ -319,12 +401,12 @@ Protocol parse_protocol(std::string_view text, const std::filesystem::path& file
   return protocol;
 }
 
-Protocol read_protocol(const std::filesystem::path& file) {
+Protocol read_protocol(const std::filesystem::path& file, std::optional<Level> level) {
   std::ifstream stream(file, std::ios::binary);
   if (!stream) throw ReadError(file, 0, "cannot be opened; check the path");
   std::ostringstream text;
   text << stream.rdbuf();
-  return parse_protocol(text.str(), file);
+  return parse_protocol(text.str(), file, level);
 }
 
 }  // namespace myoid::simulation

@@ -78,7 +78,12 @@ TEST(Protocol, SaysWhatWasFoundAndWhatIsExpected) {
 }
 
 TEST(Protocol, RefusesWhatCannotBe) {
-  EXPECT_THAT(complaint("level = \"L2\"\n" + kTrial), HasSubstr("not there yet"));
+  EXPECT_THAT(complaint("level = \"L3\"\n" + kTrial), HasSubstr("L2"));
+  EXPECT_THAT(complaint("level = \"L2\"\n[truth.BIC]\nmax_isometric_force = 900\n" + kTrial),
+              HasSubstr("levels L0 and L1"));
+  EXPECT_THAT(
+      complaint("[[trial]]\nname = \"k\"\nkind = \"isokinetic\"\nfrom_deg = 90\nto_deg = 80\n"),
+      HasSubstr("more than from_deg"));
   EXPECT_THAT(complaint("name = \"x\"\n"), HasSubstr("no trial"));
   EXPECT_THAT(complaint(kTrial + kTrial), HasSubstr("a second time"));
   EXPECT_THAT(complaint("[[trial]]\nkind = \"mvc\"\n"), HasSubstr("'name' is missing"));
@@ -86,6 +91,35 @@ TEST(Protocol, RefusesWhatCannotBe) {
               HasSubstr("name of files"));
   EXPECT_THAT(complaint("[[trial]]\nname = \"x\"\nkind = \"jump\"\n"), HasSubstr("flexion"));
   EXPECT_THAT(complaint("[[trial]\n"), HasSubstr("p.toml:1"));
+}
+
+TEST(Protocol, TheLevelSaysWhatAbsentKeysStandFor) {
+  const Protocol noisy = parse_protocol("[emg]\nhum = 0.02\n" + kTrial, "p.toml");
+  EXPECT_EQ(noisy.level, Level::noisy);
+  EXPECT_EQ(noisy.motion.misplacement_m, 0.0);
+  EXPECT_FALSE(noisy.fatigue.on);
+  // The caller's level takes the place of the file's; what the file sets stays.
+  const Protocol different =
+      parse_protocol("level = \"L1\"\n[emg]\nhum = 0.02\ncrosstalk = [0.0, 0.0]\n" + kTrial,
+                     "p.toml", Level::different);
+  EXPECT_EQ(different.level, Level::different);
+  EXPECT_EQ(different.emg.hum, 0.02);
+  EXPECT_EQ(different.emg.crosstalk_max, 0.0);
+  EXPECT_EQ(different.emg.exponent_max, 1.5);
+  EXPECT_EQ(different.motion.misplacement_m, 0.005);
+  EXPECT_EQ(different.sync.offset_sd_s, 0.008);
+  EXPECT_TRUE(different.fatigue.on);
+}
+
+TEST(Protocol, ReadsAnIsokineticTrial) {
+  const Protocol protocol = parse_protocol(
+      "[[trial]]\nname = \"k\"\nkind = \"isokinetic\"\nspeed_deg_per_s = 90\nmode = \"eccentric\"\n"
+      "direction = \"flexion\"\nfrom_deg = 20\nto_deg = 110\n",
+      "p.toml");
+  EXPECT_DOUBLE_EQ(protocol.trials[0].speed_radps, 0.5 * kPi);
+  EXPECT_FALSE(protocol.trials[0].concentric);
+  EXPECT_TRUE(protocol.trials[0].eccentric);
+  EXPECT_EQ(protocol.trials[0].direction, Direction::flexion);
 }
 
 TEST(Protocol, AFileThatIsNotThereIsSaidSo) {

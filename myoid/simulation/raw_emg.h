@@ -16,9 +16,11 @@ struct EmgSpectrum {
 /// The spectrum at a frequency, not normalized.
 [[nodiscard]] double power(const EmgSpectrum& spectrum, double frequency_hz);
 
-/// `count` samples of Gaussian noise of unit variance with that spectrum: white noise at four times
-/// the rate through H(s) = s f_h^2 / ((s + f_l) (s + f_h)^2), every fourth value kept. Throws
-/// InvalidInput if the rate is not above 4 f_h.
+/// `count` samples of Gaussian noise of unit variance with that spectrum: what sampling
+/// H(s) = s f_h^2 / ((s + f_l) (s + f_h)^2), driven by white noise, gives, with what lies above
+/// half the rate folded back as a converter would. One normal number per sample, through the
+/// recursion of third order that has these samples' autocovariance (its moving average by Bauer's
+/// factorization). Throws InvalidInput if the rate is not above 4 f_h.
 [[nodiscard]] Eigen::VectorXd emg_noise(const EmgSpectrum& spectrum,
                                         double rate_hz,
                                         Eigen::Index count,

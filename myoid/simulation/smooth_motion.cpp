@@ -52,10 +52,18 @@ Moment smooth_ramp(double time_s, double start_s, double duration_s) {
   return {integral * duration_s, step.value, step.first};
 }
 
+double Sweep::end_s() const { return start_s + std::abs(by_rad) / speed_radps + pace_s; }
+
 Moment SmoothMotion::operator()(double time_s) const {
   Moment q{start_rad, 0.0, 0.0};
   for (const Move& move : moves) {
     q = q + move.by_rad * smooth_step(time_s, move.start_s, move.duration_s);
+  }
+  for (const Sweep& sweep : sweeps) {
+    const double travel_s = std::abs(sweep.by_rad) / sweep.speed_radps;
+    q = q + std::copysign(sweep.speed_radps, sweep.by_rad) *
+                (smooth_ramp(time_s, sweep.start_s, sweep.pace_s) -
+                 smooth_ramp(time_s, sweep.start_s + travel_s, sweep.pace_s));
   }
   if (cycles == 0) return q;
 

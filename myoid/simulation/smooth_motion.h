@@ -33,15 +33,26 @@ struct Move {
   double by_rad = 0.0;
 };
 
+/// By an angle at a constant speed, but for a smooth start and stop of `pace_s` each.
+struct Sweep {
+  double start_s = 0.0;
+  double by_rad = 0.0;       ///< Signed.
+  double speed_radps = 1.0;  ///< Positive.
+  double pace_s = 0.1;       ///< At most |by| / speed.
+
+  [[nodiscard]] double end_s() const;
+};
+
 /// An angle over time that is at rest before its beginning and after its end, with five continuous
 /// derivatives, so that splines through its samples do no harm at the ends:
 ///
-///   q(t) = start + sum_k by_k step((t - start_k) / duration_k) + A (1 - cos phi(t))
+///   q(t) = start + sum_k by_k step((t - start_k) / duration_k) + sweeps + A (1 - cos phi(t))
 ///
 /// where phi rises from 0 to 2 pi `cycles`, first and last with a gentle change of pace.
 struct SmoothMotion {
   double start_rad = 0.0;
   std::vector<Move> moves;
+  std::vector<Sweep> sweeps;
 
   double amplitude_rad = 0.0;  ///< Of the oscillation, from `start_rad` to start + 2 A.
   double oscillation_start_s = 0.0;

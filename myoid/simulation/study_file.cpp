@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include "myoid/core/units.h"
+#include "myoid/model/arm7.h"
 #include "myoid/muscle/hill_parameters.h"
+#include "myoid/simulation/effective_truth.h"
 #include "myoid/simulation/write_recording.h"
 
 namespace myoid::simulation {
@@ -45,18 +47,33 @@ void add_trial(const VirtualTrial& trial, std::string& text) {
 
 }  // namespace
 
+namespace {
+
+/// Muscles of the model file that make up this one, as a TOML list's content.
+std::string modelled_as(std::size_t muscle, bool seven_heads) {
+  if (!seven_heads) return fmt::format("\"{}\"", kArmMuscles[muscle]);
+  std::string list;
+  for (const model::ArmHead& head : model::arm7_heads()) {
+    if (static_cast<std::size_t>(head.lump) != muscle) continue;
+    list += fmt::format("{}\"{}\"", list.empty() ? "" : ", ", head.name);
+  }
+  return list;
+}
+
+}  // namespace
+
 std::string study_toml(const VirtualRecording& recording) {
   const Protocol& protocol = recording.protocol;
   const VirtualSubject& subject = protocol.subject;
   const bool exact = protocol.level == Level::noise_free;
-  const bool own_brachialis = protocol.control.brachialis_synergy > 0.0;
+  const bool own_brachialis = has_brachialis_electrode(protocol);
 
   const std::string name = toml_text(protocol.name);  // escaped: no line break ends the comment
 
   std::string text = fmt::format(
       "# A virtual recording: protocol \"{}\", level {}, seed {}. Nobody was measured.\n"
       "# Analyse it with: myoid run study.toml --out results\n\n",
-      name.substr(1, name.size() - 2), exact ? "L0" : "L1", recording.seed);
+      name.substr(1, name.size() - 2), simulation::name(protocol.level), recording.seed);
   text += fmt::format("[subject]\nname = {}\nmass_kg = {}\nsex = \"{}\"\n\n",
                       toml_text(subject.name), number(subject.mass_kg), subject.sex);
   text += fmt::format(
@@ -89,7 +106,8 @@ std::string study_toml(const VirtualRecording& recording) {
 
   for (std::size_t i = 0; i < kArmMuscles.size(); ++i) {
     const std::string_view muscle = kArmMuscles[i];
-    text += fmt::format("\n[[muscle]]\nname = \"{0}\"\nosim = [\"{0}\"]\n", muscle);
+    text += fmt::format("\n[[muscle]]\nname = \"{}\"\nosim = [{}]\n", muscle,
+                        modelled_as(i, protocol.seven_heads));
     text += i == kBrachialis && !own_brachialis
                 ? "emg = { same_as = \"BIC\" }         # deep: no electrode on it\n"
                 : fmt::format("emg = \"{}\"\n", muscle);
@@ -115,6 +133,79 @@ std::string truth_csv(const VirtualRecording& recording) {
     }
   }
   text += fmt::format("subject,emg_delay,s,{}\n", recording.truth.emg_delay_s);
+  if (recording.truth.arm) {
+    const PerMuscle strength_n = anatomical_strength_n(*recording.truth.arm);
+    for (std::size_t i = 0; i < kArmMuscles.size(); ++i) {
+      text += fmt::format("{},anatomical_strength,N,{}\n", kArmMuscles[i], strength_n[i]);
+      text += fmt::format("{},misfit_of_the_fitted_model,1,{}\n", kArmMuscles[i],
+                          recording.truth.misfit[i]);
+    }
+  }
+  return text;
+}
+
+std::string truth_header() {
+  std::string text = "seed,draws,emg_delay";
+  for (const std::string_view muscle : kArmMuscles) {
+    for (const muscle::HillField& field : muscle::kHillFields)
+      text += fmt::format(",{}_{}", muscle, field.name);
+  }
+  return text;
+}
+
+std::string truth_row(const VirtualRecording& recording) {
+  const Truth& truth = recording.truth;
+  std::string text = fmt::format("{},{},{}", recording.seed, truth.draws, truth.emg_delay_s);
+  for (std::size_t i = 0; i < kArmMuscles.size(); ++i) {
+    for (const muscle::HillField& field : muscle::kHillFields)
+      text += fmt::format(",{}", truth.muscles[i].*(field.member));
+  }
+  return text;
+}
+
+std::string person_csv(const VirtualRecording& recording) {
+  const Truth& truth = recording.truth;
+  std::string text = "of,quantity,unit,value\n";
+  const auto add = [&text](std::string_view of, std::string_view quantity, std::string_view unit,
+                           double value) {
+    text += fmt::format("{},{},{},{}\n", of, quantity, unit, value);
+  };
+  for (std::size_t m = 0; m < kArmMuscles.size(); ++m) {
+    const std::string_view name = kArmMuscles[m];
+    add(name, "greatest_emg_rms", "V", truth.instruments.greatest_v[m]);
+    add(name, "emg_exponent", "1", truth.instruments.exponent[m]);
+    add(name, "crosstalk", "1", truth.instruments.crosstalk[m]);
+    add(name, "baseline", "1", truth.instruments.baseline[m]);
+    add(name, "mvc_effort", "1", truth.effort[m]);
+  }
+  add("emg_clock", "drift", "1", truth.instruments.clock_drift);
+  for (const VirtualTrial& trial : recording.trials) {
+    add(trial.protocol.name, "emg_offset", "s", trial.truth.emg_clock.offset_s);
+    for (std::size_t m = 0; m < kArmMuscles.size(); ++m)
+      add(trial.protocol.name, fmt::format("fatigued_{}", kArmMuscles[m]), "1",
+          trial.truth.fatigued[m]);
+  }
+  if (!truth.arm) return text;
+  const TrueArm& arm = *truth.arm;
+  add("person", "millard_curves", "1", arm.laws.length == muscle::LengthLaw::millard ? 1.0 : 0.0);
+  add("person", "excitation_time", "s", arm.activation.excitation_time_s);
+  add("person", "activation_time", "s", arm.activation.activation_time_s);
+  add("person", "deactivation_time", "s", arm.activation.deactivation_time_s);
+  add("person", "pure_delay", "s", arm.delay_s);
+  add("person", "joint_stiffness", "N m/rad", arm.joint.stiffness_nm_per_rad);
+  add("person", "joint_viscosity", "N m s/rad", arm.joint.viscosity_nms_per_rad);
+  add("person", "inertia", "kg m^2", arm.inertia_kgm2);
+  add("person", "static_moment", "kg m", arm.static_moment_kgm);
+  add("person", "held_at", "m", arm.held_at_m);
+  for (const TrueHead& head : arm.heads) {
+    muscle::visit_parameters(head.parameters,
+                             [&](std::string_view parameter, Unit unit, double value) {
+                               add(head.name, parameter, symbol(unit), value);
+                             });
+    add(head.name, "drive", "1", head.drive);
+    add(head.name, "moment_arm_at_90_degrees", "m",
+        model::travel(head.path, 0.5 * kPi).moment_arm_m);
+  }
   return text;
 }
 

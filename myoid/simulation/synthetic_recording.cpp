@@ -2,15 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
-#include "myoid/core/units.h"
 #include "myoid/simulation/draw_truth.h"
+#include "myoid/simulation/effective_truth.h"
+#include "myoid/simulation/performance.h"
 #include "myoid/simulation/random.h"
-#include "myoid/simulation/raw_emg.h"
 #include "myoid/simulation/trial_script.h"
 
 namespace myoid::simulation {
@@ -18,79 +19,9 @@ namespace {
 
 constexpr double kGreatestActivation = 0.95;  ///< More cannot be asked of a person.
 constexpr int kMostDraws = 500;
-/// Resolution of the instruments, as steps per unit: 0.01 mm, 0.1 uV, 0.1 mN m.
-constexpr double kMarkerSteps_perm = 1e5;
-constexpr double kEmgSteps_perv = 1e7;
-constexpr double kTorqueSteps_pernm = 1e4;
-constexpr double kArtefactBand_hz = 4.0;
-constexpr double kArtefactSpeed_radps =
-    2.0;  ///< At which the artefact has the rms of the protocol.
-
-/// What happens at one instant.
-struct Instant {
-  Moment q;
-  MuscleGeometry geometry;
-  PerMuscle activation = {};
-  PerMuscle force_n = {};
-  double muscle_torque_nm = 0.0;
-  double external_torque_nm = 0.0;
-};
-
-/// One person doing one trial: the truth at any time.
-class Performance {
- public:
-  Performance(const VirtualArm& arm, const HillSet& muscles, TrialScript script)
-      : arm_(&arm), muscles_(&muscles), script_(std::move(script)) {}
-
-  [[nodiscard]] const TrialScript& script() const { return script_; }
-  [[nodiscard]] const HillSet& muscles() const { return *muscles_; }
-
-  [[nodiscard]] Instant at(double time_s) const {
-    Instant now;
-    now.q = script_.motion(time_s);
-    now.geometry = arm_->geometry(now.q);
-    const PerMuscle full_n = full_force_n(now.geometry, *muscles_);
-    PerMuscle capacity_nm = {};
-    for (std::size_t i = 0; i < 4; ++i) capacity_nm[i] = full_n[i] * now.geometry.moment_arm_m[i];
-
-    const double required_nm =
-        arm_->required_torque_nm(now.q, script_.protocol.plane, script_.protocol.held_mass_kg);
-    now.activation = script_.against_dynamometer()
-                         ? script_.prescribed_activations(time_s)
-                         : activations_for(required_nm, capacity_nm, script_.coordination(time_s));
-    for (std::size_t i = 0; i < 4; ++i) {
-      now.force_n[i] = now.activation[i] * full_n[i];
-      now.muscle_torque_nm += now.activation[i] * capacity_nm[i];
-    }
-    if (script_.against_dynamometer()) {
-      now.external_torque_nm = required_nm - now.muscle_torque_nm;
-    }
-    return now;
-  }
-
-  /// The greatest activation that the motion asks for; 0 against a dynamometer.
-  [[nodiscard]] double greatest_activation(double rate_hz) const {
-    double greatest = 0.0;
-    if (script_.against_dynamometer()) return greatest;
-    for (double t = 0.0; t <= script_.duration_s; t += 1.0 / rate_hz) {
-      const PerMuscle a = at(t).activation;
-      greatest = std::max(greatest, *std::max_element(a.begin(), a.end()));
-    }
-    return greatest;
-  }
-
- private:
-  const VirtualArm* arm_;
-  const HillSet* muscles_;
-  TrialScript script_;
-};
-
-Eigen::VectorXd clock(double duration_s, double rate_hz) {
-  const auto count = static_cast<Eigen::Index>(std::floor(duration_s * rate_hz + 1e-9)) + 1;
-  Eigen::VectorXd time_s(count);
-  for (Eigen::Index k = 0; k < count; ++k) time_s(k) = static_cast<double>(k) / rate_hz;
-  return time_s;
-}
+/// Lags among which the delay of a person at L2 is sought.
+constexpr double kLongestDelay_s = 0.20;
+constexpr double kDelayStep_s = 0.005;
 
 std::vector<Channel> per_muscle(Unit unit) {
   std::vector<Channel> channels;
@@ -98,24 +29,48 @@ std::vector<Channel> per_muscle(Unit unit) {
   return channels;
 }
 
-TrueTrial true_trial(const Performance& performance, double rate_hz) {
+/// The heads over time; empty where the truth has none.
+std::optional<TimeSeries> true_heads(const Performance& performance,
+                                     const Truth& truth,
+                                     const Eigen::VectorXd& time_s) {
+  if (!truth.arm) return std::nullopt;
+  std::vector<Channel> channels;
+  for (const TrueHead& head : truth.arm->heads) {
+    const std::string name(head.name);
+    channels.push_back({name + "_activation", Unit::dimensionless});
+    channels.push_back({name + "_fiber_length", Unit::meter});
+    channels.push_back({name + "_tendon_force", Unit::newton});
+  }
+  Eigen::MatrixXd values(time_s.size(), static_cast<Eigen::Index>(channels.size()));
+  for (Eigen::Index k = 0; k < time_s.size(); ++k) {
+    const ArmState now = *performance.heads(time_s(k));
+    for (std::size_t i = 0; i < kHeadCount; ++i) {
+      const auto c = static_cast<Eigen::Index>(3 * i);
+      values(k, c) = now.activation[i];
+      values(k, c + 1) = now.fiber_length_m[i];
+      values(k, c + 2) = now.tendon_force_n[i];
+    }
+  }
+  return TimeSeries(time_s, channels, values);
+}
+
+TrueTrial true_trial(const Performance& performance, const Truth& truth, double rate_hz) {
   const Eigen::VectorXd time_s = clock(performance.script().duration_s, rate_hz);
   const Eigen::Index n = time_s.size();
   Eigen::MatrixXd motion(n, 3);
-  Eigen::MatrixXd torque(n, 2);
+  Eigen::MatrixXd torque(n, 3);
   Eigen::MatrixXd activation(n, 4);
   Eigen::MatrixXd force(n, 4);
   Eigen::MatrixXd length(n, 4);
   for (Eigen::Index k = 0; k < n; ++k) {
     const Instant now = performance.at(time_s(k));
     motion.row(k) << now.q.value, now.q.first, now.q.second;
-    torque.row(k) << now.muscle_torque_nm, now.external_torque_nm;
+    torque.row(k) << now.muscle_torque_nm, now.external_torque_nm, now.passive_torque_nm;
     for (Eigen::Index i = 0; i < 4; ++i) {
       const auto muscle = static_cast<std::size_t>(i);
       activation(k, i) = now.activation[muscle];
       force(k, i) = now.force_n[muscle];
-      length(k, i) =
-          now.geometry.length_m[muscle] - performance.muscles()[muscle].tendon_slack_length_m;
+      length(k, i) = now.fiber_length_m[muscle];
     }
   }
   return {.motion = {time_s,
@@ -125,194 +80,193 @@ TrueTrial true_trial(const Performance& performance, double rate_hz) {
                      motion},
           .torque = {time_s,
                      {{"elbow_flexion_moment", Unit::newton_meter},
-                      {"elbow_flexion_external_moment", Unit::newton_meter}},
+                      {"elbow_flexion_external_moment", Unit::newton_meter},
+                      {"elbow_flexion_passive_moment", Unit::newton_meter}},
                      torque},
           .activation = {time_s, per_muscle(Unit::dimensionless), activation},
           .force = {time_s, per_muscle(Unit::newton), force},
-          .length = {time_s, per_muscle(Unit::meter), length}};
+          .length = {time_s, per_muscle(Unit::meter), length},
+          .heads = true_heads(performance, truth, time_s),
+          .fatigued = performance.fatigued(),
+          .emg_clock = {}};
 }
 
-/// Everything that the instruments need to know.
-struct Laboratory {
-  const Protocol* protocol;
-  const Truth* truth;
-  const VirtualArm* arm;
-  std::uint64_t seed;
-
-  [[nodiscard]] bool exact() const { return protocol->level == Level::noise_free; }
-  [[nodiscard]] Random stream(std::string_view instrument, const std::string& trial) const {
-    return Random(seed_for(seed, fmt::format("{}.{}", instrument, trial)));
-  }
+/// A person who can do every trial, doing them.
+struct Session {
+  std::vector<std::unique_ptr<Performance>> performances;
+  std::string too_hard;  ///< The trial that could not be done; empty if all could.
+  std::string why;
 };
 
-/// What an instrument shows of a value: a multiple of its resolution.
-template <typename Derived>
-void quantize(Eigen::MatrixBase<Derived>& values, double per_unit) {
-  values = (values * per_unit).array().round().matrix() / per_unit;
+template <std::size_t N>
+Tiredness<N> fresh(const Protocol& protocol) {
+  Tiredness<N> tiredness;
+  if (protocol.fatigue.on)
+    tiredness.rates = muscle::published_fatigue_rates(protocol.fatigue.rates);
+  return tiredness;
 }
 
-recording::MarkerSeries record_markers(const Laboratory& laboratory,
-                                       const TrialScript& script,
-                                       const TimeSeries& motion) {
-  recording::MarkerSeries markers;
-  markers.time_s = motion.time_s();
-  markers.names = laboratory.arm->marker_names();
-  markers.positions_m = laboratory.arm->markers_m(motion.values().col(0), script.protocol.plane);
-  if (laboratory.exact()) return markers;
-  Random random = laboratory.stream("markers", script.protocol.name);
-  const double sd_m = laboratory.protocol->motion.marker_sd_m;
-  for (Eigen::Index k = 0; k < markers.positions_m.rows(); ++k) {
-    markers.positions_m.row(k) += sd_m * random.normals(markers.positions_m.cols()).transpose();
+Session perform_exactly(const Protocol& protocol,
+                        const VirtualArm& arm,
+                        const Truth& truth,
+                        const std::vector<TrialScript>& scripts) {
+  Session session;
+  Tiredness<4> tiredness = fresh<4>(protocol);
+  for (const TrialScript& script : scripts) {
+    auto performance = std::make_unique<ExactPerformance>(
+        arm, truth.muscles, script, truth.emg_delay_s, truth.effort, tiredness);
+    if (performance->greatest_activation(100.0) > kGreatestActivation) {
+      session.too_hard = script.protocol.name;
+      session.why = "the muscles are too weak";
+      return session;
+    }
+    session.performances.push_back(std::move(performance));
+    tiredness.rest(protocol.fatigue.rest_s);
   }
-  quantize(markers.positions_m, kMarkerSteps_perm);
-  return markers;
+  return session;
 }
 
-/// One electrode: Gaussian noise with the amplitude of the muscle's effort, and what disturbs it.
-Eigen::VectorXd raw_signal(const Laboratory& laboratory,
-                           const std::string& stream,
-                           const Eigen::VectorXd& effort,
-                           const Eigen::VectorXd& speed_radps) {
-  const EmgNoise& emg = laboratory.protocol->emg;
-  const Eigen::Index n = effort.size();
-  Random random = laboratory.stream("emg", stream);
-  const double phase_rad = random.uniform(0.0, 2.0 * kPi);
-  const Eigen::VectorXd muscle = emg_noise({}, emg.rate_hz, n, random);
-  const Eigen::VectorXd amplifier = emg_noise({}, emg.rate_hz, n, random);
-  const Eigen::VectorXd artefact = lowpass_noise(kArtefactBand_hz, emg.rate_hz, n, random);
-  Eigen::VectorXd signal(n);
-  for (Eigen::Index k = 0; k < n; ++k) {
-    const double mains =
-        std::sqrt(2.0) *
-        std::sin(2.0 * kPi * emg.hum_hz * static_cast<double>(k) / emg.rate_hz + phase_rad);
-    signal(k) = effort(k) * muscle(k) + emg.baseline * amplifier(k) + emg.hum * mains +
-                emg.artefact * std::abs(speed_radps(k)) / kArtefactSpeed_radps * artefact(k);
-  }
-  return signal;
-}
-
-TimeSeries record_emg(const Laboratory& laboratory, const Performance& performance) {
-  const Protocol& protocol = *laboratory.protocol;
-  const Truth& truth = *laboratory.truth;
-  const TrialScript& script = performance.script();
-  const Eigen::VectorXd time_s = clock(script.duration_s, protocol.emg.rate_hz);
-
-  // The electrode sees now what the muscle does a delay later.
-  Eigen::MatrixXd effort(time_s.size(), 4);
-  Eigen::VectorXd speed_radps(time_s.size());
-  for (Eigen::Index k = 0; k < time_s.size(); ++k) {
-    const PerMuscle a = performance.at(time_s(k) + truth.emg_delay_s).activation;
-    effort.row(k) << a[0], a[1], a[2], a[3];
-    speed_radps(k) = script.motion(time_s(k)).first;
-  }
-
-  std::vector<Channel> channels;
-  std::vector<Eigen::VectorXd> signals;
-  for (std::size_t i = 0; i < 4; ++i) {
-    if (i == kBrachialis && !(protocol.control.brachialis_synergy > 0.0)) continue;
-    const std::string muscle(kArmMuscles[i]);
-    const Eigen::VectorXd own = effort.col(static_cast<Eigen::Index>(i));
-    if (laboratory.exact()) {
-      channels.push_back({muscle, Unit::dimensionless});
-      signals.push_back(own);
-    } else {
-      channels.push_back({muscle, Unit::volt});
-      signals.emplace_back(truth.mvc_v[i] * raw_signal(laboratory,
-                                                       script.protocol.name + "." + muscle, own,
-                                                       speed_radps));
+Session perform_by_simulation(const Protocol& protocol,
+                              const Truth& truth,
+                              const std::vector<TrialScript>& scripts,
+                              std::uint64_t seed) {
+  Session session;
+  // Whoever is too weak need not begin.
+  for (const TrialScript& script : scripts) {
+    if (foreseen_activation(*truth.arm, script) > kGreatestActivation) {
+      session.too_hard = script.protocol.name;
+      session.why = "the muscles are too weak";
+      return session;
     }
   }
-  Eigen::MatrixXd values(time_s.size(), static_cast<Eigen::Index>(signals.size()));
-  for (std::size_t i = 0; i < signals.size(); ++i) {
-    values.col(static_cast<Eigen::Index>(i)) = signals[i];
+  Tiredness<7> tiredness = fresh<7>(protocol);
+  for (const TrialScript& script : scripts) {
+    auto performance = std::make_unique<SimulatedPerformance>(
+        *truth.arm, script, truth.effort, protocol.control.motor_noise, tiredness,
+        seed_for(seed, "nerves." + script.protocol.name));
+    if (!performance->failure().empty()) {
+      session.too_hard = script.protocol.name;
+      session.why = performance->failure();
+      return session;
+    }
+    session.performances.push_back(std::move(performance));
+    tiredness.rest(protocol.fatigue.rest_s);
   }
-  if (!laboratory.exact()) quantize(values, kEmgSteps_perv);
-  return {time_s, channels, values};
+  return session;
 }
 
-TimeSeries record_torque(const Laboratory& laboratory,
-                         const TrialScript& script,
-                         const TimeSeries& torque) {
-  const Protocol& protocol = *laboratory.protocol;
-  Eigen::VectorXd external = torque.column("elbow_flexion_external_moment");
-  if (!laboratory.exact() && protocol.torque.sd_nm > 0.0) {
-    Random random = laboratory.stream("torque", script.protocol.name);
-    external +=
-        protocol.torque.sd_nm * lowpass_noise(protocol.torque.bandwidth_hz, protocol.motion.rate_hz,
-                                              external.size(), random);
+/// The delay that, put on what the electrodes saw, comes closest to what the muscles did.
+double effective_delay_s(const Session& session) {
+  const auto count = static_cast<std::size_t>(kLongestDelay_s / kDelayStep_s) + 1;
+  std::vector<double> error(count, 0.0);
+  for (const auto& performance : session.performances) {
+    if (performance->script().protocol.kind == TrialKind::passive) continue;
+    const Eigen::VectorXd time_s = clock(performance->script().duration_s, 25.0);
+    for (const double t : time_s) {
+      const PerMuscle a = performance->at(t).activation;
+      for (std::size_t k = 0; k < count; ++k) {
+        const PerMuscle u = performance->drive(t - static_cast<double>(k) * kDelayStep_s);
+        for (std::size_t m = 0; m < 4; ++m) error[k] += (a[m] - u[m]) * (a[m] - u[m]);
+      }
+    }
   }
-  return {torque.time_s(), {{"elbow_flexion_moment", Unit::newton_meter}}, external};
+  const auto best = std::min_element(error.begin(), error.end()) - error.begin();
+  const auto k = static_cast<std::size_t>(best);
+  if (k == 0 || k + 1 == count) return static_cast<double>(k) * kDelayStep_s;
+  // The bottom of the parabola through the three lowest.
+  const double fall = error[k - 1] - error[k];
+  const double rise = error[k + 1] - error[k];
+  return (static_cast<double>(k) + 0.5 * (fall - rise) / (fall + rise)) * kDelayStep_s;
 }
 
-/// A person, and how this person does the trials.
-struct Draw {
-  Truth truth;
-  std::vector<TrialScript> scripts;
+/// At L2 the brachialis goes its own way, electrode or not: 0.7 to 1.3 of the biceps' activation,
+/// and slowly wandering.
+struct OwnBrachialis {
+  double gain = 1.0;
+  double wander = 0.0;
 };
 
-/// Draws persons until one can do every trial.
-Draw draw_person(const Protocol& protocol, const VirtualArm& arm, std::uint64_t seed) {
+std::vector<TrialScript> make_scripts(const Protocol& protocol,
+                                      const OwnBrachialis& brachialis,
+                                      std::uint64_t seed) {
+  std::vector<TrialScript> scripts;
+  for (const TrialProtocol& trial : protocol.trials) {
+    scripts.push_back(make_script(trial, protocol.control, seed));
+    if (protocol.level != Level::different) continue;
+    scripts.back().mean.brachialis += std::log(brachialis.gain);
+    scripts.back().brachialis_change.depth += brachialis.wander;
+    for (Effort& effort : scripts.back().efforts) {
+      if (trial.kind != TrialKind::mvc) effort.coordination.brachialis += std::log(brachialis.gain);
+    }
+  }
+  return scripts;
+}
+
+}  // namespace
+
+VirtualRecording make_virtual_recording(const Protocol& protocol, std::uint64_t seed) {
+  const bool simulated = protocol.level == Level::different;
+  const VirtualArm arm(protocol.subject, protocol.seven_heads);
+  VirtualRecording recording{.protocol = protocol,
+                             .seed = seed,
+                             .model_osim = arm.osim(),
+                             .held_body = arm.held_body(),
+                             .held_at_m = arm.held_at_m(),
+                             .truth = {},
+                             .trials = {}};
+  Truth& truth = recording.truth;
+  truth.instruments = attach_instruments(protocol, arm, seed);
   Random random(seed_for(seed, "truth"));
-  Draw result;
-  Truth& truth = result.truth;
   truth.emg_delay_s =
       random.uniform(protocol.truth.emg_delay_min_s, protocol.truth.emg_delay_max_s);
   if (protocol.level == Level::noise_free) {
     // On the clock of the EMG, so that no interpolation stands between truth and recovery.
     truth.emg_delay_s = std::round(truth.emg_delay_s * protocol.emg.rate_hz) / protocol.emg.rate_hz;
   }
-  for (double& mvc_v : truth.mvc_v) {
-    mvc_v = std::exp(
-        random.uniform(std::log(protocol.emg.mvc_min_v), std::log(protocol.emg.mvc_max_v)));
-  }
+  for (double& effort : truth.effort)
+    effort = random.uniform(protocol.emg.effort_min, protocol.emg.effort_max);
+  const OwnBrachialis brachialis{random.uniform(0.7, 1.3), random.uniform(0.2, 0.5)};
 
-  std::string too_hard;
+  Session session;
   for (truth.draws = 1; truth.draws <= kMostDraws; ++truth.draws) {
-    truth.muscles = draw_muscles(protocol.truth, arm.literature(), random);
-    result.scripts.clear();
-    for (const TrialProtocol& trial : protocol.trials) {
-      result.scripts.push_back(make_script(trial, protocol.control,
-                                           seed_for(seed, fmt::format("draw {}", truth.draws))));
+    const std::uint64_t draw_seed = seed_for(seed, fmt::format("draw {}", truth.draws));
+    const std::vector<TrialScript> scripts = make_scripts(protocol, brachialis, draw_seed);
+    if (simulated) {
+      truth.arm = draw_true_arm(protocol.truth, protocol.subject, random);
+      session = perform_by_simulation(protocol, truth, scripts, draw_seed);
+    } else {
+      truth.muscles = draw_muscles(protocol.truth, arm.literature(), random);
+      session = perform_exactly(protocol, arm, truth, scripts);
     }
-    const std::vector<TrialScript>& scripts = result.scripts;
-    const auto hard = std::find_if(scripts.begin(), scripts.end(), [&](const TrialScript& script) {
-      return Performance(arm, truth.muscles, script).greatest_activation(100.0) >
-             kGreatestActivation;
-    });
-    if (hard == scripts.end()) return result;
-    too_hard = hard->protocol.name;
+    if (session.too_hard.empty()) break;
   }
-  throw InvalidInput(fmt::format(
-      "none of {} virtual persons could do every trial of protocol \"{}\" with activations up to "
-      "{}; the last one failed at trial \"{}\": choose a smaller held mass, a lower frequency or "
-      "amplitude there",
-      kMostDraws, protocol.name, kGreatestActivation, too_hard));
-}
+  if (!session.too_hard.empty()) {
+    throw InvalidInput(fmt::format(
+        "none of {} virtual persons could do every trial of protocol \"{}\" with activations up to "
+        "{}; the last one failed at trial \"{}\" ({}): choose a smaller held mass, a lower "
+        "frequency "
+        "or amplitude there",
+        kMostDraws, protocol.name, kGreatestActivation, session.too_hard, session.why));
+  }
+  if (simulated) {
+    truth.muscles = effective_muscles(*truth.arm, arm, &truth.misfit);
+    truth.emg_delay_s = effective_delay_s(session);
+  }
 
-}  // namespace
-
-VirtualRecording make_virtual_recording(const Protocol& protocol, std::uint64_t seed) {
-  const VirtualArm arm(protocol.subject);
-  const Draw person = draw_person(protocol, arm, seed);
-  VirtualRecording recording{.protocol = protocol,
-                             .seed = seed,
-                             .model_osim = arm.osim(),
-                             .held_body = arm.held_body(),
-                             .held_at_m = arm.held_at_m(),
-                             .truth = person.truth,
-                             .trials = {}};
-  const Laboratory laboratory{
-      .protocol = &protocol, .truth = &recording.truth, .arm = &arm, .seed = seed};
-  for (const TrialScript& script : person.scripts) {
-    const Performance performance(arm, recording.truth.muscles, script);
-    VirtualTrial trial{.protocol = script.protocol,
-                       .markers = {},
-                       .emg = record_emg(laboratory, performance),
-                       .external_torque = std::nullopt,
-                       .truth = true_trial(performance, protocol.motion.rate_hz)};
-    trial.markers = record_markers(laboratory, script, trial.truth.motion);
-    if (script.against_dynamometer()) {
-      trial.external_torque = record_torque(laboratory, script, trial.truth.torque);
+  for (const auto& performance : session.performances) {
+    const EmgClock emg_time =
+        emg_clock(protocol, truth.instruments, performance->script().protocol.name, seed);
+    VirtualTrial trial{
+        .protocol = performance->script().protocol,
+        .markers = record_markers(protocol, arm, truth.instruments, *performance, seed),
+        .emg = record_emg(protocol, truth.instruments, *performance, emg_time, seed),
+        .external_torque = std::nullopt,
+        .truth = true_trial(*performance, truth, protocol.motion.rate_hz)};
+    trial.truth.emg_clock = emg_time;
+    if (performance->script().against_dynamometer()) {
+      trial.external_torque =
+          record_torque(protocol, *performance, trial.truth.torque.time_s(),
+                        trial.truth.torque.column("elbow_flexion_external_moment"), seed);
     }
     recording.trials.push_back(std::move(trial));
   }

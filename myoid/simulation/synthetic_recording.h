@@ -10,26 +10,40 @@
 #include "myoid/core/time_series.h"
 #include "myoid/recording/marker_series.h"
 #include "myoid/simulation/control.h"
+#include "myoid/simulation/instruments.h"
 #include "myoid/simulation/protocol.h"
+#include "myoid/simulation/true_arm.h"
 #include "myoid/simulation/virtual_arm.h"
 
 namespace myoid::simulation {
 
 /// What the virtual person is made of, and what the identification is to find.
 struct Truth {
-  HillSet muscles;           ///< In the order of kArmMuscles.
-  double emg_delay_s = 0.0;  ///< The muscle does at t what its EMG said at t - delay.
-  PerMuscle mvc_v = {};      ///< Rms of the raw EMG at the greatest effort [V].
-  int draws = 1;             ///< Parameter sets drawn until every trial could be done.
+  /// In the order of kArmMuscles. At L2, where nobody has such parameters, those of the fitted
+  /// model that come closest to the person (effective_truth.h).
+  HillSet muscles;
+  /// The muscle does at t what its EMG said at t - delay; at L2, as nearly as a delay can say it.
+  double emg_delay_s = 0.0;
+  PerMuscle effort = {1.0, 1.0, 1.0,
+                      1.0};  ///< What the MVC trials reach of the greatest activation.
+  Instruments instruments;
+  int draws = 1;               ///< Persons drawn until every trial could be done.
+  std::optional<TrueArm> arm;  ///< L2: what the person really is.
+  PerMuscle misfit = {};       ///< L2: of `muscles`, a share of the torque.
 };
 
 /// The truth over time in one trial, on the clock of the markers.
 struct TrueTrial {
   TimeSeries motion;      ///< elbow_flexion [rad], its speed and acceleration.
-  TimeSeries torque;      ///< elbow_flexion_moment (of the muscles) and ..._external [N m].
+  TimeSeries torque;      ///< elbow_flexion_moment (of the muscles), then ..._external_moment and
+                          ///< ..._passive_moment (of the joint) [N m].
   TimeSeries activation;  ///< Per muscle: what the muscle does, after the delay.
   TimeSeries force;       ///< Per muscle [N].
   TimeSeries length;      ///< Per muscle: fiber length [m].
+  /// L2: of each head HEAD_activation, HEAD_fiber_length [m] and HEAD_tendon_force [N].
+  std::optional<TimeSeries> heads;
+  PerMuscle fatigued = {};  ///< Share of strength that is gone in the middle of the trial.
+  EmgClock emg_clock;
 };
 
 /// What the instruments recorded of one trial.
@@ -57,19 +71,19 @@ struct VirtualRecording {
 };
 
 /// Performs the protocol with a virtual person drawn from the priors with this seed; the same seed
-/// gives the same recording to the bit. The built-in arm (four muscles, rigid tendons):
+/// gives the same recording to the bit.
 ///
-/// - a motion with five continuous derivatives is chosen, the torque that it requires is computed,
-///   and shared among the muscles by activations that solve T = sum r_i F_i exactly, with
-///   co-contraction and slowly changing proportions; against a dynamometer the activations are
-///   chosen and the dynamometer exerts what is left;
-/// - the electrode sees the activation `emg_delay_s` earlier; raw EMG is Gaussian noise of
-/// Shwedyk's
-///   spectrum with that amplitude, plus noise of the amplifier, mains and movement artefacts;
-/// - markers follow the model, plus white noise.
+/// L0 and L1, the built-in arm (four muscles, rigid tendons): a motion with five continuous
+/// derivatives is chosen, the torque that it requires is computed, and shared among the muscles by
+/// activations that solve T = sum r_i F_i exactly, with co-contraction and slowly changing
+/// proportions; against a dynamometer the activations are chosen and the dynamometer exerts what is
+/// left. The electrode sees the activation `emg_delay_s` earlier.
 ///
-/// If a trial would need an activation above 0.95, another person is drawn. Throws InvalidInput,
-/// naming the trial, if 500 persons could not do it.
+/// L2, seven heads (true_arm.h): the person tries to follow that motion and is simulated forward
+/// (SimulatedPerformance); the motion recorded is what came of it.
+///
+/// Then the instruments record (instruments.h). If a trial would need an activation above 0.95,
+/// another person is drawn. Throws InvalidInput, naming the trial, if 500 persons could not do it.
 [[nodiscard]] VirtualRecording make_virtual_recording(const Protocol& protocol, std::uint64_t seed);
 
 }  // namespace myoid::simulation

@@ -161,15 +161,17 @@ TEST(VirtualRecording, RawEmgOfTheGreatestEffortHasItsRms) {
   // Rest 1 s, rise 1 s, hold 4 s: samples of the plateau. Rms over 3.8 s of 200 Hz bandwidth:
   // standard error 1/sqrt(4 x 200 x 3.8) = 1.8 %; mains and amplifier add 0.02 %.
   const Eigen::VectorXd plateau = t.emg.column("BIC").segment(2000, 3800);
-  EXPECT_NEAR(std::sqrt(plateau.squaredNorm() / 3800.0) / recording.truth.mvc_v[kBiceps], 1.0,
-              0.075);
+  EXPECT_NEAR(
+      std::sqrt(plateau.squaredNorm() / 3800.0) / recording.truth.instruments.greatest_v[kBiceps],
+      1.0, 0.075);
   // Its rectified mean, which the study normalises by: sqrt(2/pi) of that.
-  EXPECT_NEAR(plateau.cwiseAbs().mean() / recording.truth.mvc_v[kBiceps], std::sqrt(2.0 / kPi),
-              0.06);
+  EXPECT_NEAR(plateau.cwiseAbs().mean() / recording.truth.instruments.greatest_v[kBiceps],
+              std::sqrt(2.0 / kPi), 0.06);
   // At rest: 1.5 % of it from the amplifier and 1 % of mains.
   const Eigen::VectorXd rest = t.emg.column("BIC").head(800);
-  EXPECT_NEAR(std::sqrt(rest.squaredNorm() / 800.0) / recording.truth.mvc_v[kBiceps],
-              std::hypot(0.015, 0.010), 0.003);
+  EXPECT_NEAR(
+      std::sqrt(rest.squaredNorm() / 800.0) / recording.truth.instruments.greatest_v[kBiceps],
+      std::hypot(0.015, 0.010), 0.003);
 }
 
 TEST(VirtualRecording, TheDynamometerTakesWhatTheMusclesExertAndHoldsTheForearm) {

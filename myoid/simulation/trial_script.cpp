@@ -43,6 +43,59 @@ void add_oscillation(TrialScript& script, Random& random) {
   script.duration_s = std::max(p.duration_s, motion.end_s() + kMarginOfFlexion_s);
 }
 
+/// The flexors' proportions go around a circle from effort to effort: each of them leads in turn.
+Coordination lead(const ControlSpec& control, double first_rad, int k, int count) {
+  const double angle_rad = first_rad + 2.0 * kPi * k / std::max(count, 3);
+  return {.brachioradialis = control.synergy * std::sqrt(2.0) * std::cos(angle_rad),
+          .brachialis = control.brachialis_synergy * std::sqrt(2.0) * std::sin(angle_rad)};
+}
+
+/// Effort at the angle where the sweep begins, the sweep, and rest; between sweeps that do not
+/// follow each other the relaxed arm is brought back.
+void add_sweeps(TrialScript& script, const ControlSpec& control, Random& random) {
+  const TrialProtocol& p = script.protocol;
+  constexpr double kReturn_s = 2.0;
+  constexpr double kMargin_s = 0.1;
+  SmoothMotion& motion = script.motion;
+  motion.start_rad = p.from_rad;
+  const double first_rad = random.uniform(0.0, 2.0 * kPi);
+  const double range_rad = p.to_rad - p.from_rad;
+  bool low = true;
+  double time_s = 0.0;
+  const auto sweep = [&](bool flexion, bool upwards, int k) {
+    if (low != upwards) {
+      motion.moves.push_back({time_s + p.rest_s, kReturn_s, low ? range_rad : -range_rad});
+      time_s += p.rest_s + kReturn_s;
+      low = !low;
+    }
+    const double travel_s = range_rad / p.speed_radps;
+    const Sweep way{.start_s = time_s + p.rest_s + p.rise_s + kMargin_s,
+                    .by_rad = upwards ? range_rad : -range_rad,
+                    .speed_radps = p.speed_radps,
+                    .pace_s = std::min(0.15, 0.4 * travel_s)};
+    motion.sweeps.push_back(way);
+    Effort effort{.start_s = time_s + p.rest_s,
+                  .rise_s = p.rise_s,
+                  .hold_s = way.end_s() + kMargin_s - (time_s + p.rest_s + p.rise_s),
+                  .flexion = flexion};
+    if (flexion) effort.coordination = lead(control, first_rad, k, p.repetitions);
+    script.efforts.push_back(effort);
+    time_s = effort.end_s();
+    low = !low;
+  };
+  for (int k = 0; k < p.repetitions; ++k) {
+    if (p.direction != Direction::extension) {
+      if (p.concentric) sweep(true, true, k);
+      if (p.eccentric) sweep(true, false, k);
+    }
+    if (p.direction != Direction::flexion) {
+      if (p.eccentric) sweep(false, true, k);
+      if (p.concentric) sweep(false, false, k);
+    }
+  }
+  script.duration_s = time_s + p.rest_s;
+}
+
 void add_efforts(TrialScript& script, const ControlSpec& control, Random& random) {
   const TrialProtocol& p = script.protocol;
   script.motion.start_rad = p.angle_rad;
@@ -53,14 +106,9 @@ void add_efforts(TrialScript& script, const ControlSpec& control, Random& random
       if (p.direction == (flexion ? Direction::extension : Direction::flexion)) continue;
       Effort effort{
           .start_s = time_s + p.rest_s, .rise_s = p.rise_s, .hold_s = p.hold_s, .flexion = flexion};
-      // At the greatest effort every muscle does its utmost. Else the flexors' proportions go
-      // around a circle from effort to effort: each of them leads in turn.
-      if (p.kind != TrialKind::mvc && flexion) {
-        const double angle_rad = first_rad + 2.0 * kPi * k / std::max(p.repetitions, 3);
-        effort.coordination = {
-            .brachioradialis = control.synergy * std::sqrt(2.0) * std::cos(angle_rad),
-            .brachialis = control.brachialis_synergy * std::sqrt(2.0) * std::sin(angle_rad)};
-      }
+      // At the greatest effort every muscle does its utmost.
+      if (p.kind != TrialKind::mvc && flexion)
+        effort.coordination = lead(control, first_rad, k, p.repetitions);
       script.efforts.push_back(effort);
       time_s = effort.end_s();
     }
@@ -79,10 +127,16 @@ double Modulation::operator()(double time_s) const {
   return 1.0 + depth * std::cos(2.0 * kPi * frequency_hz * time_s + phase_rad);
 }
 
+double TrialScript::cold(double time_s) const {
+  if (!(protocol.warm_up_s > 0.0)) return 0.0;
+  return std::exp(-3.0 * std::max(0.0, time_s) / protocol.warm_up_s);
+}
+
 Coordination TrialScript::coordination(double time_s) const {
-  return {.brachioradialis = mean.brachioradialis + brachioradialis_change(time_s) - 1.0,
-          .brachialis = mean.brachialis + brachialis_change(time_s) - 1.0,
-          .co_contraction = mean.co_contraction * co_contraction_change(time_s)};
+  return {
+      .brachioradialis = mean.brachioradialis + brachioradialis_change(time_s) - 1.0,
+      .brachialis = mean.brachialis + brachialis_change(time_s) - 1.0,
+      .co_contraction = mean.co_contraction * co_contraction_change(time_s) * (1.0 + cold(time_s))};
 }
 
 PerMuscle TrialScript::prescribed_activations(double time_s) const {
@@ -104,7 +158,7 @@ PerMuscle TrialScript::prescribed_activations(double time_s) const {
 
 bool TrialScript::against_dynamometer() const {
   return protocol.kind == TrialKind::isometric_ramp || protocol.kind == TrialKind::mvc ||
-         protocol.kind == TrialKind::passive;
+         protocol.kind == TrialKind::isokinetic || protocol.kind == TrialKind::passive;
 }
 
 TrialScript make_script(const TrialProtocol& trial,
@@ -141,6 +195,9 @@ TrialScript make_script(const TrialProtocol& trial,
     case TrialKind::eccentric:
     case TrialKind::passive:
       add_lifts(script);
+      break;
+    case TrialKind::isokinetic:
+      add_sweeps(script, control, random);
       break;
     case TrialKind::isometric_ramp:
     case TrialKind::mvc:

@@ -43,6 +43,9 @@ struct TrialScript {
   Modulation brachialis_change;
   Modulation co_contraction_change;  ///< A factor.
 
+  /// 1 at the beginning of a trial with a warm-up, fading to 0.05 at its end; else 0.
+  [[nodiscard]] double cold(double time_s) const;
+
   /// How the torque is shared at this time, in trials with a motion.
   [[nodiscard]] Coordination coordination(double time_s) const;
 

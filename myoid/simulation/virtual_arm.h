@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 
 #include "myoid/core/geometry.h"
+#include "myoid/model/planar_elbow.h"
 #include "myoid/muscle/hill_parameters.h"
 #include "myoid/simulation/control.h"
 #include "myoid/simulation/protocol.h"
@@ -17,6 +18,9 @@ namespace myoid::simulation {
 
 using HillSet = std::array<muscle::HillParameters<double>, 4>;  ///< In the order of kArmMuscles.
 
+/// The segments of a virtual subject.
+[[nodiscard]] model::ArmOptions arm_options(const VirtualSubject& subject);
+
 /// The muscles at one angle and speed of the elbow.
 struct MuscleGeometry {
   PerMuscle length_m = {};      ///< Of muscle and tendon.
@@ -24,11 +28,21 @@ struct MuscleGeometry {
   PerMuscle moment_arm_m = {};
 };
 
+/// How one marker of a person departs from the model's.
+struct MarkerError {
+  Vec3 misplaced_m = Vec3::Zero();    ///< In the frame of its body.
+  Vec3 soft_tissue_m = Vec3::Zero();  ///< Times sin(q + phase): how far it moves on the skin.
+  double phase_rad = 0.0;
+};
+
+enum class MarkerSegment { trunk, upper_arm, forearm };
+
 /// The skeleton of one virtual subject: the built-in arm with the subject's segments. Muscle
 /// parameters are separate, since they are what is drawn.
 class VirtualArm {
  public:
-  explicit VirtualArm(const VirtualSubject& subject);
+  /// `heads`: the model file has seven heads instead of four muscles.
+  explicit VirtualArm(const VirtualSubject& subject, bool heads = false);
   ~VirtualArm();
   VirtualArm(VirtualArm&&) noexcept;
   VirtualArm& operator=(VirtualArm&&) noexcept;
@@ -45,9 +59,17 @@ class VirtualArm {
   [[nodiscard]] const HillSet& literature() const;
 
   [[nodiscard]] const std::vector<std::string>& marker_names() const;
-  /// Positions in ground: a row per angle, x y z of one marker after the other [m].
+  [[nodiscard]] std::vector<MarkerSegment> marker_segments() const;
+  /// Positions in ground: a row per angle, x y z of one marker after the other [m]. `errors`: none,
+  /// or one per marker.
   [[nodiscard]] Eigen::MatrixXd markers_m(
-      const Eigen::Ref<const Eigen::VectorXd>& elbow_flexion_rad, Plane plane) const;
+      const Eigen::Ref<const Eigen::VectorXd>& elbow_flexion_rad,
+      Plane plane,
+      const std::vector<MarkerError>& errors = {}) const;
+
+  /// The muscle as the model file has it: of heads, the mean by the literature's F_max.
+  [[nodiscard]] model::MuscleTravel modelled_travel(std::size_t muscle,
+                                                    double elbow_flexion_rad) const;
 
   [[nodiscard]] const std::string& held_body() const;
   [[nodiscard]] Vec3 held_at_m() const;

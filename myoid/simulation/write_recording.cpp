@@ -49,6 +49,7 @@ void write_trial(const VirtualRecording& recording,
   write(truth / (name + "_torque.sto"), trial.truth.torque, "true torque");
   write(truth / (name + "_activation.sto"), trial.truth.activation, "true activation");
   write(truth / (name + "_force.sto"), trial.truth.force, "true force");
+  if (trial.truth.heads) write(truth / (name + "_heads.sto"), *trial.truth.heads, "true heads");
 }
 
 }  // namespace
@@ -59,6 +60,7 @@ void write_virtual_recording(const VirtualRecording& recording,
   prepare_directory(directory, overwrite);
   recording::write_file(directory / "model.osim", recording.model_osim);
   for (const VirtualTrial& trial : recording.trials) write_trial(recording, trial, directory);
+  recording::write_file(directory / "truth" / "person.csv", person_csv(recording));
   recording::write_file(directory / "truth.csv", truth_csv(recording));
   recording::write_file(directory / "study.toml", study_toml(recording));
 }

@@ -13,6 +13,14 @@ namespace myoid::simulation {
 /// The true values: muscle, parameter, unit, value; the delay of the EMG has muscle "subject".
 [[nodiscard]] std::string truth_csv(const VirtualRecording& recording);
 
+/// The same in one line, for tables of many persons: seed, persons drawn, delay, and the parameters
+/// of BIC, BRA, BRD and TRI; and the names of its columns.
+[[nodiscard]] std::string truth_row(const VirtualRecording& recording);
+[[nodiscard]] std::string truth_header();
+
+/// Everything else about the person and the instruments: of, quantity, unit, value.
+[[nodiscard]] std::string person_csv(const VirtualRecording& recording);
+
 /// Writes model.osim, study.toml, truth.csv, per trial TRIAL.trc, TRIAL_emg.sto and, where a
 /// dynamometer took part, TRIAL_torque.sto, and under truth/ what really happened. Creates the
 /// folder. Files are written whole or not at all; study.toml comes last, so that a folder with one

@@ -98,7 +98,7 @@ TEST_F(WriteRecording, SameSeedSameBytes) {
     EXPECT_EQ(content(entry.path()), content(directory_ / "b" / relative)) << relative;
     ++files;
   }
-  EXPECT_EQ(files, 3 + 3 * 6 + 2);  // and one torque for each trial with a dynamometer
+  EXPECT_EQ(files, 4 + 3 * 6 + 2);  // and one torque for each trial with a dynamometer
   EXPECT_NE(content(directory_ / "a" / "truth.csv"), content(directory_ / "c" / "truth.csv"));
   EXPECT_NE(content(directory_ / "a" / "loaded.trc"), content(directory_ / "c" / "loaded.trc"));
 }

@@ -1,0 +1,26 @@
+#pragma once
+
+#include "myoid/simulation/true_arm.h"
+#include "myoid/simulation/virtual_arm.h"
+
+namespace myoid::simulation {
+
+/// The fitted model's parameters that come closest to a person at level L2, muscle by muscle: the
+/// least-squares fit of
+///
+///   r_model(q) a f_l(l_model - l_ts) f_v F_max   to   sum over heads of r(q) F_t
+///
+/// over elbow angles from 15 to 130 degrees, steady speeds up to 5 rad/s either way and activations
+/// from 0.1 to 0.9; v_max and l_ts are the literature's, held, and the three numbers of f_v are
+/// tethered loosely to the literature, since these speeds alone do not tell them apart. It is what
+/// a perfect experiment with the fitted model would find: wrong moment arms, stretching tendons,
+/// pennation, passive force and the optimum that shifts with activation are all in it. `misfit`, if
+/// not null, receives the root mean square of the rest over that of the torque.
+[[nodiscard]] HillSet effective_muscles(const TrueArm& person,
+                                        const VirtualArm& modelled,
+                                        PerMuscle* misfit = nullptr);
+
+/// F_max of the heads added up along the tendon [N]: what anatomy would call the muscle's strength.
+[[nodiscard]] PerMuscle anatomical_strength_n(const TrueArm& person);
+
+}  // namespace myoid::simulation

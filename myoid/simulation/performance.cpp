@@ -1,0 +1,115 @@
+#include "myoid/simulation/performance.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace myoid::simulation {
+namespace {
+
+constexpr double kFatigueStep_s = 0.05;
+
+}  // namespace
+
+template <std::size_t N>
+void Tiredness<N>::rest(double interval_s) {
+  if (!rates) return;
+  constexpr double kRelaxing_s = 2.0;  // e^-20 is left of what was active
+  const double relaxing_s = std::min(interval_s, kRelaxing_s);
+  work({}, relaxing_s);
+  const double decay =
+      std::exp(-rates->rest_recovery_factor * rates->recovery_per_s * (interval_s - relaxing_s));
+  for (muscle::FatigueState<double>& s : state) {
+    s.fatigued *= decay;
+    s.resting = 1.0 - s.active - s.fatigued;
+  }
+}
+template struct Tiredness<4>;
+template struct Tiredness<7>;
+
+ExactPerformance::ExactPerformance(const VirtualArm& arm,
+                                   const HillSet& muscles,
+                                   TrialScript script,
+                                   double delay_s,
+                                   const PerMuscle& effort,
+                                   Tiredness<4>& tiredness)
+    : Performance(std::move(script)),
+      arm_(&arm),
+      muscles_(&muscles),
+      delay_s_(delay_s),
+      effort_(effort) {
+  if (!tiredness.rates) return;
+  const auto count =
+      static_cast<std::size_t>(std::ceil(this->script().duration_s / kFatigueStep_s)) + 1;
+  strength_.reserve(count);
+  for (std::size_t k = 0; k < count; ++k) {
+    strength_.push_back(tiredness.strength());
+    tiredness.work(at(static_cast<double>(k) * kFatigueStep_s).activation, kFatigueStep_s);
+  }
+}
+
+PerMuscle ExactPerformance::strength(double time_s) const {
+  if (strength_.empty()) return {1.0, 1.0, 1.0, 1.0};
+  const double s =
+      std::clamp(time_s / kFatigueStep_s, 0.0, static_cast<double>(strength_.size() - 1));
+  const std::size_t before = std::min(static_cast<std::size_t>(s), strength_.size() - 1);
+  const std::size_t after = std::min(before + 1, strength_.size() - 1);
+  PerMuscle share;
+  for (std::size_t i = 0; i < share.size(); ++i)
+    share[i] =
+        std::lerp(strength_[before][i], strength_[after][i], s - static_cast<double>(before));
+  return share;
+}
+
+PerMuscle ExactPerformance::fatigued() const {
+  PerMuscle share = strength(0.5 * script().duration_s);
+  for (double& value : share) value = 1.0 - value;
+  return share;
+}
+
+Instant ExactPerformance::at(double time_s) const {
+  const TrialScript& script = this->script();
+  Instant now;
+  now.q = script.motion(time_s);
+  const MuscleGeometry geometry = arm_->geometry(now.q);
+  PerMuscle full_n = full_force_n(geometry, *muscles_);
+  const PerMuscle left = strength(time_s);
+  PerMuscle capacity_nm = {};
+  for (std::size_t i = 0; i < 4; ++i) {
+    full_n[i] *= left[i];
+    capacity_nm[i] = full_n[i] * geometry.moment_arm_m[i];
+    now.fiber_length_m[i] = geometry.length_m[i] - (*muscles_)[i].tendon_slack_length_m;
+  }
+  const double required_nm =
+      arm_->required_torque_nm(now.q, script.protocol.plane, script.protocol.held_mass_kg);
+  if (script.against_dynamometer()) {
+    now.activation = script.prescribed_activations(time_s);
+    if (script.protocol.kind == TrialKind::mvc) {
+      for (std::size_t i = 0; i < 4; ++i) now.activation[i] *= effort_[i];
+    }
+  } else {
+    now.activation = activations_for(required_nm, capacity_nm, script.coordination(time_s));
+  }
+  for (std::size_t i = 0; i < 4; ++i) {
+    now.force_n[i] = now.activation[i] * full_n[i];
+    now.muscle_torque_nm += now.activation[i] * capacity_nm[i];
+  }
+  if (script.against_dynamometer()) now.external_torque_nm = required_nm - now.muscle_torque_nm;
+  return now;
+}
+
+PerMuscle ExactPerformance::drive(double time_s) const {
+  // The electrode sees now what the muscle does a delay later.
+  return at(time_s + delay_s_).activation;
+}
+
+double ExactPerformance::greatest_activation(double rate_hz) const {
+  double greatest = 0.0;
+  if (script().against_dynamometer()) return greatest;
+  for (double t = 0.0; t <= script().duration_s; t += 1.0 / rate_hz) {
+    const PerMuscle a = at(t).activation;
+    greatest = std::max(greatest, *std::max_element(a.begin(), a.end()));
+  }
+  return greatest;
+}
+
+}  // namespace myoid::simulation
