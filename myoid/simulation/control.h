@@ -7,7 +7,7 @@ namespace myoid::simulation {
 
 /// The muscles of the built-in arm, in this order everywhere in this folder.
 inline constexpr std::array<std::string_view, 4> kArmMuscles = {"BIC", "BRA", "BRD", "TRI"};
-enum ArmMuscle : std::size_t { kBiceps, kBrachialis, kBrachioradialis, kTriceps };
+enum MuscleIndex : std::size_t { kBiceps, kBrachialis, kBrachioradialis, kTriceps };
 
 /// A number per muscle, in the order of kArmMuscles.
 using PerMuscle = std::array<double, 4>;

@@ -36,17 +36,21 @@ TEST(IdentificationReady, ExactRecordingsGiveTorquesThatTheTrueMusclesExert) {
   ASSERT_EQ(person.trials.size(), 2u);  // without the MVC
   for (const ReadyTrial& trial : person.trials) {
     EXPECT_TRUE(trial.calibration);
+    // Away from the ends, where the delay reaches before the beginning.
+    constexpr Eigen::Index kMargin = 30;
+    const Eigen::Index count = trial.time_s.size() - 2 * kMargin;
     const TimeSeries activation = signals::resample(
-        trial.activation, (trial.time_s.array() - person.truth.emg_delay_s).matrix().cwiseMax(0.0));
+        trial.activation,
+        (trial.time_s.segment(kMargin, count).array() - person.truth.emg_delay_s).matrix());
     double worst_nm = 0.0;
     double largest_nm = 0.0;
-    // Away from the ends, where the delay reaches before the beginning.
-    for (Eigen::Index k = 30; k < trial.time_s.size() - 30; ++k) {
+    for (Eigen::Index row = 0; row < count; ++row) {
+      const Eigen::Index k = row + kMargin;
       double torque_nm = 0.0;
       for (std::size_t m = 0; m < 4; ++m) {
         const auto c = static_cast<Eigen::Index>(m);
         const muscle::HillParameters<double>& p = person.truth.muscles[m];
-        const double a = activation.values()(k, activation.index(person.channels[m]));
+        const double a = activation.values()(row, activation.index(person.channels[m]));
         torque_nm += trial.moment_arm_m(k, c) *
                      muscle::hill_force(a, trial.length_m(k, c) - p.tendon_slack_length_m,
                                         trial.velocity_mps(k, c), p);
