@@ -5,10 +5,11 @@
 
 #include "myoid/cli/context.h"
 #include "myoid/core/error.h"
+#include "myoid/identification/compare_solvers.h"
 #include "myoid/identification/cross_validation.h"
+#include "myoid/identification/force.h"
 #include "myoid/identification/paper.h"
 #include "myoid/identification/torque.h"
-#include "myoid/muscle/literature.h"
 #include "myoid/pipeline/result_files.h"
 #include "myoid/recording/atomic_file.h"
 #include "myoid/recording/csv_reader.h"
@@ -23,9 +24,42 @@ using identification::MuscleSetup;
 using identification::StudyData;
 using identification::TrialData;
 
+bool given_for_hill(std::string_view name) {
+  return std::any_of(muscle::kHillFields.begin(), muscle::kHillFields.end(),
+                     [&](const muscle::HillField& field) { return field.name == name; });
+}
+
+/// What muscles.csv says.
+struct MuscleTable {
+  std::vector<MuscleSetup> muscles;
+  std::vector<identification::ParameterRule> rules;  ///< Parameters that are not held by default.
+  std::vector<std::string> speed_may_be_free;  ///< Muscles whose v_max is neither held nor freed.
+};
+
+std::string known_parameters() {
+  std::string names;
+  for (const identification::ParameterField& field : identification::parameter_fields()) {
+    if (field.scope == identification::Scope::muscle)
+      names += (names.empty() ? "" : ", ") + std::string(field.name);
+  }
+  return names;
+}
+
+/// Column of a parameter in muscles.csv beyond the eight of the paper's law, in MuscleExtras.
+double* extra_field(identification::MuscleExtras& extras, std::string_view name) {
+  if (name == "pennation_angle") return &extras.pennation_angle_rad;
+  if (name == "passive_force") return &extras.passive_force;
+  if (name == "passive_strain") return &extras.passive_strain;
+  if (name == "passive_shape") return &extras.passive_shape;
+  if (name == "length_activation") return &extras.length_activation;
+  if (name == "tendon_strain") return &extras.tendon_strain;
+  if (name == "activation_share") return &extras.activation_share;
+  return nullptr;
+}
+
 /// muscles.csv: `muscle` and one column per parameter; `<parameter>_fixed`, `_lower`, `_upper`,
 /// `_prior_sd`, `emg`.
-std::vector<MuscleSetup> read_muscles(const std::filesystem::path& path) {
+MuscleTable read_muscles(const std::filesystem::path& path) {
   const recording::CsvTable table = recording::read_csv_table(path);
   const auto column = [&](const std::string& name) -> std::optional<std::size_t> {
     const auto it = std::find(table.names.begin(), table.names.end(), name);
@@ -37,75 +71,114 @@ std::vector<MuscleSetup> read_muscles(const std::filesystem::path& path) {
     throw ReadError(
         path, 1, "no column 'muscle'; write muscle,max_isometric_force,optimal_fiber_length,...");
   std::vector<std::string> known{"muscle", "emg"};
-  for (const muscle::HillField& field : muscle::kHillFields) {
+  for (const identification::ParameterField& field : identification::parameter_fields()) {
+    if (field.scope != identification::Scope::muscle) continue;
     for (const char* suffix : {"", "_fixed", "_lower", "_upper", "_prior_sd"})
       known.push_back(std::string(field.name) + suffix);
   }
   for (const std::string& name : table.names) {
     if (std::find(known.begin(), known.end(), name) == known.end()) {
-      throw ReadError(path, 1,
-                      fmt::format("unknown column '{}'; parameters are max_isometric_force, "
-                                  "optimal_fiber_length, force_length_width, concentric_curvature, "
-                                  "eccentric_curvature_product, eccentric_plateau, "
-                                  "max_shortening_speed, tendon_slack_length (SI)",
-                                  name));
+      throw ReadError(
+          path, 1,
+          fmt::format("unknown column '{}'; parameters are {} (SI)", name, known_parameters()));
     }
   }
-  std::vector<MuscleSetup> muscles;
+  MuscleTable result;
   for (std::size_t r = 0; r < table.rows.size(); ++r) {
-    const auto number = [&](const std::string& name) -> std::optional<double> {
+    const auto fail = [&](const std::string& message) {
+      throw ReadError(path, table.lines[r], message);
+    };
+    const auto cell = [&](const std::string& name) -> std::string {
       const auto c = column(name);
-      if (!c || table.rows[r][*c].empty()) return std::nullopt;
-      const auto value = recording::parse_number(table.rows[r][*c]);
-      if (!value)
-        throw ReadError(path, table.lines[r],
-                        fmt::format("{}: expected a number, found '{}'", name, table.rows[r][*c]));
+      return c ? table.rows[r][*c] : "";
+    };
+    const auto number = [&](const std::string& name) -> std::optional<double> {
+      if (cell(name).empty()) return std::nullopt;
+      const auto value = recording::parse_number(cell(name));
+      if (!value) fail(fmt::format("{}: expected a number, found '{}'", name, cell(name)));
       return value;
     };
+    const auto flag = [&](const std::string& name) -> std::optional<bool> {
+      const std::string text = cell(name);
+      if (text.empty()) return std::nullopt;
+      for (const char* yes : {"true", "1", "yes"}) {
+        if (recording::equal_ignoring_case(text, yes)) return true;
+      }
+      for (const char* no : {"false", "0", "no"}) {
+        if (recording::equal_ignoring_case(text, no)) return false;
+      }
+      fail(fmt::format("{}: expected true or false, found '{}'", name, text));
+      return std::nullopt;
+    };
     MuscleSetup setup;
-    setup.name = table.rows[r][*column("muscle")];
-    setup.emg_channel = column("emg") && !table.rows[r][*column("emg")].empty()
-                            ? table.rows[r][*column("emg")]
-                            : setup.name;
+    setup.name = cell("muscle");
+    if (setup.name.empty()) fail("a muscle without a name");
+    for (const MuscleSetup& other : result.muscles) {
+      if (other.name == setup.name) fail(fmt::format("muscle '{}' is listed twice", setup.name));
+    }
+    setup.emg_channel = cell("emg").empty() ? setup.name : cell("emg");
     for (const muscle::HillField& field : muscle::kHillFields) {
       const std::string name(field.name);
       const auto start = number(name);
       if (!start && name != "tendon_slack_length") {
-        throw ReadError(
-            path, table.lines[r],
+        fail(
             fmt::format("muscle '{}' has no {}; every parameter needs a starting value in SI units",
                         setup.name, name));
       }
       setup.start.*field.member = start.value_or(0.0);
     }
-    for (const muscle::HillField& field : muscle::kHillFields) {
-      const std::string name(field.name);
-      const double start = setup.start.*field.member;
-      if (const auto c = column(name + "_fixed");
-          c && recording::equal_ignoring_case(table.rows[r][*c], "true"))
-        setup.fixed.push_back(name);
-      const auto lower = number(name + "_lower");
-      const auto upper = number(name + "_upper");
-      if (lower || upper)
-        setup.bounds[name] = {lower.value_or(field.bounds.lower),
-                              upper.value_or(field.bounds.upper)};
-      if (const auto sd = number(name + "_prior_sd")) {
-        setup.priors[name] = {.mean = start, .sd = *sd};
-      } else if (const auto prior =
-                     muscle::literature_prior(name, start, setup.start.optimal_fiber_length_m)) {
-        setup.priors[name] = *prior;
-      }
-    }
     try {
       muscle::validate(setup.start);
     } catch (const InvalidInput& error) {
-      throw ReadError(path, table.lines[r],
-                      fmt::format("muscle '{}': {}", setup.name, error.what()));
+      fail(fmt::format("muscle '{}': {}", setup.name, error.what()));
     }
-    muscles.push_back(std::move(setup));
+    setup.priors = identification::literature_priors(setup.start);
+    for (const identification::ParameterField& field : identification::parameter_fields()) {
+      if (field.scope != identification::Scope::muscle) continue;
+      const std::string name(field.name);
+      double start = 0.0;
+      if (const double* extra = extra_field(setup.extras, name)) start = *extra;
+      if (const auto given = number(name)) {
+        start = *given;
+        if (double* extra = extra_field(setup.extras, name)) *extra = start;
+      }
+      if (given_for_hill(name)) start = setup.start.*muscle::hill_field(name).member;
+      const auto held = flag(name + "_fixed");
+      const auto lower = number(name + "_lower");
+      const auto upper = number(name + "_upper");
+      const auto sd = number(name + "_prior_sd");
+      if (sd && !(*sd > 0.0))
+        fail(fmt::format("{}_prior_sd: expected a positive number, found {}", name, *sd));
+      if (lower || upper) {
+        setup.bounds[name] = {lower.value_or(field.bounds.lower),
+                              upper.value_or(field.bounds.upper)};
+        if (!(setup.bounds[name].lower < setup.bounds[name].upper))
+          fail(fmt::format("{}: lower bound {} is not below upper bound {}", name,
+                           setup.bounds[name].lower, setup.bounds[name].upper));
+      }
+      if (sd) setup.priors[name] = {.mean = start, .sd = *sd};
+      if (held.value_or(false)) setup.fixed.push_back(name);
+      // Who asks something of the product itself has it as the unknown.
+      if (name == "eccentric_curvature_product" && (held.value_or(false) || lower || upper || sd))
+        setup.priors.erase("eccentric_slope_ratio");
+      const bool usual = field.field <= identification::kPlateau;
+      if (held && !*held && !usual) {
+        identification::ParameterRule rule;
+        rule.parameter = name;
+        rule.owners = {setup.name};
+        rule.free = true;
+        if (number(name)) rule.value = *number(name);
+        if (lower) rule.lower = *lower;
+        if (upper) rule.upper = *upper;
+        if (sd) rule.prior_sd = *sd;
+        result.rules.push_back(rule);
+      }
+      if (name == "max_shortening_speed" && !held) result.speed_may_be_free.push_back(setup.name);
+    }
+    result.muscles.push_back(std::move(setup));
   }
-  if (muscles.empty()) throw ReadError(path, 0, "there are no muscles");
-  return muscles;
+  if (result.muscles.empty()) throw ReadError(path, 0, "there are no muscles");
+  return result;
 }
 
 /// The columns of the muscles, on the clock of the lengths.
@@ -131,8 +204,14 @@ Eigen::MatrixXd columns_of(const std::string& path,
 struct Options {
   std::string muscles, out, method = "torque", coordinate;
   std::vector<std::string> activations, lengths, velocities, forces, arms, torques;
-  double delay_s = -1.0;
+  std::optional<double> delay_s;
   bool no_priors = false;
+  bool compare = false;
+  int bootstrap = 0;
+  bool profile = false;
+  std::string loss = "square";
+  int starts = 3;
+  std::vector<std::string> free_more;
 };
 
 void require_count(std::size_t count, std::size_t trials, std::string_view option) {
@@ -142,9 +221,10 @@ void require_count(std::size_t count, std::size_t trials, std::string_view optio
                     count, trials));
 }
 
-StudyData read_data(const Options& o, const Context& context) {
+StudyData read_data(const Options& o, const MuscleTable& table, const Context& context) {
   StudyData data;
-  data.muscles = read_muscles(o.muscles);
+  data.muscles = table.muscles;
+  data.rules = table.rules;
   const std::size_t trials = o.lengths.size();
   require_count(o.activations.size(), trials, "--activations");
   require_count(o.velocities.size(), trials, "--velocities");
@@ -211,6 +291,55 @@ StudyData read_data(const Options& o, const Context& context) {
   return data;
 }
 
+void print_result(const identification::IdentificationResult& result) {
+  for (const auto& e : result.estimates) {
+    fmt::print("{:<10} {:<28} {:<12} {:>14} {:>26}  {}: {}\n", e.muscle, e.parameter, e.fit_case,
+               std::isfinite(e.estimate) ? report::format_value(e.estimate, 6) : "-",
+               e.ci_low && e.ci_high ? fmt::format("[{}, {}]", report::format_value(*e.ci_low, 4),
+                                                   report::format_value(*e.ci_high, 4))
+                                     : "-",
+               identification::name(e.verdict), e.reason);
+  }
+  if (result.exact) fmt::print("The data are free of noise: fitted as they are, without priors.\n");
+  for (const std::string& text : result.diagnoses) fmt::print("signature: {}\n", text);
+  for (const std::string& text : result.undetermined)
+    fmt::print("left open by the data: {}\n", text);
+  for (const std::string& text : result.warnings) fmt::print("warning: {}\n", text);
+  for (const identification::BranchTest& test : result.branch_tests) {
+    fmt::print(
+        "{}: l0 and l_sh of the two branches differ by {:+.4f} and {:+.4f} m (Wald {:.1f}, p = "
+        "{:.3f})\n",
+        test.muscle, test.length_difference_m, test.width_difference_m, test.wald, test.p_value);
+  }
+}
+
+void print_comparison(const std::string& name, const identification::SolverComparison& c) {
+  fmt::print("\nSolvers, {}:\n{:<22}{:>6}{:>16}{:>12}{:>13}{:>10}  {}\n", name, "solver", "start",
+             "cost", "distance", "evaluations", "seconds", "ended");
+  for (const identification::SolverRun& run : c.runs) {
+    fmt::print("{:<22}{:>6}{:>16.6g}{:>12.2g}{:>13}{:>10.3f}  {}\n", run.solver, run.start,
+               run.cost, run.distance, run.evaluations, run.seconds, math::name(run.termination));
+  }
+  fmt::print("Basins of Levenberg-Marquardt from {} starts:\n", c.multistart.starts.size());
+  for (std::size_t i = 0; i < c.multistart.basins.size() && i < 8; ++i) {
+    const math::Basin& basin = c.multistart.basins[i];
+    fmt::print("  cost {:<14.6g} reached from {} starts{}\n", basin.cost, basin.members.size(),
+               basin.rival && i > 0 ? ", as good as the best: both are answers" : "");
+  }
+}
+
+std::string solvers_csv(
+    const std::vector<std::pair<std::string, identification::SolverComparison>>& comparisons) {
+  std::string text = "fit,solver,start,cost,distance,evaluations,seconds,termination\n";
+  for (const auto& [name, c] : comparisons) {
+    for (const identification::SolverRun& run : c.runs) {
+      text += fmt::format("{},{},{},{},{},{},{},{}\n", name, run.solver, run.start, run.cost,
+                          run.distance, run.evaluations, run.seconds, math::name(run.termination));
+    }
+  }
+  return text;
+}
+
 }  // namespace
 
 void add_identify(CLI::App& app, Context& context) {
@@ -233,37 +362,82 @@ void add_identify(CLI::App& app, Context& context) {
       ->required();
   command.add_option("--velocities", o->velocities, "Their rates [m/s], lengthening positive")
       ->required();
-  command.add_option("--forces", o->forces, "Muscle forces [N], for --method paper");
+  command.add_option("--forces", o->forces, "Muscle forces [N], for --method paper and force");
   command.add_option("--moment-arms", o->arms, "Moment arms [m] by muscle, for --method torque");
   command.add_option("--torques", o->torques,
                      "Joint torque of the muscles [N m], for --method torque");
   command.add_option("--coordinate", o->coordinate,
                      "Column of the torque file, where it has several");
-  command.add_option("--method", o->method, "paper or torque (default torque)")
-      ->check(CLI::IsMember({"paper", "torque"}));
-  command.add_option("--delay", o->delay_s,
-                     "EMG delay held at this [s] (default: estimated, method torque)");
+  command.add_option("--method", o->method, "paper, force or torque (default torque)")
+      ->check(CLI::IsMember({"paper", "force", "torque"}));
+  command
+      .add_option("--delay", o->delay_s,
+                  "EMG delay held at this [s] (default: estimated, methods force and torque)")
+      ->check(CLI::Range(0.0, 0.3));
   command.add_flag("--no-priors", o->no_priors,
-                   "Method torque: the data alone, plain least squares");
+                   "Methods force and torque: the data alone, plain least squares");
+  command
+      .add_option("--free", o->free_more,
+                  "Further parameters to identify, of all muscles, channels or the joint: "
+                  "emg_shape, length_activation, ...")
+      ->delimiter(',');
+  command.add_option("--loss", o->loss, "square, huber or cauchy (default square)")
+      ->check(CLI::IsMember({"square", "huber", "cauchy"}));
+  command.add_option("--bootstrap", o->bootstrap, "Bootstrap replicates (default 0: none)")
+      ->check(CLI::Range(0, 100000));
+  command.add_flag("--profile", o->profile, "Profile likelihood of every parameter");
+  command.add_flag("--compare-solvers", o->compare,
+                   "Gauss-Newton, Levenberg-Marquardt, simplex and annealing from the same starts");
+  command.add_option("--starts", o->starts, "Starts of --compare-solvers (default 3)")
+      ->check(CLI::Range(1, 100));
   command.add_option("--out", o->out, "Folder for parameters.csv, parameters.json")->required();
   command.add_flag("--strict", context.strict, "Exit with 4 if a parameter is not identifiable");
   add_common_options(command, context);
   command.callback([&context, o] {
-    const StudyData data = read_data(*o, context);
+    const MuscleTable table = read_muscles(o->muscles);
+    StudyData data = read_data(*o, table, context);
+    for (const std::string& name : o->free_more) {
+      (void)identification::parameter_field(name);
+      identification::ParameterRule rule;
+      rule.parameter = name;
+      rule.free = true;
+      data.rules.push_back(rule);
+    }
     context.prepare_folder(o->out);
+    identification::EstimatorOptions options;
+    options.priors = !o->no_priors;
+    options.weights = !o->no_priors;
+    options.max_rate_hz = 200.0;
+    options.delay_s = o->delay_s;
+    options.loss = o->loss == "huber"    ? identification::Loss::huber
+                   : o->loss == "cauchy" ? identification::Loss::cauchy
+                                         : identification::Loss::square;
+    options.intervals = {.bootstrap = o->bootstrap, .profile = o->profile, .seed = context.seed};
+    options.progress = context.progress();
     identification::IdentificationResult result;
     std::vector<identification::Fold> folds;
     if (o->method == "paper") {
       result = identification::identify_paper(data);
+    } else if (o->method == "force") {
+      result = identification::identify_force(data, {.estimator = options,
+                                                     .detect_exact = true,
+                                                     .speed_may_be_free = table.speed_may_be_free});
     } else {
-      identification::TorqueOptions options;
-      options.priors = !o->no_priors;
-      options.weights = !o->no_priors;
-      options.max_rate_hz = 200.0;
-      if (o->delay_s >= 0.0) options.delay_s = o->delay_s;
-      options.progress = context.progress();
-      result = identification::identify_torque(data, options);
-      folds = identification::cross_validate(data, options);
+      result = identification::identify_torque_or_exact(data, options, table.speed_may_be_free);
+      if (!result.exact) folds = identification::cross_validate(data, options);
+    }
+    std::vector<std::pair<std::string, identification::SolverComparison>> comparisons;
+    if (o->compare && o->method == "torque") {
+      comparisons.emplace_back("all muscles",
+                               identification::compare_solvers(
+                                   data, options, {.starts = o->starts, .seed = context.seed}));
+    } else if (o->compare) {
+      for (std::size_t k = 0; k < data.muscles.size(); ++k) {
+        comparisons.emplace_back(
+            data.muscles[k].name,
+            identification::compare_solvers(identification::force_study(data, k), options,
+                                            {.starts = o->starts, .seed = context.seed}));
+      }
     }
     context.end_progress();
     Provenance provenance;
@@ -275,25 +449,20 @@ void add_identify(CLI::App& app, Context& context) {
         provenance.inputs.push_back({path, sha256(recording::read_text_file(path))});
     }
     const std::vector<identification::IdentificationResult> results{result};
-    recording::write_file(std::filesystem::path(o->out) / "parameters.json",
+    const std::filesystem::path folder(o->out);
+    recording::write_file(folder / "parameters.json",
                           pipeline::parameters_json(results, folds, provenance));
-    recording::write_file(std::filesystem::path(o->out) / "parameters.csv",
-                          pipeline::parameters_csv(results));
+    recording::write_file(folder / "parameters.csv", pipeline::parameters_csv(results));
+    if (!comparisons.empty())
+      recording::write_file(folder / "solvers.csv", solvers_csv(comparisons));
     if (context.json) {
       fmt::print("{}", pipeline::parameters_json(results, folds, provenance));
     } else {
-      for (const auto& e : result.estimates) {
-        fmt::print(
-            "{:<10} {:<28} {:<12} {:>14} {:>26}  {}: {}\n", e.muscle, e.parameter, e.fit_case,
-            std::isfinite(e.estimate) ? report::format_value(e.estimate, 6) : "-",
-            e.ci_low && e.ci_high ? fmt::format("[{}, {}]", report::format_value(*e.ci_low, 4),
-                                                report::format_value(*e.ci_high, 4))
-                                  : "-",
-            identification::name(e.verdict), e.reason);
-      }
+      print_result(result);
+      for (const auto& [name, comparison] : comparisons) print_comparison(name, comparison);
       fmt::print("{}/parameters.csv\n", o->out);
     }
-    bool gate = o->method == "torque" && result.termination != math::Termination::converged;
+    bool gate = o->method != "paper" && result.termination != math::Termination::converged;
     for (const auto& e : result.estimates)
       gate = gate || (context.strict && e.verdict == identification::Verdict::not_identifiable);
     if (gate) context.exit_code = kQualityGateFailed;

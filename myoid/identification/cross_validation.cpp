@@ -2,68 +2,235 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
+#include <Eigen/QR>
+#include <fmt/format.h>
 #include <oneapi/tbb/parallel_for.h>
 
+#include "myoid/identification/paper.h"
+
 namespace myoid::identification {
+namespace {
+
+/// Rows [first, first + count) of a trial, as a trial of their own with the whole EMG.
+TrialData part(const TrialData& trial, Eigen::Index first, Eigen::Index count) {
+  TrialData t = trial;
+  t.time_s = trial.time_s.segment(first, count);
+  t.length_m = trial.length_m.middleRows(first, count);
+  t.velocity_mps = trial.velocity_mps.middleRows(first, count);
+  t.moment_arm_m = trial.moment_arm_m.middleRows(first, count);
+  t.torque_nm = trial.torque_nm.segment(first, count);
+  if (trial.force_n.rows() == trial.time_s.size())
+    t.force_n = trial.force_n.middleRows(first, count);
+  const auto cut = [&](Eigen::VectorXd& x) {
+    if (x.size() == trial.time_s.size()) x = x.segment(first, count).eval();
+  };
+  cut(t.angle_rad);
+  cut(t.velocity_radps);
+  cut(t.acceleration_radps2);
+  for (JointData& joint : t.more_joints) {
+    cut(joint.torque_nm);
+    cut(joint.angle_rad);
+    cut(joint.velocity_radps);
+    cut(joint.acceleration_radps2);
+    joint.moment_arm_m = joint.moment_arm_m.middleRows(first, count).eval();
+  }
+  return t;
+}
+
+/// What a fold is fitted on, and what it predicts.
+struct Split {
+  std::string name;
+  std::vector<TrialData> training, held;
+};
+
+std::vector<Split> make_splits(const StudyData& data, const CrossValidationOptions& options) {
+  std::vector<Split> splits;
+  std::vector<const TrialData*> trials;
+  for (const TrialData& trial : data.trials) {
+    if (trial.calibration) trials.push_back(&trial);
+  }
+  if (options.kind == FoldKind::block) {
+    for (int b = 0; b < options.blocks; ++b) {
+      Split split;
+      split.name = fmt::format("block {} of {}", b + 1, options.blocks);
+      for (const TrialData* trial : trials) {
+        const Eigen::Index n = trial->time_s.size();
+        const Eigen::Index begin = n * b / options.blocks;
+        const Eigen::Index end = n * (b + 1) / options.blocks;
+        const double rate = static_cast<double>(n - 1) / (trial->time_s[n - 1] - trial->time_s[0]);
+        const auto gap = static_cast<Eigen::Index>(std::ceil(options.gap_s * rate));
+        if (end - begin < 4) continue;
+        split.held.push_back(part(*trial, begin, end - begin));
+        if (begin - gap > 10) split.training.push_back(part(*trial, 0, begin - gap));
+        if (n - end - gap > 10) split.training.push_back(part(*trial, end + gap, n - end - gap));
+      }
+      splits.push_back(std::move(split));
+    }
+  } else {
+    std::vector<std::string> names;
+    const auto name_of = [&](const TrialData& trial) {
+      return options.kind == FoldKind::condition && !trial.condition.empty() ? trial.condition
+                                                                             : trial.name;
+    };
+    for (const TrialData* trial : trials) {
+      const std::string name = name_of(*trial);
+      if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+    }
+    for (const std::string& name : names) {
+      Split split;
+      split.name = name;
+      for (const TrialData* trial : trials)
+        (name_of(*trial) == name ? split.held : split.training).push_back(*trial);
+      splits.push_back(std::move(split));
+    }
+  }
+  std::erase_if(splits, [](const Split& s) { return s.held.empty() || s.training.empty(); });
+  if (splits.size() < 2) splits.clear();
+  return splits;
+}
+
+/// Regressors of baseline (ii): activation times moment arm, per muscle.
+Eigen::MatrixXd regressors(const StudyData& data, const TrialData& trial, double delay_s) {
+  return muscle_activation(data, trial, trial.time_s, delay_s).cwiseProduct(trial.moment_arm_m);
+}
+
+Eigen::VectorXd joined(const std::vector<Eigen::VectorXd>& parts) {
+  Eigen::Index n = 0;
+  for (const Eigen::VectorXd& x : parts) n += x.size();
+  Eigen::VectorXd all(n);
+  Eigen::Index at = 0;
+  for (const Eigen::VectorXd& x : parts) {
+    all.segment(at, x.size()) = x;
+    at += x.size();
+  }
+  return all;
+}
+
+}  // namespace
 
 Score score(const Eigen::VectorXd& measured, const Eigen::VectorXd& predicted) {
   Score s;
   const Eigen::VectorXd error = predicted - measured;
-  s.rmse_nm = std::sqrt(error.squaredNorm() / static_cast<double>(measured.size()));
+  const auto n = static_cast<double>(measured.size());
+  s.rmse_nm = std::sqrt(error.squaredNorm() / n);
   const double range = measured.maxCoeff() - measured.minCoeff();
   s.nrmse_range = range > 0.0 ? s.rmse_nm / range : 0.0;
   s.r2 = coefficient_of_determination(measured, predicted);
   const double variance = (measured.array() - measured.mean()).square().sum();
+  s.nrmse_sd = variance > 0.0 ? s.rmse_nm / std::sqrt(variance / n) : 0.0;
   s.vaf = variance > 0.0 ? 1.0 - (error.array() - error.mean()).square().sum() / variance : 0.0;
   return s;
 }
 
-std::vector<Fold> cross_validate(const StudyData& data, const TorqueOptions& options) {
-  std::vector<std::size_t> held;
-  for (std::size_t i = 0; i < data.trials.size(); ++i) {
-    if (data.trials[i].calibration) held.push_back(i);
+double best_lag_s(const Eigen::VectorXd& time_s,
+                  const Eigen::VectorXd& measured,
+                  const Eigen::VectorXd& predicted,
+                  double limit_s) {
+  const Eigen::Index n = time_s.size();
+  if (n < 3) return 0.0;
+  const double step = (time_s[n - 1] - time_s[0]) / static_cast<double>(n - 1);
+  const auto most = std::min<Eigen::Index>(static_cast<Eigen::Index>(limit_s / step), n / 3);
+  double best = -std::numeric_limits<double>::infinity();
+  Eigen::Index at = 0;
+  for (Eigen::Index k = -most; k <= most; ++k) {
+    const Eigen::Index m = n - std::abs(k);
+    const Eigen::VectorXd x = measured.segment(k < 0 ? -k : 0, m);
+    const Eigen::VectorXd y = predicted.segment(k > 0 ? k : 0, m);
+    const Eigen::ArrayXd xc = x.array() - x.mean();
+    const Eigen::ArrayXd yc = y.array() - y.mean();
+    const double size = std::sqrt(xc.square().sum() * yc.square().sum());
+    const double correlation = size > 0.0 ? (xc * yc).sum() / size : 0.0;
+    if (correlation > best) {
+      best = correlation;
+      at = k;
+    }
   }
-  if (held.size() < 2) return {};
+  return static_cast<double>(at) * step;
+}
+
+std::vector<Fold> cross_validate(const StudyData& data,
+                                 const TorqueOptions& options,
+                                 const CrossValidationOptions& how) {
+  const std::vector<Split> splits = make_splits(data, how);
   std::vector<muscle::HillParameters<double>> literature;
   for (const MuscleSetup& setup : data.muscles) literature.push_back(setup.start);
   const double literature_delay = options.delay_s.value_or(options.delay_prior_mean_s);
-  std::vector<Fold> folds(held.size());
-  oneapi::tbb::parallel_for(std::size_t{0}, held.size(), [&](std::size_t f) {
+  std::vector<Fold> folds(splits.size());
+  oneapi::tbb::parallel_for(std::size_t{0}, splits.size(), [&](std::size_t f) {
+    const Split& split = splits[f];
     StudyData training = data;
-    training.trials[held[f]].calibration = false;
+    training.trials = split.training;
     TorqueOptions once = options;
     once.starts = 1;
     once.passes =
         once.warm_start.size() > 0 ? 2 : once.passes;  // the noise hardly changes with one trial
+    once.predictions = false;
+    once.intervals = {};
     once.progress.report = nullptr;
     const IdentificationResult fit = identify_torque(training, once);
-    const TrialData& trial = data.trials[held[f]];
-    Fold& fold = folds[f];
-    fold.trial = trial.name;
-    fold.time_s = trial.time_s;
-    fold.measured_nm = trial.torque_nm;
-    fold.predicted_nm = predict(data, trial, fit.muscles, fit.delay_s).torque_nm;
-    // One gain for the literature's muscles, and the mean, from the other trials.
-    double product = 0.0;
-    double square = 0.0;
-    double sum = 0.0;
-    double count = 0.0;
-    for (const std::size_t other : held) {
-      if (other == held[f]) continue;
-      const TrialData& t = data.trials[other];
+    // Baselines from the training trials.
+    double product = 0.0, square = 0.0, sum = 0.0, count = 0.0;
+    const auto m = static_cast<Eigen::Index>(data.muscles.size());
+    Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(m, m);
+    Eigen::VectorXd right = Eigen::VectorXd::Zero(m);
+    bool forces = true;
+    for (const TrialData& t : split.training) {
       const Eigen::VectorXd torque = predict(data, t, literature, literature_delay).torque_nm;
       product += torque.dot(t.torque_nm);
       square += torque.squaredNorm();
       sum += t.torque_nm.sum();
       count += static_cast<double>(t.torque_nm.size());
+      const Eigen::MatrixXd x = regressors(data, t, fit.delay_s);
+      normal += x.transpose() * x;
+      right += x.transpose() * t.torque_nm;
+      forces = forces && t.force_n.rows() == t.time_s.size();
     }
+    const Eigen::VectorXd slopes = normal.completeOrthogonalDecomposition().solve(right);
+    std::vector<muscle::HillParameters<double>> shortening = literature, lengthening = literature;
+    if (forces) {
+      for (const ParameterEstimate& e :
+           identify_paper(training, {.muscles = options.muscles}).estimates) {
+        if (!std::isfinite(e.estimate)) continue;
+        for (std::size_t k = 0; k < data.muscles.size(); ++k) {
+          if (data.muscles[k].name == e.muscle)
+            (e.fit_case == "shortening" ? shortening : lengthening)[k].*
+                muscle::hill_field(e.parameter).member = e.estimate;
+        }
+      }
+    }
+    Fold& fold = folds[f];
+    fold.trial = split.name;
     fold.gain = square > 0.0 ? product / square : 0.0;
-    fold.literature_nm = fold.gain * predict(data, trial, literature, literature_delay).torque_nm;
+    std::vector<Eigen::VectorXd> time, measured, predicted, by_literature, by_regression, by_paper;
+    double lag = 0.0;
+    for (const TrialData& t : split.held) {
+      time.push_back(t.time_s);
+      measured.push_back(t.torque_nm);
+      predicted.push_back(predict(data, t, fit.values, fit.dynamics).torque_nm);
+      by_literature.push_back(fold.gain * predict(data, t, literature, literature_delay).torque_nm);
+      by_regression.push_back(regressors(data, t, fit.delay_s) * slopes);
+      if (forces) {
+        const Eigen::MatrixXd slow = predict(data, t, shortening, 0.0).force_n;
+        const Eigen::MatrixXd fast = predict(data, t, lengthening, 0.0).force_n;
+        const Eigen::MatrixXd force = (t.velocity_mps.array() <= 0.0).select(slow, fast);
+        by_paper.push_back(t.moment_arm_m.cwiseProduct(force).rowwise().sum());
+      }
+      lag += best_lag_s(t.time_s, t.torque_nm, predicted.back()) /
+             static_cast<double>(split.held.size());
+    }
+    fold.time_s = joined(time);
+    fold.measured_nm = joined(measured);
+    fold.predicted_nm = joined(predicted);
+    fold.literature_nm = joined(by_literature);
+    fold.lag_s = lag;
     fold.identified = score(fold.measured_nm, fold.predicted_nm);
     fold.literature = score(fold.measured_nm, fold.literature_nm);
+    fold.regression = score(fold.measured_nm, joined(by_regression));
     fold.constant =
         score(fold.measured_nm, Eigen::VectorXd::Constant(fold.measured_nm.size(), sum / count));
+    if (forces) fold.paper = score(fold.measured_nm, joined(by_paper));
   });
   return folds;
 }

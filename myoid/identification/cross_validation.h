@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,24 +12,51 @@ namespace myoid::identification {
 struct Score {
   double rmse_nm = 0.0;
   double nrmse_range = 0.0;  ///< RMSE over the range of the measured torque.
+  double nrmse_sd = 0.0;     ///< RMSE over its standard deviation.
   double r2 = 0.0;           ///< 1 - SSE/SST; negative: worse than the trial's own mean.
   double vaf = 0.0;          ///< 1 - var(error)/var(torque)
 };
 [[nodiscard]] Score score(const Eigen::VectorXd& measured, const Eigen::VectorXd& predicted);
 
-/// One trial left out.
-struct Fold {
-  std::string trial;
-  Score identified;   ///< Fitted on the other trials.
-  Score literature;   ///< Literature parameters with the one gain that fits the other trials best.
-  Score constant;     ///< Mean torque of the other trials.
-  double gain = 1.0;  ///< That gain.
-  Eigen::VectorXd time_s, measured_nm, predicted_nm, literature_nm;
+/// Shift [s] of the prediction, within +-limit_s, at which it correlates best with the measurement:
+/// positive if the prediction comes late.
+[[nodiscard]] double best_lag_s(const Eigen::VectorXd& time_s,
+                                const Eigen::VectorXd& measured,
+                                const Eigen::VectorXd& predicted,
+                                double limit_s = 0.2);
+
+/// What is left out of each fit.
+enum class FoldKind {
+  trial,      ///< One trial.
+  condition,  ///< All trials of one condition (TrialData::condition; a trial without one is its
+              ///< own).
+  block,  ///< A fifth of every trial, with half a second on either side that serves neither side.
 };
 
-/// Leave-one-trial-out over the calibration trials, folds in parallel. At least two trials are
-/// needed; empty otherwise.
+struct CrossValidationOptions {
+  FoldKind kind = FoldKind::trial;
+  int blocks = 5;
+  double gap_s = 0.5;
+};
+
+/// One thing left out.
+struct Fold {
+  std::string trial;  ///< Or the condition, or "block 2 of 5".
+  Score identified;   ///< Fitted on the others.
+  Score literature;   ///< Literature parameters with the one gain that fits the others best.
+  Score regression;   ///< Torque regressed on activation times moment arm of every muscle.
+  Score constant;     ///< Mean torque of the others.
+  std::optional<Score> paper;  ///< Method paper on the others, where there are forces.
+  double gain = 1.0;           ///< That gain.
+  double lag_s = 0.0;          ///< Of the identified prediction.
+  Eigen::VectorXd time_s, measured_nm, predicted_nm,
+      literature_nm;  ///< Trials one after the other.
+};
+
+/// Leaves out in turn and predicts, folds in parallel; never shuffled samples. At least two folds
+/// are needed; empty otherwise.
 [[nodiscard]] std::vector<Fold> cross_validate(const StudyData& data,
-                                               const TorqueOptions& options = {});
+                                               const TorqueOptions& options = {},
+                                               const CrossValidationOptions& folds = {});
 
 }  // namespace myoid::identification

@@ -100,6 +100,7 @@ NormalSearchResult minimize_normal(const NormalFunction& function,
         step[moving[static_cast<std::size_t>(k)]] = d[k] * scaled[k];
       const Eigen::VectorXd x = (r.x + step).cwiseMax(lower).cwiseMin(upper);
       const Eigen::VectorXd moved = x - r.x;
+      const bool clipped = (moved - step).cwiseAbs().maxCoeff() > 0.0;
       if (step_is_small(moved, r.x, options.step_tolerance)) {
         finish(r, lower, upper, Termination::converged, "the step is below the tolerance");
         return r;
@@ -121,7 +122,8 @@ NormalSearchResult minimize_normal(const NormalFunction& function,
             std::max(1e-15, damping * std::clamp(1.0 - std::pow(2.0 * ratio - 1.0, 3), 0.1, 2.0));
         growth = 2.0;
       } else {
-        if (finite && promised <= std::max(options.cost_tolerance, 1e-13) * r.cost) {
+        // A step that a bound cut short may promise nothing and still hide a descent: shorten it.
+        if (finite && !clipped && promised <= std::max(options.cost_tolerance, 1e-13) * r.cost) {
           finish(r, lower, upper, Termination::converged,
                  "the cost can fall no further within round-off");
           return r;

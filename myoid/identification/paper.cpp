@@ -6,6 +6,7 @@
 #include <limits>
 #include <numeric>
 
+#include <Eigen/LU>
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
@@ -80,11 +81,17 @@ std::vector<Unknown> unknowns(bool shortening) {
   return list;
 }
 
-void fit_case(const StudyData& data,
-              std::size_t muscle,
-              bool shortening,
-              const PaperOptions& options,
-              IdentificationResult& result) {
+/// l0 and l_sh of one case with their covariance.
+struct CaseShape {
+  Eigen::Vector2d value = Eigen::Vector2d::Zero();
+  Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();
+};
+
+std::optional<CaseShape> fit_case(const StudyData& data,
+                                  std::size_t muscle,
+                                  bool shortening,
+                                  const PaperOptions& options,
+                                  IdentificationResult& result) {
   const MuscleSetup& setup = data.muscles[muscle];
   const CaseData samples = collect(data, muscle, shortening);
   const std::vector<Unknown> list = unknowns(shortening);
@@ -203,6 +210,28 @@ void fit_case(const StudyData& data,
     judge(e, context);
     result.estimates.push_back(std::move(e));
   }
+  if (!failure.empty() || !computed || covariance.rank < p) return std::nullopt;
+  return CaseShape{fit.x.head(2),
+                   covariance.unscaled.topLeftCorner(2, 2) * covariance.residual_variance * widen};
+}
+
+/// Wald test of what both cases share.
+void compare_branches(const std::string& muscle,
+                      const CaseShape& shortening,
+                      const CaseShape& lengthening,
+                      IdentificationResult& result) {
+  const Eigen::Vector2d difference = lengthening.value - shortening.value;
+  const Eigen::Matrix2d covariance = shortening.covariance + lengthening.covariance;
+  if (!(covariance.determinant() > 0.0)) return;
+  const double wald = difference.dot(covariance.inverse() * difference);
+  result.branch_tests.push_back(
+      {muscle, difference[0], difference[1], wald, std::exp(-0.5 * wald)});
+  if (wald > 13.8) {  // p < 0.001
+    result.warnings.push_back(fmt::format(
+        "{}: shortening and lengthening give different l0 or l_sh (by {:+.1f} and {:+.1f} mm, p < "
+        "0.001): one muscle has one of each, so the model or the data are wrong for it",
+        muscle, 1000.0 * difference[0], 1000.0 * difference[1]));
+  }
 }
 
 }  // namespace
@@ -218,10 +247,13 @@ IdentificationResult identify_paper(const StudyData& data, const PaperOptions& o
     if (!options.muscles.empty() && std::find(options.muscles.begin(), options.muscles.end(),
                                               data.muscles[k].name) == options.muscles.end())
       continue;
-    fit_case(data, k, true, options, result);
-    fit_case(data, k, false, options, result);
+    const auto shortening = fit_case(data, k, true, options, result);
+    const auto lengthening = fit_case(data, k, false, options, result);
+    if (shortening && lengthening)
+      compare_branches(data.muscles[k].name, *shortening, *lengthening, result);
   }
   if (!result.message.empty()) result.termination = math::Termination::no_descent;
+  diagnose(result);
   for (const TrialData& trial : data.trials) {
     TrialFit fit;
     fit.trial = trial.name;

@@ -115,5 +115,27 @@ TEST(IdentifyPaper, TooFewSamplesAreNotFitted) {
   EXPECT_NE(result.message.find("samples"), std::string::npos);
 }
 
+TEST(IdentifyPaper, TheTwoBranchesAreTestedAgainstEachOther) {
+  // 1 N of noise: the branches agree. A muscle that is 10 mm longer while it lengthens: they do
+  // not.
+  ElbowStudy study = study_for_paper();
+  test::StudyNoise noise(5);
+  for (TrialData& trial : study.data.trials) {
+    for (Eigen::Index k = 0; k < 4; ++k)
+      trial.force_n.col(k) += noise.band(trial.time_s.size(), 6.0, 100.0);
+  }
+  const IdentificationResult same = identify_paper(study.data);
+  ASSERT_EQ(same.branch_tests.size(), 4U);
+  for (const BranchTest& test : same.branch_tests) EXPECT_GT(test.p_value, 1e-3) << test.muscle;
+  for (TrialData& trial : study.data.trials) {
+    for (Eigen::Index i = 0; i < trial.time_s.size(); ++i) {
+      if (trial.velocity_mps(i, 0) > 0.0) trial.length_m(i, 0) += 0.010;
+    }
+  }
+  const IdentificationResult other = identify_paper(study.data);
+  EXPECT_LT(other.branch_tests[0].p_value, 1e-6);
+  EXPECT_NEAR(other.branch_tests[0].length_difference_m, 0.010, 0.002);
+}
+
 }  // namespace
 }  // namespace myoid::identification

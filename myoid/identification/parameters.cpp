@@ -34,7 +34,7 @@ constexpr std::array kFields = {
                    kSlopeRatio,
                    Unit::dimensionless,
                    true,
-                   {0.1, 20.0},
+                   {0.02, 100.0},
                    0.5,
                    "S, slope of f_v in lengthening over that in shortening"},
     ParameterField{"eccentric_plateau", muscle, kPlateau, Unit::dimensionless, false,
@@ -196,6 +196,11 @@ FreeParameter make_free(const Slot& slot, const std::string& owner, bool priors)
   p.lower = field.logarithmic && slot.bounds.lower <= 0.0 ? std::log(1e-9)
                                                           : scaled(field, slot.bounds.lower);
   p.upper = scaled(field, slot.bounds.upper);
+  if (slot.value < field.bounds.lower || slot.value > field.bounds.upper) {
+    throw InvalidInput(fmt::format("{} starts at {} {}, where no muscle can be: {} to {}", p.label,
+                                   slot.value, symbol(field.unit), field.bounds.lower,
+                                   field.bounds.upper));
+  }
   if (!(p.lower <= p.upper)) {
     throw InvalidInput(fmt::format("{}: lower bound {} above upper bound {}", p.label,
                                    slot.bounds.lower, slot.bounds.upper));

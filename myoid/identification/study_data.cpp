@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
-#include "myoid/math/spline.h"
+#include "myoid/identification/envelope.h"
 #include "myoid/muscle/force_velocity.h"
 #include "myoid/muscle/literature.h"
 
@@ -64,9 +64,6 @@ Eigen::MatrixXd muscle_activation(const StudyData& data,
                                   const Eigen::VectorXd& time_s,
                                   double delay_s,
                                   Eigen::MatrixXd* slope) {
-  const Eigen::VectorXd& clock = trial.activation.time_s();
-  const Eigen::VectorXd when =
-      (time_s.array() - delay_s).max(clock[0]).min(clock[clock.size() - 1]);
   Eigen::MatrixXd activation(time_s.size(), static_cast<Eigen::Index>(data.muscles.size()));
   if (slope != nullptr) slope->resize(activation.rows(), activation.cols());
   std::map<Eigen::Index, Eigen::Index> done;  // channel -> first muscle that uses it
@@ -79,11 +76,12 @@ Eigen::MatrixXd muscle_activation(const StudyData& data,
       continue;
     }
     done[channel] = column;
-    const math::SplineValues values =
-        math::Spline::interpolate(clock, trial.activation.values().col(channel), 5).evaluate(when);
-    activation.col(column) = values.value.cwiseMax(0.0);
-    if (slope != nullptr)
-      slope->col(column) = (values.value.array() > 0.0).select(values.first, 0.0);
+    const Envelope envelope(trial.activation.time_s(), trial.activation.values().col(channel));
+    for (Eigen::Index i = 0; i < time_s.size(); ++i) {
+      const Envelope::Value value = envelope.at(time_s[i] - delay_s);
+      activation(i, column) = value.value;
+      if (slope != nullptr) (*slope)(i, column) = value.slope;
+    }
   }
   return activation;
 }

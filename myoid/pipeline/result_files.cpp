@@ -1,5 +1,6 @@
 #include "myoid/pipeline/result_files.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 
@@ -125,16 +126,26 @@ void write_identified_model(const StudyResult& result, const std::filesystem::pa
 std::string parameters_csv(const std::vector<IdentificationResult>& methods) {
   std::string text =
       "muscle,parameter,unit,method,case,initial,estimate,std_error,ci_low,ci_high,prior_mean,"
-      "prior_sd,shrinkage,at_bound,verdict,reason\n";
+      "prior_sd,shrinkage,at_bound,verdict,reason";
+  const std::vector<std::string> routes{"sandwich", "cluster", "bootstrap", "profile"};
+  for (const std::string& route : routes) text += fmt::format(",ci_low_{0},ci_high_{0}", route);
+  text += ",routes_disagree\n";
   for (const IdentificationResult& method : methods) {
     for (const ParameterEstimate& e : method.estimates) {
       text += fmt::format(
-          "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", e.muscle, e.parameter,
-          symbol(e.unit), e.method, e.fit_case, number_or_empty(e.initial),
-          number_or_empty(e.estimate), number_or_empty(e.std_error), number_or_empty(e.ci_low),
-          number_or_empty(e.ci_high), number_or_empty(e.prior_mean), number_or_empty(e.prior_sd),
-          number_or_empty(e.shrinkage), e.at_bound ? "true" : "false",
-          identification::name(e.verdict), quoted(e.reason));
+          "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}", e.muscle, e.parameter, symbol(e.unit),
+          e.method, e.fit_case, number_or_empty(e.initial), number_or_empty(e.estimate),
+          number_or_empty(e.std_error), number_or_empty(e.ci_low), number_or_empty(e.ci_high),
+          number_or_empty(e.prior_mean), number_or_empty(e.prior_sd), number_or_empty(e.shrinkage),
+          e.at_bound ? "true" : "false", identification::name(e.verdict), quoted(e.reason));
+      for (const std::string& route : routes) {
+        const auto it = std::find_if(e.routes.begin(), e.routes.end(),
+                                     [&](const auto& r) { return r.route == route; });
+        text += it == e.routes.end()
+                    ? ",,"
+                    : fmt::format(",{},{}", number_or_empty(it->low), number_or_empty(it->high));
+      }
+      text += e.routes_disagree ? ",true\n" : ",false\n";
     }
   }
   return text;
@@ -182,7 +193,29 @@ std::string parameters_json(const std::vector<IdentificationResult>& methods,
                                 {"shrinkage", number_or_null(e.shrinkage)},
                                 {"at_bound", e.at_bound},
                                 {"verdict", std::string(identification::name(e.verdict))},
-                                {"reason", e.reason}});
+                                {"reason", e.reason},
+                                {"routes_disagree", e.routes_disagree}});
+      ordered_json routes = ordered_json::array();
+      for (const identification::RouteInterval& r : e.routes) {
+        routes.push_back({{"route", r.route},
+                          {"ci_low", number_or_null(r.low)},
+                          {"ci_high", number_or_null(r.high)}});
+      }
+      m["estimates"].back()["intervals"] = routes;
+    }
+    m["exact_data"] = method.exact;
+    m["left_open_by_the_data"] = method.undetermined;
+    m["diagnoses"] = method.diagnoses;
+    m["warnings"] = method.warnings;
+    m["bootstrap"] = {{"converged", method.bootstrap_replicates},
+                      {"failed", method.bootstrap_failed}};
+    m["branch_tests"] = ordered_json::array();
+    for (const identification::BranchTest& test : method.branch_tests) {
+      m["branch_tests"].push_back({{"muscle", test.muscle},
+                                   {"optimal_fiber_length_difference", test.length_difference_m},
+                                   {"force_length_width_difference", test.width_difference_m},
+                                   {"wald", number_or_null(test.wald)},
+                                   {"p_value", number_or_null(test.p_value)}});
     }
     m["covariance"] = {{"parameters", method.free_parameters},
                        {"scale", "natural logarithm of F_max, V_sh, P and gains; SI otherwise"}};
@@ -206,16 +239,21 @@ std::string parameters_json(const std::vector<IdentificationResult>& methods,
   const auto score_json = [](const identification::Score& s) {
     return ordered_json{{"rmse_nm", number_or_null(s.rmse_nm)},
                         {"nrmse_range", number_or_null(s.nrmse_range)},
+                        {"nrmse_sd", number_or_null(s.nrmse_sd)},
                         {"r2", number_or_null(s.r2)},
                         {"vaf", number_or_null(s.vaf)}};
   };
   json["leave_one_trial_out"] = ordered_json::array();
   for (const identification::Fold& f : folds) {
-    json["leave_one_trial_out"].push_back({{"trial", f.trial},
-                                           {"identified", score_json(f.identified)},
-                                           {"literature_with_gain", score_json(f.literature)},
-                                           {"gain", number_or_null(f.gain)},
-                                           {"constant", score_json(f.constant)}});
+    json["leave_one_trial_out"].push_back(
+        {{"trial", f.trial},
+         {"identified", score_json(f.identified)},
+         {"literature_with_gain", score_json(f.literature)},
+         {"gain", number_or_null(f.gain)},
+         {"regression_on_emg", score_json(f.regression)},
+         {"constant", score_json(f.constant)},
+         {"paper", f.paper ? score_json(*f.paper) : ordered_json(nullptr)},
+         {"lag_s", number_or_null(f.lag_s)}});
   }
   return json.dump(2) + "\n";
 }

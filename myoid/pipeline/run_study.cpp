@@ -11,6 +11,7 @@
 #include "myoid/core/error.h"
 #include "myoid/dynamics/held_mass.h"
 #include "myoid/dynamics/inverse_dynamics.h"
+#include "myoid/identification/force.h"
 #include "myoid/model/arm4.h"
 #include "myoid/pipeline/lumped_muscles.h"
 #include "myoid/pipeline/quality_gates.h"
@@ -200,6 +201,11 @@ identification::TrialData trial_data(const Study& study,
       data.force_n.col(g) += trial.shared.force.values().col(head);
   }
   data.torque_nm = trial.muscle_torque.values().col(0);
+  data.condition = trial.spec.condition;
+  data.joint = study.model.coordinate;
+  data.angle_rad = trial.motion.q.column(study.model.coordinate);
+  data.velocity_radps = trial.motion.qdot.column(study.model.coordinate);
+  data.acceleration_radps2 = trial.motion.qddot.column(study.model.coordinate);
   data.activation = trial.activation;
   return data;
 }
@@ -277,6 +283,20 @@ identification::TorqueOptions torque_options(const Study& study,
   options.delay_s = study.emg.delay_s;
   options.max_rate_hz = study.identify.max_rate_hz;
   options.weights = study.identify.priors;
+  const IdentifySpec& spec = study.identify;
+  options.intervals = {.bootstrap = spec.bootstrap, .profile = spec.profile};
+  options.loss = spec.loss == "huber"    ? identification::Loss::huber
+                 : spec.loss == "cauchy" ? identification::Loss::cauchy
+                                         : identification::Loss::square;
+  options.eccentric = spec.eccentric == "product"       ? identification::Eccentric::product
+                      : spec.eccentric == "slope_ratio" ? identification::Eccentric::slope_ratio
+                      : spec.eccentric == "smooth"      ? identification::Eccentric::smooth
+                                                        : identification::Eccentric::automatic;
+  options.normalised = spec.normalised;
+  options.dynamics = spec.dynamics;
+  options.delay_per_channel = spec.delay_per_channel;
+  options.angle_sd_rad = spec.angle_sd_rad;
+  options.angle_rate_sd_radps = spec.angle_rate_sd_radps;
   options.from_mvc = study.emg.has_mvc || study.emg.kind == EmgKind::activation;
   options.progress.stop = progress.stop;
   if (study.identify.gain) {
@@ -362,6 +382,7 @@ StudyResult run_study(const Study& whole, const RunOptions& options) {
   stages.run("identification", 0.7, [&] {
     const std::vector<MuscleGroup> groups = muscle_groups(study, result.model);
     result.data.muscles = muscle_setups(study, result.model);
+    result.data.rules = study.parameters;
     for (const TrialResult& trial : result.trials) {
       if (!trial.has_motion() || trial.activation.empty()) continue;
       if (trial.spec.use == Use::mvc || trial.spec.use == Use::static_pose ||
@@ -373,6 +394,12 @@ StudyResult run_study(const Study& whole, const RunOptions& options) {
       if (method == "paper") {
         result.methods.push_back(identification::identify_paper(
             result.data, {.muscles = study.identify.muscles, .shared_forces = true}));
+      } else if (method == "force") {
+        identification::EstimatorOptions estimator =
+            torque_options(study, result, options.progress);
+        estimator.intervals.profile = false;
+        result.methods.push_back(identification::identify_force(
+            result.data, {.estimator = std::move(estimator), .shared_forces = true}));
       } else {
         result.methods.push_back(identification::identify_torque(
             result.data, torque_options(study, result, options.progress)));
@@ -387,7 +414,11 @@ StudyResult run_study(const Study& whole, const RunOptions& options) {
       for (const identification::IdentificationResult& method : result.methods) {
         if (method.method == "torque") fold_options.warm_start = method.solution;
       }
-      result.folds = identification::cross_validate(result.data, fold_options);
+      const identification::FoldKind kind =
+          study.identify.folds == "condition" ? identification::FoldKind::condition
+          : study.identify.folds == "block"   ? identification::FoldKind::block
+                                              : identification::FoldKind::trial;
+      result.folds = identification::cross_validate(result.data, fold_options, {.kind = kind});
     });
   }
   demote_by_gates(result);

@@ -8,6 +8,8 @@
 #include <fmt/ranges.h>
 
 #include "myoid/core/error.h"
+#include "myoid/core/units.h"
+#include "myoid/identification/parameters.h"
 #include "myoid/recording/text_file.h"
 #include "myoid/recording/toml_table.h"
 
@@ -222,6 +224,7 @@ TrialSpec read_trial(TomlTable table, const std::filesystem::path& folder) {
     table.fail("held_mass_kg",
                fmt::format("found {} kg, expected 0 to 100 kg", trial.held_mass_kg));
   }
+  trial.condition = table.text("condition").value_or("");
   trial.start_s = table.number("start_s");
   trial.end_s = table.number("end_s");
   table.finish();
@@ -243,8 +246,9 @@ IdentifySpec read_identify(TomlTable table) {
   IdentifySpec identify;
   if (auto methods = table.texts("method")) identify.methods = *methods;
   for (const std::string& method : identify.methods) {
-    if (method != "paper" && method != "torque") {
-      table.fail("method", fmt::format("found \"{}\", expected \"paper\" or \"torque\"", method));
+    if (method != "paper" && method != "force" && method != "torque") {
+      table.fail("method",
+                 fmt::format("found \"{}\", expected \"paper\", \"force\" or \"torque\"", method));
     }
   }
   if (auto muscles = table.texts("muscles");
@@ -254,9 +258,52 @@ IdentifySpec read_identify(TomlTable table) {
   identify.priors = table.flag("priors").value_or(identify.priors);
   identify.gain = table.flag("gain").value_or(identify.gain);
   identify.cross_validate = table.flag("cross_validate").value_or(identify.cross_validate);
+  identify.folds = table.choice("folds", "trial", {"trial", "condition", "block"});
+  const double replicates = table.number("bootstrap").value_or(identify.bootstrap);
+  if (!(replicates >= 0.0 && replicates <= 100000.0))
+    table.fail("bootstrap", fmt::format("found {}, expected 0 to 100000 replicates", replicates));
+  identify.bootstrap = static_cast<int>(replicates);
+  identify.profile = table.flag("profile").value_or(identify.profile);
+  identify.loss = table.choice("loss", "square", {"square", "huber", "cauchy"});
+  identify.eccentric =
+      table.choice("eccentric", "automatic", {"automatic", "product", "slope_ratio", "smooth"});
+  identify.normalised = table.flag("normalised").value_or(identify.normalised);
+  identify.dynamics = table.flag("dynamics").value_or(identify.dynamics);
+  identify.delay_per_channel = table.flag("delay_per_channel").value_or(identify.delay_per_channel);
+  const auto not_negative = [&](std::string_view key) {
+    const double value = table.number(key).value_or(0.0);
+    if (value < 0.0) table.fail(key, fmt::format("found {}, expected 0 or more", value));
+    return value;
+  };
+  identify.angle_sd_rad = not_negative("angle_sd_deg") * kDegree;
+  identify.angle_rate_sd_radps = not_negative("angle_rate_sd_degps") * kDegree;
   identify.max_rate_hz = positive(table, "max_rate_hz", identify.max_rate_hz);
   table.finish();
   return identify;
+}
+
+identification::ParameterRule read_rule(TomlTable table) {
+  identification::ParameterRule rule;
+  rule.parameter = table.require_text("name", "a parameter, such as \"tendon_slack_length\"");
+  try {
+    (void)identification::parameter_field(rule.parameter);
+  } catch (const InvalidInput& error) {
+    table.fail("name", error.what());
+  }
+  rule.owners = table.texts("of").value_or(rule.owners);
+  rule.free = table.flag("free");
+  rule.value = table.number("value");
+  rule.lower = table.number("lower");
+  rule.upper = table.number("upper");
+  rule.prior_mean = table.number("prior_mean");
+  rule.prior_sd = table.number("prior_sd");
+  if (rule.prior_sd && !(*rule.prior_sd > 0.0))
+    table.fail("prior_sd", fmt::format("found {}, expected a positive number", *rule.prior_sd));
+  if (rule.lower && rule.upper && !(*rule.lower < *rule.upper))
+    table.fail("lower", fmt::format("found {}, not below upper = {}", *rule.lower, *rule.upper));
+  rule.tie = table.flag("tie").value_or(false);
+  table.finish();
+  return rule;
 }
 
 void check_references(const Study& study) {
@@ -285,6 +332,16 @@ void check_references(const Study& study) {
     if (!muscles.contains(wanted)) {
       refuse(fmt::format("[identify] muscles: '{}' is no [[muscle]]; there are {}", wanted,
                          fmt::join(muscles, ", ")));
+    }
+  }
+  for (const identification::ParameterRule& rule : study.parameters) {
+    if (identification::parameter_field(rule.parameter).scope != identification::Scope::muscle)
+      continue;
+    for (const std::string& owner : rule.owners) {
+      if (!muscles.contains(owner)) {
+        refuse(fmt::format("[[parameter]] {}: '{}' is no [[muscle]]; there are {}", rule.parameter,
+                           owner, fmt::join(muscles, ", ")));
+      }
     }
   }
   std::set<std::string> trials;
@@ -334,6 +391,7 @@ Study parse_study(std::string_view text, const std::filesystem::path& file) {
   if (auto t = table.table("identify")) study.identify = read_identify(*t);
   for (TomlTable& t : table.tables("muscle")) study.muscles.push_back(read_muscle(t));
   for (TomlTable& t : table.tables("trial")) study.trials.push_back(read_trial(t, folder));
+  for (TomlTable& t : table.tables("parameter")) study.parameters.push_back(read_rule(t));
   if (auto t = table.table("truth")) {
     study.truth = folder / t->require_text("file", "the table of true values, truth.csv");
     t->finish();

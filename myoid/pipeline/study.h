@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "myoid/core/geometry.h"
+#include "myoid/identification/study_data.h"
 
 namespace myoid::pipeline {
 
@@ -98,6 +99,7 @@ struct TrialSpec {
       external_torque;  ///< <coordinate>_moment that the surroundings exert [N m].
   Use use = Use::calibration;
   double held_mass_kg = 0.0;
+  std::string condition;  ///< Trials of one name are left out together by folds = "condition".
   std::optional<double> start_s, end_s;
 };
 
@@ -113,6 +115,16 @@ struct IdentifySpec {
   bool priors = true;
   bool gain = true;  ///< EMG gain per channel as a nuisance with a tight prior.
   bool cross_validate = true;
+  std::string folds = "trial";  ///< What cross-validation leaves out: trial, condition, block.
+  int bootstrap = 200;          ///< Replicates for the second route to intervals; 0: none.
+  bool profile = true;          ///< Profile likelihood, the third.
+  std::string loss = "square";
+  std::string eccentric = "automatic";
+  bool normalised = false;  ///< l_sh and v_max keep their ratio to l0.
+  bool dynamics = false;    ///< Envelope to activation by the lags of equation (1).
+  bool delay_per_channel = false;
+  double angle_sd_rad = 0.0;  ///< Error of the joint angle and of its rate, propagated.
+  double angle_rate_sd_radps = 0.0;
   double max_rate_hz =
       25.0;  ///< Torque and prediction are compared below 2 Hz: more samples add nothing.
 };
@@ -131,6 +143,7 @@ struct Study {
   IdentifySpec identify;
   std::vector<MuscleSpec> muscles;
   std::vector<TrialSpec> trials;
+  std::vector<identification::ParameterRule> parameters;  ///< [[parameter]]
   std::optional<std::filesystem::path> truth;
 };
 

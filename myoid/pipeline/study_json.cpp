@@ -63,6 +63,7 @@ ordered_json trial_json(const TrialSpec& trial) {
           {"external_torque", or_null(trial.external_torque)},
           {"use", std::string(name(trial.use))},
           {"held_mass_kg", trial.held_mass_kg},
+          {"condition", trial.condition},
           {"start_s", or_null(trial.start_s)},
           {"end_s", or_null(trial.end_s)}};
 }
@@ -93,7 +94,28 @@ std::string study_json(const Study& study) {
                    {"priors", study.identify.priors},
                    {"gain", study.identify.gain},
                    {"max_rate_hz", study.identify.max_rate_hz},
-                   {"cross_validate", study.identify.cross_validate}};
+                   {"cross_validate", study.identify.cross_validate},
+                   {"folds", study.identify.folds},
+                   {"bootstrap", study.identify.bootstrap},
+                   {"profile", study.identify.profile},
+                   {"loss", study.identify.loss},
+                   {"eccentric", study.identify.eccentric},
+                   {"normalised", study.identify.normalised},
+                   {"dynamics", study.identify.dynamics},
+                   {"delay_per_channel", study.identify.delay_per_channel},
+                   {"angle_sd_rad", study.identify.angle_sd_rad},
+                   {"angle_rate_sd_radps", study.identify.angle_rate_sd_radps}};
+  for (const identification::ParameterRule& r : study.parameters) {
+    j["parameter"].push_back({{"name", r.parameter},
+                              {"of", r.owners},
+                              {"free", or_null(r.free)},
+                              {"value", or_null(r.value)},
+                              {"lower", or_null(r.lower)},
+                              {"upper", or_null(r.upper)},
+                              {"prior_mean", or_null(r.prior_mean)},
+                              {"prior_sd", or_null(r.prior_sd)},
+                              {"tie", r.tie}});
+  }
   for (const MuscleSpec& m : study.muscles) {
     j["muscle"].push_back({{"name", m.name},
                            {"osim", m.osim},
