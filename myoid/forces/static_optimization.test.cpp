@@ -11,9 +11,9 @@
 #include "myoid/model/osim_reader.h"
 #include "myoid/muscle/thelen.h"
 #include "myoid/recording/storage_reader.h"
+#include "myoid/signals/opensim_lowpass.h"
 
 #include "tests/support/data_folder.h"
-#include "tests/support/opensim_lowpass.h"
 
 namespace myoid::forces {
 namespace {
@@ -34,7 +34,7 @@ class Arm26Trial : public ::testing::Test {
     model_ = model::read_osim(folder() / "model.osim");
     const TimeSeries q = recording::to_si(recording::read_storage(folder() / "opensim/ik.mot"),
                                           [](const std::string&) { return true; });
-    motion_ = kinematics::joint_motion(model_, test::opensim_lowpass(q, 6.0)).motion;
+    motion_ = kinematics::joint_motion(model_, signals::opensim_lowpass(q, 6.0)).motion;
     torque_ = dynamics::inverse_dynamics(model_, motion_);
   }
 

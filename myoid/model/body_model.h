@@ -339,6 +339,9 @@ struct BodyModel {
   std::vector<CoordinateActuator> actuators;
   std::vector<PointActuator> point_actuators;
   std::vector<TorqueActuator> torque_actuators;
+  /// Names of muscles, actuators and passive forces in the order of the file's force set, which is
+  /// that of OpenSim's result columns.
+  std::vector<std::string> force_order;
   std::vector<PassiveForce> passive_forces;
   std::vector<CoordinateCoupler> couplers;  ///< Enforced ones.
   std::vector<LoopConstraint> constraints;  ///< Enforced ones other than couplers.

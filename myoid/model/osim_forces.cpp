@@ -172,7 +172,14 @@ void read_force(OsimReading& r, pugi::xml_node node) {
 
 void read_forces(OsimReading& r, pugi::xml_node set) {
   for (const auto node : OsimXml::objects(set)) {
-    if (node.type() == pugi::node_element) read_force(r, node);
+    if (node.type() != pugi::node_element) continue;
+    const auto count = [&] {
+      return r.model.muscles.size() + r.model.actuators.size() + r.model.point_actuators.size() +
+             r.model.torque_actuators.size() + r.model.passive_forces.size();
+    };
+    const std::size_t before = count();
+    read_force(r, node);
+    if (count() > before) r.model.force_order.push_back(OsimXml::name_of(node));
   }
 }
 

@@ -25,7 +25,7 @@ std::size_t line_at(std::string_view text, std::ptrdiff_t offset) {
 
 }  // namespace
 
-OsimXml::OsimXml(std::string_view text, std::filesystem::path path)
+OsimXml::OsimXml(std::string_view text, std::filesystem::path path, Root root)
     : text_(text), path_(std::move(path)) {
   const auto parsed = document_.load_buffer(text.data(), text.size(), pugi::parse_default);
   if (!parsed) {
@@ -34,6 +34,7 @@ OsimXml::OsimXml(std::string_view text, std::filesystem::path path)
         fmt::format("not valid XML: {}; the file may be cut off", parsed.description()));
   }
   root_ = document_.child("OpenSimDocument");
+  if (!root_ && root == Root::any) root_ = document_;
   if (!root_) {
     throw ReadError(path_, 1,
                     "expected <OpenSimDocument> as the root; this is not an OpenSim file");

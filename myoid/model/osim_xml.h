@@ -18,9 +18,12 @@ namespace myoid::model {
 /// kind throws ReadError with the line. The text must outlive the document.
 class OsimXml {
  public:
+  /// Which element the document must have at its root; with `any` root() is the document itself
+  /// where that is not <OpenSimDocument> (task sets and loads of old set-ups).
+  enum class Root { opensim_document, any };
   /// Parses; throws ReadError (with the line) if the text is no XML or its root is not
   /// <OpenSimDocument>.
-  OsimXml(std::string_view text, std::filesystem::path path);
+  OsimXml(std::string_view text, std::filesystem::path path, Root root = Root::opensim_document);
 
   [[nodiscard]] pugi::xml_node root() const { return root_; }
   /// Document version as OpenSim counts: 10600, 20303, 30000, 40000, ...; 0 if there is none.

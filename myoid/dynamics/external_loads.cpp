@@ -1,0 +1,234 @@
+#include "myoid/dynamics/external_loads.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "myoid/core/error.h"
+#include "myoid/model/osim_xml.h"
+#include "myoid/recording/storage_reader.h"
+#include "myoid/recording/text_file.h"
+
+namespace myoid::dynamics {
+namespace {
+
+using model::OsimXml;
+
+constexpr double kFarAway_m = 1000.0;
+
+/// The columns whose names begin with the identifier, in the file's order.
+std::vector<Eigen::Index> columns_of(const TimeSeries& data, const std::string& identifier) {
+  std::vector<Eigen::Index> columns;
+  for (std::size_t c = 0; c < data.channels().size(); ++c) {
+    if (data.channels()[c].name.starts_with(identifier))
+      columns.push_back(static_cast<Eigen::Index>(c));
+  }
+  return columns;
+}
+
+Eigen::MatrixX3d values_of(const OsimXml& xml,
+                           pugi::xml_node node,
+                           const char* property,
+                           const TimeSeries& data,
+                           const std::filesystem::path& file) {
+  const std::string identifier = xml.word(node, property);
+  if (identifier.empty() || identifier == "Unassigned") return {};
+  const auto columns = columns_of(data, identifier);
+  if (columns.size() != 3) {
+    xml.fail(node,
+             fmt::format("ExternalForce '{}': <{}> '{}' begins {} columns of {}, expected 3; its "
+                         "columns are {}",
+                         OsimXml::name_of(node), property, identifier, columns.size(),
+                         file.string(), channel_names(data)));
+  }
+  Eigen::MatrixX3d values(data.sample_count(), 3);
+  for (Eigen::Index k = 0; k < 3; ++k)
+    values.col(k) = data.values().col(columns[static_cast<std::size_t>(k)]);
+  return values;
+}
+
+/// Points without meaning, where no load acts, become straight lines between those under load.
+Eigen::Index mend_points(Eigen::MatrixX3d& point, const std::vector<bool>& is_loaded) {
+  const auto bad = [&](Eigen::Index i) {
+    return !point.row(i).allFinite() ||
+           (!is_loaded[static_cast<std::size_t>(i)] && point.row(i).norm() > kFarAway_m);
+  };
+  const Eigen::Index n = point.rows();
+  Eigen::Index mended = 0;
+  for (Eigen::Index i = 0; i < n;) {
+    if (!bad(i)) {
+      ++i;
+      continue;
+    }
+    Eigen::Index end = i;
+    while (end < n && bad(end)) ++end;
+    const Eigen::RowVector3d zero = Eigen::RowVector3d::Zero();
+    const Eigen::RowVector3d after = end < n ? Eigen::RowVector3d(point.row(end)) : zero;
+    const Eigen::RowVector3d before = i > 0 ? Eigen::RowVector3d(point.row(i - 1)) : after;
+    const Eigen::RowVector3d last = end < n ? after : before;
+    for (Eigen::Index k = i; k < end; ++k, ++mended) {
+      const double share = static_cast<double>(k - i + 1) / static_cast<double>(end - i + 1);
+      point.row(k) = before + share * (last - before);
+    }
+    i = end;
+  }
+  return mended;
+}
+
+LoadColumns fit(const Eigen::VectorXd& time, const Eigen::MatrixX3d& values) {
+  LoadColumns columns;
+  if (time.size() == 1) {
+    columns.constant = values.row(0).transpose();
+    return columns;
+  }
+  for (Eigen::Index k = 0; k < 3; ++k)
+    columns.splines.push_back(
+        math::Spline::interpolate(time, values.col(k), time.size() >= 4 ? 3 : 1));
+  return columns;
+}
+
+model::BodyIndex body_named(const OsimXml& xml,
+                            pugi::xml_node node,
+                            const char* property,
+                            const model::BodyModel& model) {
+  std::string name = xml.word(node, property);
+  if (const auto slash = name.rfind('/'); slash != std::string::npos) name.erase(0, slash + 1);
+  if (name.empty() || name == "Unassigned") name = "ground";
+  if (name == "ground") return 0;
+  if (const auto body = model.find_body(name)) return *body;
+  std::string names = "ground";
+  for (std::size_t b = 1; b < model.bodies.size(); ++b) names += ", " + model.bodies[b].name;
+  xml.fail(node, fmt::format("ExternalForce '{}': <{}> names '{}', which is no body of the model; "
+                             "there are {}",
+                             OsimXml::name_of(node), property, name, names));
+}
+
+void check_finite(const Eigen::MatrixX3d& values,
+                  const TimeSeries& data,
+                  const std::string& what,
+                  const std::filesystem::path& file) {
+  for (Eigen::Index i = 0; i < values.rows(); ++i) {
+    if (values.row(i).allFinite()) continue;
+    throw InvalidInput(fmt::format(
+        "{}: the {} is not a number at {} s; fill the gap (0 where nothing is measured)",
+        file.string(), what, data.time_s()[i]));
+  }
+}
+
+ExternalForce read_force(const OsimXml& xml,
+                         pugi::xml_node node,
+                         const model::BodyModel& model,
+                         const TimeSeries& data,
+                         const std::filesystem::path& file,
+                         std::vector<std::string>& notes) {
+  ExternalForce force;
+  force.name = OsimXml::name_of(node);
+  force.body = body_named(xml, node, "applied_to_body", model);
+  force.force_frame = body_named(xml, node, "force_expressed_in_body", model);
+  force.point_frame = body_named(xml, node, "point_expressed_in_body", model);
+  const Eigen::MatrixX3d f = values_of(xml, node, "force_identifier", data, file);
+  Eigen::MatrixX3d p = values_of(xml, node, "point_identifier", data, file);
+  const Eigen::MatrixX3d t = values_of(xml, node, "torque_identifier", data, file);
+  if (f.rows() == 0 && t.rows() == 0) {
+    xml.fail(node, fmt::format("ExternalForce '{}' has neither a force nor a torque identifier",
+                               force.name));
+  }
+  check_finite(f, data, "force of '" + force.name + "'", file);
+  check_finite(t, data, "torque of '" + force.name + "'", file);
+  if (p.rows() > 0) {
+    std::vector<bool> is_loaded(static_cast<std::size_t>(p.rows()), false);
+    if (f.rows() > 0) {
+      const Eigen::VectorXd size = f.rowwise().norm();
+      // A thousandth of the peak is the noise of an empty plate.
+      const double least = 1e-3 * size.maxCoeff();
+      for (Eigen::Index i = 0; i < size.size(); ++i)
+        is_loaded[static_cast<std::size_t>(i)] = size[i] > least;
+    }
+    for (Eigen::Index i = 0; i < p.rows(); ++i) {
+      if (is_loaded[static_cast<std::size_t>(i)] && !p.row(i).allFinite()) {
+        throw InvalidInput(
+            fmt::format("{}: the point of '{}' is not a number at {} s, while its force acts",
+                        file.string(), force.name, data.time_s()[i]));
+      }
+    }
+    if (const Eigen::Index mended = mend_points(p, is_loaded); mended > 0) {
+      notes.push_back(fmt::format(
+          "{}: the point of '{}' means nothing in {} rows where no force acts; straight lines "
+          "between the others stand there",
+          file.string(), force.name, mended));
+    }
+    force.point = fit(data.time_s(), p);
+  }
+  if (f.rows() > 0) force.force = fit(data.time_s(), f);
+  if (t.rows() > 0) force.torque = fit(data.time_s(), t);
+  return force;
+}
+
+}  // namespace
+
+Vec3 LoadColumns::at(double time_s) const {
+  if (splines.empty()) return constant;
+  return {splines[0].at(time_s).value, splines[1].at(time_s).value, splines[2].at(time_s).value};
+}
+
+void ExternalLoads::append_wrenches(const model::BodyState& state,
+                                    double time_s,
+                                    std::vector<model::BodyWrench>& wrenches) const {
+  for (const ExternalForce& force : forces) {
+    if (force.body == 0) continue;
+    const Pose& X_GB = state.X_GB[static_cast<std::size_t>(force.body)];
+    const Mat3& R_GE = state.X_GB[static_cast<std::size_t>(force.force_frame)].R;
+    model::BodyWrench wrench{force.body, Vec3::Zero(), Vec3::Zero()};
+    if (force.force) {
+      wrench.f_G = R_GE * force.force->at(time_s);
+      if (force.point) {
+        const Vec3 p_G =
+            state.X_GB[static_cast<std::size_t>(force.point_frame)] * force.point->at(time_s);
+        wrench.m_G = (p_G - X_GB.p).cross(wrench.f_G);
+      }
+    }
+    if (force.torque) wrench.m_G += R_GE * force.torque->at(time_s);
+    wrenches.push_back(wrench);
+  }
+}
+
+ExternalLoads read_external_loads(const model::BodyModel& model,
+                                  const std::filesystem::path& path) {
+  const std::string text = recording::read_text_file(path);
+  OsimXml xml(text, path, OsimXml::Root::any);
+  const auto set = xml.root().child("ExternalLoads");
+  if (!set) {
+    xml.fail(
+        xml.root(),
+        "expected <ExternalLoads>; this is another kind of file (give the .xml, not the data)");
+  }
+  xml.set_prototypes(set.child("defaults"));
+  const std::string name = xml.word(set, "datafile");
+  if (name.empty() || name == "Unassigned") {
+    xml.fail(set, "expected <datafile> with the measured loads (.mot, .sto)");
+  }
+  const std::filesystem::path file = path.parent_path() / name;
+  const TimeSeries data = recording::read_storage(file).data;
+  if (data.empty()) throw InvalidInput(fmt::format("{}: there are no rows", file.string()));
+  ExternalLoads loads;
+  loads.start_s = data.time_s()[0];
+  loads.end_s = data.time_s()[data.sample_count() - 1];
+  for (const auto node : OsimXml::objects(set)) {
+    if (node.type() != pugi::node_element) continue;
+    if (std::string_view(node.name()) != "ExternalForce") {
+      xml.fail(node, fmt::format("expected <ExternalForce>, found <{}>", node.name()));
+    }
+    if (xml.flag(node, "isDisabled", false) || !xml.flag(node, "appliesForce", true)) {
+      loads.notes.push_back(
+          fmt::format("{}: '{}' is switched off", path.string(), OsimXml::name_of(node)));
+      continue;
+    }
+    loads.forces.push_back(read_force(xml, node, model, data, file, loads.notes));
+  }
+  if (loads.forces.empty())
+    loads.notes.push_back(fmt::format("{}: no external force acts", path.string()));
+  return loads;
+}
+
+}  // namespace myoid::dynamics

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "myoid/core/time_series.h"
+#include "myoid/math/spline.h"
+#include "myoid/model/body_model.h"
+#include "myoid/model/kinematic_tree.h"
+
+namespace myoid::dynamics {
+
+/// Three columns of a loads file as functions of time: natural cubic splines (straight lines for
+/// two or three rows, a constant for one).
+struct LoadColumns {
+  std::vector<math::Spline> splines;  ///< Three, or none for a constant.
+  Vec3 constant = Vec3::Zero();
+  [[nodiscard]] Vec3 at(double time_s) const;
+};
+
+/// What is measured of one force that acts on a body.
+struct ExternalForce {
+  std::string name;
+  model::BodyIndex body = 0;          ///< On which it acts.
+  model::BodyIndex force_frame = 0;   ///< Force and torque are expressed in this body's frame.
+  model::BodyIndex point_frame = 0;   ///< The point is given in this body's frame.
+  std::optional<LoadColumns> force;   ///< [N]
+  std::optional<LoadColumns> point;   ///< [m]; absent: the origin of `body`.
+  std::optional<LoadColumns> torque;  ///< [N m]
+};
+
+struct ExternalLoads {
+  std::vector<ExternalForce> forces;
+  double start_s = 0.0, end_s = 0.0;  ///< Of the data; beyond, the splines go on as lines.
+  std::vector<std::string> notes;     ///< What was mended or left out, a sentence each.
+
+  /// Appends the wrenches about the origins of the loaded bodies, in ground, at the posture in
+  /// `state` (compute_poses).
+  void append_wrenches(const model::BodyState& state,
+                       double time_s,
+                       std::vector<model::BodyWrench>& wrenches) const;
+};
+
+/// Reads OpenSim's <ExternalLoads> and the data file that it names (relative to itself). Each
+/// ExternalForce takes all columns that begin with its identifier: three for each of force, point
+/// and torque. A point that is not a number, or kilometers away, while no force acts is replaced by
+/// straight lines between the points under load, with a note. Throws ReadError with the line for
+/// bad XML, an unknown body or an identifier without its three columns; InvalidInput for a force
+/// that is not a number.
+[[nodiscard]] ExternalLoads read_external_loads(const model::BodyModel& model,
+                                                const std::filesystem::path& path);
+
+}  // namespace myoid::dynamics

@@ -1,0 +1,118 @@
+#include "myoid/dynamics/passive_forces.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace myoid::dynamics {
+namespace {
+
+std::size_t at(int index) { return static_cast<std::size_t>(index); }
+
+double smooth_step(double s) {
+  s = std::clamp(s, 0.0, 1.0);
+  return s * s * s * (10.0 + s * (-15.0 + 6.0 * s));
+}
+
+/// A force at a point of ground, acting on a body.
+model::BodyWrench wrench_at(const model::BodyState& state,
+                            model::BodyIndex body,
+                            const Vec3& p_G,
+                            const Vec3& f_G) {
+  return {body, f_G, (p_G - state.X_GB[at(body)].p).cross(f_G)};
+}
+
+Vec3 point_velocity(const model::BodyState& state, model::BodyIndex body, const Vec3& p_G) {
+  return state.v_GB[at(body)] + state.w_GB[at(body)].cross(p_G - state.X_GB[at(body)].p);
+}
+
+/// By virtual work on the body-fixed X-Y-Z angles and the translation of frame 2 in frame 1.
+void append(const model::Bushing& b,
+            const model::BodyState& state,
+            std::vector<model::BodyWrench>& wrenches) {
+  const Pose X_GF1 = state.X_GB[at(b.body1)] * b.X_BF1;
+  const Pose X_GF2 = state.X_GB[at(b.body2)] * b.X_BF2;
+  const Mat3 R = X_GF1.R.transpose() * X_GF2.R;
+  const Vec3 angle(std::atan2(-R(1, 2), R(2, 2)), std::asin(std::clamp(R(0, 2), -1.0, 1.0)),
+                   std::atan2(-R(0, 1), R(0, 0)));
+  const Vec3 shift = X_GF1.R.transpose() * (X_GF2.p - X_GF1.p);
+  // Angular velocity in frame 1 = axes * angle rates.
+  Mat3 axes;
+  axes << 1.0, 0.0, std::sin(angle[1]),                                   //
+      0.0, std::cos(angle[0]), -std::sin(angle[0]) * std::cos(angle[1]),  //
+      0.0, std::sin(angle[0]), std::cos(angle[0]) * std::cos(angle[1]);
+  const Mat3 inverse = axes.inverse();
+  const Vec3 w_F1 = X_GF1.R.transpose() * (state.w_GB[at(b.body2)] - state.w_GB[at(b.body1)]);
+  const Vec3 angle_rate = inverse * w_F1;
+  const Vec3 shift_rate = X_GF1.R.transpose() * (point_velocity(state, b.body2, X_GF2.p) -
+                                                 point_velocity(state, b.body1, X_GF2.p));
+  const Vec3 moment =
+      -(b.rotational_stiffness.cwiseProduct(angle) + b.rotational_damping.cwiseProduct(angle_rate));
+  const Vec3 force = -(b.translational_stiffness.cwiseProduct(shift) +
+                       b.translational_damping.cwiseProduct(shift_rate));
+  const Vec3 m_G = X_GF1.R * (inverse.transpose() * moment);
+  const Vec3 f_G = X_GF1.R * force;
+  model::BodyWrench second = wrench_at(state, b.body2, X_GF2.p, f_G);
+  model::BodyWrench first = wrench_at(state, b.body1, X_GF2.p, -f_G);
+  second.m_G += m_G;
+  first.m_G -= m_G;
+  wrenches.push_back(first);
+  wrenches.push_back(second);
+}
+
+void append(const model::PointSpring& spring,
+            const model::BodyState& state,
+            std::vector<model::BodyWrench>& wrenches) {
+  const Vec3 p1 = state.X_GB[at(spring.body1)] * spring.p_B1;
+  const Vec3 p2 = state.X_GB[at(spring.body2)] * spring.p_B2;
+  const double length = (p2 - p1).norm();
+  if (length == 0.0) return;  // no direction
+  const Vec3 pull = spring.stiffness_npm * (length - spring.rest_length_m) / length * (p2 - p1);
+  wrenches.push_back(wrench_at(state, spring.body1, p1, pull));
+  wrenches.push_back(wrench_at(state, spring.body2, p2, -pull));
+}
+
+}  // namespace
+
+double limit_force(const model::CoordinateLimitForce& f, double q, double qdot) {
+  const double up = smooth_step((q - f.upper_limit) / f.transition);
+  const double low = smooth_step((f.lower_limit - q) / f.transition);
+  return -up * f.upper_stiffness * (q - f.upper_limit) +
+         low * f.lower_stiffness * (f.lower_limit - q) - f.damping * (up + low) * qdot;
+}
+
+void append_passive_forces(const model::BodyModel& model,
+                           const model::BodyState& state,
+                           Eigen::VectorXd& generalized,
+                           std::vector<model::BodyWrench>& wrenches) {
+  model::PathWorkspace workspace;
+  model::PathResult path;
+  for (const model::PassiveForce& force : model.passive_forces) {
+    if (const auto* limit = std::get_if<model::CoordinateLimitForce>(&force.law)) {
+      generalized[limit->coordinate] +=
+          limit_force(*limit, state.q[limit->coordinate], state.qdot[limit->coordinate]);
+    } else if (const auto* spring = std::get_if<model::CoordinateSpring>(&force.law)) {
+      generalized[spring->coordinate] -=
+          spring->stiffness * (state.q[spring->coordinate] - spring->rest) +
+          spring->viscosity * state.qdot[spring->coordinate];
+    } else if (const auto* bushing = std::get_if<model::Bushing>(&force.law)) {
+      append(*bushing, state, wrenches);
+    } else if (const auto* point = std::get_if<model::PointSpring>(&force.law)) {
+      append(*point, state, wrenches);
+    } else if (const auto* line = std::get_if<model::PathSpring>(&force.law)) {
+      model::compute_path(model, line->path, state, workspace, path);
+      const double stretch = path.length_m - line->rest_length_m;
+      if (stretch <= 0.0) continue;
+      generalized +=
+          path.moment_arm_m *
+          std::max(0.0, line->stiffness_npm * stretch * (1.0 + line->dissipation * path.speed_mps));
+    } else if (const auto* ligament = std::get_if<model::Ligament>(&force.law)) {
+      model::compute_path(model, ligament->path, state, workspace, path);
+      if (path.length_m <= ligament->rest_length_m) continue;
+      generalized +=
+          path.moment_arm_m * ligament->scale_n *
+          evaluate(ligament->force_length, path.length_m / ligament->rest_length_m).value;
+    }
+  }
+}
+
+}  // namespace myoid::dynamics

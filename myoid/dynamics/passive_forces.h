@@ -1,0 +1,23 @@
+#pragma once
+
+#include <vector>
+
+#include "myoid/model/kinematic_tree.h"
+#include "myoid/model/muscle_path.h"
+
+namespace myoid::dynamics {
+
+/// Adds what the model's passive forces (limit forces, springs, bushings, ligaments) make at the
+/// posture and speeds of `state` (compute_poses, compute_velocities): `generalized` gets the forces
+/// along coordinates [N m, N], `wrenches` those on bodies, about the body origins.
+void append_passive_forces(const model::BodyModel& model,
+                           const model::BodyState& state,
+                           Eigen::VectorXd& generalized,
+                           std::vector<model::BodyWrench>& wrenches);
+
+/// Generalized force of OpenSim's CoordinateLimitForce at q and its rate:
+///   -K_up (q - q_up) + K_low (q_low - q) - c (K_up/k_up + K_low/k_low) qdot,
+/// K rising from 0 at the limit to its stiffness k over `transition`, as 10 s^3 - 15 s^4 + 6 s^5.
+[[nodiscard]] double limit_force(const model::CoordinateLimitForce& force, double q, double qdot);
+
+}  // namespace myoid::dynamics

@@ -1,0 +1,85 @@
+#include "myoid/dynamics/passive_forces.h"
+
+#include <gtest/gtest.h>
+
+#include "myoid/model/arm4.h"
+#include "myoid/model/osim_reader.h"
+
+namespace myoid::dynamics {
+namespace {
+
+model::BodyModel bare_arm() {
+  model::BodyModel arm = model::parse_osim(model::arm4_osim(), "arm4.osim");
+  arm.passive_forces.clear();
+  return arm;
+}
+
+/// Power of generalized forces and wrenches at the speeds of a state.
+double power(const model::BodyState& state,
+             const Eigen::VectorXd& generalized,
+             const std::vector<model::BodyWrench>& wrenches) {
+  double p = generalized.dot(state.qdot);
+  for (const model::BodyWrench& w : wrenches) {
+    const auto b = static_cast<std::size_t>(w.body);
+    p += w.f_G.dot(state.v_GB[b]) + w.m_G.dot(state.w_GB[b]);
+  }
+  return p;
+}
+
+TEST(PassiveForces, ALimitForceIsFullBeyondTheTransitionAndNoneWithinTheLimits) {
+  const model::CoordinateLimitForce f{.coordinate = 0,
+                                      .upper_limit = 1.0,
+                                      .lower_limit = -1.0,
+                                      .upper_stiffness = 20.0,
+                                      .lower_stiffness = 10.0,
+                                      .damping = 2.0,
+                                      .transition = 0.5};
+  EXPECT_EQ(limit_force(f, 0.3, 5.0), 0.0);
+  EXPECT_NEAR(limit_force(f, 2.0, 0.1), -20.0 * 1.0 - 2.0 * 0.1, 1e-12);
+  EXPECT_NEAR(limit_force(f, -2.0, 0.1), 10.0 * 1.0 - 2.0 * 0.1, 1e-12);
+  // In the middle of the transition the step is one half.
+  EXPECT_NEAR(limit_force(f, 1.25, 0.0), -0.5 * 20.0 * 0.25, 1e-12);
+}
+
+TEST(PassiveForces, SpringsAndBushingsGiveThePowerTheirEnergyLoses) {
+  model::BodyModel arm = bare_arm();
+  const auto hand = static_cast<int>(arm.bodies.size()) - 1;
+  const Pose X1{Mat3::Identity(), Vec3(0.02, 0.1, -0.03)};
+  const Pose X2{Eigen::AngleAxisd(0.4, Vec3(1.0, 2.0, -1.0).normalized()).toRotationMatrix(),
+                Vec3(-0.01, 0.05, 0.02)};
+  arm.passive_forces.push_back(
+      {"bushing", "BushingForce",
+       model::Bushing{0, hand, X1, X2, Vec3(3.0, 5.0, 7.0), Vec3(100.0, 200.0, 300.0), Vec3::Zero(),
+                      Vec3::Zero()}});
+  arm.passive_forces.push_back(
+      {"spring", "PointToPointSpring", model::PointSpring{0, hand, X1.p, X2.p, 250.0, 0.05}});
+  const auto energy = [&](const Eigen::VectorXd& q) {
+    model::BodyState s = model::make_state(arm);
+    model::compute_poses(arm, q, s);
+    const Pose X_GF1 = X1;
+    const Pose X_GF2 = s.X_GB[static_cast<std::size_t>(hand)] * X2;
+    const Mat3 R = X_GF1.R.transpose() * X_GF2.R;
+    const Vec3 angle =
+        Vec3(std::atan2(-R(1, 2), R(2, 2)), std::asin(R(0, 2)), std::atan2(-R(0, 1), R(0, 0)));
+    const Vec3 shift = X_GF1.R.transpose() * (X_GF2.p - X_GF1.p);
+    const double stretch = shift.norm() - 0.05;
+    return 0.5 * (Vec3(3.0, 5.0, 7.0).dot(angle.cwiseAbs2()) +
+                  Vec3(100.0, 200.0, 300.0).dot(shift.cwiseAbs2()) + 250.0 * stretch * stretch);
+  };
+  const auto n = static_cast<Eigen::Index>(arm.coordinates.size());
+  const Eigen::VectorXd q = arm.default_q() + Eigen::VectorXd::LinSpaced(n, 0.2, 0.5);
+  const Eigen::VectorXd qdot = Eigen::VectorXd::LinSpaced(n, 1.0, -0.7);
+  model::BodyState state = model::make_state(arm);
+  model::compute_poses(arm, q, state);
+  model::compute_velocities(arm, qdot, state);
+  Eigen::VectorXd generalized = Eigen::VectorXd::Zero(n);
+  std::vector<model::BodyWrench> wrenches;
+  append_passive_forces(arm, state, generalized, wrenches);
+  const double h = 1e-6;
+  const double rate = (energy(q + h * qdot) - energy(q - h * qdot)) / (2.0 * h);
+  // Central differences of an energy of some joules.
+  EXPECT_NEAR(power(state, generalized, wrenches), -rate, 1e-6);
+}
+
+}  // namespace
+}  // namespace myoid::dynamics
