@@ -270,7 +270,8 @@ struct PointSpring {
   Vec3 p_B1 = Vec3::Zero(), p_B2 = Vec3::Zero();
   double stiffness_npm = 0.0, rest_length_m = 0.0;
 };
-/// Tension along a path: stiffness (length - rest)(1 + dissipation dl/dt), none when slack.
+/// Tension along a path: stiffness (length - rest)(1 + dissipation dl/dt), none when slack; in
+/// shortening faster than 1 / dissipation it pushes, as OpenSim's does.
 struct PathSpring {
   MusclePath path;
   double stiffness_npm = 0.0, rest_length_m = 0.0, dissipation = 0.0;

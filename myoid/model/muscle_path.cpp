@@ -46,6 +46,22 @@ void place_points(const BodyModel& model,
   }
 }
 
+StationRange station_range(const MusclePath& path,
+                           const PathWrap& wrap,
+                           const std::vector<PathStation>& stations) {
+  const int count = static_cast<int>(path.points.size());
+  const int from = wrap.range_start < 1 ? 0 : std::min(wrap.range_start, count) - 1;
+  const int to = wrap.range_end < 1 ? count - 1 : std::min(wrap.range_end, count) - 1;
+  StationRange range{-1, -1};
+  for (std::size_t j = 0; j < stations.size(); ++j) {
+    const int source = stations[j].source;
+    if (source < from || source > to) continue;
+    if (range.begin < 0) range.begin = static_cast<int>(j);
+    range.end = static_cast<int>(j);
+  }
+  return range.begin < 0 ? StationRange{} : range;
+}
+
 double length_of(const std::vector<PathStation>& stations) {
   double length = 0.0;
   for (std::size_t i = 0; i + 1 < stations.size(); ++i) {

@@ -36,6 +36,9 @@ struct PathResult {
   double speed_mps = 0.0;        ///< dl/dt at state.qdot, lengthening positive.
   Eigen::VectorXd moment_arm_m;  ///< r = -dl/dq per coordinate; torque = r times tendon force.
   bool wrapped = false;          ///< It lies on a wrap object.
+  /// The tangent points on several objects have come to rest. Where they cannot (objects that push
+  /// the path off each other), the length is that of the last of many passes and may jump.
+  bool settled = true;
 };
 
 /// Length of a path from its first point to its last through the points that are active at this
@@ -63,6 +66,16 @@ void place_points(const BodyModel& model,
                   const MusclePath& path,
                   const BodyState& state,
                   PathWorkspace& workspace);
+
+/// First and last station between which a wrap may act: its range counts all points, 1-based, and
+/// is drawn in to the active ones. {0, -1} if there is none.
+struct StationRange {
+  int begin = 0;
+  int end = -1;
+};
+[[nodiscard]] StationRange station_range(const MusclePath& path,
+                                         const PathWrap& wrap,
+                                         const std::vector<PathStation>& stations);
 
 /// Sum of the straight pieces and of the arcs.
 [[nodiscard]] double length_of(const std::vector<PathStation>& stations);

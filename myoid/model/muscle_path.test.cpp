@@ -90,8 +90,8 @@ TEST(MusclePath, TheSpeedIsMinusMomentArmTimesRate) {
 TEST(WrapCylinder, AQuarterTurnIsMeasuredInClosedForm) {
   // From (1,1) to (-1,1) about the unit circle's... radius 1 at the origin, over the top: tangents
   // vanish in length.
-  const auto contact =
-      wrap_cylinder({.radius_m = 0.5, .length_m = 2.0}, 0, {1.0, 0.2, 0.0}, {-1.0, 0.2, 0.0});
+  const auto contact = wrap_cylinder<double>({.radius_m = 0.5, .length_m = 2.0}, 0, {1.0, 0.2, 0.0},
+                                             {-1.0, 0.2, 0.0});
   ASSERT_TRUE(contact);
   // Symmetric: each tangent sqrt(1.04 - 0.25); angle between = pi - 2 atan(0.2) - 2
   // acos(0.5/sqrt(1.04)).

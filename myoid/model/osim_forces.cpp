@@ -94,6 +94,13 @@ PointSpring read_point_spring(const OsimReading& r, pugi::xml_node node) {
           r.xml.number(node, "rest_length", 0.0)};
 }
 
+/// The class's own curve of force (over pcsa_force) by length (over resting length).
+Function default_ligament_curve() {
+  return make_simm_spline(
+      {-5.0, 0.998, 0.999, 1.0, 1.1, 1.2, 1.3, 1.4, 1.5, 1.6, 1.601, 1.602, 5.0},
+      {0.0, 0.0, 0.0, 0.0, 0.035, 0.12, 0.26, 0.55, 1.17, 2.0, 2.0, 2.0, 2.0});
+}
+
 void read_force(OsimReading& r, pugi::xml_node node) {
   const std::string kind = node.name();
   const std::string name = OsimXml::name_of(node);
@@ -150,17 +157,15 @@ void read_force(OsimReading& r, pugi::xml_node node) {
                        r.xml.number(node, "dissipation", 0.0)});
   } else if (kind == "Ligament") {
     Ligament ligament{read_path(r, node), r.xml.number(node, "resting_length", 0.0),
-                      r.xml.number(node, "pcsa_force", 1.0), Constant{0.0}};
-    const auto curve = function_in(r, r.xml.property(node, "force_length_curve"));
-    if (!curve || !(ligament.rest_length_m > 0.0)) {
-      r.model.unsupported.push_back(
-          fmt::format("force '{}' of kind Ligament has no curve or resting length of its own; it "
-                      "is left out of "
-                      "inverse dynamics",
-                      name));
+                      r.xml.number(node, "pcsa_force", 0.0), default_ligament_curve()};
+    if (!(ligament.rest_length_m > 0.0)) {
+      r.model.unsupported.push_back(fmt::format(
+          "Ligament '{}' has no <resting_length> above 0; it is left out of inverse dynamics",
+          name));
       return;
     }
-    ligament.force_length = *curve;
+    if (auto curve = function_in(r, r.xml.property(node, "force_length_curve")))
+      ligament.force_length = std::move(*curve);
     passive(std::move(ligament));
   } else if (is_enabled(r, node, "appliesForce")) {
     r.model.unsupported.push_back(

@@ -60,17 +60,6 @@ class Wrapping {
            path_.wraps[at(a.wrap)].wrap_object == path_.wraps[at(b.wrap)].wrap_object;
   }
 
-  /// Index among the stations of the first active point from `begin` towards `end`; -1 if none.
-  [[nodiscard]] int station_of(int begin, int end) const {
-    const int step = begin <= end ? 1 : -1;
-    for (int source = begin; source != end + step; source += step) {
-      for (std::size_t j = 0; j < w_.stations.size(); ++j) {
-        if (w_.stations[j].source == source) return static_cast<int>(j);
-      }
-    }
-    return -1;
-  }
-
   /// One object against the path as it stands. False: the range holds no active point, and OpenSim
   /// leaves the path as it is.
   bool apply(int number, WrapAction& action) {
@@ -78,13 +67,8 @@ class Wrapping {
     const WrapObject& object = model_.wrap_objects[at(wrap.wrap_object)];
     remove(number);
     if (!object.active) return true;
-    const int count = static_cast<int>(path_.points.size());
-    const int from = wrap.range_start < 1 ? 0 : std::min(wrap.range_start - 1, count - 1);
-    const int to = wrap.range_end < 1 ? count - 1 : std::min(wrap.range_end - 1, count - 1);
-    if (from > to) return false;
-    const int begin = station_of(from, to);
-    const int end = station_of(to, from);
-    if (begin < 0 || end < 0) return false;
+    const auto [begin, end] = station_range(path_, wrap, w_.stations);
+    if (end < 0) return false;
     const Pose X_GW = state_.X_GB[at(object.body)] * object.X_BW;
     const Pose X_WG = X_GW.inverse();
     const auto in_wrap_frame = [&](const PathStation& s) -> Vec3 {
@@ -181,6 +165,7 @@ void compute_opensim_path(const BodyModel& model,
   const auto& stations = workspace.stations;
   result.length_m = length_of(stations);
   result.speed_mps = 0.0;
+  result.settled = true;
   result.wrapped = false;
   for (std::size_t i = 0; i + 1 < stations.size(); ++i) {
     const PathStation& a = stations[i];

@@ -2,17 +2,10 @@
 
 #include <optional>
 
-#include "myoid/core/geometry.h"
 #include "myoid/model/body_model.h"
+#include "myoid/model/wrap_contact.h"
 
 namespace myoid::model {
-
-/// Where a path touches a wrap object, and how long it lies on it; in the wrap object's frame.
-struct WrapContact {
-  Vec3 first_W = Vec3::Zero();   ///< Tangent point on the side of the path's start [m].
-  Vec3 second_W = Vec3::Zero();  ///< Tangent point on the side of its end [m].
-  double arc_length_m = 0.0;     ///< Of the geodesic between them.
-};
 
 /// Shortest path from p to q around a cylinder whose axis is z of its frame: straight to a tangent
 /// point, a helix, straight again. Unrolled it is one line, so that z falls evenly along it:
@@ -25,9 +18,19 @@ struct WrapContact {
 /// also where the straight line passes the axis on the other side; if either end is on that side
 /// and the line neither cuts nor passes wrongly, there is no contact. Empty: no contact (also when
 /// an end lies inside, or both tangent points lie beyond the ends of the cylinder).
-[[nodiscard]] std::optional<WrapContact> wrap_cylinder(const CylinderShape& cylinder,
-                                                       Quadrant quadrant,
-                                                       const Vec3& p_W,
-                                                       const Vec3& q_W);
+template <typename T>
+[[nodiscard]] std::optional<ContactOf<T>> wrap_cylinder(const CylinderShape& cylinder,
+                                                        Quadrant quadrant,
+                                                        const Vector3<T>& p_W,
+                                                        const Vector3<T>& q_W);
+
+extern template std::optional<WrapContact> wrap_cylinder(const CylinderShape&,
+                                                         Quadrant,
+                                                         const Vec3&,
+                                                         const Vec3&);
+extern template std::optional<ContactOf<Jet6>> wrap_cylinder(const CylinderShape&,
+                                                             Quadrant,
+                                                             const Vector3<Jet6>&,
+                                                             const Vector3<Jet6>&);
 
 }  // namespace myoid::model

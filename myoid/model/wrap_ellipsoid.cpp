@@ -3,88 +3,180 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "myoid/core/units.h"
 
 namespace myoid::model {
 namespace {
 
-/// Where the straight line runs inside the ellipsoid.
-struct Chord {
-  Vec3 begin = Vec3::Zero();
-  Vec3 end = Vec3::Zero();
-  [[nodiscard]] Vec3 at(double t) const { return begin + t * (end - begin); }
+/// x_i = a_i^2 p_i / (t + a_i^2) is the nearest point, with t the largest root of
+///   g(t) = sum (a_i p_i / (t + a_i^2))^2 - 1.
+struct Nearest {
+  bool is_center = false;  ///< p is the center: the end of the shortest axis instead.
+  Eigen::Index shortest = 0;
+  std::array<bool, 3> used{};
+  double t = 0.0;
+  double slope = 0.0;  ///< dg/dt
 };
 
-std::optional<Chord> chord_inside(const Vec3& radii, const Vec3& p, const Vec3& q) {
+Nearest nearest_on(const Vec3& radii, const Vec3& p, int plane) {
+  // g falls and is convex right of its poles: Newton from a point left of the root converges from
+  // the left.
+  constexpr double kOnPlane = 1e-13;
+  Nearest n;
+  double shortest = std::numeric_limits<double>::infinity();
+  double lowest = -std::numeric_limits<double>::infinity();
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    const bool is_used = i != plane && std::abs(p[i]) > kOnPlane * radii[i];
+    n.used[static_cast<std::size_t>(i)] = is_used;
+    if (i != plane && radii[i] < shortest) {
+      shortest = radii[i];
+      n.shortest = i;
+    }
+    if (is_used) lowest = std::max(lowest, radii[i] * (std::abs(p[i]) - radii[i]));
+  }
+  n.is_center = !(n.used[0] || n.used[1] || n.used[2]);
+  if (n.is_center) return n;
+  n.t = lowest;
+  for (int iteration = 0; iteration < 100; ++iteration) {
+    double g = -1.0;
+    n.slope = 0.0;
+    for (Eigen::Index i = 0; i < 3; ++i) {
+      if (!n.used[static_cast<std::size_t>(i)]) continue;
+      const double part = radii[i] * p[i] / (n.t + radii[i] * radii[i]);
+      g += part * part;
+      n.slope -= 2.0 * part * part / (n.t + radii[i] * radii[i]);
+    }
+    const double step = -g / n.slope;
+    n.t += step;
+    if (std::abs(step) <= 1e-15 * (std::abs(n.t) + shortest * shortest)) break;
+  }
+  return n;
+}
+
+template <typename T>
+Vector3<T> closest_point(const Vec3& radii, const Vector3<T>& p, int plane = -1) {
+  const Nearest n = nearest_on(radii, value_of(p), plane);
+  Vector3<T> x(T(0.0), T(0.0), T(0.0));
+  if (n.is_center) {
+    x[n.shortest] = T(radii[n.shortest]);
+    return x;
+  }
+  // One more Newton step in T carries the derivatives of the root.
+  T g(-1.0);
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    if (!n.used[static_cast<std::size_t>(i)]) continue;
+    const T part = p[i] * T(radii[i] / (n.t + radii[i] * radii[i]));
+    g += part * part;
+  }
+  const T t = T(n.t) - g / T(n.slope);
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    if (n.used[static_cast<std::size_t>(i)])
+      x[i] = T(radii[i] * radii[i]) * p[i] / (t + T(radii[i] * radii[i]));
+  }
+  return x;
+}
+
+template <typename T>
+Vector3<T> divided(const Vector3<T>& v, const Vec3& by) {
+  return {v[0] / T(by[0]), v[1] / T(by[1]), v[2] / T(by[2])};
+}
+template <typename T>
+Vector3<T> times(const Vector3<T>& v, const Vec3& by) {
+  return {v[0] * T(by[0]), v[1] * T(by[1]), v[2] * T(by[2])};
+}
+
+/// Where the straight line runs inside the ellipsoid.
+template <typename T>
+struct Chord {
+  Vector3<T> begin, end;
+  [[nodiscard]] Vector3<T> at(const T& t) const { return begin + t * (end - begin); }
+};
+
+template <typename T>
+std::optional<Chord<T>> chord_inside(const Vec3& radii, const Vector3<T>& p, const Vector3<T>& q) {
+  using std::sqrt;
   // In coordinates where the ellipsoid is the unit sphere, |p + t (q - p)| = 1.
-  const Vec3 P = p.cwiseQuotient(radii);
-  const Vec3 d = (q - p).cwiseQuotient(radii);
+  const Vector3<T> P = divided(p, radii);
+  const Vector3<T> d = divided(Vector3<T>(q - p), radii);
   constexpr double kInside = -1e-4;  // OpenSim's: ends may touch the surface
-  if (P.squaredNorm() - 1.0 < kInside || (P + d).squaredNorm() - 1.0 < kInside) return std::nullopt;
-  if (std::abs(p.normalized().dot(q.normalized()) - 1.0) < 1e-4) return std::nullopt;
-  const double a = d.squaredNorm();
-  const double b = P.dot(d);
-  const double discriminant = b * b - a * (P.squaredNorm() - 1.0);
-  if (discriminant < 0.0) return std::nullopt;
-  const double enter = (-b - std::sqrt(discriminant)) / a;
-  const double leave = (-b + std::sqrt(discriminant)) / a;
-  if (!(enter > 0.0 && leave < 1.0)) return std::nullopt;
-  return Chord{p + enter * (q - p), p + leave * (q - p)};
+  if (P.squaredNorm() - T(1.0) < T(kInside) || (P + d).squaredNorm() - T(1.0) < T(kInside))
+    return std::nullopt;
+  if (std::abs(value_of(p).normalized().dot(value_of(q).normalized()) - 1.0) < 1e-4)
+    return std::nullopt;
+  const T a = d.squaredNorm();
+  const T b = P.dot(d);
+  const T discriminant = b * b - a * (P.squaredNorm() - T(1.0));
+  if (!(discriminant > T(0.0))) return std::nullopt;
+  const T enter = (-b - sqrt(discriminant)) / a;
+  const T leave = (-b + sqrt(discriminant)) / a;
+  if (!(enter > T(0.0) && leave < T(1.0))) return std::nullopt;
+  return Chord<T>{p + enter * (q - p), p + leave * (q - p)};
 }
 
 /// Nearest to the chord's middle moved out by the mean radius in the mean direction from the chord
 /// to the surface.
-Vec3 fan_point(const Vec3& radii, const Chord& chord) {
+template <typename T>
+Vector3<T> fan_point(const Vec3& radii, const Chord<T>& chord) {
   constexpr int kBlades = 300;
-  Vec3 direction = Vec3::Zero();
+  Vector3<T> direction(T(0.0), T(0.0), T(0.0));
   for (int i = 1; i < kBlades - 1; ++i) {
-    const Vec3 s = chord.at(static_cast<double>(i) / kBlades);
-    direction += (closest_point_on_ellipsoid(radii, s) - s).normalized();
+    const Vector3<T> s = chord.at(T(static_cast<double>(i) / kBlades));
+    direction += Vector3<T>(closest_point(radii, s) - s).normalized();
   }
-  return closest_point_on_ellipsoid(radii, chord.at(0.5) + radii.mean() * direction.normalized());
+  const Vector3<T> out = chord.at(T(0.5)) + T(radii.mean()) * direction.normalized();
+  return closest_point(radii, out);
 }
 
 /// The point c of the surface that the wrapping plane goes through.
-Vec3 plane_point(const Vec3& radii,
-                 Quadrant quadrant,
-                 WrapMethod method,
-                 const Vec3& along,
-                 const Chord& chord) {
+template <typename T>
+Vector3<T> plane_point(const Vec3& radii,
+                       Quadrant quadrant,
+                       WrapMethod method,
+                       const Vector3<T>& along,
+                       const Chord<T>& chord) {
   constexpr double kBlendMin = 0.7073;
   constexpr double kBlendMax = 0.9;
   constexpr double kBoundary = 0.3;
-  double fan_weight = 0.0;
-  Vec3 c;
+  T fan_weight(0.0);
+  Vector3<T> c(T(0.0), T(0.0), T(0.0));
   if (method == WrapMethod::midpoint) {
-    c = closest_point_on_ellipsoid(radii, chord.at(0.5));
+    c = closest_point(radii, chord.at(T(0.5)));
   } else {
     int axis = 0;
-    double parallel = along.normalized().cwiseAbs().maxCoeff(&axis);
-    const double t = -chord.begin[axis] / (chord.end[axis] - chord.begin[axis]);
+    value_of(along).cwiseAbs().maxCoeff(&axis);
+    T parallel = along[axis] / along.norm();
+    if (parallel < T(0.0)) parallel = -parallel;
+    const T t = -chord.begin[axis] / (chord.end[axis] - chord.begin[axis]);
     if (method == WrapMethod::hybrid) {
       // The crossing must lie well within the chord; towards its ends the axial point fades out.
-      if (parallel > kBlendMin) {
-        const double inside = std::clamp(std::min(t, 1.0 - t) / kBoundary, 0.0, 1.0);
-        parallel = kBlendMin + inside * (parallel - kBlendMin);
+      if (parallel > T(kBlendMin)) {
+        const T to_end = t < T(1.0) - t ? t : T(1.0) - t;
+        T inside = to_end / T(kBoundary);
+        if (inside < T(0.0)) inside = T(0.0);
+        if (inside > T(1.0)) inside = T(1.0);
+        parallel = T(kBlendMin) + inside * (parallel - T(kBlendMin));
       }
-      fan_weight = std::clamp((kBlendMax - parallel) / (kBlendMax - kBlendMin), 0.0, 1.0);
+      fan_weight = (T(kBlendMax) - parallel) / T(kBlendMax - kBlendMin);
+      if (fan_weight < T(0.0)) fan_weight = T(0.0);
+      if (fan_weight > T(1.0)) fan_weight = T(1.0);
     }
-    if (fan_weight < 1.0) c = closest_point_on_ellipsoid(radii, chord.at(t), axis);
-    if (fan_weight == 1.0) {
+    if (fan_weight < T(1.0)) c = closest_point(radii, chord.at(t), axis);
+    if (value_of(fan_weight) == 1.0) {
       c = fan_point(radii, chord);
-    } else if (fan_weight > 0.0) {
-      c = closest_point_on_ellipsoid(radii,
-                                     (1.0 - fan_weight) * c + fan_weight * fan_point(radii, chord));
+    } else if (fan_weight > T(0.0)) {
+      const Vector3<T> blend = (T(1.0) - fan_weight) * c + fan_weight * fan_point(radii, chord);
+      c = closest_point(radii, blend);
     }
   }
   if (quadrant != 0) {
     const Eigen::Index axis = std::abs(quadrant) - 1;
     const double side = quadrant > 0 ? 1.0 : -1.0;
-    if ((c[axis] >= 0.0 ? 1.0 : -1.0) != side) {
+    if ((value_of(c[axis]) >= 0.0 ? 1.0 : -1.0) != side) {
       // Mirrored, then drawn back towards the plane of symmetry by the share of the fan.
-      c[axis] *= fan_weight - 1.0;
-      if (fan_weight > 0.0) c = closest_point_on_ellipsoid(radii, c);
+      c[axis] *= fan_weight - T(1.0);
+      if (fan_weight > T(0.0)) c = closest_point(radii, c);
     }
   }
   return c;
@@ -93,87 +185,54 @@ Vec3 plane_point(const Vec3& radii,
 }  // namespace
 
 Vec3 closest_point_on_ellipsoid(const Vec3& radii_m, const Vec3& p, int plane) {
-  // x_i = a_i^2 p_i / (t + a_i^2), with t the largest root of g(t) = sum (a_i p_i / (t + a_i^2))^2
-  // - 1. g falls and is convex there: Newton from a point left of the root converges from the left.
-  constexpr double kOnPlane = 1e-13;
-  std::array<bool, 3> used{};
-  double shortest = std::numeric_limits<double>::infinity();
-  double lowest = -std::numeric_limits<double>::infinity();
-  for (Eigen::Index i = 0; i < 3; ++i) {
-    const bool is_used = i != plane && std::abs(p[i]) > kOnPlane * radii_m[i];
-    used[static_cast<std::size_t>(i)] = is_used;
-    if (i != plane) shortest = std::min(shortest, radii_m[i]);
-    if (is_used) lowest = std::max(lowest, radii_m[i] * (std::abs(p[i]) - radii_m[i]));
-  }
-  Vec3 x = Vec3::Zero();
-  if (!(used[0] || used[1] || used[2])) {
-    // At the center: the end of the shortest axis.
-    for (Eigen::Index i = 2; i >= 0; --i) {
-      if (i != plane && radii_m[i] == shortest) {
-        x.setZero();
-        x[i] = radii_m[i];
-      }
-    }
-    return x;
-  }
-  double t = lowest;
-  for (int iteration = 0; iteration < 100; ++iteration) {
-    double g = -1.0;
-    double slope = 0.0;
-    for (Eigen::Index i = 0; i < 3; ++i) {
-      if (!used[static_cast<std::size_t>(i)]) continue;
-      const double part = radii_m[i] * p[i] / (t + radii_m[i] * radii_m[i]);
-      g += part * part;
-      slope -= 2.0 * part * part / (t + radii_m[i] * radii_m[i]);
-    }
-    const double step = -g / slope;
-    t += step;
-    if (std::abs(step) <= 1e-15 * (std::abs(t) + shortest * shortest)) break;
-  }
-  for (Eigen::Index i = 0; i < 3; ++i) {
-    if (used[static_cast<std::size_t>(i)])
-      x[i] = radii_m[i] * radii_m[i] * p[i] / (t + radii_m[i] * radii_m[i]);
-  }
-  return x;
+  return closest_point(radii_m, p, plane);
 }
 
-std::optional<WrapContact> wrap_ellipsoid(const EllipsoidShape& ellipsoid,
-                                          Quadrant quadrant,
-                                          WrapMethod method,
-                                          const Vec3& p_W,
-                                          const Vec3& q_W) {
+template <typename T>
+std::optional<ContactOf<T>> wrap_ellipsoid(const EllipsoidShape& ellipsoid,
+                                           Quadrant quadrant,
+                                           WrapMethod method,
+                                           const Vector3<T>& p_W,
+                                           const Vector3<T>& q_W) {
+  using std::acos;
+  using std::atan2;
+  using std::cos;
+  using std::sin;
+  using std::sqrt;
   const Vec3& radii = ellipsoid.radii_m;
-  const std::optional<Chord> chord = chord_inside(radii, p_W, q_W);
+  const std::optional<Chord<T>> chord = chord_inside(radii, p_W, q_W);
   if (!chord) return std::nullopt;
-  const Vec3 c = plane_point(radii, quadrant, method, q_W - p_W, *chord);
+  const Vector3<T> c = plane_point(radii, quadrant, method, Vector3<T>(q_W - p_W), *chord);
 
   // Where the ellipsoid is the unit sphere, planes stay planes and tangents stay tangents, and the
   // cut is a circle.
-  const Vec3 P = p_W.cwiseQuotient(radii);
-  const Vec3 Q = q_W.cwiseQuotient(radii);
-  const Vec3 C = c.cwiseQuotient(radii);
-  const Vec3 u = (Q - P).normalized();
-  Vec3 v = (C - P) - (C - P).dot(u) * u;
-  if (!(v.norm() > 1e-12)) return std::nullopt;  // c on the line: no plane
+  const Vector3<T> P = divided(p_W, radii);
+  const Vector3<T> Q = divided(q_W, radii);
+  const Vector3<T> C = divided(c, radii);
+  const Vector3<T> u = Vector3<T>(Q - P).normalized();
+  Vector3<T> v = (C - P) - (C - P).dot(u) * u;
+  if (!(v.norm() > T(1e-12))) return std::nullopt;  // c on the line: no plane
   v.normalize();  // towards c: the path bulges to +v and turns from v to u
-  const Vec3 normal = u.cross(v);
-  const Vec3 center = P.dot(normal) * normal;
-  const double radius = std::sqrt(std::max(1.0 - center.squaredNorm(), 0.0));
-  const auto polar = [&](const Vec3& X) {
-    return std::atan2((X - center).dot(v), (X - center).dot(u));
+  const Vector3<T> normal = u.cross(v);
+  const Vector3<T> center = P.dot(normal) * normal;
+  const T square = T(1.0) - center.squaredNorm();
+  if (!(square > T(0.0))) return std::nullopt;
+  const T radius = sqrt(square);
+  const auto polar = [&](const Vector3<T>& X) {
+    return T(atan2((X - center).dot(v), (X - center).dot(u)));
   };
-  const auto to_tangent = [&](const Vec3& X) {
-    return std::acos(std::min(radius / (X - center).norm(), 1.0));
+  const auto to_tangent = [&](const Vector3<T>& X) {
+    const T cosine = radius / (X - center).norm();
+    return cosine < T(1.0) ? T(acos(cosine)) : T(0.0);
   };
-  const double first = polar(P) - to_tangent(P);
-  const double last = polar(Q) + to_tangent(Q);
-  double turned = std::fmod(first - last, 2.0 * kPi);
-  if (turned < 0.0) turned += 2.0 * kPi;
-  const auto on_cut = [&](double angle) -> Vec3 {
-    return (center + radius * (std::cos(angle) * u + std::sin(angle) * v)).cwiseProduct(radii);
+  const T first = polar(P) - to_tangent(P);
+  const T last = polar(Q) + to_tangent(Q);
+  const T turned = within_one_turn(T(first - last));
+  const auto on_cut = [&](const T& angle) {
+    return times(Vector3<T>(center + radius * (cos(angle) * u + sin(angle) * v)), radii);
   };
 
-  WrapContact contact;
+  ContactOf<T> contact;
   contact.first_W = on_cut(first);
   contact.second_W = on_cut(last);
   // Length of the ellipse's arc: Gauss-Legendre of order 6 on pieces of at most pi/16; the
@@ -181,19 +240,33 @@ std::optional<WrapContact> wrap_ellipsoid(const EllipsoidShape& ellipsoid,
   constexpr std::array<double, 3> kNode{0.2386191860831969, 0.6612093864662645, 0.9324695142031521};
   constexpr std::array<double, 3> kWeight{0.4679139345726910, 0.3607615730481386,
                                           0.1713244923791704};
-  const int pieces = 1 + static_cast<int>(turned * 16.0 / kPi);
-  const double half = 0.5 * turned / pieces;
-  const auto speed = [&](double angle) {
-    return (radius * (-std::sin(angle) * u + std::cos(angle) * v)).cwiseProduct(radii).norm();
+  const int pieces = 1 + static_cast<int>(value_of(turned) * 16.0 / kPi);
+  const T half = turned * T(0.5 / pieces);
+  // |d/d angle| of the cut: (A cos^2 + B sin^2 + 2 D sin cos) of the scaled axes.
+  const Vector3<T> su = times(u, radii);
+  const Vector3<T> sv = times(v, radii);
+  const T uu = su.squaredNorm();
+  const T vv = sv.squaredNorm();
+  const T uv = su.dot(sv);
+  const auto speed = [&](const T& angle) {
+    const T s = sin(angle);
+    const T k = cos(angle);
+    return T(radius * sqrt(uu * s * s + vv * k * k - T(2.0) * uv * s * k));
   };
   for (int i = 0; i < pieces; ++i) {
-    const double middle = first - half * (2 * i + 1);
+    const T middle = first - half * T(2.0 * i + 1.0);
     for (std::size_t k = 0; k < 3; ++k) {
       contact.arc_length_m +=
-          half * kWeight[k] * (speed(middle - half * kNode[k]) + speed(middle + half * kNode[k]));
+          half * T(kWeight[k]) *
+          (speed(middle - half * T(kNode[k])) + speed(middle + half * T(kNode[k])));
     }
   }
   return contact;
 }
+
+template std::optional<WrapContact> wrap_ellipsoid(
+    const EllipsoidShape&, Quadrant, WrapMethod, const Vec3&, const Vec3&);
+template std::optional<ContactOf<Jet6>> wrap_ellipsoid(
+    const EllipsoidShape&, Quadrant, WrapMethod, const Vector3<Jet6>&, const Vector3<Jet6>&);
 
 }  // namespace myoid::model

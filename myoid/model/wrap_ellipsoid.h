@@ -2,9 +2,8 @@
 
 #include <optional>
 
-#include "myoid/core/geometry.h"
 #include "myoid/model/body_model.h"
-#include "myoid/model/wrap_cylinder.h"
+#include "myoid/model/wrap_contact.h"
 
 namespace myoid::model {
 
@@ -26,11 +25,18 @@ namespace myoid::model {
 /// shorter).
 ///
 /// Such a path is not the shortest over the surface: -dl/dq differs from the moment of the unit
-/// tension along its straight pieces by some tenths of a millimeter.
-[[nodiscard]] std::optional<WrapContact> wrap_ellipsoid(const EllipsoidShape& ellipsoid,
-                                                        Quadrant quadrant,
-                                                        WrapMethod method,
-                                                        const Vec3& p_W,
-                                                        const Vec3& q_W);
+/// tension along its straight pieces by some tenths of a millimeter. With `T` = Jet6 the
+/// derivatives by both ends come along.
+template <typename T>
+[[nodiscard]] std::optional<ContactOf<T>> wrap_ellipsoid(const EllipsoidShape& ellipsoid,
+                                                         Quadrant quadrant,
+                                                         WrapMethod method,
+                                                         const Vector3<T>& p_W,
+                                                         const Vector3<T>& q_W);
+
+extern template std::optional<WrapContact> wrap_ellipsoid(
+    const EllipsoidShape&, Quadrant, WrapMethod, const Vec3&, const Vec3&);
+extern template std::optional<ContactOf<Jet6>> wrap_ellipsoid(
+    const EllipsoidShape&, Quadrant, WrapMethod, const Vector3<Jet6>&, const Vector3<Jet6>&);
 
 }  // namespace myoid::model

@@ -1,0 +1,174 @@
+#include "myoid/model/path_survey.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "myoid/math/random.h"
+#include "myoid/model/constraints.h"
+#include "myoid/model/muscle_path.h"
+
+namespace myoid::model {
+namespace {
+
+struct Range {
+  double lower = 0.0;
+  double upper = 0.0;
+};
+
+Range range_of(const Coordinate& c) {
+  const double most = c.motion == MotionType::rotational ? 3.0 : 1.0;
+  Range r{std::max(c.lower, c.default_value - most), std::min(c.upper, c.default_value + most)};
+  // A default outside of the range: the range itself counts.
+  if (!(r.lower <= r.upper)) r = {c.lower, c.upper};
+  return r;
+}
+
+bool moves(const BodyModel& model, int coordinate) {
+  const auto depends = [&](const CoordinateCoupler& k) { return k.dependent == coordinate; };
+  const Coordinate& c = model.coordinates[static_cast<std::size_t>(coordinate)];
+  return !c.locked && !c.prescribed &&
+         std::none_of(model.couplers.begin(), model.couplers.end(), depends);
+}
+
+/// Length and arm of one muscle along one coordinate.
+class Sweep {
+ public:
+  Sweep(const BodyModel& model, int muscle, int coordinate)
+      : model_(model),
+        path_(model.muscles[static_cast<std::size_t>(muscle)].path),
+        coordinate_(coordinate),
+        q_(model.default_q()),
+        state_(make_state(model)) {}
+
+  struct Point {
+    double q = 0.0, length_m = 0.0, arm_m = 0.0;
+  };
+  Point at(double value) {
+    q_[coordinate_] = value;
+    apply_couplers(model_, q_);
+    compute_poses(model_, q_, state_);
+    compute_path(model_, path_, state_, workspace_, result_);
+    // Along the line dependent coordinates move too.
+    double arm = result_.moment_arm_m[coordinate_];
+    if (!model_.couplers.empty())
+      arm = coupling_matrix(model_, state_).col(coordinate_).dot(result_.moment_arm_m);
+    return {value, result_.length_m, arm};
+  }
+
+ private:
+  const BodyModel& model_;
+  const MusclePath& path_;
+  int coordinate_;
+  Eigen::VectorXd q_;
+  BodyState state_;
+  PathWorkspace workspace_;
+  PathResult result_;
+};
+
+/// By how much the length differs from what the arms at both ends say.
+double excess(const Sweep::Point& a, const Sweep::Point& b) {
+  return std::abs(b.length_m - a.length_m + 0.5 * (a.arm_m + b.arm_m) * (b.q - a.q));
+}
+
+}  // namespace
+
+Eigen::VectorXd random_posture(const BodyModel& model, std::uint64_t seed, std::uint64_t number) {
+  math::Random random(seed, number);
+  Eigen::VectorXd q = model.default_q();
+  for (std::size_t c = 0; c < model.coordinates.size(); ++c) {
+    const double share = random.uniform();
+    if (!moves(model, static_cast<int>(c))) continue;
+    const Range range = range_of(model.coordinates[c]);
+    q[static_cast<Eigen::Index>(c)] = range.lower + share * (range.upper - range.lower);
+  }
+  apply_couplers(model, q);
+  return q;
+}
+
+std::vector<PathDifference> compare_with_opensim(const BodyModel& model,
+                                                 int postures,
+                                                 std::uint64_t seed,
+                                                 double least_m) {
+  BodyModel exact = model;
+  exact.compat = Compat{};
+  BodyModel opensim = model;
+  opensim.compat = kOpenSim452;
+  std::vector<PathDifference> all(model.muscles.size());
+  BodyState state = make_state(model);
+  PathWorkspace workspace;
+  PathResult ours, theirs;
+  for (int k = 0; k < postures; ++k) {
+    const Eigen::VectorXd q = random_posture(model, seed, static_cast<std::uint64_t>(k));
+    compute_poses(model, q, state);
+    for (std::size_t m = 0; m < all.size(); ++m) {
+      const MusclePath& path = model.muscles[m].path;
+      compute_path(exact, path, state, workspace, ours);
+      compute_path(opensim, path, state, workspace, theirs);
+      const auto finite = [](double x) {
+        return std::isnan(x) ? std::numeric_limits<double>::infinity() : x;
+      };
+      const double length = finite(std::abs(ours.length_m - theirs.length_m));
+      const double arm = theirs.moment_arm_m.allFinite()
+                             ? (ours.moment_arm_m - theirs.moment_arm_m).cwiseAbs().maxCoeff()
+                             : std::numeric_limits<double>::infinity();
+      PathDifference& d = all[m];
+      d.muscle = static_cast<int>(m);
+      if (length > d.length_m || d.worst_posture.size() == 0) d.worst_posture = q;
+      d.length_m = std::max(d.length_m, length);
+      d.moment_arm_m = std::max(d.moment_arm_m, arm);
+      d.typical_length_m += length * length / postures;
+      d.postures_above_1mm += length > 1e-3 ? 1 : 0;
+    }
+  }
+  std::erase_if(all, [&](const PathDifference& d) {
+    return !(d.length_m > least_m || d.moment_arm_m > least_m);
+  });
+  for (PathDifference& d : all) d.typical_length_m = std::sqrt(d.typical_length_m);
+  std::stable_sort(all.begin(), all.end(), [](const PathDifference& a, const PathDifference& b) {
+    return a.length_m > b.length_m;
+  });
+  return all;
+}
+
+std::vector<PathJump> find_jumps(const BodyModel& model,
+                                 int steps,
+                                 double length_tolerance_m,
+                                 double arm_tolerance_m) {
+  std::vector<PathJump> jumps;
+  for (int m = 0; m < static_cast<int>(model.muscles.size()); ++m) {
+    for (int c = 0; c < static_cast<int>(model.coordinates.size()); ++c) {
+      if (!moves(model, c)) continue;
+      const Range range = range_of(model.coordinates[static_cast<std::size_t>(c)]);
+      if (!(range.upper > range.lower)) continue;
+      Sweep sweep(model, m, c);
+      const double step = (range.upper - range.lower) / steps;
+      Sweep::Point before = sweep.at(range.lower);
+      for (int i = 1; i <= steps; ++i) {
+        const Sweep::Point here = sweep.at(range.lower + step * i);
+        const bool suspicious = excess(before, here) > length_tolerance_m ||
+                                std::abs(here.arm_m - before.arm_m) > arm_tolerance_m;
+        if (suspicious) {
+          // Halve towards the half that departs more, until nothing smooth is left.
+          Sweep::Point a = before;
+          Sweep::Point b = here;
+          for (int k = 0; k < 40 && b.q - a.q > 1e-10; ++k) {
+            const Sweep::Point middle = sweep.at(0.5 * (a.q + b.q));
+            const double left = excess(a, middle) + 1e-3 * std::abs(middle.arm_m - a.arm_m);
+            const double right = excess(middle, b) + 1e-3 * std::abs(b.arm_m - middle.arm_m);
+            (left > right ? b : a) = middle;
+          }
+          const double length = std::abs(b.length_m - a.length_m);
+          const double arm = std::abs(b.arm_m - a.arm_m);
+          if (length > length_tolerance_m || arm > arm_tolerance_m) {
+            jumps.push_back({m, c, 0.5 * (a.q + b.q), length > length_tolerance_m ? length : 0.0,
+                             arm > arm_tolerance_m ? arm : 0.0});
+          }
+        }
+        before = here;
+      }
+    }
+  }
+  return jumps;
+}
+
+}  // namespace myoid::model

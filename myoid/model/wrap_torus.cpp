@@ -1,0 +1,122 @@
+#include "myoid/model/wrap_torus.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "myoid/model/wrap_cylinder.h"
+
+namespace myoid::model {
+namespace {
+
+/// Half the square of the distance from p + s (q - p) to the circle of radius R about z, less what
+/// does not depend on s, and its derivatives by s.
+template <typename T>
+struct Distance {
+  T first, second;
+};
+template <typename T>
+Distance<T> slope_at(const Vector3<T>& p, const Vector3<T>& d, double R, const T& s) {
+  using std::sqrt;
+  const T x = p.x() + s * d.x();
+  const T y = p.y() + s * d.y();
+  const T rho = sqrt(x * x + y * y);
+  const T rho_first = (x * d.x() + y * d.y()) / rho;
+  const T rho_second = (d.x() * d.x() + d.y() * d.y() - rho_first * rho_first) / rho;
+  return {p.dot(d) + s * d.squaredNorm() - T(R) * rho_first, d.squaredNorm() - T(R) * rho_second};
+}
+
+/// Where between p and q (0 .. 1) the straight piece is nearest to the circle, on the side that
+/// counts.
+std::optional<double> nearest_share(const Vec3& p, const Vec3& q, double R, Quadrant quadrant) {
+  constexpr int kSamples = 64;
+  const Vec3 d = q - p;
+  const auto distance = [&](double s) {
+    const Vec3 x = p + s * d;
+    return std::hypot(x.head<2>().norm() - R, x.z());
+  };
+  const auto counts = [&](double s) {
+    if (quadrant == 0) return true;
+    const double c = (p + s * d)[std::abs(quadrant) - 1];
+    return quadrant > 0 ? c >= 0.0 : c < 0.0;
+  };
+  double best = std::numeric_limits<double>::infinity();
+  std::optional<double> share;
+  for (int i = 0; i <= kSamples; ++i) {
+    // A sample that is lower than its neighbors has a minimum beside it: Newton, held between them.
+    const double step = 1.0 / kSamples;
+    double s = step * i;
+    const double here = distance(s);
+    if ((i > 0 && distance(s - step) < here) || (i < kSamples && distance(s + step) <= here))
+      continue;
+    const double low = std::max(0.0, s - step);
+    const double high = std::min(1.0, s + step);
+    for (int k = 0; k < 50; ++k) {
+      const Distance<double> slope = slope_at<double>(p, d, R, s);
+      const double next = slope.second > 0.0
+                              ? std::clamp(s - slope.first / slope.second, low, high)
+                              : (slope.first > 0.0 ? 0.5 * (s + low) : 0.5 * (s + high));
+      const bool settled = std::abs(next - s) < 1e-15;
+      s = next;
+      if (settled) break;
+    }
+    if (counts(s) && distance(s) < best) {
+      best = distance(s);
+      share = s;
+    }
+  }
+  return share;
+}
+
+}  // namespace
+
+template <typename T>
+std::optional<ContactOf<T>> wrap_torus(const TorusShape& torus,
+                                       Quadrant quadrant,
+                                       const Vector3<T>& p_W,
+                                       const Vector3<T>& q_W) {
+  using std::sqrt;
+  const double R = torus.outer_radius_m;
+  const std::optional<double> share = nearest_share(value_of(p_W), value_of(q_W), R, quadrant);
+  if (!share) return std::nullopt;
+  const Vector3<T> d = q_W - p_W;
+  T s(*share);
+  if (*share > 0.0 && *share < 1.0) {
+    // One more Newton step in T carries the derivatives of the nearest point.
+    const Distance<T> slope = slope_at(p_W, d, R, s);
+    s = s - slope.first / T(value_of(slope.second));
+  }
+  const T x = p_W.x() + s * d.x();
+  const T y = p_W.y() + s * d.y();
+  const T rho = sqrt(x * x + y * y);
+  if (!(rho > T(1e-12))) return std::nullopt;
+  const Vector3<T> on_circle(T(R) * x / rho, T(R) * y / rho, T(0.0));
+  // A cylinder along the circle there; its x axis points to the middle of the ring.
+  const Vector3<T> ex(-x / rho, -y / rho, T(0.0));
+  const Vector3<T> ey(T(0.0), T(0.0), T(-1.0));
+  const Vector3<T> ez = ex.cross(ey);
+  const auto into = [&](const Vector3<T>& v) {
+    const Vector3<T> r = v - on_circle;
+    return Vector3<T>(r.dot(ex), r.dot(ey), r.dot(ez));
+  };
+  const auto back = [&](const Vector3<T>& v) {
+    return Vector3<T>(on_circle + v[0] * ex + v[1] * ey + v[2] * ez);
+  };
+  const CylinderShape cylinder{torus.inner_radius_m, 1e4};
+  auto contact = wrap_cylinder<T>(cylinder, 1, into(p_W), into(q_W));
+  if (!contact) return std::nullopt;
+  contact->first_W = back(contact->first_W);
+  contact->second_W = back(contact->second_W);
+  return contact;
+}
+
+template std::optional<WrapContact> wrap_torus(const TorusShape&,
+                                               Quadrant,
+                                               const Vec3&,
+                                               const Vec3&);
+template std::optional<ContactOf<Jet6>> wrap_torus(const TorusShape&,
+                                                   Quadrant,
+                                                   const Vector3<Jet6>&,
+                                                   const Vector3<Jet6>&);
+
+}  // namespace myoid::model

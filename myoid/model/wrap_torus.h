@@ -1,0 +1,31 @@
+#pragma once
+
+#include <optional>
+
+#include "myoid/model/body_model.h"
+#include "myoid/model/wrap_contact.h"
+
+namespace myoid::model {
+
+/// Path from p to q through the ring of a torus: around a cylinder of the tube's radius that
+/// touches the ring's circle where the straight piece comes nearest to it, on the side of the
+/// ring's middle. (OpenSim's construction, with the nearest point found rightly.) With a quadrant
+/// only points of the circle nearest to that side count. The cylinder moves with p and q, so that
+/// -dl/dq differs from the moment of the unit tension; with `T` = Jet6 the derivatives by both ends
+/// come along. Empty: no contact.
+template <typename T>
+[[nodiscard]] std::optional<ContactOf<T>> wrap_torus(const TorusShape& torus,
+                                                     Quadrant quadrant,
+                                                     const Vector3<T>& p_W,
+                                                     const Vector3<T>& q_W);
+
+extern template std::optional<WrapContact> wrap_torus(const TorusShape&,
+                                                      Quadrant,
+                                                      const Vec3&,
+                                                      const Vec3&);
+extern template std::optional<ContactOf<Jet6>> wrap_torus(const TorusShape&,
+                                                          Quadrant,
+                                                          const Vector3<Jet6>&,
+                                                          const Vector3<Jet6>&);
+
+}  // namespace myoid::model
