@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "myoid/cli/context.h"
-#include "myoid/pipeline/run_study.h"
+#include "myoid/pipeline/check_study.h"
 
 namespace myoid::cli {
 
@@ -15,7 +15,7 @@ void add_check(CLI::App& app, Context& context) {
                                           "Example: myoid check study.toml");
   const auto study_file = std::make_shared<std::string>();
   command.add_option("study", *study_file, "study.toml")->required();
-  add_common_options(command, context);
+  add_common_options(command, context, {.threads = false, .seed = false, .overwrite = false});
   command.callback([&context, study_file] {
     pipeline::Study study = pipeline::read_study(*study_file);
     pipeline::restrict_trials(study, context.start_s, context.end_s);
@@ -32,8 +32,12 @@ void add_check(CLI::App& app, Context& context) {
     } else {
       for (const auto& f : findings)
         fmt::print("{:<8} {}: {}\n", name(f.level), f.where, f.message);
-      fmt::print("{} trials, {} muscles: {} errors, {} remarks\n", study.trials.size(),
-                 study.muscles.size(), errors, static_cast<long>(findings.size()) - errors);
+      const auto counted = [](auto count, std::string_view noun) {
+        return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
+      };
+      fmt::print("{}, {}: {}, {}\n", counted(study.trials.size(), "trial"),
+                 counted(study.muscles.size(), "muscle"), counted(errors, "error"),
+                 counted(static_cast<long>(findings.size()) - errors, "remark"));
     }
     if (errors > 0) context.exit_code = kBadInput;
   });

@@ -65,15 +65,54 @@ void Context::end_progress() const {
 }
 
 void Context::refuse_existing(const std::filesystem::path& path) const {
-  if (!overwrite && std::filesystem::exists(path)) {
+  std::error_code ignored;
+  if (!overwrite && std::filesystem::is_regular_file(path, ignored)) {
     throw InvalidInput(fmt::format(
         "{} exists already; give --overwrite to replace it, or another --out", path.string()));
+  }
+}
+
+void Context::prepare_file(const std::filesystem::path& path,
+                           const std::vector<std::string>& inputs) const {
+  namespace fs = std::filesystem;
+  if (path.empty()) throw InvalidInput("--out is empty; name the file to write");
+  std::error_code ignored;
+  for (const std::string& input : inputs) {
+    if (path == input || fs::equivalent(path, input, ignored)) {
+      throw InvalidInput(fmt::format(
+          "{} is an input of this command and would be replaced by its result; give another --out",
+          path.string()));
+    }
+  }
+  refuse_existing(path);
+  const fs::path folder = path.parent_path();
+  if (!folder.empty() && !fs::exists(folder, ignored))
+    log(fmt::format("the folder {} does not exist yet; it is made", folder.string()));
+}
+
+void Context::protect_inputs(const std::filesystem::path& folder,
+                             const std::vector<std::string_view>& results,
+                             const std::vector<std::string>& inputs) const {
+  namespace fs = std::filesystem;
+  std::error_code ignored;
+  for (const std::string& input : inputs) {
+    const fs::path parent = fs::path(input).parent_path();
+    if (!fs::equivalent(parent.empty() ? fs::path(".") : parent, folder, ignored)) continue;
+    const std::string file = fs::path(input).filename().string();
+    for (const std::string_view result : results) {
+      if (file.starts_with(result)) {
+        throw InvalidInput(fmt::format(
+            "{} is an input of this command and would be replaced by a result; give another --out",
+            input));
+      }
+    }
   }
 }
 
 void Context::prepare_folder(const std::filesystem::path& folder,
                              std::string_view unless_only) const {
   namespace fs = std::filesystem;
+  if (folder.empty()) throw InvalidInput("--out is empty; name the folder for the results");
   const auto counts = [&](const fs::directory_entry& entry) {
     return entry.path().filename() != unless_only;
   };
@@ -93,19 +132,38 @@ void Context::prepare_folder(const std::filesystem::path& folder,
         fmt::format("cannot create the folder {}: {}", folder.string(), error.message()));
 }
 
-void add_common_options(CLI::App& command, Context& context) {
-  command
-      .add_option("--threads", context.threads,
-                  "Number of threads (default: all cores; the result is the same for every number)")
-      ->check(CLI::Range(0, 1024));
-  command.add_option("--seed", context.seed, "Seed of everything random (default 1)");
-  command.add_flag("--json", context.json, "Result for machines on stdout");
+void add_common_options(CLI::App& command, Context& context, const CommonOptions& used) {
+  std::vector<CLI::Option*> idle;
+  const auto unless = [&](bool has_effect, CLI::Option* option) {
+    if (has_effect) return;
+    option->group("");
+    idle.push_back(option);
+  };
+  unless(used.threads,
+         command
+             .add_option(
+                 "--threads", context.threads,
+                 "Number of threads (default: all cores; the result is the same for every number)")
+             ->check(CLI::Range(0, 1024)));
+  unless(used.seed,
+         command.add_option("--seed", context.seed, "Seed of everything random (default 1)")
+             ->check(CLI::NonNegativeNumber));
+  unless(used.json, command.add_flag("--json", context.json, "Result for machines on stdout"));
   command.add_flag("--quiet", context.quiet, "Nothing on stderr but errors");
   command.add_flag("--verbose", context.verbose, "More on stderr: repairs, timings");
-  command.add_option("--start", context.start_s, "First time that is used [s]");
-  command.add_option("--end", context.end_s, "Last time that is used [s]");
-  command.add_flag("--overwrite", context.overwrite, "Replace existing results");
-  command.parse_complete_callback([&context] {
+  unless(used.range, command.add_option("--start", context.start_s, "First time that is used [s]"));
+  unless(used.range, command.add_option("--end", context.end_s, "Last time that is used [s]"));
+  unless(used.overwrite,
+         command.add_flag("--overwrite", context.overwrite, "Replace existing results"));
+  command.parse_complete_callback([&context, idle, name = command.get_name()] {
+    if (context.start_s && context.end_s && !(*context.start_s < *context.end_s)) {
+      throw CLI::ValidationError("--end", fmt::format("expected a time after --start {}, found {}",
+                                                      *context.start_s, *context.end_s));
+    }
+    for (const CLI::Option* option : idle) {
+      if (option->count() > 0)
+        context.warn(fmt::format("--{} has no effect on {}", option->get_lnames().front(), name));
+    }
     if (context.threads > 0) {
       context.thread_limit = std::make_shared<oneapi::tbb::global_control>(
           oneapi::tbb::global_control::max_allowed_parallelism,

@@ -49,14 +49,30 @@ struct Context {
   [[nodiscard]] Progress progress() const;
   /// Ends the line of the progress bar.
   void end_progress() const;
-  /// Throws InvalidInput with the remedy if `path` exists and --overwrite was not given.
+  /// Throws InvalidInput with the remedy if there is such a file and --overwrite was not given.
   void refuse_existing(const std::filesystem::path& path) const;
+  /// For a result that is one file. Throws InvalidInput with the remedy if `path` is one of the
+  /// `inputs` (with --overwrite too), or exists and --overwrite was not given. Says on stderr which
+  /// folder will be made for it.
+  void prepare_file(const std::filesystem::path& path,
+                    const std::vector<std::string>& inputs) const;
   /// Creates the folder for results; one that holds anything but `unless_only` needs --overwrite.
   void prepare_folder(const std::filesystem::path& folder, std::string_view unless_only = "") const;
+  /// Throws InvalidInput if one of the `inputs` lies in `folder` under a name that begins like one
+  /// of the results there: it would be replaced.
+  void protect_inputs(const std::filesystem::path& folder,
+                      const std::vector<std::string_view>& results,
+                      const std::vector<std::string>& inputs) const;
+};
+
+/// Which of the common options a command uses. All are accepted everywhere; one without effect is
+/// left out of the help, and warned of when given.
+struct CommonOptions {
+  bool threads = true, seed = true, json = true, range = true, overwrite = true;
 };
 
 /// Adds --threads, --seed, --json, --quiet, --verbose, --start, --end, --overwrite to a command.
-void add_common_options(CLI::App& command, Context& context);
+void add_common_options(CLI::App& command, Context& context, const CommonOptions& used = {});
 
 // One per command, each in a file of its own.
 void add_check(CLI::App& app, Context& context);

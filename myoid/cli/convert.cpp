@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
 
 #include "myoid/cli/context.h"
 #include "myoid/cli/stage_input.h"
@@ -84,11 +85,7 @@ bool all_in_volts(const TimeSeries& series) {
 void write_channels(const fs::path& out, const TimeSeries& series) {
   const std::string extension = recording::extension_of(out);
   if (extension == ".csv") {
-    std::vector<Channel> named = series.channels();
-    for (Channel& c : named) {
-      if (c.unit != Unit::dimensionless) c.name = fmt::format("{} [{}]", c.name, symbol(c.unit));
-    }
-    recording::write_csv(out, TimeSeries(series.time_s(), std::move(named), series.values()));
+    recording::write_csv(out, series);
     return;
   }
   recording::StorageFormat format;
@@ -119,7 +116,8 @@ class Converter {
     if (fs::is_directory(o_.in)) {
       context_.prepare_folder(out);
       for (const fs::path& file : recording::write_bids_derivative(o_.in, out, o_.subject))
-        fmt::print("{}\n", file.string());
+        wrote(file);
+      print_written();
       return;
     }
     if (!folder && to != ".trc" && to != ".sto" && to != ".mot" && to != ".csv" && to != ".c3d")
@@ -139,10 +137,18 @@ class Converter {
     } else {
       channels(out);
     }
-    for (const std::string& file : written_) fmt::print("{}\n", file);
+    print_written();
   }
 
  private:
+  void print_written() const {
+    if (context_.json) {
+      fmt::print("{}\n", nlohmann::ordered_json{{"files", written_}}.dump(2));
+    } else {
+      for (const std::string& file : written_) fmt::print("{}\n", file);
+    }
+  }
+
   void report(const std::vector<recording::Repair>& repairs) const {
     for (const recording::Repair& repair : repairs)
       context_.warn(fmt::format("{}: {}", o_.in, recording::to_string(repair)));
@@ -153,7 +159,7 @@ class Converter {
   void write_markers(const fs::path& out,
                      recording::MarkerSeries markers,
                      std::vector<recording::Repair>& repairs) {
-    context_.refuse_existing(out);
+    context_.prepare_file(out, {o_.in, o_.analog});
     without_blanks(markers, repairs);
     recording::write_trc(out, recording::rotated(cut_markers(std::move(markers), context_), R_));
     wrote(out);
@@ -170,7 +176,7 @@ class Converter {
   }
 
   void channels(const fs::path& out) {
-    context_.refuse_existing(out);
+    context_.prepare_file(out, {o_.in, o_.analog});
     if (o_.what == "emg" || !o_.unit.empty()) {
       recording::EmgFile file = recording::read_emg(o_.in, o_.unit, false);
       report(file.repairs);
@@ -187,7 +193,7 @@ class Converter {
   }
 
   void plates(const fs::path& out, recording::Recording file) {
-    context_.refuse_existing(out);
+    context_.prepare_file(out, {o_.in, o_.analog});
     report(file.repairs);
     std::vector<recording::Repair> notes;
     if (file.plates.empty())
@@ -210,7 +216,7 @@ class Converter {
       return;
     }
     const fs::path xml = fs::path(out).replace_extension(".xml");
-    context_.refuse_existing(xml);
+    context_.prepare_file(xml, {o_.in});
     recording::write_file(xml,
                           recording::format_external_loads(out.stem().string(), numbers, o_.bodies,
                                                            out.filename().string()));
@@ -229,7 +235,7 @@ class Converter {
     }
     if (!file.analog.empty()) {
       const fs::path out = folder / (stem + "_analog.sto");
-      context_.refuse_existing(out);
+      context_.prepare_file(out, {o_.in, o_.analog});
       write_channels(out, chosen(file.analog));
       wrote(out);
       std::vector<std::string> volts;
@@ -238,7 +244,7 @@ class Converter {
       if (o_.channels.empty() && !volts.empty() &&
           volts.size() < static_cast<std::size_t>(file.analog.channel_count())) {
         const fs::path emg = folder / (stem + "_emg.sto");
-        context_.refuse_existing(emg);
+        context_.prepare_file(emg, {o_.in});
         write_channels(emg, cut(file.analog.select(volts), context_));
         wrote(emg);
       }
@@ -247,7 +253,7 @@ class Converter {
   }
 
   void to_c3d(const fs::path& out, const std::string& from) {
-    context_.refuse_existing(out);
+    context_.prepare_file(out, {o_.in, o_.analog});
     if (from == ".c3d") {
       if (!R_.isIdentity(0.0) || context_.start_s || context_.end_s)
         throw InvalidInput(
@@ -322,7 +328,7 @@ void add_convert(CLI::App& app, Context& context) {
   command.add_option("--subject", o->subject,
                      "Label of the person where IN is a folder of results, written as a BIDS "
                      "derivative (default 01)");
-  add_common_options(command, context);
+  add_common_options(command, context, {.threads = false, .seed = false});
   command.callback([&context, o] {
     if (o->what.empty() && recording::extension_of(o->out) == ".mot" &&
         recording::extension_of(o->in) == ".c3d")

@@ -168,7 +168,7 @@ void add_design(CLI::App& app, Context& context) {
   command.add_option("--emg-noise", design.emg_cv, "Relative noise of the EMG envelope below 2 Hz")
       ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str();
-  add_common_options(command, context);
+  add_common_options(command, context, {.range = false, .overwrite = false});
   command.callback([&context, options] {
     pipeline::DesignStudyOptions& choice = options->design;
     if (options->study.empty() == options->model.empty())

@@ -1,10 +1,11 @@
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "myoid/cli/context.h"
 #include "myoid/cli/stage_input.h"
+#include "myoid/core/error.h"
 #include "myoid/recording/emg_reader.h"
 #include "myoid/recording/recording.h"
-#include "myoid/recording/storage_writer.h"
 #include "myoid/signals/emg_envelope.h"
 
 namespace myoid::cli {
@@ -23,27 +24,41 @@ void add_emg(CLI::App& app, Context& context) {
   };
   const auto o = std::make_shared<Options>();
   command.add_option("in", o->in, "EMG (.c3d, .edf, .bdf, .anc, .csv, .sto, .mot)")->required();
-  command.add_option("--out", o->out, "Activation 0..1 (.sto)")->required();
+  command.add_option("--out", o->out, "Activation 0..1 (.sto, .mot or .csv)")->required();
   command.add_option("--mvc", o->mvc,
                      "Maximal contractions to normalize by, repeated (default: the largest effort "
                      "in the file itself)");
   command.add_option("--unit", o->unit,
                      "Unit of the numbers where the file does not say: V, mV, uV");
-  command.add_option("--highpass", o->chain.highpass_hz, "High-pass [Hz] (default 20)");
-  command.add_option("--lowpass", o->chain.lowpass_hz,
-                     "Low-pass of the rectified EMG, -3 dB of both passes [Hz] (default 6)");
+  command.add_option("--highpass", o->chain.highpass_hz, "High-pass [Hz] (default 20)")
+      ->check(CLI::PositiveNumber);
+  command
+      .add_option("--lowpass", o->chain.lowpass_hz,
+                  "Low-pass of the rectified EMG, -3 dB of both passes [Hz] (default 6)")
+      ->check(CLI::PositiveNumber);
   command.add_flag("--as-published", o->chain.as_published,
                    "As the source paper: no high-pass, low-pass designed for one pass");
-  command.add_option("--window", o->window_s,
-                     "Window of the mean that counts as 1 [s] (default 0.5)");
-  command.add_option("--envelope", o->envelope, "Also write the envelope [V] here (.sto)");
-  add_common_options(command, context);
+  command
+      .add_option("--window", o->window_s, "Window of the mean that counts as 1 [s] (default 0.5)")
+      ->check(CLI::PositiveNumber);
+  command.add_option("--envelope", o->envelope,
+                     "Also write the envelope [V] here (.sto, .mot or .csv)");
+  add_common_options(command, context, {.threads = false, .seed = false});
   command.callback([&context, o] {
-    context.refuse_existing(o->out);
+    std::vector<std::string> inputs = o->mvc;
+    inputs.push_back(o->in);
+    context.prepare_file(o->out, inputs);
+    if (!o->envelope.empty()) {
+      context.prepare_file(o->envelope, inputs);
+      if (o->envelope == o->out)
+        throw InvalidInput(fmt::format("--out and --envelope both name {}", o->out));
+    }
     const auto process = [&](const std::string& path) {
       recording::EmgFile file = recording::read_emg(path, o->unit, false);
       for (const recording::Repair& repair : file.repairs)
         context.warn(fmt::format("{}: {}", path, recording::to_string(repair)));
+      if (!file.unit_conflict.empty())
+        context.warn(fmt::format("{}: {}", path, file.unit_conflict));
       signals::EmgStages stages = signals::process_emg(file.data, o->chain);
       for (const std::string& finding : stages.findings)
         context.warn(fmt::format("{}: {}", path, finding));
@@ -56,10 +71,23 @@ void add_emg(CLI::App& app, Context& context) {
     for (std::size_t i = 0; i < maximal.size(); ++i)
       trials.push_back({o->mvc[i], true, &maximal[i]});
     const auto normalisation = signals::find_normalisation(trials, {.window_s = o->window_s});
-    recording::write_storage(o->out, cut(signals::normalise(envelope, normalisation), context),
-                             {.title = "Activation"});
+    write_series(o->out, cut(signals::normalise(envelope, normalisation), context), "Activation");
     if (!o->envelope.empty())
-      recording::write_storage(o->envelope, cut(envelope, context), {.title = "EMG envelope volt"});
+      write_series(o->envelope, cut(envelope, context), "EMG envelope volt");
+    if (context.json) {
+      nlohmann::ordered_json json{{"out", o->out}};
+      json["channels"] = nlohmann::ordered_json::array();
+      for (const auto& n : normalisation) {
+        json["channels"].push_back({{"channel", n.channel},
+                                    {"resting_level_v", n.resting_level_v},
+                                    {"reference_v", n.reference_v},
+                                    {"reference_from", n.source_trial},
+                                    {"reference_time_s", n.source_time_s},
+                                    {"from_mvc", n.from_mvc}});
+      }
+      fmt::print("{}\n", json.dump(2));
+      return;
+    }
     for (const auto& n : normalisation) {
       fmt::print("{:<24} rest {:8.2f} uV   1 = {:8.2f} uV  ({} at {:.2f} s{})\n", n.channel,
                  1e6 * n.resting_level_v, 1e6 * n.reference_v, n.source_trial, n.source_time_s,

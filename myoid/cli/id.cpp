@@ -1,10 +1,13 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
 
 #include "myoid/cli/context.h"
 #include "myoid/cli/stage_input.h"
+#include "myoid/core/error.h"
 #include "myoid/dynamics/held_mass.h"
 #include "myoid/dynamics/inverse_dynamics.h"
-#include "myoid/recording/storage_writer.h"
+#include "myoid/model/arm4.h"
 
 namespace myoid::cli {
 
@@ -22,23 +25,52 @@ void add_id(CLI::App& app, Context& context) {
   const auto o = std::make_shared<Options>();
   command.add_option("--model", o->model, "OpenSim model (.osim), or arm4")->required();
   command.add_option("--motion", o->motion, "Joint angles (.mot, .sto)")->required();
-  command.add_option("--out", o->out, "Generalized forces (.sto) [N m, N]")->required();
-  command.add_option("--lowpass", o->cutoff_hz,
-                     "Smooth the angles, -3 dB at this frequency [Hz] (default: not smoothed)");
-  command.add_option("--held-mass", o->mass_kg, "Mass held in the hand [kg] (default 0)");
-  command.add_option("--held-body", o->body, "Body that holds it");
+  command.add_option("--out", o->out, "Generalized forces (.sto, .mot, .csv) [N m, N]")->required();
+  command
+      .add_option("--lowpass", o->cutoff_hz,
+                  "Smooth the angles, -3 dB at this frequency [Hz] (default: not smoothed)")
+      ->check(CLI::PositiveNumber);
+  command.add_option("--held-mass", o->mass_kg, "Mass held in the hand [kg] (default 0)")
+      ->check(CLI::NonNegativeNumber);
+  command.add_option("--held-body", o->body,
+                     "Body that holds it (default: the hand of arm4, of other models none)");
   command.add_option("--held-at", o->at, "Where on that body, x y z [m]")->expected(3);
-  add_common_options(command, context);
+  add_common_options(command, context, {.seed = false});
   command.callback([&context, o] {
-    context.refuse_existing(o->out);
+    context.prepare_file(o->out, {o->model, o->motion});
     model::BodyModel model = load_model(o->model, context);
-    if (o->mass_kg != 0.0)
-      model = dynamics::with_held_mass(std::move(model), o->body,
-                                       Vec3(o->at[0], o->at[1], o->at[2]), o->mass_kg);
+    if (o->mass_kg != 0.0) {
+      Vec3 p_BP_m(o->at[0], o->at[1], o->at[2]);
+      std::string body = o->body;
+      if (body.empty() && o->model == "arm4") {
+        body = "forearm_hand";
+        if (p_BP_m.isZero()) p_BP_m = model::arm4_held_at_m();
+      }
+      if (body.empty()) {
+        std::vector<std::string> names;
+        for (std::size_t i = 1; i < model.bodies.size(); ++i) names.push_back(model.bodies[i].name);
+        throw InvalidInput(
+            fmt::format("--held-mass {} needs --held-body, the body that carries it, one of {}",
+                        o->mass_kg, fmt::join(names, ", ")));
+      }
+      model = dynamics::with_held_mass(std::move(model), body, p_BP_m, o->mass_kg);
+    }
     const TimeSeries forces =
         dynamics::inverse_dynamics(model, load_motion(model, o->motion, o->cutoff_hz, context));
-    recording::write_storage(o->out, forces, {.title = "Inverse Dynamics Generalized Forces"});
-    fmt::print("{}\n", o->out);
+    write_series(o->out, forces, "Inverse Dynamics Generalized Forces");
+    if (context.json) {
+      nlohmann::ordered_json json{{"out", o->out}, {"samples", forces.sample_count()}};
+      for (Eigen::Index c = 0; c < forces.channel_count(); ++c) {
+        const Channel& channel = forces.channels()[static_cast<std::size_t>(c)];
+        json["forces"].push_back({{"name", channel.name},
+                                  {"unit", symbol(channel.unit)},
+                                  {"lowest", forces.values().col(c).minCoeff()},
+                                  {"highest", forces.values().col(c).maxCoeff()}});
+      }
+      fmt::print("{}\n", json.dump(2));
+    } else {
+      fmt::print("{}\n", o->out);
+    }
   });
 }
 

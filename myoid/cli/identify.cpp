@@ -58,8 +58,8 @@ double* extra_field(identification::MuscleExtras& extras, std::string_view name)
 }
 
 /// muscles.csv: `muscle` and one column per parameter; `<parameter>_fixed`, `_lower`, `_upper`,
-/// `_prior_sd`, `emg`.
-MuscleTable read_muscles(const std::filesystem::path& path) {
+/// `_prior_sd`, `emg`. `within_bounds`: the method keeps to bounds, so a start must lie in them.
+MuscleTable read_muscles(const std::filesystem::path& path, bool within_bounds) {
   const recording::CsvTable table = recording::read_csv_table(path);
   const auto column = [&](const std::string& name) -> std::optional<std::size_t> {
     const auto it = std::find(table.names.begin(), table.names.end(), name);
@@ -155,6 +155,15 @@ MuscleTable read_muscles(const std::filesystem::path& path) {
         if (!(setup.bounds[name].lower < setup.bounds[name].upper))
           fail(fmt::format("{}: lower bound {} is not below upper bound {}", name,
                            setup.bounds[name].lower, setup.bounds[name].upper));
+      }
+      const double least = lower.value_or(field.bounds.lower);
+      const double most = upper.value_or(field.bounds.upper);
+      if (within_bounds && given_for_hill(name) && !held.value_or(false) &&
+          (start < least || start > most)) {
+        fail(
+            fmt::format("muscle '{}': {} = {}, expected {} to {} (SI units); columns {}_lower and "
+                        "{}_upper set other bounds",
+                        setup.name, name, start, least, most, name, name));
       }
       if (sd) setup.priors[name] = {.mean = start, .sd = *sd};
       if (held.value_or(false)) setup.fixed.push_back(name);
@@ -394,7 +403,7 @@ void add_identify(CLI::App& app, Context& context) {
   command.add_flag("--strict", context.strict, "Exit with 4 if a parameter is not identifiable");
   add_common_options(command, context);
   command.callback([&context, o] {
-    const MuscleTable table = read_muscles(o->muscles);
+    const MuscleTable table = read_muscles(o->muscles, o->method != "paper");
     StudyData data = read_data(*o, table, context);
     for (const std::string& name : o->free_more) {
       (void)identification::parameter_field(name);
@@ -404,6 +413,7 @@ void add_identify(CLI::App& app, Context& context) {
       data.rules.push_back(rule);
     }
     context.prepare_folder(o->out);
+    context.protect_inputs(o->out, {"parameters.", "solvers."}, {o->muscles});
     identification::EstimatorOptions options;
     options.priors = !o->no_priors;
     options.weights = !o->no_priors;

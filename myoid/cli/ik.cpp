@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
 
 #include "myoid/cli/context.h"
 #include "myoid/cli/stage_input.h"
@@ -16,6 +17,26 @@ namespace {
 
 double rms_of(double sum_of_squares, int count) {
   return std::sqrt(sum_of_squares / std::max(1, count));
+}
+
+/// Runs of frames that did not converge: "12 to 15 (0.11 to 0.14 s)". Frames count from 1, as in
+/// the first column of a .trc.
+std::vector<std::string> not_converged(const kinematics::IkResult& result) {
+  std::vector<std::string> runs;
+  const auto fails = [&](std::size_t i) {
+    return i < result.status.size() && result.status[i] == kinematics::FrameStatus::not_converged;
+  };
+  const auto time = [&](std::size_t i) { return result.q.time_s()[static_cast<Eigen::Index>(i)]; };
+  for (std::size_t first = 0; first < result.status.size(); ++first) {
+    if (!fails(first)) continue;
+    std::size_t last = first;
+    while (fails(last + 1)) ++last;
+    runs.push_back(last == first ? fmt::format("{} ({:.6g} s)", first + 1, time(first))
+                                 : fmt::format("{} to {} ({:.6g} to {:.6g} s)", first + 1, last + 1,
+                                               time(first), time(last)));
+    first = last;
+  }
+  return runs;
 }
 
 }  // namespace
@@ -40,9 +61,12 @@ void add_ik(CLI::App& app, Context& context) {
   command.add_option("--lock", o->lock, "Coordinate held at its default value, repeated");
   command.add_option("--unlock", o->unlock,
                      "Coordinate freed although the model locks it, repeated");
-  add_common_options(command, context);
+  add_common_options(command, context, {.threads = false, .seed = false});
   command.callback([&context, o] {
-    context.refuse_existing(o->out);
+    const std::filesystem::path out = o->out;
+    const auto errors = out.parent_path() / (out.stem().string() + "_marker_errors.sto");
+    context.prepare_file(out, {o->model, o->markers});
+    context.prepare_file(errors, {o->model, o->markers});
     model::BodyModel model = load_model(o->model, context);
     for (const std::string& name : o->lock)
       model.coordinates[static_cast<std::size_t>(model.coordinate_index(name))].locked = true;
@@ -77,8 +101,6 @@ void add_ik(CLI::App& app, Context& context) {
     context.end_progress();
     for (const std::string& note : result.notes) context.warn(note);
     pipeline::write_motion(model, result.q, o->out, {});
-    const std::filesystem::path out = o->out;
-    const auto errors = out.parent_path() / (out.stem().string() + "_marker_errors.sto");
     pipeline::write_marker_errors(result, errors);
     double rms = 0.0;
     int seen = 0;
@@ -93,13 +115,28 @@ void add_ik(CLI::App& app, Context& context) {
       context.warn(
           "the markers lie far from the model's: another model, other units or swapped labels? The "
           "angles may still fit, the marker errors do not");
-    fmt::print("{} frames, {} not converged, {} without markers; marker error {:.2f} mm rms\n",
-               result.status.size(), result.frames_not_converged, result.frames_without_markers,
-               worst_mm);
+    const std::vector<std::string> stalled = not_converged(result);
+    if (!stalled.empty())
+      context.warn(fmt::format("not converged: frames {}", fmt::join(stalled, ", ")));
     if (!result.undetermined.empty())
       context.warn(
           fmt::format("not determined by the markers: {}", fmt::join(result.undetermined, ", ")));
-    fmt::print("{}\n{}\n", o->out, errors.string());
+    if (context.json) {
+      const nlohmann::ordered_json json{{"out", o->out},
+                                        {"marker_errors", errors.string()},
+                                        {"frames", result.status.size()},
+                                        {"frames_not_converged", result.frames_not_converged},
+                                        {"not_converged", stalled},
+                                        {"frames_without_markers", result.frames_without_markers},
+                                        {"marker_error_rms_m", worst_mm / 1000.0},
+                                        {"undetermined", result.undetermined}};
+      fmt::print("{}\n", json.dump(2));
+    } else {
+      fmt::print("{} frames, {} not converged, {} without markers; marker error {:.2f} mm rms\n",
+                 result.status.size(), result.frames_not_converged, result.frames_without_markers,
+                 worst_mm);
+      fmt::print("{}\n{}\n", o->out, errors.string());
+    }
     if (result.frames_not_converged > 0) context.exit_code = kQualityGateFailed;
   });
 }

@@ -10,6 +10,7 @@
 #include "myoid/pipeline/study.h"
 #include "myoid/recording/c3d_reader.h"
 #include "myoid/recording/csv_reader.h"
+#include "myoid/recording/emg_reader.h"
 #include "myoid/recording/recording.h"
 #include "myoid/recording/storage_reader.h"
 #include "myoid/recording/trc_reader.h"
@@ -163,9 +164,17 @@ ordered_json recording_json(const std::filesystem::path& path, const char* kind)
 
 ordered_json storage_json(const std::filesystem::path& path) {
   const recording::Storage file = recording::read_storage(path);
-  ordered_json j{{"kind", "storage (.mot, .sto)"},
-                 {"title", file.title},
-                 {"angles", file.in_degrees ? "degrees" : "radians"}};
+  ordered_json j{{"kind", "storage (.mot, .sto)"}, {"title", file.title}};
+  // An EMG file has no angles; one that does not speak of them may have none either.
+  if (const auto to_volt = recording::stated_voltage(file)) {
+    j["emg_unit"] = recording::voltage_name(*to_volt) + ", as the header says";
+  } else if (std::any_of(file.header.begin(), file.header.end(), [](const auto& entry) {
+               return recording::equal_ignoring_case(entry.first, "inDegrees");
+             })) {
+    j["angles"] = file.in_degrees ? "degrees" : "radians";
+  } else if (file.in_degrees) {
+    j["angles"] = "degrees (the header does not say; files of this kind are)";
+  }
   j.update(series_json(file.data));
   j["repairs"] = repairs_json(file.repairs);
   return j;
@@ -303,7 +312,8 @@ void add_info(CLI::App& app, Context& context) {
       .add_option("files", *files,
                   ".c3d, .trc, .mot, .sto, .csv, .edf, .bdf, .anc, .osim or study.toml")
       ->required();
-  add_common_options(command, context);
+  add_common_options(command, context,
+                     {.threads = false, .seed = false, .range = false, .overwrite = false});
   command.callback([&context, files] {
     ordered_json all = ordered_json::array();
     for (const std::string& file : *files) {

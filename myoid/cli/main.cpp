@@ -1,5 +1,8 @@
 // The program: options, one try, exit code. Everything else is the library.
+#include <cerrno>
 #include <csignal>
+#include <cstdio>
+#include <cstring>
 #include <exception>
 #include <thread>
 
@@ -28,6 +31,12 @@ void stop_on_signals(std::stop_source stop) {
     sigwait(&signals, &received);
     _exit(myoid::cli::kInterrupted);
   }).detach();
+}
+
+/// A result that did not arrive is not done.
+int stdout_lost(const char* cause) {
+  fmt::print(stderr, "error: the result could not be written to standard output: {}\n", cause);
+  return myoid::cli::kBadInput;
 }
 
 int run(int argc, char** argv, myoid::cli::Context& context) {
@@ -74,7 +83,9 @@ int main(int argc, char** argv) {
     context.command_line += (i == 0 ? "" : " ") + std::string(i == 0 ? "myoid" : argv[i]);
   stop_on_signals(context.stop);
   try {
-    return run(argc, argv, context);
+    const int code = run(argc, argv, context);
+    if (std::fflush(stdout) != 0) return stdout_lost(std::strerror(errno));
+    return code;
   } catch (const Interrupted&) {
     context.end_progress();
     fmt::print(stderr, "interrupted; what was finished stays usable\n");
@@ -85,6 +96,7 @@ int main(int argc, char** argv) {
     return cli::kBadInput;
   } catch (const std::exception& error) {
     context.end_progress();
+    if (std::ferror(stdout) != 0) return stdout_lost(error.what());
     fmt::print(stderr,
                "internal error: {}\nPlease report this with the command line and, if you can, the "
                "files.\n",

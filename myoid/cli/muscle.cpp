@@ -214,9 +214,12 @@ void add_muscle(CLI::App& app, Context& context) {
   command.add_option("--tolerance", o->tolerance, "Relative, of the integration (default 1e-9)")
       ->check(CLI::Range(1e-13, 1e-3));
   command.add_option("--out", o->out, "Forces, lengths, velocities, activation over time (.sto)");
-  add_common_options(command, context);
+  add_common_options(command, context, {.threads = false, .seed = false});
   command.callback([&context, o] {
-    if (!o->out.empty()) context.refuse_existing(o->out);
+    if (!o->out.empty()) {
+      context.prepare_file(o->out,
+                           {o->muscle, o->length, o->activation, o->excitation, o->measured});
+    }
     run(*o, context);
   });
 }

@@ -20,7 +20,7 @@ void add_report(CLI::App& app, Context& context) {
                           "Example: myoid report results");
   const auto folder = std::make_shared<std::string>();
   command.add_option("folder", *folder, "Folder of a run (with run.json)")->required();
-  add_common_options(command, context);
+  add_common_options(command, context, {.seed = false, .range = false, .overwrite = false});
   command.callback([&context, folder] {
     const std::filesystem::path path = std::filesystem::path(*folder) / "run.json";
     nlohmann::ordered_json run;
@@ -58,7 +58,12 @@ void add_report(CLI::App& app, Context& context) {
     provenance.options_json = pipeline::study_json(result.study);
     report::write_report(pipeline::study_report(result, provenance), *folder);
     context.end_progress();
-    fmt::print("{}/report.html\n", *folder);
+    const std::string page = (std::filesystem::path(*folder) / "report.html").string();
+    if (context.json) {
+      fmt::print("{}\n", nlohmann::ordered_json{{"report", page}}.dump(2));
+    } else {
+      fmt::print("{}\n", page);
+    }
   });
 }
 

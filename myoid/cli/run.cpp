@@ -116,7 +116,7 @@ void add_run(CLI::App& app, Context& context) {
   command.add_option("study", options->study, "study.toml")->required();
   command.add_option("--out", options->out, "Folder for everything that comes out")->required();
   command.add_flag("--strict", context.strict, "Exit with 4 if a parameter is not identifiable");
-  add_common_options(command, context);
+  add_common_options(command, context, {.seed = false});
   command.callback([&context, options] {
     const auto begin = std::chrono::steady_clock::now();
     const pipeline::Study study = pipeline::read_study(options->study);
@@ -149,6 +149,8 @@ void add_run(CLI::App& app, Context& context) {
     for (const pipeline::TrialResult& trial : result.trials) {
       if (!trial.failure.empty())
         context.warn(fmt::format("trial {}: {}", trial.spec.name, trial.failure));
+      for (const std::string& warning : trial.warnings)
+        context.warn(fmt::format("trial {}: {}", trial.spec.name, warning));
       for (const std::string& note : trial.notes) {
         if (context.verbose) context.log(fmt::format("{}: {}", trial.spec.name, note));
       }

@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "myoid/cli/context.h"
 #include "myoid/cli/stage_input.h"
@@ -40,14 +41,17 @@ void add_so(CLI::App& app, Context& context) {
   command.add_option(
       "--coordinate", o->coordinates,
       "Coordinate whose torque the muscles balance, repeated (default: all that are not locked)");
-  command.add_option("--lowpass", o->cutoff_hz,
-                     "Smooth the angles, -3 dB at this frequency [Hz] (default: not smoothed)");
-  add_common_options(command, context);
+  command
+      .add_option("--lowpass", o->cutoff_hz,
+                  "Smooth the angles, -3 dB at this frequency [Hz] (default: not smoothed)")
+      ->check(CLI::PositiveNumber);
+  add_common_options(command, context, {.seed = false});
   command.callback([&context, o] {
     const model::BodyModel model = load_model(o->model, context);
     if (model.muscles.empty()) throw ModelError("the model has no muscles");
     const kinematics::JointMotion motion = load_motion(model, o->motion, o->cutoff_hz, context);
     context.prepare_folder(o->out);
+    context.protect_inputs(o->out, {"StaticOptimization_"}, {o->model, o->motion, o->emg});
     const TimeSeries torques = dynamics::inverse_dynamics(model, motion);
     const kinematics::MuscleKinematics muscles = kinematics::muscle_kinematics(model, motion);
     std::vector<TimeSeries> arms;
@@ -86,10 +90,19 @@ void add_so(CLI::App& app, Context& context) {
     const forces::MuscleForces shared =
         forces::share(arms, torques.select(columns), optimal, greatest, options);
     pipeline::write_shared_forces(shared, o->out);
-    fmt::print(
-        "{} frames: {} not solved, {} where a reserve helps; largest KKT residual {:.1e}\n{}\n",
-        shared.status.size(), shared.frames_not_solved, shared.frames_with_reserve,
-        shared.kkt_residual.maxCoeff(), o->out);
+    if (context.json) {
+      const nlohmann::ordered_json json{{"out", o->out},
+                                        {"frames", shared.status.size()},
+                                        {"frames_not_solved", shared.frames_not_solved},
+                                        {"frames_with_reserve", shared.frames_with_reserve},
+                                        {"largest_kkt_residual", shared.kkt_residual.maxCoeff()}};
+      fmt::print("{}\n", json.dump(2));
+    } else {
+      fmt::print(
+          "{} frames: {} not solved, {} where a reserve helps; largest KKT residual {:.1e}\n{}\n",
+          shared.status.size(), shared.frames_not_solved, shared.frames_with_reserve,
+          shared.kkt_residual.maxCoeff(), o->out);
+    }
     if (shared.frames_not_solved > 0) context.exit_code = kQualityGateFailed;
   });
 }

@@ -6,10 +6,16 @@
 #include "myoid/model/arm4.h"
 #include "myoid/model/osim_reader.h"
 #include "myoid/recording/storage_reader.h"
+#include "myoid/recording/storage_writer.h"
+#include "myoid/signals/clock_gaps.h"
 
 namespace myoid::cli {
 
 model::BodyModel load_model(const std::string& name, const Context& context) {
+  if (!name.ends_with(".osim") && name != "arm4" && !std::filesystem::exists(name)) {
+    throw InvalidInput(fmt::format(
+        "--model {}: there is no such file, and the only built-in model is arm4", name));
+  }
   model::BodyModel model =
       name == "arm4" ? model::parse_osim(model::arm4_osim(), "arm4.osim") : model::read_osim(name);
   for (const std::string& text : model.unsupported) context.warn(fmt::format("{}: {}", name, text));
@@ -52,11 +58,41 @@ kinematics::JointMotion load_motion(const model::BodyModel& model,
                                   q.values().col(c).cwiseAbs().maxCoeff()));
     }
   }
+  if (const signals::ClockGaps gaps = signals::find_clock_gaps(q.time_s()); gaps.count > 0)
+    context.warn(
+        fmt::format("{}: {}; a spline bridges what was not recorded, and its derivatives "
+                    "beside a gap are not to be relied on",
+                    path.string(), gaps.text()));
   kinematics::MotionOptions options;
-  if (cutoff_hz > 0.0) options.cutoff_hz = cutoff_hz;
-  kinematics::MotionResult result = kinematics::joint_motion(model, cut(q, context), options);
+  if (cutoff_hz > 0.0) {
+    if (cutoff_hz >= 0.5 * q.mean_rate_hz()) {
+      throw InvalidInput(fmt::format(
+          "--lowpass {} Hz: {} has {:.4g} Hz; give less than half of that, or leave it out",
+          cutoff_hz, path.string(), q.mean_rate_hz()));
+    }
+    options.cutoff_hz = cutoff_hz;
+  }
+  kinematics::MotionResult result = kinematics::joint_motion(model, q, options);
   for (const std::string& note : result.notes) context.warn(note);
-  return std::move(result.motion);
+  const kinematics::JointMotion& whole = result.motion;
+  return {cut(whole.q, context), cut(whole.qdot, context), cut(whole.qddot, context)};
+}
+
+void write_series(const std::filesystem::path& path,
+                  const TimeSeries& series,
+                  const std::string& title) {
+  const std::string extension = path.extension().string();
+  if (recording::equal_ignoring_case(extension, ".csv")) {
+    recording::write_csv(path, series);
+  } else if (recording::equal_ignoring_case(extension, ".sto") ||
+             recording::equal_ignoring_case(extension, ".mot") ||
+             (std::filesystem::exists(path) && !std::filesystem::is_regular_file(path))) {
+    recording::write_storage(path, series, {.title = title});
+  } else {
+    throw InvalidInput(
+        fmt::format("{}: expected a name that ends in .sto, .mot or .csv, found '{}'",
+                    path.string(), extension));
+  }
 }
 
 }  // namespace myoid::cli

@@ -12,12 +12,19 @@ namespace myoid::cli {
 /// A model from a file, or the built-in "arm4"; what it cannot do right is warned of.
 [[nodiscard]] model::BodyModel load_model(const std::string& name, const Context& context);
 
-/// A motion file (.mot, .sto) as coordinates and two derivatives, cut to --start/--end. `cutoff_hz`
-/// > 0 smooths.
+/// A motion file (.mot, .sto) as coordinates and two derivatives. `cutoff_hz` > 0 smooths. The
+/// whole file is smoothed and differentiated, then cut to --start/--end: inside that time the
+/// numbers are those of the whole file. Gaps of the clock are warned of.
 [[nodiscard]] kinematics::JointMotion load_motion(const model::BodyModel& model,
                                                   const std::filesystem::path& path,
                                                   double cutoff_hz,
                                                   const Context& context);
+
+/// Writes a series in the format that the file's name asks for: .csv a table ("name [V]" in the
+/// header row), .sto or .mot a storage file of this title. Throws InvalidInput for other names.
+void write_series(const std::filesystem::path& path,
+                  const TimeSeries& series,
+                  const std::string& title);
 
 /// The series cut to --start/--end.
 [[nodiscard]] TimeSeries cut(const TimeSeries& series, const Context& context);

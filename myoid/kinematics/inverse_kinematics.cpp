@@ -25,6 +25,9 @@ struct Pair {
   double weight = 1.0;
 };
 
+/// Steps of Gauss-Newton before second derivatives are worth their price; most frames need 5.
+constexpr int kNewtonFrom = 20;
+
 class Solver {
  public:
   Solver(const model::BodyModel& model, const IkOptions& options, std::vector<Pair> pairs)
@@ -96,6 +99,25 @@ class Solver {
     return q;
   }
 
+  /// Derivative of J'r by the free coordinates, by central differences: J'J and the curvature of
+  /// the markers' paths that it leaves out. That part counts where markers lie far from the
+  /// model's.
+  Eigen::MatrixXd curvature(const Eigen::VectorXd& q) {
+    constexpr double kStep = 1e-6;  // near the cube root of the machine's precision
+    const auto n = static_cast<Eigen::Index>(free_.size());
+    Eigen::MatrixXd result(n, n);
+    for (Eigen::Index k = 0; k < n; ++k) {
+      Eigen::VectorXd moved = q;
+      moved[free_[static_cast<std::size_t>(k)]] += kStep;
+      linearize(moved);
+      result.col(k) = jacobian_.transpose() * residual_;
+      moved[free_[static_cast<std::size_t>(k)]] -= 2.0 * kStep;
+      linearize(moved);
+      result.col(k) = (result.col(k) - jacobian_.transpose() * residual_) / (2.0 * kStep);
+    }
+    return 0.5 * (result + result.transpose());
+  }
+
   struct Pose {
     Eigen::VectorXd q;
     double cost = 0.0;
@@ -110,6 +132,11 @@ class Solver {
     for (int iteration = 0; iteration < options_.max_iterations; ++iteration) {
       Eigen::VectorXd gradient = jacobian_.transpose() * residual_;
       Eigen::MatrixXd normal = jacobian_.transpose() * jacobian_;
+      if (iteration >= kNewtonFrom) {
+        // Gauss-Newton is slow where residuals are large; Newton is not.
+        const Eigen::MatrixXd full = curvature(pose.q);
+        if (full.llt().info() == Eigen::Success) normal = full;
+      }
       // Clamped coordinates at their end that are pushed beyond stay.
       for (Eigen::Index k = 0; k < n; ++k) {
         const auto& coordinate =
@@ -217,6 +244,13 @@ std::vector<Pair> pair_markers(const model::BodyModel& model,
     if (!(w >= 0.0))
       throw InvalidInput(fmt::format("marker '{}': weight {}, expected 0 or more", name, w));
     pairs.push_back({i, it - markers.names.begin(), w});
+  }
+  for (const auto& [name, weight] : options.marker_weights) {
+    if (model.find_marker(name)) continue;
+    std::vector<std::string> names;
+    for (const model::Marker& marker : model.markers) names.push_back(marker.name);
+    throw InvalidInput(fmt::format("marker weight: the model has no marker '{}'; there are {}",
+                                   name, fmt::join(names, ", ")));
   }
   for (const std::string& name : markers.names) {
     if (!model.find_marker(name))

@@ -50,9 +50,10 @@ struct IkResult {
 ///   J(q) = sum w_i |x_i - m_i(q)|^2 / (2 sum w_i) + sum W_j (q_j - q_j*)^2 / 2
 ///
 /// over the markers seen in the frame (a missing one is left out). Levenberg-Marquardt with
-/// analytic marker Jacobians; where it stalls, again from the default pose. Locked coordinates stay
-/// at their default value, clamped ones within their range. Throws InvalidInput if no marker of the
-/// file is in the model or a weight is negative; ModelError if the model cannot be posed.
+/// analytic marker Jacobians, then Newton where residuals are large; where it stalls, again from
+/// the default pose. Locked coordinates stay at their default value, clamped ones within their
+/// range. Throws InvalidInput if no marker of the file is in the model, or a weight is negative or
+/// of no marker of the model; ModelError if the model cannot be posed.
 [[nodiscard]] IkResult inverse_kinematics(const model::BodyModel& model,
                                           const recording::MarkerSeries& markers,
                                           const IkOptions& options = {});

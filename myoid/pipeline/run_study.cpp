@@ -327,11 +327,16 @@ StudyResult run_study(const Study& whole, const RunOptions& options) {
       result.inputs.push_back({study.model.file->string(), sha256(result.model_text)});
     if (study.truth) result.truth = read_truth(*study.truth);
     oneapi::tbb::parallel_for(std::size_t{0}, study.trials.size(), [&](std::size_t i) {
-      inputs[i] = read_trial_input(study, study.trials[i], result.model);
+      try {
+        inputs[i] = read_trial_input(study, study.trials[i], result.model);
+      } catch (const InvalidInput& error) {
+        throw InvalidInput(fmt::format("{} (trial '{}')", error.what(), study.trials[i].name));
+      }
     });
     for (std::size_t i = 0; i < inputs.size(); ++i) {
       result.trials[i].spec = study.trials[i];
       result.trials[i].notes = inputs[i].notes;
+      result.trials[i].warnings = inputs[i].warnings;
       for (const InputFile& file : inputs[i].files) {
         const bool known = std::any_of(result.inputs.begin(), result.inputs.end(),
                                        [&](const InputFile& f) { return f.path == file.path; });
@@ -424,81 +429,6 @@ StudyResult run_study(const Study& whole, const RunOptions& options) {
   demote_by_gates(result);
   options.progress.tell(1.0, "done");
   return result;
-}
-
-std::string_view name(Finding::Level level) {
-  switch (level) {
-    case Finding::Level::error:
-      return "error";
-    case Finding::Level::warning:
-      return "warning";
-    case Finding::Level::note:
-      return "note";
-  }
-  return "?";
-}
-
-std::vector<Finding> check_study(const Study& study) {
-  std::vector<Finding> findings;
-  const auto add = [&](Finding::Level level, std::string where, std::string message) {
-    findings.push_back({level, std::move(where), std::move(message)});
-  };
-  std::optional<model::BodyModel> model;
-  try {
-    model = load_model(study);
-    (void)muscle_setups(study, *model);
-    for (const std::string& text : model->unsupported) add(Finding::Level::warning, "model", text);
-    for (const std::string& text : model->notes) add(Finding::Level::note, "model", text);
-  } catch (const InvalidInput& error) {
-    add(Finding::Level::error, "model", error.what());
-  }
-  if (!study.emg.has_mvc && study.emg.kind == EmgKind::raw) {
-    add(Finding::Level::warning, "study",
-        "no trial is a maximal contraction (use = \"mvc\"): F_max will mean the force at the "
-        "study's largest EMG");
-  }
-  for (const TrialSpec& spec : study.trials) {
-    if (!model) break;
-    try {
-      const TrialInput input = read_trial_input(study, spec, *model);
-      for (const std::string& note : input.notes) add(Finding::Level::note, spec.name, note);
-      if (input.markers) {
-        for (Eigen::Index m = 0; m < input.markers->marker_count(); ++m) {
-          Eigen::Index gaps = 0;
-          for (Eigen::Index f = 0; f < input.markers->frame_count(); ++f)
-            gaps += input.markers->missing(f, m) ? 1 : 0;
-          if (gaps > 0) {
-            add(gaps > input.markers->frame_count() / 4 ? Finding::Level::warning
-                                                        : Finding::Level::note,
-                spec.name,
-                fmt::format("marker '{}' is missing in {:.1f} % of the frames",
-                            input.markers->names[static_cast<std::size_t>(m)],
-                            100.0 * static_cast<double>(gaps) /
-                                static_cast<double>(input.markers->frame_count())));
-          }
-        }
-      }
-      if (input.emg && study.emg.kind == EmgKind::raw) {
-        if (input.emg->mean_rate_hz() < 800.0) {
-          add(Finding::Level::warning, spec.name,
-              fmt::format("EMG at {:.0f} Hz: 1000 Hz or more is needed for raw EMG",
-                          input.emg->mean_rate_hz()));
-        }
-        const signals::EmgStages emg = signals::process_emg(
-            *input.emg, {.highpass_hz = study.emg.highpass_hz, .lowpass_hz = study.emg.lowpass_hz});
-        for (const std::string& text : emg.findings) add(Finding::Level::warning, spec.name, text);
-      }
-      if (spec.held_mass_kg > 0.0 && study.model.file && !study.model.held_mass) {
-        add(Finding::Level::error, spec.name,
-            "held_mass_kg is given, but [model] held_mass does not say where it acts");
-      }
-    } catch (const InvalidInput& error) {
-      add(Finding::Level::error, spec.name, error.what());
-    }
-  }
-  std::stable_sort(findings.begin(), findings.end(),
-                   [](const Finding& a, const Finding& b) { return a.level < b.level; });
-  return findings;
 }
 
 }  // namespace myoid::pipeline

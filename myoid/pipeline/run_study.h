@@ -35,7 +35,8 @@ struct TrialResult {
   TimeSeries muscle_torque;        ///< Of the study's coordinate: what the muscles provide [N m].
   forces::MuscleForces shared;     ///< Of the model's muscles.
   std::vector<std::string> notes;  ///< Repairs and remarks, with file and line.
-  std::string failure;             ///< Why it could not be computed; empty: it could.
+  std::vector<std::string> warnings;  ///< Those of them that may make numbers wrong.
+  std::string failure;                ///< Why it could not be computed; empty: it could.
 
   [[nodiscard]] bool has_motion() const { return motion.q.sample_count() > 0 && failure.empty(); }
 };
@@ -79,18 +80,5 @@ struct RunOptions {
 /// ReadError or InvalidInput for input that cannot be used (nothing is computed then: all files are
 /// read first), Interrupted when stopped. A trial whose computation fails is marked and left out.
 [[nodiscard]] StudyResult run_study(const Study& study, const RunOptions& options = {});
-
-/// What reading all inputs brings to light, without computing anything.
-struct Finding {
-  enum class Level { error, warning, note };
-  Level level = Level::note;
-  std::string where;    ///< Trial or file.
-  std::string message;  ///< With the remedy.
-};
-[[nodiscard]] std::string_view name(Finding::Level level);
-
-/// Reads every input of the study, checks units, rates, names, gaps, overlap of EMG and motion, and
-/// MVC; worst first. Does not throw for what is wrong with an input: that is a finding.
-[[nodiscard]] std::vector<Finding> check_study(const Study& study);
 
 }  // namespace myoid::pipeline

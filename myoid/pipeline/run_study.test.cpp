@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <pugixml.hpp>
 
@@ -195,13 +196,68 @@ TEST(ReadTrialInput, AMissingEmgChannelIsNamedWithThoseThereAre) {
   EXPECT_NE(message.find("did you mean 'BICC'"), std::string::npos) << message;
 }
 
-TEST(CheckStudy, NamesAMissingFileWithoutThrowing) {
+/// A trial of an elbow that turns with this time step, with EMG from 0 s for `emg_s` seconds.
+struct WrittenTrial {
+  test::TemporaryFolder folder;
+  TrialSpec spec;
+
+  WrittenTrial(double motion_step, double emg_s, double hole_s = 0.0) {
+    std::string motion = "motion\nversion=1\ninDegrees=yes\nendheader\ntime\telbow_flexion\n";
+    for (int i = 0; i < 500; ++i) {
+      motion += fmt::format("{:.6f}\t{:.4f}\n", motion_step * i + (i < 250 ? 0.0 : hole_s),
+                            40.0 + 30.0 * std::sin(0.02 * i));
+    }
+    std::string emg = "EMG\nendheader\ntime\tBIC\tBRA\tBRD\tTRI\n";
+    for (int i = 0; i <= static_cast<int>(100.0 * emg_s); ++i)
+      emg += fmt::format("{:.2f}\t0.1\t0.1\t0.1\t0.1\n", 0.01 * i);
+    recording::write_file(folder / "m.mot", motion);
+    recording::write_file(folder / "e.sto", emg);
+    spec.name = "t";
+    spec.motion = folder / "m.mot";
+    spec.emg = folder / "e.sto";
+  }
+  [[nodiscard]] TrialInput read(const Study& study) const {
+    return read_trial_input(study, spec, ExactRun::get().result.model);
+  }
+};
+
+TEST(ReadTrialInput, AShortPauseOfTheClockIsWarnedOfAndALongOneRefused) {
+  const Study& study = ExactRun::get().result.study;
+  EXPECT_TRUE(WrittenTrial(0.01, 5.0).read(study).warnings.empty());
+  const TrialInput paused = WrittenTrial(0.01, 5.3, 0.3).read(study);
+  ASSERT_EQ(paused.warnings.size(), 1U);
+  EXPECT_NE(paused.warnings[0].find("a gap from 2.49 to 2.8 s"), std::string::npos)
+      << paused.warnings[0];
+  EXPECT_NE(std::find(paused.notes.begin(), paused.notes.end(), paused.warnings[0]),
+            paused.notes.end());
+  const std::string message = message_of([&] { (void)WrittenTrial(0.01, 8.0, 3.0).read(study); });
+  EXPECT_NE(message.find("a gap from 2.49 to 5.5 s"), std::string::npos) << message;
+  EXPECT_NE(message.find("make two trials of it"), std::string::npos) << message;
+}
+
+TEST(ReadTrialInput, AClockInMillisecondsIsRefused) {
+  const std::string message =
+      message_of([&] { (void)WrittenTrial(10.0, 5.0).read(ExactRun::get().result.study); });
+  EXPECT_NE(message.find("is the time in ms"), std::string::npos) << message;
+}
+
+TEST(ReadTrialInput, EmgThatCoversLessThanHalfOfTheMotionIsRefusedAndALittleLessIsWarnedOf) {
+  const Study& study = ExactRun::get().result.study;
+  const std::string message = message_of([&] { (void)WrittenTrial(0.1, 20.0).read(study); });
+  EXPECT_NE(message.find("covers less than half of the motion (0 to 49.9 s)"), std::string::npos)
+      << message;
+  const TrialInput shorter = WrittenTrial(0.01, 4.0).read(study);
+  ASSERT_EQ(shorter.warnings.size(), 1U);
+  EXPECT_NE(shorter.warnings[0].find("0.99 s without EMG"), std::string::npos)
+      << shorter.warnings[0];
+}
+
+TEST(ReadTrialInput, ACutOffAboveWhatTheRateAllowsIsRefused) {
   Study study = ExactRun::get().result.study;
-  study.trials.front().emg = "/nowhere/x.sto";
-  const std::vector<Finding> findings = check_study(study);
-  ASSERT_FALSE(findings.empty());
-  EXPECT_EQ(findings.front().level, Finding::Level::error);
-  EXPECT_NE(findings.front().message.find("/nowhere/x.sto"), std::string::npos);
+  study.motion.smoothing = Smoothing::cutoff;
+  study.motion.cutoff_hz = 60.0;
+  const std::string message = message_of([&] { (void)WrittenTrial(0.01, 5.0).read(study); });
+  EXPECT_NE(message.find("cutoff_hz = 60"), std::string::npos) << message;
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "myoid/core/error.h"
 #include "myoid/core/units.h"
 #include "myoid/identification/parameters.h"
+#include "myoid/muscle/hill_parameters.h"
 #include "myoid/recording/text_file.h"
 #include "myoid/recording/toml_table.h"
 
@@ -17,6 +18,20 @@ namespace myoid::pipeline {
 namespace {
 
 using recording::TomlTable;
+
+double within(TomlTable& table,
+              std::string_view key,
+              double otherwise,
+              double lower,
+              double upper,
+              std::string_view unit) {
+  const double value = table.number(key).value_or(otherwise);
+  if (!(value >= lower && value <= upper)) {
+    table.fail(key,
+               fmt::format("found {} {}, expected {} to {} {}", value, unit, lower, upper, unit));
+  }
+  return value;
+}
 
 double positive(TomlTable& table, std::string_view key, double otherwise) {
   const double value = table.number(key).value_or(otherwise);
@@ -72,7 +87,7 @@ MotionSpec read_motion(TomlTable table) {
   MotionSpec motion;
   if (table.has("cutoff_hz")) {
     motion.smoothing = Smoothing::cutoff;
-    motion.cutoff_hz = positive(table, "cutoff_hz", 6.0);
+    motion.cutoff_hz = within(table, "cutoff_hz", 6.0, 0.1, 500.0, "Hz");
     (void)table.choice("smoothing", "cutoff", {"cutoff"});
   } else {
     const std::string word = table.choice("smoothing", "auto", {"auto", "none", "cutoff"});
@@ -80,7 +95,7 @@ MotionSpec read_motion(TomlTable table) {
                        : word == "none" ? Smoothing::none
                                         : Smoothing::cutoff;
   }
-  motion.rate_hz = positive(table, "rate_hz", motion.rate_hz);
+  motion.rate_hz = within(table, "rate_hz", motion.rate_hz, 10.0, 2000.0, "Hz");
   table.finish();
   return motion;
 }
@@ -136,7 +151,8 @@ EmgSpec read_emg(TomlTable table) {
   emg.lowpass_hz = positive(table, "lowpass_hz", emg.lowpass_hz);
   emg.as_published = table.flag("as_published").value_or(emg.as_published);
   (void)table.choice("normalise", "max", {"max"});
-  emg.normalise_window_s = positive(table, "normalise_window_s", emg.normalise_window_s);
+  emg.normalise_window_s =
+      within(table, "normalise_window_s", emg.normalise_window_s, 0.01, 60.0, "s");
   if (table.is_text("delay_s")) {
     (void)table.choice("delay_s", "estimate", {"estimate"});
   } else if (auto delay = table.number("delay_s")) {
@@ -147,6 +163,21 @@ EmgSpec read_emg(TomlTable table) {
   }
   table.finish();
   return emg;
+}
+
+/// The muscle parameter of this name, or an error at the key's line that lists them.
+const muscle::HillField& parameter(const TomlTable& table,
+                                   std::string_view key,
+                                   const std::string& name) {
+  std::vector<std::string> names;
+  for (const muscle::HillField& field : muscle::kHillFields) {
+    if (field.name == name) return field;
+    names.emplace_back(field.name);
+  }
+  const auto near = recording::nearest_word(name, names);
+  table.fail(key, fmt::format("no muscle parameter is named '{}'{}; there are {}", name,
+                              near ? fmt::format(" (did you mean '{}'?)", *near) : "",
+                              fmt::join(names, ", ")));
 }
 
 MuscleSpec read_muscle(TomlTable table) {
@@ -163,9 +194,14 @@ MuscleSpec read_muscle(TomlTable table) {
         "emg", "the EMG channel, or { same_as = \"MUSCLE\" } where there is no electrode");
   }
   if (auto start = table.table("start")) {
-    for (const std::string& key : start->keys()) muscle.start[key] = *start->number(key);
+    for (const std::string& key : start->keys()) {
+      const muscle::HillField& field = parameter(*start, key, key);
+      muscle.start[key] =
+          within(*start, key, 0.0, field.bounds.lower, field.bounds.upper, symbol(field.unit));
+    }
   }
   muscle.fixed = table.texts("fixed").value_or(muscle.fixed);
+  for (const std::string& name : muscle.fixed) (void)parameter(table, "fixed", name);
   table.finish();
   return muscle;
 }
@@ -227,6 +263,10 @@ TrialSpec read_trial(TomlTable table, const std::filesystem::path& folder) {
   trial.condition = table.text("condition").value_or("");
   trial.start_s = table.number("start_s");
   trial.end_s = table.number("end_s");
+  if (trial.start_s && trial.end_s && !(*trial.start_s < *trial.end_s)) {
+    table.fail("end_s", fmt::format("found {} s, expected a time after start_s = {} s",
+                                    *trial.end_s, *trial.start_s));
+  }
   table.finish();
   return trial;
 }
@@ -277,7 +317,7 @@ IdentifySpec read_identify(TomlTable table) {
   };
   identify.angle_sd_rad = not_negative("angle_sd_deg") * kDegree;
   identify.angle_rate_sd_radps = not_negative("angle_rate_sd_degps") * kDegree;
-  identify.max_rate_hz = positive(table, "max_rate_hz", identify.max_rate_hz);
+  identify.max_rate_hz = within(table, "max_rate_hz", identify.max_rate_hz, 5.0, 2000.0, "Hz");
   table.finish();
   return identify;
 }
@@ -343,6 +383,14 @@ void check_references(const Study& study) {
                            owner, fmt::join(muscles, ", ")));
       }
     }
+  }
+  const bool any_to_learn_from = std::any_of(
+      study.trials.begin(), study.trials.end(),
+      [](const TrialSpec& t) { return t.use == Use::calibration || t.use == Use::isometric; });
+  if (!any_to_learn_from && !study.identify.methods.empty()) {
+    refuse(
+        "no [[trial]] has use = \"calibration\" or \"isometric\", from which parameters are "
+        "found; the others only test or scale them");
   }
   std::set<std::string> trials;
   for (const TrialSpec& trial : study.trials) {

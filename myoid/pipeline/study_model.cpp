@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <pugixml.hpp>
 
 #include "myoid/core/error.h"
@@ -69,7 +70,14 @@ std::string model_text(const Study& study, const recording::MarkerSeries* marker
 model::BodyModel load_model(const Study& study, const recording::MarkerSeries* markers) {
   model::BodyModel model =
       model::parse_osim(model_text(study, markers), study.model.file.value_or("arm4.osim"));
-  (void)model.coordinate_index(study.model.coordinate);
+  const auto coordinate = [&](std::string_view key, const std::string& name) -> model::Coordinate& {
+    try {
+      return model.coordinates[static_cast<std::size_t>(model.coordinate_index(name))];
+    } catch (const ModelError& error) {
+      throw ModelError(fmt::format("{}: {}: {}", study.file.string(), key, error.what()));
+    }
+  };
+  (void)coordinate("[model] coordinate", study.model.coordinate);
   for (const MuscleSpec& muscle : study.muscles) {
     for (const std::string& name : muscle.osim) {
       try {
@@ -80,10 +88,16 @@ model::BodyModel load_model(const Study& study, const recording::MarkerSeries* m
       }
     }
   }
-  for (const std::string& name : study.ik.unlock)
-    model.coordinates[static_cast<std::size_t>(model.coordinate_index(name))].locked = false;
-  for (const std::string& name : study.ik.lock)
-    model.coordinates[static_cast<std::size_t>(model.coordinate_index(name))].locked = true;
+  for (const std::string& name : study.ik.unlock) coordinate("[ik] unlock", name).locked = false;
+  for (const std::string& name : study.ik.lock) coordinate("[ik] lock", name).locked = true;
+  for (const auto& [name, weight] : study.markers.weight) {
+    if (model.find_marker(name)) continue;
+    std::vector<std::string> names;
+    for (const model::Marker& marker : model.markers) names.push_back(marker.name);
+    throw ModelError(
+        fmt::format("{}: [markers.weight] {}: the model has no such marker; there are {}",
+                    study.file.string(), name, fmt::join(names, ", ")));
+  }
   if (study.model.held_mass && !model.find_body(study.model.held_mass->body)) {
     std::string names;
     for (std::size_t i = 1; i < model.bodies.size(); ++i)

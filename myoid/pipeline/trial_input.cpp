@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -12,6 +13,7 @@
 #include "myoid/recording/storage_reader.h"
 #include "myoid/recording/text_file.h"
 #include "myoid/recording/toml_table.h"
+#include "myoid/signals/clock_gaps.h"
 
 namespace myoid::pipeline {
 namespace {
@@ -45,11 +47,64 @@ recording::MarkerSeries read_markers(const Study& study,
   return std::move(file.markers);
 }
 
+void warn(TrialInput& input, std::string text) {
+  input.notes.push_back(text);
+  input.warnings.push_back(std::move(text));
+}
+
+/// A clock that a person's movement can have been recorded on: pauses are warned of or refused.
+void check_clock(const std::filesystem::path& path,
+                 const Eigen::VectorXd& time_s,
+                 TrialInput& input) {
+  constexpr double kSlowest_hz = 5.0;
+  const Eigen::Index n = time_s.size();
+  const signals::ClockGaps gaps = signals::find_clock_gaps(time_s);
+  if (gaps.usual_interval_s > 1.0 / kSlowest_hz) {
+    throw ReadError(path, 0,
+                    fmt::format("{} samples from {:.6g} to {:.6g}, about one per {:.3g} s: is the "
+                                "time in ms or in frames? expected seconds and {} Hz or more",
+                                n, time_s[0], time_s[n - 1], gaps.usual_interval_s, kSlowest_hz));
+  }
+  if (gaps.longest_s() > kLongestGap_s) {
+    throw ReadError(
+        path, 0,
+        fmt::format("{} in its clock; a pause of more than {} s cannot be bridged: make "
+                    "two trials of it, with end_s before and start_s after the gap",
+                    gaps.text(), kLongestGap_s));
+  }
+  if (gaps.count > 0) {
+    warn(input, fmt::format("{}: {} in its clock, bridged by a spline", path.filename().string(),
+                            gaps.text()));
+  }
+}
+
+/// What the study asks for explicitly must be possible.
+void check_cutoff(const Study& study, const std::filesystem::path& path, double rate_hz) {
+  if (study.motion.smoothing != Smoothing::cutoff || study.motion.cutoff_hz < 0.45 * rate_hz)
+    return;
+  throw ReadError(path, 0,
+                  fmt::format("[motion] cutoff_hz = {}, but this file has {:.4g} Hz; expected less "
+                              "than 0.45 of that",
+                              study.motion.cutoff_hz, rate_hz));
+}
+
+std::string few_samples(const TrialSpec& trial, const TimeSeries& series) {
+  const auto limit = [](const std::optional<double>& time_s, std::string_view otherwise) {
+    return time_s ? fmt::format("{} s", *time_s) : std::string(otherwise);
+  };
+  return fmt::format("{} samples from {} to {}; at least 10 are needed", series.sample_count(),
+                     limit(trial.start_s, "its begin"), limit(trial.end_s, "its end"));
+}
+
+double rate_of(const Eigen::VectorXd& time_s) {
+  return static_cast<double>(time_s.size() - 1) / (time_s[time_s.size() - 1] - time_s[0]);
+}
+
 TimeSeries read_motion(const std::filesystem::path& path,
                        const model::BodyModel& model,
-                       std::vector<std::string>& notes) {
+                       TrialInput& input) {
   const recording::Storage file = recording::read_storage(path);
-  add_repairs(path, file.repairs, notes);
+  add_repairs(path, file.repairs, input.notes);
   const auto is_angle = [&](const std::string& name) {
     const auto index = model.find_coordinate(name);
     return index && model.coordinates[static_cast<std::size_t>(*index)].motion ==
@@ -74,9 +129,9 @@ TimeSeries read_motion(const std::filesystem::path& path,
     }
     const double range = motion.values().col(c).maxCoeff() - motion.values().col(c).minCoeff();
     if (file.in_degrees && largest < 3.5 * kDegree && range > 0.2 * kDegree) {
-      notes.push_back(fmt::format(
-          "{}: column '{}' stays below 3.5 degrees; if these are radians, write inDegrees=no",
-          path.filename().string(), channel.name));
+      warn(input, fmt::format("{}: column '{}' stays below 3.5 degrees although the header says "
+                              "inDegrees=yes; if these are radians, write inDegrees=no",
+                              path.filename().string(), channel.name));
     }
   }
   if (!any) {
@@ -157,20 +212,26 @@ TrialInput read_trial_input(const Study& study,
     if (markers.frame_count() < 10)
       throw ReadError(*trial.markers, 0,
                       fmt::format("only {} frames; at least 10 are needed", markers.frame_count()));
+    check_clock(*trial.markers, markers.time_s, input);
+    check_cutoff(study, *trial.markers, rate_of(markers.time_s));
     input.markers = std::move(markers);
   }
   if (trial.motion) {
     remember(*trial.motion);
-    input.motion = read_motion(*trial.motion, model, input.notes).slice(start, end);
+    input.motion = read_motion(*trial.motion, model, input).slice(start, end);
     require_finite(*input.motion, trial.motion->string());
     if (input.motion->sample_count() < 10)
-      throw ReadError(*trial.motion, 0, "fewer than 10 samples in the time asked for");
+      throw ReadError(*trial.motion, 0, few_samples(trial, *input.motion));
+    check_clock(*trial.motion, input.motion->time_s(), input);
+    check_cutoff(study, *trial.motion, rate_of(input.motion->time_s()));
   }
   if (trial.emg) {
     remember(*trial.emg);
     recording::EmgFile file =
         recording::read_emg(*trial.emg, study.emg.unit, study.emg.kind != EmgKind::raw);
     add_repairs(*trial.emg, file.repairs, input.notes);
+    if (!file.unit_conflict.empty())
+      warn(input, fmt::format("{}: {}", trial.emg->filename().string(), file.unit_conflict));
     name_by_target_muscle(study, *trial.emg, file, input.notes);
     require_channels(study, *trial.emg, file.data);
     std::vector<std::string> wanted;
@@ -182,8 +243,9 @@ TrialInput read_trial_input(const Study& study,
     input.emg = file.data.select(wanted).slice(start - 0.5, end);
     require_finite(*input.emg, trial.emg->string());
     if (input.emg->sample_count() < 10)
-      throw ReadError(*trial.emg, 0, "fewer than 10 samples in the time asked for");
+      throw ReadError(*trial.emg, 0, few_samples(trial, *input.emg));
     const Eigen::VectorXd& clock = input.emg->time_s();
+    check_clock(*trial.emg, clock, input);
     const Eigen::VectorXd* motion_clock = input.markers  ? &input.markers->time_s
                                           : input.motion ? &input.motion->time_s()
                                                          : nullptr;
@@ -191,12 +253,20 @@ TrialInput read_trial_input(const Study& study,
       const double overlap =
           std::min(clock[clock.size() - 1], (*motion_clock)[motion_clock->size() - 1]) -
           std::max(clock[0], (*motion_clock)[0]);
-      if (overlap < 0.5) {
-        throw ReadError(*trial.emg, 0,
-                        fmt::format("EMG ({:.3g} to {:.3g} s) and motion ({:.3g} to {:.3g} s) "
-                                    "hardly overlap; are both on one clock?",
-                                    clock[0], clock[clock.size() - 1], (*motion_clock)[0],
-                                    (*motion_clock)[motion_clock->size() - 1]));
+      const double motion_s = (*motion_clock)[motion_clock->size() - 1] - (*motion_clock)[0];
+      if (overlap < std::max(0.5, 0.5 * motion_s)) {
+        throw ReadError(
+            *trial.emg, 0,
+            fmt::format("the EMG ({:.5g} to {:.5g} s) covers less than half of the motion ({:.5g} "
+                        "to {:.5g} s); are both in seconds, on one clock? If so, give the trial "
+                        "the start_s and end_s that both have",
+                        clock[0], clock[clock.size() - 1], (*motion_clock)[0],
+                        (*motion_clock)[motion_clock->size() - 1]));
+      }
+      if (overlap < motion_s - 0.1) {
+        warn(input, fmt::format("{}: the motion goes on for {:.3g} s without EMG; there the EMG's "
+                                "end value is taken. start_s and end_s leave it out",
+                                trial.emg->filename().string(), motion_s - overlap));
       }
     }
   }

@@ -12,48 +12,74 @@
 #include "myoid/core/error.h"
 
 namespace myoid::recording {
+namespace {
 
-void write_file(const std::filesystem::path& path, std::string_view content) {
-  const auto fail = [&](std::string_view what) {
-    const int cause = errno;
-    throw InvalidInput(
-        fmt::format("{}: {}: {}{}", path.string(), what, std::strerror(cause),
-                    cause == ENOSPC ? "; free some space or choose another folder" : ""));
-  };
-  std::error_code error;
-  if (path.has_parent_path()) {
-    std::filesystem::create_directories(path.parent_path(), error);
-    if (error) {
-      throw InvalidInput(fmt::format("{}: cannot create the folder {}: {}", path.string(),
-                                     path.parent_path().string(), error.message()));
-    }
-  }
-  std::string temporary = path.string() + ".XXXXXX";
-  const int descriptor = mkstemp(temporary.data());
-  if (descriptor < 0) fail("cannot be written");
-  const auto give_up = [&](std::string_view what) {
-    const int cause = errno;
-    close(descriptor);
-    unlink(temporary.c_str());
-    errno = cause;
-    fail(what);
-  };
+[[noreturn]] void fail(const std::filesystem::path& path, std::string_view what, int cause) {
+  throw InvalidInput(
+      fmt::format("{}: {}: {}{}", path.string(), what, std::strerror(cause),
+                  cause == ENOSPC ? "; free some space or choose another folder" : ""));
+}
+
+/// 0, or what went wrong.
+int write_all(int descriptor, std::string_view content) {
   for (std::size_t done = 0; done < content.size();) {
     const ssize_t written = write(descriptor, content.data() + done, content.size() - done);
-    if (written < 0) {
-      if (errno == EINTR) continue;
-      give_up("writing failed");
+    if (written < 0 && errno != EINTR) return errno;
+    if (written > 0) done += static_cast<std::size_t>(written);
+  }
+  return 0;
+}
+
+/// Where a chain of symbolic links ends, whether a file is there or not.
+std::filesystem::path behind_links(std::filesystem::path path) {
+  std::error_code ignored;
+  for (int links = 0; links < 40 && std::filesystem::is_symlink(path, ignored); ++links) {
+    const std::filesystem::path next = std::filesystem::read_symlink(path, ignored);
+    if (ignored) break;
+    path = path.parent_path() / next;
+  }
+  return path;
+}
+
+void write_through(const std::filesystem::path& path, std::string_view content) {
+  const int descriptor = open(path.c_str(), O_WRONLY | O_CLOEXEC);
+  if (descriptor < 0) fail(path, "cannot be written", errno);
+  const int cause = write_all(descriptor, content);
+  const int at_end = close(descriptor) != 0 ? errno : 0;
+  if (cause != 0 || at_end != 0) fail(path, "writing failed", cause != 0 ? cause : at_end);
+}
+
+}  // namespace
+
+void write_file(const std::filesystem::path& path, std::string_view content) {
+  if (path.empty()) throw InvalidInput("the name of the file to write is empty");
+  struct stat existing {};
+  const bool exists = stat(path.c_str(), &existing) == 0;
+  if (exists && S_ISDIR(existing.st_mode)) {
+    throw InvalidInput(fmt::format("{}: is a folder; name a file in it", path.string()));
+  }
+  if (exists && !S_ISREG(existing.st_mode)) return write_through(path, content);
+
+  const std::filesystem::path target = behind_links(path);
+  if (target.has_parent_path()) {
+    std::error_code error;
+    std::filesystem::create_directories(target.parent_path(), error);
+    if (error) {
+      throw InvalidInput(fmt::format("{}: cannot create the folder {}: {}", path.string(),
+                                     target.parent_path().string(), error.message()));
     }
-    done += static_cast<std::size_t>(written);
   }
-  if (fchmod(descriptor, 0644) != 0 || fsync(descriptor) != 0) give_up("writing failed");
-  if (close(descriptor) != 0) fail("writing failed");
-  if (rename(temporary.c_str(), path.c_str()) != 0) {
-    const int cause = errno;
-    unlink(temporary.c_str());
-    errno = cause;
-    fail("cannot be replaced");
-  }
+  std::string temporary = target.string() + ".XXXXXX";
+  const int descriptor = mkstemp(temporary.data());
+  if (descriptor < 0) fail(path, "cannot be written", errno);
+  int cause = write_all(descriptor, content);
+  const mode_t permissions = exists ? existing.st_mode & 07777 : 0644;
+  if (cause == 0 && (fchmod(descriptor, permissions) != 0 || fsync(descriptor) != 0)) cause = errno;
+  if (close(descriptor) != 0 && cause == 0) cause = errno;
+  if (cause == 0 && rename(temporary.c_str(), target.c_str()) == 0) return;
+  if (cause == 0) cause = errno;
+  unlink(temporary.c_str());
+  fail(path, "writing failed", cause);
 }
 
 }  // namespace myoid::recording

@@ -6,8 +6,10 @@
 namespace myoid::recording {
 
 /// Writes a file whole or not at all: into a temporary file of the same folder, flushed to the
-/// disk, then renamed. Missing parent folders are made. Throws InvalidInput with the cause (disk
-/// full, no permission) and leaves an existing file as it was.
+/// disk, then renamed. Missing parent folders are made. Through a symbolic link the file it points
+/// to is replaced and the link stays; an existing file keeps its permissions. What is no file (a
+/// pipe, a device such as /dev/stdout) is written to as it is. Throws InvalidInput with the cause
+/// (disk full, no permission, a folder of that name) and leaves an existing file as it was.
 void write_file(const std::filesystem::path& path, std::string_view content);
 
 }  // namespace myoid::recording

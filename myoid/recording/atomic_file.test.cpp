@@ -1,6 +1,14 @@
 #include "myoid/recording/atomic_file.h"
 
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <string_view>
+#include <thread>
+
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include "myoid/core/error.h"
 #include "myoid/recording/text_file.h"
@@ -21,7 +29,7 @@ TEST(WriteFile, LeavesNothingBehindWhenItFails) {
   const test::TemporaryFolder folder;
   std::filesystem::create_directories(folder / "taken/inside");
   EXPECT_THROW(write_file(folder / "taken", "x"),
-               InvalidInput);  // a folder that is not empty cannot be replaced
+               InvalidInput);  // a folder is no file
   std::size_t entries = 0;
   for (const auto& entry : std::filesystem::directory_iterator(folder.path()))
     entries += entry.exists() ? 1 : 0;
@@ -30,7 +38,51 @@ TEST(WriteFile, LeavesNothingBehindWhenItFails) {
 
 TEST(WriteFile, AFullDiskIsToldAsSuch) {
   if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full";
-  EXPECT_THROW(write_file("/dev/full/x", "content"), InvalidInput);
+  try {
+    write_file("/dev/full", "content");
+    FAIL() << "was written";
+  } catch (const InvalidInput& error) {
+    EXPECT_NE(std::string_view(error.what()).find("No space left"), std::string_view::npos);
+  }
+  EXPECT_TRUE(std::filesystem::is_character_file("/dev/full"));
+}
+
+TEST(WriteFile, ASymbolicLinkStaysAndTheFileBehindItIsReplaced) {
+  const test::TemporaryFolder folder;
+  write_file(folder / "there/real.txt", "one");
+  std::filesystem::create_symlink("there/real.txt", folder / "link.txt");
+  std::filesystem::create_symlink("there/later.txt", folder / "dangling.txt");
+  write_file(folder / "link.txt", "two");
+  write_file(folder / "dangling.txt", "three");
+  EXPECT_TRUE(std::filesystem::is_symlink(folder / "link.txt"));
+  EXPECT_TRUE(std::filesystem::is_symlink(folder / "dangling.txt"));
+  EXPECT_EQ(read_text_file(folder / "there/real.txt"), "two");
+  EXPECT_EQ(read_text_file(folder / "there/later.txt"), "three");
+}
+
+TEST(WriteFile, KeepsThePermissionsOfTheFileItReplaces) {
+  namespace fs = std::filesystem;
+  const test::TemporaryFolder folder;
+  write_file(folder / "a.txt", "one");
+  fs::permissions(folder / "a.txt", fs::perms::owner_read | fs::perms::owner_write);
+  write_file(folder / "a.txt", "two");
+  EXPECT_EQ(fs::status(folder / "a.txt").permissions(),
+            fs::perms::owner_read | fs::perms::owner_write);
+}
+
+TEST(WriteFile, WritesIntoAPipe) {
+  const test::TemporaryFolder folder;
+  const std::string pipe = folder / "pipe";
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  std::string read;
+  std::thread reader([&] {
+    std::ifstream stream(pipe);
+    read.assign(std::istreambuf_iterator<char>(stream), {});
+  });
+  write_file(pipe, "through");
+  reader.join();
+  EXPECT_EQ(read, "through");
+  EXPECT_TRUE(std::filesystem::is_fifo(pipe));
 }
 
 }  // namespace

@@ -167,6 +167,22 @@ void apply_bids(const std::filesystem::path& path, CsvSeries& series, EmgFile& f
 
 }  // namespace
 
+std::optional<double> stated_voltage(const Storage& storage) {
+  std::optional<double> stated = voltage_in(storage.title);
+  for (const auto& [key, value] : storage.header) {
+    if (!stated && (equal_ignoring_case(key, "unit") || equal_ignoring_case(key, "units")))
+      stated = voltage_in(value);
+  }
+  return stated;
+}
+
+std::string voltage_name(double to_volt) {
+  return to_volt == 1.0    ? "V"
+         : to_volt == 1e-3 ? "mV"
+         : to_volt == 1e-6 ? "uV"
+                           : fmt::format("{} V", to_volt);
+}
+
 EmgFile read_emg(const std::filesystem::path& path, const std::string& unit, bool dimensionless) {
   std::optional<double> to_volt;
   if (!unit.empty()) {
@@ -186,11 +202,14 @@ EmgFile read_emg(const std::filesystem::path& path, const std::string& unit, boo
   } else {
     Storage storage = read_storage(path);
     file.repairs = std::move(storage.repairs);
-    if (!to_volt) to_volt = voltage_in(storage.title);
-    for (const auto& [key, value] : storage.header) {
-      if (!to_volt && (equal_ignoring_case(key, "unit") || equal_ignoring_case(key, "units")))
-        to_volt = voltage_in(value);
+    const std::optional<double> stated = stated_voltage(storage);
+    if (stated && to_volt && *stated != *to_volt && !dimensionless) {
+      file.unit_conflict = fmt::format(
+          "the file says that it is in {}, so the unit given ({}) is not used; if the file is "
+          "wrong, correct its title",
+          voltage_name(*stated), unit);
     }
+    if (stated) to_volt = stated;
     if (dimensionless) {
       series = std::move(storage.data);
     } else if (to_volt) {

@@ -42,7 +42,10 @@ void write_storage(const std::filesystem::path& path,
 
 void write_csv(const std::filesystem::path& path, const TimeSeries& series) {
   std::string text = "time_s";
-  for (const Channel& channel : series.channels()) text += "," + channel.name;
+  for (const Channel& channel : series.channels()) {
+    text += "," + channel.name;
+    if (channel.unit != Unit::dimensionless) text += fmt::format(" [{}]", symbol(channel.unit));
+  }
   text += '\n';
   for (Eigen::Index row = 0; row < series.sample_count(); ++row) {
     text += format_number(series.time_s()[row]);

@@ -26,7 +26,8 @@ void write_storage(const std::filesystem::path& path,
                    const TimeSeries& series,
                    const StorageFormat& format);
 
-/// A plain table: a header line "time_s,name,..." and the numbers; gaps are empty cells.
+/// A plain table: a header line "time_s,name [unit],..." (no unit where there is none) and the
+/// numbers; gaps are empty cells.
 void write_csv(const std::filesystem::path& path, const TimeSeries& series);
 
 }  // namespace myoid::recording

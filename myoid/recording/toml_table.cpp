@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numeric>
 #include <utility>
 
@@ -120,7 +121,11 @@ std::string TomlTable::choice(std::string_view key,
                               const std::vector<std::string>& allowed) {
   const std::string value = text(key).value_or(std::string(otherwise));
   if (std::find(allowed.begin(), allowed.end(), value) == allowed.end()) {
-    fail(key, fmt::format("found \"{}\", expected one of {}", value, fmt::join(allowed, ", ")));
+    std::vector<std::string> named;
+    std::copy_if(allowed.begin(), allowed.end(), std::back_inserter(named),
+                 [](const std::string& word) { return !word.empty(); });
+    fail(key, fmt::format("found \"{}\", expected {}{}", value, named.size() > 1 ? "one of " : "",
+                          fmt::join(named, ", ")));
   }
   return value;
 }

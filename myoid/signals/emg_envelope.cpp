@@ -108,10 +108,16 @@ std::vector<ChannelNormalisation> find_normalisation(std::span<const TrialEnvelo
     n.channel = channel.name;
     n.resting_level_v = std::numeric_limits<double>::infinity();
     double largest = -1.0;
+    double longest_s = 0.0;
     for (const TrialEnvelope& trial : trials) {
       const Eigen::VectorXd x = trial.envelope->column(channel.name);
       n.resting_level_v = std::min(n.resting_level_v,
                                    moving_mean(x, window_samples(*trial.envelope, 1.0)).minCoeff());
+      const Eigen::VectorXd& clock = trial.envelope->time_s();
+      const double length_s =
+          clock[clock.size() - 1] - clock[0] + trial.envelope->mean_interval_s();
+      longest_s = std::max(longest_s, length_s);
+      if (options.window_s > (1.0 + 1e-9) * length_s) continue;
       const Eigen::Index width = window_samples(*trial.envelope, options.window_s);
       const Eigen::VectorXd means = moving_mean(x, width);
       Eigen::Index at = 0;
@@ -125,6 +131,12 @@ std::vector<ChannelNormalisation> find_normalisation(std::span<const TrialEnvelo
         // sqrt(2 B T).
         n.relative_sd = 0.7555 / std::sqrt(2.0 * 150.0 * options.window_s);
       }
+    }
+    if (largest < 0.0) {
+      throw InvalidInput(
+          fmt::format("EMG normalisation: the window of {} s is longer than every recording (the "
+                      "longest has {:.4g} s); give a shorter one",
+                      options.window_s, longest_s));
     }
     n.reference_v =
         std::sqrt(std::max(0.0, largest * largest - n.resting_level_v * n.resting_level_v));

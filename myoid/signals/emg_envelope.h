@@ -54,12 +54,12 @@ struct ChannelNormalisation {
 };
 
 struct NormalisationOptions {
-  double window_s = 0.5;  ///< Of the moving mean.
+  double window_s = 0.5;  ///< Of the moving mean; trials that are shorter have no part in it.
 };
 
 /// One entry per channel of the first trial. All trials must have the same channels. The maximum of
 /// noisy means lies above the mean of the maximum; `relative_sd` is the size of that. Throws
-/// InvalidInput if a channel is missing somewhere or flat.
+/// InvalidInput if a channel is missing somewhere or flat, or no trial is as long as the window.
 [[nodiscard]] std::vector<ChannelNormalisation> find_normalisation(
     std::span<const TrialEnvelope> trials, const NormalisationOptions& options = {});
 

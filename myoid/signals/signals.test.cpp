@@ -157,6 +157,15 @@ TEST(Normalisation, FindsTheActivationUnderTheNoiseOfTheElectrode) {
   EXPECT_NEAR(activation.segment(n / 3 + 1000, n / 3 - 2000).mean(), 0.05, 0.0015);
 }
 
+TEST(Normalisation, AWindowLongerThanEveryRecordingIsRefused) {
+  const TimeSeries task = steps({1e-6, 2e-5, 1e-6});  // 6 s
+  const TimeSeries mvc = steps({1e-6, 1.01e-4});      // 4 s
+  const std::vector<TrialEnvelope> trials{{"task", false, &task}, {"mvc", true, &mvc}};
+  EXPECT_THROW((void)find_normalisation(trials, {.window_s = 100.0}), InvalidInput);
+  // Between the two lengths only the longer one can have such a mean.
+  EXPECT_EQ(find_normalisation(trials, {.window_s = 5.0})[0].source_trial, "task");
+}
+
 TEST(Normalisation, RefusesAChannelThatNeverMoves) {
   const TimeSeries flat = steps({1e-6, 1e-6});
   const std::vector<TrialEnvelope> trials{{"a", false, &flat}};

@@ -1,5 +1,10 @@
 // What the program answers to a wrong command line, to files that are not what they should be, and
 // to Ctrl-C.
+#include <cmath>
+#include <filesystem>
+#include <string>
+#include <vector>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -16,6 +21,7 @@ using myoid::test::TemporaryFolder;
 using myoid::test::write_text;
 using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 
 const std::string kProtocols = MYOID_SOURCE_DIR "/examples/protocols/";
 
@@ -169,6 +175,177 @@ TEST(CommandLine, StderrIsEmptyWhenQuietAndAFailureIsStillSaid) {
   EXPECT_EQ(check.exit_code, 0) << check.out;
   EXPECT_EQ(check.err, "");
   EXPECT_NE(myoid({"check", folder / "none.toml", "--quiet"}).err, "");
+}
+
+/// Two channels of EMG with this title and a swelling amplitude, 2 s at 1 kHz.
+std::string emg_text(const std::string& title) {
+  std::string text = title + "\nversion=1\nnRows=2000\nnColumns=3\nendheader\ntime\tBIC\tTRI\n";
+  for (int i = 0; i < 2000; ++i) {
+    const int x = ((i * 7919) % 200 - 100) * (1 + i / 200);
+    text += std::to_string(0.001 * i) + "\t" + std::to_string(x) + "\t" + std::to_string(-x) + "\n";
+  }
+  return text;
+}
+
+TEST(CommandLine, AResultNeverReplacesItsInput) {
+  const TemporaryFolder folder;
+  write_text(folder / "e.sto", emg_text("EMG microvolt"));
+  std::filesystem::create_symlink("e.sto", folder / "link.sto");
+  for (const std::string out : {"e.sto", "link.sto"}) {
+    const Finished emg = myoid({"emg", folder / "e.sto", "--out", folder / out, "--overwrite"});
+    EXPECT_EQ(emg.exit_code, 3) << out;
+    EXPECT_THAT(emg.err, HasSubstr("is an input of this command"));
+  }
+  EXPECT_EQ(read_text(folder / "e.sto"), emg_text("EMG microvolt"));
+  write_text(folder / "m.mot", ramp_motion("yes"));
+  const Finished id = myoid({"id", "--model", "arm4", "--motion", folder / "m.mot", "--out",
+                             folder / "m.mot", "--overwrite"});
+  EXPECT_EQ(id.exit_code, 3);
+  EXPECT_EQ(read_text(folder / "m.mot"), ramp_motion("yes"));
+}
+
+TEST(CommandLine, AFolderThatIsMadeForAResultIsSaid) {
+  const TemporaryFolder folder;
+  write_text(folder / "e.sto", emg_text("EMG microvolt"));
+  const Finished emg = myoid({"emg", folder / "e.sto", "--out", folder / "new/a.sto"});
+  EXPECT_EQ(emg.exit_code, 0) << emg.err;
+  EXPECT_THAT(emg.err, AllOf(HasSubstr((folder / "new").string()), HasSubstr("it is made")));
+}
+
+TEST(CommandLine, AResultThatStandardOutputLosesIsAnError) {
+  const TemporaryFolder folder;
+  write_text(folder / "e.sto", emg_text("EMG microvolt"));
+  EXPECT_EQ(myoid({"info", folder / "e.sto"}).exit_code, 0);
+  const Finished lost = myoid({"info", folder / "e.sto"}, 0.0, "/dev/full");
+  EXPECT_EQ(lost.exit_code, 3);
+  EXPECT_THAT(lost.err, AllOf(HasSubstr("standard output"), HasSubstr("No space left")));
+}
+
+TEST(CommandLine, NumbersOutOfRangeAreRefused) {
+  const TemporaryFolder folder;
+  write_text(folder / "e.sto", emg_text("EMG microvolt"));
+  write_text(folder / "m.mot", ramp_motion("yes"));
+  for (const std::vector<std::string>& arguments :
+       {std::vector<std::string>{"twin", "--protocol", kProtocols + "paper.toml", "--seed", "-1",
+                                 "--out", folder / "rec"},
+        {"identify", "--muscles", "m", "--activations", "a", "--lengths", "l", "--velocities", "v",
+         "--delay", "5", "--out", folder / "out"},
+        {"emg", folder / "e.sto", "--out", folder / "a.sto", "--start", "1", "--end", "0.5"},
+        {"emg", folder / "e.sto", "--out", folder / "a.sto", "--window", "-1"}}) {
+    const Finished finished = myoid(arguments);
+    EXPECT_EQ(finished.exit_code, 2) << testing::PrintToString(arguments);
+    EXPECT_NE(finished.err, "");
+  }
+  for (const std::vector<std::string>& arguments :
+       {std::vector<std::string>{"emg", folder / "e.sto", "--out", folder / "a.sto", "--window",
+                                 "100"},
+        {"id", "--model", "arm4", "--motion", folder / "m.mot", "--lowpass", "500", "--out",
+         folder / "id.sto"},
+        {"emg", folder / "e.sto", "--out", ""},
+        {"emg", folder / "e.sto", "--out", folder / "a.txt"}}) {
+    const Finished finished = myoid(arguments);
+    EXPECT_EQ(finished.exit_code, 3) << testing::PrintToString(arguments) << finished.err;
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder / "rec"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "a.sto"));
+}
+
+TEST(Info, SaysTheUnitOfEmgThatTheTitleStatesAndNothingOfAngles) {
+  const TemporaryFolder folder;
+  write_text(folder / "e.sto", emg_text("EMG microvolt"));
+  write_text(folder / "m.mot", ramp_motion("yes"));
+  EXPECT_THAT(myoid({"info", folder / "e.sto"}).out,
+              AllOf(HasSubstr("emg unit: uV"), Not(HasSubstr("angles"))));
+  EXPECT_THAT(myoid({"info", folder / "m.mot"}).out,
+              AllOf(HasSubstr("angles: degrees"), Not(HasSubstr("emg unit"))));
+}
+
+TEST(CommandLine, TheUnitThatAnEmgFileStatesHoldsWithAWarning) {
+  const TemporaryFolder folder;
+  write_text(folder / "e.sto", emg_text("EMG microvolt"));
+  const Finished as_said = myoid({"emg", folder / "e.sto", "--out", folder / "a.sto"});
+  const Finished other =
+      myoid({"emg", folder / "e.sto", "--unit", "V", "--out", folder / "a.sto", "--overwrite"});
+  EXPECT_EQ(other.out, as_said.out);
+  EXPECT_THAT(other.err, AllOf(HasSubstr("warning"), HasSubstr("is not used")));
+}
+
+TEST(CommandLine, OfACommonOptionWithoutEffectTheHelpIsSilentAndAWarningSpeaks) {
+  const TemporaryFolder folder;
+  write_text(folder / "e.sto", emg_text("EMG microvolt"));
+  EXPECT_THAT(myoid({"info", "--help"}).out,
+              AllOf(HasSubstr("--json"), Not(HasSubstr("--seed")), Not(HasSubstr("--overwrite"))));
+  const Finished info = myoid({"info", folder / "e.sto", "--seed", "2"});
+  EXPECT_EQ(info.exit_code, 0);
+  EXPECT_THAT(info.err, HasSubstr("--seed has no effect on info"));
+}
+
+TEST(CommandLine, JsonOnStdoutIsOneValueFromEveryStage) {
+  const TemporaryFolder folder;
+  write_text(folder / "e.sto", emg_text("EMG microvolt"));
+  write_text(folder / "m.mot", ramp_motion("yes"));
+  for (const std::vector<std::string>& arguments :
+       {std::vector<std::string>{"emg", folder / "e.sto", "--out", folder / "a.sto"},
+        {"id", "--model", "arm4", "--motion", folder / "m.mot", "--out", folder / "id.sto"},
+        {"paths", "--model", "arm4", "--motion", folder / "m.mot", "--out", folder / "paths"},
+        {"so", "--model", "arm4", "--motion", folder / "m.mot", "--out", folder / "so"}}) {
+    std::vector<std::string> asked = arguments;
+    asked.emplace_back("--json");
+    const Finished finished = myoid(asked);
+    EXPECT_EQ(finished.exit_code, 0) << arguments[0] << finished.err;
+    EXPECT_TRUE(finished.out.starts_with("{\n") && finished.out.ends_with("}\n")) << finished.out;
+    EXPECT_THAT(finished.out, HasSubstr("\"out\":")) << arguments[0];
+  }
+}
+
+TEST(CommandLine, ACutResultHasTheNumbersOfTheWholeFile) {
+  const TemporaryFolder folder;
+  std::string motion = "m\nversion=1\ninDegrees=yes\nendheader\ntime\telbow_flexion\n";
+  for (int i = 0; i <= 200; ++i)
+    motion +=
+        std::to_string(0.01 * i) + "\t" + std::to_string(60.0 + 30.0 * std::sin(0.1 * i)) + "\n";
+  write_text(folder / "m.mot", motion);
+  const auto id = [&](const std::string& out, std::vector<std::string> more) {
+    std::vector<std::string> arguments{"id",       "--model",        "arm4",
+                                       "--motion", folder / "m.mot", "--lowpass",
+                                       "6",        "--out",          folder / out};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Finished finished = myoid(arguments);
+    EXPECT_EQ(finished.exit_code, 0) << finished.err;
+    return read_text(folder / out);
+  };
+  const std::string whole = id("whole.sto", {});
+  const std::string part = id("part.sto", {"--start", "0.5", "--end", "0.7"});
+  const std::size_t first = part.find("\n0.5\t");
+  ASSERT_NE(first, std::string::npos) << part;
+  EXPECT_THAT(whole, HasSubstr(part.substr(first)));
+}
+
+TEST(CommandLine, AWarningOfAnInputIsSaidByCheckAndByRun) {
+  const TemporaryFolder folder;
+  const auto rec = recording_in(folder);
+  std::string motion = "m\nversion=1\ninDegrees=yes\nendheader\ntime\telbow_flexion\n";
+  for (int i = 0; i <= 400; ++i) {
+    if (i > 100 && i < 130) continue;
+    motion +=
+        std::to_string(0.01 * i) + "\t" + std::to_string(60.0 + 30.0 * std::sin(0.03 * i)) + "\n";
+  }
+  write_text(folder / "motion.mot", motion);
+  replace_in(rec / "study.toml", "markers = \"slow.trc\"", "motion = \"../motion.mot\"");
+  const auto gap = HasSubstr("a gap from 1 to 1.3 s in its clock");
+  const Finished check = myoid({"check", rec / "study.toml"});
+  EXPECT_THAT(check.out, AllOf(HasSubstr("warning"), gap));
+  const Finished run = myoid({"run", rec / "study.toml", "--out", folder / "out"});
+  EXPECT_THAT(run.err, AllOf(HasSubstr("warning"), HasSubstr("trial slow"), gap));
+}
+
+TEST(CommandLine, AnUnknownModelIsAnsweredWithTheBuiltInOnes) {
+  const TemporaryFolder folder;
+  write_text(folder / "m.mot", ramp_motion("yes"));
+  const Finished unknown =
+      myoid({"id", "--model", "arm26", "--motion", folder / "m.mot", "--out", folder / "id.sto"});
+  EXPECT_EQ(unknown.exit_code, 3);
+  EXPECT_THAT(unknown.err, AllOf(HasSubstr("arm26"), HasSubstr("arm4")));
 }
 
 TEST(CommandLine, InterruptedItEndsWithHundredAndThirty) {

@@ -15,9 +15,11 @@
 
 namespace myoid::test {
 
-Finished myoid(const std::vector<std::string>& arguments, double interrupt_after_s) {
+Finished myoid(const std::vector<std::string>& arguments,
+               double interrupt_after_s,
+               const std::string& stdout_to) {
   const TemporaryFolder folder;
-  const std::string out = folder / "out";
+  const std::string out = stdout_to.empty() ? std::string(folder / "out") : stdout_to;
   const std::string err = folder / "err";
   std::vector<std::string> words{MYOID_PROGRAM};
   words.insert(words.end(), arguments.begin(), arguments.end());
@@ -43,7 +45,7 @@ Finished myoid(const std::vector<std::string>& arguments, double interrupt_after
   int status = 0;
   waitpid(child, &status, 0);
   return {.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status),
-          .out = read_text(out),
+          .out = stdout_to.empty() ? read_text(out) : "",
           .err = read_text(err)};
 }
 

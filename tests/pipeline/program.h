@@ -15,9 +15,10 @@ struct Finished {
 };
 
 /// Runs the built `myoid` with these arguments, stdin closed. `interrupt_after_s` > 0 sends SIGINT
-/// then.
+/// then. With `stdout_to`, stdout goes there and is not read back.
 [[nodiscard]] Finished myoid(const std::vector<std::string>& arguments,
-                             double interrupt_after_s = 0.0);
+                             double interrupt_after_s = 0.0,
+                             const std::string& stdout_to = "");
 
 [[nodiscard]] std::string read_text(const std::filesystem::path& file);
 void write_text(const std::filesystem::path& file, const std::string& text);
