@@ -85,6 +85,16 @@ TEST(Musculotendon, TendonAndFiberPullAlikeInTheSteadyState) {
   }
 }
 
+TEST(Musculotendon, AFiberThatPushesLiesBeyondTheSlackLength) {
+  // De Groote's passive force is negative below 0.2 l0: the fiber rests there, the tendon hangs.
+  const Musculotendon<double> unit(published_defaults(kBicepsLong, de_groote_laws()),
+                                   de_groote_laws());
+  const Input input{0.0, 0.2723 + 0.15 * 0.1157, 0.0};
+  const State state = equilibrium_state(unit, input);
+  EXPECT_NEAR(state.fiber_length_m, 0.2 * 0.1157, 1e-12);
+  EXPECT_TRUE(musculotendon_output(unit, input, state).slack);
+}
+
 TEST(Musculotendon, PowersOfAllElementsAddUpToThatOfThePath) {
   for (const Case& c : cases()) {
     const Musculotendon<double> unit(parameters_of(c), c.laws);

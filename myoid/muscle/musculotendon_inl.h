@@ -229,10 +229,19 @@ MusculotendonState<T> equilibrium_state(const Musculotendon<T>& unit,
     slack_length = value_of(h) == 0.0 ? slack_along : sqrt(slack_along * slack_along + h * h);
   }
   double high = value_of(slack_length);
-  if (!(miss(high) < 0.0)) return state_at(slack_length);
-  double low = 0.5 * value_of(unit.shortest_fiber_m());
-  while (low > 1e-6 * high && !(miss(low) > 0.0)) low *= 0.5;
-  if (!(miss(low) > 0.0)) return state_at(unit.shortest_fiber_m());
+  double low = high;
+  if (miss(high) >= 0.0) {
+    // Slack. Only a fiber whose springs push (De Groote's passive curve below 0.2 l0, the shortest
+    // length) lies beyond.
+    const auto pushes = [&](double l) { return value_of(steady(T(l)).passive.value) < 0.0; };
+    if (miss(high) == 0.0 || !pushes(high)) return state_at(slack_length);
+    while (pushes(high)) high *= 1.1;
+    if (miss(high) > 0.0) return state_at(slack_length);
+  } else {
+    low = 0.5 * value_of(unit.shortest_fiber_m());
+    while (low > 1e-6 * high && !(miss(low) > 0.0)) low *= 0.5;
+    if (!(miss(low) > 0.0)) return state_at(unit.shortest_fiber_m());
+  }
 
   // Bisection keeps a fiber that would lengthen at `low` and shorten at `high`: a stable balance.
   double l = 0.5 * (low + high);
