@@ -221,6 +221,9 @@ StiffIntegrator::StiffIntegrator(StiffProblem problem, const OdeOptions& options
     p.s_out.resize(count);
     must(CVodeSensInit(memory, static_cast<int>(count), CV_STAGGERED, Parts::sensitivity_rate,
                        p.sensitivity->raw.data()));
+    std::vector<double> absolute(count, options.absolute_tolerance);
+    must(CVodeSensSStolerances(memory, options.relative_tolerance, absolute.data()));
+    must(CVodeSetSensErrCon(memory, 1));
   }
 }
 
@@ -252,16 +255,18 @@ OdeStatus StiffIntegrator::start(double time_s,
 OdeStatus StiffIntegrator::step(double limit_s) {
   Parts& p = *parts_;
   void* memory = p.memory.get();
+  if (limit_s - p.time < 1e-13 * std::max(1.0, std::abs(p.time))) {
+    // Too near for a step: two limits that differ by round-off.
+    renew();
+    p.previous = p.time;
+    p.time = limit_s;
+    return OdeStatus::done;
+  }
   if (p.restart) {
     p.before = p.counted();
     must(CVodeReInit(memory, p.time, p.y.get()));
     if (p.quadrature) must(CVodeQuadReInit(memory, p.quadrature.get()));
-    if (p.sensitivity) {
-      must(CVodeSensReInit(memory, CV_STAGGERED, p.sensitivity->raw.data()));
-      // Set here, since the call looks at the values that it scales with.
-      must(CVodeSensEEtolerances(memory));
-      must(CVodeSetSensErrCon(memory, 0));
-    }
+    if (p.sensitivity) must(CVodeSensReInit(memory, CV_STAGGERED, p.sensitivity->raw.data()));
     p.restart = false;
     p.begun = true;
   }

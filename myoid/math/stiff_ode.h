@@ -23,7 +23,8 @@ struct StiffProblem {
   std::function<bool(double t, const double* y, double* zdot)> quadrature;
 
   /// Derivatives of the states by parameters, s_k = dy/dp_k: ds_k/dt = (df/dy) s_k + df/dp_k.
-  /// `s` and `sdot`: one array of states per parameter.
+  /// `s` and `sdot`: one array of states per parameter. They are held to the same tolerances, so
+  /// choose the unit of a parameter such that its derivatives are of the size of the states.
   std::size_t sensitivity_count = 0;
   std::function<bool(double t, const double* y, const double* const* s, double* const* sdot)>
       sensitivity;

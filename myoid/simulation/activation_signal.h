@@ -59,6 +59,10 @@ class ActivationSignal {
   void extend(double end_s, double from, double to) {
     if (!(end_s > end_)) return;
     const double begin = end_;
+    if (end_s - begin < 1e-12) {  // two nodes that differ by round-off
+      end_ = end_s;
+      return;
+    }
     const double slope = (to - from) / (end_s - begin);
     if (dynamics_.law == muscle::ActivationLaw::envelope) {
       start_.push_back(begin);

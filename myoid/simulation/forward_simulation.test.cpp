@@ -271,6 +271,19 @@ TEST(ForwardSimulation, AJumpOfTheActivationActsFromItsTimeOn) {
   EXPECT_GT(s.motion.values()(308, 0), 1.2005);
 }
 
+// 0.1 + 0.2 is not 0.3: jumps that differ by round-off are passed as one.
+TEST(ForwardSimulation, JumpsAHairApartDoNoHarm) {
+  for (const TendonMode mode : kModes) {
+    SimulationInput in;
+    in.excitation = {step(0.3, 0.2), step(0.1 + 0.2, 0.2), step(0.3, 0.1), step(0.1, 0.05)};
+    in.device = {isokinetic(0.1 + 0.2, 0.5, 0.5)};
+    const Simulation s = simulate(with_tendon_mode(make_arm(), mode), in, {.q = {1.0}},
+                                  {.end_s = 0.6, .output_rate_hz = 100.0});
+    EXPECT_EQ(s.status, math::OdeStatus::done) << s.message;
+    EXPECT_EQ(s.motion.sample_count(), 61);
+  }
+}
+
 TEST(ForwardSimulation, ANumericalFailureIsSaidAndWhatWasReachedKept) {
   const Simulation s =
       simulate(with_tendon_mode(make_arm(), TendonMode::equilibrium), bursting(1.0), {.q = {1.0}},

@@ -60,6 +60,18 @@ ModelMuscle muscle_of(const model::Muscle& m, int index, const ModelSetup& setup
     result.parameters.passive_shape = p.passive_shape;
     if (setup.mode == muscle::TendonMode::equilibrium) result.parameters.damping = 0.0;
   }
+  if (const auto* d = std::get_if<model::DeGrooteCurves>(&p.curves);
+      d != nullptr && curves == MuscleCurves::de_groote) {
+    result.parameters.tendon_strain = d->tendon_strain_at_one_force;
+    result.parameters.passive_strain = d->passive_fiber_strain_at_one_force;
+    if (d->fiber_damping > 0.0) result.parameters.damping = d->fiber_damping;
+    if (d->ignore_passive_fiber_force) result.laws.passive = muscle::PassiveLaw::none;
+  }
+  if (const auto* c = std::get_if<model::MillardCurves>(&p.curves);
+      c != nullptr && curves == MuscleCurves::millard) {
+    result.parameters.tendon_strain = c->tendon_strain_at_one_force;
+    if (c->fiber_damping > 0.0) result.parameters.damping = c->fiber_damping;
+  }
   result.activation.law = setup.activation;
   result.activation.excitation_time_s = setup.excitation_time_s;
   result.activation.activation_time_s = p.activation_time_s;
@@ -71,6 +83,41 @@ ModelMuscle muscle_of(const model::Muscle& m, int index, const ModelSetup& setup
     throw InvalidInput(fmt::format("muscle {}: {}", m.name, error.what()));
   }
   return result;
+}
+
+/// The shape that the file gives to Millard's curves; what it leaves to the class stays.
+muscle::MillardShape shape_of(const model::Muscle& m) {
+  muscle::MillardShape shape;
+  const auto* c = std::get_if<model::MillardCurves>(&m.properties.curves);
+  if (c == nullptr) return shape;
+  shape.shortest_active_length = c->active_min_length;
+  shape.transition_length = c->active_transition_length;
+  shape.longest_active_length = c->active_max_length;
+  shape.shallow_slope = c->active_shallow_slope;
+  shape.slope_at_shortening_limit = c->concentric_slope_at_vmax;
+  shape.slope_near_shortening_limit = c->concentric_slope_near_vmax;
+  shape.slope_at_rest = c->isometric_slope;
+  shape.slope_at_lengthening_limit = c->eccentric_slope_at_vmax;
+  shape.slope_near_lengthening_limit = c->eccentric_slope_near_vmax;
+  shape.max_eccentric_multiplier = c->eccentric_force;
+  shape.concentric_curviness = c->concentric_curviness;
+  shape.eccentric_curviness = c->eccentric_curviness;
+  shape.passive_strain_at_zero = c->fiber_strain_at_zero_force;
+  shape.passive_strain_at_one = c->fiber_strain_at_one_force;
+  const auto given = [](double value, double& target) {
+    if (value >= 0.0) target = value;
+  };
+  given(c->fiber_stiffness_at_low_force, shape.passive_stiffness_low);
+  shape.passive_stiffness_at_one =
+      2.0 / (shape.passive_strain_at_one - shape.passive_strain_at_zero);
+  given(c->fiber_stiffness_at_one_force, shape.passive_stiffness_at_one);
+  given(c->fiber_curviness, shape.passive_curviness);
+  if (c->tendon_stiffness_at_one_force >= 0.0)
+    shape.tendon_stiffness_at_one =
+        c->tendon_stiffness_at_one_force * c->tendon_strain_at_one_force;
+  given(c->tendon_force_at_toe_end, shape.tendon_toe_force);
+  given(c->tendon_curviness, shape.tendon_curviness);
+  return shape;
 }
 
 muscle::JointPassive<double> joint_of(const model::Coordinate& coordinate,
@@ -93,7 +140,9 @@ class TreeSkeleton {
  public:
   explicit TreeSkeleton(const SimulationModel& model)
       : model_(&model), dynamics_(model.body), n_(model.muscles.size()) {
-    for (const ModelMuscle& m : model.muscles) units_.emplace_back(m.parameters, m.laws);
+    for (std::size_t i = 0; i < n_; ++i) {
+      units_.emplace_back(model.muscles[i].parameters, model.muscles[i].laws, model.millard[i]);
+    }
     const auto nq = static_cast<Eigen::Index>(coordinate_count());
     q_.setConstant(nq, std::nan(""));
     qdot_.setConstant(nq, std::nan(""));
@@ -126,10 +175,15 @@ class TreeSkeleton {
     q_ = here;
     qdot_ = speed;
     dynamics_.set(q_, qdot_);
-    for (std::size_t i = 0; i < n_; ++i)
-      paths_[i] = model::compute_path(model_->body, model_->muscles[i].index, dynamics_.state());
-    for (std::size_t k = 0; k < coordinate_count(); ++k)
-      passive_[k] = muscle::joint_passive(model_->joints[k], q[k], qdot[k]);
+    for (std::size_t i = 0; i < n_; ++i) {
+      const auto index = static_cast<std::size_t>(model_->muscles[i].index);
+      model::compute_path(model_->body, model_->body.muscles[index].path, dynamics_.state(),
+                          workspace_, paths_[i]);
+    }
+    for (std::size_t k = 0; k < coordinate_count(); ++k) {
+      const auto c = static_cast<Eigen::Index>(k);
+      passive_[k] = muscle::joint_passive(model_->joints[k], dynamics_.q()[c], dynamics_.qdot()[c]);
+    }
   }
   [[nodiscard]] double length_m(std::size_t i) const { return paths_[i].length_m; }
   [[nodiscard]] double velocity_mps(std::size_t i) const { return paths_[i].speed_mps; }
@@ -163,6 +217,7 @@ class TreeSkeleton {
   std::size_t n_;
   std::vector<muscle::Musculotendon<double>> units_;
   Eigen::VectorXd q_, qdot_;
+  model::PathWorkspace workspace_;
   std::vector<model::PathResult> paths_;
   std::vector<muscle::JointPassiveOutput<double>> passive_;
   std::vector<double> forces_;
@@ -171,26 +226,65 @@ class TreeSkeleton {
 }  // namespace
 
 SimulationModel make_simulation_model(model::BodyModel body, const ModelSetup& setup) {
+  if (!body.constraints.empty()) {
+    throw ModelError(fmt::format(
+        "the model has a closed loop ({} '{}'), which is not simulated; remove the constraint, or "
+        "couple coordinates instead",
+        body.constraints[0].class_name, body.constraints[0].name));
+  }
   SimulationModel result;
   for (std::size_t i = 0; i < body.muscles.size(); ++i) {
-    if (body.muscles[i].applies_force)
-      result.muscles.push_back(muscle_of(body.muscles[i], static_cast<int>(i), setup));
+    if (!body.muscles[i].applies_force) continue;
+    result.muscles.push_back(muscle_of(body.muscles[i], static_cast<int>(i), setup));
+    result.millard.push_back(shape_of(body.muscles[i]));
   }
   for (const model::Coordinate& coordinate : body.coordinates)
     result.joints.push_back(joint_of(coordinate, setup));
+  std::vector<char> sprung(body.coordinates.size(), 0);
+  for (const model::PassiveForce& force : body.passive_forces) {
+    const auto* spring = std::get_if<model::CoordinateSpring>(&force.law);
+    const auto k = spring == nullptr ? 0 : static_cast<std::size_t>(spring->coordinate);
+    if (spring == nullptr || sprung[k] != 0) {
+      result.notes.push_back(fmt::format("the force '{}' ({}) is left out: it is not simulated yet",
+                                         force.name, force.class_name));
+      continue;
+    }
+    sprung[k] = 1;
+    result.joints[k].stiffness_nm_per_rad = spring->stiffness;
+    result.joints[k].neutral_rad = spring->rest;
+    result.joints[k].viscosity_nms_per_rad += spring->viscosity;
+  }
   result.body = std::move(body);
   return result;
 }
 
-SimulationStart default_start(const SimulationModel& model) {
+SimulationStart default_start(const SimulationModel& model, double time_s) {
   const Eigen::VectorXd q = model.body.default_q();
-  return {.q = std::vector<double>(q.begin(), q.end())};
+  SimulationStart start{.time_s = time_s, .q = std::vector<double>(q.begin(), q.end())};
+  for (std::size_t k = 0; k < start.q.size(); ++k) {
+    const model::Coordinate& coordinate = model.body.coordinates[k];
+    start.qdot.push_back(coordinate.locked ? 0.0 : coordinate.default_speed);
+    if (!coordinate.prescribed) continue;
+    const model::FunctionValue now = model::evaluate(*coordinate.prescribed, time_s);
+    start.q[k] = now.value;
+    start.qdot[k] = now.first;
+  }
+  return start;
 }
 
 std::vector<Device> default_devices(const SimulationModel& model) {
   std::vector<Device> devices;
-  for (const model::Coordinate& coordinate : model.body.coordinates)
-    devices.push_back(coordinate.locked ? locked() : Device{});
+  for (const model::Coordinate& coordinate : model.body.coordinates) {
+    Device device;
+    if (coordinate.prescribed) {
+      device.acceleration = [f = *coordinate.prescribed](double t) {
+        return model::evaluate(f, t).second;
+      };
+    } else if (coordinate.locked) {
+      device = locked();
+    }
+    devices.push_back(std::move(device));
+  }
   return devices;
 }
 
@@ -198,7 +292,17 @@ Simulation simulate(const SimulationModel& model,
                     const SimulationInput& input,
                     const SimulationStart& start,
                     const SimulationOptions& options) {
-  SimulationRun<TreeSkeleton> run(TreeSkeleton(model), input, start, options);
+  SimulationStart consistent = start;
+  if (start.q.size() == model.body.coordinates.size()) {
+    consistent.qdot.resize(start.q.size(), 0.0);
+    TreeDynamics dynamics(model.body);
+    const auto n = static_cast<Eigen::Index>(start.q.size());
+    dynamics.set(Eigen::Map<const Eigen::VectorXd>(start.q.data(), n),
+                 Eigen::Map<const Eigen::VectorXd>(consistent.qdot.data(), n));
+    consistent.q.assign(dynamics.q().begin(), dynamics.q().end());
+    consistent.qdot.assign(dynamics.qdot().begin(), dynamics.qdot().end());
+  }
+  SimulationRun<TreeSkeleton> run(TreeSkeleton(model), input, consistent, options);
   return run.go();
 }
 

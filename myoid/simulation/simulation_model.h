@@ -45,16 +45,21 @@ struct SimulationModel {
   model::BodyModel body;
   std::vector<ModelMuscle> muscles;
   std::vector<muscle::JointPassive<double>> joints;  ///< Per coordinate.
+  std::vector<muscle::MillardShape> millard;         ///< Per muscle.
+  std::vector<std::string> notes;  ///< What of the model is left out, a sentence each.
 };
 
 /// Parameters from the model: F_max, l0, l_t0, pennation, v_max, time constants; of Thelen's muscle
-/// also his shapes and strains, with no damping, as OpenSim has it. Throws InvalidInput, naming the
-/// muscle, if its numbers make no unit.
+/// also his shapes and strains, with no damping, as OpenSim has it; of Millard's and De Groote's
+/// the curves' numbers and damping. A spring on a coordinate joins the joint's passive torque; the
+/// model's other passive forces are left out, which `notes` says. Throws InvalidInput, naming the
+/// muscle, if its numbers make no unit, ModelError if joints form a closed loop.
 [[nodiscard]] SimulationModel make_simulation_model(model::BodyModel body,
                                                     const ModelSetup& setup = {});
 
-/// Its default posture and speeds at rest; devices that lock what the model locks.
-[[nodiscard]] SimulationStart default_start(const SimulationModel& model);
+/// Its default posture and speeds; devices that lock what the model locks and prescribe what it
+/// prescribes, with that posture at the start.
+[[nodiscard]] SimulationStart default_start(const SimulationModel& model, double time_s = 0.0);
 [[nodiscard]] std::vector<Device> default_devices(const SimulationModel& model);
 
 /// Integrates the model's equations of motion, M(q) qddot = R F_t + gravity - Coriolis + joints +

@@ -1,5 +1,7 @@
 #include "myoid/simulation/tree_dynamics.h"
 
+#include "myoid/core/error.h"
+
 namespace myoid::simulation {
 namespace {
 
@@ -18,13 +20,40 @@ TreeDynamics::TreeDynamics(const model::BodyModel& model)
   moment_.resize(model.bodies.size());
   inertia_.resize(model.bodies.size());
   v_origin_.resize(model.coordinates.size());
+  bias_.setZero(n);
+  balance_.setZero(n);
+  dependent_.assign(model.coordinates.size(), 0);
+  for (const model::CoordinateCoupler& c : model.couplers) dependent_[at(c.dependent)] = 1;
+  coupled_.resize(model.couplers.size());
+  std::vector<char> known(dependent_.size());
+  for (std::size_t k = 0; k < known.size(); ++k) known[k] = dependent_[k] == 0 ? 1 : 0;
+  for (std::size_t before = 1; couplers_.size() < model.couplers.size() && before != 0;) {
+    before = 0;
+    for (std::size_t c = 0; c < model.couplers.size(); ++c) {
+      const model::CoordinateCoupler& coupler = model.couplers[c];
+      if (known[at(coupler.dependent)] != 0 || known[at(coupler.independent)] == 0) continue;
+      known[at(coupler.dependent)] = 1;
+      couplers_.push_back(c);
+      ++before;
+    }
+  }
+  if (couplers_.size() < model.couplers.size())
+    throw ModelError("couplers of coordinates depend on each other in a circle");
 }
 
 void TreeDynamics::set(const Eigen::Ref<const Eigen::VectorXd>& q,
                        const Eigen::Ref<const Eigen::VectorXd>& qdot) {
   const model::BodyModel& model = *model_;
+  q_ = q;
+  qdot_ = qdot;
+  for (const std::size_t c : couplers_) {
+    const model::CoordinateCoupler& coupler = model.couplers[c];
+    coupled_[c] = model::evaluate(coupler.function, q_[coupler.independent]);
+    q_[coupler.dependent] = coupled_[c].value;
+    qdot_[coupler.dependent] = coupled_[c].first * qdot_[coupler.independent];
+  }
   // C - gravity; leaves poses and velocities in the state.
-  coriolis_ = model::inverse_dynamics(model, q, qdot, rest_, {}, state_);
+  coriolis_ = model::inverse_dynamics(model, q_, qdot_, rest_, {}, state_);
 
   potential_ = 0.0;
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
@@ -71,42 +100,54 @@ void TreeDynamics::set(const Eigen::Ref<const Eigen::VectorXd>& q,
     inertia_[parent] += inertia_[b];
   }
   coriolis_ += gravity_;
-  kinetic_ = 0.5 * qdot.dot(mass_ * qdot);
+  kinetic_ = 0.5 * qdot_.dot(mass_ * qdot_);
 }
 
 bool TreeDynamics::accelerate(const double* tau,
                               const char* prescribed,
                               double* qddot,
                               double* device) {
+  const model::BodyModel& model = *model_;
   const Eigen::Index n = mass_.rows();
   free_.clear();
   for (int k = 0; k < n; ++k) {
     device[k] = 0.0;
-    if (prescribed[k] == 0) free_.push_back(k);
+    const bool depends = dependent_[at(k)] != 0;
+    bias_[k] = prescribed[k] != 0 && !depends ? qddot[k] : 0.0;
+    if (prescribed[k] == 0 && !depends) free_.push_back(k);
   }
   const auto m = static_cast<Eigen::Index>(free_.size());
-  reduced_.resize(m, m);
-  rhs_.resize(m);
-  for (Eigen::Index i = 0; i < m; ++i) {
-    const int r = free_[static_cast<std::size_t>(i)];
-    rhs_[i] = tau[r] + gravity_[r] - coriolis_[r];
-    for (Eigen::Index k = 0; k < n; ++k) {
-      if (prescribed[k] != 0) rhs_[i] -= mass_(r, k) * qddot[k];
-    }
-    for (Eigen::Index j = 0; j < m; ++j)
-      reduced_(i, j) = mass_(r, free_[static_cast<std::size_t>(j)]);
+  jacobian_.setZero(n, m);
+  for (Eigen::Index j = 0; j < m; ++j) jacobian_(free_[static_cast<std::size_t>(j)], j) = 1.0;
+  for (const std::size_t c : couplers_) {
+    const model::CoordinateCoupler& coupler = model.couplers[c];
+    const double rate = qdot_[coupler.independent];
+    bias_[coupler.dependent] =
+        coupled_[c].second * rate * rate + coupled_[c].first * bias_[coupler.independent];
+    jacobian_.row(coupler.dependent) = coupled_[c].first * jacobian_.row(coupler.independent);
   }
+  const Eigen::Map<const Eigen::VectorXd> given(tau, n);
+  Eigen::Map<Eigen::VectorXd> result(qddot, n);
+  balance_ = given + gravity_ - coriolis_;
+  balance_.noalias() -= mass_ * bias_;
+  result = bias_;
   if (m > 0) {
+    mass_jacobian_.noalias() = mass_ * jacobian_;
+    reduced_.noalias() = jacobian_.transpose() * mass_jacobian_;
+    rhs_.noalias() = jacobian_.transpose() * balance_;
     factor_.compute(reduced_);
     if (factor_.info() != Eigen::Success) return false;
     factor_.solveInPlace(rhs_);
-    for (Eigen::Index i = 0; i < m; ++i) qddot[free_[static_cast<std::size_t>(i)]] = rhs_[i];
+    result.noalias() += jacobian_ * rhs_;
+    balance_.noalias() -= mass_jacobian_ * rhs_;
   }
-  for (Eigen::Index k = 0; k < n; ++k) {
-    if (prescribed[k] == 0) continue;
-    double required = coriolis_[k] - gravity_[k] - tau[k];
-    for (Eigen::Index d = 0; d < n; ++d) required += mass_(k, d) * qddot[d];
-    device[k] = required;
+  // What is left over acts on what is prescribed, through the couplers too.
+  for (std::size_t c = couplers_.size(); c-- > 0;) {
+    const model::CoordinateCoupler& coupler = model.couplers[couplers_[c]];
+    balance_[coupler.independent] += coupled_[couplers_[c]].first * balance_[coupler.dependent];
+  }
+  for (int k = 0; k < n; ++k) {
+    if (prescribed[k] != 0 && dependent_[at(k)] == 0) device[k] = -balance_[k];
   }
   return true;
 }

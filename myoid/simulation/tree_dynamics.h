@@ -22,10 +22,13 @@ class TreeDynamics {
  public:
   explicit TreeDynamics(const model::BodyModel& model);
 
-  /// Everything below is for this state.
+  /// Everything below is for this state. Dependent coordinates of couplers take the values and
+  /// rates that their couplers say, whatever is given.
   void set(const Eigen::Ref<const Eigen::VectorXd>& q,
            const Eigen::Ref<const Eigen::VectorXd>& qdot);
 
+  [[nodiscard]] const Eigen::VectorXd& q() const { return q_; }
+  [[nodiscard]] const Eigen::VectorXd& qdot() const { return qdot_; }
   [[nodiscard]] const model::BodyState& state() const { return state_; }
   [[nodiscard]] const Eigen::MatrixXd& mass_matrix() const { return mass_; }
   [[nodiscard]] const Eigen::VectorXd& gravity() const { return gravity_; }
@@ -33,9 +36,12 @@ class TreeDynamics {
   [[nodiscard]] double kinetic_energy_j() const { return kinetic_; }
   [[nodiscard]] double gravity_energy_j() const { return potential_; }
 
-  /// Accelerations of the free coordinates under generalized forces `tau` besides gravity. Where
-  /// `prescribed` is not 0, qddot is taken as it is and `device` gets the force this takes; else
-  /// device is 0. False if the mass matrix of the free coordinates is not positive.
+  /// Accelerations under generalized forces `tau` besides gravity. Where `prescribed` is not 0,
+  /// qddot is taken as it is and `device` gets the force this takes; else device is 0. With
+  /// couplers qddot = J x + b, x the accelerations of the free coordinates that depend on no other,
+  /// and
+  ///   J' M J x = J' (tau + gravity - C - M b).
+  /// False if that matrix is not positive.
   [[nodiscard]] bool accelerate(const double* tau,
                                 const char* prescribed,
                                 double* qddot,
@@ -44,8 +50,12 @@ class TreeDynamics {
  private:
   const model::BodyModel* model_;
   model::BodyState state_;
-  Eigen::MatrixXd mass_, reduced_;
-  Eigen::VectorXd gravity_, coriolis_, rest_, rhs_;
+  Eigen::MatrixXd mass_, reduced_, jacobian_, mass_jacobian_;
+  Eigen::VectorXd gravity_, coriolis_, rest_, rhs_, q_, qdot_, bias_, balance_;
+  /// Couplers, each after that on which its independent coordinate depends.
+  std::vector<std::size_t> couplers_;
+  std::vector<model::FunctionValue> coupled_;  ///< Per coupler, its function here.
+  std::vector<char> dependent_;
   std::vector<double> composite_mass_;
   std::vector<Vec3> moment_;
   std::vector<Mat3> inertia_;

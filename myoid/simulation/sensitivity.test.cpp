@@ -1,0 +1,142 @@
+#include "myoid/simulation/sensitivity.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "myoid/core/error.h"
+#include "myoid/simulation/arm_parameters.h"
+#include "myoid/simulation/forward_simulation.h"
+
+namespace myoid::simulation {
+namespace {
+
+using muscle::TendonMode;
+
+constexpr TendonMode kModes[] = {TendonMode::rigid, TendonMode::equilibrium, TendonMode::mass};
+
+/// Everything matters here: passive forces, pennation, shifted optimum, a load, gravity.
+Arm<double> whole_arm(TendonMode mode) {
+  ArmSetup setup{.held_mass_kg = 0.5};
+  setup.laws = muscle::thelen_laws(mode);
+  setup.laws.velocity = muscle::VelocityLaw::hill;
+  Arm<double> arm = make_arm(setup);
+  for (ArmMuscle<double>& m : arm.muscles) {
+    m.parameters.pennation_at_optimal_rad = 0.15;
+    m.parameters.optimal_length_shift = 0.15;
+  }
+  return arm;
+}
+
+SimulationInput there_and_back() {
+  const Burst flex[] = {{0.05, 0.15, 0.2}};
+  const Burst extend[] = {{0.25, 0.15, 0.3}};
+  const Signal flexor = bursts(flex, 0.05);
+  return {.excitation = {flexor, flexor, flexor, bursts(extend, 0.05)}};
+}
+
+SimulationOptions within(double tolerance) {
+  return {.end_s = 0.3,
+          .output_times_s = {0.12, 0.2, 0.3},
+          .ode = {.relative_tolerance = tolerance, .absolute_tolerance = 0.01 * tolerance}};
+}
+
+// Central differences of the simulation itself, by every parameter of one flexor, of joint, arm and
+// start, and by the extensor's strength.
+TEST(Sensitivities, AgreeWithDifferences) {
+  for (const TendonMode mode : kModes) {
+    const Arm<double> arm = whole_arm(mode);
+    std::vector<std::string> names;
+    for (const std::string& name : arm_parameter_names(arm)) {
+      const bool other = name == "TRI.max_isometric_force" || name == "BRD.tendon_slack_length";
+      if (other || name.starts_with("BIC.") || name.find('.') == std::string::npos)
+        names.push_back(name);
+    }
+    names.insert(names.end(), {"start_angle", "start_speed"});
+    const SimulationInput input = there_and_back();
+    const Sensitivities s =
+        simulate_sensitivities(arm, input, {.q = {1.3}, .qdot = {0.2}}, within(1e-9), names);
+    ASSERT_EQ(s.status, math::OdeStatus::done) << s.message;
+    for (std::size_t p = 0; p < names.size(); ++p) {
+      const auto shifted = [&](double by) {
+        Arm<double> other = arm;
+        SimulationStart start{.q = {1.3}, .qdot = {0.2}};
+        if (names[p] == "start_angle") {
+          start.q[0] += by;
+        } else if (names[p] == "start_speed") {
+          start.qdot[0] += by;
+        } else {
+          arm_parameter(other, names[p]) += by;
+        }
+        return simulate(other, input, start, within(1e-11));
+      };
+      Arm<double> copy = arm;
+      const bool of_start = names[p].starts_with("start_");
+      const double value = of_start ? 1.0 : arm_parameter(copy, names[p]);
+      const double unit = value != 0.0 ? std::abs(value) : 0.1;
+      const double h = 3e-4 * unit;
+      const Simulation up = shifted(h);
+      const Simulation down = shifted(-h);
+      const auto c = static_cast<Eigen::Index>(p);
+      for (Eigen::Index row = 0; row < 3; ++row) {
+        // What changes if the parameter changes by itself, `size` at most, is wrong by 1e-5 of
+        // that: the difference has a truncation of (3e-4)^2 times the third derivative and errors
+        // of 1e-9 over 6e-4, the sensitivity what its tolerance allows.
+        const auto expect = [&](double ours, const TimeSeries& a, const TimeSeries& b,
+                                Eigen::Index column, double size, const char* what) {
+          const double difference = (a.values()(row, column) - b.values()(row, column)) / (2.0 * h);
+          EXPECT_NEAR(ours, difference, 1e-5 * size / unit + 1e-4 * std::abs(difference))
+              << what << " by " << names[p] << ", mode " << static_cast<int>(mode) << ", t "
+              << s.time_s[row];
+        };
+        expect(s.angle(row, c), up.motion, down.motion, 0, 1.0, "angle");
+        expect(s.speed(row, c), up.motion, down.motion, 1, 10.0, "speed");
+        expect(s.acceleration(row, c), up.motion, down.motion, 2, 100.0, "acceleration");
+        expect(s.torque(row, c), up.torque, down.torque, 0, 10.0, "torque");
+        expect(s.tendon_force[0](row, c), up.tendon_force, down.tendon_force, 0, 100.0, "force");
+        expect(s.fiber_length[0](row, c), up.fiber_length, down.fiber_length, 0, 0.1, "fiber");
+        expect(s.activation[0](row, c), up.activation, down.activation, 0, 1.0, "activation");
+      }
+    }
+    // That there is something to compare.
+    const Eigen::Index strength = 0;  // of BIC, 1060 N
+    ASSERT_EQ(names[0], "BIC.max_isometric_force");
+    EXPECT_GT(std::abs(s.angle(2, strength)) * 1059.0, 0.05);
+  }
+}
+
+// Held, the torque of rigid muscles is proportional to their strengths: sum F dT/dF = T.
+TEST(Sensitivities, OfAHeldTorqueToTheStrengthsAddUpToTheTorque) {
+  const Arm<double> arm = make_arm();
+  SimulationInput input{.excitation = std::vector<Signal>(4, constant(0.2)), .device = {locked()}};
+  const std::vector<std::string> names = {"BIC.max_isometric_force", "BRA.max_isometric_force",
+                                          "BRD.max_isometric_force", "TRI.max_isometric_force"};
+  const SimulationOptions options{.end_s = 0.1, .output_times_s = {0.1}};
+  const Sensitivities s = simulate_sensitivities(arm, input, {.q = {1.3}}, options, names);
+  const Simulation held = simulate(arm, input, {.q = {1.3}}, options);
+  Arm<double> copy = arm;
+  double sum = 0.0;
+  for (std::size_t k = 0; k < 4; ++k)
+    sum += s.torque(0, static_cast<Eigen::Index>(k)) * arm_parameter(copy, names[k]);
+  EXPECT_NEAR(sum, held.torque.values()(0, 0), 1e-12 * std::abs(sum));
+  EXPECT_NEAR(s.device(0, 0), -s.torque(0, 0), 1e-14);
+  EXPECT_EQ(s.angle.cwiseAbs().maxCoeff(), 0.0);
+}
+
+TEST(Sensitivities, RefuseWhatHasNone) {
+  const std::vector<std::string> unknown = {"BIC.colour"};
+  EXPECT_THROW((void)simulate_sensitivities(make_arm(), there_and_back(), {.q = {1.0}},
+                                            within(1e-8), unknown),
+               InvalidInput);
+  SimulationOptions controlled = within(1e-8);
+  controlled.controller.excite = [](double, std::span<const double>, std::span<const double>,
+                                    std::span<double>) {};
+  EXPECT_THROW(
+      (void)simulate_sensitivities(make_arm(), there_and_back(), {.q = {1.0}}, controlled, {}),
+      InvalidInput);
+}
+
+}  // namespace
+}  // namespace myoid::simulation
