@@ -61,6 +61,7 @@ int run(int argc, char** argv, myoid::cli::Context& context) {
   myoid::cli::add_so(app, context);
   myoid::cli::add_identify(app, context);
   myoid::cli::add_muscle(app, context);
+  myoid::cli::add_simulate(app, context);
   myoid::cli::add_twin(app, context);
   myoid::cli::add_design(app, context);
   myoid::cli::add_report(app, context);
