@@ -320,4 +320,26 @@ Sensitivities simulate_sensitivities(const Arm<double>& arm,
   return result;
 }
 
+Eigen::MatrixXd information(const Sensitivities& s, const MeasurementSpread& spread) {
+  const auto n = static_cast<Eigen::Index>(s.parameters.size());
+  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(n, n);
+  bool measured = false;
+  const auto add = [&](const Eigen::MatrixXd& jacobian, double sd, std::string_view what) {
+    if (!(sd >= 0.0))
+      throw InvalidInput(fmt::format("information: the spread of {} is {}", what, sd));
+    if (sd == 0.0) return;
+    measured = true;
+    result.noalias() += jacobian.transpose() * jacobian / (sd * sd);
+  };
+  add(s.angle, spread.angle_rad, "the angle");
+  add(s.torque, spread.torque_nm, "the torque");
+  add(s.device, spread.device_nm, "the device's torque");
+  for (const Eigen::MatrixXd& force : s.tendon_force)
+    add(force, spread.tendon_force_n, "the tendon force");
+  for (const Eigen::MatrixXd& length : s.fiber_length)
+    add(length, spread.fiber_length_m, "the fiber length");
+  if (!measured) throw InvalidInput("information: nothing is measured");
+  return result;
+}
+
 }  // namespace myoid::simulation

@@ -41,4 +41,18 @@ struct Sensitivities {
                                                    const SimulationOptions& options,
                                                    std::span<const std::string> parameters);
 
+/// Standard deviations of independent measurements at every output time; 0: not measured.
+struct MeasurementSpread {
+  double angle_rad = 0.0;
+  double torque_nm = 0.0;       ///< Of the muscles together.
+  double device_nm = 0.0;       ///< At the dynamometer.
+  double tendon_force_n = 0.0;  ///< Of every muscle.
+  double fiber_length_m = 0.0;  ///< Of every muscle, as by ultrasound.
+};
+
+/// Fisher's information about the parameters in such measurements, sum of J' J / sd^2, parameters x
+/// parameters, in SI units. Throws InvalidInput if a spread is negative, or nothing is measured.
+[[nodiscard]] Eigen::MatrixXd information(const Sensitivities& sensitivities,
+                                          const MeasurementSpread& spread);
+
 }  // namespace myoid::simulation

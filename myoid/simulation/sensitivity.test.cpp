@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include <Eigen/QR>
 #include <gtest/gtest.h>
 
 #include "myoid/core/error.h"
@@ -123,6 +124,60 @@ TEST(Sensitivities, OfAHeldTorqueToTheStrengthsAddUpToTheTorque) {
   EXPECT_NEAR(sum, held.torque.values()(0, 0), 1e-12 * std::abs(sum));
   EXPECT_NEAR(s.device(0, 0), -s.torque(0, 0), 1e-14);
   EXPECT_EQ(s.angle.cwiseAbs().maxCoeff(), 0.0);
+}
+
+// What they are for: the parameters of a movement are found again from it.
+TEST(Sensitivities, LeadBackToTheParametersOfAMovement) {
+  const std::vector<std::string> names = {"BIC.max_isometric_force", "BIC.optimal_fiber_length",
+                                          "TRI.max_isometric_force", "arm_inertia"};
+  for (const TendonMode mode : kModes) {
+    const Arm<double> truth = whole_arm(mode);
+    SimulationOptions options = within(1e-10);
+    options.output_times_s = {0.05, 0.1, 0.15, 0.2, 0.25, 0.3};
+    const SimulationInput input = there_and_back();
+    const Simulation measured = simulate(truth, input, {.q = {1.3}}, options);
+    Arm<double> guess = truth;
+    const double off[] = {0.9, 1.03, 1.1, 1.05};
+    for (std::size_t k = 0; k < names.size(); ++k) arm_parameter(guess, names[k]) *= off[k];
+    for (int iteration = 0; iteration < 5; ++iteration) {
+      const Simulation s = simulate(guess, input, {.q = {1.3}}, options);
+      const Sensitivities d = simulate_sensitivities(guess, input, {.q = {1.3}}, options, names);
+      Eigen::MatrixXd jacobian(18, 4);
+      Eigen::VectorXd residual(18);
+      jacobian << d.angle, 0.1 * d.speed, 0.01 * d.torque;
+      residual << s.motion.values().col(0) - measured.motion.values().col(0),
+          0.1 * (s.motion.values().col(1) - measured.motion.values().col(1)),
+          0.01 * (s.torque.column("muscles") - measured.torque.column("muscles"));
+      Eigen::VectorXd size(4);
+      for (Eigen::Index k = 0; k < 4; ++k)
+        size[k] = arm_parameter(guess, names[static_cast<std::size_t>(k)]);
+      const Eigen::MatrixXd scaled = jacobian * size.asDiagonal();
+      const Eigen::VectorXd step = scaled.colPivHouseholderQr().solve(-residual);
+      for (Eigen::Index k = 0; k < 4; ++k)
+        arm_parameter(guess, names[static_cast<std::size_t>(k)]) += size[k] * step[k];
+    }
+    // Five steps of Gauss and Newton from 10 % off: quadratic, down to the integration's errors.
+    for (const std::string& name : names) {
+      Arm<double> copy = truth;
+      const double wanted = arm_parameter(copy, name);
+      EXPECT_NEAR(arm_parameter(guess, name), wanted, 1e-5 * wanted)
+          << name << ", mode " << static_cast<int>(mode);
+    }
+  }
+}
+
+TEST(Sensitivities, InformationIsTheCurvatureOfTheMisfit) {
+  Sensitivities s;
+  s.parameters = {"a", "b"};
+  s.angle = Eigen::MatrixXd{{1.0, 2.0}, {0.5, 0.0}, {0.0, 1.0}};
+  s.torque = s.device = Eigen::MatrixXd::Zero(3, 2);
+  s.tendon_force = {Eigen::MatrixXd{{10.0, 0.0}, {0.0, 0.0}, {0.0, 0.0}}};
+  const Eigen::MatrixXd of_both = information(s, {.angle_rad = 0.5, .tendon_force_n = 5.0});
+  EXPECT_NEAR(of_both(0, 0), 1.25 / 0.25 + 4.0, 1e-14);
+  EXPECT_NEAR(of_both(0, 1), 2.0 / 0.25, 1e-14);
+  EXPECT_NEAR(of_both(1, 1), 5.0 / 0.25, 1e-14);
+  EXPECT_THROW((void)information(s, {}), InvalidInput);
+  EXPECT_THROW((void)information(s, {.angle_rad = -1.0}), InvalidInput);
 }
 
 TEST(Sensitivities, RefuseWhatHasNone) {

@@ -6,6 +6,7 @@
 
 #include "myoid/core/error.h"
 #include "myoid/core/units.h"
+#include "myoid/dynamics/passive_forces.h"
 #include "myoid/model/muscle_path.h"
 #include "myoid/muscle/literature.h"
 #include "myoid/simulation/simulation_run.h"
@@ -36,12 +37,27 @@ muscle::MusculotendonLaws laws_of(MuscleCurves curves, muscle::TendonMode mode) 
   return muscle::thelen_laws(mode);
 }
 
+/// What a muscle's file says of its own dynamics.
+struct FileSays {
+  bool rigid_tendon = false, no_activation_dynamics = false;
+};
+FileSays file_says(const model::MuscleProperties& p) {
+  if (const auto* c = std::get_if<model::MillardCurves>(&p.curves))
+    return {c->ignore_tendon_compliance, c->ignore_activation_dynamics};
+  if (const auto* c = std::get_if<model::DeGrooteCurves>(&p.curves))
+    return {c->ignore_tendon_compliance, c->ignore_activation_dynamics};
+  return {};
+}
+
 ModelMuscle muscle_of(const model::Muscle& m, int index, const ModelSetup& setup) {
   const model::MuscleProperties& p = m.properties;
   const MuscleCurves curves = curves_of(m, setup.curves);
   ModelMuscle result{
       .name = m.name, .index = index, .parameters = {}, .laws = {}, .activation = {}};
-  result.laws = laws_of(curves, setup.mode);
+  const FileSays says = file_says(p);
+  const bool as_file = setup.curves == MuscleCurves::file;
+  const bool rigid = as_file && says.rigid_tendon && setup.mode == muscle::TendonMode::equilibrium;
+  result.laws = laws_of(curves, rigid ? muscle::TendonMode::rigid : setup.mode);
   const muscle::ThelenParameters thelen{.max_isometric_force_n = p.max_isometric_force_n,
                                         .optimal_fiber_length_m = p.optimal_fiber_length_m,
                                         .tendon_slack_length_m = p.tendon_slack_length_m,
@@ -72,7 +88,8 @@ ModelMuscle muscle_of(const model::Muscle& m, int index, const ModelSetup& setup
     result.parameters.tendon_strain = c->tendon_strain_at_one_force;
     if (c->fiber_damping > 0.0) result.parameters.damping = c->fiber_damping;
   }
-  result.activation.law = setup.activation;
+  result.activation.law =
+      as_file && says.no_activation_dynamics ? muscle::ActivationLaw::envelope : setup.activation;
   result.activation.excitation_time_s = setup.excitation_time_s;
   result.activation.activation_time_s = p.activation_time_s;
   result.activation.deactivation_time_s = p.deactivation_time_s;
@@ -180,6 +197,12 @@ class TreeSkeleton {
       model::compute_path(model_->body, model_->body.muscles[index].path, dynamics_.state(),
                           workspace_, paths_[i]);
     }
+    if (!model_->body.passive_forces.empty()) {
+      others_.setZero(nq);
+      wrenches_.clear();
+      dynamics::append_passive_forces(model_->body, dynamics_.state(), others_, wrenches_);
+      for (const model::BodyWrench& wrench : wrenches_) dynamics_.add(wrench, others_);
+    }
     for (std::size_t k = 0; k < coordinate_count(); ++k) {
       const auto c = static_cast<Eigen::Index>(k);
       passive_[k] = muscle::joint_passive(model_->joints[k], dynamics_.q()[c], dynamics_.qdot()[c]);
@@ -191,7 +214,8 @@ class TreeSkeleton {
     return paths_[i].moment_arm_m[static_cast<Eigen::Index>(k)];
   }
   void accelerate(const double* tau, const char* prescribed, double* qddot, double* device) {
-    for (std::size_t k = 0; k < forces_.size(); ++k) forces_[k] = tau[k] + passive_[k].torque_nm;
+    for (std::size_t k = 0; k < forces_.size(); ++k)
+      forces_[k] = tau[k] + passive_[k].torque_nm + other(k);
     if (!dynamics_.accelerate(forces_.data(), prescribed, qddot, device)) {
       throw ModelError(
           "the mass matrix of the free coordinates is not positive: a coordinate moves bodies "
@@ -202,7 +226,10 @@ class TreeSkeleton {
     return dynamics_.gravity()[static_cast<Eigen::Index>(k)];
   }
   [[nodiscard]] double joint_elastic(std::size_t k) const { return passive_[k].elastic_torque_nm; }
-  [[nodiscard]] double joint_viscous(std::size_t k) const { return passive_[k].viscous_torque_nm; }
+  /// With the model's other passive forces, of whose energies no account is kept.
+  [[nodiscard]] double joint_viscous(std::size_t k) const {
+    return passive_[k].viscous_torque_nm + other(k);
+  }
   [[nodiscard]] double kinetic_energy_j() const { return dynamics_.kinetic_energy_j(); }
   [[nodiscard]] double gravity_energy_j() const { return dynamics_.gravity_energy_j(); }
   [[nodiscard]] double joint_elastic_energy_j() const {
@@ -212,6 +239,10 @@ class TreeSkeleton {
   }
 
  private:
+  [[nodiscard]] double other(std::size_t k) const {
+    return model_->body.passive_forces.empty() ? 0.0 : others_[static_cast<Eigen::Index>(k)];
+  }
+
   const SimulationModel* model_;
   TreeDynamics dynamics_;
   std::size_t n_;
@@ -221,6 +252,8 @@ class TreeSkeleton {
   std::vector<model::PathResult> paths_;
   std::vector<muscle::JointPassiveOutput<double>> passive_;
   std::vector<double> forces_;
+  Eigen::VectorXd others_;  ///< Generalized forces of the model's passive forces.
+  std::vector<model::BodyWrench> wrenches_;
 };
 
 }  // namespace
@@ -240,20 +273,32 @@ SimulationModel make_simulation_model(model::BodyModel body, const ModelSetup& s
   }
   for (const model::Coordinate& coordinate : body.coordinates)
     result.joints.push_back(joint_of(coordinate, setup));
+  // One spring on a coordinate joins the joint, whose stored energy is known.
   std::vector<char> sprung(body.coordinates.size(), 0);
-  for (const model::PassiveForce& force : body.passive_forces) {
+  std::erase_if(body.passive_forces, [&](const model::PassiveForce& force) {
     const auto* spring = std::get_if<model::CoordinateSpring>(&force.law);
-    const auto k = spring == nullptr ? 0 : static_cast<std::size_t>(spring->coordinate);
-    if (spring == nullptr || sprung[k] != 0) {
-      result.notes.push_back(fmt::format("the force '{}' ({}) is left out: it is not simulated yet",
-                                         force.name, force.class_name));
-      continue;
-    }
+    if (spring == nullptr) return false;
+    const auto k = static_cast<std::size_t>(spring->coordinate);
+    if (sprung[k] != 0) return false;
     sprung[k] = 1;
     result.joints[k].stiffness_nm_per_rad = spring->stiffness;
     result.joints[k].neutral_rad = spring->rest;
     result.joints[k].viscosity_nms_per_rad += spring->viscosity;
+    return true;
+  });
+  for (const model::CoordinateCoupler& c : body.couplers) {
+    if (body.coordinates[static_cast<std::size_t>(c.dependent)].prescribed) {
+      throw ModelError(fmt::format(
+          "coordinate '{}' follows '{}' through the coupler '{}' and is prescribed too; take one "
+          "of the two out of the model",
+          body.coordinates[static_cast<std::size_t>(c.dependent)].name,
+          body.coordinates[static_cast<std::size_t>(c.independent)].name, c.name));
+    }
   }
+  const std::size_t actuators =
+      body.actuators.size() + body.point_actuators.size() + body.torque_actuators.size();
+  if (actuators > 0)
+    result.notes.push_back(fmt::format("its {} actuators exert nothing", actuators));
   result.body = std::move(body);
   return result;
 }
@@ -285,6 +330,16 @@ std::vector<Device> default_devices(const SimulationModel& model) {
     }
     devices.push_back(std::move(device));
   }
+  // What follows another coordinate is held by holding that.
+  for (std::size_t pass = 0; pass < model.body.couplers.size(); ++pass) {
+    for (const model::CoordinateCoupler& c : model.body.couplers) {
+      Device& dependent = devices[static_cast<std::size_t>(c.dependent)];
+      if (!dependent.acceleration) continue;
+      dependent = {};
+      Device& independent = devices[static_cast<std::size_t>(c.independent)];
+      if (!independent.acceleration) independent = locked();
+    }
+  }
   return devices;
 }
 
@@ -292,6 +347,17 @@ Simulation simulate(const SimulationModel& model,
                     const SimulationInput& input,
                     const SimulationStart& start,
                     const SimulationOptions& options) {
+  for (const model::CoordinateCoupler& c : model.body.couplers) {
+    const auto k = static_cast<std::size_t>(c.dependent);
+    if (k < input.device.size() && input.device[k].acceleration) {
+      const std::string& leader =
+          model.body.coordinates[static_cast<std::size_t>(c.independent)].name;
+      throw InvalidInput(fmt::format(
+          "coordinate '{}' follows '{}' (coupler '{}'): it cannot be held or moved by itself; hold "
+          "'{}'",
+          model.body.coordinates[k].name, leader, c.name, leader));
+    }
+  }
   SimulationStart consistent = start;
   if (start.q.size() == model.body.coordinates.size()) {
     consistent.qdot.resize(start.q.size(), 0.0);

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "myoid/core/error.h"
+#include "myoid/dynamics/passive_forces.h"
 #include "myoid/model/arm4.h"
 #include "myoid/model/kinematic_tree.h"
 #include "myoid/model/osim_reader.h"
@@ -143,9 +144,9 @@ TEST(SimulationModel, WhatIsNotSimulatedIsRefusedOrSaid) {
   model::BodyModel loop = arm4();
   loop.constraints = {{.name = "grip", .class_name = "PointConstraint", .law = {}}};
   EXPECT_THROW((void)make_simulation_model(loop), ModelError);
-  model::BodyModel bushing = arm4();
-  bushing.passive_forces = {{.name = "b", .class_name = "BushingForce", .law = model::Bushing{}}};
-  EXPECT_EQ(make_simulation_model(bushing).notes.size(), 1u);
+  model::BodyModel motor = arm4();
+  motor.actuators.push_back({.name = "motor", .coordinate = 3});
+  EXPECT_EQ(make_simulation_model(motor).notes.size(), 1u);
   model::BodyModel sprung = arm4();
   sprung.passive_forces = {
       {.name = "s",
@@ -154,6 +155,79 @@ TEST(SimulationModel, WhatIsNotSimulatedIsRefusedOrSaid) {
   const SimulationModel model = make_simulation_model(sprung);
   EXPECT_TRUE(model.notes.empty());
   EXPECT_EQ(model.joints[3].stiffness_nm_per_rad, 2.0);
+}
+
+// Inverse dynamics, which counts the passive forces by a route of its own, asks of the muscles what
+// they exert.
+TEST(SimulationModel, PassiveForcesOfTheFileAct) {
+  model::BodyModel body = arm4();
+  const int elbow = body.coordinate_index("elbow_flexion");
+  const auto forearm = static_cast<int>(body.bodies.size()) - 1;
+  body.passive_forces = {{.name = "stop",
+                          .class_name = "CoordinateLimitForce",
+                          .law = model::CoordinateLimitForce{.coordinate = elbow,
+                                                             .upper_limit = 1.2,
+                                                             .lower_limit = 0.9,
+                                                             .upper_stiffness = 8.0,
+                                                             .lower_stiffness = 5.0,
+                                                             .damping = 0.02}},
+                         {.name = "tie",
+                          .class_name = "BushingForce",
+                          .law = model::Bushing{.body1 = 0,
+                                                .body2 = forearm,
+                                                .translational_stiffness = Vec3(30.0, 20.0, 10.0),
+                                                .translational_damping = Vec3(1.0, 1.0, 1.0)}}};
+  const SimulationModel model = make_simulation_model(body, {.stops = false});
+  SimulationStart start = default_start(model);
+  start.q = {0.3, -0.4, 0.2, 1.0};
+  const Simulation s = simulate(model, {.excitation = bursting()}, start,
+                                {.end_s = 0.5, .output_rate_hz = 20.0, .energy = true});
+  ASSERT_EQ(s.status, math::OdeStatus::done) << s.message;
+  EXPECT_LT(energy_balance(s).worst, 1e-6) << energy_balance(s).where;
+  model::BodyState state = model::make_state(model.body);
+  double greatest = 0.0;
+  for (Eigen::Index row = 0; row < s.motion.sample_count(); ++row) {
+    Eigen::VectorXd q(4);
+    Eigen::VectorXd qdot(4);
+    Eigen::VectorXd qddot(4);
+    for (Eigen::Index k = 0; k < 4; ++k) {
+      q[k] = s.motion.values()(row, 3 * k);
+      qdot[k] = s.motion.values()(row, 3 * k + 1);
+      qddot[k] = s.motion.values()(row, 3 * k + 2);
+    }
+    (void)model::inverse_dynamics(model.body, q, qdot, qddot, {}, state);
+    Eigen::VectorXd along = Eigen::VectorXd::Zero(4);
+    std::vector<model::BodyWrench> wrenches;
+    dynamics::append_passive_forces(body, state, along, wrenches);
+    const Eigen::VectorXd required =
+        model::inverse_dynamics(model.body, q, qdot, qddot, wrenches, state) - along;
+    for (Eigen::Index k = 0; k < 4; ++k) {
+      EXPECT_NEAR(required[k], s.torque.values()(row, 5 * k), 1e-8) << row;
+      greatest = std::max(greatest, std::abs(s.torque.values()(row, 5 * k + 2)));
+    }
+  }
+  EXPECT_GT(greatest, 0.5);
+}
+
+TEST(SimulationModel, WhatFollowsAnotherCoordinateIsHeldByHoldingThat) {
+  model::BodyModel body = arm4();
+  const auto elbow = static_cast<std::size_t>(body.coordinate_index("elbow_flexion"));
+  const auto shoulder = static_cast<std::size_t>(body.coordinate_index("shoulder_flexion"));
+  body.couplers = {{.name = "c",
+                    .dependent = static_cast<int>(elbow),
+                    .independent = static_cast<int>(shoulder),
+                    .function = model::Polynomial{{1.0, 0.0}}}};
+  body.coordinates[elbow].locked = true;
+  const SimulationModel model = make_simulation_model(body);
+  std::vector<Device> devices = default_devices(model);
+  EXPECT_FALSE(devices[elbow].acceleration);
+  EXPECT_TRUE(devices[shoulder].acceleration);
+  devices[elbow] = locked();
+  EXPECT_THROW((void)simulate(model, {.excitation = bursting(), .device = devices},
+                              default_start(model), {.end_s = 0.1}),
+               InvalidInput);
+  body.coordinates[elbow].prescribed = model::Constant{0.3};
+  EXPECT_THROW((void)make_simulation_model(body), ModelError);
 }
 
 TEST(SimulationModel, AMuscleThatMakesNoUnitIsNamed) {

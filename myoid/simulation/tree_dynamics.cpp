@@ -103,6 +103,16 @@ void TreeDynamics::set(const Eigen::Ref<const Eigen::VectorXd>& q,
   kinetic_ = 0.5 * qdot_.dot(mass_ * qdot_);
 }
 
+void TreeDynamics::add(const model::BodyWrench& wrench, Eigen::VectorXd& tau) const {
+  const Vec3 about_ground = wrench.m_G + state_.X_GB[at(wrench.body)].p.cross(wrench.f_G);
+  for (model::BodyIndex up = wrench.body; up != 0;) {
+    const model::Joint& carrier = model_->joints[at(model_->joint_of_body[at(up)])];
+    for (const int d : carrier.coordinates)
+      tau[d] += state_.H_w_G[at(d)].dot(about_ground) + v_origin_[at(d)].dot(wrench.f_G);
+    up = carrier.parent;
+  }
+}
+
 bool TreeDynamics::accelerate(const double* tau,
                               const char* prescribed,
                               double* qddot,

@@ -36,6 +36,9 @@ class TreeDynamics {
   [[nodiscard]] double kinetic_energy_j() const { return kinetic_; }
   [[nodiscard]] double gravity_energy_j() const { return potential_; }
 
+  /// Adds to `tau` the generalized forces of a force and moment on a body.
+  void add(const model::BodyWrench& wrench, Eigen::VectorXd& tau) const;
+
   /// Accelerations under generalized forces `tau` besides gravity. Where `prescribed` is not 0,
   /// qddot is taken as it is and `device` gets the force this takes; else device is 0. With
   /// couplers qddot = J x + b, x the accelerations of the free coordinates that depend on no other,

@@ -48,6 +48,17 @@ void expect_consistent(const model::BodyModel& body, std::uint64_t seed) {
   EXPECT_LT((back - s.tau).cwiseAbs().maxCoeff(), 1e-8 * (1.0 + s.tau.cwiseAbs().maxCoeff()))
       << seed;
 
+  // A force and moment on the outermost body, as inverse dynamics counts it.
+  const model::BodyWrench wrench{.body = static_cast<int>(body.bodies.size()) - 1,
+                                 .f_G = Vec3(3.0, -20.0, 5.0),
+                                 .m_G = Vec3(1.0, 0.5, -2.0)};
+  Eigen::VectorXd pushed = Eigen::VectorXd::Zero(n);
+  dynamics.add(wrench, pushed);
+  const Eigen::VectorXd without =
+      model::inverse_dynamics(body, s.q, s.qdot, qddot, std::vector{wrench}, state);
+  EXPECT_LT((back - pushed - without).cwiseAbs().maxCoeff(),
+            1e-9 * (1.0 + pushed.cwiseAbs().maxCoeff() + s.tau.cwiseAbs().maxCoeff()));
+
   // Every other coordinate prescribed: what the devices exert is what inverse dynamics asks more.
   std::vector<char> some(body.coordinates.size(), 0);
   for (std::size_t k = 0; k < some.size(); k += 2) some[k] = 1;
