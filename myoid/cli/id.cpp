@@ -17,7 +17,7 @@ void add_id(CLI::App& app, Context& context) {
       "Inverse dynamics: joint angles to the generalized forces that they require.\n"
       "Example: myoid id --model arm.osim --motion ik.mot --lowpass 6 --out id.sto");
   struct Options {
-    std::string model, motion, out, body;
+    std::string model, motion, speeds, accelerations, out, body;
     double cutoff_hz = 0.0;
     double mass_kg = 0.0;
     std::vector<double> at{0.0, 0.0, 0.0};
@@ -30,6 +30,10 @@ void add_id(CLI::App& app, Context& context) {
       .add_option("--lowpass", o->cutoff_hz,
                   "Smooth the angles, -3 dB at this frequency [Hz] (default: not smoothed)")
       ->check(CLI::PositiveNumber);
+  command.add_option("--speeds", o->speeds,
+                     "Speeds of the coordinates at the times of --motion (.sto), instead of its "
+                     "derivatives");
+  command.add_option("--accelerations", o->accelerations, "Accelerations, likewise");
   command.add_option("--held-mass", o->mass_kg, "Mass held in the hand [kg] (default 0)")
       ->check(CLI::NonNegativeNumber);
   command.add_option("--held-body", o->body,
@@ -37,7 +41,11 @@ void add_id(CLI::App& app, Context& context) {
   command.add_option("--held-at", o->at, "Where on that body, x y z [m]")->expected(3);
   add_common_options(command, context, {.seed = false});
   command.callback([&context, o] {
-    context.prepare_file(o->out, {o->model, o->motion});
+    context.prepare_file(o->out, {o->model, o->motion, o->speeds, o->accelerations});
+    if (o->cutoff_hz > 0.0 && !(o->speeds.empty() && o->accelerations.empty()))
+      throw InvalidInput(
+          "--lowpass smooths angles that are differentiated: leave it out with "
+          "--speeds or --accelerations");
     model::BodyModel model = load_model(o->model, context);
     if (o->mass_kg != 0.0) {
       Vec3 p_BP_m(o->at[0], o->at[1], o->at[2]);
@@ -55,8 +63,9 @@ void add_id(CLI::App& app, Context& context) {
       }
       model = dynamics::with_held_mass(std::move(model), body, p_BP_m, o->mass_kg);
     }
-    const TimeSeries forces =
-        dynamics::inverse_dynamics(model, load_motion(model, o->motion, o->cutoff_hz, context));
+    const TimeSeries forces = dynamics::inverse_dynamics(
+        model, with_derivatives(load_motion(model, o->motion, o->cutoff_hz, context), model,
+                                o->speeds, o->accelerations, context));
     write_series(o->out, forces, "Inverse Dynamics Generalized Forces");
     if (context.json) {
       nlohmann::ordered_json json{{"out", o->out}, {"samples", forces.sample_count()}};

@@ -11,10 +11,13 @@
 #include "myoid/core/units.h"
 #include "myoid/dynamics/held_mass.h"
 #include "myoid/model/arm4.h"
+#include "myoid/pipeline/sensitivity_files.h"
 #include "myoid/pipeline/simulation_files.h"
 #include "myoid/recording/storage_reader.h"
 #include "myoid/recording/text_file.h"
+#include "myoid/simulation/arm_parameters.h"
 #include "myoid/simulation/forward_simulation.h"
+#include "myoid/simulation/sensitivity.h"
 #include "myoid/simulation/simulation_model.h"
 
 namespace myoid::cli {
@@ -25,7 +28,7 @@ using simulation::Signal;
 struct Options {
   std::string model = "arm4";
   std::string excitations, out, tendon, curves, activation, held_body;
-  std::vector<std::string> excite, initial, speed, lock;
+  std::vector<std::string> excite, initial, speed, lock, sensitivity;
   std::vector<double> held_at{0.0, 0.0, 0.0};
   double rest = 0.01;
   double held_mass_kg = 0.0;
@@ -167,25 +170,16 @@ std::vector<Signal> excitations(const Options& o,
 }
 
 std::string options_json(const Options& o, double start_s, double end_s) {
-  return nlohmann::ordered_json{{"model", o.model},
-                                {"excitations", o.excitations},
-                                {"excite", o.excite},
-                                {"rest", o.rest},
-                                {"tendon", o.tendon},
-                                {"curves", o.curves},
-                                {"activation", o.activation},
-                                {"initial", o.initial},
-                                {"initial_speed", o.speed},
-                                {"lock", o.lock},
-                                {"horizontal", o.horizontal},
-                                {"held_mass_kg", o.held_mass_kg},
-                                {"held_body", o.held_body},
-                                {"held_at_m", o.held_at},
-                                {"rate_hz", o.rate_hz},
-                                {"tolerance", o.tolerance},
-                                {"energy", o.energy},
-                                {"start_s", start_s},
-                                {"end_s", end_s}}
+  return nlohmann::ordered_json{{"model", o.model},           {"excitations", o.excitations},
+                                {"excite", o.excite},         {"rest", o.rest},
+                                {"tendon", o.tendon},         {"curves", o.curves},
+                                {"activation", o.activation}, {"initial", o.initial},
+                                {"initial_speed", o.speed},   {"lock", o.lock},
+                                {"horizontal", o.horizontal}, {"held_mass_kg", o.held_mass_kg},
+                                {"held_body", o.held_body},   {"held_at_m", o.held_at},
+                                {"rate_hz", o.rate_hz},       {"tolerance", o.tolerance},
+                                {"energy", o.energy},         {"sensitivity", o.sensitivity},
+                                {"start_s", start_s},         {"end_s", end_s}}
       .dump();
 }
 
@@ -217,8 +211,24 @@ void place(const Options& o,
   for (const std::string& name : o.lock) devices[index(name, "--lock")] = simulation::locked();
 }
 
+/// What follows another coordinate cannot be placed by itself. (`simulate` refuses to hold it.)
+void refuse_followers(const Options& o, const model::BodyModel& body) {
+  for (const model::CoordinateCoupler& c : body.couplers) {
+    const std::string& name = body.coordinates[static_cast<std::size_t>(c.dependent)].name;
+    for (const auto* list : {&o.initial, &o.speed}) {
+      for (const std::string& text : *list) {
+        if (!text.starts_with(name + "=")) continue;
+        throw InvalidInput(
+            fmt::format("{}: the coordinate follows '{}' (coupler '{}'); place that", text,
+                        body.coordinates[static_cast<std::size_t>(c.independent)].name, c.name));
+      }
+    }
+  }
+}
+
 struct Outcome {
   simulation::Simulation simulation;
+  std::optional<simulation::Sensitivities> sensitivities;
   model::BodyModel body;
   pipeline::HeldCoordinates held;
   double start_s = 0.0, end_s = 0.0;
@@ -233,6 +243,27 @@ simulation::SimulationOptions run_options(const Options& o, const Context& conte
   options.ode.absolute_tolerance = 0.01 * o.tolerance;
   options.progress = context.progress();
   return options;
+}
+
+/// The parameters of --sensitivity: names, or the beginning of names before a '*'.
+std::vector<std::string> wanted_parameters(const Options& o, const simulation::Arm<double>& arm) {
+  std::vector<std::string> all = simulation::arm_parameter_names(arm);
+  all.insert(all.end(), {"start_angle", "start_speed"});
+  std::vector<std::string> result;
+  for (const std::string& text : o.sensitivity) {
+    const std::string head = text.ends_with('*') ? text.substr(0, text.size() - 1) : text;
+    bool found = false;
+    for (const std::string& name : all) {
+      if (text.ends_with('*') ? !name.starts_with(head) : name != text) continue;
+      found = true;
+      if (std::find(result.begin(), result.end(), name) == result.end()) result.push_back(name);
+    }
+    if (!found) {
+      throw InvalidInput(fmt::format("--sensitivity {}: no such parameter; there are {}", text,
+                                     fmt::join(all, ", ")));
+    }
+  }
+  return result;
 }
 
 Outcome simulate_arm4(Options& o, const Context& context) {
@@ -257,8 +288,12 @@ Outcome simulate_arm4(Options& o, const Context& context) {
   simulation::SimulationStart start{.time_s = result.start_s, .q = {0.0}};
   input.device = {simulation::Device{}};
   place(o, {{"elbow_flexion", true}}, start, input.device);
-  result.simulation =
-      simulation::simulate(arm, input, start, run_options(o, context, result.end_s));
+  const simulation::SimulationOptions options = run_options(o, context, result.end_s);
+  const std::vector<std::string> wanted = wanted_parameters(o, arm);
+  result.simulation = simulation::simulate(arm, input, start, options);
+  if (!wanted.empty() && result.simulation.status == math::OdeStatus::done) {
+    result.sensitivities = simulation::simulate_sensitivities(arm, input, start, options, wanted);
+  }
   const Vec3 shoulder = model::arm4_shoulder_rad(o.horizontal);
   result.held = {{"shoulder_flexion", shoulder.x()},
                  {"shoulder_adduction", shoulder.y()},
@@ -272,6 +307,10 @@ Outcome simulate_file(Options& o, const Context& context) {
   if (o.activation.empty()) o.activation = "thelen";
   if (o.horizontal)
     throw InvalidInput("--horizontal belongs to arm4; a model file says its gravity itself");
+  if (!o.sensitivity.empty()) {
+    throw InvalidInput(
+        "--sensitivity belongs to arm4; of a model file, simulate twice and take differences");
+  }
   model::BodyModel body = load_model(o.model, context);
   if (o.held_mass_kg != 0.0) {
     body = dynamics::with_held_mass(std::move(body), o.held_body,
@@ -296,6 +335,7 @@ Outcome simulate_file(Options& o, const Context& context) {
   input.device = simulation::default_devices(model);
   result.end_s = end_s.value_or(result.start_s + 1.0);
   simulation::SimulationStart start = simulation::default_start(model, result.start_s);
+  refuse_followers(o, model.body);
   place(o, coordinates, start, input.device);
   result.simulation =
       simulation::simulate(model, input, start, run_options(o, context, result.end_s));
@@ -319,6 +359,11 @@ void run(Options& o, Context& context) {
   if (!(o.tolerance >= 1e-13 && o.tolerance <= 1e-2))
     throw InvalidInput(fmt::format("--tolerance {}: expected 1e-13 to 0.01", o.tolerance));
   context.prepare_folder(o.out);
+  context.protect_inputs(o.out,
+                         {"motion.mot", "speeds.sto", "accelerations.sto", "excitation.sto",
+                          "activation.sto", "forces.sto", "fiber_forces.sto", "MuscleAnalysis_",
+                          "torques.sto", "states.sto", "energy.sto", "simulation.json"},
+                         {o.model, o.excitations});
   Outcome outcome = o.model == "arm4" ? simulate_arm4(o, context) : simulate_file(o, context);
   context.end_progress();
   Provenance provenance;
@@ -330,6 +375,15 @@ void run(Options& o, Context& context) {
   provenance.options_json = options_json(o, outcome.start_s, outcome.end_s);
   const simulation::Simulation& s = outcome.simulation;
   pipeline::write_simulation(s, outcome.body, outcome.held, provenance, o.out);
+  if (outcome.sensitivities) {
+    std::vector<std::string> muscles;
+    for (const Channel& channel : s.activation.channels()) muscles.push_back(channel.name);
+    pipeline::write_sensitivities(*outcome.sensitivities, muscles, provenance, o.out);
+    if (outcome.sensitivities->status != math::OdeStatus::done) {
+      context.warn(fmt::format("sensitivities not to the end: {}", outcome.sensitivities->message));
+      context.exit_code = kQualityGateFailed;
+    }
+  }
   if (o.figures) pipeline::write_figure(pipeline::movement_figure(s), o.out);
   if (s.status != math::OdeStatus::done) {
     context.warn(fmt::format("not simulated to the end: {}", s.message));
@@ -384,10 +438,13 @@ void add_simulate(CLI::App& app, Context& context) {
   command.add_option("--tolerance", o->tolerance,
                      "Relative local error of the integration (default 1e-8)");
   command.add_flag("--energy", o->energy, "Also the work of every element, and whether it adds up");
+  command.add_option("--sensitivity", o->sensitivity,
+                     "Also the derivatives by this parameter of arm4, such as "
+                     "BIC.max_isometric_force, 'BIC.*' or '*'; may be repeated");
   command.add_flag("--figures", o->figures, "Also a figure of the movement (.svg, .csv)");
   command.add_flag("--paper-figures", o->paper_figures,
                    "Only the source paper's figures 2 and 4, drawn by this program");
-  add_common_options(command, context);
+  add_common_options(command, context, {.seed = false});
   command.callback([&context, o] { run(*o, context); });
 }
 

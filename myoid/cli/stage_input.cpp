@@ -36,6 +36,51 @@ TimeSeries cut(const TimeSeries& series, const Context& context) {
   return result;
 }
 
+kinematics::JointMotion with_derivatives(kinematics::JointMotion motion,
+                                         const model::BodyModel& model,
+                                         const std::filesystem::path& speeds,
+                                         const std::filesystem::path& accelerations,
+                                         const Context& context) {
+  const auto replace = [&](TimeSeries& derivative, const std::filesystem::path& path) {
+    if (path.empty()) return;
+    const recording::Storage file = recording::read_storage(path);
+    for (const recording::Repair& repair : file.repairs)
+      context.warn(fmt::format("{}:{}: {}", path.string(), repair.line, repair.message));
+    const TimeSeries given =
+        cut(recording::to_si(file,
+                             [&](const std::string& name) {
+                               const auto c = model.find_coordinate(name);
+                               return c && model.coordinates[static_cast<std::size_t>(*c)].motion ==
+                                               model::MotionType::rotational;
+                             }),
+            context);
+    const Eigen::VectorXd& time_s = derivative.time_s();
+    if (given.sample_count() != time_s.size() ||
+        (given.time_s() - time_s).cwiseAbs().maxCoeff() > 1e-9) {
+      throw ReadError(
+          path, 0,
+          fmt::format("has {} samples from {} to {} s; expected the times of the motion, "
+                      "{} samples from {} to {} s",
+                      given.sample_count(), given.time_s()[0],
+                      given.time_s()[given.sample_count() - 1], time_s.size(), time_s[0],
+                      time_s[time_s.size() - 1]));
+    }
+    Eigen::MatrixXd values = derivative.values();
+    bool any = false;
+    for (std::size_t k = 0; k < model.coordinates.size(); ++k) {
+      const auto column = given.find(model.coordinates[k].name);
+      if (!column) continue;
+      any = true;
+      values.col(static_cast<Eigen::Index>(k)) = given.values().col(*column);
+    }
+    if (!any) throw ReadError(path, 0, "no column is a coordinate of the model");
+    derivative = TimeSeries(time_s, derivative.channels(), std::move(values));
+  };
+  replace(motion.qdot, speeds);
+  replace(motion.qddot, accelerations);
+  return motion;
+}
+
 kinematics::JointMotion load_motion(const model::BodyModel& model,
                                     const std::filesystem::path& path,
                                     double cutoff_hz,

@@ -20,6 +20,15 @@ namespace myoid::cli {
                                                   double cutoff_hz,
                                                   const Context& context);
 
+/// The motion with the speeds and accelerations of these files, where they have the coordinate,
+/// instead of the spline's derivatives; an empty path changes nothing. Their times must be those of
+/// the motion's file. Throws ReadError otherwise.
+[[nodiscard]] kinematics::JointMotion with_derivatives(kinematics::JointMotion motion,
+                                                       const model::BodyModel& model,
+                                                       const std::filesystem::path& speeds,
+                                                       const std::filesystem::path& accelerations,
+                                                       const Context& context);
+
 /// Writes a series in the format that the file's name asks for: .csv a table ("name [V]" in the
 /// header row), .sto or .mot a storage file of this title. Throws InvalidInput for other names.
 void write_series(const std::filesystem::path& path,

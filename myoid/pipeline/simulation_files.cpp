@@ -64,16 +64,23 @@ TimeSeries with_held(const TimeSeries& q, const HeldCoordinates& held) {
   return {q.time_s(), std::move(channels), std::move(values)};
 }
 
+/// First what inverse dynamics of the motion gives: muscles, joint, external, device together.
 TimeSeries torques(const Simulation& s) {
+  const auto n = static_cast<Eigen::Index>(coordinate_count(s));
   std::vector<Channel> channels;
-  for (std::size_t k = 0; k < coordinate_count(s); ++k) {
-    const Unit unit = s.torque.channels()[5 * k].unit;
+  Eigen::MatrixXd values(s.torque.sample_count(), 6 * n);
+  for (Eigen::Index k = 0; k < n; ++k) {
+    const auto c = static_cast<std::size_t>(k);
+    const Unit unit = s.torque.channels()[5 * c].unit;
     const std::string name =
-        coordinate_name(s, k) + (unit == Unit::newton_meter ? "_moment" : "_force");
-    for (const char* what : {"", "_gravity", "_joint", "_external", "_device"})
+        coordinate_name(s, c) + (unit == Unit::newton_meter ? "_moment" : "_force");
+    for (const char* what : {"", "_muscles", "_gravity", "_joint", "_external", "_device"})
       channels.push_back({name + what, unit});
+    const auto& parts = s.torque.values().middleCols(5 * k, 5);
+    values.col(6 * k) = parts.col(0) + parts.col(2) + parts.col(3) + parts.col(4);
+    values.middleCols(6 * k + 1, 5) = parts;
   }
-  return {s.torque.time_s(), std::move(channels), s.torque.values()};
+  return {s.torque.time_s(), std::move(channels), std::move(values)};
 }
 
 TimeSeries states(const Simulation& s) {

@@ -20,7 +20,6 @@ namespace {
 
 simulation::Simulation slow_movement(double seconds, double rate_hz) {
   simulation::ArmSetup setup;
-  setup.joint = {};
   setup.laws.mode = muscle::TendonMode::equilibrium;
   simulation::SimulationInput input;
   for (int i = 0; i < 4; ++i)
@@ -30,7 +29,7 @@ simulation::Simulation slow_movement(double seconds, double rate_hz) {
 }
 
 // Through files, as a user would: only the angles are given, all else is derived from them.
-TEST(SimulationFiles, InverseDynamicsOfTheMotionFileIsTheTorqueOfTheMuscles) {
+TEST(SimulationFiles, InverseDynamicsOfTheMotionFileIsTheTorque) {
   const test::TemporaryFolder folder;
   const model::BodyModel body = model::parse_osim(model::arm4_osim(), "arm4.osim");
   const simulation::Simulation s = slow_movement(1.0, 1000.0);
@@ -47,6 +46,11 @@ TEST(SimulationFiles, InverseDynamicsOfTheMotionFileIsTheTorqueOfTheMuscles) {
   // Second differences at 1 kHz of angles good to 1e-9 rad: 0.07 kg m^2 * 4e-9 * 1e6 = 3e-4 N m;
   // the ends, where the spline knows nothing, apart.
   for (Eigen::Index k = 50; k < id.size() - 50; ++k) EXPECT_NEAR(id[k], truth[k], 1e-3) << k;
+  const Eigen::VectorXd parts = written.data.column("elbow_flexion_moment_muscles") +
+                                written.data.column("elbow_flexion_moment_joint") +
+                                written.data.column("elbow_flexion_moment_external") +
+                                written.data.column("elbow_flexion_moment_device");
+  EXPECT_LT((truth - parts).cwiseAbs().maxCoeff(), 1e-14);
 }
 
 TEST(SimulationFiles, EveryFileIsThereAndSaysWhatItHolds) {
