@@ -51,20 +51,26 @@ struct SimulationModel {
 
 /// Parameters from the model: F_max, l0, l_t0, pennation, v_max, time constants; of Thelen's muscle
 /// also his shapes and strains, with no damping, as OpenSim has it; of Millard's and De Groote's
-/// the curves' numbers and damping. A spring on a coordinate joins the joint's passive torque; the
-/// model's other passive forces are left out, which `notes` says. Throws InvalidInput, naming the
-/// muscle, if its numbers make no unit, ModelError if joints form a closed loop.
+/// the curves' numbers and damping, and with MuscleCurves::file what it says of a rigid tendon (in
+/// the mode `equilibrium`) and of no activation dynamics. A spring on a coordinate joins the
+/// joint's passive torque; the model's other passive forces act too, their work being counted as
+/// viscous. Actuators exert nothing, which `notes` says. Throws InvalidInput, naming the muscle, if
+/// its numbers make no unit, ModelError if joints form a closed loop or a coupled coordinate is
+/// prescribed.
 [[nodiscard]] SimulationModel make_simulation_model(model::BodyModel body,
                                                     const ModelSetup& setup = {});
 
 /// Its default posture and speeds; devices that lock what the model locks and prescribe what it
-/// prescribes, with that posture at the start.
+/// prescribes, with that posture at the start. What follows a locked coordinate's coupler is held
+/// by holding the coordinate that it follows.
 [[nodiscard]] SimulationStart default_start(const SimulationModel& model, double time_s = 0.0);
 [[nodiscard]] std::vector<Device> default_devices(const SimulationModel& model);
 
 /// Integrates the model's equations of motion, M(q) qddot = R F_t + gravity - Coriolis + joints +
-/// external. As `simulate` for the arm, with all coordinates of the model in its order. Throws
-/// ModelError if the mass matrix of the free coordinates is not positive: a body without mass.
+/// external. As `simulate` for the arm, with all coordinates of the model in its order; dependent
+/// coordinates of couplers start where these say. Throws InvalidInput if a device is to move one of
+/// them, ModelError if the mass matrix of the free coordinates is not positive: a body without
+/// mass.
 [[nodiscard]] Simulation simulate(const SimulationModel& model,
                                   const SimulationInput& input,
                                   const SimulationStart& start,

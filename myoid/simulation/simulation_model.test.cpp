@@ -128,6 +128,7 @@ TEST(SimulationModel, ACoupledCoordinateMovesAsItsCouplerSays) {
   start.q[static_cast<std::size_t>(shoulder)] = 0.5;
   std::vector<Device> devices(model.body.coordinates.size(), locked());
   devices[static_cast<std::size_t>(shoulder)] = {};
+  devices[static_cast<std::size_t>(elbow)] = {};
   const Simulation s = simulate(model, {.excitation = bursting(), .device = devices}, start,
                                 {.end_s = 1.0, .output_rate_hz = 20.0, .energy = true});
   ASSERT_EQ(s.status, math::OdeStatus::done) << s.message;

@@ -1,6 +1,10 @@
 // The program `simulate`: what it writes, what it refuses, how it is stopped.
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
+#include <sstream>
 #include <string>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -34,6 +38,71 @@ TEST(Simulate, WritesAMotionThatInverseDynamicsTakes) {
   const Finished id = myoid(
       {"id", "--model", "arm4", "--motion", folder / "sim/motion.mot", "--out", folder / "id.sto"});
   EXPECT_EQ(id.exit_code, 0) << id.err;
+}
+
+/// A column of a storage file.
+std::vector<double> column(const std::string& path, const std::string& name) {
+  std::istringstream text(read_text(path));
+  std::string line;
+  while (std::getline(text, line) && line != "endheader") {
+  }
+  std::getline(text, line);
+  std::istringstream head(line);
+  std::size_t at = 0;
+  for (std::string label; head >> label && label != name;) ++at;
+  std::vector<double> result;
+  while (std::getline(text, line)) {
+    std::istringstream row(line);
+    double value = 0.0;
+    for (std::size_t k = 0; k <= at; ++k) row >> value;
+    result.push_back(value);
+  }
+  return result;
+}
+
+TEST(Simulate, ItsTorqueIsThatOfInverseDynamicsOfItsMotion) {
+  const TemporaryFolder folder;
+  for (const char* tendon : {"rigid", "equilibrium", "mass"}) {
+    const std::string out = folder / tendon;
+    const Finished run = myoid({"simulate", "--excite", "all=0.03", "--excite", "BIC=0.2@0.1+0.2",
+                                "--tendon", tendon, "--held-mass", "1", "--initial",
+                                "elbow_flexion=50", "--end", "0.6", "--out", out});
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    const Finished id = myoid({"id", "--model", "arm4", "--motion", out + "/motion.mot", "--speeds",
+                               out + "/speeds.sto", "--accelerations", out + "/accelerations.sto",
+                               "--held-mass", "1", "--out", out + "/id.sto"});
+    ASSERT_EQ(id.exit_code, 0) << id.err;
+    const std::vector<double> required = column(out + "/id.sto", "elbow_flexion_moment");
+    const std::vector<double> given = column(out + "/torques.sto", "elbow_flexion_moment");
+    ASSERT_EQ(required.size(), given.size());
+    ASSERT_EQ(required.size(), 121u);
+    double greatest = 0.0;
+    for (std::size_t k = 0; k < given.size(); ++k) {
+      EXPECT_NEAR(required[k], given[k], 1e-8) << tendon << ' ' << k;
+      greatest = std::max(greatest, std::abs(given[k]));
+    }
+    EXPECT_GT(greatest, 1.0);
+  }
+  // Speeds of another clock are not those of this motion.
+  const std::string other = folder / "other";
+  ASSERT_EQ(myoid({"simulate", "--end", "0.1", "--out", other}).exit_code, 0);
+  const Finished id = myoid({"id", "--model", "arm4", "--motion", folder / "mass/motion.mot",
+                             "--speeds", other + "/speeds.sto", "--out", folder / "id.sto"});
+  EXPECT_EQ(id.exit_code, 3);
+  EXPECT_THAT(id.err, AllOf(HasSubstr("speeds.sto"), HasSubstr("121")));
+}
+
+TEST(Simulate, WritesDerivativesByParameters) {
+  const TemporaryFolder folder;
+  const Finished run = myoid({"simulate", "--excite", "BIC=0.2", "--end", "0.2", "--sensitivity",
+                              "BIC.*", "--sensitivity", "arm_inertia", "--out", folder / "s"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const std::string angle = folder / "s/sensitivities/angle.sto";
+  EXPECT_GT(column(angle, "BIC.max_isometric_force").back(), 0.0);  // stronger: more flexed
+  EXPECT_LT(column(angle, "arm_inertia").back(), 0.0);              // heavier: less
+  const Finished wrong = myoid({"simulate", "--sensitivity", "BIC.color", "--out", folder / "w"});
+  EXPECT_EQ(wrong.exit_code, 3);
+  EXPECT_THAT(wrong.err, HasSubstr("BIC.optimal_fiber_length"));
 }
 
 TEST(Simulate, TakesExcitationsFromAFileUntilItsEnd) {
