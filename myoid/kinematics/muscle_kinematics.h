@@ -4,7 +4,9 @@
 #include <string>
 #include <vector>
 
+#include "myoid/core/progress.h"
 #include "myoid/kinematics/joint_motion.h"
+#include "myoid/kinematics/path_surrogate.h"
 #include "myoid/model/body_model.h"
 
 namespace myoid::kinematics {
@@ -16,11 +18,20 @@ struct MuscleKinematics {
   /// By coordinate, for every one that is not locked: r = -dl/dq [m], where coordinates that a
   /// constraint couples move along, as OpenSim defines it (coupling_matrix in model/constraints.h).
   std::map<std::string, TimeSeries> moment_arm;
+  long from_surrogates = 0;  ///< Of frames x muscles.
+};
+
+struct MuscleKinematicsOptions {
+  /// Polynomials in the place of paths, one per muscle in the model's order; not owned. Where one
+  /// is not within its tolerance, or a frame is not where it was fitted, the path itself counts.
+  const std::vector<PathSurrogate>* surrogates = nullptr;
+  Progress progress;
 };
 
 /// Lengths, velocities and moment arms of all muscles along a motion. Parallel over frames; the
-/// same for every number of threads.
+/// same for every number of threads. Throws Interrupted if a stop is requested.
 [[nodiscard]] MuscleKinematics muscle_kinematics(const model::BodyModel& model,
-                                                 const JointMotion& motion);
+                                                 const JointMotion& motion,
+                                                 const MuscleKinematicsOptions& options = {});
 
 }  // namespace myoid::kinematics

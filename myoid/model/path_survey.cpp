@@ -3,25 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
+
+#include "myoid/core/units.h"
 #include "myoid/math/random.h"
 #include "myoid/model/constraints.h"
 #include "myoid/model/muscle_path.h"
 
 namespace myoid::model {
 namespace {
-
-struct Range {
-  double lower = 0.0;
-  double upper = 0.0;
-};
-
-Range range_of(const Coordinate& c) {
-  const double most = c.motion == MotionType::rotational ? 3.0 : 1.0;
-  Range r{std::max(c.lower, c.default_value - most), std::min(c.upper, c.default_value + most)};
-  // A default outside of the range: the range itself counts.
-  if (!(r.lower <= r.upper)) r = {c.lower, c.upper};
-  return r;
-}
 
 bool moves(const BodyModel& model, int coordinate) {
   const auto depends = [&](const CoordinateCoupler& k) { return k.dependent == coordinate; };
@@ -72,13 +62,22 @@ double excess(const Sweep::Point& a, const Sweep::Point& b) {
 
 }  // namespace
 
+CoordinateRange usual_range(const Coordinate& c) {
+  const double most = c.motion == MotionType::rotational ? 3.0 : 1.0;
+  CoordinateRange r{std::max(c.lower, c.default_value - most),
+                    std::min(c.upper, c.default_value + most)};
+  // A default outside of the range: the range itself counts.
+  if (!(r.lower <= r.upper)) r = {c.lower, c.upper};
+  return r;
+}
+
 Eigen::VectorXd random_posture(const BodyModel& model, std::uint64_t seed, std::uint64_t number) {
   math::Random random(seed, number);
   Eigen::VectorXd q = model.default_q();
   for (std::size_t c = 0; c < model.coordinates.size(); ++c) {
     const double share = random.uniform();
     if (!moves(model, static_cast<int>(c))) continue;
-    const Range range = range_of(model.coordinates[c]);
+    const CoordinateRange range = usual_range(model.coordinates[c]);
     q[static_cast<Eigen::Index>(c)] = range.lower + share * (range.upper - range.lower);
   }
   apply_couplers(model, q);
@@ -138,7 +137,7 @@ std::vector<PathJump> find_jumps(const BodyModel& model,
   for (int m = 0; m < static_cast<int>(model.muscles.size()); ++m) {
     for (int c = 0; c < static_cast<int>(model.coordinates.size()); ++c) {
       if (!moves(model, c)) continue;
-      const Range range = range_of(model.coordinates[static_cast<std::size_t>(c)]);
+      const CoordinateRange range = usual_range(model.coordinates[static_cast<std::size_t>(c)]);
       if (!(range.upper > range.lower)) continue;
       Sweep sweep(model, m, c);
       const double step = (range.upper - range.lower) / steps;
@@ -169,6 +168,20 @@ std::vector<PathJump> find_jumps(const BodyModel& model,
     }
   }
   return jumps;
+}
+
+std::string describe(const BodyModel& model, const PathJump& jump) {
+  const Coordinate& c = model.coordinates[static_cast<std::size_t>(jump.coordinate)];
+  const bool is_angle = c.motion == MotionType::rotational;
+  std::string text = fmt::format(
+      "{} at {} = {:.5g} {}:", model.muscles[static_cast<std::size_t>(jump.muscle)].name, c.name,
+      is_angle ? jump.at / kDegree : jump.at, is_angle ? "deg" : "m");
+  if (jump.length_m > 0.0) text += fmt::format(" length jumps by {:.3g} mm", 1e3 * jump.length_m);
+  if (jump.moment_arm_m > 0.0) {
+    text += fmt::format("{} moment arm jumps by {:.3g} mm", jump.length_m > 0.0 ? "," : "",
+                        1e3 * jump.moment_arm_m);
+  }
+  return text;
 }
 
 }  // namespace myoid::model

@@ -10,6 +10,12 @@
 
 namespace myoid::model {
 
+struct CoordinateRange {
+  double lower = 0.0, upper = 0.0;
+};
+/// The coordinate's range, at most +-3 rad or +-1 m about its default value.
+[[nodiscard]] CoordinateRange usual_range(const Coordinate& coordinate);
+
 /// A posture with every coordinate that is free drawn evenly from its range (at most +-3 rad or
 /// +-1 m about the default value); locked ones at their default, dependent ones as their couplers
 /// say. The same for the same seed and number.
@@ -51,5 +57,8 @@ struct PathJump {
                                                int steps = 200,
                                                double length_tolerance_m = 1e-5,
                                                double arm_tolerance_m = 1e-3);
+
+/// The jump as a sentence for a person: muscle, coordinate and where, by how much.
+[[nodiscard]] std::string describe(const BodyModel& model, const PathJump& jump);
 
 }  // namespace myoid::model

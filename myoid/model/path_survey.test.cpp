@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "myoid/core/units.h"
 #include "myoid/model/kinematic_tree.h"
 #include "myoid/model/muscle_path.h"
 #include "myoid/model/osim_reader.h"
@@ -105,6 +106,14 @@ TEST(FindJumps, TheLengthIsAnotherOneOnEitherSide) {
     }
     EXPECT_GE(of_length, 2);
   }
+}
+
+TEST(Describe, NamesMuscleCoordinateAndSize) {
+  const BodyModel m = hinge({fixed(0, Vec3(0.02, 0.3, 0.0)), fixed(1, Vec3(0.1, 0, 0))});
+  EXPECT_EQ(describe(m, {0, 0, 0.5 * kPi, 0.00125, 0.0}),
+            "m at q = 90 deg: length jumps by 1.25 mm");
+  EXPECT_EQ(describe(m, {0, 0, 0.0, 0.001, 0.02}),
+            "m at q = 0 deg: length jumps by 1 mm, moment arm jumps by 20 mm");
 }
 
 TEST(RandomPosture, LiesInTheRangesAndDependsOnSeedAndNumberOnly) {

@@ -1,0 +1,397 @@
+#include "myoid/kinematics/path_surrogate.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include <Eigen/Cholesky>
+#include <oneapi/tbb/parallel_for.h>
+
+#include "myoid/math/random.h"
+#include "myoid/math/sobol.h"
+#include "myoid/model/constraints.h"
+#include "myoid/model/kinematic_tree.h"
+#include "myoid/model/path_survey.h"
+
+namespace myoid::kinematics {
+namespace {
+
+std::size_t at(Eigen::Index index) { return static_cast<std::size_t>(index); }
+
+void add_exponents(
+    int left, int position, Eigen::RowVectorXi& row, Eigen::MatrixXi& all, Eigen::Index& count) {
+  if (position + 1 == row.size()) {
+    row[position] = left;
+    all.row(count++) = row;
+    return;
+  }
+  for (int e = left; e >= 0; --e) {
+    row[position] = e;
+    add_exponents(left - e, position + 1, row, all, count);
+  }
+}
+
+void prepare(int dimensions, int degree, SurrogateWorkspace& w) {
+  if (w.degree == degree && w.dimensions == dimensions) return;
+  w.exponents = exponents(dimensions, degree);
+  w.value.resize(degree + 1, dimensions);
+  w.slope.resize(degree + 1, dimensions);
+  w.degree = degree;
+  w.dimensions = dimensions;
+}
+
+/// T_0 .. T_degree of every coordinate and their derivatives by q.
+void fill_tables(const PathSurrogate& s,
+                 const Eigen::Ref<const Eigen::VectorXd>& q,
+                 SurrogateWorkspace& w) {
+  for (Eigen::Index i = 0; i < w.value.cols(); ++i) {
+    const double width = s.upper[i] - s.lower[i];
+    const double x = (2.0 * q[s.coordinates[at(i)]] - s.lower[i] - s.upper[i]) / width;
+    w.value(0, i) = 1.0;
+    w.slope(0, i) = 0.0;
+    if (s.degree == 0) continue;
+    w.value(1, i) = x;
+    w.slope(1, i) = 2.0 / width;
+    for (Eigen::Index k = 2; k <= s.degree; ++k) {
+      w.value(k, i) = 2.0 * x * w.value(k - 1, i) - w.value(k - 2, i);
+      w.slope(k, i) =
+          4.0 / width * w.value(k - 1, i) + 2.0 * x * w.slope(k - 1, i) - w.slope(k - 2, i);
+    }
+  }
+}
+
+/// Row 0: every term; row 1 + i: its derivative by coordinate i.
+void term_rows(const SurrogateWorkspace& w, Eigen::Ref<Eigen::MatrixXd> rows) {
+  const Eigen::Index d = w.value.cols();
+  for (Eigen::Index k = 0; k < w.exponents.rows(); ++k) {
+    double value = 1.0;
+    for (Eigen::Index i = 0; i < d; ++i) value *= w.value(w.exponents(k, i), i);
+    rows(0, k) = value;
+    for (Eigen::Index i = 0; i < d; ++i) {
+      double slope = w.slope(w.exponents(k, i), i);
+      for (Eigen::Index j = 0; j < d && slope != 0.0; ++j) {
+        if (j != i) slope *= w.value(w.exponents(k, j), j);
+      }
+      rows(1 + i, k) = slope;
+    }
+  }
+}
+
+/// The true path, its moment arms by the independent coordinates.
+class TruePath {
+ public:
+  TruePath(const model::BodyModel& model, const model::MusclePath& path)
+      : model_(model), path_(path), q_(model.default_q()), state_(model::make_state(model)) {}
+
+  const model::PathResult& at(const PathSurrogate& s, const Eigen::VectorXd& x) {
+    for (std::size_t i = 0; i < s.coordinates.size(); ++i)
+      q_[s.coordinates[i]] = x[static_cast<Eigen::Index>(i)];
+    model::apply_couplers(model_, q_);
+    model::compute_poses(model_, q_, state_);
+    model::compute_path(model_, path_, state_, workspace_, result_);
+    if (!model_.couplers.empty()) {
+      // Couplers alone: the loop constraints bind postures, not the path.
+      const Eigen::MatrixXd C = coupling(model_, state_);
+      result_.moment_arm_m = (C.transpose() * result_.moment_arm_m).eval();
+    }
+    return result_;
+  }
+  [[nodiscard]] const Eigen::VectorXd& q() const { return q_; }
+
+ private:
+  /// Rates of all coordinates by every independent one, through the couplers.
+  static Eigen::MatrixXd coupling(const model::BodyModel& model, const model::BodyState& state) {
+    const auto n = static_cast<Eigen::Index>(model.coordinates.size());
+    Eigen::MatrixXd C = Eigen::MatrixXd::Identity(n, n);
+    for (const model::CoordinateCoupler& k : model.couplers) C.row(k.dependent).setZero();
+    // Chains of couplers: as often as there are couplers.
+    for (std::size_t pass = 0; pass < model.couplers.size(); ++pass) {
+      for (const model::CoordinateCoupler& k : model.couplers)
+        C.row(k.dependent) =
+            model::evaluate(k.function, state.q[k.independent]).first * C.row(k.independent);
+    }
+    return C;
+  }
+
+  const model::BodyModel& model_;
+  const model::MusclePath& path_;
+  Eigen::VectorXd q_;
+  model::BodyState state_;
+  model::PathWorkspace workspace_;
+  model::PathResult result_;
+};
+
+/// Postures of the box: rows of numbers in 0..1 scaled to the ranges; each fifth has one coordinate
+/// at an end of its range, where polynomials are worst.
+Eigen::MatrixXd scaled(Eigen::MatrixXd unit, const PathSurrogate& s) {
+  for (Eigen::Index row = 0; row < unit.rows(); ++row) {
+    if (row % 5 == 4) {
+      const Eigen::Index which = (row / 5) % (2 * unit.cols());
+      unit(row, which / 2) = which % 2 == 0 ? 0.0 : 1.0;
+    }
+    unit.row(row) =
+        s.lower.transpose() + unit.row(row).cwiseProduct((s.upper - s.lower).transpose());
+  }
+  return unit;
+}
+
+Eigen::MatrixXd training_postures(const PathSurrogate& s, Eigen::Index count, std::uint64_t seed) {
+  return scaled(
+      math::sobol_points(count, static_cast<int>(s.coordinates.size()), {.scramble_seed = seed}),
+      s);
+}
+
+Eigen::MatrixXd unseen_postures(const PathSurrogate& s, Eigen::Index count, std::uint64_t seed) {
+  math::Random random(seed, 77);
+  Eigen::MatrixXd unit(count, static_cast<Eigen::Index>(s.coordinates.size()));
+  for (double& x : unit.reshaped()) x = random.uniform();
+  return scaled(std::move(unit), s);
+}
+
+/// Length and arms of the true path at every posture: postures x (1 + coordinates).
+Eigen::MatrixXd truth_at(TruePath& path, const PathSurrogate& s, const Eigen::MatrixXd& postures) {
+  Eigen::MatrixXd truth(postures.rows(), 1 + postures.cols());
+  for (Eigen::Index row = 0; row < postures.rows(); ++row) {
+    const model::PathResult& result = path.at(s, postures.row(row).transpose());
+    truth(row, 0) = result.length_m;
+    for (Eigen::Index i = 0; i < postures.cols(); ++i)
+      truth(row, 1 + i) = result.moment_arm_m[s.coordinates[at(i)]];
+  }
+  return truth;
+}
+
+void solve(PathSurrogate& s,
+           const Eigen::MatrixXd& postures,
+           const Eigen::MatrixXd& truth,
+           const Eigen::VectorXd& default_q,
+           const SurrogateOptions& options) {
+  SurrogateWorkspace w;
+  const Eigen::Index d = postures.cols();
+  prepare(static_cast<int>(d), s.degree, w);
+  const Eigen::Index terms = w.exponents.rows();
+  Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(terms, terms);
+  Eigen::VectorXd right = Eigen::VectorXd::Zero(terms);
+  constexpr Eigen::Index kBlock = 64;
+  Eigen::MatrixXd rows(kBlock * (1 + d), terms);
+  Eigen::VectorXd wanted(kBlock * (1 + d));
+  Eigen::VectorXd q = default_q;
+  for (Eigen::Index begin = 0; begin < postures.rows(); begin += kBlock) {
+    const Eigen::Index count = std::min(kBlock, postures.rows() - begin);
+    for (Eigen::Index k = 0; k < count; ++k) {
+      for (Eigen::Index i = 0; i < d; ++i) q[s.coordinates[at(i)]] = postures(begin + k, i);
+      fill_tables(s, q, w);
+      auto block = rows.middleRows(k * (1 + d), 1 + d);
+      term_rows(w, block);
+      block.row(0) /= options.length_tolerance_m;
+      block.bottomRows(d) /= -options.arm_tolerance_m;
+      wanted[k * (1 + d)] = truth(begin + k, 0) / options.length_tolerance_m;
+      wanted.segment(k * (1 + d) + 1, d) =
+          truth.row(begin + k).tail(d).transpose() / options.arm_tolerance_m;
+    }
+    const auto used = rows.topRows(count * (1 + d));
+    normal.selfadjointView<Eigen::Lower>().rankUpdate(used.transpose());
+    right.noalias() += used.transpose() * wanted.head(count * (1 + d));
+  }
+  // Chebyshev terms over the box are nearly orthogonal: the normal equations are well conditioned.
+  normal.diagonal().array() *= 1.0 + 1e-14;
+  s.coefficient_m = normal.selfadjointView<Eigen::Lower>().ldlt().solve(right);
+}
+
+void measure(PathSurrogate& s,
+             const Eigen::MatrixXd& postures,
+             const Eigen::MatrixXd& truth,
+             const Eigen::VectorXd& default_q,
+             const SurrogateOptions& options) {
+  SurrogateWorkspace w;
+  model::PathResult result;
+  Eigen::VectorXd q = default_q;
+  const Eigen::VectorXd still = Eigen::VectorXd::Zero(q.size());
+  s.length_error_m = s.length_rms_m = s.arm_error_m = s.arm_rms_m = 0.0;
+  for (Eigen::Index row = 0; row < postures.rows(); ++row) {
+    for (Eigen::Index i = 0; i < postures.cols(); ++i) q[s.coordinates[at(i)]] = postures(row, i);
+    evaluate(s, q, still, w, result);
+    const double length = std::abs(result.length_m - truth(row, 0));
+    s.length_error_m = std::max(s.length_error_m, length);
+    s.length_rms_m += length * length;
+    for (Eigen::Index i = 0; i < postures.cols(); ++i) {
+      const double arm = std::abs(result.moment_arm_m[s.coordinates[at(i)]] - truth(row, 1 + i));
+      s.arm_error_m = std::max(s.arm_error_m, arm);
+      s.arm_rms_m += arm * arm;
+    }
+  }
+  s.length_rms_m = std::sqrt(s.length_rms_m / static_cast<double>(postures.rows()));
+  s.arm_rms_m = std::sqrt(s.arm_rms_m / static_cast<double>(std::max<Eigen::Index>(
+                                            1, postures.rows() * postures.cols())));
+  s.within_tolerance =
+      s.length_error_m <= options.length_tolerance_m && s.arm_error_m <= options.arm_tolerance_m;
+}
+
+PathSurrogate fit(const model::BodyModel& model,
+                  const model::Muscle& muscle,
+                  const SurrogateOptions& options) {
+  PathSurrogate s;
+  s.muscle = muscle.name;
+  const auto append = [](Eigen::VectorXd& list, double value) {
+    list.conservativeResize(list.size() + 1);
+    list[list.size() - 1] = value;
+  };
+  const Eigen::VectorXd default_q = model.default_q();
+  for (const int c : acting_coordinates(model, muscle.path)) {
+    const model::CoordinateRange range = model::usual_range(model.coordinates[at(c)]);
+    if (model.is_constrained(c) || !(range.upper > range.lower)) {
+      s.held.push_back(c);
+      append(s.held_at, default_q[c]);
+    } else {
+      s.coordinates.push_back(c);
+      append(s.lower, range.lower);
+      append(s.upper, range.upper);
+    }
+  }
+  TruePath path(model, muscle.path);
+  const auto d = static_cast<int>(s.coordinates.size());
+  if (d == 0) {
+    s.coefficient_m = Eigen::VectorXd::Constant(1, path.at(s, {}).length_m);
+    s.within_tolerance = std::isfinite(s.coefficient_m[0]);
+    return s;
+  }
+  const Eigen::MatrixXd unseen = unseen_postures(s, 400 * d, options.seed);
+  const Eigen::MatrixXd unseen_truth = truth_at(path, s, unseen);
+  PathSurrogate best = s;
+  best.coefficient_m = Eigen::VectorXd::Zero(1);
+  best.length_error_m = best.arm_error_m = std::numeric_limits<double>::infinity();
+  // A path that is somewhere not a number has no polynomial.
+  if (!unseen_truth.allFinite()) return best;
+  const auto badness = [&](const PathSurrogate& x) {
+    return std::max(x.length_error_m / options.length_tolerance_m,
+                    x.arm_error_m / options.arm_tolerance_m);
+  };
+  for (s.degree = 1; s.degree <= options.max_degree; ++s.degree) {
+    const double terms = term_count(d, s.degree);
+    if (terms > options.max_terms) break;
+    options.progress.check();
+    const auto count = static_cast<Eigen::Index>(std::max(100.0, 3.0 * terms));
+    const Eigen::MatrixXd postures = training_postures(s, count, options.seed);
+    const Eigen::MatrixXd truth = truth_at(path, s, postures);
+    if (!truth.allFinite()) break;
+    solve(s, postures, truth, default_q, options);
+    measure(s, unseen, unseen_truth, default_q, options);
+    if (badness(s) < badness(best)) best = s;
+    if (s.within_tolerance) break;
+  }
+  return best;
+}
+
+}  // namespace
+
+double term_count(int coordinates, int degree) {
+  double count = 1.0;
+  for (int k = 1; k <= degree; ++k) count *= static_cast<double>(coordinates + k) / k;
+  return std::round(count);
+}
+
+Eigen::MatrixXi exponents(int coordinates, int degree) {
+  if (coordinates == 0) return Eigen::MatrixXi::Zero(1, 0);
+  Eigen::MatrixXi all(static_cast<Eigen::Index>(term_count(coordinates, degree)), coordinates);
+  Eigen::RowVectorXi row = Eigen::RowVectorXi::Zero(coordinates);
+  Eigen::Index count = 0;
+  for (int sum = 0; sum <= degree; ++sum) add_exponents(sum, 0, row, all, count);
+  return all;
+}
+
+std::vector<int> acting_coordinates(const model::BodyModel& model, const model::MusclePath& path) {
+  std::set<model::BodyIndex> bodies;
+  std::set<int> acting;
+  for (const model::PathPoint& point : path.points) {
+    bodies.insert(point.body);
+    if (point.moving) acting.insert(point.moving->coordinate);
+    if (point.condition) acting.insert(point.condition->coordinate);
+  }
+  for (const model::PathWrap& wrap : path.wraps)
+    bodies.insert(model.wrap_objects[at(wrap.wrap_object)].body);
+  // Joints above one body but not above another.
+  std::vector<std::size_t> times(model.joints.size(), 0);
+  for (model::BodyIndex body : bodies) {
+    while (body != 0) {
+      const auto joint = at(model.joint_of_body[at(body)]);
+      ++times[joint];
+      body = model.joints[joint].parent;
+    }
+  }
+  for (std::size_t j = 0; j < times.size(); ++j) {
+    if (times[j] == 0 || times[j] == bodies.size()) continue;
+    acting.insert(model.joints[j].coordinates.begin(), model.joints[j].coordinates.end());
+  }
+  acting.erase(-1);
+  // What depends on another coordinate is replaced by it, along chains of couplers.
+  for (std::size_t pass = 0; pass < model.couplers.size(); ++pass) {
+    for (const model::CoordinateCoupler& k : model.couplers) {
+      if (acting.erase(k.dependent) > 0) acting.insert(k.independent);
+    }
+  }
+  return {acting.begin(), acting.end()};
+}
+
+std::vector<PathSurrogate> fit_surrogates(const model::BodyModel& model,
+                                          const SurrogateOptions& options) {
+  std::vector<PathSurrogate> all(model.muscles.size());
+  std::atomic<std::size_t> done = 0;
+  oneapi::tbb::parallel_for(std::size_t{0}, all.size(), [&](std::size_t m) {
+    all[m] = fit(model, model.muscles[m], options);
+    options.progress.tell(static_cast<double>(++done) / static_cast<double>(all.size()),
+                          "path surrogates");
+  });
+  return all;
+}
+
+bool covers(const model::BodyModel& model,
+            const PathSurrogate& surrogate,
+            const Eigen::Ref<const Eigen::VectorXd>& q) {
+  for (std::size_t i = 0; i < surrogate.coordinates.size(); ++i) {
+    const double value = q[surrogate.coordinates[i]];
+    const auto k = static_cast<Eigen::Index>(i);
+    if (!(value >= surrogate.lower[k] && value <= surrogate.upper[k])) return false;
+  }
+  for (std::size_t i = 0; i < surrogate.held.size(); ++i) {
+    const double held_at = surrogate.held_at[static_cast<Eigen::Index>(i)];
+    if (!(std::abs(q[surrogate.held[i]] - held_at) <= 1e-12)) return false;
+  }
+  for (const model::CoordinateCoupler& k : model.couplers) {
+    if (!(std::abs(q[k.dependent] - model::evaluate(k.function, q[k.independent]).value) <= 1e-6))
+      return false;
+  }
+  return true;
+}
+
+void evaluate(const PathSurrogate& surrogate,
+              const Eigen::Ref<const Eigen::VectorXd>& q,
+              const Eigen::Ref<const Eigen::VectorXd>& qdot,
+              SurrogateWorkspace& workspace,
+              model::PathResult& result) {
+  const auto d = static_cast<Eigen::Index>(surrogate.coordinates.size());
+  prepare(static_cast<int>(d), surrogate.degree, workspace);
+  fill_tables(surrogate, q, workspace);
+  result.length_m = 0.0;
+  result.speed_mps = 0.0;
+  result.wrapped = false;
+  result.settled = true;
+  result.moment_arm_m.setZero(q.size());
+  for (Eigen::Index k = 0; k < surrogate.coefficient_m.size(); ++k) {
+    const double c = surrogate.coefficient_m[k];
+    double value = c;
+    for (Eigen::Index i = 0; i < d; ++i) value *= workspace.value(workspace.exponents(k, i), i);
+    result.length_m += value;
+    for (Eigen::Index i = 0; i < d; ++i) {
+      if (workspace.exponents(k, i) == 0) continue;
+      double slope = c * workspace.slope(workspace.exponents(k, i), i);
+      for (Eigen::Index j = 0; j < d; ++j) {
+        if (j != i) slope *= workspace.value(workspace.exponents(k, j), j);
+      }
+      result.moment_arm_m[surrogate.coordinates[at(i)]] -= slope;
+    }
+  }
+  for (const int c : surrogate.coordinates) result.speed_mps -= result.moment_arm_m[c] * qdot[c];
+}
+
+}  // namespace myoid::kinematics

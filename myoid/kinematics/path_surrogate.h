@@ -1,0 +1,85 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "myoid/core/progress.h"
+#include "myoid/model/body_model.h"
+#include "myoid/model/muscle_path.h"
+
+namespace myoid::kinematics {
+
+/// The length of one muscle as a polynomial of the coordinates that move it:
+///
+///   l(q) = sum_k c_k prod_i T_{e_ki}(x_i),   x_i = (2 q_i - lower_i - upper_i) / (upper_i -
+///   lower_i)
+///
+/// T Chebyshev polynomials, the sum over all exponents with sum_i e_ki <= degree. Moment arms are
+/// its exact derivatives, r_i = -dl/dq_i. Where couplers drive coordinates, q are the independent
+/// ones, and r_i counts what they take along.
+struct PathSurrogate {
+  std::string muscle;
+  std::vector<int> coordinates;  ///< Indices in the model; none: the length is constant.
+  Eigen::VectorXd lower, upper;  ///< Where it was fitted [rad | m].
+  std::vector<int> held;         ///< Coordinates that act too, but were held (locked ones),
+  Eigen::VectorXd held_at;       ///< at these values.
+  int degree = 0;
+  Eigen::VectorXd coefficient_m;  ///< In the order of `exponents(coordinates, degree)`.
+  /// Greatest and root mean square errors at postures that the fit has not seen.
+  double length_error_m = 0.0, length_rms_m = 0.0;
+  double arm_error_m = 0.0, arm_rms_m = 0.0;
+  bool within_tolerance = false;
+};
+
+struct SurrogateOptions {
+  double length_tolerance_m = 2e-4;
+  double arm_tolerance_m = 1e-3;
+  int max_degree = 9;
+  int max_terms = 500;  ///< Of one muscle; keeps the degree low where many coordinates act.
+  std::uint64_t seed = 1;
+  Progress progress;
+};
+
+/// Number of terms up to a degree: (coordinates + degree) choose degree.
+[[nodiscard]] double term_count(int coordinates, int degree);
+
+/// Exponents of the terms, one row each, in order of their sum: terms x coordinates.
+[[nodiscard]] Eigen::MatrixXi exponents(int coordinates, int degree);
+
+/// Coordinates that may change the path: those of the joints between its bodies, and those that its
+/// moving and conditional points follow, dependent ones replaced by what drives them.
+[[nodiscard]] std::vector<int> acting_coordinates(const model::BodyModel& model,
+                                                  const model::MusclePath& path);
+
+/// One surrogate per muscle, in the model's order, in the mode of `model.compat`: length and moment
+/// arms together by least squares at Sobol points of the coordinates' ranges (at most +-3 rad, +-1
+/// m about the default), locked coordinates at their default. The degree rises from 1 until both
+/// greatest errors are within tolerance; where they never are, the best degree stays, marked so. A
+/// path that jumps cannot be met. Parallel over muscles; the same for every number of threads.
+[[nodiscard]] std::vector<PathSurrogate> fit_surrogates(const model::BodyModel& model,
+                                                        const SurrogateOptions& options = {});
+
+/// Space for `evaluate`, reused from call to call without allocation; one per thread.
+struct SurrogateWorkspace {
+  Eigen::MatrixXd value, slope;  ///< Chebyshev polynomials and derivatives: degree x coordinate.
+  Eigen::MatrixXi exponents;
+  int degree = -1, dimensions = -1;
+};
+
+/// Whether q lies where the surrogate was fitted: within the ranges, held coordinates at their
+/// values (1e-12), dependent ones as their couplers say (1e-6).
+[[nodiscard]] bool covers(const model::BodyModel& model,
+                          const PathSurrogate& surrogate,
+                          const Eigen::Ref<const Eigen::VectorXd>& q);
+
+/// Length, moment arms (zero for coordinates that do not act) and speed of the polynomial.
+void evaluate(const PathSurrogate& surrogate,
+              const Eigen::Ref<const Eigen::VectorXd>& q,
+              const Eigen::Ref<const Eigen::VectorXd>& qdot,
+              SurrogateWorkspace& workspace,
+              model::PathResult& result);
+
+}  // namespace myoid::kinematics

@@ -1,0 +1,150 @@
+// Exact paths at random postures: minus the derivative of the length along a random direction of
+// all coordinates, by differences, against the moment arms. A row per model:
+//
+//   exact_paths [--postures N] [--worst N] MODEL.osim...
+//
+// "kinks" are samples where contact begins or ends within the difference (the derivative of one
+// side is met), "unsettled" where several wrap objects push the path off each other
+// (PathResult::settled), "jumps" where the length itself is another one on both sides; none of them
+// is in "worst".
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "myoid/math/random.h"
+#include "myoid/model/muscle_path.h"
+#include "myoid/model/osim_reader.h"
+#include "myoid/model/path_survey.h"
+
+namespace {
+
+using namespace myoid;
+
+struct Row {
+  long samples = 0, kinks = 0, unsettled = 0, jumps = 0;
+  double worst_m = 0.0;
+  std::map<std::string, long> unsettled_of, jumps_of;
+  std::map<std::string, double> worst_of;
+};
+
+/// Lengths along the line q + s d at s = -2h, -h, 0, h, 2h.
+struct Line {
+  double length_m[5];
+  bool settled = true;
+  double arm_m = 0.0;  ///< r . d at s = 0.
+};
+
+void judge(const std::string& muscle, const Line& line, double h, Row& row) {
+  ++row.samples;
+  if (!line.settled) {
+    ++row.unsettled;
+    ++row.unsettled_of[muscle];
+    return;
+  }
+  const double* l = line.length_m;
+  const double narrow = (l[3] - l[1]) / (2.0 * h);
+  const double wide = (l[4] - l[0]) / (4.0 * h);
+  const double error = std::abs(line.arm_m + (4.0 * narrow - wide) / 3.0);
+  if (error > 1e-6) {
+    const double ahead = (-3.0 * l[2] + 4.0 * l[3] - l[4]) / (2.0 * h);
+    const double behind = (3.0 * l[2] - 4.0 * l[1] + l[0]) / (2.0 * h);
+    const double one_sided = std::min(std::abs(line.arm_m + ahead), std::abs(line.arm_m + behind));
+    if (one_sided < 1e-5) {
+      ++row.kinks;
+      return;
+    }
+    double step = 0.0;
+    for (int i = 0; i < 4; ++i) step = std::max(step, std::abs(l[i + 1] - l[i] + h * line.arm_m));
+    if (step > 1e-7) {
+      ++row.jumps;
+      ++row.jumps_of[muscle];
+      return;
+    }
+  }
+  row.worst_m = std::max(row.worst_m, error);
+  double& worst = row.worst_of[muscle];
+  worst = std::max(worst, error);
+}
+
+Row survey(const model::BodyModel& m, int postures) {
+  const double h = 1e-6;
+  Row row;
+  model::BodyState state = model::make_state(m);
+  model::PathWorkspace workspace;
+  model::PathResult path;
+  std::vector<Line> lines(m.muscles.size());
+  const auto nq = static_cast<Eigen::Index>(m.coordinates.size());
+  for (int k = 0; k < postures; ++k) {
+    const Eigen::VectorXd q = model::random_posture(m, 7, static_cast<std::uint64_t>(k));
+    math::Random random(8, static_cast<std::uint64_t>(k));
+    Eigen::VectorXd d(nq);
+    for (double& x : d) x = 2.0 * random.uniform() - 1.0;
+    d.normalize();
+    for (int s = -2; s <= 2; ++s) {
+      model::compute_poses(m, q + s * h * d, state);
+      for (std::size_t i = 0; i < lines.size(); ++i) {
+        model::compute_path(m, m.muscles[i].path, state, workspace, path);
+        lines[i].length_m[s + 2] = path.length_m;
+        lines[i].settled = path.settled && (s == -2 || lines[i].settled);
+        if (s == 0) lines[i].arm_m = path.moment_arm_m.dot(d);
+      }
+    }
+    for (std::size_t i = 0; i < lines.size(); ++i) judge(m.muscles[i].name, lines[i], h, row);
+  }
+  return row;
+}
+
+template <typename Value>
+void print_greatest(const char* what, const std::map<std::string, Value>& by_muscle, int count) {
+  std::vector<std::pair<Value, std::string>> sorted;
+  for (const auto& [muscle, value] : by_muscle) sorted.push_back({value, muscle});
+  std::sort(sorted.rbegin(), sorted.rend());
+  for (std::size_t i = 0; i < sorted.size() && i < static_cast<std::size_t>(count); ++i)
+    fmt::print("      {} {}: {:.4g}\n", what, sorted[i].second,
+               static_cast<double>(sorted[i].first));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  int postures = 10000;
+  int worst = 0;
+  std::vector<std::filesystem::path> files;
+  for (int i = 1; i < argc; ++i) {
+    const std::string argument = argv[i];
+    if (argument == "--postures" && i + 1 < argc) {
+      postures = std::atoi(argv[++i]);
+    } else if (argument == "--worst" && i + 1 < argc) {
+      worst = std::atoi(argv[++i]);
+    } else {
+      files.emplace_back(argument);
+    }
+  }
+  if (files.empty()) {
+    fmt::print(stderr, "exact_paths [--postures N] [--worst N] MODEL.osim...\n");
+    return 2;
+  }
+  fmt::print("{:<46} {:>8} {:>9} {:>6} {:>9} {:>6}\n", "model", "samples", "worst [m]", "kinks",
+             "unsettled", "jumps");
+  for (const auto& file : files) {
+    try {
+      const model::BodyModel m = model::read_osim(file);
+      const Row row = survey(m, postures);
+      const std::string name = (file.parent_path().filename() / file.filename()).string();
+      fmt::print("{:<46} {:>8} {:>9.1e} {:>6} {:>9} {:>6}\n", name, row.samples, row.worst_m,
+                 row.kinks, row.unsettled, row.jumps);
+      print_greatest("unsettled", row.unsettled_of, worst);
+      print_greatest("jumps", row.jumps_of, worst);
+      if (row.worst_m > 1e-6) print_greatest("worst", row.worst_of, worst);
+    } catch (const std::exception& error) {
+      fmt::print("{:<46} {}\n", file.string(), error.what());
+    }
+  }
+  return 0;
+}
