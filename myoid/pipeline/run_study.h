@@ -15,6 +15,7 @@
 #include "myoid/kinematics/inverse_kinematics.h"
 #include "myoid/kinematics/muscle_kinematics.h"
 #include "myoid/pipeline/study.h"
+#include "myoid/pipeline/trial_input.h"
 #include "myoid/recording/text_file.h"
 #include "myoid/signals/emg_envelope.h"
 
@@ -71,9 +72,27 @@ struct StudyResult {
 struct RunOptions {
   std::optional<double> start_s, end_s;  ///< Of every trial [s]; empty: as the study says.
   Progress progress;
+  /// Forces of static optimization, which methods `paper` and `force` need; the torque method does
+  /// not.
+  bool share_forces = true;
   /// Where inverse kinematics is kept between runs; empty: nowhere.
   std::optional<std::filesystem::path> store;
 };
+
+/// What a study is computed from, as values.
+struct StudyInputs {
+  std::vector<TrialInput> trials;  ///< In the study's order.
+  std::vector<TrueValue> truth;
+  std::vector<InputFile> files;
+};
+
+/// Reads every file of a study. Throws as `run_study`.
+[[nodiscard]] StudyInputs read_inputs(const Study& study);
+
+/// All stages after reading, on inputs that may never have been files. As `run_study` otherwise.
+[[nodiscard]] StudyResult analyse(const Study& study,
+                                  StudyInputs inputs,
+                                  const RunOptions& options = {});
 
 /// All stages in order: EMG, motion, inverse dynamics, muscle paths, force sharing, identification,
 /// cross-validation; trials in parallel, the same numbers for every number of threads. Throws

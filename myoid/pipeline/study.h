@@ -30,6 +30,7 @@ struct HeldMassSpec {
 
 struct ModelSpec {
   std::optional<std::filesystem::path> file;  ///< .osim
+  std::string text;  ///< Of the model, instead of the file's: a study that is not on disk.
   std::string builtin;                        ///< "arm4" when there is no file.
   std::optional<double> upper_arm_length_m;   ///< Of the built-in arm.
   std::optional<double> forearm_length_m;     ///< Of the built-in arm: elbow to wrist.
