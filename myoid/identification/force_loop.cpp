@@ -45,6 +45,7 @@ struct Shared {
 
 Shared share_all(StudyData& data,
                  const std::vector<MuscleValues>& muscles,
+                 double delay_s,
                  const InformedSharing& options) {
   Shared shared;
   double changed = 0.0;
@@ -52,7 +53,8 @@ Shared share_all(StudyData& data,
   double reserve = 0.0;
   double samples = 0.0;
   for (TrialData& trial : data.trials) {
-    InformedForces found = informed_forces(data, trial, muscles, options);
+    InformedForces found = informed_forces(
+        trial, muscle_activation(data, trial, trial.time_s, delay_s), muscles, options);
     if (trial.force_n.rows() == found.force_n.rows())
       changed += (found.force_n - trial.force_n).squaredNorm();
     forces += found.force_n.squaredNorm();
@@ -115,21 +117,22 @@ std::string_view name(LoopEnd end) {
   return "?";
 }
 
-InformedForces informed_forces(const StudyData& data,
-                               const TrialData& trial,
+InformedForces informed_forces(const TrialData& trial,
+                               const Eigen::MatrixXd& measured,
                                const std::vector<MuscleValues>& muscles,
                                const InformedSharing& options) {
   const Eigen::Index n = trial.time_s.size();
   const auto m = static_cast<Eigen::Index>(muscles.size());
   if (trial.torque_nm.size() != n || trial.moment_arm_m.rows() != n ||
-      trial.moment_arm_m.cols() != m || trial.length_m.cols() != m) {
-    throw InvalidInput(
-        fmt::format("trial '{}' has no torque or moment arms for {} muscles", trial.name, m));
+      trial.moment_arm_m.cols() != m || trial.length_m.cols() != m || measured.rows() != n ||
+      measured.cols() != m) {
+    throw InvalidInput(fmt::format(
+        "trial '{}' has no torque, moment arms or activations for {} muscles", trial.name, m));
   }
   InformedForces result{.trial = trial.name,
                         .time_s = trial.time_s,
                         .activation = Eigen::MatrixXd(n, m),
-                        .measured = muscle_activation(data, trial, trial.time_s, options.delay_s),
+                        .measured = measured,
                         .force_n = Eigen::MatrixXd(n, m),
                         .reserve_nm = Eigen::VectorXd(n)};
   Eigen::MatrixXd rest(n, m);
@@ -179,19 +182,19 @@ InformedForces informed_forces(const StudyData& data,
 ForceLoop iterate_forces(StudyData data, const ForceLoopOptions& options) {
   validate(data);
   ForceLoop loop;
-  InformedSharing sharing = options.sharing;
+  double delay_s = options.delay_s;
   std::vector<MuscleValues> muscles;
   for (const MuscleSetup& setup : data.muscles)
     muscles.push_back(muscle_values(setup.start, setup.extras));
-  Shared shared = share_all(data, muscles, sharing);
+  Shared shared = share_all(data, muscles, delay_s, options.sharing);
   for (int round = 0; round < options.max_rounds; ++round) {
     options.force.estimator.progress.check();
     loop.fit = identify_force(data, options.force);
     const std::vector<MuscleValues> found = values_of(data, loop.fit);
     const Change change = change_of(data.muscles, muscles, found);
     muscles = found;
-    sharing.delay_s = found_delay(loop.fit, sharing.delay_s);
-    shared = share_all(data, muscles, sharing);
+    delay_s = found_delay(loop.fit, delay_s);
+    shared = share_all(data, muscles, delay_s, options.sharing);
     loop.rounds.push_back({.parameter_change = change.size,
                            .parameter = change.where,
                            .force_change = shared.force_change,

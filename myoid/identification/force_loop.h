@@ -17,7 +17,6 @@ namespace myoid::identification {
 struct InformedSharing {
   double emg_weight = 10.0;  ///< W; 0: static optimization, the EMG counts for nothing.
   double reserve_nm = 1.0;   ///< Optimal torque of the reserve.
-  double delay_s = 0.0;      ///< From EMG to activation.
 };
 
 /// Forces of one trial, n samples, m muscles.
@@ -36,18 +35,20 @@ struct InformedForces {
 ///   minimize  W sum_i (a_i - e_i)^2 + sum_i a_i^2 + y^2   subject to
 ///   sum_i r_i F_i(a_i) + y T = torque,   0 <= a_i <= 1
 ///
-/// e the measured activation, T `reserve_nm`, F_i the tension of muscle_law.h, taken as linear in
-/// a_i between 0 and 1 (exact for the paper's law; with gamma or an elastic tendon the force
-/// returned is that of the law at the activation found, and the reserve carries the difference).
-/// Antagonists may act together as far as the EMG shows it. Throws InvalidInput if sizes disagree.
-[[nodiscard]] InformedForces informed_forces(const StudyData& data,
-                                             const TrialData& trial,
+/// e the `measured` activation of each muscle's EMG channel (n x m) times its share, T
+/// `reserve_nm`, F_i the tension of muscle_law.h, taken as linear in a_i between 0 and 1 (exact for
+/// the paper's law; with gamma or an elastic tendon the force returned is that of the law at the
+/// activation found, and the reserve carries the difference). Antagonists may act together as far
+/// as the EMG shows it. Throws InvalidInput if sizes disagree.
+[[nodiscard]] InformedForces informed_forces(const TrialData& trial,
+                                             const Eigen::MatrixXd& measured,
                                              const std::vector<MuscleValues>& muscles,
                                              const InformedSharing& options = {});
 
 struct ForceLoopOptions {
-  ForceOptions force;       ///< Of the fit in every round.
-  InformedSharing sharing;  ///< Its delay is the first round's; then the one that was found.
+  ForceOptions force;  ///< Of the fit in every round.
+  InformedSharing sharing;
+  double delay_s = 0.0;  ///< From EMG to activation in the first round; then the one found.
   int max_rounds = 50;
   double tolerance = 1e-3;  ///< Largest relative change of a parameter in a round.
 };

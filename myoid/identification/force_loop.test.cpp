@@ -21,6 +21,10 @@ std::vector<MuscleValues> values_of(const Muscles& muscles) {
   return values;
 }
 
+Eigen::MatrixXd trial_activation(const ElbowStudy& study, const TrialData& trial) {
+  return muscle_activation(study.data, trial, trial.time_s, study.delay_s);
+}
+
 ElbowStudy short_study() {
   return elbow_study(
       {.trials = 2, .seconds = 8.0, .rate_hz = 50.0, .delay_s = 0.0, .with_priors = true});
@@ -31,8 +35,8 @@ TEST(InformedForces, WithTheTrueMusclesTheTrueForcesNeedNoReserve) {
   for (const TrialData& trial : study.data.trials) {
     // The muscles are right and so is the EMG: a = e balances the torque. A term sum a^2 beside
     // W sum (a - e)^2 would pull a towards zero by about 1 / W.
-    const InformedForces found =
-        informed_forces(study.data, trial, values_of(study.truth), {.emg_weight = 1e6});
+    const InformedForces found = informed_forces(trial, trial_activation(study, trial),
+                                                 values_of(study.truth), {.emg_weight = 1e6});
     EXPECT_LT((found.activation - found.measured).cwiseAbs().maxCoeff(), 1e-5);
     EXPECT_LT((found.force_n - trial.force_n).cwiseAbs().maxCoeff(), 0.01);
     EXPECT_LT(found.reserve_nm.cwiseAbs().maxCoeff(), 1e-3);
@@ -44,8 +48,9 @@ TEST(InformedForces, TheTorqueIsAlwaysBalanced) {
   const ElbowStudy study = short_study();
   const TrialData& trial = study.data.trials[0];
   for (const double weight : {0.0, 1.0, 100.0}) {
-    const InformedForces found = informed_forces(
-        study.data, trial, values_of(model::arm4_muscles()), {.emg_weight = weight});
+    const InformedForces found =
+        informed_forces(trial, trial_activation(study, trial), values_of(model::arm4_muscles()),
+                        {.emg_weight = weight});
     const Eigen::VectorXd torque =
         trial.moment_arm_m.cwiseProduct(found.force_n).rowwise().sum() + found.reserve_nm;
     EXPECT_LT((torque - trial.torque_nm).cwiseAbs().maxCoeff(), 1e-9);
@@ -60,8 +65,10 @@ TEST(InformedForces, WithoutTheEmgAntagonistsNeverActTogether) {
   const ElbowStudy study = short_study();
   const TrialData& trial = study.data.trials[0];
   const auto muscles = values_of(study.truth);
-  const InformedForces blind = informed_forces(study.data, trial, muscles, {.emg_weight = 0.0});
-  const InformedForces seeing = informed_forces(study.data, trial, muscles, {.emg_weight = 10.0});
+  const InformedForces blind =
+      informed_forces(trial, trial_activation(study, trial), muscles, {.emg_weight = 0.0});
+  const InformedForces seeing =
+      informed_forces(trial, trial_activation(study, trial), muscles, {.emg_weight = 10.0});
   for (Eigen::Index i = 0; i < trial.time_s.size(); ++i) {
     const double flexors = blind.activation.row(i).head(3).maxCoeff();
     EXPECT_LT(std::min(flexors, blind.activation(i, 3)), 1e-6);

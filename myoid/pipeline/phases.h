@@ -43,6 +43,12 @@ struct PhaseSignals {
   TimeSeries median_frequency_hz;  ///< signals/spectrum.h; may be empty, values may be NaN.
 };
 
+/// Phases of one trial of a study.
+struct TrialPhases {
+  std::string trial;
+  std::vector<Phase> phases;
+};
+
 struct PhaseOptions {
   double still_radps = 0.1;  ///< Root mean square of the rate over 1 s below which nothing moves.
   double rest_activation = 0.03;  ///< Mean activation below which a still muscle rests.

@@ -17,6 +17,7 @@
 #include "myoid/pipeline/quality_gates.h"
 #include "myoid/pipeline/stage_store.h"
 #include "myoid/pipeline/study_model.h"
+#include "myoid/pipeline/study_phases.h"
 #include "myoid/pipeline/trial_input.h"
 #include "myoid/recording/csv_reader.h"
 #include "myoid/signals/resample.h"
@@ -420,6 +421,10 @@ StudyResult analyse(const Study& study, StudyInputs given, const RunOptions& opt
         continue;
       result.data.trials.push_back(trial_data(study, trial, groups));
     }
+    if (study.phases.search && !result.data.trials.empty()) {
+      result.phases = study_phases(result, torque_options(study, result, options.progress));
+      exclude_phases(study.phases.exclude, result.phases, result.data);
+    }
     for (const std::string& method : study.identify.methods) {
       if (method == "paper") {
         result.methods.push_back(identification::identify_paper(
@@ -436,6 +441,24 @@ StudyResult analyse(const Study& study, StudyInputs given, const RunOptions& opt
       }
     }
   });
+  for (const identification::IdentificationResult& method : result.methods) {
+    if (method.method != "torque") continue;
+    for (const identification::TrialData& trial : result.data.trials) {
+      const identification::Prediction p =
+          identification::predict(result.data, trial, method.values, method.dynamics);
+      result.informed.push_back(
+          identification::informed_forces(trial, p.activation, method.values.muscles));
+    }
+  }
+  if (study.identify.force_loop) {
+    stages.run("forces and parameters", 0.8, [&] {
+      identification::EstimatorOptions estimator = torque_options(study, result, options.progress);
+      estimator.intervals = {};
+      result.force_loop = identification::iterate_forces(
+          result.data,
+          {.force = {.estimator = std::move(estimator), .shared_forces = true}, .delay_s = 0.06});
+    });
+  }
   const bool torque = std::find(study.identify.methods.begin(), study.identify.methods.end(),
                                 "torque") != study.identify.methods.end();
   if (study.identify.cross_validate && torque) {

@@ -10,10 +10,12 @@
 #include "myoid/core/provenance.h"
 #include "myoid/forces/force_sharing.h"
 #include "myoid/identification/cross_validation.h"
+#include "myoid/identification/force_loop.h"
 #include "myoid/identification/paper.h"
 #include "myoid/identification/torque.h"
 #include "myoid/kinematics/inverse_kinematics.h"
 #include "myoid/kinematics/muscle_kinematics.h"
+#include "myoid/pipeline/phases.h"
 #include "myoid/pipeline/study.h"
 #include "myoid/pipeline/trial_input.h"
 #include "myoid/recording/text_file.h"
@@ -63,6 +65,11 @@ struct StudyResult {
   identification::StudyData data;                            ///< What the estimators saw.
   std::vector<identification::IdentificationResult> methods;
   std::vector<identification::Fold> folds;
+  std::vector<TrialPhases> phases;  ///< Of the trials of `data`; empty: not searched.
+  /// Forces and activations with the identified muscles, informed by the EMG; of the trials of
+  /// `data`. Empty without method torque.
+  std::vector<identification::InformedForces> informed;
+  std::optional<identification::ForceLoop> force_loop;  ///< If the study asks for it.
   std::vector<TrueValue> truth;
   std::vector<StageTime> times;
   std::vector<InputFile> inputs;
