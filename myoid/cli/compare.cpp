@@ -62,7 +62,7 @@ void add_compare(CLI::App& app, Context& context) {
   command.add_option("first", options->first, "Folder of a run (with parameters.json)")->required();
   command.add_option("second", options->second, "Folder of the run to compare it with")->required();
   command.add_option("--out", options->out, "Folder for report.html, figures and tables");
-  add_common_options(command, context);
+  add_common_options(command, context, {.threads = false, .seed = false, .range = false});
   command.callback([&context, options] {
     const pipeline::RunComparison comparison =
         pipeline::compare_runs(options->first, options->second);

@@ -101,7 +101,7 @@ void add_twin_study(CLI::App& app, Context& context) {
   command.add_flag("--each-muscle", options->each_muscle, "A line for each muscle too");
   command.add_option("--out", options->out, "Folder for persons.csv, summary.csv, predictions.csv")
       ->required();
-  add_common_options(command, context);
+  add_common_options(command, context, {.range = false});
   command.callback([&context, options] {
     std::optional<simulation::Level> level;
     for (const simulation::Level known :

@@ -34,7 +34,7 @@ std::vector<Eigen::Index> included_rows(const TrialData& trial) {
     const double t = trial.time_s[i];
     const bool excluded =
         std::any_of(trial.excluded.begin(), trial.excluded.end(),
-                    [t](const Interval& x) { return t >= x.begin_s && t <= x.end_s; });
+                    [t](const Stretch& x) { return t >= x.begin_s && t <= x.end_s; });
     if (!excluded) rows.push_back(i);
   }
   return rows;

@@ -48,7 +48,7 @@ struct JointData {
 };
 
 /// A stretch of time, ends included.
-struct Interval {
+struct Stretch {
   double begin_s = 0.0, end_s = 0.0;
 };
 
@@ -69,7 +69,7 @@ struct TrialData {
   Eigen::VectorXd angle_rad, velocity_radps, acceleration_radps2;  ///< Of it: empty, or n.
   std::vector<JointData> more_joints;  ///< Method `torque` fits them too.
   /// Predicted, but neither fitted nor scored: warm-up, fatigue, what a study's rule leaves out.
-  std::vector<Interval> excluded;
+  std::vector<Stretch> excluded;
 };
 
 struct StudyData {
@@ -83,7 +83,7 @@ struct StudyData {
 [[nodiscard]] std::map<std::string, Prior> literature_priors(
     const muscle::HillParameters<double>& start);
 
-/// Samples of a trial that no excluded interval holds, in order.
+/// Samples of a trial that no excluded stretch holds, in order.
 [[nodiscard]] std::vector<Eigen::Index> included_rows(const TrialData& trial);
 
 /// Throws InvalidInput, naming trial and muscle, unless sizes agree, values are finite and every
