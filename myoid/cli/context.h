@@ -76,6 +76,7 @@ void add_common_options(CLI::App& command, Context& context, const CommonOptions
 
 // One per command, each in a file of its own.
 void add_check(CLI::App& app, Context& context);
+void add_compare(CLI::App& app, Context& context);
 void add_convert(CLI::App& app, Context& context);
 void add_design(CLI::App& app, Context& context);
 void add_emg(CLI::App& app, Context& context);
@@ -90,5 +91,6 @@ void add_run(CLI::App& app, Context& context);
 void add_simulate(CLI::App& app, Context& context);
 void add_so(CLI::App& app, Context& context);
 void add_twin(CLI::App& app, Context& context);
+void add_twin_study(CLI::App& app, Context& context);
 
 }  // namespace myoid::cli

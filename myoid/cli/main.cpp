@@ -52,6 +52,7 @@ int run(int argc, char** argv, myoid::cli::Context& context) {
       "             myoid run rec/study.toml --out results");
   myoid::cli::add_run(app, context);
   myoid::cli::add_check(app, context);
+  myoid::cli::add_compare(app, context);
   myoid::cli::add_info(app, context);
   myoid::cli::add_convert(app, context);
   myoid::cli::add_emg(app, context);
@@ -63,6 +64,7 @@ int run(int argc, char** argv, myoid::cli::Context& context) {
   myoid::cli::add_muscle(app, context);
   myoid::cli::add_simulate(app, context);
   myoid::cli::add_twin(app, context);
+  myoid::cli::add_twin_study(app, context);
   myoid::cli::add_design(app, context);
   myoid::cli::add_report(app, context);
   try {

@@ -156,7 +156,8 @@ void add_run(CLI::App& app, Context& context) {
       }
     }
     if (context.json) {
-      fmt::print("{}", pipeline::parameters_json(result.methods, result.folds, provenance));
+      fmt::print(
+          "{}", pipeline::parameters_json(result.methods, result.folds, provenance, result.phases));
     } else {
       print_results(result, gates);
       const double seconds =

@@ -112,6 +112,7 @@ Eigen::VectorXd joined(const std::vector<Eigen::VectorXd>& parts) {
 
 Score score(const Eigen::VectorXd& measured, const Eigen::VectorXd& predicted) {
   Score s;
+  if (measured.size() == 0) return s;
   const Eigen::VectorXd error = predicted - measured;
   const auto n = static_cast<double>(measured.size());
   s.rmse_nm = std::sqrt(error.squaredNorm() / n);
@@ -206,19 +207,23 @@ std::vector<Fold> cross_validate(const StudyData& data,
     std::vector<Eigen::VectorXd> time, measured, predicted, by_literature, by_regression, by_paper;
     double lag = 0.0;
     for (const TrialData& t : split.held) {
-      time.push_back(t.time_s);
-      measured.push_back(t.torque_nm);
-      predicted.push_back(predict(data, t, fit.values, fit.dynamics).torque_nm);
-      by_literature.push_back(fold.gain * predict(data, t, literature, literature_delay).torque_nm);
-      by_regression.push_back(regressors(data, t, fit.delay_s) * slopes);
+      const std::vector<Eigen::Index> rows = included_rows(t);
+      const Eigen::VectorXd whole = predict(data, t, fit.values, fit.dynamics).torque_nm;
+      const Eigen::VectorXd before = predict(data, t, literature, literature_delay).torque_nm;
+      const Eigen::VectorXd regressed = regressors(data, t, fit.delay_s) * slopes;
+      time.emplace_back(t.time_s(rows));
+      measured.emplace_back(t.torque_nm(rows));
+      predicted.emplace_back(whole(rows));
+      by_literature.emplace_back(fold.gain * before(rows));
+      by_regression.emplace_back(regressed(rows));
       if (forces) {
         const Eigen::MatrixXd slow = predict(data, t, shortening, 0.0).force_n;
         const Eigen::MatrixXd fast = predict(data, t, lengthening, 0.0).force_n;
         const Eigen::MatrixXd force = (t.velocity_mps.array() <= 0.0).select(slow, fast);
-        by_paper.push_back(t.moment_arm_m.cwiseProduct(force).rowwise().sum());
+        const Eigen::VectorXd paper = t.moment_arm_m.cwiseProduct(force).rowwise().sum();
+        by_paper.emplace_back(paper(rows));
       }
-      lag += best_lag_s(t.time_s, t.torque_nm, predicted.back()) /
-             static_cast<double>(split.held.size());
+      lag += best_lag_s(t.time_s, t.torque_nm, whole) / static_cast<double>(split.held.size());
     }
     fold.time_s = joined(time);
     fold.measured_nm = joined(measured);

@@ -32,6 +32,7 @@ StudyData force_study(const StudyData& data, std::size_t muscle) {
     t.torque_nm = trial.force_n.col(column);
     t.force_n = trial.force_n.col(column);
     t.activation = trial.activation;
+    t.excluded = trial.excluded;
     one.trials.push_back(std::move(t));
   }
   for (const ParameterRule& rule : data.rules) {
@@ -140,9 +141,12 @@ IdentificationResult identify_force(const StudyData& data, const ForceOptions& o
     fit.literature_torque_nm =
         trial.moment_arm_m.cwiseProduct(fit.literature_force_n).rowwise().sum();
     fit.torque_fit_nm = trial.moment_arm_m.cwiseProduct(fit.force_fit_n).rowwise().sum();
-    fit.rmse_nm = std::sqrt((fit.torque_fit_nm - trial.torque_nm).squaredNorm() /
-                            static_cast<double>(trial.time_s.size()));
-    fit.r2 = coefficient_of_determination(trial.torque_nm, fit.torque_fit_nm);
+    const std::vector<Eigen::Index> rows = included_rows(trial);
+    const Eigen::VectorXd measured = trial.torque_nm(rows);
+    const Eigen::VectorXd predicted = fit.torque_fit_nm(rows);
+    fit.rmse_nm = std::sqrt((predicted - measured).squaredNorm() /
+                            std::max(1.0, static_cast<double>(rows.size())));
+    fit.r2 = coefficient_of_determination(measured, predicted);
   }
   all.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return all;

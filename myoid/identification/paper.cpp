@@ -39,7 +39,7 @@ CaseData collect(const StudyData& data, std::size_t muscle, bool shortening) {
     }
     const Eigen::MatrixXd activation = muscle_activation(data, trial, trial.time_s, 0.0);
     Eigen::Index run = 0;
-    for (Eigen::Index i = 0; i < trial.time_s.size(); ++i) {
+    for (const Eigen::Index i : included_rows(trial)) {
       const double v = trial.velocity_mps(i, column);
       const bool here = (v <= 0.0) == shortening;
       const bool informative =

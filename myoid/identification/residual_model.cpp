@@ -93,18 +93,34 @@ void ResidualModel::add_trial(const StudyData& data, int index, const EstimatorO
   const double edge_s = std::min(0.1, 0.02 * span);
   const Eigen::VectorXd& clock = trial.activation.time_s();
   const double reach_s = std::min(map_.longest_delay_s(), 0.1 * span);
-  std::vector<Eigen::Index> rows;
+  std::vector<bool> included(static_cast<std::size_t>(all), false);
+  for (const Eigen::Index i : included_rows(trial)) included[static_cast<std::size_t>(i)] = true;
+  // One block for every run of samples without a hole: no filter reaches across.
+  std::vector<std::vector<Eigen::Index>> runs(1);
   for (Eigen::Index i = 0; i < all; i += stride) {
     const double t = trial.time_s[i];
-    const bool inside = t >= trial.time_s[0] + edge_s && t <= trial.time_s[all - 1] - edge_s &&
-                        t - reach_s >= clock[0] - 1e-9 && t <= clock[clock.size() - 1] + 1e-9;
+    const bool inside = included[static_cast<std::size_t>(i)] && t >= trial.time_s[0] + edge_s &&
+                        t <= trial.time_s[all - 1] - edge_s && t - reach_s >= clock[0] - 1e-9 &&
+                        t <= clock[clock.size() - 1] + 1e-9;
     if (inside) {
-      rows.push_back(i);
+      runs.back().push_back(i);
     } else {
       ++dropped_;
+      if (!runs.back().empty()) runs.emplace_back();
     }
   }
-  if (rows.size() < 2) return;
+  for (const std::vector<Eigen::Index>& rows : runs) {
+    if (rows.size() >= 2) add_block(data, index, rows, options);
+  }
+}
+
+void ResidualModel::add_block(const StudyData& data,
+                              int index,
+                              const std::vector<Eigen::Index>& rows,
+                              const EstimatorOptions& options) {
+  const TrialData& trial = data.trials[static_cast<std::size_t>(index)];
+  const Eigen::Index all = trial.time_s.size();
+  const Eigen::VectorXd& clock = trial.activation.time_s();
   const auto n = static_cast<Eigen::Index>(rows.size());
   Block block;
   block.trial = index;

@@ -67,6 +67,10 @@ class ResidualModel {
     std::vector<math::SecondOrderSection> filter;
   };
   void add_trial(const StudyData& data, int trial, const EstimatorOptions& options);
+  void add_block(const StudyData& data,
+                 int trial,
+                 const std::vector<Eigen::Index>& rows,
+                 const EstimatorOptions& options);
   void evaluate_block(const Block& block,
                       const ModelValues& values,
                       const std::vector<ParameterMap::Chain>& chains,

@@ -28,6 +28,18 @@ std::map<std::string, Prior> literature_priors(const muscle::HillParameters<doub
   return priors;
 }
 
+std::vector<Eigen::Index> included_rows(const TrialData& trial) {
+  std::vector<Eigen::Index> rows;
+  for (Eigen::Index i = 0; i < trial.time_s.size(); ++i) {
+    const double t = trial.time_s[i];
+    const bool excluded =
+        std::any_of(trial.excluded.begin(), trial.excluded.end(),
+                    [t](const Stretch& x) { return t >= x.begin_s && t <= x.end_s; });
+    if (!excluded) rows.push_back(i);
+  }
+  return rows;
+}
+
 void validate(const StudyData& data) {
   if (data.muscles.empty()) throw InvalidInput("identification: there are no muscles");
   if (data.trials.empty()) throw InvalidInput("identification: there are no trials");

@@ -47,6 +47,11 @@ struct JointData {
   Eigen::VectorXd angle_rad, velocity_radps, acceleration_radps2;  ///< Empty, or n.
 };
 
+/// A stretch of time, ends included.
+struct Stretch {
+  double begin_s = 0.0, end_s = 0.0;
+};
+
 /// One trial on the clock of the motion: n samples, m muscles.
 struct TrialData {
   std::string name;
@@ -63,6 +68,8 @@ struct TrialData {
   std::string joint = "joint";  ///< Name of the joint of `torque_nm`.
   Eigen::VectorXd angle_rad, velocity_radps, acceleration_radps2;  ///< Of it: empty, or n.
   std::vector<JointData> more_joints;  ///< Method `torque` fits them too.
+  /// Predicted, but neither fitted nor scored: warm-up, fatigue, what a study's rule leaves out.
+  std::vector<Stretch> excluded;
 };
 
 struct StudyData {
@@ -75,6 +82,9 @@ struct StudyData {
 /// the spread of the slope ratio (ln S 0.5) in place of that of V_sh V_shl where V_ml > 1.
 [[nodiscard]] std::map<std::string, Prior> literature_priors(
     const muscle::HillParameters<double>& start);
+
+/// Samples of a trial that no excluded stretch holds, in order.
+[[nodiscard]] std::vector<Eigen::Index> included_rows(const TrialData& trial);
 
 /// Throws InvalidInput, naming trial and muscle, unless sizes agree, values are finite and every
 /// EMG channel is there.

@@ -31,9 +31,12 @@ void add_predictions(const StudyData& data,
     Prediction before = predict(data, trial, literature, options.dynamics);
     Prediction after = predict(data, trial, result.values, options.dynamics);
     if (after.torque_nm.size() == trial.torque_nm.size()) {
-      fit.rmse_nm = std::sqrt((after.torque_nm - trial.torque_nm).squaredNorm() /
-                              static_cast<double>(trial.time_s.size()));
-      fit.r2 = coefficient_of_determination(trial.torque_nm, after.torque_nm);
+      const std::vector<Eigen::Index> rows = included_rows(trial);
+      const Eigen::VectorXd measured = trial.torque_nm(rows);
+      const Eigen::VectorXd predicted = after.torque_nm(rows);
+      fit.rmse_nm = std::sqrt((predicted - measured).squaredNorm() /
+                              std::max(1.0, static_cast<double>(rows.size())));
+      fit.r2 = coefficient_of_determination(measured, predicted);
     }
     fit.literature_force_n = std::move(before.force_n);
     fit.literature_torque_nm = std::move(before.torque_nm);
@@ -67,13 +70,13 @@ Prediction predict(const StudyData& data,
                    const TrialData& trial,
                    const std::vector<muscle::HillParameters<double>>& muscles,
                    double delay_s) {
-  const Eigen::MatrixXd activation = muscle_activation(data, trial, trial.time_s, delay_s);
   Prediction p;
+  p.activation = muscle_activation(data, trial, trial.time_s, delay_s);
   p.force_n.resize(trial.time_s.size(), trial.length_m.cols());
   for (Eigen::Index k = 0; k < p.force_n.cols(); ++k) {
     const auto& parameters = muscles[static_cast<std::size_t>(k)];
     for (Eigen::Index i = 0; i < p.force_n.rows(); ++i) {
-      p.force_n(i, k) = muscle::hill_force(activation(i, k),
+      p.force_n(i, k) = muscle::hill_force(p.activation(i, k),
                                            trial.length_m(i, k) - parameters.tendon_slack_length_m,
                                            trial.velocity_mps(i, k), parameters);
     }
@@ -90,6 +93,7 @@ Prediction predict(const StudyData& data,
   const Eigen::Index n = trial.time_s.size();
   Prediction p;
   p.force_n.resize(n, trial.length_m.cols());
+  p.activation.resize(n, trial.length_m.cols());
   std::vector<std::string> channels;
   std::vector<std::vector<Activation>> activations;
   for (std::size_t k = 0; k < data.muscles.size(); ++k) {
@@ -104,10 +108,10 @@ Prediction predict(const StudyData& data,
     }
     const auto column = static_cast<Eigen::Index>(k);
     for (Eigen::Index i = 0; i < n; ++i) {
-      p.force_n(i, column) =
-          tension(activations[c][static_cast<std::size_t>(i)].value, trial.length_m(i, column),
-                  trial.velocity_mps(i, column), values.muscles[k])
-              .force_n;
+      p.activation(i, column) = activations[c][static_cast<std::size_t>(i)].value;
+      p.force_n(i, column) = tension(p.activation(i, column), trial.length_m(i, column),
+                                     trial.velocity_mps(i, column), values.muscles[k])
+                                 .force_n;
     }
   }
   if (trial.moment_arm_m.rows() == n) {

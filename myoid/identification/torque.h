@@ -44,8 +44,9 @@ using TorqueOptions = EstimatorOptions;
 
 /// Torque of each muscle set over a trial with given parameters, delay and gains of 1.
 struct Prediction {
-  Eigen::MatrixXd force_n;    ///< n x m
-  Eigen::VectorXd torque_nm;  ///< n
+  Eigen::MatrixXd force_n;     ///< n x m
+  Eigen::VectorXd torque_nm;   ///< n
+  Eigen::MatrixXd activation;  ///< n x m: of each muscle's EMG channel.
 };
 [[nodiscard]] Prediction predict(const StudyData& data,
                                  const TrialData& trial,

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
+#include "myoid/math/statistics.h"
 
 namespace myoid::math {
 namespace {
@@ -33,12 +34,6 @@ void validate(const Eigen::MatrixXd& x, const ChangePointOptions& options) {
       (options.noise_sd->size() != x.cols() || !(options.noise_sd->array() > 0.0).all())) {
     throw InvalidInput(fmt::format("change points: noise_sd needs {} positive values", x.cols()));
   }
-}
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 Eigen::VectorXd noise_from_differences(const Eigen::MatrixXd& x) {

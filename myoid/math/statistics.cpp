@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "myoid/core/error.h"
 #include "myoid/core/units.h"
@@ -20,6 +21,14 @@ double normal_quantile(double p) {
     (distribution(middle) < p ? low : high) = middle;
   }
   return 0.5 * (low + high);
+}
+
+double median(std::vector<double> values) {
+  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return values.size() % 2 == 1 ? *middle
+                                : 0.5 * (*middle + *std::max_element(values.begin(), middle));
 }
 
 double effective_sample_size(const Eigen::Ref<const Eigen::VectorXd>& x,

@@ -10,6 +10,9 @@ namespace myoid::math {
 /// outside.
 [[nodiscard]] double normal_quantile(double p);
 
+/// The middle value, or the mean of the two middle ones; NaN of none.
+[[nodiscard]] double median(std::vector<double> values);
+
 /// Independent samples that n correlated ones are worth: n / (1 + 2 sum_k rho_k), the sum over lags
 /// up to the first autocorrelation that is not positive. Sums run within `pieces` (lengths of
 /// consecutive stretches), never across. At least 1.

@@ -20,6 +20,12 @@ Eigen::VectorXd autoregressive(Eigen::Index n, double rho) {
   return x;
 }
 
+TEST(Median, IsTheMiddleOrTheMeanOfTheTwoInTheMiddle) {
+  EXPECT_EQ(median({5.0, 1.0, 3.0}), 3.0);
+  EXPECT_EQ(median({4.0, 1.0, 3.0, 100.0}), 3.5);
+  EXPECT_TRUE(std::isnan(median({})));
+}
+
 TEST(NormalQuantile, HasTheTabulatedValues) {
   EXPECT_NEAR(normal_quantile(0.975), 1.959963984540054, 1e-12);
   EXPECT_NEAR(normal_quantile(0.5), 0.0, 1e-12);

@@ -96,6 +96,26 @@ TimeSeries identified_forces(const StudyResult& result,
   return {data.time_s, std::move(channels), values.array().isFinite().select(values, 0.0)};
 }
 
+void write_informed_forces(const StudyResult& result,
+                           const identification::InformedForces& forces,
+                           const std::filesystem::path& folder,
+                           const std::vector<std::string>& comments) {
+  std::vector<Channel> in_newtons, activations;
+  for (const identification::MuscleSetup& muscle : result.data.muscles) {
+    in_newtons.push_back({muscle.name, Unit::newton});
+    activations.push_back({muscle.name, Unit::dimensionless});
+  }
+  in_newtons.push_back({result.study.model.coordinate + "_reserve", Unit::newton_meter});
+  Eigen::MatrixXd values(forces.force_n.rows(), forces.force_n.cols() + 1);
+  values << forces.force_n, forces.reserve_nm;
+  recording::write_storage(folder / "EmgInformed_force.sto",
+                           {forces.time_s, std::move(in_newtons), std::move(values)},
+                           {.title = "Forces informed by the EMG", .comments = comments});
+  recording::write_storage(folder / "EmgInformed_activation.sto",
+                           {forces.time_s, std::move(activations), forces.activation},
+                           {.title = "Activations informed by the EMG", .comments = comments});
+}
+
 /// Only numbers that are `identified`; F_max only if it means the maximum (EMG relative to an MVC);
 /// no model at all if the motion failed its gates.
 void write_identified_model(const StudyResult& result, const std::filesystem::path& folder) {
@@ -153,7 +173,8 @@ std::string parameters_csv(const std::vector<IdentificationResult>& methods) {
 
 std::string parameters_json(const std::vector<IdentificationResult>& methods,
                             const std::vector<identification::Fold>& folds,
-                            const Provenance& provenance) {
+                            const Provenance& provenance,
+                            const std::vector<TrialPhases>& phases) {
   ordered_json json;
   json["provenance"] = provenance_json(provenance);
   json["methods"] = ordered_json::array();
@@ -243,6 +264,19 @@ std::string parameters_json(const std::vector<IdentificationResult>& methods,
                         {"r2", number_or_null(s.r2)},
                         {"vaf", number_or_null(s.vaf)}};
   };
+  json["segments"] = ordered_json::array();
+  for (const TrialPhases& trial : phases) {
+    for (const Phase& phase : trial.phases) {
+      json["segments"].push_back({{"trial", trial.trial},
+                                  {"phase", std::string(name(phase.kind))},
+                                  {"begin_s", phase.begin_s},
+                                  {"end_s", phase.end_s},
+                                  {"torque_per_emg", number_or_null(phase.gain)},
+                                  {"median_frequency", number_or_null(phase.frequency)},
+                                  {"fitted", !phase.excluded},
+                                  {"reason", phase.reason}});
+    }
+  }
   json["leave_one_trial_out"] = ordered_json::array();
   for (const identification::Fold& f : folds) {
     json["leave_one_trial_out"].push_back(
@@ -328,7 +362,7 @@ void remove_results(const std::filesystem::path& folder) {
       const std::string file = entry.path().filename().string();
       const bool ours = file == "ik.mot" || file == "ik_marker_errors.sto" || file == "id.sto" ||
                         file == "activation.sto" || file == "identified_forces.sto" ||
-                        file.starts_with("MuscleAnalysis_") ||
+                        file.starts_with("MuscleAnalysis_") || file.starts_with("EmgInformed_") ||
                         file.starts_with("StaticOptimization_");
       if (ours) fs::remove(entry.path(), ignored);
     }
@@ -372,9 +406,11 @@ void write_results(const StudyResult& result,
                                {.title = "Forces", .comments = comments});
     }
   }
+  for (const identification::InformedForces& forces : result.informed)
+    write_informed_forces(result, forces, folder / forces.trial, comments);
   write_identified_model(result, folder);
   recording::write_file(folder / "parameters.json",
-                        parameters_json(result.methods, result.folds, provenance));
+                        parameters_json(result.methods, result.folds, provenance, result.phases));
   recording::write_file(folder / "parameters.csv", parameters_csv(result.methods));
   ordered_json run = provenance_json(provenance);
   run["study"] = std::filesystem::absolute(result.study.file).string();
@@ -382,6 +418,11 @@ void write_results(const StudyResult& result,
   run["end_s"] = number_or_null(result.end_s);
   run["seconds"] = ordered_json::object();
   for (const StageTime& stage : result.times) run["seconds"][stage.stage] = stage.seconds;
+  if (result.force_loop) {
+    run["force_loop"] = {{"end", std::string(identification::name(result.force_loop->end))},
+                         {"message", result.force_loop->message},
+                         {"rounds", result.force_loop->rounds.size()}};
+  }
   run["trials"] = ordered_json::array();
   for (const TrialResult& trial : result.trials) {
     run["trials"].push_back({{"name", trial.spec.name},

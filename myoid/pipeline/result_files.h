@@ -15,15 +15,17 @@ namespace myoid::pipeline {
 [[nodiscard]] std::string parameters_csv(
     const std::vector<identification::IdentificationResult>& methods);
 
-/// The same with covariance, diagnostics and folds.
+/// The same with covariance, diagnostics, folds and phases.
 [[nodiscard]] std::string parameters_json(
     const std::vector<identification::IdentificationResult>& methods,
     const std::vector<identification::Fold>& folds,
-    const Provenance& provenance);
+    const Provenance& provenance,
+    const std::vector<TrialPhases>& phases = {});
 
 /// Writes all files of a run but the report: per trial ik.mot, ik_marker_errors.sto, id.sto,
-/// MuscleAnalysis_*.sto, StaticOptimization_*, activation.sto, identified_forces.sto;
-/// parameters.csv, parameters.json, the identified model, run.json. Each whole or not at all.
+/// MuscleAnalysis_*.sto, StaticOptimization_*, activation.sto, identified_forces.sto,
+/// EmgInformed_*; parameters.csv, parameters.json, the identified model, run.json. Each whole or
+/// not at all.
 void write_results(const StudyResult& result,
                    const Provenance& provenance,
                    const std::filesystem::path& folder);

@@ -17,6 +17,7 @@
 #include "myoid/pipeline/quality_gates.h"
 #include "myoid/pipeline/stage_store.h"
 #include "myoid/pipeline/study_model.h"
+#include "myoid/pipeline/study_phases.h"
 #include "myoid/pipeline/trial_input.h"
 #include "myoid/recording/csv_reader.h"
 #include "myoid/signals/resample.h"
@@ -137,7 +138,7 @@ void compute_motion(const Study& study,
   trial.notes.insert(trial.notes.end(), result.notes.begin(), result.notes.end());
 }
 
-void compute_forces(const Study& study, const TrialInput& input, TrialResult& trial) {
+void compute_forces(const Study& study, const TrialInput& input, bool share, TrialResult& trial) {
   trial.generalized_forces = dynamics::inverse_dynamics(trial.model, trial.motion);
   trial.muscles = kinematics::muscle_kinematics(trial.model, trial.motion);
   const auto& coordinate = trial.model.coordinates[static_cast<std::size_t>(
@@ -150,6 +151,7 @@ void compute_forces(const Study& study, const TrialInput& input, TrialResult& tr
   }
   trial.muscle_torque = TimeSeries(trial.motion.q.time_s(), {{column, Unit::newton_meter}}, torque);
 
+  if (!share) return;
   const auto count = static_cast<Eigen::Index>(trial.model.muscles.size());
   Eigen::MatrixXd optimal(trial.motion.sample_count(), count);
   Eigen::VectorXd greatest(count);
@@ -195,10 +197,12 @@ identification::TrialData trial_data(const Study& study,
   data.length_m = std::move(lumped.length_m);
   data.velocity_mps = std::move(lumped.velocity_mps);
   data.moment_arm_m = std::move(lumped.moment_arm_m);
-  data.force_n = Eigen::MatrixXd::Zero(data.length_m.rows(), data.length_m.cols());
-  for (Eigen::Index g = 0; g < data.force_n.cols(); ++g) {
-    for (const int head : groups[static_cast<std::size_t>(g)].members)
-      data.force_n.col(g) += trial.shared.force.values().col(head);
+  if (!trial.shared.force.empty()) {
+    data.force_n = Eigen::MatrixXd::Zero(data.length_m.rows(), data.length_m.cols());
+    for (Eigen::Index g = 0; g < data.force_n.cols(); ++g) {
+      for (const int head : groups[static_cast<std::size_t>(g)].members)
+        data.force_n.col(g) += trial.shared.force.values().col(head);
+    }
   }
   data.torque_nm = trial.muscle_torque.values().col(0);
   data.condition = trial.spec.condition;
@@ -308,42 +312,63 @@ identification::TorqueOptions torque_options(const Study& study,
 
 }  // namespace
 
-StudyResult run_study(const Study& whole, const RunOptions& options) {
-  StudyResult result;
-  result.start_s = options.start_s;
-  result.end_s = options.end_s;
-  result.study = whole;
-  restrict_trials(result.study, options.start_s, options.end_s);
-  const Study& study = result.study;
-  Stages stages(options, result.times);
-  std::vector<TrialInput> inputs(study.trials.size());
-  result.trials.resize(study.trials.size());
-
-  stages.run("reading", 0.0, [&] {
-    result.model_text = model_text(study);
-    result.model = load_model(study);
-    result.inputs.push_back({study.file.string(), sha256(recording::read_text_file(study.file))});
-    if (study.model.file)
-      result.inputs.push_back({study.model.file->string(), sha256(result.model_text)});
-    if (study.truth) result.truth = read_truth(*study.truth);
-    oneapi::tbb::parallel_for(std::size_t{0}, study.trials.size(), [&](std::size_t i) {
-      try {
-        inputs[i] = read_trial_input(study, study.trials[i], result.model);
-      } catch (const InvalidInput& error) {
-        throw InvalidInput(fmt::format("{} (trial '{}')", error.what(), study.trials[i].name));
-      }
-    });
-    for (std::size_t i = 0; i < inputs.size(); ++i) {
-      result.trials[i].spec = study.trials[i];
-      result.trials[i].notes = inputs[i].notes;
-      result.trials[i].warnings = inputs[i].warnings;
-      for (const InputFile& file : inputs[i].files) {
-        const bool known = std::any_of(result.inputs.begin(), result.inputs.end(),
-                                       [&](const InputFile& f) { return f.path == file.path; });
-        if (!known) result.inputs.push_back(file);
-      }
+StudyInputs read_inputs(const Study& study) {
+  StudyInputs inputs;
+  const model::BodyModel model = load_model(study);
+  inputs.files.push_back({study.file.string(), sha256(recording::read_text_file(study.file))});
+  if (study.model.file)
+    inputs.files.push_back({study.model.file->string(), sha256(model_text(study))});
+  if (study.truth) inputs.truth = read_truth(*study.truth);
+  inputs.trials.resize(study.trials.size());
+  oneapi::tbb::parallel_for(std::size_t{0}, study.trials.size(), [&](std::size_t i) {
+    try {
+      inputs.trials[i] = read_trial_input(study, study.trials[i], model);
+    } catch (const InvalidInput& error) {
+      throw InvalidInput(fmt::format("{} (trial '{}')", error.what(), study.trials[i].name));
     }
   });
+  for (const TrialInput& trial : inputs.trials) {
+    for (const InputFile& file : trial.files) {
+      const bool known = std::any_of(inputs.files.begin(), inputs.files.end(),
+                                     [&](const InputFile& f) { return f.path == file.path; });
+      if (!known) inputs.files.push_back(file);
+    }
+  }
+  return inputs;
+}
+
+StudyResult run_study(const Study& whole, const RunOptions& options) {
+  Study study = whole;
+  restrict_trials(study, options.start_s, options.end_s);
+  options.progress.tell(0.0, "reading");
+  const auto begin = std::chrono::steady_clock::now();
+  StudyInputs inputs = read_inputs(study);
+  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin;
+  StudyResult result = analyse(study, std::move(inputs), options);
+  result.start_s = options.start_s;
+  result.end_s = options.end_s;
+  result.times.insert(result.times.begin(), {"reading", elapsed.count()});
+  return result;
+}
+
+StudyResult analyse(const Study& study, StudyInputs given, const RunOptions& options) {
+  if (given.trials.size() != study.trials.size())
+    throw InvalidInput(
+        fmt::format("{} inputs are given for {} trials", given.trials.size(), study.trials.size()));
+  StudyResult result;
+  result.study = study;
+  result.model_text = model_text(study);
+  result.model = load_model(study);
+  result.truth = std::move(given.truth);
+  result.inputs = std::move(given.files);
+  const std::vector<TrialInput> inputs = std::move(given.trials);
+  result.trials.resize(inputs.size());
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    result.trials[i].spec = study.trials[i];
+    result.trials[i].notes = inputs[i].notes;
+    result.trials[i].warnings = inputs[i].warnings;
+  }
+  Stages stages(options, result.times);
   stages.run("EMG", 0.15, [&] { process_all_emg(study, inputs, result); });
 
   std::optional<StageStore> store;
@@ -369,7 +394,8 @@ StudyResult run_study(const Study& whole, const RunOptions& options) {
                                                  trial.spec.held_mass_kg);
         }
         compute_motion(study, inputs[i], result.model_text, store ? &*store : nullptr, trial);
-        if (trial.motion.q.sample_count() > 0) compute_forces(study, inputs[i], trial);
+        if (trial.motion.q.sample_count() > 0)
+          compute_forces(study, inputs[i], options.share_forces, trial);
       } catch (const InvalidInput& error) {
         trial.failure = error.what();
       }
@@ -395,6 +421,10 @@ StudyResult run_study(const Study& whole, const RunOptions& options) {
         continue;
       result.data.trials.push_back(trial_data(study, trial, groups));
     }
+    if (study.phases.search && !result.data.trials.empty()) {
+      result.phases = study_phases(result, torque_options(study, result, options.progress));
+      exclude_phases(study.phases.exclude, result.phases, result.data);
+    }
     for (const std::string& method : study.identify.methods) {
       if (method == "paper") {
         result.methods.push_back(identification::identify_paper(
@@ -411,6 +441,24 @@ StudyResult run_study(const Study& whole, const RunOptions& options) {
       }
     }
   });
+  for (const identification::IdentificationResult& method : result.methods) {
+    if (method.method != "torque") continue;
+    for (const identification::TrialData& trial : result.data.trials) {
+      const identification::Prediction p =
+          identification::predict(result.data, trial, method.values, method.dynamics);
+      result.informed.push_back(
+          identification::informed_forces(trial, p.activation, method.values.muscles));
+    }
+  }
+  if (study.identify.force_loop) {
+    stages.run("forces and parameters", 0.8, [&] {
+      identification::EstimatorOptions estimator = torque_options(study, result, options.progress);
+      estimator.intervals = {};
+      result.force_loop = identification::iterate_forces(
+          result.data,
+          {.force = {.estimator = std::move(estimator), .shared_forces = true}, .delay_s = 0.06});
+    });
+  }
   const bool torque = std::find(study.identify.methods.begin(), study.identify.methods.end(),
                                 "torque") != study.identify.methods.end();
   if (study.identify.cross_validate && torque) {

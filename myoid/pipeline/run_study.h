@@ -10,11 +10,14 @@
 #include "myoid/core/provenance.h"
 #include "myoid/forces/force_sharing.h"
 #include "myoid/identification/cross_validation.h"
+#include "myoid/identification/force_loop.h"
 #include "myoid/identification/paper.h"
 #include "myoid/identification/torque.h"
 #include "myoid/kinematics/inverse_kinematics.h"
 #include "myoid/kinematics/muscle_kinematics.h"
+#include "myoid/pipeline/phases.h"
 #include "myoid/pipeline/study.h"
+#include "myoid/pipeline/trial_input.h"
 #include "myoid/recording/text_file.h"
 #include "myoid/signals/emg_envelope.h"
 
@@ -62,6 +65,11 @@ struct StudyResult {
   identification::StudyData data;                            ///< What the estimators saw.
   std::vector<identification::IdentificationResult> methods;
   std::vector<identification::Fold> folds;
+  std::vector<TrialPhases> phases;  ///< Of the trials of `data`; empty: not searched.
+  /// Forces and activations with the identified muscles, informed by the EMG; of the trials of
+  /// `data`. Empty without method torque.
+  std::vector<identification::InformedForces> informed;
+  std::optional<identification::ForceLoop> force_loop;  ///< If the study asks for it.
   std::vector<TrueValue> truth;
   std::vector<StageTime> times;
   std::vector<InputFile> inputs;
@@ -71,9 +79,27 @@ struct StudyResult {
 struct RunOptions {
   std::optional<double> start_s, end_s;  ///< Of every trial [s]; empty: as the study says.
   Progress progress;
+  /// Forces of static optimization, which methods `paper` and `force` need; the torque method does
+  /// not.
+  bool share_forces = true;
   /// Where inverse kinematics is kept between runs; empty: nowhere.
   std::optional<std::filesystem::path> store;
 };
+
+/// What a study is computed from, as values.
+struct StudyInputs {
+  std::vector<TrialInput> trials;  ///< In the study's order.
+  std::vector<TrueValue> truth;
+  std::vector<InputFile> files;
+};
+
+/// Reads every file of a study. Throws as `run_study`.
+[[nodiscard]] StudyInputs read_inputs(const Study& study);
+
+/// All stages after reading, on inputs that may never have been files. As `run_study` otherwise.
+[[nodiscard]] StudyResult analyse(const Study& study,
+                                  StudyInputs inputs,
+                                  const RunOptions& options = {});
 
 /// All stages in order: EMG, motion, inverse dynamics, muscle paths, force sharing, identification,
 /// cross-validation; trials in parallel, the same numbers for every number of threads. Throws

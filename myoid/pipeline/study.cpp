@@ -282,6 +282,23 @@ SharingSpec read_sharing(TomlTable table) {
   return sharing;
 }
 
+PhasesSpec read_phases(TomlTable table) {
+  PhasesSpec phases;
+  phases.search = table.flag("search").value_or(phases.search);
+  if (auto exclude = table.texts("exclude")) phases.exclude = *exclude;
+  for (const std::string& word : phases.exclude) {
+    if (word != "warm_up" && word != "fatigued" && word != "changed" && word != "isometric" &&
+        word != "rest") {
+      table.fail("exclude",
+                 fmt::format("found \"{}\", expected \"warm_up\", \"fatigued\", \"changed\", "
+                             "\"isometric\" or \"rest\"",
+                             word));
+    }
+  }
+  table.finish();
+  return phases;
+}
+
 IdentifySpec read_identify(TomlTable table) {
   IdentifySpec identify;
   if (auto methods = table.texts("method")) identify.methods = *methods;
@@ -295,6 +312,7 @@ IdentifySpec read_identify(TomlTable table) {
       muscles && *muscles != std::vector<std::string>{"all"}) {
     identify.muscles = *muscles;
   }
+  identify.force_loop = table.flag("force_loop").value_or(identify.force_loop);
   identify.priors = table.flag("priors").value_or(identify.priors);
   identify.gain = table.flag("gain").value_or(identify.gain);
   identify.cross_validate = table.flag("cross_validate").value_or(identify.cross_validate);
@@ -436,6 +454,7 @@ Study parse_study(std::string_view text, const std::filesystem::path& file) {
   if (auto t = table.table("ik")) study.ik = read_ik(*t);
   if (auto t = table.table("emg")) study.emg = read_emg(*t);
   if (auto t = table.table("sharing")) study.sharing = read_sharing(*t);
+  if (auto t = table.table("phases")) study.phases = read_phases(*t);
   if (auto t = table.table("identify")) study.identify = read_identify(*t);
   for (TomlTable& t : table.tables("muscle")) study.muscles.push_back(read_muscle(t));
   for (TomlTable& t : table.tables("trial")) study.trials.push_back(read_trial(t, folder));

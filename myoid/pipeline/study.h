@@ -30,10 +30,11 @@ struct HeldMassSpec {
 
 struct ModelSpec {
   std::optional<std::filesystem::path> file;  ///< .osim
-  std::string builtin;                        ///< "arm4" when there is no file.
-  std::optional<double> upper_arm_length_m;   ///< Of the built-in arm.
-  std::optional<double> forearm_length_m;     ///< Of the built-in arm: elbow to wrist.
-  bool horizontal = false;                    ///< Plane of movement of the built-in arm.
+  std::string text;     ///< Of the model, instead of the file's: a study that is not on disk.
+  std::string builtin;  ///< "arm4" when there is no file.
+  std::optional<double> upper_arm_length_m;  ///< Of the built-in arm.
+  std::optional<double> forearm_length_m;    ///< Of the built-in arm: elbow to wrist.
+  bool horizontal = false;                   ///< Plane of movement of the built-in arm.
   bool forearm_rotations = false;  ///< Of the built-in arm: free base and forearm rotations.
   std::string coordinate = "elbow_flexion";  ///< The joint whose torque the muscles share.
   std::optional<HeldMassSpec> held_mass;
@@ -109,8 +110,15 @@ struct SharingSpec {
   double reserve_nm = 1.0;  ///< Optimal force of the reserve on the coordinate.
 };
 
+/// What becomes of warm-up and fatigue.
+struct PhasesSpec {
+  bool search = true;
+  std::vector<std::string> exclude{"warm_up", "fatigued"};  ///< Phases that are not fitted.
+};
+
 struct IdentifySpec {
   std::vector<std::string> methods{"paper", "torque"};
+  bool force_loop = false;           ///< Iterate forces and parameters until they agree.
   std::vector<std::string> muscles;  ///< Empty: all.
   bool priors = true;
   bool gain = true;  ///< EMG gain per channel as a nuisance with a tight prior.
@@ -140,6 +148,7 @@ struct Study {
   IkSpec ik;
   EmgSpec emg;
   SharingSpec sharing;
+  PhasesSpec phases;
   IdentifySpec identify;
   std::vector<MuscleSpec> muscles;
   std::vector<TrialSpec> trials;

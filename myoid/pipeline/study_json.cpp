@@ -89,7 +89,9 @@ std::string study_json(const Study& study) {
   j["sharing"] = {{"objective", study.sharing.objective},
                   {"exponent", study.sharing.exponent},
                   {"reserve_nm", study.sharing.reserve_nm}};
+  j["phases"] = {{"search", study.phases.search}, {"exclude", study.phases.exclude}};
   j["identify"] = {{"method", study.identify.methods},
+                   {"force_loop", study.identify.force_loop},
                    {"muscles", study.identify.muscles},
                    {"priors", study.identify.priors},
                    {"gain", study.identify.gain},

@@ -63,6 +63,7 @@ model::Arm4Options arm_options(const Study& study, const recording::MarkerSeries
 }  // namespace
 
 std::string model_text(const Study& study, const recording::MarkerSeries* markers) {
+  if (!study.model.text.empty()) return study.model.text;
   if (study.model.file) return recording::read_text_file(*study.model.file);
   return model::arm4_osim(arm_options(study, markers));
 }

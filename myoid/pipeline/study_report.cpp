@@ -9,6 +9,7 @@
 #include <fmt/ranges.h>
 
 #include "myoid/muscle/hill_muscle.h"
+#include "myoid/pipeline/phases_report.h"
 #include "myoid/pipeline/quality_gates.h"
 
 namespace myoid::pipeline {
@@ -579,6 +580,9 @@ report::Report study_report(const StudyResult& result, const Provenance& provena
                    [](const TrialResult& t) { return t.emg && t.spec.use == Use::calibration; });
   if (task != result.trials.end())
     report.sections.push_back({"emg", "EMG", {}, {}, {}, {emg_figure(*task)}});
+  if (!result.informed.empty() || result.force_loop)
+    report.sections.push_back(informed_section(result));
+  if (!result.phases.empty()) report.sections.push_back(phases_section(result));
   Section trials{"trials", "Trials", {}, {}, {trial_table(result)}, {}};
   std::vector<std::string> notes;
   for (const TrialResult& t : result.trials) {

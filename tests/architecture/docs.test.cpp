@@ -1,4 +1,5 @@
 // Documentation that leads nowhere, or leaves a command out, is noticed.
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -66,7 +67,9 @@ TEST(Documentation, EveryOptionOfACommandIsInItsPage) {
   for (const auto& entry : fs::directory_iterator(kRoot / "myoid" / "cli")) {
     const std::string text = content(entry.path());
     if (text.find("add_subcommand(") == std::string::npos) continue;
-    const fs::path page = kRoot / "docs" / "guide" / (entry.path().stem().string() + ".md");
+    std::string command = entry.path().stem().string();  // twin_study.cpp is twin-study
+    std::replace(command.begin(), command.end(), '_', '-');
+    const fs::path page = kRoot / "docs" / "guide" / (command + ".md");
     const std::string explained = content(page);
     for (std::sregex_iterator it(text.begin(), text.end(), option), end; it != end; ++it) {
       EXPECT_NE(explained.find((*it)[1].str()), std::string::npos)

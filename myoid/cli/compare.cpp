@@ -1,0 +1,82 @@
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "myoid/cli/context.h"
+#include "myoid/pipeline/compare_runs.h"
+
+namespace myoid::cli {
+namespace {
+
+using pipeline::ComparedParameter;
+
+nlohmann::ordered_json optional_number(const std::optional<double>& x) {
+  return x ? nlohmann::ordered_json(*x) : nlohmann::ordered_json(nullptr);
+}
+
+nlohmann::ordered_json to_json(const pipeline::RunComparison& comparison) {
+  nlohmann::ordered_json rows = nlohmann::ordered_json::array();
+  for (const ComparedParameter& p : comparison.parameters) {
+    rows.push_back({{"muscle", p.muscle},
+                    {"parameter", p.parameter},
+                    {"unit", p.unit},
+                    {"method", p.method},
+                    {"case", p.fit_case},
+                    {"first", p.first.estimate},
+                    {"second", p.second.estimate},
+                    {"difference", p.difference},
+                    {"smallest_detectable", optional_number(p.smallest_detectable)},
+                    {"p_value", optional_number(p.p_value)},
+                    {"change", std::string(pipeline::name(p.change))}});
+  }
+  return {{"first", comparison.first.string()},
+          {"second", comparison.second.string()},
+          {"parameters", rows},
+          {"remarks", comparison.remarks}};
+}
+
+void print(const pipeline::RunComparison& comparison) {
+  fmt::print("{:<10} {:<30} {:>10} {:>10} {:>11} {:>9}  {}\n", "muscle", "parameter [unit]",
+             "first", "second", "difference", "p", "verdict");
+  for (const ComparedParameter& p : comparison.parameters) {
+    if (p.method == "paper") continue;  // In the report; shared forces tell nothing of a person.
+    fmt::print("{:<10} {:<30} {:>10} {:>10} {:>11} {:>9}  {}\n", p.muscle,
+               fmt::format("{} [{}]", p.parameter, p.unit), report::format_value(p.first.estimate),
+               report::format_value(p.second.estimate), report::format_value(p.difference),
+               p.p_value ? fmt::format("{:.2g}", *p.p_value) : "-", pipeline::name(p.change));
+  }
+  for (const std::string& remark : comparison.remarks) fmt::print("{}\n", remark);
+}
+
+}  // namespace
+
+void add_compare(CLI::App& app, Context& context) {
+  CLI::App& command = *app.add_subcommand(
+      "compare",
+      "Two finished runs, number by number: which parameters differ by more than chance, which do "
+      "not, and which the recordings cannot tell.\n"
+      "Example: myoid compare results/before results/after --out compared");
+  struct Options {
+    std::string first, second, out;
+  };
+  const auto options = std::make_shared<Options>();
+  command.add_option("first", options->first, "Folder of a run (with parameters.json)")->required();
+  command.add_option("second", options->second, "Folder of the run to compare it with")->required();
+  command.add_option("--out", options->out, "Folder for report.html, figures and tables");
+  add_common_options(command, context, {.threads = false, .seed = false, .range = false});
+  command.callback([&context, options] {
+    const pipeline::RunComparison comparison =
+        pipeline::compare_runs(options->first, options->second);
+    if (!options->out.empty()) {
+      context.prepare_folder(options->out);
+      report::write_report(pipeline::comparison_report(comparison), options->out);
+    }
+    if (context.json) {
+      fmt::print("{}\n", to_json(comparison).dump(2));
+      return;
+    }
+    print(comparison);
+    if (!options->out.empty()) fmt::print("{}/report.html\n", options->out);
+  });
+}
+
+}  // namespace myoid::cli

@@ -1,0 +1,133 @@
+#include "myoid/pipeline/twin_study.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "myoid/cli/context.h"
+#include "myoid/core/error.h"
+#include "myoid/math/statistics.h"
+#include "myoid/recording/text_file.h"
+
+namespace myoid::cli {
+namespace {
+
+using pipeline::TwinSummary;
+
+std::string percent(double share) {
+  return std::isfinite(share) ? fmt::format("{:.1f}", 100.0 * share) : "-";
+}
+
+void print_summary(const std::vector<TwinSummary>& summaries, bool each_muscle) {
+  fmt::print(
+      "{:<8} {:<12} {:<8} {:<28} {:>5} {:>7} {:>7} {:>6} {:>6} {:>6} {:>6} {:>6} {:>9} {:>9}\n",
+      "method", "case", "muscle", "parameter", "n", "bias", "rmse", "<5 %", "<10 %", "<20 %",
+      "prior", "cover", "identif.", "of these");
+  fmt::print(
+      "{:<8} {:<12} {:<8} {:<28} {:>5} {:>7} {:>7} {:>6} {:>6} {:>6} {:>6} {:>6} {:>9} {:>9}\n", "",
+      "", "", "", "", "[%]", "[%]", "[%]", "[%]", "[%]", "<10 %", "[%]", "", "<15 % [%]");
+  for (const TwinSummary& s : summaries) {
+    if (!each_muscle && s.muscle != "all" && s.muscle != "subject") continue;
+    const int identified = s.verdicts[0];
+    fmt::print(
+        "{:<8} {:<12} {:<8} {:<28} {:>5} {:>7} {:>7} {:>6} {:>6} {:>6} {:>6} {:>6} {:>9} {:>9}\n",
+        s.method, s.fit_case, s.muscle, s.parameter, s.count, percent(s.bias), percent(s.rmse),
+        percent(s.within_5), percent(s.within_10), percent(s.within_20), percent(s.prior_within_10),
+        percent(s.coverage), identified,
+        identified > 0 ? percent(static_cast<double>(s.identified_within_15) / identified) : "-");
+  }
+}
+
+void print_verdicts(const pipeline::TwinStudyResult& result,
+                    const std::vector<TwinSummary>& summaries) {
+  for (const char* method : {"torque", "force", "paper"}) {
+    int good = 0;
+    int bad = 0;
+    int other_good = 0;
+    int other_bad = 0;
+    int outside = 0;
+    for (const TwinSummary& s : summaries) {
+      if (s.method != method || (s.muscle != "all" && s.muscle != "subject")) continue;
+      good += s.identified_good;
+      bad += s.identified_bad;
+      other_good += s.other_good;
+      other_bad += s.other_bad;
+      outside += s.outside_physical;
+    }
+    if (good + bad + other_good + other_bad == 0) continue;
+    fmt::print("\nmethod {}: does the verdict know?\n{:<24} {:>14} {:>14}\n", method, "",
+               "error < 10 %", "error >= 10 %");
+    fmt::print("{:<24} {:>14} {:>14}\n{:<24} {:>14} {:>14}\n", "identified", good, bad,
+               "not identified", other_good, other_bad);
+    fmt::print("{} values outside the physical bounds without the verdict non_physical\n", outside);
+  }
+  if (!result.predictions.empty()) {
+    std::vector<double> nrmse;
+    std::vector<double> r2;
+    for (const pipeline::TwinPrediction& p : result.predictions) {
+      nrmse.push_back(p.nrmse_range);
+      r2.push_back(p.r2);
+    }
+    fmt::print("\ntrials held back ({}): median NRMSE {:.1f} % of the range, median R2 {:.3f}\n",
+               nrmse.size(), 100.0 * math::median(nrmse), math::median(r2));
+  }
+}
+
+}  // namespace
+
+void add_twin_study(CLI::App& app, Context& context) {
+  CLI::App& command = *app.add_subcommand(
+      "twin-study",
+      "How good is the method? Many virtual persons, the whole chain, compared with the truth.\n"
+      "Example: myoid twin-study --protocol examples/protocols/rich.toml --subjects 200 --out "
+      "study");
+  struct Options {
+    std::string protocol, level, out;
+    bool each_muscle = false;
+    pipeline::TwinStudyOptions study;
+  };
+  const auto options = std::make_shared<Options>();
+  command.add_option("--protocol", options->protocol, "What is recorded, a .toml file")->required();
+  command.add_option("--level", options->level, "L0, L1 or L2 instead of the protocol's own")
+      ->check(CLI::IsMember({"L0", "L1", "L2"}));
+  command.add_option("--subjects", options->study.subjects, "Virtual persons")
+      ->check(CLI::Range(1, 1000000))
+      ->capture_default_str();
+  command.add_option("--method", options->study.methods, "torque, force, paper; several")
+      ->check(CLI::IsMember({"torque", "force", "paper"}))
+      ->capture_default_str();
+  command.add_flag("--each-muscle", options->each_muscle, "A line for each muscle too");
+  command.add_option("--out", options->out, "Folder for persons.csv, summary.csv, predictions.csv")
+      ->required();
+  add_common_options(command, context, {.range = false});
+  command.callback([&context, options] {
+    std::optional<simulation::Level> level;
+    for (const simulation::Level known :
+         {simulation::Level::noise_free, simulation::Level::noisy, simulation::Level::different}) {
+      if (options->level == simulation::name(known)) level = known;
+    }
+    const simulation::Protocol protocol = simulation::read_protocol(options->protocol, level);
+    context.prepare_folder(options->out);
+    options->study.first_seed = context.seed;
+    options->study.progress = context.progress();
+    const pipeline::TwinStudyResult result = pipeline::twin_study(protocol, options->study);
+    context.end_progress();
+    Provenance provenance;
+    provenance.command = context.command_line;
+    provenance.inputs.push_back(
+        {options->protocol, sha256(recording::read_text_file(options->protocol))});
+    pipeline::write_twin_study(result, provenance, options->out);
+    for (const pipeline::TwinFailure& f : result.failures)
+      context.warn(fmt::format("seed {}: {}", f.seed, f.message));
+    const std::vector<TwinSummary> summaries = pipeline::summarize(result);
+    fmt::print("protocol {}, level {}, {} persons, {} failures\n\n", result.protocol, result.level,
+               options->study.subjects, result.failures.size());
+    print_summary(summaries, options->each_muscle);
+    print_verdicts(result, summaries);
+    if (!result.failures.empty()) context.exit_code = kSomeTrialsFailed;
+  });
+}
+
+}  // namespace myoid::cli
