@@ -18,7 +18,9 @@
 #include "myoid/pipeline/stage_store.h"
 #include "myoid/pipeline/study_model.h"
 #include "myoid/pipeline/trial_input.h"
+#include "myoid/pipeline/trial_quality.h"
 #include "myoid/recording/csv_reader.h"
+#include "myoid/signals/emg_quality.h"
 #include "myoid/signals/resample.h"
 
 namespace myoid::pipeline {
@@ -242,6 +244,7 @@ void process_all_emg(const Study& study,
           signals::process_emg(*inputs[i].emg, {.highpass_hz = study.emg.highpass_hz,
                                                 .lowpass_hz = study.emg.lowpass_hz,
                                                 .rectify = study.emg.rectify,
+                                                .notch = study.emg.notch,
                                                 .as_published = study.emg.as_published});
     });
     for (TrialResult& trial : result.trials) {
@@ -263,6 +266,7 @@ void process_all_emg(const Study& study,
         study.emg.kind == EmgKind::raw ? result.trials[i].emg->envelope : *inputs[i].emg;
     envelopes.push_back({study.trials[i].name, study.trials[i].use == Use::mvc, &envelope});
   }
+  result.level_faults = signals::check_emg_levels(envelopes);
   result.normalisation =
       signals::find_normalisation(envelopes, {.window_s = study.emg.normalise_window_s});
   for (std::size_t i = 0; i < inputs.size(); ++i) {
@@ -316,8 +320,7 @@ StudyResult run_study(const Study& whole, const RunOptions& options) {
   restrict_trials(result.study, options.start_s, options.end_s);
   const Study& study = result.study;
   Stages stages(options, result.times);
-  std::vector<TrialInput> inputs(study.trials.size());
-  result.trials.resize(study.trials.size());
+  std::vector<TrialInput> inputs;
 
   stages.run("reading", 0.0, [&] {
     result.model_text = model_text(study);
@@ -326,13 +329,22 @@ StudyResult run_study(const Study& whole, const RunOptions& options) {
     if (study.model.file)
       result.inputs.push_back({study.model.file->string(), sha256(result.model_text)});
     if (study.truth) result.truth = read_truth(*study.truth);
+    std::vector<std::vector<TrialPart>> parts(study.trials.size());
     oneapi::tbb::parallel_for(std::size_t{0}, study.trials.size(), [&](std::size_t i) {
       try {
-        inputs[i] = read_trial_input(study, study.trials[i], result.model);
+        parts[i] = read_trial_parts(study, study.trials[i], result.model);
       } catch (const InvalidInput& error) {
         throw InvalidInput(fmt::format("{} (trial '{}')", error.what(), study.trials[i].name));
       }
     });
+    result.study.trials.clear();
+    for (std::vector<TrialPart>& of_one : parts) {
+      for (TrialPart& part : of_one) {
+        result.study.trials.push_back(std::move(part.spec));
+        inputs.push_back(std::move(part.input));
+      }
+    }
+    result.trials.resize(inputs.size());
     for (std::size_t i = 0; i < inputs.size(); ++i) {
       result.trials[i].spec = study.trials[i];
       result.trials[i].notes = inputs[i].notes;
@@ -345,6 +357,15 @@ StudyResult run_study(const Study& whole, const RunOptions& options) {
     }
   });
   stages.run("EMG", 0.15, [&] { process_all_emg(study, inputs, result); });
+  stages.run("quality", 0.25, [&] {
+    oneapi::tbb::parallel_for(std::size_t{0}, inputs.size(), [&](std::size_t i) {
+      TrialResult& trial = result.trials[i];
+      const TimeSeries envelope = trial.emg       ? trial.emg->envelope
+                                  : inputs[i].emg ? *inputs[i].emg
+                                                  : TimeSeries();
+      trial.faults = trial_faults(study, inputs[i], envelope);
+    });
+  });
 
   std::optional<StageStore> store;
   if (options.store) store.emplace(*options.store);
