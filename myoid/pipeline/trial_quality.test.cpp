@@ -12,7 +12,7 @@ using signals::Fault;
 using signals::FaultKind;
 
 TEST(SegmentsOf, AreTheBodiesThatCarryTwoMarkersOrMore) {
-  const model::BodyModel model = model::parse_osim(model::arm4_osim());
+  const model::BodyModel model = model::parse_osim(model::arm4_osim(), "arm4.osim");
   recording::MarkerSeries markers;
   for (const model::Marker& marker : model.markers) markers.names.push_back(marker.name);
   markers.names.emplace_back("of nobody");
