@@ -30,10 +30,10 @@ struct QualityLimits {
       3.0;                      ///< Amplitude between 1 and 15 Hz over the loudest EMG above 20 Hz.
   double over_reference = 1.1;  ///< A movement's effort over that of the maximal contraction.
   // Clocks.
-  double uneven_share = 0.05;        ///< Standard deviation of the intervals over their mean.
-  double earliest_offset_s = -0.05;  ///< EMG leads the motion by 10 to 150 ms in people ...
-  double latest_offset_s = 0.30;     ///< ... and by 300 ms after much smoothing.
-  double drift_s = 0.05;             ///< Change of that lead from the first to the last third.
+  double uneven_share = 0.05;       ///< Standard deviation of the intervals over their mean.
+  double earliest_offset_s = -0.1;  ///< EMG leads the motion by 10 to 150 ms in people ...
+  double latest_offset_s = 0.30;    ///< ... and by 300 ms after much smoothing.
+  double drift_s = 0.05;            ///< Change of that lead from the first to the last third.
   // Force plates.
   double plate_offset_n = 10.0;       ///< Vertical force while nobody stands on it.
   double plate_loaded_n = 50.0;       ///< Above it the center of pressure is looked at ...
