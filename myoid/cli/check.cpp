@@ -5,38 +5,70 @@
 
 #include "myoid/cli/context.h"
 #include "myoid/pipeline/check_study.h"
+#include "myoid/recording/recording.h"
 
 namespace myoid::cli {
+namespace {
+
+std::string counted(long count, std::string_view noun) {
+  return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
+}
+
+}  // namespace
 
 void add_check(CLI::App& app, Context& context) {
   CLI::App& command = *app.add_subcommand("check",
-                                          "Reads every input of a study and says what is wrong "
-                                          "with it, worst first; computes nothing.\n"
+                                          "Reads every input of a study, or a single recording, "
+                                          "and says what is wrong with it, worst first; computes "
+                                          "nothing.\n"
                                           "Example: myoid check study.toml");
-  const auto study_file = std::make_shared<std::string>();
-  command.add_option("study", *study_file, "study.toml")->required();
+  struct Options {
+    std::string input;
+    std::string up = "z";
+  };
+  const auto o = std::make_shared<Options>();
+  command
+      .add_option("study", o->input,
+                  "study.toml, or a single recording: .c3d, .trc, .edf, .bdf, .anc, .csv, .tsv")
+      ->required();
+  command
+      .add_option("--up", o->up,
+                  "Vertical of a single recording's laboratory, for its force plates (default z)")
+      ->check(CLI::IsMember({"x", "y", "z"}));
   add_common_options(command, context, {.threads = false, .seed = false, .overwrite = false});
-  command.callback([&context, study_file] {
-    pipeline::Study study = pipeline::read_study(*study_file);
-    pipeline::restrict_trials(study, context.start_s, context.end_s);
-    const std::vector<pipeline::Finding> findings = pipeline::check_study(study);
+  command.callback([&context, o] {
+    std::vector<pipeline::Finding> findings;
+    std::string what;
+    if (recording::extension_of(o->input) == ".toml") {
+      pipeline::Study study = pipeline::read_study(o->input);
+      pipeline::restrict_trials(study, context.start_s, context.end_s);
+      findings = pipeline::check_study(study);
+      what = fmt::format("{}, {}", counted(static_cast<long>(study.trials.size()), "trial"),
+                         counted(static_cast<long>(study.muscles.size()), "muscle"));
+    } else {
+      findings = pipeline::check_recording(o->input, Vec3::Unit(o->up[0] - 'x'));
+      what = o->input;
+    }
     const auto errors = std::count_if(findings.begin(), findings.end(), [](const auto& f) {
       return f.level == pipeline::Finding::Level::error;
     });
     if (context.json) {
       nlohmann::ordered_json json = nlohmann::ordered_json::array();
-      for (const auto& f : findings)
+      for (const auto& f : findings) {
         json.push_back(
             {{"level", std::string(name(f.level))}, {"where", f.where}, {"message", f.message}});
+        if (!f.fault) continue;
+        json.back()["fault"] = std::string(signals::name(f.fault->kind));
+        json.back()["channel"] = f.fault->channel;
+        json.back()["begin_s"] = f.fault->begin_s;
+        json.back()["end_s"] = f.fault->end_s;
+        json.back()["value"] = f.fault->value;
+      }
       fmt::print("{}\n", json.dump(2));
     } else {
       for (const auto& f : findings)
         fmt::print("{:<8} {}: {}\n", name(f.level), f.where, f.message);
-      const auto counted = [](auto count, std::string_view noun) {
-        return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
-      };
-      fmt::print("{}, {}: {}, {}\n", counted(study.trials.size(), "trial"),
-                 counted(study.muscles.size(), "muscle"), counted(errors, "error"),
+      fmt::print("{}: {}, {}\n", what, counted(errors, "error"),
                  counted(static_cast<long>(findings.size()) - errors, "remark"));
     }
     if (errors > 0) context.exit_code = kBadInput;

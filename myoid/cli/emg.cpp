@@ -7,6 +7,7 @@
 #include "myoid/recording/emg_reader.h"
 #include "myoid/recording/recording.h"
 #include "myoid/signals/emg_envelope.h"
+#include "myoid/signals/emg_quality.h"
 
 namespace myoid::cli {
 
@@ -19,6 +20,7 @@ void add_emg(CLI::App& app, Context& context) {
   struct Options {
     std::string in, out, unit, envelope;
     std::vector<std::string> mvc;
+    bool no_notch = false;
     signals::EnvelopeOptions chain;
     double window_s = 0.5;
   };
@@ -36,6 +38,7 @@ void add_emg(CLI::App& app, Context& context) {
       .add_option("--lowpass", o->chain.lowpass_hz,
                   "Low-pass of the rectified EMG, -3 dB of both passes [Hz] (default 6)")
       ->check(CLI::PositiveNumber);
+  command.add_flag("--no-notch", o->no_notch, "Leave mains hum in, where it is found");
   command.add_flag("--as-published", o->chain.as_published,
                    "As the source paper: no high-pass, low-pass designed for one pass");
   command
@@ -59,9 +62,13 @@ void add_emg(CLI::App& app, Context& context) {
         context.warn(fmt::format("{}: {}", path, recording::to_string(repair)));
       if (!file.unit_conflict.empty())
         context.warn(fmt::format("{}: {}", path, file.unit_conflict));
+      o->chain.notch = !o->no_notch;
+      for (const signals::Fault& fault : signals::check_emg(file.data, !o->chain.as_published)) {
+        if (fault.grave) context.warn(fmt::format("{}: {}", path, signals::sentence(fault)));
+      }
       signals::EmgStages stages = signals::process_emg(file.data, o->chain);
       for (const std::string& finding : stages.findings)
-        context.warn(fmt::format("{}: {}", path, finding));
+        context.log(fmt::format("{}: {}", path, finding));
       return stages.envelope;
     };
     const TimeSeries envelope = process(o->in);

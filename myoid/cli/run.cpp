@@ -146,6 +146,8 @@ void add_run(CLI::App& app, Context& context) {
     if (reused > 0)
       context.log(
           fmt::format("inverse kinematics of {} trials reused: same input as before", reused));
+    for (const std::string& line : pipeline::fault_summary(pipeline::all_faults(result)))
+      context.warn(line);
     for (const pipeline::TrialResult& trial : result.trials) {
       if (!trial.failure.empty())
         context.warn(fmt::format("trial {}: {}", trial.spec.name, trial.failure));

@@ -10,13 +10,23 @@
 #include "myoid/kinematics/inverse_kinematics.h"
 #include "myoid/pipeline/study_model.h"
 #include "myoid/pipeline/trial_input.h"
+#include "myoid/pipeline/trial_quality.h"
 #include "myoid/recording/csv_reader.h"
+#include "myoid/recording/emg_reader.h"
+#include "myoid/recording/label_match.h"
+#include "myoid/recording/recording.h"
+#include "myoid/recording/storage_reader.h"
+#include "myoid/signals/clock_offset.h"
 #include "myoid/signals/emg_envelope.h"
+#include "myoid/signals/emg_quality.h"
+#include "myoid/signals/marker_quality.h"
+#include "myoid/signals/plate_quality.h"
 
 namespace myoid::pipeline {
 namespace {
 
 using Level = Finding::Level;
+using signals::Fault;
 
 class Check {
  public:
@@ -35,7 +45,7 @@ class Check {
     for (const TrialSpec& trial : study_.trials) {
       if (model_) attempt(trial.name, [&] { check_trial(trial); });
     }
-    if (all_read_ && !envelopes_.empty()) attempt("EMG", [&] { check_reference(); });
+    if (!envelopes_.empty()) attempt("EMG", [&] { check_reference(); });
     std::stable_sort(findings_.begin(), findings_.end(),
                      [](const Finding& a, const Finding& b) { return a.level < b.level; });
     return std::move(findings_);
@@ -43,7 +53,7 @@ class Check {
 
  private:
   void add(Level level, std::string where, std::string message) {
-    findings_.push_back({level, std::move(where), std::move(message)});
+    findings_.push_back({level, std::move(where), std::move(message), std::nullopt});
   }
 
   template <typename Work>
@@ -77,32 +87,28 @@ class Check {
     });
   }
 
-  void check_trial(const TrialSpec& spec) {
-    if (spec.held_mass_kg > 0.0 && study_.model.file && !study_.model.held_mass) {
-      add(Level::error, spec.name,
+  void check_trial(const TrialSpec& trial) {
+    if (trial.held_mass_kg > 0.0 && study_.model.file && !study_.model.held_mass) {
+      add(Level::error, trial.name,
           "held_mass_kg is given, but [model] held_mass does not say where it acts");
     }
-    const TrialInput input = read_trial_input(study_, spec, *model_);
+    for (const TrialPart& part : read_trial_parts(study_, trial, *model_))
+      check_part(part.spec, part.input);
+  }
+
+  void check_part(const TrialSpec& spec, const TrialInput& input) {
     for (const std::string& note : input.notes) {
       const bool warning =
           std::find(input.warnings.begin(), input.warnings.end(), note) != input.warnings.end();
       add(warning ? Level::warning : Level::note, spec.name, note);
     }
-    if (input.markers) check_markers(spec, *input.markers);
-    if (input.emg) check_emg(spec, *input.emg);
+    if (input.markers) check_markers(*input.markers);
+    const TimeSeries envelope = input.emg ? check_emg(spec, *input.emg) : TimeSeries();
+    for (Fault& fault : trial_faults(study_, input, envelope))
+      findings_.push_back(finding(spec.name, std::move(fault)));
   }
 
-  void check_markers(const TrialSpec& spec, const recording::MarkerSeries& markers) {
-    const Eigen::Index frames = markers.frame_count();
-    for (Eigen::Index m = 0; m < markers.marker_count(); ++m) {
-      Eigen::Index gaps = 0;
-      for (Eigen::Index f = 0; f < frames; ++f) gaps += markers.missing(f, m) ? 1 : 0;
-      if (gaps == 0) continue;
-      add(gaps > frames / 4 ? Level::warning : Level::note, spec.name,
-          fmt::format("marker '{}' is missing in {:.1f} % of the frames",
-                      markers.names[static_cast<std::size_t>(m)],
-                      100.0 * static_cast<double>(gaps) / static_cast<double>(frames)));
-    }
+  void check_markers(const recording::MarkerSeries& markers) {
     if (study_.ik.calibrate) {
       const std::vector<double>& window = study_.ik.calibrate->window_s;
       const Eigen::Index inside =
@@ -119,12 +125,13 @@ class Check {
         *model_, first, {.marker_weights = study_.markers.weight, .max_iterations = 0});
   }
 
-  void check_emg(const TrialSpec& spec, const TimeSeries& emg) {
-    if (study_.emg.kind == EmgKind::activation) return;
+  /// The envelope of a trial, which is kept for the levels.
+  TimeSeries check_emg(const TrialSpec& spec, const TimeSeries& emg) {
+    if (study_.emg.kind == EmgKind::activation) return emg;
     const bool mvc = spec.use == Use::mvc;
     if (study_.emg.kind == EmgKind::envelope) {
       envelopes_.push_back({spec.name, mvc, emg});
-      return;
+      return emg;
     }
     if (emg.mean_rate_hz() < 800.0) {
       add(Level::warning, spec.name,
@@ -135,16 +142,22 @@ class Check {
         signals::process_emg(emg, {.highpass_hz = study_.emg.highpass_hz,
                                    .lowpass_hz = study_.emg.lowpass_hz,
                                    .rectify = study_.emg.rectify,
+                                   .notch = study_.emg.notch,
                                    .as_published = study_.emg.as_published});
-    for (const std::string& text : stages.findings) add(Level::warning, spec.name, text);
-    envelopes_.push_back({spec.name, mvc, std::move(stages.envelope)});
+    for (const std::string& text : stages.findings) add(Level::note, spec.name, text);
+    envelopes_.push_back({spec.name, mvc, stages.envelope});
+    return std::move(stages.envelope);
   }
 
-  /// A channel that never rises, a window longer than every trial.
+  /// Channels that hardly rise, movements above the maximal contraction; what would be refused: a
+  /// channel that never rises, a window longer than every trial.
   void check_reference() {
     std::vector<signals::TrialEnvelope> trials;
     for (const Envelope& e : envelopes_) trials.push_back({e.trial, e.is_mvc, &e.envelope});
-    (void)signals::find_normalisation(trials, {.window_s = study_.emg.normalise_window_s});
+    for (Fault& fault : signals::check_emg_levels(trials))
+      findings_.push_back(finding("EMG", std::move(fault)));
+    if (all_read_)
+      (void)signals::find_normalisation(trials, {.window_s = study_.emg.normalise_window_s});
   }
 
   struct Envelope {
@@ -172,6 +185,57 @@ std::string_view name(Finding::Level level) {
       return "note";
   }
   return "?";
+}
+
+Finding finding(std::string where, Fault fault) {
+  Finding result{fault.grave ? Level::warning : Level::note, std::move(where), sentence(fault), {}};
+  result.fault = std::move(fault);
+  return result;
+}
+
+namespace {
+
+/// The channels in volts, of them those named as EMG if there are such (others may be a load
+/// cell's); of a storage file, which has no units of its own, all of them if its title states one.
+std::optional<TimeSeries> voltages(const std::filesystem::path& path, const TimeSeries& analog) {
+  std::vector<std::string> names;
+  std::vector<std::string> named_emg;
+  for (const Channel& channel : analog.channels()) {
+    if (channel.unit != Unit::volt) continue;
+    names.push_back(channel.name);
+    if (recording::plain_label(channel.name).find("emg") != std::string::npos)
+      named_emg.push_back(channel.name);
+  }
+  if (!named_emg.empty()) return analog.select(named_emg);
+  if (!names.empty()) return analog.select(names);
+  const std::string extension = recording::extension_of(path);
+  if (extension != ".sto" && extension != ".mot") return std::nullopt;
+  if (!recording::stated_voltage(recording::read_storage(path))) return std::nullopt;
+  return recording::read_emg(path, "", false).data;
+}
+
+}  // namespace
+
+std::vector<Finding> check_recording(const std::filesystem::path& path, const Vec3& up_G) {
+  const recording::Recording file = recording::read_recording(path);
+  const std::string where = path.filename().string();
+  std::vector<Finding> findings;
+  for (const recording::Repair& repair : file.repairs)
+    findings.push_back({Level::note, where, recording::to_string(repair), std::nullopt});
+  const auto add = [&](std::vector<Fault> faults) {
+    for (Fault& fault : faults) findings.push_back(finding(where, std::move(fault)));
+  };
+  add(signals::check_markers(file.markers));
+  if (const auto emg = voltages(path, file.analog)) {
+    require_finite(*emg, path.string());
+    add(signals::check_emg(*emg));
+    if (auto uneven = signals::check_clock_evenness(emg->time_s(), "EMG")) add({*uneven});
+  }
+  for (const recording::ForcePlate& plate : file.plates)
+    add(signals::check_force_plate(plate, up_G));
+  std::stable_sort(findings.begin(), findings.end(),
+                   [](const Finding& a, const Finding& b) { return a.level < b.level; });
+  return findings;
 }
 
 std::vector<Finding> check_study(const Study& study) { return Check(study).findings(); }

@@ -9,7 +9,9 @@
 
 #include "myoid/model/arm4.h"
 #include "myoid/recording/atomic_file.h"
+#include "myoid/recording/text_file.h"
 
+#include "tests/support/data_folder.h"
 #include "tests/support/temporary_folder.h"
 
 namespace myoid::pipeline {
@@ -85,6 +87,70 @@ TEST(CheckStudy, AWindowOfNormalisationLongerThanTheRecordingIsAnError) {
   WrittenStudy study;
   study.text.insert(study.text.find("[[trial]]"), "normalise_window_s = 30\n");
   EXPECT_NE(study.error().find("longer than every recording"), std::string::npos) << study.error();
+}
+
+TEST(CheckStudy, TellsEveryFaultOfAChannelWithItsNameAndTime) {
+  const WrittenStudy study;
+  std::string trc = recording::read_text_file(study.folder / "t.trc");
+  const std::string frame = "101\t1.00\t0.3\t";
+  ASSERT_NE(trc.find(frame), std::string::npos);
+  trc.replace(trc.find(frame), frame.size(), "101\t1.00\t0.4\t");
+  recording::write_file(study.folder / "t.trc", trc);
+  bool jump = false;
+  for (const Finding& f : study.findings()) {
+    if (!f.fault || f.fault->kind != signals::FaultKind::marker_jump) continue;
+    jump = true;
+    EXPECT_EQ(f.level, Finding::Level::warning);
+    EXPECT_EQ(f.fault->channel, "r_styloid_radial");
+    EXPECT_NEAR(f.fault->begin_s, 1.0, 0.021);
+  }
+  EXPECT_TRUE(jump);
+}
+
+TEST(CheckRecording, LooksAtASingleFile) {
+  const test::TemporaryFolder folder;
+  std::string text = "time,a [V],b [V]\n";
+  for (int i = 0; i < 4000; ++i) {
+    const double noise = ((i * 7919) % 2003) / 2003.0 - 0.5;
+    const double hum = std::sin(2.0 * 3.14159265358979 * 50.0 * 0.001 * i);
+    text += fmt::format("{:.3f},{:.9f},{:.9f}\n", 0.001 * i, 1e-4 * noise,
+                        1e-4 * ((i * 104729) % 4001) / 4001.0 + 1e-4 * hum);
+  }
+  recording::write_file(folder / "emg.csv", text);
+  const std::vector<Finding> findings = check_recording(folder / "emg.csv", Vec3::UnitZ());
+  ASSERT_EQ(std::count_if(findings.begin(), findings.end(),
+                          [](const Finding& f) { return f.level == Finding::Level::warning; }),
+            1);
+  EXPECT_EQ(findings[0].fault->kind, signals::FaultKind::emg_hum);
+  EXPECT_EQ(findings[0].fault->channel, "b");
+}
+
+std::vector<Finding> warnings_of(const std::filesystem::path& file) {
+  std::vector<Finding> findings = check_recording(file, Vec3::UnitZ());
+  std::erase_if(findings, [](const Finding& f) { return f.level != Finding::Level::warning; });
+  return findings;
+}
+
+/// Recordings of three laboratories. What may be said of them is known: markers that were hidden
+/// for long, electrodes that were not worn.
+TEST(CheckRecording, OfRealRecordingsOnlyWhatIsTrueIsSaid) {
+  const std::filesystem::path data = test::data_folder();
+  MYOID_REQUIRE_DATA(data / "elbow-emg" / "load5p5_T1_emg_raw_uV.sto");
+  for (const std::string trial :
+       {"load2p75_T1", "load2p75_T2", "load2p75_T3", "load5p5_T1", "load5p5_T2", "load5p5_T3"}) {
+    EXPECT_TRUE(warnings_of(data / "elbow-emg" / (trial + "_emg_raw_uV.sto")).empty()) << trial;
+    EXPECT_TRUE(warnings_of(data / "elbow-emg" / (trial + "_imu_landmarks.trc")).empty()) << trial;
+  }
+  for (const std::string trial : {"abd", "abd_cocon", "flex", "flex_cocon", "mvt_random"}) {
+    const std::string file = "subject_1_" + trial + ".trc";
+    EXPECT_TRUE(warnings_of(data / "upper-limb-optical" / file).empty()) << trial;
+  }
+  for (const Finding& f : warnings_of(data / "box-lift" / "markers_analogs.c3d")) {
+    ASSERT_TRUE(f.fault) << f.message;
+    const bool hidden = f.fault->kind == signals::FaultKind::marker_gap && f.fault->value > 0.2;
+    const bool not_worn = f.fault->kind == signals::FaultKind::emg_flat && f.fault->value == 0.0;
+    EXPECT_TRUE(hidden || not_worn) << f.message;
+  }
 }
 
 TEST(CheckStudy, AStartThatTheModelPutsOutsideTheBoundsIsWarnedOf) {

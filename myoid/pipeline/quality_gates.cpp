@@ -82,6 +82,18 @@ std::vector<report::Gate> quality_gates(const StudyResult& result) {
                     fmt::format("{} of {} failed", result.failed_trials, result.trials.size()),
                     "all", "The others are reported; the failures are listed under the trials."});
   }
+  const std::vector<NamedFault> faults = all_faults(result);
+  const auto grave = std::count_if(faults.begin(), faults.end(),
+                                   [](const NamedFault& f) { return f.fault.grave; });
+  std::set<std::string> kinds;
+  for (const NamedFault& f : faults) {
+    if (f.fault.grave) kinds.insert(std::string(signals::name(f.fault.kind)));
+  }
+  list.push_back({"Recordings without faults", grave == 0 ? GateStatus::pass : GateStatus::warn,
+                  grave == 0 ? std::string("none found")
+                             : fmt::format("{} found: {}", grave, fmt::join(kinds, ", ")),
+                  "no gap, jump, hum, clipping, ... beyond the limits",
+                  "Each is listed below with its channel, its time and what to do."});
   if (any_ik) {
     const int lost = unconverged + blind;
     list.push_back({"Inverse kinematics converged",
@@ -173,6 +185,48 @@ std::vector<report::Gate> quality_gates(const StudyResult& result) {
          fmt::format("Better in {} of {} trials left out.", better, result.folds.size())});
   }
   return list;
+}
+
+std::vector<NamedFault> all_faults(const StudyResult& result) {
+  std::vector<NamedFault> faults;
+  for (const TrialResult& t : result.trials) {
+    for (const signals::Fault& fault : t.faults) faults.push_back({t.spec.name, fault});
+  }
+  for (const signals::Fault& fault : result.level_faults) faults.push_back({"", fault});
+  return faults;
+}
+
+report::Section recordings_section(const StudyResult& result) {
+  report::Section section{"recordings", "Quality of the recordings", {}, {}, {}, {}};
+  std::vector<NamedFault> faults = all_faults(result);
+  if (faults.empty()) {
+    section.paragraphs.emplace_back("No fault was found in any channel.");
+    return section;
+  }
+  std::stable_sort(faults.begin(), faults.end(), [](const NamedFault& a, const NamedFault& b) {
+    return a.fault.grave && !b.fault.grave;
+  });
+  constexpr std::size_t kMost = 40;
+  report::Table table{"recordings",
+                      "What the recordings themselves show",
+                      "As they came, before anything was mended. The limits stand in the guide to "
+                      "`myoid check`.",
+                      {"level", "trial", "time", "what was found", "what to do"},
+                      {}};
+  for (std::size_t i = 0; i < std::min(faults.size(), kMost); ++i) {
+    const NamedFault& f = faults[i];
+    table.rows.push_back(
+        {f.fault.grave ? report::Cell{"warning", report::Badge::weak} : report::Cell{"note"},
+         {f.trial.empty() ? std::string("all") : f.trial},
+         {fmt::format("{:.5g} to {:.5g} s", f.fault.begin_s, f.fault.end_s)},
+         {f.fault.text},
+         {f.fault.remedy}});
+  }
+  section.tables.push_back(std::move(table));
+  if (faults.size() > kMost) {
+    section.paragraphs.push_back(fmt::format("{} more stand in run.json.", faults.size() - kMost));
+  }
+  return section;
 }
 
 bool motion_is_unreliable(const StudyResult& result) {

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "myoid/pipeline/run_study.h"
+#include "myoid/pipeline/trial_quality.h"
 #include "myoid/report/report.h"
 
 namespace myoid::pipeline {
@@ -11,6 +12,13 @@ namespace myoid::pipeline {
 /// prediction, each with what was found, what is expected and why. The same list heads the report,
 /// goes to the terminal, and decides exit code 4.
 [[nodiscard]] std::vector<report::Gate> quality_gates(const StudyResult& result);
+
+/// The faults of all recordings as a table with their times and remedies, warnings first; the
+/// report begins with it.
+[[nodiscard]] report::Section recordings_section(const StudyResult& result);
+
+/// All faults of the recordings, those of the whole study last.
+[[nodiscard]] std::vector<NamedFault> all_faults(const StudyResult& result);
 
 /// True if a gate failed on which the motion rests (inverse kinematics, markers, angles): no
 /// parameter can then be better than the motion it was computed from.

@@ -141,6 +141,20 @@ void write_identified_model(const StudyResult& result, const std::filesystem::pa
   }
 }
 
+ordered_json faults_json(const std::vector<signals::Fault>& faults) {
+  ordered_json list = ordered_json::array();
+  for (const signals::Fault& fault : faults) {
+    list.push_back({{"fault", std::string(signals::name(fault.kind))},
+                    {"level", fault.grave ? "warning" : "note"},
+                    {"channel", fault.channel},
+                    {"begin_s", fault.begin_s},
+                    {"end_s", fault.end_s},
+                    {"value", fault.value},
+                    {"message", signals::sentence(fault)}});
+  }
+  return list;
+}
+
 }  // namespace
 
 std::string parameters_csv(const std::vector<IdentificationResult>& methods) {
@@ -428,8 +442,10 @@ void write_results(const StudyResult& result,
     run["trials"].push_back({{"name", trial.spec.name},
                              {"use", std::string(name(trial.spec.use))},
                              {"failure", trial.failure},
-                             {"notes", trial.notes}});
+                             {"notes", trial.notes},
+                             {"faults", faults_json(trial.faults)}});
   }
+  run["faults"] = faults_json(result.level_faults);
   recording::write_file(folder / "run.json", run.dump(2) + "\n");
 }
 

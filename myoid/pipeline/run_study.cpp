@@ -19,7 +19,9 @@
 #include "myoid/pipeline/study_model.h"
 #include "myoid/pipeline/study_phases.h"
 #include "myoid/pipeline/trial_input.h"
+#include "myoid/pipeline/trial_quality.h"
 #include "myoid/recording/csv_reader.h"
+#include "myoid/signals/emg_quality.h"
 #include "myoid/signals/resample.h"
 
 namespace myoid::pipeline {
@@ -246,6 +248,7 @@ void process_all_emg(const Study& study,
           signals::process_emg(*inputs[i].emg, {.highpass_hz = study.emg.highpass_hz,
                                                 .lowpass_hz = study.emg.lowpass_hz,
                                                 .rectify = study.emg.rectify,
+                                                .notch = study.emg.notch,
                                                 .as_published = study.emg.as_published});
     });
     for (TrialResult& trial : result.trials) {
@@ -267,6 +270,7 @@ void process_all_emg(const Study& study,
         study.emg.kind == EmgKind::raw ? result.trials[i].emg->envelope : *inputs[i].emg;
     envelopes.push_back({study.trials[i].name, study.trials[i].use == Use::mvc, &envelope});
   }
+  result.level_faults = signals::check_emg_levels(envelopes);
   result.normalisation =
       signals::find_normalisation(envelopes, {.window_s = study.emg.normalise_window_s});
   for (std::size_t i = 0; i < inputs.size(); ++i) {
@@ -312,21 +316,28 @@ identification::TorqueOptions torque_options(const Study& study,
 
 }  // namespace
 
-StudyInputs read_inputs(const Study& study) {
+StudyInputs read_inputs(Study& study) {
   StudyInputs inputs;
   const model::BodyModel model = load_model(study);
   inputs.files.push_back({study.file.string(), sha256(recording::read_text_file(study.file))});
   if (study.model.file)
     inputs.files.push_back({study.model.file->string(), sha256(model_text(study))});
   if (study.truth) inputs.truth = read_truth(*study.truth);
-  inputs.trials.resize(study.trials.size());
+  std::vector<std::vector<TrialPart>> parts(study.trials.size());
   oneapi::tbb::parallel_for(std::size_t{0}, study.trials.size(), [&](std::size_t i) {
     try {
-      inputs.trials[i] = read_trial_input(study, study.trials[i], model);
+      parts[i] = read_trial_parts(study, study.trials[i], model);
     } catch (const InvalidInput& error) {
       throw InvalidInput(fmt::format("{} (trial '{}')", error.what(), study.trials[i].name));
     }
   });
+  study.trials.clear();
+  for (std::vector<TrialPart>& of_one : parts) {
+    for (TrialPart& part : of_one) {
+      study.trials.push_back(std::move(part.spec));
+      inputs.trials.push_back(std::move(part.input));
+    }
+  }
   for (const TrialInput& trial : inputs.trials) {
     for (const InputFile& file : trial.files) {
       const bool known = std::any_of(inputs.files.begin(), inputs.files.end(),
@@ -370,6 +381,15 @@ StudyResult analyse(const Study& study, StudyInputs given, const RunOptions& opt
   }
   Stages stages(options, result.times);
   stages.run("EMG", 0.15, [&] { process_all_emg(study, inputs, result); });
+  stages.run("quality", 0.25, [&] {
+    oneapi::tbb::parallel_for(std::size_t{0}, inputs.size(), [&](std::size_t i) {
+      TrialResult& trial = result.trials[i];
+      const TimeSeries envelope = trial.emg       ? trial.emg->envelope
+                                  : inputs[i].emg ? *inputs[i].emg
+                                                  : TimeSeries();
+      trial.faults = trial_faults(study, inputs[i], envelope);
+    });
+  });
 
   std::optional<StageStore> store;
   if (options.store) store.emplace(*options.store);

@@ -20,6 +20,7 @@
 #include "myoid/pipeline/trial_input.h"
 #include "myoid/recording/text_file.h"
 #include "myoid/signals/emg_envelope.h"
+#include "myoid/signals/fault.h"
 
 namespace myoid::pipeline {
 
@@ -38,8 +39,9 @@ struct TrialResult {
   TimeSeries muscle_torque;        ///< Of the study's coordinate: what the muscles provide [N m].
   forces::MuscleForces shared;     ///< Of the model's muscles.
   std::vector<std::string> notes;  ///< Repairs and remarks, with file and line.
-  std::vector<std::string> warnings;  ///< Those of them that may make numbers wrong.
-  std::string failure;                ///< Why it could not be computed; empty: it could.
+  std::vector<std::string> warnings;   ///< Those of them that may make numbers wrong.
+  std::vector<signals::Fault> faults;  ///< Of its recordings, as they came.
+  std::string failure;                 ///< Why it could not be computed; empty: it could.
 
   [[nodiscard]] bool has_motion() const { return motion.q.sample_count() > 0 && failure.empty(); }
 };
@@ -57,10 +59,11 @@ struct TrueValue {
 
 struct StudyResult {
   Study study;
-  std::optional<double> start_s, end_s;  ///< As RunOptions had them.
-  model::BodyModel model;                ///< The study's model, without held mass.
-  std::string model_text;                ///< As read or made.
-  std::vector<TrialResult> trials;       ///< In the study's order.
+  std::optional<double> start_s, end_s;      ///< As RunOptions had them.
+  model::BodyModel model;                    ///< The study's model, without held mass.
+  std::string model_text;                    ///< As read or made.
+  std::vector<TrialResult> trials;           ///< In the study's order.
+  std::vector<signals::Fault> level_faults;  ///< Of EMG channels, over all trials.
   std::vector<signals::ChannelNormalisation> normalisation;  ///< Empty if EMG came as activations.
   identification::StudyData data;                            ///< What the estimators saw.
   std::vector<identification::IdentificationResult> methods;
@@ -93,8 +96,9 @@ struct StudyInputs {
   std::vector<InputFile> files;
 };
 
-/// Reads every file of a study. Throws as `run_study`.
-[[nodiscard]] StudyInputs read_inputs(const Study& study);
+/// Reads every file of a study; a trial that cannot be taken as one piece is replaced by its parts,
+/// in the study too. Throws as `run_study`.
+[[nodiscard]] StudyInputs read_inputs(Study& study);
 
 /// All stages after reading, on inputs that may never have been files. As `run_study` otherwise.
 [[nodiscard]] StudyResult analyse(const Study& study,

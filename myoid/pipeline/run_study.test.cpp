@@ -235,6 +235,27 @@ TEST(ReadTrialInput, AShortPauseOfTheClockIsWarnedOfAndALongOneRefused) {
   EXPECT_NE(message.find("make two trials of it"), std::string::npos) << message;
 }
 
+TEST(ReadTrialParts, ATrialIsCutAtALongPauseAndShortPartsAreLeftOut) {
+  const Study& study = ExactRun::get().result.study;
+  const model::BodyModel& model = ExactRun::get().result.model;
+  const WrittenTrial paused(0.01, 8.0, 3.0);
+  const std::vector<TrialPart> parts = read_trial_parts(study, paused.spec, model);
+  ASSERT_EQ(parts.size(), 2U);
+  EXPECT_EQ(parts[0].spec.name, "t.1");
+  EXPECT_EQ(parts[1].spec.name, "t.2");
+  EXPECT_NEAR(parts[0].input.motion->time_s()[249], 2.49, 1e-9);
+  EXPECT_EQ(parts[0].input.motion->sample_count(), 250);
+  EXPECT_NEAR(parts[1].input.motion->time_s()[0], 5.5, 1e-9);
+  ASSERT_FALSE(parts[1].input.warnings.empty());
+  EXPECT_NE(parts[1].input.warnings.back().find("cut at the pauses of its clock (m.mot)"),
+            std::string::npos);
+  // Of a trial that ends 0.5 s after the pause, that part is left out.
+  WrittenTrial shorter(0.01, 8.0, 3.0);
+  shorter.spec.end_s = 6.0;
+  EXPECT_EQ(read_trial_parts(study, shorter.spec, model).size(), 1U);
+  EXPECT_EQ(read_trial_parts(study, WrittenTrial(0.01, 5.0).spec, model)[0].spec.name, "t");
+}
+
 TEST(ReadTrialInput, AClockInMillisecondsIsRefused) {
   const std::string message =
       message_of([&] { (void)WrittenTrial(10.0, 5.0).read(ExactRun::get().result.study); });

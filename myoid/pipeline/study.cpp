@@ -114,6 +114,8 @@ MarkerSpec read_markers(TomlTable table) {
       markers.weight[key] = value;
     }
   }
+  markers.undo_swaps = table.flag("undo_swaps").value_or(markers.undo_swaps);
+  markers.fill_gaps = table.flag("fill_gaps").value_or(markers.fill_gaps);
   table.finish();
   return markers;
 }
@@ -147,6 +149,7 @@ EmgSpec read_emg(TomlTable table) {
                                   : EmgKind::activation;
   emg.unit = table.text("unit").value_or("");
   emg.rectify = table.flag("rectify").value_or(emg.rectify);
+  emg.notch = table.choice("notch", "auto", {"auto", "none"}) == "auto";
   emg.highpass_hz = positive(table, "highpass_hz", emg.highpass_hz);
   emg.lowpass_hz = positive(table, "lowpass_hz", emg.lowpass_hz);
   emg.as_published = table.flag("as_published").value_or(emg.as_published);

@@ -52,6 +52,8 @@ struct MarkerSpec {
   std::map<std::string, std::string> rename;  ///< From the file's name to the model's.
   std::map<std::string, double> weight;       ///< By the model's name; 1 where absent.
   char up = 'y';                              ///< Vertical axis of the laboratory: 'x', 'y' or 'z'.
+  bool undo_swaps = true;                     ///< Labels that were exchanged are exchanged back.
+  bool fill_gaps = true;                      ///< By splines, and from the segment's other markers.
 };
 
 /// Coordinates that are measured once, in a posture that is known, and then held.
@@ -73,6 +75,7 @@ struct EmgSpec {
   EmgKind kind = EmgKind::raw;
   std::string unit;  ///< "uV", ...; empty: as the file says.
   bool rectify = true;
+  bool notch = true;  ///< Where mains hum is found.
   double highpass_hz = 20.0;
   double lowpass_hz = 6.0;
   bool as_published = false;  ///< The uncorrected 6 Hz design of the source paper.

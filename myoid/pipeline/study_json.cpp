@@ -47,6 +47,7 @@ ordered_json emg_json(const EmgSpec& emg) {
   ordered_json j = {{"kind", kinds[static_cast<int>(emg.kind)]},
                     {"unit", emg.unit},
                     {"rectify", emg.rectify},
+                    {"notch", emg.notch ? "auto" : "none"},
                     {"highpass_hz", emg.highpass_hz},
                     {"lowpass_hz", emg.lowpass_hz},
                     {"as_published", emg.as_published},
@@ -83,7 +84,9 @@ std::string study_json(const Study& study) {
                  {"rate_hz", study.motion.rate_hz}};
   j["markers"] = {{"rename", study.markers.rename},
                   {"weight", study.markers.weight},
-                  {"up", std::string(1, study.markers.up)}};
+                  {"up", std::string(1, study.markers.up)},
+                  {"undo_swaps", study.markers.undo_swaps},
+                  {"fill_gaps", study.markers.fill_gaps}};
   j["ik"] = ik_json(study.ik);
   j["emg"] = emg_json(study.emg);
   j["sharing"] = {{"objective", study.sharing.objective},

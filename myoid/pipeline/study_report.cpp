@@ -514,6 +514,7 @@ report::Report study_report(const StudyResult& result, const Provenance& provena
   const IdentificationResult* torque = method_of(result, "torque");
   const IdentificationResult* paper = method_of(result, "paper");
 
+  report.sections.push_back(recordings_section(result));
   if (torque != nullptr) {
     Section section{"parameters", "Parameters", {}, {}, {}, {}};
     section.paragraphs.push_back(

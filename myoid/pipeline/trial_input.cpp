@@ -7,13 +7,17 @@
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
+#include "myoid/pipeline/trial_quality.h"
 #include "myoid/recording/byte_source.h"
 #include "myoid/recording/emg_reader.h"
+#include "myoid/recording/label_match.h"
 #include "myoid/recording/recording.h"
 #include "myoid/recording/storage_reader.h"
 #include "myoid/recording/text_file.h"
 #include "myoid/recording/toml_table.h"
 #include "myoid/signals/clock_gaps.h"
+#include "myoid/signals/marker_quality.h"
+#include "myoid/signals/mend_markers.h"
 
 namespace myoid::pipeline {
 namespace {
@@ -29,15 +33,47 @@ void add_repairs(const std::filesystem::path& path,
   }
 }
 
+void warn(TrialInput& input, std::string text) {
+  input.notes.push_back(text);
+  input.warnings.push_back(std::move(text));
+}
+
+/// Labels that differ from the model's in their writing only become the model's; of others that
+/// resemble one it is asked.
+void match_labels(const model::BodyModel& model,
+                  const std::filesystem::path& path,
+                  std::vector<std::string>& names,
+                  TrialInput& input) {
+  std::vector<std::string> wanted;
+  for (const model::Marker& marker : model.markers) wanted.push_back(marker.name);
+  const recording::LabelMatch match = recording::match_labels(names, wanted);
+  for (std::string& name : names) {
+    const auto same = match.same.find(name);
+    if (same == match.same.end()) continue;
+    input.notes.push_back(fmt::format("{}: marker '{}' is taken for the model's '{}'",
+                                      path.filename().string(), name, same->second));
+    name = same->second;
+  }
+  for (const auto& [name, like] : match.similar) {
+    input.notes.push_back(
+        fmt::format("{}: the model has no marker '{}'; did you mean '{}'? Then write [markers] "
+                    "rename = {{ \"{}\" = \"{}\" }}",
+                    path.filename().string(), name, like, name, like));
+  }
+}
+
 recording::MarkerSeries read_markers(const Study& study,
+                                     const model::BodyModel& model,
                                      const std::filesystem::path& path,
-                                     std::vector<std::string>& notes) {
+                                     TrialInput& input) {
   recording::MarkerFile file = recording::read_markers(path);
+  std::vector<std::string>& notes = input.notes;
   add_repairs(path, file.repairs, notes);
   for (std::string& name : file.markers.names) {
     if (const auto it = study.markers.rename.find(name); it != study.markers.rename.end())
       name = it->second;
   }
+  match_labels(model, path, file.markers.names, input);
   if (study.markers.up != 'y') {
     notes.push_back(fmt::format("{}: laboratory turned from {} up to y up",
                                 path.filename().string(), study.markers.up));
@@ -47,9 +83,32 @@ recording::MarkerSeries read_markers(const Study& study,
   return std::move(file.markers);
 }
 
-void warn(TrialInput& input, std::string text) {
-  input.notes.push_back(text);
-  input.warnings.push_back(std::move(text));
+/// What is wrong with the markers, then as much of it put right as can be.
+recording::MarkerSeries mended(const Study& study,
+                               const model::BodyModel& model,
+                               recording::MarkerSeries markers,
+                               TrialInput& input) {
+  const std::vector<signals::ExpectedSegment> expected = segments_of(model, markers);
+  input.marker_faults = signals::check_markers(markers, expected);
+  bool right_unit = true;
+  for (signals::Fault& fault : input.marker_faults) {
+    right_unit = right_unit && fault.kind != signals::FaultKind::marker_unit;
+    const bool used =
+        std::any_of(model.markers.begin(), model.markers.end(),
+                    [&](const model::Marker& marker) { return fault.channel == marker.name; });
+    // A marker that the model does not have harms nobody.
+    const bool of_one =
+        std::find(markers.names.begin(), markers.names.end(), fault.channel) != markers.names.end();
+    if (of_one && !used) fault.grave = false;
+  }
+  if (!right_unit) return markers;
+  std::vector<signals::RigidSegment> segments;
+  for (const signals::ExpectedSegment& e : expected) segments.push_back(e.segment);
+  signals::MendedMarkers result = signals::mend_markers(
+      std::move(markers), segments,
+      {.undo_swaps = study.markers.undo_swaps, .fill_gaps = study.markers.fill_gaps});
+  for (std::string& text : result.repairs) input.notes.push_back(std::move(text));
+  return std::move(result.markers);
 }
 
 /// A clock that a person's movement can have been recorded on: pauses are warned of or refused.
@@ -66,11 +125,12 @@ void check_clock(const std::filesystem::path& path,
                                 n, time_s[0], time_s[n - 1], gaps.usual_interval_s, kSlowest_hz));
   }
   if (gaps.longest_s() > kLongestGap_s) {
-    throw ReadError(
-        path, 0,
+    throw ClockPause(
+        path,
         fmt::format("{} in its clock; a pause of more than {} s cannot be bridged: make "
                     "two trials of it, with end_s before and start_s after the gap",
-                    gaps.text(), kLongestGap_s));
+                    gaps.text(), kLongestGap_s),
+        signals::clock_stretches(time_s, kLongestGap_s));
   }
   if (gaps.count > 0) {
     warn(input, fmt::format("{}: {} in its clock, bridged by a spline", path.filename().string(),
@@ -200,7 +260,7 @@ TrialInput read_trial_input(const Study& study,
   const double end = trial.end_s.value_or(1e300);
   if (trial.markers) {
     remember(*trial.markers);
-    recording::MarkerSeries markers = read_markers(study, *trial.markers, input.notes);
+    recording::MarkerSeries markers = read_markers(study, model, *trial.markers, input);
     if (trial.start_s || trial.end_s) {
       Eigen::Index first = 0;
       while (first < markers.frame_count() && markers.time_s[first] < start) ++first;
@@ -214,7 +274,7 @@ TrialInput read_trial_input(const Study& study,
                       fmt::format("only {} frames; at least 10 are needed", markers.frame_count()));
     check_clock(*trial.markers, markers.time_s, input);
     check_cutoff(study, *trial.markers, rate_of(markers.time_s));
-    input.markers = std::move(markers);
+    input.markers = mended(study, model, std::move(markers), input);
   }
   if (trial.motion) {
     remember(*trial.motion);
@@ -285,6 +345,35 @@ TrialInput read_trial_input(const Study& study,
     require_finite(*input.external_torque, trial.external_torque->string());
   }
   return input;
+}
+
+std::vector<TrialPart> read_trial_parts(const Study& study,
+                                        const TrialSpec& trial,
+                                        const model::BodyModel& model) {
+  std::vector<TrialPart> parts;
+  try {
+    parts.push_back({trial, read_trial_input(study, trial, model)});
+    return parts;
+  } catch (const ClockPause& pause) {
+    if (study.ik.calibrate) throw;
+    int number = 0;
+    for (const signals::ClockStretch& stretch : pause.stretches()) {
+      TrialSpec spec = trial;
+      spec.name = fmt::format("{}.{}", trial.name, ++number);
+      spec.start_s = std::max(trial.start_s.value_or(stretch.begin_s), stretch.begin_s);
+      spec.end_s = std::min(trial.end_s.value_or(stretch.end_s), stretch.end_s);
+      if (*spec.end_s - *spec.start_s < kShortestPart_s) continue;
+      // The other recording may pause elsewhere.
+      for (TrialPart& part : read_trial_parts(study, spec, model)) parts.push_back(std::move(part));
+    }
+    if (parts.empty()) throw;
+    for (TrialPart& part : parts) {
+      warn(part.input,
+           fmt::format("part of trial '{}', which is cut at the pauses of its clock ({})",
+                       trial.name, pause.path().filename().string()));
+    }
+  }
+  return parts;
 }
 
 }  // namespace myoid::pipeline

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -19,6 +20,16 @@ struct ClockGaps {
   /// "2 gaps, 3.5 s in all, the longest from 10.2 to 13.2 s".
   [[nodiscard]] std::string text() const;
 };
+
+/// A part of a clock, both ends included.
+struct ClockStretch {
+  double begin_s = 0.0;
+  double end_s = 0.0;
+};
+
+/// The parts between pauses of more than `longest_gap_s`, in order; one if there is no such pause.
+[[nodiscard]] std::vector<ClockStretch> clock_stretches(
+    const Eigen::Ref<const Eigen::VectorXd>& time_s, double longest_gap_s);
 
 /// `time_s` increases. No gap in fewer than three samples.
 [[nodiscard]] ClockGaps find_clock_gaps(const Eigen::Ref<const Eigen::VectorXd>& time_s);

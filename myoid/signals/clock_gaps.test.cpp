@@ -44,5 +44,15 @@ TEST(ClockGaps, OfSeveralTheLongestIsNamed) {
   EXPECT_NEAR(gaps.longest_end_s, 6.0, 1e-9);
 }
 
+TEST(ClockGaps, WhatLiesBetweenLongPausesAreStretches) {
+  const auto stretches = clock_stretches(clock_without(3.0, 6.0), 0.5);
+  ASSERT_EQ(stretches.size(), 2U);
+  EXPECT_NEAR(stretches[0].begin_s, 0.0, 1e-9);
+  EXPECT_NEAR(stretches[0].end_s, 3.0, 1e-9);
+  EXPECT_NEAR(stretches[1].begin_s, 6.0, 1e-9);
+  EXPECT_NEAR(stretches[1].end_s, 10.0, 1e-9);
+  EXPECT_EQ(clock_stretches(clock_without(3.0, 3.4), 0.5).size(), 1U);
+}
+
 }  // namespace
 }  // namespace myoid::signals

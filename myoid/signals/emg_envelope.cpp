@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <complex>
 #include <limits>
 #include <utility>
 
@@ -10,30 +9,11 @@
 
 #include "myoid/core/error.h"
 #include "myoid/signals/filter.h"
+#include "myoid/signals/mains_hum.h"
+#include "myoid/signals/quality_limits.h"
 
 namespace myoid::signals {
 namespace {
-
-/// Share of the power within half a hertz of `frequency_hz`, by Goertzel sums on pieces of two
-/// seconds.
-double line_share(const Eigen::Ref<const Eigen::VectorXd>& x, double rate_hz, double frequency_hz) {
-  const auto piece = static_cast<Eigen::Index>(2.0 * rate_hz);
-  if (x.size() < piece || frequency_hz > 0.45 * rate_hz) return 0.0;
-  double line = 0.0;
-  double total = 0.0;
-  for (Eigen::Index begin = 0; begin + piece <= x.size(); begin += piece) {
-    std::complex<double> sum = 0.0;
-    const std::complex<double> turn = std::polar(1.0, -2.0 * kPi * frequency_hz / rate_hz);
-    std::complex<double> phase = 1.0;
-    for (Eigen::Index i = 0; i < piece; ++i) {
-      sum += phase * x[begin + i];
-      phase *= turn;
-    }
-    line += 2.0 * std::norm(sum) / static_cast<double>(piece);
-    total += x.segment(begin, piece).squaredNorm();
-  }
-  return total > 0.0 ? line / total : 0.0;
-}
 
 /// Means over a window that slides sample by sample: entry i covers samples i .. i + width - 1.
 Eigen::VectorXd moving_mean(const Eigen::Ref<const Eigen::VectorXd>& x, Eigen::Index width) {
@@ -47,6 +27,26 @@ Eigen::VectorXd moving_mean(const Eigen::Ref<const Eigen::VectorXd>& x, Eigen::I
 Eigen::Index window_samples(const TimeSeries& series, double window_s) {
   const auto wanted = static_cast<Eigen::Index>(std::lround(window_s * series.mean_rate_hz()));
   return std::clamp<Eigen::Index>(wanted, 1, series.sample_count());
+}
+
+/// Hum is said; with `notch` it is gone afterwards.
+void take_out_hum(bool notch, EmgStages& stages) {
+  const double rate_hz = stages.filtered.mean_rate_hz();
+  Eigen::MatrixXd values = stages.filtered.values();
+  for (Eigen::Index c = 0; c < values.cols(); ++c) {
+    const auto hum = find_hum(values.col(c), rate_hz);
+    if (!hum || hum->share < QualityLimits{}.hum_share) continue;
+    std::string lines;
+    for (const double line_hz : hum->lines_hz)
+      lines += fmt::format("{}{:.0f}", lines.empty() ? "" : ", ", line_hz);
+    stages.findings.push_back(fmt::format(
+        "channel '{}': {:.0f} % of its power is hum, in lines at {} Hz; {}",
+        stages.filtered.channels()[static_cast<std::size_t>(c)].name, 100.0 * hum->share, lines,
+        notch ? "taken out by notches" : "check the reference electrode"));
+    if (notch) values.col(c) = without_hum(values.col(c), rate_hz, *hum);
+  }
+  stages.filtered =
+      TimeSeries(stages.filtered.time_s(), stages.filtered.channels(), std::move(values));
 }
 
 }  // namespace
@@ -68,17 +68,7 @@ EmgStages process_emg(const TimeSeries& raw, const EnvelopeOptions& options) {
                         ? stages.raw
                         : zero_phase_filter(stages.raw, math::FilterBand::high_pass,
                                             options.highpass_hz, {.order = 2, .corrected = true});
-  for (Eigen::Index c = 0; c < raw.channel_count(); ++c) {
-    for (const double mains : {50.0, 60.0}) {
-      const double share = line_share(stages.filtered.values().col(c), rate, mains);
-      if (share > 0.10) {
-        stages.findings.push_back(
-            fmt::format("channel '{}': {:.0f} % of its power is mains hum at {:.0f} Hz; check the "
-                        "reference electrode",
-                        raw.channels()[static_cast<std::size_t>(c)].name, 100.0 * share, mains));
-      }
-    }
-  }
+  take_out_hum(options.notch && !options.as_published, stages);
   stages.rectified =
       TimeSeries(raw.time_s(), raw.channels(),
                  options.rectify ? Eigen::MatrixXd(stages.filtered.values().cwiseAbs())

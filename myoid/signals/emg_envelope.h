@@ -13,6 +13,8 @@ struct EnvelopeOptions {
   double highpass_hz = 20.0;  ///< Removes offset and movement artefact; 4th order (2nd, both ways).
   double lowpass_hz = 6.0;    ///< Of the rectified EMG; -3 dB of both passes together.
   bool rectify = true;
+  bool notch = true;  ///< Takes mains hum out, where it is found (`find_hum`, a tenth of the
+                      ///< power); not with `as_published`.
   bool as_published = false;  ///< No high-pass and the low-pass designed at `lowpass_hz` for one
                               ///< pass, as the source paper did.
 };
@@ -27,10 +29,11 @@ struct EmgStages {
       findings;  ///< Mains hum, a rate too low for the EMG, an envelope clipped at 0.
 };
 
-/// Raw EMG -> mean removed -> high-pass -> rectified -> low-pass, every filter without delay. The
-/// envelope is the local mean of the rectified EMG: for Gaussian EMG sqrt(2/pi) times its standard
-/// deviation. Its relative spread is about 0.76 / sqrt(2 B T), 14 % at 6 Hz. Negative values of the
-/// filter's undershoot are set to 0. Throws InvalidInput unless `raw` is in volts and finite.
+/// Raw EMG -> mean removed -> high-pass -> (notches) -> rectified -> low-pass, every filter without
+/// delay. The envelope is the local mean of the rectified EMG: for Gaussian EMG sqrt(2/pi) times
+/// its standard deviation. Its relative spread is about 0.76 / sqrt(2 B T), 14 % at 6 Hz. Negative
+/// values of the filter's undershoot are set to 0. Throws InvalidInput unless `raw` is in volts and
+/// finite.
 [[nodiscard]] EmgStages process_emg(const TimeSeries& raw, const EnvelopeOptions& options = {});
 
 /// The envelope of one trial, for finding the level that counts as 1.

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "myoid/model/body_model.h"
+#include "myoid/pipeline/study.h"
+#include "myoid/pipeline/trial_input.h"
+#include "myoid/recording/marker_series.h"
+#include "myoid/signals/emg_envelope.h"
+#include "myoid/signals/fault.h"
+#include "myoid/signals/marker_quality.h"
+
+namespace myoid::pipeline {
+
+/// The model's segments that carry two or more of these markers, with where they sit. Bodies that
+/// are welded to one another count as one.
+[[nodiscard]] std::vector<signals::ExpectedSegment> segments_of(
+    const model::BodyModel& model, const recording::MarkerSeries& markers);
+
+/// Faults of a trial's EMG, of its clocks, and of what was found of its markers before they were
+/// mended. `envelope` is empty or the trial's EMG envelope.
+[[nodiscard]] std::vector<signals::Fault> trial_faults(const Study& study,
+                                                       const TrialInput& input,
+                                                       const TimeSeries& envelope);
+
+/// A line per fault for people who want few lines: warnings only, the same kind and channel in
+/// several trials said once with the trials' names, at most `most` lines and then how many more.
+struct NamedFault {
+  std::string trial;  ///< Empty: of the whole study.
+  signals::Fault fault;
+};
+[[nodiscard]] std::vector<std::string> fault_summary(const std::vector<NamedFault>& faults,
+                                                     std::size_t most = 12);
+
+}  // namespace myoid::pipeline

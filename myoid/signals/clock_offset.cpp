@@ -1,0 +1,239 @@
+#include "myoid/signals/clock_offset.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <Eigen/SVD>
+#include <fmt/format.h>
+
+#include "myoid/math/butterworth.h"
+#include "myoid/math/zero_phase.h"
+#include "myoid/signals/resample.h"
+
+namespace myoid::signals {
+namespace {
+
+constexpr double kRate_hz = 50.0;
+constexpr double kMotionBelow_hz = 4.0;
+constexpr double kReach_s = 0.6;
+constexpr double kLeastLength_s = 3.0;
+constexpr double kLeastCorrelation = 0.6;
+constexpr double kMostSd_s = 0.1;
+constexpr int kBlocks = 8;
+
+/// The first `most` principal components of the columns. `standardized`: every column counts alike.
+Eigen::MatrixXd principal(Eigen::MatrixXd x, Eigen::Index most, bool standardized) {
+  x = (x.rowwise() - x.colwise().mean()).eval();
+  if (standardized) {
+    for (Eigen::Index c = 0; c < x.cols(); ++c) {
+      const double size = x.col(c).norm();
+      if (size > 0.0) x.col(c) /= size;
+    }
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(x.transpose() * x);
+  const Eigen::Index count = std::min(most, x.cols());
+  const double largest = std::max(solver.eigenvalues()[x.cols() - 1], 0.0);
+  Eigen::MatrixXd result(x.rows(), 0);
+  for (Eigen::Index k = 0; k < count; ++k) {
+    if (!(solver.eigenvalues()[x.cols() - 1 - k] > 1e-6 * largest)) break;
+    result.conservativeResize(Eigen::NoChange, k + 1);
+    result.col(k) = x * solver.eigenvectors().col(x.cols() - 1 - k);
+    result.col(k) /= result.col(k).norm();
+  }
+  return result;
+}
+
+/// Position and acceleration of the motion's largest components.
+Eigen::MatrixXd demand(const Eigen::MatrixXd& motion) {
+  const auto sections =
+      math::design_butterworth(math::FilterBand::low_pass, 2, kMotionBelow_hz, kRate_hz);
+  const Eigen::MatrixXd position = principal(motion, 2, false);
+  Eigen::MatrixXd result(motion.rows(), 2 * position.cols());
+  for (Eigen::Index c = 0; c < position.cols(); ++c) {
+    const Eigen::VectorXd q = math::zero_phase(sections, position.col(c));
+    const Eigen::Index n = q.size();
+    Eigen::VectorXd second = Eigen::VectorXd::Zero(n);
+    second.segment(1, n - 2) = q.tail(n - 2) - 2.0 * q.segment(1, n - 2) + q.head(n - 2);
+    result.col(2 * c) = q;
+    result.col(2 * c + 1) = second / std::max(second.norm(), 1e-300);
+  }
+  return result;
+}
+
+/// Sums of products of [1, x(t - d), y(t)] over one block.
+using Moments = Eigen::MatrixXd;
+
+double canonical_correlation(const Moments& m, Eigen::Index nx) {
+  const Eigen::Index ny = m.rows() - 1 - nx;
+  const double n = m(0, 0);
+  const Eigen::VectorXd mean = m.col(0).tail(nx + ny) / n;
+  Eigen::MatrixXd c = m.bottomRightCorner(nx + ny, nx + ny) / n - mean * mean.transpose();
+  c.topLeftCorner(nx, nx).diagonal().array() *= 1.0 + 1e-9;
+  c.bottomRightCorner(ny, ny).diagonal().array() *= 1.0 + 1e-9;
+  const Eigen::LLT<Eigen::MatrixXd> xx(c.topLeftCorner(nx, nx));
+  const Eigen::LLT<Eigen::MatrixXd> yy(c.bottomRightCorner(ny, ny));
+  if (xx.info() != Eigen::Success || yy.info() != Eigen::Success) return 0.0;
+  const Eigen::MatrixXd left = xx.matrixL().solve(c.topRightCorner(nx, ny));
+  const Eigen::MatrixXd both = yy.matrixL().solve(left.transpose());
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(both);
+  return svd.singularValues()[0];
+}
+
+struct Peak {
+  double lead_s = 0.0;
+  double correlation = 0.0;
+  bool inside = false;
+};
+
+/// The largest correlation over the lags, its place by a parabola through three.
+Peak peak_of(const std::vector<Moments>& by_lag, Eigen::Index nx) {
+  std::vector<double> values;
+  for (const Moments& m : by_lag) values.push_back(canonical_correlation(m, nx));
+  const auto at = std::max_element(values.begin(), values.end()) - values.begin();
+  Peak peak;
+  peak.correlation = values[static_cast<std::size_t>(at)];
+  peak.lead_s = static_cast<double>(at) / kRate_hz - kReach_s;
+  peak.inside = at > 0 && at + 1 < static_cast<std::ptrdiff_t>(values.size());
+  if (peak.inside) {
+    const double before = values[static_cast<std::size_t>(at) - 1];
+    const double after = values[static_cast<std::size_t>(at) + 1];
+    const double curvature = before - 2.0 * peak.correlation + after;
+    if (curvature < 0.0) peak.lead_s += 0.5 * (before - after) / curvature / kRate_hz;
+  }
+  return peak;
+}
+
+TimeSeries third(const TimeSeries& series, int which, double begin_s, double end_s) {
+  const double length_s = (end_s - begin_s) / 3.0;
+  return series.slice(begin_s + which * length_s, begin_s + (which + 1) * length_s);
+}
+
+}  // namespace
+
+std::optional<ClockOffset> estimate_clock_offset(const TimeSeries& envelopes,
+                                                 const TimeSeries& motion) {
+  if (envelopes.sample_count() < 10 || motion.sample_count() < 10) return std::nullopt;
+  const double begin_s = std::max(envelopes.time_s()[0], motion.time_s()[0]);
+  const double end_s = std::min(envelopes.time_s()[envelopes.sample_count() - 1],
+                                motion.time_s()[motion.sample_count() - 1]);
+  if (end_s - begin_s < kLeastLength_s || motion.mean_rate_hz() < 2.5 * kMotionBelow_hz)
+    return std::nullopt;
+  const Eigen::VectorXd clock = even_clock(begin_s, end_s, kRate_hz);
+  const Eigen::MatrixXd x = principal(resample(envelopes, clock).values(), 4, true);
+  const Eigen::MatrixXd y = demand(resample(motion, clock).values());
+  if (x.cols() == 0 || y.cols() == 0) return std::nullopt;
+
+  const auto reach = static_cast<Eigen::Index>(kReach_s * kRate_hz);
+  const Eigen::Index usable = clock.size() - 2 * reach;
+  if (usable < 8 * kBlocks) return std::nullopt;
+  std::vector<std::vector<Moments>> sums;  // by lag, by block
+  std::vector<Moments> whole;
+  for (Eigen::Index lag = -reach; lag <= reach; ++lag) {
+    std::vector<Moments> blocks;
+    Moments total = Moments::Zero(1 + x.cols() + y.cols(), 1 + x.cols() + y.cols());
+    for (int k = 0; k < kBlocks; ++k) {
+      const Eigen::Index first = reach + k * usable / kBlocks;
+      const Eigen::Index count = reach + (k + 1) * usable / kBlocks - first;
+      Eigen::MatrixXd rows(count, total.cols());
+      rows << Eigen::VectorXd::Ones(count), x.middleRows(first - lag, count),
+          y.middleRows(first, count);
+      blocks.emplace_back(rows.transpose() * rows);
+      total += blocks.back();
+    }
+    sums.push_back(std::move(blocks));
+    whole.push_back(std::move(total));
+  }
+  const Peak peak = peak_of(whole, x.cols());
+  if (!peak.inside || peak.correlation < kLeastCorrelation) return std::nullopt;
+  std::array<double, kBlocks> leads{};
+  double mean = 0.0;
+  for (std::size_t k = 0; k < leads.size(); ++k) {
+    std::vector<Moments> without = whole;
+    for (std::size_t lag = 0; lag < without.size(); ++lag) without[lag] -= sums[lag][k];
+    leads[k] = peak_of(without, x.cols()).lead_s;
+    mean += leads[k] / kBlocks;
+  }
+  double squares = 0.0;
+  for (const double lead : leads) squares += (lead - mean) * (lead - mean);
+  // A jackknife's variance; the grid cannot tell less than a tenth of its step.
+  const double sd_s = std::max(std::sqrt(squares * (kBlocks - 1) / kBlocks), 0.1 / kRate_hz);
+  if (sd_s > kMostSd_s) return std::nullopt;
+  return ClockOffset{.lead_s = peak.lead_s, .sd_s = sd_s, .correlation = peak.correlation};
+}
+
+std::vector<Fault> check_clock_offset(const TimeSeries& envelopes,
+                                      const TimeSeries& motion,
+                                      const QualityLimits& limits) {
+  std::vector<Fault> faults;
+  const std::optional<ClockOffset> offset = estimate_clock_offset(envelopes, motion);
+  if (!offset) return faults;
+  const double begin_s = std::max(envelopes.time_s()[0], motion.time_s()[0]);
+  const double end_s = std::min(envelopes.time_s()[envelopes.sample_count() - 1],
+                                motion.time_s()[motion.sample_count() - 1]);
+  const bool grave = offset->lead_s - 2.0 * offset->sd_s > limits.latest_offset_s ||
+                     offset->lead_s + 2.0 * offset->sd_s < limits.earliest_offset_s;
+  faults.push_back(
+      {.kind = FaultKind::clock_offset,
+       .grave = grave,
+       .channel = "EMG and motion",
+       .begin_s = begin_s,
+       .end_s = end_s,
+       .value = offset->lead_s,
+       .text = fmt::format("the EMG is {:.0f} ± {:.0f} ms {} the motion that it drives",
+                           1000.0 * std::abs(offset->lead_s), 1000.0 * offset->sd_s,
+                           offset->lead_s < 0.0 ? "behind" : "ahead of"),
+       .remedy =
+           grave ? fmt::format("expected {:.0f} to {:.0f} ms ahead: were the two recordings "
+                               "started together? Shift the clock of one of them",
+                               1000.0 * limits.earliest_offset_s, 1000.0 * limits.latest_offset_s)
+                 : ""});
+  constexpr double kLongEnough_s = 30.0;
+  if (end_s - begin_s < kLongEnough_s) return faults;
+  const auto first =
+      estimate_clock_offset(third(envelopes, 0, begin_s, end_s), third(motion, 0, begin_s, end_s));
+  const auto last =
+      estimate_clock_offset(third(envelopes, 2, begin_s, end_s), third(motion, 2, begin_s, end_s));
+  if (!first || !last) return faults;
+  const double drift_s = last->lead_s - first->lead_s;
+  const double sd_s = std::hypot(first->sd_s, last->sd_s);
+  if (std::abs(drift_s) < limits.drift_s || std::abs(drift_s) < 3.0 * sd_s) return faults;
+  faults.push_back(
+      {.kind = FaultKind::clock_drift,
+       .grave = true,
+       .channel = "EMG and motion",
+       .begin_s = begin_s,
+       .end_s = end_s,
+       .value = drift_s,
+       .text = fmt::format("the EMG's lead over the motion changes by {:.0f} ± {:.0f} ms from the "
+                           "first third to the last",
+                           1000.0 * drift_s, 1000.0 * sd_s),
+       .remedy = "do the two clocks run at the same rate? Check the rates that the files state, or "
+                 "cut the trial into shorter ones"});
+  return faults;
+}
+
+std::optional<Fault> check_clock_evenness(const Eigen::Ref<const Eigen::VectorXd>& time_s,
+                                          const std::string& what,
+                                          const QualityLimits& limits) {
+  const Eigen::Index n = time_s.size();
+  if (n < 10) return std::nullopt;
+  const Eigen::VectorXd intervals = time_s.tail(n - 1) - time_s.head(n - 1);
+  const double mean = intervals.mean();
+  const double sd = std::sqrt((intervals.array() - mean).square().mean());
+  if (sd <= limits.uneven_share * mean) return std::nullopt;
+  return Fault{.kind = FaultKind::clock_uneven,
+               .grave = false,
+               .channel = what,
+               .begin_s = time_s[0],
+               .end_s = time_s[n - 1],
+               .value = sd / mean,
+               .text = fmt::format("{}: the samples are not even, intervals of {:.3g} ± {:.2g} ms",
+                                   what, 1000.0 * mean, 1000.0 * sd),
+               .remedy = "they are put on an even clock by interpolation"};
+}
+
+}  // namespace myoid::signals

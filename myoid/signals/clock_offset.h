@@ -1,0 +1,43 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "myoid/core/time_series.h"
+#include "myoid/signals/fault.h"
+#include "myoid/signals/quality_limits.h"
+
+namespace myoid::signals {
+
+/// By how much the EMG's clock is ahead of the motion's, delays of the body included.
+struct ClockOffset {
+  double lead_s = 0.0;  ///< Positive: a burst of EMG comes before the motion that it drives.
+  double sd_s = 0.0;    ///< Its standard deviation, by leaving out each eighth of the recording.
+  double correlation = 0.0;  ///< The largest canonical correlation, at `lead_s`.
+};
+
+/// Compares the EMG's envelopes a(t - d) with what the muscles have to provide for: position and
+/// acceleration of the motion (the torque of gravity and that of inertia), by the largest canonical
+/// correlation of the two (Hotelling 1936) over d. At most four principal components of the
+/// envelopes and two of the motion take part, at 50 Hz, the motion below 4 Hz. Searched within 0.6
+/// s either way. Empty where it cannot be told: less than 3 s in common, no motion, a correlation
+/// below 0.6, the best d at the end of the range, or a standard deviation above 0.1 s. What muscles
+/// do besides (cocontraction, braking) shifts it by some 50 ms: it finds errors of clocks, it does
+/// not measure the electromechanical delay.
+[[nodiscard]] std::optional<ClockOffset> estimate_clock_offset(const TimeSeries& envelopes,
+                                                               const TimeSeries& motion);
+
+/// The offset as a remark, or a warning where it lies outside the limits by more than two standard
+/// deviations; from 30 s on, a drift between the first and the last third.
+[[nodiscard]] std::vector<Fault> check_clock_offset(const TimeSeries& envelopes,
+                                                    const TimeSeries& motion,
+                                                    const QualityLimits& limits = {});
+
+/// Intervals that vary; `what` names the file or the channels.
+[[nodiscard]] std::optional<Fault> check_clock_evenness(
+    const Eigen::Ref<const Eigen::VectorXd>& time_s,
+    const std::string& what,
+    const QualityLimits& limits = {});
+
+}  // namespace myoid::signals

@@ -1,0 +1,367 @@
+#include "myoid/signals/emg_quality.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "myoid/math/butterworth.h"
+#include "myoid/math/zero_phase.h"
+#include "myoid/signals/mains_hum.h"
+
+namespace myoid::signals {
+namespace {
+
+using math::FilterBand;
+
+constexpr double kEmgFrom_hz = 20.0;
+constexpr double kWindow_s = 0.25;
+
+double rms(const Eigen::Ref<const Eigen::VectorXd>& x) {
+  return x.size() > 0 ? std::sqrt(x.squaredNorm() / static_cast<double>(x.size())) : 0.0;
+}
+
+Eigen::VectorXd filtered(const Eigen::VectorXd& x, FilterBand band, double cutoff_hz, double rate) {
+  return math::zero_phase(math::design_butterworth(band, 2, cutoff_hz, rate), x);
+}
+
+/// Samples i .. i + length - 1 all have the same value.
+struct Run {
+  Eigen::Index begin = 0;
+  Eigen::Index length = 0;
+};
+
+/// The longest run of equal samples, of this value if it is given.
+Run longest_run(const Eigen::VectorXd& x, std::optional<double> value = std::nullopt) {
+  Run best;
+  for (Eigen::Index i = 0; i < x.size();) {
+    Eigen::Index end = i + 1;
+    while (end < x.size() && x[end] == x[i]) ++end;
+    if ((!value || x[i] == *value) && end - i > best.length) best = {i, end - i};
+    i = end;
+  }
+  return best;
+}
+
+/// Everything about one channel; the filtered signal is kept for the pairs.
+class ChannelCheck {
+ public:
+  ChannelCheck(const TimeSeries& raw, Eigen::Index c, bool high_passed, const QualityLimits& limits)
+      : time_s_(raw.time_s()),
+        x_(raw.values().col(c)),
+        name_(raw.channels()[static_cast<std::size_t>(c)].name),
+        rate_hz_(raw.mean_rate_hz()),
+        high_passed_(high_passed),
+        limits_(limits) {}
+
+  /// What the pair checks compare; empty where there is nothing.
+  Eigen::VectorXd run(std::vector<Fault>& faults) {
+    x_.array() -= x_.mean();
+    if (rms(x_) < limits_.flat_v) {
+      add(faults, FaultKind::emg_flat, true, 0, x_.size() - 1, rms(x_),
+          fmt::format("channel '{}' shows nothing: {:.2g} uV rms", name_, 1e6 * rms(x_)),
+          "was the electrode connected? Leave its muscle out, or give it emg = { same_as = ... }");
+      return {};
+    }
+    const bool railed = clipping(faults);
+    const Run flat = longest_run(x_);
+    if (!railed && seconds(flat.length) >= limits_.flat_s) {
+      add(faults, FaultKind::emg_flat, true, flat.begin, flat.begin + flat.length - 1,
+          seconds(flat.length),
+          fmt::format("channel '{}' does not change at all from {:.6g} to {:.6g} s", name_,
+                      time_s_[flat.begin], time_s_[flat.begin + flat.length - 1]),
+          "was the transmission lost? Cut that part off with start_s and end_s");
+    }
+    if (rate_hz_ < 4.0 * kEmgFrom_hz || x_.size() < static_cast<Eigen::Index>(rate_hz_)) return {};
+    emg_ = filtered(x_, FilterBand::high_pass, kEmgFrom_hz, rate_hz_);
+    hum(faults);
+    drift(faults);
+    artifact(faults);
+    return std::move(emg_);
+  }
+
+ private:
+  [[nodiscard]] double seconds(Eigen::Index samples) const {
+    return static_cast<double>(samples) / rate_hz_;
+  }
+
+  void add(std::vector<Fault>& faults,
+           FaultKind kind,
+           bool grave,
+           Eigen::Index begin,
+           Eigen::Index last,
+           double value,
+           std::string text,
+           std::string remedy) const {
+    faults.push_back({.kind = kind,
+                      .grave = grave,
+                      .channel = name_,
+                      .begin_s = time_s_[begin],
+                      .end_s = time_s_[last],
+                      .value = value,
+                      .text = std::move(text),
+                      .remedy = std::move(remedy)});
+  }
+
+  bool clipping(std::vector<Fault>& faults) const {
+    const double range = x_.maxCoeff() - x_.minCoeff();
+    bool railed = false;
+    for (const bool top : {true, false}) {
+      const double extreme = top ? x_.maxCoeff() : x_.minCoeff();
+      const Run longest = longest_run(x_, extreme);
+      const auto on = (x_.array() == extreme).count();
+      const auto near = ((x_.array() - extreme).abs() <= 0.05 * range).count() - on;
+      const double share = static_cast<double>(on) / static_cast<double>(x_.size());
+      if (longest.length < 3 || on < near || share < limits_.clipped_share) continue;
+      railed = true;
+      const char* side = top ? "largest" : "smallest";
+      if (seconds(longest.length) >= limits_.saturated_s) {
+        add(faults, FaultKind::emg_saturated, true, longest.begin,
+            longest.begin + longest.length - 1, seconds(longest.length),
+            fmt::format("channel '{}' stays at its {} value for {:.3g} s at {:.6g} s", name_, side,
+                        seconds(longest.length), time_s_[longest.begin]),
+            "the amplifier was saturated: cut that part off, and check the electrode");
+      } else {
+        Eigen::Index first = 0;
+        while (x_[first] != extreme) ++first;
+        Eigen::Index last = x_.size() - 1;
+        while (x_[last] != extreme) --last;
+        add(faults, FaultKind::emg_clipped, true, first, last, share,
+            fmt::format("channel '{}' is cut off at its {} value in {:.2g} % of the samples, first "
+                        "at {:.6g} s",
+                        name_, side, 100.0 * share, time_s_[first]),
+            "record with a lower gain; its strongest efforts are too small here");
+      }
+    }
+    return railed;
+  }
+
+  void hum(std::vector<Fault>& faults) {
+    const auto found = find_hum(emg_, rate_hz_);
+    if (!found || found->share < limits_.hum_share) return;
+    std::string lines;
+    for (const double line : found->lines_hz)
+      lines += fmt::format("{}{:.0f}", lines.empty() ? "" : ", ", line);
+    add(faults, FaultKind::emg_hum, true, 0, x_.size() - 1, found->share,
+        fmt::format("channel '{}': {:.0f} % of its power is hum, in lines at {} Hz", name_,
+                    100.0 * found->share, lines),
+        "it is taken out by a notch (unless [emg] notch = \"none\"); check the reference "
+        "electrode");
+    emg_ = without_hum(emg_, rate_hz_, *found);
+  }
+
+  void drift(std::vector<Fault>& faults) const {
+    const auto width = static_cast<Eigen::Index>(rate_hz_);
+    const Eigen::Index count = x_.size() / width;
+    if (count < 3) return;
+    Eigen::VectorXd means(count);
+    for (Eigen::Index i = 0; i < count; ++i) means[i] = x_.segment(i * width, width).mean();
+    means.array() -= means.mean();
+    const double value = rms(means) / rms(emg_);
+    if (value < limits_.drift_over_rms) return;
+    add(faults, FaultKind::emg_drift, !high_passed_, 0, x_.size() - 1, value,
+        fmt::format("channel '{}': its baseline wanders by {:.3g} uV, {:.2g} times the EMG", name_,
+                    1e6 * rms(means), value),
+        high_passed_ ? "the high-pass takes it out; check the skin's preparation"
+                     : "without a high-pass it becomes activation: set [emg] highpass_hz");
+  }
+
+  void artifact(std::vector<Fault>& faults) const {
+    const Eigen::VectorXd slow = filtered(filtered(x_, FilterBand::high_pass, 1.0, rate_hz_),
+                                          FilterBand::low_pass, 15.0, rate_hz_);
+    const auto width = static_cast<Eigen::Index>(kWindow_s * rate_hz_);
+    double loudest = 0.0;
+    for (Eigen::Index i = 0; i + width <= x_.size(); i += width)
+      loudest = std::max(loudest, rms(emg_.segment(i, width)));
+    int count = 0;
+    Eigen::Index worst = 0;
+    double value = 0.0;
+    for (Eigen::Index i = 0; i + width <= x_.size(); i += width) {
+      const double here = rms(slow.segment(i, width)) / loudest;
+      count += here >= limits_.artifact_over_rms ? 1 : 0;
+      if (here > value) {
+        value = here;
+        worst = i;
+      }
+    }
+    if (count == 0) return;
+    add(faults, FaultKind::emg_artifact, true, worst, worst + width - 1, value,
+        fmt::format("channel '{}' has a movement artifact, {:.2g} times its largest EMG, at {:.6g} "
+                    "s{}",
+                    name_, value, time_s_[worst],
+                    count > 1 ? fmt::format(" ({} quarter seconds in all)", count) : ""),
+        "fasten the cable; what of it lies above the high-pass becomes activation there");
+  }
+
+  const Eigen::VectorXd& time_s_;
+  Eigen::VectorXd x_;
+  Eigen::VectorXd emg_;
+  std::string name_;
+  double rate_hz_;
+  bool high_passed_;
+  const QualityLimits& limits_;
+};
+
+/// The largest correlation within 10 ms either way, over at most 20 one-second blocks.
+double common_share(const Eigen::VectorXd& a, const Eigen::VectorXd& b, double rate_hz) {
+  constexpr Eigen::Index kBlocks = 20;
+  const auto lags = static_cast<Eigen::Index>(0.01 * rate_hz);
+  const auto width = static_cast<Eigen::Index>(rate_hz);
+  const Eigen::Index room = a.size() - 2 * lags - width;
+  if (room < 0) return 0.0;
+  const Eigen::Index blocks = std::clamp<Eigen::Index>(room / width + 1, 1, kBlocks);
+  double best = 0.0;
+  for (Eigen::Index lag = -lags; lag <= lags; ++lag) {
+    double ab = 0.0;
+    double aa = 0.0;
+    double bb = 0.0;
+    for (Eigen::Index k = 0; k < blocks; ++k) {
+      const Eigen::Index begin = lags + (blocks > 1 ? k * room / (blocks - 1) : 0);
+      const auto x = a.segment(begin, width);
+      const auto y = b.segment(begin + lag, width);
+      ab += x.dot(y);
+      aa += x.squaredNorm();
+      bb += y.squaredNorm();
+    }
+    if (aa > 0.0 && bb > 0.0) best = std::max(best, std::abs(ab) / std::sqrt(aa * bb));
+  }
+  return best;
+}
+
+/// Smallest mean over 1 s and largest over 0.5 s of an envelope.
+struct Levels {
+  double least = std::numeric_limits<double>::infinity();
+  double greatest = 0.0;
+  double greatest_s = 0.0;
+};
+
+Levels levels(const TimeSeries& envelope, Eigen::Index c) {
+  Levels result;
+  const Eigen::VectorXd x = envelope.values().col(c);
+  Eigen::VectorXd sum(x.size() + 1);
+  sum[0] = 0.0;
+  for (Eigen::Index i = 0; i < x.size(); ++i) sum[i + 1] = sum[i] + x[i];
+  const auto width = [&](double seconds) {
+    return std::clamp<Eigen::Index>(
+        static_cast<Eigen::Index>(std::lround(seconds * envelope.mean_rate_hz())), 1, x.size());
+  };
+  const Eigen::Index wide = width(1.0);
+  for (Eigen::Index i = 0; i + wide <= x.size(); ++i)
+    result.least = std::min(result.least, (sum[i + wide] - sum[i]) / static_cast<double>(wide));
+  const Eigen::Index narrow = width(0.5);
+  for (Eigen::Index i = 0; i + narrow <= x.size(); ++i) {
+    const double mean = (sum[i + narrow] - sum[i]) / static_cast<double>(narrow);
+    if (mean <= result.greatest) continue;
+    result.greatest = mean;
+    result.greatest_s = envelope.time_s()[i + narrow / 2];
+  }
+  return result;
+}
+
+}  // namespace
+
+std::vector<Fault> check_emg(const TimeSeries& raw, bool high_passed, const QualityLimits& limits) {
+  require_unit(raw, Unit::volt, "EMG");
+  require_finite(raw, "EMG");
+  std::vector<Fault> faults;
+  if (raw.sample_count() < 10) return faults;
+  std::vector<Eigen::VectorXd> signals;
+  for (Eigen::Index c = 0; c < raw.channel_count(); ++c)
+    signals.push_back(ChannelCheck(raw, c, high_passed, limits).run(faults));
+  for (std::size_t a = 0; a < signals.size(); ++a) {
+    for (std::size_t b = a + 1; b < signals.size(); ++b) {
+      if (signals[a].size() == 0 || signals[b].size() == 0) continue;
+      const double value = common_share(signals[a], signals[b], raw.mean_rate_hz());
+      if (value < limits.crosstalk) continue;
+      const std::string& first = raw.channels()[a].name;
+      const std::string& second = raw.channels()[b].name;
+      constexpr double kSame = 0.98;
+      faults.push_back(
+          {.kind = FaultKind::emg_crosstalk,
+           .grave = true,
+           .channel = fmt::format("{}, {}", first, second),
+           .begin_s = raw.time_s()[0],
+           .end_s = raw.time_s()[raw.sample_count() - 1],
+           .value = value,
+           .text =
+               value > kSame
+                   ? fmt::format("channels '{}' and '{}' are the same signal (correlation "
+                                 "{:.3f})",
+                                 first, second, value)
+                   : fmt::format("channels '{}' and '{}' have {:.0f} % of their power in common "
+                                 "(correlation {:.2f})",
+                                 first, second, 100.0 * value * value, value),
+           .remedy = value > kSame
+                         ? "was one of them plugged in twice?"
+                         : "crosstalk or a common disturbance: the muscles cannot be told "
+                           "apart to that extent"});
+    }
+  }
+  return faults;
+}
+
+std::vector<Fault> check_emg_levels(std::span<const TrialEnvelope> trials,
+                                    const QualityLimits& limits) {
+  std::vector<Fault> faults;
+  std::vector<std::string> names;
+  for (const TrialEnvelope& trial : trials) {
+    for (const Channel& channel : trial.envelope->channels()) {
+      if (std::find(names.begin(), names.end(), channel.name) == names.end())
+        names.push_back(channel.name);
+    }
+  }
+  for (const std::string& channel : names) {
+    double rest = std::numeric_limits<double>::infinity();
+    Levels mvc;
+    Levels movement;
+    std::string mvc_trial;
+    std::string movement_trial;
+    for (const TrialEnvelope& trial : trials) {
+      const auto column = trial.envelope->find(channel);
+      if (!column) continue;
+      const Levels here = levels(*trial.envelope, *column);
+      rest = std::min(rest, here.least);
+      Levels& most = trial.is_mvc ? mvc : movement;
+      if (here.greatest <= most.greatest) continue;
+      most = here;
+      (trial.is_mvc ? mvc_trial : movement_trial) = trial.trial;
+    }
+    const double greatest = std::max(mvc.greatest, movement.greatest);
+    if (greatest < limits.signal_to_rest * rest) {
+      faults.push_back(
+          {.kind = FaultKind::emg_low_signal,
+           .grave = true,
+           .channel = channel,
+           .begin_s = movement.greatest_s,
+           .end_s = movement.greatest_s,
+           .value = greatest / rest,
+           .text = fmt::format("channel '{}' rises to only {:.2g} times its lowest level, in all "
+                               "trials together",
+                               channel, greatest / rest),
+           .remedy =
+               "noise, or a muscle that neither rests nor works here: record a second of rest "
+               "and a strong effort, and check the electrode"});
+    }
+    if (!mvc_trial.empty() && movement.greatest > limits.over_reference * mvc.greatest) {
+      faults.push_back(
+          {.kind = FaultKind::emg_over_reference,
+           .grave = true,
+           .channel = channel,
+           .begin_s = movement.greatest_s,
+           .end_s = movement.greatest_s,
+           .value = movement.greatest / mvc.greatest,
+           .text = fmt::format("channel '{}' reaches {:.2f} times its maximal contraction ({}) in "
+                               "{} at {:.6g} s",
+                               channel, movement.greatest / mvc.greatest, mvc_trial, movement_trial,
+                               movement.greatest_s),
+           .remedy = "the contraction was not maximal: the larger effort counts as 1, and F_max "
+                     "means the force there"});
+    }
+  }
+  return faults;
+}
+
+}  // namespace myoid::signals

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "myoid/core/time_series.h"
+#include "myoid/signals/emg_envelope.h"
+#include "myoid/signals/fault.h"
+#include "myoid/signals/quality_limits.h"
+
+namespace myoid::signals {
+
+/// Looks at one trial's raw EMG (volts, finite), channel by channel and pair by pair:
+///
+/// - flat: no change at all for `flat_s`, or an rms below `flat_v` throughout;
+/// - clipped: flat tops of three samples or more, and more samples on the largest (or smallest)
+///   value than in the twentieth of the range next to it; saturated: one such top for
+///   `saturated_s`;
+/// - hum: `find_hum` above `hum_share`;
+/// - drift: standard deviation of the means over 1 s, over the rms above 20 Hz. Grave only if the
+///   EMG is not going to be high-passed (`high_passed` false);
+/// - artifact: rms between 1 and 15 Hz in some quarter second, over the largest rms above 20 Hz of
+///   any quarter second;
+/// - crosstalk: the largest correlation of two channels above 20 Hz, without hum, within 10 ms.
+[[nodiscard]] std::vector<Fault> check_emg(const TimeSeries& raw,
+                                           bool high_passed = true,
+                                           const QualityLimits& limits = {});
+
+/// Looks at all trials together, channel by channel: does the signal rise from rest (largest 0.5 s
+/// mean over smallest 1 s mean), and does no movement exceed the maximal contractions? Channels
+/// that some trial does not have are looked at where they are.
+[[nodiscard]] std::vector<Fault> check_emg_levels(std::span<const TrialEnvelope> trials,
+                                                  const QualityLimits& limits = {});
+
+}  // namespace myoid::signals

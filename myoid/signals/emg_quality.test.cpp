@@ -1,0 +1,160 @@
+#include "myoid/signals/emg_quality.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include "myoid/core/units.h"
+#include "myoid/math/random.h"
+
+namespace myoid::signals {
+namespace {
+
+constexpr double kRate_hz = 2000.0;
+constexpr Eigen::Index kSamples = 24000;
+
+/// Band-limited noise (difference of a moving average's ends) that rests and works in turn, up to
+/// 200 uV rms over 3 uV of noise, quantized to 0.3 uV like a 16-bit recording.
+Eigen::VectorXd muscle(std::uint64_t seed) {
+  math::Random random(seed);
+  Eigen::VectorXd x(kSamples);
+  double slow = 0.0;
+  for (Eigen::Index i = 0; i < kSamples; ++i) {
+    const double t = static_cast<double>(i) / kRate_hz;
+    const double effort = std::max(0.0, std::sin(1.3 * t + static_cast<double>(seed)));
+    const double white = random.normal();
+    const double emg = white - slow;
+    slow += 0.1 * (white - slow);
+    x[i] = std::round((2e-4 * effort * emg + 3e-6 * random.normal()) / 3e-7) * 3e-7;
+  }
+  return x;
+}
+
+TimeSeries recording(const std::vector<Eigen::VectorXd>& columns) {
+  Eigen::MatrixXd values(kSamples, static_cast<Eigen::Index>(columns.size()));
+  std::vector<Channel> channels;
+  for (std::size_t c = 0; c < columns.size(); ++c) {
+    values.col(static_cast<Eigen::Index>(c)) = columns[c];
+    channels.push_back({std::string(1, static_cast<char>('a' + c)), Unit::volt});
+  }
+  return {Eigen::VectorXd::LinSpaced(kSamples, 0.0, (kSamples - 1) / kRate_hz), channels, values};
+}
+
+Eigen::ArrayXd seconds() {
+  return Eigen::ArrayXd::LinSpaced(kSamples, 0.0, (kSamples - 1) / kRate_hz);
+}
+
+/// The kinds found in one channel with this fault.
+std::set<FaultKind> kinds(const Eigen::VectorXd& x, bool high_passed = true) {
+  std::set<FaultKind> result;
+  for (const Fault& fault : check_emg(recording({x}), high_passed)) result.insert(fault.kind);
+  return result;
+}
+
+using Kinds = std::set<FaultKind>;
+
+TEST(EmgQuality, OfCleanRecordingsNothingIsSaid) {
+  for (std::uint64_t seed = 1; seed <= 10; ++seed)
+    EXPECT_TRUE(check_emg(recording({muscle(3 * seed), muscle(3 * seed + 1), muscle(3 * seed + 2)}))
+                    .empty());
+}
+
+TEST(EmgQuality, ADeadChannelIsFlatAndALostTransmissionForItsTime) {
+  EXPECT_EQ(kinds(Eigen::VectorXd::Constant(kSamples, 1e-3)), Kinds{FaultKind::emg_flat});
+  Eigen::VectorXd x = muscle(1);
+  x.segment(4000, 1000).setConstant(x[4000]);
+  const auto faults = check_emg(recording({x}));
+  ASSERT_EQ(faults.size(), 1U);
+  EXPECT_EQ(faults[0].kind, FaultKind::emg_flat);
+  EXPECT_NEAR(faults[0].begin_s, 2.0, 1e-9);
+  EXPECT_NEAR(faults[0].end_s, 2.4995, 1e-9);
+}
+
+TEST(EmgQuality, FlatTopsAreClippingAndALongOneIsSaturation) {
+  Eigen::VectorXd x = muscle(1);
+  x = x.cwiseMin(2.5e-4).cwiseMax(-2.5e-4);
+  EXPECT_EQ(kinds(x), Kinds{FaultKind::emg_clipped});
+  x = muscle(1);
+  x.segment(9000, 100).setConstant(1.1 * x.maxCoeff());
+  EXPECT_EQ(kinds(x), Kinds{FaultKind::emg_saturated});
+}
+
+TEST(EmgQuality, HumIsHeard) {
+  const Eigen::VectorXd x = muscle(1) + (1e-4 * (2.0 * kPi * 50.0 * seconds()).sin()).matrix();
+  EXPECT_EQ(kinds(x), Kinds{FaultKind::emg_hum});
+}
+
+TEST(EmgQuality, AWanderingBaselineMattersWithoutAHighPassOnly) {
+  const Eigen::VectorXd x = muscle(1) + (1e-3 * (0.6 * seconds()).sin()).matrix();
+  const auto removed = check_emg(recording({x}), true);
+  ASSERT_EQ(removed.size(), 1U);
+  EXPECT_EQ(removed[0].kind, FaultKind::emg_drift);
+  EXPECT_FALSE(removed[0].grave);
+  EXPECT_TRUE(check_emg(recording({x}), false)[0].grave);
+}
+
+TEST(EmgQuality, AMovementOfTheCableIsAnArtifactAtItsTime) {
+  Eigen::VectorXd x = muscle(1);
+  for (Eigen::Index i = 0; i < 500; ++i)
+    x[10000 + i] += 3e-3 * std::sin(2.0 * kPi * static_cast<double>(i) / 250.0);
+  const auto faults = check_emg(recording({x}));
+  ASSERT_EQ(faults.size(), 1U) << sentence(faults[0]);
+  EXPECT_EQ(faults[0].kind, FaultKind::emg_artifact);
+  EXPECT_NEAR(faults[0].begin_s, 5.0, 0.26);
+}
+
+TEST(EmgQuality, WhatTwoChannelsHaveInCommonIsCrosstalk) {
+  const Eigen::VectorXd a = muscle(1);
+  const Eigen::VectorXd b = muscle(2);
+  // Half of a's amplitude in b, 3 ms later: rho = 0.5 / sqrt(1.25) = 0.45 where both are as loud.
+  Eigen::VectorXd mixed = 0.3 * b;
+  mixed.tail(kSamples - 6) += 0.5 * a.head(kSamples - 6);
+  const auto faults = check_emg(recording({a, mixed}));
+  ASSERT_EQ(faults.size(), 1U);
+  EXPECT_EQ(faults[0].kind, FaultKind::emg_crosstalk);
+  EXPECT_EQ(faults[0].channel, "a, b");
+  const auto same = check_emg(recording({a, a}));
+  ASSERT_EQ(same.size(), 1U);
+  EXPECT_NE(same[0].text.find("the same signal"), std::string::npos);
+}
+
+TimeSeries envelope(const std::vector<double>& levels) {
+  const auto n = static_cast<Eigen::Index>(levels.size()) * 200;
+  Eigen::MatrixXd x(n, 1);
+  for (Eigen::Index i = 0; i < n; ++i) x(i, 0) = levels[static_cast<std::size_t>(i / 200)];
+  return {Eigen::VectorXd::LinSpaced(n, 0.0, 0.01 * static_cast<double>(n - 1)),
+          {{"BIC", Unit::volt}},
+          x};
+}
+
+TEST(EmgLevels, AMuscleThatRestsAndWorksIsNotComplainedOf) {
+  const TimeSeries movement = envelope({1e-6, 5e-5});
+  const TimeSeries mvc = envelope({1e-6, 1e-4});
+  const std::vector<TrialEnvelope> trials{{"move", false, &movement}, {"mvc", true, &mvc}};
+  EXPECT_TRUE(check_emg_levels(trials).empty());
+}
+
+TEST(EmgLevels, AChannelThatHardlyRisesIsNamed) {
+  const TimeSeries movement = envelope({1e-5, 3e-5});
+  const std::vector<TrialEnvelope> trials{{"move", false, &movement}};
+  const auto faults = check_emg_levels(trials);
+  ASSERT_EQ(faults.size(), 1U);
+  EXPECT_EQ(faults[0].kind, FaultKind::emg_low_signal);
+  EXPECT_NEAR(faults[0].value, 3.0, 1e-9);
+}
+
+TEST(EmgLevels, AMovementAboveTheMaximalContractionIsNamedWithTrialAndTime) {
+  const TimeSeries movement = envelope({1e-6, 1.3e-4, 1e-6});
+  const TimeSeries mvc = envelope({1e-6, 1e-4});
+  const std::vector<TrialEnvelope> trials{{"move", false, &movement}, {"mvc", true, &mvc}};
+  const auto faults = check_emg_levels(trials);
+  ASSERT_EQ(faults.size(), 1U);
+  EXPECT_EQ(faults[0].kind, FaultKind::emg_over_reference);
+  EXPECT_NEAR(faults[0].value, 1.3, 1e-9);
+  EXPECT_NE(faults[0].text.find("(mvc) in move at "), std::string::npos) << faults[0].text;
+}
+
+}  // namespace
+}  // namespace myoid::signals

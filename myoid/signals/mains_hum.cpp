@@ -1,0 +1,78 @@
+#include "myoid/signals/mains_hum.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "myoid/core/units.h"
+#include "myoid/math/zero_phase.h"
+#include "myoid/signals/spectrum.h"
+
+namespace myoid::signals {
+namespace {
+
+constexpr double kSegment_s = 2.0;
+constexpr double kStandsOut = 8.0;
+constexpr double kHighestLine_hz = 450.0;
+constexpr double kNotchWidth_hz = 4.0;
+
+/// Power of a line above its neighbors; 0 where it does not stand out.
+double line_power(const PowerSpectrum& s, double line_hz) {
+  std::vector<double> neighbors;
+  double peak = 0.0;
+  for (Eigen::Index k = 0; k < s.frequency_hz.size(); ++k) {
+    const double away_hz = std::abs(s.frequency_hz[k] - line_hz);
+    if (away_hz <= 0.5) peak = std::max(peak, s.density[k]);
+    if (away_hz >= 2.0 && away_hz <= 6.0) neighbors.push_back(s.density[k]);
+  }
+  if (neighbors.empty()) return 0.0;
+  const auto middle = neighbors.begin() + static_cast<std::ptrdiff_t>(neighbors.size() / 2);
+  std::nth_element(neighbors.begin(), middle, neighbors.end());
+  if (peak <= kStandsOut * *middle) return 0.0;
+  constexpr double kHalfWidth_hz = 1.5;  // the window's main lobe
+  return std::max(0.0, band_power(s, line_hz - kHalfWidth_hz, line_hz + kHalfWidth_hz) -
+                           2.0 * kHalfWidth_hz * *middle);
+}
+
+}  // namespace
+
+std::optional<Hum> find_hum(const Eigen::Ref<const Eigen::VectorXd>& x, double rate_hz) {
+  if (static_cast<double>(x.size()) < kSegment_s * rate_hz) return std::nullopt;
+  const PowerSpectrum spectrum = power_spectrum(x, rate_hz, kSegment_s);
+  const double total = band_power(spectrum, 20.0, 0.45 * rate_hz);
+  if (!(total > 0.0)) return std::nullopt;
+  std::optional<Hum> best;
+  for (const double mains_hz : {50.0, 60.0}) {
+    Hum hum{.mains_hz = mains_hz};
+    for (double line = mains_hz; line < std::min(kHighestLine_hz, 0.45 * rate_hz);
+         line += mains_hz) {
+      const double power = line_power(spectrum, line);
+      if (power <= 0.0) continue;
+      hum.lines_hz.push_back(line);
+      hum.share += power / total;
+    }
+    if (hum.share > 0.0 && (!best || hum.share > best->share)) best = std::move(hum);
+  }
+  return best;
+}
+
+Eigen::VectorXd without_hum(const Eigen::Ref<const Eigen::VectorXd>& x,
+                            double rate_hz,
+                            const Hum& hum) {
+  std::vector<math::SecondOrderSection> notches;
+  for (const double line_hz : hum.lines_hz) {
+    const double w = 2.0 * kPi * line_hz / rate_hz;
+    // H(s) = (s^2 + w0^2) / (s^2 + B s + w0^2), brought over by the bilinear transform at w.
+    const double half_width = std::tan(kPi * kNotchWidth_hz / rate_hz);
+    const double a0 = 1.0 + half_width;
+    notches.push_back({.b0 = 1.0 / a0,
+                       .b1 = -2.0 * std::cos(w) / a0,
+                       .b2 = 1.0 / a0,
+                       .a1 = -2.0 * std::cos(w) / a0,
+                       .a2 = (1.0 - half_width) / a0});
+  }
+  if (notches.empty()) return x;
+  return math::zero_phase(notches, x);
+}
+
+}  // namespace myoid::signals
