@@ -1,7 +1,7 @@
 #include <atomic>
-#include <mutex>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 #include <oneapi/tbb/parallel_for.h>
 
 #include "myoid/cli/context.h"
@@ -20,6 +20,7 @@ struct TwinOptions {
   std::string protocol;
   std::string level;
   std::string out;
+  std::string format = "trc";
   int subjects = 1;
   bool truth_only = false;
 };
@@ -41,6 +42,12 @@ simulation::Protocol protocol_of(const TwinOptions& options) {
   return protocol;
 }
 
+simulation::WriteOptions write_options(const TwinOptions& options, const Context& context) {
+  return {.overwrite = context.overwrite,
+          .format = options.format == "c3d" ? simulation::RecordingFormat::c3d
+                                            : simulation::RecordingFormat::text};
+}
+
 /// One person's folder under the common one: seeds make the names.
 fs::path folder_of(const fs::path& out, std::uint64_t seed) {
   return out / fmt::format("person_{:06}", seed);
@@ -59,9 +66,11 @@ void make_many(const TwinOptions& options, Context& context) {
     progress.check();
     const std::uint64_t seed = context.seed + i;
     const simulation::VirtualRecording recording =
-        simulation::make_virtual_recording(protocol, seed);
+        options.truth_only ? simulation::make_virtual_person(protocol, seed)
+                           : simulation::make_virtual_recording(protocol, seed);
     if (!options.truth_only)
-      simulation::write_virtual_recording(recording, folder_of(out, seed), context.overwrite);
+      simulation::write_virtual_recording(recording, folder_of(out, seed),
+                                          write_options(options, context));
     lines[i] = simulation::truth_row(recording);
     progress.tell(static_cast<double>(++done) / static_cast<double>(count),
                   fmt::format("{} of {} persons", done.load(), count));
@@ -72,16 +81,37 @@ void make_many(const TwinOptions& options, Context& context) {
   recording::write_file(out / "persons.csv", table);
   context.log(
       fmt::format("{} persons, seeds {} to {}", count, context.seed, context.seed + count - 1));
-  fmt::print("{}\n", (out / "persons.csv").string());
+  if (context.json) {
+    nlohmann::ordered_json json;
+    json["persons"] = count;
+    json["table"] = (out / "persons.csv").string();
+    json["studies"] = nlohmann::ordered_json::array();
+    for (std::size_t i = 0; i < count && !options.truth_only; ++i)
+      json["studies"].push_back((folder_of(out, context.seed + i) / "study.toml").string());
+    fmt::print("{}\n", json.dump(2));
+  } else {
+    fmt::print("{}\n", (out / "persons.csv").string());
+  }
 }
 
 void make_one(const TwinOptions& options, Context& context) {
   const simulation::VirtualRecording recording =
       simulation::make_virtual_recording(protocol_of(options), context.seed);
-  simulation::write_virtual_recording(recording, options.out, context.overwrite);
+  simulation::write_virtual_recording(recording, options.out, write_options(options, context));
   context.log(fmt::format("{} trials, level {}, seed {}", recording.trials.size(),
                           simulation::name(recording.protocol.level), context.seed));
-  fmt::print("{}/study.toml\n", options.out);
+  const std::string study = (fs::path(options.out) / "study.toml").string();
+  if (context.json) {
+    nlohmann::ordered_json json;
+    json["study"] = study;
+    json["level"] = simulation::name(recording.protocol.level);
+    json["trials"] = nlohmann::ordered_json::array();
+    for (const simulation::VirtualTrial& trial : recording.trials)
+      json["trials"].push_back(trial.protocol.name);
+    fmt::print("{}\n", json.dump(2));
+  } else {
+    fmt::print("{}\n", study);
+  }
 }
 
 }  // namespace
@@ -107,10 +137,14 @@ void add_twin(CLI::App& app, Context& context) {
       .add_option("--subjects", options->subjects,
                   "So many persons, seeds counting up from --seed, a folder each, and persons.csv")
       ->check(CLI::Range(1, 1000000));
+  command
+      .add_option("--format", options->format,
+                  "Files of markers and EMG: trc (.trc and .sto, default) or c3d (both in one)")
+      ->check(CLI::IsMember({"trc", "c3d"}));
   command.add_flag("--truth-only", options->truth_only,
                    "With --subjects: persons.csv only, no recordings");
   command.add_option("--out", options->out, "Folder for the recording")->required();
-  add_common_options(command, context);
+  add_common_options(command, context, {.range = false});
   command.callback([&context, &command, options] {
     const bool many = command.count("--subjects") > 0;
     if (options->truth_only && !many)

@@ -17,6 +17,10 @@ struct Coordination {
   double brachioradialis = 0.0;  ///< ln(BRD / BIC activation).
   double brachialis = 0.0;       ///< ln(BRA / BIC activation).
   double co_contraction = 0.0;   ///< Activation of the antagonist while the agonists work.
+  /// Nobody tenses the flexors for the sake of a stretched arm at rest: the triceps' co-contraction
+  /// is then a share of what the weaker side could exert, and of that 0.3 without a load, all of it
+  /// under one: c min(C_TRI, C_flexors) (0.3 + 0.7 T^2 / (T^2 + (3 N m)^2)).
+  bool eased = false;
 };
 
 /// Activations of the flexors relative to BIC; TRI has 1.
@@ -26,7 +30,8 @@ struct Coordination {
 /// `capacity_nm` (signed: flexors positive, TRI negative). The triceps takes c plus what extension
 /// needs, the flexors the rest in their proportions:
 ///
-///   a_TRI = c + p(-T) / |C_TRI|,   a_i = u w_i,   u sum_i w_i C_i = T + a_TRI |C_TRI|
+///   a_TRI = c + p(-T) / |C_TRI|   (c: see `eased`),   a_i = u w_i,   u sum_i w_i C_i = T + a_TRI
+///   |C_TRI|
 ///
 /// with p(x) = (x + sqrt(x^2 + (1 N m)^2)) / 2 > 0, smooth where the torque changes sign. All
 /// activations are positive; none is limited to 1: that is the caller's to check. Precondition:

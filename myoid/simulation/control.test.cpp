@@ -40,5 +40,20 @@ TEST(Control, TheAntagonistCoContracts) {
   EXPECT_NEAR(a[kTriceps], 0.1, 4e-4);
 }
 
+TEST(Control, NobodyTensesTheFlexorsForAStretchedArmAtRest) {
+  // Near extension the flexors have little leverage: 0.1 of 40 N m would take 0.8 of theirs.
+  const PerMuscle capacity_nm = {2.5, 1.5, 1.0, -40.0};
+  const PerMuscle tense = activations_for(0.0, capacity_nm, {.co_contraction = 0.1});
+  const PerMuscle eased = activations_for(0.0, capacity_nm, {.co_contraction = 0.1, .eased = true});
+  EXPECT_GT(tense[kBiceps], 0.8);
+  // 0.1 x 5 N m x 0.3, and the soft part of half a newton meter.
+  EXPECT_NEAR(eased[kTriceps], (0.15 + 0.5) / 40.0, 1e-12);
+  EXPECT_NEAR(eased[kBiceps], (0.15 + 0.5) / 5.0, 1e-12);
+  // Under a load and with leverage it is the share asked for.
+  const PerMuscle loaded =
+      activations_for(60.0, {60.0, 40.0, 20.0, -40.0}, {.co_contraction = 0.1, .eased = true});
+  EXPECT_NEAR(loaded[kTriceps], 0.1, 5e-4);
+}
+
 }  // namespace
 }  // namespace myoid::simulation

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "myoid/core/units.h"
+#include "myoid/math/butterworth.h"
 #include "myoid/simulation/random.h"
 #include "myoid/simulation/raw_emg.h"
 
@@ -65,17 +66,6 @@ std::vector<MarkerError> place_markers(const MarkerNoise& noise,
   return errors;
 }
 
-/// A muscle's own signal: Gaussian noise whose rms is the amplitude.
-Eigen::VectorXd source(const Eigen::VectorXd& amplitude,
-                       double fatigued,
-                       double rate_hz,
-                       Random random) {
-  const EmgSpectrum fresh;
-  const EmgSpectrum spectrum{.low_hz = fresh.low_hz * (1.0 - fatigued),
-                             .high_hz = fresh.high_hz * (1.0 - fatigued)};
-  return amplitude.cwiseProduct(emg_noise(spectrum, rate_hz, amplitude.size(), random));
-}
-
 /// Straight lines between values on an even clock.
 Eigen::VectorXd stretched(const Eigen::VectorXd& values,
                           double first_s,
@@ -89,6 +79,79 @@ Eigen::VectorXd stretched(const Eigen::VectorXd& values,
     result(k) = std::lerp(values(before), values(before + 1), s - static_cast<double>(before));
   }
   return result;
+}
+
+/// What a muscle does, on the clock of kEnvelopeRate_hz from `first_s`.
+struct Source {
+  Eigen::VectorXd amplitude;   ///< Rms of its signal, of the greatest.
+  Eigen::VectorXd excitation;  ///< 0..1
+  Eigen::VectorXd fatigued;    ///< Share of its strength.
+};
+
+EmgSpectrum scaled(const EmgSpectrum& spectrum, double factor) {
+  return {.low_hz = spectrum.low_hz * factor, .high_hz = spectrum.high_hz * factor};
+}
+
+/// Its signal: noise whose rms is the amplitude.
+Eigen::VectorXd signal_of(const Source& source,
+                          double first_s,
+                          const Eigen::VectorXd& true_time_s,
+                          const EmgNoise& emg,
+                          double spectrum,
+                          Random random) {
+  constexpr double kAudible = 0.005;  // a change of frequencies beyond which it is one
+  const auto over_time = [&](const Eigen::VectorXd& values) {
+    return stretched(values, first_s, kEnvelopeRate_hz, true_time_s);
+  };
+  const Eigen::VectorXd amplitude = over_time(source.amplitude);
+  const Eigen::Index count = amplitude.size();
+  const double least = source.fatigued.minCoeff();
+  const double most = source.fatigued.maxCoeff();
+  const EmgSpectrum fresh = scaled({}, spectrum * (1.0 - least));
+  const EmgSpectrum tired = scaled({}, spectrum * (1.0 - most));
+  const Eigen::Index lead = emg_lead(tired, emg.rate_hz);
+
+  Eigen::VectorXd innovations;
+  if (emg.motor_units > 0.0) {
+    Eigen::VectorXd per_second(source.excitation.size());
+    for (Eigen::Index k = 0; k < per_second.size(); ++k)
+      per_second(k) = discharges_hz(emg.motor_units, source.excitation(k));
+    Eigen::VectorXd rate_hz(lead + count);
+    rate_hz.head(lead).setConstant(per_second(0));
+    rate_hz.tail(count) = over_time(per_second);
+    innovations = discharge_noise(rate_hz, emg.rate_hz, random);
+  } else {
+    innovations = random.normals(lead + count);
+  }
+  const Eigen::VectorXd first = emg_from(fresh, emg.rate_hz, innovations, lead);
+  if (most - least < kAudible) return amplitude.cwiseProduct(first);
+
+  // From one spectrum to the other as fatigue goes; their mixture has unit variance too.
+  const Eigen::VectorXd last = emg_from(tired, emg.rate_hz, innovations, lead);
+  const double alike = first.dot(last) / (first.norm() * last.norm());
+  const Eigen::VectorXd fatigued = over_time(source.fatigued);
+  Eigen::VectorXd signal(count);
+  for (Eigen::Index k = 0; k < count; ++k) {
+    const double w = (fatigued(k) - least) / (most - least);
+    const double variance = (1.0 - w) * (1.0 - w) + w * w + 2.0 * w * (1.0 - w) * alike;
+    signal(k) = amplitude(k) * ((1.0 - w) * first(k) + w * last(k)) / std::sqrt(variance);
+  }
+  return signal;
+}
+
+/// One pass, as an amplifier does it.
+void limit_bandwidth(Eigen::VectorXd& signal, double cutoff_hz, double rate_hz) {
+  for (const math::SecondOrderSection& s :
+       math::design_butterworth(math::FilterBand::low_pass, 4, cutoff_hz, rate_hz)) {
+    double x1 = 0.0, x2 = 0.0, y1 = 0.0, y2 = 0.0;
+    for (double& value : signal) {
+      const double x = value;
+      const double y = s.b0 * x + s.b1 * x1 + s.b2 * x2 - s.a1 * y1 - s.a2 * y2;
+      x2 = x1, x1 = x;
+      y2 = y1, y1 = y;
+      value = y;
+    }
+  }
 }
 
 /// Noise of amplifier, mains and movement, in shares of the greatest rms.
@@ -131,6 +194,9 @@ Instruments attach_instruments(const Protocol& protocol,
     const double baseline = random.uniform(2.0 / 3.0, 4.0 / 3.0);
     result.baseline[m] = emg.baseline * (protocol.level == Level::different ? baseline : 1.0);
   }
+  Random tissue(seed_for(seed, "tissue"));
+  for (double& factor : result.spectrum)
+    factor = tissue.uniform(emg.spectrum_min, emg.spectrum_max);
   const bool drifts = random.uniform() < 0.5;
   result.clock_drift = drifts ? 1e-6 * protocol.sync.drift_ppm : 0.0;
   return result;
@@ -239,35 +305,39 @@ TimeSeries record_emg(const Protocol& protocol,
   const double last_s = emg_clock.true_time_s(time_s(n - 1));
   const auto count =
       static_cast<Eigen::Index>(std::ceil((last_s - first_s) * kEnvelopeRate_hz)) + 2;
-  Eigen::MatrixXd amplitude(count, 5);
+  std::array<Source, 5> sources;
+  for (Source& source : sources)
+    source = {Eigen::VectorXd(count), Eigen::VectorXd(count), Eigen::VectorXd::Zero(count)};
   Eigen::VectorXd speed(count);
   for (Eigen::Index k = 0; k < count; ++k) {
     const double t = first_s + static_cast<double>(k) / kEnvelopeRate_hz;
     const PerMuscle u = performance.drive(t);
+    const PerMuscle fatigued = performance.fatigued(t);
     const double gain = 1.0 + kColdGain * script.cold(t);
     for (std::size_t m = 0; m < 4; ++m) {
       const double p = instruments.exponent[m];
-      amplitude(k, static_cast<Eigen::Index>(m)) =
-          gain * (p == 1.0 ? u[m] : std::pow(u[m], 1.0 / p));
+      sources[m].amplitude(k) = gain * (p == 1.0 ? u[m] : std::pow(u[m], 1.0 / p));
+      sources[m].excitation(k) = u[m];
+      sources[m].fatigued(k) = fatigued[m];
     }
-    amplitude(k, kWrist) = std::min(1.0, 0.5 * u[kBiceps] + 0.05 * script.protocol.held_mass_kg);
+    sources[kWrist].amplitude(k) = sources[kWrist].excitation(k) =
+        std::min(1.0, 0.5 * u[kBiceps] + 0.05 * script.protocol.held_mass_kg);
     speed(k) = performance.motion(t).first;
   }
   Eigen::VectorXd true_time_s(n);
   for (Eigen::Index k = 0; k < n; ++k) true_time_s(k) = emg_clock.true_time_s(time_s(k));
-  const PerMuscle fatigued = performance.fatigued();
   const bool mixed =
       *std::max_element(instruments.crosstalk.begin(), instruments.crosstalk.end()) > 0.0;
 
-  std::array<Eigen::VectorXd, 5> sources;
-  for (std::size_t m = 0; m < sources.size(); ++m) {
+  std::array<Eigen::VectorXd, 5> signals;
+  for (std::size_t m = 0; m < signals.size(); ++m) {
     const bool heard = std::find(channels_of.begin(), channels_of.end(), m) != channels_of.end();
     if (!heard && !mixed) continue;
     const std::string name = m == kWrist ? "ECRL" : std::string(kArmMuscles[m]);
-    sources[m] = source(stretched(amplitude.col(static_cast<Eigen::Index>(m)), first_s,
-                                  kEnvelopeRate_hz, true_time_s),
-                        m == kWrist ? 0.0 : fatigued[m], emg.rate_hz,
-                        stream(seed, "emg", script.protocol.name + "." + name));
+    signals[m] =
+        signal_of(sources[m], first_s, true_time_s, emg,
+                  m == kWrist ? instruments.spectrum[kBrachioradialis] : instruments.spectrum[m],
+                  stream(seed, "emg", script.protocol.name + "." + name));
   }
   const Eigen::VectorXd speed_radps = stretched(speed, first_s, kEnvelopeRate_hz, true_time_s);
   constexpr std::array<std::size_t, 4> kNeighbour = {kBrachialis, kBiceps, kWrist, kTriceps};
@@ -276,9 +346,11 @@ TimeSeries record_emg(const Protocol& protocol,
     const std::string name(kArmMuscles[m]);
     channels.push_back({name, Unit::volt});
     Eigen::VectorXd signal =
-        sources[m] + disturbance(emg, instruments.baseline[m], speed_radps,
+        signals[m] + disturbance(emg, instruments.baseline[m], speed_radps,
                                  stream(seed, "amplifier", script.protocol.name + "." + name));
-    if (mixed && kNeighbour[m] != m) signal += instruments.crosstalk[m] * sources[kNeighbour[m]];
+    if (mixed && kNeighbour[m] != m) signal += instruments.crosstalk[m] * signals[kNeighbour[m]];
+    if (emg.bandwidth_hz > 0.0 && emg.bandwidth_hz < 0.49 * emg.rate_hz)
+      limit_bandwidth(signal, emg.bandwidth_hz, emg.rate_hz);
     values.col(static_cast<Eigen::Index>(c)) = instruments.greatest_v[m] * signal;
   }
   quantize(values, kEmgSteps_perv);

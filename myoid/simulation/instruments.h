@@ -18,6 +18,7 @@ struct Instruments {
   PerMuscle exponent = {};           ///< p: excitation = (rms / greatest_v)^p.
   PerMuscle crosstalk = {};          ///< Share of its neighbour's signal in a channel.
   PerMuscle baseline = {};           ///< Rms of the amplifier's noise, of greatest_v.
+  PerMuscle spectrum = {};           ///< Of Shwedyk's frequencies.
   double clock_drift = 0.0;          ///< Of the EMG's clock, relative.
 };
 
@@ -55,9 +56,11 @@ struct EmgClock {
 ///
 ///   channel = greatest (s_i + x s_neighbour + baseline w + hum + artefact),  s_i = u_i^(1/p) n_i
 ///
-/// n_i noise of Shwedyk's spectrum, its frequencies lower by the share that fatigue has taken, w
-/// white. Neighbours: BRA of BIC, BIC of BRA, and of BRD the radial wrist extensors, which nobody
-/// records and which hold the hand (half of the biceps' excitation and 0.05 per kilogram).
+/// n_i noise of Shwedyk's spectrum, its frequencies lower by the share that fatigue has taken so
+/// far, Gaussian or made of the discharges of motor units (EmgNoise::motor_units); w white.
+/// Neighbours: BRA of BIC, BIC of BRA, and of BRD the radial wrist extensors, which nobody records
+/// and which hold the hand (half of the biceps' excitation and 0.05 per kilogram). At last the
+/// amplifier's bandwidth.
 [[nodiscard]] TimeSeries record_emg(const Protocol& protocol,
                                     const Instruments& instruments,
                                     const Performance& performance,

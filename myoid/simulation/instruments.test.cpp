@@ -112,6 +112,69 @@ TEST(Instruments, AnExponentBendsTheAmplitudeAndNothingElse) {
   EXPECT_NEAR(rms(plateau) / std::pow(0.25, 1.0 / 1.4), 1.0, 0.02);
 }
 
+/// Frequency that halves the power between 5 and 400 Hz, by Fourier sums.
+double median_hz(const Eigen::VectorXd& signal, double rate_hz) {
+  std::vector<double> power;
+  double total = 0.0;
+  for (int f = 5; f <= 400; ++f) {
+    double sum = 0.0;
+    // Segments of a second, so that every line is an average.
+    for (Eigen::Index start = 0; start + 1000 <= signal.size(); start += 1000)
+      sum += std::pow(rms_at(signal.segment(start, 1000), f, rate_hz), 2);
+    total += power.emplace_back(sum);
+  }
+  double below = 0.0;
+  for (std::size_t k = 0; k < power.size(); ++k) {
+    below += power[k];
+    if (below > 0.5 * total) return 5.0 + static_cast<double>(k);
+  }
+  return 0.0;
+}
+
+TEST(Instruments, FatigueLowersTheFrequenciesWhileATrialLasts) {
+  // The whole of a trial of 100 s of the elbow's flexors, at a rate of fatigue that takes a third.
+  Protocol protocol = quiet(
+      "[[trial]]\nname = \"hold\"\nkind = \"isometric_ramp\"\ndirection = \"flexion\"\npeak = "
+      "0.5\nhold_s = 100\n");
+  protocol.fatigue = {.on = true, .rates = "elbow"};
+  const VirtualRecording r = make_virtual_recording(protocol, 2);
+  const Eigen::VectorXd emg = r.trials[0].emg.column("BIC");
+  const TimeSeries& state = r.trials[0].truth.state;
+  const auto fresh_share = [&](double t) {
+    return 1.0 - state.values()(static_cast<Eigen::Index>(100.0 * t), state.index("fatigued_BIC"));
+  };
+  const double early = median_hz(emg.segment(3000, 10000), 1000.0);
+  const double late = median_hz(emg.segment(92000, 10000), 1000.0);
+  EXPECT_LT(fresh_share(97.0), 0.8);
+  // 10 s and 150 Hz: the median of 1500 values, 3 %.
+  EXPECT_NEAR(late / early, fresh_share(97.0) / fresh_share(8.0), 0.08);
+}
+
+TEST(Instruments, AChannelHasItsOwnFrequenciesAndTheAmplifierItsBandwidth) {
+  Protocol protocol = quiet(kHold);
+  protocol.emg.rate_hz = 2000.0;
+  protocol.emg.spectrum_min = protocol.emg.spectrum_max = 0.6;
+  const VirtualRecording slow = make_virtual_recording(protocol, 2);
+  protocol.emg.bandwidth_hz = 300.0;
+  const VirtualRecording narrow = make_virtual_recording(protocol, 2);
+  const auto plateau = [](const VirtualRecording& recording) -> Eigen::VectorXd {
+    return recording.trials[0].emg.column("BIC").segment(10000, 20000);
+  };
+  // The median of Shwedyk's spectrum at 60 and 120 Hz is 92 Hz.
+  EXPECT_NEAR(median_hz(plateau(slow), 2000.0), 0.6 * 92.0, 4.0);
+  const auto at = [&](const VirtualRecording& recording, double f) {
+    double sum = 0.0;
+    for (int k = -20; k <= 20; ++k) sum += std::pow(rms_at(plateau(recording), f + k, 2000.0), 2);
+    return sum;
+  };
+  // A Butterworth filter of fourth order: half the power at its cut-off, 1/257 at twice that (but
+  // for the bilinear transform, which takes more).
+  EXPECT_NEAR(at(narrow, 300.0) / at(slow, 300.0), 0.5, 0.1);
+  EXPECT_NEAR(at(narrow, 60.0) / at(slow, 60.0), 1.0, 0.01);
+  // ... and steps of 0.1 uV are 1 % of the little that is there.
+  EXPECT_LT(at(narrow, 600.0) / at(slow, 600.0), 1.0 / 257.0 + 0.02);
+}
+
 TEST(Instruments, AnMvcThatFallsShortIsSmallerInEmgAndTorque) {
   Protocol protocol = quiet(kHold);
   protocol.emg.effort_min = protocol.emg.effort_max = 0.8;

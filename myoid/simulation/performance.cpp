@@ -26,6 +26,16 @@ void Tiredness<N>::rest(double interval_s) {
 template struct Tiredness<4>;
 template struct Tiredness<7>;
 
+PerMuscle interpolated(const std::vector<PerMuscle>& values, double step_s, double time_s) {
+  const double s = std::clamp(time_s / step_s, 0.0, static_cast<double>(values.size() - 1));
+  const std::size_t before = std::min(static_cast<std::size_t>(s), values.size() - 1);
+  const std::size_t after = std::min(before + 1, values.size() - 1);
+  PerMuscle result;
+  for (std::size_t i = 0; i < result.size(); ++i)
+    result[i] = std::lerp(values[before][i], values[after][i], s - static_cast<double>(before));
+  return result;
+}
+
 ExactPerformance::ExactPerformance(const VirtualArm& arm,
                                    const HillSet& muscles,
                                    TrialScript script,
@@ -49,19 +59,11 @@ ExactPerformance::ExactPerformance(const VirtualArm& arm,
 
 PerMuscle ExactPerformance::strength(double time_s) const {
   if (strength_.empty()) return {1.0, 1.0, 1.0, 1.0};
-  const double s =
-      std::clamp(time_s / kFatigueStep_s, 0.0, static_cast<double>(strength_.size() - 1));
-  const std::size_t before = std::min(static_cast<std::size_t>(s), strength_.size() - 1);
-  const std::size_t after = std::min(before + 1, strength_.size() - 1);
-  PerMuscle share;
-  for (std::size_t i = 0; i < share.size(); ++i)
-    share[i] =
-        std::lerp(strength_[before][i], strength_[after][i], s - static_cast<double>(before));
-  return share;
+  return interpolated(strength_, kFatigueStep_s, time_s);
 }
 
-PerMuscle ExactPerformance::fatigued() const {
-  PerMuscle share = strength(0.5 * script().duration_s);
+PerMuscle ExactPerformance::fatigued(double time_s) const {
+  PerMuscle share = strength(time_s);
   for (double& value : share) value = 1.0 - value;
   return share;
 }

@@ -39,8 +39,8 @@ class Performance {
   [[nodiscard]] virtual Moment motion(double time_s) const = 0;
   /// Excitation of each muscle as its electrode sees it, before any delay.
   [[nodiscard]] virtual PerMuscle drive(double time_s) const = 0;
-  /// Share of the strength that fatigue has taken from each muscle, in the middle of the trial.
-  [[nodiscard]] virtual PerMuscle fatigued() const = 0;
+  /// Share of the strength that fatigue has taken from each muscle by this time.
+  [[nodiscard]] virtual PerMuscle fatigued(double time_s) const = 0;
   /// The heads at this time; empty where the truth has none.
   [[nodiscard]] virtual std::optional<ArmState> heads(double /*time_s*/) const {
     return std::nullopt;
@@ -49,6 +49,11 @@ class Performance {
  private:
   TrialScript script_;
 };
+
+/// A value of an even clock from 0 that is held before and after; straight lines in between.
+[[nodiscard]] PerMuscle interpolated(const std::vector<PerMuscle>& values,
+                                     double step_s,
+                                     double time_s);
 
 /// Fatigue of N muscles or heads from trial to trial.
 template <std::size_t N>
@@ -88,7 +93,7 @@ class ExactPerformance : public Performance {
   [[nodiscard]] Instant at(double time_s) const override;
   [[nodiscard]] Moment motion(double time_s) const override { return script().motion(time_s); }
   [[nodiscard]] PerMuscle drive(double time_s) const override;
-  [[nodiscard]] PerMuscle fatigued() const override;
+  [[nodiscard]] PerMuscle fatigued(double time_s) const override;
 
   /// The greatest activation that the motion asks for; 0 against a dynamometer.
   [[nodiscard]] double greatest_activation(double rate_hz) const;
@@ -122,7 +127,7 @@ class SimulatedPerformance : public Performance {
   [[nodiscard]] Instant at(double time_s) const override;
   [[nodiscard]] Moment motion(double time_s) const override;
   [[nodiscard]] PerMuscle drive(double time_s) const override;
-  [[nodiscard]] PerMuscle fatigued() const override { return fatigued_; }
+  [[nodiscard]] PerMuscle fatigued(double time_s) const override;
   [[nodiscard]] std::optional<ArmState> heads(double time_s) const override;
 
   /// Why the person could not do the trial; empty if it went well.
@@ -153,7 +158,7 @@ class SimulatedPerformance : public Performance {
   const TrueArm* arm_;
   PerMuscle effort_;
   std::vector<Sample> samples_;
-  PerMuscle fatigued_{};
+  std::vector<PerMuscle> fatigued_;  ///< On an even clock from 0; empty: nobody tires.
   std::string failure_;
 };
 

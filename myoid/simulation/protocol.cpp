@@ -147,6 +147,9 @@ void read_emg(TomlTable table, EmgNoise& emg, Protocol& protocol) {
   range_into(table, "crosstalk", emg.crosstalk_min, emg.crosstalk_max, 0.0, 0.5);
   range_into(table, "mvc_effort", emg.effort_min, emg.effort_max, 0.3, 1.0);
   range_into(table, "exponent", emg.exponent_min, emg.exponent_max, 0.5, 3.0);
+  range_into(table, "spectrum", emg.spectrum_min, emg.spectrum_max, 0.3, 1.5);
+  number_into(table, "motor_units", emg.motor_units, 0.0, 10000.0);
+  number_into(table, "bandwidth_hz", emg.bandwidth_hz, 0.0, 5000.0);
   number_into(table, "mvc_window_s", protocol.mvc_window_s, 0.05, 20.0);
   number_into(table, "lowpass_hz", protocol.lowpass_hz, 1.0, 50.0);
   table.finish();
@@ -327,6 +330,11 @@ Protocol default_protocol(Level level) {
   protocol.emg.crosstalk_max = 0.10;
   protocol.emg.effort_min = 0.8;
   protocol.emg.exponent_max = 1.5;
+  protocol.emg.spectrum_min = 0.6;
+  protocol.emg.spectrum_max = 1.2;
+  protocol.emg.motor_units = 250.0;
+  protocol.emg.bandwidth_hz = 450.0;
+  protocol.control.irregularity = 1.0;
   protocol.sync = {.offset_sd_s = 0.008, .drift_ppm = 50.0};
   protocol.fatigue.on = true;
   return protocol;
@@ -353,6 +361,7 @@ Protocol parse_protocol(std::string_view text,
     number_into(*table, "synergy", protocol.control.synergy, 0.0, 1.0);
     number_into(*table, "brachialis_synergy", protocol.control.brachialis_synergy, 0.0, 1.0);
     number_into(*table, "motor_noise", protocol.control.motor_noise, 0.0, 0.3);
+    number_into(*table, "irregularity", protocol.control.irregularity, 0.0, 2.0);
     table->finish();
   }
   if (auto table = root.table("motion")) {

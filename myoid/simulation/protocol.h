@@ -75,7 +75,11 @@ struct ControlSpec {
   /// has no electrode. Above 0: it acts on its own, and a wire electrode records it.
   double brachialis_synergy = 0.0;
   /// Relative standard deviation of each muscle's drive below 3 Hz that nobody intends. L2 only.
-  double motor_noise = 0.05;
+  double motor_noise = 0.08;
+  /// How unevenly people move, 1: as people do; 0: as machines. Swings come early and late by up to
+  /// a quarter of a radian; lifts last some 10 % more or less and end some 2 degrees off, and slow
+  /// ones are made of several movements; the antagonist comes and goes with the movement. L2: 1.
+  double irregularity = 0.0;
 };
 
 /// Fatigue: three compartments per muscle (muscle::published_fatigue_rates), carried on from trial
@@ -121,6 +125,13 @@ struct EmgNoise {
   double effort_max = 1.0;
   double exponent_min = 1.0;  ///< p: excitation = (rms / greatest rms)^p; 1 to 1.5.
   double exponent_max = 1.0;
+  /// Of Shwedyk's frequencies: what muscle fibers and the tissue between them and the electrode
+  /// make of them; 0.6 to 1.2.
+  double spectrum_min = 1.0;
+  double spectrum_max = 1.0;
+  /// Motor units that the electrode sees: few of them make single spikes. 0: Gaussian noise; 250.
+  double motor_units = 0.0;
+  double bandwidth_hz = 0.0;  ///< Of the amplifier, fourth order; 0: beyond half the rate; 450.
 };
 
 struct TorqueNoise {

@@ -141,10 +141,16 @@ double power(const EmgSpectrum& spectrum, double frequency_hz) {
   return f2 * high2 * high2 / ((f2 + low2) * (f2 + high2) * (f2 + high2));
 }
 
-Eigen::VectorXd emg_noise(const EmgSpectrum& spectrum,
-                          double rate_hz,
-                          Eigen::Index count,
-                          Random& random) {
+Eigen::Index emg_lead(const EmgSpectrum& spectrum, double rate_hz) {
+  return static_cast<Eigen::Index>(kSettle_timeconstants * rate_hz /
+                                   (2.0 * kPi * spectrum.low_hz)) +
+         1;
+}
+
+Eigen::VectorXd emg_from(const EmgSpectrum& spectrum,
+                         double rate_hz,
+                         const Eigen::VectorXd& innovations,
+                         Eigen::Index lead) {
   if (!(rate_hz > 4.0 * spectrum.high_hz)) {
     throw InvalidInput(
         fmt::format("raw EMG at {} Hz cannot carry a spectrum that reaches beyond {} Hz; record at "
@@ -154,20 +160,55 @@ Eigen::VectorXd emg_noise(const EmgSpectrum& spectrum,
   const Recursion filter = sampled_recursion(spectrum, rate_hz);
   double n1 = 0.0, n2 = 0.0, n3 = 0.0;
   double y1 = 0.0, y2 = 0.0, y3 = 0.0;
-  const auto next = [&] {
-    const double n = random.normal();
+  Eigen::VectorXd result(innovations.size() - lead);
+  for (Eigen::Index k = 0; k < innovations.size(); ++k) {
+    const double n = innovations(k);
     const double y = filter.b[0] * n + filter.b[1] * n1 + filter.b[2] * n2 + filter.b[3] * n3 -
                      filter.a[1] * y1 - filter.a[2] * y2 - filter.a[3] * y3;
     n3 = n2, n2 = n1, n1 = n;
     y3 = y2, y2 = y1, y1 = y;
-    return y;
-  };
-  const int settle =
-      static_cast<int>(kSettle_timeconstants * rate_hz / (2.0 * kPi * spectrum.low_hz)) + 1;
-  for (int k = 0; k < settle; ++k) static_cast<void>(next());
-  Eigen::VectorXd result(count);
-  for (double& value : result) value = next();
+    if (k >= lead) result(k - lead) = y;
+  }
   return result;
+}
+
+Eigen::VectorXd emg_noise(const EmgSpectrum& spectrum,
+                          double rate_hz,
+                          Eigen::Index count,
+                          Random& random) {
+  const Eigen::Index lead = emg_lead(spectrum, rate_hz);
+  return emg_from(spectrum, rate_hz, random.normals(lead + count), lead);
+}
+
+double discharges_hz(double motor_units, double excitation) {
+  constexpr double kRecruited = 0.6;    // excitation at which all units are at work
+  constexpr double kThresholds = 30.0;  // highest over lowest
+  constexpr double kSlowest_hz = 8.0;
+  constexpr double kFastest_hz = 30.0;
+  constexpr double kLeast = 2.0;  // units of a muscle that is said to do anything
+  const double u = std::clamp(excitation, 0.0, 1.0);
+  const double share =
+      std::log1p((kThresholds - 1.0) * std::min(1.0, u / kRecruited)) / std::log(kThresholds);
+  return std::max(motor_units * share, kLeast) * std::lerp(kSlowest_hz, kFastest_hz, u);
+}
+
+Eigen::VectorXd discharge_noise(const Eigen::VectorXd& per_second, double rate_hz, Random& random) {
+  Eigen::VectorXd noise(per_second.size());
+  for (Eigen::Index k = 0; k < per_second.size(); ++k) {
+    const double mean = per_second(k) / rate_hz;
+    // The Poisson number by inversion of its distribution.
+    const double u = random.uniform();
+    double probability = std::exp(-mean);
+    double below = probability;
+    double number = 0.0;
+    while (u >= below && number < 200.0) {
+      number += 1.0;
+      probability *= mean / number;
+      below += probability;
+    }
+    noise(k) = number > 0.0 ? std::sqrt(number / mean) * random.normal() : 0.0;
+  }
+  return noise;
 }
 
 Eigen::VectorXd lowpass_noise(double cutoff_hz,

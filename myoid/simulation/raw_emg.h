@@ -26,6 +26,27 @@ struct EmgSpectrum {
                                         Eigen::Index count,
                                         Random& random);
 
+/// The same noise from given white innovations of unit variance, of which the first `lead` settle
+/// the filter and give no sample. `emg_lead` are enough.
+[[nodiscard]] Eigen::VectorXd emg_from(const EmgSpectrum& spectrum,
+                                       double rate_hz,
+                                       const Eigen::VectorXd& innovations,
+                                       Eigen::Index lead);
+[[nodiscard]] Eigen::Index emg_lead(const EmgSpectrum& spectrum, double rate_hz);
+
+/// Discharges per second of the motor units near an electrode, at an excitation of 0 to 1: their
+/// number times their rate. Recruitment ends at 0.6, with thresholds spread so that half of the
+/// units are at work at a tenth; rates go from 8 to 30 1/s (after Fuglevand, Winter & Patla 1993).
+[[nodiscard]] double discharges_hz(double motor_units, double excitation);
+
+/// White noise of unit variance that is made of discharges: in every sample a Poisson number of
+/// them, each of normal size, over the square root of their mean number. Few discharges make
+/// spikes (excess kurtosis 3 / number), many make Gaussian noise; the spectrum stays white.
+/// `per_second`: mean number, one value for each sample.
+[[nodiscard]] Eigen::VectorXd discharge_noise(const Eigen::VectorXd& per_second,
+                                              double rate_hz,
+                                              Random& random);
+
 /// `count` samples of Gaussian noise of unit variance whose power falls with the fourth power of
 /// frequency above `cutoff_hz` (two equal first-order lags).
 [[nodiscard]] Eigen::VectorXd lowpass_noise(double cutoff_hz,

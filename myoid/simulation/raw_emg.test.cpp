@@ -84,6 +84,34 @@ TEST(EmgNoise, RefusesARateThatCannotCarryIt) {
   EXPECT_THROW(static_cast<void>(emg_noise({}, 400.0, 10, random)), InvalidInput);
 }
 
+TEST(DischargeNoise, IsWhiteOfUnitVarianceAndSpikyWhereDischargesAreFew) {
+  // Compound Poisson of mean m a sample with normal sizes: kurtosis 3 + 3/m. 400 000 samples; the
+  // fourth moment at m = 0.5 (kurtosis 9) has a relative standard error of about 2 %.
+  Random random(5);
+  const double rate_hz = 1000.0;
+  for (const double mean : {0.5, 5.0}) {
+    const Eigen::Index n = 400000;
+    const Eigen::VectorXd noise =
+        discharge_noise(Eigen::VectorXd::Constant(n, mean * rate_hz), rate_hz, random);
+    const double variance = noise.squaredNorm() / static_cast<double>(n);
+    EXPECT_NEAR(variance, 1.0, 0.02);
+    const double fourth = noise.array().pow(4).sum() / static_cast<double>(n);
+    EXPECT_NEAR(fourth / (3.0 + 3.0 / mean), 1.0, 0.1);
+    // No sample knows the next: 1 / sqrt(n) = 0.16 %; four of them.
+    EXPECT_NEAR(noise.head(n - 1).dot(noise.tail(n - 1)) / static_cast<double>(n), 0.0, 0.0064);
+    const std::vector<double> shares = band_shares(noise.head(100000), rate_hz, 50.0);
+    for (std::size_t k = 1; k < shares.size(); ++k)
+      EXPECT_NEAR(shares[k] * 10.0, 1.0, 0.12);  // 5000 segments' exponentials, and the first band
+  }
+}
+
+TEST(DischargeNoise, HalfOfTheUnitsWorkAtATenthAndAllAtSixTenths) {
+  EXPECT_DOUBLE_EQ(discharges_hz(250.0, 1.0), 250.0 * 30.0);
+  EXPECT_DOUBLE_EQ(discharges_hz(250.0, 0.6), 250.0 * (8.0 + 0.6 * 22.0));
+  EXPECT_NEAR(discharges_hz(250.0, 0.1) / (250.0 * (8.0 + 2.2)), 0.5, 0.03);
+  EXPECT_DOUBLE_EQ(discharges_hz(250.0, 0.0), 16.0);  // two units, the least
+}
+
 TEST(LowpassNoise, HasUnitVarianceAndLittleAboveItsCutoff) {
   Random random(13);
   const Eigen::VectorXd noise = lowpass_noise(5.0, 200.0, 80000, random);

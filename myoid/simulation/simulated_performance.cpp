@@ -50,6 +50,19 @@ double surplus_nm(const ArmStepper& stepper) {
   return state.muscle_torque_nm - foreseen_nm;
 }
 
+/// Of heads, the mean by strength.
+PerMuscle fatigue_of_muscles(const TrueArm& arm, const Tiredness<7>& tiredness) {
+  PerMuscle fatigued = {};
+  PerMuscle strength = {};
+  for (std::size_t i = 0; i < kHeadCount; ++i) {
+    const double force_n = arm.heads[i].parameters.hill.max_isometric_force_n;
+    fatigued[arm.heads[i].muscle] += force_n * tiredness.state[i].fatigued;
+    strength[arm.heads[i].muscle] += force_n;
+  }
+  for (std::size_t m = 0; m < fatigued.size(); ++m) fatigued[m] /= strength[m];
+  return fatigued;
+}
+
 /// Drive that nobody intends: a factor about 1 for each muscle, on the clock of the samples.
 std::array<Eigen::VectorXd, 4> motor_noise_of(double sd, Eigen::Index count, std::uint64_t seed) {
   std::array<Eigen::VectorXd, 4> factor;
@@ -205,19 +218,10 @@ void SimulatedPerformance::simulate(double motor_noise,
       for (std::size_t i = 0; i < kHeadCount; ++i)
         worked[i] += sample.arm.activation[i] / kSamplesPerFatigue;
       if (k % kSamplesPerFatigue == 0) {
+        fatigued_.push_back(fatigue_of_muscles(arm, tiredness));
         tiredness.work(worked, kSamplesPerFatigue * kSample_s);
         worked = {};
         stepper.set_strength(tiredness.strength());
-      }
-      if (t <= 0.5 * script.duration_s) {
-        fatigued_ = {};
-        PerMuscle strength = {};
-        for (std::size_t i = 0; i < kHeadCount; ++i) {
-          const double force_n = arm.heads[i].parameters.hill.max_isometric_force_n;
-          fatigued_[arm.heads[i].muscle] += force_n * tiredness.state[i].fatigued;
-          strength[arm.heads[i].muscle] += force_n;
-        }
-        for (std::size_t m = 0; m < 4; ++m) fatigued_[m] /= strength[m];
       }
     }
     if (moved) continue;
@@ -312,6 +316,11 @@ Instant SimulatedPerformance::at(double time_s) const {
         now.muscle_torque_nm - now.passive_torque_nm;
   }
   return result;
+}
+
+PerMuscle SimulatedPerformance::fatigued(double time_s) const {
+  if (fatigued_.empty()) return {};
+  return interpolated(fatigued_, kSamplesPerFatigue * kSample_s, time_s);
 }
 
 PerMuscle SimulatedPerformance::drive(double time_s) const {

@@ -69,9 +69,15 @@ Moment SmoothMotion::operator()(double time_s) const {
 
   // The pace, 0..1, is a step up and a step down; the phase is its integral.
   const double stop_s = end_s() - pace_s;
-  const Moment phase =
-      (2.0 * kPi * frequency_hz) *
-      (smooth_ramp(time_s, oscillation_start_s, pace_s) - smooth_ramp(time_s, stop_s, pace_s));
+  Moment phase = (2.0 * kPi * frequency_hz) * (smooth_ramp(time_s, oscillation_start_s, pace_s) -
+                                               smooth_ramp(time_s, stop_s, pace_s));
+  if (wander_rad > 0.0) {
+    const double rate_radps = 2.0 * kPi * wander_hz;
+    const Moment pace =
+        smooth_step(time_s, oscillation_start_s, pace_s) - smooth_step(time_s, stop_s, pace_s);
+    phase = phase +
+            wander_rad * (pace * cosine({rate_radps * time_s + wander_phase_rad, rate_radps, 0.0}));
+  }
   const double w_radps = 2.0 * kPi * variation_hz;
   const Moment variation = cosine({w_radps * time_s + variation_phase_rad, w_radps, 0.0});
   const Moment amplitude =

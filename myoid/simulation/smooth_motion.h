@@ -62,6 +62,9 @@ struct SmoothMotion {
   double amplitude_variation = 0.0;  ///< Relative change of A from cycle to cycle.
   double variation_hz = 0.0;         ///< How fast it changes.
   double variation_phase_rad = 0.0;
+  double wander_rad = 0.0;  ///< How far the phase goes ahead and behind, once up to pace.
+  double wander_hz = 0.0;
+  double wander_phase_rad = 0.0;
 
   [[nodiscard]] Moment operator()(double time_s) const;
   /// When it comes to rest for good [s].

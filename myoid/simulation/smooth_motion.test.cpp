@@ -50,7 +50,10 @@ SmoothMotion swings() {
           .cycles = 4,
           .amplitude_variation = 0.1,
           .variation_hz = 0.21,
-          .variation_phase_rad = 0.4};
+          .variation_phase_rad = 0.4,
+          .wander_rad = 0.25,
+          .wander_hz = 0.23,
+          .wander_phase_rad = 1.1};
 }
 
 TEST(SmoothMotion, DerivativesAreThoseOfDifferences) {
@@ -72,6 +75,7 @@ TEST(SmoothMotion, SwingsAtTheFrequencyAskedFor) {
   SmoothMotion motion = swings();
   motion.moves.clear();
   motion.amplitude_variation = 0.0;
+  motion.wander_rad = 0.0;
   // At full pace a period later is the same angle.
   EXPECT_NEAR(motion(2.0).value, motion(3.0).value, 1e-12);
   double highest = 0.0;

@@ -34,11 +34,12 @@ std::string number(double value) {
   return text;
 }
 
-void add_trial(const VirtualTrial& trial, std::string& text) {
+void add_trial(const VirtualTrial& trial, RecordingFormat format, std::string& text) {
   const TrialProtocol& p = trial.protocol;
+  const bool c3d = format == RecordingFormat::c3d;
   text += fmt::format("\n[[trial]]\nname = {}\nmarkers = {}\nemg = {}\nuse = \"{}\"\n",
-                      toml_text(p.name), toml_text(p.name + ".trc"), toml_text(p.name + "_emg.sto"),
-                      p.use);
+                      toml_text(p.name), toml_text(p.name + (c3d ? ".c3d" : ".trc")),
+                      toml_text(p.name + (c3d ? ".c3d" : "_emg.sto")), p.use);
   if (trial.external_torque) {
     text += fmt::format("external_torque = {}\n", toml_text(p.name + "_torque.sto"));
   }
@@ -62,7 +63,7 @@ std::string modelled_as(std::size_t muscle, bool seven_heads) {
 
 }  // namespace
 
-std::string study_toml(const VirtualRecording& recording) {
+std::string study_toml(const VirtualRecording& recording, RecordingFormat format) {
   const Protocol& protocol = recording.protocol;
   const VirtualSubject& subject = protocol.subject;
   const bool exact = protocol.level == Level::noise_free;
@@ -112,7 +113,7 @@ std::string study_toml(const VirtualRecording& recording) {
                 ? "emg = { same_as = \"BIC\" }         # deep: no electrode on it\n"
                 : fmt::format("emg = \"{}\"\n", muscle);
   }
-  for (const VirtualTrial& trial : recording.trials) add_trial(trial, text);
+  for (const VirtualTrial& trial : recording.trials) add_trial(trial, format, text);
   text +=
       "\n[identify]\n"
       "method = [\"paper\", \"torque\"]\n"
@@ -176,6 +177,7 @@ std::string person_csv(const VirtualRecording& recording) {
     add(name, "emg_exponent", "1", truth.instruments.exponent[m]);
     add(name, "crosstalk", "1", truth.instruments.crosstalk[m]);
     add(name, "baseline", "1", truth.instruments.baseline[m]);
+    add(name, "spectrum", "1", truth.instruments.spectrum[m]);
     add(name, "mvc_effort", "1", truth.effort[m]);
   }
   add("emg_clock", "drift", "1", truth.instruments.clock_drift);

@@ -54,6 +54,19 @@ std::optional<TimeSeries> true_heads(const Performance& performance,
   return TimeSeries(time_s, channels, values);
 }
 
+/// What is not as in a fresh and warm muscle.
+TimeSeries true_state(const Performance& performance, const Eigen::VectorXd& time_s) {
+  std::vector<Channel> channels = {{"cold", Unit::dimensionless}};
+  for (const std::string_view muscle : kArmMuscles)
+    channels.push_back({"fatigued_" + std::string(muscle), Unit::dimensionless});
+  Eigen::MatrixXd values(time_s.size(), 5);
+  for (Eigen::Index k = 0; k < time_s.size(); ++k) {
+    const PerMuscle f = performance.fatigued(time_s(k));
+    values.row(k) << performance.script().cold(time_s(k)), f[0], f[1], f[2], f[3];
+  }
+  return {time_s, channels, values};
+}
+
 TrueTrial true_trial(const Performance& performance, const Truth& truth, double rate_hz) {
   const Eigen::VectorXd time_s = clock(performance.script().duration_s, rate_hz);
   const Eigen::Index n = time_s.size();
@@ -87,7 +100,8 @@ TrueTrial true_trial(const Performance& performance, const Truth& truth, double 
           .force = {time_s, per_muscle(Unit::newton), force},
           .length = {time_s, per_muscle(Unit::meter), length},
           .heads = true_heads(performance, truth, time_s),
-          .fatigued = performance.fatigued(),
+          .state = true_state(performance, time_s),
+          .fatigued = performance.fatigued(0.5 * performance.script().duration_s),
           .emg_clock = {}};
 }
 
@@ -202,9 +216,8 @@ std::vector<TrialScript> make_scripts(const Protocol& protocol,
   return scripts;
 }
 
-}  // namespace
-
-VirtualRecording make_virtual_recording(const Protocol& protocol, std::uint64_t seed) {
+/// `record`: let the instruments record too.
+VirtualRecording make(const Protocol& protocol, std::uint64_t seed, bool record) {
   const bool simulated = protocol.level == Level::different;
   const VirtualArm arm(protocol.subject, protocol.seven_heads);
   VirtualRecording recording{.protocol = protocol,
@@ -252,6 +265,7 @@ VirtualRecording make_virtual_recording(const Protocol& protocol, std::uint64_t 
     truth.muscles = effective_muscles(*truth.arm, arm, &truth.misfit);
     truth.emg_delay_s = effective_delay_s(session);
   }
+  if (!record) return recording;
 
   for (const auto& performance : session.performances) {
     const EmgClock emg_time =
@@ -271,6 +285,16 @@ VirtualRecording make_virtual_recording(const Protocol& protocol, std::uint64_t 
     recording.trials.push_back(std::move(trial));
   }
   return recording;
+}
+
+}  // namespace
+
+VirtualRecording make_virtual_recording(const Protocol& protocol, std::uint64_t seed) {
+  return make(protocol, seed, true);
+}
+
+VirtualRecording make_virtual_person(const Protocol& protocol, std::uint64_t seed) {
+  return make(protocol, seed, false);
 }
 
 }  // namespace myoid::simulation

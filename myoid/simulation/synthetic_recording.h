@@ -42,6 +42,7 @@ struct TrueTrial {
   TimeSeries length;      ///< Per muscle: fiber length [m].
   /// L2: of each head HEAD_activation, HEAD_fiber_length [m] and HEAD_tendon_force [N].
   std::optional<TimeSeries> heads;
+  TimeSeries state;         ///< `cold`, 1 to 0 in a warm-up; fatigued_MUSCLE, share of strength.
   PerMuscle fatigued = {};  ///< Share of strength that is gone in the middle of the trial.
   EmgClock emg_clock;
 };
@@ -85,5 +86,8 @@ struct VirtualRecording {
 /// Then the instruments record (instruments.h). If a trial would need an activation above 0.95,
 /// another person is drawn. Throws InvalidInput, naming the trial, if 500 persons could not do it.
 [[nodiscard]] VirtualRecording make_virtual_recording(const Protocol& protocol, std::uint64_t seed);
+
+/// The same person doing the same, without recorded trials: for tables of truths.
+[[nodiscard]] VirtualRecording make_virtual_person(const Protocol& protocol, std::uint64_t seed);
 
 }  // namespace myoid::simulation

@@ -11,18 +11,56 @@ namespace {
 
 constexpr double kMarginOfFlexion_s = 0.5;  ///< At rest before and after.
 
+/// Where and how fast an uneven person goes: one movement of several that overlap.
+void add_uneven_move(
+    double start_s, double duration_s, double by_rad, SmoothMotion& motion, Random& random) {
+  constexpr double kOne_s = 0.9;  // of the movements that slow ones are made of
+  const int count = std::max(1, static_cast<int>(std::lround(duration_s / kOne_s)));
+  std::vector<double> share;
+  double sum = 0.0;
+  for (int i = 0; i < count; ++i) sum += share.emplace_back(random.uniform(0.7, 1.3));
+  const double apart_s = duration_s / (count + 1);
+  for (int i = 0; i < count; ++i)
+    motion.moves.push_back(
+        {start_s + i * apart_s, 2.0 * apart_s, by_rad * share[static_cast<std::size_t>(i)] / sum});
+}
+
 /// Raises and lowers (eccentric, passive), or moves there and back.
-void add_lifts(TrialScript& script) {
+void add_lifts(TrialScript& script, double irregularity, Random& random) {
+  constexpr double kTimeSd = 0.10;
+  constexpr double kReachSd_rad = 2.0 * kDegree;
+  constexpr double kMost = 2.0;  // standard deviations
   const TrialProtocol& p = script.protocol;
+  SmoothMotion& motion = script.motion;
+  const bool even = irregularity == 0.0 || p.kind == TrialKind::passive;
+  const auto around = [&](double sd) {
+    return even ? 0.0 : sd * irregularity * std::clamp(random.normal(), -kMost, kMost);
+  };
+  const auto lasting_s = [&](double usual_s) { return usual_s * std::exp(around(kTimeSd)); };
+  const auto move = [&](double start_s, double duration_s, double by_rad) {
+    if (even) {
+      motion.moves.push_back({start_s, duration_s, by_rad});
+    } else {
+      add_uneven_move(start_s, duration_s, by_rad, motion, random);
+    }
+  };
   double time_s = 0.0;
+  double at_rad = p.from_rad;
+  const auto go_to = [&](double usual_rad, double usual_s) {
+    time_s += lasting_s(p.rest_s);
+    const double duration_s = lasting_s(usual_s);
+    const double to_rad =
+        std::clamp(usual_rad + around(kReachSd_rad), std::min(usual_rad, 5.0 * kDegree),
+                   std::max(usual_rad, 140.0 * kDegree));
+    move(time_s, duration_s, to_rad - at_rad);
+    at_rad = to_rad;
+    time_s += duration_s;
+  };
   for (int k = 0; k < p.repetitions; ++k) {
-    time_s += p.rest_s;
-    script.motion.moves.push_back({time_s, p.raise_s, p.to_rad - p.from_rad});
-    time_s += p.raise_s + p.rest_s;
-    script.motion.moves.push_back({time_s, p.lower_s, p.from_rad - p.to_rad});
-    time_s += p.lower_s;
+    go_to(p.to_rad, p.raise_s);
+    go_to(p.from_rad, p.lower_s);
   }
-  script.motion.start_rad = p.from_rad;
+  motion.start_rad = p.from_rad;
   script.duration_s = time_s + p.rest_s;
 }
 
@@ -41,6 +79,26 @@ void add_oscillation(TrialScript& script, Random& random) {
   motion.variation_hz = 0.37 * p.frequency_hz;
   motion.variation_phase_rad = random.uniform(0.0, 2.0 * kPi);
   script.duration_s = std::max(p.duration_s, motion.end_s() + kMarginOfFlexion_s);
+}
+
+/// What else differs from cycle to cycle.
+void make_uneven(TrialScript& script, double irregularity, Random& random) {
+  const TrialProtocol& p = script.protocol;
+  script.eased = true;
+  const double phase_rad = random.uniform(0.0, 2.0 * kPi);
+  const double wander_rad = random.uniform(0.0, 2.0 * kPi);
+  if (p.kind == TrialKind::flexion) {
+    script.motion.wander_rad = 0.25 * irregularity;
+    script.motion.wander_hz = 0.23 * p.frequency_hz;
+    script.motion.wander_phase_rad = wander_rad;
+  }
+  const double cycle_s =
+      p.kind == TrialKind::flexion ? 1.0 / p.frequency_hz : p.raise_s + p.lower_s + 2.0 * p.rest_s;
+  if (p.kind == TrialKind::flexion || p.kind == TrialKind::eccentric) {
+    script.co_contraction_change = {.depth = std::min(0.9, 0.9 * irregularity),
+                                    .frequency_hz = 1.0 / cycle_s,
+                                    .phase_rad = phase_rad};
+  }
 }
 
 /// The flexors' proportions go around a circle from effort to effort: each of them leads in turn.
@@ -136,7 +194,8 @@ Coordination TrialScript::coordination(double time_s) const {
   return {
       .brachioradialis = mean.brachioradialis + brachioradialis_change(time_s) - 1.0,
       .brachialis = mean.brachialis + brachialis_change(time_s) - 1.0,
-      .co_contraction = mean.co_contraction * co_contraction_change(time_s) * (1.0 + cold(time_s))};
+      .co_contraction = mean.co_contraction * co_contraction_change(time_s) * (1.0 + cold(time_s)),
+      .eased = eased};
 }
 
 PerMuscle TrialScript::prescribed_activations(double time_s) const {
@@ -167,6 +226,7 @@ TrialScript make_script(const TrialProtocol& trial,
   Random random(seed_for(seed, "script." + trial.name));
   TrialScript script;
   script.protocol = trial;
+  Random uneven(seed_for(seed, "uneven." + trial.name));
   const bool own_range = !trial.co_contraction.empty();
   script.mean.co_contraction =
       random.uniform(own_range ? trial.co_contraction.front() : control.co_contraction_min,
@@ -194,7 +254,7 @@ TrialScript make_script(const TrialProtocol& trial,
       break;
     case TrialKind::eccentric:
     case TrialKind::passive:
-      add_lifts(script);
+      add_lifts(script, control.irregularity, uneven);
       break;
     case TrialKind::isokinetic:
       add_sweeps(script, control, random);
@@ -204,6 +264,7 @@ TrialScript make_script(const TrialProtocol& trial,
       add_efforts(script, control, random);
       break;
   }
+  if (control.irregularity > 0.0) make_uneven(script, control.irregularity, uneven);
   return script;
 }
 

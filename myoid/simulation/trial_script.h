@@ -42,6 +42,7 @@ struct TrialScript {
   Modulation brachioradialis_change;  ///< Its departure from 1 is added to the mean.
   Modulation brachialis_change;
   Modulation co_contraction_change;  ///< A factor.
+  bool eased = false;                ///< See Coordination.
 
   /// 1 at the beginning of a trial with a warm-up, fading to 0.05 at its end; else 0.
   [[nodiscard]] double cold(double time_s) const;

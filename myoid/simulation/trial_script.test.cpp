@@ -44,6 +44,48 @@ TEST(TrialScript, LiftsGoUpAndDownAsOftenAsAsked) {
   EXPECT_FALSE(script.against_dynamometer());
 }
 
+TEST(TrialScript, UnevenLiftsEndNearTheirAnglesAndTakeAboutTheirTime) {
+  TrialProtocol lifts = trial(TrialKind::eccentric);
+  lifts.repetitions = 20;
+  const TrialScript even = make_script(lifts, {}, 1);
+  const TrialScript uneven = make_script(lifts, {.irregularity = 1.0}, 1);
+  // 80 durations of 10 %: 1.1 % of the whole; four of them.
+  EXPECT_NEAR(uneven.duration_s / even.duration_s, 1.0, 0.045);
+  EXPECT_NE(uneven.duration_s, even.duration_s);
+  double low = 10.0;
+  double high = -10.0;
+  double jump = 0.0;
+  for (double t = 0.0; t <= uneven.duration_s; t += 0.01) {
+    const Moment q = uneven.motion(t);
+    low = std::min(low, q.value);
+    high = std::max(high, q.value);
+    jump = std::max(jump, std::abs(q.first));
+  }
+  // Within two standard deviations of 2 degrees of the angles.
+  EXPECT_NEAR(low, lifts.from_rad, 4.01 * kDegree);
+  EXPECT_NEAR(high, lifts.to_rad, 4.01 * kDegree);
+  EXPECT_GT(std::abs(high - lifts.to_rad), 0.5 * kDegree);
+  // The smooth step's fastest is 2.7 of the mean; uneven pieces and times add.
+  EXPECT_LT(jump, 2.0 * 2.7 * (lifts.to_rad - lifts.from_rad) / lifts.raise_s);
+  EXPECT_NEAR(uneven.motion(uneven.duration_s).first, 0.0, 1e-12);
+}
+
+TEST(TrialScript, UnevenSwingsStayBetweenTheirAngles) {
+  const TrialScript script = make_script(trial(TrialKind::flexion), {.irregularity = 1.0}, 1);
+  double low = 10.0;
+  double high = -10.0;
+  for (double t = 0.0; t <= script.duration_s; t += 0.01) {
+    low = std::min(low, script.motion(t).value);
+    high = std::max(high, script.motion(t).value);
+  }
+  EXPECT_NEAR(low, 0.4, 1e-3);
+  EXPECT_LE(high, 0.4 + 1.6 * (1.0 + script.protocol.variation));
+  EXPECT_NEAR(script.motion(script.duration_s).first, 0.0, 1e-12);
+  // The antagonist comes and goes once a cycle and never quite leaves.
+  EXPECT_EQ(script.co_contraction_change.frequency_hz, 0.5);
+  EXPECT_LT(script.co_contraction_change.depth, 1.0);
+}
+
 TEST(TrialScript, RampsReachTheirPeakInBothDirections) {
   TrialProtocol ramps = trial(TrialKind::isometric_ramp);
   ramps.peak = 0.6;

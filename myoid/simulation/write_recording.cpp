@@ -6,6 +6,7 @@
 
 #include "myoid/core/error.h"
 #include "myoid/recording/atomic_file.h"
+#include "myoid/recording/c3d_writer.h"
 #include "myoid/recording/storage_writer.h"
 #include "myoid/recording/trc_writer.h"
 
@@ -31,7 +32,8 @@ void prepare_directory(const fs::path& directory, bool overwrite) {
 
 void write_trial(const VirtualRecording& recording,
                  const VirtualTrial& trial,
-                 const fs::path& directory) {
+                 const fs::path& directory,
+                 RecordingFormat format) {
   const std::string& name = trial.protocol.name;
   const std::string origin = fmt::format("virtual recording: protocol {}, seed {}",
                                          recording.protocol.name, recording.seed);
@@ -39,9 +41,14 @@ void write_trial(const VirtualRecording& recording,
     recording::write_storage(directory / file, series,
                              {.title = what + " " + name, .comments = {origin}});
   };
-  recording::write_trc(directory / (name + ".trc"), trial.markers);
-  write(name + "_emg.sto", trial.emg,
-        recording.protocol.level == Level::noise_free ? "activation" : "emg");
+  if (format == RecordingFormat::c3d) {
+    recording::write_c3d(directory / (name + ".c3d"),
+                         recording::make_c3d(trial.markers, trial.emg));
+  } else {
+    recording::write_trc(directory / (name + ".trc"), trial.markers);
+    write(name + "_emg.sto", trial.emg,
+          recording.protocol.level == Level::noise_free ? "activation" : "raw EMG [V]");
+  }
   if (trial.external_torque) write(name + "_torque.sto", *trial.external_torque, "torque");
 
   const fs::path truth = "truth";
@@ -49,6 +56,7 @@ void write_trial(const VirtualRecording& recording,
   write(truth / (name + "_torque.sto"), trial.truth.torque, "true torque");
   write(truth / (name + "_activation.sto"), trial.truth.activation, "true activation");
   write(truth / (name + "_force.sto"), trial.truth.force, "true force");
+  write(truth / (name + "_state.sto"), trial.truth.state, "cold and fatigue");
   if (trial.truth.heads) write(truth / (name + "_heads.sto"), *trial.truth.heads, "true heads");
 }
 
@@ -56,13 +64,14 @@ void write_trial(const VirtualRecording& recording,
 
 void write_virtual_recording(const VirtualRecording& recording,
                              const fs::path& directory,
-                             bool overwrite) {
-  prepare_directory(directory, overwrite);
+                             const WriteOptions& options) {
+  prepare_directory(directory, options.overwrite);
   recording::write_file(directory / "model.osim", recording.model_osim);
-  for (const VirtualTrial& trial : recording.trials) write_trial(recording, trial, directory);
+  for (const VirtualTrial& trial : recording.trials)
+    write_trial(recording, trial, directory, options.format);
   recording::write_file(directory / "truth" / "person.csv", person_csv(recording));
   recording::write_file(directory / "truth.csv", truth_csv(recording));
-  recording::write_file(directory / "study.toml", study_toml(recording));
+  recording::write_file(directory / "study.toml", study_toml(recording, options.format));
 }
 
 }  // namespace myoid::simulation

@@ -10,6 +10,7 @@
 #include "myoid/core/error.h"
 #include "myoid/model/osim_reader.h"
 #include "myoid/recording/emg_reader.h"
+#include "myoid/recording/recording.h"
 #include "myoid/recording/storage_reader.h"
 #include "myoid/recording/toml_table.h"
 #include "myoid/recording/trc_reader.h"
@@ -91,6 +92,10 @@ TEST_F(WriteRecording, SameSeedSameBytes) {
   write_virtual_recording(recording(3, Level::noisy), directory_ / "a");
   write_virtual_recording(recording(3, Level::noisy), directory_ / "b");
   write_virtual_recording(recording(4, Level::noisy), directory_ / "c");
+  write_virtual_recording(recording(3, Level::different), directory_ / "a/person",
+                          {.format = RecordingFormat::c3d});
+  write_virtual_recording(recording(3, Level::different), directory_ / "b/person",
+                          {.format = RecordingFormat::c3d});
   int files = 0;
   for (const auto& entry : fs::recursive_directory_iterator(directory_ / "a")) {
     if (!entry.is_regular_file()) continue;
@@ -98,9 +103,37 @@ TEST_F(WriteRecording, SameSeedSameBytes) {
     EXPECT_EQ(content(entry.path()), content(directory_ / "b" / relative)) << relative;
     ++files;
   }
-  EXPECT_EQ(files, 4 + 3 * 6 + 2);  // and one torque for each trial with a dynamometer
+  // Four for the person, seven a trial, and a torque for each of two with a dynamometer; at L2 one
+  // C3D instead of two files, and the heads.
+  EXPECT_EQ(files, 2 * (4 + 3 * 7 + 2));
   EXPECT_NE(content(directory_ / "a" / "truth.csv"), content(directory_ / "c" / "truth.csv"));
   EXPECT_NE(content(directory_ / "a" / "loaded.trc"), content(directory_ / "c" / "loaded.trc"));
+}
+
+TEST_F(WriteRecording, AC3dFileHoldsMarkersAndEmg) {
+  const VirtualRecording made = recording(1, Level::noisy);
+  write_virtual_recording(made, directory_, {.format = RecordingFormat::c3d});
+  for (const VirtualTrial& trial : made.trials) {
+    const fs::path file = directory_ / (trial.protocol.name + ".c3d");
+    const recording::MarkerSeries markers = recording::read_markers(file).markers;
+    const TimeSeries emg = recording::read_emg(file, "V", true).data;
+    EXPECT_EQ(markers.names, trial.markers.names);
+    // The last frame has but one sample of the EMG and is left out. Reals of 32 bits.
+    const Eigen::Index frames = markers.frame_count();
+    ASSERT_EQ(frames, trial.markers.frame_count() - 1);
+    EXPECT_LE(
+        (markers.positions_m - trial.markers.positions_m.topRows(frames)).cwiseAbs().maxCoeff(),
+        2e-7);
+    ASSERT_EQ(emg.sample_count(), 10 * frames);
+    for (const Channel& channel : trial.emg.channels())
+      EXPECT_LE((emg.column(channel.name) - trial.emg.column(channel.name).head(emg.sample_count()))
+                    .cwiseAbs()
+                    .maxCoeff(),
+                1e-9);
+  }
+  const std::string study = content(directory_ / "study.toml");
+  EXPECT_NE(study.find("emg = \"loaded.c3d\""), std::string::npos);
+  EXPECT_FALSE(fs::exists(directory_ / "loaded.trc"));
 }
 
 TEST_F(WriteRecording, TheStudyNamesWhatIsThere) {
@@ -150,7 +183,7 @@ TEST_F(WriteRecording, LeavesAUsedFolderAloneUnlessToldOtherwise) {
   const VirtualRecording made = recording(1, Level::noise_free);
   EXPECT_THROW(write_virtual_recording(made, directory_), InvalidInput);
   EXPECT_FALSE(fs::exists(directory_ / "study.toml"));
-  EXPECT_NO_THROW(write_virtual_recording(made, directory_, true));
+  EXPECT_NO_THROW(write_virtual_recording(made, directory_, {.overwrite = true}));
   EXPECT_TRUE(fs::exists(directory_ / "mine.txt"));
   EXPECT_THROW(write_virtual_recording(made, directory_ / "mine.txt"), InvalidInput);
 }

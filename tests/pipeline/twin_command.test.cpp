@@ -1,0 +1,114 @@
+// The command `twin` as a user runs it.
+#include <filesystem>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "program.h"
+#include "tests/support/temporary_folder.h"
+
+namespace {
+
+using myoid::test::Finished;
+using myoid::test::myoid;
+using myoid::test::read_rows;
+using myoid::test::read_text;
+using myoid::test::TemporaryFolder;
+using myoid::test::write_text;
+using testing::HasSubstr;
+namespace fs = std::filesystem;
+
+const std::string kShort = R"(
+level = "L2"
+[[trial]]
+name = "mvc"
+kind = "mvc"
+direction = "both"
+[[trial]]
+name = "lift"
+kind = "eccentric"
+held_mass_kg = 1.0
+)";
+
+TEST(TwinCommand, ManyPersonsAreTheSameToTheBitWithAnyNumberOfThreads) {
+  const TemporaryFolder folder;
+  write_text(folder / "p.toml", kShort);
+  for (const std::string threads : {"1", "3"}) {
+    const Finished done = myoid({"twin", "--protocol", folder / "p.toml", "--subjects", "5",
+                                 "--seed", "7", "--threads", threads, "--out", folder / threads});
+    EXPECT_EQ(done.exit_code, 0) << done.err;
+    EXPECT_THAT(done.out, HasSubstr("persons.csv"));
+  }
+  int files = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(folder / "1")) {
+    if (!entry.is_regular_file()) continue;
+    ++files;
+    const fs::path other = fs::path(folder / "3") / fs::relative(entry.path(), folder / "1");
+    EXPECT_EQ(read_text(entry.path()), read_text(other)) << other;
+  }
+  // A person: study, model, truth, person.csv; 8 files of a trial and the torque of the MVC.
+  EXPECT_EQ(files, 1 + 5 * (4 + 2 * 8 + 1));
+  EXPECT_EQ(read_rows(fs::path(folder / "1") / "persons.csv").size(), 5U);
+
+  // One of them alone is the same person.
+  const Finished alone =
+      myoid({"twin", "--protocol", folder / "p.toml", "--seed", "9", "--out", folder / "alone"});
+  EXPECT_EQ(alone.exit_code, 0) << alone.err;
+  for (const char* file : {"truth.csv", "lift.trc", "lift_emg.sto", "study.toml"})
+    EXPECT_EQ(read_text(fs::path(folder / "alone") / file),
+              read_text(fs::path(folder / "1") / "person_000009" / file));
+}
+
+TEST(TwinCommand, TheTableOfTruthsNeedsNoRecordings) {
+  const TemporaryFolder folder;
+  write_text(folder / "p.toml", kShort);
+  const Finished done = myoid({"twin", "--protocol", folder / "p.toml", "--subjects", "3",
+                               "--truth-only", "--json", "--out", folder / "people"});
+  EXPECT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_THAT(done.out, HasSubstr("\"persons\": 3"));
+  EXPECT_EQ(read_rows(fs::path(folder / "people") / "persons.csv").size(), 3U);
+  const Finished all = myoid(
+      {"twin", "--protocol", folder / "p.toml", "--subjects", "3", "--out", folder / "recorded"});
+  EXPECT_EQ(all.exit_code, 0) << all.err;
+  EXPECT_EQ(read_text(fs::path(folder / "people") / "persons.csv"),
+            read_text(fs::path(folder / "recorded") / "persons.csv"));
+  EXPECT_FALSE(fs::exists(fs::path(folder / "people") / "person_000001"));
+  EXPECT_EQ(myoid({"twin", "--protocol", folder / "p.toml", "--truth-only", "--out", folder / "x"})
+                .exit_code,
+            3);
+}
+
+TEST(TwinCommand, AC3dRecordingOfSevenHeadsIsAnalysedAsItIs) {
+  const TemporaryFolder folder;
+  write_text(folder / "p.toml", kShort);
+  const std::string rec = folder / "rec";
+  const Finished twin = myoid({"twin", "--protocol", folder / "p.toml", "--model", "arm7",
+                               "--format", "c3d", "--json", "--out", rec});
+  ASSERT_EQ(twin.exit_code, 0) << twin.err;
+  EXPECT_THAT(twin.out, HasSubstr("\"level\": \"L2\""));
+  EXPECT_TRUE(fs::exists(fs::path(rec) / "lift.c3d"));
+  EXPECT_FALSE(fs::exists(fs::path(rec) / "lift.trc"));
+  const Finished check = myoid({"check", fs::path(rec) / "study.toml"});
+  EXPECT_EQ(check.exit_code, 0) << check.out << check.err;
+}
+
+TEST(TwinCommand, SaysWhatItCannotDo) {
+  const TemporaryFolder folder;
+  write_text(folder / "p.toml", kShort);
+  const Finished level = myoid({"twin", "--protocol", folder / "p.toml", "--level", "L1", "--model",
+                                "arm7", "--out", folder / "x"});
+  EXPECT_EQ(level.exit_code, 3);
+  EXPECT_THAT(level.err, HasSubstr("only a person at level L2 has seven heads"));
+  write_text(folder / "odd.toml", "[motion]\nrate_hz = 30\n" + kShort.substr(kShort.find("[[")));
+  const Finished rates =
+      myoid({"twin", "--protocol", folder / "odd.toml", "--format", "c3d", "--out", folder / "y"});
+  EXPECT_EQ(rates.exit_code, 3);
+  EXPECT_THAT(rates.err, HasSubstr("whole number"));
+  EXPECT_FALSE(fs::exists(fs::path(folder / "y") / "study.toml"));
+  EXPECT_EQ(
+      myoid({"twin", "--protocol", folder / "p.toml", "--subjects", "0", "--out", "z"}).exit_code,
+      2);
+}
+
+}  // namespace
