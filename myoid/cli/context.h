@@ -36,6 +36,7 @@ struct Context {
   bool overwrite = false;
   bool strict = false;
   std::optional<double> start_s, end_s;
+  std::string compat = "exact";  ///< How paths are computed: exact, or as OpenSim 4.5.2.
   std::string command_line;
   std::stop_source stop;
   int exit_code = kDone;

@@ -39,6 +39,7 @@ void add_id(CLI::App& app, Context& context) {
   command.add_option("--held-body", o->body,
                      "Body that holds it (default: the hand of arm4, of other models none)");
   command.add_option("--held-at", o->at, "Where on that body, x y z [m]")->expected(3);
+  add_compat_option(command, context);
   add_common_options(command, context, {.seed = false});
   command.callback([&context, o] {
     context.prepare_file(o->out, {o->model, o->motion, o->speeds, o->accelerations});

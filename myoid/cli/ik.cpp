@@ -61,6 +61,7 @@ void add_ik(CLI::App& app, Context& context) {
   command.add_option("--lock", o->lock, "Coordinate held at its default value, repeated");
   command.add_option("--unlock", o->unlock,
                      "Coordinate freed although the model locks it, repeated");
+  add_compat_option(command, context);
   add_common_options(command, context, {.threads = false, .seed = false});
   command.callback([&context, o] {
     const std::filesystem::path out = o->out;

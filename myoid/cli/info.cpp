@@ -5,8 +5,10 @@
 #include <nlohmann/json.hpp>
 
 #include "myoid/cli/context.h"
+#include "myoid/cli/stage_input.h"
 #include "myoid/core/error.h"
 #include "myoid/model/osim_reader.h"
+#include "myoid/model/path_survey.h"
 #include "myoid/pipeline/study.h"
 #include "myoid/recording/c3d_reader.h"
 #include "myoid/recording/csv_reader.h"
@@ -189,8 +191,38 @@ ordered_json csv_json(const std::filesystem::path& path) {
   }
 }
 
-ordered_json osim_json(const std::filesystem::path& path) {
-  const model::BodyModel m = model::read_osim(path);
+/// What `info` is asked to say of a model beside its contents.
+struct ModelQuestions {
+  bool compare_compat = false;
+  bool jumps = false;
+  int postures = 1000;
+};
+
+/// Muscles whose exact paths differ from OpenSim's, and by how much.
+ordered_json differences_json(const model::BodyModel& m, int postures, std::uint64_t seed) {
+  ordered_json list = ordered_json::array();
+  for (const model::PathDifference& d : model::compare_with_opensim(m, postures, seed)) {
+    list.push_back(fmt::format(
+        "{}: length by up to {:.3g} mm (rms {:.3g} mm, above 1 mm in {} of {} postures), moment "
+        "arm "
+        "by up to {:.3g} mm",
+        m.muscles[static_cast<std::size_t>(d.muscle)].name, 1e3 * d.length_m,
+        1e3 * d.typical_length_m, d.postures_above_1mm, postures, 1e3 * d.moment_arm_m));
+  }
+  return list;
+}
+
+ordered_json jumps_json(const model::BodyModel& m) {
+  ordered_json list = ordered_json::array();
+  for (const model::PathJump& jump : model::find_jumps(m)) list.push_back(model::describe(m, jump));
+  return list;
+}
+
+ordered_json osim_json(const std::filesystem::path& path,
+                       const ModelQuestions& ask,
+                       const Context& context) {
+  const model::BodyModel m =
+      model::read_osim(path, {.compat = model::parse_compat(context.compat)});
   ordered_json j{{"kind", "OpenSim model"}, {"name", m.name}};
   double mass = 0.0;
   for (std::size_t b = 1; b < m.bodies.size(); ++b) {
@@ -223,6 +255,23 @@ ordered_json osim_json(const std::filesystem::path& path) {
         muscle.path.points.size(), muscle.path.wraps.size()));
   }
   for (const model::Marker& marker : m.markers) j["markers"].push_back(marker.name);
+  j["document_version"] = m.document_version;
+  for (const model::CoordinateCoupler& c : m.couplers) {
+    j["couplers"].push_back(fmt::format(
+        "{}: {} follows {}", c.name, m.coordinates[static_cast<std::size_t>(c.dependent)].name,
+        m.coordinates[static_cast<std::size_t>(c.independent)].name));
+  }
+  for (const model::LoopConstraint& c : m.constraints)
+    j["constraints"].push_back(fmt::format("{} ({})", c.name, c.class_name));
+  for (const model::CoordinateActuator& a : m.actuators) j["actuators"].push_back(a.name);
+  for (const model::PointActuator& a : m.point_actuators) j["actuators"].push_back(a.name);
+  for (const model::TorqueActuator& a : m.torque_actuators) j["actuators"].push_back(a.name);
+  for (const model::PassiveForce& f : m.passive_forces)
+    j["passive_forces"].push_back(fmt::format("{} ({})", f.name, f.class_name));
+  if (ask.compare_compat)
+    j["differs_from_opensim"] = differences_json(m, ask.postures, context.seed);
+  if (ask.jumps) j["jumps"] = jumps_json(m);
+  j["not_supported_count"] = m.unsupported.size();
   j["not_supported"] = m.unsupported;
   j["notes"] = m.notes;
   return j;
@@ -241,7 +290,9 @@ ordered_json study_file_json(const std::filesystem::path& path) {
   return j;
 }
 
-ordered_json file_json(const std::filesystem::path& path) {
+ordered_json file_json(const std::filesystem::path& path,
+                       const ModelQuestions& ask,
+                       const Context& context) {
   const std::string extension = recording::extension_of(path);
   if (extension == ".trc") return trc_json(path);
   if (extension == ".mot" || extension == ".sto") return storage_json(path);
@@ -249,7 +300,7 @@ ordered_json file_json(const std::filesystem::path& path) {
   if (extension == ".c3d") return c3d_json(path);
   if (extension == ".edf" || extension == ".bdf") return recording_json(path, "EMG (.edf, .bdf)");
   if (extension == ".anc") return recording_json(path, "analog channels (.anc)");
-  if (extension == ".osim") return osim_json(path);
+  if (extension == ".osim") return osim_json(path, ask, context);
   if (extension == ".toml") return study_file_json(path);
   (void)recording::read_text_file(path);  // a missing or empty file is told as such
   throw ReadError(
@@ -308,17 +359,27 @@ void add_info(CLI::App& app, Context& context) {
                           "repairs; of a model also what is not supported.\n"
                           "Example: myoid info arm.osim flex.trc");
   const auto files = std::make_shared<std::vector<std::string>>();
+  const auto ask = std::make_shared<ModelQuestions>();
+  command.add_flag("--compare-compat", ask->compare_compat,
+                   "Of a model: for which muscles exact paths differ from OpenSim 4.5.2's, and by "
+                   "how much, over random postures");
+  command.add_option("--postures", ask->postures, "Random postures for --compare-compat")
+      ->check(CLI::Range(1, 1000000))
+      ->capture_default_str();
+  command.add_flag("--jumps", ask->jumps,
+                   "Of a model: where a muscle's length or moment arm jumps over the range of a "
+                   "coordinate");
+  add_compat_option(command, context);
   command
       .add_option("files", *files,
                   ".c3d, .trc, .mot, .sto, .csv, .edf, .bdf, .anc, .osim or study.toml")
       ->required();
-  add_common_options(command, context,
-                     {.threads = false, .seed = false, .range = false, .overwrite = false});
-  command.callback([&context, files] {
+  add_common_options(command, context, {.threads = false, .range = false, .overwrite = false});
+  command.callback([&context, files, ask] {
     ordered_json all = ordered_json::array();
     for (const std::string& file : *files) {
       ordered_json j{{"file", file}};
-      j.update(file_json(file));
+      j.update(file_json(file, *ask, context));
       if (!context.json) {
         print(j, 0);
         if (files->size() > 1) fmt::print("\n");

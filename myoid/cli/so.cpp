@@ -45,10 +45,12 @@ void add_so(CLI::App& app, Context& context) {
       .add_option("--lowpass", o->cutoff_hz,
                   "Smooth the angles, -3 dB at this frequency [Hz] (default: not smoothed)")
       ->check(CLI::PositiveNumber);
+  add_compat_option(command, context);
   add_common_options(command, context, {.seed = false});
   command.callback([&context, o] {
     const model::BodyModel model = load_model(o->model, context);
     if (model.muscles.empty()) throw ModelError("the model has no muscles");
+    warn_of_path_differences(model, o->model, context);
     const kinematics::JointMotion motion = load_motion(model, o->motion, o->cutoff_hz, context);
     context.prepare_folder(o->out);
     context.protect_inputs(o->out, {"StaticOptimization_"}, {o->model, o->motion, o->emg});

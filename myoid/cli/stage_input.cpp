@@ -5,19 +5,49 @@
 #include "myoid/core/error.h"
 #include "myoid/model/arm4.h"
 #include "myoid/model/osim_reader.h"
+#include "myoid/model/path_survey.h"
 #include "myoid/recording/storage_reader.h"
 #include "myoid/recording/storage_writer.h"
 #include "myoid/signals/clock_gaps.h"
 
 namespace myoid::cli {
 
+void add_compat_option(CLI::App& command, Context& context) {
+  command
+      .add_option("--compat", context.compat,
+                  "Muscle paths: exact, or opensim to have OpenSim 4.5.2's with its defects")
+      ->check(CLI::IsMember({"exact", "opensim"}))
+      ->capture_default_str();
+}
+
+void warn_of_path_differences(const model::BodyModel& model,
+                              const std::string& name,
+                              const Context& context) {
+  constexpr int kPostures = 40;
+  if (context.quiet || model.compat != model::Compat{}) return;
+  int count = 0;
+  std::string worst;
+  for (const model::PathDifference& d : model::compare_with_opensim(model, kPostures)) {
+    if (d.postures_above_1mm == 0) continue;
+    if (++count <= 3)
+      worst += (worst.empty() ? "" : ", ") + model.muscles[static_cast<std::size_t>(d.muscle)].name;
+  }
+  if (count == 0) return;
+  context.warn(fmt::format(
+      "{}: {} of {} muscles ({}{}) are somewhere more than 1 mm longer or shorter than in OpenSim "
+      "4.5.2; `myoid info {} --compare-compat` lists them, --compat opensim reproduces OpenSim",
+      name, count, model.muscles.size(), worst, count > 3 ? ", ..." : "", name));
+}
+
 model::BodyModel load_model(const std::string& name, const Context& context) {
   if (!name.ends_with(".osim") && name != "arm4" && !std::filesystem::exists(name)) {
     throw InvalidInput(fmt::format(
         "--model {}: there is no such file, and the only built-in model is arm4", name));
   }
-  model::BodyModel model =
-      name == "arm4" ? model::parse_osim(model::arm4_osim(), "arm4.osim") : model::read_osim(name);
+  const model::OsimOptions options{.compat = model::parse_compat(context.compat)};
+  model::BodyModel model = name == "arm4"
+                               ? model::parse_osim(model::arm4_osim(), "arm4.osim", options)
+                               : model::read_osim(name, options);
   for (const std::string& text : model.unsupported) context.warn(fmt::format("{}: {}", name, text));
   if (context.verbose) {
     for (const std::string& text : model.notes) context.log(fmt::format("{}: {}", name, text));

@@ -9,8 +9,16 @@
 
 namespace myoid::cli {
 
+/// Adds --compat to a command that loads a model.
+void add_compat_option(CLI::App& command, Context& context);
+
 /// A model from a file, or the built-in "arm4"; what it cannot do right is warned of.
 [[nodiscard]] model::BodyModel load_model(const std::string& name, const Context& context);
+
+/// Warns of the muscles whose exact path differs visibly (1 mm) from OpenSim's at random postures.
+void warn_of_path_differences(const model::BodyModel& model,
+                              const std::string& name,
+                              const Context& context);
 
 /// A motion file (.mot, .sto) as coordinates and two derivatives. `cutoff_hz` > 0 smooths. The
 /// whole file is smoothed and differentiated, then cut to --start/--end: inside that time the

@@ -10,6 +10,7 @@
 #include "myoid/core/error.h"
 #include "myoid/model/arm4.h"
 #include "myoid/model/osim_reader.h"
+#include "myoid/model/osim_writer.h"
 #include "myoid/muscle/literature.h"
 #include "myoid/recording/text_file.h"
 
@@ -170,25 +171,8 @@ std::vector<identification::MuscleSetup> muscle_setups(const Study& study,
 std::string identified_model(const Study& study,
                              const std::string& osim,
                              const std::vector<IdentifiedMuscle>& muscles) {
-  pugi::xml_document document;
-  if (!document.load_buffer(osim.data(), osim.size()))
-    throw ModelError("the model cannot be read again to write the identified one");
-  struct Edit {
-    std::size_t at, length;
-    std::string text;
-  };
-  std::vector<Edit> edits;
-  const auto edit = [&](pugi::xml_node muscle, const char* name, double factor,
-                        std::optional<double> value) {
-    const pugi::xml_node element = muscle.child(name);
-    const pugi::xml_node text = element.first_child();
-    if (!text || text.type() != pugi::node_pcdata) return;
-    const auto old = recording::parse_number(text.value());
-    if (!old) return;
-    const auto at = static_cast<std::size_t>(text.offset_debug());
-    edits.push_back({at, std::string_view(text.value()).size(),
-                     recording::format_number(value.value_or(*old * factor))});
-  };
+  const model::BodyModel before = model::parse_osim(osim, "the identified model");
+  std::vector<model::OsimChange> changes;
   for (const IdentifiedMuscle& muscle : muscles) {
     const auto spec = std::find_if(study.muscles.begin(), study.muscles.end(),
                                    [&](const MuscleSpec& m) { return m.name == muscle.group; });
@@ -197,35 +181,34 @@ std::string identified_model(const Study& study,
       return std::find(muscle.changed.begin(), muscle.changed.end(), name) != muscle.changed.end();
     };
     for (const std::string& name : spec->osim) {
-      const auto found =
-          document.select_node(fmt::format("//ForceSet/objects/*[@name='{}']", name).c_str());
-      if (!found) continue;
-      const pugi::xml_node node = found.node();
+      const auto index = before.find_muscle(name);
+      if (!index) continue;
+      const model::Muscle& old = before.muscles[static_cast<std::size_t>(*index)];
+      const auto set = [&](const char* property, double value) {
+        changes.push_back({"ForceSet", name, property, {value}});
+      };
       if (changed("max_isometric_force")) {
-        edit(node, "max_isometric_force",
-             muscle.identified.max_isometric_force_n / muscle.start.max_isometric_force_n,
-             std::nullopt);
+        set("max_isometric_force",
+            old.properties.max_isometric_force_n *
+                (muscle.identified.max_isometric_force_n / muscle.start.max_isometric_force_n));
       }
       if (changed("optimal_fiber_length")) {
-        edit(node, "optimal_fiber_length",
-             muscle.identified.optimal_fiber_length_m / muscle.start.optimal_fiber_length_m,
-             std::nullopt);
+        set("optimal_fiber_length",
+            old.properties.optimal_fiber_length_m *
+                (muscle.identified.optimal_fiber_length_m / muscle.start.optimal_fiber_length_m));
       }
+      // The shapes are Thelen's; other classes have curves of their own.
+      if (!old.class_name.starts_with("Thelen2003Muscle")) continue;
       if (changed("force_length_width") || changed("optimal_fiber_length")) {
         const double ratio =
             muscle.identified.force_length_width_m / muscle.identified.optimal_fiber_length_m;
-        edit(node, "KshapeActive", 1.0, ratio * ratio);
+        set("KshapeActive", ratio * ratio);
       }
-      if (changed("concentric_curvature"))
-        edit(node, "Af", 1.0, muscle.identified.concentric_curvature);
-      if (changed("eccentric_plateau"))
-        edit(node, "Flen", 1.0, muscle.identified.eccentric_plateau);
+      if (changed("concentric_curvature")) set("Af", muscle.identified.concentric_curvature);
+      if (changed("eccentric_plateau")) set("Flen", muscle.identified.eccentric_plateau);
     }
   }
-  std::sort(edits.begin(), edits.end(), [](const Edit& a, const Edit& b) { return a.at > b.at; });
-  std::string result = osim;
-  for (const Edit& e : edits) result.replace(e.at, e.length, e.text);
-  return result;
+  return model::changed_osim(osim, "the identified model", changes);
 }
 
 }  // namespace myoid::pipeline
