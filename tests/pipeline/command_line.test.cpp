@@ -274,10 +274,10 @@ TEST(CommandLine, OfACommonOptionWithoutEffectTheHelpIsSilentAndAWarningSpeaks) 
   const TemporaryFolder folder;
   write_text(folder / "e.sto", emg_text("EMG microvolt"));
   EXPECT_THAT(myoid({"info", "--help"}).out,
-              AllOf(HasSubstr("--json"), Not(HasSubstr("--seed")), Not(HasSubstr("--overwrite"))));
-  const Finished info = myoid({"info", folder / "e.sto", "--seed", "2"});
+              AllOf(HasSubstr("--json"), Not(HasSubstr("--start")), Not(HasSubstr("--overwrite"))));
+  const Finished info = myoid({"info", folder / "e.sto", "--start", "2"});
   EXPECT_EQ(info.exit_code, 0);
-  EXPECT_THAT(info.err, HasSubstr("--seed has no effect on info"));
+  EXPECT_THAT(info.err, HasSubstr("--start has no effect on info"));
 }
 
 TEST(CommandLine, JsonOnStdoutIsOneValueFromEveryStage) {
