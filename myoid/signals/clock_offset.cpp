@@ -117,6 +117,7 @@ TimeSeries third(const TimeSeries& series, int which, double begin_s, double end
 std::optional<ClockOffset> estimate_clock_offset(const TimeSeries& envelopes,
                                                  const TimeSeries& motion) {
   if (envelopes.sample_count() < 10 || motion.sample_count() < 10) return std::nullopt;
+  if (envelopes.channel_count() == 0 || motion.channel_count() == 0) return std::nullopt;
   const double begin_s = std::max(envelopes.time_s()[0], motion.time_s()[0]);
   const double end_s = std::min(envelopes.time_s()[envelopes.sample_count() - 1],
                                 motion.time_s()[motion.sample_count() - 1]);
