@@ -78,18 +78,6 @@ void calibrate(const CalibrationSpec& spec,
   }
 }
 
-std::optional<double> motion_cutoff_hz(const Study& study) {
-  switch (study.motion.smoothing) {
-    case Smoothing::none:
-      return std::nullopt;
-    case Smoothing::cutoff:
-      return study.motion.cutoff_hz;
-    case Smoothing::automatic:
-      break;
-  }
-  return study.emg.lowpass_hz;  // torque and EMG prediction then hold the same band
-}
-
 /// Inverse kinematics, or what an earlier run found from the same input.
 void solve_ik(const Study& study,
               const recording::MarkerSeries& markers,
@@ -141,7 +129,8 @@ void compute_motion(const Study& study,
 }
 
 void compute_forces(const Study& study, const TrialInput& input, bool share, TrialResult& trial) {
-  trial.generalized_forces = dynamics::inverse_dynamics(trial.model, trial.motion);
+  trial.generalized_forces = dynamics::inverse_dynamics(
+      trial.model, trial.motion, {.loads = input.loads ? &*input.loads : nullptr});
   trial.muscles = kinematics::muscle_kinematics(trial.model, trial.motion);
   const auto& coordinate = trial.model.coordinates[static_cast<std::size_t>(
       trial.model.coordinate_index(study.model.coordinate))];

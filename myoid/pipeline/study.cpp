@@ -238,6 +238,10 @@ TrialSpec read_trial(TomlTable table, const std::filesystem::path& folder) {
   trial.motion = path("motion");
   trial.emg = path("emg");
   trial.external_torque = path("external_torque");
+  trial.external_loads = path("external_loads");
+  trial.load_cell = path("load_cell");
+  if (trial.external_loads && trial.load_cell)
+    table.fail("load_cell", "give either 'external_loads' or 'load_cell', not both");
   if (trial.markers && trial.motion) {
     table.fail(
         "motion",
@@ -272,6 +276,29 @@ TrialSpec read_trial(TomlTable table, const std::filesystem::path& folder) {
   }
   table.finish();
   return trial;
+}
+
+LoadCellSpec read_load_cell(TomlTable table, const std::filesystem::path& folder) {
+  LoadCellSpec cell;
+  cell.channels = table.texts("channels").value_or(cell.channels);
+  if (cell.channels.size() != 6) {
+    table.fail("channels",
+               fmt::format("found {} names, expected six: those of the matrix's columns",
+                           cell.channels.size()));
+  }
+  cell.calibration =
+      folder / table.require_text("calibration", "the file of the 6 x 6 matrix [N/V] and [N m/V]");
+  cell.sign = table.number("sign").value_or(cell.sign);
+  if (cell.sign != 1.0 && cell.sign != -1.0) table.fail("sign", "expected 1 or -1");
+  cell.zero_s = table.numbers("zero_s").value_or(cell.zero_s);
+  if (cell.zero_s.size() != 2 || !(cell.zero_s[0] < cell.zero_s[1]))
+    table.fail("zero_s", "expected [start, end] in seconds, start before end");
+  if (auto file = table.text("instrument")) cell.instrument = folder / *file;
+  cell.frame = table.require_text("frame", "the body of the instrument that is the cell");
+  cell.body = table.require_text("body", "the body of the person that feels the load");
+  if (table.has("lowpass_hz")) cell.lowpass_hz = positive(table, "lowpass_hz", 0.0);
+  table.finish();
+  return cell;
 }
 
 SharingSpec read_sharing(TomlTable table) {
@@ -417,6 +444,10 @@ void check_references(const Study& study) {
   for (const TrialSpec& trial : study.trials) {
     if (!trials.insert(trial.name).second)
       refuse(fmt::format("two [[trial]] are named '{}'", trial.name));
+    if (trial.load_cell && !study.load_cell) {
+      refuse(fmt::format("trial '{}' has a load_cell; a table [load_cell] must say what it is",
+                         trial.name));
+    }
   }
 }
 
@@ -456,6 +487,7 @@ Study parse_study(std::string_view text, const std::filesystem::path& file) {
   if (auto t = table.table("markers")) study.markers = read_markers(*t);
   if (auto t = table.table("ik")) study.ik = read_ik(*t);
   if (auto t = table.table("emg")) study.emg = read_emg(*t);
+  if (auto t = table.table("load_cell")) study.load_cell = read_load_cell(*t, folder);
   if (auto t = table.table("sharing")) study.sharing = read_sharing(*t);
   if (auto t = table.table("phases")) study.phases = read_phases(*t);
   if (auto t = table.table("identify")) study.identify = read_identify(*t);
@@ -477,6 +509,18 @@ Study parse_study(std::string_view text, const std::filesystem::path& file) {
                                   [](const TrialSpec& t) { return t.use == Use::mvc; });
   check_references(study);
   return study;
+}
+
+std::optional<double> motion_cutoff_hz(const Study& study) {
+  switch (study.motion.smoothing) {
+    case Smoothing::none:
+      return std::nullopt;
+    case Smoothing::cutoff:
+      return study.motion.cutoff_hz;
+    case Smoothing::automatic:
+      break;
+  }
+  return study.emg.lowpass_hz;
 }
 
 void restrict_trials(Study& study, std::optional<double> start_s, std::optional<double> end_s) {

@@ -40,6 +40,19 @@ struct ModelSpec {
   std::optional<HeldMassSpec> held_mass;
 };
 
+/// A load cell in something that the person holds.
+struct LoadCellSpec {
+  std::vector<std::string> channels;     ///< Six, in the order of the matrix's columns.
+  std::filesystem::path calibration;     ///< Six rows of six numbers: N and N m for each volt.
+  double sign = 1.0;                     ///< -1: the cell measures the opposite.
+  std::vector<double> zero_s{0.0, 1.0};  ///< Nothing acts on it in this time.
+  std::optional<std::filesystem::path>
+      instrument;     ///< Model of the object, posed by its markers; none: the study's own model.
+  std::string frame;  ///< Body of that model: the cell's axes and origin.
+  std::string body;   ///< Body of the person that feels the load.
+  std::optional<double> lowpass_hz;  ///< Empty: as the motion.
+};
+
 enum class Smoothing { automatic, none, cutoff };
 
 struct MotionSpec {
@@ -101,6 +114,8 @@ struct TrialSpec {
   std::optional<std::filesystem::path> emg;
   std::optional<std::filesystem::path>
       external_torque;  ///< <coordinate>_moment that the surroundings exert [N m].
+  std::optional<std::filesystem::path> external_loads;  ///< OpenSim's ExternalLoads (.xml).
+  std::optional<std::filesystem::path> load_cell;       ///< The recording with its channels.
   Use use = Use::calibration;
   double held_mass_kg = 0.0;
   std::string condition;  ///< Trials of one name are left out together by folds = "condition".
@@ -153,11 +168,16 @@ struct Study {
   SharingSpec sharing;
   PhasesSpec phases;
   IdentifySpec identify;
+  std::optional<LoadCellSpec> load_cell;
   std::vector<MuscleSpec> muscles;
   std::vector<TrialSpec> trials;
   std::vector<identification::ParameterRule> parameters;  ///< [[parameter]]
   std::optional<std::filesystem::path> truth;
 };
+
+/// Cut-off of the motion's smoothing, -3 dB [Hz]; empty: not smoothed. `automatic` is the EMG's
+/// low-pass, so that torque and prediction hold the same band.
+[[nodiscard]] std::optional<double> motion_cutoff_hz(const Study& study);
 
 /// Keeps of every trial only what lies between these times [s] on its own clock. Throws
 /// InvalidInput if nothing is left of one, naming it.

@@ -62,6 +62,8 @@ ordered_json trial_json(const TrialSpec& trial) {
           {"motion", or_null(trial.motion)},
           {"emg", or_null(trial.emg)},
           {"external_torque", or_null(trial.external_torque)},
+          {"external_loads", or_null(trial.external_loads)},
+          {"load_cell", or_null(trial.load_cell)},
           {"use", std::string(name(trial.use))},
           {"held_mass_kg", trial.held_mass_kg},
           {"condition", trial.condition},
@@ -89,6 +91,17 @@ std::string study_json(const Study& study) {
                   {"fill_gaps", study.markers.fill_gaps}};
   j["ik"] = ik_json(study.ik);
   j["emg"] = emg_json(study.emg);
+  j["load_cell"] = nullptr;
+  if (const auto& cell = study.load_cell) {
+    j["load_cell"] = {{"channels", cell->channels},
+                      {"calibration", cell->calibration.string()},
+                      {"sign", cell->sign},
+                      {"zero_s", cell->zero_s},
+                      {"instrument", or_null(cell->instrument)},
+                      {"frame", cell->frame},
+                      {"body", cell->body},
+                      {"lowpass_hz", or_null(cell->lowpass_hz)}};
+  }
   j["sharing"] = {{"objective", study.sharing.objective},
                   {"exponent", study.sharing.exponent},
                   {"reserve_nm", study.sharing.reserve_nm}};

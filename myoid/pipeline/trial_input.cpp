@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
+#include "myoid/pipeline/trial_loads.h"
 #include "myoid/pipeline/trial_quality.h"
 #include "myoid/recording/byte_source.h"
 #include "myoid/recording/emg_reader.h"
@@ -344,6 +345,7 @@ TrialInput read_trial_input(const Study& study,
     input.external_torque = TimeSeries(one.time_s(), {{column, Unit::newton_meter}}, one.values());
     require_finite(*input.external_torque, trial.external_torque->string());
   }
+  input.loads = read_trial_loads(study, trial, model, input.markers, remember, input.notes);
   return input;
 }
 

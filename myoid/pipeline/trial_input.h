@@ -9,6 +9,7 @@
 #include "myoid/core/error.h"
 #include "myoid/core/provenance.h"
 #include "myoid/core/time_series.h"
+#include "myoid/dynamics/external_loads.h"
 #include "myoid/model/body_model.h"
 #include "myoid/pipeline/study.h"
 #include "myoid/recording/marker_series.h"
@@ -43,6 +44,7 @@ struct TrialInput {
   std::optional<TimeSeries> motion;  ///< Coordinates [rad | m].
   std::optional<TimeSeries> emg;     ///< [V], or dimensionless for envelopes and activations.
   std::optional<TimeSeries> external_torque;  ///< [N m]
+  std::optional<dynamics::ExternalLoads> loads;
   std::vector<std::string> notes;             ///< All repairs and remarks.
   std::vector<std::string> warnings;          ///< Those of them that may make numbers wrong.
   std::vector<signals::Fault> marker_faults;  ///< Found before they were mended.

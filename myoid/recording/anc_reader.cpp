@@ -95,6 +95,10 @@ AncFile parse_anc(std::string_view text, const std::filesystem::path& path) {
   for (std::size_t n = first; n < lines.size(); ++n) {
     if (trim(lines[n]).empty()) continue;
     const auto cells = values_of(lines[n]);
+    if (n + 1 == lines.size() && !ends_with_line(text) && !time.empty()) {
+      file.repairs.push_back({n + 1, std::string(kLastRowLeftOut)});
+      break;
+    }
     if (cells.size() < width && n + 1 == lines.size()) {
       file.repairs.push_back({n + 1, fmt::format("the last row has {} of {} values and is left out",
                                                  cells.size(), width)});

@@ -119,6 +119,8 @@ CsvTable parse_csv_table(std::string_view text, const std::filesystem::path& pat
     table.rows.push_back(std::move(cells));
     table.lines.push_back(n + 1);
   }
+  table.last_row_has_end =
+      table.rows.empty() || table.lines.back() < lines.size() || ends_with_line(text);
   return table;
 }
 
@@ -127,8 +129,15 @@ CsvTable read_csv_table(const std::filesystem::path& path) {
 }
 
 CsvSeries parse_csv_series(std::string_view text, const std::filesystem::path& path) {
-  const CsvTable table = parse_csv_table(text, path);
+  CsvTable table = parse_csv_table(text, path);
   CsvSeries series;
+  if (!table.last_row_has_end && table.rows.size() == 1) {
+    series.repairs.push_back({table.lines.back(), std::string(kLastRowKept)});
+  } else if (!table.last_row_has_end) {
+    series.repairs.push_back({table.lines.back(), std::string(kLastRowLeftOut)});
+    table.rows.pop_back();
+    table.lines.pop_back();
+  }
   std::optional<std::size_t> time_column;
   double time_to_s = 1.0;
   std::vector<Channel> channels;
@@ -176,13 +185,16 @@ CsvSeries parse_csv_series(std::string_view text, const std::filesystem::path& p
   Eigen::VectorXd time(static_cast<Eigen::Index>(table.rows.size() - first));
   Eigen::MatrixXd values(time.size(), static_cast<Eigen::Index>(columns.size()));
   std::size_t comma_line = 0;
+  std::size_t gap_line = 0;
   const auto number = [&](const std::string& cell, std::size_t line, const std::string& name) {
-    if (cell.empty()) return std::numeric_limits<double>::quiet_NaN();
-    if (const auto value = parse_number(cell)) return *value;
+    const auto value =
+        cell.empty() ? std::optional(std::numeric_limits<double>::quiet_NaN()) : parse_number(cell);
+    if (value && !std::isfinite(*value) && gap_line == 0) gap_line = line;
+    if (value) return *value;
     if (table.separator != ',') {
-      if (const auto value = parse_comma_number(cell)) {
+      if (const auto mended = parse_comma_number(cell)) {
         if (comma_line == 0) comma_line = line;
-        return *value;
+        return *mended;
       }
     }
     throw ReadError(path, line,
@@ -205,6 +217,8 @@ CsvSeries parse_csv_series(std::string_view text, const std::filesystem::path& p
   }
   if (comma_line > 0)
     series.repairs.push_back({comma_line, "comma decimals read as decimal points"});
+  if (gap_line > 0)
+    series.repairs.push_back({gap_line, "a value is missing or no number; kept as a gap"});
   series.data = TimeSeries(std::move(time), std::move(channels), std::move(values));
   return series;
 }

@@ -17,6 +17,7 @@ struct CsvTable {
   std::vector<std::size_t> lines;  ///< Line of each row.
   std::size_t header_line = 0;
   char separator = ',';
+  bool last_row_has_end = true;  ///< False: the text stops inside its last row.
 };
 
 /// Reads a table: separator , ; or tab as the header row has it, quotes as in RFC 4180, blanks

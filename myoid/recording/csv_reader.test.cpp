@@ -22,7 +22,7 @@ TEST(CsvSeries, ReadsSemicolonsWithCommaDecimals) {
   EXPECT_EQ(s.data.time_s()[1], 0.5);
   EXPECT_EQ(s.data.values()(0, 0), 1.5);
   EXPECT_TRUE(std::isnan(s.data.values()(1, 0)));
-  EXPECT_EQ(s.repairs.size(), 1U);
+  EXPECT_EQ(s.repairs.size(), 2U);
 }
 
 TEST(CsvSeries, WithoutATimeColumnItSaysWhichColumnsThereAre) {

@@ -321,8 +321,9 @@ CsvSeries parse_emg_table(std::string_view text, const std::filesystem::path& pa
   if (time_columns.empty())
     note(0, fmt::format("no time column; the rate of {} Hz stated in the header is taken",
                         *layout->rate_hz));
-  if (time_columns.size() == 1)
-    for (auto& t : clock) t = time_columns[0];
+  for (auto& t : clock) {
+    if (!time_columns.empty() && (time_columns.size() == 1 || !t)) t = time_columns[0];
+  }
 
   // The numbers.
   std::size_t comma_line = 0;
@@ -339,6 +340,10 @@ CsvSeries parse_emg_table(std::string_view text, const std::filesystem::path& pa
   for (std::size_t n = layout->first_row; n < lines.size(); ++n) {
     if (trim(lines[n]).empty()) continue;
     const auto cells = cells_of(lines[n], layout->separator);
+    if (n + 1 == lines.size() && !ends_with_line(text) && row > 0) {
+      note(n + 1, std::string(kLastRowLeftOut));
+      break;
+    }
     if (n + 1 == lines.size() && cells.size() < widest) {
       note(n + 1,
            fmt::format("the last row has {} of {} cells and is left out", cells.size(), widest));

@@ -78,5 +78,14 @@ TEST(EmgTable, WhatIsWrongIsSaidWithItsLine) {
   EXPECT_THROW(static_cast<void>(parse_emg_table("X [s],a\n0,1\n0,2\n0,3\n", "a.csv")), ReadError);
 }
 
+TEST(EmgTable, AChannelBeforeTheFirstOfTwoTimeColumnsHasItsClock) {
+  // Found by fuzzing: it had none, and no rate either.
+  const CsvSeries s = parse_emg_table(
+      "A [mV],X [s],\"EMG 1 [mV]\",X [s],\"EMG 2 [mV]\"\n7,0,1,0,2\n8,0.1,3,0.1,4\n", "a.csv");
+  EXPECT_EQ(s.data.channel_count(), 3);
+  EXPECT_DOUBLE_EQ(s.data.column("A")[1], 8e-3);
+  EXPECT_DOUBLE_EQ(s.data.time_s()[1], 0.1);
+}
+
 }  // namespace
 }  // namespace myoid::recording

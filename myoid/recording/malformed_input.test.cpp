@@ -221,8 +221,8 @@ TEST(ParseTrc, ARowThatEndsEarlyIsSaidAndTheLastOneOfACutFileLeftOut) {
       parse_trc(kTrc.substr(0, kTrc.size() - 4), "f.trc");  // "... 4 5" and the 6 is gone
   EXPECT_EQ(cut.markers.frame_count(), 2);
   EXPECT_EQ(all(cut.repairs),
-            "9: the last row has 7 of 8 cells and is left out\n3: the header says 3 frames, there "
-            "are 2\n");
+            "9: the last row has no line end and may be cut off; left out\n3: the header says 3 "
+            "frames, there are 2\n");
 }
 
 TEST(ParseTrc, RefusesATimeThatIsNoTimeAndASecondColumnThatIsNone) {

@@ -203,9 +203,20 @@ Storage parse_storage(std::string_view text, const std::filesystem::path& path) 
   std::size_t comma_line = 0;
   std::size_t doubled_line = 0;
   std::string mended;
+  const auto rows_said = count_of(storage.header, {"nRows", "datarows"});
   for (++line; line < lines.size(); ++line) {
     std::string_view content = lines[line];
     if (trim(content).empty()) continue;
+    if (line + 1 == lines.size() && !ends_with_line(text)) {
+      const bool complete = rows_said &&
+                            *rows_said == static_cast<double>(time.size() + repeated + 1) &&
+                            !looks_cut(content, lines[line - 1]);
+      if (!complete && !time.empty()) {
+        storage.repairs.push_back({line + 1, std::string(kLastRowLeftOut)});
+        break;
+      }
+      storage.repairs.push_back({line + 1, std::string(kLastRowKept)});
+    }
     if (elements == 1 && looks_like_comma_decimals(content)) {
       mended.assign(content);
       std::replace(mended.begin(), mended.end(), ',', '.');
@@ -281,10 +292,9 @@ Storage parse_storage(std::string_view text, const std::filesystem::path& path) 
   if (extra_line > 0)
     storage.repairs.push_back({extra_line, "more numbers than columns; the surplus is ignored"});
   if (nan_line > 0) storage.repairs.push_back({nan_line, "a value is not a number; kept as a gap"});
-  if (const auto said = count_of(storage.header, {"nRows", "datarows"});
-      said && *said != static_cast<double>(time.size() + repeated)) {
-    storage.repairs.push_back(
-        {0, fmt::format("the header says {} rows, there are {}", *said, time.size() + repeated)});
+  if (rows_said && *rows_said != static_cast<double>(time.size() + repeated)) {
+    storage.repairs.push_back({0, fmt::format("the header says {} rows, there are {}", *rows_said,
+                                              time.size() + repeated)});
   }
   const auto count = static_cast<Eigen::Index>(time.size());
   values.conservativeResize(count, Eigen::NoChange);

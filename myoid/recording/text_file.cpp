@@ -68,6 +68,24 @@ std::vector<std::string_view> split_lines(std::string_view text) {
   return lines;
 }
 
+bool ends_with_line(std::string_view text) {
+  return text.empty() || text.back() == '\n' || text.back() == '\r';
+}
+
+bool looks_cut(std::string_view last, std::string_view before) {
+  const auto decimals = [](std::string_view line) {
+    line = trim(line);
+    std::size_t digits = 0;
+    while (digits < line.size() && line[line.size() - 1 - digits] >= '0' &&
+           line[line.size() - 1 - digits] <= '9')
+      ++digits;
+    const bool fraction = digits < line.size() && (line[line.size() - 1 - digits] == '.' ||
+                                                   line[line.size() - 1 - digits] == ',');
+    return fraction ? digits : 0;
+  };
+  return decimals(last) < decimals(before);
+}
+
 std::string_view trim(std::string_view text) {
   while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
   while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);

@@ -23,6 +23,19 @@ struct Repair {
 /// `text`.
 [[nodiscard]] std::vector<std::string_view> split_lines(std::string_view text);
 
+/// True unless the text stops inside a line: then its last number may be cut off.
+[[nodiscard]] bool ends_with_line(std::string_view text);
+
+/// The last line of a text that ends inside it looks cut: its last number has fewer decimals than
+/// that of the line before.
+[[nodiscard]] bool looks_cut(std::string_view last, std::string_view before);
+
+/// What a reader states when it leaves the last row out, or keeps it, because its line has no end.
+inline constexpr std::string_view kLastRowLeftOut =
+    "the last row has no line end and may be cut off; left out";
+inline constexpr std::string_view kLastRowKept =
+    "the last row has no line end; its last number may be cut off";
+
 /// Without blanks, tabs and carriage returns at both ends.
 [[nodiscard]] std::string_view trim(std::string_view text);
 

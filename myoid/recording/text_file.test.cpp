@@ -40,5 +40,20 @@ TEST(ReadTextFile, SaysWhatIsWrongWithAPath) {
   EXPECT_THROW((void)read_text_file(std::filesystem::temp_directory_path()), ReadError);
 }
 
+TEST(EndsWithLine, TellsATextThatStopsInsideALine) {
+  EXPECT_TRUE(ends_with_line("1 2\n"));
+  EXPECT_TRUE(ends_with_line("1 2\r"));
+  EXPECT_FALSE(ends_with_line("1 2"));
+}
+
+TEST(LooksCut, ComparesTheDecimalsOfTheLastNumbers) {
+  EXPECT_TRUE(looks_cut("0.2\t1.2", "0.1\t1.25"));
+  EXPECT_TRUE(looks_cut("0.2\t1", "0.1\t1.25"));
+  EXPECT_TRUE(looks_cut("0.2\t1.", "0.1\t1,5 \t"));
+  EXPECT_FALSE(looks_cut("0.2\t1.25", "0.1\t1.25"));
+  EXPECT_FALSE(looks_cut("0.2\t12", "0.1\t15"));
+  EXPECT_FALSE(looks_cut("", ""));
+}
+
 }  // namespace
 }  // namespace myoid::recording

@@ -151,7 +151,54 @@ void TomlTable::finish() const {
   }
 }
 
+namespace {
+
+/// TOML has letters beyond ASCII only inside quotes and remarks. toml++ 3.3 asks a table of blanks
+/// about the others whose end it never expects to reach: they are refused before it sees them.
+void refuse_letters_outside_quotes(std::string_view text, const std::filesystem::path& file) {
+  enum class In { plain, remark, quotes };
+  In in = In::plain;
+  char quote = '"';
+  bool many_lines = false;
+  std::size_t line = 1;
+  for (std::size_t i = text.starts_with("\xEF\xBB\xBF") ? 3 : 0; i < text.size(); ++i) {
+    const char c = text[i];
+    const bool ascii = static_cast<unsigned char>(c) < 0x80U;
+    const auto three = [&] { return text.substr(i, 3) == std::string(3, quote); };
+    if (c == '\n') {
+      ++line;
+      if (in == In::remark || (in == In::quotes && !many_lines)) in = In::plain;
+    } else if (in == In::quotes) {
+      const bool escape = quote == '"' && c == '\\';
+      if (escape && i + 1 < text.size() && static_cast<unsigned char>(text[i + 1]) < 0x80U) {
+        if (text[i + 1] != '\n') ++i;
+      } else if (escape) {
+        throw ReadError(file, line, "not valid TOML: a backslash before a letter beyond ASCII");
+      } else if (c == quote && (!many_lines || three())) {
+        i += many_lines ? 2 : 0;
+        in = In::plain;
+      }
+    } else if (in == In::plain) {
+      if (!ascii) {
+        throw ReadError(file, line,
+                        "not valid TOML: a letter beyond ASCII outside of quotes; put the name or "
+                        "text in quotes");
+      }
+      if (c == '#') in = In::remark;
+      if (c == '"' || c == '\'') {
+        in = In::quotes;
+        quote = c;
+        many_lines = three();
+        i += many_lines ? 2 : 0;
+      }
+    }
+  }
+}
+
+}  // namespace
+
 toml::table parse_toml(std::string_view text, const std::filesystem::path& file) {
+  refuse_letters_outside_quotes(text, file);
   try {
     return toml::parse(text, file.string());
   } catch (const toml::parse_error& error) {

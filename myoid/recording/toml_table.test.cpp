@@ -54,5 +54,20 @@ TEST(NearestWord, ForgivesCaseAndOneSlipButNotAnotherWord) {
   EXPECT_FALSE(nearest_word("banana", {"BIC", "TRI"}).has_value());
 }
 
+TEST(ParseToml, LettersBeyondAsciiStandInQuotesAndRemarksOnly) {
+  // Found by fuzzing: U+FEBA after a key, and alone after an incomplete byte-order mark.
+  for (const std::string text : {"a\xEF\xBB\xBA", "\xEF\xBB\xBE", "# \xC2\xB5\n\xC2\xB5 = 1",
+                                 "a = \"x\" \xC3\xA9", "a = \"\\\xC3\xA9\"", "a = ''\xC3\xA9"})
+    EXPECT_THROW((void)parse_toml(text, "f.toml"), ReadError) << text;
+  const toml::table t = parse_toml(
+      "\xEF\xBB\xBF# caf\xC3\xA9 \"\na = \"\xC2\xB5V \\\" #\xC3\xA9\" # \xC3\xA9\n"
+      "'\xC3\xA9' = '\xC3\xA9\\'\nm = \"\"\"\n\xC3\xA9 \"\xC3\xA9\" \\\n b\"\"\"\n"
+      "l = '''\xC3\xA9\'\n\xC3\xA9'''\n",
+      "f.toml");
+  EXPECT_EQ(t["a"].value<std::string>(), "\xC2\xB5V \" #\xC3\xA9");
+  EXPECT_EQ(t["\xC3\xA9"].value<std::string>(), "\xC3\xA9\\");
+  EXPECT_TRUE(t.contains("m") && t.contains("l"));
+}
+
 }  // namespace
 }  // namespace myoid::recording

@@ -64,7 +64,7 @@ TEST(Trc, MendsCarriageReturnsAMissingBlankLineAndWrongCounts) {
   EXPECT_EQ(file.markers.frame_count(), 2);
   EXPECT_EQ(file.markers.names.size(), 2U);
   EXPECT_TRUE(file.markers.missing(1, 0));
-  EXPECT_EQ(file.repairs.size(), 4U);  // 3 markers, Times, X0, 7 frames
+  EXPECT_EQ(file.repairs.size(), 5U);  // 3 markers, Times, X0, a lone NaN, 7 frames
 }
 
 TEST(Trc, TellsWhatItRefusesAndWhere) {

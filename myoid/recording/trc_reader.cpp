@@ -126,6 +126,8 @@ TrcFile parse_trc(std::string_view text, const std::filesystem::path& path) {
   std::size_t short_line = 0;
   std::size_t surplus_line = 0;
   std::size_t comma_line = 0;
+  std::size_t partial_line = 0;
+  const auto frames_said = parse_number(field("NumFrames"));
   const auto number_of = [&](std::string_view cell, std::size_t line) {
     auto number = parse_number(cell);
     if (!number && separator != ',') {
@@ -138,6 +140,15 @@ TrcFile parse_trc(std::string_view text, const std::filesystem::path& path) {
     if (trim(lines[n]).empty()) continue;
     if (lines[n].find_first_not_of(" \t,\r") == std::string_view::npos) continue;
     const auto cells = split(lines[n], separator);
+    if (n + 1 == lines.size() && !ends_with_line(text)) {
+      const bool complete = frames_said && *frames_said == static_cast<double>(time.size() + 1) &&
+                            cells.size() >= width + 2 && !looks_cut(lines[n], lines[n - 1]);
+      if (!complete && !time.empty()) {
+        file.repairs.push_back({n + 1, std::string(kLastRowLeftOut)});
+        break;
+      }
+      file.repairs.push_back({n + 1, std::string(kLastRowKept)});
+    }
     if (cells.size() < 2)
       throw ReadError(path, n + 1,
                       fmt::format("expected frame, time and {} coordinates, found '{}'", width,
@@ -187,6 +198,8 @@ TrcFile parse_trc(std::string_view text, const std::filesystem::path& path) {
       auto position = values.block<1, 3>(row, static_cast<Eigen::Index>(3 * m));
       const bool zero = (position.array() == 0.0).all();
       if (zero && zero_line == 0) zero_line = n + 1;
+      if (position.hasNaN() && !position.array().isNaN().all() && partial_line == 0)
+        partial_line = n + 1;
       if (zero || !position.allFinite()) position.setConstant(kGap);
     }
     for (std::size_t c = width + 2; c < cells.size() && surplus_line == 0; ++c) {
@@ -203,16 +216,24 @@ TrcFile parse_trc(std::string_view text, const std::filesystem::path& path) {
   if (short_line > 0)
     file.repairs.push_back(
         {short_line, "a row ends early; the markers behind its end are taken as missing"});
+  if (partial_line > 0)
+    file.repairs.push_back(
+        {partial_line, "a marker has only some of its coordinates; taken as missing"});
   if (surplus_line > 0)
     file.repairs.push_back(
         {surplus_line, "a row has more numbers than there are markers; the surplus is ignored"});
   if (repeated_line > 0)
     file.repairs.push_back({repeated_line, "a time stands twice; the first row is kept"});
   const auto frames = static_cast<Eigen::Index>(time.size());
-  if (const auto said = parse_number(field("NumFrames"));
-      said && *said != static_cast<double>(frames)) {
+  if (frames_said && *frames_said != static_cast<double>(frames)) {
     file.repairs.push_back(
-        {3, fmt::format("the header says {} frames, there are {}", *said, frames)});
+        {3, fmt::format("the header says {} frames, there are {}", *frames_said, frames)});
+  }
+  const double rate = frames < 2 ? 0.0 : static_cast<double>(frames - 1) / (time.back() - time[0]);
+  if (rate > 0.0 && file.rate_hz > 0.0 && std::abs(rate - file.rate_hz) > 0.05 * file.rate_hz) {
+    file.repairs.push_back({3, fmt::format("the header says {} Hz, the times {:.6g} Hz; the times "
+                                           "are taken",
+                                           file.rate_hz, rate)});
   }
   markers.time_s = Eigen::Map<const Eigen::VectorXd>(time.data(), frames);
   markers.positions_m = values.topRows(frames);

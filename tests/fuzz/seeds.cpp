@@ -17,6 +17,7 @@ C3dFile small_c3d() {
   file.point_scale = 0.25F;
   file.point_labels = {"A", "S:B"};
   file.points = C3dFile::Rows::Constant(3, 8, 0.25F);
+  for (const Eigen::Index residual : {3, 7}) file.points.col(residual).setZero();
   file.points(1, 3) = -1.0F;
   file.analog_per_frame = 2;
   file.analog = C3dFile::Rows::Constant(6, 6, 10.0F);
