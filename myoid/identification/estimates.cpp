@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "myoid/identification/discrepancy.h"
 #include "myoid/identification/identifiability.h"
 #include "myoid/identification/uncertainty.h"
 #include "myoid/math/statistics.h"
@@ -17,8 +18,12 @@ namespace {
 /// Widths of two intervals that differ by more than this speak of different things.
 constexpr double kDisagreement = 1.5;
 
+/// Relative change of a value that is worth a remark.
+constexpr double kSubstance = 0.05;
+
 struct Intervals {
   Sandwich sandwich;
+  Eigen::MatrixXd model_error;  ///< Further covariance.
   std::optional<BootstrapResult> bootstrap;
   std::optional<std::vector<Interval>> profiles;
 };
@@ -29,6 +34,12 @@ struct RowScale {
   double ratio = 1.0;
   [[nodiscard]] double value(double z) const { return ratio * parameter->to_value(z); }
 };
+
+/// The solver's number of a value of this row.
+double z_of(const RowScale& row, double value) {
+  const double x = value / row.ratio;
+  return row.parameter->field->logarithmic ? std::log(std::max(x, 1e-300)) : x;
+}
 
 void add_routes(ParameterEstimate& e,
                 const RowScale& row,
@@ -44,8 +55,10 @@ void add_routes(ParameterEstimate& e,
     // A bound is knowledge, too: no interval reaches where no muscle lives.
     e.routes.push_back({route, clipped(z - quantile * sd), clipped(z + quantile * sd)});
   };
+  const double further = intervals.model_error(at, at);
   normal("sandwich", intervals.sandwich.newey_west(at, at));
   if (intervals.sandwich.cluster) normal("cluster", (*intervals.sandwich.cluster)(at, at));
+  if (intervals.sandwich.jackknife) normal("jackknife", (*intervals.sandwich.jackknife)(at, at));
   const auto add = [&](const std::string& route, const Interval& interval) {
     RouteInterval r{route, {}, {}};
     if (interval.low) r.low = clipped(*interval.low);
@@ -55,6 +68,25 @@ void add_routes(ParameterEstimate& e,
   const auto index = static_cast<std::size_t>(at);
   if (intervals.bootstrap) add("bootstrap", intervals.bootstrap->intervals[index]);
   if (intervals.profiles) add("profile", (*intervals.profiles)[index]);
+
+  // The interval that is reported: to either side the farthest of sandwich, jackknife and
+  // profile, and the model's error on top.
+  double variance = intervals.sandwich.newey_west(at, at);
+  // Trials of one kind differ by more than their noise: what they differ by counts.
+  if (intervals.sandwich.jackknife)
+    variance = std::max(variance, (*intervals.sandwich.jackknife)(at, at));
+  double below = quantile * std::sqrt(std::max(0.0, variance));
+  double above = below;
+  if (intervals.profiles) {
+    const Interval& profile = (*intervals.profiles)[index];
+    below = std::max(below, z - profile.low.value_or(p.lower));
+    above = std::max(above, profile.high.value_or(p.upper) - z);
+  }
+  const double extra = quantile * std::sqrt(std::max(0.0, further));
+  if (std::isfinite(below) && std::isfinite(extra)) {
+    e.ci_low = clipped(z - std::hypot(below, extra));
+    e.ci_high = clipped(z + std::hypot(above, extra));
+  }
 }
 
 void compare_routes(ParameterEstimate& e, IdentificationResult& result) {
@@ -165,7 +197,14 @@ void report_estimates(const Estimator& estimator,
 
   Intervals intervals;
   intervals.sandwich = sandwich(estimator, solution);
-  result.covariance = intervals.sandwich.newey_west;
+  const Eigen::Index size = z.size();
+  intervals.model_error = Eigen::MatrixXd::Zero(size, size);
+  if (options.model_error && options.weights) {
+    const Discrepancy error = discrepancy(estimator, solution, intervals.sandwich.model_based);
+    intervals.model_error = error.covariance;
+    result.model_error = error.relative_size;
+  }
+  result.covariance = intervals.sandwich.newey_west + intervals.model_error;
   result.condition = intervals.sandwich.condition;
   if (options.intervals.bootstrap > 0) {
     intervals.bootstrap = bootstrap(estimator, solution);
@@ -173,7 +212,7 @@ void report_estimates(const Estimator& estimator,
     result.bootstrap_failed = intervals.bootstrap->failed;
   }
   if (options.intervals.profile)
-    intervals.profiles = profile(estimator, solution, result.covariance);
+    intervals.profiles = profile(estimator, solution, intervals.sandwich.newey_west);
 
   const double quantile = math::normal_quantile(0.975);
   const auto muscles = data.muscles.size();
@@ -194,8 +233,17 @@ void report_estimates(const Estimator& estimator,
     }
   }
   const auto judged = [&](ParameterEstimate e, const FreeParameter& p, double prior_distance,
-                          bool determined, int owner) {
+                          bool determined, int owner, const std::string& rests_on) {
     VerdictContext v;
+    v.rests_on = rests_on;
+    if (p.field->scope == Scope::muscle) {
+      const auto k = static_cast<std::size_t>(owner);
+      for (std::size_t other = 0; other < muscles; ++other) {
+        if (other != k && data.muscles[other].emg_channel == data.muscles[k].emg_channel)
+          v.shares_electrode_with = data.muscles[other].name;
+      }
+    }
+    v.model_error = result.model_error;
     v.prior_distance = prior_distance;
     v.determined = determined;
     v.converged = solution.search.termination == math::Termination::converged;
@@ -240,10 +288,6 @@ void report_estimates(const Estimator& estimator,
       if (determined && std::isfinite(sd)) {
         e.std_error = p.field->logarithmic ? e.estimate * sd : std::abs(target.ratio) * sd;
         add_routes(e, row, intervals, at, z[at], quantile);
-        if (!e.routes.empty()) {
-          e.ci_low = e.routes.front().low;
-          e.ci_high = e.routes.front().high;
-        }
       }
       double distance = 0.0;
       if (p.prior_sd > 0.0) {
@@ -253,7 +297,19 @@ void report_estimates(const Estimator& estimator,
         e.shrinkage = 1.0 - sd * sd / (p.prior_sd * p.prior_sd);
         distance = std::abs(z[at] - p.prior_mean) / p.prior_sd;
       }
-      judged(std::move(e), p, distance, determined, target.owner);
+      std::string rests_on;
+      if (e.ci_low && e.ci_high) {
+        // Without which trial the value would leave its own interval, and by a matter of substance.
+        const double half = 0.5 * std::abs(z_of(row, *e.ci_high) - z_of(row, *e.ci_low));
+        const double substance = kSubstance * (p.field->logarithmic ? 1.0 : std::abs(z[at]));
+        Eigen::Index trial = 0;
+        const Eigen::VectorXd shift = intervals.sandwich.trial_shift.row(at).cwiseAbs().transpose();
+        if (shift.size() > 1 && shift.maxCoeff(&trial) > std::max(half, substance))
+          rests_on = data.trials[static_cast<std::size_t>(
+                                     intervals.sandwich.trials[static_cast<std::size_t>(trial)])]
+                         .name;
+      }
+      judged(std::move(e), p, distance, determined, target.owner, rests_on);
     }
     // Where the slope ratio is the unknown, the product follows.
     if (p.field->scope != Scope::muscle || p.field->field != kSlopeRatio) continue;
@@ -299,7 +355,7 @@ void report_estimates(const Estimator& estimator,
           e.shrinkage = 1.0 - std::pow(posterior.log_sd / prior.log_sd, 2);
         }
       }
-      judged(std::move(e), p, 0.0, determined, target.owner);
+      judged(std::move(e), p, 0.0, determined, target.owner, "");
     }
   }
 
@@ -323,6 +379,15 @@ void report_estimates(const Estimator& estimator,
       if (std::abs(share) > 0.05) parts.push_back(fmt::format("{:+.2f} {}", share, label(j)));
     }
     result.undetermined.push_back(fmt::format("{}", fmt::join(parts, " ")));
+  }
+  if (result.model_error > VerdictRules{}.model_error) {
+    result.warnings.push_back(
+        fmt::format("what the model leaves of the torque depends on posture, effort and speed as "
+                    "if it were wrong "
+                    "by {:.0f} %: the estimates describe the fit rather than the muscles, and the "
+                    "truth may lie "
+                    "outside the intervals",
+                    100.0 * result.model_error));
   }
   if (result.bootstrap_failed > 0) {
     result.warnings.push_back(fmt::format("{} of {} bootstrap replicates did not converge",

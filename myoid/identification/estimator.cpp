@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <numeric>
 
 #include <Eigen/Eigenvalues>
 
@@ -33,9 +34,94 @@ LossValue loss(Loss kind, double u) {
   return {u * u, 1.0};
 }
 
+/// Squared residuals and EMG power, averaged over samples of like power.
+struct NoiseBins {
+  std::vector<double> squared, power, count;
+};
+
+NoiseBins bins_of(const Eigen::ArrayXd& squared, const Eigen::ArrayXd& power) {
+  constexpr Eigen::Index kBins = 48;
+  std::vector<Eigen::Index> order(static_cast<std::size_t>(squared.size()));
+  std::iota(order.begin(), order.end(), Eigen::Index{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](Eigen::Index i, Eigen::Index j) { return power[i] < power[j]; });
+  NoiseBins bins;
+  const Eigen::Index n = squared.size();
+  const Eigen::Index count = std::min(n, kBins);
+  for (Eigen::Index b = 0; b < count; ++b) {
+    double y = 0.0, p = 0.0;
+    const Eigen::Index begin = n * b / count, end = n * (b + 1) / count;
+    for (Eigen::Index i = begin; i < end; ++i) {
+      y += squared[order[static_cast<std::size_t>(i)]];
+      p += power[order[static_cast<std::size_t>(i)]];
+    }
+    const auto size = static_cast<double>(end - begin);
+    bins.squared.push_back(y / size);
+    bins.power.push_back(p / size);
+    bins.count.push_back(size);
+  }
+  return bins;
+}
+
+/// Least of a function with one minimum, to 1e-3.
+template <typename Function>
+double golden(double low, double high, const Function& f) {
+  const double ratio = 0.5 * (std::sqrt(5.0) - 1.0);
+  double a = high - ratio * (high - low), b = low + ratio * (high - low);
+  double fa = f(a), fb = f(b);
+  while (high - low > 1e-3) {
+    if (fa < fb) {
+      high = b;
+      b = a;
+      fb = fa;
+      a = high - ratio * (high - low);
+      fa = f(a);
+    } else {
+      low = a;
+      a = b;
+      fa = fb;
+      b = low + ratio * (high - low);
+      fb = f(b);
+    }
+  }
+  return 0.5 * (low + high);
+}
+
+/// Variances a and b of s^2 = a + b power where b is expected to be 1 (ln sqrt(b) = 0 +- 0.3): most
+/// likely for residuals that are normal, each counting `share`. Torque is never without noise: a is
+/// at least 5 % of the mean square.
+NoiseLevel fit_known_noise(const Eigen::ArrayXd& squared,
+                           const Eigen::ArrayXd& power,
+                           double share) {
+  constexpr double kLogSd = 0.3;
+  const NoiseBins bins = bins_of(squared, power);
+  const double mean = squared.mean();
+  if (!(mean > 0.0)) return {0.0, 1.0, 1.0};
+  const auto cost = [&](double log_a, double log_b) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < bins.count.size(); ++i) {
+      const double v = std::exp(log_a) + std::exp(log_b) * bins.power[i];
+      sum += bins.count[i] * (std::log(v) + bins.squared[i] / v);
+    }
+    return 0.5 * share * sum + 0.5 * std::pow(0.5 * log_b / kLogSd, 2);
+  };
+  const auto best_a = [&](double log_b) {
+    return golden(std::log(0.05 * mean), std::log(2.0 * mean),
+                  [&](double log_a) { return cost(log_a, log_b); });
+  };
+  // A factor of 4 either way.
+  const double reach = std::log(16.0);
+  const double log_b = golden(-reach, reach, [&](double x) { return cost(best_a(x), x); });
+  const double factor = std::exp(0.5 * log_b);
+  return {std::exp(0.5 * best_a(log_b)), factor, factor};
+}
+
+/// No envelope of EMG is noisier.
+constexpr double kLargestNoise = 0.5;
+
 /// Both variances by weighted regression of the squared residuals on [1, EMG power], neither
 /// negative.
-NoiseLevel fit_noise(const Eigen::ArrayXd& squared, const Eigen::ArrayXd& power) {
+NoiseLevel fit_unknown_noise(const Eigen::ArrayXd& squared, const Eigen::ArrayXd& power) {
   double a = squared.mean();
   double b = 0.0;
   const double floor = 1e-6 * a + 1e-300;
@@ -61,7 +147,8 @@ NoiseLevel fit_noise(const Eigen::ArrayXd& squared, const Eigen::ArrayXd& power)
     a = next_a;
     b = next_b;
   }
-  return {std::sqrt(std::max(a, 0.0)), std::min(std::sqrt(b), 1.0)};
+  const double factor = std::min(std::sqrt(b), kLargestNoise);
+  return {std::sqrt(std::max(a, 0.0)), factor, factor};
 }
 
 }  // namespace
@@ -71,6 +158,24 @@ Estimator::Estimator(const StudyData& data, const EstimatorOptions& options)
   const auto n = static_cast<double>(model_->sample_count());
   const double typical = std::sqrt(model_->measured().squaredNorm() / n);
   floor_nm_ = 1e-9 * std::max(typical, 1e-3);
+  // Relative spread of an envelope: that of rectified Gaussian noise of the EMG's bandwidth over
+  // the time that the filters average (0.6 / cut-off of two passes of second order).
+  const std::vector<std::string>& channels = model_->parameters().channels();
+  channel_variance_ = Eigen::VectorXd::Ones(static_cast<Eigen::Index>(channels.size()));
+  emg_noise_known_ = true;
+  for (std::size_t c = 0; c < channels.size(); ++c) {
+    const auto known = options.emg_bandwidth_hz.find(channels[c]);
+    if (known == options.emg_bandwidth_hz.end() || !(known->second > 0.0)) {
+      emg_noise_known_ = false;
+      continue;
+    }
+    double cutoff_hz = options.envelope_cutoff_hz;
+    if (options.residual_cutoff_hz)
+      cutoff_hz *= *options.residual_cutoff_hz / std::hypot(cutoff_hz, *options.residual_cutoff_hz);
+    channel_variance_[static_cast<Eigen::Index>(c)] =
+        0.7555 * 0.7555 / (2.0 * known->second * 0.6 / cutoff_hz);
+  }
+  if (!emg_noise_known_) channel_variance_.setOnes();
   const Eigen::Index p = model_->parameters().size();
   lower_.resize(p);
   upper_.resize(p);
@@ -113,9 +218,10 @@ NormalEquations Estimator::normal_equations(const Eigen::VectorXd& z,
     const double scale = root / weighting.sd_nm[i];
     if (derivatives) local.gradient.col(i) *= scale;
     if (corrected) {
-      local.channel_torque.col(i) *= scale * std::sqrt(weighting.emg_variance[i]);
-      sum -= local.channel_torque.col(i).squaredNorm() / weighting.share;
-      local.channel_torque.col(i) *= std::sqrt(weighting.emg_variance[i]);
+      auto torque = local.channel_torque.col(i);
+      torque *= scale * std::sqrt(weighting.emg_variance[i]);
+      sum -= torque.cwiseAbs2().dot(channel_variance_) / weighting.share;
+      torque = std::sqrt(weighting.emg_variance[i]) * torque.cwiseProduct(channel_variance_);
     }
   }
   const Eigen::VectorXd& mean = variant.prior_mean.size() > 0 ? variant.prior_mean : prior_mean_;
@@ -171,7 +277,7 @@ void Estimator::correct_curvature(const Weighting& weighting, Eigen::MatrixXd& i
     for (Eigen::Index j = 0; j < p; ++j) {
       const int channel = model_->channel_of_variable(i);
       if (channel >= 0 && channel == model_->channel_of_variable(j))
-        unit(i, j) *= 1.0 - variance / (1.0 + variance);
+        unit(i, j) /= 1.0 + variance * channel_variance_[channel];
     }
   }
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(unit);
@@ -201,12 +307,13 @@ Estimator::Scores Estimator::scores(const Solution& solution) const {
     for (Eigen::Index j = 0; j < p; ++j) {
       const int channel = model_->channel_of_variable(j);
       if (channel >= 0)
-        result.scores(j, i) -= weight * weighting.emg_variance[i] * at.channel_torque(channel, i) *
-                               at.gradient(j, i) / (sd[i] * sd[i]);
+        result.scores(j, i) -= weight * weighting.emg_variance[i] * channel_variance_[channel] *
+                               at.channel_torque(channel, i) * at.gradient(j, i) / (sd[i] * sd[i]);
     }
   }
   result.scores *= weighting.share;
-  result.information = weighting.share * weighted * weighted.transpose();
+  result.rows = std::sqrt(weighting.share) * weighted;
+  result.information = result.rows * result.rows.transpose();
   if (weighting.emg_variance.size() > 0) correct_curvature(weighting, result.information);
   return result;
 }
@@ -218,7 +325,7 @@ void Estimator::find_noise(const Evaluation& at, Weighting& weighting) const {
       std::max(0.2, 1.0 - static_cast<double>(free().size()) / std::max(10.0, weighting.share * n));
   // The power is averaged over a second: a weight that follows the noise of the EMG itself would
   // favor the samples in which it happens to be small.
-  Eigen::VectorXd power = at.channel_torque.colwise().squaredNorm().transpose();
+  Eigen::VectorXd power = at.channel_torque.cwiseAbs2().transpose() * channel_variance_;
   const auto half = static_cast<Eigen::Index>(std::lround(0.5 * model_->rate_hz()));
   for (const Piece& piece : model_->pieces()) {
     auto segment = power.segment(piece.first, piece.count);
@@ -249,10 +356,17 @@ void Estimator::find_noise(const Evaluation& at, Weighting& weighting) const {
     }
     // What motion is known to contribute is not torque noise.
     squared = (squared / freedom - at.motion_variance(rows).array()).max(0.0);
-    NoiseLevel level = fit_noise(squared, power(rows).array());
-    level.torque_sd_nm = std::max(level.torque_sd_nm, floor_nm_);
+    NoiseLevel level = emg_noise_known_
+                           ? fit_known_noise(squared, power(rows).array(), weighting.share)
+                           : fit_unknown_noise(squared, power(rows).array());
+    // Noise larger than the torque itself is none: muscles that begin far too strong leave that,
+    // and taken for noise it would silence the data, and the search would stay there.
+    const double most =
+        std::sqrt(model_->measured()(rows).squaredNorm() / static_cast<double>(rows.size()));
+    level.torque_sd_nm = std::max(std::min(level.torque_sd_nm, most), floor_nm_);
+    level.emg_cv = level.emg_factor * std::sqrt(channel_variance_.mean());
     weighting.noise[static_cast<std::size_t>(joint)] = level;
-    const double variance = level.emg_cv * level.emg_cv;
+    const double variance = level.emg_factor * level.emg_factor;
     for (const Eigen::Index row : rows) {
       weighting.sd_nm[row] = std::sqrt(level.torque_sd_nm * level.torque_sd_nm +
                                        variance * power[row] + at.motion_variance[row]);
@@ -280,7 +394,7 @@ Estimator::Solution Estimator::solve(const Eigen::VectorXd& start) const {
     const double freedom =
         std::max(1.0, static_cast<double>(n) - static_cast<double>(free().size()));
     const double sd = std::sqrt(2.0 * solution.search.cost / freedom);
-    for (NoiseLevel& level : weighting.noise) level = {sd, 0.0};
+    for (NoiseLevel& level : weighting.noise) level = {sd, 0.0, 0.0};
     solution.misfit = solution.search.cost;
     return solution;
   }

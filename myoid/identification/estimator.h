@@ -12,14 +12,16 @@ namespace myoid::identification {
 /// Two noise levels of a joint: of the torque, and of what is multiplied by the EMG.
 struct NoiseLevel {
   double torque_sd_nm = 1.0;
-  double emg_cv = 0.0;
+  double emg_cv = 0.0;      ///< Of a channel: root mean square over the channels.
+  double emg_factor = 0.0;  ///< By which every channel's expected relative sd is multiplied; where
+                            ///< nothing is expected, 1 is, and this is `emg_cv`.
 };
 
 /// How much a sample counts: held within a pass of the search.
 struct Weighting {
   Eigen::VectorXd sd_nm;          ///< Per sample.
   double share = 1.0;             ///< nu: effective over all samples.
-  Eigen::VectorXd emg_variance;   ///< Per sample: c_a^2 of its joint; empty: no correction.
+  Eigen::VectorXd emg_variance;   ///< Per sample: emg_factor^2 of its joint; empty: no correction.
   double offset = 0.0;            ///< Keeps the corrected cost positive.
   std::vector<NoiseLevel> noise;  ///< Per joint.
 };
@@ -47,6 +49,8 @@ class Estimator {
     return model_->parameters().free();
   }
   [[nodiscard]] const EstimatorOptions& options() const { return options_; }
+  /// Expected c_a^2 of each EMG channel, or 1 where nothing is known.
+  [[nodiscard]] const Eigen::VectorXd& channel_variance() const { return channel_variance_; }
   [[nodiscard]] const Eigen::VectorXd& lower() const { return lower_; }
   [[nodiscard]] const Eigen::VectorXd& upper() const { return upper_; }
 
@@ -82,6 +86,7 @@ class Estimator {
   struct Scores {
     Eigen::MatrixXd scores;
     Eigen::MatrixXd information;
+    Eigen::MatrixXd rows;  ///< p x n: (nu W)^1/2 J', nothing taken out.
   };
   [[nodiscard]] Scores scores(const Solution& solution) const;
   /// Start number s: the given one moved by a spread of the prior in a fixed pattern of signs.
@@ -95,6 +100,8 @@ class Estimator {
   EstimatorOptions options_;
   std::shared_ptr<const ResidualModel> model_;
   Eigen::VectorXd lower_, upper_, prior_mean_, prior_precision_;
+  Eigen::VectorXd channel_variance_;  ///< Per EMG channel: expected c_a^2, or 1 if unknown.
+  bool emg_noise_known_ = false;
   double floor_nm_ = 0.0;
 };
 

@@ -263,7 +263,7 @@ TEST(Uncertainty, RoutesAgreeOnAWellBehavedRecording) {
   EXPECT_EQ(r.bootstrap_replicates, 60);
   for (const ParameterEstimate& e : r.estimates) {
     if (e.parameter != "max_isometric_force" && e.parameter != "optimal_fiber_length") continue;
-    ASSERT_EQ(e.routes.size(), 4U) << e.muscle << " " << e.parameter;
+    ASSERT_EQ(e.routes.size(), 5U) << e.muscle << " " << e.parameter;
     const double width = *e.routes[0].high - *e.routes[0].low;
     // 60 replicates know a 95 % quantile to some 25 %; eight clusters a variance to 50 %.
     for (const RouteInterval& route : e.routes) {
@@ -276,6 +276,64 @@ TEST(Uncertainty, RoutesAgreeOnAWellBehavedRecording) {
     for (std::size_t k = 0; k < r.estimates[i].routes.size(); ++k)
       EXPECT_EQ(r.estimates[i].routes[k].high, again.estimates[i].routes[k].high);
   }
+}
+
+TEST(Sandwich, WhatATrialMovesIsWhatTheFitWithoutItSays) {
+  ElbowStudy study = elbow_study({.trials = 5,
+                                  .seconds = 12.0,
+                                  .emg_cv = 0.06,
+                                  .torque_sd_nm = 0.4,
+                                  .truth_from_prior = true,
+                                  .with_priors = true});
+  const Estimator estimator(study.data, {.correct_attenuation = false, .starts = 1});
+  const Estimator::Solution all = estimator.solve(estimator.model().parameters().start());
+  const Sandwich parts = sandwich(estimator, all);
+  ASSERT_EQ(parts.trials.size(), 5U);
+  ASSERT_TRUE(parts.jackknife);
+  const Piece& piece = estimator.model().pieces()[2];
+  Estimator::Variant without;
+  without.multiplicity = Eigen::VectorXd::Ones(estimator.model().sample_count());
+  without.multiplicity.segment(piece.first, piece.count).setZero();
+  const NormalSearchResult fit =
+      estimator.search(all.search.x, all.weighting, 1e-9, 1e-12, 100, without);
+  const Eigen::VectorXd moved = fit.x - all.search.x;
+  const Eigen::VectorXd sd = parts.model_based.diagonal().cwiseSqrt();
+  for (Eigen::Index j = 0; j < moved.size(); ++j) {
+    // One Newton step: right to the curvature of the problem, a third of a standard deviation.
+    EXPECT_NEAR(parts.trial_shift(j, 2) / sd[j], moved[j] / sd[j], 0.35) << j;
+  }
+  EXPECT_GT(moved.cwiseQuotient(sd).cwiseAbs().maxCoeff(), 0.35);
+}
+
+TEST(Estimator, MusclesThatBeginFarTooStrongAreNotTakenForNoise) {
+  ElbowStudy study = elbow_study({.trials = 2, .seconds = 10.0, .torque_sd_nm = 0.2});
+  for (MuscleSetup& setup : study.data.muscles) {
+    setup.start.max_isometric_force_n *= 8.0;
+    setup.priors["max_isometric_force"] = {
+        .mean = setup.start.max_isometric_force_n, .sd = 1.0, .logarithmic = true};
+  }
+  const IdentificationResult r = identify_torque(study.data, {.starts = 1});
+  const double rms = std::sqrt(study.data.trials[0].torque_nm.squaredNorm() /
+                               static_cast<double>(study.data.trials[0].torque_nm.size()));
+  EXPECT_LT(r.torque_sd_nm, 0.2 * rms);
+  for (std::size_t k = 0; k < 4; ++k)
+    EXPECT_NEAR(r.muscles[k].max_isometric_force_n / study.truth[k].max_isometric_force_n, 1.0, 0.5)
+        << k;
+}
+
+TEST(Estimator, NoiseOfTheEmgIsNeverTakenToBeFarFromWhatItsBandwidthSays) {
+  // Clean EMG that is said to be raw EMG of 150 Hz bandwidth: the expected noise, within a factor.
+  const ElbowStudy study =
+      elbow_study({.trials = 2, .seconds = 10.0, .torque_sd_nm = 0.5, .with_priors = true});
+  EstimatorOptions options{.starts = 1};
+  for (const char* channel : {"BIC", "BRA", "BRD", "TRI"})
+    options.emg_bandwidth_hz[channel] = 150.0;
+  const double expected =
+      0.7555 / std::sqrt(2.0 * 150.0 * 0.6 / (6.0 * 1.5 / std::hypot(6.0, 1.5)));
+  const double found = identify_torque(study.data, options).emg_cv;
+  EXPECT_LT(found, expected);
+  EXPECT_GT(found, expected / 4.0);
+  EXPECT_LT(identify_torque(study.data, {.starts = 1}).emg_cv, 0.5 * expected);
 }
 
 TEST(CollinearSets, AreThoseWithAnEigenvalueNearZero) {

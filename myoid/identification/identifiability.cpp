@@ -98,9 +98,10 @@ void judge(ParameterEstimate& e, const VerdictContext& context, const VerdictRul
         fmt::format("mostly the literature's value: the recording narrows it by only {:.0f} %",
                     100.0 * std::max(0.0, *e.shrinkage)));
   }
-  const double half = 0.5 * (*e.ci_high - *e.ci_low);
+  // The farther end: an interval that a bound cuts short is no narrower for that.
+  const double half = std::max(*e.ci_high - e.estimate, e.estimate - *e.ci_low);
   if (e.parameter == "emg_delay") {
-    if (half <= rules.delay_identified_s)
+    if (half <= rules.delay_identified_s && context.model_error <= rules.model_error)
       return set(Verdict::identified, fmt::format("known to {:.0f} ms", 1000.0 * half));
     if (half <= rules.delay_weak_s)
       return set(Verdict::weak,
@@ -119,6 +120,30 @@ void judge(ParameterEstimate& e, const VerdictContext& context, const VerdictRul
   } else {
     set(Verdict::not_identifiable,
         fmt::format("the interval spans {:.0f} % of the value", 200.0 * relative));
+  }
+  if (e.verdict == Verdict::identified && e.shrinkage && *e.shrinkage < rules.half_shrinkage) {
+    set(Verdict::weak, fmt::format("known to {:.1f} %, but about as much from the literature as "
+                                   "from the recording",
+                                   100.0 * relative));
+  }
+  if (e.verdict == Verdict::identified && !context.shares_electrode_with.empty()) {
+    set(Verdict::weak,
+        fmt::format(
+            "known to {:.1f} % if it does just what {} does: one electrode stands for both, "
+            "and what is taken from the one is given to the other",
+            100.0 * relative, context.shares_electrode_with));
+  }
+  if (e.verdict == Verdict::identified && context.model_error > rules.model_error) {
+    set(Verdict::weak,
+        fmt::format(
+            "known to {:.1f} %, but what the model leaves of the torque depends on posture and "
+            "effort as if it were wrong by {:.0f} %",
+            100.0 * relative, 100.0 * context.model_error));
+  }
+  if (e.verdict == Verdict::identified && !context.rests_on.empty()) {
+    set(Verdict::weak, fmt::format("rests on trial '{}': without it the value would leave its own "
+                                   "interval; record more like it",
+                                   context.rests_on));
   }
   if (context.shared_forces && e.verdict == Verdict::identified) {
     set(Verdict::weak,

@@ -6,12 +6,16 @@ namespace myoid::identification {
 
 /// The thresholds of the verdicts, in one place.
 struct VerdictRules {
-  double identified_half_width =
-      0.15;  ///< 95 % half interval over the value: at most this is `identified` ...
+  /// Farther end of the 95 % interval from the value, relative: at most this is `identified`: nine
+  /// times in ten the value is then within 10 % (0.10 times 1.96 / 1.645) ...
+  double identified_half_width = 0.12;
   double weak_half_width = 0.60;      ///< ... at most this `weak`, beyond it `not_identifiable`.
   double least_shrinkage = 0.30;      ///< Below, the value is `prior_dominated`.
-  double delay_identified_s = 0.015;  ///< The same for the EMG delay, absolute.
+  double half_shrinkage = 0.50;       ///< Below, at most `weak`: half of it is the prior's.
+  double delay_identified_s = 0.012;  ///< Half width of the EMG delay, absolute.
   double delay_weak_s = 0.05;
+  double model_error =
+      0.20;  ///< Systematic error of the model above which nothing is `identified`.
   double prior_conflict = 3.0;  ///< Spreads of the prior away from its mean: at most `weak`.
   double flat_plateau = 1.02;   ///< V_ml whose interval reaches below says nothing about P.
 };
@@ -26,6 +30,10 @@ struct VerdictContext {
   bool outside_physical = false;  ///< Value outside the physical bounds of its field.
   double prior_distance =
       0.0;  ///< |estimate - prior mean| in spreads of the prior; 0 without a prior.
+  std::string
+      shares_electrode_with;  ///< Another muscle that acts as the same EMG says; empty: none.
+  double model_error = 0.0;   ///< IdentificationResult::model_error.
+  std::string rests_on;  ///< Trial without which the value would leave its interval; empty: none.
   bool shared_forces =
       false;  ///< The force that was fitted is an optimizer's share of a torque, not measured.
   std::string bad_company;  ///< Parameter of the same fit that left physiology; empty: none.

@@ -41,6 +41,22 @@ TEST(Judge, CallsAValueThatThePriorMadeByItsName) {
   EXPECT_EQ(verdict_of(e), Verdict::identified);
 }
 
+TEST(Judge, ANarrowIntervalIsNotEnough) {
+  ParameterEstimate e = estimate(0.05);
+  e.shrinkage = 0.4;
+  EXPECT_EQ(verdict_of(e), Verdict::weak);
+  e.shrinkage = 0.8;
+  EXPECT_EQ(verdict_of(e, {.model_error = 0.25}), Verdict::weak);
+  EXPECT_EQ(verdict_of(e, {.model_error = 0.05}), Verdict::identified);
+  EXPECT_EQ(verdict_of(e, {.shares_electrode_with = "BIC"}), Verdict::weak);
+  ParameterEstimate cut = estimate(0.05);
+  cut.ci_high = 1.2;  // 0.95 to 1.2: the half of it would be 12.5 %
+  EXPECT_EQ(verdict_of(cut), Verdict::weak);
+  judge(e, {.rests_on = "lowering_4kg"});
+  EXPECT_EQ(e.verdict, Verdict::weak);
+  EXPECT_NE(e.reason.find("lowering_4kg"), std::string::npos);
+}
+
 TEST(Judge, NeverTrustsWhatIsNotAnAnswer) {
   EXPECT_EQ(verdict_of(estimate(0.01), {.determined = false}), Verdict::not_identifiable);
   EXPECT_EQ(verdict_of(estimate(0.01), {.converged = false, .failure = "why"}),
@@ -78,12 +94,15 @@ TEST(Judge, NamesTheErrorThatTheSourcePapersValuesAreTheSignatureOf) {
 }
 
 TEST(Judge, TheDelayIsJudgedInMilliseconds) {
-  ParameterEstimate e = estimate(0.01, "emg_delay");
-  e.estimate = 0.05;
-  EXPECT_EQ(verdict_of(e), Verdict::identified);
-  e = estimate(0.04, "emg_delay");
-  e.estimate = 0.05;
-  EXPECT_EQ(verdict_of(e), Verdict::weak);
+  const auto delay = [](double half) {
+    ParameterEstimate e = estimate(half, "emg_delay");
+    e.estimate = 0.05;
+    e.ci_low = 0.05 - half;
+    e.ci_high = 0.05 + half;
+    return e;
+  };
+  EXPECT_EQ(verdict_of(delay(0.01)), Verdict::identified);
+  EXPECT_EQ(verdict_of(delay(0.04)), Verdict::weak);
 }
 
 TEST(Judge, WithoutAMaximalContractionForceIsRelativeToTheLargestEmg) {

@@ -48,13 +48,21 @@ struct EstimatorOptions {
   /// EMG channels whose gain is a nuisance about 1, with the standard deviation of its logarithm:
   /// the uncertainty of the normalisation, which F_max inherits. Empty: no gains.
   std::map<std::string, double> gain_prior_sd;
+  std::map<std::string, double> gain_prior_mean;  ///< Instead of 1.
+  /// Statistical bandwidth [Hz] of the raw EMG by channel (signals::statistical_bandwidth_hz),
+  /// which says how noisy an envelope is: relative sd 0.7555 / sqrt(2 B T), T = 0.6 / cut-off.
+  /// Where known for every channel, c_a is found about it (ln 0.3), else from the residuals alone.
+  std::map<std::string, double> emg_bandwidth_hz;
+  double envelope_cutoff_hz = 6.0;  ///< Of the smoothing of the rectified EMG.
   double max_rate_hz = 50.0;  ///< Samples are thinned to at most this; torque and EMG hold 6 Hz.
   /// Both sides of the residual are low-passed here (two passes, -3 dB). T^ is linear in the
   /// envelope, whose noise reaches further up than what tells muscles apart: what is cut off would
   /// only pull F_max towards zero (errors in the regressors). Empty: not at all.
   std::optional<double> residual_cutoff_hz = 1.5;
-  bool weights = true;  ///< Heteroscedastic weights and the effective number of samples; false:
-                        ///< plain least squares.
+  bool weights = true;      ///< Heteroscedastic weights and the effective number of samples; false:
+                            ///< plain least squares.
+  bool model_error = true;  ///< Widen the intervals by the systematic error that the residuals
+                            ///< show; needs `weights`. See discrepancy.h.
   bool correct_attenuation = true;   ///< Take the errors of the EMG as errors of a regressor; needs
                                      ///< `weights`. See estimator.h.
   double angle_sd_rad = 0.0;         ///< Error of the joint angle, propagated into every sample ...

@@ -317,7 +317,11 @@ ParameterMap::ParameterMap(const StudyData& data, const EstimatorOptions& option
           const auto it = options.gain_prior_sd.find(channels_[k]);
           if (it != options.gain_prior_sd.end() && it->second > 0.0) {
             slot.free = true;
-            slot.prior = Prior{.mean = 1.0, .sd = it->second, .logarithmic = true};
+            const auto mean = options.gain_prior_mean.find(channels_[k]);
+            slot.prior = Prior{.mean = mean != options.gain_prior_mean.end() ? mean->second : 1.0,
+                               .sd = it->second,
+                               .logarithmic = true};
+            slot.value = slot.prior->mean;
           }
         }
       }

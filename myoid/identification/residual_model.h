@@ -27,6 +27,16 @@ struct Evaluation {
   Eigen::VectorXd motion_variance;  ///< n: from the errors of angle and rate.
 };
 
+/// Ways in which a model of muscles errs, as torques: sum_b x_b shape_b(t) with independent x_b of
+/// standard deviation `weight_b` times the relative size of the error.
+struct ErrorShapes {
+  Eigen::MatrixXd shapes_nm;  ///< k x n, low-passed as `measured()`.
+  Eigen::VectorXd weight;     ///< k
+  std::vector<int> channel;   ///< k: EMG channel that it is multiplied by; -1: none.
+  /// k x k: d shape_b / d ln(envelope) of its channel = sum_j by_emg(b, j) shape_j.
+  Eigen::MatrixXd by_emg;
+};
+
 /// The one residual of all estimators: predicted minus measured torque (or force: one muscle with a
 /// moment arm of 1) over the samples of the calibration trials, thinned and low-passed.
 class ResidualModel {
@@ -50,6 +60,14 @@ class ResidualModel {
   /// gradient; also the variance from motion.
   enum class Depth { value, gradient, noise };
   void evaluate(const Eigen::VectorXd& z, Depth depth, Evaluation& out) const;
+
+  /// For each muscle its torque times 1, the Legendre polynomials P1 to P3 of its length over the
+  /// recorded range, ln(activation) / 2.3 + 1 (a non-linear EMG), its speed over the greatest, and
+  /// its change within 0.15 s (a delay of its own);
+  /// for each joint a constant and P1 of the first muscle's length, of the size of the torque
+  /// (what is passive). What moment arms, force-length curves, tendons, passive tissue, EMG that is
+  /// not linear and motion under the skin do wrong is smooth in these.
+  [[nodiscard]] ErrorShapes error_shapes(const Eigen::VectorXd& z) const;
 
  private:
   struct Block {

@@ -26,7 +26,7 @@ enum class Verdict {
 
 /// The 95 % interval that one way of reckoning gives.
 struct RouteInterval {
-  std::string route;                ///< sandwich | cluster | bootstrap | profile
+  std::string route;                ///< sandwich | cluster | jackknife | bootstrap | profile
   std::optional<double> low, high;  ///< Empty: open on that side.
 };
 
@@ -99,6 +99,7 @@ struct IdentificationResult {
   double effective_samples = 0.0;
   double torque_sd_nm = 0.0;  ///< s_T
   double emg_cv = 0.0;        ///< c_a
+  double model_error = 0.0;   ///< Systematic error, relative to the muscles' torques.
   double condition = 0.0;
   int iterations = 0;
   double seconds = 0.0;

@@ -152,22 +152,35 @@ Sandwich sandwich(const Estimator& estimator, const Estimator::Solution& solutio
     }
   }
 
-  std::vector<int> trials;
+  std::vector<int>& trials = result.trials;
   for (const Piece& piece : model.pieces()) {
-    if (trials.empty() || trials.back() != piece.trial) trials.push_back(piece.trial);
+    if (std::find(trials.begin(), trials.end(), piece.trial) == trials.end())
+      trials.push_back(piece.trial);
   }
   const auto clusters = static_cast<double>(trials.size());
-  if (trials.size() >= 8) {
-    Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(z.size(), z.size());
-    for (const int trial : trials) {
-      Eigen::VectorXd g = Eigen::VectorXd::Zero(z.size());
-      for (const Piece& piece : model.pieces()) {
-        if (piece.trial == trial)
-          g += scores.middleRows(piece.first, piece.count).colwise().sum().transpose();
-      }
-      sum += g * g.transpose();
+  Eigen::MatrixXd whole = by_sample.rows * by_sample.rows.transpose();
+  whole.diagonal() += precision;
+  Eigen::MatrixXd sums(z.size(), static_cast<Eigen::Index>(trials.size()));
+  result.trial_shift.resize(z.size(), sums.cols());
+  for (Eigen::Index k = 0; k < sums.cols(); ++k) {
+    Eigen::MatrixXd without = whole;
+    sums.col(k).setZero();
+    for (const Piece& piece : model.pieces()) {
+      if (piece.trial != trials[static_cast<std::size_t>(k)]) continue;
+      sums.col(k) += scores.middleRows(piece.first, piece.count).colwise().sum().transpose();
+      const auto rows = by_sample.rows.middleCols(piece.first, piece.count);
+      without -= rows * rows.transpose();
     }
-    sum *= clusters / (clusters - 1.0);
+    result.trial_shift.col(k) = inverse_of(without) * sums.col(k);
+  }
+  const auto covariance_of = [](const Eigen::MatrixXd& columns) {
+    const Eigen::MatrixXd off = columns.colwise() - columns.rowwise().mean();
+    return Eigen::MatrixXd(off * off.transpose());
+  };
+  if (trials.size() >= 5)
+    result.jackknife = (clusters - 1.0) / clusters * covariance_of(result.trial_shift);
+  if (trials.size() >= 8) {
+    Eigen::MatrixXd sum = clusters / (clusters - 1.0) * sums * sums.transpose();
     sum.diagonal() += precision;
     result.cluster = result.model_based * sum * result.model_based;
   }

@@ -16,12 +16,17 @@ struct Sandwich {
                                ///< never below A^-1 where weights are used.
   std::optional<Eigen::MatrixXd> cluster;  ///< B from the sums of scores over trials; with at least
                                            ///< 8 trials.
-  Eigen::MatrixXd model_based;             ///< A^-1
-  Eigen::MatrixXd information;             ///< Of the data alone, nu J'WJ.
-  int rank = 0;                            ///< Of the data with unit columns, tolerance 1e-7.
-  double condition = 0.0;                  ///< Of J with unit columns.
-  std::vector<bool> determined;            ///< By the data alone.
-  Eigen::MatrixXd undetermined;            ///< Unit columns: combinations the data leave free.
+  std::vector<int> trials;                 ///< Calibration trials, in StudyData::trials.
+  Eigen::MatrixXd trial_shift;  ///< p x trials: by how much the estimates move without that trial,
+                                ///< in one Newton step, (A - A_trial)^-1 times its scores.
+  std::optional<Eigen::MatrixXd> jackknife;  ///< (K - 1)/K sum of those shifts squared; with at
+                                             ///< least 5 trials.
+  Eigen::MatrixXd model_based;               ///< A^-1
+  Eigen::MatrixXd information;               ///< Of the data alone, nu J'WJ.
+  int rank = 0;                              ///< Of the data with unit columns, tolerance 1e-7.
+  double condition = 0.0;                    ///< Of J with unit columns.
+  std::vector<bool> determined;              ///< By the data alone.
+  Eigen::MatrixXd undetermined;              ///< Unit columns: combinations the data leave free.
 };
 [[nodiscard]] Sandwich sandwich(const Estimator& estimator, const Estimator::Solution& solution);
 

@@ -161,7 +161,7 @@ std::string parameters_csv(const std::vector<IdentificationResult>& methods) {
   std::string text =
       "muscle,parameter,unit,method,case,initial,estimate,std_error,ci_low,ci_high,prior_mean,"
       "prior_sd,shrinkage,at_bound,verdict,reason";
-  const std::vector<std::string> routes{"sandwich", "cluster", "bootstrap", "profile"};
+  const std::vector<std::string> routes{"sandwich", "cluster", "jackknife", "bootstrap", "profile"};
   for (const std::string& route : routes) text += fmt::format(",ci_low_{0},ci_high_{0}", route);
   text += ",routes_disagree\n";
   for (const IdentificationResult& method : methods) {
@@ -208,6 +208,7 @@ std::string parameters_json(const std::vector<IdentificationResult>& methods,
     };
     m["torque_sd_nm"] = unless_paper(method.torque_sd_nm);
     m["emg_cv"] = unless_paper(method.emg_cv);
+    m["model_error"] = unless_paper(method.model_error);
     m["condition"] = unless_paper(method.condition);
     m["emg_delay_s"] = unless_paper(method.delay_s);
     m["hardly_told_apart"] = method.collinear;

@@ -257,7 +257,9 @@ void process_all_emg(const Study& study,
     if (!with_emg(i)) continue;
     const TimeSeries& envelope =
         study.emg.kind == EmgKind::raw ? result.trials[i].emg->envelope : *inputs[i].emg;
-    envelopes.push_back({study.trials[i].name, study.trials[i].use == Use::mvc, &envelope});
+    envelopes.push_back(
+        {study.trials[i].name, study.trials[i].use == Use::mvc, &envelope,
+         result.trials[i].emg ? result.trials[i].emg->bandwidth_hz : Eigen::VectorXd()});
   }
   result.level_faults = signals::check_emg_levels(envelopes);
   result.normalisation =
@@ -297,9 +299,14 @@ identification::TorqueOptions torque_options(const Study& study,
   options.from_mvc = study.emg.has_mvc || study.emg.kind == EmgKind::activation;
   options.progress.stop = progress.stop;
   if (study.identify.gain) {
-    for (const signals::ChannelNormalisation& n : result.normalisation)
+    for (const signals::ChannelNormalisation& n : result.normalisation) {
       options.gain_prior_sd[n.channel] = n.relative_sd;
+      options.gain_prior_mean[n.channel] = 1.0 + n.relative_bias;
+    }
   }
+  options.envelope_cutoff_hz = study.emg.lowpass_hz;
+  for (const signals::ChannelNormalisation& n : result.normalisation)
+    options.emg_bandwidth_hz[n.channel] = n.bandwidth_hz;
   return options;
 }
 
@@ -422,7 +429,19 @@ StudyResult analyse(const Study& study, StudyInputs given, const RunOptions& opt
   stages.run("identification", 0.7, [&] {
     const std::vector<MuscleGroup> groups = muscle_groups(study, result.model);
     result.data.muscles = muscle_setups(study, result.model);
-    result.data.rules = study.parameters;
+    // Fibers of a muscle that is little active are at their best when longer (Lloyd & Besier 2003:
+    // 15 %). A model without it takes that for something else. A property of fibers: one for all.
+    if (study.identify.priors) {
+      identification::ParameterRule shift;
+      shift.parameter = "length_activation";
+      shift.free = true;
+      shift.prior_mean = 0.0;
+      shift.prior_sd = 0.1;
+      shift.tie = true;
+      result.data.rules.push_back(std::move(shift));
+    }
+    result.data.rules.insert(result.data.rules.end(), study.parameters.begin(),
+                             study.parameters.end());
     for (const TrialResult& trial : result.trials) {
       if (!trial.has_motion() || trial.activation.empty()) continue;
       if (trial.spec.use == Use::mvc || trial.spec.use == Use::static_pose ||

@@ -118,6 +118,8 @@ TEST(WriteResults, LeavesTheFilesThatArePromised) {
                                          "ci_high_sandwich",
                                          "ci_low_cluster",
                                          "ci_high_cluster",
+                                         "ci_low_jackknife",
+                                         "ci_high_jackknife",
                                          "ci_low_bootstrap",
                                          "ci_high_bootstrap",
                                          "ci_low_profile",

@@ -8,12 +8,17 @@
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
+#include "myoid/math/statistics.h"
 #include "myoid/signals/filter.h"
 #include "myoid/signals/mains_hum.h"
 #include "myoid/signals/quality_limits.h"
+#include "myoid/signals/spectrum.h"
 
 namespace myoid::signals {
 namespace {
+
+constexpr double kSpectrumSegment_s = 0.25;
+constexpr double kUsualBandwidth_hz = 150.0;  ///< Of surface EMG where the raw signal is not known.
 
 /// Means over a window that slides sample by sample: entry i covers samples i .. i + width - 1.
 Eigen::VectorXd moving_mean(const Eigen::Ref<const Eigen::VectorXd>& x, Eigen::Index width) {
@@ -69,6 +74,12 @@ EmgStages process_emg(const TimeSeries& raw, const EnvelopeOptions& options) {
                         : zero_phase_filter(stages.raw, math::FilterBand::high_pass,
                                             options.highpass_hz, {.order = 2, .corrected = true});
   take_out_hum(options.notch && !options.as_published, stages);
+  stages.bandwidth_hz.setZero(raw.channel_count());
+  for (Eigen::Index c = 0; c < raw.channel_count(); ++c) {
+    const double bandwidth_hz = statistical_bandwidth_hz(
+        power_spectrum(stages.filtered.values().col(c), rate, kSpectrumSegment_s));
+    if (std::isfinite(bandwidth_hz)) stages.bandwidth_hz[c] = bandwidth_hz;
+  }
   stages.rectified =
       TimeSeries(raw.time_s(), raw.channels(),
                  options.rectify ? Eigen::MatrixXd(stages.filtered.values().cwiseAbs())
@@ -117,9 +128,11 @@ std::vector<ChannelNormalisation> find_normalisation(std::span<const TrialEnvelo
         n.source_trial = trial.trial;
         n.source_time_s = trial.envelope->time_s()[at + width / 2];
         n.from_mvc = trial.is_mvc;
-        // Rectified Gaussian noise of bandwidth B ~ 150 Hz averaged over the window: CV = 0.7555 /
-        // sqrt(2 B T).
-        n.relative_sd = 0.7555 / std::sqrt(2.0 * 150.0 * options.window_s);
+        n.bandwidth_hz = 0.0;
+        for (Eigen::Index c = 0; c < trial.bandwidth_hz.size(); ++c) {
+          if (trial.envelope->channels()[static_cast<std::size_t>(c)].name == channel.name)
+            n.bandwidth_hz = trial.bandwidth_hz[c];
+        }
       }
     }
     if (largest < 0.0) {
@@ -128,6 +141,29 @@ std::vector<ChannelNormalisation> find_normalisation(std::span<const TrialEnvelo
                       "longest has {:.4g} s); give a shorter one",
                       options.window_s, longest_s));
     }
+    // Rectified Gaussian noise of bandwidth B averaged over the window: CV = 0.7555 / sqrt(2 B T).
+    const double bandwidth_hz = n.bandwidth_hz > 0.0 ? n.bandwidth_hz : kUsualBandwidth_hz;
+    n.relative_sd = 0.7555 / std::sqrt(2.0 * bandwidth_hz * options.window_s);
+    // Windows whose mean may well be the same: by how long they last in all.
+    double windows = 0.0;
+    for (const TrialEnvelope& trial : trials) {
+      const Eigen::VectorXd& clock = trial.envelope->time_s();
+      if (options.window_s >
+          clock[clock.size() - 1] - clock[0] + 2.0 * trial.envelope->mean_interval_s())
+        continue;
+      const Eigen::Index width = window_samples(*trial.envelope, options.window_s);
+      const Eigen::VectorXd means = moving_mean(trial.envelope->column(channel.name), width);
+      bool near = false;
+      for (Eigen::Index i = 0; i < means.size(); ++i) {
+        const bool here = means[i] > largest * (1.0 - 2.0 * n.relative_sd);
+        if (here && !near) windows += 1.0;
+        if (here) windows += 1.0 / static_cast<double>(width);
+        near = here;
+      }
+    }
+    // Expected maximum of m normal numbers (Blom 1958).
+    n.relative_bias = n.relative_sd * math::normal_quantile((windows - 0.375) / (windows + 0.25));
+    n.relative_bias = std::max(0.0, n.relative_bias);
     n.reference_v =
         std::sqrt(std::max(0.0, largest * largest - n.resting_level_v * n.resting_level_v));
     if (!(n.reference_v > 0.0) || n.reference_v < 1e-3 * largest) {

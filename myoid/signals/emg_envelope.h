@@ -21,10 +21,11 @@ struct EnvelopeOptions {
 
 /// One trial's EMG on its way to the envelope, for looking at.
 struct EmgStages {
-  TimeSeries raw;        ///< As read, mean removed [V].
-  TimeSeries filtered;   ///< High-passed [V].
-  TimeSeries rectified;  ///< |filtered| [V].
-  TimeSeries envelope;   ///< Low-passed, never negative [V].
+  TimeSeries raw;                ///< As read, mean removed [V].
+  TimeSeries filtered;           ///< High-passed [V].
+  TimeSeries rectified;          ///< |filtered| [V].
+  TimeSeries envelope;           ///< Low-passed, never negative [V].
+  Eigen::VectorXd bandwidth_hz;  ///< Statistical bandwidth of each filtered channel.
   std::vector<std::string>
       findings;  ///< Mains hum, a rate too low for the EMG, an envelope clipped at 0.
 };
@@ -41,6 +42,7 @@ struct TrialEnvelope {
   std::string trial;
   bool is_mvc = false;
   const TimeSeries* envelope = nullptr;
+  Eigen::VectorXd bandwidth_hz;  ///< Of its channels' raw EMG; empty: not known.
 };
 
 /// What one EMG channel is measured against.
@@ -51,6 +53,10 @@ struct ChannelNormalisation {
       0.0;  ///< sqrt(m^2 - rest^2), m the largest moving mean over the study: activation 1.
   double relative_sd =
       0.0;  ///< Uncertainty of the reference: spread of a window's mean about its expectation.
+  /// By how much the largest of several noisy means lies above the true one, relative, on average:
+  /// `relative_sd` times the expected maximum of as many normal numbers as windows came near it.
+  double relative_bias = 0.0;
+  double bandwidth_hz = 0.0;   ///< Of the raw EMG where the maximum was found; 0: not known.
   std::string source_trial;    ///< Where the maximum was found ...
   double source_time_s = 0.0;  ///< ... the middle of its window ...
   bool from_mvc = false;       ///< ... and whether that trial is a maximal contraction.
@@ -61,7 +67,7 @@ struct NormalisationOptions {
 };
 
 /// One entry per channel of the first trial. All trials must have the same channels. The maximum of
-/// noisy means lies above the mean of the maximum; `relative_sd` is the size of that. Throws
+/// noisy means lies above the mean of the maximum; `relative_bias` is the size of that. Throws
 /// InvalidInput if a channel is missing somewhere or flat, or no trial is as long as the window.
 [[nodiscard]] std::vector<ChannelNormalisation> find_normalisation(
     std::span<const TrialEnvelope> trials, const NormalisationOptions& options = {});

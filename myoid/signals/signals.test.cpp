@@ -166,6 +166,30 @@ TEST(Normalisation, AWindowLongerThanEveryRecordingIsRefused) {
   EXPECT_EQ(find_normalisation(trials, {.window_s = 5.0})[0].source_trial, "task");
 }
 
+TEST(Normalisation, TheLargestOfManyNoisyMeansIsTooLargeByItsBias) {
+  // Gaussian noise of constant strength for 20 s; windows of 0.5 s. The true mean is sqrt(2 / pi).
+  double over = 0.0, expected = 0.0;
+  constexpr int kRecordings = 20;
+  for (unsigned seed = 1; seed <= kRecordings; ++seed) {
+    std::mt19937_64 engine(seed);
+    std::normal_distribution<double> normal;
+    Eigen::MatrixXd x(20000, 1);
+    for (double& v : x.reshaped()) v = 1e-3 * normal(engine);
+    const EmgStages emg = process_emg(
+        TimeSeries(Eigen::VectorXd::LinSpaced(20000, 0.0, 19.999), {{"m", Unit::volt}}, x));
+    const std::vector<TrialEnvelope> trials{{"a", true, &emg.envelope, emg.bandwidth_hz}};
+    double largest = 0.0;
+    const Eigen::VectorXd& e = emg.envelope.values().col(0);
+    for (Eigen::Index i = 0; i + 500 <= e.size(); ++i)
+      largest = std::max(largest, e.segment(i, 500).mean());
+    // Without signal there is no rest to subtract: the bias is that of the largest mean itself.
+    over += largest / (1e-3 * std::sqrt(2.0 / kPi)) / std::sqrt(0.96) - 1.0;
+    expected += find_normalisation(trials)[0].relative_bias;
+  }
+  // White noise above 20 Hz: 0.96 of the power is left. Expected about 7 %.
+  EXPECT_NEAR(expected / kRecordings, over / kRecordings, 0.4 * over / kRecordings);
+}
+
 TEST(Normalisation, RefusesAChannelThatNeverMoves) {
   const TimeSeries flat = steps({1e-6, 1e-6});
   const std::vector<TrialEnvelope> trials{{"a", false, &flat}};

@@ -88,6 +88,14 @@ double band_power(const PowerSpectrum& spectrum, double low_hz, double high_hz) 
   return power;
 }
 
+double statistical_bandwidth_hz(const PowerSpectrum& spectrum) {
+  if (spectrum.density.size() < 2) return std::numeric_limits<double>::quiet_NaN();
+  const double sum = spectrum.density.sum();
+  const double width_hz = spectrum.frequency_hz[1] - spectrum.frequency_hz[0];
+  return sum > 0.0 ? width_hz * sum * sum / spectrum.density.squaredNorm()
+                   : std::numeric_limits<double>::quiet_NaN();
+}
+
 double median_frequency_hz(const PowerSpectrum& spectrum, double low_hz, double high_hz) {
   const double half = 0.5 * band_power(spectrum, low_hz, high_hz);
   if (!(half > 0.0)) return kNan;

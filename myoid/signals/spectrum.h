@@ -29,6 +29,11 @@ struct PowerSpectrum {
                                          double low_hz,
                                          double high_hz);
 
+/// (sum S)^2 / sum S^2 times the width of a bin [Hz]: the width of a flat spectrum whose power
+/// fluctuates as much. The mean square over T then spreads by 1 / sqrt(B T) of itself (Bendat &
+/// Piersol). NaN without power.
+[[nodiscard]] double statistical_bandwidth_hz(const PowerSpectrum& spectrum);
+
 struct MedianFrequencyOptions {
   double window_s = 2.0;    ///< Consecutive windows, no overlap.
   double segment_s = 0.25;  ///< Of Welch's estimate within a window.

@@ -52,6 +52,17 @@ TEST(PowerSpectrum, AddsUpToTheMeanSquare) {
   EXPECT_NEAR(band_power(s, 100.0, 200.0), 9.0 / 5.0, 0.05 * 9.0 / 5.0);
 }
 
+TEST(StatisticalBandwidth, IsHowFastTheMeanSquareSettles) {
+  // White: half the sampling rate; the spread of a bin (120 segments) makes it 1 % less.
+  EXPECT_NEAR(statistical_bandwidth_hz(power_spectrum(white_noise(60000, 3), kRate_hz)), 500.0,
+              15.0);
+  // First-order autoregression: variance^2 over the sum of squared autocovariances c^2k, 500 (1 -
+  // c^2) / (1 + c^2).
+  const double c = 0.7;
+  EXPECT_NEAR(statistical_bandwidth_hz(power_spectrum(autoregression(60000, c, 4), kRate_hz)),
+              500.0 * (1.0 - c * c) / (1.0 + c * c), 10.0);
+}
+
 TEST(PowerSpectrum, ASineHasHalfItsSquaredAmplitudeAtItsFrequency) {
   Eigen::VectorXd x(5000);
   for (Eigen::Index i = 0; i < x.size(); ++i) {

@@ -33,14 +33,17 @@ void process_emg(const VirtualRecording& recording, ReadyPerson& person) {
     return;
   }
   std::vector<TimeSeries> envelopes;
+  std::vector<Eigen::VectorXd> bandwidths_hz;
   for (const VirtualTrial& trial : recording.trials) {
-    envelopes.push_back(
-        signals::process_emg(trial.emg, {.lowpass_hz = recording.protocol.lowpass_hz}).envelope);
+    signals::EmgStages stages =
+        signals::process_emg(trial.emg, {.lowpass_hz = recording.protocol.lowpass_hz});
+    envelopes.push_back(std::move(stages.envelope));
+    bandwidths_hz.push_back(std::move(stages.bandwidth_hz));
   }
   std::vector<signals::TrialEnvelope> views;
   for (std::size_t i = 0; i < envelopes.size(); ++i) {
     const TrialProtocol& trial = recording.trials[i].protocol;
-    views.push_back({trial.name, trial.use == "mvc", &envelopes[i]});
+    views.push_back({trial.name, trial.use == "mvc", &envelopes[i], bandwidths_hz[i]});
   }
   person.normalisation =
       signals::find_normalisation(views, {.window_s = recording.protocol.mvc_window_s});

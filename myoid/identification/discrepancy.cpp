@@ -1,0 +1,99 @@
+#include "myoid/identification/discrepancy.h"
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include <Eigen/Cholesky>
+
+namespace myoid::identification {
+
+Discrepancy discrepancy(const Estimator& estimator,
+                        const Estimator::Solution& solution,
+                        const Eigen::MatrixXd& model_based) {
+  constexpr double kPriorSize = 0.1;
+  const ResidualModel& model = estimator.model();
+  const Eigen::VectorXd& z = solution.search.x;
+  const Weighting& weighting = solution.weighting;
+  Evaluation at;
+  model.evaluate(z, ResidualModel::Depth::gradient, at);
+  const ErrorShapes shapes = model.error_shapes(z);
+  const Eigen::VectorXd root = std::sqrt(weighting.share) * weighting.sd_nm.cwiseInverse();
+  const Eigen::VectorXd residual = (model.measured() - at.predicted).cwiseProduct(root);
+  const Eigen::MatrixXd s =
+      shapes.weight.asDiagonal() * shapes.shapes_nm * root.asDiagonal();  // D S W^1/2
+  const Eigen::MatrixXd sj = s * root.asDiagonal() * at.gradient.transpose();
+  // D C D and D h: directions of unit weight. Of the data as they are, A has nothing taken out.
+  const Eigen::MatrixXd jacobian = at.gradient * root.asDiagonal();
+  Eigen::MatrixXd a = jacobian * jacobian.transpose();
+  for (Eigen::Index j = 0; j < z.size(); ++j) {
+    const double prior_sd = estimator.free()[static_cast<std::size_t>(j)].prior_sd;
+    if (prior_sd > 0.0) a(j, j) += 1.0 / (prior_sd * prior_sd);
+    a(j, j) *= 1.0 + 1e-12;
+  }
+  const Eigen::MatrixXd left = s * s.transpose() - sj * a.ldlt().solve(sj.transpose());
+  Eigen::VectorXd h = s * residual;
+  if (weighting.emg_variance.size() > 0) {
+    // The noise of the EMG is in the shapes and in the residual alike: that product has a mean.
+    const Eigen::MatrixXd noisy =
+        shapes.weight.asDiagonal() * shapes.by_emg * shapes.shapes_nm * root.asDiagonal();
+    for (Eigen::Index b = 0; b < h.size(); ++b) {
+      const int channel = shapes.channel[static_cast<std::size_t>(b)];
+      if (channel < 0) continue;
+      h[b] += estimator.channel_variance()[channel] *
+              (noisy.row(b).transpose().cwiseProduct(root).cwiseProduct(weighting.emg_variance))
+                  .dot(at.channel_torque.row(channel).transpose());
+    }
+  }
+  // -2 log likelihood of h, up to a constant, with sizes e on the diagonal of E:
+  //   log |I + E C E| - h'E (I + E C E)^-1 E h.
+  const Eigen::Index count = h.size();
+  const auto sizes = [&](double muscle, double joint) {
+    Eigen::VectorXd e(count);
+    for (Eigen::Index b = 0; b < count; ++b)
+      e[b] = shapes.channel[static_cast<std::size_t>(b)] >= 0 ? muscle : joint;
+    return e;
+  };
+  const auto misfit = [&](double muscle, double joint) {
+    const Eigen::VectorXd e = sizes(muscle, joint);
+    Eigen::MatrixXd m = e.asDiagonal() * left * e.asDiagonal();
+    m.diagonal().array() += 1.0;
+    const Eigen::LLT<Eigen::MatrixXd> factor(m);
+    if (factor.info() != Eigen::Success) return std::numeric_limits<double>::infinity();
+    const Eigen::VectorXd eh = e.cwiseProduct(h);
+    return (muscle * muscle + joint * joint) / (kPriorSize * kPriorSize) +
+           2.0 * factor.matrixLLT().diagonal().array().log().sum() - eh.dot(factor.solve(eh));
+  };
+  std::vector<double> grid;
+  for (double size = 0.003; size < 0.5; size *= 1.25) grid.push_back(size);
+  // Mean square of the sizes over their posterior; a size has no scale beforehand, so that the grid
+  // is even in its logarithm.
+  const auto points = static_cast<Eigen::Index>(grid.size());
+  Eigen::MatrixXd values(points, points);
+  for (Eigen::Index m = 0; m < points; ++m) {
+    for (Eigen::Index j = 0; j < points; ++j) {
+      const double muscle = grid[static_cast<std::size_t>(m)];
+      const double joint = grid[static_cast<std::size_t>(j)];
+      values(m, j) = misfit(muscle, joint);
+    }
+  }
+  const double least = values.minCoeff();
+  double sum = 0.0, muscle_sum = 0.0, joint_sum = 0.0;
+  for (Eigen::Index m = 0; m < points; ++m) {
+    for (Eigen::Index j = 0; j < points; ++j) {
+      const double weight = std::exp(-0.5 * (values(m, j) - least));
+      sum += weight;
+      muscle_sum += weight * std::pow(grid[static_cast<std::size_t>(m)], 2);
+      joint_sum += weight * std::pow(grid[static_cast<std::size_t>(j)], 2);
+    }
+  }
+  Discrepancy result;
+  result.relative_size = std::sqrt(muscle_sum / sum);
+  result.joint_size = std::sqrt(joint_sum / sum);
+  const Eigen::MatrixXd moved =
+      model_based * sj.transpose() * sizes(result.relative_size, result.joint_size).asDiagonal();
+  result.covariance = moved * moved.transpose();
+  return result;
+}
+
+}  // namespace myoid::identification
