@@ -385,6 +385,12 @@ void run(Options& o, Context& context) {
     }
   }
   if (o.figures) pipeline::write_figure(pipeline::movement_figure(s), o.out);
+  if (s.jumps_passed > 0) {
+    context.warn(fmt::format(
+        "{} times the equations jumped, as where the path of a muscle does; each was passed by a "
+        "step of 1 ns, and energy is not kept there",
+        s.jumps_passed));
+  }
   if (s.status != math::OdeStatus::done) {
     context.warn(fmt::format("not simulated to the end: {}", s.message));
     context.exit_code = kQualityGateFailed;

@@ -310,6 +310,40 @@ void StiffIntegrator::renew() {
   p.restart = true;
 }
 
+OdeStatus StiffIntegrator::hop(double dt_s) {
+  Parts& p = *parts_;
+  renew();
+  const std::size_t n = p.problem.state_count;
+  double* y = NV_DATA_S(p.y.get());
+  std::vector<double> rate(n);
+  if (!p.problem.rate(p.time, y, rate.data()) || !finite(rate.data(), n))
+    return OdeStatus::rate_failed;
+  if (p.quadrature) {
+    std::vector<double> power(p.problem.quadrature_count);
+    if (!p.problem.quadrature(p.time, y, power.data())) return OdeStatus::rate_failed;
+    for (std::size_t k = 0; k < power.size(); ++k)
+      NV_DATA_S(p.quadrature.get())[k] += dt_s * power[k];
+  }
+  if (p.problem.sensitivity_count > 0) {
+    std::vector<double> change(n * p.problem.sensitivity_count);
+    for (std::size_t k = 0; k < p.problem.sensitivity_count; ++k) {
+      p.s_in[k] = NV_DATA_S(p.sensitivity->raw[k]);
+      p.s_out[k] = change.data() + k * n;
+    }
+    if (!p.problem.sensitivity(p.time, y, p.s_in.data(), p.s_out.data()))
+      return OdeStatus::rate_failed;
+    for (std::size_t k = 0; k < p.problem.sensitivity_count; ++k) {
+      for (std::size_t i = 0; i < n; ++i)
+        NV_DATA_S(p.sensitivity->raw[k])[i] += dt_s * change[k * n + i];
+    }
+  }
+  for (std::size_t i = 0; i < n; ++i) y[i] += dt_s * rate[i];
+  p.previous = p.time;
+  p.time += dt_s;
+  p.creeping = 0;
+  return OdeStatus::done;
+}
+
 double StiffIntegrator::time_s() const { return parts_->time; }
 double StiffIntegrator::previous_time_s() const { return parts_->previous; }
 std::size_t StiffIntegrator::size() const { return parts_->problem.state_count; }

@@ -51,6 +51,9 @@ class StiffIntegrator {
   OdeStatus shorten(double time_s);
   /// The right-hand side jumps at the present time.
   void renew();
+  /// One explicit step of `dt_s` without control of its error, and a new beginning there: after
+  /// `step_too_small`, past a jump of the right-hand side that nobody announced.
+  OdeStatus hop(double dt_s);
 
   [[nodiscard]] double time_s() const;
   [[nodiscard]] double previous_time_s() const;
@@ -58,7 +61,7 @@ class StiffIntegrator {
   [[nodiscard]] std::span<const double> state() const;
   [[nodiscard]] OdeStatistics statistics() const;
 
-  /// At a time within the last step.
+  /// At a time within the last step (not within a hop).
   void interpolate(double time_s, std::span<double> y) const;
   void interpolate_quadrature(double time_s, std::span<double> z) const;
   /// Parameter by parameter.

@@ -112,6 +112,38 @@ TEST(StiffIntegrator, SensitivitiesAreTheDerivativesOfTheSolution) {
   EXPECT_NEAR(s[1], std::exp(-1.4), 1e-7);
 }
 
+TEST(StiffIntegrator, PassesAJumpThatNobodyAnnounced) {
+  StiffProblem p;
+  p.state_count = 1;
+  p.quadrature_count = 1;
+  p.rate = [](double t, const double*, double* d) {
+    d[0] = t < 0.3 ? 1.0 : 1e9;
+    return true;
+  };
+  p.quadrature = [](double, const double*, double* d) {
+    d[0] = 2.0;
+    return true;
+  };
+  StiffIntegrator solver(std::move(p), {.relative_tolerance = 1e-12, .absolute_tolerance = 1e-14});
+  solver.start(0.0, std::array{0.0});
+  ASSERT_EQ(run(solver, 1.0), OdeStatus::step_too_small);
+  EXPECT_NEAR(solver.time_s(), 0.3, 1e-9);
+  int hops = 0;
+  OdeStatus status = OdeStatus::step_too_small;
+  while (status == OdeStatus::step_too_small && hops < 5) {
+    ++hops;
+    ASSERT_EQ(solver.hop(1e-9), OdeStatus::done);
+    status = run(solver, 1.0);
+  }
+  ASSERT_EQ(status, OdeStatus::done);
+  EXPECT_LE(hops, 2);
+  // A nanosecond or two at 1 instead of 1e9.
+  EXPECT_NEAR(solver.state()[0], 0.3 + 0.7e9, 2.5);
+  std::array<double, 1> z{};
+  solver.interpolate_quadrature(1.0, z);
+  EXPECT_NEAR(z[0], 2.0, 1e-12);
+}
+
 TEST(StiffIntegrator, SaysWhyItDoesNotGoOn) {
   StiffProblem p;
   p.state_count = 1;

@@ -264,7 +264,8 @@ std::string simulation_json(const Simulation& s, const Provenance& provenance) {
                        {"steps", s.statistics.steps},
                        {"rejected_steps", s.statistics.rejected},
                        {"rate_evaluations", s.statistics.rate_evaluations},
-                       {"kinks_located", s.statistics.events}};
+                       {"kinks_located", s.statistics.events},
+                       {"jumps_passed", s.jumps_passed}};
   if (s.energy.sample_count() > 1) {
     const simulation::EnergyBalance balance = simulation::energy_balance(s);
     json["energy"] = {{"turned_over_j", balance.turned_over_j},

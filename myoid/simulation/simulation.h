@@ -75,6 +75,10 @@ struct Simulation {
   std::string message;  ///< One sentence.
   math::OdeStatistics statistics;
   double reached_s = 0.0;  ///< The results go so far.
+  /// How often no step was short enough for the tolerance, because the right-hand side jumps (a
+  /// path whose length does), and a nanosecond was passed without control of the error. 200 at
+  /// most.
+  long jumps_passed = 0;
 
   /// Per coordinate: NAME, NAME_speed, NAME_acceleration [rad | m ...].
   TimeSeries motion;

@@ -84,6 +84,7 @@ class SimulationRun {
   }
 
  private:
+  static constexpr long kMostJumps = 200;
   static constexpr std::size_t kMuscleWorks = 6;
   static constexpr const char* kMuscleWorkNames[] = {"active", "passive",       "viscous",
                                                      "tendon", "musculotendon", "kinetic"};
@@ -299,8 +300,9 @@ class SimulationRun {
     work_.assign(works_, 0.0);
     const auto on_step = [&](const math::StiffIntegrator& s) {
       return emit(s.time_s(), [&](double t) {
-        s.interpolate(t, y_);
-        if (works_ > 0) s.interpolate_quadrature(t, work_);
+        const double known = std::max(t, s.previous_time_s());  // t may lie within a hop
+        s.interpolate(known, y_);
+        if (works_ > 0) s.interpolate_quadrature(known, work_);
       });
     };
     return drive(stepper, y_, g, on_step);
@@ -326,6 +328,16 @@ class SimulationRun {
     while (status == math::OdeStatus::done) {
       status = math::integrate(stepper, limit_, signs, g, on_step, rate...);
       now_ = stepper.time_s();
+      if constexpr (sizeof...(Rate) == 0) {
+        if (status == math::OdeStatus::step_too_small && result_.jumps_passed < kMostJumps) {
+          ++result_.jumps_passed;
+          status = stepper.hop(std::min(1e-9, 0.5 * (limit_ - now_)));
+          now_ = stepper.time_s();
+          std::copy(stepper.state().begin(), stepper.state().end(), y.begin());
+          look();
+          continue;
+        }
+      }
       if (status != math::OdeStatus::done || !(now_ < options_.end_s)) break;
       const bool jumped = std::binary_search(breaks_.begin(), breaks_.end(), now_);
       std::copy(stepper.state().begin(), stepper.state().end(), y.begin());
@@ -421,6 +433,8 @@ class SimulationRun {
       return TimeSeries(t, std::move(channels), values.topRows(rows));
     };
     result_.message = std::string(math::explain(result_.status));
+    if (result_.jumps_passed > 0)
+      result_.message += fmt::format(", past {} jumps of the equations", result_.jumps_passed);
     if (result_.status != math::OdeStatus::done)
       result_.message += fmt::format(" (at {:.6g} s)", result_.reached_s);
     std::vector<Channel> motion;
