@@ -10,6 +10,7 @@
 #include <Eigen/SVD>
 #include <fmt/format.h>
 
+#include "myoid/core/units.h"
 #include "myoid/math/butterworth.h"
 #include "myoid/math/zero_phase.h"
 #include "myoid/signals/resample.h"
@@ -24,6 +25,8 @@ constexpr double kLeastLength_s = 3.0;
 constexpr double kLeastCorrelation = 0.6;
 constexpr double kMostSd_s = 0.1;
 constexpr int kBlocks = 8;
+constexpr double kLeastSpeed_hz = 0.5;  ///< Slower, posture holds at any delay and misleads.
+constexpr double kLeastMotion = 0.03;   ///< rad or m, standard deviation: less is not a movement.
 
 /// The first `most` principal components of the columns. `standardized`: every column counts alike.
 Eigen::MatrixXd principal(Eigen::MatrixXd x, Eigen::Index most, bool standardized) {
@@ -62,6 +65,21 @@ Eigen::MatrixXd demand(const Eigen::MatrixXd& motion) {
     result.col(2 * c + 1) = second / std::max(second.norm(), 1e-300);
   }
   return result;
+}
+
+/// True if there is a movement whose inertia can be felt: large enough, and quick enough by the
+/// frequency of a sine with its ratio of velocity to position.
+bool is_quick(const Eigen::MatrixXd& motion) {
+  const Eigen::MatrixXd centered = motion.rowwise() - motion.colwise().mean();
+  const auto n = static_cast<double>(motion.rows());
+  if (std::sqrt(centered.squaredNorm() / n) < kLeastMotion) return false;
+  const auto sections =
+      math::design_butterworth(math::FilterBand::low_pass, 2, kMotionBelow_hz, kRate_hz);
+  const Eigen::MatrixXd position = principal(motion, 1, false);
+  if (position.cols() == 0) return false;
+  const Eigen::VectorXd q = math::zero_phase(sections, position.col(0));
+  const double rate = (q.tail(q.size() - 1) - q.head(q.size() - 1)).norm() * kRate_hz;
+  return rate / (2.0 * kPi * q.norm()) >= kLeastSpeed_hz;
 }
 
 /// Sums of products of [1, x(t - d), y(t)] over one block.
@@ -125,7 +143,9 @@ std::optional<ClockOffset> estimate_clock_offset(const TimeSeries& envelopes,
     return std::nullopt;
   const Eigen::VectorXd clock = even_clock(begin_s, end_s, kRate_hz);
   const Eigen::MatrixXd x = principal(resample(envelopes, clock).values(), 4, true);
-  const Eigen::MatrixXd y = demand(resample(motion, clock).values());
+  const Eigen::MatrixXd path = resample(motion, clock).values();
+  if (!is_quick(path)) return std::nullopt;
+  const Eigen::MatrixXd y = demand(path);
   if (x.cols() == 0 || y.cols() == 0) return std::nullopt;
 
   const auto reach = static_cast<Eigen::Index>(kReach_s * kRate_hz);

@@ -23,7 +23,7 @@ struct Swing {
     math::Random random(seed);
     double value = derivative == 0 ? 1.0 : 0.0;
     for (int k = 0; k < 6; ++k) {
-      const double w = 2.0 * kPi * (0.15 + 1.2 * random.uniform());
+      const double w = 2.0 * kPi * (0.4 + 1.0 * random.uniform());
       const double phase = 2.0 * kPi * random.uniform();
       const double amplitude = 0.6 / (1.0 + 0.3 * w);
       value += derivative == 0 ? amplitude * std::sin(w * t + phase)
@@ -82,6 +82,18 @@ TEST(ClockOffset, OfWhatHasNothingToDoWithTheMotionNothingIsSaid) {
   TimeSeries still = motion(swing, 20.0);
   still = TimeSeries(still.time_s(), still.channels(), 0.0 * still.values());
   EXPECT_FALSE(estimate_clock_offset(effort(swing, 20.0, 0.05), still));
+}
+
+TEST(ClockOffset, OfASlowOrATinyMovementNothingIsSaid) {
+  // Ten times slower, the torque follows the posture at any delay; without movement it is noise.
+  const Swing swing{1};
+  const TimeSeries quick = motion(swing, 20.0);
+  const TimeSeries slow(10.0 * quick.time_s(), quick.channels(), quick.values());
+  const TimeSeries drive = effort(swing, 20.0, 0.05);
+  EXPECT_FALSE(estimate_clock_offset(
+      TimeSeries(10.0 * drive.time_s(), drive.channels(), drive.values()), slow));
+  const TimeSeries tiny(quick.time_s(), quick.channels(), 0.01 * quick.values());
+  EXPECT_FALSE(estimate_clock_offset(drive, tiny));
 }
 
 TEST(ClockOffset, OutsideWhatABodyCanDoItIsAWarning) {
