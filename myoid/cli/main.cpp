@@ -67,6 +67,7 @@ int run(int argc, char** argv, myoid::cli::Context& context) {
   myoid::cli::add_twin_study(app, context);
   myoid::cli::add_design(app, context);
   myoid::cli::add_report(app, context);
+  myoid::cli::add_run_tool(app, context);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -1,3 +1,5 @@
+#include "myoid/forces/static_optimization.h"
+
 #include <cmath>
 #include <string>
 #include <vector>

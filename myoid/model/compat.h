@@ -31,6 +31,10 @@ struct Compat {
   bool unseen_moving_points = false;
   /// Offsets of joints and inertias of documents before 30500 rounded to six digits.
   bool six_digit_offsets = false;
+  /// Accelerations of a CustomJoint: its second axis is carried by the first coordinate alone, its
+  /// third by all but the third coordinate, whichever axes those turn. Differs where axes share a
+  /// coordinate; seen in inverse dynamics and static optimization.
+  bool axes_carried_by_coordinates = false;
   /// Static optimization: Millard's cos(pennation) at the normalized fiber length.
   bool normalized_pennation = false;
 
@@ -46,6 +50,7 @@ inline constexpr Compat kOpenSim452{.opensim_paths = true,
                                     .mirrored_without_fan = true,
                                     .unseen_moving_points = true,
                                     .six_digit_offsets = true,
+                                    .axes_carried_by_coordinates = true,
                                     .normalized_pennation = true};
 
 /// "exact" or "opensim"; throws InvalidInput for anything else.

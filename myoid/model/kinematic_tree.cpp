@@ -53,7 +53,26 @@ struct RelativeMotion {
   Vec3 w = Vec3::Zero(), v = Vec3::Zero(), alpha = Vec3::Zero(), a = Vec3::Zero();
 };
 
+/// Angular velocity that is taken to carry axis i: that of the axes before it or, as OpenSim has it
+/// (Compat::axes_carried_by_coordinates), of all axes under the first coordinate (for the second)
+/// or under any but the third coordinate (for the third).
+Vec3 carrying_rate(const Joint& joint,
+                   const JointPosture& p,
+                   const Eigen::Ref<const Eigen::VectorXd>& qdot,
+                   std::size_t i) {
+  Vec3 w = Vec3::Zero();
+  for (std::size_t k = 0; k < 3; ++k) {
+    const int c = joint.rotation[k].coordinate;
+    if (c < 0) continue;
+    const bool counts = i == 1 ? c == joint.coordinates[0]
+                               : joint.coordinates.size() < 3 || c != joint.coordinates[2];
+    if (counts) w += p.angle[k].first * qdot[c] * p.axis_F[k];
+  }
+  return w;
+}
+
 RelativeMotion relative_motion(const Joint& joint,
+                               bool by_coordinates,
                                const JointPosture& p,
                                const Eigen::Ref<const Eigen::VectorXd>& qdot,
                                const Eigen::Ref<const Eigen::VectorXd>& qddot) {
@@ -63,8 +82,10 @@ RelativeMotion relative_motion(const Joint& joint,
     if (c < 0) continue;
     const double rate = p.angle[i].first * qdot[c];
     // The axis is carried by the rotations before it, whose angular velocity so far is m.w.
-    m.alpha += (p.angle[i].second * qdot[c] * qdot[c] + p.angle[i].first * qddot[c]) * p.axis_F[i] +
-               rate * m.w.cross(p.axis_F[i]);
+    m.alpha +=
+        (p.angle[i].second * qdot[c] * qdot[c] + p.angle[i].first * qddot[c]) * p.axis_F[i] +
+        rate *
+            (by_coordinates && i > 0 ? carrying_rate(joint, p, qdot, i) : m.w).cross(p.axis_F[i]);
     m.w += rate * p.axis_F[i];
   }
   for (std::size_t i = 0; i < 3; ++i) {
@@ -184,7 +205,9 @@ Eigen::VectorXd inverse_dynamics(const BodyModel& model,
     const JointPosture p = posture(joint, q);
     const Pose X_GF = state.X_GB[parent] * joint.X_PF;
     const Vec3 p_GM = X_GF * p.X_FM.p;
-    const RelativeMotion m = relative_motion(joint, p, qdot, qddot);
+    const bool by_coordinates =
+        model.compat.axes_carried_by_coordinates && joint.class_name == "CustomJoint";
+    const RelativeMotion m = relative_motion(joint, by_coordinates, p, qdot, qddot);
     const Vec3 w_P = state.w_GB[parent];
     const Vec3 rho = p_GM - state.X_GB[parent].p;
     const Vec3 w_rel = X_GF.R * m.w;

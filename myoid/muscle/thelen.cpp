@@ -49,6 +49,20 @@ double thelen_force_velocity(const ThelenParameters& p,
   return limit + (v - v_limit) / slope;
 }
 
+double thelen_fiber_velocity(const ThelenParameters& p, double activation, double multiplier) {
+  const double slowed = 0.25 + 0.75 * activation;
+  const double af = p.concentric_shape;
+  const double flen = p.eccentric_plateau;
+  const double f = multiplier;
+  if (f < 0.0) return slowed * (-1.0 + (1.0 + 1.0 / af) * f);
+  if (f <= 1.0) return slowed * (f - 1.0) / (1.0 + f / af);
+  const double k = (2.0 + 2.0 / af) / (flen - 1.0);
+  const double limit = p.extrapolation * flen;
+  if (f <= limit) return slowed * (f - 1.0) / (k * (flen - f));
+  const double slope = (flen - 1.0) / (k * (flen - limit) * (flen - limit));
+  return slowed * ((limit - 1.0) / (k * (flen - limit)) + slope * (f - limit));
+}
+
 double thelen_optimal_force(const ThelenParameters& p,
                             double musculotendon_length_m,
                             double musculotendon_velocity_mps) {

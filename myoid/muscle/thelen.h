@@ -41,6 +41,12 @@ struct RigidTendonFiber {
                                            double activation,
                                            double normalized_velocity);
 
+/// The normalized velocity at which the force-velocity multiplier is `multiplier`: the law above
+/// solved for v, going on as a line below f = 0 too.
+[[nodiscard]] double thelen_fiber_velocity(const ThelenParameters& parameters,
+                                           double activation,
+                                           double multiplier);
+
 /// Force along the tendon [N] per unit activation command, at full activation and with a rigid
 /// tendon:
 ///   F = F_max f_l f_v cos(alpha). What static optimization multiplies by the activation.

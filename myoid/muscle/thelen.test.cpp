@@ -20,6 +20,17 @@ TEST(ThelenForceVelocity, InvertsThePublishedLawInBothBranches) {
   }
 }
 
+TEST(ThelenForceVelocity, IsUndoneByTheFiberVelocity) {
+  const ThelenParameters p{.concentric_shape = 0.3, .eccentric_plateau = 1.8};
+  for (const double a : {0.05, 0.5, 1.0}) {
+    for (const double f : {0.0, 0.2, 0.9, 1.0, 1.2, 1.7, 1.75, 2.5})
+      EXPECT_NEAR(thelen_force_velocity(p, a, thelen_fiber_velocity(p, a, f)), f, 1e-12);
+    // Below zero force the velocity goes on as the line that touches the curve there.
+    EXPECT_NEAR(thelen_fiber_velocity(p, a, -0.1) - thelen_fiber_velocity(p, a, 0.0),
+                -0.1 * (0.25 + 0.75 * a) * (1.0 + 1.0 / 0.3), 1e-12);
+  }
+}
+
 TEST(ThelenForceVelocity, IsContinuousWhereTheLineBegins) {
   const ThelenParameters p;
   double last = thelen_force_velocity(p, 1.0, -1.2);

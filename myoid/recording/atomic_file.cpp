@@ -51,7 +51,7 @@ void write_through(const std::filesystem::path& path, std::string_view content) 
 
 }  // namespace
 
-void write_file(const std::filesystem::path& path, std::string_view content) {
+void write_file(const std::filesystem::path& path, std::string_view content, Flush flush) {
   if (path.empty()) throw InvalidInput("the name of the file to write is empty");
   struct stat existing {};
   const bool exists = stat(path.c_str(), &existing) == 0;
@@ -74,7 +74,9 @@ void write_file(const std::filesystem::path& path, std::string_view content) {
   if (descriptor < 0) fail(path, "cannot be written", errno);
   int cause = write_all(descriptor, content);
   const mode_t permissions = exists ? existing.st_mode & 07777 : 0644;
-  if (cause == 0 && (fchmod(descriptor, permissions) != 0 || fsync(descriptor) != 0)) cause = errno;
+  if (cause == 0 &&
+      (fchmod(descriptor, permissions) != 0 || (flush == Flush::now && fsync(descriptor) != 0)))
+    cause = errno;
   if (close(descriptor) != 0 && cause == 0) cause = errno;
   if (cause == 0 && rename(temporary.c_str(), target.c_str()) == 0) return;
   if (cause == 0) cause = errno;

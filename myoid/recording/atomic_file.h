@@ -10,6 +10,12 @@ namespace myoid::recording {
 /// to is replaced and the link stays; an existing file keeps its permissions. What is no file (a
 /// pipe, a device such as /dev/stdout) is written to as it is. Throws InvalidInput with the cause
 /// (disk full, no permission, a folder of that name) and leaves an existing file as it was.
-void write_file(const std::filesystem::path& path, std::string_view content);
+///
+/// `Flush::later` leaves it to the system when the disk gets it: many times faster for many files,
+/// which a loss of power within seconds may leave empty; for results that can be computed again.
+enum class Flush { now, later };
+void write_file(const std::filesystem::path& path,
+                std::string_view content,
+                Flush flush = Flush::now);
 
 }  // namespace myoid::recording

@@ -1,0 +1,54 @@
+#include "myoid/pipeline/run_tool.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "myoid/cli/context.h"
+
+namespace myoid::cli {
+
+void add_run_tool(CLI::App& app, Context& context) {
+  CLI::App& command = *app.add_subcommand(
+      "run-tool",
+      "Run an OpenSim set-up file: inverse kinematics, inverse dynamics, analyses, scaling\n"
+      "Example: myoid run-tool subject01_Setup_IK.xml");
+  struct Options {
+    std::string setup, compat = "opensim";
+  };
+  const auto o = std::make_shared<Options>();
+  command.add_option("setup", o->setup, "Set-up file (.xml)")->required();
+  command
+      .add_option("--compat", o->compat,
+                  "opensim: paths of muscles as OpenSim 4.5.2 computes them; exact: as their "
+                  "geometry is (default opensim)")
+      ->check(CLI::IsMember({"opensim", "exact"}));
+  add_common_options(command, context, {.seed = false, .range = false, .overwrite = false});
+  command.callback([&context, o] {
+    pipeline::ToolOptions options{.compat = model::parse_compat(o->compat),
+                                  .progress = context.progress()};
+    int replaced = 0;
+    options.claim = [&](const std::filesystem::path& path) {
+      std::error_code ignored;
+      if (std::filesystem::exists(path, ignored)) ++replaced;
+    };
+    const pipeline::ToolResult result = pipeline::run_tool(o->setup, options);
+    context.end_progress();
+    for (const std::string& note : result.notes) context.warn(note);
+    if (replaced > 0) context.log(fmt::format("{} files of an earlier run are replaced", replaced));
+    if (context.json) {
+      nlohmann::ordered_json json{{"tool", result.tool},
+                                  {"summary", result.summary},
+                                  {"frames", result.frames},
+                                  {"frames_failed", result.frames_failed},
+                                  {"notes", result.notes}};
+      for (const auto& file : result.files) json["files"].push_back(file.string());
+      fmt::print("{}\n", json.dump(2));
+    } else {
+      fmt::print("{}{}{}\n", result.tool, result.summary.empty() ? "" : ": ", result.summary);
+      for (const auto& file : result.files) fmt::print("{}\n", file.string());
+    }
+    if (result.frames_failed > 0) context.exit_code = kQualityGateFailed;
+  });
+}
+
+}  // namespace myoid::cli

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <Eigen/Core>
+
+namespace myoid::forces {
+
+/// Which controls x of given actuators make given generalized forces?
+///
+///   minimize  sum_i |x_i|^p   subject to  A x = b,   lower <= x <= upper
+///
+/// A column of A is the generalized force of an actuator at x = 1; bounds may be infinite.
+struct ActuatorProblem {
+  Eigen::MatrixXd forces;    ///< A: rows x actuators [N m, N].
+  Eigen::VectorXd required;  ///< b [N m, N]
+  Eigen::VectorXd lower, upper;
+  double exponent = 2.0;  ///< p > 1
+};
+
+struct ActuatorSolution {
+  Eigen::VectorXd control;     ///< x
+  Eigen::VectorXd multiplier;  ///< lambda, of A x = b.
+  /// Greatest violation of the optimality conditions, each relative to the greatest term in it:
+  /// balance of every row, p |x|^(p-1) sign x = A' lambda for a free control, its right sign at a
+  /// bound.
+  double kkt_residual = 0.0;
+  double shortfall = 0.0;  ///< Greatest |b - A x| relative to the greatest |b|.
+  int iterations = 0;
+  bool solved = false;   ///< Certified: kkt_residual <= 1e-9.
+  bool feasible = true;  ///< Otherwise: the controls that come nearest, with `shortfall`.
+};
+
+/// Newton's method on the concave dual: given lambda, every control follows in closed form,
+/// x_i = clip((A' lambda)_i / p)^(1/(p-1)). Exact to round-off where the actuators can make b;
+/// where they cannot, a penalty of 1e6 times the cost of the greatest control shares out the rest,
+/// and `feasible` is false. Throws InvalidInput if sizes disagree, p <= 1 or a bound lies above the
+/// other.
+[[nodiscard]] ActuatorSolution solve_actuators(const ActuatorProblem& problem,
+                                               const Eigen::VectorXd* start = nullptr);
+
+}  // namespace myoid::forces

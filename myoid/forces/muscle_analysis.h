@@ -1,0 +1,41 @@
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "myoid/core/progress.h"
+#include "myoid/core/time_series.h"
+#include "myoid/kinematics/joint_motion.h"
+#include "myoid/model/body_model.h"
+
+namespace myoid::forces {
+
+struct MuscleAnalysisOptions {
+  std::vector<int> muscles{};      ///< Indices in the model; empty: all.
+  std::vector<int> coordinates{};  ///< Those whose moment arms and moments are wanted.
+  /// Fiber and tendon in balance in every frame; else fibers have `fiber_length_m`.
+  bool equilibrium = true;
+  /// Frames x all muscles of the model; empty: the model's default values.
+  Eigen::MatrixXd activation{}, fiber_length_m{};
+  Progress progress{};
+};
+
+struct MuscleAnalysis {
+  /// Table by OpenSim's name: "MomentArm_<coordinate>", "Moment_<coordinate>", "PennationAngle",
+  /// "Length", "FiberLength", ... in the order in which its analysis writes them; channels are the
+  /// muscles.
+  std::vector<std::pair<std::string, TimeSeries>> tables;
+  std::vector<std::string> notes;
+};
+
+/// What OpenSim's MuscleAnalysis reports of muscles along a motion [m, m/s, rad, rad/s, N, N m, W;
+/// fractions of the optimal length and of v_max]. Positive powers do work on what is outside: fiber
+/// -F v, tendon -F v, muscle -F dl/dt. Moment arms as in kinematics::MuscleKinematics; a moment is
+/// arm times tendon force. Dependent coordinates are first made to obey their constraints. Parallel
+/// over frames; the same for every number of threads.
+[[nodiscard]] MuscleAnalysis muscle_analysis(const model::BodyModel& model,
+                                             const kinematics::JointMotion& motion,
+                                             const MuscleAnalysisOptions& options = {});
+
+}  // namespace myoid::forces

@@ -1,0 +1,281 @@
+#include "myoid/forces/static_optimization.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <Eigen/QR>
+#include <fmt/format.h>
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/parallel_for.h>
+
+#include "myoid/core/error.h"
+#include "myoid/dynamics/passive_forces.h"
+#include "myoid/forces/actuator_sharing.h"
+#include "myoid/forces/opensim_muscle.h"
+#include "myoid/model/constraints.h"
+#include "myoid/model/kinematic_tree.h"
+#include "myoid/model/muscle_path.h"
+
+namespace myoid::forces {
+namespace {
+
+std::size_t at(Eigen::Index index) { return static_cast<std::size_t>(index); }
+
+/// One column of the problem.
+struct Actuator {
+  enum class Kind { muscle, coordinate, point, torque } kind = Kind::muscle;
+  std::size_t index = 0;  ///< In the model's list of its kind.
+  std::string name;
+  double lower = 0.0, upper = 1.0;
+};
+
+std::vector<Actuator> actuators_of(const model::BodyModel& model) {
+  std::vector<Actuator> all;
+  const auto add = [&](Actuator::Kind kind, const auto& list) {
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      if (!list[i].applies_force) continue;
+      Actuator a{kind, i, list[i].name, 0.0, 1.0};
+      if constexpr (requires { list[i].properties; }) {
+        a.lower = list[i].properties.min_control;
+        a.upper = list[i].properties.max_control;
+      } else {
+        a.lower = list[i].min_control;
+        a.upper = list[i].max_control;
+      }
+      all.push_back(std::move(a));
+    }
+  };
+  add(Actuator::Kind::muscle, model.muscles);
+  add(Actuator::Kind::coordinate, model.actuators);
+  add(Actuator::Kind::point, model.point_actuators);
+  add(Actuator::Kind::torque, model.torque_actuators);
+  const auto place = [&](const Actuator& a) {
+    return std::find(model.force_order.begin(), model.force_order.end(), a.name) -
+           model.force_order.begin();
+  };
+  std::stable_sort(all.begin(), all.end(),
+                   [&](const Actuator& a, const Actuator& b) { return place(a) < place(b); });
+  return all;
+}
+
+Vec3 angular_column(const model::BodyModel& model,
+                    const model::BodyState& state,
+                    model::BodyIndex body,
+                    int coordinate) {
+  for (model::BodyIndex b = body; b != 0;) {
+    const model::Joint& joint = model.joints[at(model.joint_of_body[at(b)])];
+    for (const int c : joint.coordinates)
+      if (c == coordinate) return state.H_w_G[at(c)];
+    b = joint.parent;
+  }
+  return Vec3::Zero();
+}
+
+/// What a frame needs, reused from frame to frame; one per thread.
+class Frame {
+ public:
+  Frame(const model::BodyModel& model,
+        const std::vector<Actuator>& actuators,
+        const std::vector<OpensimMuscle>& muscles,
+        const StaticOptimizationOptions& options)
+      : model_(model),
+        actuators_(actuators),
+        muscles_(muscles),
+        options_(options),
+        state_(model::make_state(model)) {
+    for (std::size_t c = 0; c < model.coordinates.size(); ++c) {
+      if (!model.is_constrained(static_cast<int>(c))) free_.push_back(static_cast<Eigen::Index>(c));
+    }
+  }
+
+  /// The problem at one instant; `strength` gets the force of each actuator at control 1.
+  ActuatorProblem problem(Eigen::VectorXd q,
+                          const Eigen::VectorXd& u,
+                          Eigen::VectorXd udot,
+                          double time_s,
+                          Eigen::VectorXd& strength) {
+    if (!model_.constraints.empty() || !model_.couplers.empty()) q = model::assemble(model_, q).q;
+    const Eigen::MatrixXd T = constrain(q, u, udot);
+    model::compute_poses(model_, q, state_);
+    model::compute_velocities(model_, u, state_);
+    wrenches_.clear();
+    Eigen::VectorXd passive = Eigen::VectorXd::Zero(q.size());
+    if (options_.loads != nullptr) options_.loads->append_wrenches(state_, time_s, wrenches_);
+    if (!model_.passive_forces.empty())
+      dynamics::append_passive_forces(model_, state_, passive, wrenches_);
+    const Eigen::VectorXd required =
+        model::inverse_dynamics(model_, q, u, udot, wrenches_, state_) - passive;
+    const auto n = static_cast<Eigen::Index>(actuators_.size());
+    Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(q.size(), n);
+    strength.resize(n);
+    for (Eigen::Index i = 0; i < n; ++i) strength[i] = column(actuators_[at(i)], columns, i);
+    ActuatorProblem p;
+    p.forces = T.transpose() * columns;
+    p.required = T.transpose() * required;
+    p.lower.resize(n);
+    p.upper.resize(n);
+    for (Eigen::Index i = 0; i < n; ++i) {
+      p.lower[i] = actuators_[at(i)].lower;
+      p.upper[i] = actuators_[at(i)].upper;
+    }
+    p.exponent = options_.exponent;
+    return p;
+  }
+
+ private:
+  /// Basis of the speeds that the constraints allow; makes udot obey them.
+  Eigen::MatrixXd constrain(const Eigen::VectorXd& q,
+                            const Eigen::VectorXd& u,
+                            Eigen::VectorXd& udot) {
+    const Eigen::Index nq = q.size();
+    for (Eigen::Index c = 0; c < nq; ++c)
+      if (model_.coordinates[at(c)].locked) udot[c] = 0.0;
+    if (model_.constraints.empty()) {
+      Eigen::MatrixXd T = Eigen::MatrixXd::Zero(nq, static_cast<Eigen::Index>(free_.size()));
+      for (std::size_t k = 0; k < free_.size(); ++k)
+        T(free_[k], static_cast<Eigen::Index>(k)) = 1.0;
+      // Chains of couplers settle in as many rounds as there are couplers.
+      for (std::size_t round = 0; round < model_.couplers.size(); ++round) {
+        for (const model::CoordinateCoupler& c : model_.couplers) {
+          const model::FunctionValue f = evaluate(c.function, q[c.independent]);
+          T.row(c.dependent) = f.first * T.row(c.independent);
+          udot[c.dependent] =
+              f.first * udot[c.independent] + f.second * u[c.independent] * u[c.independent];
+        }
+      }
+      return T;
+    }
+    // A udot = -dA/dt u, the other accelerations as near to their targets as that allows.
+    const auto rows_at = [&](const Eigen::VectorXd& posture) {
+      model::compute_poses(model_, posture, state_);
+      const Eigen::MatrixXd A = model::constraint_jacobian(model_, state_);
+      std::vector<Eigen::Index> fixed;
+      for (Eigen::Index c = 0; c < nq; ++c) {
+        const model::Coordinate& k = model_.coordinates[at(c)];
+        if (k.locked || k.prescribed) fixed.push_back(c);
+      }
+      Eigen::MatrixXd all =
+          Eigen::MatrixXd::Zero(A.rows() + static_cast<Eigen::Index>(fixed.size()), nq);
+      all.topRows(A.rows()) = A;
+      for (std::size_t k = 0; k < fixed.size(); ++k)
+        all(A.rows() + static_cast<Eigen::Index>(k), fixed[k]) = 1.0;
+      return all;
+    };
+    const double h = 1e-6;
+    const Eigen::VectorXd curve = (rows_at(q + h * u) - rows_at(q - h * u)) * u / (2.0 * h);
+    const Eigen::MatrixXd A = rows_at(q);
+    Eigen::VectorXd b = -curve;
+    for (Eigen::Index k = 0; k < b.size(); ++k) b[k] -= A.row(k).dot(udot);
+    udot += A.completeOrthogonalDecomposition().solve(b);
+    Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(A.transpose());
+    qr.setThreshold(1e-9);
+    const Eigen::MatrixXd basis = qr.householderQ();
+    return basis.rightCols(nq - qr.rank());
+  }
+
+  /// Generalized force of an actuator at control 1; returns its force.
+  double column(const Actuator& a, Eigen::MatrixXd& columns, Eigen::Index i) {
+    switch (a.kind) {
+      case Actuator::Kind::muscle: {
+        model::compute_path(model_, model_.muscles[a.index].path, state_, workspace_, path_);
+        const OpensimMuscle& muscle = muscles_[a.index];
+        const double force = options_.muscle_physiology
+                                 ? muscle.optimal_force(path_.length_m, path_.speed_mps)
+                                 : muscle.properties().max_isometric_force_n;
+        columns.col(i) = force * path_.moment_arm_m;
+        return force;
+      }
+      case Actuator::Kind::coordinate: {
+        const model::CoordinateActuator& c = model_.actuators[a.index];
+        columns(c.coordinate, i) = c.optimal_force;
+        return c.optimal_force;
+      }
+      case Actuator::Kind::point: {
+        const model::PointActuator& p = model_.point_actuators[a.index];
+        const Pose& X_GB = state_.X_GB[at(p.body)];
+        const Vec3 station = p.point_is_global ? Vec3(X_GB.inverse() * p.point) : p.point;
+        const Vec3 direction = p.force_is_global ? p.direction : Vec3(X_GB.R * p.direction);
+        columns.col(i) =
+            p.optimal_force *
+            (model::station_jacobian(model_, state_, p.body, station).transpose() * direction);
+        return p.optimal_force;
+      }
+      case Actuator::Kind::torque: {
+        const model::TorqueActuator& t = model_.torque_actuators[a.index];
+        const Vec3 axis = t.torque_is_global ? t.axis : Vec3(state_.X_GB[at(t.body_a)].R * t.axis);
+        for (int c = 0; c < static_cast<int>(model_.coordinates.size()); ++c) {
+          columns(c, i) = t.optimal_force * axis.dot(angular_column(model_, state_, t.body_a, c) -
+                                                     angular_column(model_, state_, t.body_b, c));
+        }
+        return t.optimal_force;
+      }
+    }
+    return 0.0;
+  }
+
+  const model::BodyModel& model_;
+  const std::vector<Actuator>& actuators_;
+  const std::vector<OpensimMuscle>& muscles_;
+  const StaticOptimizationOptions& options_;
+  model::BodyState state_;
+  std::vector<Eigen::Index> free_;
+  std::vector<model::BodyWrench> wrenches_;
+  model::PathWorkspace workspace_;
+  model::PathResult path_;
+};
+
+}  // namespace
+
+StaticOptimizationResult static_optimization(const model::BodyModel& model,
+                                             const kinematics::JointMotion& motion,
+                                             const StaticOptimizationOptions& options) {
+  const std::vector<Actuator> actuators = actuators_of(model);
+  if (actuators.empty())
+    throw ModelError("static optimization: the model has neither muscles nor actuators");
+  StaticOptimizationResult result;
+  std::vector<OpensimMuscle> muscles;
+  for (const model::Muscle& muscle : model.muscles) {
+    muscles.emplace_back(muscle, model.compat);
+    if (!muscles.back().has_own_curves() && muscle.applies_force && options.muscle_physiology) {
+      result.notes.push_back(fmt::format(
+          "muscle '{}' of class {}: its strength is that of Thelen's curves with a rigid tendon",
+          muscle.name, muscle.class_name));
+    }
+  }
+  const Eigen::Index frames = motion.sample_count();
+  const auto count = static_cast<Eigen::Index>(actuators.size());
+  Eigen::MatrixXd control(frames, count), force(frames, count);
+  result.kkt_residual.resize(frames);
+  std::vector<char> feasible(at(frames), 1), certified(at(frames), 1);
+  oneapi::tbb::parallel_for(
+      oneapi::tbb::blocked_range<Eigen::Index>(0, frames, 8), [&](const auto& range) {
+        Frame frame(model, actuators, muscles, options);
+        Eigen::VectorXd strength;
+        for (Eigen::Index i = range.begin(); i != range.end(); ++i) {
+          options.progress.check();
+          const ActuatorProblem problem = frame.problem(
+              motion.q.values().row(i).transpose(), motion.qdot.values().row(i).transpose(),
+              motion.qddot.values().row(i).transpose(), motion.q.time_s()[i], strength);
+          const ActuatorSolution solution = solve_actuators(problem);
+          control.row(i) = solution.control.transpose();
+          force.row(i) = solution.control.cwiseProduct(strength).transpose();
+          result.kkt_residual[i] = solution.kkt_residual;
+          feasible[at(i)] = solution.feasible ? 1 : 0;
+          certified[at(i)] = solution.solved ? 1 : 0;
+        }
+      });
+  result.is_feasible.assign(feasible.begin(), feasible.end());
+  result.is_certified.assign(certified.begin(), certified.end());
+  result.frames_failed =
+      static_cast<int>(std::count(result.is_certified.begin(), result.is_certified.end(), false));
+  std::vector<Channel> controls, forces;
+  for (const Actuator& a : actuators) {
+    controls.push_back({a.name, Unit::dimensionless});
+    forces.push_back({a.name, Unit::newton});
+  }
+  result.control = TimeSeries(motion.q.time_s(), std::move(controls), std::move(control));
+  result.force = TimeSeries(motion.q.time_s(), std::move(forces), std::move(force));
+  return result;
+}
+
+}  // namespace myoid::forces

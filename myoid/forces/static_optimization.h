@@ -1,0 +1,46 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "myoid/core/progress.h"
+#include "myoid/core/time_series.h"
+#include "myoid/dynamics/external_loads.h"
+#include "myoid/kinematics/joint_motion.h"
+#include "myoid/model/body_model.h"
+
+namespace myoid::forces {
+
+struct StaticOptimizationOptions {
+  double exponent = 2.0;
+  /// Force-length, force-velocity and pennation count; else a muscle's strength is F_max.
+  bool muscle_physiology = true;
+  const dynamics::ExternalLoads* loads = nullptr;  ///< Not owned.
+  Progress progress;
+};
+
+struct StaticOptimizationResult {
+  TimeSeries control;              ///< Activation of each muscle, control of each actuator [-].
+  TimeSeries force;                ///< [N] or [N m]
+  Eigen::VectorXd kkt_residual;    ///< Per frame (actuator_sharing.h).
+  std::vector<bool> is_feasible;   ///< Per frame: the actuators can make the accelerations.
+  std::vector<bool> is_certified;  ///< Per frame: optimal, by its KKT residual.
+  int frames_failed = 0;           ///< Not certified.
+  std::vector<std::string> notes;
+};
+
+/// OpenSim's static optimization, frame by frame: the controls of least sum |x|^p of all muscles
+/// and actuators of the model that give the accelerations `motion.qddot` of every coordinate that
+/// takes a value of its own, under gravity, external loads and passive forces; active muscle force
+/// only. Dependent coordinates move as their constraints say, and constraint forces do no work:
+///
+///   T' (M qddot + C - gravity - external - passive - sum_i x_i g_i) = 0,   qdot = T u,
+///
+/// g_i the generalized force of actuator i at x_i = 1. Channels are those that apply force, in the
+/// order of the model's force set. Parallel over frames; the same for every number of threads.
+[[nodiscard]] StaticOptimizationResult static_optimization(
+    const model::BodyModel& model,
+    const kinematics::JointMotion& motion,
+    const StaticOptimizationOptions& options = {});
+
+}  // namespace myoid::forces

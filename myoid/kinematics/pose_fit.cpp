@@ -1,0 +1,318 @@
+#include "myoid/kinematics/pose_fit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <Eigen/QR>
+
+#include "myoid/model/constraints.h"
+
+namespace myoid::kinematics {
+namespace {
+
+std::size_t at(Eigen::Index index) { return static_cast<std::size_t>(index); }
+
+bool turns(const model::Joint& joint, int coordinate) {
+  return std::any_of(joint.rotation.begin(), joint.rotation.end(),
+                     [&](const auto& axis) { return axis.coordinate == coordinate; });
+}
+
+}  // namespace
+
+PoseFit::PoseFit(const model::BodyModel& model, const IkOptions& options, std::vector<Pair> pairs)
+    : model_(model), options_(options), pairs_(std::move(pairs)), state_(model::make_state(model)) {
+  const std::size_t count = model.coordinates.size();
+  coupler_of_.assign(count, -1);
+  for (std::size_t k = 0; k < model.couplers.size(); ++k)
+    coupler_of_[at(model.couplers[k].dependent)] = static_cast<int>(k);
+  reduced_.assign(count, -1);
+  gain_.setZero(static_cast<Eigen::Index>(count));
+  for (std::size_t c = 0; c < count; ++c) {
+    const model::Coordinate& coordinate = model.coordinates[c];
+    if (coordinate.locked || coordinate.prescribed || coupler_of_[c] >= 0) continue;
+    reduced_[c] = static_cast<int>(free_.size());
+    free_.push_back(static_cast<Eigen::Index>(c));
+  }
+  for (std::size_t c = 0; c < count; ++c) {
+    int root = static_cast<int>(c);
+    for (std::size_t step = 0; step < count && coupler_of_[at(root)] >= 0; ++step)
+      root = model.couplers[at(coupler_of_[at(root)])].independent;
+    reduced_[c] = reduced_[at(root)];
+  }
+  chains_.resize(model.bodies.size());
+  for (const model::Joint& joint : model.joints) {
+    Chain& chain = chains_[at(joint.child)];
+    chain = chains_[at(joint.parent)];
+    for (const bool turning : {false, true}) {
+      const auto add = [&](int c) {
+        chain.coordinates.push_back(c);
+        chain.body_of.push_back(at(joint.child));
+      };
+      if (!turning) {
+        for (const int c : joint.coordinates)
+          if (!turns(joint, c)) add(c);
+      } else {
+        for (const model::TransformAxis& axis : joint.rotation) {
+          const auto& added = chain.coordinates;
+          if (axis.coordinate >= 0 &&
+              std::find(added.begin(), added.end(), axis.coordinate) == added.end())
+            add(axis.coordinate);
+        }
+      }
+    }
+  }
+  for (const CoordinateTask& task : options.tasks)
+    task_index_.push_back(model.coordinate_index(task.coordinate));
+  seen_.assign(pairs_.size(), false);
+  target_.assign(pairs_.size(), Vec3::Zero());
+}
+
+void PoseFit::set_targets(const recording::MarkerSeries& markers, Eigen::Index frame) {
+  frame_ = frame;
+  time_s_ = markers.time_s[frame];
+  double sum = 0.0;
+  seen_count_ = 0;
+  for (std::size_t i = 0; i < pairs_.size(); ++i) {
+    seen_[i] = !markers.missing(frame, pairs_[i].file) && pairs_[i].weight > 0.0;
+    if (!seen_[i]) continue;
+    target_[i] = markers.position(frame, pairs_[i].file);
+    sum += pairs_[i].weight;
+    ++seen_count_;
+  }
+  scale_ = sum > 0.0 ? 1.0 / sum : 0.0;
+}
+
+double PoseFit::target_of(std::size_t task) const {
+  const CoordinateTask& t = options_.tasks[task];
+  return t.values.size() > 0 ? t.values[frame_] : t.value;
+}
+
+Vec3 PoseFit::marker_position(std::size_t pair) const {
+  const model::Marker& marker = model_.markers[pairs_[pair].model];
+  return state_.X_GB[at(marker.body)] * marker.p_BM;
+}
+
+/// Locks, prescriptions, ranges, couplers and constraints.
+void PoseFit::obey(Eigen::VectorXd& q) const {
+  for (std::size_t c = 0; c < model_.coordinates.size(); ++c) {
+    const model::Coordinate& coordinate = model_.coordinates[c];
+    double& value = q[static_cast<Eigen::Index>(c)];
+    if (coordinate.prescribed) {
+      value = evaluate(*coordinate.prescribed, time_s_).value;
+    } else if (coordinate.locked) {
+      value = coordinate.default_value;
+    } else if (coordinate.clamped && coupler_of_[c] < 0) {
+      value = std::clamp(value, coordinate.lower, coordinate.upper);
+    }
+  }
+  model::apply_couplers(model_, q);
+  if (!model_.constraints.empty()) q = model::assemble(model_, q).q;
+}
+
+void PoseFit::update_gains(const Eigen::VectorXd& q) {
+  for (std::size_t c = 0; c < reduced_.size(); ++c) {
+    double gain = reduced_[c] >= 0 ? 1.0 : 0.0;
+    auto i = static_cast<int>(c);
+    for (std::size_t step = 0; step < reduced_.size() && coupler_of_[at(i)] >= 0; ++step) {
+      const model::CoordinateCoupler& coupler = model_.couplers[at(coupler_of_[at(i)])];
+      gain *= evaluate(coupler.function, q[coupler.independent]).first;
+      i = coupler.independent;
+    }
+    gain_[static_cast<Eigen::Index>(c)] = gain;
+  }
+}
+
+double PoseFit::cost_at(const Eigen::VectorXd& q) {
+  model::compute_poses(model_, q, state_);
+  double cost = 0.0;
+  for (std::size_t i = 0; i < pairs_.size(); ++i) {
+    if (seen_[i])
+      cost += pairs_[i].weight * scale_ * (marker_position(i) - target_[i]).squaredNorm();
+  }
+  for (std::size_t j = 0; j < task_index_.size(); ++j) {
+    const double off = q[task_index_[j]] - target_of(j);
+    cost += options_.tasks[j].weight * off * off;
+  }
+  return cost;
+}
+
+/// Derivatives of J at the posture of the last cost_at(q).
+void PoseFit::linearize(const Eigen::VectorXd& q) {
+  const auto n = static_cast<Eigen::Index>(free_.size());
+  update_gains(q);
+  gradient_.setZero(n);
+  gauss_.setZero(n, n);
+  bend_.setZero(n, n);
+  for (std::size_t i = 0; i < pairs_.size(); ++i) {
+    if (!seen_[i]) continue;
+    const Chain& chain = chains_[at(model_.markers[pairs_[i].model].body)];
+    const Vec3 p_G = marker_position(i);
+    const double weight = pairs_[i].weight * scale_;
+    const Vec3 pull = weight * (p_G - target_[i]);
+    columns_.resize(chain.coordinates.size());
+    for (std::size_t a = 0; a < chain.coordinates.size(); ++a) {
+      const int c = chain.coordinates[a];
+      columns_[a] = gain_[c] * (state_.H_v_G[at(c)] +
+                                state_.H_w_G[at(c)].cross(p_G - state_.X_GB[chain.body_of[a]].p));
+    }
+    for (std::size_t b = 0; b < chain.coordinates.size(); ++b) {
+      const int kb = reduced_[at(chain.coordinates[b])];
+      if (kb < 0) continue;
+      gradient_[kb] += columns_[b].dot(pull);
+      const Vec3 turned = columns_[b].cross(pull);
+      for (std::size_t a = 0; a <= b; ++a) {
+        const int c = chain.coordinates[a];
+        const int ka = reduced_[at(c)];
+        if (ka < 0) continue;
+        const double first = weight * columns_[a].dot(columns_[b]);
+        // What is farther out turns with a: its column changes by w_a x column.
+        const double second = gain_[c] * state_.H_w_G[at(c)].dot(turned);
+        gauss_(ka, kb) += first;
+        bend_(ka, kb) += second;
+        if (a != b) {
+          gauss_(kb, ka) += first;
+          bend_(kb, ka) += second;
+        }
+      }
+    }
+  }
+  for (std::size_t j = 0; j < task_index_.size(); ++j) {
+    const int c = task_index_[j];
+    const int k = reduced_[at(c)];
+    if (k < 0) continue;
+    const double weight = options_.tasks[j].weight;
+    gradient_[k] += weight * gain_[c] * (q[c] - target_of(j));
+    gauss_(k, k) += weight * gain_[c] * gain_[c];
+  }
+}
+
+Eigen::VectorXd PoseFit::moved(const Eigen::VectorXd& q, const Eigen::VectorXd& step) const {
+  Eigen::VectorXd next = q;
+  for (std::size_t k = 0; k < free_.size(); ++k)
+    next[free_[k]] += step[static_cast<Eigen::Index>(k)];
+  obey(next);
+  return next;
+}
+
+/// Orthonormal basis of the steps that keep the constraints other than couplers.
+Eigen::MatrixXd PoseFit::allowed_directions(const Eigen::VectorXd& q) const {
+  const auto n = static_cast<Eigen::Index>(free_.size());
+  const Eigen::MatrixXd all = model::constraint_jacobian(model_, state_);
+  const Eigen::MatrixXd loops =
+      all.bottomRows(all.rows() - static_cast<Eigen::Index>(model_.couplers.size()));
+  Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(loops.rows(), n);
+  for (Eigen::Index c = 0; c < q.size(); ++c) {
+    if (reduced_[at(c)] >= 0) rows.col(reduced_[at(c)]) += gain_[c] * loops.col(c);
+  }
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(rows.transpose());
+  qr.setThreshold(1e-9);
+  const Eigen::MatrixXd basis = qr.householderQ();
+  return basis.rightCols(n - qr.rank());
+}
+
+PoseFit::Pose PoseFit::solve(Eigen::VectorXd start) {
+  obey(start);
+  Pose pose{std::move(start), 0.0, false};
+  pose.cost = cost_at(pose.q);
+  const auto n = static_cast<Eigen::Index>(free_.size());
+  double damping = 0.0;
+  for (int iteration = 0; iteration < options_.max_iterations; ++iteration) {
+    linearize(pose.q);
+    // Clamped coordinates at their end that are pushed beyond stay.
+    std::vector<bool> held(free_.size(), false);
+    for (Eigen::Index k = 0; k < n; ++k) {
+      const auto& coordinate = model_.coordinates[at(free_[at(k)])];
+      const double value = pose.q[free_[at(k)]];
+      held[at(k)] = coordinate.clamped && ((value <= coordinate.lower && gradient_[k] > 0.0) ||
+                                           (value >= coordinate.upper && gradient_[k] < 0.0));
+    }
+    const auto hold = [&](Eigen::MatrixXd& matrix) {
+      for (Eigen::Index k = 0; k < n; ++k) {
+        if (!held[at(k)]) continue;
+        gradient_[k] = 0.0;
+        matrix.row(k).setZero();
+        matrix.col(k).setZero();
+        matrix(k, k) = 1.0;
+      }
+    };
+    const Eigen::MatrixXd N =
+        model_.constraints.empty() ? Eigen::MatrixXd() : allowed_directions(pose.q);
+    const double size = std::max(gauss_.diagonal().maxCoeff(), 1e-300);
+    bool second_order = true;
+    for (;;) {
+      Eigen::MatrixXd hessian = second_order ? Eigen::MatrixXd(gauss_ + bend_) : gauss_;
+      hold(hessian);
+      Eigen::VectorXd right = -gradient_;
+      if (N.size() > 0) {
+        hessian = (N.transpose() * hessian * N).eval();
+        right = (N.transpose() * right).eval();
+      }
+      hessian.diagonal().array() += (damping + 1e-13) * size;
+      const Eigen::LLT<Eigen::MatrixXd> factor(hessian);
+      if (factor.info() != Eigen::Success) {
+        // Not convex here: the first-order part is, with some damping.
+        if (second_order) {
+          second_order = false;
+        } else {
+          damping = std::max(10.0 * damping, 1e-10);
+        }
+        continue;
+      }
+      Eigen::VectorXd step = factor.solve(right);
+      if (N.size() > 0) step = (N * step).eval();
+      Eigen::VectorXd q = moved(pose.q, step);
+      const double distance = (q - pose.q).cwiseAbs().maxCoeff();
+      const double cost = cost_at(q);
+      if (cost <= pose.cost) {
+        pose.converged = distance <= 1e-9;
+        pose.q = std::move(q);
+        pose.cost = cost;
+        damping = damping < 1e-9 ? 0.0 : 0.1 * damping;
+        break;
+      }
+      if (distance <= 1e-8 || damping > 1e12) {
+        // Round-off decides between equal costs.
+        pose.converged = true;
+        (void)cost_at(pose.q);
+        break;
+      }
+      if (second_order && damping > 1e-6) second_order = false;
+      damping = std::max(10.0 * damping, 1e-8);
+    }
+    if (pose.converged) return pose;
+  }
+  (void)cost_at(pose.q);
+  return pose;
+}
+
+void PoseFit::place(const Eigen::VectorXd& q) { (void)cost_at(q); }
+
+void PoseFit::collect_undetermined(std::vector<bool>& undetermined) {
+  linearize(state_.q);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(gauss_);
+  const double largest =
+      eigen.eigenvalues().size() > 0 ? eigen.eigenvalues()[eigen.eigenvalues().size() - 1] : 0.0;
+  for (Eigen::Index k = 0; k < gauss_.cols(); ++k) {
+    // Squares of the singular values of the Jacobian: 1e-7 of the largest.
+    if (eigen.eigenvalues()[k] > 1e-14 * largest) continue;
+    for (Eigen::Index j = 0; j < gauss_.cols(); ++j) {
+      if (std::abs(eigen.eigenvectors()(j, k)) > 1e-3) undetermined[at(j)] = true;
+    }
+  }
+}
+
+double PoseFit::error(std::size_t pair) const {
+  if (!seen_[pair]) return std::numeric_limits<double>::quiet_NaN();
+  return (marker_position(pair) - target_[pair]).norm();
+}
+
+void PoseFit::locate(Eigen::MatrixXd& table, Eigen::Index row) const {
+  for (std::size_t i = 0; i < pairs_.size(); ++i)
+    table.block<1, 3>(row, static_cast<Eigen::Index>(3 * i)) = marker_position(i).transpose();
+}
+
+}  // namespace myoid::kinematics

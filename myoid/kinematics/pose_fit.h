@@ -1,0 +1,88 @@
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "myoid/kinematics/inverse_kinematics.h"
+#include "myoid/model/kinematic_tree.h"
+#include "myoid/recording/marker_series.h"
+
+namespace myoid::kinematics {
+
+/// The least-squares problem of one frame of inverse kinematics, set up once per model and solved
+/// for frame after frame without much allocation. The unknowns are the free coordinates: those that
+/// are neither locked nor prescribed nor the dependent one of a coupler.
+class PoseFit {
+ public:
+  /// One marker that both the model and the file have.
+  struct Pair {
+    std::size_t model = 0;
+    Eigen::Index file = 0;
+    double weight = 1.0;
+  };
+  struct Pose {
+    Eigen::VectorXd q;
+    double cost = 0.0;  ///< 2 J
+    bool converged = false;
+  };
+
+  /// Model and options must outlive the object.
+  PoseFit(const model::BodyModel& model, const IkOptions& options, std::vector<Pair> pairs);
+
+  void set_targets(const recording::MarkerSeries& markers, Eigen::Index frame);
+  [[nodiscard]] int seen_count() const { return seen_count_; }
+  [[nodiscard]] const std::vector<Pair>& pairs() const { return pairs_; }
+  [[nodiscard]] const std::vector<Eigen::Index>& free() const { return free_; }
+
+  /// The nearest minimum of J; the start is made to obey locks, ranges and constraints first.
+  [[nodiscard]] Pose solve(Eigen::VectorXd start);
+
+  /// Makes q the posture that the functions below speak of.
+  void place(const Eigen::VectorXd& q);
+  /// Marks the free coordinates with a part in directions that markers and tasks leave open.
+  void collect_undetermined(std::vector<bool>& undetermined);
+  /// Distance of a marker from its target; NaN if it was not seen.
+  [[nodiscard]] double error(std::size_t pair) const;
+  /// Writes where the model's markers lie into a row of a table, x y z of each.
+  void locate(Eigen::MatrixXd& table, Eigen::Index row) const;
+
+ private:
+  /// The coordinates that move a body, ground first, translations of a joint before its rotations.
+  struct Chain {
+    std::vector<int> coordinates;
+    std::vector<std::size_t> body_of;  ///< Child body of each one's joint.
+  };
+
+  void obey(Eigen::VectorXd& q) const;
+  double cost_at(const Eigen::VectorXd& q);
+  void linearize(const Eigen::VectorXd& q);
+  void update_gains(const Eigen::VectorXd& q);
+  [[nodiscard]] Eigen::VectorXd moved(const Eigen::VectorXd& q, const Eigen::VectorXd& step) const;
+  [[nodiscard]] Eigen::MatrixXd allowed_directions(const Eigen::VectorXd& q) const;
+  [[nodiscard]] double target_of(std::size_t task) const;
+  [[nodiscard]] Vec3 marker_position(std::size_t pair) const;
+
+  const model::BodyModel& model_;
+  const IkOptions& options_;
+  std::vector<Pair> pairs_;
+  std::vector<Eigen::Index> free_;
+  std::vector<int> reduced_;  ///< Per coordinate: the free coordinate that moves it, or -1.
+  Eigen::VectorXd gain_;      ///< Per coordinate: its rate per rate of that one.
+  std::vector<int> coupler_of_;
+  std::vector<Chain> chains_;  ///< Per body.
+  std::vector<int> task_index_;
+  model::BodyState state_;
+  std::vector<bool> seen_;
+  std::vector<Vec3> target_;
+  Eigen::Index frame_ = 0;
+  double time_s_ = 0.0;
+  double scale_ = 0.0;
+  int seen_count_ = 0;
+  Eigen::VectorXd gradient_;  ///< Of J, by the free coordinates.
+  Eigen::MatrixXd gauss_;     ///< First-order part of the second derivatives of J.
+  Eigen::MatrixXd bend_;      ///< Its rest, from the turning of the chains.
+  std::vector<Vec3> columns_;
+};
+
+}  // namespace myoid::kinematics

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "myoid/dynamics/external_loads.h"
+#include "myoid/kinematics/joint_motion.h"
+#include "myoid/pipeline/opensim_setup.h"
+#include "myoid/pipeline/run_tool.h"
+
+namespace myoid::pipeline {
+
+/// What the analyses of one AnalyzeTool share.
+struct AnalysisRun {
+  const OpensimSetup& setup;
+  const ToolOptions& options;
+  ToolResult& result;
+  model::BodyModel model{};
+  kinematics::JointMotion motion{};  ///< At the rows that the analysis records.
+  std::vector<Eigen::Index> rows{};  ///< Their numbers in the file.
+  std::optional<dynamics::ExternalLoads> loads{};
+  int decimals = 8;
+  bool equilibrium = false;
+  /// From a states file, all rows x muscles; empty where it has none.
+  Eigen::MatrixXd activation{}, fiber_length_m{};
+};
+
+/// Whether an analysis of this class can be run.
+[[nodiscard]] bool is_known_analysis(std::string_view class_name);
+/// Their names, for messages.
+[[nodiscard]] std::string known_analyses();
+/// Runs one and writes its files: <results>/<tool>_<analysis>_<quantity>.sto.
+void run_analysis(AnalysisRun& run, pugi::xml_node node);
+void run_static_optimization(AnalysisRun& run, pugi::xml_node node);
+
+/// <results>/<tool>_<name>, announced as a file of the run.
+[[nodiscard]] std::filesystem::path claim_result(AnalysisRun& run, const std::string& name);
+
+/// Speeds in a file, in the model's order, zero where a coordinate has none; nothing if it has none
+/// at all. Columns "<path>/speed" or "<coordinate>_u", in a file of speeds only the coordinate's
+/// own name too.
+[[nodiscard]] std::optional<TimeSeries> read_speeds(const model::BodyModel& model,
+                                                    const std::filesystem::path& path,
+                                                    bool only_speeds);
+/// Fills `activation` and `fiber_length_m` from a states file that has them.
+void read_muscle_states(AnalysisRun& run, const std::filesystem::path& path);
+
+}  // namespace myoid::pipeline

@@ -1,0 +1,136 @@
+#include "myoid/pipeline/opensim_files.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "myoid/core/error.h"
+#include "myoid/recording/atomic_file.h"
+#include "myoid/recording/storage_reader.h"
+
+namespace myoid::pipeline {
+namespace {
+
+/// The coordinate that a column of a motion or states file holds, or -1.
+int coordinate_of(const model::BodyModel& model, const std::string& column) {
+  if (const auto c = model.find_coordinate(column)) return *c;
+  std::string path = column;
+  if (!path.ends_with("/value")) return -1;
+  path.resize(path.size() - 6);
+  if (const auto slash = path.rfind('/'); slash != std::string::npos) path.erase(0, slash + 1);
+  return model.find_coordinate(path).value_or(-1);
+}
+
+}  // namespace
+
+TimeSeries read_coordinates(const model::BodyModel& model,
+                            const std::filesystem::path& path,
+                            MissingCoordinate missing,
+                            std::vector<std::string>& notes) {
+  const recording::Storage file = recording::read_storage(path);
+  for (const recording::Repair& repair : file.repairs)
+    notes.push_back(fmt::format("{}:{}: {}", path.string(), repair.line, repair.message));
+  const auto count = static_cast<Eigen::Index>(model.coordinates.size());
+  Eigen::MatrixXd q(file.data.sample_count(), count);
+  std::vector<Channel> channels;
+  std::vector<bool> found(model.coordinates.size(), false);
+  for (Eigen::Index k = 0; k < count; ++k) {
+    const model::Coordinate& c = model.coordinates[static_cast<std::size_t>(k)];
+    channels.push_back({c.name, kinematics::coordinate_unit(c, 0)});
+    q.col(k).setConstant(missing == MissingCoordinate::zero ? 0.0 : c.default_value);
+  }
+  bool any = false;
+  for (std::size_t column = 0; column < file.data.channels().size(); ++column) {
+    const int k = coordinate_of(model, file.data.channels()[column].name);
+    if (k < 0 || found[static_cast<std::size_t>(k)]) continue;
+    const bool angle =
+        model.coordinates[static_cast<std::size_t>(k)].motion == model::MotionType::rotational;
+    q.col(k) = file.data.values().col(static_cast<Eigen::Index>(column)) *
+               (angle && file.in_degrees ? kDegree : 1.0);
+    found[static_cast<std::size_t>(k)] = true;
+    any = true;
+  }
+  if (!any) {
+    throw InvalidInput(fmt::format("{}: no column ({}) is a coordinate of the model '{}'",
+                                   path.string(), channel_names(file.data), model.name));
+  }
+  std::string absent;
+  for (std::size_t k = 0; k < found.size(); ++k) {
+    if (!found[k]) absent += (absent.empty() ? "" : ", ") + model.coordinates[k].name;
+  }
+  if (!absent.empty()) {
+    notes.push_back(fmt::format("{}: no column for {}; they stay at {}", path.string(), absent,
+                                missing == MissingCoordinate::zero ? "0, as in OpenSim's analyses"
+                                                                   : "their default values"));
+  }
+  TimeSeries result(file.data.time_s(), std::move(channels), std::move(q));
+  require_finite(result, path.string());
+  return result;
+}
+
+Eigen::Index row_at(const Eigen::VectorXd& times_s, double time_s) {
+  const double* end = std::upper_bound(times_s.data(), times_s.data() + times_s.size(), time_s);
+  return std::max<Eigen::Index>(0, end - times_s.data() - 1);
+}
+
+TimeSeries rows_of(const TimeSeries& series, Eigen::Index first, Eigen::Index last) {
+  const Eigen::Index count = last - first + 1;
+  return {series.time_s().segment(first, count), series.channels(),
+          series.values().middleRows(first, count)};
+}
+
+TimeSeries with_file_units(const model::BodyModel& model, const TimeSeries& q) {
+  std::vector<Channel> channels = q.channels();
+  for (Channel& channel : channels) {
+    const auto c = model.find_coordinate(channel.name);
+    if (c && model.coordinates[static_cast<std::size_t>(*c)].motion == model::MotionType::coupled)
+      channel.unit = Unit::dimensionless;
+  }
+  return {q.time_s(), std::move(channels), q.values()};
+}
+
+void write_opensim_storage(const std::filesystem::path& path,
+                           const TimeSeries& series,
+                           const OpensimFormat& format) {
+  std::string text =
+      fmt::format("{}\nversion=1\nnRows={}\nnColumns={}\ninDegrees={}\n{}endheader\ntime",
+                  format.title, series.sample_count(), series.channel_count() + 1,
+                  format.in_degrees ? "yes" : "no", format.description);
+  for (const Channel& channel : series.channels()) text += "\t" + channel.name;
+  text += '\n';
+  const auto width = static_cast<std::size_t>(format.decimals + 8);
+  text.reserve(text.size() +
+               static_cast<std::size_t>(series.values().size() + series.sample_count()) *
+                   (width + 1));
+  const auto append = [&](double value) {
+    // Fixed digits by to_chars are several times as fast as a format string.
+    char digits[400];
+    const char* end = digits;
+    if (std::isnan(value)) {
+      end = std::copy_n("NaN", 3, digits);
+    } else {
+      end = std::to_chars(digits, digits + sizeof digits, value, std::chars_format::fixed,
+                          format.decimals)
+                .ptr;
+    }
+    const auto count = static_cast<std::size_t>(end - digits);
+    if (count < width) text.append(width - count, ' ');
+    text.append(digits, count);
+  };
+  for (Eigen::Index row = 0; row < series.sample_count(); ++row) {
+    append(series.time_s()[row]);
+    for (Eigen::Index c = 0; c < series.channel_count(); ++c) {
+      const bool degrees =
+          format.in_degrees && series.channels()[static_cast<std::size_t>(c)].unit == Unit::radian;
+      text += '\t';
+      append(degrees ? series.values()(row, c) / kDegree : series.values()(row, c));
+    }
+    text += '\n';
+  }
+  recording::write_file(path, text, recording::Flush::later);
+}
+
+}  // namespace myoid::pipeline

@@ -1,0 +1,24 @@
+#include "myoid/pipeline/run_tool.h"
+
+#include "myoid/pipeline/tool_stages.h"
+
+namespace myoid::pipeline {
+
+ToolResult run_tool(const std::filesystem::path& path, const ToolOptions& options) {
+  const OpensimSetup setup(path);
+  ToolResult result;
+  result.inputs = setup.inputs();
+  result.tool = setup.kind();
+  if (result.tool == "InverseKinematicsTool") {
+    run_inverse_kinematics(setup, options, result);
+  } else if (result.tool == "InverseDynamicsTool") {
+    run_inverse_dynamics(setup, options, result);
+  } else if (result.tool == "ScaleTool") {
+    run_scale(setup, options, result);
+  } else {
+    run_analyses(setup, options, result);
+  }
+  return result;
+}
+
+}  // namespace myoid::pipeline

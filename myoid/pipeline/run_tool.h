@@ -1,0 +1,36 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "myoid/core/progress.h"
+#include "myoid/model/compat.h"
+
+namespace myoid::pipeline {
+
+struct ToolOptions {
+  model::Compat compat = model::kOpenSim452;
+  Progress progress{};
+  /// Called with each file before it is computed; throws to refuse it.
+  std::function<void(const std::filesystem::path&)> claim{};
+};
+
+struct ToolResult {
+  std::vector<std::filesystem::path> inputs;  ///< Read; never replaced.
+  std::string tool;                           ///< "InverseKinematicsTool", ...
+  std::vector<std::filesystem::path> files;   ///< Written, in order.
+  std::vector<std::string> notes;             ///< What a user must know, a sentence each.
+  std::string summary;                        ///< One line.
+  int frames = 0;
+  int frames_failed = 0;  ///< Without a converged or certified solution.
+};
+
+/// Runs a set-up file of OpenSim's InverseKinematicsTool, InverseDynamicsTool or AnalyzeTool (with
+/// StaticOptimization, MuscleAnalysis or Kinematics) and writes the files that the tool would, with
+/// its names, headers and columns. Throws ReadError with the line for what cannot be read or run.
+[[nodiscard]] ToolResult run_tool(const std::filesystem::path& setup,
+                                  const ToolOptions& options = {});
+
+}  // namespace myoid::pipeline

@@ -1,0 +1,192 @@
+#include "myoid/pipeline/run_tool.h"
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "myoid/core/error.h"
+#include "myoid/model/arm4.h"
+#include "myoid/model/kinematic_tree.h"
+#include "myoid/model/osim_reader.h"
+#include "myoid/pipeline/analysis_reports.h"
+#include "myoid/pipeline/tool_stages.h"
+#include "myoid/recording/storage_reader.h"
+
+namespace myoid::pipeline {
+namespace {
+
+/// A folder with the built-in arm, markers of an elbow swing, and set-up files.
+class RunTool : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = std::filesystem::temp_directory_path() /
+              (std::string("myoid_run_tool_") +
+               ::testing::UnitTest::GetInstance()->current_test_info()->name());
+    std::filesystem::create_directories(folder_);
+    arm_ = model::parse_osim(model::arm4_osim(), "arm4.osim");
+    write("arm.osim", model::arm4_osim());
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  void write(const std::string& name, const std::string& text) const {
+    std::ofstream(folder_ / name) << text;
+  }
+  ToolResult run(const std::string& setup) const {
+    write("setup.xml", "<OpenSimDocument Version=\"40000\">" + setup + "</OpenSimDocument>");
+    return run_tool(folder_ / "setup.xml");
+  }
+  static double elbow(int frame) { return 1.2 + 0.5 * std::sin(0.1 * frame); }
+
+  void write_markers(int frames) const {
+    std::string text = fmt::format(
+        "PathFileType\t4\t(X/Y/Z)\tm.trc\nDataRate\tCameraRate\tNumFrames\tNumMarkers\tUnits\t"
+        "OrigDataRate\tOrigDataStartFrame\tOrigNumFrames\n100\t100\t{0}\t{1}\tm\t100\t1\t{0}\n"
+        "Frame#\tTime",
+        frames, arm_.markers.size());
+    std::string axes = "\t";
+    for (std::size_t i = 0; i < arm_.markers.size(); ++i) {
+      text += "\t" + arm_.markers[i].name + "\t\t";
+      axes += fmt::format("\tX{0}\tY{0}\tZ{0}", i + 1);
+    }
+    text += "\n" + axes + "\n\n";
+    model::BodyState state = model::make_state(arm_);
+    Eigen::VectorXd q = arm_.default_q();
+    for (int frame = 0; frame < frames; ++frame) {
+      q[arm_.coordinate_index("elbow_flexion")] = elbow(frame);
+      model::compute_poses(arm_, q, state);
+      text += fmt::format("{}\t{}", frame + 1, 0.01 * frame);
+      for (const model::Marker& marker : arm_.markers) {
+        const Vec3 p = state.X_GB[static_cast<std::size_t>(marker.body)] * marker.p_BM;
+        text += fmt::format("\t{}\t{}\t{}", p[0], p[1], p[2]);
+      }
+      text += "\n";
+    }
+    write("m.trc", text);
+  }
+  void write_motion(int frames) const {
+    std::string text = fmt::format(
+        "Coordinates\nversion=1\nnRows={}\nnColumns=2\ninDegrees=no\nendheader\ntime\telbow_"
+        "flexion\n",
+        frames);
+    for (int i = 0; i < frames; ++i) text += fmt::format("{}\t{}\n", 0.01 * i, elbow(i));
+    write("motion.mot", text);
+  }
+  TimeSeries read(const std::string& name) const {
+    return recording::read_storage(folder_ / name).data;
+  }
+
+  std::filesystem::path folder_;
+  model::BodyModel arm_;
+};
+
+TEST_F(RunTool, InverseKinematicsLeavesTheFilesOfTheTool) {
+  write_markers(20);
+  const ToolResult result =
+      run("<InverseKinematicsTool name=\"swing\"><model_file>arm.osim</model_file>"
+          "<results_directory>out</results_directory><marker_file>m.trc</marker_file>"
+          "<report_marker_locations>true</report_marker_locations>"
+          "<output_motion_file>out/ik.mot</output_motion_file></InverseKinematicsTool>");
+  EXPECT_EQ(result.frames, 20);
+  EXPECT_EQ(result.frames_failed, 0);
+  for (const char* name :
+       {"out/ik.mot", "out/swing_ik_marker_errors.sto", "out/swing_ik_model_marker_locations.sto"})
+    EXPECT_TRUE(std::filesystem::exists(folder_ / name)) << name;
+  const TimeSeries q = read("out/ik.mot");
+  for (int i = 0; i < 20; ++i)
+    EXPECT_NEAR(q.column("elbow_flexion")[i], elbow(i) / kDegree, 1e-6);  // eight decimals
+}
+
+TEST_F(RunTool, InverseDynamicsNamesItsColumnsByTheKindOfMotion) {
+  write_motion(60);
+  const ToolResult result =
+      run("<InverseDynamicsTool name=\"id\"><model_file>arm.osim</model_file>"
+          "<forces_to_exclude>Muscles</forces_to_exclude><coordinates_file>motion.mot</"
+          "coordinates_file>"
+          "<output_gen_force_file>id.sto</output_gen_force_file></InverseDynamicsTool>");
+  ASSERT_EQ(result.files.size(), 1U);
+  EXPECT_EQ(read("id.sto").sample_count(), 60);
+  EXPECT_TRUE(read("id.sto").find("elbow_flexion_moment"));
+}
+
+TEST_F(RunTool, AnalysesShareAMotion) {
+  write_motion(40);
+  std::string reserves = "<OpenSimDocument Version=\"40000\"><ForceSet><objects>";
+  for (const model::Coordinate& c : arm_.coordinates) {
+    reserves += "<CoordinateActuator name=\"" + c.name + "_reserve\"><coordinate>" + c.name +
+                "</coordinate><optimal_force>1</optimal_force></CoordinateActuator>";
+  }
+  write("reserves.xml", reserves + "</objects></ForceSet></OpenSimDocument>");
+  const ToolResult result =
+      run("<AnalyzeTool "
+          "name=\"a\"><model_file>arm.osim</model_file><results_directory>r</results_directory>"
+          "<force_set_files>reserves.xml</force_set_files><initial_time>0.1</initial_time>"
+          "<final_time>0.3</final_time><coordinates_file>motion.mot</coordinates_file>"
+          "<solve_for_equilibrium_for_auxiliary_states>true</"
+          "solve_for_equilibrium_for_auxiliary_states>"
+          "<AnalysisSet><objects><MuscleAnalysis name=\"MuscleAnalysis\"/>"
+          "<StaticOptimization name=\"StaticOptimization\"/><Kinematics name=\"Kinematics\"/>"
+          "<OutputReporter name=\"o\"><output_paths>/forceset/" +
+          arm_.muscles[0].name +
+          "/path|length</output_paths></OutputReporter><JointReaction name=\"jr\"/>"
+          "</objects></AnalysisSet></AnalyzeTool>");
+  EXPECT_THAT(result.notes, ::testing::Contains(::testing::HasSubstr("JointReaction")));
+  for (const char* name :
+       {"r/a_MuscleAnalysis_Length.sto", "r/a_MuscleAnalysis_MomentArm_elbow_flexion.sto",
+        "r/a_StaticOptimization_activation.sto", "r/a_StaticOptimization_force.sto",
+        "r/a_StaticOptimization_controls.xml", "r/a_Kinematics_q.sto", "r/a_Outputs.sto"})
+    EXPECT_TRUE(std::filesystem::exists(folder_ / name)) << name;
+  const TimeSeries activation = read("r/a_StaticOptimization_activation.sto");
+  EXPECT_EQ(activation.sample_count(), 21);
+  EXPECT_EQ(activation.channel_count(),
+            static_cast<Eigen::Index>(arm_.muscles.size() + arm_.coordinates.size()));
+  EXPECT_EQ(result.frames_failed, 0) << result.summary;
+  const Eigen::VectorXd length = read("r/a_MuscleAnalysis_Length.sto").column(arm_.muscles[0].name);
+  EXPECT_LT((length - read("r/a_Outputs.sto").values().col(0)).cwiseAbs().maxCoeff(), 1e-8);
+}
+
+TEST_F(RunTool, ScalingByHandMakesALargerModelOfTheGivenMass) {
+  const ToolResult result =
+      run("<ScaleTool "
+          "name=\"someone\"><mass>10</mass><GenericModelMaker><model_file>arm.osim</model_file>"
+          "</GenericModelMaker><ModelScaler><scaling_order>manualScale</"
+          "scaling_order><ScaleSet><objects>"
+          "<Scale><scales>1.1 1.1 1.1</scales><segment>" +
+          arm_.bodies.back().name +
+          "</segment></Scale></objects></ScaleSet><preserve_mass_distribution>true</"
+          "preserve_mass_distribution>"
+          "<output_model_file>scaled.osim</output_model_file><output_scale_file>factors.xml</"
+          "output_scale_file>"
+          "</ModelScaler><MarkerPlacer><apply>false</apply></MarkerPlacer></ScaleTool>");
+  const model::BodyModel scaled = model::read_osim(folder_ / "scaled.osim");
+  double mass = 0.0;
+  for (const model::Body& body : scaled.bodies) mass += body.mass_kg;
+  EXPECT_NEAR(mass, 10.0, 1e-12);
+  EXPECT_EQ(scaled.name, "someone");
+  EXPECT_LT((scaled.bodies.back().p_BBcm_B - 1.1 * arm_.bodies.back().p_BBcm_B).norm(), 1e-15);
+  EXPECT_EQ(result.files.size(), 2U);
+}
+
+TEST_F(RunTool, ASetUpWithoutItsFilesIsRefusedBeforeAnythingIsWritten) {
+  EXPECT_THROW((void)run("<InverseKinematicsTool name=\"x\"><model_file>none.osim</model_file>"
+                         "<marker_file>m.trc</marker_file></InverseKinematicsTool>"),
+               InvalidInput);
+  EXPECT_THROW((void)run("<AnalyzeTool name=\"x\"><model_file>arm.osim</model_file></AnalyzeTool>"),
+               InvalidInput);
+  int files = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(folder_))
+    files += entry.is_regular_file();
+  EXPECT_EQ(files, 2);  // the model and the set-up
+}
+
+TEST(Analyses, AreKnownByTheirClass) {
+  EXPECT_TRUE(is_known_analysis("MuscleAnalysis"));
+  EXPECT_FALSE(is_known_analysis("JointReaction"));
+}
+
+}  // namespace
+}  // namespace myoid::pipeline

@@ -1,0 +1,70 @@
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "myoid/core/error.h"
+#include "myoid/dynamics/inverse_dynamics.h"
+#include "myoid/pipeline/opensim_files.h"
+#include "myoid/pipeline/tool_stages.h"
+#include "myoid/signals/opensim_lowpass.h"
+
+namespace myoid::pipeline {
+
+void run_inverse_dynamics(const OpensimSetup& setup,
+                          const ToolOptions& options,
+                          ToolResult& result) {
+  const auto& xml = setup.xml();
+  const auto tool = setup.tool();
+  const std::string file_name = xml.word(tool, "output_gen_force_file");
+  const auto out =
+      setup.results_folder() / (file_name.empty() ? "inverse_dynamics.sto" : file_name);
+  claim_file(options, out, result);
+  const auto excluded = xml.words(tool, "forces_to_exclude");
+  const model::BodyModel model = setup_model(setup, options.compat, excluded, result.notes);
+  if (!model.muscles.empty()) {
+    result.notes.push_back(
+        "forces_to_exclude does not name the muscles: OpenSim would count what they bear at their "
+        "default activation; here they are left out");
+  }
+  if (!xml.words(tool, "joints_to_report_body_forces").empty())
+    result.notes.push_back("joints_to_report_body_forces: body forces at joints are not written");
+  TimeSeries q = read_coordinates(model, setup.required_file(tool, "coordinates_file"),
+                                  MissingCoordinate::default_value, result.notes);
+  const double cutoff_hz = xml.number(tool, "lowpass_cutoff_frequency_for_coordinates", -1.0);
+  if (cutoff_hz > 0.0) q = signals::opensim_lowpass(q, cutoff_hz);
+  kinematics::JointMotion motion = kinematics::joint_motion(model, q).motion;
+  const auto [start_s, end_s] = setup.time_range(tool, "time_range");
+  const Eigen::Index first = row_at(motion.q.time_s(), start_s);
+  const Eigen::Index last = row_at(motion.q.time_s(), end_s);
+  motion = {rows_of(motion.q, first, last), rows_of(motion.qdot, first, last),
+            rows_of(motion.qddot, first, last)};
+  dynamics::InverseDynamicsOptions dynamics_options{.passive_forces = true};
+  dynamics::ExternalLoads loads;
+  if (const auto file = setup.file(tool, "external_loads_file")) {
+    loads = dynamics::read_external_loads(model, *file);
+    dynamics_options.loads = &loads;
+    result.notes.insert(result.notes.end(), loads.notes.begin(), loads.notes.end());
+    if (motion.q.time_s()[0] < loads.start_s - 1e-3 ||
+        motion.q.time_s()[motion.sample_count() - 1] > loads.end_s + 1e-3) {
+      result.notes.push_back(fmt::format(
+          "{}: the loads are known from {} to {} s, the motion goes from {} to {} s; beyond, they "
+          "are guessed by straight lines",
+          file->string(), loads.start_s, loads.end_s, motion.q.time_s()[0],
+          motion.q.time_s()[motion.sample_count() - 1]));
+    }
+  }
+  const TimeSeries tau = dynamics::inverse_dynamics(model, motion, dynamics_options);
+  // OpenSim's columns are in the order of the tree.
+  std::vector<std::string> columns;
+  for (const model::Joint& joint : model.joints) {
+    for (const int c : joint.coordinates)
+      columns.push_back(
+          dynamics::generalized_force_name(model.coordinates[static_cast<std::size_t>(c)]));
+  }
+  write_opensim_storage(out, tau.select(columns), {.title = "Inverse Dynamics Generalized Forces"});
+  result.frames = static_cast<int>(tau.sample_count());
+  result.summary = fmt::format("{} frames, {} generalized forces", result.frames, columns.size());
+}
+
+}  // namespace myoid::pipeline

@@ -1,0 +1,31 @@
+#pragma once
+
+#include "myoid/kinematics/inverse_kinematics.h"
+#include "myoid/pipeline/opensim_setup.h"
+#include "myoid/pipeline/run_tool.h"
+
+namespace myoid::pipeline {
+
+/// One tool each; they fill the result. run_tool chooses.
+void run_inverse_kinematics(const OpensimSetup& setup,
+                            const ToolOptions& options,
+                            ToolResult& result);
+void run_inverse_dynamics(const OpensimSetup& setup,
+                          const ToolOptions& options,
+                          ToolResult& result);
+void run_analyses(const OpensimSetup& setup, const ToolOptions& options, ToolResult& result);
+void run_scale(const OpensimSetup& setup, const ToolOptions& options, ToolResult& result);
+
+/// The marker and coordinate tasks of an element with an <IKTaskSet> (inside, or in a file that it
+/// names) and, for tasks from a file, a <coordinate_file>. Without any marker task every marker
+/// counts alike.
+[[nodiscard]] kinematics::IkOptions read_ik_tasks(const OpensimSetup& setup,
+                                                  pugi::xml_node owner,
+                                                  const model::BodyModel& model,
+                                                  const recording::MarkerSeries& markers,
+                                                  std::vector<std::string>& notes);
+
+/// Asks `claim` and remembers the file.
+void claim_file(const ToolOptions& options, const std::filesystem::path& path, ToolResult& result);
+
+}  // namespace myoid::pipeline
