@@ -142,7 +142,7 @@ struct IdentifySpec {
   bool gain = true;  ///< EMG gain per channel as a nuisance with a tight prior.
   bool cross_validate = true;
   std::string folds = "trial";  ///< What cross-validation leaves out: trial, condition, block.
-  int bootstrap = 200;          ///< Replicates for the second route to intervals; 0: none.
+  int bootstrap = 100;          ///< Replicates for the second route to intervals; 0: none.
   bool profile = true;          ///< Profile likelihood, the third.
   std::string loss = "square";
   std::string eccentric = "automatic";
