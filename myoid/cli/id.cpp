@@ -1,3 +1,5 @@
+#include <optional>
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
@@ -5,6 +7,7 @@
 #include "myoid/cli/context.h"
 #include "myoid/cli/stage_input.h"
 #include "myoid/core/error.h"
+#include "myoid/dynamics/external_loads.h"
 #include "myoid/dynamics/held_mass.h"
 #include "myoid/dynamics/inverse_dynamics.h"
 #include "myoid/model/arm4.h"
@@ -17,7 +20,7 @@ void add_id(CLI::App& app, Context& context) {
       "Inverse dynamics: joint angles to the generalized forces that they require.\n"
       "Example: myoid id --model arm.osim --motion ik.mot --lowpass 6 --out id.sto");
   struct Options {
-    std::string model, motion, speeds, accelerations, out, body;
+    std::string model, motion, speeds, accelerations, loads, out, body;
     double cutoff_hz = 0.0;
     double mass_kg = 0.0;
     std::vector<double> at{0.0, 0.0, 0.0};
@@ -34,6 +37,8 @@ void add_id(CLI::App& app, Context& context) {
                      "Speeds of the coordinates at the times of --motion (.sto), instead of its "
                      "derivatives");
   command.add_option("--accelerations", o->accelerations, "Accelerations, likewise");
+  command.add_option("--loads", o->loads,
+                     "Forces measured on bodies: an <ExternalLoads> file (.xml) of OpenSim");
   command.add_option("--held-mass", o->mass_kg, "Mass held in the hand [kg] (default 0)")
       ->check(CLI::NonNegativeNumber);
   command.add_option("--held-body", o->body,
@@ -42,7 +47,7 @@ void add_id(CLI::App& app, Context& context) {
   add_compat_option(command, context);
   add_common_options(command, context, {.seed = false});
   command.callback([&context, o] {
-    context.prepare_file(o->out, {o->model, o->motion, o->speeds, o->accelerations});
+    context.prepare_file(o->out, {o->model, o->motion, o->speeds, o->accelerations, o->loads});
     if (o->cutoff_hz > 0.0 && !(o->speeds.empty() && o->accelerations.empty()))
       throw InvalidInput(
           "--lowpass smooths angles that are differentiated: leave it out with "
@@ -64,9 +69,23 @@ void add_id(CLI::App& app, Context& context) {
       }
       model = dynamics::with_held_mass(std::move(model), body, p_BP_m, o->mass_kg);
     }
-    const TimeSeries forces = dynamics::inverse_dynamics(
-        model, with_derivatives(load_motion(model, o->motion, o->cutoff_hz, context), model,
-                                o->speeds, o->accelerations, context));
+    const kinematics::JointMotion motion =
+        with_derivatives(load_motion(model, o->motion, o->cutoff_hz, context), model, o->speeds,
+                         o->accelerations, context);
+    std::optional<dynamics::ExternalLoads> loads;
+    if (!o->loads.empty()) {
+      loads = dynamics::read_external_loads(model, o->loads);
+      for (const std::string& note : loads->notes) context.warn(note);
+      const Eigen::VectorXd& time_s = motion.q.time_s();
+      if (time_s[0] < loads->start_s - 1e-3 || time_s[time_s.size() - 1] > loads->end_s + 1e-3) {
+        context.warn(fmt::format(
+            "{}: the loads are known from {} to {} s, the motion goes from {} to {} s; beyond, "
+            "they are guessed by straight lines",
+            o->loads, loads->start_s, loads->end_s, time_s[0], time_s[time_s.size() - 1]));
+      }
+    }
+    const TimeSeries forces =
+        dynamics::inverse_dynamics(model, motion, {.loads = loads ? &*loads : nullptr});
     write_series(o->out, forces, "Inverse Dynamics Generalized Forces");
     if (context.json) {
       nlohmann::ordered_json json{{"out", o->out}, {"samples", forces.sample_count()}};
