@@ -22,7 +22,7 @@ p { margin: 6px 0 10px; max-width: 74ch; }
 .subtitle, .caption, .hints { color: #5a626b; }
 .caption, .hints { font-size: 13px; }
 .headline { font-size: 16px; border-left: 4px solid #1f5fa8; padding: 6px 0 6px 14px; margin: 16px 0; }
-nav { font-size: 13px; margin: 12px 0 0; }
+nav { display: flex; flex-wrap: wrap; font-size: 13px; margin: 12px 0 0; }
 nav a { margin-right: 14px; white-space: nowrap; }
 a { color: #1f5fa8; }
 .wide { overflow-x: auto; }
