@@ -9,6 +9,7 @@
 #include "myoid/dynamics/inverse_dynamics.h"
 #include "myoid/forces/force_sharing.h"
 #include "myoid/kinematics/muscle_kinematics.h"
+#include "myoid/model/thelen_properties.h"
 #include "myoid/pipeline/result_files.h"
 #include "myoid/pipeline/study_model.h"
 #include "myoid/recording/storage_reader.h"
@@ -73,7 +74,7 @@ void add_so(CLI::App& app, Context& context) {
     Eigen::VectorXd greatest(count);
     for (Eigen::Index m = 0; m < count; ++m) {
       const muscle::ThelenParameters p =
-          pipeline::thelen_parameters(model.muscles[static_cast<std::size_t>(m)].properties);
+          model::thelen_parameters(model.muscles[static_cast<std::size_t>(m)].properties);
       greatest[m] = p.max_isometric_force_n;
       for (Eigen::Index i = 0; i < optimal.rows(); ++i) {
         optimal(i, m) = muscle::thelen_optimal_force(p, muscles.length.values()(i, m),

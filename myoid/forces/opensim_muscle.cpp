@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "myoid/model/thelen_properties.h"
 #include "myoid/muscle/de_groote.h"
 #include "myoid/muscle/thelen_curves.h"
 
@@ -44,16 +45,7 @@ muscle::MillardShape shape_of(const model::MillardCurves& c) {
 
 OpensimMuscle::OpensimMuscle(const model::Muscle& muscle, const model::Compat& compat)
     : p_(muscle.properties),
-      thelen_{.max_isometric_force_n = p_.max_isometric_force_n,
-              .optimal_fiber_length_m = p_.optimal_fiber_length_m,
-              .tendon_slack_length_m = p_.tendon_slack_length_m,
-              .pennation_at_optimal_rad = p_.pennation_at_optimal_rad,
-              .max_contraction_velocity = p_.max_contraction_velocity,
-              .active_shape = p_.active_shape,
-              .concentric_shape = p_.concentric_shape,
-              .eccentric_plateau = p_.eccentric_plateau,
-              .extrapolation = p_.force_velocity_extrapolation,
-              .max_pennation_rad = p_.max_pennation_rad},
+      thelen_(model::thelen_parameters(p_)),
       normalized_pennation_(compat.normalized_pennation) {
   height_m_ = p_.optimal_fiber_length_m * std::sin(p_.pennation_at_optimal_rad);
   shortest_m_ = height_m_ > 0.0 ? height_m_ / std::sin(p_.max_pennation_rad) : 0.0;

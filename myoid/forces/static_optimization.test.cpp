@@ -11,6 +11,7 @@
 #include "myoid/kinematics/joint_motion.h"
 #include "myoid/kinematics/muscle_kinematics.h"
 #include "myoid/model/osim_reader.h"
+#include "myoid/model/thelen_properties.h"
 #include "myoid/muscle/thelen.h"
 #include "myoid/recording/storage_reader.h"
 #include "myoid/signals/opensim_lowpass.h"
@@ -47,16 +48,7 @@ class Arm26Trial : public ::testing::Test {
     Eigen::MatrixXd force_n(length.rows(), length.cols());
     for (Eigen::Index i = 0; i < length.cols(); ++i) {
       const model::MuscleProperties& p = model_.muscles[static_cast<std::size_t>(i)].properties;
-      const muscle::ThelenParameters thelen{.max_isometric_force_n = p.max_isometric_force_n,
-                                            .optimal_fiber_length_m = p.optimal_fiber_length_m,
-                                            .tendon_slack_length_m = p.tendon_slack_length_m,
-                                            .pennation_at_optimal_rad = p.pennation_at_optimal_rad,
-                                            .max_contraction_velocity = p.max_contraction_velocity,
-                                            .active_shape = p.active_shape,
-                                            .concentric_shape = p.concentric_shape,
-                                            .eccentric_plateau = p.eccentric_plateau,
-                                            .extrapolation = p.force_velocity_extrapolation,
-                                            .max_pennation_rad = p.max_pennation_rad};
+      const muscle::ThelenParameters thelen = model::thelen_parameters(p);
       for (Eigen::Index row = 0; row < length.rows(); ++row) {
         force_n(row, i) = muscle::thelen_optimal_force(thelen, length(row, i), speed(row, i));
       }

@@ -6,6 +6,36 @@
 namespace myoid::identification {
 namespace {
 
+/// f_v at one rate and its derivatives.
+struct ForceVelocity {
+  double value = 0.0, by_velocity = 0.0, by_speed = 0.0, by_curvature = 0.0, by_product = 0.0,
+         by_plateau = 0.0;
+};
+
+/// Equation (4) of the source paper, v positive in lengthening [m/s]; 0 at -v_max and beyond.
+ForceVelocity force_velocity(double v, const MuscleValues& p) {
+  const double vm = p[kSpeed];
+  ForceVelocity f;
+  if (v > 0.0) {
+    const double below = 1.0 / (p[kProduct] * vm + v);
+    f.value = (p[kProduct] * vm + p[kPlateau] * v) * below;
+    const double flat = v * (1.0 - p[kPlateau]) * below * below;
+    f.by_product = vm * flat;
+    f.by_speed = p[kProduct] * flat;
+    f.by_plateau = v * below;
+    f.by_velocity = p[kProduct] * vm * (p[kPlateau] - 1.0) * below * below;
+  } else if (v > -vm) {
+    const double vsh = p[kCurvature];
+    const double below = 1.0 / (vsh * vm - v);
+    f.value = vsh * (vm + v) * below;
+    f.by_curvature = -v * (vm + v) * below * below;
+    const double bend = vsh * (1.0 + vsh) * below * below;
+    f.by_speed = -v * bend;
+    f.by_velocity = vm * bend;
+  }
+  return f;
+}
+
 constexpr double kTendonScale = 0.2;               // De Groote's exponential tendon ...
 constexpr double kTendonRise = 1.791759469228055;  // ... ln(1 / 0.2 + 1): tension 1 at strain e0
 
@@ -26,25 +56,7 @@ Fiber fiber(double a, double l, double v, const MuscleValues& p) {
   const double fl = std::exp(-z * z);
   const double fl_l = -2.0 * z / w * fl;
 
-  const double vm = p[kSpeed];
-  double fv = 0.0, fv_v = 0.0, fv_vm = 0.0, fv_sh = 0.0, fv_p = 0.0, fv_ml = 0.0;
-  if (v > 0.0) {
-    const double below = 1.0 / (p[kProduct] * vm + v);
-    fv = (p[kProduct] * vm + p[kPlateau] * v) * below;
-    const double flat = v * (1.0 - p[kPlateau]) * below * below;
-    fv_p = vm * flat;
-    fv_vm = p[kProduct] * flat;
-    fv_ml = v * below;
-    fv_v = p[kProduct] * vm * (p[kPlateau] - 1.0) * below * below;
-  } else if (v > -vm) {
-    const double vsh = p[kCurvature];
-    const double below = 1.0 / (vsh * vm - v);
-    fv = vsh * (vm + v) * below;
-    fv_sh = -v * (vm + v) * below * below;
-    const double bend = vsh * (1.0 + vsh) * below * below;
-    fv_vm = -v * bend;
-    fv_v = vm * bend;
-  }
+  const auto [fv, fv_v, fv_vm, fv_sh, fv_p, fv_ml] = force_velocity(v, p);
   f.force = a * fl * fv;
   f.by_activation = fl * fv - a * fl_l * fv * (-l0 * gamma);
   f.by_length = a * fl_l * fv;
@@ -221,29 +233,11 @@ void plain_tension(
     double activation, double length_m, double velocity_mps, const MuscleValues& p, Tension& t) {
   const double a = p[kShare] * activation;
   const double v = velocity_mps;
-  const double vm = p[kSpeed];
   const double inverse_width = 1.0 / p[kWidth];
   const double z = (length_m - p[kSlack] - p[kFiberLength]) * inverse_width;
   const double strength = p[kMaxForce] * std::exp(-z * z);  // at full activation, at rest
   const double active = a * strength;
-  double fv = 0.0, fv_v = 0.0, fv_vm = 0.0, fv_sh = 0.0, fv_p = 0.0, fv_ml = 0.0;
-  if (v > 0.0) {
-    const double below = 1.0 / (p[kProduct] * vm + v);
-    fv = (p[kProduct] * vm + p[kPlateau] * v) * below;
-    const double flat = v * (1.0 - p[kPlateau]) * below * below;
-    fv_p = vm * flat;
-    fv_vm = p[kProduct] * flat;
-    fv_ml = v * below;
-    fv_v = p[kProduct] * vm * (p[kPlateau] - 1.0) * below * below;
-  } else if (v > -vm) {
-    const double vsh = p[kCurvature];
-    const double below = 1.0 / (vsh * vm - v);
-    fv = vsh * (vm + v) * below;
-    fv_sh = -v * (vm + v) * below * below;
-    const double bend = vsh * (1.0 + vsh) * below * below;
-    fv_vm = -v * bend;
-    fv_v = vm * bend;
-  }
+  const auto [fv, fv_v, fv_vm, fv_sh, fv_p, fv_ml] = force_velocity(v, p);
   t.force_n = active * fv;
   t.by_activation = p[kShare] * strength * fv;
   t.by_length = -2.0 * z * inverse_width * t.force_n;

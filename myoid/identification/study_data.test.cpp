@@ -41,8 +41,7 @@ double worst_error(const ElbowStudy& study, const IdentificationResult& result) 
   for (std::size_t m = 0; m < study.truth.size(); ++m) {
     for (std::size_t f = 0; f < 6; ++f) {
       const auto member = muscle::kHillFields[f].member;
-      worst = std::max(worst,
-                       std::abs(result.muscles[m].*member / (study.truth[m].*member) - 1.0));
+      worst = std::max(worst, std::abs(result.muscles[m].*member / (study.truth[m].*member) - 1.0));
     }
   }
   return worst;

@@ -13,6 +13,7 @@
 #include "myoid/dynamics/inverse_dynamics.h"
 #include "myoid/identification/force.h"
 #include "myoid/model/arm4.h"
+#include "myoid/model/thelen_properties.h"
 #include "myoid/pipeline/lumped_muscles.h"
 #include "myoid/pipeline/quality_gates.h"
 #include "myoid/pipeline/stage_store.h"
@@ -148,7 +149,7 @@ void compute_forces(const Study& study, const TrialInput& input, bool share, Tri
   Eigen::VectorXd greatest(count);
   for (Eigen::Index m = 0; m < count; ++m) {
     const muscle::ThelenParameters p =
-        thelen_parameters(trial.model.muscles[static_cast<std::size_t>(m)].properties);
+        model::thelen_parameters(trial.model.muscles[static_cast<std::size_t>(m)].properties);
     greatest[m] = p.max_isometric_force_n;
     for (Eigen::Index i = 0; i < optimal.rows(); ++i) {
       optimal(i, m) = muscle::thelen_optimal_force(p, trial.muscles.length.values()(i, m),

@@ -11,6 +11,7 @@
 #include "myoid/model/arm4.h"
 #include "myoid/model/osim_reader.h"
 #include "myoid/model/osim_writer.h"
+#include "myoid/model/thelen_properties.h"
 #include "myoid/muscle/literature.h"
 #include "myoid/recording/text_file.h"
 
@@ -110,19 +111,6 @@ model::BodyModel load_model(const Study& study, const recording::MarkerSeries* m
   return model;
 }
 
-muscle::ThelenParameters thelen_parameters(const model::MuscleProperties& p) {
-  return {.max_isometric_force_n = p.max_isometric_force_n,
-          .optimal_fiber_length_m = p.optimal_fiber_length_m,
-          .tendon_slack_length_m = p.tendon_slack_length_m,
-          .pennation_at_optimal_rad = p.pennation_at_optimal_rad,
-          .max_contraction_velocity = p.max_contraction_velocity,
-          .active_shape = p.active_shape,
-          .concentric_shape = p.concentric_shape,
-          .eccentric_plateau = p.eccentric_plateau,
-          .extrapolation = p.force_velocity_extrapolation,
-          .max_pennation_rad = p.max_pennation_rad};
-}
-
 std::vector<MuscleGroup> muscle_groups(const Study& study, const model::BodyModel& model) {
   std::vector<MuscleGroup> groups;
   for (const MuscleSpec& spec : study.muscles) {
@@ -151,7 +139,7 @@ std::vector<identification::MuscleSetup> muscle_setups(const Study& study,
     setup.emg_channel = spec.emg;
     setup.start = {};
     for (std::size_t i = 0; i < groups[g].members.size(); ++i) {
-      const auto head = muscle::hill_from_thelen(thelen_parameters(
+      const auto head = muscle::hill_from_thelen(model::thelen_parameters(
           model.muscles[static_cast<std::size_t>(groups[g].members[i])].properties));
       for (const muscle::HillField& field : muscle::kHillFields) {
         const double share = field.name == "max_isometric_force" ? 1.0 : groups[g].weights[i];

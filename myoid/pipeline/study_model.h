@@ -23,9 +23,6 @@ namespace myoid::pipeline {
 [[nodiscard]] model::BodyModel load_model(const Study& study,
                                           const recording::MarkerSeries* markers = nullptr);
 
-/// Thelen's parameters of a model's muscle.
-[[nodiscard]] muscle::ThelenParameters thelen_parameters(const model::MuscleProperties& properties);
-
 /// What is identified: one entry per [[muscle]], heads lumped with their F_max as weights, with the
 /// priors of the literature.
 [[nodiscard]] std::vector<identification::MuscleSetup> muscle_setups(const Study& study,

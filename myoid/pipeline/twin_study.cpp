@@ -119,7 +119,8 @@ TwinSummary summary_of(const std::vector<const TwinRow*>& rows) {
     ++s.count;
     s.verdicts[static_cast<std::size_t>(e.verdict)]++;
     const double error = row->error();
-    const double size = std::isfinite(error) ? std::abs(error) : std::numeric_limits<double>::infinity();
+    const double size =
+        std::isfinite(error) ? std::abs(error) : std::numeric_limits<double>::infinity();
     if (std::isfinite(error)) {
       errors.push_back(error);
       squares += error * error;

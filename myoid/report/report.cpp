@@ -1,7 +1,7 @@
 #include "myoid/report/report.h"
 
-#include <cctype>
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <set>
 #include <string>

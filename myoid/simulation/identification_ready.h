@@ -44,8 +44,8 @@ struct ReadyPerson {
 [[nodiscard]] ReadyPerson identification_ready(const VirtualRecording& recording);
 
 /// `make_virtual_recording`, then that. One person at level L2 with the rich protocol (300 s) takes
-/// about one and a half core-seconds. Threads: none of its own beyond the library's; call it from a parallel loop
-/// over persons.
+/// about one and a half core-seconds. Threads: none of its own beyond the library's; call it from a
+/// parallel loop over persons.
 [[nodiscard]] ReadyPerson make_identification_ready(const Protocol& protocol, std::uint64_t seed);
 
 }  // namespace myoid::simulation

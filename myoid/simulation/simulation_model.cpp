@@ -8,6 +8,7 @@
 #include "myoid/core/units.h"
 #include "myoid/dynamics/passive_forces.h"
 #include "myoid/model/muscle_path.h"
+#include "myoid/model/thelen_properties.h"
 #include "myoid/muscle/literature.h"
 #include "myoid/simulation/simulation_run.h"
 #include "myoid/simulation/tree_dynamics.h"
@@ -58,17 +59,8 @@ ModelMuscle muscle_of(const model::Muscle& m, int index, const ModelSetup& setup
   const bool as_file = setup.curves == MuscleCurves::file;
   const bool rigid = as_file && says.rigid_tendon && setup.mode == muscle::TendonMode::equilibrium;
   result.laws = laws_of(curves, rigid ? muscle::TendonMode::rigid : setup.mode);
-  const muscle::ThelenParameters thelen{.max_isometric_force_n = p.max_isometric_force_n,
-                                        .optimal_fiber_length_m = p.optimal_fiber_length_m,
-                                        .tendon_slack_length_m = p.tendon_slack_length_m,
-                                        .pennation_at_optimal_rad = p.pennation_at_optimal_rad,
-                                        .max_contraction_velocity = p.max_contraction_velocity,
-                                        .active_shape = p.active_shape,
-                                        .concentric_shape = p.concentric_shape,
-                                        .eccentric_plateau = p.eccentric_plateau,
-                                        .extrapolation = p.force_velocity_extrapolation,
-                                        .max_pennation_rad = p.max_pennation_rad};
-  result.parameters = muscle::published_defaults(muscle::hill_from_thelen(thelen), result.laws);
+  result.parameters = muscle::published_defaults(
+      muscle::hill_from_thelen(model::thelen_parameters(p)), result.laws);
   result.parameters.pennation_at_optimal_rad = p.pennation_at_optimal_rad;
   if (curves == MuscleCurves::thelen) {
     result.parameters.tendon_strain = p.max_tendon_strain;
