@@ -160,6 +160,7 @@ IkResult inverse_kinematics(const model::BodyModel& model,
           pose = std::move(again);
       }
     }
+    if (!std::isfinite(cost_before)) fit.unwind(pose);
     cost_before = pose.cost;
     fit.place(pose.q);
     if (frame % 16 == 0 || frame + 1 == frames) fit.collect_undetermined(undetermined);

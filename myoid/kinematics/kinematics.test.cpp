@@ -55,6 +55,21 @@ TEST(InverseKinematics, GivesBackTheAnglesThatMadeTheMarkers) {
   EXPECT_TRUE(result.undetermined.empty());
 }
 
+TEST(InverseKinematics, AnUnclampedCoordinateThatBeginsATurnAwayComesBackIntoItsRange) {
+  const model::BodyModel m = arm();
+  const Eigen::MatrixXd q = swing(m, 20);
+  model::BodyModel away = m;
+  for (model::Coordinate& c : away.coordinates) {
+    if (c.motion != model::MotionType::rotational) continue;
+    c.clamped = false;
+    c.lower = -1.0;
+    c.upper = 2.0;
+    c.default_value += 4.0 * kPi;
+  }
+  const IkResult result = inverse_kinematics(away, markers_of(m, q));
+  EXPECT_LT((result.q.values() - q).cwiseAbs().maxCoeff(), 1e-10);
+}
+
 TEST(InverseKinematics, AMissingMarkerIsLeftOutOfItsFrames) {
   const model::BodyModel m = arm();
   const Eigen::MatrixXd q = swing(m, 30);

@@ -14,6 +14,8 @@
 namespace myoid::kinematics {
 namespace {
 
+constexpr double kLongestTurn_rad = 0.5;  ///< Of any coordinate in one step.
+
 std::size_t at(Eigen::Index index) { return static_cast<std::size_t>(index); }
 
 bool turns(const model::Joint& joint, int coordinate) {
@@ -198,6 +200,15 @@ Eigen::VectorXd PoseFit::moved(const Eigen::VectorXd& q, const Eigen::VectorXd& 
   return next;
 }
 
+double PoseFit::farthest_turn(const Eigen::VectorXd& step) const {
+  double farthest = 0.0;
+  for (std::size_t k = 0; k < free_.size(); ++k) {
+    if (model_.coordinates[at(free_[k])].motion == model::MotionType::rotational)
+      farthest = std::max(farthest, std::abs(step[static_cast<Eigen::Index>(k)]));
+  }
+  return farthest;
+}
+
 /// Orthonormal basis of the steps that keep the constraints other than couplers.
 Eigen::MatrixXd PoseFit::allowed_directions(const Eigen::VectorXd& q) const {
   const auto n = static_cast<Eigen::Index>(free_.size());
@@ -264,6 +275,10 @@ PoseFit::Pose PoseFit::solve(Eigen::VectorXd start) {
       }
       Eigen::VectorXd step = factor.solve(right);
       if (N.size() > 0) step = (N * step).eval();
+      // Where two axes nearly coincide only the sum of their angles is determined: a full step
+      // would turn them against each other by any number of turns.
+      const double farthest = farthest_turn(step);
+      if (farthest > kLongestTurn_rad) step *= kLongestTurn_rad / farthest;
       Eigen::VectorXd q = moved(pose.q, step);
       const double distance = (q - pose.q).cwiseAbs().maxCoeff();
       const double cost = cost_at(q);
@@ -287,6 +302,28 @@ PoseFit::Pose PoseFit::solve(Eigen::VectorXd start) {
   }
   (void)cost_at(pose.q);
   return pose;
+}
+
+void PoseFit::unwind(Pose& pose) {
+  constexpr double kTurn = 2.0 * kPi;
+  for (std::size_t k = 0; k < free_.size(); ++k) {
+    const model::Coordinate& coordinate = model_.coordinates[at(free_[k])];
+    const double value = pose.q[free_[k]];
+    if (coordinate.motion != model::MotionType::rotational ||
+        (value >= coordinate.lower && value <= coordinate.upper))
+      continue;
+    const double turns = std::round((0.5 * (coordinate.lower + coordinate.upper) - value) / kTurn);
+    Eigen::VectorXd step = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(free_.size()));
+    step[static_cast<Eigen::Index>(k)] = turns * kTurn;
+    const Eigen::VectorXd q = moved(pose.q, step);
+    const double back = q[free_[k]];
+    // Curves of the coordinate, couplers or tasks may tell a turn from none: then it stays.
+    const bool same = std::abs(cost_at(q) - pose.cost) <= 1e-9 * pose.cost + 1e-15;
+    const auto outside = [&](double x) {
+      return std::max({0.0, coordinate.lower - x, x - coordinate.upper});
+    };
+    if (same && outside(back) < outside(value)) pose.q = q;
+  }
 }
 
 void PoseFit::place(const Eigen::VectorXd& q) { (void)cost_at(q); }

@@ -38,6 +38,10 @@ class PoseFit {
   /// The nearest minimum of J; the start is made to obey locks, ranges and constraints first.
   [[nodiscard]] Pose solve(Eigen::VectorXd start);
 
+  /// Turns coordinates that lie outside their range back into it, or nearer, by whole turns, where
+  /// that leaves the pose and the cost as they are.
+  void unwind(Pose& pose);
+
   /// Makes q the posture that the functions below speak of.
   void place(const Eigen::VectorXd& q);
   /// Marks the free coordinates with a part in directions that markers and tasks leave open.
@@ -59,6 +63,7 @@ class PoseFit {
   void linearize(const Eigen::VectorXd& q);
   void update_gains(const Eigen::VectorXd& q);
   [[nodiscard]] Eigen::VectorXd moved(const Eigen::VectorXd& q, const Eigen::VectorXd& step) const;
+  [[nodiscard]] double farthest_turn(const Eigen::VectorXd& step) const;
   [[nodiscard]] Eigen::MatrixXd allowed_directions(const Eigen::VectorXd& q) const;
   [[nodiscard]] double target_of(std::size_t task) const;
   [[nodiscard]] Vec3 marker_position(std::size_t pair) const;
