@@ -190,6 +190,17 @@ MuscleTable read_muscles(const std::filesystem::path& path, bool within_bounds) 
   return result;
 }
 
+/// Finite values of a series on another clock; as they are if the clocks agree.
+Eigen::MatrixXd on_clock_of(const TimeSeries& series,
+                            const std::string& path,
+                            const Eigen::VectorXd& clock) {
+  require_finite(series, path);
+  if (series.time_s().size() == clock.size() &&
+      (series.time_s() - clock).cwiseAbs().maxCoeff() < 1e-9)
+    return series.values();
+  return signals::resample(series, clock).values();
+}
+
 /// The columns of the muscles, on the clock of the lengths.
 Eigen::MatrixXd columns_of(const std::string& path,
                            const std::vector<MuscleSetup>& muscles,
@@ -202,16 +213,12 @@ Eigen::MatrixXd columns_of(const std::string& path,
                       fmt::format("no column '{}'; found {}", m.name, channel_names(file.data)));
     names.push_back(m.name);
   }
-  const TimeSeries chosen = file.data.select(names);
-  require_finite(chosen, path);
-  if (chosen.time_s().size() == clock.size() &&
-      (chosen.time_s() - clock).cwiseAbs().maxCoeff() < 1e-9)
-    return chosen.values();
-  return signals::resample(chosen, clock).values();
+  return on_clock_of(file.data.select(names), path, clock);
 }
 
 struct Options {
-  std::string muscles, out, method = "torque", coordinate;
+  std::string muscles, out, method = "torque";
+  std::vector<std::string> coordinates;
   std::vector<std::string> activations, lengths, velocities, forces, arms, torques;
   std::optional<double> delay_s;
   bool no_priors = false;
@@ -230,6 +237,32 @@ void require_count(std::size_t count, std::size_t trials, std::string_view optio
                     count, trials));
 }
 
+/// Columns of the torque file, one for each coordinate; without any the only one.
+std::vector<Channel> torque_columns(const Options& o,
+                                    const std::string& path,
+                                    const TimeSeries& torques) {
+  if (o.coordinates.empty()) {
+    if (torques.channel_count() != 1) {
+      throw ReadError(path, 0,
+                      fmt::format("has several columns ({}); name the joint's with --coordinate",
+                                  channel_names(torques)));
+    }
+    return torques.channels();
+  }
+  std::vector<Channel> columns;
+  for (const std::string& coordinate : o.coordinates) {
+    auto column = torques.find(coordinate);
+    if (!column) column = torques.find(coordinate + "_moment");
+    if (!column) {
+      throw ReadError(path, 0,
+                      fmt::format("no column '{}' or '{}_moment'; found {}", coordinate, coordinate,
+                                  channel_names(torques)));
+    }
+    columns.push_back(torques.channels()[static_cast<std::size_t>(*column)]);
+  }
+  return columns;
+}
+
 StudyData read_data(const Options& o, const MuscleTable& table, const Context& context) {
   StudyData data;
   data.muscles = table.muscles;
@@ -238,8 +271,15 @@ StudyData read_data(const Options& o, const MuscleTable& table, const Context& c
   require_count(o.activations.size(), trials, "--activations");
   require_count(o.velocities.size(), trials, "--velocities");
   const bool torque = o.method == "torque";
+  const std::size_t joints = std::max<std::size_t>(1, o.coordinates.size());
   if (torque) {
-    require_count(o.arms.size(), trials, "--moment-arms");
+    if (joints > 1 && o.arms.size() != joints * trials) {
+      throw InvalidInput(
+          fmt::format("--moment-arms: {} files for {} trials with {} coordinates each; give the "
+                      "first trial's in the order of --coordinate, then the next trial's",
+                      o.arms.size(), trials, joints));
+    }
+    if (joints == 1) require_count(o.arms.size(), trials, "--moment-arms");
     require_count(o.torques.size(), trials, "--torques");
   } else {
     require_count(o.forces.size(), trials, "--forces");
@@ -269,31 +309,22 @@ StudyData read_data(const Options& o, const MuscleTable& table, const Context& c
     trial.moment_arm_m = Eigen::MatrixXd::Zero(trial.time_s.size(), trial.length_m.cols());
     if (!o.forces.empty()) trial.force_n = columns_of(o.forces[i], data.muscles, trial.time_s);
     if (torque) {
-      trial.moment_arm_m = columns_of(o.arms[i], data.muscles, trial.time_s);
-      const recording::Storage torques = recording::read_storage(o.torques[i]);
-      std::string column = o.coordinate.empty() ? "" : o.coordinate;
-      if (column.empty()) {
-        if (torques.data.channel_count() != 1) {
-          throw ReadError(
-              o.torques[i], 0,
-              fmt::format("has several columns ({}); name the joint's with --coordinate",
-                          channel_names(torques.data)));
+      trial.moment_arm_m = columns_of(o.arms[joints * i], data.muscles, trial.time_s);
+      const TimeSeries torques = recording::read_storage(o.torques[i]).data;
+      const std::vector<Channel> columns = torque_columns(o, o.torques[i], torques);
+      for (std::size_t j = 0; j < columns.size(); ++j) {
+        Eigen::VectorXd torque_nm =
+            on_clock_of(torques.select({columns[j].name}), o.torques[i], trial.time_s).col(0);
+        if (j == 0) {
+          trial.torque_nm = std::move(torque_nm);
+          if (!o.coordinates.empty()) trial.joint = o.coordinates[0];
+        } else {
+          trial.more_joints.push_back(
+              {.name = o.coordinates[j],
+               .torque_nm = std::move(torque_nm),
+               .moment_arm_m = columns_of(o.arms[joints * i + j], data.muscles, trial.time_s)});
         }
-        column = torques.data.channels()[0].name;
-      } else if (!torques.data.find(column)) {
-        column += "_moment";
-        if (!torques.data.find(column))
-          throw ReadError(o.torques[i], 0,
-                          fmt::format("no column '{}' or '{}'; found {}", o.coordinate, column,
-                                      channel_names(torques.data)));
       }
-      const TimeSeries one = torques.data.select({column});
-      require_finite(one, o.torques[i]);
-      const bool same = one.time_s().size() == trial.time_s.size() &&
-                        (one.time_s() - trial.time_s).cwiseAbs().maxCoeff() < 1e-9;
-      trial.torque_nm = same
-                            ? Eigen::VectorXd(one.values().col(0))
-                            : Eigen::VectorXd(signals::resample(one, trial.time_s).values().col(0));
     }
     data.trials.push_back(std::move(trial));
   }
@@ -375,8 +406,9 @@ void add_identify(CLI::App& app, Context& context) {
   command.add_option("--moment-arms", o->arms, "Moment arms [m] by muscle, for --method torque");
   command.add_option("--torques", o->torques,
                      "Joint torque of the muscles [N m], for --method torque");
-  command.add_option("--coordinate", o->coordinate,
-                     "Column of the torque file, where it has several");
+  command.add_option("--coordinate", o->coordinates,
+                     "Columns of the torque file, where it has several; with more than one, "
+                     "--moment-arms has a file for each, trial by trial");
   command.add_option("--method", o->method, "paper, force or torque (default torque)")
       ->check(CLI::IsMember({"paper", "force", "torque"}));
   command

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 #include <Eigen/QR>
@@ -108,6 +109,85 @@ Eigen::VectorXd joined(const std::vector<Eigen::VectorXd>& parts) {
   return all;
 }
 
+/// The one joint's part of every trial that has it.
+std::vector<TrialData> joint_views(const std::vector<TrialData>& trials, const std::string& joint) {
+  std::vector<TrialData> views;
+  for (const TrialData& trial : trials) {
+    for (std::size_t j = 0; j < joint_count(trial); ++j) {
+      const std::string& name = j == 0 ? trial.joint : trial.more_joints[j - 1].name;
+      if (name == joint) views.push_back(of_joint(trial, j));
+    }
+  }
+  return views;
+}
+
+/// Parameters by which a fold is predicted.
+struct Predictors {
+  const StudyData& data;
+  const IdentificationResult& fit;
+  std::vector<muscle::HillParameters<double>> literature, shortening, lengthening;
+  double literature_delay_s = 0.0;
+  bool paper = false;
+};
+
+Fold score_joint(const std::string& name,
+                 const std::vector<TrialData>& training,
+                 const std::vector<TrialData>& held,
+                 const Predictors& by) {
+  // Baselines from the training trials.
+  double product = 0.0, square = 0.0, sum = 0.0, count = 0.0;
+  const auto m = static_cast<Eigen::Index>(by.data.muscles.size());
+  Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(m, m);
+  Eigen::VectorXd right = Eigen::VectorXd::Zero(m);
+  for (const TrialData& t : training) {
+    const Eigen::VectorXd torque =
+        predict(by.data, t, by.literature, by.literature_delay_s).torque_nm;
+    product += torque.dot(t.torque_nm);
+    square += torque.squaredNorm();
+    sum += t.torque_nm.sum();
+    count += static_cast<double>(t.torque_nm.size());
+    const Eigen::MatrixXd x = regressors(by.data, t, by.fit.delay_s);
+    normal += x.transpose() * x;
+    right += x.transpose() * t.torque_nm;
+  }
+  const Eigen::VectorXd slopes = normal.completeOrthogonalDecomposition().solve(right);
+  Fold fold;
+  fold.trial = name;
+  fold.gain = square > 0.0 ? product / square : 0.0;
+  std::vector<Eigen::VectorXd> time, measured, predicted, by_literature, by_regression, by_paper;
+  for (const TrialData& t : held) {
+    const std::vector<Eigen::Index> rows = included_rows(t);
+    const Eigen::VectorXd whole = predict(by.data, t, by.fit.values, by.fit.dynamics).torque_nm;
+    const Eigen::VectorXd before =
+        predict(by.data, t, by.literature, by.literature_delay_s).torque_nm;
+    const Eigen::VectorXd regressed = regressors(by.data, t, by.fit.delay_s) * slopes;
+    time.emplace_back(t.time_s(rows));
+    measured.emplace_back(t.torque_nm(rows));
+    predicted.emplace_back(whole(rows));
+    by_literature.emplace_back(fold.gain * before(rows));
+    by_regression.emplace_back(regressed(rows));
+    if (by.paper) {
+      const Eigen::MatrixXd slow = predict(by.data, t, by.shortening, 0.0).force_n;
+      const Eigen::MatrixXd fast = predict(by.data, t, by.lengthening, 0.0).force_n;
+      const Eigen::MatrixXd force = (t.velocity_mps.array() <= 0.0).select(slow, fast);
+      const Eigen::VectorXd paper = t.moment_arm_m.cwiseProduct(force).rowwise().sum();
+      by_paper.emplace_back(paper(rows));
+    }
+    fold.lag_s += best_lag_s(t.time_s, t.torque_nm, whole) / static_cast<double>(held.size());
+  }
+  fold.time_s = joined(time);
+  fold.measured_nm = joined(measured);
+  fold.predicted_nm = joined(predicted);
+  fold.literature_nm = joined(by_literature);
+  fold.identified = score(fold.measured_nm, fold.predicted_nm);
+  fold.literature = score(fold.measured_nm, fold.literature_nm);
+  fold.regression = score(fold.measured_nm, joined(by_regression));
+  fold.constant =
+      score(fold.measured_nm, Eigen::VectorXd::Constant(fold.measured_nm.size(), sum / count));
+  if (by.paper) fold.paper = score(fold.measured_nm, joined(by_paper));
+  return fold;
+}
+
 }  // namespace
 
 Score score(const Eigen::VectorXd& measured, const Eigen::VectorXd& predicted) {
@@ -157,8 +237,8 @@ std::vector<Fold> cross_validate(const StudyData& data,
   const std::vector<Split> splits = make_splits(data, how);
   std::vector<muscle::HillParameters<double>> literature;
   for (const MuscleSetup& setup : data.muscles) literature.push_back(setup.start);
-  const double literature_delay = options.delay_s.value_or(options.delay_prior_mean_s);
-  std::vector<Fold> folds(splits.size());
+  const std::vector<std::string> joints = joint_names(data);
+  std::vector<std::vector<Fold>> of_split(splits.size());
   oneapi::tbb::parallel_for(std::size_t{0}, splits.size(), [&](std::size_t f) {
     const Split& split = splits[f];
     StudyData training = data;
@@ -171,72 +251,35 @@ std::vector<Fold> cross_validate(const StudyData& data,
     once.intervals = {};
     once.progress.report = nullptr;
     const IdentificationResult fit = identify_torque(training, once);
-    // Baselines from the training trials.
-    double product = 0.0, square = 0.0, sum = 0.0, count = 0.0;
-    const auto m = static_cast<Eigen::Index>(data.muscles.size());
-    Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(m, m);
-    Eigen::VectorXd right = Eigen::VectorXd::Zero(m);
-    bool forces = true;
-    for (const TrialData& t : split.training) {
-      const Eigen::VectorXd torque = predict(data, t, literature, literature_delay).torque_nm;
-      product += torque.dot(t.torque_nm);
-      square += torque.squaredNorm();
-      sum += t.torque_nm.sum();
-      count += static_cast<double>(t.torque_nm.size());
-      const Eigen::MatrixXd x = regressors(data, t, fit.delay_s);
-      normal += x.transpose() * x;
-      right += x.transpose() * t.torque_nm;
-      forces = forces && t.force_n.rows() == t.time_s.size();
-    }
-    const Eigen::VectorXd slopes = normal.completeOrthogonalDecomposition().solve(right);
-    std::vector<muscle::HillParameters<double>> shortening = literature, lengthening = literature;
-    if (forces) {
+    Predictors by{.data = data,
+                  .fit = fit,
+                  .literature = literature,
+                  .shortening = literature,
+                  .lengthening = literature,
+                  .literature_delay_s = options.delay_s.value_or(options.delay_prior_mean_s)};
+    by.paper = std::all_of(split.training.begin(), split.training.end(),
+                           [](const TrialData& t) { return t.force_n.rows() == t.time_s.size(); });
+    if (by.paper) {
       for (const ParameterEstimate& e :
            identify_paper(training, {.muscles = options.muscles}).estimates) {
         if (!std::isfinite(e.estimate)) continue;
         for (std::size_t k = 0; k < data.muscles.size(); ++k) {
           if (data.muscles[k].name == e.muscle)
-            (e.fit_case == "shortening" ? shortening : lengthening)[k].*
+            (e.fit_case == "shortening" ? by.shortening : by.lengthening)[k].*
                 muscle::hill_field(e.parameter).member = e.estimate;
         }
       }
     }
-    Fold& fold = folds[f];
-    fold.trial = split.name;
-    fold.gain = square > 0.0 ? product / square : 0.0;
-    std::vector<Eigen::VectorXd> time, measured, predicted, by_literature, by_regression, by_paper;
-    double lag = 0.0;
-    for (const TrialData& t : split.held) {
-      const std::vector<Eigen::Index> rows = included_rows(t);
-      const Eigen::VectorXd whole = predict(data, t, fit.values, fit.dynamics).torque_nm;
-      const Eigen::VectorXd before = predict(data, t, literature, literature_delay).torque_nm;
-      const Eigen::VectorXd regressed = regressors(data, t, fit.delay_s) * slopes;
-      time.emplace_back(t.time_s(rows));
-      measured.emplace_back(t.torque_nm(rows));
-      predicted.emplace_back(whole(rows));
-      by_literature.emplace_back(fold.gain * before(rows));
-      by_regression.emplace_back(regressed(rows));
-      if (forces) {
-        const Eigen::MatrixXd slow = predict(data, t, shortening, 0.0).force_n;
-        const Eigen::MatrixXd fast = predict(data, t, lengthening, 0.0).force_n;
-        const Eigen::MatrixXd force = (t.velocity_mps.array() <= 0.0).select(slow, fast);
-        const Eigen::VectorXd paper = t.moment_arm_m.cwiseProduct(force).rowwise().sum();
-        by_paper.emplace_back(paper(rows));
-      }
-      lag += best_lag_s(t.time_s, t.torque_nm, whole) / static_cast<double>(split.held.size());
+    for (const std::string& joint : joints) {
+      const std::vector<TrialData> held = joint_views(split.held, joint);
+      if (held.empty()) continue;
+      of_split[f].push_back(score_joint(split.name, joint_views(split.training, joint), held, by));
+      of_split[f].back().joint = joint;
     }
-    fold.time_s = joined(time);
-    fold.measured_nm = joined(measured);
-    fold.predicted_nm = joined(predicted);
-    fold.literature_nm = joined(by_literature);
-    fold.lag_s = lag;
-    fold.identified = score(fold.measured_nm, fold.predicted_nm);
-    fold.literature = score(fold.measured_nm, fold.literature_nm);
-    fold.regression = score(fold.measured_nm, joined(by_regression));
-    fold.constant =
-        score(fold.measured_nm, Eigen::VectorXd::Constant(fold.measured_nm.size(), sum / count));
-    if (forces) fold.paper = score(fold.measured_nm, joined(by_paper));
   });
+  std::vector<Fold> folds;
+  for (std::vector<Fold>& of_one : of_split)
+    std::move(of_one.begin(), of_one.end(), std::back_inserter(folds));
   return folds;
 }
 

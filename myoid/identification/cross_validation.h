@@ -42,6 +42,7 @@ struct CrossValidationOptions {
 /// One thing left out.
 struct Fold {
   std::string trial;  ///< Or the condition, or "block 2 of 5".
+  std::string joint;  ///< Whose torque is predicted.
   Score identified;   ///< Fitted on the others.
   Score literature;   ///< Literature parameters with the one gain that fits the others best.
   Score regression;   ///< Torque regressed on activation times moment arm of every muscle.
@@ -53,8 +54,8 @@ struct Fold {
       literature_nm;  ///< Trials one after the other.
 };
 
-/// Leaves out in turn and predicts, folds in parallel; never shuffled samples. At least two folds
-/// are needed; empty otherwise.
+/// Leaves out in turn and predicts, folds in parallel; never shuffled samples. One entry for each
+/// thing left out and joint. At least two folds are needed; empty otherwise.
 [[nodiscard]] std::vector<Fold> cross_validate(const StudyData& data,
                                                const TorqueOptions& options = {},
                                                const CrossValidationOptions& folds = {});

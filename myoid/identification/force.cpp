@@ -63,6 +63,7 @@ IdentificationResult identify_force(const StudyData& data, const ForceOptions& o
     fit.trial = trial.name;
     fit.calibration = trial.calibration;
     fit.time_s = trial.time_s;
+    fit.joint = trial.joint;
     fit.torque_nm = trial.torque_nm;
     fit.literature_force_n = Eigen::MatrixXd::Zero(trial.time_s.size(), trial.length_m.cols());
     fit.force_fit_n = fit.literature_force_n;

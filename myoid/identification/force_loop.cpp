@@ -129,12 +129,27 @@ InformedForces informed_forces(const TrialData& trial,
     throw InvalidInput(fmt::format(
         "trial '{}' has no torque, moment arms or activations for {} muscles", trial.name, m));
   }
+  const auto joints = static_cast<Eigen::Index>(joint_count(trial));
   InformedForces result{.trial = trial.name,
                         .time_s = trial.time_s,
                         .activation = Eigen::MatrixXd(n, m),
                         .measured = measured,
                         .force_n = Eigen::MatrixXd(n, m),
-                        .reserve_nm = Eigen::VectorXd(n)};
+                        .reserve_nm = Eigen::MatrixXd(n, joints)};
+  const auto moment_arm = [&](Eigen::Index i) {
+    Eigen::MatrixXd arms(joints, m);
+    arms.row(0) = trial.moment_arm_m.row(i);
+    for (Eigen::Index j = 1; j < joints; ++j)
+      arms.row(j) = trial.more_joints[static_cast<std::size_t>(j - 1)].moment_arm_m.row(i);
+    return arms;
+  };
+  const auto torque = [&](Eigen::Index i) {
+    Eigen::VectorXd torques(joints);
+    torques[0] = trial.torque_nm[i];
+    for (Eigen::Index j = 1; j < joints; ++j)
+      torques[j] = trial.more_joints[static_cast<std::size_t>(j - 1)].torque_nm[i];
+    return torques;
+  };
   Eigen::MatrixXd rest(n, m);
   Eigen::MatrixXd full(n, m);
   for (Eigen::Index i = 0; i < n; ++i) {
@@ -148,16 +163,17 @@ InformedForces informed_forces(const TrialData& trial,
           tension(1.0 / share, trial.length_m(i, k), trial.velocity_mps(i, k), values).force_n;
     }
   }
-  const Eigen::VectorXd passive = trial.moment_arm_m.cwiseProduct(rest).rowwise().sum();
   for (Eigen::Index i = 0; i < n; ++i) {
+    const Eigen::MatrixXd arms = moment_arm(i);
+    const Eigen::VectorXd torques = torque(i);
     const forces::SharingSolution solution = forces::solve_sharing(
-        {.moment_arm = trial.moment_arm_m.row(i),
+        {.moment_arm = arms,
          .optimal_force = (full.row(i) - rest.row(i)).cwiseMax(0.0).transpose(),
-         .torque = Eigen::VectorXd::Constant(1, trial.torque_nm[i] - passive[i]),
+         .torque = torques - arms * rest.row(i).transpose(),
          .lower = Eigen::VectorXd::Zero(m),
          .upper = Eigen::VectorXd::Ones(m),
          .weight = {},
-         .reserve = Eigen::VectorXd::Constant(1, options.reserve_nm),
+         .reserve = Eigen::VectorXd::Constant(joints, options.reserve_nm),
          .emg = options.emg_weight > 0.0 ? Eigen::VectorXd(result.measured.row(i).transpose())
                                          : Eigen::VectorXd(),
          .emg_weight = options.emg_weight,
@@ -173,8 +189,7 @@ InformedForces informed_forces(const TrialData& trial,
                                      trial.velocity_mps(i, k), values)
                                  .force_n;
     }
-    result.reserve_nm[i] =
-        trial.torque_nm[i] - trial.moment_arm_m.row(i).dot(result.force_n.row(i));
+    result.reserve_nm.row(i) = (torques - arms * result.force_n.row(i).transpose()).transpose();
   }
   return result;
 }

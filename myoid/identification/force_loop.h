@@ -26,14 +26,14 @@ struct InformedForces {
   Eigen::MatrixXd activation;  ///< n x m, found.
   Eigen::MatrixXd measured;    ///< n x m, of the EMG at the same instants.
   Eigen::MatrixXd force_n;     ///< n x m
-  Eigen::VectorXd reserve_nm;  ///< n: torque that no muscle carries.
+  Eigen::MatrixXd reserve_nm;  ///< n x joints: torque that no muscle carries.
   int frames_not_solved = 0;
 };
 
 /// Forces and activations with given muscles, informed by their EMG: in every sample
 ///
-///   minimize  W sum_i (a_i - e_i)^2 + sum_i a_i^2 + y^2   subject to
-///   sum_i r_i F_i(a_i) + y T = torque,   0 <= a_i <= 1
+///   minimize  W sum_i (a_i - e_i)^2 + sum_i a_i^2 + sum_j y_j^2   subject to
+///   sum_i r_ij F_i(a_i) + y_j T = torque_j for each joint j,   0 <= a_i <= 1
 ///
 /// e the `measured` activation of each muscle's EMG channel (n x m) times its share, T
 /// `reserve_nm`, F_i the tension of muscle_law.h, taken as linear in a_i between 0 and 1 (exact for

@@ -259,6 +259,7 @@ IdentificationResult identify_paper(const StudyData& data, const PaperOptions& o
     fit.trial = trial.name;
     fit.calibration = trial.calibration;
     fit.time_s = trial.time_s;
+    fit.joint = trial.joint;
     fit.torque_nm = trial.torque_nm;
     const Eigen::MatrixXd activation = muscle_activation(data, trial, trial.time_s, 0.0);
     fit.literature_force_n.resize(trial.time_s.size(), trial.length_m.cols());

@@ -239,13 +239,7 @@ ParameterMap::ParameterMap(const StudyData& data, const EstimatorOptions& option
     channel_of_muscle_.push_back(static_cast<int>(it - channels_.begin()));
     if (it == channels_.end()) channels_.push_back(setup.emg_channel);
   }
-  for (const TrialData& trial : data.trials) {
-    const auto add = [&](const std::string& name) {
-      if (std::find(joints_.begin(), joints_.end(), name) == joints_.end()) joints_.push_back(name);
-    };
-    add(trial.joint);
-    for (const JointData& joint : trial.more_joints) add(joint.name);
-  }
+  joints_ = joint_names(data);
   const double delay_s = options.delay_s.value_or(options.delay_prior_mean_s);
   held_.channels.assign(channels_.size(), {delay_s, 1.0, 0.0, 0.040, 0.015, 0.050});
   held_.joints.assign(joints_.size(), {0.0, 0.0, 0.0, 0.0});

@@ -53,6 +53,7 @@ struct ParameterEstimate {
 /// How well a trial is predicted.
 struct TrialFit {
   std::string trial;
+  std::string joint;  ///< Of the torque; the forces are those of the trial.
   bool calibration = true;
   Eigen::VectorXd time_s;
   Eigen::VectorXd torque_nm;             ///< From inverse dynamics.

@@ -28,6 +28,34 @@ std::map<std::string, Prior> literature_priors(const muscle::HillParameters<doub
   return priors;
 }
 
+std::size_t joint_count(const TrialData& trial) { return 1 + trial.more_joints.size(); }
+
+TrialData of_joint(const TrialData& trial, std::size_t joint) {
+  TrialData one = trial;
+  one.more_joints.clear();
+  if (joint == 0) return one;
+  const JointData& of = trial.more_joints[joint - 1];
+  one.joint = of.name;
+  one.torque_nm = of.torque_nm;
+  one.moment_arm_m = of.moment_arm_m;
+  one.angle_rad = of.angle_rad;
+  one.velocity_radps = of.velocity_radps;
+  one.acceleration_radps2 = of.acceleration_radps2;
+  return one;
+}
+
+std::vector<std::string> joint_names(const StudyData& data) {
+  std::vector<std::string> names;
+  const auto add = [&](const std::string& name) {
+    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  };
+  for (const TrialData& trial : data.trials) {
+    add(trial.joint);
+    for (const JointData& joint : trial.more_joints) add(joint.name);
+  }
+  return names;
+}
+
 std::vector<Eigen::Index> included_rows(const TrialData& trial) {
   std::vector<Eigen::Index> rows;
   for (Eigen::Index i = 0; i < trial.time_s.size(); ++i) {
@@ -65,6 +93,14 @@ void validate(const StudyData& data) {
       throw InvalidInput(
           fmt::format("trial '{}': a length, velocity, moment arm, torque or force is not a number",
                       trial.name));
+    }
+    for (const JointData& joint : trial.more_joints) {
+      if (joint.torque_nm.size() != n || !sized(joint.moment_arm_m) ||
+          !joint.torque_nm.allFinite() || !joint.moment_arm_m.allFinite()) {
+        throw InvalidInput(fmt::format(
+            "trial '{}', joint '{}': torque and moment arms must be {} finite samples x {} muscles",
+            trial.name, joint.name, n, m));
+      }
     }
     require_finite(trial.activation, fmt::format("trial '{}': activation", trial.name));
     for (const MuscleSetup& muscle : data.muscles) (void)trial.activation.index(muscle.emg_channel);

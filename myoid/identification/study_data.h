@@ -83,6 +83,16 @@ struct StudyData {
 [[nodiscard]] std::map<std::string, Prior> literature_priors(
     const muscle::HillParameters<double>& start);
 
+/// Joints of a trial: its own and `more_joints`.
+[[nodiscard]] std::size_t joint_count(const TrialData& trial);
+
+/// The trial as one joint's alone: that joint's torque, moment arms and motion, 0 its own, then
+/// `more_joints` in order.
+[[nodiscard]] TrialData of_joint(const TrialData& trial, std::size_t joint);
+
+/// Names of all joints of all trials, in order of appearance.
+[[nodiscard]] std::vector<std::string> joint_names(const StudyData& data);
+
 /// Samples of a trial that no excluded stretch holds, in order.
 [[nodiscard]] std::vector<Eigen::Index> included_rows(const TrialData& trial);
 

@@ -22,27 +22,31 @@ void add_predictions(const StudyData& data,
     channel[kGain] = 1.0;
     channel[kShape] = 0.0;
   }
-  for (const TrialData& trial : data.trials) {
-    TrialFit fit;
-    fit.trial = trial.name;
-    fit.calibration = trial.calibration;
-    fit.time_s = trial.time_s;
-    fit.torque_nm = trial.torque_nm;
-    Prediction before = predict(data, trial, literature, options.dynamics);
-    Prediction after = predict(data, trial, result.values, options.dynamics);
-    if (after.torque_nm.size() == trial.torque_nm.size()) {
-      const std::vector<Eigen::Index> rows = included_rows(trial);
-      const Eigen::VectorXd measured = trial.torque_nm(rows);
-      const Eigen::VectorXd predicted = after.torque_nm(rows);
-      fit.rmse_nm = std::sqrt((predicted - measured).squaredNorm() /
-                              std::max(1.0, static_cast<double>(rows.size())));
-      fit.r2 = coefficient_of_determination(measured, predicted);
+  for (const TrialData& whole : data.trials) {
+    for (std::size_t j = 0; j < joint_count(whole); ++j) {
+      const TrialData trial = of_joint(whole, j);
+      TrialFit fit;
+      fit.trial = trial.name;
+      fit.joint = trial.joint;
+      fit.calibration = trial.calibration;
+      fit.time_s = trial.time_s;
+      fit.torque_nm = trial.torque_nm;
+      Prediction before = predict(data, trial, literature, options.dynamics);
+      Prediction after = predict(data, trial, result.values, options.dynamics);
+      if (after.torque_nm.size() == trial.torque_nm.size()) {
+        const std::vector<Eigen::Index> rows = included_rows(trial);
+        const Eigen::VectorXd measured = trial.torque_nm(rows);
+        const Eigen::VectorXd predicted = after.torque_nm(rows);
+        fit.rmse_nm = std::sqrt((predicted - measured).squaredNorm() /
+                                std::max(1.0, static_cast<double>(rows.size())));
+        fit.r2 = coefficient_of_determination(measured, predicted);
+      }
+      fit.literature_force_n = std::move(before.force_n);
+      fit.literature_torque_nm = std::move(before.torque_nm);
+      fit.force_fit_n = std::move(after.force_n);
+      fit.torque_fit_nm = std::move(after.torque_nm);
+      result.trials.push_back(std::move(fit));
     }
-    fit.literature_force_n = std::move(before.force_n);
-    fit.literature_torque_nm = std::move(before.torque_nm);
-    fit.force_fit_n = std::move(after.force_n);
-    fit.torque_fit_nm = std::move(after.torque_nm);
-    result.trials.push_back(std::move(fit));
   }
 }
 
@@ -116,8 +120,11 @@ Prediction predict(const StudyData& data,
   }
   if (trial.moment_arm_m.rows() == n) {
     p.torque_nm = trial.moment_arm_m.cwiseProduct(p.force_n).rowwise().sum();
-    if (!values.joints.empty()) {
-      const JointValues& joint = values.joints.front();
+    const std::vector<std::string> joints = joint_names(data);
+    const auto at = static_cast<std::size_t>(std::find(joints.begin(), joints.end(), trial.joint) -
+                                             joints.begin());
+    if (at < values.joints.size()) {
+      const JointValues& joint = values.joints[at];
       p.torque_nm.array() += joint[kOffset];
       if (trial.angle_rad.size() == n && trial.velocity_radps.size() == n &&
           trial.acceleration_radps2.size() == n) {

@@ -52,7 +52,7 @@ struct Prediction {
                                  const TrialData& trial,
                                  const std::vector<muscle::HillParameters<double>>& muscles,
                                  double delay_s);
-/// With all numbers of the model, of the trial's first joint.
+/// With all numbers of the model, of the trial's first joint (others: `of_joint`).
 [[nodiscard]] Prediction predict(const StudyData& data,
                                  const TrialData& trial,
                                  const ModelValues& values,

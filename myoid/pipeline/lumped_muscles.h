@@ -17,6 +17,11 @@ struct LumpedMuscles {
   Eigen::MatrixXd moment_arm_m;  ///< By the study's coordinate, r = -dl/dq.
 };
 
+/// Moment arms r = -dl/dq by one coordinate, n x m [m].
+[[nodiscard]] Eigen::MatrixXd lumped_moment_arm_m(const kinematics::MuscleKinematics& muscles,
+                                                  const std::vector<MuscleGroup>& groups,
+                                                  const std::string& coordinate);
+
 /// Weighted means over the heads of each group.
 [[nodiscard]] LumpedMuscles lumped_muscles(const kinematics::MuscleKinematics& muscles,
                                            const std::vector<MuscleGroup>& groups,

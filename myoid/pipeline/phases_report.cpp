@@ -9,10 +9,7 @@ namespace {
 
 using report::Badge;
 using report::Role;
-
-std::vector<double> to_vector(const Eigen::Ref<const Eigen::VectorXd>& v) {
-  return {v.begin(), v.end()};
-}
+using report::to_vector;
 
 std::string percent_of(const std::optional<double>& x) {
   return x ? fmt::format("{:.0f} %", 100.0 * *x) : "-";

@@ -19,6 +19,7 @@ using report::GateStatus;
 
 constexpr double kLostFrames = 0.05;      ///< Share of frames without a pose that is a failure.
 constexpr double kMarkerError_m = 0.020;  ///< Rms over the markers of a frame; twice it fails.
+constexpr double kMissingShare = 0.05;    ///< Of a joint's strength without an identified muscle.
 constexpr double kLeastRange_deg = 5.0;   ///< A joint that moves less was not moved.
 
 const IdentificationResult* torque_of(const StudyResult& result) {
@@ -39,6 +40,47 @@ std::optional<double> largest_range_deg(const StudyResult& result) {
     largest = std::max(largest.value_or(0.0), q.maxCoeff() - q.minCoeff());
   }
   return largest;
+}
+
+/// Muscles of the model that pull at the study's joints but belong to no [[muscle]], and the
+/// largest share that they have of a joint's summed strength F_max |r|.
+struct MissingMuscles {
+  std::vector<std::string> names;
+  double share = 0.0;
+};
+
+MissingMuscles missing_muscles(const StudyResult& result) {
+  MissingMuscles missing;
+  const auto count = static_cast<Eigen::Index>(result.model.muscles.size());
+  std::vector<bool> there(result.model.muscles.size(), false);
+  for (const MuscleSpec& spec : result.study.muscles) {
+    for (const std::string& name : spec.osim)
+      there[static_cast<std::size_t>(result.model.muscle_index(name))] = true;
+  }
+  for (const std::string& coordinate : study_coordinates(result.study.model)) {
+    Eigen::VectorXd strength_nm = Eigen::VectorXd::Zero(count);
+    for (const TrialResult& t : result.trials) {
+      const auto arms = t.muscles.moment_arm.find(coordinate);
+      if (!t.has_motion() || arms == t.muscles.moment_arm.end()) continue;
+      strength_nm =
+          strength_nm.cwiseMax(arms->second.values().cwiseAbs().colwise().mean().transpose());
+    }
+    for (Eigen::Index m = 0; m < count; ++m)
+      strength_nm[m] *=
+          result.model.muscles[static_cast<std::size_t>(m)].properties.max_isometric_force_n;
+    const double all_nm = strength_nm.sum();
+    double missing_nm = 0.0;
+    for (Eigen::Index m = 0; m < count; ++m) {
+      const auto i = static_cast<std::size_t>(m);
+      if (there[i] || strength_nm[m] <= 0.002 * all_nm) continue;
+      missing_nm += strength_nm[m];
+      const std::string& name = result.model.muscles[i].name;
+      if (std::find(missing.names.begin(), missing.names.end(), name) == missing.names.end())
+        missing.names.push_back(name);
+    }
+    if (all_nm > 0.0) missing.share = std::max(missing.share, missing_nm / all_nm);
+  }
+  return missing;
 }
 
 }  // namespace
@@ -123,6 +165,15 @@ std::vector<report::Gate> quality_gates(const StudyResult& result) {
                     fmt::format("{:.2g} degrees in the trial that moves it most", *range),
                     "5 degrees or more",
                     "Were radians declared as degrees, or is the coordinate another one?"});
+  }
+  if (const MissingMuscles missing = missing_muscles(result); !missing.names.empty()) {
+    list.push_back({"Every muscle of the joint is in the study",
+                    missing.share > kMissingShare ? GateStatus::warn : GateStatus::info,
+                    fmt::format("without {}: {:.0f} % of the joint's strength",
+                                fmt::join(missing.names, ", "), 100.0 * missing.share),
+                    fmt::format("at most {:.0f} % missing", 100.0 * kMissingShare),
+                    "What these muscles do is laid to the others: add them, or name them in a "
+                    "[[muscle]]'s osim list."});
   }
   list.push_back(
       {"Force sharing certified optimal", unsolved == 0 ? GateStatus::pass : GateStatus::fail,

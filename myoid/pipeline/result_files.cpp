@@ -105,8 +105,9 @@ void write_informed_forces(const StudyResult& result,
     in_newtons.push_back({muscle.name, Unit::newton});
     activations.push_back({muscle.name, Unit::dimensionless});
   }
-  in_newtons.push_back({result.study.model.coordinate + "_reserve", Unit::newton_meter});
-  Eigen::MatrixXd values(forces.force_n.rows(), forces.force_n.cols() + 1);
+  for (const std::string& name : study_coordinates(result.study.model))
+    in_newtons.push_back({name + "_reserve", Unit::newton_meter});
+  Eigen::MatrixXd values(forces.force_n.rows(), forces.force_n.cols() + forces.reserve_nm.cols());
   values << forces.force_n, forces.reserve_nm;
   recording::write_storage(folder / "EmgInformed_force.sto",
                            {forces.time_s, std::move(in_newtons), std::move(values)},
@@ -266,6 +267,7 @@ std::string parameters_json(const std::vector<IdentificationResult>& methods,
     m["trials"] = ordered_json::array();
     for (const identification::TrialFit& t : method.trials) {
       m["trials"].push_back({{"trial", t.trial},
+                             {"joint", t.joint},
                              {"calibration", t.calibration},
                              {"rmse_nm", unless_paper(t.rmse_nm)},
                              {"r2", unless_paper(t.r2)}});
@@ -296,6 +298,7 @@ std::string parameters_json(const std::vector<IdentificationResult>& methods,
   for (const identification::Fold& f : folds) {
     json["leave_one_trial_out"].push_back(
         {{"trial", f.trial},
+         {"joint", f.joint},
          {"identified", score_json(f.identified)},
          {"literature_with_gain", score_json(f.literature)},
          {"gain", number_or_null(f.gain)},

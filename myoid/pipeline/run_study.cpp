@@ -133,15 +133,23 @@ void compute_forces(const Study& study, const TrialInput& input, bool share, Tri
   trial.generalized_forces = dynamics::inverse_dynamics(
       trial.model, trial.motion, {.loads = input.loads ? &*input.loads : nullptr});
   trial.muscles = kinematics::muscle_kinematics(trial.model, trial.motion);
-  const auto& coordinate = trial.model.coordinates[static_cast<std::size_t>(
-      trial.model.coordinate_index(study.model.coordinate))];
-  const std::string column = dynamics::generalized_force_name(coordinate);
-  Eigen::VectorXd torque = trial.generalized_forces.column(column);
-  if (input.external_torque) {
-    // What the surroundings exert on the coordinate, the muscles need not.
-    torque -= signals::resample(*input.external_torque, trial.motion.q.time_s()).values().col(0);
+  const std::vector<std::string> coordinates = study_coordinates(study.model);
+  std::vector<Channel> columns;
+  std::vector<TimeSeries> moment_arms;
+  Eigen::MatrixXd torque(trial.motion.sample_count(),
+                         static_cast<Eigen::Index>(coordinates.size()));
+  for (const std::string& name : coordinates) {
+    const auto index = static_cast<std::size_t>(trial.model.coordinate_index(name));
+    columns.push_back(
+        {dynamics::generalized_force_name(trial.model.coordinates[index]), Unit::newton_meter});
+    torque.col(static_cast<Eigen::Index>(moment_arms.size())) =
+        trial.generalized_forces.column(columns.back().name);
+    moment_arms.push_back(trial.muscles.moment_arm.at(name));
   }
-  trial.muscle_torque = TimeSeries(trial.motion.q.time_s(), {{column, Unit::newton_meter}}, torque);
+  // What the surroundings exert on the coordinates, the muscles need not.
+  if (input.external_torque)
+    torque -= signals::resample(*input.external_torque, trial.motion.q.time_s()).values();
+  trial.muscle_torque = TimeSeries(trial.motion.q.time_s(), std::move(columns), torque);
 
   if (!share) return;
   const auto count = static_cast<Eigen::Index>(trial.model.muscles.size());
@@ -156,8 +164,7 @@ void compute_forces(const Study& study, const TrialInput& input, bool share, Tri
                                                    trial.muscles.velocity.values()(i, m));
     }
   }
-  trial.shared = forces::share({trial.muscles.moment_arm.at(study.model.coordinate)},
-                               trial.muscle_torque, optimal, greatest,
+  trial.shared = forces::share(moment_arms, trial.muscle_torque, optimal, greatest,
                                {.objective = study.sharing.objective,
                                 .exponent = study.sharing.exponent,
                                 .reserve_nm = study.sharing.reserve_nm});
@@ -202,6 +209,16 @@ identification::TrialData trial_data(const Study& study,
   data.angle_rad = trial.motion.q.column(study.model.coordinate);
   data.velocity_radps = trial.motion.qdot.column(study.model.coordinate);
   data.acceleration_radps2 = trial.motion.qddot.column(study.model.coordinate);
+  for (std::size_t j = 0; j < study.model.more_coordinates.size(); ++j) {
+    const std::string& name = study.model.more_coordinates[j];
+    data.more_joints.push_back(
+        {.name = name,
+         .torque_nm = trial.muscle_torque.values().col(static_cast<Eigen::Index>(j) + 1),
+         .moment_arm_m = lumped_moment_arm_m(trial.muscles, groups, name),
+         .angle_rad = trial.motion.q.column(name),
+         .velocity_radps = trial.motion.qdot.column(name),
+         .acceleration_radps2 = trial.motion.qddot.column(name)});
+  }
   data.activation = trial.activation;
   return data;
 }

@@ -36,7 +36,7 @@ struct TrialResult {
   TimeSeries activation;                  ///< Per EMG channel, 0..1.
   TimeSeries generalized_forces;          ///< Inverse dynamics, all coordinates.
   kinematics::MuscleKinematics muscles;   ///< Of the model's muscles.
-  TimeSeries muscle_torque;        ///< Of the study's coordinate: what the muscles provide [N m].
+  TimeSeries muscle_torque;        ///< Of the study's coordinates: what the muscles provide [N m].
   forces::MuscleForces shared;     ///< Of the model's muscles.
   std::vector<std::string> notes;  ///< Repairs and remarks, with file and line.
   std::vector<std::string> warnings;   ///< Those of them that may make numbers wrong.

@@ -68,7 +68,16 @@ ModelSpec read_model(TomlTable table, const std::filesystem::path& folder) {
     model.forearm_length_m = positive(table, "forearm_length_m", 0.0);
   model.horizontal = table.choice("plane", "vertical", {"vertical", "horizontal"}) == "horizontal";
   model.forearm_rotations = table.flag("forearm_rotations").value_or(false);
-  model.coordinate = table.text("coordinate").value_or(model.coordinate);
+  if (const auto names = table.texts("coordinate")) {
+    for (std::size_t i = 0; i < names->size(); ++i) {
+      if (std::find(names->begin(), names->begin() + static_cast<std::ptrdiff_t>(i), (*names)[i]) !=
+          names->begin() + static_cast<std::ptrdiff_t>(i))
+        table.fail("coordinate", fmt::format("'{}' is named twice", (*names)[i]));
+    }
+    if (names->empty()) table.fail("coordinate", "expected the name of a joint coordinate");
+    model.coordinate = names->front();
+    model.more_coordinates.assign(names->begin() + 1, names->end());
+  }
   if (auto held = table.table("held_mass")) {
     HeldMassSpec spec;
     spec.body = held->require_text("body", "the body that carries the held mass");
@@ -357,6 +366,8 @@ IdentifySpec read_identify(TomlTable table) {
       table.choice("eccentric", "automatic", {"automatic", "product", "slope_ratio", "smooth"});
   identify.normalised = table.flag("normalised").value_or(identify.normalised);
   identify.dynamics = table.flag("dynamics").value_or(identify.dynamics);
+  identify.model_muscles = table.choice("muscle_law", "paper", {"paper", "model"}) == "model";
+  identify.elastic_tendon = table.choice("tendon", "rigid", {"rigid", "elastic"}) == "elastic";
   identify.delay_per_channel = table.flag("delay_per_channel").value_or(identify.delay_per_channel);
   const auto not_negative = [&](std::string_view key) {
     const double value = table.number(key).value_or(0.0);
@@ -509,6 +520,12 @@ Study parse_study(std::string_view text, const std::filesystem::path& file) {
                                   [](const TrialSpec& t) { return t.use == Use::mvc; });
   check_references(study);
   return study;
+}
+
+std::vector<std::string> study_coordinates(const ModelSpec& model) {
+  std::vector<std::string> names{model.coordinate};
+  names.insert(names.end(), model.more_coordinates.begin(), model.more_coordinates.end());
+  return names;
 }
 
 std::optional<double> motion_cutoff_hz(const Study& study) {

@@ -36,7 +36,8 @@ struct ModelSpec {
   std::optional<double> forearm_length_m;    ///< Of the built-in arm: elbow to wrist.
   bool horizontal = false;                   ///< Plane of movement of the built-in arm.
   bool forearm_rotations = false;  ///< Of the built-in arm: free base and forearm rotations.
-  std::string coordinate = "elbow_flexion";  ///< The joint whose torque the muscles share.
+  std::string coordinate = "elbow_flexion";   ///< The joint whose torque the muscles share.
+  std::vector<std::string> more_coordinates;  ///< Further joints that the same muscles cross.
   std::optional<HeldMassSpec> held_mass;
 };
 
@@ -146,8 +147,10 @@ struct IdentifySpec {
   bool profile = true;          ///< Profile likelihood, the third.
   std::string loss = "square";
   std::string eccentric = "automatic";
-  bool normalised = false;  ///< l_sh and v_max keep their ratio to l0.
-  bool dynamics = false;    ///< Envelope to activation by the lags of equation (1).
+  bool normalised = false;      ///< l_sh and v_max keep their ratio to l0.
+  bool dynamics = false;        ///< Envelope to activation by the lags of equation (1).
+  bool model_muscles = false;   ///< Pennation and passive force as the model has them; else none.
+  bool elastic_tendon = false;  ///< The model's tendon strain, quasi-static; else rigid.
   bool delay_per_channel = false;
   double angle_sd_rad = 0.0;  ///< Error of the joint angle and of its rate, propagated.
   double angle_rate_sd_radps = 0.0;
@@ -174,6 +177,9 @@ struct Study {
   std::vector<identification::ParameterRule> parameters;  ///< [[parameter]]
   std::optional<std::filesystem::path> truth;
 };
+
+/// Every coordinate whose torque the muscles share, the main one first.
+[[nodiscard]] std::vector<std::string> study_coordinates(const ModelSpec& model);
 
 /// Cut-off of the motion's smoothing, -3 dB [Hz]; empty: not smoothed. `automatic` is the EMG's
 /// low-pass, so that torque and prediction hold the same band.

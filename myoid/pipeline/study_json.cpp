@@ -23,7 +23,7 @@ ordered_json model_json(const ModelSpec& model) {
                     {"forearm_length_m", or_null(model.forearm_length_m)},
                     {"horizontal", model.horizontal},
                     {"forearm_rotations", model.forearm_rotations},
-                    {"coordinate", model.coordinate},
+                    {"coordinate", study_coordinates(model)},
                     {"held_mass", nullptr}};
   if (model.held_mass) {
     const Vec3& p = model.held_mass->p_BP_m;
@@ -120,6 +120,8 @@ std::string study_json(const Study& study) {
                    {"eccentric", study.identify.eccentric},
                    {"normalised", study.identify.normalised},
                    {"dynamics", study.identify.dynamics},
+                   {"muscle_law", study.identify.model_muscles ? "model" : "paper"},
+                   {"tendon", study.identify.elastic_tendon ? "elastic" : "rigid"},
                    {"delay_per_channel", study.identify.delay_per_channel},
                    {"angle_sd_rad", study.identify.angle_sd_rad},
                    {"angle_rate_sd_radps", study.identify.angle_rate_sd_radps}};

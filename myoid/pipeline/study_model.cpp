@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <variant>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -62,6 +63,45 @@ model::Arm4Options arm_options(const Study& study, const recording::MarkerSeries
   return options;
 }
 
+/// Exponent k of the passive force whose slope at its unit force is `slope` over that of a straight
+/// line: k / (1 - exp(-k)) = slope.
+double passive_shape(double slope) {
+  double k = slope;
+  for (int i = 0; i < 60; ++i) k = slope * -std::expm1(-k);
+  return k;
+}
+
+/// Pennation, passive force and tendon as a model's muscle has them.
+identification::MuscleExtras model_extras(const model::Muscle& muscle) {
+  const model::MuscleProperties& p = muscle.properties;
+  identification::MuscleExtras extras{.pennation_angle_rad = p.pennation_at_optimal_rad,
+                                      .passive_force = 1.0,
+                                      .passive_strain = p.max_muscle_strain,
+                                      .passive_shape = p.passive_shape,
+                                      .tendon_strain = p.max_tendon_strain};
+  if (const auto* millard = std::get_if<model::MillardCurves>(&p.curves)) {
+    const double strain = millard->fiber_strain_at_one_force;
+    extras.passive_strain = strain;
+    // The class's own stiffness at one F_max is twice that of the line from zero strain.
+    extras.passive_shape = passive_shape(millard->fiber_stiffness_at_one_force > 0.0
+                                             ? millard->fiber_stiffness_at_one_force * strain
+                                             : 2.0);
+    extras.tendon_strain = millard->tendon_strain_at_one_force;
+  } else if (const auto* degroote = std::get_if<model::DeGrooteCurves>(&p.curves)) {
+    extras.passive_force = degroote->ignore_passive_fiber_force ? 0.0 : 1.0;
+    extras.passive_strain = degroote->passive_fiber_strain_at_one_force;
+    extras.passive_shape = 4.0;
+    extras.tendon_strain = degroote->tendon_strain_at_one_force;
+  } else if (std::holds_alternative<model::SchutteCurves>(p.curves)) {
+    throw ModelError(
+        fmt::format("muscle '{}' is a {}, whose passive force is a free curve; give "
+                    "passive_force and pennation_angle by [[parameter]] and leave [identify] "
+                    "muscle_law and tendon at their defaults",
+                    muscle.name, muscle.class_name));
+  }
+  return extras;
+}
+
 }  // namespace
 
 std::string model_text(const Study& study, const recording::MarkerSeries* markers) {
@@ -80,7 +120,8 @@ model::BodyModel load_model(const Study& study, const recording::MarkerSeries* m
       throw ModelError(fmt::format("{}: {}: {}", study.file.string(), key, error.what()));
     }
   };
-  (void)coordinate("[model] coordinate", study.model.coordinate);
+  for (const std::string& name : study_coordinates(study.model))
+    (void)coordinate("[model] coordinate", name);
   for (const MuscleSpec& muscle : study.muscles) {
     for (const std::string& name : muscle.osim) {
       try {
@@ -145,6 +186,21 @@ std::vector<identification::MuscleSetup> muscle_setups(const Study& study,
         const double share = field.name == "max_isometric_force" ? 1.0 : groups[g].weights[i];
         setup.start.*field.member += share * head.*field.member;
       }
+    }
+    if (study.identify.model_muscles || study.identify.elastic_tendon) {
+      identification::MuscleExtras mean{.passive_strain = 0.0, .passive_shape = 0.0};
+      for (std::size_t i = 0; i < groups[g].members.size(); ++i) {
+        const auto head =
+            model_extras(model.muscles[static_cast<std::size_t>(groups[g].members[i])]);
+        const double weight = groups[g].weights[i];
+        mean.pennation_angle_rad += weight * head.pennation_angle_rad;
+        mean.passive_force += weight * head.passive_force;
+        mean.passive_strain += weight * head.passive_strain;
+        mean.passive_shape += weight * head.passive_shape;
+        mean.tendon_strain += weight * head.tendon_strain;
+      }
+      if (study.identify.model_muscles) setup.extras = mean;
+      setup.extras.tendon_strain = study.identify.elastic_tendon ? mean.tendon_strain : 0.0;
     }
     for (const auto& [name, value] : spec.start)
       setup.start.*muscle::hill_field(name).member = value;

@@ -11,6 +11,7 @@
 #include "myoid/muscle/hill_muscle.h"
 #include "myoid/pipeline/phases_report.h"
 #include "myoid/pipeline/quality_gates.h"
+#include "myoid/pipeline/torque_report.h"
 
 namespace myoid::pipeline {
 namespace {
@@ -27,23 +28,7 @@ using report::Role;
 using report::Section;
 using report::Series;
 using report::Table;
-
-std::vector<double> to_vector(const Eigen::Ref<const Eigen::VectorXd>& v) {
-  return {v.data(), v.data() + v.size()};
-}
-
-/// Predicted values as a curve; a gap at the beginning, where the EMG of a delay earlier was not
-/// recorded.
-std::vector<double> after_delay(const Eigen::Ref<const Eigen::VectorXd>& predicted,
-                                const Eigen::VectorXd& time_s,
-                                double delay_s) {
-  std::vector<double> curve = to_vector(predicted);
-  for (std::size_t i = 0; i < curve.size(); ++i) {
-    if (time_s[static_cast<Eigen::Index>(i)] < time_s[0] + delay_s)
-      curve[i] = std::numeric_limits<double>::quiet_NaN();
-  }
-  return curve;
-}
+using report::to_vector;
 
 Badge badge(Verdict verdict) {
   switch (verdict) {
@@ -306,147 +291,18 @@ Figure force_figure(const StudyResult& result,
   return figure;
 }
 
-Figure torque_figure(const StudyResult& result, double delay_s) {
-  Figure figure{"torque_held_out",
-                "Joint torque predicted for trials that took no part in the fit",
-                "Blue: inverse dynamics. Orange dashed: muscles identified on the other trials. "
-                "Grey dotted: literature's muscles with one best gain.",
-                {},
-                2};
-  for (const auto& f : result.folds) {
-    const std::vector<double> t = to_vector(f.time_s);
-    Panel panel{fmt::format("{}: R2 {:.2f}", f.trial, f.identified.r2),
-                {"time", "s", {}, {}, {}},
-                {"torque", "N m", {}, {}, {}},
-                {}};
-    panel.series.push_back(
-        {"inverse dynamics", t, to_vector(f.measured_nm), Role::reference, {}, {}});
-    panel.series.push_back({"literature",
-                            t,
-                            after_delay(f.literature_nm, f.time_s, delay_s),
-                            Role::literature,
-                            {},
-                            {}});
-    panel.series.push_back({"identified",
-                            t,
-                            after_delay(f.predicted_nm, f.time_s, delay_s),
-                            Role::identified,
-                            {},
-                            {}});
-    figure.panels.push_back(std::move(panel));
-  }
-  return figure;
-}
-
-Table fold_table(const StudyResult& result) {
-  Table table{
-      "leave_one_trial_out",
-      "Leave-one-trial-out prediction of the joint torque",
-      "R2 = 1 - SSE/SST, negative when worse than the trial's own mean. NRMSE is RMSE over the "
-      "range. Baselines: the literature's parameters with the one gain that fits the other "
-      "trials best, and the other trials' mean torque.",
-      {"trial", "RMSE [N m]", "NRMSE", "R2", "VAF", "literature x gain: RMSE [N m]", "R2",
-       "constant: RMSE [N m]"},
-      {}};
-  for (const auto& f : result.folds) {
-    table.rows.push_back(
-        {{f.trial},
-         {fmt::format("{:.2f}", f.identified.rmse_nm)},
-         {fmt::format("{:.1f} %", 100.0 * f.identified.nrmse_range)},
-         {fmt::format("{:.3f}", f.identified.r2),
-          f.identified.r2 > std::max(0.0, f.literature.r2) ? Badge::good : Badge::weak},
-         {fmt::format("{:.3f}", f.identified.vaf)},
-         {fmt::format("{:.2f}", f.literature.rmse_nm)},
-         {fmt::format("{:.3f}", f.literature.r2)},
-         {fmt::format("{:.2f}", f.constant.rmse_nm)}});
-  }
-  return table;
-}
-
-/// Trials that were held back for validation.
-Table validation_table(const IdentificationResult& method) {
-  Table table{"validation_trials",
-              "Trials held back for validation",
-              "Joint torque predicted with the muscles identified on the calibration trials.",
-              {"trial", "RMSE [N m]", "R2"},
-              {}};
-  for (const identification::TrialFit& t : method.trials) {
-    if (t.calibration) continue;
-    table.rows.push_back({{t.trial},
-                          {fmt::format("{:.2f}", t.rmse_nm)},
-                          {fmt::format("{:.3f}", t.r2), t.r2 > 0.0 ? Badge::good : Badge::weak}});
-  }
-  return table;
-}
-
-Figure validation_figure(const IdentificationResult& method) {
-  Figure figure{"torque_validation",
-                "Joint torque predicted for the trials held back",
-                "Blue: inverse dynamics. Orange dashed: muscles identified on the calibration "
-                "trials. Grey dotted: literature's muscles.",
-                {},
-                2};
-  for (const identification::TrialFit& t : method.trials) {
-    if (t.calibration) continue;
-    const std::vector<double> clock = to_vector(t.time_s);
-    Panel panel{fmt::format("{}: R2 {:.2f}", t.trial, t.r2),
-                {"time", "s", {}, {}, {}},
-                {"torque", "N m", {}, {}, {}},
-                {}};
-    panel.series.push_back(
-        {"inverse dynamics", clock, to_vector(t.torque_nm), Role::reference, {}, {}});
-    panel.series.push_back({"literature",
-                            clock,
-                            after_delay(t.literature_torque_nm, t.time_s, method.delay_s),
-                            Role::literature,
-                            {},
-                            {}});
-    panel.series.push_back({"identified",
-                            clock,
-                            after_delay(t.torque_fit_nm, t.time_s, method.delay_s),
-                            Role::identified,
-                            {},
-                            {}});
-    figure.panels.push_back(std::move(panel));
-  }
-  return figure;
-}
-
-Table trial_table(const StudyResult& result) {
-  Table table{"trials",
-              "Trials",
-              "What was recorded and how it went.",
-              {"trial", "use", "duration", "held mass", "elbow range", "torque range", "status"},
-              {}};
-  for (const TrialResult& t : result.trials) {
-    std::vector<Cell> row{{t.spec.name}, {std::string(name(t.spec.use))}};
-    if (t.has_motion()) {
-      const Eigen::VectorXd q = t.motion.q.column(result.study.model.coordinate) / kDegree;
-      const auto& clock = t.motion.q.time_s();
-      row.push_back({fmt::format("{:.1f} s", clock[clock.size() - 1] - clock[0])});
-      row.push_back({fmt::format("{} kg", format_value(t.spec.held_mass_kg))});
-      row.push_back({fmt::format("{:.0f} to {:.0f} deg", q.minCoeff(), q.maxCoeff())});
-      row.push_back({fmt::format("{:.1f} to {:.1f} N m", t.muscle_torque.values().minCoeff(),
-                                 t.muscle_torque.values().maxCoeff())});
-    } else {
-      for (int k = 0; k < 4; ++k) row.push_back({"-"});
-    }
-    row.push_back(t.failure.empty() ? Cell{"ok", Badge::good}
-                                    : Cell{"failed", Badge::bad, t.failure});
-    table.rows.push_back(std::move(row));
-  }
-  return table;
-}
-
 std::vector<std::string> assumptions(const StudyResult& result) {
   std::vector<std::string> list = result.study.subject.notes;
-  list.push_back(
-      "The tendon is taken as rigid: fiber length = musculotendon length - tendon slack length. "
-      "Optimal fiber length and tendon slack length then act only together; the slack length is "
-      "held.");
-  list.push_back(
-      "Pennation and passive muscle force are neglected, as in the source paper; the muscles are "
-      "effective ones that stand for all heads lumped into them.");
+  list.push_back(result.study.identify.elastic_tendon
+                     ? "Tendons stretch by the strain that the model gives them, quasi-statically."
+                     : "The tendon is taken as rigid: fiber length = musculotendon length - tendon "
+                       "slack length. Optimal fiber length and tendon slack length then act only "
+                       "together; the slack length is held.");
+  list.push_back(fmt::format(
+      "{}; the muscles are effective ones that stand for all heads lumped into them.",
+      result.study.identify.model_muscles
+          ? "Pennation and passive muscle force are those of the model"
+          : "Pennation and passive muscle force are neglected, as in the source paper"));
   list.push_back("v_max is held at its starting value; an error in it goes into V_sh.");
   list.push_back(
       "At low activation the optimal length is longer than at full activation (about 15 %); the l0 "
@@ -507,8 +363,12 @@ std::string headline(const StudyResult& result) {
 report::Report study_report(const StudyResult& result, const Provenance& provenance) {
   report::Report report;
   report.title = fmt::format("Muscle parameters of {}", result.study.subject.name);
-  report.subtitle = fmt::format("{} trials; joint coordinate {}; model {}", result.trials.size(),
-                                spelled(result.study.model.coordinate), result.model.name);
+  std::vector<std::string> joints;
+  for (const std::string& name : study_coordinates(result.study.model))
+    joints.push_back(spelled(name));
+  report.subtitle =
+      fmt::format("{} trials; joint coordinate{} {}; model {}", result.trials.size(),
+                  joints.size() > 1 ? "s" : "", fmt::join(joints, ", "), result.model.name);
   report.headline = headline(result);
   report.gates = quality_gates(result);
   const IdentificationResult* torque = method_of(result, "torque");
@@ -532,23 +392,8 @@ report::Report study_report(const StudyResult& result, const Provenance& provena
       section.figures.push_back(curves(result, *torque, m));
     report.sections.push_back(std::move(section));
   }
-  if (!result.folds.empty()) {
-    report.sections.push_back({"validation",
-                               "Validation on trials left out",
-                               {},
-                               {},
-                               {fold_table(result)},
-                               {torque_figure(result, torque != nullptr ? torque->delay_s : 0.0)}});
-  }
-  if (torque != nullptr && std::any_of(torque->trials.begin(), torque->trials.end(),
-                                       [](const auto& t) { return !t.calibration; })) {
-    report.sections.push_back({"validation_trials",
-                               "Validation on trials held back",
-                               {},
-                               {},
-                               {validation_table(*torque)},
-                               {validation_figure(*torque)}});
-  }
+  for (Section& section : validation_sections(result))
+    report.sections.push_back(std::move(section));
   if (paper != nullptr) {
     Section section{"paper", "The source paper's method beside it", {}, {}, {}, {}};
     section.paragraphs.push_back(
@@ -584,7 +429,7 @@ report::Report study_report(const StudyResult& result, const Provenance& provena
   if (!result.informed.empty() || result.force_loop)
     report.sections.push_back(informed_section(result));
   if (!result.phases.empty()) report.sections.push_back(phases_section(result));
-  Section trials{"trials", "Trials", {}, {}, {trial_table(result)}, {}};
+  Section trials{"trials", "Trials", {}, {}, {trials_table(result)}, {}};
   std::vector<std::string> notes;
   for (const TrialResult& t : result.trials) {
     for (const std::string& note : t.notes)

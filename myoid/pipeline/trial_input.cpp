@@ -335,14 +335,26 @@ TrialInput read_trial_input(const Study& study,
     remember(*trial.external_torque);
     recording::Storage file = recording::read_storage(*trial.external_torque);
     add_repairs(*trial.external_torque, file.repairs, input.notes);
-    const std::string column = study.model.coordinate + "_moment";
-    if (!file.data.find(column)) {
+    std::vector<Channel> columns;
+    std::vector<std::string> there;
+    for (const std::string& name : study_coordinates(study.model)) {
+      columns.push_back({name + "_moment", Unit::newton_meter});
+      if (file.data.find(columns.back().name)) there.push_back(columns.back().name);
+    }
+    if (there.empty()) {
       throw ReadError(
           *trial.external_torque, 0,
-          fmt::format("no column '{}' [N m]; found {}", column, channel_names(file.data)));
+          fmt::format("no column '{}' [N m]; found {}", columns[0].name, channel_names(file.data)));
     }
-    const TimeSeries one = file.data.select({column});
-    input.external_torque = TimeSeries(one.time_s(), {{column, Unit::newton_meter}}, one.values());
+    // A dynamometer acts on one joint: on the others nothing does.
+    const TimeSeries found = file.data.select(there);
+    Eigen::MatrixXd torque =
+        Eigen::MatrixXd::Zero(found.sample_count(), static_cast<Eigen::Index>(columns.size()));
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+      if (const auto column = found.find(columns[i].name))
+        torque.col(static_cast<Eigen::Index>(i)) = found.values().col(*column);
+    }
+    input.external_torque = TimeSeries(found.time_s(), std::move(columns), std::move(torque));
     require_finite(*input.external_torque, trial.external_torque->string());
   }
   input.loads = read_trial_loads(study, trial, model, input.markers, remember, input.notes);

@@ -88,6 +88,10 @@ void write_report(const Report& report, const std::filesystem::path& directory) 
   recording::write_file(directory / "report.html", html(report));
 }
 
+std::vector<double> to_vector(const Eigen::Ref<const Eigen::VectorXd>& samples) {
+  return {samples.begin(), samples.end()};
+}
+
 std::string format_value(double value, int digits) {
   if (std::isnan(value)) return "\u2013";
   if (std::isinf(value)) return value > 0 ? "\u221e" : "\u2212\u221e";

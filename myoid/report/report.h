@@ -6,6 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include <Eigen/Core>
+
 namespace myoid::report {
 
 /// What a curve stands for; decides how it is drawn, alike in every figure.
@@ -115,6 +117,9 @@ void validate(const Report& report);
 /// ID.csv, tables/ID.csv and report.json into the folder; each whole or not at all. Calls
 /// `validate`.
 void write_report(const Report& report, const std::filesystem::path& directory);
+
+/// Samples as a curve's.
+[[nodiscard]] std::vector<double> to_vector(const Eigen::Ref<const Eigen::VectorXd>& samples);
 
 /// A number for people: `digits` significant ones, no exponent between 1e-4 and 1e6.
 [[nodiscard]] std::string format_value(double value, int digits = 3);

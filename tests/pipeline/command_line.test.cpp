@@ -25,9 +25,10 @@ using testing::Not;
 
 const std::string kProtocols = MYOID_SOURCE_DIR "/examples/protocols/";
 
-constexpr const char* kCommands[] = {"run",  "check",  "info",    "emg",     "ik",
-                                     "id",   "muscle", "paths",   "so",      "identify",
-                                     "twin", "report", "convert", "simulate"};
+constexpr const char* kCommands[] = {"run",    "check",    "info",      "emg",      "ik",
+                                     "id",     "muscle",   "paths",     "so",       "identify",
+                                     "twin",   "report",   "convert",   "simulate", "compare",
+                                     "design", "run-tool", "twin-study"};
 
 /// One second of elbow flexion from 0 to 90 degrees, written in degrees under this header value.
 std::string ramp_motion(const std::string& in_degrees) {
