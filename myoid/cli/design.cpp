@@ -13,7 +13,6 @@ namespace myoid::cli {
 namespace {
 
 using identification::ParameterEstimate;
-using identification::Verdict;
 
 /// The elbow of the source paper: surface electrodes on three muscles, the brachialis taken to act
 /// as the biceps does.
@@ -30,41 +29,19 @@ pipeline::Study arm4_study(bool wire) {
   return study;
 }
 
-/// Half the interval: of the delay in ms, of all others as a percentage of the value.
-double half_width(const ParameterEstimate& e) {
-  const double half = 0.5 * (*e.ci_high - *e.ci_low);
-  return e.parameter == "emg_delay" ? 1e3 * half : 100.0 * half / std::abs(e.estimate);
-}
-
-int identified(const std::vector<ParameterEstimate>& estimates) {
-  return static_cast<int>(std::count_if(estimates.begin(), estimates.end(), [](const auto& e) {
-    return e.verdict == Verdict::identified;
-  }));
-}
-
-/// Median over the targets but the delay.
-double median_half_width(const std::vector<ParameterEstimate>& estimates) {
-  std::vector<double> widths;
-  for (const ParameterEstimate& e : estimates) {
-    if (e.parameter != "emg_delay" || estimates.size() == 1) widths.push_back(half_width(e));
-  }
-  std::nth_element(widths.begin(), widths.begin() + static_cast<std::ptrdiff_t>(widths.size() / 2),
-                   widths.end());
-  return widths[widths.size() / 2];
-}
-
 void print_plan(const pipeline::DesignStudyResult& result) {
   fmt::print("{:>2}  {:<58} {:>6} {:>6} {:>11} {:>15}\n", "", "movement", "time", "rest",
              "median 95 %", "identified");
   fmt::print("{:>2}  {:<58} {:>6} {:>6} {:>11} {:>15}\n", "", "", "[s]", "[s]", "[+- %]",
              fmt::format("of {}", result.beforehand.size()));
   fmt::print("{:>2}  {:<58} {:>6} {:>6} {:>11.0f} {:>15}\n", 0, "what is known beforehand", "", "",
-             median_half_width(result.beforehand), identified(result.beforehand));
+             pipeline::median_half_width(result.beforehand),
+             pipeline::identified_count(result.beforehand));
   for (std::size_t i = 0; i < result.plan.size(); ++i) {
     const pipeline::PlannedMovement& m = result.plan[i];
     fmt::print("{:>2}  {:<58} {:>6.0f} {:>6.0f} {:>11.1f} {:>15}\n", i + 1,
                m.movement.description(), m.movement.duration_s, m.rest_before_s,
-               median_half_width(m.expected), identified(m.expected));
+               pipeline::median_half_width(m.expected), pipeline::identified_count(m.expected));
   }
   if (result.plan.empty()) return;
   fmt::print("\nexpected 95 % interval, as +- % of the value (the delay: +- ms)\n{:<38} {:>11}",
@@ -73,9 +50,10 @@ void print_plan(const pipeline::DesignStudyResult& result) {
   fmt::print("  verdict\n");
   for (std::size_t t = 0; t < result.beforehand.size(); ++t) {
     const ParameterEstimate& before = result.beforehand[t];
-    fmt::print("{:<38} {:>11.1f}", before.muscle + "." + before.parameter, half_width(before));
+    fmt::print("{:<38} {:>11.1f}", before.muscle + "." + before.parameter,
+               pipeline::relative_half_width(before));
     for (const pipeline::PlannedMovement& m : result.plan)
-      fmt::print(" {:>7.1f}", half_width(m.expected[t]));
+      fmt::print(" {:>7.1f}", pipeline::relative_half_width(m.expected[t]));
     fmt::print("  {}\n", identification::name(result.plan.back().expected[t].verdict));
   }
 }
@@ -188,6 +166,8 @@ void add_design(CLI::App& app, Context& context) {
     if (!options->after.empty()) choice.earlier = pipeline::read_earlier_run(options->after);
     const pipeline::DesignStudyResult result = pipeline::design_study(study, choice);
     context.end_progress();
+    if (result.too_hard == result.catalogue_size)
+      throw InvalidInput("design: no movement of the catalogue is within the muscles' strength");
     context.log(fmt::format(
         "{} movements in the catalogue, {} beyond the strength of too many, {} too tiring; {} "
         "persons; {} exchanges",

@@ -76,6 +76,20 @@ void print_predictions(const pipeline::StudyResult& result) {
   }
 }
 
+void print_next(const pipeline::StudyResult& result) {
+  if (!result.next || result.next->plan.empty()) return;
+  fmt::print(
+      "\nwhat to record next: {} of {} parameters identified now, median 95 % interval "
+      "+-{:.0f} %\n",
+      pipeline::identified_count(result.next->beforehand), result.next->beforehand.size(),
+      pipeline::median_half_width(result.next->beforehand));
+  for (std::size_t i = 0; i < result.next->plan.size(); ++i) {
+    const pipeline::PlannedMovement& m = result.next->plan[i];
+    fmt::print("{}. {:<58} {:>3} identified, +-{:.0f} %\n", i + 1, m.movement.description(),
+               pipeline::identified_count(m.expected), pipeline::median_half_width(m.expected));
+  }
+}
+
 void print_gates(const std::vector<report::Gate>& gates) {
   fmt::print("\nquality gates\n");
   for (const report::Gate& gate : gates) {
@@ -98,6 +112,7 @@ void print_results(const pipeline::StudyResult& result, const std::vector<report
     }
     if (!paper) print_predictions(result);
   }
+  print_next(result);
   print_gates(gates);
 }
 

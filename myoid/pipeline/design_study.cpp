@@ -138,7 +138,9 @@ std::vector<Eigen::Index> targets_of(const std::vector<FreeParameter>& free,
 ParameterEstimate expected_estimate(const FreeParameter& f,
                                     double mean,
                                     double sd,
-                                    double prior_sd) {
+                                    double prior_sd,
+                                    const std::vector<identification::MuscleSetup>& muscles,
+                                    double model_error) {
   ParameterEstimate e;
   const std::size_t dot = f.label.find('.');
   e.muscle = f.label.substr(0, dot);
@@ -153,7 +155,14 @@ ParameterEstimate expected_estimate(const FreeParameter& f,
   e.prior_mean = e.estimate;
   e.prior_sd = f.field->logarithmic ? e.estimate * prior_sd : prior_sd;
   e.shrinkage = 1.0 - sd * sd / (prior_sd * prior_sd);
-  identification::judge(e, {});
+  identification::VerdictContext context{.model_error = model_error};
+  const auto own = std::find_if(muscles.begin(), muscles.end(),
+                                [&](const auto& m) { return m.name == e.muscle; });
+  for (const identification::MuscleSetup& other : muscles) {
+    if (own != muscles.end() && other.name != own->name && other.emg_channel == own->emg_channel)
+      context.shares_electrode_with = other.name;
+  }
+  identification::judge(e, context);
   return e;
 }
 
@@ -266,6 +275,8 @@ EarlierRun read_earlier_run(const std::filesystem::path& folder) {
       }
       run.torque_sd_nm = method.at("torque_sd_nm");
       run.emg_cv = method.at("emg_cv");
+      if (method.contains("model_error") && method.at("model_error").is_number())
+        run.model_error = method.at("model_error");
       return run;
     }
   } catch (const nlohmann::json::exception& error) {
@@ -274,6 +285,46 @@ EarlierRun read_earlier_run(const std::filesystem::path& folder) {
         fmt::format("is not what `myoid run` writes ({}); run the study again", error.what()));
   }
   throw ReadError(file, 0, "holds no fit by method torque; run the study with method = \"torque\"");
+}
+
+EarlierRun earlier_run(const identification::IdentificationResult& fit) {
+  EarlierRun run{.parameters = fit.free_parameters,
+                 .estimate = Eigen::VectorXd::Constant(
+                     static_cast<Eigen::Index>(fit.free_parameters.size()), std::nan("")),
+                 .covariance = fit.covariance,
+                 .torque_sd_nm = fit.torque_sd_nm,
+                 .emg_cv = fit.emg_cv,
+                 .model_error = fit.model_error};
+  for (const ParameterEstimate& e : fit.estimates) {
+    const auto it =
+        std::find(run.parameters.begin(), run.parameters.end(), e.muscle + "." + e.parameter);
+    if (it != run.parameters.end()) run.estimate[it - run.parameters.begin()] = e.estimate;
+  }
+  return run;
+}
+
+double relative_half_width(const ParameterEstimate& estimate) {
+  const double half = 0.5 * (*estimate.ci_high - *estimate.ci_low);
+  return estimate.parameter == "emg_delay" ? 1e3 * half
+                                           : 100.0 * half / std::abs(estimate.estimate);
+}
+
+int identified_count(const std::vector<ParameterEstimate>& estimates) {
+  return static_cast<int>(std::count_if(estimates.begin(), estimates.end(), [](const auto& e) {
+    return e.verdict == identification::Verdict::identified;
+  }));
+}
+
+double median_half_width(const std::vector<ParameterEstimate>& estimates) {
+  std::vector<double> widths;
+  for (const ParameterEstimate& e : estimates) {
+    if (e.parameter != "emg_delay" || estimates.size() == 1)
+      widths.push_back(relative_half_width(e));
+  }
+  if (widths.empty()) return 0.0;
+  const auto middle = widths.begin() + static_cast<std::ptrdiff_t>(widths.size() / 2);
+  std::nth_element(widths.begin(), middle, widths.end());
+  return *middle;
 }
 
 DesignStudyResult design_study(const Study& study, const DesignStudyOptions& options) {
@@ -298,10 +349,11 @@ DesignStudyResult design_study(const Study& study, const DesignStudyOptions& opt
       movement_catalogue(coordinate.lower, coordinate.upper, catalogue_options);
 
   options.progress.tell(0.05, "movements");
+  const MovementModels models = movement_models(study);
   std::vector<MovementCourse> courses(movements.size());
   oneapi::tbb::parallel_for(std::size_t{0}, movements.size(), [&](std::size_t i) {
     options.progress.check();
-    courses[i] = movement_course(study, movements[i]);
+    courses[i] = movement_course(study, models, movements[i]);
   });
 
   // The estimator's parameters: from any trial that someone can do.
@@ -323,8 +375,12 @@ DesignStudyResult design_study(const Study& study, const DesignStudyOptions& opt
       shape.emplace(data, torque);
     }
   }
-  if (!shape)
-    throw InvalidInput("design: no movement of the catalogue is within the muscles' strength");
+  DesignStudyResult result;
+  result.catalogue_size = movements.size();
+  if (!shape) {
+    result.too_hard = movements.size();
+    return result;
+  }
   const std::vector<FreeParameter> free = shape->parameters().free();
   const Knowledge known = knowledge_of(free, options.earlier);
   const std::vector<Eigen::VectorXd> persons = draw_persons(free, known, options);
@@ -378,8 +434,6 @@ DesignStudyResult design_study(const Study& study, const DesignStudyOptions& opt
   const identification::DesignResult choice =
       identification::choose_movements(problem, options.choice);
 
-  DesignStudyResult result;
-  result.catalogue_size = movements.size();
   result.too_tiring = static_cast<std::size_t>(std::accumulate(tiring.begin(), tiring.end(), 0));
   result.too_hard = choice.infeasible.size() - result.too_tiring;
   result.exchanges = choice.exchanges;
@@ -388,7 +442,8 @@ DesignStudyResult design_study(const Study& study, const DesignStudyOptions& opt
     for (const Eigen::Index j : problem.targets) {
       const FreeParameter& f = free[static_cast<std::size_t>(j)];
       const double prior_sd = f.prior_sd > 0.0 ? f.prior_sd : choice.prior_sd[j];
-      estimates.push_back(expected_estimate(f, known.mean[j], sd[j], prior_sd));
+      estimates.push_back(expected_estimate(f, known.mean[j], sd[j], prior_sd, data.muscles,
+                                            options.earlier ? options.earlier->model_error : 0.0));
     }
     return estimates;
   };

@@ -20,10 +20,22 @@ struct EarlierRun {
   Eigen::MatrixXd covariance;  ///< In the estimator's scale (logarithms where it uses them).
   double torque_sd_nm = 0.0;
   double emg_cv = 0.0;
+  double model_error = 0.0;  ///< IdentificationResult::model_error: more recording does not mend it.
 };
 
 /// Throws ReadError if the folder holds no parameters.json with a fit by method torque.
 [[nodiscard]] EarlierRun read_earlier_run(const std::filesystem::path& folder);
+
+/// The same of a fit by method torque that is at hand.
+[[nodiscard]] EarlierRun earlier_run(const identification::IdentificationResult& fit);
+
+/// Half the 95 % interval as a percentage of the value; of the EMG delay in ms.
+[[nodiscard]] double relative_half_width(const identification::ParameterEstimate& estimate);
+/// Their median, without the delay; 0 if there are none.
+[[nodiscard]] double median_half_width(
+    const std::vector<identification::ParameterEstimate>& estimates);
+/// How many have the verdict `identified`.
+[[nodiscard]] int identified_count(const std::vector<identification::ParameterEstimate>& estimates);
 
 struct DesignStudyOptions {
   identification::DesignOptions choice;
@@ -63,8 +75,8 @@ struct DesignStudyResult {
 /// a catalogue, for persons drawn from the priors (or from an earlier run's posterior), with the
 /// estimator's own model, weights and effective number of samples. Fatigue by the three-compartment
 /// model at the elbow's published rates; a movement that alone would tire a muscle beyond the
-/// budget is left out, and rests are put before those that need them. Throws InvalidInput for
-/// unknown targets.
+/// budget is left out, and rests are put before those that need them. The plan is empty if no
+/// movement is within the muscles' strength. Throws InvalidInput for unknown targets.
 [[nodiscard]] DesignStudyResult design_study(const Study& study,
                                              const DesignStudyOptions& options = {});
 

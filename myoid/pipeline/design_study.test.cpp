@@ -40,11 +40,12 @@ TEST(Movement, TheMusclesOfAPerformanceExertTheTorqueThatTheMotionRequires) {
   const auto setups = muscle_setups(study, load_model(study));
   const MovementPerson person = typical(setups);
   for (const bool horizontal : {false, true}) {
-    const MovementCourse course = movement_course(study, {.horizontal = horizontal,
-                                                          .held_mass_kg = 1.0,
-                                                          .lowest_rad = 0.5,
-                                                          .highest_rad = 2.0,
-                                                          .frequency_hz = 0.6});
+    const MovementCourse course = movement_course(study, movement_models(study),
+                                                  {.horizontal = horizontal,
+                                                   .held_mass_kg = 1.0,
+                                                   .lowest_rad = 0.5,
+                                                   .highest_rad = 2.0,
+                                                   .frequency_hz = 0.6});
     const auto trial = perform(course, setups, person);
     ASSERT_TRUE(trial);
     const Eigen::Index lead = course.time_s.size() - trial->time_s.size();
@@ -70,17 +71,19 @@ TEST(Movement, WhatIsTooHeavyCannotBePerformed) {
   const Study study = arm_study();
   const auto setups = muscle_setups(study, load_model(study));
   const MovementCourse course = movement_course(
-      study, {.held_mass_kg = 30.0, .lowest_rad = 0.5, .highest_rad = 2.0, .frequency_hz = 0.5});
+      study, movement_models(study),
+      {.held_mass_kg = 30.0, .lowest_rad = 0.5, .highest_rad = 2.0, .frequency_hz = 0.5});
   EXPECT_FALSE(perform(course, setups, typical(setups)));
 }
 
 TEST(Movement, AnIsokineticMovementKeepsItsSpeedOverMostOfTheRange) {
-  const MovementCourse course = movement_course(arm_study(), {.kind = MovementKind::isokinetic,
-                                                              .lowest_rad = 0.3,
-                                                              .highest_rad = 2.1,
-                                                              .speed_radps = 1.0,
-                                                              .level = 0.5,
-                                                              .duration_s = 8.0});
+  const MovementCourse course = movement_course(arm_study(), movement_models(arm_study()),
+                                                {.kind = MovementKind::isokinetic,
+                                                 .lowest_rad = 0.3,
+                                                 .highest_rad = 2.1,
+                                                 .speed_radps = 1.0,
+                                                 .level = 0.5,
+                                                 .duration_s = 8.0});
   // The speed shows in the brachialis: dl/dt = -r dq/dt.
   int steady = 0;
   for (Eigen::Index i = 0; i < course.time_s.size(); ++i) {
@@ -117,7 +120,8 @@ TEST(DesignStudy, ItsExpectedSpreadIsTheSpreadThatIdentificationHas) {
     simulation::Random random(seed);
     data.trials.clear();
     for (const PlannedMovement& planned : design.plan) {
-      auto trial = perform(movement_course(study, planned.movement), data.muscles, person);
+      auto trial = perform(movement_course(study, movement_models(study), planned.movement),
+                           data.muscles, person);
       ASSERT_TRUE(trial);
       trial->torque_nm +=
           options.torque_sd_nm / above_2_hz * random.normals(trial->torque_nm.size());
@@ -172,6 +176,25 @@ TEST(DesignStudy, MoreMovementsTellMoreAndFatigueStaysInItsBudget) {
       sd[t] = *planned.expected[t].std_error;
     }
   }
+}
+
+TEST(DesignStudy, MusclesOfOneElectrodeAreNotPromisedToBeIdentified) {
+  Study study = arm_study();
+  study.muscles[1].emg = study.muscles[0].emg;
+  DesignStudyOptions options;
+  options.persons = 2;
+  options.choice.movements = 12;
+  options.choice.most_of_each = 12;
+  options.targets = {"optimal_fiber_length"};
+  const DesignStudyResult result = design_study(study, options);
+  ASSERT_FALSE(result.plan.empty());
+  bool other = false;
+  for (const auto& e : result.plan.back().expected) {
+    const bool shared = e.muscle == study.muscles[0].name || e.muscle == study.muscles[1].name;
+    EXPECT_FALSE(shared && e.verdict == identification::Verdict::identified) << e.muscle;
+    other = other || (!shared && e.verdict == identification::Verdict::identified);
+  }
+  EXPECT_TRUE(other);
 }
 
 TEST(DesignStudy, RefusesATargetThatIsNoneAndNamesThoseThereAre) {

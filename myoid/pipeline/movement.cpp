@@ -208,10 +208,27 @@ std::string direction_name(const std::string& coordinate, bool positive) {
   return positive ? "positive" : "negative";
 }
 
-MovementCourse movement_course(const Study& study, const Movement& movement) {
-  Study posed = study;
-  posed.model.horizontal = movement.horizontal;
-  model::BodyModel model = load_model(posed);
+MovementModels movement_models(const Study& study) {
+  const auto load = [&](bool horizontal) {
+    Study posed = study;
+    posed.model.horizontal = horizontal;
+    model::BodyModel model = load_model(posed);
+    std::erase_if(model.muscles, [&](const model::Muscle& muscle) {
+      return std::none_of(study.muscles.begin(), study.muscles.end(), [&](const MuscleSpec& spec) {
+        return std::find(spec.osim.begin(), spec.osim.end(), muscle.name) != spec.osim.end();
+      });
+    });
+    return model;
+  };
+  model::BodyModel vertical = load(false);
+  model::BodyModel horizontal = study.model.file ? vertical : load(true);
+  return {.vertical = std::move(vertical), .horizontal = std::move(horizontal)};
+}
+
+MovementCourse movement_course(const Study& study,
+                               const MovementModels& models,
+                               const Movement& movement) {
+  model::BodyModel model = movement.horizontal ? models.horizontal : models.vertical;
   if (movement.held_mass_kg > 0.0) {
     if (!study.model.held_mass && study.model.file)
       throw InvalidInput(

@@ -68,9 +68,17 @@ struct MovementCourse {
   Eigen::VectorXd effort;              ///< 0..1 of `level`: isometric, isokinetic; else empty.
 };
 
+/// The study's model in both planes of movement, with no muscles but the study's.
+struct MovementModels {
+  model::BodyModel vertical, horizontal;
+};
+[[nodiscard]] MovementModels movement_models(const Study& study);
+
 /// The course of a movement by the study's model: muscle paths and inverse dynamics of the
 /// coordinate's motion, the other coordinates at their default.
-[[nodiscard]] MovementCourse movement_course(const Study& study, const Movement& movement);
+[[nodiscard]] MovementCourse movement_course(const Study& study,
+                                             const MovementModels& models,
+                                             const Movement& movement);
 
 /// How the virtual persons act.
 struct MovementPerson {

@@ -328,6 +328,26 @@ identification::TorqueOptions torque_options(const Study& study,
   return options;
 }
 
+/// What would tell more than this recording did; without a dynamometer's movements, with the masses
+/// that the laboratory has.
+DesignStudyResult next_recording(const StudyResult& result, const RunOptions& run) {
+  const Study& study = result.study;
+  DesignStudyOptions options;
+  options.choice.movements = study.identify.next_movements;
+  options.catalogue.dynamometer = false;
+  std::vector<double> masses{0.0};
+  for (const TrialSpec& trial : study.trials) {
+    if (std::find(masses.begin(), masses.end(), trial.held_mass_kg) == masses.end())
+      masses.push_back(trial.held_mass_kg);
+  }
+  if (masses.size() > 1) options.catalogue.held_masses_kg = masses;
+  options.progress.stop = run.progress.stop;
+  for (const identification::IdentificationResult& method : result.methods) {
+    if (method.method == "torque") options.earlier = earlier_run(method);
+  }
+  return design_study(study, options);
+}
+
 }  // namespace
 
 StudyInputs read_inputs(Study& study) {
@@ -519,6 +539,9 @@ StudyResult analyse(const Study& study, StudyInputs given, const RunOptions& opt
                                               : identification::FoldKind::trial;
       result.folds = identification::cross_validate(result.data, fold_options, {.kind = kind});
     });
+  }
+  if (study.identify.next_movements > 0 && torque) {
+    stages.run("next recording", 0.95, [&] { result.next = next_recording(result, options); });
   }
   demote_by_gates(result);
   options.progress.tell(1.0, "done");

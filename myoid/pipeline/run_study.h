@@ -15,6 +15,7 @@
 #include "myoid/identification/torque.h"
 #include "myoid/kinematics/inverse_kinematics.h"
 #include "myoid/kinematics/muscle_kinematics.h"
+#include "myoid/pipeline/design_study.h"
 #include "myoid/pipeline/phases.h"
 #include "myoid/pipeline/study.h"
 #include "myoid/pipeline/trial_input.h"
@@ -73,6 +74,8 @@ struct StudyResult {
   /// `data`. Empty without method torque.
   std::vector<identification::InformedForces> informed;
   std::optional<identification::ForceLoop> force_loop;  ///< If the study asks for it.
+  /// Which movements would tell more; empty without method torque, or if none is asked for.
+  std::optional<DesignStudyResult> next;
   std::vector<TrueValue> truth;
   std::vector<StageTime> times;
   std::vector<InputFile> inputs;

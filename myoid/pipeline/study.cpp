@@ -355,6 +355,8 @@ IdentifySpec read_identify(TomlTable table) {
   identify.priors = table.flag("priors").value_or(identify.priors);
   identify.gain = table.flag("gain").value_or(identify.gain);
   identify.cross_validate = table.flag("cross_validate").value_or(identify.cross_validate);
+  identify.next_movements =
+      static_cast<int>(within(table, "next_movements", identify.next_movements, 0.0, 50.0, ""));
   identify.folds = table.choice("folds", "trial", {"trial", "condition", "block"});
   const double replicates = table.number("bootstrap").value_or(identify.bootstrap);
   if (!(replicates >= 0.0 && replicates <= 100000.0))

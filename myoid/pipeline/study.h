@@ -142,6 +142,7 @@ struct IdentifySpec {
   bool priors = true;
   bool gain = true;  ///< EMG gain per channel as a nuisance with a tight prior.
   bool cross_validate = true;
+  int next_movements = 4;       ///< To suggest for the next recording; 0: none.
   std::string folds = "trial";  ///< What cross-validation leaves out: trial, condition, block.
   int bootstrap = 100;          ///< Replicates for the second route to intervals; 0: none.
   bool profile = true;          ///< Profile likelihood, the third.

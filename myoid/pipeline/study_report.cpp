@@ -9,6 +9,7 @@
 #include <fmt/ranges.h>
 
 #include "myoid/muscle/hill_muscle.h"
+#include "myoid/pipeline/design_report.h"
 #include "myoid/pipeline/phases_report.h"
 #include "myoid/pipeline/quality_gates.h"
 #include "myoid/pipeline/torque_report.h"
@@ -394,6 +395,7 @@ report::Report study_report(const StudyResult& result, const Provenance& provena
   }
   for (Section& section : validation_sections(result))
     report.sections.push_back(std::move(section));
+  if (result.next) report.sections.push_back(next_recording_section(*result.next));
   if (paper != nullptr) {
     Section section{"paper", "The source paper's method beside it", {}, {}, {}, {}};
     section.paragraphs.push_back(

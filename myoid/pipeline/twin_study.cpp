@@ -34,6 +34,7 @@ Study study_of(const simulation::VirtualRecording& recording, const TwinStudyOpt
   study.model.text = recording.model_osim;
   study.identify.methods = options.methods;
   study.identify.cross_validate = false;
+  study.identify.next_movements = 0;
   study.identify.bootstrap = 0;  // beside the reported interval, not in it
   study.truth.reset();
   return study;
