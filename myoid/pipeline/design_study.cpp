@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <oneapi/tbb/parallel_for.h>
@@ -44,6 +45,7 @@ Knowledge knowledge_of(const std::vector<FreeParameter>& free,
     known.mean[j] = f.prior_sd > 0.0 ? f.prior_mean : f.start;
     known.covariance(j, j) = sd * sd;
   }
+  const Eigen::VectorXd sd_before = known.covariance.diagonal().cwiseSqrt();
   if (earlier) {
     std::vector<std::pair<Eigen::Index, Eigen::Index>> pairs;
     for (Eigen::Index j = 0; j < p; ++j) {
@@ -60,10 +62,19 @@ Knowledge knowledge_of(const std::vector<FreeParameter>& free,
         known.covariance(a, b) = earlier->covariance(from_a, from_b);
     }
   }
-  const Eigen::LLT<Eigen::MatrixXd> factor(known.covariance);
-  if (factor.info() != Eigen::Success)
-    throw InvalidInput("design: the covariance of the earlier run is not positive definite");
-  known.precision = factor.solve(Eigen::MatrixXd::Identity(p, p));
+  // Relative to what was known before: a direction that the run left undetermined has no variance
+  // in its covariance, and is as unknown as it was. None is known better than to a millionth.
+  const Eigen::VectorXd unit = sd_before.cwiseInverse();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> axes(unit.asDiagonal() * known.covariance *
+                                                            unit.asDiagonal());
+  if (!axes.eigenvalues().allFinite())
+    throw InvalidInput("design: the covariance of the earlier run is not finite");
+  Eigen::VectorXd variance = axes.eigenvalues();
+  for (double& v : variance) v = v <= 1e-14 ? 1.0 : std::max(v, 1e-12);
+  const Eigen::MatrixXd scaled = sd_before.asDiagonal() * axes.eigenvectors();
+  known.covariance = scaled * variance.asDiagonal() * scaled.transpose();
+  const Eigen::MatrixXd inverse = unit.asDiagonal() * axes.eigenvectors();
+  known.precision = inverse * variance.cwiseInverse().asDiagonal() * inverse.transpose();
   return known;
 }
 

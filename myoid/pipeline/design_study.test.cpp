@@ -178,6 +178,27 @@ TEST(DesignStudy, MoreMovementsTellMoreAndFatigueStaysInItsBudget) {
   }
 }
 
+TEST(DesignStudy, WhatARunLeftUndeterminedIsAsUnknownAsBefore) {
+  DesignStudyOptions options;
+  options.persons = 2;
+  options.choice.movements = 1;
+  options.targets = {"max_isometric_force"};
+  const DesignStudyResult unknown = design_study(arm_study(), options);
+  // A covariance over the determined directions alone: F_max of BIC and BRA only by their ratio.
+  EarlierRun earlier;
+  earlier.parameters = {"BIC.max_isometric_force", "BRA.max_isometric_force"};
+  earlier.estimate = Eigen::Vector2d(600.0, 900.0);
+  earlier.covariance = 0.01 * (Eigen::Matrix2d() << 1.0, -1.0, -1.0, 1.0).finished();
+  earlier.torque_sd_nm = 0.3;
+  earlier.emg_cv = 0.087;
+  options.earlier = earlier;
+  const DesignStudyResult known = design_study(arm_study(), options);
+  for (std::size_t t = 0; t < 2; ++t) {
+    EXPECT_GT(*known.beforehand[t].std_error / known.beforehand[t].estimate,
+              0.6 * *unknown.beforehand[t].std_error / unknown.beforehand[t].estimate);
+  }
+}
+
 TEST(DesignStudy, MusclesOfOneElectrodeAreNotPromisedToBeIdentified) {
   Study study = arm_study();
   study.muscles[1].emg = study.muscles[0].emg;

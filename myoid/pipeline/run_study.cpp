@@ -329,8 +329,8 @@ identification::TorqueOptions torque_options(const Study& study,
 }
 
 /// What would tell more than this recording did; without a dynamometer's movements, with the masses
-/// that the laboratory has.
-DesignStudyResult next_recording(const StudyResult& result, const RunOptions& run) {
+/// that the laboratory has. Empty if the fit is none to go on from.
+std::optional<DesignStudyResult> next_recording(const StudyResult& result, const RunOptions& run) {
   const Study& study = result.study;
   DesignStudyOptions options;
   options.choice.movements = study.identify.next_movements;
@@ -343,7 +343,10 @@ DesignStudyResult next_recording(const StudyResult& result, const RunOptions& ru
   if (masses.size() > 1) options.catalogue.held_masses_kg = masses;
   options.progress.stop = run.progress.stop;
   for (const identification::IdentificationResult& method : result.methods) {
-    if (method.method == "torque") options.earlier = earlier_run(method);
+    if (method.method != "torque") continue;
+    if (method.termination != math::Termination::converged || !method.covariance.allFinite())
+      return std::nullopt;
+    options.earlier = earlier_run(method);
   }
   return design_study(study, options);
 }
