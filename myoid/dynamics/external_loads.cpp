@@ -76,15 +76,16 @@ Eigen::Index mend_points(Eigen::MatrixX3d& point, const std::vector<bool>& is_lo
   return mended;
 }
 
-LoadColumns fit(const Eigen::VectorXd& time, const Eigen::MatrixX3d& values) {
+/// The clock of the data file; none if it has one row.
+using Clock = std::optional<math::SplineKnots>;
+
+LoadColumns fit(const Clock& clock, const Eigen::MatrixX3d& values) {
   LoadColumns columns;
-  if (time.size() == 1) {
+  if (!clock) {
     columns.constant = values.row(0).transpose();
     return columns;
   }
-  for (Eigen::Index k = 0; k < 3; ++k)
-    columns.splines.push_back(
-        math::Spline::interpolate(time, values.col(k), time.size() >= 4 ? 3 : 1));
+  for (Eigen::Index k = 0; k < 3; ++k) columns.splines.push_back(clock->interpolate(values.col(k)));
   return columns;
 }
 
@@ -120,6 +121,7 @@ ExternalForce read_force(const OsimXml& xml,
                          pugi::xml_node node,
                          const model::BodyModel& model,
                          const TimeSeries& data,
+                         const Clock& clock,
                          const std::filesystem::path& file,
                          std::vector<std::string>& notes) {
   ExternalForce force;
@@ -158,10 +160,10 @@ ExternalForce read_force(const OsimXml& xml,
           "between the others stand there",
           file.string(), force.name, mended));
     }
-    force.point = fit(data.time_s(), p);
+    force.point = fit(clock, p);
   }
-  if (f.rows() > 0) force.force = fit(data.time_s(), f);
-  if (t.rows() > 0) force.torque = fit(data.time_s(), t);
+  if (f.rows() > 0) force.force = fit(clock, f);
+  if (t.rows() > 0) force.torque = fit(clock, t);
   return force;
 }
 
@@ -204,16 +206,19 @@ ExternalLoads read_external_loads(const model::BodyModel& model,
         "expected <ExternalLoads>; this is another kind of file (give the .xml, not the data)");
   }
   xml.set_prototypes(set.child("defaults"));
-  const std::string name = xml.word(set, "datafile");
+  std::string name = xml.word(set, "datafile");
   if (name.empty() || name == "Unassigned") {
     xml.fail(set, "expected <datafile> with the measured loads (.mot, .sto)");
   }
+  std::replace(name.begin(), name.end(), '\\', '/');
   const std::filesystem::path file = path.parent_path() / name;
   const TimeSeries data = recording::read_storage(file).data;
   if (data.empty()) throw InvalidInput(fmt::format("{}: there are no rows", file.string()));
   ExternalLoads loads;
   loads.start_s = data.time_s()[0];
   loads.end_s = data.time_s()[data.sample_count() - 1];
+  Clock clock;
+  if (data.sample_count() > 1) clock.emplace(data.time_s(), data.sample_count() >= 4 ? 3 : 1);
   for (const auto node : OsimXml::objects(set)) {
     if (node.type() != pugi::node_element) continue;
     if (std::string_view(node.name()) != "ExternalForce") {
@@ -224,7 +229,7 @@ ExternalLoads read_external_loads(const model::BodyModel& model,
           fmt::format("{}: '{}' is switched off", path.string(), OsimXml::name_of(node)));
       continue;
     }
-    loads.forces.push_back(read_force(xml, node, model, data, file, loads.notes));
+    loads.forces.push_back(read_force(xml, node, model, data, clock, file, loads.notes));
   }
   if (loads.forces.empty())
     loads.notes.push_back(fmt::format("{}: no external force acts", path.string()));

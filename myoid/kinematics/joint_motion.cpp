@@ -1,5 +1,6 @@
 #include "myoid/kinematics/joint_motion.h"
 
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -32,6 +33,8 @@ MotionResult joint_motion(const model::BodyModel& model,
   Eigen::MatrixXd second = Eigen::MatrixXd::Zero(time.size(), count);
   std::vector<Channel> channels[3];
   int found = 0;
+  std::optional<math::SplineKnots> knots;  // all columns have them in common
+  if (!options.cutoff_hz) knots.emplace(q.time_s());
   for (Eigen::Index c = 0; c < count; ++c) {
     const model::Coordinate& coordinate = model.coordinates[static_cast<std::size_t>(c)];
     for (int order = 0; order < 3; ++order)
@@ -49,7 +52,7 @@ MotionResult joint_motion(const model::BodyModel& model,
     const math::Spline spline =
         options.cutoff_hz
             ? math::Spline::smooth(q.time_s(), samples, {.cutoff_hz = options.cutoff_hz})
-            : math::Spline::interpolate(q.time_s(), samples);
+            : knots->interpolate(samples);
     const math::SplineValues values = spline.evaluate(time);
     value.col(c) = values.value;
     first.col(c) = values.first;

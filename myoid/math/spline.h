@@ -5,6 +5,8 @@
 
 #include <Eigen/Core>
 
+#include "myoid/math/natural_basis.h"
+
 namespace myoid::math {
 
 struct SplineValue {
@@ -53,11 +55,25 @@ class Spline {
   [[nodiscard]] SplineValues evaluate(const Eigen::Ref<const Eigen::VectorXd>& t) const;
 
  private:
-  Spline(const Eigen::VectorXd& t, const Eigen::VectorXd& g, const Eigen::VectorXd& c, int m);
+  friend class SplineKnots;
+  Spline(const NaturalBasis& basis, const Eigen::VectorXd& g, const Eigen::VectorXd& c);
 
   Eigen::VectorXd knots_;
-  Eigen::MatrixXd coefficients_;  ///< 6 x (n + 1): per interval, by rising power of (t - left
+  Eigen::MatrixXd coefficients_;  ///< 2m x (n + 1): per interval, by rising power of (t - left
                                   ///< knot); before first and after last too.
+};
+
+/// Many columns over one clock: what depends on the times alone is found once.
+class SplineKnots {
+ public:
+  /// Throws as Spline::interpolate.
+  explicit SplineKnots(const Eigen::Ref<const Eigen::VectorXd>& t, int degree = 5);
+  /// The natural spline through y at these times; throws if a value is not finite.
+  [[nodiscard]] Spline interpolate(const Eigen::Ref<const Eigen::VectorXd>& y) const;
+
+ private:
+  NaturalBasis basis_;
+  BandFactor system_;
 };
 
 }  // namespace myoid::math

@@ -24,11 +24,9 @@ TimeSeries derivative(const TimeSeries& series, const std::vector<Channel>& chan
   // Fewer samples than a spline needs: postures, at rest.
   if (series.sample_count() < 4)
     return {series.time_s(), channels, Eigen::MatrixXd::Zero(values.rows(), values.cols())};
-  for (Eigen::Index c = 0; c < values.cols(); ++c) {
-    values.col(c) = math::Spline::interpolate(series.time_s(), series.values().col(c))
-                        .evaluate(series.time_s())
-                        .first;
-  }
+  const math::SplineKnots knots(series.time_s());
+  for (Eigen::Index c = 0; c < values.cols(); ++c)
+    values.col(c) = knots.interpolate(series.values().col(c)).evaluate(series.time_s()).first;
   return {series.time_s(), channels, std::move(values)};
 }
 

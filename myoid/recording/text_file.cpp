@@ -56,14 +56,19 @@ std::string read_text_file(const std::filesystem::path& path) {
 
 std::vector<std::string_view> split_lines(std::string_view text) {
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+  // The next of either character is looked for only when it has been passed.
+  const auto next = [&](char c, std::size_t from) {
+    return std::min(text.find(c, from), text.size());
+  };
   std::vector<std::string_view> lines;
-  std::size_t begin = 0;
-  while (begin < text.size()) {
-    std::size_t end = text.find_first_of("\r\n", begin);
-    if (end == std::string_view::npos) end = text.size();
+  std::size_t feed = next('\n', 0), carriage = next('\r', 0);
+  for (std::size_t begin = 0; begin < text.size();) {
+    std::size_t end = std::min(feed, carriage);
     lines.push_back(text.substr(begin, end - begin));
-    if (end + 1 < text.size() && text[end] == '\r' && text[end + 1] == '\n') ++end;
+    if (carriage < text.size() && end == carriage && feed == carriage + 1) ++end;
     begin = end + 1;
+    if (feed < begin) feed = next('\n', begin);
+    if (carriage < begin) carriage = next('\r', begin);
   }
   return lines;
 }

@@ -76,8 +76,9 @@ TimeSeries opensim_lowpass(const TimeSeries& motion, double cutoff_hz) {
   for (Eigen::Index i = 0; i < count; ++i) even[i] = t[0] + interval_s * static_cast<double>(i);
   const ThirdOrder filter = design(std::min(cutoff_hz, 0.49 / interval_s), interval_s);
   Eigen::MatrixXd values(count, motion.channel_count());
+  const math::SplineKnots knots(t);
   for (Eigen::Index c = 0; c < values.cols(); ++c) {
-    const math::Spline spline = math::Spline::interpolate(t, padded(motion.values().col(c)));
+    const math::Spline spline = knots.interpolate(padded(motion.values().col(c)));
     values.col(c) = pass(filter, pass(filter, spline.evaluate(even).value));
   }
   return {std::move(even), motion.channels(), std::move(values)};

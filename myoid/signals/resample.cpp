@@ -14,10 +14,9 @@ TimeSeries resample(const TimeSeries& series, const Eigen::VectorXd& time_s) {
   Eigen::MatrixXd values(time_s.size(), series.channel_count());
   const Eigen::VectorXd inside =
       time_s.cwiseMax(series.time_s()[0]).cwiseMin(series.time_s()[series.sample_count() - 1]);
+  const math::SplineKnots knots(series.time_s(), 3);
   for (Eigen::Index c = 0; c < series.channel_count(); ++c) {
-    values.col(c) = math::Spline::interpolate(series.time_s(), series.values().col(c), 3)
-                        .evaluate(inside)
-                        .value;
+    values.col(c) = knots.interpolate(series.values().col(c)).evaluate(inside).value;
   }
   return {time_s, series.channels(), std::move(values)};
 }
