@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <cstring>
 #include <exception>
+#include <string_view>
 #include <thread>
 
 #include <CLI/CLI.hpp>
@@ -39,6 +40,39 @@ int stdout_lost(const char* cause) {
   return myoid::cli::kBadInput;
 }
 
+struct Command {
+  const char* name;
+  void (*add)(CLI::App&, myoid::cli::Context&);
+};
+
+/// In the order of the help.
+constexpr Command kCommands[] = {
+    {"run", myoid::cli::add_run},
+    {"check", myoid::cli::add_check},
+    {"compare", myoid::cli::add_compare},
+    {"info", myoid::cli::add_info},
+    {"convert", myoid::cli::add_convert},
+    {"emg", myoid::cli::add_emg},
+    {"ik", myoid::cli::add_ik},
+    {"id", myoid::cli::add_id},
+    {"paths", myoid::cli::add_paths},
+    {"so", myoid::cli::add_so},
+    {"identify", myoid::cli::add_identify},
+    {"muscle", myoid::cli::add_muscle},
+    {"simulate", myoid::cli::add_simulate},
+    {"twin", myoid::cli::add_twin},
+    {"twin-study", myoid::cli::add_twin_study},
+    {"design", myoid::cli::add_design},
+    {"report", myoid::cli::add_report},
+    {"run-tool", myoid::cli::add_run_tool},
+};
+
+const Command* find_command(std::string_view name) {
+  for (const Command& command : kCommands)
+    if (name == command.name) return &command;
+  return nullptr;
+}
+
 int run(int argc, char** argv, myoid::cli::Context& context) {
   CLI::App app{
       "Myoid identifies a person's own muscle parameters from motion capture and EMG,\n"
@@ -50,24 +84,12 @@ int run(int argc, char** argv, myoid::cli::Context& context) {
       "myoid COMMAND --help shows a command's purpose, an example and its options.\n"
       "First steps: myoid twin --protocol examples/demo/protocol.toml --out rec\n"
       "             myoid run rec/study.toml --out results");
-  myoid::cli::add_run(app, context);
-  myoid::cli::add_check(app, context);
-  myoid::cli::add_compare(app, context);
-  myoid::cli::add_info(app, context);
-  myoid::cli::add_convert(app, context);
-  myoid::cli::add_emg(app, context);
-  myoid::cli::add_ik(app, context);
-  myoid::cli::add_id(app, context);
-  myoid::cli::add_paths(app, context);
-  myoid::cli::add_so(app, context);
-  myoid::cli::add_identify(app, context);
-  myoid::cli::add_muscle(app, context);
-  myoid::cli::add_simulate(app, context);
-  myoid::cli::add_twin(app, context);
-  myoid::cli::add_twin_study(app, context);
-  myoid::cli::add_design(app, context);
-  myoid::cli::add_report(app, context);
-  myoid::cli::add_run_tool(app, context);
+  // Only the command that is called, where it is one: the options of all take longer than a small
+  // run.
+  const Command* const called = find_command(argc > 1 ? argv[1] : "");
+  for (const Command& command : kCommands) {
+    if (called == nullptr || called == &command) command.add(app, context);
+  }
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

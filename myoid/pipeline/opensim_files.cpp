@@ -1,7 +1,6 @@
 #include "myoid/pipeline/opensim_files.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <utility>
 
@@ -10,6 +9,7 @@
 #include "myoid/core/error.h"
 #include "myoid/recording/atomic_file.h"
 #include "myoid/recording/storage_reader.h"
+#include "myoid/recording/text_file.h"
 
 namespace myoid::pipeline {
 namespace {
@@ -106,27 +106,16 @@ void write_opensim_storage(const std::filesystem::path& path,
                static_cast<std::size_t>(series.values().size() + series.sample_count()) *
                    (width + 1));
   const auto append = [&](double value) {
-    // Fixed digits by to_chars are several times as fast as a format string.
-    char digits[400];
-    const char* end = digits;
-    if (std::isnan(value)) {
-      end = std::copy_n("NaN", 3, digits);
-    } else {
-      end = std::to_chars(digits, digits + sizeof digits, value, std::chars_format::fixed,
-                          format.decimals)
-                .ptr;
-    }
-    const auto count = static_cast<std::size_t>(end - digits);
-    if (count < width) text.append(width - count, ' ');
-    text.append(digits, count);
+    recording::append_fixed(text, value, format.decimals, width);
   };
+  std::vector<double> factor;
+  for (const Channel& channel : series.channels())
+    factor.push_back(format.in_degrees && channel.unit == Unit::radian ? kDegree : 1.0);
   for (Eigen::Index row = 0; row < series.sample_count(); ++row) {
     append(series.time_s()[row]);
     for (Eigen::Index c = 0; c < series.channel_count(); ++c) {
-      const bool degrees =
-          format.in_degrees && series.channels()[static_cast<std::size_t>(c)].unit == Unit::radian;
       text += '\t';
-      append(degrees ? series.values()(row, c) / kDegree : series.values()(row, c));
+      append(series.values()(row, c) / factor[static_cast<std::size_t>(c)]);
     }
     text += '\n';
   }

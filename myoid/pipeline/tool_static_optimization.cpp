@@ -11,6 +11,7 @@
 #include "myoid/pipeline/analysis_reports.h"
 #include "myoid/pipeline/opensim_files.h"
 #include "myoid/recording/atomic_file.h"
+#include "myoid/recording/text_file.h"
 
 namespace myoid::pipeline {
 namespace {
@@ -117,6 +118,8 @@ std::string controls_text(const TimeSeries& controls) {
   std::string text =
       "<?xml version=\"1.0\" encoding=\"UTF-8\" ?>\n<OpenSimDocument Version=\"40500\">\n"
       "\t<ControlSet name=\"Static Optimization\">\n\t\t<objects>\n";
+  std::vector<std::string> times;
+  for (const double t : controls.time_s()) times.push_back(recording::format_number(t));
   for (Eigen::Index c = 0; c < controls.channel_count(); ++c) {
     text += fmt::format(
         "\t\t\t<ControlLinear name=\"{}\">\n\t\t\t\t<is_model_control>true</is_model_control>\n"
@@ -125,10 +128,11 @@ std::string controls_text(const TimeSeries& controls) {
         "\t\t\t\t<use_steps>false</use_steps>\n\t\t\t\t<x_nodes>\n",
         controls.channels()[at(c)].name);
     for (Eigen::Index i = 0; i < controls.sample_count(); ++i) {
-      text += fmt::format(
-          "\t\t\t\t\t<ControlLinearNode>\n\t\t\t\t\t\t<t>{}</t>\n\t\t\t\t\t\t<value>{}</value>\n"
-          "\t\t\t\t\t</ControlLinearNode>\n",
-          controls.time_s()[i], controls.values()(i, c));
+      text += "\t\t\t\t\t<ControlLinearNode>\n\t\t\t\t\t\t<t>";
+      text += times[at(i)];
+      text += "</t>\n\t\t\t\t\t\t<value>";
+      text += recording::format_number(controls.values()(i, c));
+      text += "</value>\n\t\t\t\t\t</ControlLinearNode>\n";
     }
     text +=
         "\t\t\t\t</x_nodes>\n\t\t\t\t<min_nodes />\n\t\t\t\t<max_nodes />\n"

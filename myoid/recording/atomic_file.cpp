@@ -78,6 +78,8 @@ void write_file(const std::filesystem::path& path, std::string_view content, Flu
       (fchmod(descriptor, permissions) != 0 || (flush == Flush::now && fsync(descriptor) != 0)))
     cause = errno;
   if (close(descriptor) != 0 && cause == 0) cause = errno;
+  // Some file systems flush what replaces another file; what takes a free name, they do not.
+  if (cause == 0 && exists && flush == Flush::later) unlink(target.c_str());
   if (cause == 0 && rename(temporary.c_str(), target.c_str()) == 0) return;
   if (cause == 0) cause = errno;
   unlink(temporary.c_str());

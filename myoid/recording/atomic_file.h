@@ -12,7 +12,8 @@ namespace myoid::recording {
 /// (disk full, no permission, a folder of that name) and leaves an existing file as it was.
 ///
 /// `Flush::later` leaves it to the system when the disk gets it: many times faster for many files,
-/// which a loss of power within seconds may leave empty; for results that can be computed again.
+/// which a loss of power within seconds may leave empty or, where it replaces another, missing; for
+/// results that can be computed again.
 enum class Flush { now, later };
 void write_file(const std::filesystem::path& path,
                 std::string_view content,

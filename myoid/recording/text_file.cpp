@@ -1,8 +1,11 @@
 #include "myoid/recording/text_file.h"
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <charconv>
+#include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <cstring>
 #include <limits>
@@ -148,6 +151,48 @@ std::string format_number(double value) {
   char buffer[32];
   const auto result = std::to_chars(buffer, buffer + sizeof buffer, value);
   return {buffer, result.ptr};
+}
+
+void append_fixed(std::string& text, double value, int decimals, std::size_t width) {
+  constexpr std::array<double, 10> kPower{1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9};
+  char digits[400];
+  char* const end = digits + sizeof digits;
+  char* begin = end;
+  const double size = std::abs(value);
+  if (decimals >= 0 && decimals <= 9 && size < 1e15) {
+    // Whole part and fraction apart: the one is exact, and the other, as an integer below 1e9, is
+    // off by less than 1e-7, so that its rounding is certain unless it ends close to one half.
+    const double power = kPower[static_cast<std::size_t>(decimals)];
+    auto whole = static_cast<std::uint64_t>(size);
+    const double fraction = (size - static_cast<double>(whole)) * power;
+    auto count = static_cast<std::uint64_t>(fraction);
+    const double rest = fraction - static_cast<double>(count);
+    if (std::abs(rest - 0.5) > 1e-6) {
+      if (rest > 0.5) ++count;
+      if (count == static_cast<std::uint64_t>(power)) {
+        count = 0;
+        ++whole;
+      }
+      for (int k = 0; k < decimals; ++k, count /= 10)
+        *--begin = static_cast<char>('0' + count % 10);
+      if (decimals > 0) *--begin = '.';
+      do {
+        *--begin = static_cast<char>('0' + whole % 10);
+        whole /= 10;
+      } while (whole > 0);
+      if (std::signbit(value)) *--begin = '-';
+    }
+  }
+  const char* stop = end;
+  if (begin == end) {
+    begin = digits;
+    stop = std::isnan(value)
+               ? std::copy_n("NaN", 3, digits)
+               : std::to_chars(digits, end, value, std::chars_format::fixed, decimals).ptr;
+  }
+  const auto count = static_cast<std::size_t>(stop - begin);
+  if (count < width) text.append(width - count, ' ');
+  text.append(begin, count);
 }
 
 bool equal_ignoring_case(std::string_view a, std::string_view b) {

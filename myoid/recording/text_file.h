@@ -56,6 +56,10 @@ inline constexpr std::string_view kLastRowKept =
 /// Shortest decimal text that reads back to the same double.
 [[nodiscard]] std::string format_number(double value);
 
+/// Appends a number with a fixed count of decimals, correctly rounded, blanks before it up to
+/// `width`; "NaN", "inf", "-inf" for what is not finite.
+void append_fixed(std::string& text, double value, int decimals, std::size_t width = 0);
+
 /// Without case (ASCII).
 [[nodiscard]] bool equal_ignoring_case(std::string_view a, std::string_view b);
 

@@ -1,12 +1,16 @@
 #include "myoid/recording/text_file.h"
 
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
 #include "myoid/core/error.h"
+#include "myoid/math/random.h"
 
 namespace myoid::recording {
 namespace {
@@ -33,6 +37,30 @@ TEST(ParseNumber, TakesTheFormsThatOccurAndNothingElse) {
 TEST(FormatNumber, ReadsBackToTheSameDouble) {
   for (const double x : {0.1, 1.0 / 3.0, -2.5e-17, 1e300})
     EXPECT_EQ(parse_number(format_number(x)), x);
+}
+
+// The C library rounds correctly, too: the same text for every number, halves included.
+TEST(AppendFixed, WritesWhatTheCLibraryWrites) {
+  math::Random random(3);
+  std::vector<double> values{0.0,    -0.0,          0.5,  1.5,  2.5,   0.125, -0.375,
+                             1e-300, 999.999999995, 1e14, 3e15, -1e22, 1e300};
+  for (int i = 0; i < 20000; ++i) {
+    const double size = std::pow(10.0, 24.0 * random.uniform() - 12.0);
+    values.push_back((2.0 * random.uniform() - 1.0) * size);
+    values.push_back(std::round(values.back() * 1e4) / 1e4 + 5e-9);  // close to a half
+  }
+  for (const int decimals : {0, 1, 3, 8, 9, 12}) {
+    for (const double value : values) {
+      char expected[400];
+      const int count = std::snprintf(expected, sizeof expected, "%16.*f", decimals, value);
+      std::string text = "x";
+      append_fixed(text, value, decimals, 16);
+      ASSERT_EQ(text, "x" + std::string(expected, static_cast<std::size_t>(count)));
+    }
+  }
+  std::string text;
+  append_fixed(text, std::nan(""), 8, 5);
+  EXPECT_EQ(text, "  NaN");
 }
 
 TEST(ReadTextFile, SaysWhatIsWrongWithAPath) {
