@@ -49,6 +49,7 @@ OpensimMuscle::OpensimMuscle(const model::Muscle& muscle, const model::Compat& c
       normalized_pennation_(compat.normalized_pennation) {
   height_m_ = p_.optimal_fiber_length_m * std::sin(p_.pennation_at_optimal_rad);
   shortest_m_ = height_m_ > 0.0 ? height_m_ / std::sin(p_.max_pennation_rad) : 0.0;
+  least_cosine_ = std::max(0.0, std::cos(p_.max_pennation_rad));
   tendon_strain_ = p_.max_tendon_strain;
   if (const auto* millard = std::get_if<model::MillardCurves>(&p_.curves)) {
     kind_ = Kind::millard;
@@ -71,7 +72,7 @@ OpensimMuscle::OpensimMuscle(const model::Muscle& muscle, const model::Compat& c
 double OpensimMuscle::cos_pennation(double fiber_length_m) const {
   if (!(height_m_ > 0.0)) return 1.0;
   const double sine = std::min(1.0, height_m_ / std::max(fiber_length_m, 1e-300));
-  return std::cos(std::min(std::asin(sine), p_.max_pennation_rad));
+  return std::max(std::sqrt((1.0 - sine) * (1.0 + sine)), least_cosine_);
 }
 
 OpensimMuscle::Curve OpensimMuscle::active_length(double l) const {
@@ -223,6 +224,7 @@ OpensimMuscle::State OpensimMuscle::equilibrium(double activation,
     const double before = error;
     const double from = l;
     const double slope = k.fiber_by_length - k.tendon_by_fiber;
+    if (from <= shortest_m_ && before / slope > 0.0) break;  // it would shorten further
     for (double part = 1.0;; part *= 0.5) {
       const double step = -part * before / slope;
       l = std::max(std::abs(step) > 1e-15 ? from + step : from - std::copysign(1.5e-8, step),

@@ -67,7 +67,8 @@ class OpensimMuscle {
   bool rigid_tendon_ = false;
   double damping_ = 0.0;
   double height_m_ = 0.0;
-  double shortest_m_ = 0.0;  ///< By pennation and, for Millard's, by the active curve.
+  double least_cosine_ = 0.0;  ///< At the greatest pennation.
+  double shortest_m_ = 0.0;    ///< By pennation and, for Millard's, by the active curve.
   double tendon_strain_ = 0.04;
   double width_ = 1.0;
 };

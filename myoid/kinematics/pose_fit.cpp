@@ -46,6 +46,7 @@ PoseFit::PoseFit(const model::BodyModel& model, const IkOptions& options, std::v
     reduced_[c] = reduced_[at(root)];
   }
   chains_.resize(model.bodies.size());
+  pulls_.resize(model.bodies.size());
   for (const model::Joint& joint : model.joints) {
     Chain& chain = chains_[at(joint.child)];
     chain = chains_[at(joint.parent)];
@@ -142,6 +143,21 @@ double PoseFit::cost_at(const Eigen::VectorXd& q) {
   return cost;
 }
 
+/// How the point of a chain's body that lies at the origin of ground moves with a coordinate.
+Vec3 PoseFit::origin_rate(const Chain& chain, std::size_t place) const {
+  const std::size_t c = at(chain.coordinates[place]);
+  return state_.H_v_G[c] + state_.X_GB[chain.body_of[place]].p.cross(state_.H_w_G[c]);
+}
+
+PoseFit::Pull& PoseFit::Pull::operator+=(const Pull& other) {
+  weight += other.weight;
+  first += other.first;
+  second += other.second;
+  force += other.force;
+  lever += other.lever;
+  return *this;
+}
+
 /// Derivatives of J at the posture of the last cost_at(q).
 void PoseFit::linearize(const Eigen::VectorXd& q) {
   const auto n = static_cast<Eigen::Index>(free_.size());
@@ -149,30 +165,48 @@ void PoseFit::linearize(const Eigen::VectorXd& q) {
   gradient_.setZero(n);
   gauss_.setZero(n, n);
   bend_.setZero(n, n);
+  // All about the origin of ground: what the markers outboard of a coordinate ask for adds up.
+  std::fill(pulls_.begin(), pulls_.end(), Pull{});
   for (std::size_t i = 0; i < pairs_.size(); ++i) {
     if (!seen_[i]) continue;
-    const Chain& chain = chains_[at(model_.markers[pairs_[i].model].body)];
     const Vec3 p_G = marker_position(i);
     const double weight = pairs_[i].weight * scale_;
-    const Vec3 pull = weight * (p_G - target_[i]);
-    columns_.resize(chain.coordinates.size());
-    for (std::size_t a = 0; a < chain.coordinates.size(); ++a) {
-      const int c = chain.coordinates[a];
-      columns_[a] = gain_[c] * (state_.H_v_G[at(c)] +
-                                state_.H_w_G[at(c)].cross(p_G - state_.X_GB[chain.body_of[a]].p));
-    }
-    for (std::size_t b = 0; b < chain.coordinates.size(); ++b) {
-      const int kb = reduced_[at(chain.coordinates[b])];
+    const Vec3 force = weight * (p_G - target_[i]);
+    Pull& pull = pulls_[at(model_.markers[pairs_[i].model].body)];
+    pull.weight += weight;
+    pull.first += weight * p_G;
+    pull.second += weight * p_G * p_G.transpose();
+    pull.force += force;
+    pull.lever += p_G * force.transpose();
+  }
+  for (std::size_t j = model_.joints.size(); j-- > 0;) {
+    const model::Joint& joint = model_.joints[j];
+    const Chain& chain = chains_[at(joint.child)];
+    const Pull& pull = pulls_[at(joint.child)];
+    pulls_[at(joint.parent)] += pull;
+    if (pull.weight == 0.0) continue;
+    for (std::size_t b = chain.coordinates.size(); b-- > 0;) {
+      if (chain.body_of[b] != at(joint.child)) break;
+      const int cb = chain.coordinates[b];
+      const int kb = reduced_[at(cb)];
       if (kb < 0) continue;
-      gradient_[kb] += columns_[b].dot(pull);
-      const Vec3 turned = columns_[b].cross(pull);
+      // A marker at r moves by v + w x r.
+      const Vec3 w = gain_[cb] * state_.H_w_G[at(cb)];
+      const Vec3 v = gain_[cb] * origin_rate(chain, b);
+      const Vec3 moved = pull.weight * v + w.cross(pull.first);
+      const Vec3 turned = pull.first.cross(v) + pull.second.trace() * w - pull.second * w;
+      const Vec3 bent = v.cross(pull.force) + pull.lever * w - pull.lever.trace() * w;
+      const Vec3 torque(pull.lever(1, 2) - pull.lever(2, 1), pull.lever(2, 0) - pull.lever(0, 2),
+                        pull.lever(0, 1) - pull.lever(1, 0));
+      gradient_[kb] += v.dot(pull.force) + w.dot(torque);
       for (std::size_t a = 0; a <= b; ++a) {
-        const int c = chain.coordinates[a];
-        const int ka = reduced_[at(c)];
+        const int ca = chain.coordinates[a];
+        const int ka = reduced_[at(ca)];
         if (ka < 0) continue;
-        const double first = weight * columns_[a].dot(columns_[b]);
+        const Vec3& w_a = state_.H_w_G[at(ca)];
+        const double first = gain_[ca] * (origin_rate(chain, a).dot(moved) + w_a.dot(turned));
         // What is farther out turns with a: its column changes by w_a x column.
-        const double second = gain_[c] * state_.H_w_G[at(c)].dot(turned);
+        const double second = gain_[ca] * w_a.dot(bent);
         gauss_(ka, kb) += first;
         bend_(ka, kb) += second;
         if (a != b) {

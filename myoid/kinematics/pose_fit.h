@@ -58,8 +58,18 @@ class PoseFit {
     std::vector<std::size_t> body_of;  ///< Child body of each one's joint.
   };
 
+  /// Sums over the markers of a body and of all that it carries: weights times 1, p and p p', and
+  /// the pulls f = weight (p - target) and p f', about the origin of ground.
+  struct Pull {
+    double weight = 0.0;
+    Vec3 first = Vec3::Zero(), force = Vec3::Zero();
+    Mat3 second = Mat3::Zero(), lever = Mat3::Zero();
+    Pull& operator+=(const Pull& other);
+  };
+
   void obey(Eigen::VectorXd& q) const;
   double cost_at(const Eigen::VectorXd& q);
+  [[nodiscard]] Vec3 origin_rate(const Chain& chain, std::size_t place) const;
   void linearize(const Eigen::VectorXd& q);
   void update_gains(const Eigen::VectorXd& q);
   [[nodiscard]] Eigen::VectorXd moved(const Eigen::VectorXd& q, const Eigen::VectorXd& step) const;
@@ -87,7 +97,7 @@ class PoseFit {
   Eigen::VectorXd gradient_;  ///< Of J, by the free coordinates.
   Eigen::MatrixXd gauss_;     ///< First-order part of the second derivatives of J.
   Eigen::MatrixXd bend_;      ///< Its rest, from the turning of the chains.
-  std::vector<Vec3> columns_;
+  std::vector<Pull> pulls_;   ///< Per body.
 };
 
 }  // namespace myoid::kinematics

@@ -130,9 +130,12 @@ class Helix {
   /// Slides r along z so that the angle of end - r to the axis comes near that of r - on_helix.
   static bool slide(const Vec3& end, const Vec3& on_helix, Vec3& r) {
     constexpr double kTangency_rad = 0.1 * kDegree;
-    const double straight = std::acos(unit_or_zero(r - end).z());
-    const double curved = std::acos(unit_or_zero(on_helix - r).z());
-    if (!(std::abs(straight - curved) > kTangency_rad)) return false;
+    const double straight = unit_or_zero(r - end).z();
+    const double curved = unit_or_zero(on_helix - r).z();
+    // Angles differ by more than their cosines do.
+    if (!(std::abs(straight - curved) > kTangency_rad) &&
+        !(std::abs(std::acos(straight) - std::acos(curved)) > kTangency_rad))
+      return false;
     const NearestOfLines n = nearest_of_lines(end, on_helix, Vec3(r.x(), r.y(), end.z()),
                                               Vec3(r.x(), r.y(), on_helix.z()));
     if (!n.parallel) r += 1.5 * (n.on_second - r);

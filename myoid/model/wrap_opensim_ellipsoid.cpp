@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include <Eigen/LU>
 
@@ -227,8 +228,15 @@ Polyline polyline(const Vec3& r1,
   const Vec3 f2 = center.cwiseQuotient(a);
   const double cc = f2.squaredNorm() - 1.0;
   Vec3 last = r1;
+  const double turn_c = std::cos(step);
+  const double turn_s = std::sin(step);
+  double c = 1.0;  // cosine and sine of i steps
+  double sine = 0.0;
   for (int i = 1; i < pieces; ++i) {
-    const Vec3 ray = std::cos(i * step) * u + std::sin(i * step) * v;
+    const double before = c;
+    c = c * turn_c - sine * turn_s;
+    sine = sine * turn_c + before * turn_s;
+    const Vec3 ray = c * u + sine * v;
     const Vec3 f1 = ray.cwiseQuotient(a);
     const double aa = f1.squaredNorm();
     const double bb = 2.0 * f1.dot(f2);

@@ -173,12 +173,11 @@ std::string table_text(const std::vector<Output>& outputs,
   for (const Output& output : outputs) text += "\t" + output.path;
   text += '\n';
   for (Eigen::Index i = 0; i < times.size(); ++i) {
-    fmt::format_to(std::back_inserter(text), "{}", times[i]);
+    text += recording::format_number(times[i]);
     for (const Vec3& v : values[at(i)]) {
-      if (three) {
-        fmt::format_to(std::back_inserter(text), "\t{:.16g},{:.16g},{:.16g}", v[0], v[1], v[2]);
-      } else {
-        fmt::format_to(std::back_inserter(text), "\t{:.16g}", v[0]);
+      for (Eigen::Index k = 0; k < (three ? 3 : 1); ++k) {
+        text += k == 0 ? '\t' : ',';
+        text += recording::format_number(v[k]);
       }
     }
     text += '\n';
@@ -215,6 +214,7 @@ void report_outputs(AnalysisRun& run, pugi::xml_node node) {
   for (Eigen::Index i = 0; i < frames; ++i) {
     model::compute_poses(model, q.row(i).transpose(), state);
     model::compute_velocities(model, run.motion.qdot.values().row(i).transpose(), state);
+    int computed = -1;  // the muscle whose path that is: two outputs of one stand together
     for (const int k : {0, 1}) {
       for (const Output& output : wanted[k]) {
         Vec3 value = Vec3::Zero();
@@ -224,7 +224,10 @@ void report_outputs(AnalysisRun& run, pugi::xml_node node) {
         } else if (output.kind == Output::Kind::body) {
           value = state.X_GB[at(output.index)].p;
         } else {
-          model::compute_path(model, model.muscles[at(output.index)].path, state, workspace, path);
+          if (output.index != computed)
+            model::compute_path(model, model.muscles[at(output.index)].path, state, workspace,
+                                path);
+          computed = output.index;
           value[0] = output.kind == Output::Kind::length ? path.length_m : path.speed_mps;
         }
         values[k][at(i)].push_back(value);

@@ -5,6 +5,7 @@
 #include <cerrno>
 #include <charconv>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
@@ -19,6 +20,20 @@ namespace myoid::recording {
 namespace {
 
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
+
+/// Two digits before `end`; returns where they begin.
+char* put_pair(char* end, std::uint64_t pair) {
+  static constexpr std::array<char, 200> kPairs = [] {
+    std::array<char, 200> digits{};
+    for (std::size_t i = 0; i < 100; ++i) {
+      digits[2 * i] = static_cast<char>('0' + i / 10);
+      digits[2 * i + 1] = static_cast<char>('0' + i % 10);
+    }
+    return digits;
+  }();
+  std::memcpy(end - 2, &kPairs[2 * pair], 2);
+  return end - 2;
+}
 
 char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 
@@ -154,33 +169,38 @@ std::string format_number(double value) {
 }
 
 void append_fixed(std::string& text, double value, int decimals, std::size_t width) {
-  constexpr std::array<double, 10> kPower{1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9};
+  constexpr std::array<double, 15> kPower{1e0, 1e1, 1e2,  1e3,  1e4,  1e5,  1e6, 1e7,
+                                          1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14};
   char digits[400];
   char* const end = digits + sizeof digits;
   char* begin = end;
+  const auto kept = static_cast<std::ptrdiff_t>(std::min<std::size_t>(width, 40));
   const double size = std::abs(value);
-  if (decimals >= 0 && decimals <= 9 && size < 1e15) {
-    // Whole part and fraction apart: the one is exact, and the other, as an integer below 1e9, is
-    // off by less than 1e-7, so that its rounding is certain unless it ends close to one half.
+  if (decimals >= 0 && decimals <= 14 && size < 1e15) {
+    // Whole part and fraction apart: the one is exact, the other times the power is off by less
+    // than 2e-16 of the power, so that its rounding is certain unless it ends that close to one
+    // half.
     const double power = kPower[static_cast<std::size_t>(decimals)];
     auto whole = static_cast<std::uint64_t>(size);
     const double fraction = (size - static_cast<double>(whole)) * power;
     auto count = static_cast<std::uint64_t>(fraction);
     const double rest = fraction - static_cast<double>(count);
-    if (std::abs(rest - 0.5) > 1e-6) {
+    if (std::abs(rest - 0.5) > 4e-16 * power) {
       if (rest > 0.5) ++count;
       if (count == static_cast<std::uint64_t>(power)) {
         count = 0;
         ++whole;
       }
-      for (int k = 0; k < decimals; ++k, count /= 10)
-        *--begin = static_cast<char>('0' + count % 10);
+      int left = decimals;
+      for (; left >= 2; left -= 2, count /= 100) begin = put_pair(begin, count % 100);
+      if (left == 1) *--begin = static_cast<char>('0' + count);
       if (decimals > 0) *--begin = '.';
       do {
         *--begin = static_cast<char>('0' + whole % 10);
         whole /= 10;
       } while (whole > 0);
       if (std::signbit(value)) *--begin = '-';
+      while (end - begin < kept) *--begin = ' ';
     }
   }
   const char* stop = end;

@@ -66,9 +66,14 @@ Run run_process(const fs::path& program, const fs::path& setup, int runs) {
   arguments.push_back(nullptr);
   nlohmann::json json;
   for (int i = 0; i < runs; ++i) {
-    // Like a first run: nothing is there to be replaced.
-    if (json.contains("files"))
-      for (const auto& file : json["files"]) fs::remove(fs::path(file.get<std::string>()));
+    // Like a first run: nothing is there to be replaced. (Moved, not removed: file systems are slow
+    // to give the places of files away again.)
+    if (json.contains("files")) {
+      for (const auto& file : json["files"]) {
+        static int count = 0;
+        fs::rename(file.get<std::string>(), setup.parent_path() / "old" / std::to_string(count++));
+      }
+    }
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
     posix_spawn_file_actions_addopen(&actions, 1, out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
@@ -205,10 +210,11 @@ Options read_options(int argc, char** argv) {
 
 void time_case(const Options& o,
                const fs::path& folder,
+               const fs::path& scratch_root,
                const std::map<std::string, double>& times) {
   const std::string name = folder.filename().string();
-  const fs::path scratch = fs::temp_directory_path() / ("myoid_opensim_speed_" + name);
-  fs::remove_all(scratch);
+  const fs::path scratch = scratch_root / name;
+  fs::create_directories(scratch / "old");
   copy_files(folder, scratch);
   std::vector<fs::path> setups;
   for (const auto& entry : fs::directory_iterator(scratch)) {
@@ -238,7 +244,6 @@ void time_case(const Options& o,
                setup.stem().string(), whole.frames, 1e3 * whole.seconds, 1e3 * whole.processor,
                each, 1e3 * theirs, theirs / whole.seconds);
   }
-  fs::remove_all(scratch);
 }
 
 }  // namespace
@@ -261,7 +266,10 @@ int main(int argc, char** argv) {
   fmt::print(
       "| case | set-up | frames | whole process | its processor time | a frame | OpenSim | times "
       "faster |\n| --- | --- | --- | --- | --- | --- | --- | --- |\n");
-  for (const fs::path& folder : cases) time_case(o, folder, times);
+  const fs::path scratch = fs::temp_directory_path() / "myoid_opensim_speed";
+  fs::remove_all(scratch);
+  for (const fs::path& folder : cases) time_case(o, folder, scratch, times);
+  fs::remove_all(scratch);
   fmt::print(
       "\n| model | bodies | coordinates | muscles | poses and velocities | inverse dynamics | "
       "paths "
