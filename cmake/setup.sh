@@ -13,11 +13,16 @@ MYOID_PACKAGES=(
   "libtomlplusplus-dev:study files" "nlohmann-json3-dev:JSON results" "libcli11-dev:command line"
   "libtbb-dev:threads" "libssl-dev:SHA-256 of the inputs" "libceres-dev:ceres/jet.h (exact derivatives); test oracle"
   "libsundials-dev:ODE integration"
+  "libjs-three:three.js, for pages with a moving model" "esbuild:bundles it with our viewer"
   "libgtest-dev:tests" "libgmock-dev:tests" "libbenchmark-dev:benchmarks"
   "libsimbody-dev:test oracle of the multibody engine"
 )
 
 myoid_log() { printf '%s\n' "$*" >&2; }
+
+myoid_as_root() {  # myoid_as_root COMMAND...
+  if [ "$(id -u)" -eq 0 ]; then "$@"; else sudo "$@"; fi
+}
 
 myoid_install_packages() {
   local missing=() entry name
@@ -29,18 +34,28 @@ myoid_install_packages() {
     fi
   done
   [ "${#missing[@]}" -eq 0 ] && return 0
-  local as_root=()
-  if [ "$(id -u)" -ne 0 ]; then
-    command -v sudo >/dev/null || {
-      myoid_log "Please install as root:  apt-get install ${missing[*]}"
-      exit 3
-    }
-    as_root=(sudo)
+  if [ "$(id -u)" -ne 0 ] && ! command -v sudo >/dev/null; then
+    myoid_log "Please install as root:  apt-get install ${missing[*]}"
+    exit 3
   fi
   myoid_log "Installing: ${missing[*]}"
-  "${as_root[@]}" apt-get update -qq >&2
-  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
+  myoid_as_root apt-get update -qq >&2
+  myoid_as_root env DEBIAN_FRONTEND=noninteractive \
     apt-get install -y -qq --no-install-recommends "${missing[@]}" >&2
+}
+
+# The browser in which the pages with a moving model are tested (90 MB to fetch). Without it that
+# test is skipped, and says so.
+myoid_install_browser() {
+  command -v chromium >/dev/null && return 0
+  if [ "$(id -u)" -ne 0 ] && ! command -v sudo >/dev/null; then
+    myoid_log "No chromium: pages with a moving model are not tested in a browser"
+    return 0
+  fi
+  myoid_log "Installing: chromium"
+  { myoid_as_root apt-get update -qq && myoid_as_root env DEBIAN_FRONTEND=noninteractive \
+      apt-get install -y -qq --no-install-recommends chromium; } >&2 ||
+    myoid_log "chromium cannot be installed: pages with a moving model are not tested in a browser"
 }
 
 myoid_build() {  # myoid_build [target...]

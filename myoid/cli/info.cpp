@@ -5,8 +5,10 @@
 #include <nlohmann/json.hpp>
 
 #include "myoid/cli/context.h"
+#include "myoid/cli/model_page.h"
 #include "myoid/cli/stage_input.h"
 #include "myoid/core/error.h"
+#include "myoid/model/arm4.h"
 #include "myoid/model/osim_reader.h"
 #include "myoid/model/path_survey.h"
 #include "myoid/pipeline/study.h"
@@ -218,11 +220,19 @@ ordered_json jumps_json(const model::BodyModel& m) {
   return list;
 }
 
+/// An .osim file, or the name of the built-in arm.
+bool is_model(const std::filesystem::path& path) {
+  return recording::extension_of(path) == ".osim" ||
+         (path == "arm4" && !std::filesystem::exists(path));
+}
+
 ordered_json osim_json(const std::filesystem::path& path,
                        const ModelQuestions& ask,
                        const Context& context) {
-  const model::BodyModel m =
-      model::read_osim(path, {.compat = model::parse_compat(context.compat)});
+  const model::OsimOptions options{.compat = model::parse_compat(context.compat)};
+  const model::BodyModel m = path == "arm4"
+                                 ? model::parse_osim(model::arm4_osim(), "arm4.osim", options)
+                                 : model::read_osim(path, options);
   ordered_json j{{"kind", "OpenSim model"}, {"name", m.name}};
   double mass = 0.0;
   for (std::size_t b = 1; b < m.bodies.size(); ++b) {
@@ -300,7 +310,7 @@ ordered_json file_json(const std::filesystem::path& path,
   if (extension == ".c3d") return c3d_json(path);
   if (extension == ".edf" || extension == ".bdf") return recording_json(path, "EMG (.edf, .bdf)");
   if (extension == ".anc") return recording_json(path, "analog channels (.anc)");
-  if (extension == ".osim") return osim_json(path, ask, context);
+  if (is_model(path)) return osim_json(path, ask, context);
   if (extension == ".toml") return study_file_json(path);
   (void)recording::read_text_file(path);  // a missing or empty file is told as such
   throw ReadError(
@@ -360,6 +370,7 @@ void add_info(CLI::App& app, Context& context) {
                           "Example: myoid info arm.osim flex.trc");
   const auto files = std::make_shared<std::vector<std::string>>();
   const auto ask = std::make_shared<ModelQuestions>();
+  const auto page = std::make_shared<ModelPageOptions>();
   command.add_flag("--compare-compat", ask->compare_compat,
                    "Of a model: for which muscles exact paths differ from OpenSim 4.5.2's, and by "
                    "how much, over random postures");
@@ -369,13 +380,27 @@ void add_info(CLI::App& app, Context& context) {
   command.add_flag("--jumps", ask->jumps,
                    "Of a model: where a muscle's length or moment arm jumps over the range of a "
                    "coordinate");
+  add_model_page_options(command, *page);
   add_compat_option(command, context);
   command
       .add_option("files", *files,
-                  ".c3d, .trc, .mot, .sto, .csv, .edf, .bdf, .anc, .osim or study.toml")
+                  ".c3d, .trc, .mot, .sto, .csv, .edf, .bdf, .anc, .osim or study.toml; or arm4")
       ->required();
-  add_common_options(command, context, {.threads = false, .range = false, .overwrite = false});
-  command.callback([&context, files, ask] {
+  add_common_options(command, context);
+  command.callback([&context, files, ask, page] {
+    if (!page->html.empty()) {
+      if (files->size() != 1 || !is_model(files->front()))
+        throw InvalidInput("--html shows one model: give one .osim, or arm4");
+      const std::string done = write_model_page(files->front(), *page, context);
+      if (context.json) {
+        fmt::print("{}\n", ordered_json{{"html", page->html}}.dump(2));
+      } else {
+        fmt::print("{}\n", done);
+      }
+      return;
+    }
+    if (context.start_s || context.end_s)
+      context.warn("--start and --end have no effect without --html");
     ordered_json all = ordered_json::array();
     for (const std::string& file : *files) {
       ordered_json j{{"file", file}};

@@ -8,6 +8,7 @@
 #include "myoid/pipeline/run_study.h"
 #include "myoid/pipeline/study_json.h"
 #include "myoid/pipeline/study_report.h"
+#include "myoid/pipeline/study_scene.h"
 #include "myoid/recording/text_file.h"
 
 namespace myoid::cli {
@@ -56,6 +57,7 @@ void add_report(CLI::App& app, Context& context) {
     provenance.command = run.value("command", context.command_line);
     provenance.inputs = result.inputs;
     provenance.options_json = pipeline::study_json(result.study);
+    pipeline::write_motion_page(result, *folder);
     report::write_report(pipeline::study_report(result, provenance), *folder);
     context.end_progress();
     const std::string page = (std::filesystem::path(*folder) / "report.html").string();

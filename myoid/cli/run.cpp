@@ -15,6 +15,7 @@
 #include "myoid/pipeline/run_study.h"
 #include "myoid/pipeline/study_json.h"
 #include "myoid/pipeline/study_report.h"
+#include "myoid/pipeline/study_scene.h"
 #include "myoid/report/report.h"
 
 namespace myoid::cli {
@@ -147,6 +148,7 @@ void add_run(CLI::App& app, Context& context) {
     provenance.options_json = pipeline::study_json(result.study);
     pipeline::remove_results(options->out);
     pipeline::write_results(result, provenance, options->out);
+    pipeline::write_motion_page(result, options->out);
     report::write_report(pipeline::study_report(result, provenance), options->out);
     context.end_progress();
     const std::vector<report::Gate> gates = pipeline::quality_gates(result);

@@ -85,7 +85,11 @@ BodyModel parse_osim(std::string_view text,
           fmt::format("frame '{}' of kind StationDefinedFrame", OsimXml::name_of(node)));
     }
   }
-  return finalize(std::move(r.model));
+  try {
+    return finalize(std::move(r.model));
+  } catch (const ModelError& error) {
+    throw ModelError(fmt::format("{}: {}", path.string(), error.what()));
+  }
 }
 
 BodyModel read_osim(const std::filesystem::path& path, const OsimOptions& options) {

@@ -68,15 +68,27 @@ std::optional<double> nearest_share(const Vec3& p, const Vec3& q, double R, Quad
   return share;
 }
 
-}  // namespace
+/// The cylinder that stands for the tube where the straight piece is nearest to the ring's circle;
+/// its x axis points to the middle of the ring.
+template <typename T>
+struct Tube {
+  Vector3<T> center, ex, ey, ez;
+
+  [[nodiscard]] Vector3<T> into(const Vector3<T>& v) const {
+    const Vector3<T> r = v - center;
+    return {r.dot(ex), r.dot(ey), r.dot(ez)};
+  }
+  [[nodiscard]] Vector3<T> back(const Vector3<T>& v) const {
+    return center + v[0] * ex + v[1] * ey + v[2] * ez;
+  }
+};
 
 template <typename T>
-std::optional<ContactOf<T>> wrap_torus(const TorusShape& torus,
-                                       Quadrant quadrant,
-                                       const Vector3<T>& p_W,
-                                       const Vector3<T>& q_W) {
+std::optional<Tube<T>> tube_at(double R,
+                               Quadrant quadrant,
+                               const Vector3<T>& p_W,
+                               const Vector3<T>& q_W) {
   using std::sqrt;
-  const double R = torus.outer_radius_m;
   const std::optional<double> share = nearest_share(value_of(p_W), value_of(q_W), R, quadrant);
   if (!share) return std::nullopt;
   const Vector3<T> d = q_W - p_W;
@@ -90,23 +102,40 @@ std::optional<ContactOf<T>> wrap_torus(const TorusShape& torus,
   const T y = p_W.y() + s * d.y();
   const T rho = sqrt(x * x + y * y);
   if (!(rho > T(1e-12))) return std::nullopt;
-  const Vector3<T> on_circle(T(R) * x / rho, T(R) * y / rho, T(0.0));
-  // A cylinder along the circle there; its x axis points to the middle of the ring.
-  const Vector3<T> ex(-x / rho, -y / rho, T(0.0));
-  const Vector3<T> ey(T(0.0), T(0.0), T(-1.0));
-  const Vector3<T> ez = ex.cross(ey);
-  const auto into = [&](const Vector3<T>& v) {
-    const Vector3<T> r = v - on_circle;
-    return Vector3<T>(r.dot(ex), r.dot(ey), r.dot(ez));
-  };
-  const auto back = [&](const Vector3<T>& v) {
-    return Vector3<T>(on_circle + v[0] * ex + v[1] * ey + v[2] * ez);
-  };
+  Tube<T> tube;
+  tube.center = {T(R) * x / rho, T(R) * y / rho, T(0.0)};
+  tube.ex = {-x / rho, -y / rho, T(0.0)};
+  tube.ey = {T(0.0), T(0.0), T(-1.0)};
+  tube.ez = tube.ex.cross(tube.ey);
+  return tube;
+}
+
+}  // namespace
+
+std::optional<Pose> torus_tube(const TorusShape& torus,
+                               Quadrant quadrant,
+                               const Vec3& p_W,
+                               const Vec3& q_W) {
+  const auto tube = tube_at<double>(torus.outer_radius_m, quadrant, p_W, q_W);
+  if (!tube) return std::nullopt;
+  Pose X_WC;
+  X_WC.R << tube->ex, tube->ey, tube->ez;
+  X_WC.p = tube->center;
+  return X_WC;
+}
+
+template <typename T>
+std::optional<ContactOf<T>> wrap_torus(const TorusShape& torus,
+                                       Quadrant quadrant,
+                                       const Vector3<T>& p_W,
+                                       const Vector3<T>& q_W) {
+  const auto tube = tube_at<T>(torus.outer_radius_m, quadrant, p_W, q_W);
+  if (!tube) return std::nullopt;
   const CylinderShape cylinder{torus.inner_radius_m, 1e4};
-  auto contact = wrap_cylinder<T>(cylinder, 1, into(p_W), into(q_W));
+  auto contact = wrap_cylinder<T>(cylinder, 1, tube->into(p_W), tube->into(q_W));
   if (!contact) return std::nullopt;
-  contact->first_W = back(contact->first_W);
-  contact->second_W = back(contact->second_W);
+  contact->first_W = tube->back(contact->first_W);
+  contact->second_W = tube->back(contact->second_W);
   return contact;
 }
 

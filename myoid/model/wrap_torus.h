@@ -19,6 +19,13 @@ template <typename T>
                                                      const Vector3<T>& p_W,
                                                      const Vector3<T>& q_W);
 
+/// Frame of the cylinder that stands for the tube between p and q, in the torus's: z along the
+/// tube, x to the middle of the ring. Empty: no point of the circle counts.
+[[nodiscard]] std::optional<Pose> torus_tube(const TorusShape& torus,
+                                             Quadrant quadrant,
+                                             const Vec3& p_W,
+                                             const Vec3& q_W);
+
 extern template std::optional<WrapContact> wrap_torus(const TorusShape&,
                                                       Quadrant,
                                                       const Vec3&,

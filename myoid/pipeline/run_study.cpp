@@ -102,6 +102,7 @@ void compute_motion(const Study& study,
                     TrialResult& trial) {
   TimeSeries q;
   if (input.markers) {
+    trial.markers = input.markers;
     if (study.ik.calibrate) calibrate(*study.ik.calibrate, *input.markers, trial.model);
     solve_ik(study, *input.markers, model_text, store, trial);
     trial.notes.insert(trial.notes.end(), trial.ik->notes.begin(), trial.ik->notes.end());

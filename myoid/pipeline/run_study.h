@@ -29,8 +29,9 @@ namespace myoid::pipeline {
 struct TrialResult {
   TrialSpec spec;
   model::BodyModel model;  ///< With the trial's held mass and calibrated coordinates.
-  std::optional<kinematics::IkResult> ik;  ///< If it began with markers.
-  bool ik_reused = false;                  ///< Taken from an earlier run with the same input.
+  std::optional<kinematics::IkResult> ik;          ///< If it began with markers.
+  std::optional<recording::MarkerSeries> markers;  ///< As inverse kinematics saw them.
+  bool ik_reused = false;  ///< Taken from an earlier run with the same input.
   kinematics::JointMotion
       motion;  ///< On the clock of the analysis; empty for an MVC trial without motion.
   std::optional<signals::EmgStages> emg;  ///< If its EMG was raw.

@@ -12,6 +12,7 @@
 #include "myoid/pipeline/design_report.h"
 #include "myoid/pipeline/phases_report.h"
 #include "myoid/pipeline/quality_gates.h"
+#include "myoid/pipeline/study_scene.h"
 #include "myoid/pipeline/torque_report.h"
 
 namespace myoid::pipeline {
@@ -371,6 +372,8 @@ report::Report study_report(const StudyResult& result, const Provenance& provena
       fmt::format("{} trials; joint coordinate{} {}; model {}", result.trials.size(),
                   joints.size() > 1 ? "s" : "", fmt::join(joints, ", "), result.model.name);
   report.headline = headline(result);
+  if (has_motion_page(result))
+    report.links.push_back({"The model moving through every trial, in the browser", kMotionPage});
   report.gates = quality_gates(result);
   const IdentificationResult* torque = method_of(result, "torque");
   const IdentificationResult* paper = method_of(result, "paper");

@@ -167,6 +167,10 @@ std::string html(const Report& report) {
   if (!report.headline.empty()) {
     text += fmt::format("<div class=\"headline\">{}</div>\n", escape_xml(report.headline));
   }
+  for (const Link& link : report.links) {
+    text +=
+        fmt::format("<p><a href=\"{}\">{}</a></p>\n", escape_xml(link.file), escape_xml(link.text));
+  }
   text += "</header>\n<nav>";
   if (!report.gates.empty()) text += "<a href=\"#quality\">Quality</a>";
   for (const Section& section : report.sections) {

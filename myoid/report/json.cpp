@@ -58,13 +58,19 @@ std::string report_json(const Report& report) {
                         {"tables", tables},
                         {"figures", figures}});
   }
+  Json links = Json::array();
+  for (const Link& link : report.links) links.push_back({{"text", link.text}, {"file", link.file}});
   Json provenance = Json::array();
   for (const ProvenanceRow& row : report.provenance) {
     provenance.push_back({{"what", row.what}, {"value", row.value}});
   }
-  const Json json = {{"title", report.title},       {"subtitle", report.subtitle},
-                     {"headline", report.headline}, {"gates", gates_json(report.gates)},
-                     {"sections", sections},        {"assumptions", report.assumptions},
+  const Json json = {{"title", report.title},
+                     {"subtitle", report.subtitle},
+                     {"headline", report.headline},
+                     {"gates", gates_json(report.gates)},
+                     {"links", links},
+                     {"sections", sections},
+                     {"assumptions", report.assumptions},
                      {"provenance", provenance}};
   // Text that is not UTF-8 (a file name, say) is shown with a replacement, not refused.
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';

@@ -84,6 +84,12 @@ struct Gate {
   std::string why;        ///< What follows from it, one sentence.
 };
 
+/// Another file of the run, by its name relative to the report.
+struct Link {
+  std::string text;
+  std::string file;
+};
+
 struct Section {
   std::string id;
   std::string heading;
@@ -103,6 +109,7 @@ struct Report {
   std::string title;
   std::string subtitle;     ///< Who, when, which data.
   std::string headline;     ///< The result in two or three sentences.
+  std::vector<Link> links;  ///< Beside the report, to look at.
   std::vector<Gate> gates;  ///< First of all: may the numbers below be believed?
   std::vector<Section> sections;
   std::vector<std::string> assumptions;

@@ -28,6 +28,7 @@ Report small_report() {
   Report report;
   report.title = "Muscles of <S01>";
   report.headline = "All is well.";
+  report.links = {{"The model, moving", "motion.html"}};
   report.gates = {{"Markers fit", GateStatus::pass, "3 mm", "below 10 mm", "Go on."},
                   {"EMG reaches its maximum", GateStatus::fail, "40 %", "above 80 %", "Beware."}};
   report.sections.push_back(
@@ -57,6 +58,11 @@ TEST(Report, QualityComesFirstAndTheWorstOfItBefore) {
   const std::string page = html(small_report());
   EXPECT_LT(page.find("EMG reaches its maximum"), page.find("Markers fit"));
   EXPECT_LT(page.find("Markers fit"), page.find("Table I"));
+}
+
+TEST(Report, LeadsToWhatLiesBesideIt) {
+  EXPECT_THAT(html(small_report()), HasSubstr("<a href=\"motion.html\">The model, moving</a>"));
+  EXPECT_EQ(nlohmann::json::parse(report_json(small_report()))["links"][0]["file"], "motion.html");
 }
 
 TEST(Report, HintsAreReadableOnPaperToo) {

@@ -1,0 +1,211 @@
+#include "myoid/report/scene_page.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "myoid/core/error.h"
+#include "myoid/report/packing.h"
+#include "myoid/report/svg_plot.h"
+#include "myoid/report/viewer_bundle.h"
+
+namespace myoid::report {
+namespace {
+
+using nlohmann::ordered_json;
+
+/// Millimeters to two decimals are enough for what stands still.
+ordered_json vector_json(const Vec3& v) {
+  const auto rounded = [](double x) { return std::round(x * 1e5) / 1e5; };
+  return {rounded(v.x()), rounded(v.y()), rounded(v.z())};
+}
+
+ordered_json point_json(const ScenePoint& point) {
+  ordered_json j = vector_json(point.position_m);
+  j.insert(j.begin(), point.body);
+  return j;
+}
+
+std::string_view name(SurfaceKind kind) {
+  switch (kind) {
+    case SurfaceKind::cylinder:
+      return "cylinder";
+    case SurfaceKind::ellipsoid:
+      return "ellipsoid";
+    case SurfaceKind::torus:
+      return "torus";
+  }
+  return "";
+}
+
+ordered_json model_json(const Scene& scene) {
+  ordered_json j{{"name", scene.name},
+                 {"notes", scene.notes},
+                 {"up", vector_json(scene.up)},
+                 {"bodies", ordered_json::array()},
+                 {"markers", ordered_json::array()},
+                 {"surfaces", ordered_json::array()},
+                 {"muscles", ordered_json::array()},
+                 {"coordinates", ordered_json::array()}};
+  for (const SceneBody& body : scene.bodies) {
+    ordered_json sticks = ordered_json::array();
+    for (const auto& [from, to] : body.sticks_m)
+      sticks.push_back({vector_json(from), vector_json(to)});
+    j["bodies"].push_back({{"name", body.name},
+                           {"mass", body.mass_kg},
+                           {"center", vector_json(body.mass_center_m)},
+                           {"sticks", sticks}});
+  }
+  for (const SceneMarker& marker : scene.markers)
+    j["markers"].push_back({{"name", marker.name}, {"point", point_json(marker.point)}});
+  for (const SceneSurface& s : scene.surfaces) {
+    const Eigen::Quaterniond q(s.pose.R);
+    j["surfaces"].push_back({{"name", s.name},
+                             {"body", s.body},
+                             {"kind", name(s.kind)},
+                             {"size", vector_json(s.size_m)},
+                             {"position", vector_json(s.pose.p)},
+                             {"rotation", {q.x(), q.y(), q.z(), q.w()}}});
+  }
+  for (const SceneMuscle& muscle : scene.muscles) {
+    ordered_json points = ordered_json::array();
+    for (const ScenePoint& point : muscle.points) points.push_back(point_json(point));
+    j["muscles"].push_back(
+        {{"name", muscle.name}, {"strength", muscle.max_isometric_force_n}, {"points", points}});
+  }
+  for (const SceneCoordinate& c : scene.coordinates)
+    j["coordinates"].push_back({{"name", c.name}, {"unit", c.unit}});
+  return j;
+}
+
+/// Every point that is given in ground.
+std::vector<Vec3> points_of(const Scene& scene) {
+  std::vector<Vec3> points;
+  for (const auto& frame : scene.poses)
+    for (const Pose& pose : frame) points.push_back(pose.p);
+  for (const auto& frame : scene.lines_m)
+    for (const auto& line : frame) points.insert(points.end(), line.begin(), line.end());
+  for (Eigen::Index f = 0; f < scene.measured_m.rows(); ++f) {
+    for (Eigen::Index m = 0; m + 2 < scene.measured_m.cols(); m += 3)
+      points.emplace_back(scene.measured_m.block<1, 3>(f, m).transpose());
+  }
+  return points;
+}
+
+ordered_json lines_json(const Scene& scene, const PackingBox& box) {
+  std::vector<std::uint16_t> counts;
+  std::vector<std::uint16_t> points;
+  for (const auto& frame : scene.lines_m) {
+    for (const auto& line : frame) {
+      counts.push_back(static_cast<std::uint16_t>(line.size()));
+      for (const Vec3& p : line) pack(box, p, points);
+    }
+  }
+  return {
+      {"muscles", scene.moving_muscles}, {"counts", base64(counts)}, {"points", base64(points)}};
+}
+
+ordered_json values_json(const SceneValues& values) {
+  std::vector<std::uint16_t> numbers;
+  numbers.reserve(static_cast<std::size_t>(values.value.size()));
+  for (Eigen::Index f = 0; f < values.value.rows(); ++f)
+    for (Eigen::Index m = 0; m < values.value.cols(); ++m)
+      numbers.push_back(pack(values.value(f, m), values.top));
+  return {{"name", values.name},
+          {"unit", values.unit},
+          {"top", values.top},
+          {"numbers", base64(numbers)}};
+}
+
+ordered_json measured_json(const Scene& scene, const PackingBox& box) {
+  ordered_json j{{"names", scene.measured_markers}, {"markers", ordered_json::array()}};
+  for (const std::string& measured : scene.measured_markers) {
+    const auto it = std::find_if(scene.markers.begin(), scene.markers.end(),
+                                 [&](const SceneMarker& m) { return m.name == measured; });
+    j["markers"].push_back(it == scene.markers.end() ? -1 : it - scene.markers.begin());
+  }
+  std::vector<std::uint16_t> numbers;
+  for (Eigen::Index f = 0; f < scene.measured_m.rows(); ++f)
+    for (Eigen::Index m = 0; m + 2 < scene.measured_m.cols(); m += 3)
+      pack(box, scene.measured_m.block<1, 3>(f, m).transpose(), numbers);
+  j["points"] = base64(numbers);
+  return j;
+}
+
+ordered_json scene_json(const Scene& scene) {
+  const std::vector<Vec3> points = points_of(scene);
+  const PackingBox box = packing_box(points);
+  std::vector<std::uint16_t> positions;
+  std::vector<std::uint16_t> rotations;
+  std::vector<float> times;
+  std::vector<float> coordinates;
+  for (std::size_t f = 0; f < scene.poses.size(); ++f) {
+    const auto row = static_cast<Eigen::Index>(f);
+    times.push_back(static_cast<float>(scene.time_s[row]));
+    for (Eigen::Index c = 0; c < scene.coordinate_values.cols(); ++c)
+      coordinates.push_back(static_cast<float>(scene.coordinate_values(row, c)));
+    for (const Pose& pose : scene.poses[f]) {
+      pack(box, pose.p, positions);
+      pack(pose.R, rotations);
+    }
+  }
+  ordered_json j = model_json(scene);
+  j.update({{"frames", scene.time_s.size()},
+            {"times", base64(times)},
+            {"origin", {box.origin.x(), box.origin.y(), box.origin.z()}},
+            {"step", box.step},
+            {"positions", base64(positions)},
+            {"rotations", base64(rotations)},
+            {"angles", base64(coordinates)},
+            {"lines", lines_json(scene, box)},
+            {"values", ordered_json::array()}});
+  for (const SceneValues& values : scene.values) j["values"].push_back(values_json(values));
+  if (!scene.measured_markers.empty()) j["measured"] = measured_json(scene, box);
+  return j;
+}
+
+/// JSON that may stand inside a <script> element.
+std::string embedded(const ordered_json& j) {
+  const std::string text = j.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
+  std::string safe;
+  safe.reserve(text.size());
+  for (const char c : text) {
+    if (c == '<') {
+      safe += "\\u003c";
+    } else {
+      safe += c;
+    }
+  }
+  return safe;
+}
+
+}  // namespace
+
+bool has_viewer() { return !viewer_bundle().script.empty(); }
+
+std::string scene_page(const ScenePage& page) {
+  if (!has_viewer()) {
+    throw InvalidInput(
+        "this program was built without three.js, so it cannot write pages with a moving model: "
+        "install the packages libjs-three and esbuild and build it again");
+  }
+  if (page.scenes.empty()) throw InvalidInput("a page with a moving model needs a scene");
+  ordered_json j{
+      {"title", page.title}, {"subtitle", page.subtitle}, {"scenes", ordered_json::array()}};
+  for (const Scene& scene : page.scenes) {
+    validate(scene);
+    j["scenes"].push_back(scene_json(scene));
+  }
+  const ViewerBundle bundle = viewer_bundle();
+  return fmt::format(
+      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
+      "<title>{}</title>\n<!-- The script below contains three.js:\n\n{}-->\n<style>{}</style>\n"
+      "</head>\n<body>\n<noscript>This page shows a moving model and needs JavaScript.</noscript>\n"
+      "<script type=\"application/json\" id=\"scene\">{}</script>\n<script>{}</script>\n"
+      "</body>\n</html>\n",
+      escape_xml(page.title), bundle.license, bundle.style, embedded(j), bundle.script);
+}
+
+}  // namespace myoid::report

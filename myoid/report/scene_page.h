@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "myoid/report/scene.h"
+
+namespace myoid::report {
+
+/// Scenes, of one model or of several, as one HTML file that works offline: the viewer with a
+/// choice of the scene, and the scenes as JSON with their arrays in base64 (packing.h). Calls
+/// `validate`. Throws InvalidInput without a scene, or if the program was built without three.js.
+struct ScenePage {
+  std::string title;
+  std::string subtitle;
+  std::vector<Scene> scenes = {};
+};
+[[nodiscard]] std::string scene_page(const ScenePage& page);
+
+/// Whether this build has what `scene_page` needs.
+[[nodiscard]] bool has_viewer();
+
+}  // namespace myoid::report

@@ -1,0 +1,299 @@
+// The model as three.js objects, put where a trial says.
+import {
+  BufferAttribute,
+  BufferGeometry,
+  Group,
+  LineBasicMaterial,
+  LineSegments,
+  Mesh,
+  MeshPhongMaterial,
+  Vector3,
+} from 'three';
+import { MUSCLE, UNKNOWN, colorOf } from './colors.js';
+import { Tube, bone, cylinder, sphere, torus } from './shapes.js';
+
+const BONE = 0xe6dcc3;
+const CENTER = 0x8d99a6;
+const MODEL_MARKER = 0xff6fae;
+const MEASURED_MARKER = 0x5cc8ff;
+const ERROR_LINE = 0xffb020;
+const SURFACE = 0x4fd1b5;
+
+/** Parts that can be hidden, in the order they are offered. */
+export const PARTS = [
+  ['bones', 'Bones', 'b'],
+  ['centers', 'Mass centers', 'c'],
+  ['muscles', 'Muscles', 'u'],
+  ['markers', 'Model markers', 'm'],
+  ['measured', 'Measured markers', 'e'],
+  ['errors', 'Marker errors', 'r'],
+  ['surfaces', 'Wrap surfaces', 'w'],
+];
+
+const phong = (color, more = {}) =>
+  new MeshPhongMaterial({ color, shininess: 40, specular: 0x222222, ...more });
+
+export class Figure {
+  /** `size`: how large the model is [m]; everything without a size of its own is made to suit. */
+  constructor(trial, size) {
+    this.trial = trial;
+    this.model = trial.model;
+    this.size = size;
+    this.root = new Group();
+    this.bodies = this.model.bodies.map(() => this.#added(this.root, new Group()));
+    this.parts = Object.fromEntries(PARTS.map(([name]) => [name, []]));
+    this.point = new Vector3();
+    this.other = new Vector3();
+    this.#addBones();
+    this.#addSurfaces();
+    this.#addMuscles();
+    this.#addMarkers();
+  }
+
+  /** Which kinds of parts there are at all. */
+  has(part) {
+    return this.parts[part].length > 0;
+  }
+
+  show(part, visible) {
+    for (const object of this.parts[part]) object.visible = visible;
+  }
+
+  showMuscle(index, visible) {
+    this.tubes[index].mesh.visible = visible;
+  }
+
+  #added(parent, object) {
+    parent.add(object);
+    return object;
+  }
+
+  #addBones() {
+    const material = phong(BONE);
+    const centerMaterial = phong(CENTER);
+    const thinnest = 0.0025 * this.size;
+    this.model.bodies.forEach((body, b) => {
+      for (const [from, to] of body.sticks) {
+        const start = new Vector3().fromArray(from);
+        const along = new Vector3().fromArray(to).sub(start);
+        const length = along.length();
+        if (length < 4 * thinnest) continue;
+        const radius = Math.min(0.008 * this.size, Math.max(thinnest, 0.04 * length));
+        const mesh = this.#added(this.bodies[b], new Mesh(bone(radius, length), material));
+        mesh.position.copy(start);
+        mesh.quaternion.setFromUnitVectors(new Vector3(0, 0, 1), along.normalize());
+        mesh.castShadow = true;
+        this.parts.bones.push(mesh);
+      }
+      if (b === 0 || body.mass === 0) return;
+      const ball = this.#added(this.bodies[b], new Mesh(sphere(0.0055 * this.size, 12), centerMaterial));
+      ball.position.fromArray(body.center);
+      this.parts.centers.push(ball);
+    });
+  }
+
+  #addSurfaces() {
+    const material = phong(SURFACE, { transparent: true, opacity: 0.28, depthWrite: false, side: 2 });
+    for (const s of this.model.surfaces) {
+      const [x, y, z] = s.size;
+      let geometry = null;
+      if (s.kind === 'cylinder') geometry = cylinder(x, z);
+      else if (s.kind === 'torus') geometry = torus(x, y);
+      else geometry = sphere(1, 28).scale(x, y, z);
+      if (s.kind === 'ellipsoid') geometry.computeVertexNormals();
+      const mesh = this.#added(this.bodies[s.body], new Mesh(geometry, material));
+      mesh.position.fromArray(s.position);
+      mesh.quaternion.fromArray(s.rotation);
+      this.parts.surfaces.push(mesh);
+    }
+  }
+
+  #addMuscles() {
+    const group = this.#added(this.root, new Group());
+    const thick = Math.min(2, Math.max(1, Math.sqrt(40 / (this.model.muscles.length || 1))));
+    this.tubes = this.model.muscles.map((muscle, m) => {
+      const k = this.trial.movingMuscles.indexOf(m);
+      const capacity = k >= 0 ? this.trial.mostPoints(k) : muscle.points.length;
+      const strength = Math.min(2, Math.max(0.5, Math.sqrt(muscle.strength / 1000)));
+      const tube = new Tube(capacity, 0.0026 * this.size * thick * strength);
+      tube.mesh = this.#added(group, new Mesh(tube.geometry, phong(0xffffff)));
+      tube.mesh.frustumCulled = false;
+      tube.mesh.castShadow = true;
+      return tube;
+    });
+    if (this.tubes.length > 0) this.parts.muscles.push(group);
+  }
+
+  #addMarkers() {
+    const geometry = sphere(0.0048 * this.size, 12);
+    const material = phong(MODEL_MARKER);
+    for (const marker of this.model.markers) {
+      const [body, ...place] = marker.point;
+      const mesh = this.#added(this.bodies[body], new Mesh(geometry, material));
+      mesh.position.fromArray(place);
+      this.parts.markers.push(mesh);
+    }
+    if (!this.trial.measured) return;
+    const most = this.trial.measured.names.length;
+    const group = this.#added(this.root, new Group());
+    const measured = phong(MEASURED_MARKER);
+    this.measured = Array.from({ length: most }, () => this.#added(group, new Mesh(geometry, measured)));
+    this.parts.measured.push(group);
+    const lines = new BufferGeometry();
+    this.errorEnds = new BufferAttribute(new Float32Array(6 * most), 3);
+    lines.setAttribute('position', this.errorEnds);
+    this.errors = this.#added(this.root, new LineSegments(lines, new LineBasicMaterial({ color: ERROR_LINE })));
+    this.errors.frustumCulled = false;
+    this.parts.errors.push(this.errors);
+  }
+
+  /** Puts everything where it is in this frame. */
+  pose(frame) {
+    const { trial } = this;
+    this.frame = frame;
+    this.bodies.forEach((body, b) => trial.place(frame, b, body));
+    this.root.updateMatrixWorld(true);
+    this.model.muscles.forEach((muscle, m) => {
+      const tube = this.tubes[m];
+      muscle.points.forEach(([body, x, y, z], i) =>
+        tube.points[i].set(x, y, z).applyMatrix4(this.bodies[body].matrixWorld)
+      );
+      if (muscle.points.length > 0) tube.update(muscle.points.length);
+    });
+    trial.movingMuscles.forEach((m, k) => {
+      const tube = this.tubes[m];
+      tube.update(trial.line(frame, k, this.point, (i, p) => tube.points[i].copy(p)));
+    });
+    if (this.measured) this.#poseMeasured(frame);
+  }
+
+  #poseMeasured(frame) {
+    let ends = 0;
+    this.measured.forEach((mesh, i) => {
+      mesh.visible = this.trial.measuredPoint(frame, i, mesh.position);
+      const marker = this.trial.measured.markers[i];
+      if (!mesh.visible || marker < 0) return;
+      this.markerPlace(marker, this.point);
+      this.errorEnds.setXYZ(ends++, mesh.position.x, mesh.position.y, mesh.position.z);
+      this.errorEnds.setXYZ(ends++, this.point.x, this.point.y, this.point.z);
+    });
+    this.errorEnds.needsUpdate = true;
+    this.errors.geometry.setDrawRange(0, ends);
+  }
+
+  markerPlace(marker, result) {
+    const [body, x, y, z] = this.model.markers[marker].point;
+    return result.set(x, y, z).applyMatrix4(this.bodies[body].matrixWorld);
+  }
+
+  /** From a measured marker to the model's [m]; null without one. */
+  markerError(i) {
+    const marker = this.trial.measured.markers[i];
+    if (marker < 0 || !this.measured[i].visible) return null;
+    return this.markerPlace(marker, this.point).distanceTo(this.measured[i].position);
+  }
+
+  /** Colors every muscle; `values` as in Trial, or null for one color. */
+  paint(values) {
+    this.tubes.forEach((tube, m) => {
+      const { color, emissive } = tube.mesh.material;
+      color.setRGB(...this.muscleColor(values, m).map((c) => c / 255));
+      // Light of its own keeps the color what it is in the legend, on the side of the shadow too.
+      emissive.copy(color).multiplyScalar(m === this.highlighted ? 0.9 : 0.3);
+    });
+  }
+
+  muscleColor(values, m) {
+    if (!values) return MUSCLE;
+    const value = this.trial.value(values, this.frame, m);
+    return value === null ? UNKNOWN : colorOf(value / values.top);
+  }
+
+  /** Gives back what the graphics card holds. */
+  dispose() {
+    this.root.traverse((object) => {
+      if (object.geometry) object.geometry.dispose();
+      if (object.material) object.material.dispose();
+    });
+  }
+
+  highlight(muscle) {
+    this.highlighted = muscle;
+  }
+
+  /** The mass center of all bodies. */
+  center(result) {
+    let mass = 0;
+    result.set(0, 0, 0);
+    this.model.bodies.forEach((body, b) => {
+      if (b === 0 || body.mass === 0) return;
+      this.point.fromArray(body.center).applyMatrix4(this.bodies[b].matrixWorld);
+      result.addScaledVector(this.point, body.mass);
+      mass += body.mass;
+    });
+    return mass > 0 ? result.multiplyScalar(1 / mass) : result;
+  }
+
+  /** Every point that should be in the picture, through `visit`. */
+  points(visit) {
+    this.model.bodies.forEach((body, b) => {
+      const ends = body.sticks.flat();
+      if (b > 0 && body.mass > 0) ends.push(body.center);
+      for (const p of ends) visit(this.point.fromArray(p).applyMatrix4(this.bodies[b].matrixWorld));
+    });
+    for (const tube of this.tubes) for (let i = 0; i < tube.count; ++i) visit(tube.points[i]);
+    this.model.markers.forEach((_, i) => visit(this.markerPlace(i, this.point)));
+  }
+
+  /** What is nearest to a place on the screen: { kind, index } or null. `project` takes a point to
+   * [x, y, depth] in pixels. */
+  pick(x, y, project) {
+    const reach = 9;
+    let best = null;
+    const consider = (kind, index, distance, depth, bonus) => {
+      const cost = distance - bonus;
+      if (distance <= reach && (!best || cost < best.cost - 1 || (cost < best.cost + 1 && depth < best.depth)))
+        best = { kind, index, cost, depth };
+    };
+    const visible = (part) => this.parts[part].length > 0 && this.parts[part][0].visible;
+    const near = (kind, index, point, bonus) => {
+      const [px, py, depth] = project(point);
+      consider(kind, index, Math.hypot(px - x, py - y), depth, bonus);
+    };
+    if (visible('markers')) this.model.markers.forEach((_, i) => near('marker', i, this.markerPlace(i, this.other), 4));
+    if (this.measured && visible('measured'))
+      this.measured.forEach((mesh, i) => mesh.visible && near('measured', i, mesh.position, 4));
+    if (visible('centers')) {
+      this.model.bodies.forEach((body, b) => {
+        if (b > 0 && body.mass > 0)
+          near('body', b, this.other.fromArray(body.center).applyMatrix4(this.bodies[b].matrixWorld), 1);
+      });
+    }
+    const alongLine = (kind, index, points, bonus) => {
+      let last = null;
+      for (const point of points) {
+        const here = project(point);
+        if (last) consider(kind, index, ...toPiece(x, y, last, here), bonus);
+        last = here;
+      }
+    };
+    if (visible('muscles'))
+      this.tubes.forEach((tube, m) => tube.mesh.visible && alongLine('muscle', m, tube.points.slice(0, tube.count), 2));
+    if (visible('bones')) {
+      this.model.bodies.forEach((body, b) => {
+        for (const stick of body.sticks)
+          alongLine('body', b, stick.map((p) => new Vector3().fromArray(p).applyMatrix4(this.bodies[b].matrixWorld)), 0);
+      });
+    }
+    return best;
+  }
+}
+
+/** Distance of a place to the piece a-b of the screen, and the depth there. */
+function toPiece(x, y, a, b) {
+  const dx = b[0] - a[0];
+  const dy = b[1] - a[1];
+  const square = dx * dx + dy * dy;
+  const share = square > 0 ? Math.min(1, Math.max(0, ((x - a[0]) * dx + (y - a[1]) * dy) / square)) : 0;
+  return [Math.hypot(a[0] + share * dx - x, a[1] + share * dy - y), a[2] + share * (b[2] - a[2])];
+}
