@@ -116,16 +116,17 @@ void Context::prepare_folder(const std::filesystem::path& folder,
   const auto counts = [&](const fs::directory_entry& entry) {
     return entry.path().filename() != unless_only;
   };
-  if (fs::exists(folder) && !fs::is_directory(folder)) {
+  std::error_code error;
+  const fs::file_status status = fs::status(folder, error);
+  if (fs::exists(status) && !fs::is_directory(status)) {
     throw InvalidInput(fmt::format("{} is a file; --out must name a folder", folder.string()));
   }
-  if (!overwrite && fs::exists(folder) &&
+  if (!overwrite && fs::exists(status) &&
       std::any_of(fs::directory_iterator(folder), fs::directory_iterator(), counts)) {
     throw InvalidInput(fmt::format(
         "the folder {} is not empty; give --overwrite to write into it, or another --out",
         folder.string()));
   }
-  std::error_code error;
   fs::create_directories(folder, error);
   if (error)
     throw InvalidInput(

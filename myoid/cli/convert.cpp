@@ -18,6 +18,7 @@
 #include "myoid/recording/recording.h"
 #include "myoid/recording/storage_writer.h"
 #include "myoid/recording/trc_writer.h"
+#include "myoid/signals/resample.h"
 
 namespace myoid::cli {
 namespace {
@@ -28,6 +29,7 @@ struct Options {
   std::string in, out, what, up = "y", unit, analog, subject = "01";
   std::vector<std::string> turns, bodies, channels;
   double least_force_n = 10.0;
+  double rate_hz = 0.0;  ///< 0: as recorded.
 };
 
 /// "x:-90" after "z:90": turns about the laboratory's axes, one after the other.
@@ -113,7 +115,7 @@ class Converter {
     const std::string from = recording::extension_of(o_.in);
     const std::string to = recording::extension_of(out);
     const bool folder = to.empty();
-    if (fs::is_directory(o_.in)) {
+    if (std::error_code ignored; fs::is_directory(o_.in, ignored)) {
       context_.prepare_folder(out);
       for (const fs::path& file : recording::write_bids_derivative(o_.in, out, o_.subject))
         wrote(file);
@@ -161,7 +163,8 @@ class Converter {
                      std::vector<recording::Repair>& repairs) {
     context_.prepare_file(out, {o_.in, o_.analog});
     without_blanks(markers, repairs);
-    recording::write_trc(out, recording::rotated(cut_markers(std::move(markers), context_), R_));
+    recording::write_trc(
+        out, recording::rotated(at_rate(cut_markers(std::move(markers), context_)), R_));
     wrote(out);
   }
 
@@ -172,7 +175,26 @@ class Converter {
   }
 
   [[nodiscard]] TimeSeries chosen(const TimeSeries& series) const {
-    return cut(o_.channels.empty() ? series : series.select(o_.channels), context_);
+    return at_rate(cut(o_.channels.empty() ? series : series.select(o_.channels), context_));
+  }
+
+  /// With --rate on an even clock of that rate, low-passed where it is slower.
+  [[nodiscard]] TimeSeries at_rate(const TimeSeries& series) const {
+    if (o_.rate_hz <= 0.0 || series.sample_count() < 4) return series;
+    return signals::resample(series, new_clock(series.time_s()));
+  }
+  [[nodiscard]] recording::MarkerSeries at_rate(recording::MarkerSeries markers) const {
+    if (o_.rate_hz <= 0.0 || markers.frame_count() < 4) return markers;
+    return signals::resample(markers, new_clock(markers.time_s));
+  }
+  [[nodiscard]] Eigen::VectorXd new_clock(const Eigen::VectorXd& old) const {
+    const double length_s = old[old.size() - 1] - old[0];
+    const auto intervals = static_cast<Eigen::Index>(std::floor(length_s * o_.rate_hz + 1e-6));
+    if (intervals < 1 || intervals > 100'000'000)
+      throw InvalidInput(fmt::format("--rate {}: that makes {} samples of {:.3g} s", o_.rate_hz,
+                                     intervals + 1, length_s));
+    return Eigen::VectorXd::LinSpaced(intervals + 1, old[0],
+                                      old[0] + static_cast<double>(intervals) / o_.rate_hz);
   }
 
   void channels(const fs::path& out) {
@@ -201,7 +223,7 @@ class Converter {
     const TimeSeries loads = recording::ground_reaction(
         file.plates, {.R_YG = R_, .least_force_n = o_.least_force_n}, notes);
     report(notes);
-    recording::write_storage(out, cut(loads, context_),
+    recording::write_storage(out, at_rate(cut(loads, context_)),
                              {.title = out.stem().string(), .comments = {}});
     wrote(out);
     std::vector<int> numbers;
@@ -245,7 +267,7 @@ class Converter {
           volts.size() < static_cast<std::size_t>(file.analog.channel_count())) {
         const fs::path emg = folder / (stem + "_emg.sto");
         context_.prepare_file(emg, {o_.in});
-        write_channels(emg, cut(file.analog.select(volts), context_));
+        write_channels(emg, at_rate(cut(file.analog.select(volts), context_)));
         wrote(emg);
       }
     }
@@ -255,9 +277,9 @@ class Converter {
   void to_c3d(const fs::path& out, const std::string& from) {
     context_.prepare_file(out, {o_.in, o_.analog});
     if (from == ".c3d") {
-      if (!R_.isIdentity(0.0) || context_.start_s || context_.end_s)
+      if (!R_.isIdentity(0.0) || context_.start_s || context_.end_s || o_.rate_hz > 0.0)
         throw InvalidInput(
-            "a C3D file is rewritten as it is; convert it to .trc to turn or cut it");
+            "a C3D file is rewritten as it is; convert it to .trc to turn, cut or resample it");
       recording::C3dFile file = recording::read_c3d(o_.in);
       report(file.repairs);
       recording::write_c3d(out, file);
@@ -277,7 +299,7 @@ class Converter {
     }
     recording::MarkerSeries markers = file.markers;
     if (markers.frame_count() > 0)
-      markers = recording::rotated(cut_markers(std::move(markers), context_), R_);
+      markers = recording::rotated(at_rate(cut_markers(std::move(markers), context_)), R_);
     recording::write_c3d(out,
                          recording::make_c3d(markers, analog.empty() ? analog : chosen(analog)));
     wrote(out);
@@ -324,6 +346,11 @@ void add_convert(CLI::App& app, Context& context) {
   command
       .add_option("--least-force", o->least_force_n,
                   "Below it a plate counts as unloaded [N] (default 10)")
+      ->check(CLI::PositiveNumber);
+  command
+      .add_option("--rate", o->rate_hz,
+                  "Put everything on an even clock of this rate [Hz]; low-passed first where that "
+                  "is slower (0 dB to 0.4 of it, -100 dB from half of it on)")
       ->check(CLI::PositiveNumber);
   command.add_option("--subject", o->subject,
                      "Label of the person where IN is a folder of results, written as a BIDS "

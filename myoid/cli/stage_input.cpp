@@ -40,7 +40,8 @@ void warn_of_path_differences(const model::BodyModel& model,
 }
 
 model::BodyModel load_model(const std::string& name, const Context& context) {
-  if (!name.ends_with(".osim") && name != "arm4" && !std::filesystem::exists(name)) {
+  std::error_code ignored;
+  if (!name.ends_with(".osim") && name != "arm4" && !std::filesystem::exists(name, ignored)) {
     throw InvalidInput(fmt::format(
         "--model {}: there is no such file, and the only built-in model is arm4", name));
   }
@@ -157,11 +158,13 @@ void write_series(const std::filesystem::path& path,
                   const TimeSeries& series,
                   const std::string& title) {
   const std::string extension = path.extension().string();
+  std::error_code ignored;
+  const auto status = std::filesystem::status(path, ignored);
   if (recording::equal_ignoring_case(extension, ".csv")) {
     recording::write_csv(path, series);
   } else if (recording::equal_ignoring_case(extension, ".sto") ||
              recording::equal_ignoring_case(extension, ".mot") ||
-             (std::filesystem::exists(path) && !std::filesystem::is_regular_file(path))) {
+             (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))) {
     recording::write_storage(path, series, {.title = title});
   } else {
     throw InvalidInput(

@@ -34,7 +34,13 @@ struct ExternalForce {
 struct ExternalLoads {
   std::vector<ExternalForce> forces;
   double start_s = 0.0, end_s = 0.0;  ///< Of the data; beyond, the splines go on as lines.
-  std::vector<std::string> notes;     ///< What was mended or left out, a sentence each.
+  /// Time of the motion = time of the data + offset_s + 1e-6 drift_ppm x time of the data.
+  /// `start_s` and `end_s` are times of the motion.
+  double offset_s = 0.0, drift_ppm = 0.0;
+  std::vector<std::string> notes;  ///< What was mended or left out, a sentence each.
+
+  /// Puts the data on another clock.
+  void set_clock(double offset_s, double drift_ppm);
 
   /// Appends the wrenches about the origins of the loaded bodies, in ground, at the posture in
   /// `state` (compute_poses).

@@ -138,12 +138,7 @@ class Check {
           fmt::format("EMG at {:.0f} Hz: 1000 Hz or more is needed for raw EMG",
                       emg.mean_rate_hz()));
     }
-    signals::EmgStages stages =
-        signals::process_emg(emg, {.highpass_hz = study_.emg.highpass_hz,
-                                   .lowpass_hz = study_.emg.lowpass_hz,
-                                   .rectify = study_.emg.rectify,
-                                   .notch = study_.emg.notch,
-                                   .as_published = study_.emg.as_published});
+    signals::EmgStages stages = signals::process_emg(emg, envelope_options(study_));
     for (const std::string& text : stages.findings) add(Level::note, spec.name, text);
     envelopes_.push_back({spec.name, mvc, stages.envelope});
     return std::move(stages.envelope);

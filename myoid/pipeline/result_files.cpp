@@ -448,6 +448,15 @@ void write_results(const StudyResult& result,
                              {"failure", trial.failure},
                              {"notes", trial.notes},
                              {"faults", faults_json(trial.faults)}});
+    if (const auto& emg = trial.emg_clock) {
+      ordered_json& clock = run["trials"].back()["emg_clock"];
+      clock = {{"offset_s", emg->clock.offset_s},
+               {"drift_ppm", emg->clock.drift_ppm},
+               {"pivot_s", emg->clock.pivot_s},
+               {"source", emg->source}};
+      if (emg->clock.offset_sd_s) clock["offset_sd_s"] = *emg->clock.offset_sd_s;
+      if (emg->clock.drift_sd_ppm) clock["drift_sd_ppm"] = *emg->clock.drift_sd_ppm;
+    }
   }
   run["faults"] = faults_json(result.level_faults);
   recording::write_file(folder / "run.json", run.dump(2) + "\n");

@@ -125,6 +125,11 @@ void compute_motion(const Study& study,
   const Eigen::VectorXd& clock = q.time_s();
   if (std::abs(wanted - rate) > 0.01 * rate || !q.is_uniform())
     options.time_s = signals::even_clock(clock[0], clock[clock.size() - 1], wanted);
+  // What a slower clock cannot hold goes first, where the smoothing spline, whose gain is
+  // 1 / (1 + (f/f_c)^6), leaves more than a thousandth of it at half the new rate.
+  const bool smoothed_away =
+      options.cutoff_hz && std::pow(0.5 * wanted / *options.cutoff_hz, 6) >= 999.0;
+  if (options.time_s && !smoothed_away && q.is_uniform()) q = signals::anti_aliased(q, wanted);
   kinematics::MotionResult result = kinematics::joint_motion(trial.model, q, options);
   trial.motion = std::move(result.motion);
   trial.notes.insert(trial.notes.end(), result.notes.begin(), result.notes.end());
@@ -171,19 +176,13 @@ void compute_forces(const Study& study, const TrialInput& input, bool share, Tri
                                 .reserve_nm = study.sharing.reserve_nm});
 }
 
-/// The envelope at about 250 Hz: it holds nothing above some 15 Hz, and splines through it are
-/// quicker.
+/// The envelope at no more than `rate_hz`, low-passed for it: splines through it are quicker.
+/// Negative values of the filter's undershoot are set to 0.
 TimeSeries thinned(const TimeSeries& series, double rate_hz) {
-  const auto stride = static_cast<Eigen::Index>(std::floor(series.mean_rate_hz() / rate_hz));
-  if (stride <= 1) return series;
-  const Eigen::Index count = (series.sample_count() - 1) / stride + 1;
-  Eigen::VectorXd time(count);
-  Eigen::MatrixXd values(count, series.channel_count());
-  for (Eigen::Index i = 0; i < count; ++i) {
-    time[i] = series.time_s()[i * stride];
-    values.row(i) = series.values().row(i * stride);
-  }
-  return {time, series.channels(), std::move(values)};
+  if (series.mean_rate_hz() < 2.0 * rate_hz) return series;
+  const Eigen::VectorXd& t = series.time_s();
+  TimeSeries slow = signals::resample(series, signals::even_clock(t[0], t[t.size() - 1], rate_hz));
+  return {slow.time_s(), slow.channels(), slow.values().cwiseMax(0.0)};
 }
 
 identification::TrialData trial_data(const Study& study,
@@ -252,12 +251,7 @@ void process_all_emg(const Study& study,
   if (study.emg.kind == EmgKind::raw) {
     oneapi::tbb::parallel_for(std::size_t{0}, inputs.size(), [&](std::size_t i) {
       if (!with_emg(i)) return;
-      result.trials[i].emg =
-          signals::process_emg(*inputs[i].emg, {.highpass_hz = study.emg.highpass_hz,
-                                                .lowpass_hz = study.emg.lowpass_hz,
-                                                .rectify = study.emg.rectify,
-                                                .notch = study.emg.notch,
-                                                .as_published = study.emg.as_published});
+      result.trials[i].emg = signals::process_emg(*inputs[i].emg, envelope_options(study));
     });
     for (TrialResult& trial : result.trials) {
       if (trial.emg)
@@ -416,6 +410,7 @@ StudyResult analyse(const Study& study, StudyInputs given, const RunOptions& opt
     result.trials[i].spec = study.trials[i];
     result.trials[i].notes = inputs[i].notes;
     result.trials[i].warnings = inputs[i].warnings;
+    result.trials[i].emg_clock = inputs[i].emg_clock;
   }
   Stages stages(options, result.times);
   stages.run("EMG", 0.15, [&] { process_all_emg(study, inputs, result); });

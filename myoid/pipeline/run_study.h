@@ -35,6 +35,7 @@ struct TrialResult {
   kinematics::JointMotion
       motion;  ///< On the clock of the analysis; empty for an MVC trial without motion.
   std::optional<signals::EmgStages> emg;  ///< If its EMG was raw.
+  std::optional<TrialClock> emg_clock;    ///< How its EMG came onto the motion's clock.
   TimeSeries activation;                  ///< Per EMG channel, 0..1.
   TimeSeries generalized_forces;          ///< Inverse dynamics, all coordinates.
   kinematics::MuscleKinematics muscles;   ///< Of the model's muscles.

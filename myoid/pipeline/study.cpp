@@ -227,6 +227,40 @@ Use parse_use(const std::string& word) {
   return Use::isometric;
 }
 
+SyncSpec read_sync(TomlTable table, const std::filesystem::path& folder) {
+  SyncSpec sync;
+  if (table.is_text("offset_s")) {
+    (void)table.choice("offset_s", "estimate", {"estimate"});
+    sync.estimate = true;
+  } else {
+    sync.offset_s = table.number("offset_s");
+  }
+  if (table.has("offset_sd_s")) sync.offset_sd_s = positive(table, "offset_sd_s", 0.0);
+  sync.drift_ppm = within(table, "drift_ppm", 0.0, -1e5, 1e5, "ppm");
+  sync.emg_trigger = table.text("emg_trigger").value_or("");
+  sync.motion_trigger = table.text("motion_trigger").value_or("");
+  if (auto file = table.text("trigger_file")) sync.trigger_file = folder / *file;
+  sync.match = table.choice("match", "rising", {"rising", "falling", "shape"});
+  sync.search_s = within(table, "search_s", sync.search_s, 0.05, 30.0, "s");
+  sync.loads_offset_s = table.number("loads_offset_s").value_or(0.0);
+  sync.loads_drift_ppm = within(table, "loads_drift_ppm", 0.0, -1e5, 1e5, "ppm");
+  const bool triggered = !sync.emg_trigger.empty() || !sync.motion_trigger.empty();
+  if (triggered && (sync.emg_trigger.empty() || sync.motion_trigger.empty())) {
+    table.fail(sync.emg_trigger.empty() ? "motion_trigger" : "emg_trigger",
+               "give both emg_trigger and motion_trigger: what each recording saw of the same "
+               "instants");
+  }
+  if (triggered && (sync.offset_s || sync.estimate || sync.drift_ppm != 0.0)) {
+    table.fail(sync.drift_ppm != 0.0 ? "drift_ppm" : "offset_s",
+               "the triggers tell offset and drift; give one or the other");
+  }
+  if (sync.match == "shape" && sync.motion_trigger == "start")
+    table.fail("match",
+               "the start of a recording has no shape; expected \"rising\" or \"falling\"");
+  table.finish();
+  return sync;
+}
+
 TrialSpec read_trial(TomlTable table, const std::filesystem::path& folder) {
   TrialSpec trial;
   trial.name = table.require_text("name", "a name that is unique in the study");
@@ -282,6 +316,14 @@ TrialSpec read_trial(TomlTable table, const std::filesystem::path& folder) {
   if (trial.start_s && trial.end_s && !(*trial.start_s < *trial.end_s)) {
     table.fail("end_s", fmt::format("found {} s, expected a time after start_s = {} s",
                                     *trial.end_s, *trial.start_s));
+  }
+  if (auto sync = table.table("sync")) {
+    const auto& motion_file = trial.markers ? trial.markers : trial.motion;
+    if (!trial.emg || !motion_file)
+      table.fail("sync", "it joins the clocks of an 'emg' file and of 'markers' or 'motion'");
+    if (trial.emg == motion_file && !sync->has("loads_offset_s") && !sync->has("loads_drift_ppm"))
+      table.fail("sync", "EMG and motion are in one file, and so on one clock");
+    trial.sync = read_sync(*sync, folder);
   }
   table.finish();
   return trial;
@@ -500,6 +542,7 @@ Study parse_study(std::string_view text, const std::filesystem::path& file) {
   if (auto t = table.table("markers")) study.markers = read_markers(*t);
   if (auto t = table.table("ik")) study.ik = read_ik(*t);
   if (auto t = table.table("emg")) study.emg = read_emg(*t);
+  if (auto t = table.table("sync")) study.sync = read_sync(*t, folder);
   if (auto t = table.table("load_cell")) study.load_cell = read_load_cell(*t, folder);
   if (auto t = table.table("sharing")) study.sharing = read_sharing(*t);
   if (auto t = table.table("phases")) study.phases = read_phases(*t);

@@ -108,6 +108,23 @@ struct MuscleSpec {
   std::vector<std::string> fixed;       ///< Parameters held at their start.
 };
 
+/// How the clock of a trial's EMG, and of its loads, stands to that of the motion, which is the
+/// study's. In force where the EMG is in a file of its own. The delay of the body is no part of it.
+struct SyncSpec {
+  std::optional<double> offset_s;  ///< Added to the times of the EMG.
+  std::optional<double> offset_sd_s;
+  double drift_ppm = 0.0;      ///< Of the file's seconds, from its time 0 on.
+  bool estimate = false;       ///< The offset is told from EMG and motion.
+  std::string emg_trigger;     ///< Channel or event of the EMG's file ...
+  std::string motion_trigger;  ///< ... and of the motion's, or "start".
+  std::optional<std::filesystem::path>
+      trigger_file;              ///< On the motion's clock; none: its own file.
+  std::string match = "rising";  ///< Of channels: "rising", "falling" edges, or "shape".
+  double search_s = 0.6;         ///< How far "estimate" and "shape" look, either way.
+  double loads_offset_s = 0.0;   ///< Added to the times of the loads' file.
+  double loads_drift_ppm = 0.0;
+};
+
 struct TrialSpec {
   std::string name;
   std::optional<std::filesystem::path> markers;
@@ -120,7 +137,8 @@ struct TrialSpec {
   Use use = Use::calibration;
   double held_mass_kg = 0.0;
   std::string condition;  ///< Trials of one name are left out together by folds = "condition".
-  std::optional<double> start_s, end_s;
+  std::optional<double> start_s, end_s;  ///< On the clock of the motion.
+  std::optional<SyncSpec> sync;
 };
 
 struct SharingSpec {
@@ -173,6 +191,7 @@ struct Study {
   PhasesSpec phases;
   IdentifySpec identify;
   std::optional<LoadCellSpec> load_cell;
+  std::optional<SyncSpec> sync;  ///< Of the trials that have none of their own.
   std::vector<MuscleSpec> muscles;
   std::vector<TrialSpec> trials;
   std::vector<identification::ParameterRule> parameters;  ///< [[parameter]]

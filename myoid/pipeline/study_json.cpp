@@ -56,6 +56,22 @@ ordered_json emg_json(const EmgSpec& emg) {
   return j;
 }
 
+ordered_json sync_json(const std::optional<SyncSpec>& sync) {
+  if (!sync) return nullptr;
+  ordered_json j = {{"offset_s", or_null(sync->offset_s)},
+                    {"offset_sd_s", or_null(sync->offset_sd_s)},
+                    {"drift_ppm", sync->drift_ppm},
+                    {"emg_trigger", sync->emg_trigger},
+                    {"motion_trigger", sync->motion_trigger},
+                    {"trigger_file", or_null(sync->trigger_file)},
+                    {"match", sync->match},
+                    {"search_s", sync->search_s},
+                    {"loads_offset_s", sync->loads_offset_s},
+                    {"loads_drift_ppm", sync->loads_drift_ppm}};
+  if (sync->estimate) j["offset_s"] = "estimate";
+  return j;
+}
+
 ordered_json trial_json(const TrialSpec& trial) {
   return {{"name", trial.name},
           {"markers", or_null(trial.markers)},
@@ -68,7 +84,8 @@ ordered_json trial_json(const TrialSpec& trial) {
           {"held_mass_kg", trial.held_mass_kg},
           {"condition", trial.condition},
           {"start_s", or_null(trial.start_s)},
-          {"end_s", or_null(trial.end_s)}};
+          {"end_s", or_null(trial.end_s)},
+          {"sync", sync_json(trial.sync)}};
 }
 
 }  // namespace
@@ -91,6 +108,7 @@ std::string study_json(const Study& study) {
                   {"fill_gaps", study.markers.fill_gaps}};
   j["ik"] = ik_json(study.ik);
   j["emg"] = emg_json(study.emg);
+  j["sync"] = sync_json(study.sync);
   j["load_cell"] = nullptr;
   if (const auto& cell = study.load_cell) {
     j["load_cell"] = {{"channels", cell->channels},

@@ -119,7 +119,8 @@ void write_surrogates(const std::filesystem::path& path,
 
 std::optional<std::vector<kinematics::PathSurrogate>> read_surrogates(
     const std::filesystem::path& path, const model::BodyModel& model, const std::string& key) {
-  if (!std::filesystem::exists(path)) return std::nullopt;
+  std::error_code ignored;
+  if (!std::filesystem::exists(path, ignored)) return std::nullopt;
   try {
     const ordered_json json = ordered_json::parse(recording::read_text_file(path));
     if (json.value("kind", "") != kKind) {

@@ -178,6 +178,9 @@ Table trials_table(const StudyResult& result) {
               "study's coordinates.",
               {"trial", "use", "duration", "held mass", "joint range", "torque range", "status"},
               {}};
+  const bool clocks = std::any_of(result.trials.begin(), result.trials.end(),
+                                  [](const TrialResult& t) { return t.emg_clock.has_value(); });
+  if (clocks) table.columns.insert(table.columns.end() - 1, "EMG's clock moved by");
   for (const TrialResult& t : result.trials) {
     std::vector<Cell> row{{t.spec.name}, {std::string(name(t.spec.use))}};
     if (t.has_motion()) {
@@ -195,6 +198,11 @@ Table trials_table(const StudyResult& result) {
       row.push_back({fmt::format("{} N m", fmt::join(torques, "; "))});
     } else {
       for (int k = 0; k < 4; ++k) row.push_back({"-"});
+    }
+    if (clocks) {
+      row.push_back(t.emg_clock ? Cell{signals::to_string(t.emg_clock->clock), Badge::none,
+                                       t.emg_clock->source}
+                                : Cell{"-"});
     }
     row.push_back(t.failure.empty() ? Cell{"ok", Badge::good}
                                     : Cell{"failed", Badge::bad, t.failure});

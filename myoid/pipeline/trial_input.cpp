@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -17,6 +18,7 @@
 #include "myoid/recording/text_file.h"
 #include "myoid/recording/toml_table.h"
 #include "myoid/signals/clock_gaps.h"
+#include "myoid/signals/emg_envelope.h"
 #include "myoid/signals/marker_quality.h"
 #include "myoid/signals/mend_markers.h"
 
@@ -248,7 +250,34 @@ void require_channels(const Study& study,
   }
 }
 
+/// The EMG on the clock of the motion, and how it came there.
+TimeSeries on_clock_of_motion(const Study& study,
+                              const TrialSpec& trial,
+                              TimeSeries emg,
+                              const std::function<void(const std::filesystem::path&)>& remember,
+                              TrialInput& input) {
+  const auto envelopes = [&] {
+    return study.emg.kind == EmgKind::raw
+               ? signals::process_emg(emg, envelope_options(study)).envelope
+               : emg;
+  };
+  input.emg_clock = trial_clock(study, trial, movement_of(input), envelopes, remember);
+  if (!input.emg_clock) return emg;
+  input.notes.push_back(
+      fmt::format("{}: clock put on that of the motion, {} ({})", trial.emg->filename().string(),
+                  signals::to_string(input.emg_clock->clock), input.emg_clock->source));
+  return signals::on_study_clock(std::move(emg), input.emg_clock->clock);
+}
+
 }  // namespace
+
+signals::EnvelopeOptions envelope_options(const Study& study) {
+  return {.highpass_hz = study.emg.highpass_hz,
+          .lowpass_hz = study.emg.lowpass_hz,
+          .rectify = study.emg.rectify,
+          .notch = study.emg.notch,
+          .as_published = study.emg.as_published};
+}
 
 TrialInput read_trial_input(const Study& study,
                             const TrialSpec& trial,
@@ -300,8 +329,9 @@ TrialInput read_trial_input(const Study& study,
       if (std::find(wanted.begin(), wanted.end(), muscle.emg) == wanted.end())
         wanted.push_back(muscle.emg);
     }
+    TimeSeries emg = on_clock_of_motion(study, trial, file.data.select(wanted), remember, input);
     // The EMG may begin earlier than the motion: the delay reaches back.
-    input.emg = file.data.select(wanted).slice(start - 0.5, end);
+    input.emg = emg.slice(start - 0.5, end);
     require_finite(*input.emg, trial.emg->string());
     if (input.emg->sample_count() < 10)
       throw ReadError(*trial.emg, 0, few_samples(trial, *input.emg));
@@ -355,6 +385,8 @@ TrialInput read_trial_input(const Study& study,
         torque.col(static_cast<Eigen::Index>(i)) = found.values().col(*column);
     }
     input.external_torque = TimeSeries(found.time_s(), std::move(columns), std::move(torque));
+    if (const auto clock = loads_clock(study, trial, *trial.external_torque))
+      input.external_torque = signals::on_study_clock(std::move(*input.external_torque), *clock);
     require_finite(*input.external_torque, trial.external_torque->string());
   }
   input.loads = read_trial_loads(study, trial, model, input.markers, remember, input.notes);

@@ -12,8 +12,10 @@
 #include "myoid/dynamics/external_loads.h"
 #include "myoid/model/body_model.h"
 #include "myoid/pipeline/study.h"
+#include "myoid/pipeline/trial_clock.h"
 #include "myoid/recording/marker_series.h"
 #include "myoid/signals/clock_gaps.h"
+#include "myoid/signals/emg_envelope.h"
 #include "myoid/signals/fault.h"
 
 namespace myoid::pipeline {
@@ -45,19 +47,24 @@ struct TrialInput {
   std::optional<TimeSeries> emg;     ///< [V], or dimensionless for envelopes and activations.
   std::optional<TimeSeries> external_torque;  ///< [N m]
   std::optional<dynamics::ExternalLoads> loads;
+  std::optional<TrialClock> emg_clock;        ///< How the EMG was put on the clock of the motion.
   std::vector<std::string> notes;             ///< All repairs and remarks.
   std::vector<std::string> warnings;          ///< Those of them that may make numbers wrong.
   std::vector<signals::Fault> marker_faults;  ///< Found before they were mended.
   std::vector<InputFile> files;
 };
 
-/// Reads one trial. Throws ReadError (file, line, found, expected, remedy) or InvalidInput: a
+/// Reads one trial; its EMG and loads are put on the clock of its motion before anything else
+/// (`trial_clock`). Throws ReadError (file, line, found, expected, remedy) or InvalidInput: a
 /// missing EMG channel, angles that are degrees where radians are said, EMG and motion that do not
 /// cover one time, a pause of more than kLongestGap_s in a clock (ClockPause), a clock that is not
 /// in seconds, a cut-off above half the rate.
 [[nodiscard]] TrialInput read_trial_input(const Study& study,
                                           const TrialSpec& trial,
                                           const model::BodyModel& model);
+
+/// How the study wants raw EMG to become envelopes.
+[[nodiscard]] signals::EnvelopeOptions envelope_options(const Study& study);
 
 /// A trial, or a part of it.
 struct TrialPart {

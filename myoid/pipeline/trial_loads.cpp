@@ -9,6 +9,7 @@
 #include "myoid/dynamics/instrument_load.h"
 #include "myoid/kinematics/inverse_kinematics.h"
 #include "myoid/model/osim_reader.h"
+#include "myoid/pipeline/trial_clock.h"
 #include "myoid/recording/recording.h"
 #include "myoid/recording/text_file.h"
 #include "myoid/signals/filter.h"
@@ -64,12 +65,13 @@ model::BodyIndex body_of(const model::BodyModel& model,
 
 dynamics::ExternalForce read_load_cell(
     const Study& study,
-    const std::filesystem::path& file,
+    const TrialSpec& trial,
     const model::BodyModel& model,
     const std::optional<recording::MarkerSeries>& markers,
     const std::function<void(const std::filesystem::path&)>& remember,
     std::vector<std::string>& notes) {
   const LoadCellSpec& spec = *study.load_cell;
+  const std::filesystem::path& file = *trial.load_cell;
   remember(file);
   remember(spec.calibration);
   const TimeSeries recorded = recording::read_recording(file).analog;
@@ -86,6 +88,8 @@ dynamics::ExternalForce read_load_cell(
   } catch (const InvalidInput& error) {
     throw ReadError(file, 0, error.what());
   }
+  if (const auto clock = loads_clock(study, trial, file))
+    wrench = signals::on_study_clock(std::move(wrench), *clock);
   const std::optional<double> cutoff = spec.lowpass_hz ? spec.lowpass_hz : motion_cutoff_hz(study);
   if (cutoff && *cutoff < 0.45 * wrench.mean_rate_hz())
     wrench = signals::zero_phase_filter(wrench, math::FilterBand::low_pass, *cutoff);
@@ -126,6 +130,8 @@ std::optional<dynamics::ExternalLoads> read_trial_loads(
     remember(*trial.external_loads);
     dynamics::ExternalLoads loads = dynamics::read_external_loads(model, *trial.external_loads);
     notes.insert(notes.end(), loads.notes.begin(), loads.notes.end());
+    if (const auto clock = loads_clock(study, trial, *trial.external_loads))
+      loads.set_clock(clock->offset_s, clock->drift_ppm);
     if (study.markers.up != 'y')
       notes.push_back(fmt::format("{}: taken as y up, as OpenSim has it; only markers are turned",
                                   trial.external_loads->filename().string()));
@@ -133,7 +139,7 @@ std::optional<dynamics::ExternalLoads> read_trial_loads(
   }
   if (!trial.load_cell) return std::nullopt;
   dynamics::ExternalLoads loads;
-  loads.forces.push_back(read_load_cell(study, *trial.load_cell, model, markers, remember, notes));
+  loads.forces.push_back(read_load_cell(study, trial, model, markers, remember, notes));
   return loads;
 }
 

@@ -36,6 +36,26 @@ std::vector<signals::ExpectedSegment> segments_of(const model::BodyModel& model,
   return segments;
 }
 
+TimeSeries movement_of(const TrialInput& input) {
+  if (input.motion) return *input.motion;
+  if (!input.markers) return {};
+  std::vector<Channel> channels;
+  Eigen::MatrixXd values(input.markers->frame_count(), 0);
+  for (Eigen::Index m = 0; m < input.markers->marker_count(); ++m) {
+    const auto path = input.markers->positions_m.middleCols(3 * m, 3);
+    if (!path.allFinite()) continue;
+    values.conservativeResize(Eigen::NoChange, values.cols() + 3);
+    values.rightCols(3) = path;
+    for (const char* axis : {"x", "y", "z"}) {
+      channels.push_back(
+          {fmt::format("{} {}", input.markers->names[static_cast<std::size_t>(m)], axis),
+           Unit::meter});
+    }
+  }
+  if (values.cols() == 0) return {};
+  return {input.markers->time_s, std::move(channels), std::move(values)};
+}
+
 std::vector<Fault> trial_faults(const Study& study,
                                 const TrialInput& input,
                                 const TimeSeries& envelope) {
@@ -58,28 +78,8 @@ std::vector<Fault> trial_faults(const Study& study,
       faults.push_back(std::move(*uneven));
   }
   if (envelope.empty()) return faults;
-  if (input.motion) {
-    append(signals::check_clock_offset(envelope, *input.motion));
-  } else if (input.markers) {
-    // Markers that are always there; their paths stand for the motion.
-    std::vector<Channel> channels;
-    Eigen::MatrixXd values(input.markers->frame_count(), 0);
-    for (Eigen::Index m = 0; m < input.markers->marker_count(); ++m) {
-      const auto path = input.markers->positions_m.middleCols(3 * m, 3);
-      if (!path.allFinite()) continue;
-      values.conservativeResize(Eigen::NoChange, values.cols() + 3);
-      values.rightCols(3) = path;
-      for (const char* axis : {"x", "y", "z"}) {
-        channels.push_back(
-            {fmt::format("{} {}", input.markers->names[static_cast<std::size_t>(m)], axis),
-             Unit::meter});
-      }
-    }
-    if (values.cols() > 0) {
-      append(signals::check_clock_offset(
-          envelope, TimeSeries(input.markers->time_s, std::move(channels), std::move(values))));
-    }
-  }
+  const TimeSeries movement = movement_of(input);
+  if (!movement.empty()) append(signals::check_clock_offset(envelope, movement));
   return faults;
 }
 

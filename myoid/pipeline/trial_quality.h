@@ -18,6 +18,9 @@ namespace myoid::pipeline {
 [[nodiscard]] std::vector<signals::ExpectedSegment> segments_of(
     const model::BodyModel& model, const recording::MarkerSeries& markers);
 
+/// What moves in a trial: its coordinates, or the paths of the markers that are always there.
+[[nodiscard]] TimeSeries movement_of(const TrialInput& input);
+
 /// Faults of a trial's EMG, of its clocks, and of what was found of its markers before they were
 /// mended. `envelope` is empty or the trial's EMG envelope.
 [[nodiscard]] std::vector<signals::Fault> trial_faults(const Study& study,

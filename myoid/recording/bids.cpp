@@ -82,7 +82,8 @@ bool is_bids_motion(const std::filesystem::path& path) {
 std::optional<std::vector<BidsChannel>> bids_channels_of(const std::filesystem::path& data) {
   const std::string stem = stem_without_suffix(data);
   const auto path = data.parent_path() / (stem + "_channels.tsv");
-  if (stem.empty() || !std::filesystem::exists(path)) return std::nullopt;
+  std::error_code ignored;  // a name that no file can have is none that exists
+  if (stem.empty() || !std::filesystem::exists(path, ignored)) return std::nullopt;
   return read_channels(path);
 }
 

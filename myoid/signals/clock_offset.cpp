@@ -20,7 +20,8 @@ namespace {
 
 constexpr double kRate_hz = 50.0;
 constexpr double kMotionBelow_hz = 4.0;
-constexpr double kReach_s = 0.6;
+constexpr double kUsualReach_s = 0.6;
+constexpr double kUnique = 0.95;
 constexpr double kLeastLength_s = 3.0;
 constexpr double kLeastCorrelation = 0.6;
 constexpr double kMostSd_s = 0.1;
@@ -105,22 +106,28 @@ struct Peak {
   double lead_s = 0.0;
   double correlation = 0.0;
   bool inside = false;
+  double elsewhere = 0.0;  ///< The largest of the other maxima, 0.25 s away or more.
 };
 
 /// The largest correlation over the lags, its place by a parabola through three.
-Peak peak_of(const std::vector<Moments>& by_lag, Eigen::Index nx) {
+Peak peak_of(const std::vector<Moments>& by_lag, Eigen::Index nx, double reach_s) {
   std::vector<double> values;
   for (const Moments& m : by_lag) values.push_back(canonical_correlation(m, nx));
   const auto at = std::max_element(values.begin(), values.end()) - values.begin();
   Peak peak;
   peak.correlation = values[static_cast<std::size_t>(at)];
-  peak.lead_s = static_cast<double>(at) / kRate_hz - kReach_s;
+  peak.lead_s = static_cast<double>(at) / kRate_hz - reach_s;
   peak.inside = at > 0 && at + 1 < static_cast<std::ptrdiff_t>(values.size());
   if (peak.inside) {
     const double before = values[static_cast<std::size_t>(at) - 1];
     const double after = values[static_cast<std::size_t>(at) + 1];
     const double curvature = before - 2.0 * peak.correlation + after;
     if (curvature < 0.0) peak.lead_s += 0.5 * (before - after) / curvature / kRate_hz;
+  }
+  for (std::size_t k = 1; k + 1 < values.size(); ++k) {
+    if (values[k] < values[k - 1] || values[k] < values[k + 1]) continue;
+    if (std::abs(static_cast<double>(k) - static_cast<double>(at)) >= 0.25 * kRate_hz)
+      peak.elsewhere = std::max(peak.elsewhere, values[k]);
   }
   return peak;
 }
@@ -133,7 +140,8 @@ TimeSeries third(const TimeSeries& series, int which, double begin_s, double end
 }  // namespace
 
 std::optional<ClockOffset> estimate_clock_offset(const TimeSeries& envelopes,
-                                                 const TimeSeries& motion) {
+                                                 const TimeSeries& motion,
+                                                 double reach_s) {
   if (envelopes.sample_count() < 10 || motion.sample_count() < 10) return std::nullopt;
   if (envelopes.channel_count() == 0 || motion.channel_count() == 0) return std::nullopt;
   const double begin_s = std::max(envelopes.time_s()[0], motion.time_s()[0]);
@@ -148,7 +156,7 @@ std::optional<ClockOffset> estimate_clock_offset(const TimeSeries& envelopes,
   const Eigen::MatrixXd y = demand(path);
   if (x.cols() == 0 || y.cols() == 0) return std::nullopt;
 
-  const auto reach = static_cast<Eigen::Index>(kReach_s * kRate_hz);
+  const auto reach = static_cast<Eigen::Index>(std::lround(reach_s * kRate_hz));
   const Eigen::Index usable = clock.size() - 2 * reach;
   if (usable < 8 * kBlocks) return std::nullopt;
   std::vector<std::vector<Moments>> sums;  // by lag, by block
@@ -168,14 +176,16 @@ std::optional<ClockOffset> estimate_clock_offset(const TimeSeries& envelopes,
     sums.push_back(std::move(blocks));
     whole.push_back(std::move(total));
   }
-  const Peak peak = peak_of(whole, x.cols());
+  const Peak peak = peak_of(whole, x.cols(), reach_s);
   if (!peak.inside || peak.correlation < kLeastCorrelation) return std::nullopt;
+  // A movement that repeats itself fits a period later as well.
+  if (reach_s > kUsualReach_s && peak.elsewhere > kUnique * peak.correlation) return std::nullopt;
   std::array<double, kBlocks> leads{};
   double mean = 0.0;
   for (std::size_t k = 0; k < leads.size(); ++k) {
     std::vector<Moments> without = whole;
     for (std::size_t lag = 0; lag < without.size(); ++lag) without[lag] -= sums[lag][k];
-    leads[k] = peak_of(without, x.cols()).lead_s;
+    leads[k] = peak_of(without, x.cols(), reach_s).lead_s;
     mean += leads[k] / kBlocks;
   }
   double squares = 0.0;

@@ -20,14 +20,15 @@ struct ClockOffset {
 /// Compares the EMG's envelopes a(t - d) with what the muscles have to provide for: position and
 /// acceleration of the motion (the torque of gravity and that of inertia), by the largest canonical
 /// correlation of the two (Hotelling 1936) over d. At most four principal components of the
-/// envelopes and two of the motion take part, at 50 Hz, the motion below 4 Hz. Searched within 0.6
-/// s either way. Empty where it cannot be told: less than 3 s in common, no motion or one
+/// envelopes and two of the motion take part, at 50 Hz, the motion below 4 Hz. Searched within
+/// `reach_s` either way. Empty where it cannot be told: less than 3 s in common, no motion or one
 /// slower than a sine of 0.5 Hz (posture then goes with the EMG at any delay), a correlation below
-/// 0.6, the best d at the end of the range, or a standard deviation above 0.1 s. What muscles
-/// do besides (cocontraction, braking) shifts it by some 50 ms: it finds errors of clocks, it does
-/// not measure the electromechanical delay.
+/// 0.6, the best d at the end of the range, another d nearly as good (searched beyond 0.6 s only),
+/// or a standard deviation above 0.1 s. What muscles do besides (cocontraction, braking) shifts it
+/// by some 50 ms: it finds errors of clocks, it does not measure the electromechanical delay.
 [[nodiscard]] std::optional<ClockOffset> estimate_clock_offset(const TimeSeries& envelopes,
-                                                               const TimeSeries& motion);
+                                                               const TimeSeries& motion,
+                                                               double reach_s = 0.6);
 
 /// The offset as a remark, or a warning where it lies outside the limits by more than two standard
 /// deviations; from 30 s on, a drift between the first and the last third.

@@ -86,7 +86,9 @@ std::vector<MarkerSwap> find_swaps(const MarkerSeries& markers, const QualityLim
       const auto [a, b] = *pair;
       std::swap(paths[static_cast<std::size_t>(a)], paths[static_cast<std::size_t>(b)]);
       std::swap(labels[static_cast<std::size_t>(a)], labels[static_cast<std::size_t>(b)]);
-      std::erase_if(off, [&](const Candidate& c) { return c.marker == a || c.marker == b; });
+      std::erase_if(off, [a = a, b = b](const Candidate& c) {
+        return c.marker == a || c.marker == b;  // copies: Clang 14 cannot capture bindings
+      });
       changed = true;
     }
     if (changed) since.emplace_back(f, labels);

@@ -7,7 +7,6 @@
 #include "myoid/math/butterworth.h"
 #include "myoid/signals/emg_envelope.h"
 #include "myoid/signals/filter.h"
-#include "myoid/signals/resample.h"
 
 namespace myoid::signals {
 namespace {
@@ -194,14 +193,6 @@ TEST(Normalisation, RefusesAChannelThatNeverMoves) {
   const TimeSeries flat = steps({1e-6, 1e-6});
   const std::vector<TrialEnvelope> trials{{"a", false, &flat}};
   EXPECT_THROW((void)find_normalisation(trials), InvalidInput);
-}
-
-TEST(Resample, PassesThroughItsPointsAndKeepsTheEndsBeyond) {
-  const TimeSeries x(Eigen::Vector4d(0, 1, 2, 3), {{"a"}}, Eigen::Vector4d(0, 1, 0, 1));
-  const TimeSeries y = resample(x, Eigen::Vector3d(-1.0, 1.0, 9.0));
-  EXPECT_NEAR(y.values()(0, 0), 0.0, 1e-15);
-  EXPECT_NEAR(y.values()(1, 0), 1.0, 1e-15);
-  EXPECT_NEAR(y.values()(2, 0), 1.0, 1e-15);
 }
 
 }  // namespace

@@ -3,8 +3,14 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <initializer_list>
 #include <span>
+#include <string>
 #include <string_view>
+
+#include <unistd.h>
 
 #include "myoid/core/error.h"
 
@@ -30,6 +36,33 @@ void read(Reader&& reader) {
 /// What must hold, also in an optimized build.
 inline void require(bool holds) {
   if (!holds) std::abort();
+}
+
+/// A line between two files of one input.
+inline constexpr std::string_view kNextFile = "\n%%%%\n";
+
+/// A folder of this process, in TMPDIR (a RAM disk is best), for readers that open files.
+inline const std::filesystem::path& folder() {
+  static const std::filesystem::path path = [] {
+    auto made =
+        std::filesystem::temp_directory_path() / ("myoid_fuzz_" + std::to_string(::getpid()));
+    std::filesystem::create_directories(made);
+    return made;
+  }();
+  return path;
+}
+
+inline void write(const std::string& name, std::string_view content) {
+  std::ofstream(folder() / name, std::ios::binary) << content;
+}
+
+/// Writes the parts of the input as these files; a part that is not there is an empty file.
+inline void write_parts(std::string_view input, std::initializer_list<const char*> names) {
+  for (const char* name : names) {
+    const std::size_t end = input.find(kNextFile);
+    write(name, input.substr(0, end));
+    input = end == std::string_view::npos ? "" : input.substr(end + kNextFile.size());
+  }
 }
 
 }  // namespace myoid::fuzz

@@ -6,11 +6,12 @@ cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 seconds="${1:-60}"
 shift || true
 formats=("$@")
-[ "${#formats[@]}" -gt 0 ] || formats=(c3d edf trc sto csv anc toml osim)
+[ "${#formats[@]}" -gt 0 ] || formats=(c3d edf trc sto csv anc toml osim bids loads setup)
 cmake --preset fuzz >/dev/null
 cmake --build build/fuzz --target fuzz_seeds "${formats[@]/#/fuzz_}" >&2
 build/fuzz/bin/fuzz_seeds build/fuzz/seeds
 failed=0
+[ -n "${TMPDIR:-}" ] || [ ! -w /dev/shm ] || export TMPDIR=/dev/shm
 for format in "${formats[@]}"; do
   mkdir -p "build/fuzz/corpus/$format"
   echo "== $format" >&2

@@ -100,5 +100,76 @@ int main(int argc, char** argv) {
       "<socket_parent_frame>/ground</socket_parent_frame><socket_child_frame>/bodyset/b"
       "</socket_child_frame><coordinates><Coordinate name=\"q\"/></coordinates></PinJoint>"
       "</objects></JointSet></Model></OpenSimDocument>");
+  const std::string next = "\n%%%%\n";
+  write(root / "bids", "1",
+        "name\tcomponent\ttype\ttracked_point\tunits\nax\tx\tPOS\ta\tmm\nay\ty\tPOS\ta\tmm\n"
+        "az\tz\tPOS\ta\tmm\nq\tn/a\tJNTANG\tn/a\tdeg" +
+            next + R"({"SamplingFrequency": 100, "TaskName": "t"})" + next +
+            "1\t2\t3\tn/a\n1\tn/a\t3\t4\n");
+  const std::string loads =
+      "<OpenSimDocument Version=\"40000\"><ExternalLoads name=\"l\"><objects><ExternalForce "
+      "name=\"f\"><applied_to_body>forearm_hand</applied_to_body><force_expressed_in_body>ground"
+      "</force_expressed_in_body><point_expressed_in_body>ground</point_expressed_in_body>"
+      "<force_identifier>v</force_identifier><point_identifier>p</point_identifier>"
+      "<torque_identifier>t_</torque_identifier></ExternalForce></objects><datafile>loads.sto"
+      "</datafile></ExternalLoads></OpenSimDocument>";
+  write(root / "loads", "1",
+        loads + next +
+            "l\nversion=1\nnRows=2\nnColumns=10\ninDegrees=no\nendheader\ntime\tv1\tv2\tv3\tp1\tp2"
+            "\tp3\tt_1\tt_2\tt_3\n0\t1\t2\t3\t4\t5\t6\t7\t8\t9\n1\t0\t0\t0\tnan\t5\t6\t7\t8\t9\n");
+  const auto tool = [](const std::string& content) {
+    return "<OpenSimDocument Version=\"40000\">" + content + "</OpenSimDocument>";
+  };
+  const std::string task_set =
+      "<IKTaskSet><objects><IKMarkerTask name=\"A\"><weight>2</weight></IKMarkerTask>"
+      "<IKCoordinateTask name=\"q\"><apply>true</apply><weight>0.1</weight><value_type>"
+      "manual_value</value_type><value>0.1</value></IKCoordinateTask></objects></IKTaskSet>";
+  write(root / "setup", "ik",
+        tool("<InverseKinematicsTool name=\"t\"><model_file>m.osim</model_file><marker_file>m.trc"
+             "</marker_file><coordinate_file>m.mot</coordinate_file><time_range>0 1</time_range>"
+             "<output_motion_file>o.mot</output_motion_file>" +
+             task_set + "</InverseKinematicsTool>"));
+  write(root / "setup", "ik_set",
+        tool("<InverseKinematicsTool name=\"t\"><model_file>m.osim</model_file><marker_file>m.trc"
+             "</marker_file><IKTaskSet file=\"set.xml\"/><output_motion_file>o.mot"
+             "</output_motion_file></InverseKinematicsTool>") +
+            next + tool(task_set));
+  write(root / "setup", "id",
+        tool("<InverseDynamicsTool name=\"t\"><model_file>m.osim</model_file><coordinates_file>"
+             "m.mot</coordinates_file><lowpass_cutoff_frequency_for_coordinates>6"
+             "</lowpass_cutoff_frequency_for_coordinates><forces_to_exclude>muscles"
+             "</forces_to_exclude><output_gen_force_file>o.sto</output_gen_force_file>"
+             "</InverseDynamicsTool>"));
+  write(root / "setup", "analyze",
+        tool("<AnalyzeTool name=\"t\"><model_file>m.osim</model_file><coordinates_file>m.mot"
+             "</coordinates_file><initial_time>0</initial_time><final_time>0.03</final_time>"
+             "<force_set_files>set.xml</force_set_files><AnalysisSet><objects><StaticOptimization "
+             "name=\"s\"><on>true</on><step_interval>1</step_interval></StaticOptimization>"
+             "<Kinematics name=\"k\"><coordinates>q</coordinates></Kinematics><MuscleAnalysis "
+             "name=\"m\"/></objects></AnalysisSet></AnalyzeTool>") +
+            next +
+            tool("<ForceSet><objects><CoordinateActuator name=\"r\"><optimal_force>10"
+                 "</optimal_force><coordinate>q</coordinate></CoordinateActuator></objects>"
+                 "</ForceSet>"));
+  write(root / "setup", "scale",
+        tool("<ScaleTool name=\"t\"><mass>2</mass><GenericModelMaker><model_file>m.osim"
+             "</model_file><marker_set_file>set.xml</marker_set_file></GenericModelMaker>"
+             "<ModelScaler><scaling_order>measurements manualScale</scaling_order><MeasurementSet>"
+             "<objects><Measurement name=\"e\"><apply>true</apply><MarkerPairSet><objects>"
+             "<MarkerPair><markers>A B</markers></MarkerPair></objects></MarkerPairSet>"
+             "<BodyScaleSet><objects><BodyScale name=\"b\"><axes>X Y Z</axes></BodyScale></objects>"
+             "</BodyScaleSet></Measurement></objects></MeasurementSet><ScaleSet><objects><Scale>"
+             "<scales>1 1 1.1</scales><segment>b</segment><apply>true</apply></Scale></objects>"
+             "</ScaleSet><marker_file>m.trc</marker_file><time_range>0 1</time_range>"
+             "<preserve_mass_distribution>true</preserve_mass_distribution><output_model_file>"
+             "s.osim</output_model_file></ModelScaler><MarkerPlacer><marker_file>m.trc"
+             "</marker_file>" +
+             task_set +
+             "<output_model_file>p.osim</output_model_file><output_motion_file>p.mot"
+             "</output_motion_file></MarkerPlacer></ScaleTool>") +
+            next +
+            tool("<MarkerSet><objects><Marker name=\"C\"><socket_parent_frame>/bodyset/b"
+                 "</socket_parent_frame><location>0 0 0.1</location></Marker></objects>"
+                 "</MarkerSet>"));
   return 0;
 }
