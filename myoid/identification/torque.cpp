@@ -21,6 +21,7 @@ void add_predictions(const StudyData& data,
     channel[kDelay] = options.delay_s.value_or(options.delay_prior_mean_s);
     channel[kGain] = 1.0;
     channel[kShape] = 0.0;
+    channel[kExponent] = 1.0;
   }
   for (const TrialData& whole : data.trials) {
     for (std::size_t j = 0; j < joint_count(whole); ++j) {
