@@ -201,8 +201,9 @@ TEST(Rules, WhatThePapersLawLeavesOutIsFoundWhereItIsInTheData) {
   }
   for (MuscleSetup& setup : study.data.muscles)
     setup.extras = {.passive_force = 0.6, .length_activation = 0.10};
-  study.data.rules = {freed("passive_force"), freed("length_activation"), freed("emg_shape"),
-                      freed("emg_exponent"), freed("joint_viscosity"), freed("joint_torque_offset")};
+  study.data.rules = {freed("passive_force"),   freed("length_activation"),
+                      freed("emg_shape"),       freed("emg_exponent"),
+                      freed("joint_viscosity"), freed("joint_torque_offset")};
   const IdentificationResult r =
       identify_torque(study.data, {.priors = false, .residual_cutoff_hz = {}, .weights = false});
   ASSERT_EQ(r.termination, math::Termination::converged) << r.message;

@@ -39,12 +39,8 @@ std::vector<SteadyPoint> steady_points(const TrueArm& person,
     const model::MuscleTravel model = modelled.modelled_travel(m, q_rad);
     for (const double speed_radps : kSpeeds_radps) {
       for (const double a : kActivations) {
-        SteadyPoint point{q_rad,
-                          a,
-                          model.length_m,
-                          -model.moment_arm_m * speed_radps,
-                          model.moment_arm_m,
-                          0.0};
+        SteadyPoint point{
+            q_rad, a, model.length_m, -model.moment_arm_m * speed_radps, model.moment_arm_m, 0.0};
         for (std::size_t i = 0; i < heads.size(); ++i) {
           const model::MuscleTravel path = model::travel(heads[i]->path, q_rad);
           const muscle::MusculotendonInput<double> input{a, path.length_m,
@@ -129,8 +125,7 @@ HillSet effective_muscles(const TrueArm& person, const VirtualArm& modelled, Per
                  point.torque_nm / largest_nm[muscle];
         if (J != nullptr) {
           for (std::size_t i = 0; i < kFitted.size(); ++i) {
-            const double inner =
-                kFitted[i].value == &Hill::optimal_fiber_length_m ? longer : 1.0;
+            const double inner = kFitted[i].value == &Hill::optimal_fiber_length_m ? longer : 1.0;
             (*J)(row, first + static_cast<Eigen::Index>(i)) =
                 scale * inner * (f.*(kFitted[i].derivative)) *
                 literature[muscle].*(kFitted[i].value);
