@@ -40,6 +40,31 @@ void print_summary(const std::vector<TwinSummary>& summaries, bool each_muscle) 
   }
 }
 
+/// Medians over all trials, then trial by trial.
+void print_predictions(const pipeline::TwinStudyResult& result) {
+  if (result.predictions.empty()) return;
+  fmt::print("\ntrials held back, medians: NRMSE is RMSE over the range of the trial's torque\n");
+  fmt::print("{:<28} {:>5} {:>10} {:>7} {:>19} {:>7}\n", "trial", "n", "NRMSE [%]", "R2",
+             "below 1.5 Hz: NRMSE", "R2");
+  std::vector<std::string> trials{"all"};
+  for (const pipeline::TwinPrediction& p : result.predictions) {
+    if (std::find(trials.begin(), trials.end(), p.trial) == trials.end()) trials.push_back(p.trial);
+  }
+  for (const std::string& trial : trials) {
+    std::vector<double> nrmse, r2, band_nrmse, band_r2;
+    for (const pipeline::TwinPrediction& p : result.predictions) {
+      if (trial != "all" && trial != p.trial) continue;
+      nrmse.push_back(p.nrmse_range);
+      r2.push_back(p.r2);
+      band_nrmse.push_back(p.band.nrmse_range);
+      band_r2.push_back(p.band.r2);
+    }
+    fmt::print("{:<28} {:>5} {:>10.1f} {:>7.3f} {:>19.1f} {:>7.3f}\n", trial, nrmse.size(),
+               100.0 * math::median(nrmse), math::median(r2), 100.0 * math::median(band_nrmse),
+               math::median(band_r2));
+  }
+}
+
 void print_verdicts(const pipeline::TwinStudyResult& result,
                     const std::vector<TwinSummary>& summaries) {
   for (const char* method : {"torque", "force", "paper"}) {
@@ -63,16 +88,7 @@ void print_verdicts(const pipeline::TwinStudyResult& result,
                "not identified", other_good, other_bad);
     fmt::print("{} values outside the physical bounds without the verdict non_physical\n", outside);
   }
-  if (!result.predictions.empty()) {
-    std::vector<double> nrmse;
-    std::vector<double> r2;
-    for (const pipeline::TwinPrediction& p : result.predictions) {
-      nrmse.push_back(p.nrmse_range);
-      r2.push_back(p.r2);
-    }
-    fmt::print("\ntrials held back ({}): median NRMSE {:.1f} % of the range, median R2 {:.3f}\n",
-               nrmse.size(), 100.0 * math::median(nrmse), math::median(r2));
-  }
+  print_predictions(result);
 }
 
 }  // namespace
@@ -123,9 +139,10 @@ void add_twin_study(CLI::App& app, Context& context) {
       context.warn(fmt::format("seed {}: {}", f.seed, f.message));
     const std::vector<TwinSummary> summaries = pipeline::summarize(result);
     fmt::print("protocol {}, level {}, {} persons, {} failures\n\n", result.protocol, result.level,
-               options->study.subjects, result.failures.size());
+               result.finished, result.failures.size());
     print_summary(summaries, options->each_muscle);
     print_verdicts(result, summaries);
+    if (result.interrupted) throw Interrupted();
     if (!result.failures.empty()) context.exit_code = kSomeTrialsFailed;
   });
 }

@@ -127,6 +127,7 @@ struct Predictors {
   const IdentificationResult& fit;
   std::vector<muscle::HillParameters<double>> literature, shortening, lengthening;
   double literature_delay_s = 0.0;
+  double cutoff_hz = 0.0;  ///< Of the fit.
   bool paper = false;
 };
 
@@ -155,6 +156,7 @@ Fold score_joint(const std::string& name,
   fold.trial = name;
   fold.gain = square > 0.0 ? product / square : 0.0;
   std::vector<Eigen::VectorXd> time, measured, predicted, by_literature, by_regression, by_paper;
+  std::vector<Eigen::VectorXd> slow_measured, slow_predicted;
   for (const TrialData& t : held) {
     const std::vector<Eigen::Index> rows = included_rows(t);
     const Eigen::VectorXd whole = predict(by.data, t, by.fit.values, by.fit.dynamics).torque_nm;
@@ -164,6 +166,8 @@ Fold score_joint(const std::string& name,
     time.emplace_back(t.time_s(rows));
     measured.emplace_back(t.torque_nm(rows));
     predicted.emplace_back(whole(rows));
+    slow_measured.emplace_back(below(t.time_s, t.torque_nm, by.cutoff_hz)(rows));
+    slow_predicted.emplace_back(below(t.time_s, whole, by.cutoff_hz)(rows));
     by_literature.emplace_back(fold.gain * before(rows));
     by_regression.emplace_back(regressed(rows));
     if (by.paper) {
@@ -180,6 +184,7 @@ Fold score_joint(const std::string& name,
   fold.predicted_nm = joined(predicted);
   fold.literature_nm = joined(by_literature);
   fold.identified = score(fold.measured_nm, fold.predicted_nm);
+  fold.band = score(joined(slow_measured), joined(slow_predicted));
   fold.literature = score(fold.measured_nm, fold.literature_nm);
   fold.regression = score(fold.measured_nm, joined(by_regression));
   fold.constant =
@@ -189,21 +194,6 @@ Fold score_joint(const std::string& name,
 }
 
 }  // namespace
-
-Score score(const Eigen::VectorXd& measured, const Eigen::VectorXd& predicted) {
-  Score s;
-  if (measured.size() == 0) return s;
-  const Eigen::VectorXd error = predicted - measured;
-  const auto n = static_cast<double>(measured.size());
-  s.rmse_nm = std::sqrt(error.squaredNorm() / n);
-  const double range = measured.maxCoeff() - measured.minCoeff();
-  s.nrmse_range = range > 0.0 ? s.rmse_nm / range : 0.0;
-  s.r2 = coefficient_of_determination(measured, predicted);
-  const double variance = (measured.array() - measured.mean()).square().sum();
-  s.nrmse_sd = variance > 0.0 ? s.rmse_nm / std::sqrt(variance / n) : 0.0;
-  s.vaf = variance > 0.0 ? 1.0 - (error.array() - error.mean()).square().sum() / variance : 0.0;
-  return s;
-}
 
 double best_lag_s(const Eigen::VectorXd& time_s,
                   const Eigen::VectorXd& measured,
@@ -256,7 +246,8 @@ std::vector<Fold> cross_validate(const StudyData& data,
                   .literature = literature,
                   .shortening = literature,
                   .lengthening = literature,
-                  .literature_delay_s = options.delay_s.value_or(options.delay_prior_mean_s)};
+                  .literature_delay_s = options.delay_s.value_or(options.delay_prior_mean_s),
+                  .cutoff_hz = options.residual_cutoff_hz.value_or(0.0)};
     by.paper = std::all_of(split.training.begin(), split.training.end(),
                            [](const TrialData& t) { return t.force_n.rows() == t.time_s.size(); });
     if (by.paper) {

@@ -8,16 +8,6 @@
 
 namespace myoid::identification {
 
-/// How well a torque is predicted that took no part in the fit.
-struct Score {
-  double rmse_nm = 0.0;
-  double nrmse_range = 0.0;  ///< RMSE over the range of the measured torque.
-  double nrmse_sd = 0.0;     ///< RMSE over its standard deviation.
-  double r2 = 0.0;           ///< 1 - SSE/SST; negative: worse than the trial's own mean.
-  double vaf = 0.0;          ///< 1 - var(error)/var(torque)
-};
-[[nodiscard]] Score score(const Eigen::VectorXd& measured, const Eigen::VectorXd& predicted);
-
 /// Shift [s] of the prediction, within +-limit_s, at which it correlates best with the measurement:
 /// positive if the prediction comes late.
 [[nodiscard]] double best_lag_s(const Eigen::VectorXd& time_s,
@@ -44,6 +34,7 @@ struct Fold {
   std::string trial;  ///< Or the condition, or "block 2 of 5".
   std::string joint;  ///< Whose torque is predicted.
   Score identified;   ///< Fitted on the others.
+  Score band;         ///< The same, both torques below the fit's own cut-off.
   Score literature;   ///< Literature parameters with the one gain that fits the others best.
   Score regression;   ///< Torque regressed on activation times moment arm of every muscle.
   Score constant;     ///< Mean torque of the others.

@@ -10,16 +10,6 @@ namespace {
 using test::elbow_study;
 using test::ElbowStudy;
 
-TEST(Score, OfAKnownErrorIsWhatTheDefinitionsSay) {
-  const Eigen::Vector4d measured(0.0, 1.0, 2.0, 3.0);
-  const Score offset = score(measured, measured.array() + 0.5);
-  EXPECT_DOUBLE_EQ(offset.rmse_nm, 0.5);
-  EXPECT_DOUBLE_EQ(offset.nrmse_range, 0.5 / 3.0);
-  EXPECT_DOUBLE_EQ(offset.r2, 1.0 - 4.0 * 0.25 / 5.0);  // SST = 5
-  EXPECT_DOUBLE_EQ(offset.vaf, 1.0);                    // an offset has no variance
-  EXPECT_DOUBLE_EQ(score(measured, Eigen::Vector4d::Constant(1.5)).r2, 0.0);
-}
-
 TEST(CrossValidate, ATrialThatWasNotFittedIsPredicted) {
   const ElbowStudy study = elbow_study({.emg_cv = 0.05, .torque_sd_nm = 0.5, .with_priors = true});
   const std::vector<Fold> folds = cross_validate(study.data, {.starts = 1});
@@ -27,6 +17,8 @@ TEST(CrossValidate, ATrialThatWasNotFittedIsPredicted) {
   for (std::size_t i = 0; i < folds.size(); ++i) {
     EXPECT_EQ(folds[i].trial, study.data.trials[i].name);
     EXPECT_GT(folds[i].identified.r2, 0.9);
+    // Without its fast part the prediction has less of the noise of the EMG.
+    EXPECT_LT(folds[i].band.rmse_nm, folds[i].identified.rmse_nm);
     EXPECT_LT(folds[i].identified.rmse_nm, folds[i].literature.rmse_nm);
     EXPECT_LT(folds[i].literature.rmse_nm, folds[i].constant.rmse_nm);
   }

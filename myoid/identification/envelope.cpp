@@ -71,6 +71,17 @@ void shape(double u, double A, double& value, double& by_u, double& by_a) {
   by_a = (u * (above + 1.0) * below - above * (below + 1.0)) / (below * below);
 }
 
+/// u^p, its slope in u and in p. Below 1e-4 of the maximum a straight line: where p < 1 the slope
+/// has no end.
+void power(double u, double p, double& value, double& by_u, double& by_p) {
+  constexpr double kLeast = 1e-4;
+  const double log_u = std::log(std::max(u, kLeast));
+  const double ratio = p == 1.0 ? 1.0 : std::exp((p - 1.0) * log_u);
+  value = u * ratio;
+  by_u = u > kLeast ? p * ratio : ratio;
+  by_p = value * log_u;
+}
+
 /// Slopes and curvatures at the samples, n x 2. Where the clock is even, from nine samples each
 /// (exact for polynomials of degree 8); at the ends and for uneven clocks from the quintic spline.
 Eigen::MatrixXd rates(const Eigen::VectorXd& time_s, const Eigen::VectorXd& y, bool even) {
@@ -197,16 +208,21 @@ std::vector<Activation> activation(const Envelope& envelope,
                      ((1.0 - x) * lag.slope_by_time.row(at) - x * lag.slope_by_time.row(at + 1)))
                     .transpose();
     }
-    const double u = c[kGain] * value;
+    double raised = value, by_value = 1.0, by_exponent = 0.0;
+    power(value, c[kExponent], raised, by_value, by_exponent);
+    const double u = c[kGain] * raised;
     double by_u = 1.0, by_shape = 0.5 * u * (u - 1.0);
     a.value = u;
     if (c[kShape] != 0.0) shape(u, c[kShape], a.value, by_u, by_shape);
     if (c[kShape] == 0.0) by_u = 1.0;
-    a.by_field[kDelay] = -by_u * c[kGain] * slope;
-    a.by_field[kGain] = by_u * value;
+    const double by_envelope = by_u * c[kGain] * by_value;
+    a.by_log_envelope = by_envelope * value;
+    a.by_field[kDelay] = -by_envelope * slope;
+    a.by_field[kGain] = by_u * raised;
+    a.by_field[kExponent] = by_u * c[kGain] * by_exponent;
     a.by_field[kShape] = by_shape;
     for (int k = 0; k < 3; ++k)
-      a.by_field[static_cast<std::size_t>(kExcitationTime + k)] = by_u * c[kGain] * by_time[k];
+      a.by_field[static_cast<std::size_t>(kExcitationTime + k)] = by_envelope * by_time[k];
   }
   return result;
 }

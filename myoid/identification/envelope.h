@@ -36,10 +36,11 @@ class Envelope {
 /// Activation at one instant, before the muscle's share, and its derivatives.
 struct Activation {
   double value = 0.0;
+  double by_log_envelope = 0.0;  ///< Change by a relative error of the envelope.
   std::array<double, kChannelFieldCount> by_field{};
 };
 
-/// Activation of a channel at `time_s` (n): a(t) = shape(g env(t - d)), and with `dynamics` the
+/// Activation of a channel at `time_s` (n): a(t) = shape(g env(t - d)^p), and with `dynamics` the
 /// envelope first passes the two lags of equation (1),
 ///
 ///   de/dt = (u - e) / tau_ne,   da/dt = (e - a) / (tau_ac if e >= a, tau_deac if e < a),

@@ -192,6 +192,23 @@ Estimator::Estimator(const StudyData& data, const EstimatorOptions& options)
   }
 }
 
+Eigen::VectorXd Estimator::exponents(const Eigen::VectorXd& z) const {
+  const ModelValues values = model_->parameters().values(z);
+  Eigen::VectorXd p(static_cast<Eigen::Index>(values.channels.size()));
+  for (Eigen::Index c = 0; c < p.size(); ++c)
+    p[c] = values.channels[static_cast<std::size_t>(c)][kExponent];
+  return p;
+}
+
+Estimator::ChannelSlope Estimator::channel_slope(Eigen::Index j,
+                                                 const Eigen::VectorXd& exponent) const {
+  const int channel = model_->channel_of_variable(j);
+  if (channel < 0) return {};
+  const ParameterField& field = *free()[static_cast<std::size_t>(j)].field;
+  // The solver's variable is ln p: d p = p d ln p, and T_ch / p times that is T_ch.
+  return {channel, exponent[channel], field.scope == Scope::channel && field.field == kExponent};
+}
+
 NormalEquations Estimator::normal_equations(const Eigen::VectorXd& z,
                                             const Weighting& weighting,
                                             bool derivatives,
@@ -207,6 +224,7 @@ NormalEquations Estimator::normal_equations(const Eigen::VectorXd& z,
   const Eigen::Index n = model_->sample_count();
   const bool corrected = weighting.emg_variance.size() > 0;
   Eigen::VectorXd scores(n);
+  Eigen::VectorXd by_noise = Eigen::VectorXd::Zero(channel_variance_.size());
   double sum = weighting.offset;
   for (Eigen::Index i = 0; i < n; ++i) {
     const double u = (local.predicted[i] - model_->measured()[i]) / weighting.sd_nm[i];
@@ -220,10 +238,11 @@ NormalEquations Estimator::normal_equations(const Eigen::VectorXd& z,
     if (corrected) {
       auto torque = local.channel_torque.col(i);
       torque *= scale * std::sqrt(weighting.emg_variance[i]);
-      sum -= torque.cwiseAbs2().dot(channel_variance_) / weighting.share;
+      by_noise += torque.cwiseAbs2().cwiseProduct(channel_variance_);
       torque = std::sqrt(weighting.emg_variance[i]) * torque.cwiseProduct(channel_variance_);
     }
   }
+  sum -= by_noise.sum() / weighting.share;
   const Eigen::VectorXd& mean = variant.prior_mean.size() > 0 ? variant.prior_mean : prior_mean_;
   const Eigen::VectorXd off = z - mean;
   result.cost = 0.5 * weighting.share * sum + 0.5 * off.dot(prior_precision_.cwiseProduct(off));
@@ -234,10 +253,13 @@ NormalEquations Estimator::normal_equations(const Eigen::VectorXd& z,
     result.curvature.selfadjointView<Eigen::Lower>().rankUpdate(local.gradient);
     result.curvature.triangularView<Eigen::StrictlyUpper>() = result.curvature.transpose();
     if (corrected) {
+      const Eigen::VectorXd exponent = exponents(z);
       for (Eigen::Index j = 0; j < p; ++j) {
-        const int channel = model_->channel_of_variable(j);
-        if (channel >= 0)
-          result.gradient[j] -= local.gradient.row(j).dot(local.channel_torque.row(channel));
+        const ChannelSlope s = channel_slope(j, exponent);
+        if (s.channel < 0) continue;
+        result.gradient[j] -=
+            s.slope * local.gradient.row(j).dot(local.channel_torque.row(s.channel));
+        if (s.adds) result.gradient[j] -= by_noise[s.channel];
       }
       correct_curvature(weighting, result.curvature);
     }
@@ -277,7 +299,8 @@ void Estimator::correct_curvature(const Weighting& weighting, Eigen::MatrixXd& i
     for (Eigen::Index j = 0; j < p; ++j) {
       const int channel = model_->channel_of_variable(i);
       if (channel >= 0 && channel == model_->channel_of_variable(j))
-        unit(i, j) /= 1.0 + variance * channel_variance_[channel];
+        unit(i, j) /=
+            1.0 + variance * channel_variance_[channel] * std::pow(weighting.exponent[channel], 2);
     }
   }
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(unit);
@@ -298,6 +321,7 @@ Estimator::Scores Estimator::scores(const Solution& solution) const {
   Scores result;
   result.scores.resize(p, sd.size());
   Eigen::MatrixXd weighted(p, sd.size());
+  const Eigen::VectorXd exponent = exponents(solution.search.x);
   for (Eigen::Index i = 0; i < sd.size(); ++i) {
     const double u = (at.predicted[i] - model_->measured()[i]) / sd[i];
     const double weight = loss(options_.loss, u).weight;
@@ -305,10 +329,12 @@ Estimator::Scores Estimator::scores(const Solution& solution) const {
     result.scores.col(i) = at.gradient.col(i) * (weight * u / sd[i]);
     if (weighting.emg_variance.size() == 0) continue;
     for (Eigen::Index j = 0; j < p; ++j) {
-      const int channel = model_->channel_of_variable(j);
-      if (channel >= 0)
-        result.scores(j, i) -= weight * weighting.emg_variance[i] * channel_variance_[channel] *
-                               at.channel_torque(channel, i) * at.gradient(j, i) / (sd[i] * sd[i]);
+      const ChannelSlope s = channel_slope(j, exponent);
+      if (s.channel < 0) continue;
+      const double torque = at.channel_torque(s.channel, i);
+      result.scores(j, i) -= weight * weighting.emg_variance[i] * channel_variance_[s.channel] *
+                             torque * (s.slope * at.gradient(j, i) + (s.adds ? torque : 0.0)) /
+                             (sd[i] * sd[i]);
     }
   }
   result.scores *= weighting.share;
@@ -318,7 +344,10 @@ Estimator::Scores Estimator::scores(const Solution& solution) const {
   return result;
 }
 
-void Estimator::find_noise(const Evaluation& at, Weighting& weighting) const {
+void Estimator::find_noise(const Eigen::VectorXd& z,
+                           const Evaluation& at,
+                           Weighting& weighting) const {
+  weighting.exponent = exponents(z);
   const Eigen::VectorXd residual = at.predicted - model_->measured();
   const auto n = static_cast<double>(residual.size());
   const double freedom =
@@ -414,7 +443,7 @@ Estimator::Solution Estimator::solve(const Eigen::VectorXd& start) const {
     x = solution.search.x;
     if (last) break;
     model_->evaluate(x, ResidualModel::Depth::noise, at);
-    find_noise(at, weighting);
+    find_noise(x, at, weighting);
   }
   solution.search.iterations = iterations;
   solution.misfit =

@@ -23,6 +23,7 @@ struct Weighting {
   double share = 1.0;             ///< nu: effective over all samples.
   Eigen::VectorXd emg_variance;   ///< Per sample: emg_factor^2 of its joint; empty: no correction.
   double offset = 0.0;            ///< Keeps the corrected cost positive.
+  Eigen::VectorXd exponent;       ///< p of a = g u^p by EMG channel where the noise was found.
   std::vector<NoiseLevel> noise;  ///< Per joint.
 };
 
@@ -51,6 +52,8 @@ class Estimator {
   [[nodiscard]] const EstimatorOptions& options() const { return options_; }
   /// Expected c_a^2 of each EMG channel, or 1 where nothing is known.
   [[nodiscard]] const Eigen::VectorXd& channel_variance() const { return channel_variance_; }
+  /// p of a = g u^p of every EMG channel.
+  [[nodiscard]] Eigen::VectorXd exponents(const Eigen::VectorXd& z) const;
   [[nodiscard]] const Eigen::VectorXd& lower() const { return lower_; }
   [[nodiscard]] const Eigen::VectorXd& upper() const { return upper_; }
 
@@ -93,7 +96,15 @@ class Estimator {
   [[nodiscard]] Eigen::VectorXd moved_start(const Eigen::VectorXd& start, int s) const;
 
  private:
-  void find_noise(const Evaluation& at, Weighting& weighting) const;
+  void find_noise(const Eigen::VectorXd& z, const Evaluation& at, Weighting& weighting) const;
+  /// What an EMG channel's torque, T_ch = p T of an activation g u^p, changes by with a variable:
+  /// `slope` times the change of T, plus T_ch if `adds`.
+  struct ChannelSlope {
+    int channel = -1;  ///< -1: none alone.
+    double slope = 1.0;
+    bool adds = false;
+  };
+  [[nodiscard]] ChannelSlope channel_slope(Eigen::Index j, const Eigen::VectorXd& exponent) const;
   /// c_a^2 times the part of J'WJ that is within channels, taken away; what is left is positive.
   void correct_curvature(const Weighting& weighting, Eigen::MatrixXd& information) const;
 

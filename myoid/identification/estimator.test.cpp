@@ -48,8 +48,10 @@ TEST(NormalSearch, FindsTheMinimumThatAnalysisGives) {
 }
 
 TEST(Estimator, TheGradientOfTheCorrectedCostIsThatOfDifferences) {
-  const ElbowStudy study = elbow_study(
+  ElbowStudy study = elbow_study(
       {.trials = 2, .seconds = 8.0, .emg_cv = 0.1, .torque_sd_nm = 0.5, .with_priors = true});
+  study.data.rules = {freed("emg_exponent")};
+  study.data.rules[0].value = 1.3;
   // The delay, which acts on several channels, is left out of the correction: held here.
   const Estimator estimator(study.data, {.delay_s = 0.05});
   const Estimator::Solution solution = estimator.solve(estimator.model().parameters().start());
@@ -187,7 +189,7 @@ TEST(Rules, WhatThePapersLawLeavesOutIsFoundWhereItIsInTheData) {
         study.truth[k],
         {.pennation_angle_rad = 0.0, .passive_force = 0.8, .length_activation = 0.12}));
   }
-  truth.channels.assign(4, {study.delay_s, 1.0, -0.8, 0.04, 0.015, 0.05});
+  truth.channels.assign(4, {study.delay_s, 1.0, -0.8, 0.04, 0.015, 0.05, 1.3});
   truth.joints.assign(1, {0.6, 0.0, 0.0, 0.4});
   for (TrialData& trial : study.data.trials) {
     const Eigen::Index n = trial.time_s.size();
@@ -199,7 +201,8 @@ TEST(Rules, WhatThePapersLawLeavesOutIsFoundWhereItIsInTheData) {
   }
   for (MuscleSetup& setup : study.data.muscles)
     setup.extras = {.passive_force = 0.6, .length_activation = 0.10};
-  study.data.rules = {freed("passive_force"), freed("length_activation"), freed("emg_shape"),
+  study.data.rules = {freed("passive_force"),   freed("length_activation"),
+                      freed("emg_shape"),       freed("emg_exponent"),
                       freed("joint_viscosity"), freed("joint_torque_offset")};
   const IdentificationResult r =
       identify_torque(study.data, {.priors = false, .residual_cutoff_hz = {}, .weights = false});
@@ -211,6 +214,7 @@ TEST(Rules, WhatThePapersLawLeavesOutIsFoundWhereItIsInTheData) {
           << k << " " << f;
     }
     EXPECT_NEAR(r.values.channels[k][kShape], -0.8, 1e-4);
+    EXPECT_NEAR(r.values.channels[k][kExponent], 1.3, 1e-4);
   }
   EXPECT_NEAR(r.values.joints[0][kViscosity], 0.6, 1e-5);
   EXPECT_NEAR(r.values.joints[0][kOffset], 0.4, 1e-5);

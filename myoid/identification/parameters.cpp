@@ -109,6 +109,14 @@ constexpr std::array kFields = {
                    {-3.0, 3.0},
                    0.8,
                    "A of (exp(A u) - 1) / (exp(A) - 1); 0: linear"},
+    ParameterField{"emg_exponent",
+                   channel,
+                   kExponent,
+                   Unit::dimensionless,
+                   true,
+                   {0.5, 2.5},
+                   0.2,
+                   "p of activation = gain envelope^p; 1: proportional"},
     ParameterField{"excitation_time",
                    channel,
                    kExcitationTime,
@@ -241,7 +249,7 @@ ParameterMap::ParameterMap(const StudyData& data, const EstimatorOptions& option
   }
   joints_ = joint_names(data);
   const double delay_s = options.delay_s.value_or(options.delay_prior_mean_s);
-  held_.channels.assign(channels_.size(), {delay_s, 1.0, 0.0, 0.040, 0.015, 0.050});
+  held_.channels.assign(channels_.size(), {delay_s, 1.0, 0.0, 0.040, 0.015, 0.050, 1.0});
   held_.joints.assign(joints_.size(), {0.0, 0.0, 0.0, 0.0});
 
   // Defaults of every number.

@@ -27,6 +27,7 @@ enum ChannelField : int {
   kExcitationTime,
   kActivationTime,
   kDeactivationTime,
+  kExponent,  ///< p of activation = gain envelope^p; 1: proportional.
   kChannelFieldCount
 };
 using ChannelValues = std::array<double, kChannelFieldCount>;

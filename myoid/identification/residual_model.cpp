@@ -244,7 +244,8 @@ void ResidualModel::evaluate_block(const Block& block,
         out.predicted[row] += arm * t.force_n;
         // What a relative error of the envelope does to the torque; for a force proportional to the
         // activation that is the torque itself.
-        out.channel_torque(static_cast<Eigen::Index>(c), row) += arm * t.by_activation * a.value;
+        out.channel_torque(static_cast<Eigen::Index>(c), row) +=
+            arm * t.by_activation * a.by_log_envelope;
         if (with_gradient) {
           double* gradient = out.gradient.data() + row * out.gradient.rows();
           for (const ParameterMap::Chain& chain : of_muscle[k])
@@ -323,10 +324,12 @@ ErrorShapes ResidualModel::error_shapes(const Eigen::VectorXd& z) const {
   result.channel.assign(static_cast<std::size_t>(result.shapes_nm.rows()), -1);
   result.by_emg.setZero(result.weight.size(), result.weight.size());
   for (Eigen::Index k = 0; k < muscles; ++k) {
-    // Every shape is proportional to the envelope, and the logarithm grows with it.
+    // Every shape is proportional to the activation, and the logarithm grows with it.
+    const double exponent = values.channels[static_cast<std::size_t>(
+        map_.channel_of_muscle(static_cast<std::size_t>(k)))][kExponent];
     for (Eigen::Index b = 0; b < kPerMuscle; ++b)
-      result.by_emg(kPerMuscle * k + b, kPerMuscle * k + b) = 1.0;
-    result.by_emg(kPerMuscle * k + 4, kPerMuscle * k) = 1.0 / kLogRange;
+      result.by_emg(kPerMuscle * k + b, kPerMuscle * k + b) = exponent;
+    result.by_emg(kPerMuscle * k + 4, kPerMuscle * k) = exponent / kLogRange;
     for (Eigen::Index b = 0; b < kPerMuscle; ++b) {
       result.weight[kPerMuscle * k + b] = muscle_weight[b];
       result.channel[static_cast<std::size_t>(kPerMuscle * k + b)] =

@@ -9,6 +9,7 @@
 
 #include "myoid/core/units.h"
 #include "myoid/identification/parameters.h"
+#include "myoid/identification/score.h"
 #include "myoid/math/least_squares.h"
 #include "myoid/muscle/hill_parameters.h"
 
@@ -62,7 +63,11 @@ struct TrialFit {
   Eigen::MatrixXd literature_force_n;    ///< n x m
   Eigen::MatrixXd force_fit_n;           ///< n x m
   double rmse_nm = 0.0;
-  double r2 = 0.0;  ///< 1 - SSE/SST.
+  double nrmse_range = 0.0;  ///< RMSE over the range of the torque.
+  double r2 = 0.0;           ///< 1 - SSE/SST.
+  /// Both torques below the fit's own cut-off (EstimatorOptions::residual_cutoff_hz): without most
+  /// of the noise of the EMG envelope, which the prediction carries and a muscle does not.
+  Score band;
 };
 
 /// Whether the two branches of method `paper` agree on what they share.

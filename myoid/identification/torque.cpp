@@ -21,6 +21,7 @@ void add_predictions(const StudyData& data,
     channel[kDelay] = options.delay_s.value_or(options.delay_prior_mean_s);
     channel[kGain] = 1.0;
     channel[kShape] = 0.0;
+    channel[kExponent] = 1.0;
   }
   for (const TrialData& whole : data.trials) {
     for (std::size_t j = 0; j < joint_count(whole); ++j) {
@@ -37,9 +38,13 @@ void add_predictions(const StudyData& data,
         const std::vector<Eigen::Index> rows = included_rows(trial);
         const Eigen::VectorXd measured = trial.torque_nm(rows);
         const Eigen::VectorXd predicted = after.torque_nm(rows);
-        fit.rmse_nm = std::sqrt((predicted - measured).squaredNorm() /
-                                std::max(1.0, static_cast<double>(rows.size())));
-        fit.r2 = coefficient_of_determination(measured, predicted);
+        const Score whole = score(measured, predicted);
+        fit.rmse_nm = whole.rmse_nm;
+        fit.nrmse_range = whole.nrmse_range;
+        fit.r2 = whole.r2;
+        const double cutoff_hz = options.residual_cutoff_hz.value_or(0.0);
+        fit.band = score(below(trial.time_s, trial.torque_nm, cutoff_hz)(rows),
+                         below(trial.time_s, after.torque_nm, cutoff_hz)(rows));
       }
       fit.literature_force_n = std::move(before.force_n);
       fit.literature_torque_nm = std::move(before.torque_nm);
@@ -63,12 +68,6 @@ IdentificationResult finish(const Estimator& estimator,
 }
 
 }  // namespace
-
-double coefficient_of_determination(const Eigen::VectorXd& reference,
-                                    const Eigen::VectorXd& predicted) {
-  const double total = (reference.array() - reference.mean()).square().sum();
-  return total > 0.0 ? 1.0 - (reference - predicted).squaredNorm() / total : 0.0;
-}
 
 Prediction predict(const StudyData& data,
                    const TrialData& trial,

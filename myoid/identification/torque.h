@@ -58,8 +58,4 @@ struct Prediction {
                                  const ModelValues& values,
                                  bool dynamics);
 
-/// 1 - SSE/SST; 0 if the reference is constant.
-[[nodiscard]] double coefficient_of_determination(const Eigen::VectorXd& reference,
-                                                  const Eigen::VectorXd& predicted);
-
 }  // namespace myoid::identification

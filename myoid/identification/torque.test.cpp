@@ -95,7 +95,7 @@ TEST(ResidualModel, DerivativesOfAllThatCanBeFreedAreThoseOfTheTorque) {
   for (const char* name :
        {"max_shortening_speed", "tendon_slack_length", "pennation_angle", "passive_force",
         "passive_strain", "passive_shape", "length_activation", "activation_share", "emg_gain",
-        "emg_shape", "excitation_time", "activation_time", "deactivation_time"})
+        "emg_shape", "emg_exponent", "excitation_time", "activation_time", "deactivation_time"})
     free(name);
   free("tendon_strain", {"BIC"});
   free("eccentric_slope_ratio", {"TRI"});
@@ -106,7 +106,7 @@ TEST(ResidualModel, DerivativesOfAllThatCanBeFreedAreThoseOfTheTorque) {
   tie.parameter = "passive_strain";
   tie.tie = true;
   study.data.rules.push_back(tie);
-  // 6 + 8 per muscle less three by the tie, one tendon, a delay and 5 per channel, 4 of the joint.
+  // 6 + 8 per muscle less three by the tie, one tendon, a delay and 6 per channel, 4 of the joint.
   TrialData still = trial;
   study.data.trials[0].more_joints[0].angle_rad = trial.angle_rad;
   study.data.trials[0].more_joints[0].velocity_radps = trial.velocity_radps;
@@ -114,7 +114,7 @@ TEST(ResidualModel, DerivativesOfAllThatCanBeFreedAreThoseOfTheTorque) {
   for (const bool normalised : {false, true}) {
     expect_derivatives(study.data,
                        {.residual_cutoff_hz = {}, .normalised = normalised, .dynamics = true},
-                       4 * 14 - 3 + 1 + 1 + 4 * 5 + 4);
+                       4 * 14 - 3 + 1 + 1 + 4 * 6 + 4);
   }
 }
 

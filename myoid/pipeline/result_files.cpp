@@ -270,7 +270,11 @@ std::string parameters_json(const std::vector<IdentificationResult>& methods,
                              {"joint", t.joint},
                              {"calibration", t.calibration},
                              {"rmse_nm", unless_paper(t.rmse_nm)},
-                             {"r2", unless_paper(t.r2)}});
+                             {"nrmse_range", unless_paper(t.nrmse_range)},
+                             {"r2", unless_paper(t.r2)},
+                             {"band_rmse_nm", unless_paper(t.band.rmse_nm)},
+                             {"band_nrmse_range", unless_paper(t.band.nrmse_range)},
+                             {"band_r2", unless_paper(t.band.r2)}});
     }
     json["methods"].push_back(m);
   }
@@ -300,6 +304,7 @@ std::string parameters_json(const std::vector<IdentificationResult>& methods,
         {{"trial", f.trial},
          {"joint", f.joint},
          {"identified", score_json(f.identified)},
+         {"identified_below_cutoff", score_json(f.band)},
          {"literature_with_gain", score_json(f.literature)},
          {"gain", number_or_null(f.gain)},
          {"regression_on_emg", score_json(f.regression)},

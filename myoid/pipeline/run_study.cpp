@@ -15,6 +15,7 @@
 #include "myoid/model/arm4.h"
 #include "myoid/model/thelen_properties.h"
 #include "myoid/pipeline/lumped_muscles.h"
+#include "myoid/pipeline/nuisances.h"
 #include "myoid/pipeline/quality_gates.h"
 #include "myoid/pipeline/stage_store.h"
 #include "myoid/pipeline/study_model.h"
@@ -313,8 +314,12 @@ identification::TorqueOptions torque_options(const Study& study,
   options.progress.stop = progress.stop;
   if (study.identify.gain) {
     for (const signals::ChannelNormalisation& n : result.normalisation) {
-      options.gain_prior_sd[n.channel] = n.relative_sd;
-      options.gain_prior_mean[n.channel] = 1.0 + n.relative_bias;
+      // Activation 1 is the greatest effort of the MVC trials: a share of what the muscle can do.
+      const bool known = study.emg.has_mvc;
+      const double effort = known ? study.emg.mvc_effort : 1.0;
+      const double spread = known ? study.emg.mvc_effort_sd / effort : 0.0;
+      options.gain_prior_sd[n.channel] = std::hypot(n.relative_sd, spread);
+      options.gain_prior_mean[n.channel] = effort * (1.0 + n.relative_bias);
     }
   }
   options.envelope_cutoff_hz = study.emg.lowpass_hz;
@@ -466,19 +471,6 @@ StudyResult analyse(const Study& study, StudyInputs given, const RunOptions& opt
   stages.run("identification", 0.7, [&] {
     const std::vector<MuscleGroup> groups = muscle_groups(study, result.model);
     result.data.muscles = muscle_setups(study, result.model);
-    // Fibers of a muscle that is little active are at their best when longer (Lloyd & Besier 2003:
-    // 15 %). A model without it takes that for something else. A property of fibers: one for all.
-    if (study.identify.priors) {
-      identification::ParameterRule shift;
-      shift.parameter = "length_activation";
-      shift.free = true;
-      shift.prior_mean = 0.0;
-      shift.prior_sd = 0.1;
-      shift.tie = true;
-      result.data.rules.push_back(std::move(shift));
-    }
-    result.data.rules.insert(result.data.rules.end(), study.parameters.begin(),
-                             study.parameters.end());
     for (const TrialResult& trial : result.trials) {
       if (!trial.has_motion() || trial.activation.empty()) continue;
       if (trial.spec.use == Use::mvc || trial.spec.use == Use::static_pose ||
@@ -486,6 +478,9 @@ StudyResult analyse(const Study& study, StudyInputs given, const RunOptions& opt
         continue;
       result.data.trials.push_back(trial_data(study, trial, groups));
     }
+    if (study.identify.priors) result.data.rules = nuisance_rules(study.emg.kind, result.data);
+    result.data.rules.insert(result.data.rules.end(), study.parameters.begin(),
+                             study.parameters.end());
     if (study.phases.search && !result.data.trials.empty()) {
       result.phases = study_phases(result, torque_options(study, result, options.progress));
       exclude_phases(study.phases.exclude, result.phases, result.data);

@@ -165,6 +165,8 @@ EmgSpec read_emg(TomlTable table) {
   (void)table.choice("normalise", "max", {"max"});
   emg.normalise_window_s =
       within(table, "normalise_window_s", emg.normalise_window_s, 0.01, 60.0, "s");
+  emg.mvc_effort = within(table, "mvc_effort", emg.mvc_effort, 0.3, 1.0, "");
+  emg.mvc_effort_sd = within(table, "mvc_effort_sd", emg.mvc_effort_sd, 0.0, 0.3, "");
   if (table.is_text("delay_s")) {
     (void)table.choice("delay_s", "estimate", {"estimate"});
   } else if (auto delay = table.number("delay_s")) {

@@ -94,6 +94,9 @@ struct EmgSpec {
   double lowpass_hz = 6.0;
   bool as_published = false;  ///< The uncorrected 6 Hz design of the source paper.
   double normalise_window_s = 0.5;
+  /// What the MVC trials reach of what the muscles could, and how widely people differ in it. 1 and
+  /// 0: F_max is the force at the greatest effort that was recorded.
+  double mvc_effort = 1.0, mvc_effort_sd = 0.0;
   bool has_mvc = true;  ///< False: no trial is a maximal contraction (set from the trials).
   std::optional<double> delay_s;  ///< Empty: estimated.
 };

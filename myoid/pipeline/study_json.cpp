@@ -51,7 +51,9 @@ ordered_json emg_json(const EmgSpec& emg) {
                     {"highpass_hz", emg.highpass_hz},
                     {"lowpass_hz", emg.lowpass_hz},
                     {"as_published", emg.as_published},
-                    {"normalise_window_s", emg.normalise_window_s}};
+                    {"normalise_window_s", emg.normalise_window_s},
+                    {"mvc_effort", emg.mvc_effort},
+                    {"mvc_effort_sd", emg.mvc_effort_sd}};
   j["delay_s"] = emg.delay_s ? ordered_json(*emg.delay_s) : ordered_json("estimate");
   return j;
 }

@@ -325,6 +325,18 @@ std::vector<std::string> assumptions(const StudyResult& result) {
                   result.study.emg.as_published ? " designed for one pass, as published"
                                                 : " (-3 dB of both passes)",
                   result.study.emg.normalise_window_s));
+  if (result.study.emg.has_mvc) {
+    const EmgSpec& emg = result.study.emg;
+    list.push_back(
+        emg.mvc_effort_sd > 0.0 || emg.mvc_effort < 1.0
+            ? fmt::format(
+                  "F_max is what a muscle could exert if all of it were active: the maximal "
+                  "contractions are taken to reach {:.0f} +- {:.0f} % of that.",
+                  100.0 * emg.mvc_effort, 100.0 * emg.mvc_effort_sd)
+            : std::string("F_max is the force at the greatest effort that was recorded. Untrained "
+                          "people reach some 80 to 100 % of what their muscles could exert; "
+                          "[emg] mvc_effort accounts for that."));
+  }
   for (const std::string& text : result.model.unsupported) list.push_back("Model: " + text + ".");
   return list;
 }

@@ -96,9 +96,7 @@ OnePerson one_person(const simulation::Protocol& protocol,
       if (method.method != "torque") continue;
       for (const identification::TrialFit& t : method.trials) {
         if (t.calibration) continue;
-        const double range = t.torque_nm.maxCoeff() - t.torque_nm.minCoeff();
-        person.predictions.push_back(
-            {seed, t.trial, t.rmse_nm, range > 0.0 ? t.rmse_nm / range : 0.0, t.r2});
+        person.predictions.push_back({seed, t.trial, t.rmse_nm, t.nrmse_range, t.r2, t.band});
       }
     }
   } catch (const InvalidInput& error) {
@@ -180,18 +178,27 @@ TwinStudyResult twin_study(const simulation::Protocol& protocol, const TwinStudy
   if (options.subjects < 1) throw InvalidInput("twin-study: at least one subject is needed");
   const auto count = static_cast<std::size_t>(options.subjects);
   std::vector<OnePerson> persons(count);
+  std::vector<char> finished(count, 0);
   std::atomic<int> done = 0;
   oneapi::tbb::parallel_for(std::size_t{0}, count, [&](std::size_t k) {
-    options.progress.check();
+    if (options.progress.stop.stop_requested()) return;
     // Isolated: a thread that waits inside one person must not begin with another.
-    oneapi::tbb::this_task_arena::isolate(
-        [&] { persons[k] = one_person(protocol, options.first_seed + k, options); });
+    oneapi::tbb::this_task_arena::isolate([&] {
+      try {
+        persons[k] = one_person(protocol, options.first_seed + k, options);
+        finished[k] = 1;
+      } catch (const Interrupted&) {  // this person is lost, those before are not
+      }
+    });
+    if (finished[k] == 0) return;
     options.progress.tell(++done / static_cast<double>(count),
                           fmt::format("{} of {} persons", done.load(), count));
   });
   TwinStudyResult result;
   result.protocol = protocol.name;
   result.level = simulation::name(protocol.level);
+  result.finished = static_cast<int>(std::count(finished.begin(), finished.end(), 1));
+  result.interrupted = result.finished < options.subjects;
   for (OnePerson& person : persons) {
     std::move(person.rows.begin(), person.rows.end(), std::back_inserter(result.rows));
     std::move(person.predictions.begin(), person.predictions.end(),
@@ -260,10 +267,12 @@ void write_twin_study(const TwinStudyResult& result,
         s.outside_physical);
   }
   recording::write_file(folder / "summary.csv", summary);
-  std::string predictions = "seed,trial,rmse_nm,nrmse_range,r2\n";
+  std::string predictions =
+      "seed,trial,rmse_nm,nrmse_range,r2,band_rmse_nm,band_nrmse_range,band_r2\n";
   for (const TwinPrediction& p : result.predictions)
-    predictions += fmt::format("{},{},{},{},{}\n", p.seed, p.trial, cell(p.rmse_nm),
-                               cell(p.nrmse_range), cell(p.r2));
+    predictions += fmt::format("{},{},{},{},{},{},{},{}\n", p.seed, p.trial, cell(p.rmse_nm),
+                               cell(p.nrmse_range), cell(p.r2), cell(p.band.rmse_nm),
+                               cell(p.band.nrmse_range), cell(p.band.r2));
   recording::write_file(folder / "predictions.csv", predictions);
   nlohmann::ordered_json run = {{"program", provenance.program},
                                 {"version", provenance.version},

@@ -35,8 +35,9 @@ struct TwinPrediction {
   std::uint64_t seed = 0;
   std::string trial;
   double rmse_nm = 0.0;
-  double nrmse_range = 0.0;  ///< RMSE over the range of the trial's torque.
-  double r2 = 0.0;           ///< 1 - SSE/SST
+  double nrmse_range = 0.0;    ///< RMSE over the range of the trial's torque.
+  double r2 = 0.0;             ///< 1 - SSE/SST
+  identification::Score band;  ///< Both torques below the fit's own cut-off.
 };
 
 struct TwinFailure {
@@ -50,6 +51,8 @@ struct TwinStudyResult {
   std::vector<TwinRow> rows;  ///< By seed, then as the estimators list them.
   std::vector<TwinPrediction> predictions;
   std::vector<TwinFailure> failures;
+  int finished = 0;          ///< Persons.
+  bool interrupted = false;  ///< Stopped before all were finished.
 };
 
 /// Errors of one parameter over the persons: shares are of all rows, `truths` apart.
@@ -77,7 +80,8 @@ struct TwinSummary {
 /// Virtual persons, one per seed, recorded by the protocol at its level, put through the whole
 /// chain (EMG, inverse kinematics and dynamics, identification) as `run` would, and compared with
 /// their truth. Persons in parallel; the same numbers for every number of threads. A person whose
-/// run fails is listed, not left out in silence.
+/// run fails is listed, not left out in silence. When stopped, those who are finished are
+/// returned.
 [[nodiscard]] TwinStudyResult twin_study(const simulation::Protocol& protocol,
                                          const TwinStudyOptions& options = {});
 

@@ -20,7 +20,7 @@ constexpr std::array kActivations = {0.1, 0.3, 0.6, 0.9};
 
 /// A steady state of a muscle, and the model's kinematics in it.
 struct SteadyPoint {
-  double activation, path_m, path_mps, arm_m, torque_nm;
+  double angle_rad, activation, path_m, path_mps, arm_m, torque_nm;
 };
 
 std::vector<SteadyPoint> steady_points(const TrueArm& person,
@@ -39,8 +39,8 @@ std::vector<SteadyPoint> steady_points(const TrueArm& person,
     const model::MuscleTravel model = modelled.modelled_travel(m, q_rad);
     for (const double speed_radps : kSpeeds_radps) {
       for (const double a : kActivations) {
-        SteadyPoint point{a, model.length_m, -model.moment_arm_m * speed_radps, model.moment_arm_m,
-                          0.0};
+        SteadyPoint point{
+            q_rad, a, model.length_m, -model.moment_arm_m * speed_radps, model.moment_arm_m, 0.0};
         for (std::size_t i = 0; i < heads.size(); ++i) {
           const model::MuscleTravel path = model::travel(heads[i]->path, q_rad);
           const muscle::MusculotendonInput<double> input{a, path.length_m,
@@ -80,56 +80,103 @@ double bound_of(double Hill::*value, bool upper) {
 }  // namespace
 
 HillSet effective_muscles(const TrueArm& person, const VirtualArm& modelled, PerMuscle* misfit) {
-  HillSet result = modelled.literature();
-  for (std::size_t m = 0; m < result.size(); ++m) {
-    const Hill literature = result[m];
-    const std::vector<SteadyPoint> points = steady_points(person, modelled, m);
-    double largest_nm = 0.0;
-    for (const SteadyPoint& p : points) largest_nm = std::max(largest_nm, std::abs(p.torque_nm));
-    // The solver sees each parameter over the literature's value.
-    const auto hill_of = [&literature](const Eigen::VectorXd& x) {
-      Hill p = literature;
-      for (std::size_t i = 0; i < kFitted.size(); ++i)
-        p.*(kFitted[i].value) *= x(static_cast<Eigen::Index>(i));
-      return p;
-    };
-    math::LeastSquaresProblem problem;
-    const auto count = static_cast<Eigen::Index>(points.size());
-    problem.residual_count = count + static_cast<Eigen::Index>(kFitted.size());
-    problem.evaluate = [&](const Eigen::VectorXd& x, Eigen::VectorXd& r, Eigen::MatrixXd* J) {
-      const Hill p = hill_of(x);
-      for (Eigen::Index k = 0; k < count; ++k) {
-        const SteadyPoint& point = points[static_cast<std::size_t>(k)];
+  constexpr auto kPerMuscle = static_cast<Eigen::Index>(kFitted.size()) + 2;
+  constexpr double kMiddle_rad = 70.0 * kDegree;
+  const HillSet literature = modelled.literature();
+  const auto muscles = static_cast<Eigen::Index>(literature.size());
+  std::vector<std::vector<SteadyPoint>> points;
+  std::vector<double> largest_nm;
+  Eigen::Index count = 0;
+  for (std::size_t m = 0; m < literature.size(); ++m) {
+    points.push_back(steady_points(person, modelled, m));
+    double largest = 0.0;
+    for (const SteadyPoint& p : points.back()) largest = std::max(largest, std::abs(p.torque_nm));
+    largest_nm.push_back(largest);
+    count += static_cast<Eigen::Index>(points.back().size());
+  }
+  // The solver sees each parameter over the literature's value; then the muscle's passive torque, a
+  // constant and a slope, over its largest torque; at the end gamma of all.
+  const Eigen::Index gamma = kPerMuscle * muscles;
+  const auto hill_of = [&literature](const Eigen::VectorXd& x, Eigen::Index m) {
+    Hill p = literature[static_cast<std::size_t>(m)];
+    for (std::size_t i = 0; i < kFitted.size(); ++i)
+      p.*(kFitted[i].value) *= x(kPerMuscle * m + static_cast<Eigen::Index>(i));
+    return p;
+  };
+  math::LeastSquaresProblem problem;
+  problem.residual_count = count + muscles * static_cast<Eigen::Index>(kFitted.size());
+  problem.evaluate = [&](const Eigen::VectorXd& x, Eigen::VectorXd& r, Eigen::MatrixXd* J) {
+    if (J != nullptr) J->setZero();
+    Eigen::Index row = 0;
+    for (Eigen::Index m = 0; m < muscles; ++m) {
+      const auto muscle = static_cast<std::size_t>(m);
+      const Hill p = hill_of(x, m);
+      const Eigen::Index first = kPerMuscle * m;
+      const Eigen::Index passive = first + static_cast<Eigen::Index>(kFitted.size());
+      for (const SteadyPoint& point : points[muscle]) {
+        const double longer = 1.0 + x(gamma) * (1.0 - point.activation);
+        Hill at = p;
+        at.optimal_fiber_length_m *= longer;
         const muscle::HillForce f = muscle::hill_force_derivatives(
-            point.activation, point.path_m - p.tendon_slack_length_m, point.path_mps, p);
-        r(k) = (point.arm_m * f.force_n - point.torque_nm) / largest_nm;
-        if (J == nullptr) continue;
-        for (std::size_t i = 0; i < kFitted.size(); ++i)
-          (*J)(k, static_cast<Eigen::Index>(i)) = point.arm_m * (f.*(kFitted[i].derivative)) *
-                                                  literature.*(kFitted[i].value) / largest_nm;
+            point.activation, point.path_m - p.tendon_slack_length_m, point.path_mps, at);
+        const double scale = point.arm_m / largest_nm[muscle];
+        const double away = point.angle_rad - kMiddle_rad;
+        r(row) = scale * f.force_n + x(passive) + x(passive + 1) * away -
+                 point.torque_nm / largest_nm[muscle];
+        if (J != nullptr) {
+          for (std::size_t i = 0; i < kFitted.size(); ++i) {
+            const double inner = kFitted[i].value == &Hill::optimal_fiber_length_m ? longer : 1.0;
+            (*J)(row, first + static_cast<Eigen::Index>(i)) =
+                scale * inner * (f.*(kFitted[i].derivative)) *
+                literature[muscle].*(kFitted[i].value);
+          }
+          (*J)(row, passive) = 1.0;
+          (*J)(row, passive + 1) = away;
+          (*J)(row, gamma) = scale * f.by_optimal_fiber_length * p.optimal_fiber_length_m *
+                             (1.0 - point.activation);
+        }
+        ++row;
       }
-      if (J != nullptr) J->bottomRows(kFitted.size()).setZero();
-      for (std::size_t i = 0; i < kFitted.size(); ++i) {
-        const auto c = static_cast<Eigen::Index>(i);
-        r(count + c) = kFitted[i].tether * (x(c) - 1.0);
-        if (J != nullptr) (*J)(count + c, c) = kFitted[i].tether;
-      }
-    };
-    problem.lower.resize(kFitted.size());
-    problem.upper.resize(kFitted.size());
-    for (std::size_t i = 0; i < kFitted.size(); ++i) {
-      const auto k = static_cast<Eigen::Index>(i);
-      problem.lower(k) = bound_of(kFitted[i].value, false) / (literature.*(kFitted[i].value));
-      problem.upper(k) = bound_of(kFitted[i].value, true) / (literature.*(kFitted[i].value));
     }
-    const math::LeastSquaresResult fit =
-        math::minimize(problem, Eigen::VectorXd::Ones(kFitted.size()),
-                       {.max_iterations = 100, .step_tolerance = 1e-8});
-    result[m] = hill_of(fit.x);
-    if (misfit == nullptr) continue;
-    double torque2 = 0.0;
-    for (const SteadyPoint& p : points) torque2 += p.torque_nm * p.torque_nm;
-    (*misfit)[m] = largest_nm * fit.residual.head(count).norm() / std::sqrt(torque2);
+    for (Eigen::Index m = 0; m < muscles; ++m) {
+      for (std::size_t i = 0; i < kFitted.size(); ++i) {
+        const Eigen::Index c = kPerMuscle * m + static_cast<Eigen::Index>(i);
+        r(row) = kFitted[i].tether * (x(c) - 1.0);
+        if (J != nullptr) (*J)(row, c) = kFitted[i].tether;
+        ++row;
+      }
+    }
+  };
+  Eigen::VectorXd start = Eigen::VectorXd::Zero(gamma + 1);
+  problem.lower.setConstant(gamma + 1, -1.0);
+  problem.upper.setConstant(gamma + 1, 1.0);
+  problem.lower(gamma) = 0.0;
+  problem.upper(gamma) = 0.5;
+  start(gamma) = 0.1;
+  for (Eigen::Index m = 0; m < muscles; ++m) {
+    for (std::size_t i = 0; i < kFitted.size(); ++i) {
+      const Eigen::Index c = kPerMuscle * m + static_cast<Eigen::Index>(i);
+      const double value = literature[static_cast<std::size_t>(m)].*(kFitted[i].value);
+      problem.lower(c) = bound_of(kFitted[i].value, false) / value;
+      problem.upper(c) = bound_of(kFitted[i].value, true) / value;
+      start(c) = 1.0;
+    }
+  }
+  const math::LeastSquaresResult fit =
+      math::minimize(problem, start, {.max_iterations = 100, .step_tolerance = 1e-8});
+  HillSet result;
+  Eigen::Index row = 0;
+  for (Eigen::Index m = 0; m < muscles; ++m) {
+    const auto muscle = static_cast<std::size_t>(m);
+    result[muscle] = hill_of(fit.x, m);
+    const auto here = static_cast<Eigen::Index>(points[muscle].size());
+    if (misfit != nullptr) {
+      double torque2 = 0.0;
+      for (const SteadyPoint& p : points[muscle]) torque2 += p.torque_nm * p.torque_nm;
+      (*misfit)[muscle] =
+          largest_nm[muscle] * fit.residual.segment(row, here).norm() / std::sqrt(torque2);
+    }
+    row += here;
   }
   return result;
 }

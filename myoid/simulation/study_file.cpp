@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -103,6 +104,14 @@ std::string study_toml(const VirtualRecording& recording, RecordingFormat format
         "normalise_window_s = {}          # the greatest efforts are kept for longer than this\n"
         "delay_s = \"estimate\"\n",
         number(protocol.lowpass_hz), number(protocol.mvc_window_s));
+    if (protocol.emg.effort_min < 1.0) {
+      // As in the literature of these people, not as this one happened to be.
+      text += fmt::format(
+          "mvc_effort = {:.3g}                 # what people reach of their greatest activation\n"
+          "mvc_effort_sd = {:.3g}\n",
+          0.5 * (protocol.emg.effort_min + protocol.emg.effort_max),
+          (protocol.emg.effort_max - protocol.emg.effort_min) / std::sqrt(12.0));
+    }
   }
 
   for (std::size_t i = 0; i < kArmMuscles.size(); ++i) {
