@@ -212,7 +212,7 @@ void report_estimates(const Estimator& estimator,
     result.bootstrap_failed = intervals.bootstrap->failed;
   }
   if (options.intervals.profile)
-    intervals.profiles = profile(estimator, solution, intervals.sandwich.newey_west);
+    intervals.profiles = profile(estimator, solution, intervals.sandwich.model_based);
 
   const double quantile = math::normal_quantile(0.975);
   const auto muscles = data.muscles.size();

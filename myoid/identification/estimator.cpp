@@ -98,9 +98,10 @@ NoiseLevel fit_known_noise(const Eigen::ArrayXd& squared,
   const double mean = squared.mean();
   if (!(mean > 0.0)) return {0.0, 1.0, 1.0};
   const auto cost = [&](double log_a, double log_b) {
+    const double a = std::exp(log_a), b = std::exp(log_b);
     double sum = 0.0;
     for (std::size_t i = 0; i < bins.count.size(); ++i) {
-      const double v = std::exp(log_a) + std::exp(log_b) * bins.power[i];
+      const double v = a + b * bins.power[i];
       sum += bins.count[i] * (std::log(v) + bins.squared[i] / v);
     }
     return 0.5 * share * sum + 0.5 * std::pow(0.5 * log_b / kLogSd, 2);

@@ -225,7 +225,7 @@ Tension tension(double activation, double length_m, double velocity_mps, const M
 }
 
 bool is_plain(const MuscleValues& p) {
-  return p[kPennation] == 0.0 && p[kPassiveForce] == 0.0 && p[kLengthActivation] == 0.0 &&
+  return p[kPennation] == 0.0 && p[kPassiveForce] == 0.0 &&
          (p[kTendonStrain] == 0.0 || p[kSlack] == 0.0);
 }
 
@@ -233,24 +233,35 @@ void plain_tension(
     double activation, double length_m, double velocity_mps, const MuscleValues& p, Tension& t) {
   const double a = p[kShare] * activation;
   const double v = velocity_mps;
+  const double l0 = p[kFiberLength];
+  const double stretch = 1.0 + p[kLengthActivation] * (1.0 - a);
   const double inverse_width = 1.0 / p[kWidth];
-  const double z = (length_m - p[kSlack] - p[kFiberLength]) * inverse_width;
+  const double z = (length_m - p[kSlack] - l0 * stretch) * inverse_width;
   const double strength = p[kMaxForce] * std::exp(-z * z);  // at full activation, at rest
   const double active = a * strength;
   const auto [fv, fv_v, fv_vm, fv_sh, fv_p, fv_ml] = force_velocity(v, p);
   t.force_n = active * fv;
-  t.by_activation = p[kShare] * strength * fv;
   t.by_length = -2.0 * z * inverse_width * t.force_n;
   t.by_velocity = active * fv_v;
+  const double by_own_activation = strength * fv + t.by_length * l0 * p[kLengthActivation];
+  t.by_activation = p[kShare] * by_own_activation;
   t.by_field[kMaxForce] = t.force_n / p[kMaxForce];
-  t.by_field[kFiberLength] = -t.by_length;
+  t.by_field[kFiberLength] = -t.by_length * stretch;
   t.by_field[kWidth] = 2.0 * z * z * inverse_width * t.force_n;
   t.by_field[kCurvature] = active * fv_sh;
   t.by_field[kProduct] = active * fv_p;
   t.by_field[kPlateau] = active * fv_ml;
   t.by_field[kSpeed] = active * fv_vm;
   t.by_field[kSlack] = -t.by_length;
-  t.by_field[kShare] = strength * fv * activation;
+  t.by_field[kLengthActivation] = -t.by_length * l0 * (1.0 - a);
+  t.by_field[kShare] = by_own_activation * activation;
+}
+
+double tension_n(double activation, double length_m, double velocity_mps, const MuscleValues& p) {
+  if (!is_plain(p)) return tension(activation, length_m, velocity_mps, p).force_n;
+  Tension t;
+  plain_tension(activation, length_m, velocity_mps, p, t);
+  return t.force_n;
 }
 
 }  // namespace myoid::identification

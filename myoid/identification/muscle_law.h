@@ -74,15 +74,26 @@ struct Tension {
                               double velocity_mps,
                               const MuscleValues& values);
 
-/// Whether only the paper's law acts (and the share): then `plain_tension` gives the same, sooner.
+/// Whether only the paper's law acts, the share, and an optimal length that changes with the
+/// activation: then `plain_tension` gives the same, sooner.
 [[nodiscard]] bool is_plain(const MuscleValues& values);
 
-/// As `tension` where `is_plain`; of the derivatives by field only the first eight and the share's
-/// are set, the others are left as they are.
+/// The derivatives by field that `plain_tension` sets.
+[[nodiscard]] constexpr bool is_plain_field(int field) {
+  return field <= kSlack || field == kLengthActivation || field == kShare;
+}
+
+/// As `tension` where `is_plain`; the other derivatives by field are left as they are.
 void plain_tension(double activation,
                    double length_m,
                    double velocity_mps,
                    const MuscleValues& values,
                    Tension& out);
+
+/// `tension(...).force_n` alone, by the shorter way where there is one.
+[[nodiscard]] double tension_n(double activation,
+                               double length_m,
+                               double velocity_mps,
+                               const MuscleValues& values);
 
 }  // namespace myoid::identification

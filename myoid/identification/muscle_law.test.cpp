@@ -32,24 +32,33 @@ TEST(Tension, IsThePapersLawWhenNothingElseIsOn) {
 }
 
 TEST(PlainTension, IsTheGeneralOneWhereNothingElseIsOn) {
-  MuscleValues p = muscle_values(model::arm4_muscles()[2], {.activation_share = 0.8});
-  ASSERT_TRUE(is_plain(p));
-  for (const double v : {-3.0, -0.4, 0.0, 0.3}) {
-    const double l_mt = p[kSlack] + 0.9 * p[kFiberLength];
-    const Tension general = tension(0.5, l_mt, v, p);
-    Tension plain;
-    plain_tension(0.5, l_mt, v, p, plain);
-    const auto same = [](double x, double y) { EXPECT_NEAR(x, y, 1e-12 * (1.0 + std::abs(y))); };
-    same(plain.force_n, general.force_n);
-    same(plain.by_activation, general.by_activation);
-    same(plain.by_length, general.by_length);
-    same(plain.by_velocity, general.by_velocity);
-    for (const int f : {0, 1, 2, 3, 4, 5, 6, 7, static_cast<int>(kShare)})
-      same(plain.by_field[static_cast<std::size_t>(f)],
-           general.by_field[static_cast<std::size_t>(f)]);
+  for (const double length_activation : {0.0, 0.15}) {
+    MuscleValues p =
+        muscle_values(model::arm4_muscles()[2],
+                      {.length_activation = length_activation, .activation_share = 0.8});
+    ASSERT_TRUE(is_plain(p));
+    for (const double v : {-3.0, -0.4, 0.0, 0.3}) {
+      const double l_mt = p[kSlack] + 0.9 * p[kFiberLength];
+      const Tension general = tension(0.5, l_mt, v, p);
+      Tension plain;
+      plain_tension(0.5, l_mt, v, p, plain);
+      const auto same = [](double x, double y) { EXPECT_NEAR(x, y, 1e-12 * (1.0 + std::abs(y))); };
+      same(plain.force_n, general.force_n);
+      same(tension_n(0.5, l_mt, v, p), general.force_n);
+      same(plain.by_activation, general.by_activation);
+      same(plain.by_length, general.by_length);
+      same(plain.by_velocity, general.by_velocity);
+      for (int f = 0; f < kMuscleFieldCount; ++f) {
+        if (is_plain_field(f))
+          same(plain.by_field[static_cast<std::size_t>(f)],
+               general.by_field[static_cast<std::size_t>(f)]);
+      }
+    }
+    p[kPassiveForce] = 0.1;
+    EXPECT_FALSE(is_plain(p));
+    EXPECT_EQ(tension_n(0.5, p[kSlack] + p[kFiberLength], 0.1, p),
+              tension(0.5, p[kSlack] + p[kFiberLength], 0.1, p).force_n);
   }
-  p[kLengthActivation] = 0.1;
-  EXPECT_FALSE(is_plain(p));
 }
 
 TEST(Tension, OfAnElasticTendonIsThatOfTheMuscleBehindIt) {

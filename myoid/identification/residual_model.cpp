@@ -7,48 +7,13 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include "myoid/core/error.h"
+#include "myoid/identification/row_filter.h"
 
 namespace myoid::identification {
 namespace {
 
-/// Forwards and backwards through the filter, all rows of `x` at once; the ends reflected.
-void smooth(const std::vector<math::SecondOrderSection>& sections, Eigen::Ref<Eigen::MatrixXd> x) {
-  if (sections.empty()) return;
-  const Eigen::Index rows = x.rows();
-  const Eigen::Index n = x.cols();
-  double radius = 0.0;
-  for (const math::SecondOrderSection& s : sections) {
-    const double discriminant = s.a1 * s.a1 - 4.0 * s.a2;
-    radius =
-        std::max(radius, discriminant < 0.0 ? std::sqrt(s.a2)
-                                            : 0.5 * (std::abs(s.a1) + std::sqrt(discriminant)));
-  }
-  const double length = std::ceil(std::log(1e-4) / std::log(std::clamp(radius, 1e-3, 1.0 - 1e-9)));
-  const Eigen::Index pad = std::min<Eigen::Index>(n - 1, static_cast<Eigen::Index>(length));
-  Eigen::MatrixXd y(rows, n + 2 * pad);
-  y.middleCols(pad, n) = x;
-  for (Eigen::Index i = 1; i <= pad; ++i) {
-    y.col(pad - i) = 2.0 * x.col(0) - x.col(i);
-    y.col(pad + n - 1 + i) = 2.0 * x.col(n - 1) - x.col(n - 1 - i);
-  }
-  Eigen::VectorXd z1(rows), z2(rows), in(rows);
-  for (const math::SecondOrderSection& s : sections) {
-    const double steady = (s.b0 + s.b1 + s.b2) / (1.0 + s.a1 + s.a2);
-    for (const bool forwards : {true, false}) {
-      const Eigen::Index begin = forwards ? 0 : y.cols() - 1;
-      const Eigen::Index step = forwards ? 1 : -1;
-      z2 = (s.b2 - s.a2 * steady) * y.col(begin);
-      z1 = (s.b1 - s.a1 * steady) * y.col(begin) + z2;
-      for (Eigen::Index i = begin; i >= 0 && i < y.cols(); i += step) {
-        in = y.col(i);
-        y.col(i) = s.b0 * in + z1;
-        z1 = s.b1 * in - s.a1 * y.col(i) + z2;
-        z2 = s.b2 * in - s.a2 * y.col(i);
-      }
-    }
-  }
-  x = y.middleCols(pad, n);
-}
+/// Samples times muscles below which handing blocks to other threads costs more than it saves.
+constexpr Eigen::Index kWorthSharing = 8000;
 
 }  // namespace
 
@@ -154,7 +119,7 @@ void ResidualModel::add_block(const StudyData& data,
       joint.motion.col(2) = qddot(rows);
     }
     Eigen::MatrixXd target = torque(rows).transpose();
-    smooth(block.filter, target);
+    filter_rows(block.filter, target);
     measured_.conservativeResize(joint.first + n);
     measured_.tail(n) = target.row(0).transpose();
     pieces_.push_back({index, joint.joint, joint.first, n});
@@ -193,9 +158,12 @@ void ResidualModel::evaluate(const Eigen::VectorXd& z, Depth depth, Evaluation& 
   out.channel_torque.setZero(static_cast<Eigen::Index>(map_.channels().size()), measured_.size());
   if (depth == Depth::noise) out.motion_variance.setZero(measured_.size());
   // Every block writes rows of its own: the result does not depend on the number of threads.
-  oneapi::tbb::parallel_for(std::size_t{0}, blocks_.size(), [&](std::size_t b) {
-    evaluate_block(blocks_[b], values, chains, depth, out);
-  });
+  const auto one = [&](std::size_t b) { evaluate_block(blocks_[b], values, chains, depth, out); };
+  if (measured_.size() * static_cast<Eigen::Index>(values.muscles.size()) < kWorthSharing) {
+    for (std::size_t b = 0; b < blocks_.size(); ++b) one(b);
+  } else {
+    oneapi::tbb::parallel_for(std::size_t{0}, blocks_.size(), one);
+  }
 }
 
 void ResidualModel::evaluate_block(const Block& block,
@@ -224,9 +192,8 @@ void ResidualModel::evaluate_block(const Block& block,
     const auto c = static_cast<std::size_t>(map_.channel_of_muscle(k));
     const bool plain =
         is_plain(values.muscles[k]) &&
-        std::all_of(of_muscle[k].begin(), of_muscle[k].end(), [](const ParameterMap::Chain& chain) {
-          return chain.field <= kSlack || chain.field == kShare;
-        });
+        std::all_of(of_muscle[k].begin(), of_muscle[k].end(),
+                    [](const ParameterMap::Chain& chain) { return is_plain_field(chain.field); });
     Tension t;
     for (Eigen::Index i = 0; i < n; ++i) {
       const Activation& a = activations[c][static_cast<std::size_t>(i)];
@@ -286,11 +253,14 @@ void ResidualModel::evaluate_block(const Block& block,
       if (chain.field == kStiffness) row -= chain.slope * joint.motion.col(0).transpose();
     }
     if (!block.filter.empty()) {
-      Eigen::MatrixXd line = out.predicted.segment(joint.first, n).transpose();
-      smooth(block.filter, line);
-      out.predicted.segment(joint.first, n) = line.row(0).transpose();
-      if (with_gradient) smooth(block.filter, out.gradient.middleCols(joint.first, n));
-      smooth(block.filter, out.channel_torque.middleCols(joint.first, n));
+      std::vector<SignalRow> rows{{out.predicted.data() + joint.first, 1}};
+      const auto add = [&](Eigen::MatrixXd& signals) {
+        for (Eigen::Index r = 0; r < signals.rows(); ++r)
+          rows.push_back({signals.data() + joint.first * signals.rows() + r, signals.rows()});
+      };
+      if (with_gradient) add(out.gradient);
+      add(out.channel_torque);
+      filter_rows(block.filter, rows, n);
     }
   }
 }
@@ -353,8 +323,7 @@ ErrorShapes ResidualModel::error_shapes(const Eigen::VectorXd& z) const {
         const Activation& activated = activations[c][static_cast<std::size_t>(i)];
         const double a = activated.value;
         const double force_n =
-            tension(a, block.length_m(i, k), block.velocity_mps(i, k), values.muscles[muscle])
-                .force_n;
+            tension_n(a, block.length_m(i, k), block.velocity_mps(i, k), values.muscles[muscle]);
         const double x = 2.0 * (block.length_m(i, k) - shortest[k]) / range - 1.0;
         const double factor[kPerMuscle] = {
             1.0,
@@ -376,7 +345,7 @@ ErrorShapes ResidualModel::error_shapes(const Eigen::VectorXd& z) const {
       }
     }
     for (const Block::Joint& joint : block.joints)
-      smooth(block.filter, result.shapes_nm.middleCols(joint.first, n));
+      filter_rows(block.filter, result.shapes_nm.middleCols(joint.first, n));
   }
   return result;
 }

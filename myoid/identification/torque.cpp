@@ -112,9 +112,8 @@ Prediction predict(const StudyData& data,
     const auto column = static_cast<Eigen::Index>(k);
     for (Eigen::Index i = 0; i < n; ++i) {
       p.activation(i, column) = activations[c][static_cast<std::size_t>(i)].value;
-      p.force_n(i, column) = tension(p.activation(i, column), trial.length_m(i, column),
-                                     trial.velocity_mps(i, column), values.muscles[k])
-                                 .force_n;
+      p.force_n(i, column) = tension_n(p.activation(i, column), trial.length_m(i, column),
+                                       trial.velocity_mps(i, column), values.muscles[k]);
     }
   }
   if (trial.moment_arm_m.rows() == n) {

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <limits>
 
+#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <oneapi/tbb/parallel_for.h>
 
@@ -55,6 +56,16 @@ Eigen::MatrixXd inverse_of(const Eigen::MatrixXd& a) {
          eigen.eigenvectors().transpose() * scale.asDiagonal();
 }
 
+/// inverse_of(a) * b, by a Cholesky factor where one is at hand.
+Eigen::VectorXd solve_positive(const Eigen::MatrixXd& a, const Eigen::VectorXd& b) {
+  const Eigen::VectorXd scale = a.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
+  const Eigen::LLT<Eigen::MatrixXd> factor(scale.asDiagonal() * a * scale.asDiagonal());
+  const bool regular = factor.info() == Eigen::Success &&
+                       factor.matrixLLT().diagonal().minCoeff() > 1e-5;  // 1 in each column
+  if (!regular) return inverse_of(a) * b;
+  return scale.cwiseProduct(factor.solve(scale.cwiseProduct(b)));
+}
+
 /// Rows that are drawn together.
 struct Block {
   int stratum = 0;  ///< Trial; 0 for all where whole trials are drawn.
@@ -85,6 +96,29 @@ std::vector<Block> blocks_of(const ResidualModel& model, double block_s) {
     }
   }
   return blocks;
+}
+
+/// Whether the smallest eigenvalue of these rows and columns of a matrix surely exceeds `least`:
+/// then A - least I has a Cholesky factor.
+bool above_in_all_directions(const Eigen::MatrixXd& a,
+                             const std::vector<Eigen::Index>& set,
+                             double least) {
+  Eigen::Matrix4d factor;
+  const std::size_t n = set.size();
+  for (std::size_t j = 0; j < n; ++j) {
+    for (std::size_t i = j; i < n; ++i) {
+      const auto row = static_cast<Eigen::Index>(i), column = static_cast<Eigen::Index>(j);
+      double rest = a(set[i], set[j]) - (i == j ? least : 0.0);
+      for (Eigen::Index k = 0; k < column; ++k) rest -= factor(row, k) * factor(column, k);
+      if (i > j) {
+        factor(row, column) = rest / factor(column, column);
+        continue;
+      }
+      if (!(rest > 0.0)) return false;
+      factor(row, column) = std::sqrt(rest);
+    }
+  }
+  return true;
 }
 
 double quantile(std::vector<double> values, double share) {
@@ -171,7 +205,7 @@ Sandwich sandwich(const Estimator& estimator, const Estimator::Solution& solutio
       const auto rows = by_sample.rows.middleCols(piece.first, piece.count);
       without -= rows * rows.transpose();
     }
-    result.trial_shift.col(k) = inverse_of(without) * sums.col(k);
+    result.trial_shift.col(k) = solve_positive(without, sums.col(k));
   }
   const auto covariance_of = [](const Eigen::MatrixXd& columns) {
     const Eigen::MatrixXd off = columns.colwise() - columns.rowwise().mean();
@@ -247,7 +281,7 @@ BootstrapResult bootstrap(const Estimator& estimator, const Estimator::Solution&
 
 std::vector<Interval> profile(const Estimator& estimator,
                               const Estimator::Solution& solution,
-                              const Eigen::MatrixXd& covariance) {
+                              const Eigen::MatrixXd& model_based) {
   const Eigen::Index p = solution.search.x.size();
   std::vector<Interval> intervals(static_cast<std::size_t>(p));
   const double minimum = solution.search.cost;
@@ -258,24 +292,28 @@ std::vector<Interval> profile(const Estimator& estimator,
     const double side = task % 2 == 0 ? -1.0 : 1.0;
     const double bound = side < 0.0 ? estimator.lower()[j] : estimator.upper()[j];
     const double reach = std::abs(bound - solution.search.x[j]);
-    const double sd = std::sqrt(std::max(covariance(j, j), 1e-300));
+    const double sd = std::sqrt(std::max(model_based(j, j), 1e-300));
     std::vector<bool> held(static_cast<std::size_t>(p), false);
     held[static_cast<std::size_t>(j)] = true;
-    // sqrt(2 (C - C_min)) is nearly proportional to the distance: the secant converges in two or
-    // three fits.
+    // What the others do when this one moves, to first order: where the fits begin.
+    const Eigen::VectorXd along = model_based.col(j) / std::max(model_based(j, j), 1e-300);
+    // sqrt(2 (C - C_min)) is nearly proportional to the distance: the secant converges in one or
+    // two fits.
     const double goal = std::sqrt(kChiSquare95);
     double near = 0.0, near_value = 0.0;
     double far = std::min(goal * sd, reach);
     Eigen::VectorXd x = solution.search.x;
     std::optional<double> answer;
     for (int step = 0; step < 8 && far > 0.0; ++step) {
-      Eigen::VectorXd start = x;
+      Eigen::VectorXd start = x + along * (side * (far - near));
       start[j] = solution.search.x[j] + side * far;
       const NormalSearchResult fit =
           estimator.search(start, solution.weighting, 1e-4, 1e-4, 40, {}, held);
       const double value = std::sqrt(std::max(0.0, 2.0 * (fit.cost - minimum)));
-      if (std::abs(value - goal) < 0.02 * goal) {
-        answer = far;
+      const double middle =
+          near + (far - near) * (goal - near_value) / std::max(value - near_value, 1e-12);
+      if (std::abs(value - goal) < 0.05 * goal && middle <= reach) {
+        answer = middle;
         break;
       }
       if (value < goal) {
@@ -286,8 +324,6 @@ std::vector<Interval> profile(const Estimator& estimator,
         const double slope = value / far;
         far = std::min({reach, slope > 0.0 ? far * goal / value * 1.02 : 4.0 * far, 4.0 * far});
       } else {
-        const double middle =
-            near + (far - near) * (goal - near_value) / std::max(value - near_value, 1e-12);
         far = std::clamp(middle, near + 0.05 * (far - near), near + 0.95 * (far - near));
         answer = far;  // good enough if the steps run out
       }
@@ -322,7 +358,8 @@ std::vector<CollinearSet> collinear_sets(const Eigen::MatrixXd& information,
     });
   };
   const auto consider = [&](const std::vector<Eigen::Index>& set) {
-    if (contains_smaller(set)) return;
+    if (above_in_all_directions(unit, set, 0.999 / (limit * limit)) || contains_smaller(set))
+      return;
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(unit(set, set),
                                                                Eigen::EigenvaluesOnly);
     const double smallest = eigen.eigenvalues()[0];

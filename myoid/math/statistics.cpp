@@ -12,15 +12,18 @@ namespace myoid::math {
 double normal_quantile(double p) {
   if (!(p > 0.0 && p < 1.0))
     throw InvalidInput("normal quantile: the probability must lie between 0 and 1");
-  // Bisection on the distribution function: simple and exact to round-off.
-  const auto distribution = [](double x) { return 0.5 * std::erfc(-x / std::sqrt(2.0)); };
-  double low = -40.0;
-  double high = 40.0;
-  for (int i = 0; i < 200; ++i) {
-    const double middle = 0.5 * (low + high);
-    (distribution(middle) < p ? low : high) = middle;
+  // Newton's steps on ln Q, Q(x) = erfc(x / sqrt 2) / 2 the tail beyond x: ln Q is concave, so that
+  // from the right of the root they come down to it. Q(x) <= exp(-x^2 / 2) / 2 gives such a start.
+  const double tail = std::min(p, 1.0 - p);
+  double x = std::sqrt(std::max(0.0, -2.0 * std::log(2.0 * tail)));
+  for (int i = 0; i < 60; ++i) {
+    const double beyond = 0.5 * std::erfc(x / std::sqrt(2.0));
+    const double density = std::exp(-0.5 * x * x) / std::sqrt(2.0 * kPi);
+    const double step = std::log(beyond / tail) * beyond / density;
+    x += step;
+    if (!(std::abs(step) > 1e-15 * (1.0 + x))) break;
   }
-  return 0.5 * (low + high);
+  return p < 0.5 ? -x : x;
 }
 
 double median(std::vector<double> values) {
@@ -57,19 +60,23 @@ double effective_sample_size(const Eigen::Ref<const Eigen::VectorXd>& x,
 Eigen::MatrixXd newey_west(const Eigen::MatrixXd& scores,
                            const std::vector<Eigen::Index>& pieces,
                            Eigen::Index lag) {
-  Eigen::MatrixXd sum = scores.transpose() * scores;
-  for (Eigen::Index l = 1; l <= lag; ++l) {
-    const double weight = 1.0 - static_cast<double>(l) / static_cast<double>(lag + 1);
-    Eigen::Index begin = 0;
-    for (const Eigen::Index length : pieces) {
-      if (l < length) {
-        const Eigen::MatrixXd g = scores.middleRows(begin + l, length - l).transpose() *
-                                  scores.middleRows(begin, length - l);
-        sum += weight * (g + g.transpose());
-      }
-      begin += length;
+  // The Bartlett-weighted sum of all products of samples up to `lag` apart is that of the squares
+  // of all sums over lag + 1 samples in a row, over lag + 1; windows reach beyond both ends.
+  const Eigen::Index p = scores.cols();
+  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(p, p);
+  Eigen::Index begin = 0;
+  for (const Eigen::Index length : pieces) {
+    Eigen::MatrixXd windows(p, length + lag);
+    Eigen::VectorXd window = Eigen::VectorXd::Zero(p);
+    for (Eigen::Index i = 0; i < length + lag; ++i) {
+      if (i < length) window += scores.row(begin + i).transpose();
+      if (i > lag) window -= scores.row(begin + i - lag - 1).transpose();
+      windows.col(i) = window;
     }
+    sum.selfadjointView<Eigen::Lower>().rankUpdate(windows, 1.0 / static_cast<double>(lag + 1));
+    begin += length;
   }
+  sum.triangularView<Eigen::StrictlyUpper>() = sum.transpose();
   return sum;
 }
 

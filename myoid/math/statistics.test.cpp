@@ -29,6 +29,16 @@ TEST(Median, IsTheMiddleOrTheMeanOfTheTwoInTheMiddle) {
 TEST(NormalQuantile, HasTheTabulatedValues) {
   EXPECT_NEAR(normal_quantile(0.975), 1.959963984540054, 1e-12);
   EXPECT_NEAR(normal_quantile(0.5), 0.0, 1e-12);
+  EXPECT_NEAR(normal_quantile(0.025), -1.959963984540054, 1e-12);
+  EXPECT_NEAR(normal_quantile(1e-9), -5.997807015007687, 1e-11);
+}
+
+TEST(NormalQuantile, IsTheInverseOfTheDistributionFunction) {
+  for (double p = 1e-300; p < 1.0; p = p < 0.01 ? p * 10.0 : p + 0.01) {
+    const double x = normal_quantile(p);
+    // Round-off of x alone moves p by x^2 times as much.
+    EXPECT_NEAR(0.5 * std::erfc(-x / std::sqrt(2.0)) / p, 1.0, 1e-15 * (10.0 + 4.0 * x * x)) << p;
+  }
 }
 
 TEST(EffectiveSampleSize, OfAnAutoregressiveSeriesIsTheClosedForm) {
@@ -43,6 +53,32 @@ TEST(NeweyWest, OfAnAutoregressiveScoreTendsToItsLongRunVariance) {
   const Eigen::Index n = 200000;
   const Eigen::MatrixXd b = newey_west(autoregressive(n, 0.5), {n}, 100);
   EXPECT_NEAR(b(0, 0) / static_cast<double>(n), 4.0, 0.25);  // Bartlett's bias 1/L and the noise
+}
+
+TEST(NeweyWest, IsTheWeightedSumOfTheProductsOfLaggedScores) {
+  // The definition: sum_l (1 - |l| / (L + 1)) sum_t g_t g_(t - l)', within pieces; one is shorter
+  // than the lag.
+  const Eigen::Index lag = 7;
+  const std::vector<Eigen::Index> pieces{40, 5, 23};
+  Eigen::MatrixXd g(68, 3);
+  for (Eigen::Index i = 0; i < g.rows(); ++i) {
+    for (Eigen::Index j = 0; j < 3; ++j)
+      g(i, j) = std::sin(0.7 * static_cast<double>((j + 1) * i)) + 0.1 * static_cast<double>(j);
+  }
+  Eigen::MatrixXd expected = Eigen::MatrixXd::Zero(3, 3);
+  Eigen::Index begin = 0;
+  for (const Eigen::Index length : pieces) {
+    for (Eigen::Index s = begin; s < begin + length; ++s) {
+      for (Eigen::Index t = begin; t < begin + length; ++t) {
+        const auto apart = static_cast<double>(std::abs(s - t));
+        expected += std::max(0.0, 1.0 - apart / static_cast<double>(lag + 1)) *
+                    g.row(s).transpose() * g.row(t);
+      }
+    }
+    begin += length;
+  }
+  EXPECT_LT((newey_west(g, pieces, lag) - expected).cwiseAbs().maxCoeff(),
+            1e-12 * expected.cwiseAbs().maxCoeff());
 }
 
 TEST(NeweyWest, DoesNotJoinTheEndOfOneTrialToTheNext) {

@@ -1,0 +1,64 @@
+// What docs/performance.md promises of identification: ten trials of ten seconds at 200 Hz.
+#include <string>
+
+#include <benchmark/benchmark.h>
+
+#include "myoid/identification/force.h"
+#include "myoid/identification/torque.h"
+
+#include "tests/support/elbow_study.h"
+
+namespace {
+
+using namespace myoid;
+using identification::StudyData;
+
+const StudyData& arm_study() {
+  static const StudyData data = test::elbow_study({.trials = 10,
+                                                   .seconds = 10.0,
+                                                   .rate_hz = 200.0,
+                                                   .emg_cv = 0.14,
+                                                   .torque_sd_nm = 0.3,
+                                                   .truth_from_prior = true,
+                                                   .with_priors = true,
+                                                   .seed = 1})
+                                    .data;
+  return data;
+}
+
+/// The first muscle: l0, l_sh, V_sh, V_sh V_shl and V_ml unknown. range(0): samples per second.
+void identify_one_muscle(benchmark::State& state) {
+  StudyData data = identification::force_study(arm_study(), 0);
+  data.muscles[0].fixed.push_back("max_isometric_force");
+  identification::EstimatorOptions options;
+  options.delay_s = 0.05;
+  options.max_rate_hz = static_cast<double>(state.range(0));
+  options.predictions = false;
+  for (auto _ : state) benchmark::DoNotOptimize(identification::identify_torque(data, options));
+}
+BENCHMARK(identify_one_muscle)
+    ->Arg(50)
+    ->Arg(200)
+    ->Unit(benchmark::kMillisecond)
+    ->MeasureProcessCPUTime()
+    ->UseRealTime();
+
+/// All four, with the delay: 25 unknowns. range(0): samples per second; range(1): bootstrap
+/// replicates.
+void identify_arm(benchmark::State& state) {
+  identification::EstimatorOptions options;
+  options.max_rate_hz = static_cast<double>(state.range(0));
+  options.intervals.bootstrap = static_cast<int>(state.range(1));
+  options.predictions = false;
+  for (auto _ : state)
+    benchmark::DoNotOptimize(identification::identify_torque(arm_study(), options));
+}
+BENCHMARK(identify_arm)
+    ->Args({50, 0})
+    ->Args({200, 0})
+    ->Args({50, 1000})
+    ->Unit(benchmark::kMillisecond)
+    ->MeasureProcessCPUTime()
+    ->UseRealTime();
+
+}  // namespace
