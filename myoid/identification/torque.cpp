@@ -38,10 +38,10 @@ void add_predictions(const StudyData& data,
         const std::vector<Eigen::Index> rows = included_rows(trial);
         const Eigen::VectorXd measured = trial.torque_nm(rows);
         const Eigen::VectorXd predicted = after.torque_nm(rows);
-        const Score whole = score(measured, predicted);
-        fit.rmse_nm = whole.rmse_nm;
-        fit.nrmse_range = whole.nrmse_range;
-        fit.r2 = whole.r2;
+        const Score unfiltered = score(measured, predicted);
+        fit.rmse_nm = unfiltered.rmse_nm;
+        fit.nrmse_range = unfiltered.nrmse_range;
+        fit.r2 = unfiltered.r2;
         const double cutoff_hz = options.residual_cutoff_hz.value_or(0.0);
         fit.band = score(below(trial.time_s, trial.torque_nm, cutoff_hz)(rows),
                          below(trial.time_s, after.torque_nm, cutoff_hz)(rows));
