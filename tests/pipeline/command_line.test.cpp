@@ -274,11 +274,11 @@ TEST(CommandLine, TheUnitThatAnEmgFileStatesHoldsWithAWarning) {
 TEST(CommandLine, OfACommonOptionWithoutEffectTheHelpIsSilentAndAWarningSpeaks) {
   const TemporaryFolder folder;
   write_text(folder / "e.sto", emg_text("EMG microvolt"));
-  EXPECT_THAT(myoid({"info", "--help"}).out,
-              AllOf(HasSubstr("--json"), Not(HasSubstr("--start")), Not(HasSubstr("--overwrite"))));
-  const Finished info = myoid({"info", folder / "e.sto", "--start", "2"});
-  EXPECT_EQ(info.exit_code, 0);
-  EXPECT_THAT(info.err, HasSubstr("--start has no effect on info"));
+  EXPECT_THAT(myoid({"check", "--help"}).out,
+              AllOf(HasSubstr("--json"), Not(HasSubstr("--overwrite"))));
+  const Finished check = myoid({"check", folder / "e.sto", "--overwrite"});
+  EXPECT_EQ(check.exit_code, 0);
+  EXPECT_THAT(check.err, HasSubstr("--overwrite has no effect on check"));
 }
 
 TEST(CommandLine, JsonOnStdoutIsOneValueFromEveryStage) {
