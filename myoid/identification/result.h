@@ -79,6 +79,14 @@ struct BranchTest {
   double p_value = 1.0;
 };
 
+/// Whether a parameter is no muscle's and no person's, but freed so that its uncertainty enters the
+/// others: gain and exponent of an EMG channel, torque of the joint itself. Not counted among what
+/// a recording tells.
+[[nodiscard]] inline bool is_nuisance(const ParameterEstimate& estimate) {
+  return estimate.parameter == "emg_gain" || estimate.parameter == "emg_exponent" ||
+         estimate.parameter.starts_with("joint_");
+}
+
 struct IdentificationResult {
   std::string method;
   math::Termination termination = math::Termination::no_descent;

@@ -204,7 +204,7 @@ std::vector<report::Gate> quality_gates(const StudyResult& result) {
          torque->message, "converged", "Only a converged fit is an answer."});
     const auto count = [&](Verdict v) {
       return std::count_if(torque->estimates.begin(), torque->estimates.end(), [&](const auto& e) {
-        return e.verdict == v && e.parameter != "emg_gain";
+        return e.verdict == v && !identification::is_nuisance(e);
       });
     };
     list.push_back({"Parameters that this recording tells",

@@ -348,7 +348,7 @@ std::string headline(const StudyResult& result) {
   std::vector<std::string> sure;
   int total = 0;
   for (const ParameterEstimate& e : torque->estimates) {
-    if (e.parameter == "emg_gain") continue;
+    if (identification::is_nuisance(e)) continue;
     ++total;
     if (e.verdict == Verdict::identified) sure.push_back(e.muscle + " " + spelled(e.parameter));
   }
