@@ -7,10 +7,12 @@
 
 #include "myoid/cli/stage_input.h"
 #include "myoid/core/error.h"
+#include "myoid/pipeline/model_meshes.h"
 #include "myoid/pipeline/model_scene.h"
 #include "myoid/recording/atomic_file.h"
 #include "myoid/recording/recording.h"
 #include "myoid/recording/storage_reader.h"
+#include "myoid/recording/text_file.h"
 #include "myoid/report/scene_page.h"
 
 namespace myoid::cli {
@@ -39,6 +41,11 @@ void add_model_page_options(CLI::App& command, ModelPageOptions& options) {
   add("--forces", options.forces, "Muscle forces [N] to color by (.sto)");
   add("--activations", options.activations, "Muscle activations, 0..1, to color by (.sto)");
   add("--markers", options.markers, "Measured markers to show beside the model's (.trc, .c3d)");
+  command
+      .add_option("--meshes", options.mesh_folders,
+                  "Folder with the model's meshes (.vtp, .stl, .obj), repeated; the model's folder "
+                  "and its subfolder Geometry are looked through without it")
+      ->needs(html);
   command.add_option("--up", options.up, "Vertical axis of --markers: x, y or z (default y)")
       ->check(CLI::IsMember({"x", "y", "z"}))
       ->needs(html);
@@ -81,6 +88,12 @@ std::string write_model_page(const std::string& model_file,
     input.markers = &*markers;
   }
   page.scenes.push_back(pipeline::model_scene(model, input));
+  if (model_file != "arm4") {
+    pipeline::MeshOptions meshes;
+    meshes.folders.assign(options.mesh_folders.begin(), options.mesh_folders.end());
+    pipeline::add_meshes(
+        pipeline::load_meshes(recording::read_text_file(model_file), model_file, meshes), page);
+  }
   const report::Scene& scene = page.scenes.front();
   for (const std::string& note : scene.notes)
     context.log(fmt::format("{}: {}", options.html, note));

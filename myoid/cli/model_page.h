@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
@@ -13,9 +14,10 @@ struct ModelPageOptions {
   std::string html;  ///< The page; empty: none is asked for.
   std::string motion, forces, activations, markers;
   std::string up = "y";
+  std::vector<std::string> mesh_folders;
 };
 
-/// Adds --html, --motion, --forces, --activations, --markers and --up.
+/// Adds --html, --motion, --forces, --activations, --markers, --meshes and --up.
 void add_model_page_options(CLI::App& command, ModelPageOptions& options);
 
 /// Writes the page and returns a sentence about it. `model` is a file or "arm4". Throws

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "myoid/pipeline/model_meshes.h"
 #include "myoid/pipeline/model_scene.h"
 #include "myoid/pipeline/study_model.h"
 #include "myoid/recording/atomic_file.h"
@@ -55,6 +56,8 @@ report::ScenePage study_scenes(const StudyResult& result, int most_frames) {
   for (const TrialResult& trial : result.trials)
     if (moving(trial))
       page.scenes.push_back(trial_scene(result.study, trial, std::min(1500, each)));
+  if (result.study.model.file && !page.scenes.empty())
+    add_meshes(load_meshes(result.model_text, *result.study.model.file), page);
   return page;
 }
 

@@ -40,6 +40,13 @@ std::string base64(const std::vector<std::uint16_t>& numbers) {
   return base64(std::span<const std::uint8_t>(bytes));
 }
 
+std::string base64(const std::vector<std::uint32_t>& numbers) {
+  std::vector<std::uint8_t> bytes;
+  bytes.reserve(4 * numbers.size());
+  for (const std::uint32_t n : numbers) append(bytes, n);
+  return base64(std::span<const std::uint8_t>(bytes));
+}
+
 std::string base64(const std::vector<float>& numbers) {
   std::vector<std::uint8_t> bytes;
   bytes.reserve(4 * numbers.size());

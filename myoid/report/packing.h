@@ -15,6 +15,7 @@ namespace myoid::report {
 [[nodiscard]] std::string base64(std::span<const std::uint8_t> bytes);
 /// Base64 of the numbers' bytes, little end first.
 [[nodiscard]] std::string base64(const std::vector<std::uint16_t>& numbers);
+[[nodiscard]] std::string base64(const std::vector<std::uint32_t>& numbers);
 [[nodiscard]] std::string base64(const std::vector<float>& numbers);
 
 /// 16-bit numbers for what is not a number.

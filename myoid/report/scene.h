@@ -10,12 +10,19 @@
 
 namespace myoid::report {
 
-/// A body as it is drawn: its sticks in place of bones.
+/// A surface of triangles, of a bone for example.
+struct SceneMesh {
+  std::vector<Vec3> vertices_m;               ///< In its body.
+  std::vector<std::array<int, 3>> triangles;  ///< Counterclockwise from outside.
+};
+
+/// A body as it is drawn: its meshes, or its sticks in place of bones.
 struct SceneBody {
   std::string name;
   double mass_kg = 0.0;
   Vec3 mass_center_m = Vec3::Zero();               ///< In the body.
   std::vector<std::array<Vec3, 2>> sticks_m = {};  ///< Ends, in the body.
+  std::vector<int> meshes = {};                    ///< Numbers in ScenePage::meshes.
 };
 
 /// A point that is fixed in a body.

@@ -55,7 +55,8 @@ ordered_json model_json(const Scene& scene) {
     j["bodies"].push_back({{"name", body.name},
                            {"mass", body.mass_kg},
                            {"center", vector_json(body.mass_center_m)},
-                           {"sticks", sticks}});
+                           {"sticks", sticks},
+                           {"meshes", body.meshes}});
   }
   for (const SceneMarker& marker : scene.markers)
     j["markers"].push_back({{"name", marker.name}, {"point", point_json(marker.point)}});
@@ -165,6 +166,54 @@ ordered_json scene_json(const Scene& scene) {
   return j;
 }
 
+ordered_json mesh_json(const SceneMesh& mesh) {
+  const PackingBox box = packing_box(mesh.vertices_m);
+  std::vector<std::uint16_t> vertices;
+  for (const Vec3& p : mesh.vertices_m) pack(box, p, vertices);
+  // Few meshes need more than 16 bits for a corner.
+  const bool is_wide = mesh.vertices_m.size() > 65535;
+  std::vector<std::uint16_t> narrow;
+  std::vector<std::uint32_t> wide;
+  for (const auto& triangle : mesh.triangles) {
+    for (const int corner : triangle) {
+      if (is_wide) {
+        wide.push_back(static_cast<std::uint32_t>(corner));
+      } else {
+        narrow.push_back(static_cast<std::uint16_t>(corner));
+      }
+    }
+  }
+  return {{"origin", {box.origin.x(), box.origin.y(), box.origin.z()}},
+          {"step", box.step},
+          {"vertices", base64(vertices)},
+          {"wide", is_wide},
+          {"corners", is_wide ? base64(wide) : base64(narrow)}};
+}
+
+void validate(const SceneMesh& mesh) {
+  const auto count = static_cast<int>(mesh.vertices_m.size());
+  for (const auto& triangle : mesh.triangles) {
+    for (const int corner : triangle) {
+      if (corner < 0 || corner >= count)
+        throw InvalidInput(fmt::format("a mesh has {} vertices, not one {}", count, corner));
+    }
+  }
+  for (const Vec3& p : mesh.vertices_m)
+    if (!p.allFinite()) throw InvalidInput("a vertex of a mesh is not finite");
+}
+
+void validate_meshes(const ScenePage& page) {
+  for (const SceneMesh& mesh : page.meshes) validate(mesh);
+  for (const Scene& scene : page.scenes) {
+    for (const SceneBody& body : scene.bodies) {
+      for (const int mesh : body.meshes) {
+        if (mesh < 0 || mesh >= static_cast<int>(page.meshes.size()))
+          throw InvalidInput(fmt::format("body '{}' has no mesh number {}", body.name, mesh));
+      }
+    }
+  }
+}
+
 /// JSON that may stand inside a <script> element.
 std::string embedded(const ordered_json& j) {
   const std::string text = j.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
@@ -191,8 +240,12 @@ std::string scene_page(const ScenePage& page) {
         "install the packages libjs-three and esbuild and build it again");
   }
   if (page.scenes.empty()) throw InvalidInput("a page with a moving model needs a scene");
-  ordered_json j{
-      {"title", page.title}, {"subtitle", page.subtitle}, {"scenes", ordered_json::array()}};
+  validate_meshes(page);
+  ordered_json j{{"title", page.title},
+                 {"subtitle", page.subtitle},
+                 {"meshes", ordered_json::array()},
+                 {"scenes", ordered_json::array()}};
+  for (const SceneMesh& mesh : page.meshes) j["meshes"].push_back(mesh_json(mesh));
   for (const Scene& scene : page.scenes) {
     validate(scene);
     j["scenes"].push_back(scene_json(scene));

@@ -9,11 +9,13 @@ namespace myoid::report {
 
 /// Scenes, of one model or of several, as one HTML file that works offline: the viewer with a
 /// choice of the scene, and the scenes as JSON with their arrays in base64 (packing.h). Calls
-/// `validate`. Throws InvalidInput without a scene, or if the program was built without three.js.
+/// `validate`. Throws InvalidInput without a scene, for a mesh that is not there or has corners
+/// without vertices, or if the program was built without three.js.
 struct ScenePage {
   std::string title;
   std::string subtitle;
   std::vector<Scene> scenes = {};
+  std::vector<SceneMesh> meshes = {};  ///< Of the scenes' bodies, each once.
 };
 [[nodiscard]] std::string scene_page(const ScenePage& page);
 

@@ -77,6 +77,20 @@ TEST_F(ScenePageTest, CannotBeLeftThroughAName) {
   EXPECT_EQ(data_of(page)["scenes"][0]["name"], scene.name);
 }
 
+TEST_F(ScenePageTest, HoldsEachMeshOnce) {
+  ScenePage page{.title = "t", .scenes = {small_scene(), small_scene()}};
+  page.meshes = {{.vertices_m = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, .triangles = {{0, 1, 2}}}};
+  for (Scene& scene : page.scenes) scene.bodies[1].meshes = {0};
+  const json j = data_of(scene_page(page));
+  EXPECT_EQ(j["meshes"].size(), 1U);
+  EXPECT_EQ(j["meshes"][0]["corners"], "AAABAAIA");
+  EXPECT_EQ(j["scenes"][1]["bodies"][1]["meshes"], json({0}));
+  page.meshes[0].triangles[0][2] = 3;
+  EXPECT_THROW((void)scene_page(page), InvalidInput);
+  page.meshes.clear();
+  EXPECT_THROW((void)scene_page(page), InvalidInput);
+}
+
 TEST_F(ScenePageTest, RefusesWhatIsNoScene) {
   EXPECT_THROW((void)page_of({}), InvalidInput);
   Scene scene = small_scene();

@@ -12,6 +12,15 @@ function bytes(text) {
 const halves = (text) => new Uint16Array(bytes(text));
 const floats = (text) => new Float32Array(bytes(text));
 
+/** A surface: its vertices and the corners of its triangles. */
+export function mesh(data) {
+  const numbers = halves(data.vertices);
+  const vertices = new Float32Array(numbers.length);
+  numbers.forEach((n, i) => (vertices[i] = data.origin[i % 3] + data.step * n));
+  const corners = bytes(data.corners);
+  return { vertices, corners: data.wide ? new Uint32Array(corners) : new Uint16Array(corners) };
+}
+
 /** One trial: the model, and what stands where in each frame. Positions in meters, in ground. */
 export class Trial {
   constructor(data) {

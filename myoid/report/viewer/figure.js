@@ -10,7 +10,7 @@ import {
   Vector3,
 } from 'three';
 import { MUSCLE, UNKNOWN, colorOf } from './colors.js';
-import { Tube, bone, cylinder, sphere, torus } from './shapes.js';
+import { Tube, bone, cylinder, sphere, surface, torus } from './shapes.js';
 
 const BONE = 0xe6dcc3;
 const CENTER = 0x8d99a6;
@@ -35,8 +35,9 @@ const phong = (color, more = {}) =>
 
 export class Figure {
   /** `size`: how large the model is [m]; everything without a size of its own is made to suit. */
-  constructor(trial, size) {
+  constructor(trial, meshes, size) {
     this.trial = trial;
+    this.meshes = meshes;
     this.model = trial.model;
     this.size = size;
     this.root = new Group();
@@ -73,7 +74,12 @@ export class Figure {
     const centerMaterial = phong(CENTER);
     const thinnest = 0.0025 * this.size;
     this.model.bodies.forEach((body, b) => {
-      for (const [from, to] of body.sticks) {
+      for (const index of body.meshes) {
+        const mesh = this.#added(this.bodies[b], new Mesh(surface(this.meshes[index]), material));
+        mesh.castShadow = true;
+        this.parts.bones.push(mesh);
+      }
+      for (const [from, to] of body.meshes.length > 0 ? [] : body.sticks) {
         const start = new Vector3().fromArray(from);
         const along = new Vector3().fromArray(to).sub(start);
         const length = along.length();
@@ -237,7 +243,7 @@ export class Figure {
   /** Every point that should be in the picture, through `visit`. */
   points(visit) {
     this.model.bodies.forEach((body, b) => {
-      const ends = body.sticks.flat();
+      const ends = [...body.sticks.flat(), ...body.meshes.flatMap((index) => extremes(this.meshes[index].vertices))];
       if (b > 0 && body.mass > 0) ends.push(body.center);
       for (const p of ends) visit(this.point.fromArray(p).applyMatrix4(this.bodies[b].matrixWorld));
     });
@@ -287,6 +293,17 @@ export class Figure {
     }
     return best;
   }
+}
+
+/** Two corners of the box about vertices. */
+function extremes(vertices) {
+  const lower = [Infinity, Infinity, Infinity];
+  const upper = [-Infinity, -Infinity, -Infinity];
+  vertices.forEach((x, i) => {
+    lower[i % 3] = Math.min(lower[i % 3], x);
+    upper[i % 3] = Math.max(upper[i % 3], x);
+  });
+  return vertices.length > 0 ? [lower, upper] : [];
 }
 
 /** Distance of a place to the piece a-b of the screen, and the depth there. */

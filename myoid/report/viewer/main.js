@@ -1,7 +1,7 @@
 // The viewer of a moving model: reads the scene from the page and plays it.
 import { Vector3 } from 'three';
 import { Camera } from './camera.js';
-import { Trial } from './decode.js';
+import { Trial, mesh } from './decode.js';
 import { Figure, PARTS } from './figure.js';
 import { Panel, number } from './panel.js';
 import { Player } from './player.js';
@@ -10,9 +10,10 @@ import { Stage } from './stage.js';
 const HIDDEN_AT_FIRST = new Set(['surfaces']);
 
 class Viewer {
-  constructor({ title, subtitle, scenes }) {
+  constructor({ title, subtitle, meshes, scenes }) {
     this.title = title;
     this.subtitle = subtitle;
+    this.meshes = meshes.map(mesh);
     this.trials = scenes.map((scene) => new Trial(scene));
     this.visible = Object.fromEntries(PARTS.map(([part]) => [part, !HIDDEN_AT_FIRST.has(part)]));
     this.visible.ground = this.visible.axes = true;
@@ -22,7 +23,7 @@ class Viewer {
     this.camera = new Camera(this.canvas, scenes[0].up, () => (this.dirty = true));
     this.last = new Vector3();
     this.hovered = -1;
-    this.size = size(this.trials[0]);
+    this.size = size(this.trials[0], this.meshes);
     this.stage = new Stage(this.canvas, this.camera.axes, this.size);
     this.openTrial(0);
     this.#resize();
@@ -36,7 +37,7 @@ class Viewer {
       this.stage.scene.remove(this.figure.root);
       this.figure.dispose();
     }
-    this.figure = new Figure(this.trial, this.size);
+    this.figure = new Figure(this.trial, this.meshes, this.size);
     this.stage.scene.add(this.figure.root);
     const parts = PARTS.filter(([part]) => this.figure.has(part)).map(([part, label]) => [part, label, this.visible[part]]);
     parts.push(['ground', 'Ground', this.visible.ground], ['axes', 'Axes', this.visible.axes]);
@@ -238,8 +239,8 @@ function ball(figure) {
 }
 
 /** How large the model is in its first posture [m]. */
-function size(trial) {
-  const probe = new Figure(trial, 1);
+function size(trial, meshes) {
+  const probe = new Figure(trial, meshes, 1);
   probe.pose(0);
   const { radius } = ball(probe);
   probe.dispose();

@@ -75,6 +75,15 @@ function finished(positions, indices) {
   return geometry;
 }
 
+/** A surface of triangles. */
+export function surface({ vertices, corners }) {
+  const geometry = new BufferGeometry();
+  geometry.setAttribute('position', new BufferAttribute(vertices, 3));
+  geometry.setIndex(new BufferAttribute(corners, 1));
+  geometry.computeVertexNormals();
+  return geometry;
+}
+
 const SIDES = 8;
 
 /** A tube along a line of at most `capacity` points that may change from frame to frame. */
