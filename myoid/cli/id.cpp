@@ -73,17 +73,7 @@ void add_id(CLI::App& app, Context& context) {
         with_derivatives(load_motion(model, o->motion, o->cutoff_hz, context), model, o->speeds,
                          o->accelerations, context);
     std::optional<dynamics::ExternalLoads> loads;
-    if (!o->loads.empty()) {
-      loads = dynamics::read_external_loads(model, o->loads);
-      for (const std::string& note : loads->notes) context.warn(note);
-      const Eigen::VectorXd& time_s = motion.q.time_s();
-      if (time_s[0] < loads->start_s - 1e-3 || time_s[time_s.size() - 1] > loads->end_s + 1e-3) {
-        context.warn(fmt::format(
-            "{}: the loads are known from {} to {} s, the motion goes from {} to {} s; beyond, "
-            "they are guessed by straight lines",
-            o->loads, loads->start_s, loads->end_s, time_s[0], time_s[time_s.size() - 1]));
-      }
-    }
+    if (!o->loads.empty()) loads = load_external_loads(model, o->loads, motion, context);
     const TimeSeries forces =
         dynamics::inverse_dynamics(model, motion, {.loads = loads ? &*loads : nullptr});
     write_series(o->out, forces, "Inverse Dynamics Generalized Forces");

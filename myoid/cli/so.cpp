@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <optional>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -6,10 +7,10 @@
 #include "myoid/cli/context.h"
 #include "myoid/cli/stage_input.h"
 #include "myoid/core/error.h"
-#include "myoid/dynamics/inverse_dynamics.h"
+#include "myoid/dynamics/external_loads.h"
 #include "myoid/forces/force_sharing.h"
-#include "myoid/kinematics/muscle_kinematics.h"
-#include "myoid/model/thelen_properties.h"
+#include "myoid/forces/sharing_input.h"
+#include "myoid/pipeline/muscle_force_law.h"
 #include "myoid/pipeline/result_files.h"
 #include "myoid/pipeline/study_model.h"
 #include "myoid/recording/storage_reader.h"
@@ -23,7 +24,8 @@ void add_so(CLI::App& app, Context& context) {
       "Muscle force sharing (static optimization): which forces make the torques?\n"
       "Example: myoid so --model arm.osim --motion ik.mot --lowpass 6 --out so");
   struct Options {
-    std::string model, motion, out, objective = "activation", emg;
+    std::string model, motion, out, objective = "activation", emg, loads, tendon = "rigid";
+    bool passive = false;
     std::vector<std::string> coordinates;
     double exponent = 2.0, emg_weight = 1.0, reserve_nm = 1.0, cutoff_hz = 0.0;
   };
@@ -41,46 +43,36 @@ void add_so(CLI::App& app, Context& context) {
                      "Optimal torque of the reserve on every coordinate [N m] (default 1)");
   command.add_option(
       "--coordinate", o->coordinates,
-      "Coordinate whose torque the muscles balance, repeated (default: all that are not locked)");
+      "Coordinate whose torque the muscles balance, repeated (default: all that take a value of "
+      "their own)");
   command
       .add_option("--lowpass", o->cutoff_hz,
                   "Smooth the angles, -3 dB at this frequency [Hz] (default: not smoothed)")
       ->check(CLI::PositiveNumber);
+  command.add_option("--loads", o->loads,
+                     "Forces measured on bodies: an <ExternalLoads> file (.xml) of OpenSim");
+  command
+      .add_option("--tendon", o->tendon,
+                  "rigid, or elastic: fiber and tendon in balance by the muscle's own curves "
+                  "(default rigid)")
+      ->check(CLI::IsMember({"rigid", "elastic"}));
+  command.add_flag("--passive", o->passive,
+                   "The fibers' passive springs and dampers pull too, and the muscles share the "
+                   "rest");
   add_compat_option(command, context);
   add_common_options(command, context, {.seed = false});
   command.callback([&context, o] {
     const model::BodyModel model = load_model(o->model, context);
-    if (model.muscles.empty()) throw ModelError("the model has no muscles");
     warn_of_path_differences(model, o->model, context);
     const kinematics::JointMotion motion = load_motion(model, o->motion, o->cutoff_hz, context);
     context.prepare_folder(o->out);
-    context.protect_inputs(o->out, {"StaticOptimization_"}, {o->model, o->motion, o->emg});
-    const TimeSeries torques = dynamics::inverse_dynamics(model, motion);
-    const kinematics::MuscleKinematics muscles = kinematics::muscle_kinematics(model, motion);
-    std::vector<TimeSeries> arms;
-    std::vector<std::string> columns;
-    for (const model::Coordinate& c : model.coordinates) {
-      const bool wanted = o->coordinates.empty()
-                              ? !c.locked
-                              : std::find(o->coordinates.begin(), o->coordinates.end(), c.name) !=
-                                    o->coordinates.end();
-      if (!wanted) continue;
-      arms.push_back(muscles.moment_arm.at(c.name));
-      columns.push_back(dynamics::generalized_force_name(c));
-    }
-    for (const std::string& name : o->coordinates) (void)model.coordinate_index(name);
-    const auto count = static_cast<Eigen::Index>(model.muscles.size());
-    Eigen::MatrixXd optimal(motion.sample_count(), count);
-    Eigen::VectorXd greatest(count);
-    for (Eigen::Index m = 0; m < count; ++m) {
-      const muscle::ThelenParameters p =
-          model::thelen_parameters(model.muscles[static_cast<std::size_t>(m)].properties);
-      greatest[m] = p.max_isometric_force_n;
-      for (Eigen::Index i = 0; i < optimal.rows(); ++i) {
-        optimal(i, m) = muscle::thelen_optimal_force(p, muscles.length.values()(i, m),
-                                                     muscles.velocity.values()(i, m));
-      }
-    }
+    context.protect_inputs(o->out, {"StaticOptimization_"},
+                           {o->model, o->motion, o->emg, o->loads});
+    std::optional<dynamics::ExternalLoads> loads;
+    if (!o->loads.empty()) loads = load_external_loads(model, o->loads, motion, context);
+    const forces::SharingInput input =
+        forces::sharing_input(model, motion, o->coordinates, loads ? &*loads : nullptr);
+    for (const std::string& note : input.notes) context.warn(note);
     forces::SharingOptions options{
         .objective = o->objective, .exponent = o->exponent, .reserve_nm = o->reserve_nm};
     options.min_activation = 1.0;
@@ -90,8 +82,14 @@ void add_so(CLI::App& app, Context& context) {
       options.emg = signals::resample(recording::read_storage(o->emg).data, motion.q.time_s());
       options.emg_weight = o->emg_weight;
     }
+    const bool elastic = o->tendon == "elastic";
+    if (elastic || o->passive) {
+      options.law = pipeline::muscle_force_law(
+          model, input.muscles, {.elastic_tendon = elastic, .passive_force = o->passive});
+    }
     const forces::MuscleForces shared =
-        forces::share(arms, torques.select(columns), optimal, greatest, options);
+        forces::share(input.moment_arms, input.torques, input.optimal_force_n,
+                      input.max_isometric_force_n, options);
     pipeline::write_shared_forces(shared, o->out);
     if (context.json) {
       const nlohmann::ordered_json json{{"out", o->out},

@@ -154,6 +154,22 @@ kinematics::JointMotion load_motion(const model::BodyModel& model,
   return {cut(whole.q, context), cut(whole.qdot, context), cut(whole.qddot, context)};
 }
 
+dynamics::ExternalLoads load_external_loads(const model::BodyModel& model,
+                                            const std::filesystem::path& path,
+                                            const kinematics::JointMotion& motion,
+                                            const Context& context) {
+  dynamics::ExternalLoads loads = dynamics::read_external_loads(model, path);
+  for (const std::string& note : loads.notes) context.warn(note);
+  const Eigen::VectorXd& time_s = motion.q.time_s();
+  if (time_s[0] < loads.start_s - 1e-3 || time_s[time_s.size() - 1] > loads.end_s + 1e-3) {
+    context.warn(fmt::format(
+        "{}: the loads are known from {} to {} s, the motion goes from {} to {} s; beyond, they "
+        "are guessed by straight lines",
+        path.string(), loads.start_s, loads.end_s, time_s[0], time_s[time_s.size() - 1]));
+  }
+  return loads;
+}
+
 void write_series(const std::filesystem::path& path,
                   const TimeSeries& series,
                   const std::string& title) {

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "myoid/cli/context.h"
+#include "myoid/dynamics/external_loads.h"
 #include "myoid/kinematics/joint_motion.h"
 #include "myoid/model/body_model.h"
 
@@ -36,6 +37,12 @@ void warn_of_path_differences(const model::BodyModel& model,
                                                        const std::filesystem::path& speeds,
                                                        const std::filesystem::path& accelerations,
                                                        const Context& context);
+
+/// An <ExternalLoads> file; what was mended is warned of, and a motion that goes beyond the data.
+[[nodiscard]] dynamics::ExternalLoads load_external_loads(const model::BodyModel& model,
+                                                          const std::filesystem::path& path,
+                                                          const kinematics::JointMotion& motion,
+                                                          const Context& context);
 
 /// Writes a series in the format that the file's name asks for: .csv a table ("name [V]" in the
 /// header row), .sto or .mot a storage file of this title. Throws InvalidInput for other names.

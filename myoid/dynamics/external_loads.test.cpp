@@ -140,5 +140,45 @@ TEST_F(Loads, WhatCannotBeUsedIsNamedWithItsLine) {
   EXPECT_THAT(message(), ::testing::HasSubstr("not valid XML"));
 }
 
+// Expressed in the body that it loads, force, torque and point turn with it.
+TEST_F(Loads, AForceInTheBodysOwnFrameTurnsWithTheBody) {
+  write("loads.mot", data("0 10 0 0 0.1 0 0 0 0 2\n1 10 0 0 0.1 0 0 0 0 2\n2 10 0 0 0.1 0 0 0 0 "
+                          "2\n3 10 0 0 0.1 0 0 0 0 2\n"));
+  write_set(body_, "<force_expressed_in_body>" + body_ +
+                       "</force_expressed_in_body><point_expressed_in_body>" + body_ +
+                       "</point_expressed_in_body><force_identifier>f_v</force_identifier>"
+                       "<point_identifier>f_p</point_identifier>"
+                       "<torque_identifier>f_t</torque_identifier>");
+  const ExternalLoads loads = read();
+  const auto n = static_cast<Eigen::Index>(arm_.coordinates.size());
+  model::BodyState state = model::make_state(arm_);
+  model::compute_poses(arm_, Eigen::VectorXd::LinSpaced(n, 0.3, 1.1), state);
+  std::vector<model::BodyWrench> wrenches;
+  loads.append_wrenches(state, 1.3, wrenches);
+  ASSERT_EQ(wrenches.size(), 1U);
+  const Mat3& R = state.X_GB[static_cast<std::size_t>(wrenches[0].body)].R;
+  EXPECT_LT((wrenches[0].f_G - R * Vec3(10.0, 0.0, 0.0)).norm(), 1e-12);
+  // Force and lever are parallel: the torque alone is left.
+  EXPECT_LT((wrenches[0].m_G - R * Vec3(0.0, 0.0, 2.0)).norm(), 1e-12);
+}
+
+// Without a point the force acts at the body's origin; without a force the torque alone acts.
+TEST_F(Loads, AForceWithoutAPointAndATorqueAlone) {
+  write("loads.mot", data("0 3 4 5 9 9 9 1 2 3\n1 3 4 5 9 9 9 1 2 3\n2 3 4 5 9 9 9 1 2 3\n3 3 4 5 "
+                          "9 9 9 1 2 3\n"));
+  model::BodyState state = model::make_state(arm_);
+  model::compute_poses(arm_, arm_.default_q(), state);
+  write_set(body_, "<force_identifier>f_v</force_identifier>");
+  std::vector<model::BodyWrench> wrenches;
+  read().append_wrenches(state, 1.0, wrenches);
+  ASSERT_EQ(wrenches.size(), 1U);
+  EXPECT_LT((wrenches[0].f_G - Vec3(3.0, 4.0, 5.0)).norm() + wrenches[0].m_G.norm(), 1e-12);
+  write_set(body_, "<torque_identifier>f_t</torque_identifier>");
+  wrenches.clear();
+  read().append_wrenches(state, 1.0, wrenches);
+  ASSERT_EQ(wrenches.size(), 1U);
+  EXPECT_LT((wrenches[0].m_G - Vec3(1.0, 2.0, 3.0)).norm() + wrenches[0].f_G.norm(), 1e-12);
+}
+
 }  // namespace
 }  // namespace myoid::dynamics

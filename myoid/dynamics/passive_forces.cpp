@@ -102,9 +102,8 @@ void append_passive_forces(const model::BodyModel& model,
       model::compute_path(model, line->path, state, workspace, path);
       const double stretch = path.length_m - line->rest_length_m;
       if (stretch <= 0.0) continue;
-      generalized +=
-          path.moment_arm_m *
-          std::max(0.0, line->stiffness_npm * stretch * (1.0 + line->dissipation * path.speed_mps));
+      generalized += path.moment_arm_m *
+                     (line->stiffness_npm * stretch * (1.0 + line->dissipation * path.speed_mps));
     } else if (const auto* ligament = std::get_if<model::Ligament>(&force.law)) {
       model::compute_path(model, ligament->path, state, workspace, path);
       if (path.length_m <= ligament->rest_length_m) continue;

@@ -81,5 +81,48 @@ TEST(PassiveForces, SpringsAndBushingsGiveThePowerTheirEnergyLoses) {
   EXPECT_NEAR(power(state, generalized, wrenches), -rate, 1e-6);
 }
 
+/// A straight path from ground to the hand.
+model::MusclePath line_to_hand(const model::BodyModel& arm) {
+  model::PathPoint from, to;
+  from.p_BP = Vec3(0.05, 0.3, 0.1);
+  to.body = static_cast<int>(arm.bodies.size()) - 1;
+  to.p_BP = Vec3(0.0, -0.2, 0.01);
+  return {{from, to}, {}};
+}
+
+// Along a straight line tension times lengthening speed is the power lost, whatever the law.
+TEST(PassiveForces, PathSpringsAndLigamentsPullAlongTheirPathByTheirLaw) {
+  model::BodyModel arm = bare_arm();
+  const auto n = static_cast<Eigen::Index>(arm.coordinates.size());
+  const Eigen::VectorXd q = arm.default_q() + Eigen::VectorXd::LinSpaced(n, 0.2, 0.5);
+  const Eigen::VectorXd qdot = Eigen::VectorXd::LinSpaced(n, 1.0, -0.7);
+  model::BodyState state = model::make_state(arm);
+  model::compute_poses(arm, q, state);
+  model::compute_velocities(arm, qdot, state);
+  const model::MusclePath path = line_to_hand(arm);
+  const auto hand = static_cast<std::size_t>(path.points[1].body);
+  const Vec3 p = state.X_GB[hand] * path.points[1].p_BP;
+  const Vec3 v = state.v_GB[hand] + state.w_GB[hand].cross(p - state.X_GB[hand].p);
+  const double length = (p - path.points[0].p_BP).norm();
+  const double speed = v.dot(p - path.points[0].p_BP) / length;
+  struct Case {
+    model::PassiveForce force;
+    double tension_n;
+  };
+  const model::Function curve(model::make_piecewise_linear({0.0, 1.0, 2.0}, {0.0, 0.0, 4.0}));
+  const Case cases[] = {
+      {{"spring", "PathSpring", model::PathSpring{path, 300.0, 0.9 * length, 0.4}},
+       300.0 * 0.1 * length * (1.0 + 0.4 * speed)},
+      {{"slack", "PathSpring", model::PathSpring{path, 300.0, 1.1 * length, 0.4}}, 0.0},
+      {{"band", "Ligament", model::Ligament{path, 0.8 * length, 50.0, curve}}, 50.0 * 4.0 * 0.25}};
+  for (const Case& c : cases) {
+    arm.passive_forces = {c.force};
+    Eigen::VectorXd generalized = Eigen::VectorXd::Zero(n);
+    std::vector<model::BodyWrench> wrenches;
+    append_passive_forces(arm, state, generalized, wrenches);
+    EXPECT_NEAR(power(state, generalized, wrenches), -c.tension_n * speed, 1e-11) << c.force.name;
+  }
+}
+
 }  // namespace
 }  // namespace myoid::dynamics

@@ -166,6 +166,44 @@ SharingSolution solve_sharing(const SharingProblem& problem) {
   return solution;
 }
 
+SharingSolution solve_sharing(
+    const SharingProblem& problem,
+    const std::function<ForceAtActivation(Eigen::Index muscle, double activation)>& law,
+    const Eigen::VectorXd& start) {
+  constexpr int kMostTangents = 100;
+  const Eigen::Index n = problem.optimal_force.size();
+  Eigen::VectorXd x = start;
+  const auto tangent_at = [&](const Eigen::VectorXd& activation) {
+    SharingProblem tangent = problem;
+    Eigen::VectorXd rest(n);
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const ForceAtActivation f = law(i, activation[i]);
+      tangent.optimal_force[i] = f.slope_n;
+      rest[i] = f.force_n - f.slope_n * activation[i];
+    }
+    tangent.torque -= problem.moment_arm * rest;
+    return tangent;
+  };
+  SharingProblem tangent = tangent_at(x);
+  SharingSolution solution;
+  double moved = 0.0;
+  int count = 0;
+  do {
+    solution = solve_sharing(tangent);
+    if (solution.status == SharingStatus::not_finite) return solution;
+    moved = (solution.activation - x).cwiseAbs().maxCoeff();
+    // Whole steps converge where the laws bend little; half steps also where they swing.
+    x = count < 10 || moved <= 1e-11 ? solution.activation
+                                     : (0.5 * (x + solution.activation)).eval();
+    tangent = tangent_at(x);
+  } while (moved > 1e-11 && ++count < kMostTangents);
+  solution.iterations = count + 1;
+  solution.kkt_residual = kkt_residual(tangent, solution);
+  solution.status =
+      solution.kkt_residual <= 1e-9 ? SharingStatus::optimal : SharingStatus::not_solved;
+  return solution;
+}
+
 MuscleForces share(const std::vector<TimeSeries>& moment_arms,
                    const TimeSeries& torques,
                    const Eigen::MatrixXd& optimal_force_n,
@@ -197,6 +235,7 @@ MuscleForces share(const std::vector<TimeSeries>& moment_arms,
           "force sharing: the EMG is not on the clock of the motion; resample it first");
   }
   Eigen::MatrixXd activation(frames, muscles);
+  Eigen::MatrixXd force(frames, muscles);
   Eigen::MatrixXd reserve(frames, coordinates);
   MuscleForces result;
   result.status.resize(static_cast<std::size_t>(frames));
@@ -229,7 +268,17 @@ MuscleForces share(const std::vector<TimeSeries>& moment_arms,
             problem.emg = emg.row(frame).transpose();
             problem.emg_weight = options.emg_weight;
           }
-          const SharingSolution solution = solve_sharing(problem);
+          SharingSolution solution = solve_sharing(problem);
+          if (options.law) {
+            const auto law = [&](Eigen::Index muscle, double x) {
+              return options.law(frame, muscle, x);
+            };
+            solution = solve_sharing(problem, law, solution.activation);
+            for (Eigen::Index i = 0; i < muscles; ++i)
+              force(frame, i) = law(i, solution.activation[i]).force_n;
+          } else {
+            force.row(frame) = solution.activation.cwiseProduct(problem.optimal_force).transpose();
+          }
           activation.row(frame) = solution.activation.transpose();
           reserve.row(frame) = solution.reserve_torque.transpose();
           result.status[static_cast<std::size_t>(frame)] = solution.status;
@@ -259,8 +308,7 @@ MuscleForces share(const std::vector<TimeSeries>& moment_arms,
     }
     channel.name += "_reserve";
   }
-  result.force = TimeSeries(torques.time_s(), channels(Unit::newton),
-                            activation.cwiseProduct(optimal_force_n));
+  result.force = TimeSeries(torques.time_s(), channels(Unit::newton), std::move(force));
   result.activation =
       TimeSeries(torques.time_s(), channels(Unit::dimensionless), std::move(activation));
   result.reserve = TimeSeries(torques.time_s(), std::move(reserve_channels), std::move(reserve));

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -54,6 +55,25 @@ struct SharingSolution {
 /// disagree, p <= 1, a reserve is not positive, or an EMG term is asked for with p other than 2.
 [[nodiscard]] SharingSolution solve_sharing(const SharingProblem& problem);
 
+/// A muscle's force at an activation, and its derivative by the activation.
+struct ForceAtActivation {
+  double force_n = 0.0, slope_n = 0.0;
+};
+/// F(x) of a muscle in a frame, where it is not F_opt x: passive force, elastic tendon. Called from
+/// any thread.
+using MuscleForceLaw =
+    std::function<ForceAtActivation(Eigen::Index frame, Eigen::Index muscle, double activation)>;
+
+/// The same problem with forces F_i(x_i) in the place of F_i^opt x_i: solved as a sequence of
+/// problems with the laws' tangents, until activations move by less than 1e-11. `problem.torque` is
+/// the whole torque. Where the laws are not straight the optimum is one of its neighborhood: the
+/// search begins at `start`. The certificate is that of the tangent problem at the solution, whose
+/// conditions are those of the problem itself.
+[[nodiscard]] SharingSolution solve_sharing(
+    const SharingProblem& problem,
+    const std::function<ForceAtActivation(Eigen::Index muscle, double activation)>& law,
+    const Eigen::VectorXd& start);
+
 struct SharingOptions {
   std::string objective = "activation";  ///< activation: w = 1; force: w = F_opt^p / mean F_opt^p;
                                          ///< stress: w as force, F_max
@@ -63,6 +83,7 @@ struct SharingOptions {
   double max_activation = 1.0;
   TimeSeries emg;  ///< Optional: activations by muscle name, on the same clock.
   double emg_weight = 0.0;
+  MuscleForceLaw law{};  ///< Optional; else F_opt x. Weights are by F_opt all the same.
 };
 
 /// Shared forces over time; channels of `force` and `activation` are the muscles.

@@ -144,5 +144,56 @@ TEST(ForceSharing, RefusesAnExponentOfOne) {
   EXPECT_THROW((void)solve_sharing(p), InvalidInput);
 }
 
+// F(x) = c (x + b x^2) + d: the optimum of one joint is x with p x^(p-1) = lambda r F'(x), found
+// here by two nested bisections.
+TEST(ForceSharing, LawsThatBendAreSharedAsBisectionSharesThem) {
+  SharingProblem p = elbow(20.0);
+  p.exponent = 3.0;
+  const double bend[] = {0.4, -0.3, 0.8, 0.1}, rest[] = {30.0, 0.0, 5.0, 40.0};
+  const auto law = [&](Eigen::Index i, double x) {
+    const double c = p.optimal_force[i];
+    return ForceAtActivation{c * (x + bend[i] * x * x) + rest[i], c * (1.0 + 2.0 * bend[i] * x)};
+  };
+  const auto activation = [&](Eigen::Index i, double lambda) {
+    const double arm = p.moment_arm(0, i);
+    double low = 0.0, high = 1.0;
+    for (int k = 0; k < 200; ++k) {
+      const double x = 0.5 * (low + high);
+      (3.0 * x * x < lambda * arm * law(i, x).slope_n ? low : high) = x;
+    }
+    return 0.5 * (low + high);
+  };
+  const auto torque = [&](double lambda) {
+    double sum = 0.0;
+    for (Eigen::Index i = 0; i < 4; ++i)
+      sum += p.moment_arm(0, i) * law(i, activation(i, lambda)).force_n;
+    return sum;
+  };
+  double low = 0.0, high = 1.0;
+  for (int k = 0; k < 200; ++k) {
+    const double lambda = 0.5 * (low + high);
+    (torque(lambda) < 20.0 ? low : high) = lambda;
+  }
+  const SharingSolution s = solve_sharing(p, law, Eigen::VectorXd::Constant(4, 0.3));
+  EXPECT_EQ(s.status, SharingStatus::optimal);
+  // The reserve of 1e-4 N m takes its small part, (T^1.5 / sum)^... below 1e-6 of the torque.
+  for (Eigen::Index i = 0; i < 4; ++i) EXPECT_NEAR(s.activation[i], activation(i, low), 1e-6) << i;
+  double sum = s.reserve_torque[0];
+  for (Eigen::Index i = 0; i < 4; ++i) sum += p.moment_arm(0, i) * law(i, s.activation[i]).force_n;
+  EXPECT_NEAR(sum, 20.0, 1e-10);
+}
+
+TEST(ForceSharing, AStraightLawWithARestIsTheProblemWithTheRestTakenOff) {
+  const SharingProblem p = elbow(20.0);
+  const auto law = [&](Eigen::Index i, double x) {
+    return ForceAtActivation{p.optimal_force[i] * x + 10.0, p.optimal_force[i]};
+  };
+  SharingProblem less = p;
+  less.torque[0] -= 10.0 * p.moment_arm.sum();
+  const SharingSolution expected = solve_sharing(less);
+  const SharingSolution s = solve_sharing(p, law, Eigen::VectorXd::Zero(4));
+  EXPECT_LT((s.activation - expected.activation).cwiseAbs().maxCoeff(), 1e-12);
+}
+
 }  // namespace
 }  // namespace myoid::forces

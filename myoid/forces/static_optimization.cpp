@@ -257,6 +257,7 @@ StaticOptimizationResult static_optimization(const model::BodyModel& model,
               motion.q.values().row(i).transpose(), motion.qdot.values().row(i).transpose(),
               motion.qddot.values().row(i).transpose(), motion.q.time_s()[i], strength);
           const ActuatorSolution solution = solve_actuators(problem);
+          if (options.inspect) options.inspect(i, problem, solution);
           control.row(i) = solution.control.transpose();
           force.row(i) = solution.control.cwiseProduct(strength).transpose();
           result.kkt_residual[i] = solution.kkt_residual;

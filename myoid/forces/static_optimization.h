@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -11,12 +12,20 @@
 
 namespace myoid::forces {
 
+struct ActuatorProblem;
+struct ActuatorSolution;
+/// What is given to whoever wants to see the problem of a frame and its solution
+/// (actuator_sharing.h): for checks. Called from any thread, frames in any order.
+using InspectFrame =
+    std::function<void(Eigen::Index frame, const ActuatorProblem&, const ActuatorSolution&)>;
+
 struct StaticOptimizationOptions {
   double exponent = 2.0;
   /// Force-length, force-velocity and pennation count; else a muscle's strength is F_max.
   bool muscle_physiology = true;
   const dynamics::ExternalLoads* loads = nullptr;  ///< Not owned.
   Progress progress;
+  InspectFrame inspect{};
 };
 
 struct StaticOptimizationResult {

@@ -364,6 +364,12 @@ Function read_function(const OsimReading& r, pugi::xml_node node) {
     if (c.empty()) r.xml.fail(node, "<coefficients>: expected at least one number");
     return {Polynomial{std::move(c)}, scale};
   }
+  if (kind == "MultivariatePolynomialFunction" && r.xml.number(node, "dimension", 1.0) == 1.0) {
+    auto c = list("coefficients");  // lowest power first
+    if (c.empty()) r.xml.fail(node, "<coefficients>: expected at least one number");
+    std::reverse(c.begin(), c.end());
+    return {Polynomial{std::move(c)}, scale};
+  }
   const bool spline = kind == "SimmSpline" || kind == "NaturalCubicSpline" ||
                       kind == "natCubicSpline" || kind == "natCubicSplineFunction";
   if (spline || kind == "PiecewiseLinearFunction" || kind == "GCVSpline") {
@@ -372,9 +378,16 @@ Function read_function(const OsimReading& r, pugi::xml_node node) {
     try {
       if (kind == "GCVSpline") {
         const double order = r.xml.number(node, "half_order", 3.0);
-        if (order != 2.0)
-          r.xml.fail(node, "<GCVSpline>: only cubic ones (half_order 2) are supported in a model");
-        return {make_natural_spline(std::move(x), std::move(y)), scale};
+        if (r.xml.number(node, "error_variance", 0.0) > 0.0)
+          r.xml.fail(node,
+                     "<GCVSpline>: one that smooths (<error_variance> above 0) is not supported");
+        if (order == 1.0) return {make_piecewise_linear(std::move(x), std::move(y)), scale};
+        if (order == 2.0) return {make_natural_spline(std::move(x), std::move(y)), scale};
+        r.xml.fail(
+            node,
+            fmt::format(
+                "<GCVSpline>: half_order {}, expected 1 or 2: others are not supported in a model",
+                order));
       }
       if (spline) return {make_simm_spline(std::move(x), std::move(y)), scale};
       return {make_piecewise_linear(std::move(x), std::move(y)), scale};
@@ -386,7 +399,9 @@ Function read_function(const OsimReading& r, pugi::xml_node node) {
   }
   r.xml.fail(node, fmt::format("the function <{}> is not supported; supported are Constant, "
                                "LinearFunction, PolynomialFunction, PiecewiseLinearFunction, "
-                               "SimmSpline, NaturalCubicSpline, GCVSpline and MultiplierFunction",
+                               "SimmSpline, NaturalCubicSpline, GCVSpline, "
+                               "MultivariatePolynomialFunction of one variable and "
+                               "MultiplierFunction",
                                kind));
 }
 

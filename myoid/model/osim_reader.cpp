@@ -1,5 +1,6 @@
 #include "myoid/model/osim_reader.h"
 
+#include <algorithm>
 #include <string>
 #include <utility>
 
@@ -29,11 +30,34 @@ void read_markers(OsimReading& r, pugi::xml_node set) {
   }
 }
 
-/// Sets that a model may refer to in a file of its own; leaving them out would be silent.
+/// The name of the file in which a set stands instead of in the model; empty if it does not.
+std::string file_of(pugi::xml_node set) {
+  std::string file = set.attribute("file").value();
+  std::replace(file.begin(), file.end(), '\\', '/');
+  return file == "Unassigned" ? std::string() : file;
+}
+
+/// A set of markers or forces in the model or in a file that it names, relative to itself.
+template <typename Read>
+void read_set(OsimReading& r, pugi::xml_node set, const Read& read) {
+  const std::string file = file_of(set);
+  if (file.empty()) return read(r, set);
+  const std::filesystem::path path = r.xml.path().parent_path() / file;
+  const std::string text = recording::read_text_file(path);
+  const OsimXml xml(text, path, OsimXml::Root::any);
+  const auto other = xml.root().child(set.name());
+  if (!other) xml.fail(xml.root(), fmt::format("expected a <{}>", set.name()));
+  OsimReading inner{xml, r.compat, std::move(r.model), r.frames};
+  read(inner, other);
+  r.model = std::move(inner.model);
+}
+
+/// Other sets that a model may refer to in a file of its own; leaving them out would be silent.
 void list_external_sets(OsimReading& r, pugi::xml_node model) {
   for (const auto node : model.children()) {
-    const std::string file = node.attribute("file").value();
-    if (!file.empty() && file != "Unassigned") {
+    const std::string file = file_of(node);
+    const std::string_view set = node.name();
+    if (!file.empty() && set != "MarkerSet" && set != "ForceSet") {
       r.model.unsupported.push_back(
           fmt::format("<{}> is in another file, '{}', which is not read", node.name(), file));
     }
@@ -72,10 +96,11 @@ BodyModel parse_osim(std::string_view text,
   if (!skeleton.child("BodySet")) xml.fail(model, "the model has no <BodySet>");
   read_bodies(r, skeleton);
   read_joints(r, skeleton);
-  read_markers(
-      r, skeleton.child("MarkerSet") ? skeleton.child("MarkerSet") : model.child("MarkerSet"));
+  read_set(r, skeleton.child("MarkerSet") ? skeleton.child("MarkerSet") : model.child("MarkerSet"),
+           read_markers);
   read_wrap_objects(r, skeleton);
-  read_forces(r, model.child("ForceSet") ? model.child("ForceSet") : model.child("ActuatorSet"));
+  read_set(r, model.child("ForceSet") ? model.child("ForceSet") : model.child("ActuatorSet"),
+           read_forces);
   read_constraints(r, skeleton.child("ConstraintSet") ? skeleton.child("ConstraintSet")
                                                       : model.child("ConstraintSet"));
   for (const auto node : model.child("components").children()) {

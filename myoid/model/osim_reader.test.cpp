@@ -1,5 +1,8 @@
 #include "myoid/model/osim_reader.h"
 
+#include <filesystem>
+#include <fstream>
+
 #include <gtest/gtest.h>
 
 #include "myoid/core/error.h"
@@ -74,6 +77,61 @@ double worst_marker_error(const std::string& folder, const std::string& motion) 
     }
   }
   return worst;
+}
+
+/// The built-in arm with a piece of its text replaced.
+std::string arm_with(const std::string& old, const std::string& piece) {
+  std::string text = arm4_osim();
+  const auto at = text.find(old);
+  EXPECT_NE(at, std::string::npos) << old;
+  return text.replace(at, old.size(), piece);
+}
+
+TEST(ParseOsim, MarkersMayStandInAFileOfTheirOwn) {
+  const auto folder = std::filesystem::temp_directory_path() / "myoid_markers_apart";
+  std::filesystem::create_directories(folder / "sets");
+  std::ofstream(folder / "sets/m.xml")
+      << "<OpenSimDocument Version=\"40000\"><MarkerSet><objects><Marker name=\"apart\">"
+         "<socket_parent_frame>/bodyset/forearm_hand</socket_parent_frame>"
+         "<location>0.1 0.2 0.3</location></Marker></objects></MarkerSet></OpenSimDocument>";
+  const std::string text = arm4_osim();
+  const auto begin = text.find("<MarkerSet"), end = text.find("</MarkerSet>");
+  ASSERT_NE(end, std::string::npos);
+  const BodyModel m = parse_osim(
+      text.substr(0, begin) + "<MarkerSet file=\"sets\\m.xml\"/>" + text.substr(end + 12),
+      folder / "arm.osim");
+  ASSERT_EQ(m.markers.size(), 1U);
+  EXPECT_EQ(m.markers[0].name, "apart");
+  EXPECT_EQ(m.markers[0].p_BM, Vec3(0.1, 0.2, 0.3));
+  EXPECT_EQ(m.bodies[static_cast<std::size_t>(m.markers[0].body)].name, "forearm_hand");
+  EXPECT_TRUE(m.unsupported.empty());
+  std::filesystem::remove_all(folder);
+}
+
+TEST(ParseOsim, CouplersByPolynomialsAndSplinesOfOneVariable) {
+  const auto coupled = [](const std::string& function) {
+    const BodyModel m = parse_osim(
+        arm_with("</Model>",
+                 "<ConstraintSet><objects><CoordinateCouplerConstraint name=\"c\">"
+                 "<coupled_coordinates_function>" +
+                     function +
+                     "</coupled_coordinates_function><independent_coordinate_names>elbow_flexion"
+                     "</independent_coordinate_names><dependent_coordinate_name>shoulder_rotation"
+                     "</dependent_coordinate_name><scale_factor>2</scale_factor>"
+                     "</CoordinateCouplerConstraint></objects></ConstraintSet></Model>"),
+        "arm.osim");
+    EXPECT_EQ(m.couplers.size(), 1U);
+    return evaluate(m.couplers.at(0).function, 0.5).value;
+  };
+  // Lowest power first: 2 (1 + 2 x + 3 x^2) at 0.5.
+  EXPECT_NEAR(coupled("<MultivariatePolynomialFunction><dimension>1</dimension><order>2</order>"
+                      "<coefficients>1 2 3</coefficients></MultivariatePolynomialFunction>"),
+              2.0 * 2.75, 1e-14);
+  EXPECT_NEAR(coupled("<GCVSpline><half_order>1</half_order><x>0 1</x><y>1 3</y></GCVSpline>"), 4.0,
+              1e-14);
+  EXPECT_NEAR(
+      coupled("<PiecewiseLinearFunction><x>0 1 2</x><y>0 2 2</y></PiecewiseLinearFunction>"), 2.0,
+      1e-14);
 }
 
 TEST(ParseOsim, MarkersOfArm26LieWhereOpenSimPutsThem) {

@@ -118,7 +118,9 @@ model::BodyModel setup_model(const OpensimSetup& setup,
     files.push_back(std::move(old));
   for (const std::string& name : files) {
     if (recording::equal_ignoring_case(name, "Unassigned")) continue;
-    model = model::with_force_set(std::move(model), xml.path().parent_path() / name);
+    std::string local = name;
+    std::replace(local.begin(), local.end(), '\\', '/');
+    model = model::with_force_set(std::move(model), xml.path().parent_path() / local);
   }
   for (const std::string& name : excluded) {
     const bool all = recording::equal_ignoring_case(name, "all");

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "myoid/core/progress.h"
+#include "myoid/forces/static_optimization.h"
 #include "myoid/model/compat.h"
 
 namespace myoid::pipeline {
@@ -15,6 +16,7 @@ struct ToolOptions {
   Progress progress{};
   /// Called with each file before it is computed; throws to refuse it.
   std::function<void(const std::filesystem::path&)> claim{};
+  forces::InspectFrame inspect{};  ///< Static optimization, for checks.
 };
 
 struct ToolResult {

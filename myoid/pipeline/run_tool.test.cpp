@@ -113,6 +113,45 @@ TEST_F(RunTool, InverseDynamicsNamesItsColumnsByTheKindOfMotion) {
   EXPECT_TRUE(read("id.sto").find("elbow_flexion_moment"));
 }
 
+TEST_F(RunTool, ATimeRangeBeyondTheDataIsWhatThereIs) {
+  write_motion(60);
+  (void)run(
+      "<InverseDynamicsTool name=\"id\"><model_file>arm.osim</model_file>"
+      "<forces_to_exclude>ALL</forces_to_exclude><time_range>-5 99</time_range>"
+      "<coordinates_file>motion.mot</coordinates_file>"
+      "<output_gen_force_file>id.sto</output_gen_force_file></InverseDynamicsTool>");
+  EXPECT_EQ(read("id.sto").sample_count(), 60);
+  write_markers(20);
+  const ToolResult ik =
+      run("<InverseKinematicsTool><model_file>.\\arm.osim</model_file><time_range>-5 99"
+          "</time_range><marker_file> m.trc </marker_file><output_motion_file>sub\\ik.mot"
+          "</output_motion_file></InverseKinematicsTool>");
+  EXPECT_EQ(ik.frames, 20);
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "sub/ik.mot"));
+}
+
+// The shoulder has no marker task: what its coordinate tasks say from a file, it does.
+TEST_F(RunTool, CoordinateTasksTakeTheirTargetsFromAFile) {
+  write_markers(20);
+  std::string motion =
+      "Coordinates\nversion=1\nnRows=20\nnColumns=2\ninDegrees=yes\nendheader\ntime\t"
+      "elbow_flexion\n";
+  for (int i = 0; i < 20; ++i) motion += fmt::format("{}\t{}\n", 0.01 * i, 40.0 + 0.5 * i);
+  write("wish.mot", motion);
+  (void)run(
+      "<InverseKinematicsTool><model_file>arm.osim</model_file><marker_file>m.trc</marker_file>"
+      "<coordinate_file>wish.mot</coordinate_file><IKTaskSet><objects>"
+      "<IKMarkerTask name=\"" +
+      arm_.markers.back().name +
+      "\"><apply>true</apply><weight>1e-9</weight></IKMarkerTask>"
+      "<IKCoordinateTask name=\"elbow_flexion\"><apply>true</apply><weight>1000</weight>"
+      "<value_type>from_file</value_type></IKCoordinateTask></objects></IKTaskSet>"
+      "<output_motion_file>ik.mot</output_motion_file></InverseKinematicsTool>");
+  const TimeSeries q = read("ik.mot");
+  // The marker's pull, normalized, is of size 1 in J, the task's 1000 rad^-2.
+  for (int i = 0; i < 20; ++i) EXPECT_NEAR(q.column("elbow_flexion")[i], 40.0 + 0.5 * i, 0.1);
+}
+
 TEST_F(RunTool, AnalysesShareAMotion) {
   write_motion(40);
   std::string reserves = "<OpenSimDocument Version=\"40000\"><ForceSet><objects>";

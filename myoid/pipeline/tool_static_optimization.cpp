@@ -158,7 +158,8 @@ void run_static_optimization(AnalysisRun& run, pugi::xml_node node) {
       .exponent = xml.number(node, "activation_exponent", 2.0),
       .muscle_physiology = xml.flag(node, "use_muscle_physiology", true),
       .loads = run.loads ? &*run.loads : nullptr,
-      .progress = run.options.progress};
+      .progress = run.options.progress,
+      .inspect = run.options.inspect};
   if (!(options.exponent > 1.0)) {
     xml.fail(
         xml.property(node, "activation_exponent"),

@@ -41,8 +41,6 @@ const std::map<std::string, std::string> kWithoutTest = {
     {"myoid/model/osim_xml.h", "a part of the reader, tested as part of osim_reader"},
     {"myoid/model/path_exact.h", "a part of the paths, tested as part of muscle_path"},
     {"myoid/model/path_opensim.h", "a part of the paths, tested by the OpenSim table"},
-    {"myoid/model/wrap_opensim.h", "a part of the paths, tested by the OpenSim table"},
-    {"myoid/model/wrap_opensim_ellipsoid.h", "a part of the paths, tested by the OpenSim table"},
     {"myoid/muscle/force_velocity.h", "tested as part of hill_muscle"},
     {"myoid/muscle/hill_parameters.h", "tested as part of hill_muscle"},
     {"myoid/pipeline/lumped_muscles.h", "exercised by design_study.test"},

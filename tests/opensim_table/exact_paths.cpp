@@ -1,12 +1,16 @@
-// Exact paths at random postures: minus the derivative of the length along a random direction of
-// all coordinates, by differences, against the moment arms. A row per model:
+// Exact paths of every public model, the table of docs/theory/model.md, a row per model:
 //
-//   exact_paths [--postures N] [--worst N] MODEL.osim...
+//   exact_paths [--postures N] [--worst N] [MODEL.osim...]
 //
-// "kinks" are samples where contact begins or ends within the difference (the derivative of one
-// side is met), "unsettled" where several wrap objects push the path off each other
-// (PathResult::settled), "jumps" where the length itself is another one on both sides; none of them
-// is in "worst".
+// At N random postures (10 000): minus the derivative of the length along a random direction of all
+// coordinates, by differences, against the moment arms; and the lengthening speed of a motion in
+// that direction against the moment arms times its rates, so that the power of the muscles' forces
+// is that of their torques. "kinks" are samples where contact begins or ends within the difference
+// (the derivative of one side is met), "unsettled" where several wrap objects push the path off
+// each other (PathResult::settled), "jumps" where the length itself is another one on both sides;
+// none of them is in "worst". Along N / 50 straight lines between random postures: places where the
+// length jumps by more than a micrometer, narrowed down to 1e-9 of the line. Without models: all
+// of MYOID_DATA/opensim (../shared/data/opensim).
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -28,7 +32,9 @@ using namespace myoid;
 
 struct Row {
   long samples = 0, kinks = 0, unsettled = 0, jumps = 0;
-  double worst_m = 0.0;
+  double worst_m = 0.0, power = 0.0, greatest_jump_m = 0.0;
+  long lines = 0, jumps_on_lines = 0;
+  std::map<std::string, long> line_jumps_of;
   std::map<std::string, long> unsettled_of, jumps_of;
   std::map<std::string, double> worst_of;
 };
@@ -88,16 +94,76 @@ Row survey(const model::BodyModel& m, int postures) {
     d.normalize();
     for (int s = -2; s <= 2; ++s) {
       model::compute_poses(m, q + s * h * d, state);
+      model::compute_velocities(m, d, state);
       for (std::size_t i = 0; i < lines.size(); ++i) {
         model::compute_path(m, m.muscles[i].path, state, workspace, path);
         lines[i].length_m[s + 2] = path.length_m;
         lines[i].settled = path.settled && (s == -2 || lines[i].settled);
-        if (s == 0) lines[i].arm_m = path.moment_arm_m.dot(d);
+        if (s == 0) {
+          lines[i].arm_m = path.moment_arm_m.dot(d);
+          row.power = std::max(row.power, std::abs(path.speed_mps + lines[i].arm_m));
+        }
       }
     }
     for (std::size_t i = 0; i < lines.size(); ++i) judge(m.muscles[i].name, lines[i], h, row);
   }
   return row;
+}
+
+/// A muscle at a place of a line: its length, and the moment arm along it.
+struct OnLine {
+  double length_m = 0.0, arm_m = 0.0;
+  bool settled = true;
+};
+
+/// Straight lines between random postures: does any length step where its moment arms do not say
+/// so? A suspect step is halved, the worse half followed, until it is 1e-9 of the line.
+void follow_lines(const model::BodyModel& m, int count, Row& row) {
+  constexpr int kSteps = 100;
+  model::BodyState state = model::make_state(m);
+  model::PathWorkspace workspace;
+  model::PathResult path;
+  for (int k = 0; k < count; ++k) {
+    const Eigen::VectorXd from = model::random_posture(m, 9, static_cast<std::uint64_t>(k));
+    const Eigen::VectorXd along =
+        model::random_posture(m, 10, static_cast<std::uint64_t>(k)) - from;
+    const auto at = [&](std::size_t muscle) {
+      model::compute_path(m, m.muscles[muscle].path, state, workspace, path);
+      return OnLine{path.length_m, path.moment_arm_m.dot(along), path.settled};
+    };
+    const auto defect = [](const OnLine& a, const OnLine& b, double step) {
+      return std::abs(b.length_m - a.length_m + 0.5 * step * (a.arm_m + b.arm_m));
+    };
+    std::vector<OnLine> before(m.muscles.size());
+    for (int i = 0; i <= kSteps; ++i) {
+      for (std::size_t muscle = 0; muscle < m.muscles.size(); ++muscle) {
+        double low = (i - 1.0) / kSteps, high = static_cast<double>(i) / kSteps;
+        model::compute_poses(m, from + high * along, state);
+        const OnLine now = at(muscle);
+        OnLine a = before[muscle], b = now;
+        before[muscle] = now;
+        if (i == 0 || defect(a, b, high - low) < 1e-5) continue;
+        while (high - low > 1e-9) {
+          const double middle = 0.5 * (low + high);
+          model::compute_poses(m, from + middle * along, state);
+          const OnLine c = at(muscle);
+          if (defect(a, c, middle - low) > defect(c, b, high - middle)) {
+            b = c;
+            high = middle;
+          } else {
+            a = c;
+            low = middle;
+          }
+        }
+        const double jump = defect(a, b, high - low);
+        if (jump < 1e-6 || !a.settled || !b.settled) continue;
+        ++row.jumps_on_lines;
+        ++row.line_jumps_of[m.muscles[muscle].name];
+        row.greatest_jump_m = std::max(row.greatest_jump_m, jump);
+      }
+    }
+  }
+  row.lines = static_cast<long>(count) * static_cast<long>(m.muscles.size());
 }
 
 template <typename Value>
@@ -106,7 +172,7 @@ void print_greatest(const char* what, const std::map<std::string, Value>& by_mus
   for (const auto& [muscle, value] : by_muscle) sorted.push_back({value, muscle});
   std::sort(sorted.rbegin(), sorted.rend());
   for (std::size_t i = 0; i < sorted.size() && i < static_cast<std::size_t>(count); ++i)
-    fmt::print("      {} {}: {:.4g}\n", what, sorted[i].second,
+    fmt::print("| {} {}: {:.4g} | | | | | | | | |\n", what, sorted[i].second,
                static_cast<double>(sorted[i].first));
 }
 
@@ -127,23 +193,41 @@ int main(int argc, char** argv) {
     }
   }
   if (files.empty()) {
-    fmt::print(stderr, "exact_paths [--postures N] [--worst N] MODEL.osim...\n");
+    const char* data = std::getenv("MYOID_DATA");
+    const std::filesystem::path folder =
+        std::filesystem::path(data != nullptr ? data : MYOID_SOURCE_DIR "/../shared/data") /
+        "opensim";
+    if (std::filesystem::exists(folder)) {
+      for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
+        if (entry.path().extension() == ".osim") files.push_back(entry.path());
+    }
+    std::sort(files.begin(), files.end());
+  }
+  if (files.empty()) {
+    fmt::print(stderr, "exact_paths [--postures N] [--worst N] [MODEL.osim...]\n");
     return 2;
   }
-  fmt::print("{:<46} {:>8} {:>9} {:>6} {:>9} {:>6}\n", "model", "samples", "worst [m]", "kinks",
-             "unsettled", "jumps");
+  fmt::print(
+      "| model | samples | worst [m] | power | kinks | unsettled | jumps | lines | jumps on them "
+      "|\n| --- | --- | --- | --- | --- | --- | --- | --- | --- |\n");
   for (const auto& file : files) {
+    const std::string name = (file.parent_path().filename() / file.filename()).string();
     try {
       const model::BodyModel m = model::read_osim(file);
-      const Row row = survey(m, postures);
-      const std::string name = (file.parent_path().filename() / file.filename()).string();
-      fmt::print("{:<46} {:>8} {:>9.1e} {:>6} {:>9} {:>6}\n", name, row.samples, row.worst_m,
-                 row.kinks, row.unsettled, row.jumps);
+      Row row = survey(m, postures);
+      follow_lines(m, postures / 50, row);
+      fmt::print("| {} | {} | {:.1e} | {:.0e} | {} | {} | {} | {} | {} |\n", name, row.samples,
+                 row.worst_m, row.power, row.kinks, row.unsettled, row.jumps, row.lines,
+                 row.jumps_on_lines == 0
+                     ? "0"
+                     : fmt::format("{}, up to {:.1e} m", row.jumps_on_lines, row.greatest_jump_m));
       print_greatest("unsettled", row.unsettled_of, worst);
       print_greatest("jumps", row.jumps_of, worst);
+      print_greatest("jumps on lines", row.line_jumps_of, worst);
       if (row.worst_m > 1e-6) print_greatest("worst", row.worst_of, worst);
+      std::fflush(stdout);
     } catch (const std::exception& error) {
-      fmt::print("{:<46} {}\n", file.string(), error.what());
+      fmt::print("| {} | not read: {} | | | | | | | |\n", name, error.what());
     }
   }
   return 0;

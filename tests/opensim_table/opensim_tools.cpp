@@ -1,26 +1,30 @@
 // Runs every set-up file of the shared data set by run_tool and compares the files it leaves with
-// those of OpenSim 4.5.2, one row per set-up:
+// those of OpenSim 4.5.2; the table of docs/opensim-tools.md, one row per file:
 //
 //   opensim_tools [--case NAME] [--columns] [FOLDER]
 //
 // Each case is copied to a scratch folder. A stage gets OpenSim's own results of the stages before,
 // so that each row stands for itself. Inverse kinematics is compared with the tight run where there
-// is one, also by its objective. --columns adds the worst column of each file.
+// is one, also by its objective; static optimization also by cost and constraint residual of every
+// frame. --columns adds the worst column of each file, and what the tools said.
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include "myoid/forces/actuator_sharing.h"
 #include "myoid/model/kinematic_tree.h"
 #include "myoid/model/osim_reader.h"
+#include "myoid/model/osim_writer.h"
 #include "myoid/pipeline/opensim_files.h"
 #include "myoid/pipeline/run_tool.h"
 #include "myoid/pipeline/tool_stages.h"
@@ -130,12 +134,23 @@ void copy_case(const fs::path& from, const fs::path& to) {
   }
 }
 
-void report(const fs::path& file, const Worst& worst, const char* unit, bool columns) {
-  if (!worst.any) return;
-  fmt::print("|  | `{}` | {:.1e} {} | {:.1e} |{}\n", file.filename().string(), worst.error, unit,
-             worst.relative,
-             columns ? fmt::format(" {} at {} s", worst.column, worst.time) : std::string());
-}
+/// Where a row belongs, and whether to name its worst column.
+struct Rows {
+  std::string setup;
+  bool columns = false;
+  void add(const std::string& what, const std::string& error, const std::string& relative) const {
+    fmt::print("| {} | {} | {} | {} |\n", setup, what, error, relative);
+  }
+  void add(const std::string& what, const Worst& worst, const std::string& unit) const {
+    if (!worst.any) return;
+    std::string text = fmt::format("{:.1e}", worst.error);
+    if (!unit.empty()) text += " " + unit;
+    if (columns) text += fmt::format(" ({} at {} s)", worst.column, worst.time);
+    add(what, text, fmt::format("{:.1e}", worst.relative));
+  }
+};
+
+std::string code(const fs::path& file) { return "`" + file.filename().string() + "`"; }
 
 struct Options {
   fs::path folder;
@@ -146,28 +161,78 @@ struct Options {
 void compare_ik(const fs::path& setup_file,
                 const fs::path& ours_file,
                 const fs::path& reference,
-                bool columns) {
+                const Rows& rows) {
   fs::path tight = reference / (ours_file.stem().string() + "_tight.mot");
   if (!fs::exists(tight)) tight = reference / ours_file.filename();
   if (!fs::exists(tight)) return;
   const TimeSeries ours = recording::read_storage(ours_file).data;
   const TimeSeries theirs = recording::read_storage(tight).data;
-  report(tight, compare(ours, theirs, 0, same), "deg, m", columns);
+  rows.add(code(tight), compare(ours, theirs, 0, same), "deg, m");
   const Eigen::VectorXd j = objective(setup_file, ours_file), k = objective(setup_file, tight);
-  if (j.size() == k.size()) {
-    const Eigen::ArrayXd excess = (j - k).array() / (k.array() + 1e-12);
-    fmt::print("|  | objective, ours above theirs | {:.1e} | median {:.1e} |\n", excess.maxCoeff(),
-               [&] {
-                 Eigen::ArrayXd sorted = excess;
-                 std::sort(sorted.data(), sorted.data() + sorted.size());
-                 return sorted[sorted.size() / 2];
-               }());
+  if (j.size() != k.size()) return;
+  Eigen::ArrayXd excess = (j - k).array() / (k.array() + 1e-12);
+  const double worst = excess.maxCoeff();
+  std::sort(excess.data(), excess.data() + excess.size());
+  rows.add("objective, ours above theirs", fmt::format("{:.1e}", worst),
+           fmt::format("median {:.1e}", excess[excess.size() / 2]));
+}
+
+/// Every frame of a static optimization as it was solved here.
+struct SharedFrames {
+  std::map<Eigen::Index, std::pair<forces::ActuatorProblem, forces::ActuatorSolution>> frames;
+  std::mutex mutex;
+  forces::InspectFrame keep() {
+    return [this](Eigen::Index i, const forces::ActuatorProblem& p,
+                  const forces::ActuatorSolution& s) {
+      const std::lock_guard lock(mutex);
+      frames.insert_or_assign(i, std::pair(p, s));
+    };
   }
+};
+
+/// Cost and constraint residual of every frame, ours against those of OpenSim's controls in the
+/// same problem. A residual buys cost: the last row charges theirs for it at the price of the
+/// multipliers, which makes a lower bound of the cost, since the problem is convex.
+void compare_sharing(const SharedFrames& shared, const fs::path& reference, const Rows& rows) {
+  const TimeSeries theirs = recording::read_storage(reference).data;
+  double residual_ours = 0.0, residual_theirs = 0.0, excess = -INFINITY, priced = -INFINITY;
+  int residual_above = 0, cost_above = 0, priced_above = 0, count = 0;
+  for (const auto& [i, frame] : shared.frames) {
+    const auto& [problem, solution] = frame;
+    if (i >= theirs.sample_count() || problem.forces.cols() != theirs.channel_count()) return;
+    const Eigen::VectorXd x = theirs.values().row(i).transpose();
+    const auto cost = [&](const Eigen::VectorXd& control) {
+      return control.cwiseAbs().array().pow(problem.exponent).sum();
+    };
+    const Eigen::VectorXd gap = problem.required - problem.forces * x;
+    const double mine =
+        (problem.required - problem.forces * solution.control).cwiseAbs().maxCoeff();
+    const double other = gap.cwiseAbs().maxCoeff();
+    residual_ours = std::max(residual_ours, mine);
+    residual_theirs = std::max(residual_theirs, other);
+    const double above = cost(solution.control) / cost(x) - 1.0;
+    const double charged = cost(solution.control) / (cost(x) + solution.multiplier.dot(gap)) - 1.0;
+    excess = std::max(excess, above);
+    priced = std::max(priced, charged);
+    residual_above += mine > other ? 1 : 0;
+    cost_above += above > 1e-9 ? 1 : 0;
+    priced_above += charged > 1e-9 ? 1 : 0;
+    ++count;
+  }
+  if (count == 0) return;
+  const auto frames = [&](int above) {
+    return fmt::format("above in {} of {} frames", above, count);
+  };
+  rows.add("constraint residual",
+           fmt::format("{:.1e}, OpenSim's {:.1e} N m, N", residual_ours, residual_theirs),
+           frames(residual_above));
+  rows.add("cost, ours above theirs", fmt::format("{:.1e}", excess), frames(cost_above));
+  rows.add("the same, their residual charged", fmt::format("{:.1e}", priced), frames(priced_above));
 }
 
 void compare_moment_arms(const std::vector<fs::path>& files,
                          const fs::path& reference,
-                         bool columns) {
+                         const Rows& rows) {
   if (!fs::exists(reference)) return;
   const TimeSeries theirs = recording::read_storage(reference).data;
   Worst all;
@@ -187,48 +252,63 @@ void compare_moment_arms(const std::vector<fs::path>& files,
       all.time = worst.time;
     }
   }
-  report(reference, all, "m", columns);
+  rows.add(code(reference), all, "m");
+}
+
+/// The columns of a table of outputs whose names end so.
+TimeSeries ending(const TimeSeries& table, const std::string& end) {
+  std::vector<std::string> names;
+  for (const Channel& channel : table.channels())
+    if (channel.name.ends_with(end)) names.push_back(channel.name);
+  return table.select(names);
+}
+
+void compare_file(const fs::path& file, const fs::path& theirs, bool dynamics, const Rows& rows) {
+  const TimeSeries ours = recording::read_storage(file).data;
+  const TimeSeries reference = recording::read_storage(theirs).data;
+  const std::string name = file.filename().string();
+  if (name.ends_with("_Outputs.sto")) {
+    rows.add(code(theirs) + " lengths", compare(ending(ours, "|length"), reference, 0, last_part),
+             "m");
+    rows.add(code(theirs) + " speeds",
+             compare(ending(ours, "|lengthening_speed"), reference, 0, last_part), "m/s");
+  } else if (name.ends_with("_OutputsVec3.sto")) {
+    rows.add(code(theirs) + " places", compare(ours, reference, 0, last_part), "m");
+  } else {
+    const Eigen::Index skip = dynamics ? std::min<Eigen::Index>(10, ours.sample_count() / 4) : 0;
+    rows.add(code(theirs), compare(ours, reference, skip, same), dynamics ? "N m, N" : "");
+  }
 }
 
 void run_setup(const fs::path& setup, const fs::path& reference, const Options& options) {
-  const auto start = std::chrono::steady_clock::now();
+  const Rows rows{setup.stem().string(), options.columns};
   pipeline::ToolResult result;
+  SharedFrames shared;
   try {
-    result = pipeline::run_tool(setup);
+    result = pipeline::run_tool(setup, {.inspect = shared.keep()});
   } catch (const std::exception& error) {
-    fmt::print("| {} | FAILED: {} |  |  |\n", setup.filename().string(), error.what());
+    rows.add(fmt::format("FAILED: {}", error.what()), "", "");
     return;
   }
-  const double seconds =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  fmt::print("| {} | {} {} ({:.3f} s, {} of {} frames failed) |  |  |\n", setup.filename().string(),
-             result.tool, result.summary, seconds, result.frames_failed, result.frames);
+  if (result.frames_failed > 0)
+    rows.add("frames that failed", fmt::format("{} of {}", result.frames_failed, result.frames),
+             "");
   if (options.columns)
-    for (const std::string& note : result.notes) fmt::print("| | note: {} | | |\n", note);
+    for (const std::string& note : result.notes) rows.add("note: " + note, "", "");
   for (const fs::path& file : result.files) {
     const fs::path theirs = reference / file.filename();
-    const std::string name = file.filename().string();
-    if (result.tool == "InverseKinematicsTool" && file.extension() == ".mot") {
-      compare_ik(setup, file, reference, options.columns);
-    } else if (file.extension() == ".sto" && fs::exists(theirs) &&
-               result.tool != "InverseKinematicsTool") {
-      const bool dynamics = result.tool == "InverseDynamicsTool";
-      const TimeSeries ours = recording::read_storage(file).data;
-      const TimeSeries reference_data = recording::read_storage(theirs).data;
-      const bool outputs = name.find("Outputs") != std::string::npos;
-      const Worst worst =
-          outputs
-              ? compare(ours, reference_data, 0, last_part)
-              : compare(ours, reference_data,
-                        dynamics ? std::min<Eigen::Index>(10, ours.sample_count() / 4) : 0, same);
-      report(theirs, worst, dynamics ? "N m, N" : "", options.columns);
+    if (result.tool == "InverseKinematicsTool") {
+      if (file.extension() == ".mot") compare_ik(setup, file, reference, rows);
+    } else if (file.extension() == ".sto" && fs::exists(theirs)) {
+      compare_file(file, theirs, result.tool == "InverseDynamicsTool", rows);
+      if (file.filename().string().ends_with("_activation.sto"))
+        compare_sharing(shared, theirs, rows);
     }
   }
   if (result.tool == "AnalyzeTool" && !result.files.empty()) {
     const std::string name = result.files.front().filename().string();
     compare_moment_arms(result.files,
-                        reference / (name.substr(0, name.find('_')) + "_moment_arms.sto"),
-                        options.columns);
+                        reference / (name.substr(0, name.find('_')) + "_moment_arms.sto"), rows);
   }
   // The next stage reads what OpenSim left.
   for (const fs::path& file : result.files) {
@@ -243,6 +323,32 @@ void run_setup(const fs::path& setup, const fs::path& reference, const Options& 
       std::ifstream in(given, std::ios::binary);
       std::ofstream(file, std::ios::binary) << in.rdbuf();
     }
+  }
+}
+
+/// A model read, every muscle's numbers written back, and read again.
+void compare_rewritten(const fs::path& file) {
+  const Rows rows{file.filename().string()};
+  std::ifstream in(file, std::ios::binary);
+  const std::string text((std::istreambuf_iterator<char>(in)), {});
+  try {
+    std::vector<model::OsimChange> changes;
+    for (const model::Muscle& muscle : model::parse_osim(text, file).muscles) {
+      const model::MuscleProperties& p = muscle.properties;
+      changes.push_back(
+          {"ForceSet", muscle.name, "max_isometric_force", {p.max_isometric_force_n}});
+      changes.push_back(
+          {"ForceSet", muscle.name, "optimal_fiber_length", {p.optimal_fiber_length_m}});
+      changes.push_back(
+          {"ForceSet", muscle.name, "tendon_slack_length", {p.tendon_slack_length_m}});
+    }
+    const std::string written = model::changed_osim(text, file, changes);
+    const model::BodyModel again = model::parse_osim(written, file);
+    rows.add(
+        "read, written, read again", written == text ? "0 bytes differ" : "BYTES DIFFER",
+        again.unsupported.empty() ? "" : fmt::format("{}", fmt::join(again.unsupported, "; ")));
+  } catch (const std::exception& error) {
+    rows.add(fmt::format("not read: {}", error.what()), "", "");
   }
 }
 
@@ -267,6 +373,7 @@ int main(int argc, char** argv) {
   for (const auto& entry : fs::directory_iterator(options.folder))
     if (entry.is_directory()) cases.push_back(entry.path());
   std::sort(cases.begin(), cases.end());
+  fmt::print("| case, set-up | result | worst error | of the peak |\n| --- | --- | --- | --- |\n");
   for (const fs::path& folder_of_case : cases) {
     const std::string name = folder_of_case.filename().string();
     if (!options.only.empty() && name.find(options.only) == std::string::npos) continue;
@@ -281,10 +388,9 @@ int main(int argc, char** argv) {
     }
     if (setups.empty()) continue;
     std::sort(setups.begin(), setups.end());
-    fmt::print(
-        "\n## {}\n\n| set-up | file | worst error | of the column's peak |\n| --- | --- | --- | "
-        "--- |\n",
-        name);
+    fmt::print("| **{}** | | | |\n", name);
+    for (const auto& entry : fs::directory_iterator(folder_of_case))
+      if (entry.path().extension() == ".osim") compare_rewritten(entry.path());
     for (const fs::path& setup : setups) run_setup(setup, folder_of_case / "opensim", options);
     fs::remove_all(scratch);
   }

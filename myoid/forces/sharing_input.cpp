@@ -1,0 +1,98 @@
+#include "myoid/forces/sharing_input.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "myoid/core/error.h"
+#include "myoid/dynamics/inverse_dynamics.h"
+#include "myoid/forces/opensim_muscle.h"
+#include "myoid/model/constraints.h"
+#include "myoid/model/kinematic_tree.h"
+
+namespace myoid::forces {
+namespace {
+
+std::size_t at(Eigen::Index index) { return static_cast<std::size_t>(index); }
+
+std::vector<Eigen::Index> balanced(const model::BodyModel& model,
+                                   const std::vector<std::string>& names) {
+  std::vector<Eigen::Index> result;
+  for (const std::string& name : names) {
+    const int c = model.coordinate_index(name);
+    if (model.is_constrained(c)) {
+      throw ModelError(fmt::format(
+          "coordinate '{}' is locked, prescribed or follows another: no torque of its own moves it",
+          name));
+    }
+  }
+  for (std::size_t c = 0; c < model.coordinates.size(); ++c) {
+    const bool wanted = names.empty() ? !model.is_constrained(static_cast<int>(c))
+                                      : std::find(names.begin(), names.end(),
+                                                  model.coordinates[c].name) != names.end();
+    if (wanted) result.push_back(static_cast<Eigen::Index>(c));
+  }
+  return result;
+}
+
+}  // namespace
+
+SharingInput sharing_input(const model::BodyModel& model,
+                           const kinematics::JointMotion& motion,
+                           const std::vector<std::string>& coordinates,
+                           const dynamics::ExternalLoads* loads) {
+  if (model.muscles.empty()) throw ModelError("the model has no muscles");
+  SharingInput input;
+  const std::vector<Eigen::Index> chosen = balanced(model, coordinates);
+  if (!model.constraints.empty()) {
+    input.notes.push_back(
+        "joints form closed loops: the forces of their constraints are not known here; run-tool's "
+        "static optimization projects them out");
+  }
+  const TimeSeries tau =
+      dynamics::inverse_dynamics(model, motion, {.loads = loads, .passive_forces = true});
+  input.muscles = kinematics::muscle_kinematics(model, motion);
+  const Eigen::Index frames = motion.sample_count();
+  const auto count = static_cast<Eigen::Index>(model.muscles.size());
+  const auto rows = static_cast<Eigen::Index>(chosen.size());
+  Eigen::MatrixXd torque(frames, rows);
+  model::BodyState state = model::make_state(model);
+  for (Eigen::Index i = 0; i < frames; ++i) {
+    state.q = motion.q.values().row(i).transpose();
+    // Rates of all coordinates per rate of each: only couplers count here.
+    for (Eigen::Index k = 0; k < rows; ++k) {
+      Eigen::VectorXd rate = Eigen::VectorXd::Unit(state.q.size(), chosen[at(k)]);
+      for (std::size_t round = 0; round < model.couplers.size(); ++round) {
+        for (const model::CoordinateCoupler& c : model.couplers)
+          rate[c.dependent] =
+              evaluate(c.function, state.q[c.independent]).first * rate[c.independent];
+      }
+      torque(i, k) = tau.values().row(i).dot(rate);
+    }
+  }
+  std::vector<Channel> channels;
+  for (const Eigen::Index c : chosen) {
+    channels.push_back(tau.channels()[at(c)]);
+    // They follow the couplers already.
+    input.moment_arms.push_back(input.muscles.moment_arm.at(model.coordinates[at(c)].name));
+  }
+  input.torques = TimeSeries(tau.time_s(), std::move(channels), std::move(torque));
+  input.optimal_force_n.resize(frames, count);
+  input.max_isometric_force_n.resize(count);
+  for (Eigen::Index m = 0; m < count; ++m) {
+    const OpensimMuscle muscle(model.muscles[at(m)], model.compat);
+    if (!muscle.has_own_curves()) {
+      input.notes.push_back(
+          fmt::format("muscle '{}' of class {}: its strength is that of Thelen's curves",
+                      model.muscles[at(m)].name, model.muscles[at(m)].class_name));
+    }
+    input.max_isometric_force_n[m] = muscle.properties().max_isometric_force_n;
+    for (Eigen::Index i = 0; i < frames; ++i)
+      input.optimal_force_n(i, m) = muscle.optimal_force(input.muscles.length.values()(i, m),
+                                                         input.muscles.velocity.values()(i, m));
+  }
+  return input;
+}
+
+}  // namespace myoid::forces

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "myoid/core/time_series.h"
+#include "myoid/dynamics/external_loads.h"
+#include "myoid/kinematics/joint_motion.h"
+#include "myoid/kinematics/muscle_kinematics.h"
+#include "myoid/model/body_model.h"
+
+namespace myoid::forces {
+
+/// What force sharing needs of a motion, on its clock (force_sharing.h).
+struct SharingInput {
+  std::vector<TimeSeries> moment_arms;  ///< One for each channel of `torques` [m].
+  TimeSeries torques;                   ///< [N m, N]
+  Eigen::MatrixXd optimal_force_n;      ///< Frames x muscles.
+  Eigen::VectorXd max_isometric_force_n;
+  kinematics::MuscleKinematics muscles;
+  std::vector<std::string> notes;  ///< What a user must know, a sentence each.
+};
+
+/// Torques of inverse dynamics (passive forces of the model and `loads`, if any, counted), moment
+/// arms, and the forces at full activation with a rigid tendon under the curves of each muscle's
+/// own class. `coordinates`: whose torque the muscles balance; empty: all that take a value of
+/// their own. Coordinates that follow another by a coupler add to that one's torque and moment arms
+/// by their rate, so that the couplers' own forces do no work. Throws ModelError if a coordinate is
+/// not in the model or takes no value of its own, or the model has no muscles.
+[[nodiscard]] SharingInput sharing_input(const model::BodyModel& model,
+                                         const kinematics::JointMotion& motion,
+                                         const std::vector<std::string>& coordinates,
+                                         const dynamics::ExternalLoads* loads = nullptr);
+
+}  // namespace myoid::forces
