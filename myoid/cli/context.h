@@ -85,6 +85,7 @@ void add_id(CLI::App& app, Context& context);
 void add_identify(CLI::App& app, Context& context);
 void add_ik(CLI::App& app, Context& context);
 void add_info(CLI::App& app, Context& context);
+void add_init(CLI::App& app, Context& context);
 void add_muscle(CLI::App& app, Context& context);
 void add_paths(CLI::App& app, Context& context);
 void add_report(CLI::App& app, Context& context);

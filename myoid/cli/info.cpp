@@ -306,7 +306,8 @@ ordered_json file_json(const std::filesystem::path& path,
   const std::string extension = recording::extension_of(path);
   if (extension == ".trc") return trc_json(path);
   if (extension == ".mot" || extension == ".sto") return storage_json(path);
-  if (extension == ".csv" || extension == ".tsv" || extension == ".txt") return csv_json(path);
+  if (extension == ".csv" || extension == ".tsv" || extension == ".txt" || extension == ".emt")
+    return csv_json(path);
   if (extension == ".c3d") return c3d_json(path);
   if (extension == ".edf" || extension == ".bdf") return recording_json(path, "EMG (.edf, .bdf)");
   if (extension == ".anc") return recording_json(path, "analog channels (.anc)");

@@ -48,6 +48,7 @@ struct Command {
 /// In the order of the help.
 constexpr Command kCommands[] = {
     {"run", myoid::cli::add_run},
+    {"init", myoid::cli::add_init},
     {"check", myoid::cli::add_check},
     {"compare", myoid::cli::add_compare},
     {"info", myoid::cli::add_info},

@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "myoid/core/build_identity.h"
 #include "myoid/core/error.h"
 #include "myoid/core/provenance.h"
 #include "myoid/pipeline/study_json.h"
@@ -125,7 +126,7 @@ std::string ik_key(const Study& study,
                    std::string_view model_text,
                    const recording::MarkerSeries& markers) {
   const json settings = json::parse(study_json(study));
-  std::string what = std::string(version()) + '\n' + sha256(model_text) + '\n';
+  std::string what = build_identity() + '\n' + sha256(model_text) + '\n';
   for (const char* section : {"model", "markers", "ik"}) what += settings.at(section).dump() + '\n';
   for (const std::string& name : markers.names) what += name + '\n';
   const auto add = [&what](const double* values, Eigen::Index count) {

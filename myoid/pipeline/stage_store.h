@@ -15,7 +15,7 @@ namespace myoid::pipeline {
 
 /// Results of the slow stage, inverse kinematics, kept in a folder between runs, so that a run that
 /// was interrupted, or whose later settings were changed, goes on from there. An entry is found by
-/// the SHA-256 of everything it depends on (program version, model, settings, the markers as
+/// the SHA-256 of everything it depends on (program as built, model, settings, the markers as
 /// numbers), so it is never out of date; a damaged entry is as good as none. Safe for several
 /// threads.
 class StageStore {

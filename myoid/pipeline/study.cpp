@@ -263,6 +263,31 @@ SyncSpec read_sync(TomlTable table, const std::filesystem::path& folder) {
   return sync;
 }
 
+PlateSpec read_plates(TomlTable table,
+                      const std::filesystem::path& folder,
+                      const std::optional<std::filesystem::path>& markers) {
+  PlateSpec plates;
+  if (auto file = table.text("file")) {
+    plates.file = folder / *file;
+  } else if (markers) {
+    plates.file = *markers;
+  } else {
+    table.fail("file", "expected the .c3d file that holds the force plates");
+  }
+  if (table.is_text("bodies")) {
+    (void)table.choice("bodies", "auto", {"auto"});
+  } else if (auto bodies = table.texts("bodies")) {
+    plates.bodies = *bodies;
+    if (std::all_of(bodies->begin(), bodies->end(), [](const auto& b) { return b.empty(); }))
+      table.fail("bodies",
+                 "no body is named; name one for each plate (\"\" for none), or \"auto\"");
+  }
+  plates.least_force_n = positive(table, "least_force_n", plates.least_force_n);
+  if (table.has("lowpass_hz")) plates.lowpass_hz = positive(table, "lowpass_hz", 0.0);
+  table.finish();
+  return plates;
+}
+
 TrialSpec read_trial(TomlTable table, const std::filesystem::path& folder) {
   TrialSpec trial;
   trial.name = table.require_text("name", "a name that is unique in the study");
@@ -287,6 +312,8 @@ TrialSpec read_trial(TomlTable table, const std::filesystem::path& folder) {
   trial.load_cell = path("load_cell");
   if (trial.external_loads && trial.load_cell)
     table.fail("load_cell", "give either 'external_loads' or 'load_cell', not both");
+  if (auto plates = table.table("force_plates"))
+    trial.plates = read_plates(*plates, folder, trial.markers);
   if (trial.markers && trial.motion) {
     table.fail(
         "motion",

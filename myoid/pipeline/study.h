@@ -128,6 +128,14 @@ struct SyncSpec {
   double loads_drift_ppm = 0.0;
 };
 
+/// Force plates under the person.
+struct PlateSpec {
+  std::filesystem::path file;        ///< .c3d
+  std::vector<std::string> bodies;   ///< By plate; empty: found from the markers.
+  double least_force_n = 10.0;       ///< Below it a plate bears nothing.
+  std::optional<double> lowpass_hz;  ///< Empty: as the motion.
+};
+
 struct TrialSpec {
   std::string name;
   std::optional<std::filesystem::path> markers;
@@ -137,6 +145,7 @@ struct TrialSpec {
       external_torque;  ///< <coordinate>_moment that the surroundings exert [N m].
   std::optional<std::filesystem::path> external_loads;  ///< OpenSim's ExternalLoads (.xml).
   std::optional<std::filesystem::path> load_cell;       ///< The recording with its channels.
+  std::optional<PlateSpec> plates;
   Use use = Use::calibration;
   double held_mass_kg = 0.0;
   std::string condition;  ///< Trials of one name are left out together by folds = "condition".

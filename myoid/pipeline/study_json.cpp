@@ -74,6 +74,14 @@ ordered_json sync_json(const std::optional<SyncSpec>& sync) {
   return j;
 }
 
+ordered_json plates_json(const std::optional<PlateSpec>& plates) {
+  if (!plates) return nullptr;
+  return {{"file", plates->file.string()},
+          {"bodies", plates->bodies},
+          {"least_force_n", plates->least_force_n},
+          {"lowpass_hz", or_null(plates->lowpass_hz)}};
+}
+
 ordered_json trial_json(const TrialSpec& trial) {
   return {{"name", trial.name},
           {"markers", or_null(trial.markers)},
@@ -82,6 +90,7 @@ ordered_json trial_json(const TrialSpec& trial) {
           {"external_torque", or_null(trial.external_torque)},
           {"external_loads", or_null(trial.external_loads)},
           {"load_cell", or_null(trial.load_cell)},
+          {"force_plates", plates_json(trial.plates)},
           {"use", std::string(name(trial.use))},
           {"held_mass_kg", trial.held_mass_kg},
           {"condition", trial.condition},

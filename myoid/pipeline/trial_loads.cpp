@@ -1,6 +1,7 @@
 #include "myoid/pipeline/trial_loads.h"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include <fmt/format.h>
@@ -9,6 +10,7 @@
 #include "myoid/dynamics/instrument_load.h"
 #include "myoid/kinematics/inverse_kinematics.h"
 #include "myoid/model/osim_reader.h"
+#include "myoid/pipeline/plate_loads.h"
 #include "myoid/pipeline/trial_clock.h"
 #include "myoid/recording/recording.h"
 #include "myoid/recording/text_file.h"
@@ -117,6 +119,45 @@ dynamics::ExternalForce read_load_cell(
                                    body, "load cell");
 }
 
+dynamics::ExternalLoads read_plates(
+    const Study& study,
+    const TrialSpec& trial,
+    const model::BodyModel& model,
+    const std::optional<recording::MarkerSeries>& markers,
+    const std::function<void(const std::filesystem::path&)>& remember,
+    std::vector<std::string>& notes) {
+  const PlateSpec& spec = *trial.plates;
+  const auto name = spec.file.filename().string();
+  if (!trial.markers || *trial.markers != spec.file) remember(spec.file);
+  const recording::Recording file = recording::read_recording(spec.file);
+  for (const recording::Repair& repair : file.repairs)
+    notes.push_back(fmt::format("{}: {}", name, recording::to_string(repair)));
+  std::vector<recording::ForcePlate> plates = file.plates;
+  if (const auto clock = loads_clock(study, trial, spec.file)) {
+    for (recording::ForcePlate& plate : plates) {
+      for (double& t : plate.time_s) t = clock->study_time_s(t);
+    }
+  }
+  try {
+    dynamics::ExternalLoads loads = plate_loads(
+        plates, recording::rotation_to_y_up(study.markers.up), model, spec.bodies, markers,
+        spec.least_force_n, spec.lowpass_hz ? spec.lowpass_hz : motion_cutoff_hz(study));
+    for (const std::string& note : loads.notes) notes.push_back(fmt::format("{}: {}", name, note));
+    if (markers && markers->frame_count() > 0 &&
+        (markers->time_s[0] < loads.start_s - 0.05 ||
+         markers->time_s[markers->frame_count() - 1] > loads.end_s + 0.05)) {
+      throw InvalidInput(fmt::format(
+          "the force plates were recorded from {:.4g} to {:.4g} s, the markers from {:.4g} to "
+          "{:.4g} s; give start_s and end_s",
+          loads.start_s, loads.end_s, markers->time_s[0],
+          markers->time_s[markers->frame_count() - 1]));
+    }
+    return loads;
+  } catch (const InvalidInput& error) {
+    throw ReadError(spec.file, 0, error.what());
+  }
+}
+
 }  // namespace
 
 std::optional<dynamics::ExternalLoads> read_trial_loads(
@@ -126,20 +167,24 @@ std::optional<dynamics::ExternalLoads> read_trial_loads(
     const std::optional<recording::MarkerSeries>& markers,
     const std::function<void(const std::filesystem::path&)>& remember,
     std::vector<std::string>& notes) {
+  if (!trial.external_loads && !trial.load_cell && !trial.plates) return std::nullopt;
+  dynamics::ExternalLoads loads;
   if (trial.external_loads) {
     remember(*trial.external_loads);
-    dynamics::ExternalLoads loads = dynamics::read_external_loads(model, *trial.external_loads);
+    loads = dynamics::read_external_loads(model, *trial.external_loads);
     notes.insert(notes.end(), loads.notes.begin(), loads.notes.end());
     if (const auto clock = loads_clock(study, trial, *trial.external_loads))
       loads.set_clock(clock->offset_s, clock->drift_ppm);
     if (study.markers.up != 'y')
       notes.push_back(fmt::format("{}: taken as y up, as OpenSim has it; only markers are turned",
                                   trial.external_loads->filename().string()));
-    return loads;
   }
-  if (!trial.load_cell) return std::nullopt;
-  dynamics::ExternalLoads loads;
-  loads.forces.push_back(read_load_cell(study, trial, model, markers, remember, notes));
+  if (trial.load_cell)
+    loads.forces.push_back(read_load_cell(study, trial, model, markers, remember, notes));
+  if (trial.plates) {
+    dynamics::ExternalLoads plates = read_plates(study, trial, model, markers, remember, notes);
+    std::move(plates.forces.begin(), plates.forces.end(), std::back_inserter(loads.forces));
+  }
   return loads;
 }
 

@@ -76,7 +76,7 @@ std::optional<TimeSeries> volts_of(const CsvSeries& series,
 std::optional<CsvSeries> read_channels(const std::filesystem::path& path, bool voltages_only) {
   const std::string extension = path.extension().string();
   const auto is = [&](const char* ending) { return equal_ignoring_case(extension, ending); };
-  if (is(".csv") || is(".tsv") || is(".txt")) return read_emg_table(path);
+  if (is(".csv") || is(".tsv") || is(".txt") || is(".emt")) return read_emg_table(path);
   if (is(".anc")) {
     AncFile file = read_anc(path);
     const auto count = static_cast<std::size_t>(file.data.channel_count());

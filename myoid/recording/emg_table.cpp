@@ -13,6 +13,7 @@
 
 #include "myoid/core/error.h"
 #include "myoid/recording/c3d_file.h"
+#include "myoid/recording/vendor_table.h"
 
 namespace myoid::recording {
 namespace {
@@ -88,9 +89,9 @@ bool is_time(const Label& label) {
   std::string name = lower(label.name);
   if (const std::size_t point = name.find('.'); point != std::string::npos && point > 0)
     name.resize(point);  // "X[s].1" of programs that make names unique
-  static const std::set<std::string> kWords{"time",    "t",         "times",      "time_s",
-                                            "time_ms", "timestamp", "time stamp", "zeit",
-                                            "temps",   "tiempo",    "time series"};
+  static const std::set<std::string> kWords{"time",    "t",         "times",       "time_s",
+                                            "time_ms", "timestamp", "time stamp",  "zeit",
+                                            "temps",   "tiempo",    "time series", "abs time"};
   if (kWords.contains(name)) return true;
   return (name == "x" || name.starts_with("x[s]")) &&
          (!label.unit || label.unit->unit == Unit::second);
@@ -188,6 +189,12 @@ std::optional<Layout> find_table(const std::vector<std::string_view>& lines, cha
   };
   if (!previous()) return std::nullopt;
   auto names = cells(above);
+  // A row of rates, "2148.148 Hz", between names and numbers says nothing that the times do not.
+  const bool rates = std::all_of(names.begin(), names.end(), [](const std::string& cell) {
+    return cell.empty() || (cell.ends_with("Hz") &&
+                            parse_number(trim(std::string_view(cell).substr(0, cell.size() - 2))));
+  });
+  if (rates && previous()) names = cells(above);
   // A row of units between names and numbers.
   std::vector<std::string> units;
   bool all_units = true;
@@ -268,6 +275,11 @@ bool same_clock(const Column& a, const Column& b) {
 }  // namespace
 
 CsvSeries parse_emg_table(std::string_view text, const std::filesystem::path& path) {
+  if (const PlainTable plain = plain_vendor_table(text); !plain.text.empty()) {
+    CsvSeries series = parse_emg_table(plain.text, path);
+    series.repairs.insert(series.repairs.begin(), plain.repairs.begin(), plain.repairs.end());
+    return series;
+  }
   const auto lines = split_lines(text);
   std::optional<Layout> layout;
   std::size_t widest = 1;
@@ -279,6 +291,13 @@ CsvSeries parse_emg_table(std::string_view text, const std::filesystem::path& pa
       widest = width;
       layout = std::move(found);
     }
+  }
+  if (layout &&
+      is_numbers(cells_of(lines[layout->names_row], layout->separator), layout->separator)) {
+    throw ReadError(
+        path, layout->names_row + 1,
+        "the table begins with numbers; expected a row of names above them, and a column "
+        "'time' or a line 'Sampling rate: 2000 Hz'");
   }
   if (!layout || is_plain(lines, *layout)) return parse_csv_series(text, path);
 

@@ -10,8 +10,10 @@
 #include "myoid/recording/c3d_reader.h"
 #include "myoid/recording/edf_reader.h"
 #include "myoid/recording/emg_table.h"
+#include "myoid/recording/marker_table.h"
 #include "myoid/recording/storage_reader.h"
 #include "myoid/recording/trc_reader.h"
+#include "myoid/recording/vendor_table.h"
 
 namespace myoid::recording {
 
@@ -25,6 +27,14 @@ std::string to_string(const Repair& repair) {
   return repair.line > 0 ? fmt::format("line {}: {}", repair.line, repair.message) : repair.message;
 }
 
+namespace {
+
+bool is_table(std::string_view extension) {
+  return extension == ".csv" || extension == ".tsv" || extension == ".txt" || extension == ".emt";
+}
+
+}  // namespace
+
 MarkerFile read_markers(const std::filesystem::path& path) {
   const std::string extension = extension_of(path);
   if (extension == ".trc") {
@@ -37,10 +47,12 @@ MarkerFile read_markers(const std::filesystem::path& path) {
       throw ReadError(path, 0, "there are no positions (POS) among the channels, so no markers");
     return {std::move(motion.markers), "m", std::move(motion.repairs)};
   }
+  if (is_table(extension)) return parse_marker_table(read_text_file(path), path);
   if (extension != ".c3d") {
     throw ReadError(path, 0,
-                    fmt::format("markers are read from .trc and .c3d files and from BIDS "
-                                "_motion.tsv, not from '{}'; export the recording as one of these",
+                    fmt::format("markers are read from .trc, .c3d, tables (.tsv, .csv, .txt, .emt) "
+                                "and BIDS _motion.tsv, not from '{}'; export the recording as one "
+                                "of these",
                                 extension));
   }
   C3dFile file = read_c3d(path);
@@ -88,10 +100,20 @@ Recording read_recording(const std::filesystem::path& path) {
     AncFile file = read_anc(path);
     recording.analog = std::move(file.data);
     recording.repairs = std::move(file.repairs);
-  } else if (extension == ".csv" || extension == ".tsv" || extension == ".txt") {
-    CsvSeries file = read_emg_table(path);
-    recording.analog = std::move(file.data);
-    recording.repairs = std::move(file.repairs);
+  } else if (is_table(extension)) {
+    const std::string text = read_text_file(path);
+    const bool markers = is_marker_table(text);
+    if (markers) {
+      MarkerFile file = parse_marker_table(text, path);
+      recording.markers = std::move(file.markers);
+      recording.repairs = std::move(file.repairs);
+    }
+    // Nexus writes its devices and the markers into one file.
+    if (!markers || (extension == ".csv" && !plain_vendor_table(text).text.empty())) {
+      CsvSeries file = parse_emg_table(text, path);
+      recording.analog = std::move(file.data);
+      recording.repairs.insert(recording.repairs.end(), file.repairs.begin(), file.repairs.end());
+    }
   } else if (extension == ".sto" || extension == ".mot") {
     Storage file = read_storage(path);
     recording.analog = std::move(file.data);
@@ -100,7 +122,7 @@ Recording read_recording(const std::filesystem::path& path) {
     throw ReadError(
         path, 0,
         fmt::format("recordings of kind '{}' are not known; known are .c3d, .trc, .edf, "
-                    ".bdf, .anc, .csv, .tsv, .txt, .sto and .mot",
+                    ".bdf, .anc, .csv, .tsv, .txt, .emt, .sto and .mot",
                     extension));
   }
   return recording;

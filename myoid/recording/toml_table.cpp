@@ -161,12 +161,14 @@ void refuse_letters_outside_quotes(std::string_view text, const std::filesystem:
   char quote = '"';
   bool many_lines = false;
   std::size_t line = 1;
+  char before = '\n';  // the last character that is no blank, of what is outside of quotes
   for (std::size_t i = text.starts_with("\xEF\xBB\xBF") ? 3 : 0; i < text.size(); ++i) {
     const char c = text[i];
     const bool ascii = static_cast<unsigned char>(c) < 0x80U;
     const auto three = [&] { return text.substr(i, 3) == std::string(3, quote); };
     if (c == '\n') {
       ++line;
+      if (in != In::quotes || !many_lines) before = '\n';
       if (in == In::remark || (in == In::quotes && !many_lines)) in = In::plain;
     } else if (in == In::quotes) {
       const bool escape = quote == '"' && c == '\\';
@@ -184,7 +186,17 @@ void refuse_letters_outside_quotes(std::string_view text, const std::filesystem:
                         "not valid TOML: a letter beyond ASCII outside of quotes; put the name or "
                         "text in quotes");
       }
+      if (c != '\t' && c != '\n' && c != '\r' &&
+          (static_cast<unsigned char>(c) < 0x20U || c == 0x7f))
+        throw ReadError(file, line,
+                        fmt::format("not valid TOML: a byte {:#04x}, which is no text",
+                                    static_cast<unsigned>(c)));
       if (c == '#') in = In::remark;
+      // Elsewhere a quote is a mistake, and begins nothing.
+      const bool begins = std::string_view("\n=[,{.").find(before) != std::string_view::npos;
+      if (c != ' ' && c != '\t' && c != '\r') before = c;
+      if ((c == '"' || c == '\'') && !begins)
+        throw ReadError(file, line, "not valid TOML: a quote in the middle of a value");
       if (c == '"' || c == '\'') {
         in = In::quotes;
         quote = c;

@@ -59,6 +59,9 @@ TEST(ParseToml, LettersBeyondAsciiStandInQuotesAndRemarksOnly) {
   for (const std::string text : {"a\xEF\xBB\xBA", "\xEF\xBB\xBE", "# \xC2\xB5\n\xC2\xB5 = 1",
                                  "a = \"x\" \xC3\xA9", "a = \"\\\xC3\xA9\"", "a = ''\xC3\xA9"})
     EXPECT_THROW((void)parse_toml(text, "f.toml"), ReadError) << text;
+  // Found by fuzzing: a quote inside a number hid what came after it.
+  EXPECT_THROW((void)parse_toml(std::string("a =-\0x2\0'\xEF\xB9\xBF[", 12), "f.toml"), ReadError);
+  EXPECT_THROW((void)parse_toml("a = -x'\xEF\xB9\xBF", "f.toml"), ReadError);
   const toml::table t = parse_toml(
       "\xEF\xBB\xBF# caf\xC3\xA9 \"\na = \"\xC2\xB5V \\\" #\xC3\xA9\" # \xC3\xA9\n"
       "'\xC3\xA9' = '\xC3\xA9\\'\nm = \"\"\"\n\xC3\xA9 \"\xC3\xA9\" \\\n b\"\"\"\n"

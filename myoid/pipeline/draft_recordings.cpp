@@ -1,0 +1,146 @@
+#include "myoid/pipeline/draft_recordings.h"
+
+#include <algorithm>
+#include <set>
+
+#include <Eigen/LU>
+#include <Eigen/SVD>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "myoid/model/kinematic_tree.h"
+#include "myoid/recording/bids.h"
+#include "myoid/recording/emg_reader.h"
+#include "myoid/recording/recording.h"
+#include "myoid/recording/storage_reader.h"
+
+namespace myoid::pipeline {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string small(std::string text) {
+  for (char& c : text) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c;
+  return text;
+}
+
+std::vector<std::string> words_of(const std::string& stem) {
+  std::vector<std::string> words(1);
+  for (const char c : small(stem)) {
+    if (c == '_' || c == '-' || c == ' ' || c == '.') {
+      if (!words.back().empty()) words.emplace_back();
+    } else {
+      words.back() += c;
+    }
+  }
+  if (words.back().empty() && words.size() > 1) words.pop_back();
+  return words;
+}
+
+}  // namespace
+
+std::string trial_stem(const fs::path& path) {
+  static const std::set<std::string, std::less<>> kKinds{
+      "emg",       "raw",    "uv",    "mv",     "v",      "env", "envelope",
+      "markers",   "marker", "mocap", "analog", "motion", "ik",  "imu",
+      "landmarks", "kalman", "elbow", "angles", "trc",    "c3d", "mot"};
+  std::vector<std::string> words = words_of(path.stem().string());
+  while (words.size() > 1 && kKinds.contains(words.back())) words.pop_back();
+  return fmt::format("{}", fmt::join(words, "_"));
+}
+
+void find_emg(const fs::path& path, const TimeSeries& analog, FoundRecording& found) {
+  for (const Channel& c : analog.channels()) {
+    if (c.unit == Unit::volt) found.channels.push_back(c.name);
+  }
+  const std::string extension = recording::extension_of(path);
+  const bool storage = extension == ".sto" || extension == ".mot";
+  const std::string name = small(path.filename().string());
+  if (found.channels.empty() &&
+      (storage || extension == ".csv" || extension == ".tsv" || extension == ".txt")) {
+    const bool stated = storage && recording::stated_voltage(recording::read_storage(path));
+    const bool named = name.find("emg") != std::string::npos ||
+                       name.find("excitation") != std::string::npos ||
+                       name.find("activation") != std::string::npos;
+    if (!stated && !named) return;
+    for (const Channel& c : analog.channels()) found.channels.push_back(c.name);
+    found.has_unit = stated;
+  }
+  if (found.channels.empty()) return;
+  // Raw EMG swings about 0; an envelope does not.
+  const TimeSeries emg = analog.select(found.channels);
+  Eigen::Index swinging = 0;
+  for (Eigen::Index c = 0; c < emg.channel_count(); ++c) {
+    const auto x = emg.values().col(c).array();
+    if (x.allFinite() && x.minCoeff() < -0.2 * x.maxCoeff()) ++swinging;
+  }
+  found.raw = 2 * swinging >= emg.channel_count();
+}
+
+std::vector<fs::path> recordings_in(const std::vector<fs::path>& from,
+                                    std::vector<fs::path>& models) {
+  static const std::set<std::string, std::less<>> kKnown{".c3d", ".trc", ".edf", ".bdf",
+                                                         ".anc", ".csv", ".sto", ".mot"};
+  constexpr int kDeep = 6;
+  std::vector<fs::path> files;
+  for (const fs::path& path : from) {
+    std::error_code error;
+    if (!fs::is_directory(path, error)) {
+      files.push_back(path);
+      continue;
+    }
+    for (auto it = fs::recursive_directory_iterator(
+             path, fs::directory_options::skip_permission_denied, error);
+         !error && it != fs::recursive_directory_iterator(); it.increment(error)) {
+      if (it.depth() > kDeep) it.disable_recursion_pending();
+      if (!it->is_regular_file(error)) continue;
+      const std::string extension = recording::extension_of(it->path());
+      if (extension == ".osim") models.push_back(it->path());
+      if (kKnown.contains(extension) || recording::is_bids_motion(it->path()))
+        files.push_back(it->path());
+    }
+  }
+  std::sort(files.begin(), files.end());
+  std::sort(models.begin(), models.end());
+  return files;
+}
+
+double upright(const model::BodyModel& model, const recording::MarkerSeries& markers, char up) {
+  const recording::MarkerSeries turned =
+      recording::rotated(markers, recording::rotation_to_y_up(up));
+  model::BodyState state = model::make_state(model);
+  model::compute_poses(model, model.default_q(), state);
+  for (Eigen::Index f = 0; f < std::min<Eigen::Index>(turned.frame_count(), 200); ++f) {
+    Eigen::Matrix3Xd a(3, 0), b(3, 0);
+    for (Eigen::Index m = 0; m < turned.marker_count(); ++m) {
+      const auto known = model.find_marker(turned.names[static_cast<std::size_t>(m)]);
+      if (!known || turned.missing(f, m)) continue;
+      const model::Marker& marker = model.markers[static_cast<std::size_t>(*known)];
+      a.conservativeResize(Eigen::NoChange, a.cols() + 1);
+      b.conservativeResize(Eigen::NoChange, b.cols() + 1);
+      a.col(a.cols() - 1) = state.X_GB[static_cast<std::size_t>(marker.body)] * marker.p_BM;
+      b.col(b.cols() - 1) = turned.position(f, m);
+    }
+    if (a.cols() < 4) continue;
+    const Vec3 mean_a = a.rowwise().mean(), mean_b = b.rowwise().mean();
+    const Mat3 h = (b.colwise() - mean_b) * (a.colwise() - mean_a).transpose();
+    const Eigen::JacobiSVD<Mat3> svd(h, Eigen::ComputeFullU | Eigen::ComputeFullV);
+    const double turn = (svd.matrixU() * svd.matrixV().transpose()).determinant();
+    const Mat3 R = svd.matrixU() * Vec3(1, 1, turn).asDiagonal() * svd.matrixV().transpose();
+    const Vec3 down = model.gravity_G.norm() > 0.0 ? model.gravity_G.normalized() : Vec3(0, -1, 0);
+    return (R * down).dot(down);
+  }
+  return -2.0;
+}
+
+std::string guessed_use(const std::string& stem) {
+  for (const std::string& word : words_of(stem)) {
+    if (word.starts_with("mvc") || word.starts_with("mvic") || word == "max") return "mvc";
+    if (word == "static" || word == "tpose" || word == "calibration" || word == "anatomical")
+      return "static";
+    if (word == "passive") return "passive";
+  }
+  return "calibration";
+}
+
+}  // namespace myoid::pipeline

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "myoid/core/time_series.h"
+#include "myoid/model/body_model.h"
+#include "myoid/recording/marker_series.h"
+
+namespace myoid::pipeline {
+
+/// What a file holds that a study can use.
+struct FoundRecording {
+  std::filesystem::path path;
+  std::string stem;  ///< Small letters, words like "emg" and "markers" at its end removed.
+  recording::MarkerSeries markers;    ///< Empty: none.
+  std::vector<std::string> angles;    ///< Coordinates of the model.
+  std::vector<std::string> channels;  ///< EMG.
+  bool has_unit = true;               ///< Of the EMG.
+  bool raw = true;
+  int plates = 0;
+  bool motion_taken = false;
+  bool emg_taken = false;
+};
+
+/// The recordings among the files, and in the folders with their folders, by name; models beside
+/// them are added to `models`.
+[[nodiscard]] std::vector<std::filesystem::path> recordings_in(
+    const std::vector<std::filesystem::path>& from, std::vector<std::filesystem::path>& models);
+
+/// The name of the trial that a file belongs to: small letters, without what it says of its own
+/// kind ("flex_2kg" of "Flex_2kg_emg_raw.sto").
+[[nodiscard]] std::string trial_stem(const std::filesystem::path& path);
+
+/// What the name says that the trial is for: "mvc", "static", "passive", else "calibration".
+[[nodiscard]] std::string guessed_use(const std::string& stem);
+
+/// Adds the channels of a file that are voltages, or are called EMG, and whether they are raw: raw
+/// EMG swings about 0, an envelope does not.
+void find_emg(const std::filesystem::path& path, const TimeSeries& analog, FoundRecording& found);
+
+/// How well the model's markers, at its default pose, lie on the first complete frame when `up`
+/// points up: cosine of the angle between its vertical and the laboratory's; -2 if fewer than four
+/// markers are known.
+[[nodiscard]] double upright(const model::BodyModel& model,
+                             const recording::MarkerSeries& markers,
+                             char up);
+
+}  // namespace myoid::pipeline

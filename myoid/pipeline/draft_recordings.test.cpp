@@ -1,0 +1,76 @@
+#include "myoid/pipeline/draft_recordings.h"
+
+#include <cmath>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "myoid/model/arm4.h"
+#include "myoid/model/kinematic_tree.h"
+#include "myoid/model/osim_reader.h"
+#include "myoid/recording/atomic_file.h"
+
+#include "tests/support/temporary_folder.h"
+
+namespace myoid::pipeline {
+namespace {
+
+TEST(TrialStem, IsTheNameWithoutWhatAFileSaysOfItsOwnKind) {
+  EXPECT_EQ(trial_stem("a/Flex_2kg_emg_raw_uV.sto"), "flex_2kg");
+  EXPECT_EQ(trial_stem("load2p75_T1_imu_landmarks.trc"), "load2p75_t1");
+  EXPECT_EQ(trial_stem("markers.trc"), "markers");
+}
+
+TEST(GuessedUse, IsWhatAWordOfTheNameSays) {
+  EXPECT_EQ(guessed_use("mvc_biceps"), "mvc");
+  EXPECT_EQ(guessed_use("static_1"), "static");
+  EXPECT_EQ(guessed_use("subject_1_mvt_random"), "calibration");
+}
+
+TEST(RecordingsIn, AFolderAreThoseWithAKnownEndingInItAndItsFolders) {
+  const test::TemporaryFolder folder;
+  for (const char* name : {"b.trc", "a.sto", "c.txt", "notes.md", "sub/d.edf", "m.osim"})
+    recording::write_file(folder / name, "x");
+  std::vector<std::filesystem::path> models;
+  const auto files = recordings_in({folder.path()}, models);
+  ASSERT_EQ(files.size(), 3U);
+  EXPECT_EQ(files[0].filename(), "a.sto");
+  EXPECT_EQ(files[2].filename(), "d.edf");
+  EXPECT_EQ(models.size(), 1U);
+}
+
+TEST(FindEmg, VoltagesThatSwingAboutZeroAreRaw) {
+  const Eigen::VectorXd t = Eigen::VectorXd::LinSpaced(100, 0.0, 0.99);
+  Eigen::MatrixXd x(100, 2);
+  x.col(0) = (20.0 * t.array()).sin();
+  x.col(1).setOnes();
+  FoundRecording found;
+  find_emg("a.csv", TimeSeries(t, {{"BIC", Unit::volt}, {"Fz", Unit::newton}}, x), found);
+  EXPECT_EQ(found.channels, std::vector<std::string>{"BIC"});
+  EXPECT_TRUE(found.raw);
+  FoundRecording envelope;
+  find_emg("a.csv", TimeSeries(t, {{"BIC", Unit::volt}}, x.col(0).cwiseAbs()), envelope);
+  EXPECT_FALSE(envelope.raw);
+}
+
+TEST(Upright, IsOneForTheAxisThatPointsUp) {
+  const model::BodyModel arm = model::parse_osim(model::arm4_osim(), "arm4.osim");
+  model::BodyState state = model::make_state(arm);
+  model::compute_poses(arm, arm.default_q(), state);
+  recording::MarkerSeries markers;
+  markers.time_s = Eigen::VectorXd::Zero(1);
+  markers.positions_m.resize(1, static_cast<Eigen::Index>(3 * arm.markers.size()));
+  for (std::size_t m = 0; m < arm.markers.size(); ++m) {
+    markers.names.push_back(arm.markers[m].name);
+    const Vec3 p = state.X_GB[static_cast<std::size_t>(arm.markers[m].body)] * arm.markers[m].p_BM;
+    markers.positions_m.block<1, 3>(0, static_cast<Eigen::Index>(3 * m)) =
+        (recording::rotation_to_y_up('z').transpose() * p).transpose();
+  }
+  EXPECT_NEAR(upright(arm, markers, 'z'), 1.0, 1e-9);
+  EXPECT_LT(upright(arm, markers, 'y'), 0.1);
+  markers.names.assign(markers.names.size(), "unknown");
+  EXPECT_EQ(upright(arm, markers, 'z'), -2.0);
+}
+
+}  // namespace
+}  // namespace myoid::pipeline

@@ -1,0 +1,499 @@
+#include "myoid/pipeline/study_draft.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "myoid/core/error.h"
+#include "myoid/kinematics/joint_motion.h"
+#include "myoid/kinematics/muscle_kinematics.h"
+#include "myoid/model/arm4.h"
+#include "myoid/model/osim_reader.h"
+#include "myoid/pipeline/channel_muscles.h"
+#include "myoid/pipeline/draft_recordings.h"
+#include "myoid/recording/bids.h"
+#include "myoid/recording/label_match.h"
+#include "myoid/recording/recording.h"
+#include "myoid/recording/text_file.h"
+
+namespace myoid::pipeline {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string in_quotes(const std::string& text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') out += '\\';
+    if (static_cast<unsigned char>(c) >= 0x20U) out += c;
+  }
+  return out + '"';
+}
+
+std::string list_of(const std::vector<std::string>& names) {
+  std::string list;
+  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + in_quotes(name);
+  return "[" + list + "]";
+}
+
+/// Muscles that have a moment arm about the coordinate of more than 1 mm somewhere in its range.
+std::vector<std::string> movers(const model::BodyModel& model, const std::string& coordinate) {
+  const auto& c = model.coordinates[static_cast<std::size_t>(model.coordinate_index(coordinate))];
+  const double low = std::max(c.lower, c.default_value - 1.5);
+  const double high = std::min(c.upper, c.default_value + 1.5);
+  constexpr Eigen::Index kPoses = 7;
+  Eigen::MatrixXd q = model.default_q().transpose().replicate(kPoses, 1);
+  for (Eigen::Index i = 0; i < kPoses; ++i)
+    q(i, model.coordinate_index(coordinate)) =
+        low + (high - low) * (static_cast<double>(i) + 0.5) / kPoses;
+  std::vector<Channel> channels;
+  for (const model::Coordinate& each : model.coordinates)
+    channels.push_back({each.name, kinematics::coordinate_unit(each, 0)});
+  const Eigen::VectorXd clock = Eigen::VectorXd::LinSpaced(kPoses, 0.0, 6.0);
+  const kinematics::JointMotion motion =
+      kinematics::joint_motion(model, TimeSeries(clock, channels, q)).motion;
+  const kinematics::MuscleKinematics muscles = kinematics::muscle_kinematics(model, motion);
+  const TimeSeries& arms = muscles.moment_arm.at(coordinate);
+  std::vector<std::string> names;
+  for (Eigen::Index m = 0; m < arms.channel_count(); ++m) {
+    if (arms.values().col(m).cwiseAbs().maxCoeff() > 1e-3)
+      names.push_back(arms.channels()[static_cast<std::size_t>(m)].name);
+  }
+  return names;
+}
+
+class Draft {
+ public:
+  Draft(fs::path folder, const DraftOptions& options)
+      : folder_(std::move(folder)), options_(options) {}
+
+  StudyDraft write() {
+    std::vector<fs::path> models;
+    const std::vector<fs::path> files = recordings_in(options_.from, models);
+    choose_model(models);
+    for (const fs::path& file : files) read(file);
+    if (std::none_of(found_.begin(), found_.end(), [](const FoundRecording& f) {
+          return f.markers.frame_count() > 0 || !f.angles.empty() || !f.channels.empty();
+        })) {
+      std::vector<std::string> sources;
+      for (const fs::path& path : options_.from) sources.push_back(path.string());
+      throw InvalidInput(fmt::format(
+          "no recording with markers, joint angles or EMG in {}; name files or folders with --from",
+          fmt::join(sources, ", ")));
+    }
+    head();
+    muscles();
+    trials();
+    tail();
+    return std::move(draft_);
+  }
+
+ private:
+  void line(const std::string& text) { draft_.toml += text + '\n'; }
+  void todo(const std::string& text) {
+    line("# TODO: " + text);
+    draft_.todo.push_back(text);
+  }
+  [[nodiscard]] std::string relative(const fs::path& path) const {
+    std::error_code error;
+    const fs::path absolute = fs::absolute(path, error);
+    const fs::path from = fs::absolute(folder_, error);
+    const fs::path result = absolute.lexically_normal().lexically_relative(from.lexically_normal());
+    return (result.empty() ? absolute : result).generic_string();
+  }
+
+  void choose_model(const std::vector<fs::path>& models) {
+    if (options_.model) {
+      model_file_ = *options_.model;
+    } else if (models.size() == 1) {
+      model_file_ = models[0];
+    } else if (models.size() > 1) {
+      for (const fs::path& m : models) other_models_.push_back(relative(m));
+    }
+    model_ = model_file_ ? model::read_osim(*model_file_)
+                         : model::parse_osim(model::arm4_osim(), "arm4.osim");
+    coordinate_ = options_.coordinate;
+    if (!coordinate_.empty()) {
+      (void)model_.coordinate_index(coordinate_);
+      return;
+    }
+    for (const char* word : {"elbowflex", "elbow", "kneeangle", "ankleangle"}) {
+      for (const model::Coordinate& c : model_.coordinates) {
+        if (coordinate_.empty() && recording::plain_label(c.name).find(word) != std::string::npos)
+          coordinate_ = c.name;
+      }
+    }
+    if (coordinate_.empty()) {
+      const std::vector<std::string> names = free_coordinates();
+      coordinate_ = names.empty() ? "TODO" : names[0];
+      guessed_coordinate_ = true;
+    }
+  }
+
+  [[nodiscard]] std::vector<std::string> free_coordinates() const {
+    std::vector<std::string> names;
+    for (const model::Coordinate& c : model_.coordinates) {
+      if (!c.locked) names.push_back(c.name);
+    }
+    return names;
+  }
+
+  void read(const fs::path& path) {
+    FoundRecording f;
+    f.path = path;
+    f.stem = trial_stem(path);
+    try {
+      const std::string extension = recording::extension_of(path);
+      recording::Recording file = recording::read_recording(path);
+      f.plates = static_cast<int>(file.plates.size());
+      f.markers = std::move(file.markers);
+      for (const Channel& c : file.analog.channels()) {
+        if ((extension == ".mot" || extension == ".sto") && model_.find_coordinate(c.name))
+          f.angles.push_back(c.name);
+      }
+      if (f.angles.empty() && !file.analog.empty() && !recording::is_bids_motion(path))
+        find_emg(path, file.analog, f);
+    } catch (const InvalidInput& error) {
+      draft_.notes.push_back(fmt::format("not read: {}", error.what()));
+      return;
+    }
+    if (f.markers.frame_count() == 0 && f.angles.empty() && f.channels.empty()) {
+      draft_.notes.push_back(
+          fmt::format("{}: no markers, no coordinate of the model, no EMG; not used",
+                      path.filename().string()));
+      return;
+    }
+    if (f.markers.frame_count() > 0) {
+      Eigen::Index known = 0;
+      std::vector<std::string> wanted;
+      for (const model::Marker& m : model_.markers) wanted.push_back(m.name);
+      const recording::LabelMatch match = recording::match_labels(f.markers.names, wanted);
+      for (const std::string& name : f.markers.names) {
+        if (model_.find_marker(name) || match.same.contains(name)) ++known;
+      }
+      for (const auto& [name, like] : match.similar) similar_.emplace(name, like);
+      for (std::string& name : f.markers.names) {
+        if (const auto same = match.same.find(name); same != match.same.end()) name = same->second;
+      }
+      most_known_ = std::max(most_known_, known);
+      if (known >= 4 && up_ == ' ') find_up(f.markers);
+    }
+    found_.push_back(std::move(f));
+  }
+
+  void find_up(const recording::MarkerSeries& markers) {
+    double best = -2.0;
+    for (const char up : {'y', 'z', 'x'}) {
+      const double score = upright(model_, markers, up);
+      if (score > best + 1e-9) {
+        best = score;
+        up_ = up;
+      }
+    }
+    up_cosine_ = best;
+    if (best < -1.5) up_ = ' ';
+  }
+
+  void head() {
+    line("# A study to start from, written by `myoid init`. Lines with TODO want an answer; then:");
+    line("#   myoid check study.toml");
+    line("#   myoid run study.toml --out results");
+    line("");
+    line("[subject]");
+    std::error_code error;
+    const fs::path at = fs::absolute(folder_, error).lexically_normal();
+    line("name = " + in_quotes((at.has_filename() ? at : at.parent_path()).filename().string()));
+    if (!model_file_) {
+      todo("the person's mass, for the segments of the built-in arm");
+      line("# mass_kg = 70.0");
+    }
+    line("");
+    line("[model]");
+    if (model_file_) {
+      line("file = " + in_quotes(relative(*model_file_)));
+    } else {
+      line("builtin = \"arm4\"");
+      if (!other_models_.empty())
+        todo(
+            fmt::format("or one of the models that were found: file = {}", list_of(other_models_)));
+    }
+    if (guessed_coordinate_)
+      todo("which joint? free coordinates: " +
+           fmt::format("{}", fmt::join(free_coordinates(), ", ")));
+    line("coordinate = " + in_quotes(coordinate_));
+    line("");
+    const bool any_markers = std::any_of(found_.begin(), found_.end(), [](const FoundRecording& f) {
+      return f.markers.frame_count() > 0;
+    });
+    if (!any_markers) return;
+    line("[markers]");
+    if (up_ == ' ') {
+      todo("the vertical axis of the laboratory: x, y or z");
+      line("up = \"y\"");
+    } else {
+      line(fmt::format(
+          "up = \"{}\"   # the model's markers stand upright in the laboratory like this "
+          "({:.0f} degrees off)",
+          up_, std::acos(std::clamp(up_cosine_, -1.0, 1.0)) / kDegree));
+      if (up_cosine_ < 0.7) todo("that is not upright; is it the right axis?");
+    }
+    if (most_known_ < 3 && !model_.markers.empty()) {
+      std::vector<std::string> names;
+      for (const model::Marker& m : model_.markers) {
+        if (names.size() < 40) names.push_back(m.name);
+      }
+      todo(
+          fmt::format("only {} of the recorded markers are known to the model; its own are {}: "
+                      "rename = {{ FILE = \"MODEL\", ... }}",
+                      most_known_, fmt::join(names, ", ")));
+    }
+    if (!similar_.empty()) {
+      std::string pairs;
+      for (const auto& [name, like] : similar_)
+        pairs +=
+            fmt::format("{}{} = {}", pairs.empty() ? "" : ", ", in_quotes(name), in_quotes(like));
+      todo("are these the same? Then take the # away");
+      line("# rename = { " + pairs + " }");
+    }
+    line("");
+  }
+
+  void muscles() {
+    std::vector<std::string> channels;
+    bool raw = true, unit = true, any = false;
+    for (const FoundRecording& f : found_) {
+      if (!f.channels.empty()) {
+        if (any && f.raw != raw) mixed_ = true;
+        raw = any ? raw && f.raw : f.raw;
+        any = true;
+      }
+      unit = unit && f.has_unit;
+      for (const std::string& c : f.channels) {
+        if (std::find(channels.begin(), channels.end(), c) == channels.end()) channels.push_back(c);
+      }
+    }
+    line("[emg]");
+    line(fmt::format("kind = \"{}\"   # {}", raw ? "raw" : "envelope",
+                     raw ? "it swings about zero" : "it does not swing about zero"));
+    if (mixed_)
+      todo(
+          "some files hold raw EMG, others envelopes: a study takes one kind; leave the others "
+          "out");
+    if (raw && !unit) {
+      todo("the unit of the EMG, where the file does not say: V, mV or uV");
+      line("# unit = \"uV\"");
+    }
+    line("");
+    if (channels.empty())
+      todo("no EMG was found; without it only motion and joint torque are computed");
+    const std::vector<std::string> able =
+        coordinate_ == "TODO" ? std::vector<std::string>{} : movers(model_, coordinate_);
+    std::set<std::string> covered;
+    std::vector<std::string> unused;
+    std::set<std::string> names;
+    std::string first;
+    for (const ChannelMuscles& pair : match_channels(channels, able)) {
+      std::vector<std::string> fresh;
+      for (const std::string& m : pair.muscles) {
+        if (covered.insert(m).second) fresh.push_back(m);
+      }
+      if (fresh.empty()) {
+        unused.push_back(pair.channel);
+        continue;
+      }
+      std::string name = fresh.size() == 1 ? fresh[0] : abbreviation(fresh);
+      while (!names.insert(name).second) name += "_2";
+      if (first.empty()) first = name;
+      line("[[muscle]]");
+      line("name = " + in_quotes(name));
+      line("osim = " + list_of(fresh));
+      line("emg = " + in_quotes(pair.channel));
+      line("");
+    }
+    std::vector<std::string> left;
+    for (const std::string& m : able) {
+      if (!covered.contains(m)) left.push_back(m);
+    }
+    if (first.empty() && !channels.empty()) {
+      todo(fmt::format("no channel's name is that of a muscle that moves {}; name the pairs",
+                       coordinate_));
+      line("[[muscle]]");
+      line("name = \"TODO\"");
+      line(fmt::format("osim = [\"TODO\"]   # of {}", fmt::join(able, ", ")));
+      line(fmt::format("emg = \"TODO\"      # of {}", fmt::join(channels, ", ")));
+      line("");
+    } else if (!left.empty() && !first.empty()) {
+      todo(
+          fmt::format("these move {} too, and have no electrode: {}. Leave them out, add them to a "
+                      "group, or let them act as another muscle does:",
+                      coordinate_, fmt::join(left, ", ")));
+      line("# [[muscle]]");
+      line("# name = " + in_quotes(left[0]));
+      line("# emg = { same_as = " + in_quotes(first) + " }");
+      line("");
+    }
+    if (!unused.empty() && !first.empty()) {
+      line(fmt::format("# Channels that no muscle about {} takes: {}", coordinate_,
+                       fmt::join(unused, ", ")));
+      line("");
+    }
+  }
+
+  static std::string abbreviation(const std::vector<std::string>& heads) {
+    std::string name = heads[0];
+    for (const std::string& h : heads) {
+      std::size_t k = 0;
+      while (k < name.size() && k < h.size() && name[k] == h[k]) ++k;
+      name.resize(k);
+    }
+    while (!name.empty() && (name.back() == '_' || name.back() == '-')) name.pop_back();
+    return name.size() >= 2 ? name : heads[0];
+  }
+
+  /// The EMG file of the same trial: itself, the same stem, or one stem that begins with the other.
+  FoundRecording* emg_of(FoundRecording& motion) {
+    if (!motion.channels.empty()) return &motion;
+    for (FoundRecording& f : found_) {
+      if (!f.channels.empty() && !f.emg_taken && f.stem == motion.stem) return &f;
+    }
+    FoundRecording* best = nullptr;
+    for (FoundRecording& f : found_) {
+      if (f.channels.empty() || f.emg_taken) continue;
+      if (!f.stem.starts_with(motion.stem + "_") && !motion.stem.starts_with(f.stem + "_"))
+        continue;
+      if (best == nullptr || f.stem.size() > best->stem.size()) best = &f;
+    }
+    return best;
+  }
+
+  void trials() {
+    std::set<std::string> names;
+    bool two_clocks = false, any_calibration = false;
+    const auto unique = [&](std::string name) {
+      while (!names.insert(name).second) name += "_2";
+      return name;
+    };
+    // Joint angles first: a trial that has them needs no markers.
+    for (const bool with_angles : {true, false}) {
+      for (FoundRecording& f : found_) {
+        const bool fits = with_angles ? !f.angles.empty() : f.markers.frame_count() > 0;
+        if (!fits || f.motion_taken) continue;
+        if (!with_angles && std::any_of(found_.begin(), found_.end(), [&](const FoundRecording& g) {
+              return !g.angles.empty() && g.motion_taken && g.stem == f.stem;
+            })) {
+          notes_.push_back(
+              fmt::format("# Not used: markers = {} (the trial starts from its joint angles)",
+                          in_quotes(relative(f.path))));
+          continue;
+        }
+        f.motion_taken = true;
+        FoundRecording* emg = emg_of(f);
+        std::string use = guessed_use(f.stem);
+        if (emg == nullptr && use == "calibration") use = "passive";
+        if (emg != nullptr) emg->emg_taken = true;
+        line("[[trial]]");
+        line("name = " + in_quotes(unique(f.stem)));
+        line((with_angles ? "motion = " : "markers = ") + in_quotes(relative(f.path)));
+        if (emg != nullptr) line("emg = " + in_quotes(relative(emg->path)));
+        two_clocks = two_clocks || (emg != nullptr && emg != &f);
+        line("use = " + in_quotes(use));
+        if (use == "calibration") any_calibration = true;
+        if (emg == nullptr && use == "passive")
+          todo(fmt::format("no EMG was found for '{}'; it gives motion and torque only", f.stem));
+        if (f.plates > 0) {
+          line(
+              fmt::format("# force_plates = {{ bodies = \"auto\" }}   # {} in this file, if the "
+                          "person stood on them",
+                          f.plates));
+        }
+        held_mass(f.stem);
+        line("");
+      }
+    }
+    for (FoundRecording& f : found_) {
+      if (f.channels.empty() || f.emg_taken || f.motion_taken) continue;
+      line("[[trial]]");
+      line("name = " + in_quotes(unique(f.stem)));
+      line("emg = " + in_quotes(relative(f.path)));
+      line("use = \"mvc\"");
+      if (guessed_use(f.stem) != "mvc")
+        todo(fmt::format(
+            "'{}' has EMG and no motion: a maximal contraction? Else give it markers or "
+            "motion, or take it out",
+            f.path.filename().string()));
+      line("");
+    }
+    if (!any_calibration)
+      todo("no trial has use = \"calibration\", from which parameters are found");
+    for (const std::string& note : notes_) line(note);
+    if (two_clocks) {
+      line("");
+      line(
+          "# EMG and motion are in different files. If they did not start together, or their "
+          "clocks run");
+      line("# apart, say so (docs/guide/study.md, [sync]):");
+      line("# [sync]");
+      line("# offset_s = 0.0");
+    }
+  }
+
+  /// "flex_2.5kg": a mass in the hand, perhaps.
+  void held_mass(const std::string& stem) {
+    const auto at = stem.find("kg");
+    if (at == std::string::npos) return;
+    std::size_t begin = at;
+    while (begin > 0 && (std::isdigit(static_cast<unsigned char>(stem[begin - 1])) != 0 ||
+                         stem[begin - 1] == '.' || stem[begin - 1] == 'p'))
+      --begin;
+    std::string number = stem.substr(begin, at - begin);
+    std::replace(number.begin(), number.end(), 'p', '.');
+    const auto mass = recording::parse_number(number);
+    if (!mass || !(*mass > 0.0 && *mass <= 100.0)) return;
+    todo(fmt::format("the name says {} kg: held in the hand?{}", *mass,
+                     model_file_ ? " Then [model] held_mass must say where it acts" : ""));
+    line(fmt::format("# held_mass_kg = {}", *mass));
+  }
+
+  void tail() {
+    line("");
+    line("[identify]");
+    line("method = [\"paper\", \"torque\"]");
+    if (!draft_.notes.empty()) {
+      line("");
+      for (const std::string& note : draft_.notes) {
+        std::string flat = note;
+        std::replace(flat.begin(), flat.end(), '\n', ' ');
+        line("# " + flat);
+      }
+    }
+  }
+
+  fs::path folder_;
+  const DraftOptions& options_;
+  std::optional<fs::path> model_file_;
+  std::vector<std::string> other_models_;
+  model::BodyModel model_;
+  std::string coordinate_;
+  bool guessed_coordinate_ = false;
+  bool mixed_ = false;
+  std::vector<FoundRecording> found_;
+  std::vector<std::string> notes_;
+  std::map<std::string, std::string> similar_;
+  Eigen::Index most_known_ = 0;
+  char up_ = ' ';
+  double up_cosine_ = 0.0;
+  StudyDraft draft_;
+};
+
+}  // namespace
+
+StudyDraft draft_study(const std::filesystem::path& folder, const DraftOptions& options) {
+  return Draft(folder, options).write();
+}
+
+}  // namespace myoid::pipeline
