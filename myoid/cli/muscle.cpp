@@ -6,12 +6,11 @@
 #include <nlohmann/json.hpp>
 
 #include "myoid/cli/context.h"
+#include "myoid/cli/stage_input.h"
 #include "myoid/core/error.h"
 #include "myoid/core/provenance.h"
 #include "myoid/muscle/isolated_muscle.h"
 #include "myoid/pipeline/muscle_file.h"
-#include "myoid/recording/csv_reader.h"
-#include "myoid/recording/storage_reader.h"
 #include "myoid/recording/storage_writer.h"
 #include "myoid/recording/text_file.h"
 
@@ -30,10 +29,7 @@ struct Column {
 };
 
 Column read_column(const std::string& path, const std::string& wanted) {
-  const std::string extension = std::filesystem::path(path).extension().string();
-  const bool is_table = extension == ".csv" || extension == ".tsv" || extension == ".txt";
-  const TimeSeries series =
-      is_table ? recording::read_csv_series(path).data : recording::read_storage(path).data;
+  const TimeSeries series = read_series(path);
   std::string names;
   for (const Channel& channel : series.channels())
     names += (names.empty() ? "" : ", ") + channel.name;

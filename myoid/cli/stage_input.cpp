@@ -6,6 +6,7 @@
 #include "myoid/model/arm4.h"
 #include "myoid/model/osim_reader.h"
 #include "myoid/model/path_survey.h"
+#include "myoid/recording/csv_reader.h"
 #include "myoid/recording/storage_reader.h"
 #include "myoid/recording/storage_writer.h"
 #include "myoid/signals/clock_gaps.h"
@@ -152,6 +153,14 @@ kinematics::JointMotion load_motion(const model::BodyModel& model,
   for (const std::string& note : result.notes) context.warn(note);
   const kinematics::JointMotion& whole = result.motion;
   return {cut(whole.q, context), cut(whole.qdot, context), cut(whole.qddot, context)};
+}
+
+TimeSeries read_series(const std::filesystem::path& path) {
+  for (const char* table : {".csv", ".tsv", ".txt"}) {
+    if (recording::equal_ignoring_case(path.extension().string(), table))
+      return recording::read_csv_series(path).data;
+  }
+  return recording::read_storage(path).data;
 }
 
 void write_series(const std::filesystem::path& path,
