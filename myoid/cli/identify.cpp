@@ -4,16 +4,17 @@
 #include <fmt/format.h>
 
 #include "myoid/cli/context.h"
+#include "myoid/cli/stage_input.h"
 #include "myoid/core/error.h"
 #include "myoid/identification/compare_solvers.h"
 #include "myoid/identification/cross_validation.h"
 #include "myoid/identification/force.h"
 #include "myoid/identification/paper.h"
 #include "myoid/identification/torque.h"
+#include "myoid/math/spline.h"
 #include "myoid/pipeline/result_files.h"
 #include "myoid/recording/atomic_file.h"
 #include "myoid/recording/csv_reader.h"
-#include "myoid/recording/storage_reader.h"
 #include "myoid/report/report.h"
 #include "myoid/signals/resample.h"
 
@@ -166,11 +167,12 @@ MuscleTable read_muscles(const std::filesystem::path& path, bool within_bounds) 
                         setup.name, name, start, least, most, name, name));
       }
       if (sd) setup.priors[name] = {.mean = start, .sd = *sd};
-      if (held.value_or(false)) setup.fixed.push_back(name);
+      const bool usual = field.field <= identification::kPlateau;
+      // What the paper's law leaves out is held anyway.
+      if (held.value_or(false) && (usual || given_for_hill(name))) setup.fixed.push_back(name);
       // Who asks something of the product itself has it as the unknown.
       if (name == "eccentric_curvature_product" && (held.value_or(false) || lower || upper || sd))
         setup.priors.erase("eccentric_slope_ratio");
-      const bool usual = field.field <= identification::kPlateau;
       if (held && !*held && !usual) {
         identification::ParameterRule rule;
         rule.parameter = name;
@@ -201,19 +203,33 @@ Eigen::MatrixXd on_clock_of(const TimeSeries& series,
   return signals::resample(series, clock).values();
 }
 
-/// The columns of the muscles, on the clock of the lengths.
+/// The columns of the muscles, by name.
+TimeSeries muscle_series(const std::string& path, const std::vector<MuscleSetup>& muscles) {
+  const TimeSeries series = read_series(path);
+  std::vector<std::string> names;
+  for (const MuscleSetup& m : muscles) {
+    if (!series.find(m.name))
+      throw ReadError(path, 0,
+                      fmt::format("no column '{}'; found {}", m.name, channel_names(series)));
+    names.push_back(m.name);
+  }
+  return series.select(names);
+}
+
+/// The same on the clock of the lengths.
 Eigen::MatrixXd columns_of(const std::string& path,
                            const std::vector<MuscleSetup>& muscles,
                            const Eigen::VectorXd& clock) {
-  const recording::Storage file = recording::read_storage(path);
-  std::vector<std::string> names;
-  for (const MuscleSetup& m : muscles) {
-    if (!file.data.find(m.name))
-      throw ReadError(path, 0,
-                      fmt::format("no column '{}'; found {}", m.name, channel_names(file.data)));
-    names.push_back(m.name);
-  }
-  return on_clock_of(file.data.select(names), path, clock);
+  return on_clock_of(muscle_series(path, muscles), path, clock);
+}
+
+/// Rates of the columns on another clock, by the quintic spline through them.
+Eigen::MatrixXd rates_of(const TimeSeries& series, const Eigen::VectorXd& clock) {
+  const math::SplineKnots knots(series.time_s());
+  Eigen::MatrixXd rates(clock.size(), series.channel_count());
+  for (Eigen::Index c = 0; c < rates.cols(); ++c)
+    rates.col(c) = knots.interpolate(series.values().col(c)).evaluate(clock).first;
+  return rates;
 }
 
 struct Options {
@@ -227,6 +243,7 @@ struct Options {
   bool profile = false;
   std::string loss = "square";
   int starts = 3;
+  double residual_hz = identification::EstimatorOptions{}.residual_cutoff_hz.value_or(0.0);
   std::vector<std::string> free_more;
 };
 
@@ -269,7 +286,7 @@ StudyData read_data(const Options& o, const MuscleTable& table, const Context& c
   data.rules = table.rules;
   const std::size_t trials = o.lengths.size();
   require_count(o.activations.size(), trials, "--activations");
-  require_count(o.velocities.size(), trials, "--velocities");
+  if (!o.velocities.empty()) require_count(o.velocities.size(), trials, "--velocities");
   const bool torque = o.method == "torque";
   const std::size_t joints = std::max<std::size_t>(1, o.coordinates.size());
   if (torque) {
@@ -288,16 +305,17 @@ StudyData read_data(const Options& o, const MuscleTable& table, const Context& c
     TrialData trial;
     trial.name = std::filesystem::path(o.lengths[i]).stem().string();
     if (trials > 1) trial.name = fmt::format("{} ({})", i + 1, trial.name);
-    const recording::Storage lengths = recording::read_storage(o.lengths[i]);
-    TimeSeries on_clock = lengths.data;
+    TimeSeries on_clock = read_series(o.lengths[i]);
     if (context.start_s || context.end_s)
       on_clock = on_clock.slice(context.start_s.value_or(-1e300), context.end_s.value_or(1e300));
     if (on_clock.sample_count() < 2)
       throw ReadError(o.lengths[i], 0, "fewer than two samples in the time asked for");
     trial.time_s = on_clock.time_s();
     trial.length_m = columns_of(o.lengths[i], data.muscles, trial.time_s);
-    trial.velocity_mps = columns_of(o.velocities[i], data.muscles, trial.time_s);
-    trial.activation = recording::read_storage(o.activations[i]).data;
+    trial.velocity_mps = o.velocities.empty()
+                             ? rates_of(muscle_series(o.lengths[i], data.muscles), trial.time_s)
+                             : columns_of(o.velocities[i], data.muscles, trial.time_s);
+    trial.activation = read_series(o.activations[i]);
     require_finite(trial.activation, o.activations[i]);
     for (const MuscleSetup& m : data.muscles) {
       if (!trial.activation.find(m.emg_channel))
@@ -310,7 +328,7 @@ StudyData read_data(const Options& o, const MuscleTable& table, const Context& c
     if (!o.forces.empty()) trial.force_n = columns_of(o.forces[i], data.muscles, trial.time_s);
     if (torque) {
       trial.moment_arm_m = columns_of(o.arms[joints * i], data.muscles, trial.time_s);
-      const TimeSeries torques = recording::read_storage(o.torques[i]).data;
+      const TimeSeries torques = read_series(o.torques[i]);
       const std::vector<Channel> columns = torque_columns(o, o.torques[i], torques);
       for (std::size_t j = 0; j < columns.size(); ++j) {
         Eigen::VectorXd torque_nm =
@@ -350,6 +368,20 @@ void print_result(const identification::IdentificationResult& result) {
         "{}: l0 and l_sh of the two branches differ by {:+.4f} and {:+.4f} m (Wald {:.1f}, p = "
         "{:.3f})\n",
         test.muscle, test.length_difference_m, test.width_difference_m, test.wald, test.p_value);
+  }
+}
+
+void print_folds(const std::vector<identification::Fold>& folds, const Options& o) {
+  if (folds.empty()) return;
+  const bool several = o.method == "force" || o.coordinates.size() > 1;
+  fmt::print("\n{:<34}{:>12}{:>14}{:>8}   {}\n", "left out of the fit, then predicted",
+             o.method == "force" ? "RMSE [N]" : "RMSE [N m]", "of range [%]", "R2",
+             "starting values, one gain: R2");
+  for (const identification::Fold& fold : folds) {
+    fmt::print("{:<34}{:>12.4g}{:>14.1f}{:>8.3f}   {:.3f}\n",
+               several ? fmt::format("{}, {}", fold.trial, fold.joint) : fold.trial,
+               fold.identified.rmse_nm, 100.0 * fold.identified.nrmse_range, fold.identified.r2,
+               fold.literature.r2);
   }
 }
 
@@ -400,8 +432,9 @@ void add_identify(CLI::App& app, Context& context) {
                   "Musculotendon lengths [m] (fiber lengths where tendon_slack_length is 0), one "
                   "file per trial")
       ->required();
-  command.add_option("--velocities", o->velocities, "Their rates [m/s], lengthening positive")
-      ->required();
+  command.add_option("--velocities", o->velocities,
+                     "Their rates [m/s], lengthening positive (default: by a spline through the "
+                     "lengths)");
   command.add_option("--forces", o->forces, "Muscle forces [N], for --method paper and force");
   command.add_option("--moment-arms", o->arms, "Moment arms [m] by muscle, for --method torque");
   command.add_option("--torques", o->torques,
@@ -422,6 +455,12 @@ void add_identify(CLI::App& app, Context& context) {
                   "Further parameters to identify, of all muscles, channels or the joint: "
                   "emg_shape, length_activation, ...")
       ->delimiter(',');
+  command
+      .add_option("--residual-cutoff", o->residual_hz,
+                  "Both sides of the residual are low-passed here [Hz], methods force and torque; "
+                  "0: not at all")
+      ->check(CLI::Range(0.0, 1000.0))
+      ->capture_default_str();
   command.add_option("--loss", o->loss, "square, huber or cauchy (default square)")
       ->check(CLI::IsMember({"square", "huber", "cauchy"}));
   command.add_option("--bootstrap", o->bootstrap, "Bootstrap replicates (default 0: none)")
@@ -451,6 +490,8 @@ void add_identify(CLI::App& app, Context& context) {
     options.weights = !o->no_priors;
     options.max_rate_hz = 200.0;
     options.delay_s = o->delay_s;
+    options.residual_cutoff_hz.reset();
+    if (o->residual_hz > 0.0) options.residual_cutoff_hz = o->residual_hz;
     options.loss = o->loss == "huber"    ? identification::Loss::huber
                    : o->loss == "cauchy" ? identification::Loss::cauchy
                                          : identification::Loss::square;
@@ -464,6 +505,11 @@ void add_identify(CLI::App& app, Context& context) {
       result = identification::identify_force(data, {.estimator = options,
                                                      .detect_exact = true,
                                                      .speed_may_be_free = table.speed_may_be_free});
+      for (std::size_t k = 0; !result.exact && k < data.muscles.size(); ++k) {
+        const auto more =
+            identification::cross_validate(identification::force_study(data, k), options);
+        folds.insert(folds.end(), more.begin(), more.end());
+      }
     } else {
       result = identification::identify_torque_or_exact(data, options, table.speed_may_be_free);
       if (!result.exact) folds = identification::cross_validate(data, options);
@@ -501,6 +547,7 @@ void add_identify(CLI::App& app, Context& context) {
       fmt::print("{}", pipeline::parameters_json(results, folds, provenance));
     } else {
       print_result(result);
+      print_folds(folds, *o);
       for (const auto& [name, comparison] : comparisons) print_comparison(name, comparison);
       fmt::print("{}/parameters.csv\n", o->out);
     }

@@ -1,17 +1,19 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "myoid/cli/context.h"
+#include "myoid/cli/stage_input.h"
 #include "myoid/core/error.h"
 #include "myoid/core/provenance.h"
+#include "myoid/muscle/fit_isolated.h"
 #include "myoid/muscle/isolated_muscle.h"
 #include "myoid/pipeline/muscle_file.h"
-#include "myoid/recording/csv_reader.h"
-#include "myoid/recording/storage_reader.h"
+#include "myoid/recording/atomic_file.h"
 #include "myoid/recording/storage_writer.h"
 #include "myoid/recording/text_file.h"
 
@@ -19,8 +21,10 @@ namespace myoid::cli {
 namespace {
 
 struct Options {
-  std::string muscle, length, out, column, activation, excitation, measured, initial = "0.01";
-  double scale = 1.0, offset_m = 0.0, isometric_n = 0.0, tolerance = 1e-9;
+  std::string muscle, out, column, activation, excitation, initial = "0.01";
+  std::vector<std::string> lengths, measured, fit;
+  std::vector<double> scales{1.0};
+  double offset_m = 0.0, isometric_n = 0.0, tolerance = 1e-9;
 };
 
 /// One column of a .sto, .mot, .csv, .tsv or .txt file: the only one, or the one of this name.
@@ -30,10 +34,7 @@ struct Column {
 };
 
 Column read_column(const std::string& path, const std::string& wanted) {
-  const std::string extension = std::filesystem::path(path).extension().string();
-  const bool is_table = extension == ".csv" || extension == ".tsv" || extension == ".txt";
-  const TimeSeries series =
-      is_table ? recording::read_csv_series(path).data : recording::read_storage(path).data;
+  const TimeSeries series = read_series(path);
   std::string names;
   for (const Channel& channel : series.channels())
     names += (names.empty() ? "" : ", ") + channel.name;
@@ -95,23 +96,23 @@ struct Comparison {
   Eigen::Index samples = 0;
 };
 
-void run(const Options& o, Context& context) {
-  if (o.activation.empty() == o.excitation.empty()) {
-    throw InvalidInput("give the drive once: --activation or --excitation, a number or a file");
-  }
-  const pipeline::MuscleFile file = pipeline::read_muscle_file(o.muscle);
-  const muscle::Musculotendon<double> unit(file.parameters, file.laws, file.millard);
-
-  Column length = read_column(o.length, o.column);
+/// The experiment of one length file.
+muscle::IsolatedMuscleInput read_input(const Options& o,
+                                       std::size_t index,
+                                       const pipeline::MuscleFile& file,
+                                       const Context& context) {
+  const std::string& path = o.lengths[index];
+  Column length = read_column(path, o.column);
   cut(length, context);
   muscle::IsolatedMuscleInput input;
   input.time_s = length.time_s;
-  input.length_m = (o.scale * length.values.array() + o.offset_m).matrix();
+  const double scale = o.scales[o.scales.size() > 1 ? index : 0];
+  input.length_m = (scale * length.values.array() + o.offset_m).matrix();
   if (input.length_m.size() > 0 && !(input.length_m.minCoeff() > 0.0)) {
     throw InvalidInput(
         fmt::format("{}: the muscle would be {:g} m long; expected a positive length "
                     "in m (see --scale and --offset)",
-                    o.length, input.length_m.minCoeff()));
+                    path, input.length_m.minCoeff()));
   }
   const double usual =
       file.parameters.hill.optimal_fiber_length_m + file.parameters.hill.tendon_slack_length_m;
@@ -120,7 +121,7 @@ void run(const Options& o, Context& context) {
     throw InvalidInput(fmt::format(
         "{}: the length is {:g} m on average, fiber and tendon together are about {:g} m; "
         "expected meters (see --scale and --offset)",
-        o.length, input.length_m.mean(), usual));
+        path, input.length_m.mean(), usual));
   }
   read_drive(o, context, input);
   input.dynamics = file.activation;
@@ -131,6 +132,114 @@ void run(const Options& o, Context& context) {
           "--initial-activation {}: expected a number in 0 to 1, or `settled`", o.initial));
     }
   }
+  return input;
+}
+
+/// Mean absolute error of a recording, over a force.
+double share_of_error(const muscle::IsolatedModel& model,
+                      const muscle::IsolatedRecording& recording,
+                      double over_n,
+                      double tolerance) {
+  return (isolated_force(model, recording, tolerance) - recording.force_n).cwiseAbs().mean() /
+         over_n;
+}
+
+/// --fit: the parameters from all recordings, and how well those from the others predict each.
+void fit(const Options& o, Context& context, const pipeline::MuscleFile& file) {
+  const muscle::IsolatedModel start{file.parameters, file.laws, file.millard};
+  std::vector<muscle::IsolatedRecording> recordings;
+  for (std::size_t i = 0; i < o.lengths.size(); ++i) {
+    const Column force = read_column(o.measured[i], "");
+    recordings.push_back(
+        {o.measured[i], read_input(o, i, file, context), force.time_s, force.values});
+  }
+  const double over =
+      o.isometric_n > 0.0 ? o.isometric_n : start.parameters.hill.max_isometric_force_n;
+  muscle::IsolatedFitOptions options;
+  options.parameters = o.fit;
+  options.relative_tolerance = std::max(o.tolerance, 1e-8);
+  options.progress = context.progress();
+  const muscle::IsolatedFit all = fit_isolated_muscle(start, recordings, options);
+  std::string csv = "left_out,parameter,unit,start,estimate,std_error,at_bound\n";
+  const auto add_rows = [&](const std::string& left_out, const muscle::IsolatedFit& result) {
+    for (const muscle::IsolatedEstimate& e : result.estimates)
+      csv += fmt::format("{},{},{},{},{},{},{}\n", left_out, e.parameter, symbol(e.unit), e.start,
+                         e.value, e.std_error, e.at_bound);
+  };
+  add_rows("", all);
+  std::string errors;
+  nlohmann::json json_errors = nlohmann::json::array();
+  bool converged = all.termination == math::Termination::converged;
+  for (std::size_t i = 0; i < recordings.size(); ++i) {
+    const double before = share_of_error(start, recordings[i], over, options.relative_tolerance);
+    const double fitted =
+        share_of_error(all.model, recordings[i], over, options.relative_tolerance);
+    double predicted = std::numeric_limits<double>::quiet_NaN();
+    if (recordings.size() > 1) {
+      std::vector<muscle::IsolatedRecording> others = recordings;
+      others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
+      const muscle::IsolatedFit without = fit_isolated_muscle(start, others, options);
+      converged = converged && without.termination == math::Termination::converged;
+      predicted = share_of_error(without.model, recordings[i], over, options.relative_tolerance);
+      add_rows(std::to_string(i + 1), without);
+    }
+    errors += fmt::format("{:<34}{:>12.2f}{:>12.2f}{:>12.2f}\n", recordings[i].name, 100.0 * before,
+                          100.0 * fitted, 100.0 * predicted);
+    json_errors.push_back({{"recording", recordings[i].name},
+                           {"starting_values", before},
+                           {"fitted", fitted},
+                           {"predicted_from_the_others", predicted}});
+  }
+  context.end_progress();
+  if (!o.out.empty()) recording::write_file(o.out, csv);
+  if (!converged) context.exit_code = kQualityGateFailed;
+  if (context.json) {
+    nlohmann::json json{{"muscle", file.name}, {"converged", converged}, {"errors", json_errors}};
+    for (const muscle::IsolatedEstimate& e : all.estimates)
+      json["estimates"].push_back({{"parameter", e.parameter},
+                                   {"start", e.start},
+                                   {"estimate", e.value},
+                                   {"std_error", e.std_error},
+                                   {"at_bound", e.at_bound}});
+    fmt::print("{}\n", json.dump(2));
+    return;
+  }
+  fmt::print("{}: {} ({} simulated experiments)\n\n", file.name, all.message, all.evaluations);
+  fmt::print("{:<28}{:>14}{:>14}{:>14}\n", "parameter", "start", "estimate", "std error");
+  for (const muscle::IsolatedEstimate& e : all.estimates)
+    fmt::print("{:<28}{:>14.6g}{:>14.6g}{:>14.2g} {}{}\n", e.parameter, e.start, e.value,
+               e.std_error, symbol(e.unit), e.at_bound ? ", at its bound" : "");
+  fmt::print("\n{:<34}{:>12}{:>12}{:>12}\n{}",
+             fmt::format("mean absolute error [% of {:.4g} N]", over), "start", "fitted",
+             "predicted", errors);
+  if (recordings.size() > 1)
+    fmt::print("predicted: with the parameters that the other recordings give\n");
+  if (!o.out.empty()) fmt::print("{}\n", o.out);
+}
+
+void run(const Options& o, Context& context) {
+  if (o.activation.empty() == o.excitation.empty()) {
+    throw InvalidInput("give the drive once: --activation or --excitation, a number or a file");
+  }
+  if (o.fit.empty() && (o.lengths.size() > 1 || o.measured.size() > 1))
+    throw InvalidInput("several recordings are for --fit: without it, give one --length");
+  if (!o.fit.empty() && o.measured.size() != o.lengths.size()) {
+    throw InvalidInput(fmt::format("--measured: {} files for {} of --length; --fit needs one each",
+                                   o.measured.size(), o.lengths.size()));
+  }
+  if (o.scales.size() != 1 && o.scales.size() != o.lengths.size()) {
+    throw InvalidInput(
+        fmt::format("--scale: {} numbers for {} files of --length; give one, or one "
+                    "each",
+                    o.scales.size(), o.lengths.size()));
+  }
+  const pipeline::MuscleFile file = pipeline::read_muscle_file(o.muscle);
+  if (!o.fit.empty()) {
+    fit(o, context, file);
+    return;
+  }
+  const muscle::Musculotendon<double> unit(file.parameters, file.laws, file.millard);
+  const muscle::IsolatedMuscleInput input = read_input(o, 0, file, context);
 
   muscle::IsolatedMuscleOptions options;
   options.relative_tolerance = o.tolerance;
@@ -138,7 +247,7 @@ void run(const Options& o, Context& context) {
   options.progress = context.progress();
   std::optional<Column> measured;
   if (!o.measured.empty()) {
-    measured = read_column(o.measured, "");
+    measured = read_column(o.measured.front(), "");
     options.output_time_s = measured->time_s;
   }
   const muscle::IsolatedMuscleResult result = simulate_isolated_muscle(unit, input, options);
@@ -197,11 +306,12 @@ void add_muscle(CLI::App& app, Context& context) {
   const auto o = std::make_shared<Options>();
   command.add_option("--muscle", o->muscle, "The muscle (.toml)")->required();
   command
-      .add_option("--length", o->length,
+      .add_option("--length", o->lengths,
                   "Length of fiber and tendon together over time [m] (.sto, .mot, .csv)")
       ->required();
   command.add_option("--column", o->column, "Which column of it (default: the only one)");
-  command.add_option("--scale", o->scale, "Its numbers times this ... (default 1)");
+  command.add_option("--scale", o->scales,
+                     "Its numbers times this ... (default 1); with several files one for each");
   command.add_option("--offset", o->offset_m, "... plus this are the length [m] (default 0)");
   command.add_option("--activation", o->activation, "Activation, a number in 0..1 or a file");
   command.add_option("--excitation", o->excitation, "Excitation, a number in 0..1 or a file");
@@ -209,16 +319,26 @@ void add_muscle(CLI::App& app, Context& context) {
                      "Activation at the start, with --excitation: a number, or `settled` on the "
                      "first excitation (default 0.01: at rest)");
   command.add_option("--measured", o->measured, "Measured force over time [N], to compare");
+  command
+      .add_option("--fit", o->fit,
+                  "Parameters to identify from one or several --length and --measured, by comma: "
+                  "max_isometric_force,tendon_strain,...; each recording is also predicted from "
+                  "the others")
+      ->delimiter(',');
   command.add_option("--isometric-force", o->isometric_n,
                      "Force that the error is related to [N] (default: F_max of the muscle)");
   command.add_option("--tolerance", o->tolerance, "Relative, of the integration (default 1e-9)")
       ->check(CLI::Range(1e-13, 1e-3));
-  command.add_option("--out", o->out, "Forces, lengths, velocities, activation over time (.sto)");
+  command.add_option("--out", o->out,
+                     "Forces, lengths, velocities, activation over time (.sto); with --fit the "
+                     "parameters (.csv)");
   add_common_options(command, context, {.threads = false, .seed = false});
   command.callback([&context, o] {
     if (!o->out.empty()) {
-      context.prepare_file(o->out,
-                           {o->muscle, o->length, o->activation, o->excitation, o->measured});
+      std::vector<std::string> inputs{o->muscle, o->activation, o->excitation};
+      inputs.insert(inputs.end(), o->lengths.begin(), o->lengths.end());
+      inputs.insert(inputs.end(), o->measured.begin(), o->measured.end());
+      context.prepare_file(o->out, inputs);
     }
     run(*o, context);
   });

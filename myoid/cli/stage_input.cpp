@@ -6,6 +6,7 @@
 #include "myoid/model/arm4.h"
 #include "myoid/model/osim_reader.h"
 #include "myoid/model/path_survey.h"
+#include "myoid/recording/csv_reader.h"
 #include "myoid/recording/storage_reader.h"
 #include "myoid/recording/storage_writer.h"
 #include "myoid/signals/clock_gaps.h"
@@ -168,6 +169,14 @@ dynamics::ExternalLoads load_external_loads(const model::BodyModel& model,
         path.string(), loads.start_s, loads.end_s, time_s[0], time_s[time_s.size() - 1]));
   }
   return loads;
+}
+
+TimeSeries read_series(const std::filesystem::path& path) {
+  for (const char* table : {".csv", ".tsv", ".txt"}) {
+    if (recording::equal_ignoring_case(path.extension().string(), table))
+      return recording::read_csv_series(path).data;
+  }
+  return recording::read_storage(path).data;
 }
 
 void write_series(const std::filesystem::path& path,

@@ -25,6 +25,7 @@ StudyData force_study(const StudyData& data, std::size_t muscle) {
     t.name = trial.name;
     t.calibration = trial.calibration;
     t.condition = trial.condition;
+    t.joint = data.muscles[muscle].name;
     t.time_s = trial.time_s;
     t.length_m = trial.length_m.col(column);
     t.velocity_mps = trial.velocity_mps.col(column);

@@ -204,10 +204,12 @@ FreeParameter make_free(const Slot& slot, const std::string& owner, bool priors)
   p.lower = field.logarithmic && slot.bounds.lower <= 0.0 ? std::log(1e-9)
                                                           : scaled(field, slot.bounds.lower);
   p.upper = scaled(field, slot.bounds.upper);
-  if (slot.value < field.bounds.lower || slot.value > field.bounds.upper) {
+  // Bounds that were given may be wider: a rat's muscle, say.
+  const double least = std::min(field.bounds.lower, slot.bounds.lower);
+  const double most = std::max(field.bounds.upper, slot.bounds.upper);
+  if (slot.value < least || slot.value > most) {
     throw InvalidInput(fmt::format("{} starts at {} {}, where no muscle can be: {} to {}", p.label,
-                                   slot.value, symbol(field.unit), field.bounds.lower,
-                                   field.bounds.upper));
+                                   slot.value, symbol(field.unit), least, most));
   }
   if (!(p.lower <= p.upper)) {
     throw InvalidInput(fmt::format("{}: lower bound {} above upper bound {}", p.label,
