@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -102,12 +103,17 @@ void add_twin_study(CLI::App& app, Context& context) {
   struct Options {
     std::string protocol, level, out;
     bool each_muscle = false;
+    std::optional<double> offset;
     pipeline::TwinStudyOptions study;
   };
   const auto options = std::make_shared<Options>();
   command.add_option("--protocol", options->protocol, "What is recorded, a .toml file")->required();
   command.add_option("--level", options->level, "L0, L1 or L2 instead of the protocol's own")
       ->check(CLI::IsMember({"L0", "L1", "L2"}));
+  command
+      .add_option("--offset", options->offset,
+                  "Mean of the persons away from the priors', in standard deviations")
+      ->check(CLI::Range(-3.0, 3.0));
   command.add_option("--subjects", options->study.subjects, "Virtual persons")
       ->check(CLI::Range(1, 1000000))
       ->capture_default_str();
@@ -124,7 +130,8 @@ void add_twin_study(CLI::App& app, Context& context) {
          {simulation::Level::noise_free, simulation::Level::noisy, simulation::Level::different}) {
       if (options->level == simulation::name(known)) level = known;
     }
-    const simulation::Protocol protocol = simulation::read_protocol(options->protocol, level);
+    simulation::Protocol protocol = simulation::read_protocol(options->protocol, level);
+    if (options->offset) protocol.truth.offset = *options->offset;
     context.prepare_folder(options->out);
     options->study.first_seed = context.seed;
     options->study.progress = context.progress();
