@@ -80,6 +80,9 @@ FixedFrame resolve(const OsimReading& r,
   };
   if (name.starts_with('/')) {
     if (const auto frame = found(name)) return *frame;
+  } else if (name == "..") {
+    // The component that holds the frame.
+    if (const auto frame = found(owner)) return *frame;
   } else {
     while (name.starts_with("../")) name.erase(0, 3);
     for (std::string base = owner;;) {

@@ -24,6 +24,22 @@ std::string message_of(const std::string& xml) {
   return "(no error)";
 }
 
+TEST(ParseOsim, TakesTwoDotsForTheComponentThatHoldsAFrame) {
+  const BodyModel m = parse_osim(
+      R"(<OpenSimDocument Version="40000"><Model name="m">
+<BodySet><objects><Body name="b"><mass>1</mass><inertia>1 1 1 0 0 0</inertia>
+<components><PhysicalOffsetFrame name="f"><socket_parent>..</socket_parent>
+<translation>0 0 0.5</translation></PhysicalOffsetFrame></components></Body></objects></BodySet>
+<JointSet><objects><WeldJoint name="j"><socket_parent_frame>/ground</socket_parent_frame>
+<socket_child_frame>/bodyset/b</socket_child_frame></WeldJoint></objects></JointSet>
+<MarkerSet><objects><Marker name="k"><socket_parent_frame>/bodyset/b/f</socket_parent_frame>
+<location>0.1 0 0</location></Marker></objects></MarkerSet></Model></OpenSimDocument>)",
+      "m.osim");
+  ASSERT_EQ(m.markers.size(), 1U);
+  EXPECT_EQ(m.markers[0].body, 1);
+  EXPECT_EQ(m.markers[0].p_BM, Vec3(0.1, 0.0, 0.5));
+}
+
 TEST(ParseOsim, ReadsOurOwnArm) {
   const BodyModel m = parse_osim(arm4_osim({}), "arm4.osim");
   EXPECT_EQ(m.muscles.size(), 4U);

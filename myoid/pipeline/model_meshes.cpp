@@ -123,8 +123,12 @@ std::vector<MeshUse> list_meshes(std::string_view osim, const fs::path& path) {
     add_visible(r, body, *index, uses);
   }
   for (const auto& [name, frame] : r.frames) {
-    if (frame.node.child("attached_geometry"))
+    if (!frame.node.child("attached_geometry")) continue;
+    try {
       add_attached(r, frame.node, model::resolve_frame(r, frame.node, name, ""), uses);
+    } catch (const ReadError&) {
+      // A frame that leads nowhere carries nothing; the reader complains where it matters.
+    }
   }
   return uses;
 }
