@@ -93,6 +93,8 @@ bool is_time(const Label& label) {
                                             "time_ms", "timestamp", "time stamp",  "zeit",
                                             "temps",   "tiempo",    "time series", "abs time"};
   if (kWords.contains(name)) return true;
+  // "EMG 1 Time Series (s)": a time column for each channel.
+  if (name.ends_with("time series") && label.unit && label.unit->unit == Unit::second) return true;
   return (name == "x" || name.starts_with("x[s]")) &&
          (!label.unit || label.unit->unit == Unit::second);
 }

@@ -157,8 +157,8 @@ std::optional<Layout> qualisys(const Lines& lines) {
       }
       ++n;
       break;
-    } else if (parse_number(cells[0]) ||
-               (cells.size() > 1 && parse_number(cells[1]) && cells[0].empty())) {
+    } else if (!layout.names.empty() && cells.size() > 1 &&
+               (cells[0].empty() || parse_number(cells[0]))) {
       break;
     }
   }
@@ -254,10 +254,12 @@ MarkerFile parse_marker_table(std::string_view text, const std::filesystem::path
   Eigen::VectorXd time(most);
   Eigen::Index row = 0, zeros = 0;
   for (std::size_t n = layout.first_row; n < layout.end_row; ++n) {
-    if (trim(lines[n]).empty()) continue;
+    // A row of nothing but separators is a frame in which nothing was seen.
+    if (trim(lines[n]).empty() && lines[n].find(layout.separator) == std::string_view::npos)
+      continue;
     auto cells = cells_of(lines[n], layout.separator);
     // Gaps at the end of a row may be cut off with their separators, by a spreadsheet.
-    if (cells.size() + 3 <= layout.first_column + 3) {
+    if (cells.size() <= layout.first_column) {
       throw ReadError(path, n + 1, fmt::format("{} cells, expected {}", cells.size(), width));
     }
     if (cells.size() < width) {

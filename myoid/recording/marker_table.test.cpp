@@ -63,6 +63,17 @@ TEST(MarkerTable, QualisysRowsAreReadWithAndWithoutFrameAndTime) {
   }
 }
 
+TEST(MarkerTable, AFrameInWhichQualisysSawNothingKeepsItsPlace) {
+  const MarkerSeries m =
+      parse_marker_table(kQualisys + "\t\t\t4\t5\t6\n\t\t\t\t\t\n1\t2\t3\t4\t5\t6\n", "a.tsv")
+          .markers;
+  ASSERT_EQ(m.frame_count(), 3);
+  EXPECT_TRUE(m.missing(0, 0));
+  EXPECT_FALSE(m.missing(0, 1));
+  EXPECT_TRUE(m.missing(1, 1));
+  EXPECT_DOUBLE_EQ(m.position(2, 0).z(), 0.003);
+}
+
 TEST(MarkerTable, PointsOfBtsAndNdiAreReadInTheirUnits) {
   EXPECT_DOUBLE_EQ(parse_marker_table(kBts, "a.emt").markers.position(1, 0).z(), 0.6);
   const MarkerSeries m = parse_marker_table(kNdi, "a.csv").markers;
