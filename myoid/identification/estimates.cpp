@@ -380,6 +380,13 @@ void report_estimates(const Estimator& estimator,
     }
     result.undetermined.push_back(fmt::format("{}", fmt::join(parts, " ")));
   }
+  if (options.weights && options.correct_attenuation && !solution.weighting.corrected) {
+    result.warnings.push_back(
+        "the noise of the EMG is too large against what the recording tells of the muscles' "
+        "torques "
+        "for its effect on the strengths to be taken out: they may come out too weak, above all "
+        "where muscles work against each other");
+  }
   if (result.model_error > VerdictRules{}.model_error) {
     result.warnings.push_back(
         fmt::format("what the model leaves of the torque depends on posture, effort and speed as "

@@ -349,6 +349,7 @@ void Estimator::find_noise(const Eigen::VectorXd& z,
                            const Evaluation& at,
                            Weighting& weighting) const {
   weighting.exponent = exponents(z);
+  const bool correct = options_.correct_attenuation && weighting.corrected;
   const Eigen::VectorXd residual = at.predicted - model_->measured();
   const auto n = static_cast<double>(residual.size());
   const double freedom =
@@ -369,7 +370,7 @@ void Estimator::find_noise(const Eigen::VectorXd& z,
       }
     }
   }
-  if (options_.correct_attenuation) weighting.emg_variance.setZero(residual.size());
+  if (correct) weighting.emg_variance.setZero(residual.size());
   for (int joint = 0; joint < model_->joint_count(); ++joint) {
     std::vector<Eigen::Index> rows;
     for (const Piece& piece : model_->pieces()) {
@@ -400,13 +401,13 @@ void Estimator::find_noise(const Eigen::VectorXd& z,
     for (const Eigen::Index row : rows) {
       weighting.sd_nm[row] = std::sqrt(level.torque_sd_nm * level.torque_sd_nm +
                                        variance * power[row] + at.motion_variance[row]);
-      if (options_.correct_attenuation) weighting.emg_variance[row] = variance;
+      if (correct) weighting.emg_variance[row] = variance;
     }
   }
   weighting.share = math::effective_sample_size(residual.cwiseQuotient(weighting.sd_nm),
                                                 model_->piece_lengths()) /
                     n;
-  if (options_.correct_attenuation) {
+  if (correct) {
     weighting.offset =
         weighting.emg_variance.cwiseProduct(power).cwiseQuotient(weighting.sd_nm.cwiseAbs2()).sum();
   }
@@ -439,8 +440,25 @@ Estimator::Solution Estimator::solve(const Eigen::VectorXd& start) const {
   for (int pass = 0; pass < options_.passes; ++pass) {
     // Only the last pass needs all digits: the weights still move before.
     const bool last = pass + 1 == options_.passes;
-    solution.search = search(x, weighting, last ? 1e-9 : 1e-4, last ? 1e-11 : 1e-4);
-    iterations += solution.search.iterations;
+    const auto run = [&] {
+      solution.search = search(x, weighting, last ? 1e-9 : 1e-4, last ? 1e-11 : 1e-4);
+      iterations += solution.search.iterations;
+    };
+    run();
+    if (weighting.emg_variance.size() > 0) {
+      // Residuals three times as large as their weights say are no fit.
+      constexpr double kRunaway = 9.0;
+      model_->evaluate(solution.search.x, ResidualModel::Depth::value, at);
+      const double misfit =
+          (at.predicted - model_->measured()).cwiseQuotient(weighting.sd_nm).squaredNorm() /
+          static_cast<double>(n);
+      if (!(misfit < kRunaway)) {
+        weighting.corrected = false;
+        weighting.emg_variance.resize(0);
+        weighting.offset = 0.0;
+        run();
+      }
+    }
     x = solution.search.x;
     if (last) break;
     model_->evaluate(x, ResidualModel::Depth::noise, at);

@@ -19,10 +19,13 @@ struct NoiseLevel {
 
 /// How much a sample counts: held within a pass of the search.
 struct Weighting {
-  Eigen::VectorXd sd_nm;          ///< Per sample.
-  double share = 1.0;             ///< nu: effective over all samples.
-  Eigen::VectorXd emg_variance;   ///< Per sample: emg_factor^2 of its joint; empty: no correction.
-  double offset = 0.0;            ///< Keeps the corrected cost positive.
+  Eigen::VectorXd sd_nm;         ///< Per sample.
+  double share = 1.0;            ///< nu: effective over all samples.
+  Eigen::VectorXd emg_variance;  ///< Per sample: emg_factor^2 of its joint; empty: no correction.
+  double offset = 0.0;           ///< Keeps the corrected cost positive.
+  /// What the correction subtracts grows with the square of the torques. Where the data hardly
+  /// bound these, it would outgrow what it is subtracted from: false, and it is left out.
+  bool corrected = true;
   Eigen::VectorXd exponent;       ///< p of a = g u^p by EMG channel where the noise was found.
   std::vector<NoiseLevel> noise;  ///< Per joint.
 };

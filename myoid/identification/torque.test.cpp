@@ -1,5 +1,6 @@
 #include "myoid/identification/torque.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -131,6 +132,36 @@ TEST(IdentifyTorque, FindsTheTruthWithoutNoise) {
     EXPECT_EQ(e.verdict, Verdict::identified) << e.muscle << " " << e.parameter << ": " << e.reason;
   }
   for (const TrialFit& fit : result.trials) EXPECT_GT(fit.r2, 1.0 - 1e-10);
+}
+
+TEST(IdentifyTorque, FindsTheTruthWithoutNoiseFromTwentyStarts) {
+  // Each number of each muscle begins up to two spreads of people away from the truth, either way.
+  const ElbowStudy study = elbow_study({.trials = 2, .seconds = 10.0});
+  const double spread[] = {0.25, 0.10, 0.25, 0.30, 0.50, 0.10};
+  test::StudyNoise random(5);
+  for (int start = 0; start < 20; ++start) {
+    StudyData data = study.data;
+    for (std::size_t k = 0; k < 4; ++k) {
+      for (std::size_t f = 0; f < 6; ++f) {
+        double& value = data.muscles[k].start.*muscle::kHillFields[f].member;
+        value = study.truth[k].*muscle::kHillFields[f].member *
+                std::exp(2.0 * spread[f] * (2.0 * random.uniform() - 1.0));
+        value = std::clamp(value, 1.01 * muscle::kHillFields[f].bounds.lower,
+                           0.99 * muscle::kHillFields[f].bounds.upper);
+      }
+    }
+    const IdentificationResult result = identify_torque(data, {.priors = false,
+                                                               .max_rate_hz = 20.0,
+                                                               .residual_cutoff_hz = {},
+                                                               .weights = false,
+                                                               .predictions = false});
+    ASSERT_EQ(result.estimates.size(), 25U);
+    for (const ParameterEstimate& e : result.estimates) {
+      const double truth = true_value(study, e);
+      EXPECT_NEAR(e.estimate, truth, 1e-6 * truth)
+          << "start " << start << ": " << e.muscle << " " << e.parameter;
+    }
+  }
 }
 
 TEST(IdentifyTorque, IntervalsHoldTheTruthAsOftenAsTheySay) {

@@ -43,10 +43,12 @@ void widen(const Eigen::MatrixXd& arm_m,
 
 }  // namespace
 
-std::vector<ParameterRule> nuisance_rules(EmgKind emg, const identification::StudyData& data) {
+std::vector<ParameterRule> nuisance_rules(const EmgSpec& emg,
+                                          const identification::StudyData& data) {
   std::vector<ParameterRule> rules{rule("length_activation", 0.0, 0.1)};
   rules.back().tie = true;
-  if (emg != EmgKind::activation) rules.push_back(rule("emg_exponent", 1.0, 0.2));
+  if (emg.kind != EmgKind::activation && emg.has_mvc)
+    rules.push_back(rule("emg_exponent", 1.0, 0.2));
   std::map<std::string, JointReach> joints;
   for (const TrialData& trial : data.trials) {
     const Eigen::Index n = trial.time_s.size();

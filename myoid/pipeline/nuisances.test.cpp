@@ -27,7 +27,7 @@ const ParameterRule* rule_of(const std::vector<ParameterRule>& rules, std::strin
 
 TEST(NuisanceRules, SizeOfAJointsOwnTorqueGoesWithTheStrengthOfItsMuscles) {
   identification::StudyData data = moving_elbow();
-  const std::vector<ParameterRule> rules = nuisance_rules(EmgKind::raw, data);
+  const std::vector<ParameterRule> rules = nuisance_rules({.kind = EmgKind::raw}, data);
   double strength_nm = 0.0;  // both trials have the largest arms: the same movement
   for (Eigen::Index k = 0; k < 4; ++k) {
     double arm_m = 0.0;
@@ -41,20 +41,21 @@ TEST(NuisanceRules, SizeOfAJointsOwnTorqueGoesWithTheStrengthOfItsMuscles) {
   EXPECT_NEAR(*stiffness->prior_sd, 0.008 * strength_nm, 1e-12);
   EXPECT_EQ(*stiffness->prior_mean, 0.0);
   for (auto& muscle : data.muscles) muscle.start.max_isometric_force_n *= 2.0;
-  EXPECT_NEAR(*rule_of(nuisance_rules(EmgKind::raw, data), "joint_viscosity")->prior_sd,
+  EXPECT_NEAR(*rule_of(nuisance_rules({.kind = EmgKind::raw}, data), "joint_viscosity")->prior_sd,
               2.0 * *rule_of(rules, "joint_viscosity")->prior_sd, 1e-12);
 }
 
 TEST(NuisanceRules, EmgThatIsGivenAsActivationIsTakenAtItsWord) {
   const identification::StudyData data = moving_elbow();
-  EXPECT_NE(rule_of(nuisance_rules(EmgKind::envelope, data), "emg_exponent"), nullptr);
-  EXPECT_EQ(rule_of(nuisance_rules(EmgKind::activation, data), "emg_exponent"), nullptr);
+  EXPECT_NE(rule_of(nuisance_rules({.kind = EmgKind::envelope}, data), "emg_exponent"), nullptr);
+  EXPECT_EQ(rule_of(nuisance_rules({.kind = EmgKind::activation}, data), "emg_exponent"), nullptr);
+  EXPECT_EQ(rule_of(nuisance_rules({.has_mvc = false}, data), "emg_exponent"), nullptr);
 }
 
 TEST(NuisanceRules, AJointWhoseMotionIsNotKnownHasNoTorqueOfItsOwn) {
   identification::StudyData data = moving_elbow();
   data.trials[1].velocity_radps.resize(0);
-  const std::vector<ParameterRule> rules = nuisance_rules(EmgKind::raw, data);
+  const std::vector<ParameterRule> rules = nuisance_rules({.kind = EmgKind::raw}, data);
   EXPECT_EQ(rule_of(rules, "joint_stiffness"), nullptr);
   EXPECT_NE(rule_of(rules, "length_activation"), nullptr);
 }

@@ -182,7 +182,9 @@ Phase judge(const Segment& segment,
   phase.gain = std::exp(gain);
   const bool frequency_known = std::isfinite(frequency);
   if (frequency_known) phase.frequency = std::exp(frequency);
-  const bool gain_differs = std::abs(gain) > -std::log1p(-options.gain_change) &&
+  const bool before = segment.first < regular.first;
+  const double least = before ? options.warm_up_change : options.gain_change;
+  const bool gain_differs = std::abs(gain) > -std::log1p(-least) &&
                             std::abs(gain) > options.significance * changes.gain_sd * share;
   const bool frequency_fell = frequency_known &&
                               -frequency > -std::log1p(-options.frequency_fall) &&
@@ -192,7 +194,6 @@ Phase judge(const Segment& segment,
   };
   const bool alike = factor(segment.speed, regular.speed) < options.alike &&
                      factor(segment.torque, regular.torque) < options.alike;
-  const bool before = segment.first < regular.first;
   const std::string numbers = fmt::format(
       "torque per EMG {:+.0f} %{}", 100.0 * std::expm1(gain),
       frequency_known ? fmt::format(", median frequency {:+.0f} %", 100.0 * std::expm1(frequency))

@@ -54,7 +54,9 @@ struct PhaseOptions {
   double rest_activation = 0.03;  ///< Mean activation below which a still muscle rests.
   double shortest_s = 1.5;        ///< Of rest and isometric phases.
   double block_s = 2.0;           ///< Torque per EMG is measured per block: a cycle or more.
-  double gain_change = 0.10;      ///< Smaller changes of torque per EMG are none.
+  double gain_change = 0.10;      ///< Smaller changes of torque per EMG are none ...
+  double warm_up_change = 0.06;   ///< ... before the regular phase these: what fades is small on
+                                  ///< average, and leaving it out costs little.
   double frequency_fall = 0.08;   ///< Smaller falls of the median frequency are none (8-10 %).
   double significance = 4.0;  ///< Standard errors by which a phase differs from the regular one.
   double alike = 1.6;         ///< Phases whose speed or torque differ by a larger factor are not

@@ -487,7 +487,7 @@ StudyResult analyse(const Study& study, StudyInputs given, const RunOptions& opt
         continue;
       result.data.trials.push_back(trial_data(study, trial, groups));
     }
-    if (study.identify.priors) result.data.rules = nuisance_rules(study.emg.kind, result.data);
+    if (study.identify.priors) result.data.rules = nuisance_rules(study.emg, result.data);
     result.data.rules.insert(result.data.rules.end(), study.parameters.begin(),
                              study.parameters.end());
     if (study.phases.search && !result.data.trials.empty()) {

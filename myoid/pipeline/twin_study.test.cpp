@@ -1,6 +1,7 @@
 #include "myoid/pipeline/twin_study.h"
 
 #include <cmath>
+#include <stop_token>
 
 #include <gtest/gtest.h>
 
@@ -73,6 +74,20 @@ TEST(TwinStudy, ExactRecordingsGiveTheTruth) {
   ASSERT_EQ(result.rows.size(), 25U);
   for (const TwinRow& r : result.rows)
     EXPECT_NEAR(r.error(), 0.0, 1e-6) << r.estimate.muscle << ' ' << r.estimate.parameter;
+}
+
+TEST(TwinStudy, StoppedItSaysSoAndHasOnlyWhoIsFinished) {
+  const simulation::Protocol protocol = simulation::read_protocol(
+      std::string(MYOID_SOURCE_DIR) + "/examples/protocols/noise_free.toml");
+  std::stop_source stop;
+  stop.request_stop();
+  TwinStudyOptions options;
+  options.subjects = 3;
+  options.progress.stop = stop.get_token();
+  const TwinStudyResult result = twin_study(protocol, options);
+  EXPECT_TRUE(result.interrupted);
+  EXPECT_EQ(result.finished, 0);
+  EXPECT_TRUE(result.rows.empty());
 }
 
 }  // namespace
