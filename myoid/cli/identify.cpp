@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -280,6 +281,42 @@ std::vector<Channel> torque_columns(const Options& o,
   return columns;
 }
 
+/// The other files of a trial.
+std::vector<std::string> files_of(const Options& o, std::size_t trial, std::size_t joints) {
+  std::vector<std::string> files{o.activations[trial]};
+  if (!o.velocities.empty()) files.push_back(o.velocities[trial]);
+  if (!o.forces.empty()) files.push_back(o.forces[trial]);
+  if (o.method == "torque") {
+    files.push_back(o.torques[trial]);
+    for (std::size_t j = 0; j < joints; ++j) files.push_back(o.arms[joints * trial + j]);
+  }
+  return files;
+}
+
+/// The part of a series that all the files cover: nothing is made up beyond their ends.
+TimeSeries common_time(TimeSeries series,
+                       const std::vector<std::string>& files,
+                       const std::string& path) {
+  for (const std::string& file : files) {
+    const Eigen::VectorXd time_s = read_series(file).time_s();
+    const double begin_s = series.time_s()[0];
+    const double end_s = series.time_s()[series.sample_count() - 1];
+    const double last_s = time_s[time_s.size() - 1];
+    // Half a sample more is where neither clock has anything to say.
+    const double spare_s = 0.5 * (end_s - begin_s) / static_cast<double>(series.sample_count() - 1);
+    if (begin_s >= time_s[0] - spare_s && end_s <= last_s + spare_s) continue;
+    const bool apart = last_s <= begin_s || time_s[0] >= end_s;
+    if (!apart) series = series.slice(time_s[0] - 1e-9, last_s + 1e-9);
+    if (apart || series.sample_count() < 2) {
+      throw ReadError(file, 0,
+                      fmt::format("covers {:g} to {:g} s, {} covers {:g} to {:g} s: they must "
+                                  "overlap; bring them to one clock",
+                                  time_s[0], last_s, path, begin_s, end_s));
+    }
+  }
+  return series;
+}
+
 StudyData read_data(const Options& o, const MuscleTable& table, const Context& context) {
   StudyData data;
   data.muscles = table.muscles;
@@ -298,6 +335,7 @@ StudyData read_data(const Options& o, const MuscleTable& table, const Context& c
     }
     if (joints == 1) require_count(o.arms.size(), trials, "--moment-arms");
     require_count(o.torques.size(), trials, "--torques");
+    if (!o.forces.empty()) require_count(o.forces.size(), trials, "--forces");
   } else {
     require_count(o.forces.size(), trials, "--forces");
   }
@@ -310,6 +348,7 @@ StudyData read_data(const Options& o, const MuscleTable& table, const Context& c
       on_clock = on_clock.slice(context.start_s.value_or(-1e300), context.end_s.value_or(1e300));
     if (on_clock.sample_count() < 2)
       throw ReadError(o.lengths[i], 0, "fewer than two samples in the time asked for");
+    on_clock = common_time(std::move(on_clock), files_of(o, i, joints), o.lengths[i]);
     trial.time_s = on_clock.time_s();
     trial.length_m = columns_of(o.lengths[i], data.muscles, trial.time_s);
     trial.velocity_mps = o.velocities.empty()

@@ -282,6 +282,7 @@ TEST(IdentifyFromFiles, ClocksThatDoNotMeetAreRefused) {
     const Finished run = myoid(command(folder, method, 1, ".csv"));
     EXPECT_EQ(run.exit_code, 3) << method << run.out;
     EXPECT_THAT(run.err, HasSubstr("overlap")) << method;
+    EXPECT_THAT(run.err, HasSubstr("covers 20 to 21 s")) << method;
   }
 }
 
