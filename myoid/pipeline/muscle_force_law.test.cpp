@@ -67,10 +67,12 @@ TEST(MuscleForceLaw, FiberAndElasticTendonPullAlike) {
     const double height = p.optimal_fiber_length_m * std::sin(p.pennation_at_optimal_rad);
     const double fiber = std::hypot(along, height), cosine = along / fiber;
     const double l = fiber / p.optimal_fiber_length_m - 1.0;
-    const double v = speed * cosine / (p.optimal_fiber_length_m * p.max_contraction_velocity);
+    // Thelen's greatest velocity grows with the activation.
+    const double v = speed * cosine / (p.optimal_fiber_length_m * p.max_contraction_velocity) /
+                     (0.25 + 0.75 * a);
     const double k = p.concentric_shape;
     const double top = p.eccentric_plateau;
-    // Thelen's hyperbola at full activation.
+    // Thelen's hyperbola.
     const double fv = v <= 0.0 ? (1.0 + v) / (1.0 - v / k)
                                : (1.0 + v * top * (2.0 + 2.0 / k) / (top - 1.0)) /
                                      (1.0 + v * (2.0 + 2.0 / k) / (top - 1.0));
