@@ -5,9 +5,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "myoid/core/build_identity.h"
 #include "myoid/core/error.h"
 #include "myoid/core/provenance.h"
+#include "myoid/pipeline/build_identity.h"
 #include "myoid/pipeline/study_json.h"
 #include "myoid/recording/atomic_file.h"
 

@@ -1,4 +1,4 @@
-#include "myoid/core/build_identity.h"
+#include "myoid/pipeline/build_identity.h"
 
 #include <fstream>
 #include <iterator>
@@ -8,7 +8,7 @@
 
 #include "myoid/core/provenance.h"
 
-namespace myoid {
+namespace myoid::pipeline {
 namespace {
 
 std::string identity() {
@@ -31,4 +31,4 @@ const std::string& build_identity() {
   return value;
 }
 
-}  // namespace myoid
+}  // namespace myoid::pipeline

@@ -2,11 +2,11 @@
 
 #include <string>
 
-namespace myoid {
+namespace myoid::pipeline {
 
 /// SHA-256 of the program or library that this code is in, as built: two builds that compute
 /// differently differ in it, where their version may not. Read once. The version where the system
 /// does not show the file.
 [[nodiscard]] const std::string& build_identity();
 
-}  // namespace myoid
+}  // namespace myoid::pipeline

@@ -1,4 +1,4 @@
-#include "myoid/core/build_identity.h"
+#include "myoid/pipeline/build_identity.h"
 
 #include <fstream>
 #include <iterator>
@@ -8,7 +8,7 @@
 
 #include "myoid/core/provenance.h"
 
-namespace myoid {
+namespace myoid::pipeline {
 namespace {
 
 TEST(BuildIdentity, IsTheDigestOfTheProgramThatRuns) {
@@ -19,4 +19,4 @@ TEST(BuildIdentity, IsTheDigestOfTheProgramThatRuns) {
 }
 
 }  // namespace
-}  // namespace myoid
+}  // namespace myoid::pipeline
