@@ -310,7 +310,7 @@ Muscle read_muscle(OsimReading& r, pugi::xml_node node) {
     p.activation_time_s = de_groote ? 0.015 : 0.01;
     p.deactivation_time_s = de_groote ? 0.06 : 0.04;
   }
-  if (de_groote) p.min_control = 0.0;
+  if (!thelen && !millard) p.min_control = 0.0;
   const double class_min_control = p.min_control;
   set("max_isometric_force", p.max_isometric_force_n);
   p.optimal_fiber_length_m = positive(r, node, "optimal_fiber_length", p.optimal_fiber_length_m);

@@ -103,6 +103,22 @@ std::string arm_with(const std::string& old, const std::string& piece) {
   return text.replace(at, old.size(), piece);
 }
 
+// In OpenSim the least control of a muscle is 0, but for the classes that need an activation.
+TEST(ParseOsim, TheLeastControlIsThatOfTheMusclesClass) {
+  const auto least = [](const char* kind) {
+    std::string text = arm4_osim();
+    for (auto at = text.find("Thelen2003Muscle"); at != std::string::npos;
+         at = text.find("Thelen2003Muscle", at + 1))
+      text.replace(at, 16, kind);
+    return parse_osim(text, "arm.osim").muscles.at(0).properties.min_control;
+  };
+  EXPECT_EQ(least("Thelen2003Muscle"), 0.01);
+  EXPECT_EQ(least("Millard2012EquilibriumMuscle"), 0.01);
+  EXPECT_EQ(least("DeGrooteFregly2016Muscle"), 0.0);
+  EXPECT_EQ(least("Schutte1993Muscle_Deprecated"), 0.0);
+  EXPECT_EQ(least("RigidTendonMuscle"), 0.0);
+}
+
 TEST(ParseOsim, MarkersMayStandInAFileOfTheirOwn) {
   const auto folder = std::filesystem::temp_directory_path() / "myoid_markers_apart";
   std::filesystem::create_directories(folder / "sets");

@@ -5,8 +5,8 @@
 //
 // Prints the rows of docs/performance.md: seconds of the whole process by the clock, best of N,
 // and of the processor; what a frame takes of the latter, (whole - the same set-up cut to one
-// frame) / (frames - 1); OpenSim's seconds, and the ratio of the clocks. Then the floor of each
-// model: what poses, velocities and inverse dynamics cost alone.
+// frame) / (frames - 1); OpenSim's seconds by the clock, and their ratio to our processor time.
+// Then the floor of each model: what poses, velocities and inverse dynamics cost alone.
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>
@@ -242,7 +242,7 @@ void time_case(const Options& o,
     }
     fmt::print("| {} | {} | {} | {:.1f} ms | {:.1f} ms | {} | {:.0f} ms | {:.1f} |\n", name,
                setup.stem().string(), whole.frames, 1e3 * whole.seconds, 1e3 * whole.processor,
-               each, 1e3 * theirs, theirs / whole.seconds);
+               each, 1e3 * theirs, theirs / whole.processor);
   }
 }
 

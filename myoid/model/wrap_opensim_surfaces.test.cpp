@@ -1,12 +1,12 @@
-#include "myoid/model/wrap_opensim.h"
+#include "myoid/model/wrap_opensim_surfaces.h"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 
 #include "myoid/core/units.h"
+#include "myoid/model/wrap_opensim.h"
 #include "myoid/model/wrap_opensim_ellipsoid.h"
-#include "myoid/model/wrap_opensim_surfaces.h"
 
 namespace myoid::model {
 namespace {
