@@ -13,6 +13,9 @@ namespace {
 
 using math::Termination;
 
+/// After a step that failed, the damping is at least twice this.
+constexpr double kLeastRejected = 0.05;
+
 bool step_is_small(const Eigen::VectorXd& step, const Eigen::VectorXd& x, double tolerance) {
   return (step.array().abs() <= tolerance * (x.array().abs() + tolerance)).all();
 }
@@ -128,7 +131,8 @@ NormalSearchResult minimize_normal(const NormalFunction& function,
                  "the cost can fall no further within round-off");
           return r;
         }
-        damping = std::max(damping, 1e-12) * growth;
+        // Damping that changes nothing in the step is not worth an evaluation.
+        damping = std::max(damping, kLeastRejected) * growth;
         growth *= 2.0;
         if (damping > 1e30) {
           finish(r, lower, upper, Termination::no_descent, "no step lowers the cost");

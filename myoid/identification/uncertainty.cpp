@@ -302,10 +302,11 @@ std::vector<Interval> profile(const Estimator& estimator,
     const double goal = std::sqrt(kChiSquare95);
     double near = 0.0, near_value = 0.0;
     double far = std::min(goal * sd, reach);
-    Eigen::VectorXd x = solution.search.x;
+    // Then how their path bends, by the last fit.
+    Eigen::VectorXd bend = Eigen::VectorXd::Zero(p);
     std::optional<double> answer;
     for (int step = 0; step < 8 && far > 0.0; ++step) {
-      Eigen::VectorXd start = x + along * (side * (far - near));
+      Eigen::VectorXd start = solution.search.x + (side * far) * along + (far * far) * bend;
       start[j] = solution.search.x[j] + side * far;
       const NormalSearchResult fit =
           estimator.search(start, solution.weighting, 1e-4, 1e-4, 40, {}, held);
@@ -316,9 +317,9 @@ std::vector<Interval> profile(const Estimator& estimator,
         answer = middle;
         break;
       }
+      bend = (fit.x - solution.search.x - (side * far) * along) / (far * far);
       if (value < goal) {
         if (far >= reach * (1.0 - 1e-12)) break;  // open: the bound comes first
-        x = fit.x;
         near = far;
         near_value = value;
         const double slope = value / far;
