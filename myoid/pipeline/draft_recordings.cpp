@@ -67,14 +67,30 @@ void find_emg(const fs::path& path, const TimeSeries& analog, FoundRecording& fo
     found.has_unit = stated;
   }
   if (found.channels.empty()) return;
-  // Raw EMG swings about 0; an envelope does not.
-  const TimeSeries emg = analog.select(found.channels);
-  Eigen::Index swinging = 0;
-  for (Eigen::Index c = 0; c < emg.channel_count(); ++c) {
-    const auto x = emg.values().col(c).array();
-    if (x.allFinite() && x.minCoeff() < -0.2 * x.maxCoeff()) ++swinging;
+  // Raw EMG goes through its median many times a second, an envelope (below some 10 Hz) does not.
+  std::vector<std::string> named;
+  for (const std::string& c : found.channels) {
+    if (small(c).find("emg") != std::string::npos) named.push_back(c);
   }
-  found.raw = 2 * swinging >= emg.channel_count();
+  const TimeSeries emg = analog.select(named.empty() ? found.channels : named);
+  const Eigen::Index n = emg.sample_count();
+  if (n < 3) return;
+  const double length_s = emg.time_s()[n - 1] - emg.time_s()[0];
+  constexpr double kRaw_hz = 30.0;
+  Eigen::Index raw = 0, varying = 0;
+  for (Eigen::Index c = 0; c < emg.channel_count(); ++c) {
+    const Eigen::VectorXd x = emg.values().col(c);
+    if (!(x.maxCoeff() > x.minCoeff())) continue;  // no electrode on it
+    ++varying;
+    Eigen::VectorXd sorted = x;
+    std::nth_element(sorted.begin(), sorted.begin() + n / 2, sorted.end());
+    Eigen::Index crossings = 0;
+    for (Eigen::Index k = 1; k < n; ++k) {
+      if ((x[k] > sorted[n / 2]) != (x[k - 1] > sorted[n / 2])) ++crossings;
+    }
+    if (static_cast<double>(crossings) > kRaw_hz * length_s) ++raw;
+  }
+  found.raw = 2 * raw >= varying;
 }
 
 std::vector<fs::path> recordings_in(const std::vector<fs::path>& from,

@@ -37,7 +37,7 @@ struct FoundRecording {
 [[nodiscard]] std::string guessed_use(const std::string& stem);
 
 /// Adds the channels of a file that are voltages, or are called EMG, and whether they are raw: raw
-/// EMG swings about 0, an envelope does not.
+/// EMG goes through its median more than 30 times a second, an envelope does not.
 void find_emg(const std::filesystem::path& path, const TimeSeries& analog, FoundRecording& found);
 
 /// How well the model's markers, at its default pose, lie on the first complete frame when `up`

@@ -39,17 +39,24 @@ TEST(RecordingsIn, AFolderAreThoseWithAKnownEndingInItAndItsFolders) {
   EXPECT_EQ(models.size(), 1U);
 }
 
-TEST(FindEmg, VoltagesThatSwingAboutZeroAreRaw) {
-  const Eigen::VectorXd t = Eigen::VectorXd::LinSpaced(100, 0.0, 0.99);
-  Eigen::MatrixXd x(100, 2);
-  x.col(0) = (20.0 * t.array()).sin();
+TEST(FindEmg, VoltagesThatGoThroughTheirMedianOftenAreRaw) {
+  const Eigen::VectorXd t = Eigen::VectorXd::LinSpaced(1000, 0.0, 0.999);
+  Eigen::MatrixXd x(1000, 2);
+  x.col(0) = 3.0 + (700.0 * t.array()).sin();
   x.col(1).setOnes();
   FoundRecording found;
   find_emg("a.csv", TimeSeries(t, {{"BIC", Unit::volt}, {"Fz", Unit::newton}}, x), found);
   EXPECT_EQ(found.channels, std::vector<std::string>{"BIC"});
   EXPECT_TRUE(found.raw);
+  FoundRecording unused;  // channels without an electrode do not vote
+  Eigen::MatrixXd zeros = Eigen::MatrixXd::Zero(1000, 3);
+  zeros.col(1) = x.col(0);
+  find_emg("a.csv", TimeSeries(t, {{"A", Unit::volt}, {"B", Unit::volt}, {"C", Unit::volt}}, zeros),
+           unused);
+  EXPECT_TRUE(unused.raw);
   FoundRecording envelope;
-  find_emg("a.csv", TimeSeries(t, {{"BIC", Unit::volt}}, x.col(0).cwiseAbs()), envelope);
+  const Eigen::VectorXd slow = 1.0 + (20.0 * t.array()).sin();
+  find_emg("a.csv", TimeSeries(t, {{"BIC", Unit::volt}}, slow), envelope);
   EXPECT_FALSE(envelope.raw);
 }
 

@@ -176,7 +176,11 @@ class Draft {
       for (const std::string& name : f.markers.names) {
         if (model_.find_marker(name) || match.same.contains(name)) ++known;
       }
-      for (const auto& [name, like] : match.similar) similar_.emplace(name, like);
+      for (const auto& [name, like] : match.similar) {
+        const bool taken = std::any_of(similar_.begin(), similar_.end(),
+                                       [&](const auto& pair) { return pair.second == like; });
+        if (!taken) similar_.emplace(name, like);
+      }
       for (std::string& name : f.markers.names) {
         if (const auto same = match.same.find(name); same != match.same.end()) name = same->second;
       }
@@ -279,7 +283,7 @@ class Draft {
     }
     line("[emg]");
     line(fmt::format("kind = \"{}\"   # {}", raw ? "raw" : "envelope",
-                     raw ? "it swings about zero" : "it does not swing about zero"));
+                     raw ? "by how often it goes through its median" : "it changes slowly"));
     if (mixed_)
       todo(
           "some files hold raw EMG, others envelopes: a study takes one kind; leave the others "
