@@ -432,31 +432,33 @@ Estimator::Solution Estimator::solve(const Eigen::VectorXd& start) const {
   // First guess of the noise: a tenth of the torque.
   const double first = std::max(
       0.1 * std::sqrt(model_->measured().squaredNorm() / static_cast<double>(n)), floor_nm_);
-  weighting.sd_nm.setConstant(first);
-  weighting.share = 0.25;
-  Eigen::VectorXd x = start;
+  const auto begin_anew = [&] {
+    weighting.sd_nm.setConstant(first);
+    weighting.share = 0.25;
+    weighting.emg_variance.resize(0);
+    weighting.offset = 0.0;
+    return start;
+  };
+  Eigen::VectorXd x = begin_anew();
   Evaluation at;
   int iterations = 0;
   for (int pass = 0; pass < options_.passes; ++pass) {
     // Only the last pass needs all digits: the weights still move before.
     const bool last = pass + 1 == options_.passes;
-    const auto run = [&] {
-      solution.search = search(x, weighting, last ? 1e-9 : 1e-4, last ? 1e-11 : 1e-4);
-      iterations += solution.search.iterations;
-    };
-    run();
-    if (weighting.emg_variance.size() > 0) {
-      // Residuals three times as large as their weights say are no fit.
-      constexpr double kRunaway = 9.0;
+    solution.search = search(x, weighting, last ? 1e-9 : 1e-4, last ? 1e-11 : 1e-4);
+    iterations += solution.search.iterations;
+    if (last && weighting.emg_variance.size() > 0) {
+      // Residuals ten times as large as their weights say, or three times the torque: no fit.
       model_->evaluate(solution.search.x, ResidualModel::Depth::value, at);
+      const Eigen::VectorXd residual = at.predicted - model_->measured();
       const double misfit =
-          (at.predicted - model_->measured()).cwiseQuotient(weighting.sd_nm).squaredNorm() /
-          static_cast<double>(n);
-      if (!(misfit < kRunaway)) {
+          residual.cwiseQuotient(weighting.sd_nm).squaredNorm() / static_cast<double>(n);
+      const double share = residual.squaredNorm() / model_->measured().squaredNorm();
+      if (!(misfit < 100.0 && share < 9.0)) {
         weighting.corrected = false;
-        weighting.emg_variance.resize(0);
-        weighting.offset = 0.0;
-        run();
+        x = begin_anew();
+        pass = -1;
+        continue;
       }
     }
     x = solution.search.x;
