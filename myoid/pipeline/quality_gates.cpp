@@ -83,6 +83,34 @@ MissingMuscles missing_muscles(const StudyResult& result) {
   return missing;
 }
 
+/// How much of the torque of the fitted trials, or of those held back, the fit makes: in the band
+/// of the fit, all trials and joints together, each about its own mean.
+struct Explained {
+  Eigen::Index samples = 0;
+  double r2 = 0.0, rms_nm = 0.0;
+  double torque_rms_nm = 0.0;  ///< What predicting none at all would err by.
+};
+
+Explained explained(const IdentificationResult& fit, bool calibration) {
+  Explained all;
+  double errors = 0.0, total = 0.0, torque = 0.0;
+  for (const identification::TrialFit& t : fit.trials) {
+    const Eigen::Index n = t.torque_nm.size();
+    if (t.calibration != calibration || n < 2 || t.torque_fit_nm.size() != n) continue;
+    const double squares = static_cast<double>(n) * t.band.rmse_nm * t.band.rmse_nm;
+    if (!std::isfinite(squares)) continue;
+    errors += squares;
+    total += t.band.r2 < 1.0 ? squares / (1.0 - t.band.r2) : 0.0;
+    torque += t.torque_nm.squaredNorm();
+    all.samples += n;
+  }
+  if (all.samples == 0) return all;
+  all.rms_nm = std::sqrt(errors / static_cast<double>(all.samples));
+  all.torque_rms_nm = std::sqrt(torque / static_cast<double>(all.samples));
+  all.r2 = total > 0.0 ? 1.0 - errors / total : 1.0;
+  return all;
+}
+
 }  // namespace
 
 std::vector<report::Gate> quality_gates(const StudyResult& result) {
@@ -202,6 +230,22 @@ std::vector<report::Gate> quality_gates(const StudyResult& result) {
         {"Fit converged",
          torque->termination == math::Termination::converged ? GateStatus::pass : GateStatus::fail,
          torque->message, "converged", "Only a converged fit is an answer."});
+    if (const Explained fit = explained(*torque, true); fit.samples > 0) {
+      list.push_back({"Describes the torque it was fitted to",
+                      fit.rms_nm > fit.torque_rms_nm ? GateStatus::fail
+                      : fit.r2 > 0.5                 ? GateStatus::pass
+                                                     : GateStatus::warn,
+                      fmt::format("R2 {:.2f} over all trials, {:.2f} of {:.2f} N m rms", fit.r2,
+                                  fit.rms_nm, fit.torque_rms_nm),
+                      "R2 above 0.5; fails where no torque at all would be nearer",
+                      "Muscles that do not even make the torque they were fitted to are none."});
+    }
+    if (const Explained held = explained(*torque, false); held.samples > 0) {
+      list.push_back({"Predicts the trials held back",
+                      held.r2 > 0.0 ? GateStatus::pass : GateStatus::warn,
+                      fmt::format("R2 {:.2f}, {:.2f} N m rms", held.r2, held.rms_nm), "R2 above 0",
+                      "Below 0 their own mean torque predicts them better."});
+    }
     const auto count = [&](Verdict v) {
       return std::count_if(torque->estimates.begin(), torque->estimates.end(), [&](const auto& e) {
         return e.verdict == v && !identification::is_nuisance(e);

@@ -49,6 +49,9 @@ std::string read_text_file(const std::filesystem::path& path) {
   }
   if (std::filesystem::is_directory(status))
     throw ReadError(path, 0, "this is a folder; name a file inside it");
+  // A pipe ends; a device may not.
+  if (!std::filesystem::is_regular_file(status) && !std::filesystem::is_fifo(status))
+    throw ReadError(path, 0, "this is no regular file; save it to the disk first");
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"),
                                                              &std::fclose);
   if (!file) throw ReadError(path, 0, fmt::format("cannot be opened: {}", std::strerror(errno)));

@@ -83,5 +83,9 @@ TEST(LooksCut, ComparesTheDecimalsOfTheLastNumbers) {
   EXPECT_FALSE(looks_cut("", ""));
 }
 
+TEST(TextFile, ADeviceThatNeverEndsIsRefused) {
+  EXPECT_THROW((void)read_text_file("/dev/zero"), ReadError);
+}
+
 }  // namespace
 }  // namespace myoid::recording

@@ -13,7 +13,7 @@ namespace {
 constexpr std::string_view kStyle = R"(
 :root { color-scheme: light; }
 * { box-sizing: border-box; }
-body { margin: 0 auto; max-width: 860px; padding: 28px 24px 60px; background: #fff; color: #22262b;
+body { margin: 0 auto; max-width: 1080px; padding: 28px 24px 60px; background: #fff; color: #22262b;
   font: 15px/1.5 Helvetica, Arial, sans-serif; }
 h1 { font-size: 26px; line-height: 1.2; margin: 0 0 2px; }
 h2 { font-size: 19px; margin: 38px 0 8px; padding-bottom: 4px; border-bottom: 1px solid #d5d9de; }
