@@ -323,6 +323,11 @@ void report_estimates(const Estimator& estimator,
       e.parameter = "eccentric_curvature_product";
       e.initial = data.muscles[k].start.eccentric_curvature_product;
       e.estimate = result.values.muscles[k][kProduct];
+      // Where V_ml leans on 1 nothing rises, and P follows to where no muscle is: on its bound.
+      const muscle::Range physical = muscle::hill_field(e.parameter).bounds;
+      const double inside = std::clamp(e.estimate, physical.lower, physical.upper);
+      e.at_bound = inside != e.estimate;
+      e.estimate = inside;
       if (where.curvature >= 0 && where.plateau >= 0) {
         const std::vector<Eigen::Index> three{where.curvature, where.plateau, at};
         constexpr int kDraws = 2000;

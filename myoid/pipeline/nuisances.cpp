@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <string>
 #include <utility>
 
 namespace myoid::pipeline {
@@ -11,6 +12,7 @@ using identification::JointData;
 using identification::ParameterRule;
 using identification::TrialData;
 
+constexpr double kStrained = 0.5;  // of the greatest EMG
 constexpr double kStiffness = 0.008, kOffset = 0.008, kViscosity = 0.0016;
 
 ParameterRule rule(const char* parameter, double mean, double sd) {
@@ -41,14 +43,33 @@ void widen(const Eigen::MatrixXd& arm_m,
   joint.arm_m = joint.arm_m.size() == 0 ? here : Eigen::VectorXd(joint.arm_m.cwiseMax(here));
 }
 
+/// EMG channels that reach kStrained of the maximum in a trial that is fitted.
+std::vector<std::string> strained_channels(const identification::StudyData& data) {
+  std::vector<std::string> channels;
+  for (const identification::MuscleSetup& muscle : data.muscles) {
+    const std::string& channel = muscle.emg_channel;
+    if (std::find(channels.begin(), channels.end(), channel) != channels.end()) continue;
+    const bool strained =
+        std::any_of(data.trials.begin(), data.trials.end(), [&](const TrialData& trial) {
+          return trial.calibration && trial.activation.find(channel) &&
+                 trial.activation.column(channel).maxCoeff() >= kStrained;
+        });
+    if (strained) channels.push_back(channel);
+  }
+  return channels;
+}
+
 }  // namespace
 
 std::vector<ParameterRule> nuisance_rules(const EmgSpec& emg,
                                           const identification::StudyData& data) {
   std::vector<ParameterRule> rules{rule("length_activation", 0.0, 0.1)};
   rules.back().tie = true;
-  if (emg.kind != EmgKind::activation && emg.has_mvc)
-    rules.push_back(rule("emg_exponent", 1.0, 0.2));
+  if (emg.kind != EmgKind::activation && emg.has_mvc) {
+    ParameterRule exponent = rule("emg_exponent", 1.0, 0.2);
+    exponent.owners = strained_channels(data);
+    if (!exponent.owners.empty()) rules.push_back(std::move(exponent));
+  }
   std::map<std::string, JointReach> joints;
   for (const TrialData& trial : data.trials) {
     const Eigen::Index n = trial.time_s.size();

@@ -1,5 +1,7 @@
 #include "myoid/pipeline/nuisances.h"
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include "tests/support/elbow_study.h"
@@ -50,6 +52,23 @@ TEST(NuisanceRules, EmgThatIsGivenAsActivationIsTakenAtItsWord) {
   EXPECT_NE(rule_of(nuisance_rules({.kind = EmgKind::envelope}, data), "emg_exponent"), nullptr);
   EXPECT_EQ(rule_of(nuisance_rules({.kind = EmgKind::activation}, data), "emg_exponent"), nullptr);
   EXPECT_EQ(rule_of(nuisance_rules({.has_mvc = false}, data), "emg_exponent"), nullptr);
+}
+
+TEST(NuisanceRules, AMuscleThatNeverExertsItselfDoesNotSayHowItsEmgRises) {
+  identification::StudyData data = moving_elbow();
+  // One muscle stays below half of its maximum in all trials.
+  for (TrialData& trial : data.trials) {
+    Eigen::MatrixXd values = trial.activation.values();
+    for (Eigen::Index c = 0; c < values.cols(); ++c)
+      values.col(c) *= (c == 1 ? 0.45 : 0.9) / values.col(c).maxCoeff();
+    trial.activation = TimeSeries(trial.activation.time_s(), trial.activation.channels(), values);
+  }
+  const std::vector<ParameterRule> rules = nuisance_rules({.kind = EmgKind::raw}, data);
+  const ParameterRule* exponent = rule_of(rules, "emg_exponent");
+  ASSERT_NE(exponent, nullptr);
+  EXPECT_EQ(exponent->owners.size(), 3U);
+  const std::string& slack = data.trials[0].activation.channels()[1].name;
+  EXPECT_EQ(std::count(exponent->owners.begin(), exponent->owners.end(), slack), 0);
 }
 
 TEST(NuisanceRules, AJointWhoseMotionIsNotKnownHasNoTorqueOfItsOwn) {
