@@ -22,14 +22,21 @@ Discrepancy discrepancy(const Estimator& estimator,
   const Eigen::VectorXd residual = (model.measured() - at.predicted).cwiseProduct(root);
   const Eigen::MatrixXd s =
       shapes.weight.asDiagonal() * shapes.shapes_nm * root.asDiagonal();  // D S W^1/2
-  const Eigen::MatrixXd sj = s * root.asDiagonal() * at.gradient.transpose();
+  // A parameter on its bound has not followed the data: what it would take out is in the residual.
+  Eigen::MatrixXd gradient = at.gradient;
+  for (Eigen::Index j = 0; j < z.size(); ++j) {
+    const FreeParameter& f = estimator.free()[static_cast<std::size_t>(j)];
+    const double margin = 1e-9 * (f.upper - f.lower);
+    if (z[j] <= f.lower + margin || z[j] >= f.upper - margin) gradient.row(j).setZero();
+  }
+  const Eigen::MatrixXd sj = s * root.asDiagonal() * gradient.transpose();
   // D C D and D h: directions of unit weight. Of the data as they are, A has nothing taken out.
-  const Eigen::MatrixXd jacobian = at.gradient * root.asDiagonal();
+  const Eigen::MatrixXd jacobian = gradient * root.asDiagonal();
   Eigen::MatrixXd a = jacobian * jacobian.transpose();
   for (Eigen::Index j = 0; j < z.size(); ++j) {
     const double prior_sd = estimator.free()[static_cast<std::size_t>(j)].prior_sd;
     if (prior_sd > 0.0) a(j, j) += 1.0 / (prior_sd * prior_sd);
-    a(j, j) *= 1.0 + 1e-12;
+    a(j, j) = a(j, j) > 0.0 ? a(j, j) * (1.0 + 1e-12) : 1.0;
   }
   const Eigen::MatrixXd left = s * s.transpose() - sj * a.ldlt().solve(sj.transpose());
   Eigen::VectorXd h = s * residual;

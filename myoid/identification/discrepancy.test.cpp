@@ -60,5 +60,35 @@ TEST(Discrepancy, IsSmallWhereTheModelIsRightAndSeenWhereTheEmgIsNotLinear) {
   EXPECT_GT(wrong, 0.10);
 }
 
+TEST(Discrepancy, AParameterOnItsBoundIsNoErrorOfTheModel) {
+  // No delay at all: the estimate lies on its bound, and what a negative delay would explain stays
+  // in the residual.
+  const ElbowStudy study = elbow_study({.trials = 4,
+                                        .seconds = 15.0,
+                                        .delay_s = 0.0,
+                                        .torque_sd_nm = 0.02,
+                                        .truth_from_prior = true,
+                                        .with_priors = true,
+                                        .seed = 2});
+  int on_bound = 0;
+  for (const double lead_s : {0.0, 0.004}) {
+    StudyData data = study.data;
+    for (TrialData& trial : data.trials) {
+      const Eigen::VectorXd clock = trial.activation.time_s().array() + lead_s;
+      trial.activation = TimeSeries(clock, trial.activation.channels(), trial.activation.values());
+    }
+    const Estimator estimator(data, {.starts = 1});
+    const Estimator::Solution solution = estimator.solve(estimator.model().parameters().start());
+    for (std::size_t j = 0; j < estimator.free().size(); ++j) {
+      if (estimator.free()[j].field->scope == Scope::channel &&
+          estimator.free()[j].field->name == "emg_delay")
+        on_bound += solution.search.x[static_cast<Eigen::Index>(j)] < 1e-6 ? 1 : 0;
+    }
+    const Sandwich parts = sandwich(estimator, solution);
+    EXPECT_LT(discrepancy(estimator, solution, parts.model_based).relative_size, 0.05) << lead_s;
+  }
+  EXPECT_GT(on_bound, 0);
+}
+
 }  // namespace
 }  // namespace myoid::identification
