@@ -24,10 +24,20 @@ Discrepancy discrepancy(const Estimator& estimator,
       shapes.weight.asDiagonal() * shapes.shapes_nm * root.asDiagonal();  // D S W^1/2
   // A parameter on its bound has not followed the data: what it would take out is in the residual.
   Eigen::MatrixXd gradient = at.gradient;
+  Eigen::MatrixXd response = model_based;  // given those on their bound
   for (Eigen::Index j = 0; j < z.size(); ++j) {
     const FreeParameter& f = estimator.free()[static_cast<std::size_t>(j)];
     const double margin = 1e-9 * (f.upper - f.lower);
-    if (z[j] <= f.lower + margin || z[j] >= f.upper - margin) gradient.row(j).setZero();
+    if (z[j] <= f.lower + margin || z[j] >= f.upper - margin) {
+      gradient.row(j).setZero();
+      const double variance = response(j, j);
+      if (variance > 0.0) {
+        const Eigen::VectorXd column = response.col(j);
+        response -= column * column.transpose() / variance;
+      }
+      response.row(j).setZero();
+      response.col(j).setZero();
+    }
   }
   const Eigen::MatrixXd sj = s * root.asDiagonal() * gradient.transpose();
   // D C D and D h: directions of unit weight. Of the data as they are, A has nothing taken out.
@@ -98,7 +108,7 @@ Discrepancy discrepancy(const Estimator& estimator,
   result.relative_size = std::sqrt(muscle_sum / sum);
   result.joint_size = std::sqrt(joint_sum / sum);
   const Eigen::MatrixXd moved =
-      model_based * sj.transpose() * sizes(result.relative_size, result.joint_size).asDiagonal();
+      response * sj.transpose() * sizes(result.relative_size, result.joint_size).asDiagonal();
   result.covariance = moved * moved.transpose();
   return result;
 }
