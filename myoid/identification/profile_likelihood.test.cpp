@@ -62,13 +62,24 @@ TEST(ProfileLikelihood, EndsWhereABoundIsAndNotedWhereTheOthersMeetTheirs) {
   const Eigen::Matrix2d left = curvature().topLeftCorner<2, 2>().inverse();
   const double expected = kGoal * std::sqrt(left(1, 1));
   EXPECT_NEAR(profile_distance(problem, 1, true).value(), expected, 0.005 * expected);
-  // z_2 can follow by 0.1, of the 0.9 that it would; z_0 is then at (-1.8 t + 0.5 d_2) / 4.
-  problem.lower[2] = 2.9;
+}
+
+TEST(ProfileLikelihood, WhereOneMeetsItsBoundTheRestAnswersToThat) {
+  // z_0 and z_2 go together, by 5 for each 1 of z_1; z_2 may go 0.05. Then z_0 goes where
+  // dC/dz_0 = 0, (5 t + 99 0.05) / 100. Cut off without an answer, z_0 would climb out of the
+  // valley.
+  Eigen::Matrix3d h;
+  h << 100.0, -5.0, -99.0, -5.0, 60.0, -5.0, -99.0, -5.0, 100.0;
+  ProfileProblem problem = quadratic(h);
+  problem.upper[2] = 3.05;
+  // That they follow z_1 is not known beforehand: the search begins where they are.
+  problem.curvature(0, 1) = problem.curvature(1, 0) = 0.0;
+  problem.curvature(2, 1) = problem.curvature(1, 2) = 0.0;
   double low = 0.0, high = 10.0;
   for (int i = 0; i < 60; ++i) {
     const double t = 0.5 * (low + high);
-    const Eigen::Vector3d d((-1.8 * t + 0.5 * -0.1) / 4.0, t, -0.1);
-    (std::sqrt(d.dot(curvature() * d)) < kGoal ? low : high) = t;
+    const Eigen::Vector3d d((5.0 * t + 99.0 * 0.05) / 100.0, t, 0.05);
+    (std::sqrt(d.dot(h * d)) < kGoal ? low : high) = t;
   }
   EXPECT_NEAR(profile_distance(problem, 1, true).value(), low, 0.005 * low);
 }
