@@ -21,6 +21,7 @@ void add_emg(CLI::App& app, Context& context) {
     std::string in, out, unit, envelope;
     std::vector<std::string> mvc;
     bool no_notch = false;
+    bool no_whitening = false;
     signals::EnvelopeOptions chain;
     double window_s = 0.5;
   };
@@ -39,6 +40,8 @@ void add_emg(CLI::App& app, Context& context) {
                   "Low-pass of the rectified EMG, -3 dB of both passes [Hz] (default 6)")
       ->check(CLI::PositiveNumber);
   command.add_flag("--no-notch", o->no_notch, "Leave mains hum in, where it is found");
+  command.add_flag("--no-whitening", o->no_whitening,
+                   "Rectify what is high-passed, without evening out its spectrum first");
   command.add_flag("--as-published", o->chain.as_published,
                    "As the source paper: no high-pass, low-pass designed for one pass");
   command
@@ -56,27 +59,41 @@ void add_emg(CLI::App& app, Context& context) {
       if (o->envelope == o->out)
         throw InvalidInput(fmt::format("--out and --envelope both name {}", o->out));
     }
-    const auto process = [&](const std::string& path) {
+    const auto clean = [&](const std::string& path) {
       recording::EmgFile file = recording::read_emg(path, o->unit, false);
       for (const recording::Repair& repair : file.repairs)
         context.warn(fmt::format("{}: {}", path, recording::to_string(repair)));
       if (!file.unit_conflict.empty())
         context.warn(fmt::format("{}: {}", path, file.unit_conflict));
       o->chain.notch = !o->no_notch;
+      o->chain.whitening = !o->no_whitening;
       for (const signals::Fault& fault : signals::check_emg(file.data, !o->chain.as_published)) {
         if (fault.grave) context.warn(fmt::format("{}: {}", path, signals::sentence(fault)));
       }
-      signals::EmgStages stages = signals::process_emg(file.data, o->chain);
-      for (const std::string& finding : stages.findings)
-        context.log(fmt::format("{}: {}", path, finding));
-      return stages.envelope;
+      return signals::clean_emg(file.data, o->chain);
     };
-    const TimeSeries envelope = process(o->in);
-    std::vector<TimeSeries> maximal;
-    for (const std::string& path : o->mvc) maximal.push_back(process(path));
-    std::vector<signals::TrialEnvelope> trials{{o->in, false, &envelope}};
-    for (std::size_t i = 0; i < maximal.size(); ++i)
-      trials.push_back({o->mvc[i], true, &maximal[i]});
+    std::vector<std::string> paths{o->in};
+    paths.insert(paths.end(), o->mvc.begin(), o->mvc.end());
+    std::vector<signals::EmgStages> stages;
+    for (const std::string& path : paths) stages.push_back(clean(path));
+    std::vector<const signals::EmgStages*> views;
+    for (const signals::EmgStages& one : stages) views.push_back(&one);
+    const auto whitening = signals::find_whitening(views, o->chain);
+    std::vector<signals::TrialEnvelope> trials;
+    for (std::size_t i = 0; i < paths.size(); ++i) {
+      signals::add_envelope(stages[i], o->chain, whitening);
+      for (const std::string& finding : stages[i].findings)
+        context.log(fmt::format("{}: {}", paths[i], finding));
+      trials.push_back({paths[i], i > 0, &stages[i].envelope, stages[i].bandwidth_hz});
+    }
+    for (const signals::WhiteningFilter& filter : whitening) {
+      context.log(
+          filter.reason.empty()
+              ? fmt::format("channel '{}': whitened, statistical bandwidth {:.0f} -> {:.0f} Hz",
+                            filter.channel, filter.bandwidth_before_hz, filter.bandwidth_after_hz)
+              : fmt::format("channel '{}' is not whitened: {}", filter.channel, filter.reason));
+    }
+    const TimeSeries& envelope = stages.front().envelope;
     const auto normalisation = signals::find_normalisation(trials, {.window_s = o->window_s});
     write_series(o->out, cut(signals::normalise(envelope, normalisation), context), "Activation");
     if (!o->envelope.empty())

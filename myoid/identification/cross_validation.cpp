@@ -128,6 +128,7 @@ struct Predictors {
   std::vector<muscle::HillParameters<double>> literature, shortening, lengthening;
   double literature_delay_s = 0.0;
   double cutoff_hz = 0.0;  ///< Of the fit.
+  double envelope_cutoff_hz = 0.0;
   bool paper = false;
 };
 
@@ -159,10 +160,15 @@ Fold score_joint(const std::string& name,
   std::vector<Eigen::VectorXd> slow_measured, slow_predicted;
   for (const TrialData& t : held) {
     const std::vector<Eigen::Index> rows = included_rows(t);
-    const Eigen::VectorXd whole = predict(by.data, t, by.fit.values, by.fit.dynamics).torque_nm;
+    const SmoothPrediction found = predict(by.data, t, by.fit, by.envelope_cutoff_hz).smooth;
+    const Eigen::VectorXd& whole = found.torque_nm;
+    // The others carry the same noise, and have the same smoothing.
+    const auto smooth = [&](const Eigen::VectorXd& torque) {
+      return below(t.time_s, torque, found.cutoff_hz);
+    };
     const Eigen::VectorXd before =
-        predict(by.data, t, by.literature, by.literature_delay_s).torque_nm;
-    const Eigen::VectorXd regressed = regressors(by.data, t, by.fit.delay_s) * slopes;
+        smooth(predict(by.data, t, by.literature, by.literature_delay_s).torque_nm);
+    const Eigen::VectorXd regressed = smooth(regressors(by.data, t, by.fit.delay_s) * slopes);
     time.emplace_back(t.time_s(rows));
     measured.emplace_back(t.torque_nm(rows));
     predicted.emplace_back(whole(rows));
@@ -174,7 +180,7 @@ Fold score_joint(const std::string& name,
       const Eigen::MatrixXd slow = predict(by.data, t, by.shortening, 0.0).force_n;
       const Eigen::MatrixXd fast = predict(by.data, t, by.lengthening, 0.0).force_n;
       const Eigen::MatrixXd force = (t.velocity_mps.array() <= 0.0).select(slow, fast);
-      const Eigen::VectorXd paper = t.moment_arm_m.cwiseProduct(force).rowwise().sum();
+      const Eigen::VectorXd paper = smooth(t.moment_arm_m.cwiseProduct(force).rowwise().sum());
       by_paper.emplace_back(paper(rows));
     }
     fold.lag_s += best_lag_s(t.time_s, t.torque_nm, whole) / static_cast<double>(held.size());
@@ -247,7 +253,8 @@ std::vector<Fold> cross_validate(const StudyData& data,
                   .shortening = literature,
                   .lengthening = literature,
                   .literature_delay_s = options.delay_s.value_or(options.delay_prior_mean_s),
-                  .cutoff_hz = options.residual_cutoff_hz.value_or(0.0)};
+                  .cutoff_hz = options.residual_cutoff_hz.value_or(0.0),
+                  .envelope_cutoff_hz = options.envelope_cutoff_hz};
     by.paper = std::all_of(split.training.begin(), split.training.end(),
                            [](const TrialData& t) { return t.force_n.rows() == t.time_s.size(); });
     if (by.paper) {

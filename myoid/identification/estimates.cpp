@@ -189,6 +189,7 @@ void report_estimates(const Estimator& estimator,
   result.effective_samples = solution.weighting.share * static_cast<double>(model.sample_count());
   result.torque_sd_nm = solution.weighting.noise.front().torque_sd_nm;
   result.emg_cv = solution.weighting.noise.front().emg_cv;
+  result.envelope_variance = estimator.envelope_variance(solution.weighting.noise.front());
   result.solution = z;
   result.values = model.parameters().values(z);
   result.dynamics = options.dynamics;

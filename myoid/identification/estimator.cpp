@@ -170,9 +170,7 @@ Estimator::Estimator(const StudyData& data, const EstimatorOptions& options)
       emg_noise_known_ = false;
       continue;
     }
-    double cutoff_hz = options.envelope_cutoff_hz;
-    if (options.residual_cutoff_hz)
-      cutoff_hz *= *options.residual_cutoff_hz / std::hypot(cutoff_hz, *options.residual_cutoff_hz);
+    const double cutoff_hz = options.envelope_cutoff_hz * kept_by_residual_filter();
     channel_variance_[static_cast<Eigen::Index>(c)] =
         0.7555 * 0.7555 / (2.0 * known->second * 0.6 / cutoff_hz);
   }
@@ -191,6 +189,16 @@ Estimator::Estimator(const StudyData& data, const EstimatorOptions& options)
       prior_precision_[j] = 1.0 / (f.prior_sd * f.prior_sd);
     }
   }
+}
+
+double Estimator::kept_by_residual_filter() const {
+  if (!options_.residual_cutoff_hz) return 1.0;
+  return *options_.residual_cutoff_hz /
+         std::hypot(options_.envelope_cutoff_hz, *options_.residual_cutoff_hz);
+}
+
+Eigen::VectorXd Estimator::envelope_variance(const NoiseLevel& found) const {
+  return channel_variance_ * (found.emg_factor * found.emg_factor / kept_by_residual_filter());
 }
 
 Eigen::VectorXd Estimator::exponents(const Eigen::VectorXd& z) const {

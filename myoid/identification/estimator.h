@@ -58,6 +58,8 @@ class Estimator {
   [[nodiscard]] const EstimatorOptions& options() const { return options_; }
   /// Expected c_a^2 of each EMG channel, or 1 where nothing is known.
   [[nodiscard]] const Eigen::VectorXd& channel_variance() const { return channel_variance_; }
+  /// Square of the relative spread of each channel's envelope before both sides are low-passed.
+  [[nodiscard]] Eigen::VectorXd envelope_variance(const NoiseLevel& found) const;
   /// p of a = g u^p of every EMG channel.
   [[nodiscard]] Eigen::VectorXd exponents(const Eigen::VectorXd& z) const;
   [[nodiscard]] const Eigen::VectorXd& lower() const { return lower_; }
@@ -102,6 +104,8 @@ class Estimator {
   [[nodiscard]] Eigen::VectorXd moved_start(const Eigen::VectorXd& start, int s) const;
 
  private:
+  /// Share of the variance of an envelope's noise that the low-pass of the residuals leaves.
+  [[nodiscard]] double kept_by_residual_filter() const;
   void find_noise(const Eigen::VectorXd& z, const Evaluation& at, Weighting& weighting) const;
   /// What an EMG channel's torque, T_ch = p T of an activation g u^p, changes by with a variable:
   /// `slope` times the change of T, plus T_ch if `adds`.

@@ -60,9 +60,11 @@ struct TrialFit {
   Eigen::VectorXd time_s;
   Eigen::VectorXd torque_nm;             ///< From inverse dynamics.
   Eigen::VectorXd literature_torque_nm;  ///< Starting parameters.
-  Eigen::VectorXd torque_fit_nm;         ///< Identified parameters.
-  Eigen::MatrixXd literature_force_n;    ///< n x m
-  Eigen::MatrixXd force_fit_n;           ///< n x m
+  /// Identified parameters; method `torque`: below `smooth_hz`, where that is above 0.
+  Eigen::VectorXd torque_fit_nm;
+  double smooth_hz = 0.0;              ///< See smooth_prediction.h.
+  Eigen::MatrixXd literature_force_n;  ///< n x m
+  Eigen::MatrixXd force_fit_n;         ///< n x m
   double rmse_nm = 0.0;
   double nrmse_range = 0.0;  ///< RMSE over the range of the torque.
   double r2 = 0.0;           ///< 1 - SSE/SST.
@@ -114,7 +116,9 @@ struct IdentificationResult {
   double effective_samples = 0.0;
   double torque_sd_nm = 0.0;  ///< s_T
   double emg_cv = 0.0;        ///< c_a
-  double model_error = 0.0;   ///< Systematic error, relative to the muscles' torques.
+  /// Square of the relative spread of each EMG channel's envelope, as it is (force, torque).
+  Eigen::VectorXd envelope_variance;
+  double model_error = 0.0;  ///< Systematic error, relative to the muscles' torques.
   double condition = 0.0;
   int iterations = 0;
   double seconds = 0.0;

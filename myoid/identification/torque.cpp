@@ -33,15 +33,17 @@ void add_predictions(const StudyData& data,
       fit.time_s = trial.time_s;
       fit.torque_nm = trial.torque_nm;
       Prediction before = predict(data, trial, literature, options.dynamics);
-      Prediction after = predict(data, trial, result.values, options.dynamics);
+      auto [after, smooth] = predict(data, trial, result, options.envelope_cutoff_hz);
+      after.torque_nm = std::move(smooth.torque_nm);
+      fit.smooth_hz = smooth.cutoff_hz;
       if (after.torque_nm.size() == trial.torque_nm.size()) {
         const std::vector<Eigen::Index> rows = included_rows(trial);
         const Eigen::VectorXd measured = trial.torque_nm(rows);
         const Eigen::VectorXd predicted = after.torque_nm(rows);
-        const Score unfiltered = score(measured, predicted);
-        fit.rmse_nm = unfiltered.rmse_nm;
-        fit.nrmse_range = unfiltered.nrmse_range;
-        fit.r2 = unfiltered.r2;
+        const Score overall = score(measured, predicted);
+        fit.rmse_nm = overall.rmse_nm;
+        fit.nrmse_range = overall.nrmse_range;
+        fit.r2 = overall.r2;
         const double cutoff_hz = options.residual_cutoff_hz.value_or(0.0);
         fit.band = score(below(trial.time_s, trial.torque_nm, cutoff_hz)(rows),
                          below(trial.time_s, after.torque_nm, cutoff_hz)(rows));
@@ -97,6 +99,8 @@ Prediction predict(const StudyData& data,
   Prediction p;
   p.force_n.resize(n, trial.length_m.cols());
   p.activation.resize(n, trial.length_m.cols());
+  p.channel_torque_nm.setZero(n, static_cast<Eigen::Index>(values.channels.size()));
+  const bool with_torque = trial.moment_arm_m.rows() == n;
   std::vector<std::string> channels;
   std::vector<std::vector<Activation>> activations;
   for (std::size_t k = 0; k < data.muscles.size(); ++k) {
@@ -111,12 +115,17 @@ Prediction predict(const StudyData& data,
     }
     const auto column = static_cast<Eigen::Index>(k);
     for (Eigen::Index i = 0; i < n; ++i) {
-      p.activation(i, column) = activations[c][static_cast<std::size_t>(i)].value;
-      p.force_n(i, column) = tension_n(p.activation(i, column), trial.length_m(i, column),
+      const Activation& a = activations[c][static_cast<std::size_t>(i)];
+      p.activation(i, column) = a.value;
+      p.force_n(i, column) = tension_n(a.value, trial.length_m(i, column),
                                        trial.velocity_mps(i, column), values.muscles[k]);
+      if (!with_torque || !(a.value > 0.0)) continue;
+      // Force is nearly proportional to activation.
+      p.channel_torque_nm(i, static_cast<Eigen::Index>(c)) +=
+          trial.moment_arm_m(i, column) * p.force_n(i, column) * a.by_log_envelope / a.value;
     }
   }
-  if (trial.moment_arm_m.rows() == n) {
+  if (with_torque) {
     p.torque_nm = trial.moment_arm_m.cwiseProduct(p.force_n).rowwise().sum();
     const std::vector<std::string> joints = joint_names(data);
     const auto at = static_cast<std::size_t>(std::find(joints.begin(), joints.end(), trial.joint) -
@@ -133,6 +142,20 @@ Prediction predict(const StudyData& data,
     }
   }
   return p;
+}
+
+FittedPrediction predict(const StudyData& data,
+                         const TrialData& trial,
+                         const IdentificationResult& fit,
+                         double envelope_cutoff_hz) {
+  FittedPrediction result{predict(data, trial, fit.values, fit.dynamics), {}};
+  const Eigen::MatrixXd& torque = result.of.channel_torque_nm;
+  const double noise_nm2 = torque.cols() == fit.envelope_variance.size() && torque.rows() > 0
+                               ? torque.cwiseAbs2().colwise().mean().dot(fit.envelope_variance)
+                               : 0.0;
+  result.smooth =
+      smooth_prediction(trial.time_s, result.of.torque_nm, noise_nm2, envelope_cutoff_hz);
+  return result;
 }
 
 IdentificationResult identify_torque(const StudyData& data, const TorqueOptions& options) {

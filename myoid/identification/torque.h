@@ -4,6 +4,7 @@
 
 #include "myoid/identification/options.h"
 #include "myoid/identification/result.h"
+#include "myoid/identification/smooth_prediction.h"
 #include "myoid/identification/study_data.h"
 
 namespace myoid::identification {
@@ -44,9 +45,10 @@ using TorqueOptions = EstimatorOptions;
 
 /// Torque of each muscle set over a trial with given parameters, delay and gains of 1.
 struct Prediction {
-  Eigen::MatrixXd force_n;     ///< n x m
-  Eigen::VectorXd torque_nm;   ///< n
-  Eigen::MatrixXd activation;  ///< n x m: of each muscle's EMG channel.
+  Eigen::MatrixXd force_n;            ///< n x m
+  Eigen::VectorXd torque_nm;          ///< n
+  Eigen::MatrixXd activation;         ///< n x m: of each muscle's EMG channel.
+  Eigen::MatrixXd channel_torque_nm;  ///< n x channels: change by a relative error of an envelope.
 };
 [[nodiscard]] Prediction predict(const StudyData& data,
                                  const TrialData& trial,
@@ -57,5 +59,14 @@ struct Prediction {
                                  const TrialData& trial,
                                  const ModelValues& values,
                                  bool dynamics);
+/// With what a fit found; torque below the cut-off where the noise of the EMG does least harm.
+struct FittedPrediction {
+  Prediction of;
+  SmoothPrediction smooth;
+};
+[[nodiscard]] FittedPrediction predict(const StudyData& data,
+                                       const TrialData& trial,
+                                       const IdentificationResult& fit,
+                                       double envelope_cutoff_hz);
 
 }  // namespace myoid::identification

@@ -138,7 +138,9 @@ class Check {
           fmt::format("EMG at {:.0f} Hz: 1000 Hz or more is needed for raw EMG",
                       emg.mean_rate_hz()));
     }
-    signals::EmgStages stages = signals::process_emg(emg, envelope_options(study_));
+    signals::EnvelopeOptions options = envelope_options(study_);
+    options.whitening = false;  // of all trials together, which `run` has at hand
+    signals::EmgStages stages = signals::process_emg(emg, options);
     for (const std::string& text : stages.findings) add(Level::note, spec.name, text);
     envelopes_.push_back({spec.name, mvc, stages.envelope});
     return std::move(stages.envelope);

@@ -250,9 +250,17 @@ void process_all_emg(const Study& study,
                      StudyResult& result) {
   const auto with_emg = [&](std::size_t i) { return inputs[i].emg.has_value(); };
   if (study.emg.kind == EmgKind::raw) {
+    const signals::EnvelopeOptions options = envelope_options(study);
     oneapi::tbb::parallel_for(std::size_t{0}, inputs.size(), [&](std::size_t i) {
-      if (!with_emg(i)) return;
-      result.trials[i].emg = signals::process_emg(*inputs[i].emg, envelope_options(study));
+      if (with_emg(i)) result.trials[i].emg = signals::clean_emg(*inputs[i].emg, options);
+    });
+    std::vector<const signals::EmgStages*> clean;
+    for (const TrialResult& trial : result.trials) {
+      if (trial.emg) clean.push_back(&*trial.emg);
+    }
+    result.whitening = signals::find_whitening(clean, options);
+    oneapi::tbb::parallel_for(std::size_t{0}, inputs.size(), [&](std::size_t i) {
+      if (with_emg(i)) signals::add_envelope(*result.trials[i].emg, options, result.whitening);
     });
     for (TrialResult& trial : result.trials) {
       if (trial.emg)

@@ -62,11 +62,12 @@ struct TrueValue {
 
 struct StudyResult {
   Study study;
-  std::optional<double> start_s, end_s;      ///< As RunOptions had them.
-  model::BodyModel model;                    ///< The study's model, without held mass.
-  std::string model_text;                    ///< As read or made.
-  std::vector<TrialResult> trials;           ///< In the study's order.
-  std::vector<signals::Fault> level_faults;  ///< Of EMG channels, over all trials.
+  std::optional<double> start_s, end_s;             ///< As RunOptions had them.
+  model::BodyModel model;                           ///< The study's model, without held mass.
+  std::string model_text;                           ///< As read or made.
+  std::vector<TrialResult> trials;                  ///< In the study's order.
+  std::vector<signals::Fault> level_faults;         ///< Of EMG channels, over all trials.
+  std::vector<signals::WhiteningFilter> whitening;  ///< Of raw EMG; empty if not whitened.
   std::vector<signals::ChannelNormalisation> normalisation;  ///< Empty if EMG came as activations.
   identification::StudyData data;                            ///< What the estimators saw.
   std::vector<identification::IdentificationResult> methods;

@@ -159,6 +159,7 @@ EmgSpec read_emg(TomlTable table) {
   emg.unit = table.text("unit").value_or("");
   emg.rectify = table.flag("rectify").value_or(emg.rectify);
   emg.notch = table.choice("notch", "auto", {"auto", "none"}) == "auto";
+  emg.whitening = table.flag("whitening").value_or(emg.whitening);
   emg.highpass_hz = positive(table, "highpass_hz", emg.highpass_hz);
   emg.lowpass_hz = positive(table, "lowpass_hz", emg.lowpass_hz);
   emg.as_published = table.flag("as_published").value_or(emg.as_published);

@@ -89,7 +89,8 @@ struct EmgSpec {
   EmgKind kind = EmgKind::raw;
   std::string unit;  ///< "uV", ...; empty: as the file says.
   bool rectify = true;
-  bool notch = true;  ///< Where mains hum is found.
+  bool notch = true;      ///< Where mains hum is found.
+  bool whitening = true;  ///< Of raw EMG, where the recording allows.
   double highpass_hz = 20.0;
   double lowpass_hz = 6.0;
   bool as_published = false;  ///< The uncorrected 6 Hz design of the source paper.

@@ -48,6 +48,7 @@ ordered_json emg_json(const EmgSpec& emg) {
                     {"unit", emg.unit},
                     {"rectify", emg.rectify},
                     {"notch", emg.notch ? "auto" : "none"},
+                    {"whitening", emg.whitening},
                     {"highpass_hz", emg.highpass_hz},
                     {"lowpass_hz", emg.lowpass_hz},
                     {"as_published", emg.as_published},

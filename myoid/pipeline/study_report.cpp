@@ -64,6 +64,18 @@ std::vector<std::string> assumptions(const StudyResult& result) {
   }
   if (!result.study.subject.mass_kg)
     list.push_back("Body mass is not given: 73 kg is assumed for the built-in arm's inertia.");
+  std::string white;
+  for (const signals::WhiteningFilter& filter : result.whitening) {
+    white += filter.reason.empty()
+                 ? fmt::format("{} {:.0f} to {:.0f} Hz, ", filter.channel,
+                               filter.bandwidth_before_hz, filter.bandwidth_after_hz)
+                 : fmt::format("{} not, for {}, ", filter.channel, filter.reason);
+  }
+  if (!white.empty()) {
+    white.resize(white.size() - 2);
+    list.push_back(
+        fmt::format("EMG whitened before it is rectified; statistical bandwidth: {}.", white));
+  }
   list.push_back(
       fmt::format("EMG: high-pass {} Hz, rectified, low-pass {} Hz{}; largest {} s mean over the "
                   "study counts as 1.",

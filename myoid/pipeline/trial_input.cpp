@@ -257,9 +257,9 @@ TimeSeries on_clock_of_motion(const Study& study,
                               const std::function<void(const std::filesystem::path&)>& remember,
                               TrialInput& input) {
   const auto envelopes = [&] {
-    return study.emg.kind == EmgKind::raw
-               ? signals::process_emg(emg, envelope_options(study)).envelope
-               : emg;
+    signals::EnvelopeOptions options = envelope_options(study);
+    options.whitening = false;  // one trial, and for its clock alone
+    return study.emg.kind == EmgKind::raw ? signals::process_emg(emg, options).envelope : emg;
   };
   input.emg_clock = trial_clock(study, trial, movement_of(input), envelopes, remember);
   if (!input.emg_clock) return emg;
@@ -276,6 +276,7 @@ signals::EnvelopeOptions envelope_options(const Study& study) {
           .lowpass_hz = study.emg.lowpass_hz,
           .rectify = study.emg.rectify,
           .notch = study.emg.notch,
+          .whitening = study.emg.whitening,
           .as_published = study.emg.as_published};
 }
 

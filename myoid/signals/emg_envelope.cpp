@@ -56,7 +56,7 @@ void take_out_hum(bool notch, EmgStages& stages) {
 
 }  // namespace
 
-EmgStages process_emg(const TimeSeries& raw, const EnvelopeOptions& options) {
+EmgStages clean_emg(const TimeSeries& raw, const EnvelopeOptions& options) {
   require_unit(raw, Unit::volt, "EMG");
   require_finite(raw, "EMG");
   EmgStages stages;
@@ -74,16 +74,32 @@ EmgStages process_emg(const TimeSeries& raw, const EnvelopeOptions& options) {
                         : zero_phase_filter(stages.raw, math::FilterBand::high_pass,
                                             options.highpass_hz, {.order = 2, .corrected = true});
   take_out_hum(options.notch && !options.as_published, stages);
+  return stages;
+}
+
+std::vector<WhiteningFilter> find_whitening(std::span<const EmgStages* const> trials,
+                                            const EnvelopeOptions& options) {
+  if (!options.whitening || options.as_published || !options.rectify) return {};
+  std::vector<const TimeSeries*> filtered;
+  for (const EmgStages* trial : trials) filtered.push_back(&trial->filtered);
+  return design_whitening(filtered, options.highpass_hz);
+}
+
+void add_envelope(EmgStages& stages,
+                  const EnvelopeOptions& options,
+                  std::span<const WhiteningFilter> whitening) {
+  const TimeSeries& raw = stages.raw;
+  const double rate = raw.mean_rate_hz();
+  const TimeSeries white = whiten(stages.filtered, whitening);
   stages.bandwidth_hz.setZero(raw.channel_count());
   for (Eigen::Index c = 0; c < raw.channel_count(); ++c) {
-    const double bandwidth_hz = statistical_bandwidth_hz(
-        power_spectrum(stages.filtered.values().col(c), rate, kSpectrumSegment_s));
+    const double bandwidth_hz =
+        statistical_bandwidth_hz(power_spectrum(white.values().col(c), rate, kSpectrumSegment_s));
     if (std::isfinite(bandwidth_hz)) stages.bandwidth_hz[c] = bandwidth_hz;
   }
   stages.rectified =
       TimeSeries(raw.time_s(), raw.channels(),
-                 options.rectify ? Eigen::MatrixXd(stages.filtered.values().cwiseAbs())
-                                 : stages.filtered.values());
+                 options.rectify ? Eigen::MatrixXd(white.values().cwiseAbs()) : white.values());
   const TimeSeries smooth =
       zero_phase_filter(stages.rectified, math::FilterBand::low_pass, options.lowpass_hz,
                         {.order = 2, .corrected = !options.as_published});
@@ -97,7 +113,22 @@ EmgStages process_emg(const TimeSeries& raw, const EnvelopeOptions& options) {
     }
   }
   stages.envelope = TimeSeries(raw.time_s(), raw.channels(), smooth.values().cwiseMax(0.0));
-  return stages;
+}
+
+std::vector<EmgStages> process_emg(std::span<const TimeSeries* const> raw,
+                                   const EnvelopeOptions& options) {
+  std::vector<EmgStages> trials;
+  for (const TimeSeries* trial : raw) trials.push_back(clean_emg(*trial, options));
+  std::vector<const EmgStages*> views;
+  for (const EmgStages& trial : trials) views.push_back(&trial);
+  const std::vector<WhiteningFilter> whitening = find_whitening(views, options);
+  for (EmgStages& trial : trials) add_envelope(trial, options, whitening);
+  return trials;
+}
+
+EmgStages process_emg(const TimeSeries& raw, const EnvelopeOptions& options) {
+  const TimeSeries* one = &raw;
+  return std::move(process_emg(std::span(&one, 1), options).front());
 }
 
 std::vector<ChannelNormalisation> find_normalisation(std::span<const TrialEnvelope> trials,

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "myoid/core/time_series.h"
+#include "myoid/signals/whitening.h"
 
 namespace myoid::signals {
 
@@ -13,8 +14,10 @@ struct EnvelopeOptions {
   double highpass_hz = 20.0;  ///< Removes offset and movement artefact; 4th order (2nd, both ways).
   double lowpass_hz = 6.0;    ///< Of the rectified EMG; -3 dB of both passes together.
   bool rectify = true;
-  bool notch = true;  ///< Takes mains hum out, where it is found (`find_hum`, a tenth of the
-                      ///< power); not with `as_published`.
+  bool notch = true;      ///< Takes mains hum out, where it is found (`find_hum`, a tenth of the
+                          ///< power); not with `as_published`.
+  bool whitening = true;  ///< Where the recording allows (`design_whitening`); not with
+                          ///< `as_published`, nor without `rectify`.
   bool as_published = false;  ///< No high-pass and the low-pass designed at `lowpass_hz` for one
                               ///< pass, as the source paper did.
 };
@@ -22,19 +25,33 @@ struct EnvelopeOptions {
 /// One trial's EMG on its way to the envelope, for looking at.
 struct EmgStages {
   TimeSeries raw;                ///< As read, mean removed [V].
-  TimeSeries filtered;           ///< High-passed [V].
-  TimeSeries rectified;          ///< |filtered| [V].
+  TimeSeries filtered;           ///< High-passed, hum taken out [V].
+  TimeSeries rectified;          ///< Whitened, if it is, and rectified [V].
   TimeSeries envelope;           ///< Low-passed, never negative [V].
-  Eigen::VectorXd bandwidth_hz;  ///< Statistical bandwidth of each filtered channel.
+  Eigen::VectorXd bandwidth_hz;  ///< Statistical bandwidth of what is rectified.
   std::vector<std::string>
       findings;  ///< Mains hum, a rate too low for the EMG, an envelope clipped at 0.
 };
 
-/// Raw EMG -> mean removed -> high-pass -> (notches) -> rectified -> low-pass, every filter without
-/// delay. The envelope is the local mean of the rectified EMG: for Gaussian EMG sqrt(2/pi) times
-/// its standard deviation. Its relative spread is about 0.76 / sqrt(2 B T), 14 % at 6 Hz. Negative
-/// values of the filter's undershoot are set to 0. Throws InvalidInput unless `raw` is in volts and
-/// finite.
+/// Raw EMG -> mean removed -> high-pass -> (notches), every filter without delay: `raw`, `filtered`
+/// and findings. Throws InvalidInput unless `raw` is in volts and finite.
+[[nodiscard]] EmgStages clean_emg(const TimeSeries& raw, const EnvelopeOptions& options = {});
+
+/// Whitening filters for clean trials of one person; empty if the options say no.
+[[nodiscard]] std::vector<WhiteningFilter> find_whitening(std::span<const EmgStages* const> trials,
+                                                          const EnvelopeOptions& options = {});
+
+/// Clean EMG -> (whitened) -> rectified -> low-pass: the other members. The envelope is the local
+/// mean of the rectified EMG: for Gaussian EMG sqrt(2/pi) times its standard deviation. Its
+/// relative spread is about 0.76 / sqrt(2 B T), 14 % at 6 Hz, some 9 % whitened. Negative values of
+/// the filter's undershoot are set to 0.
+void add_envelope(EmgStages& stages,
+                  const EnvelopeOptions& options = {},
+                  std::span<const WhiteningFilter> whitening = {});
+
+/// All of it for trials of one person, each whitened by what all together show.
+[[nodiscard]] std::vector<EmgStages> process_emg(std::span<const TimeSeries* const> raw,
+                                                 const EnvelopeOptions& options = {});
 [[nodiscard]] EmgStages process_emg(const TimeSeries& raw, const EnvelopeOptions& options = {});
 
 /// The envelope of one trial, for finding the level that counts as 1.

@@ -34,9 +34,10 @@ void process_emg(const VirtualRecording& recording, ReadyPerson& person) {
   }
   std::vector<TimeSeries> envelopes;
   std::vector<Eigen::VectorXd> bandwidths_hz;
-  for (const VirtualTrial& trial : recording.trials) {
-    signals::EmgStages stages =
-        signals::process_emg(trial.emg, {.lowpass_hz = recording.protocol.lowpass_hz});
+  std::vector<const TimeSeries*> raw;
+  for (const VirtualTrial& trial : recording.trials) raw.push_back(&trial.emg);
+  for (signals::EmgStages& stages :
+       signals::process_emg(raw, {.lowpass_hz = recording.protocol.lowpass_hz})) {
     envelopes.push_back(std::move(stages.envelope));
     bandwidths_hz.push_back(std::move(stages.bandwidth_hz));
   }

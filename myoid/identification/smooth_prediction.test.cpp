@@ -1,0 +1,67 @@
+#include "myoid/identification/smooth_prediction.h"
+
+#include <cmath>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "myoid/core/units.h"
+#include "myoid/identification/score.h"
+
+namespace myoid::identification {
+namespace {
+
+constexpr double kRate_hz = 100.0;
+constexpr Eigen::Index kCount = 2000;
+
+Eigen::VectorXd clock() { return Eigen::VectorXd::LinSpaced(kCount, 0.0, 19.99); }
+
+Eigen::VectorXd wave(double hz) {
+  return (10.0 * (2.0 * kPi * hz * clock().array()).sin()).matrix();
+}
+
+/// White noise below 6 Hz, of this standard deviation.
+Eigen::VectorXd noise(double sd, unsigned seed) {
+  std::mt19937_64 engine(seed);
+  std::normal_distribution<double> normal;
+  Eigen::VectorXd x(kCount);
+  for (double& v : x) v = normal(engine);
+  x = below(clock(), x, 6.0);
+  return x * (sd / std::sqrt(x.squaredNorm() / static_cast<double>(kCount)));
+}
+
+double error(const Eigen::VectorXd& x, const Eigen::VectorXd& truth) {
+  return (x - truth).squaredNorm() / static_cast<double>(kCount);
+}
+
+TEST(SmoothPrediction, ComesCloseToTheBestCutOffWithoutKnowingTheTruth) {
+  for (unsigned seed = 1; seed <= 10; ++seed) {
+    const Eigen::VectorXd truth = wave(0.5) + 0.2 * wave(1.0);
+    const Eigen::VectorXd noisy = truth + noise(2.0, seed);
+    const SmoothPrediction found = smooth_prediction(clock(), noisy, 4.0, 6.0);
+    double least = error(noisy, truth);
+    for (double hz = 0.7; hz < 6.0; hz *= 1.05)
+      least = std::min(least, error(below(clock(), noisy, hz), truth));
+    // 20 s of noise below 6 Hz are 240 independent values: the risk is known to 10 % of the noise.
+    EXPECT_LT(error(found.torque_nm, truth), least + 0.1 * 4.0) << seed;
+    EXPECT_LT(error(found.torque_nm, truth), 0.5 * 4.0) << seed;
+  }
+}
+
+TEST(SmoothPrediction, AFastMovementKeepsMoreOfItsBand) {
+  const double slow = smooth_prediction(clock(), wave(0.3) + noise(1.0, 3), 1.0, 6.0).cutoff_hz;
+  const double fast = smooth_prediction(clock(), wave(2.0) + noise(1.0, 3), 1.0, 6.0).cutoff_hz;
+  EXPECT_GT(slow, 0.0);
+  EXPECT_GT(fast, 1.5 * slow);
+}
+
+TEST(SmoothPrediction, WithoutNoiseOrOnAClockTooSlowNothingChanges) {
+  const Eigen::VectorXd truth = wave(0.5);
+  EXPECT_EQ(smooth_prediction(clock(), truth, 0.0, 6.0).torque_nm, truth);
+  EXPECT_EQ(smooth_prediction(clock(), truth, 0.0, 6.0).cutoff_hz, 0.0);
+  const Eigen::VectorXd days = clock() * 1e3;
+  EXPECT_EQ(smooth_prediction(days, truth, 1.0, 6.0).torque_nm, truth);
+}
+
+}  // namespace
+}  // namespace myoid::identification

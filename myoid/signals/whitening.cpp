@@ -1,0 +1,243 @@
+#include "myoid/signals/whitening.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "myoid/math/statistics.h"
+#include "myoid/signals/spectrum.h"
+
+namespace myoid::signals {
+namespace {
+
+constexpr double kSegment_s = 0.25;
+constexpr double kQuiet_s = 1.0;
+constexpr double kQuiet = 1.5;      ///< Power of a segment over that of the quietest second ...
+constexpr double kStandsOut = 3.0;  ///< ... and over the mean of the quiet ones.
+constexpr std::size_t kFewestSegments = 20;
+constexpr double kSmooth_hz = 10.0;   ///< Half width of the smoothing of a spectrum.
+constexpr double kMostGain = 1000.0;  ///< Of the power; 30 dB.
+constexpr double kHalfLength_s = 0.016;
+constexpr double kWorthIt = 1.1;
+constexpr double kSlowest_hz = 500.0;
+
+/// Periodograms of all segments of one channel, one column each.
+struct Segments {
+  Eigen::VectorXd frequency_hz;
+  std::vector<Eigen::VectorXd> density;
+  std::vector<double> power;
+  double quiet_power = std::numeric_limits<double>::infinity();
+  Eigen::VectorXd quiet;  ///< Mean density of the quiet segments; `quiet_power` is its sum.
+};
+
+Segments segments_of(std::span<const TimeSeries* const> trials, const std::string& channel) {
+  Segments result;
+  for (const TimeSeries* trial : trials) {
+    const double rate_hz = trial->mean_rate_hz();
+    const Eigen::VectorXd x = trial->column(channel);
+    const auto length = static_cast<Eigen::Index>(std::lround(kSegment_s * rate_hz));
+    const auto per_quiet = static_cast<std::size_t>(std::lround(kQuiet_s / kSegment_s));
+    std::vector<Eigen::VectorXd> density;
+    std::vector<double> power;
+    for (Eigen::Index first = 0; first + length <= x.size(); first += length) {
+      PowerSpectrum spectrum = power_spectrum(x.segment(first, length), rate_hz, kSegment_s);
+      result.frequency_hz = spectrum.frequency_hz;
+      power.push_back(spectrum.density.sum() * spectrum.frequency_hz[1]);
+      density.push_back(std::move(spectrum.density));
+    }
+    for (std::size_t i = 0; i + per_quiet <= power.size(); ++i) {
+      double mean = 0.0;
+      for (std::size_t k = i; k < i + per_quiet; ++k)
+        mean += power[k] / static_cast<double>(per_quiet);
+      result.quiet_power = std::min(result.quiet_power, mean);
+    }
+    std::move(density.begin(), density.end(), std::back_inserter(result.density));
+    result.power.insert(result.power.end(), power.begin(), power.end());
+  }
+  result.quiet = Eigen::VectorXd::Zero(result.frequency_hz.size());
+  double count = 0.0;
+  for (std::size_t i = 0; i < result.power.size(); ++i) {
+    if (!(result.power[i] <= kQuiet * result.quiet_power)) continue;
+    result.quiet += result.density[i];
+    count += 1.0;
+  }
+  if (count > 0.0) {
+    result.quiet /= count;
+    result.quiet_power = result.quiet.sum() * result.frequency_hz[1];
+  }
+  return result;
+}
+
+/// Running median, which neither a notch nor a line moves, then running mean.
+Eigen::VectorXd smoothed(const Eigen::VectorXd& density, double bin_hz) {
+  const auto reach =
+      std::max<Eigen::Index>(1, static_cast<Eigen::Index>(std::lround(kSmooth_hz / bin_hz)));
+  const Eigen::Index n = density.size();
+  const auto running = [&](const Eigen::VectorXd& x, const auto& of) {
+    Eigen::VectorXd y(n);
+    for (Eigen::Index k = 0; k < n; ++k) {
+      const Eigen::Index r = std::min({reach, k, n - 1 - k});
+      y[k] = of(x.segment(k - r, 2 * r + 1));
+    }
+    return y;
+  };
+  const Eigen::VectorXd median = running(
+      density, [](const auto& x) { return math::median(std::vector<double>(x.begin(), x.end())); });
+  return running(median, [](const auto& x) { return x.mean(); });
+}
+
+/// Bandwidth that a mean square has after a filter of power gain w, as an estimate of the power of
+/// a signal s in noise n.
+double bandwidth_hz(const Eigen::VectorXd& w,
+                    const Eigen::VectorXd& s,
+                    const Eigen::VectorXd& n,
+                    double bin_hz) {
+  const double sensitivity = w.dot(s);
+  const double spread = w.cwiseProduct(s + n).squaredNorm();
+  return spread > 0.0 ? bin_hz * sensitivity * sensitivity / spread : 0.0;
+}
+
+/// Taps whose amplitude response follows the root of `gain`: inverse Fourier sum under a Hann
+/// window.
+Eigen::VectorXd taps_of(const Eigen::VectorXd& gain, double bin_hz, double rate_hz) {
+  const auto count = static_cast<Eigen::Index>(std::lround(kHalfLength_s * rate_hz));
+  Eigen::VectorXd half(count + 1);
+  for (Eigen::Index m = 0; m <= count; ++m) {
+    double sum = 0.0;
+    for (Eigen::Index k = 0; k < gain.size(); ++k) {
+      const double ends = k == 0 || k + 1 == gain.size() ? 0.5 : 1.0;
+      sum += ends * std::sqrt(gain[k]) *
+             std::cos(2.0 * std::numbers::pi * bin_hz * static_cast<double>(k) *
+                      static_cast<double>(m) / rate_hz);
+    }
+    const double window = 0.5 + 0.5 * std::cos(std::numbers::pi * static_cast<double>(m) /
+                                               static_cast<double>(count + 1));
+    half[m] = window * sum;
+  }
+  return half;
+}
+
+/// Power gain of symmetric taps at the bins.
+Eigen::VectorXd gain_of(const Eigen::VectorXd& half,
+                        Eigen::Index bins,
+                        double bin_hz,
+                        double rate_hz) {
+  Eigen::VectorXd gain(bins);
+  for (Eigen::Index k = 0; k < bins; ++k) {
+    double sum = half[0];
+    for (Eigen::Index m = 1; m < half.size(); ++m) {
+      sum += 2.0 * half[m] *
+             std::cos(2.0 * std::numbers::pi * bin_hz * static_cast<double>(k) *
+                      static_cast<double>(m) / rate_hz);
+    }
+    gain[k] = sum * sum;
+  }
+  return gain;
+}
+
+WhiteningFilter design_one(std::span<const TimeSeries* const> trials,
+                           const std::string& channel,
+                           double highpass_hz) {
+  WhiteningFilter filter;
+  filter.channel = channel;
+  filter.rate_hz = trials.front()->mean_rate_hz();
+  const double rate_hz = filter.rate_hz;
+  if (rate_hz < kSlowest_hz) {
+    filter.reason = fmt::format("sampled at {:.0f} Hz", rate_hz);
+    return filter;
+  }
+  for (const TimeSeries* trial : trials) {
+    if (std::abs(trial->mean_rate_hz() - rate_hz) > 1e-3 * rate_hz) {
+      filter.reason = "sampled at different rates";
+      return filter;
+    }
+  }
+  const Segments segments = segments_of(trials, channel);
+  std::vector<double> active;
+  Eigen::VectorXd shape;
+  if (std::isfinite(segments.quiet_power)) {
+    shape = Eigen::VectorXd::Zero(segments.frequency_hz.size());
+    for (std::size_t i = 0; i < segments.power.size(); ++i) {
+      const double above = segments.power[i] - segments.quiet_power;
+      if (!(segments.power[i] > kStandsOut * segments.quiet_power)) continue;
+      active.push_back(above);
+      shape += (segments.density[i] - segments.quiet) / above;
+    }
+  }
+  if (active.size() < kFewestSegments) {
+    filter.reason = "it hardly stands out from its rest";
+    return filter;
+  }
+  const double bin_hz = segments.frequency_hz[1];
+  shape = smoothed(shape / static_cast<double>(active.size()), bin_hz);
+  const double power = math::median(active);
+  const Eigen::VectorXd noise = smoothed(segments.quiet, bin_hz);
+  // A periodogram's bin spreads by its own size; smoothing averages some bins.
+  const double relative = 3.0 / std::sqrt(static_cast<double>(active.size()));
+  const Eigen::VectorXd least = relative * (noise / power + shape.cwiseMax(0.0));
+  const Eigen::VectorXd signal = power * (shape.array() > least.array()).select(shape, 0.0).eval();
+  const Eigen::Index bins = signal.size();
+  const auto low = static_cast<Eigen::Index>(std::ceil(1.25 * highpass_hz / bin_hz));
+  const auto high = static_cast<Eigen::Index>(std::floor(0.45 * rate_hz / bin_hz));
+  if (low >= high || !(signal.segment(low, high - low + 1).maxCoeff() > 0.0)) {
+    filter.reason = "it hardly stands out from its rest";
+    return filter;
+  }
+  Eigen::VectorXd gain = signal.cwiseQuotient(
+      (signal + noise).cwiseAbs2().cwiseMax(std::numeric_limits<double>::min()));
+  gain.head(low).setConstant(gain[low]);
+  gain.tail(bins - high).setConstant(gain[high]);
+  // Least where muscle prevails: relative to there, no more than the limit.
+  Eigen::Index top = 0;
+  signal.maxCoeff(&top);
+  gain = gain.cwiseMin(kMostGain * gain[top]);
+  Eigen::VectorXd half = taps_of(gain, bin_hz, rate_hz);
+  const Eigen::VectorXd real = gain_of(half, bins, bin_hz, rate_hz);
+  const Eigen::VectorXd as_is = Eigen::VectorXd::Ones(bins);
+  filter.bandwidth_before_hz = bandwidth_hz(as_is, signal, noise, bin_hz);
+  filter.bandwidth_after_hz = bandwidth_hz(real, signal, noise, bin_hz);
+  if (!(filter.bandwidth_after_hz > kWorthIt * filter.bandwidth_before_hz)) {
+    filter.reason = "its spectrum is level already";
+    return filter;
+  }
+  filter.half = half * std::sqrt(signal.sum() / real.dot(signal));
+  return filter;
+}
+
+}  // namespace
+
+std::vector<WhiteningFilter> design_whitening(std::span<const TimeSeries* const> trials,
+                                              double highpass_hz) {
+  std::vector<WhiteningFilter> filters;
+  if (trials.empty()) return filters;
+  for (const Channel& channel : trials.front()->channels())
+    filters.push_back(design_one(trials, channel.name, highpass_hz));
+  return filters;
+}
+
+TimeSeries whiten(const TimeSeries& emg, std::span<const WhiteningFilter> filters) {
+  Eigen::MatrixXd values = emg.values();
+  const Eigen::Index n = values.rows();
+  for (const WhiteningFilter& filter : filters) {
+    const auto column = emg.find(filter.channel);
+    const Eigen::Index reach = filter.half.size() - 1;
+    if (!column || reach < 0 || n <= reach) continue;
+    Eigen::VectorXd padded(n + 2 * reach);
+    padded.segment(reach, n) = emg.values().col(*column);
+    for (Eigen::Index i = 0; i < reach; ++i) {
+      padded[reach - 1 - i] = padded[reach + 1 + i];
+      padded[reach + n + i] = padded[reach + n - 2 - i];
+    }
+    auto result = values.col(*column);
+    result = filter.half[0] * padded.segment(reach, n);
+    for (Eigen::Index m = 1; m <= reach; ++m)
+      result += filter.half[m] * (padded.segment(reach - m, n) + padded.segment(reach + m, n));
+  }
+  return {emg.time_s(), emg.channels(), std::move(values)};
+}
+
+}  // namespace myoid::signals
