@@ -171,14 +171,13 @@ std::string format_number(double value) {
   return {buffer, result.ptr};
 }
 
-void append_fixed(std::string& text, double value, int decimals, std::size_t width) {
+char* write_fixed(char* at, double value, int decimals, std::size_t width) {
   constexpr std::array<double, 15> kPower{1e0, 1e1, 1e2,  1e3,  1e4,  1e5,  1e6, 1e7,
                                           1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14};
-  char digits[400];
+  const double size = std::abs(value);
+  char digits[40];
   char* const end = digits + sizeof digits;
   char* begin = end;
-  const auto kept = static_cast<std::ptrdiff_t>(std::min<std::size_t>(width, 40));
-  const double size = std::abs(value);
   if (decimals >= 0 && decimals <= 14 && size < 1e15) {
     // Whole part and fraction apart: the one is exact, the other times the power is off by less
     // than 2e-16 of the power, so that its rounding is certain unless it ends that close to one
@@ -195,27 +194,39 @@ void append_fixed(std::string& text, double value, int decimals, std::size_t wid
         ++whole;
       }
       int left = decimals;
-      for (; left >= 2; left -= 2, count /= 100) begin = put_pair(begin, count % 100);
-      if (left == 1) *--begin = static_cast<char>('0' + count);
+      if (count == 0) {
+        begin -= left;
+        std::memset(begin, '0', static_cast<std::size_t>(left));
+      } else {
+        for (; left >= 2; left -= 2, count /= 100) begin = put_pair(begin, count % 100);
+        if (left == 1) *--begin = static_cast<char>('0' + count);
+      }
       if (decimals > 0) *--begin = '.';
       do {
         *--begin = static_cast<char>('0' + whole % 10);
         whole /= 10;
       } while (whole > 0);
       if (std::signbit(value)) *--begin = '-';
-      while (end - begin < kept) *--begin = ' ';
     }
   }
-  const char* stop = end;
-  if (begin == end) {
-    begin = digits;
-    stop = std::isnan(value)
-               ? std::copy_n("NaN", 3, digits)
-               : std::to_chars(digits, end, value, std::chars_format::fixed, decimals).ptr;
+  if (begin != end) {
+    const auto count = static_cast<std::size_t>(end - begin);
+    if (count < width) {
+      std::memset(at, ' ', width - count);
+      at += width - count;
+    }
+    std::memcpy(at, begin, count);
+    return at + count;
   }
-  const auto count = static_cast<std::size_t>(stop - begin);
-  if (count < width) text.append(width - count, ' ');
-  text.append(begin, count);
+  char* const stop =
+      std::isnan(value)
+          ? std::copy_n("NaN", 3, at)
+          : std::to_chars(at, at + kFixedRoom, value, std::chars_format::fixed, decimals).ptr;
+  const auto count = static_cast<std::size_t>(stop - at);
+  if (count >= width) return stop;
+  std::memmove(at + (width - count), at, count);
+  std::memset(at, ' ', width - count);
+  return at + width;
 }
 
 bool equal_ignoring_case(std::string_view a, std::string_view b) {
