@@ -5,6 +5,9 @@
 #include "myoid/core/error.h"
 #include "myoid/model/arm4.h"
 #include "myoid/model/kinematic_tree.h"
+#include "myoid/model/osim_constraints.h"
+#include "myoid/model/osim_contacts.h"
+#include "myoid/model/osim_functions.h"
 #include "myoid/model/osim_reader.h"
 
 namespace myoid::model {

@@ -53,16 +53,16 @@ void write_through(const std::filesystem::path& path, std::string_view content) 
 
 void write_file(const std::filesystem::path& path, std::string_view content, Flush flush) {
   if (path.empty()) throw InvalidInput("the name of the file to write is empty");
+  // What neither exists nor is a link is where it says.
   struct stat existing {};
-  const bool exists = stat(path.c_str(), &existing) == 0;
+  bool exists = lstat(path.c_str(), &existing) == 0;
+  const bool is_link = exists && S_ISLNK(existing.st_mode);
+  if (is_link) exists = stat(path.c_str(), &existing) == 0;
   if (exists && S_ISDIR(existing.st_mode)) {
     throw InvalidInput(fmt::format("{}: is a folder; name a file in it", path.string()));
   }
   if (exists && !S_ISREG(existing.st_mode)) return write_through(path, content);
 
-  // What neither exists nor is a link is where it says.
-  struct stat link {};
-  const bool is_link = lstat(path.c_str(), &link) == 0 && S_ISLNK(link.st_mode);
   const std::filesystem::path target = is_link ? behind_links(path) : path;
   std::string temporary = target.string() + ".XXXXXX";
   int descriptor = mkstemp(temporary.data());

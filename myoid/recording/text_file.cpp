@@ -175,9 +175,6 @@ char* write_fixed(char* at, double value, int decimals, std::size_t width) {
   constexpr std::array<double, 15> kPower{1e0, 1e1, 1e2,  1e3,  1e4,  1e5,  1e6, 1e7,
                                           1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14};
   const double size = std::abs(value);
-  char digits[40];
-  char* const end = digits + sizeof digits;
-  char* begin = end;
   if (decimals >= 0 && decimals <= 14 && size < 1e15) {
     // Whole part and fraction apart: the one is exact, the other times the power is off by less
     // than 2e-16 of the power, so that its rounding is certain unless it ends that close to one
@@ -193,11 +190,25 @@ char* write_fixed(char* at, double value, int decimals, std::size_t width) {
         count = 0;
         ++whole;
       }
+      const bool negative = std::signbit(value);
+      std::size_t needed =
+          static_cast<std::size_t>(decimals) + (decimals > 0 ? 2 : 1) + (negative ? 1 : 0);
+      for (std::uint64_t w = whole; w >= 10; w /= 10) ++needed;
+      // From behind.
+      char* const end = at + std::max(needed, width);
+      char* begin = end;
       int left = decimals;
       if (count == 0) {
         begin -= left;
         std::memset(begin, '0', static_cast<std::size_t>(left));
       } else {
+        // The last six digits apart from the first: two short chains of divisions.
+        if (left > 6) {
+          auto low = static_cast<std::uint32_t>(count % 1000000);
+          count /= 1000000;
+          for (int pair = 0; pair < 3; ++pair, low /= 100) begin = put_pair(begin, low % 100);
+          left -= 6;
+        }
         for (; left >= 2; left -= 2, count /= 100) begin = put_pair(begin, count % 100);
         if (left == 1) *--begin = static_cast<char>('0' + count);
       }
@@ -206,17 +217,10 @@ char* write_fixed(char* at, double value, int decimals, std::size_t width) {
         *--begin = static_cast<char>('0' + whole % 10);
         whole /= 10;
       } while (whole > 0);
-      if (std::signbit(value)) *--begin = '-';
+      if (negative) *--begin = '-';
+      while (begin > at) *--begin = ' ';
+      return end;
     }
-  }
-  if (begin != end) {
-    const auto count = static_cast<std::size_t>(end - begin);
-    if (count < width) {
-      std::memset(at, ' ', width - count);
-      at += width - count;
-    }
-    std::memcpy(at, begin, count);
-    return at + count;
   }
   char* const stop =
       std::isnan(value)
