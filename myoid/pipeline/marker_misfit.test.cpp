@@ -36,7 +36,7 @@ TEST(MarkerMisfit, SaysNothingOfMarkersThatFit) {
 TEST(MarkerMisfit, NamesTheUnitThatWasProbablyMeant) {
   const MarkerMisfit m = misfit_of(1000.0);
   EXPECT_TRUE(m.wrong_unit);
-  EXPECT_NE(m.warning.find("mm"), std::string::npos) << m.warning;
+  EXPECT_NE(m.warning.find("millimeters"), std::string::npos) << m.warning;
 }
 
 TEST(MarkerMisfit, AsksWhereTheUnitIsRight) {
