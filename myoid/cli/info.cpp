@@ -241,6 +241,18 @@ bool is_model(const std::filesystem::path& path) {
          (path == "arm4" && !std::filesystem::exists(path));
 }
 
+/// What a coordinate's values in files are in. One that turns by another law than its own angle
+/// stays in radians there ("coupled", as OpenSim calls it).
+std::string unit_of(const model::BodyModel& m, const model::Coordinate& c) {
+  if (c.motion == model::MotionType::rotational) return "deg";
+  if (c.motion == model::MotionType::translational) return "m";
+  const model::Joint& joint = m.joints[static_cast<std::size_t>(c.joint)];
+  for (const model::TransformAxis& axis : joint.rotation)
+    if (axis.coordinate >= 0 && &m.coordinates[static_cast<std::size_t>(axis.coordinate)] == &c)
+      return "rad, coupled";
+  return "coupled";
+}
+
 ordered_json osim_json(const std::filesystem::path& path,
                        const ModelQuestions& ask,
                        const Context& context) {
@@ -264,12 +276,9 @@ ordered_json osim_json(const std::filesystem::path& path,
   for (const model::Coordinate& c : m.coordinates) {
     const bool angle = c.motion == model::MotionType::rotational;
     const double scale = angle ? 1.0 / kDegree : 1.0;
-    j["coordinates"].push_back(
-        fmt::format("{} [{}] {:.4g} to {:.4g}{}", c.name,
-                    angle                                          ? "deg"
-                    : c.motion == model::MotionType::translational ? "m"
-                                                                   : "coupled",
-                    c.lower * scale, c.upper * scale, c.locked ? ", locked" : ""));
+    j["coordinates"].push_back(fmt::format("{} [{}] {:.4g} to {:.4g}{}", c.name, unit_of(m, c),
+                                           c.lower * scale, c.upper * scale,
+                                           c.locked ? ", locked" : ""));
   }
   j["muscles"] = ordered_json::array();
   for (const model::Muscle& muscle : m.muscles) {
@@ -291,6 +300,7 @@ ordered_json osim_json(const std::filesystem::path& path,
   for (const model::CoordinateActuator& a : m.actuators) j["actuators"].push_back(a.name);
   for (const model::PointActuator& a : m.point_actuators) j["actuators"].push_back(a.name);
   for (const model::TorqueActuator& a : m.torque_actuators) j["actuators"].push_back(a.name);
+  for (const model::PathActuator& a : m.path_actuators) j["actuators"].push_back(a.name);
   for (const model::PassiveForce& f : m.passive_forces)
     j["passive_forces"].push_back(fmt::format("{} ({})", f.name, f.class_name));
   if (ask.compare_compat)

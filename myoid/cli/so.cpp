@@ -53,8 +53,8 @@ void add_so(CLI::App& app, Context& context) {
                      "Forces measured on bodies: an <ExternalLoads> file (.xml) of OpenSim");
   command
       .add_option("--tendon", o->tendon,
-                  "rigid, or elastic: fiber and tendon in balance by the muscle's own curves "
-                  "(default rigid)")
+                  "rigid, or elastic: fiber and tendon in balance by the muscle's own curves, in "
+                  "every frame for itself: the tendon's own rate is left out (default rigid)")
       ->check(CLI::IsMember({"rigid", "elastic"}));
   command.add_flag("--passive", o->passive,
                    "The fibers' passive springs and dampers pull too, and the muscles share the "

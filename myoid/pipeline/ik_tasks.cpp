@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <memory>
 #include <utility>
 
@@ -24,7 +25,8 @@ struct TaskFile {
 TaskFile task_file(const OpensimSetup& setup, pugi::xml_node owner) {
   TaskFile file;
   const auto inside = owner.child("IKTaskSet");
-  const std::string name = inside.attribute("file").value();
+  std::string name = inside.attribute("file").value();
+  std::replace(name.begin(), name.end(), '\\', '/');
   if (name.empty() || recording::equal_ignoring_case(name, "Unassigned")) {
     file.set = inside;
     return file;

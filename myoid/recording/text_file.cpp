@@ -171,13 +171,9 @@ std::string format_number(double value) {
   return {buffer, result.ptr};
 }
 
-void append_fixed(std::string& text, double value, int decimals, std::size_t width) {
+char* write_fixed(char* at, double value, int decimals, std::size_t width) {
   constexpr std::array<double, 15> kPower{1e0, 1e1, 1e2,  1e3,  1e4,  1e5,  1e6, 1e7,
                                           1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14};
-  char digits[400];
-  char* const end = digits + sizeof digits;
-  char* begin = end;
-  const auto kept = static_cast<std::ptrdiff_t>(std::min<std::size_t>(width, 40));
   const double size = std::abs(value);
   if (decimals >= 0 && decimals <= 14 && size < 1e15) {
     // Whole part and fraction apart: the one is exact, the other times the power is off by less
@@ -194,28 +190,47 @@ void append_fixed(std::string& text, double value, int decimals, std::size_t wid
         count = 0;
         ++whole;
       }
+      const bool negative = std::signbit(value);
+      std::size_t needed =
+          static_cast<std::size_t>(decimals) + (decimals > 0 ? 2 : 1) + (negative ? 1 : 0);
+      for (std::uint64_t w = whole; w >= 10; w /= 10) ++needed;
+      // From behind.
+      char* const end = at + std::max(needed, width);
+      char* begin = end;
       int left = decimals;
-      for (; left >= 2; left -= 2, count /= 100) begin = put_pair(begin, count % 100);
-      if (left == 1) *--begin = static_cast<char>('0' + count);
+      if (count == 0) {
+        begin -= left;
+        std::memset(begin, '0', static_cast<std::size_t>(left));
+      } else {
+        // The last six digits apart from the first: two short chains of divisions.
+        if (left > 6) {
+          auto low = static_cast<std::uint32_t>(count % 1000000);
+          count /= 1000000;
+          for (int pair = 0; pair < 3; ++pair, low /= 100) begin = put_pair(begin, low % 100);
+          left -= 6;
+        }
+        for (; left >= 2; left -= 2, count /= 100) begin = put_pair(begin, count % 100);
+        if (left == 1) *--begin = static_cast<char>('0' + count);
+      }
       if (decimals > 0) *--begin = '.';
       do {
         *--begin = static_cast<char>('0' + whole % 10);
         whole /= 10;
       } while (whole > 0);
-      if (std::signbit(value)) *--begin = '-';
-      while (end - begin < kept) *--begin = ' ';
+      if (negative) *--begin = '-';
+      while (begin > at) *--begin = ' ';
+      return end;
     }
   }
-  const char* stop = end;
-  if (begin == end) {
-    begin = digits;
-    stop = std::isnan(value)
-               ? std::copy_n("NaN", 3, digits)
-               : std::to_chars(digits, end, value, std::chars_format::fixed, decimals).ptr;
-  }
-  const auto count = static_cast<std::size_t>(stop - begin);
-  if (count < width) text.append(width - count, ' ');
-  text.append(begin, count);
+  char* const stop =
+      std::isnan(value)
+          ? std::copy_n("NaN", 3, at)
+          : std::to_chars(at, at + kFixedRoom, value, std::chars_format::fixed, decimals).ptr;
+  const auto count = static_cast<std::size_t>(stop - at);
+  if (count >= width) return stop;
+  std::memmove(at + (width - count), at, count);
+  std::memset(at, ' ', width - count);
+  return at + width;
 }
 
 bool equal_ignoring_case(std::string_view a, std::string_view b) {
