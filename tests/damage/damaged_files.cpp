@@ -1,7 +1,8 @@
 // damaged_files [--list]: what the program makes of damaged files, as a table of kinds and damages.
 //
 //   right    all that was written, whether the damage is mentioned or not
-//   stated   what is there is right or less, and a note says what was mended or is missing
+//   stated   what is there is right, or less, or has another name, and a note says so
+//   doubtful other numbers or times, and a note says what does not fit together in the file
 //   refused  an error that names the file (exit code 3 of the program, asked for one of each cell)
 //   itself   one flipped bit inside a number, a name or a setting makes another valid one, or a
 //            TOML file is cut off at the end of a line: no reader can know; the rest is as written
@@ -31,7 +32,7 @@ namespace {
 namespace fs = std::filesystem;
 using namespace myoid::damage;
 
-enum class Verdict { right, stated, refused, itself, wrong };
+enum class Verdict { right, stated, doubtful, refused, itself, wrong };
 
 struct Judgement {
   Verdict verdict = Verdict::wrong;
@@ -157,7 +158,10 @@ Judgement judge(const Kind& kind, const Content& good, const Damaged& file, cons
   const bool other =
       d.samples > 0 || d.strange_instants > 0 || d.texts > 0 || !d.lost.empty() || !d.added.empty();
   if (!other && d.missing == 0) return {Verdict::right, news};
-  if (!news.empty()) return {Verdict::stated, news};
+  if (!news.empty()) {
+    const bool numbers = d.samples > 0 || d.strange_instants > 0;
+    return {numbers ? Verdict::doubtful : Verdict::stated, news};
+  }
   if (is_the_value_itself(kind, file, d))
     return {Verdict::itself, fmt::format("{} numbers of {} columns", d.samples, d.columns.size())};
   // TOML has no end: what is cut off at the end of a line leaves a whole, shorter file.
@@ -175,7 +179,7 @@ Judgement judge(const Kind& kind, const Content& good, const Damaged& file, cons
 }
 
 const char* word(Verdict verdict) {
-  constexpr const char* kWords[] = {"right", "stated", "refused", "itself", "WRONG"};
+  constexpr const char* kWords[] = {"right", "stated", "doubtful", "refused", "itself", "WRONG"};
   return kWords[static_cast<std::size_t>(verdict)];
 }
 
