@@ -220,8 +220,8 @@ C3dLayout find_c3d_layout(const C3dHeader& header,
     return (4 * p + s.channels * s.analog_per_frame) * (integer ? 2U : 4U) *
            static_cast<std::uint64_t>(n);
   };
-  const auto confirmed = [&](std::uint64_t needed) {
-    return needed > 0 && needed <= available && available - needed < 2 * kBlock;
+  const auto confirmed = [&](std::uint64_t needed, std::uint64_t padding) {
+    return needed > 0 && needed <= available && available - needed < padding;
   };
   bool found = false;
   const Frames* chosen = frames.data();
@@ -233,11 +233,14 @@ C3dLayout find_c3d_layout(const C3dHeader& header,
     chosen = &f;
     found = true;
   };
-  for (const bool kind : kinds) {
-    for (const Shape& s : shapes) {
-      for (const std::size_t p : points) {
-        for (const Frames& f : frames) {
-          if (!found && confirmed(bytes(kind, p, s, f.count))) take(kind, p, s, f);
+  // Up to a whole block behind the data first: what needs more of it is less likely.
+  for (const std::uint64_t padding : {kBlock, 2 * kBlock}) {
+    for (const bool kind : kinds) {
+      for (const Shape& s : shapes) {
+        for (const std::size_t p : points) {
+          for (const Frames& f : frames) {
+            if (!found && confirmed(bytes(kind, p, s, f.count), padding)) take(kind, p, s, f);
+          }
         }
       }
     }
