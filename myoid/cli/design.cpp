@@ -124,14 +124,14 @@ void add_design(CLI::App& app, Context& context) {
       ->check(CLI::Range(1, 50))
       ->capture_default_str();
   command.add_option("--budget", design.choice.budget_s, "Recording time at most [s]")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
   command
       .add_option("--fatigue", design.fatigued_share,
                   "Share of a muscle that may be fatigued at any time")
       ->check(CLI::Range(0.001, 1.0))
       ->capture_default_str();
   command.add_option("--masses", design.catalogue.held_masses_kg, "Held masses there are [kg]")
-      ->check(CLI::NonNegativeNumber)
+      ->check(zero_or_more())
       ->capture_default_str();
   command.add_flag("--no-dynamometer", options->no_dynamometer,
                    "No isokinetic movement (isometric torque can be measured still)");
@@ -141,7 +141,7 @@ void add_design(CLI::App& app, Context& context) {
   command
       .add_option("--torque-noise", design.torque_sd_nm,
                   "Standard deviation of the joint torque's error below 2 Hz [N m]")
-      ->check(CLI::PositiveNumber)
+      ->check(above_zero())
       ->capture_default_str();
   command.add_option("--emg-noise", design.emg_cv, "Relative noise of the EMG envelope below 2 Hz")
       ->check(CLI::Range(0.0, 1.0))

@@ -48,7 +48,7 @@ void add_so(CLI::App& app, Context& context) {
   command
       .add_option("--lowpass", o->cutoff_hz,
                   "Smooth the angles, -3 dB at this frequency [Hz] (default: not smoothed)")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
   command.add_option("--loads", o->loads,
                      "Forces measured on bodies: an <ExternalLoads> file (.xml) of OpenSim");
   command

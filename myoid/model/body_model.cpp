@@ -6,6 +6,7 @@
 
 #include "myoid/core/error.h"
 #include "myoid/model/joint_orientation.h"
+#include "myoid/recording/toml_table.h"
 
 namespace myoid::model {
 namespace {
@@ -23,7 +24,11 @@ int index_by_name(const Items& items, std::string_view name, std::string_view wh
   if (const auto index = find_by_name(items, name)) return *index;
   std::string names;
   for (const auto& item : items) names += (names.empty() ? "" : ", ") + item.name;
-  throw ModelError(fmt::format("the model has no {} '{}'; there are: {}", what, name,
+  std::vector<std::string> list;
+  for (const auto& item : items) list.push_back(item.name);
+  const auto near = recording::nearest_word(name, list);
+  throw ModelError(fmt::format("the model has no {} '{}'{}; there are: {}", what, name,
+                               near ? fmt::format(" (did you mean '{}'?)", *near) : "",
                                names.empty() ? "none" : names));
 }
 

@@ -37,6 +37,45 @@ char* put_pair(char* end, std::uint64_t pair) {
 
 char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 
+/// UTF-8 of a text in UTF-16 that begins with its byte-order mark; empty if it cannot be one.
+std::optional<std::string> from_utf16(std::string_view bytes) {
+  if (bytes.size() % 2 != 0) return std::nullopt;
+  const std::size_t low = bytes[0] == '\xFF' ? 0 : 1;  // which byte of a pair is the lower one
+  std::string text;
+  text.reserve(bytes.size() / 2);
+  const auto unit = [&](std::size_t i) {
+    return (std::uint32_t{static_cast<unsigned char>(bytes[i + 1 - low])} << 8U) |
+           std::uint32_t{static_cast<unsigned char>(bytes[i + low])};
+  };
+  for (std::size_t i = 2; i < bytes.size(); i += 2) {
+    std::uint32_t code = unit(i);
+    if (code >= 0xDC00U && code < 0xE000U) return std::nullopt;
+    if (code >= 0xD800U && code < 0xDC00U) {
+      i += 2;
+      if (i >= bytes.size() || unit(i) < 0xDC00U || unit(i) >= 0xE000U) return std::nullopt;
+      code = 0x10000U + ((code - 0xD800U) << 10U) + (unit(i) - 0xDC00U);
+    }
+    const auto put = [&](std::uint32_t byte) { text += static_cast<char>(byte); };
+    const auto tail = [&](unsigned shift) { put(0x80U | ((code >> shift) & 0x3FU)); };
+    if (code < 0x80U) {
+      put(code);
+    } else if (code < 0x800U) {
+      put(0xC0U | (code >> 6U));
+      tail(0);
+    } else if (code < 0x10000U) {
+      put(0xE0U | (code >> 12U));
+      tail(6);
+      tail(0);
+    } else {
+      put(0xF0U | (code >> 18U));
+      tail(12);
+      tail(6);
+      tail(0);
+    }
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string read_text_file(const std::filesystem::path& path) {
@@ -66,8 +105,11 @@ std::string read_text_file(const std::filesystem::path& path) {
   if (text.empty())
     throw ReadError(path, 0, "the file is empty; export it again from the program that made it");
   if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF")) {
-    throw ReadError(path, 0,
-                    "the text is in UTF-16 ('Unicode text'); save it as UTF-8 or plain text");
+    auto decoded = from_utf16(text);
+    if (!decoded)
+      throw ReadError(path, 0,
+                      "the text is in UTF-16 ('Unicode text') and damaged; save it as UTF-8");
+    text = *std::move(decoded);
   }
   if (std::string_view(text).substr(0, 4096).find('\0') != std::string_view::npos) {
     throw ReadError(path, 0, "this is no text but a binary file; export it as text");

@@ -16,7 +16,7 @@ struct Repair {
 };
 
 /// The whole file as bytes. Throws ReadError with the remedy if it is missing, a folder,
-/// unreadable, empty or no text (binary, UTF-16).
+/// unreadable, empty or no text. UTF-16 with a byte-order mark becomes UTF-8.
 [[nodiscard]] std::string read_text_file(const std::filesystem::path& path);
 
 /// The lines of a text without their ends (LF, CRLF or CR), a byte-order mark removed. Views into
