@@ -55,7 +55,7 @@ SolverComparison compare_solvers(const StudyData& data,
   };
   const math::DirectSearchProblem direct{
       [&](const Eigen::VectorXd& z) {
-        return estimator.normal_equations(z, weighting, false).cost;
+        return estimator.normal_equations(z, weighting, Derivatives::none).cost;
       },
       estimator.lower(), estimator.upper()};
   const double total = 4.0 * static_cast<double>(starts.size());

@@ -71,10 +71,16 @@ void shape(double u, double A, double& value, double& by_u, double& by_a) {
   by_a = (u * (above + 1.0) * below - above * (below + 1.0)) / (below * below);
 }
 
-/// u^p, its slope in u and in p. Below 1e-4 of the maximum a straight line: where p < 1 the slope
-/// has no end.
-void power(double u, double p, double& value, double& by_u, double& by_p) {
+/// u^p, its slope in u and, if `with_exponent`, in p. Below 1e-4 of the maximum a straight line:
+/// where p < 1 the slope has no end.
+void power(double u, double p, bool with_exponent, double& value, double& by_u, double& by_p) {
   constexpr double kLeast = 1e-4;
+  if (p == 1.0 && !with_exponent) {
+    value = u;
+    by_u = 1.0;
+    by_p = 0.0;
+    return;
+  }
   const double log_u = std::log(std::max(u, kLeast));
   const double ratio = p == 1.0 ? 1.0 : std::exp((p - 1.0) * log_u);
   value = u * ratio;
@@ -174,7 +180,8 @@ Envelope::Value Envelope::at(double time_s) const {
 std::vector<Activation> activation(const Envelope& envelope,
                                    const Eigen::Ref<const Eigen::VectorXd>& time_s,
                                    const ChannelValues& c,
-                                   bool dynamics) {
+                                   bool dynamics,
+                                   bool with_exponent) {
   std::vector<Activation> result(static_cast<std::size_t>(time_s.size()));
   Lagged lag;
   Eigen::Index at = 0;
@@ -209,7 +216,7 @@ std::vector<Activation> activation(const Envelope& envelope,
                     .transpose();
     }
     double raised = value, by_value = 1.0, by_exponent = 0.0;
-    power(value, c[kExponent], raised, by_value, by_exponent);
+    power(value, c[kExponent], with_exponent, raised, by_value, by_exponent);
     const double u = c[kGain] * raised;
     double by_u = 1.0, by_shape = 0.5 * u * (u - 1.0);
     a.value = u;

@@ -46,9 +46,11 @@ struct Activation {
 ///   de/dt = (u - e) / tau_ne,   da/dt = (e - a) / (tau_ac if e >= a, tau_deac if e < a),
 ///
 /// integrated exactly for an input that is constant between the samples of the envelope.
+/// `with_exponent`: false where nobody asks what p changes (then 0 is given where p = 1).
 [[nodiscard]] std::vector<Activation> activation(const Envelope& envelope,
                                                  const Eigen::Ref<const Eigen::VectorXd>& time_s,
                                                  const ChannelValues& channel,
-                                                 bool dynamics);
+                                                 bool dynamics,
+                                                 bool with_exponent = true);
 
 }  // namespace myoid::identification

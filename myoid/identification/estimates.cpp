@@ -9,6 +9,7 @@
 
 #include "myoid/identification/discrepancy.h"
 #include "myoid/identification/identifiability.h"
+#include "myoid/identification/profile_likelihood.h"
 #include "myoid/identification/uncertainty.h"
 #include "myoid/math/statistics.h"
 
@@ -212,8 +213,7 @@ void report_estimates(const Estimator& estimator,
     result.bootstrap_replicates = static_cast<int>(intervals.bootstrap->replicates.rows());
     result.bootstrap_failed = intervals.bootstrap->failed;
   }
-  if (options.intervals.profile)
-    intervals.profiles = profile(estimator, solution, intervals.sandwich.model_based);
+  if (options.intervals.profile) intervals.profiles = profile(estimator, solution);
 
   const double quantile = math::normal_quantile(0.975);
   const auto muscles = data.muscles.size();

@@ -220,19 +220,21 @@ Estimator::ChannelSlope Estimator::channel_slope(Eigen::Index j,
 
 NormalEquations Estimator::normal_equations(const Eigen::VectorXd& z,
                                             const Weighting& weighting,
-                                            bool derivatives,
+                                            Derivatives derivatives,
                                             const Variant& variant) const {
   // Workspace of this thread: the gradient matrix is large, and allocating it anew costs more than
   // a pass over it.
   thread_local Evaluation at;
   Evaluation local;
   std::swap(local, at);  // a task that this thread takes on meanwhile finds the shared one empty
-  model_->evaluate(z, derivatives ? ResidualModel::Depth::gradient : ResidualModel::Depth::value,
-                   local);
+  const bool sloped = derivatives != Derivatives::none;
+  const bool curved = derivatives == Derivatives::curvature;
+  model_->evaluate(z, sloped ? ResidualModel::Depth::gradient : ResidualModel::Depth::value, local);
   NormalEquations result;
   const Eigen::Index n = model_->sample_count();
   const bool corrected = weighting.emg_variance.size() > 0;
-  Eigen::VectorXd scores(n);
+  Eigen::VectorXd by_residual(n);  ///< d (cost of the data) / d predicted
+  Eigen::VectorXd scale(n);
   Eigen::VectorXd by_noise = Eigen::VectorXd::Zero(channel_variance_.size());
   double sum = weighting.offset;
   for (Eigen::Index i = 0; i < n; ++i) {
@@ -241,37 +243,40 @@ NormalEquations Estimator::normal_equations(const Eigen::VectorXd& z,
     const LossValue value = loss(options_.loss, u);
     sum += count * value.rho;
     const double root = std::sqrt(weighting.share * count * value.weight);
-    scores[i] = root * u;
-    const double scale = root / weighting.sd_nm[i];
-    if (derivatives) local.gradient.col(i) *= scale;
+    scale[i] = root / weighting.sd_nm[i];
+    by_residual[i] = scale[i] * root * u;
     if (corrected) {
       auto torque = local.channel_torque.col(i);
-      torque *= scale * std::sqrt(weighting.emg_variance[i]);
-      by_noise += torque.cwiseAbs2().cwiseProduct(channel_variance_);
-      torque = std::sqrt(weighting.emg_variance[i]) * torque.cwiseProduct(channel_variance_);
+      const double squared = scale[i] * scale[i] * weighting.emg_variance[i];
+      by_noise += squared * torque.cwiseAbs2().cwiseProduct(channel_variance_);
+      if (sloped) torque = squared * torque.cwiseProduct(channel_variance_);
     }
   }
   sum -= by_noise.sum() / weighting.share;
   const Eigen::VectorXd& mean = variant.prior_mean.size() > 0 ? variant.prior_mean : prior_mean_;
   const Eigen::VectorXd off = z - mean;
   result.cost = 0.5 * weighting.share * sum + 0.5 * off.dot(prior_precision_.cwiseProduct(off));
-  if (derivatives) {
+  if (sloped) {
     const Eigen::Index p = z.size();
-    result.gradient = local.gradient * scores + prior_precision_.cwiseProduct(off);
-    result.curvature.setZero(p, p);
-    result.curvature.selfadjointView<Eigen::Lower>().rankUpdate(local.gradient);
-    result.curvature.triangularView<Eigen::StrictlyUpper>() = result.curvature.transpose();
+    result.gradient = local.gradient * by_residual + prior_precision_.cwiseProduct(off);
     if (corrected) {
       const Eigen::VectorXd exponent = exponents(z);
+      const Eigen::MatrixXd by_channel = local.gradient * local.channel_torque.transpose();
       for (Eigen::Index j = 0; j < p; ++j) {
         const ChannelSlope s = channel_slope(j, exponent);
         if (s.channel < 0) continue;
-        result.gradient[j] -=
-            s.slope * local.gradient.row(j).dot(local.channel_torque.row(s.channel));
+        result.gradient[j] -= s.slope * by_channel(j, s.channel);
         if (s.adds) result.gradient[j] -= by_noise[s.channel];
       }
-      correct_curvature(weighting, result.curvature);
     }
+  }
+  if (curved) {
+    const Eigen::Index p = z.size();
+    for (Eigen::Index i = 0; i < n; ++i) local.gradient.col(i) *= scale[i];
+    result.curvature.setZero(p, p);
+    result.curvature.selfadjointView<Eigen::Lower>().rankUpdate(local.gradient);
+    result.curvature.triangularView<Eigen::StrictlyUpper>() = result.curvature.transpose();
+    if (corrected) correct_curvature(weighting, result.curvature);
     result.curvature.diagonal() += prior_precision_;
   }
   std::swap(local, at);
@@ -287,7 +292,8 @@ NormalSearchResult Estimator::search(const Eigen::VectorXd& start,
                                      const std::vector<bool>& held) const {
   return minimize_normal(
       [&](const Eigen::VectorXd& z, bool derivatives, NormalEquations& out) {
-        out = normal_equations(z, weighting, derivatives, variant);
+        out = normal_equations(z, weighting,
+                               derivatives ? Derivatives::curvature : Derivatives::none, variant);
       },
       lower_, upper_, start,
       {.gauss_newton = options_.gauss_newton,

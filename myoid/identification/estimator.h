@@ -30,6 +30,9 @@ struct Weighting {
   std::vector<NoiseLevel> noise;  ///< Per joint.
 };
 
+/// What of NormalEquations is filled beside the cost: nothing, the gradient, or both.
+enum class Derivatives { none, gradient, curvature };
+
 /// Residual, weights and priors of one study: the cost that is minimized,
 ///
 ///   C(z) = 1/2 nu sum_i m_i rho((T^_i - T_i) / s_i) + 1/2 sum_j ((z_j - prior_j) / sd_j)^2
@@ -69,7 +72,7 @@ class Estimator {
   };
   [[nodiscard]] NormalEquations normal_equations(const Eigen::VectorXd& z,
                                                  const Weighting& weighting,
-                                                 bool derivatives,
+                                                 Derivatives derivatives,
                                                  const Variant& variant = {}) const;
 
   struct Solution {

@@ -58,13 +58,14 @@ TEST(Estimator, TheGradientOfTheCorrectedCostIsThatOfDifferences) {
   ASSERT_GT(solution.weighting.emg_variance.maxCoeff(), 1e-4);
   const Eigen::VectorXd z =
       solution.search.x + Eigen::VectorXd::Constant(estimator.lower().size(), 1e-3);
-  const NormalEquations at = estimator.normal_equations(z, solution.weighting, true);
+  const NormalEquations at =
+      estimator.normal_equations(z, solution.weighting, Derivatives::gradient);
   for (Eigen::Index j = 0; j < z.size(); ++j) {
     const double h = 1e-6;
     const auto cost = [&](double step) {
       return estimator
           .normal_equations(z + step * Eigen::VectorXd::Unit(z.size(), j), solution.weighting,
-                            false)
+                            Derivatives::none)
           .cost;
     };
     EXPECT_NEAR(at.gradient[j], (cost(h) - cost(-h)) / (2.0 * h),

@@ -174,10 +174,6 @@ void ResidualModel::evaluate_block(const Block& block,
   const Eigen::Index n = block.time_s.size();
   const bool with_gradient = depth != Depth::value;
   const bool with_noise = depth == Depth::noise;
-  std::vector<std::vector<Activation>> activations;
-  for (std::size_t c = 0; c < block.envelopes.size(); ++c)
-    activations.push_back(
-        activation(block.envelopes[c], block.time_s, values.channels[c], dynamics_));
   std::vector<std::vector<ParameterMap::Chain>> of_muscle(values.muscles.size());
   std::vector<std::vector<ParameterMap::Chain>> of_channel(block.envelopes.size());
   std::vector<ParameterMap::Chain> of_joint;
@@ -186,6 +182,14 @@ void ResidualModel::evaluate_block(const Block& block,
     if (chain.scope == Scope::muscle) of_muscle[owner].push_back(chain);
     if (chain.scope == Scope::channel) of_channel[owner].push_back(chain);
     if (chain.scope == Scope::joint) of_joint.push_back(chain);
+  }
+  std::vector<std::vector<Activation>> activations;
+  for (std::size_t c = 0; c < block.envelopes.size(); ++c) {
+    const bool with_exponent =
+        std::any_of(of_channel[c].begin(), of_channel[c].end(),
+                    [](const ParameterMap::Chain& chain) { return chain.field == kExponent; });
+    activations.push_back(
+        activation(block.envelopes[c], block.time_s, values.channels[c], dynamics_, with_exponent));
   }
   for (std::size_t k = 0; k < values.muscles.size(); ++k) {
     const auto column = static_cast<Eigen::Index>(k);

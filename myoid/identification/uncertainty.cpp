@@ -17,7 +17,6 @@ namespace myoid::identification {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kChiSquare95 = 3.841458820694124;
 
 /// A stream of numbers that depends on the seed and the stream's number alone (SplitMix64).
 class Stream {
@@ -277,67 +276,6 @@ BootstrapResult bootstrap(const Estimator& estimator, const Estimator::Solution&
     }
   }
   return result;
-}
-
-std::vector<Interval> profile(const Estimator& estimator,
-                              const Estimator::Solution& solution,
-                              const Eigen::MatrixXd& model_based) {
-  const Eigen::Index p = solution.search.x.size();
-  std::vector<Interval> intervals(static_cast<std::size_t>(p));
-  const double minimum = solution.search.cost;
-  std::atomic<int> done = 0;
-  oneapi::tbb::parallel_for(Eigen::Index{0}, 2 * p, [&](Eigen::Index task) {
-    estimator.options().progress.check();
-    const Eigen::Index j = task / 2;
-    const double side = task % 2 == 0 ? -1.0 : 1.0;
-    const double bound = side < 0.0 ? estimator.lower()[j] : estimator.upper()[j];
-    const double reach = std::abs(bound - solution.search.x[j]);
-    const double sd = std::sqrt(std::max(model_based(j, j), 1e-300));
-    std::vector<bool> held(static_cast<std::size_t>(p), false);
-    held[static_cast<std::size_t>(j)] = true;
-    // What the others do when this one moves, to first order: where the fits begin.
-    const Eigen::VectorXd along = model_based.col(j) / std::max(model_based(j, j), 1e-300);
-    // sqrt(2 (C - C_min)) is nearly proportional to the distance: the secant converges in one or
-    // two fits.
-    const double goal = std::sqrt(kChiSquare95);
-    double near = 0.0, near_value = 0.0;
-    double far = std::min(goal * sd, reach);
-    // Then how their path bends, by the last fit.
-    Eigen::VectorXd bend = Eigen::VectorXd::Zero(p);
-    std::optional<double> answer;
-    for (int step = 0; step < 8 && far > 0.0; ++step) {
-      Eigen::VectorXd start = solution.search.x + (side * far) * along + (far * far) * bend;
-      start[j] = solution.search.x[j] + side * far;
-      const NormalSearchResult fit =
-          estimator.search(start, solution.weighting, 1e-4, 1e-4, 40, {}, held);
-      const double value = std::sqrt(std::max(0.0, 2.0 * (fit.cost - minimum)));
-      const double middle =
-          near + (far - near) * (goal - near_value) / std::max(value - near_value, 1e-12);
-      if (std::abs(value - goal) < 0.05 * goal && middle <= reach) {
-        answer = middle;
-        break;
-      }
-      bend = (fit.x - solution.search.x - (side * far) * along) / (far * far);
-      if (value < goal) {
-        if (far >= reach * (1.0 - 1e-12)) break;  // open: the bound comes first
-        near = far;
-        near_value = value;
-        const double slope = value / far;
-        far = std::min({reach, slope > 0.0 ? far * goal / value * 1.02 : 4.0 * far, 4.0 * far});
-      } else {
-        far = std::clamp(middle, near + 0.05 * (far - near), near + 0.95 * (far - near));
-        answer = far;  // good enough if the steps run out
-      }
-    }
-    Interval& interval = intervals[static_cast<std::size_t>(j)];
-    if (answer) {
-      const double value = solution.search.x[j] + side * *answer;
-      (side < 0.0 ? interval.low : interval.high) = value;
-    }
-    estimator.options().progress.tell(static_cast<double>(++done) / static_cast<double>(2 * p),
-                                      "profiles");
-  });
-  return intervals;
 }
 
 std::vector<CollinearSet> collinear_sets(const Eigen::MatrixXd& information,

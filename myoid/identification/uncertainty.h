@@ -46,13 +46,6 @@ struct BootstrapResult {
 [[nodiscard]] BootstrapResult bootstrap(const Estimator& estimator,
                                         const Estimator::Solution& solution);
 
-/// Where 2 (C - C_min) reaches 3.84 when all other parameters adapt; empty where it does not within
-/// the bounds: the profile is open there. `model_based` is the Sandwich's: it says where to look
-/// first.
-[[nodiscard]] std::vector<Interval> profile(const Estimator& estimator,
-                                            const Estimator::Solution& solution,
-                                            const Eigen::MatrixXd& model_based);
-
 /// Parameters that the data hardly tell apart: the collinearity index 1 / sqrt(smallest eigenvalue)
 /// of S'S, S the sensitivities with unit columns (Brun and others 2001).
 struct CollinearSet {

@@ -21,6 +21,7 @@ constexpr double kReach = 32.0;
 constexpr double kBeta = 0.1102 * (100.0 - 8.7);
 constexpr double kCutoff = 0.9;      ///< Of half the new rate: the middle of the transition.
 constexpr double kTableStep = 1e-3;  ///< In samples of the new clock; straight lines between.
+constexpr double kSamePhase = 1e-7;  ///< In samples of the given clock.
 constexpr double kSlower = 0.99;     ///< A clock that is slower than this share is "slower".
 constexpr double kUneven = 0.02;     ///< More of the interval: not even.
 constexpr Eigen::Index kFewest = 4;  ///< Samples of a stretch of markers.
@@ -85,26 +86,39 @@ Eigen::MatrixXd low_passed(const TimeSeries& given, const Eigen::VectorXd& insid
   const Eigen::MatrixXd& x = even ? given.values() : made_even;
   const double step_s = (last_s - first_s) / static_cast<double>(n - 1);
   const double reach_s = kReach / rate_hz;
+  // Clocks that go together meet in few phases: the weights of one are kept.
+  Eigen::VectorXd weights;
+  double phase = -1.0;
   Eigen::MatrixXd result(inside.size(), x.cols());
-  Eigen::RowVectorXd sum(x.cols());
   for (Eigen::Index i = 0; i < inside.size(); ++i) {
-    const auto low = static_cast<Eigen::Index>(std::ceil((inside[i] - reach_s - first_s) / step_s));
-    const auto high =
-        static_cast<Eigen::Index>(std::floor((inside[i] + reach_s - first_s) / step_s));
-    sum.setZero();
-    double total = 0.0;
-    for (Eigen::Index k = low; k <= high; ++k) {
-      const double w = kernel((first_s + static_cast<double>(k) * step_s - inside[i]) * rate_hz);
-      total += w;
+    const double begin = (inside[i] - reach_s - first_s) / step_s;
+    const auto low = static_cast<Eigen::Index>(std::ceil(begin));
+    const double here = static_cast<double>(low) - begin;
+    if (!(std::abs(here - phase) < kSamePhase)) {
+      phase = here;
+      const auto count = static_cast<Eigen::Index>(std::floor(2.0 * reach_s / step_s - here)) + 1;
+      weights.resize(count);
+      for (Eigen::Index k = 0; k < count; ++k)
+        weights[k] = kernel((here + static_cast<double>(k)) * step_s * rate_hz - kReach);
+      weights /= weights.sum();
+    }
+    const Eigen::Index count = weights.size();
+    if (low >= 0 && low + count <= n) {
+      result.row(i).noalias() = weights.transpose() * x.middleRows(low, count);
+      continue;
+    }
+    result.row(i).setZero();
+    for (Eigen::Index k = low; k < low + count; ++k) {
+      const double w = weights[k - low];
       if (k >= 0 && k < n) {
-        sum += w * x.row(k);
+        result.row(i) += w * x.row(k);
       } else if (k < 0) {
-        sum += w * (2.0 * x.row(0) - x.row(std::min(-k, n - 1)));
+        result.row(i) += w * (2.0 * x.row(0) - x.row(std::min(-k, n - 1)));
       } else {
-        sum += w * (2.0 * x.row(n - 1) - x.row(std::max(2 * (n - 1) - k, Eigen::Index{0})));
+        result.row(i) +=
+            w * (2.0 * x.row(n - 1) - x.row(std::max(2 * (n - 1) - k, Eigen::Index{0})));
       }
     }
-    result.row(i) = sum / total;
   }
   return result;
 }

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "myoid/identification/estimator.h"
+#include "myoid/identification/uncertainty.h"
+
+namespace myoid::identification {
+
+/// A cost within bounds, about its minimum.
+struct ProfileProblem {
+  /// Returns C(z) and fills its gradient.
+  std::function<double(const Eigen::VectorXd& z, Eigen::VectorXd& gradient)> cost;
+  Eigen::VectorXd lower, upper;
+  Eigen::VectorXd minimum;
+  double least = 0.0;         ///< C there ...
+  Eigen::VectorXd gradient;   ///< ... its gradient, not zero for what leans on a bound ...
+  Eigen::MatrixXd curvature;  ///< ... and its curvature, about: J'J will do.
+};
+
+/// Distance from the minimum of variable j to the side where 2 (C - C_min) reaches 3.84 when all
+/// other variables adapt, to about 1 %; empty where a bound of j comes first: the profile is open.
+///
+/// The others are brought to their constrained minimum by quasi-Newton steps (BFGS, bounds by
+/// projection) that begin with `curvature` and end when the next would lower C by less than 0.02;
+/// that fall is taken as if it had been made. The root is sought on v(t) = sqrt(2 (C - C_min)),
+/// which is nearly proportional to t: its slope is dC/dz_j / v, because the others are at their
+/// minimum, and the parabola through the origin, v and v' leads to the root in one or two steps.
+[[nodiscard]] std::optional<double> profile_distance(const ProfileProblem& problem,
+                                                     Eigen::Index j,
+                                                     bool above);
+
+/// The 95 % intervals of all variables by profile likelihood, in parallel; weights are those of the
+/// solution.
+[[nodiscard]] std::vector<Interval> profile(const Estimator& estimator,
+                                            const Estimator::Solution& solution);
+
+}  // namespace myoid::identification
