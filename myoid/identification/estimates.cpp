@@ -70,12 +70,15 @@ void add_routes(ParameterEstimate& e,
   if (intervals.bootstrap) add("bootstrap", intervals.bootstrap->intervals[index]);
   if (intervals.profiles) add("profile", (*intervals.profiles)[index]);
 
-  // The interval that is reported: to either side the farthest of sandwich, jackknife and
-  // profile, and the model's error on top.
+  // The interval that is reported: to either side the farthest of sandwich, cluster and profile,
+  // and the model's error on top. Trials of one kind differ by more than their noise: what they
+  // differ by counts. Of few trials by the jackknife, which is never too small.
   double variance = intervals.sandwich.newey_west(at, at);
-  // Trials of one kind differ by more than their noise: what they differ by counts.
-  if (intervals.sandwich.jackknife)
+  if (intervals.sandwich.cluster) {
+    variance = std::max(variance, (*intervals.sandwich.cluster)(at, at));
+  } else if (intervals.sandwich.jackknife) {
     variance = std::max(variance, (*intervals.sandwich.jackknife)(at, at));
+  }
   double below = quantile * std::sqrt(std::max(0.0, variance));
   double above = below;
   if (intervals.profiles) {
