@@ -10,6 +10,7 @@
 
 #include "myoid/cli/context.h"
 #include "myoid/core/error.h"
+#include "myoid/pipeline/parameter_tables.h"
 #include "myoid/pipeline/quality_gates.h"
 #include "myoid/pipeline/result_files.h"
 #include "myoid/pipeline/run_study.h"
@@ -27,28 +28,37 @@ using identification::Verdict;
 /// In --out: what an interrupted or repeated run need not compute again.
 constexpr const char* kStageFolder = ".stages";
 
-void print_method(const identification::IdentificationResult& method) {
+void print_method(const identification::IdentificationResult& method, std::size_t muscle_count) {
+  const std::vector<pipeline::EstimateLine> lines = pipeline::estimate_lines(method, muscle_count);
   std::size_t owner = 6;
   std::size_t parameter = 9;
   const auto labelled = [](const ParameterEstimate& e) {
     return e.unit == Unit::dimensionless ? e.parameter
                                          : fmt::format("{} [{}]", e.parameter, symbol(e.unit));
   };
-  for (const ParameterEstimate& e : method.estimates) {
-    owner = std::max(owner, e.muscle.size());
-    parameter = std::max(parameter, labelled(e).size());
+  for (const pipeline::EstimateLine& line : lines) {
+    owner = std::max(owner, line.owners.size());
+    parameter = std::max(parameter, labelled(*line.estimate).size());
   }
   fmt::print("\nmethod {}: {}\n", method.method, method.message);
   fmt::print("{:<{}}  {:<{}}  {:<11} {:>10} {:>10} {:>24}  {}\n", "muscle", owner, "parameter",
              parameter, "case", "initial", "estimate", "95 % interval", "verdict");
-  for (const ParameterEstimate& e : method.estimates) {
-    const std::string interval =
-        e.ci_low && e.ci_high
-            ? fmt::format("[{}]", report::format_interval(*e.ci_low, *e.ci_high, ", "))
-            : "-";
-    fmt::print("{:<{}}  {:<{}}  {:<11} {:>10} {:>10} {:>24}  {}\n", e.muscle, owner, labelled(e),
-               parameter, e.fit_case, report::format_value(e.initial),
-               std::isfinite(e.estimate) ? report::format_value(e.estimate) : "-", interval,
+  bool nuisances = false;
+  for (const pipeline::EstimateLine& line : lines) {
+    const ParameterEstimate& e = *line.estimate;
+    if (identification::is_nuisance(e) && !nuisances) {
+      nuisances = true;
+      fmt::print("of the electrodes and the joint, freed for the intervals' sake:\n");
+    }
+    const bool interval = e.ci_low && e.ci_high;
+    const std::string estimate = !std::isfinite(e.estimate) ? "-"
+                                 : interval
+                                     ? report::format_rounded(e.estimate, *e.ci_high - *e.ci_low)
+                                     : report::format_value(e.estimate);
+    const std::string ends =
+        interval ? fmt::format("[{}]", report::format_interval(*e.ci_low, *e.ci_high, ", ")) : "-";
+    fmt::print("{:<{}}  {:<{}}  {:<11} {:>10} {:>10} {:>24}  {}\n", line.owners, owner, labelled(e),
+               parameter, e.fit_case, report::format_value(e.initial), estimate, ends,
                identification::name(e.verdict));
   }
 }
@@ -109,7 +119,7 @@ void print_gates(const std::vector<report::Gate>& gates) {
 void print_results(const pipeline::StudyResult& result, const std::vector<report::Gate>& gates) {
   for (const bool paper : {false, true}) {
     for (const identification::IdentificationResult& method : result.methods) {
-      if ((method.method == "paper") == paper) print_method(method);
+      if ((method.method == "paper") == paper) print_method(method, result.data.muscles.size());
     }
     if (!paper) print_predictions(result);
   }

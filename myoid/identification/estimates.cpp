@@ -284,6 +284,7 @@ void report_estimates(const Estimator& estimator,
       e.method = context.method;
       e.fit_case = "both";
       e.muscle = owner_name(p, target);
+      if (&target != &p.targets.front()) e.tied_to = owner_name(p, p.targets.front());
       e.parameter = std::string(p.field->name);
       e.unit = p.field->unit;
       e.initial = row.value(p.start);

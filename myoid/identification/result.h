@@ -33,7 +33,8 @@ struct RouteInterval {
 
 /// One row of parameters.csv.
 struct ParameterEstimate {
-  std::string muscle;  ///< Or the EMG channel, or "subject".
+  std::string muscle;   ///< Or the EMG channel, or "subject".
+  std::string tied_to;  ///< The first owner of the same unknown; empty: its own.
   std::string parameter;
   Unit unit = Unit::dimensionless;
   std::string method;    ///< paper | force | torque

@@ -5,6 +5,7 @@
 #include <limits>
 #include <numeric>
 #include <optional>
+#include <span>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -205,8 +206,12 @@ void add_coloring(const model::BodyModel& model,
         without.empty() ? "" : without.front()));
   }
   if (!without.empty()) {
-    scene.notes.push_back(fmt::format("No {} is given for {} of {} muscles: {}.", coloring.name,
-                                      without.size(), muscles, fmt::join(without, ", ")));
+    constexpr std::size_t kNamed = 6;
+    const std::size_t named = std::min(kNamed, without.size());
+    const std::span<const std::string> first(without.data(), named);
+    scene.notes.push_back(fmt::format("No {} is given for {} of {} muscles: {}{}.", coloring.name,
+                                      without.size(), muscles, fmt::join(first, ", "),
+                                      without.size() > named ? ", ..." : ""));
   }
   double top = coloring.unit.empty() ? 1.0 : 0.0;
   bool any = false;

@@ -6,6 +6,7 @@
 
 #include "myoid/report/svg_plot.h"
 #include "myoid/report/tables.h"
+#include "myoid/report/typeset.h"
 
 namespace myoid::report {
 namespace {
@@ -13,7 +14,7 @@ namespace {
 constexpr std::string_view kStyle = R"(
 :root { color-scheme: light; }
 * { box-sizing: border-box; }
-body { margin: 0 auto; max-width: 1080px; padding: 28px 24px 60px; background: #fff; color: #22262b;
+body { margin: 0 auto; max-width: 1180px; padding: 28px 24px 60px; background: #fff; color: #22262b;
   font: 15px/1.5 Helvetica, Arial, sans-serif; }
 h1 { font-size: 26px; line-height: 1.2; margin: 0 0 2px; }
 h2 { font-size: 19px; margin: 38px 0 8px; padding-bottom: 4px; border-bottom: 1px solid #d5d9de; }
@@ -29,7 +30,8 @@ a { color: #1f5fa8; }
 table { border-collapse: collapse; font-size: 13px; margin: 6px 0; }
 th, td { text-align: left; vertical-align: top; padding: 4px 12px 4px 0; border-bottom: 1px solid #e6e8eb; }
 th { font-weight: 600; border-bottom: 1px solid #8a9097; vertical-align: bottom; }
-td.number { font-variant-numeric: tabular-nums; }
+td { font-variant-numeric: tabular-nums; }
+td.short { white-space: nowrap; }
 .badge { display: inline-block; padding: 0 7px; border-radius: 9px; font-size: 12px; font-weight: 600;
   white-space: nowrap; border: 1px solid; }
 .pass, .good { color: #14602f; background: #e4f4e9; border-color: #9fd3b1; }
@@ -47,6 +49,9 @@ code { font: 12px/1.4 Menlo, Consolas, monospace; overflow-wrap: anywhere; }
   h2, h3 { break-after: avoid; } tr { break-inside: avoid; } a { color: inherit; text-decoration: none; }
   .badge { print-color-adjust: exact; -webkit-print-color-adjust: exact; } @page { margin: 16mm; } }
 )";
+
+/// Cells up to this long are not broken into lines.
+constexpr std::size_t kShortCell = 30;
 
 std::string_view word(GateStatus status) {
   switch (status) {
@@ -85,23 +90,24 @@ std::string gates_html(std::vector<Gate> gates) {
       "<th>Asked for</th><th>What follows</th></tr></thead><tbody>\n";
   for (const Gate& gate : gates) {
     text += fmt::format(
-        "<tr><td><span class=\"badge {}\">{}</span></td><td>{}</td><td class=\"number\">{}</td>"
-        "<td>{}</td><td>{}</td></tr>\n",
-        name(gate.status), word(gate.status), escape_xml(gate.name), escape_xml(gate.value),
-        escape_xml(gate.threshold), escape_xml(gate.why));
+        "<tr><td><span class=\"badge "
+        "{}\">{}</span></td><td>{}</td><td>{}</td><td>{}</td><td>{}</td>"
+        "</tr>\n",
+        name(gate.status), word(gate.status), typeset(gate.name), typeset(gate.value),
+        typeset(gate.threshold), typeset(gate.why));
   }
   return text + "</tbody></table></div>\n";
 }
 
 std::string table_html(const Table& table) {
   std::string text =
-      fmt::format("<h3 id=\"{}\">{}</h3>\n", escape_xml(table.id), escape_xml(table.title));
+      fmt::format("<h3 id=\"{}\">{}</h3>\n", escape_xml(table.id), typeset(table.title));
   if (!table.caption.empty()) {
-    text += fmt::format("<p class=\"caption\">{}</p>\n", escape_xml(table.caption));
+    text += fmt::format("<p class=\"caption\">{}</p>\n", typeset(table.caption));
   }
   text += "<div class=\"wide\"><table><thead><tr>";
   for (const std::string& column : table.columns) {
-    text += fmt::format("<th>{}</th>", escape_xml(column));
+    text += fmt::format("<th>{}</th>", typeset(column));
   }
   text += "</tr></thead><tbody>\n";
   std::vector<std::string> hints;
@@ -118,10 +124,11 @@ std::string table_html(const Table& table) {
         if (std::find(hints.begin(), hints.end(), line) == hints.end()) hints.push_back(line);
       }
       const std::string inner = cell.badge == Badge::none
-                                    ? escape_xml(cell.text)
+                                    ? typeset(cell.text)
                                     : fmt::format("<span class=\"badge {}\">{}</span>",
-                                                  name(cell.badge), escape_xml(cell.text));
-      text += fmt::format("<td class=\"number\"{}>{}</td>", hint, inner);
+                                                  name(cell.badge), typeset(cell.text));
+      text += fmt::format("<td{}{}>{}</td>",
+                          cell.text.size() <= kShortCell ? " class=\"short\"" : "", hint, inner);
     }
     text += "</tr>\n";
   }
@@ -129,7 +136,7 @@ std::string table_html(const Table& table) {
   if (!hints.empty()) {
     // Pointing does not work on paper.
     text += "<ul class=\"hints\">\n";
-    for (const std::string& hint : hints) text += fmt::format("<li>{}</li>\n", escape_xml(hint));
+    for (const std::string& hint : hints) text += fmt::format("<li>{}</li>\n", typeset(hint));
     text += "</ul>\n";
   }
   return text;
@@ -137,15 +144,15 @@ std::string table_html(const Table& table) {
 
 std::string figure_html(const Figure& figure) {
   return fmt::format("<figure id=\"{}\">\n{}<figcaption><b>{}.</b> {}</figcaption>\n</figure>\n",
-                     escape_xml(figure.id), svg_plot(figure), escape_xml(figure.title),
-                     escape_xml(figure.caption));
+                     escape_xml(figure.id), svg_plot(figure), typeset(figure.title),
+                     typeset(figure.caption));
 }
 
 std::string section_html(const Section& section) {
   std::string text = fmt::format("<section>\n<h2 id=\"{}\">{}</h2>\n", escape_xml(section.id),
-                                 escape_xml(section.heading));
+                                 typeset(section.heading));
   for (const std::string& paragraph : section.paragraphs) {
-    text += fmt::format("<p>{}</p>\n", escape_xml(paragraph));
+    text += fmt::format("<p>{}</p>\n", typeset(paragraph));
   }
   text += gates_html(section.gates);
   for (const Table& table : section.tables) text += table_html(table);
@@ -162,20 +169,19 @@ std::string html(const Report& report) {
       "<title>{0}</title>\n<style>{1}</style>\n</head>\n<body>\n<header>\n<h1>{0}</h1>\n",
       escape_xml(report.title), kStyle);
   if (!report.subtitle.empty()) {
-    text += fmt::format("<div class=\"subtitle\">{}</div>\n", escape_xml(report.subtitle));
+    text += fmt::format("<div class=\"subtitle\">{}</div>\n", typeset(report.subtitle));
   }
   if (!report.headline.empty()) {
-    text += fmt::format("<div class=\"headline\">{}</div>\n", escape_xml(report.headline));
+    text += fmt::format("<div class=\"headline\">{}</div>\n", typeset(report.headline));
   }
   for (const Link& link : report.links) {
     text +=
-        fmt::format("<p><a href=\"{}\">{}</a></p>\n", escape_xml(link.file), escape_xml(link.text));
+        fmt::format("<p><a href=\"{}\">{}</a></p>\n", escape_xml(link.file), typeset(link.text));
   }
   text += "</header>\n<nav>";
   if (!report.gates.empty()) text += "<a href=\"#quality\">Quality</a>";
   for (const Section& section : report.sections) {
-    text +=
-        fmt::format("<a href=\"#{}\">{}</a>", escape_xml(section.id), escape_xml(section.heading));
+    text += fmt::format("<a href=\"#{}\">{}</a>", escape_xml(section.id), typeset(section.heading));
   }
   text += "</nav>\n<main>\n";
   if (!report.gates.empty()) {
@@ -186,7 +192,7 @@ std::string html(const Report& report) {
   if (!report.assumptions.empty()) {
     text += "<section>\n<h2 id=\"assumptions\">Assumptions</h2>\n<ul>\n";
     for (const std::string& assumption : report.assumptions) {
-      text += fmt::format("<li>{}</li>\n", escape_xml(assumption));
+      text += fmt::format("<li>{}</li>\n", typeset(assumption));
     }
     text += "</ul>\n</section>\n";
   }

@@ -107,14 +107,25 @@ std::string format_value(double value, int digits) {
   return text;
 }
 
-std::string format_interval(double lower, double upper, std::string_view between) {
-  const double width = std::abs(upper - lower);
-  const double size = std::max(std::abs(lower), std::abs(upper));
-  if (!std::isfinite(width) || !(width > 0.0) || size < 1e-4 || size >= 1e6)
-    return format_value(lower) + std::string(between) + format_value(upper);
-  // Two digits of the width, the same decimals at both ends, trailing zeros kept.
+std::string format_rounded(double value, double width) {
+  const double size = std::abs(value);
+  width = std::abs(width);
+  if (!std::isfinite(value) || !std::isfinite(width) || !(width > 0.0) ||
+      (size > 0.0 && size < 1e-4 && width < 1e-4) || size >= 1e6)
+    return format_value(value);
   const int decimals = std::clamp(1 - static_cast<int>(std::floor(std::log10(width))), 0, 9);
-  return fmt::format("{:.{}f}{}{:.{}f}", lower, decimals, between, upper, decimals);
+  std::string text = fmt::format("{:.{}f}", value, decimals);
+  // No minus before a zero.
+  if (text.front() == '-' && text.find_first_of("123456789") == std::string::npos) text.erase(0, 1);
+  return text;
+}
+
+std::string format_interval(double lower, double upper, std::string_view between) {
+  const double width = upper - lower;
+  const double size = std::max(std::abs(lower), std::abs(upper));
+  if (!std::isfinite(width) || size < 1e-4 || size >= 1e6)
+    return format_value(lower) + std::string(between) + format_value(upper);
+  return format_rounded(lower, width) + std::string(between) + format_rounded(upper, width);
 }
 
 }  // namespace myoid::report

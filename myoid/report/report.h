@@ -131,6 +131,10 @@ void write_report(const Report& report, const std::filesystem::path& directory);
 /// A number for people: `digits` significant ones, no exponent between 1e-4 and 1e6.
 [[nodiscard]] std::string format_value(double value, int digits = 3);
 
+/// A number with the decimals that show two digits of `width`, that of its interval, say: "0.140"
+/// beside a width of 0.017; zeros at the end are kept, so that a column can be compared.
+[[nodiscard]] std::string format_rounded(double value, double width);
+
 /// "0.1363 to 0.1371": both ends with the decimals that show two digits of the width.
 [[nodiscard]] std::string format_interval(double lower,
                                           double upper,

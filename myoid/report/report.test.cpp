@@ -127,11 +127,21 @@ TEST(FormatValue, ShowsSignificantDigitsOnly) {
   EXPECT_EQ(format_value(std::numeric_limits<double>::quiet_NaN()), "\u2013");
 }
 
+TEST(FormatRounded, KeepsTheDecimalsOfTheWidthAndTheZerosAtTheEnd) {
+  EXPECT_EQ(format_rounded(0.14, 0.017), "0.140");
+  EXPECT_EQ(format_rounded(1073.4, 164.0), "1073");
+  EXPECT_EQ(format_rounded(1.0, 0.075), "1.000");
+  EXPECT_EQ(format_rounded(-0.0004, 0.3), "0.00");
+  EXPECT_EQ(format_rounded(0.25, 0.0), "0.25");
+  EXPECT_EQ(format_rounded(0.25, std::numeric_limits<double>::infinity()), "0.25");
+}
+
 TEST(FormatInterval, ShowsTwoDigitsOfTheWidthWithTheSameDecimalsAtBothEnds) {
   EXPECT_EQ(format_interval(0.13631, 0.13714), "0.13631 to 0.13714");
   EXPECT_EQ(format_interval(1.0, 1.5), "1.00 to 1.50");
   EXPECT_EQ(format_interval(507.3, 845.1, ", "), "507, 845");
   EXPECT_EQ(format_interval(0.0, 0.02), "0.000 to 0.020");
+  EXPECT_EQ(format_interval(-0.001, 1.9), "0.0 to 1.9");
 }
 
 }  // namespace

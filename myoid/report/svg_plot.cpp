@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include "myoid/report/typeset.h"
+
 namespace myoid::report {
 namespace {
 
@@ -112,7 +114,7 @@ std::string text(double x,
                  std::string_view more = "") {
   return fmt::format(
       "<text x=\"{:.1f}\" y=\"{:.1f}\" font-size=\"{:g}\" text-anchor=\"{}\" {}>{}</text>\n", x, y,
-      size, anchor, more, escape_xml(content));
+      size, anchor, more, escape_xml(typographic(content)));
 }
 
 /// One panel, in a frame at (left, top) of the given size.

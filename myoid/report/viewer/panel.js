@@ -72,7 +72,9 @@ export class Panel {
     this.trial = select('Trial', trials.map((t) => t.name), (i) => this.viewer.openTrial(i));
     if (trials.length > 1) parts.push(section('Trial', this.trial));
     this.notes = el('ul', { className: 'notes' });
-    parts.push(this.notes);
+    this.noteCount = el('summary');
+    this.noteSection = el('details', {}, this.noteCount, this.notes);
+    parts.push(this.noteSection);
     this.colorSection = section('Muscle color');
     parts.push(this.colorSection);
     this.show = el('div', { className: 'checks' });
@@ -151,6 +153,8 @@ export class Panel {
   openTrial(trial, index, parts) {
     this.trial.value = index;
     this.notes.replaceChildren(...trial.notes.map((n) => el('li', { textContent: n })));
+    this.noteCount.textContent = trial.notes.length === 1 ? '1 note' : `${trial.notes.length} notes`;
+    this.noteSection.hidden = trial.notes.length === 0;
     this.transport.hidden = trial.frames < 2;
     document.body.classList.toggle('still', trial.frames < 2);
     this.scrub.max = trial.duration;

@@ -1,0 +1,45 @@
+#include "myoid/report/typeset.h"
+
+#include "myoid/report/svg_plot.h"
+
+namespace myoid::report {
+namespace {
+
+bool part_of_word(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
+}
+
+}  // namespace
+
+std::string typographic(std::string_view text) {
+  std::string result;
+  result.reserve(text.size() + 8);
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const std::string_view rest = text.substr(i);
+    const bool word_starts = i == 0 || !part_of_word(text[i - 1]);
+    if (word_starts && rest.starts_with("R2") && (rest.size() == 2 || !part_of_word(rest[2]))) {
+      result += "R²";
+      ++i;
+    } else if (rest.starts_with("+-")) {
+      result += "±";
+      ++i;
+    } else {
+      result += text[i];
+    }
+  }
+  return result;
+}
+
+std::string typeset(std::string_view text) {
+  std::string result;
+  while (true) {
+    const std::size_t open = text.find('`');
+    const std::size_t close = open == std::string_view::npos ? open : text.find('`', open + 1);
+    if (close == std::string_view::npos) return result + escape_xml(typographic(text));
+    result += escape_xml(typographic(text.substr(0, open)));
+    result += "<code>" + escape_xml(text.substr(open + 1, close - open - 1)) + "</code>";
+    text.remove_prefix(close + 1);
+  }
+}
+
+}  // namespace myoid::report

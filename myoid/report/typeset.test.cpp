@@ -1,0 +1,23 @@
+#include "myoid/report/typeset.h"
+
+#include <gtest/gtest.h>
+
+namespace myoid::report {
+namespace {
+
+TEST(Typographic, SetsWordsAndSignsButNoPartsOfNames) {
+  EXPECT_EQ(typographic("R2 0.93, +-15 %"), "R² 0.93, ±15 %");
+  EXPECT_EQ(typographic("(mean R2)"), "(mean R²)");
+  EXPECT_EQ(typographic("trial R2D, MR2, walk_R2, R20"), "trial R2D, MR2, walk_R2, R20");
+  EXPECT_EQ(typographic(""), "");
+}
+
+TEST(Typeset, EscapesAndShowsCode) {
+  EXPECT_EQ(typeset("guide to `myoid check`."), "guide to <code>myoid check</code>.");
+  EXPECT_EQ(typeset("`a < b` & R2"), "<code>a &lt; b</code> &amp; R²");
+  EXPECT_EQ(typeset("a ` alone"), "a ` alone");
+  EXPECT_EQ(typeset("<script>"), "&lt;script&gt;");
+}
+
+}  // namespace
+}  // namespace myoid::report
