@@ -80,12 +80,12 @@ Discrepancy discrepancy(const Estimator& estimator,
     const Eigen::VectorXd eh = e.cwiseProduct(h);
     return 2.0 * factor.matrixLLT().diagonal().array().log().sum() - eh.dot(factor.solve(eh));
   };
-  // A size is 0 in one case of two, else of no scale beforehand: even in its logarithm.
+  // A size is 0 in one case of two, else half normal: on a grid even in its logarithm.
   std::vector<double> grid{0.0}, prior{1.0};
   double others = 0.0;
   for (double size = 0.003; size < 0.5; size *= 1.25) {
     grid.push_back(size);
-    prior.push_back(std::exp(-0.5 * std::pow(size / kPriorSize, 2)));
+    prior.push_back(size * std::exp(-0.5 * std::pow(size / kPriorSize, 2)));
     others += prior.back();
   }
   for (std::size_t k = 1; k < prior.size(); ++k) prior[k] /= others;

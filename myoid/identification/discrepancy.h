@@ -22,8 +22,8 @@ struct Discrepancy {
 ///   h = S W r ~ N(0, C + size^2 C D^2 C),   C = S W S' - S W J' A^-1 J W S'
 ///
 /// is what of it the fit leaves. There are two sizes, of muscles and of joints, each 0 with
-/// a probability of one half, else of a prior that is even in its logarithm from 0.003 to 0.5 under
-/// a half normal of 0.1; taken is the root of its mean square over the posterior. The estimates
+/// a probability of one half, else half normal 0.1; taken is the root of its mean square over
+/// the posterior. The estimates
 /// then err by A^-1 J W S'x, with covariance
 ///
 ///   size^2 (A^-1 J W S') D^2 (A^-1 J W S')'.
