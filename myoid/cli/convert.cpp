@@ -15,6 +15,7 @@
 #include "myoid/recording/c3d_writer.h"
 #include "myoid/recording/emg_reader.h"
 #include "myoid/recording/ground_reaction.h"
+#include "myoid/recording/make_c3d.h"
 #include "myoid/recording/recording.h"
 #include "myoid/recording/storage_writer.h"
 #include "myoid/recording/trc_writer.h"
@@ -174,8 +175,9 @@ class Converter {
     report(file.repairs);
   }
 
-  [[nodiscard]] TimeSeries chosen(const TimeSeries& series) const {
-    return at_rate(cut(o_.channels.empty() ? series : series.select(o_.channels), context_));
+  [[nodiscard]] TimeSeries chosen(const recording::AnalogChannels& channels) const {
+    return at_rate(
+        cut(o_.channels.empty() ? channels.series() : channels.select(o_.channels), context_));
   }
 
   /// With --rate on an even clock of that rate, low-passed where it is slower.
@@ -221,13 +223,13 @@ class Converter {
     if (file.plates.empty())
       throw ReadError(o_.in, 0, "there are no force plates that are understood");
     const TimeSeries loads = recording::ground_reaction(
-        file.plates, {.R_YG = R_, .least_force_n = o_.least_force_n}, notes);
+        file.force_plates(), {.R_YG = R_, .least_force_n = o_.least_force_n}, notes);
     report(notes);
     recording::write_storage(out, at_rate(cut(loads, context_)),
                              {.title = out.stem().string(), .comments = {}});
     wrote(out);
     std::vector<int> numbers;
-    for (const recording::ForcePlate& plate : file.plates) numbers.push_back(plate.number);
+    for (const recording::PlateSetup& plate : file.plates) numbers.push_back(plate.number);
     if (o_.bodies.size() > numbers.size())
       throw InvalidInput(
           fmt::format("--body: {} bodies for {} force plates", o_.bodies.size(), numbers.size()));
@@ -288,20 +290,20 @@ class Converter {
     }
     recording::Recording file = recording::read_recording(o_.in);
     report(file.repairs);
-    TimeSeries analog = file.analog;
+    recording::AnalogChannels analog = std::move(file.analog);
     if (!o_.analog.empty()) {
       recording::Recording other =
           o_.unit.empty() ? recording::read_recording(o_.analog) : recording::Recording{};
       if (!o_.unit.empty()) other.analog = recording::read_emg(o_.analog, o_.unit, false).data;
       for (const recording::Repair& repair : other.repairs)
         context_.warn(fmt::format("{}: {}", o_.analog, recording::to_string(repair)));
-      analog = other.analog;
+      analog = std::move(other.analog);
     }
     recording::MarkerSeries markers = file.markers;
     if (markers.frame_count() > 0)
       markers = recording::rotated(at_rate(cut_markers(std::move(markers), context_)), R_);
-    recording::write_c3d(out,
-                         recording::make_c3d(markers, analog.empty() ? analog : chosen(analog)));
+    recording::write_c3d(
+        out, recording::make_c3d(markers, analog.empty() ? TimeSeries() : chosen(analog)));
     wrote(out);
   }
 

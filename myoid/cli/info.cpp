@@ -13,6 +13,7 @@
 #include "myoid/model/path_survey.h"
 #include "myoid/pipeline/study.h"
 #include "myoid/recording/c3d_reader.h"
+#include "myoid/recording/c3d_signals.h"
 #include "myoid/recording/csv_reader.h"
 #include "myoid/recording/emg_reader.h"
 #include "myoid/recording/recording.h"
@@ -95,6 +96,20 @@ ordered_json events_json(const std::vector<recording::C3dEvent>& events) {
   return list;
 }
 
+/// Some samples at a time: a plate over time takes more memory than the file.
+double largest_force_n(const recording::PlateSetup& plate, const recording::C3dFile& file) {
+  constexpr Eigen::Index kSamples = 65536;
+  double largest = 0.0;
+  for (Eigen::Index first = 0; first < file.analog.rows(); first += kSamples) {
+    const Eigen::Index count = std::min(kSamples, file.analog.rows() - first);
+    largest = std::max(largest, recording::force_plate(plate, file, first, count)
+                                    .force_n.rowwise()
+                                    .norm()
+                                    .maxCoeff<Eigen::PropagateNumbers>());
+  }
+  return largest;
+}
+
 /// Everything a C3D file says, with the numbers of its channels in the unit as written.
 ordered_json c3d_json(const std::filesystem::path& path) {
   recording::C3dFile file = recording::read_c3d(path);
@@ -146,10 +161,10 @@ ordered_json c3d_json(const std::filesystem::path& path) {
     }
   }
   j["force_plates"] = ordered_json::array();
-  for (const recording::ForcePlate& plate : recording::force_plates(file, repairs)) {
-    j["force_plates"].push_back({{"name", fmt::format("plate {}", plate.number)},
-                                 {"type", plate.type},
-                                 {"largest_force_n", plate.force_n.rowwise().norm().maxCoeff()}});
+  for (const recording::PlateSetup& setup : recording::plate_setups(file, repairs)) {
+    j["force_plates"].push_back({{"name", fmt::format("plate {}", setup.number)},
+                                 {"type", setup.type},
+                                 {"largest_force_n", largest_force_n(setup, file)}});
   }
   j["events"] = events_json(file.events);
   j["repairs"] = repairs_json(repairs);
@@ -160,7 +175,7 @@ ordered_json c3d_json(const std::filesystem::path& path) {
 ordered_json recording_json(const std::filesystem::path& path, const char* kind) {
   const recording::Recording file = recording::read_recording(path);
   ordered_json j{{"kind", kind}};
-  j.update(series_json(file.analog));
+  j.update(series_json(file.analog.series()));
   j["events"] = events_json(file.events);
   j["repairs"] = repairs_json(file.repairs);
   return j;

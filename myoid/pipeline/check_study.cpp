@@ -194,7 +194,8 @@ namespace {
 
 /// The channels in volts, of them those named as EMG if there are such (others may be a load
 /// cell's); of a storage file, which has no units of its own, all of them if its title states one.
-std::optional<TimeSeries> voltages(const std::filesystem::path& path, const TimeSeries& analog) {
+std::optional<TimeSeries> voltages(const std::filesystem::path& path,
+                                   const recording::AnalogChannels& analog) {
   std::vector<std::string> names;
   std::vector<std::string> named_emg;
   for (const Channel& channel : analog.channels()) {
@@ -228,8 +229,8 @@ std::vector<Finding> check_recording(const std::filesystem::path& path, const Ve
     add(signals::check_emg(*emg));
     if (auto uneven = signals::check_clock_evenness(emg->time_s(), "EMG")) add({*uneven});
   }
-  for (const recording::ForcePlate& plate : file.plates)
-    add(signals::check_force_plate(plate, up_G));
+  for (const recording::PlateSetup& plate : file.plates)
+    add(signals::check_force_plate(file.force_plate(plate), up_G));
   std::stable_sort(findings.begin(), findings.end(),
                    [](const Finding& a, const Finding& b) { return a.level < b.level; });
   return findings;

@@ -11,6 +11,7 @@
 #include "myoid/model/osim_reader.h"
 #include "myoid/pipeline/trial_loads.h"
 #include "myoid/recording/c3d_reader.h"
+#include "myoid/recording/c3d_signals.h"
 #include "myoid/recording/c3d_writer.h"
 
 #include "tests/support/temporary_folder.h"

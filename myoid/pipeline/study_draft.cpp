@@ -157,7 +157,7 @@ class Draft {
           f.angles.push_back(c.name);
       }
       if (f.angles.empty() && !file.analog.empty() && !recording::is_bids_motion(path))
-        find_emg(path, file.analog, f);
+        find_emg(path, file.analog.series(), f);
     } catch (const InvalidInput& error) {
       draft_.notes.push_back(fmt::format("not read: {}", error.what()));
       return;

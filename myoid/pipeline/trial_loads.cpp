@@ -76,15 +76,16 @@ dynamics::ExternalForce read_load_cell(
   const std::filesystem::path& file = *trial.load_cell;
   remember(file);
   remember(spec.calibration);
-  const TimeSeries recorded = recording::read_recording(file).analog;
-  if (recorded.empty()) throw ReadError(file, 0, "there are no channels, so no load cell");
+  const recording::AnalogChannels channels = recording::read_recording(file).analog;
+  if (channels.empty()) throw ReadError(file, 0, "there are no channels, so no load cell");
   TimeSeries wrench;
   try {
-    wrench = signals::load_cell_wrench(recorded, {.channels = spec.channels,
-                                                  .calibration = read_calibration(spec.calibration),
-                                                  .sign = spec.sign,
-                                                  .zero_start_s = spec.zero_s[0],
-                                                  .zero_end_s = spec.zero_s[1]});
+    wrench = signals::load_cell_wrench(channels.select(spec.channels),
+                                       {.channels = spec.channels,
+                                        .calibration = read_calibration(spec.calibration),
+                                        .sign = spec.sign,
+                                        .zero_start_s = spec.zero_s[0],
+                                        .zero_end_s = spec.zero_s[1]});
   } catch (const ReadError&) {
     throw;
   } catch (const InvalidInput& error) {
@@ -132,7 +133,7 @@ dynamics::ExternalLoads read_plates(
   const recording::Recording file = recording::read_recording(spec.file);
   for (const recording::Repair& repair : file.repairs)
     notes.push_back(fmt::format("{}: {}", name, recording::to_string(repair)));
-  std::vector<recording::ForcePlate> plates = file.plates;
+  std::vector<recording::ForcePlate> plates = file.force_plates();
   if (const auto clock = loads_clock(study, trial, spec.file)) {
     for (recording::ForcePlate& plate : plates) {
       for (double& t : plate.time_s) t = clock->study_time_s(t);

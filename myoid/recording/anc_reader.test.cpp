@@ -4,6 +4,7 @@
 
 #include "myoid/core/error.h"
 #include "myoid/recording/c3d_reader.h"
+#include "myoid/recording/c3d_signals.h"
 
 #include "tests/support/data_folder.h"
 

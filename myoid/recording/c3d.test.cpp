@@ -6,11 +6,14 @@
 
 #include "myoid/core/error.h"
 #include "myoid/recording/byte_source.h"
+#include "myoid/recording/c3d_description.h"
 #include "myoid/recording/c3d_file.h"
 #include "myoid/recording/c3d_layout.h"
 #include "myoid/recording/c3d_parameters.h"
 #include "myoid/recording/c3d_reader.h"
+#include "myoid/recording/c3d_signals.h"
 #include "myoid/recording/c3d_writer.h"
+#include "myoid/recording/make_c3d.h"
 
 #include "tests/support/data_folder.h"
 #include "tests/support/temporary_folder.h"

@@ -112,19 +112,4 @@ struct C3dFile {
 /// an acceleration), "Volts"... Empty if it is none ("d.u.", "ADC").
 [[nodiscard]] std::optional<ScaledUnit> parse_c3d_unit(std::string_view text);
 
-/// The markers in meters; a point that is not measured, no number or exactly 0 0 0 is NaN. Points
-/// that POINT:ANGLES, FORCES, MOMENTS, POWERS or SCALARS name are results of another program, not
-/// markers, and left out. A subject's prefix ("name:") is removed if the names stay unique. What
-/// was done is added to `repairs`. Throws InvalidInput if there is no marker or the unit is no
-/// length.
-[[nodiscard]] MarkerSeries c3d_markers(const C3dFile& file, std::vector<Repair>& repairs);
-
-/// Analog channels in SI: those of `columns`, or all if it is empty. A channel whose unit is
-/// unknown keeps its numbers and is dimensionless. Throws InvalidInput if there are none.
-[[nodiscard]] TimeSeries c3d_analog(const C3dFile& file,
-                                    const std::vector<Eigen::Index>& columns = {});
-
-/// Indices of the points that are markers, in the order of the file.
-[[nodiscard]] std::vector<Eigen::Index> marker_columns(const C3dFile& file);
-
 }  // namespace myoid::recording

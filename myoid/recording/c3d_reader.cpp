@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <set>
 #include <string>
 #include <utility>
@@ -13,14 +12,12 @@
 #include "myoid/core/error.h"
 #include "myoid/recording/byte_source.h"
 #include "myoid/recording/c3d_bytes.h"
-#include "myoid/recording/c3d_layout.h"
 #include "myoid/recording/c3d_parameters.h"
 
 namespace myoid::recording {
 namespace {
 
 constexpr std::size_t kBlock = 512;
-constexpr std::size_t kChunk = std::size_t{1} << 20U;  ///< Bytes taken from the file at a time.
 
 /// The texts of NAME, NAME2, NAME3, ... one after the other.
 std::vector<std::string> all_texts(const C3dFile& file, std::string_view group, std::string name) {
@@ -90,6 +87,12 @@ std::vector<std::string> unique_names(std::vector<std::string> names,
   return names;
 }
 
+bool is_unsigned(const C3dFile& file) {
+  const C3dParameter* format = file.find("ANALOG", "FORMAT");
+  return format != nullptr && !texts(*format).empty() &&
+         equal_ignoring_case(texts(*format)[0], "UNSIGNED");
+}
+
 void read_channels(C3dFile& file, const C3dLayout& layout) {
   const std::size_t count = layout.channels;
   if (count == 0) return;
@@ -112,9 +115,7 @@ void read_channels(C3dFile& file, const C3dLayout& layout) {
     file.repairs.push_back({0, "ANALOG:GEN_SCALE is missing; 1 is assumed"});
     general = 1.0;
   }
-  const C3dParameter* format = file.find("ANALOG", "FORMAT");
-  if (format != nullptr && !texts(*format).empty() &&
-      equal_ignoring_case(texts(*format)[0], "UNSIGNED")) {
+  if (is_unsigned(file)) {
     for (double& offset : offsets) offset += offset < 0.0 ? 65536.0 : 0.0;
   }
   for (std::size_t c = 0; c < count; ++c) {
@@ -181,67 +182,6 @@ void read_header_events(C3dFile& file, std::span<const std::byte> head, const C3
   }
 }
 
-/// One frame of the file into the two tables.
-struct FrameReader {
-  const C3dLayout& layout;
-  C3dBytes number;
-  bool is_unsigned;
-
-  void points(const std::byte* p, float* out) const {
-    const std::size_t count = 4 * layout.points;
-    if (!layout.integer) return reals(p, out, count);
-    for (std::size_t i = 0; i < count; i += 4, p += 8) {
-      // The product in double and then rounded: what a file of reals of the same data holds.
-      for (std::size_t axis = 0; axis < 3; ++axis)
-        out[i + axis] = static_cast<float>(static_cast<double>(number.i16(p + 2 * axis)) *
-                                           static_cast<double>(layout.scale));
-      out[i + 3] = static_cast<float>(number.i16(p + 6));
-    }
-  }
-
-  void analog(const std::byte* p, float* out) const {
-    const std::size_t count = layout.channels * layout.analog_per_frame;
-    if (!layout.integer) return reals(p, out, count);
-    for (std::size_t i = 0; i < count; ++i, p += 2)
-      out[i] = is_unsigned ? static_cast<float>(number.u16(p)) : static_cast<float>(number.i16(p));
-  }
-
- private:
-  void reals(const std::byte* p, float* out, std::size_t count) const {
-    if (count == 0) return;
-    if (number.processor == C3dProcessor::intel) {
-      std::memcpy(out, p, 4 * count);
-      return;
-    }
-    for (std::size_t i = 0; i < count; ++i) out[i] = number.real(p + 4 * i);
-  }
-};
-
-void read_samples(C3dFile& file, const C3dLayout& layout, ByteSource& source) {
-  const C3dParameter* format = file.find("ANALOG", "FORMAT");
-  const bool is_unsigned = format != nullptr && !texts(*format).empty() &&
-                           equal_ignoring_case(texts(*format)[0], "UNSIGNED");
-  const FrameReader reader{layout, {file.processor}, is_unsigned};
-  const auto ratio = static_cast<Eigen::Index>(layout.analog_per_frame);
-  file.points.resize(layout.frames, static_cast<Eigen::Index>(4 * layout.points));
-  file.analog.resize(layout.channels == 0 ? 0 : layout.frames * ratio,
-                     static_cast<Eigen::Index>(layout.channels));
-  const std::uint64_t bytes = layout.frame_bytes();
-  const std::uint64_t point_bytes = 4 * layout.points * (layout.integer ? 2U : 4U);
-  const auto per_chunk = static_cast<std::int64_t>(std::max<std::uint64_t>(1, kChunk / bytes));
-  for (std::int64_t frame = 0; frame < layout.frames; frame += per_chunk) {
-    const std::int64_t count = std::min(per_chunk, layout.frames - frame);
-    const auto part = source.view(layout.data_offset + static_cast<std::uint64_t>(frame) * bytes,
-                                  static_cast<std::size_t>(count) * bytes);
-    for (std::int64_t k = 0; k < count; ++k) {
-      const std::byte* p = part.data() + static_cast<std::size_t>(k) * bytes;
-      if (layout.points > 0) reader.points(p, file.points.row(frame + k).data());
-      if (layout.channels > 0)
-        reader.analog(p + point_bytes, file.analog.row((frame + k) * ratio).data());
-    }
-  }
-}
-
 void read_rates(C3dFile& file,
                 const C3dHeader& header,
                 const C3dLayout& layout,
@@ -280,7 +220,9 @@ void read_rates(C3dFile& file,
   }
 }
 
-C3dFile read(ByteSource& source, const std::filesystem::path& path) {
+}  // namespace
+
+C3dHead read_c3d_head(ByteSource& source, const std::filesystem::path& path) {
   if (source.size() < kBlock)
     throw ReadError(path, 0,
                     fmt::format("the file has {} bytes; a C3D file begins with a header of 512: it "
@@ -360,8 +302,28 @@ C3dFile read(ByteSource& source, const std::filesystem::path& path) {
   read_channels(file, layout);
   read_group_events(file);
   if (file.events.empty()) read_header_events(file, head, number);
-  read_samples(file, layout, source);
-  return file;
+  const bool no_sign = is_unsigned(file);
+  return {std::move(file), layout, no_sign};
+}
+
+namespace {
+
+C3dFile read(ByteSource& source, const std::filesystem::path& path) {
+  C3dHead head = read_c3d_head(source, path);
+  C3dFile& file = head.file;
+  const C3dLayout& layout = head.layout;
+  const auto ratio = static_cast<Eigen::Index>(layout.analog_per_frame);
+  file.points.resize(layout.frames, static_cast<Eigen::Index>(4 * layout.points));
+  file.analog.resize(layout.channels == 0 ? 0 : layout.frames * ratio,
+                     static_cast<Eigen::Index>(layout.channels));
+  const C3dFrames frames = head.frames();
+  frames.each_part(source, [&](std::int64_t first, std::int64_t count, const std::byte* p) {
+    for (std::int64_t k = first; k < first + count; ++k, p += layout.frame_bytes()) {
+      if (layout.points > 0) frames.points(p, file.points.row(k).data());
+      if (layout.channels > 0) frames.analog(p, file.analog.row(k * ratio).data());
+    }
+  });
+  return std::move(head.file);
 }
 
 }  // namespace

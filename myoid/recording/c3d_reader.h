@@ -4,9 +4,24 @@
 #include <filesystem>
 #include <span>
 
+#include "myoid/recording/byte_source.h"
 #include "myoid/recording/c3d_file.h"
+#include "myoid/recording/c3d_frames.h"
+#include "myoid/recording/c3d_layout.h"
 
 namespace myoid::recording {
+
+/// Everything of a C3D file but its samples, and where these are.
+struct C3dHead {
+  C3dFile file;  ///< Without `points` and `analog`.
+  C3dLayout layout;
+  bool is_unsigned = false;
+
+  [[nodiscard]] C3dFrames frames() const { return {layout, file.processor, is_unsigned}; }
+};
+
+/// Throws like `read_c3d`.
+[[nodiscard]] C3dHead read_c3d_head(ByteSource& source, const std::filesystem::path& path);
 
 /// Reads a .c3d file: Intel, DEC and SGI, integers and reals, parameters and data at any block,
 /// LABELS2 and so on, unsigned samples, more than 65535 frames (POINT:LONG_FRAMES,
@@ -16,7 +31,7 @@ namespace myoid::recording {
 /// section, a missing one (Intel, DEC or SGI found from the header), labels that are missing or
 /// twice there, a last frame that is cut off. Data of a ROTATION group are left out, with a note.
 /// Throws ReadError if this is no C3D file, if the counts cannot be reconciled, if there is no rate
-/// or no whole frame. 10 to 100 times quicker than the disk: a frame of reals is copied as it is.
+/// or no whole frame. A frame of reals is copied as it is.
 [[nodiscard]] C3dFile read_c3d(const std::filesystem::path& path);
 
 /// The same from memory; `path` stands in the messages.

@@ -29,9 +29,4 @@ void write_c3d(const std::filesystem::path& path,
                const C3dFile& file,
                const C3dFormat& format = {});
 
-/// Markers and analog channels as a C3D file in the units of laboratories: mm, and the channels'
-/// own units (N, N mm for moments, V). `analog` may be empty; its clock must be that of the markers
-/// or a whole multiple, over the same time. Throws InvalidInput if the clocks do not fit.
-[[nodiscard]] C3dFile make_c3d(const MarkerSeries& markers, const TimeSeries& analog);
-
 }  // namespace myoid::recording

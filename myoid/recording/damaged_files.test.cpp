@@ -16,6 +16,7 @@
 #include "myoid/core/error.h"
 #include "myoid/recording/anc_reader.h"
 #include "myoid/recording/c3d_reader.h"
+#include "myoid/recording/c3d_signals.h"
 #include "myoid/recording/c3d_writer.h"
 #include "myoid/recording/edf_reader.h"
 #include "myoid/recording/emg_table.h"

@@ -8,7 +8,7 @@
 #include "myoid/core/error.h"
 #include "myoid/recording/anc_reader.h"
 #include "myoid/recording/bids.h"
-#include "myoid/recording/c3d_reader.h"
+#include "myoid/recording/c3d_recording.h"
 #include "myoid/recording/csv_reader.h"
 #include "myoid/recording/edf_reader.h"
 #include "myoid/recording/emg_table.h"
@@ -87,28 +87,28 @@ std::optional<CsvSeries> read_channels(const std::filesystem::path& path, bool v
     return CsvSeries{std::move(file.data), std::move(file.has_unit), std::move(file.repairs)};
   }
   if (is(".c3d")) {
-    C3dFile file = read_c3d(path);
-    if (file.channels.empty())
+    std::vector<bool> has_unit;
+    Recording file = read_c3d_channels(path, has_unit);
+    if (file.analog.empty())
       throw ReadError(path, 0, "the C3D file holds no analog channels, so no EMG");
-    file.points.resize(0, 0);
     CsvSeries series;
-    std::vector<Eigen::Index> columns;
+    std::vector<std::string> names;
     std::size_t others = 0;
-    for (std::size_t c = 0; c < file.channels.size(); ++c) {
-      const auto unit = parse_c3d_unit(file.channels[c].unit_text);
-      if (voltages_only && unit && unit->unit != Unit::volt) {
+    for (std::size_t c = 0; c < has_unit.size(); ++c) {
+      const Channel& channel = file.analog.channels()[c];
+      if (voltages_only && has_unit[c] && channel.unit != Unit::volt) {
         ++others;
         continue;
       }
-      columns.push_back(static_cast<Eigen::Index>(c));
-      series.has_unit.push_back(unit.has_value());
+      names.push_back(channel.name);
+      series.has_unit.push_back(has_unit[c]);
     }
-    if (columns.empty())
+    if (names.empty())
       throw ReadError(path, 0, "none of the analog channels is a voltage, so there is no EMG");
     if (others > 0)
       file.repairs.push_back(
           {0, fmt::format("{} analog channels are no voltages (forces, ...); left out", others)});
-    series.data = c3d_analog(file, columns);
+    series.data = file.analog.select(names);
     series.repairs = std::move(file.repairs);
     return series;
   }

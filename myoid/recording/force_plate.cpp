@@ -12,24 +12,15 @@
 namespace myoid::recording {
 namespace {
 
-/// What FORCE_PLATFORM says about one plate.
-struct Description {
-  int type = 0;
-  Eigen::Matrix<double, 3, 4> corners_m;
-  Vec3 origin_m = Vec3::Zero();
-  std::vector<Eigen::Index> channels;
-  Eigen::Matrix<double, 6, 6> calibration = Eigen::Matrix<double, 6, 6>::Identity();
-};
-
 using Wrench = Eigen::Matrix<double, Eigen::Dynamic, 6>;
 
 std::size_t channels_of_type(int type) { return type == 3 ? 8 : 6; }
 
 /// Empty if something is missing or cannot be; the note says what.
-std::optional<Description> describe(const C3dFile& file,
-                                    std::size_t plate,
-                                    double to_m,
-                                    std::vector<Repair>& repairs) {
+std::optional<PlateSetup> describe(const C3dFile& file,
+                                   std::size_t plate,
+                                   double to_m,
+                                   std::vector<Repair>& repairs) {
   const auto refuse = [&](const std::string& why) {
     repairs.push_back({0, fmt::format("force plate {} is left out: {}", plate + 1, why)});
     return std::nullopt;
@@ -37,7 +28,9 @@ std::optional<Description> describe(const C3dFile& file,
   const auto number = [&](const char* name, std::size_t index) {
     return number_at(file.find("FORCE_PLATFORM", name), index);
   };
-  Description d;
+  PlateSetup d;
+  d.number = static_cast<int>(plate) + 1;
+  d.to_m = to_m;
   d.type = static_cast<int>(number("TYPE", plate).value_or(0.0));
   if (d.type < 1 || d.type > 4)
     return refuse(fmt::format("FORCE_PLATFORM:TYPE is {}, types 1 to 4 are understood", d.type));
@@ -111,45 +104,33 @@ std::optional<Description> describe(const C3dFile& file,
   return d;
 }
 
-/// Channels times their factor to SI; a force in volts or of unknown unit keeps its number.
-Eigen::MatrixXd channel_values(const C3dFile& file,
-                               const Description& d,
-                               std::size_t plate,
-                               double to_m,
-                               std::vector<Repair>& repairs) {
-  Eigen::MatrixXd values(file.analog.rows(), static_cast<Eigen::Index>(d.channels.size()));
+/// The factor of each channel to SI; a force in volts or of unknown unit keeps its number.
+void find_factors(const C3dFile& file, PlateSetup& d, std::vector<Repair>& repairs) {
   std::vector<std::string> assumed;
   for (std::size_t c = 0; c < d.channels.size(); ++c) {
     const C3dChannel& channel = file.channels[static_cast<std::size_t>(d.channels[c])];
-    double factor = 1.0;
-    if (d.type != 4) {  // a calibration matrix takes the numbers as they are
-      const bool length = d.type == 1 && (c == 3 || c == 4);
-      const bool moment = (d.type == 2 && c >= 3) || (d.type == 1 && c == 5);
-      const Unit expected = length ? Unit::meter : moment ? Unit::newton_meter : Unit::newton;
-      const auto unit = parse_c3d_unit(channel.unit_text);
-      if (unit && unit->unit == expected) {
-        factor = unit->to_si;
-      } else {
-        factor = length || moment ? to_m : 1.0;
-        assumed.push_back(fmt::format("{} [{}]", channel.name, channel.unit_text));
-      }
-    }
-    for (Eigen::Index i = 0; i < values.rows(); ++i) {
-      values(i, static_cast<Eigen::Index>(c)) =
-          factor * channel.scale *
-          (static_cast<double>(file.analog(i, d.channels[c])) - channel.offset);
+    d.factors.push_back(1.0);
+    if (d.type == 4) continue;  // a calibration matrix takes the numbers as they are
+    const bool length = d.type == 1 && (c == 3 || c == 4);
+    const bool moment = (d.type == 2 && c >= 3) || (d.type == 1 && c == 5);
+    const Unit expected = length ? Unit::meter : moment ? Unit::newton_meter : Unit::newton;
+    const auto unit = parse_c3d_unit(channel.unit_text);
+    if (unit && unit->unit == expected) {
+      d.factors.back() = unit->to_si;
+    } else {
+      d.factors.back() = length || moment ? d.to_m : 1.0;
+      assumed.push_back(fmt::format("{} [{}]", channel.name, channel.unit_text));
     }
   }
   if (!assumed.empty())
     repairs.push_back({0, fmt::format("force plate {}: {} channels, the first {}, do not have the "
                                       "unit of a force, moment or length; taken as N and N times "
                                       "the points' unit",
-                                      plate + 1, assumed.size(), assumed[0])});
-  return values;
+                                      d.number, assumed.size(), assumed[0])});
 }
 
 /// Force and moment about the middle of the surface, in the plate's frame.
-Wrench surface_wrench(const Description& d, const Eigen::MatrixXd& v, double to_m) {
+Wrench surface_wrench(const PlateSetup& d, const Eigen::MatrixXd& v) {
   Wrench w(v.rows(), 6);
   if (d.type == 1) {
     w.leftCols<3>() = v.leftCols<3>();
@@ -171,7 +152,7 @@ Wrench surface_wrench(const Description& d, const Eigen::MatrixXd& v, double to_
     o = Vec3(0.0, 0.0, d.origin_m[2]);
   } else if (d.type == 4) {
     w = v * d.calibration.transpose();
-    w.rightCols<3>() *= to_m;
+    w.rightCols<3>() *= d.to_m;
   } else {
     w = v;
   }
@@ -184,54 +165,92 @@ Wrench surface_wrench(const Description& d, const Eigen::MatrixXd& v, double to_
 
 }  // namespace
 
-std::vector<ForcePlate> force_plates(const C3dFile& file,
-                                     std::vector<Repair>& repairs,
-                                     double least_force_n) {
-  std::vector<ForcePlate> plates;
+std::vector<PlateSetup> plate_setups(const C3dFile& file, std::vector<Repair>& repairs) {
+  std::vector<PlateSetup> plates;
   const C3dParameter* types = file.find("FORCE_PLATFORM", "TYPE");
   const double used =
       number_at(file.find("FORCE_PLATFORM", "USED"), 0)
           .value_or(types == nullptr ? 0.0 : static_cast<double>(types->numbers.size()));
-  if (!(used >= 1.0) || file.analog.size() == 0) return plates;
+  if (!(used >= 1.0) || file.channels.empty()) return plates;
   const auto length = parse_c3d_unit(file.point_unit);
   const double to_m = length && length->unit == Unit::meter ? length->to_si : 1e-3;
   for (std::size_t n = 0; n < static_cast<std::size_t>(std::min(used, 255.0)); ++n) {
-    const auto d = describe(file, n, to_m, repairs);
+    auto d = describe(file, n, to_m, repairs);
     if (!d) continue;
-    ForcePlate plate;
-    plate.number = static_cast<int>(n) + 1;
-    plate.type = d->type;
-    plate.corners_m = d->corners_m;
-    plate.channels = d->channels;
-    plate.p_GP_m = d->corners_m.rowwise().mean();
+    d->p_GP_m = d->corners_m.rowwise().mean();
     const Vec3 x = (d->corners_m.col(0) - d->corners_m.col(1)).normalized();
     const Vec3 z = x.cross(Vec3(d->corners_m.col(0) - d->corners_m.col(3))).normalized();
-    plate.R_GP.col(0) = x;
-    plate.R_GP.col(1) = z.cross(x);
-    plate.R_GP.col(2) = z;
-    const Wrench w = surface_wrench(*d, channel_values(file, *d, n, to_m, repairs), to_m);
-    const Eigen::Index samples = w.rows();
-    plate.time_s.resize(samples);
-    plate.force_n = w.leftCols<3>() * plate.R_GP.transpose();
-    plate.moment_nm = w.rightCols<3>() * plate.R_GP.transpose();
-    plate.pressure_center_m.resize(samples, 3);
-    plate.free_moment_nm.resize(samples, 3);
-    const double start = static_cast<double>(file.first_frame - 1) * file.analog_per_frame;
-    for (Eigen::Index i = 0; i < samples; ++i) {
-      plate.time_s[i] = (start + static_cast<double>(i)) / file.analog_rate_hz();
-      if (!(std::abs(w(i, 2)) >= least_force_n)) {
-        plate.pressure_center_m.row(i).setConstant(std::numeric_limits<double>::quiet_NaN());
-        plate.free_moment_nm.row(i).setZero();
-        continue;
-      }
-      const double px = -w(i, 4) / w(i, 2);
-      const double py = w(i, 3) / w(i, 2);
-      const double tz = w(i, 5) - px * w(i, 1) + py * w(i, 0);
-      plate.pressure_center_m.row(i) = (plate.p_GP_m + plate.R_GP * Vec3(px, py, 0.0)).transpose();
-      plate.free_moment_nm.row(i) = (tz * plate.R_GP.col(2)).transpose();
-    }
-    plates.push_back(std::move(plate));
+    d->R_GP.col(0) = x;
+    d->R_GP.col(1) = z.cross(x);
+    d->R_GP.col(2) = z;
+    find_factors(file, *d, repairs);
+    plates.push_back(*std::move(d));
   }
+  return plates;
+}
+
+ForcePlate force_plate(const PlateSetup& setup,
+                       Eigen::VectorXd time_s,
+                       Eigen::MatrixXd channel_values,
+                       double least_force_n) {
+  for (std::size_t c = 0; c < setup.factors.size(); ++c)
+    channel_values.col(static_cast<Eigen::Index>(c)) *= setup.factors[c];
+  ForcePlate plate;
+  plate.number = setup.number;
+  plate.type = setup.type;
+  plate.corners_m = setup.corners_m;
+  plate.channels = setup.channels;
+  plate.p_GP_m = setup.p_GP_m;
+  plate.R_GP = setup.R_GP;
+  plate.time_s = std::move(time_s);
+  const Wrench w = surface_wrench(setup, channel_values);
+  const Eigen::Index samples = w.rows();
+  plate.force_n = w.leftCols<3>() * plate.R_GP.transpose();
+  plate.moment_nm = w.rightCols<3>() * plate.R_GP.transpose();
+  plate.pressure_center_m.resize(samples, 3);
+  plate.free_moment_nm.resize(samples, 3);
+  for (Eigen::Index i = 0; i < samples; ++i) {
+    if (!(std::abs(w(i, 2)) >= least_force_n)) {
+      plate.pressure_center_m.row(i).setConstant(std::numeric_limits<double>::quiet_NaN());
+      plate.free_moment_nm.row(i).setZero();
+      continue;
+    }
+    const double px = -w(i, 4) / w(i, 2);
+    const double py = w(i, 3) / w(i, 2);
+    const double tz = w(i, 5) - px * w(i, 1) + py * w(i, 0);
+    plate.pressure_center_m.row(i) = (plate.p_GP_m + plate.R_GP * Vec3(px, py, 0.0)).transpose();
+    plate.free_moment_nm.row(i) = (tz * plate.R_GP.col(2)).transpose();
+  }
+  return plate;
+}
+
+ForcePlate force_plate(const PlateSetup& setup,
+                       const C3dFile& file,
+                       Eigen::Index first,
+                       Eigen::Index count,
+                       double least_force_n) {
+  Eigen::VectorXd time_s(count);
+  const double start = static_cast<double>(file.first_frame - 1) * file.analog_per_frame +
+                       static_cast<double>(first);
+  for (Eigen::Index i = 0; i < count; ++i)
+    time_s[i] = (start + static_cast<double>(i)) / file.analog_rate_hz();
+  Eigen::MatrixXd values(count, static_cast<Eigen::Index>(setup.channels.size()));
+  for (std::size_t c = 0; c < setup.channels.size(); ++c) {
+    const C3dChannel& channel = file.channels[static_cast<std::size_t>(setup.channels[c])];
+    for (Eigen::Index i = 0; i < count; ++i)
+      values(i, static_cast<Eigen::Index>(c)) =
+          channel.scale *
+          (static_cast<double>(file.analog(first + i, setup.channels[c])) - channel.offset);
+  }
+  return force_plate(setup, std::move(time_s), std::move(values), least_force_n);
+}
+
+std::vector<ForcePlate> force_plates(const C3dFile& file,
+                                     std::vector<Repair>& repairs,
+                                     double least_force_n) {
+  std::vector<ForcePlate> plates;
+  for (const PlateSetup& setup : plate_setups(file, repairs))
+    plates.push_back(force_plate(setup, file, 0, file.analog.rows(), least_force_n));
   return plates;
 }
 

@@ -117,8 +117,8 @@ TEST(ReadRecording, OfNexusTakesDevicesAndTrajectories) {
   ASSERT_EQ(file.analog.channel_count(), 2);
   EXPECT_EQ(file.analog.channels()[0].name, "BIC");
   EXPECT_EQ(file.analog.channels()[0].unit, Unit::volt);
-  EXPECT_NEAR(file.analog.mean_rate_hz(), 1000.0, 1e-6);
-  EXPECT_EQ(file.analog.values()(2, 0), -0.1);
+  EXPECT_NEAR(file.analog.series().mean_rate_hz(), 1000.0, 1e-6);
+  EXPECT_EQ(file.analog.series().values()(2, 0), -0.1);
   EXPECT_EQ(read_markers(folder / "a.csv").markers.frame_count(), 3);
 }
 

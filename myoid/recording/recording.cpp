@@ -7,7 +7,7 @@
 #include "myoid/core/error.h"
 #include "myoid/recording/anc_reader.h"
 #include "myoid/recording/bids.h"
-#include "myoid/recording/c3d_reader.h"
+#include "myoid/recording/c3d_recording.h"
 #include "myoid/recording/edf_reader.h"
 #include "myoid/recording/emg_table.h"
 #include "myoid/recording/marker_table.h"
@@ -55,16 +55,22 @@ MarkerFile read_markers(const std::filesystem::path& path) {
                                 "of these",
                                 extension));
   }
-  C3dFile file = read_c3d(path);
   MarkerFile result;
-  result.unit = file.point_unit;
+  Recording file = read_c3d_markers(path, result.unit);
+  if (file.markers.frame_count() == 0) throw ReadError(path, 0, "the C3D file holds no markers");
+  result.markers = std::move(file.markers);
   result.repairs = std::move(file.repairs);
-  try {
-    result.markers = c3d_markers(file, result.repairs);
-  } catch (const InvalidInput& error) {
-    throw ReadError(path, 0, error.what());
-  }
   return result;
+}
+
+ForcePlate Recording::force_plate(const PlateSetup& plate) const {
+  return recording::force_plate(plate, analog.time_s(), analog.as_written(plate.channels));
+}
+
+std::vector<ForcePlate> Recording::force_plates() const {
+  std::vector<ForcePlate> list;
+  for (const PlateSetup& plate : plates) list.push_back(force_plate(plate));
+  return list;
 }
 
 Recording read_recording(const std::filesystem::path& path) {
@@ -80,17 +86,7 @@ Recording read_recording(const std::filesystem::path& path) {
     recording.analog = std::move(motion.angles);
     recording.repairs = std::move(motion.repairs);
   } else if (extension == ".c3d") {
-    C3dFile file = read_c3d(path);
-    recording.repairs = std::move(file.repairs);
-    recording.events = std::move(file.events);
-    recording.plates = force_plates(file, recording.repairs);
-    try {
-      if (!marker_columns(file).empty()) recording.markers = c3d_markers(file, recording.repairs);
-    } catch (const InvalidInput& error) {
-      throw ReadError(path, 0, error.what());
-    }
-    file.points.resize(0, 0);  // a large file need not stand in memory three times
-    if (!file.channels.empty()) recording.analog = c3d_analog(file);
+    recording = read_c3d_recording(path);
   } else if (extension == ".edf" || extension == ".bdf") {
     EdfFile file = read_edf(path);
     recording.analog = std::move(file.data);

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "myoid/core/time_series.h"
+#include "myoid/recording/analog_channels.h"
 #include "myoid/recording/c3d_file.h"
 #include "myoid/recording/force_plate.h"
 #include "myoid/recording/marker_series.h"
@@ -27,10 +27,14 @@ struct MarkerFile {
 /// laboratory's frame. Parts that the file does not have are empty.
 struct Recording {
   MarkerSeries markers;
-  TimeSeries analog;  ///< EMG and all other channels; one without a known unit is dimensionless.
-  std::vector<ForcePlate> plates;
+  AnalogChannels analog;  ///< EMG and all others; one without a known unit is dimensionless.
+  std::vector<PlateSetup> plates;
   std::vector<C3dEvent> events;
   std::vector<Repair> repairs;
+
+  /// A plate over time: 13 doubles a sample, so one after the other where the file is large.
+  [[nodiscard]] ForcePlate force_plate(const PlateSetup& plate) const;
+  [[nodiscard]] std::vector<ForcePlate> force_plates() const;
 };
 
 /// Everything in a .c3d file, the markers of a .trc file, or the channels of an .edf, .bdf, .anc,

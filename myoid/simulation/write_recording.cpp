@@ -7,6 +7,7 @@
 #include "myoid/core/error.h"
 #include "myoid/recording/atomic_file.h"
 #include "myoid/recording/c3d_writer.h"
+#include "myoid/recording/make_c3d.h"
 #include "myoid/recording/storage_writer.h"
 #include "myoid/recording/trc_writer.h"
 

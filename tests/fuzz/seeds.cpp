@@ -171,5 +171,31 @@ int main(int argc, char** argv) {
             tool("<MarkerSet><objects><Marker name=\"C\"><socket_parent_frame>/bodyset/b"
                  "</socket_parent_frame><location>0 0 0.1</location></Marker></objects>"
                  "</MarkerSet>"));
+  write(root / "mesh", "vtp",
+        "v<VTKFile type=\"PolyData\"><PolyData><Piece NumberOfPoints=\"3\" NumberOfPolys=\"1\">"
+        "<Points><DataArray type=\"Float32\" NumberOfComponents=\"3\" format=\"ascii\">0 0 0 1 0 0 "
+        "0 1 0</DataArray></Points><Polys><DataArray type=\"Int32\" Name=\"connectivity\" "
+        "format=\"ascii\">0 1 2</DataArray><DataArray type=\"Int32\" Name=\"offsets\" "
+        "format=\"ascii\">3</DataArray></Polys></Piece></PolyData></VTKFile>");
+  write(root / "mesh", "stl",
+        "ssolid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\n"
+        "endloop\nendfacet\nendsolid a\n");
+  write(root / "mesh", "obj", "ov 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1/1 2//1 3 4\nf -4 -3 -2\n");
+  write(root / "markers", "vicon",
+        "Devices\r\n1000\r\n,,EMG - V,\r\nFrame,Sub Frame,BIC,TRI\r\n,,V,V\r\n1,0,0.1,0.2\r\n"
+        "\r\nTrajectories\r\n100\r\n,,P:A,,,P:B,,\r\nFrame,Sub Frame,X,Y,Z,X,Y,Z\r\n"
+        ",,mm,mm,mm,mm,mm,mm\r\n1,0,10,20,30,1,2,3\r\n2,0,11,21,31,,,\r\n");
+  write(root / "markers", "qualisys",
+        "NO_OF_FRAMES\t2\nNO_OF_MARKERS\t2\nFREQUENCY\t200\nDATA_INCLUDED\t3D\nMARKER_NAMES\tA\t"
+        "B\n1.5\t2.5\t3.5\t0.000\t0.000\t0.000\n1.5\t2.5\t3.5\t4\t5\t6\n");
+  write(
+      root / "markers", "bts",
+      "BTS ASCII format\n\nType:\tPoint 3D tracks\nMeasure unit:\tm\n\nTracks:\t1\nFrequency:\t100 "
+      "Hz\nFrames:\t2\nStart time:\t0.000\n\nFrame\tTime\tA.X\tA.Y\tA.Z\n1\t0.000\t0.1\t0.2\t0.3"
+      "\n2\t0.010\t0.4\t0.5\t0.6\n");
+  write(
+      root / "markers", "ndi",
+      "Number of frames:,2,Collection frequency:,100,Units:,cm\nFrame,M_1 x,M_1 y,M_1 z\n1,1,2,3\n"
+      "2,,,\n");
   return 0;
 }
