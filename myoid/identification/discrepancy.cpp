@@ -78,30 +78,36 @@ Discrepancy discrepancy(const Estimator& estimator,
     const Eigen::LLT<Eigen::MatrixXd> factor(m);
     if (factor.info() != Eigen::Success) return std::numeric_limits<double>::infinity();
     const Eigen::VectorXd eh = e.cwiseProduct(h);
-    return (muscle * muscle + joint * joint) / (kPriorSize * kPriorSize) +
-           2.0 * factor.matrixLLT().diagonal().array().log().sum() - eh.dot(factor.solve(eh));
+    return 2.0 * factor.matrixLLT().diagonal().array().log().sum() - eh.dot(factor.solve(eh));
   };
-  std::vector<double> grid;
-  for (double size = 0.003; size < 0.5; size *= 1.25) grid.push_back(size);
-  // Mean square of the sizes over their posterior; a size has no scale beforehand, so that the grid
-  // is even in its logarithm.
+  // A size is 0 in one case of two, else half normal: on a grid even in its logarithm.
+  std::vector<double> grid{0.0}, prior{1.0};
+  double others = 0.0;
+  for (double size = 0.003; size < 0.5; size *= 1.25) {
+    grid.push_back(size);
+    prior.push_back(size * std::exp(-0.5 * std::pow(size / kPriorSize, 2)));
+    others += prior.back();
+  }
+  for (std::size_t k = 1; k < prior.size(); ++k) prior[k] /= others;
+  // Mean square of the sizes over their posterior.
   const auto points = static_cast<Eigen::Index>(grid.size());
   Eigen::MatrixXd values(points, points);
   for (Eigen::Index m = 0; m < points; ++m) {
-    for (Eigen::Index j = 0; j < points; ++j) {
-      const double muscle = grid[static_cast<std::size_t>(m)];
-      const double joint = grid[static_cast<std::size_t>(j)];
-      values(m, j) = misfit(muscle, joint);
-    }
+    for (Eigen::Index j = 0; j < points; ++j)
+      values(m, j) = misfit(grid[static_cast<std::size_t>(m)], grid[static_cast<std::size_t>(j)]);
   }
   const double least = values.minCoeff();
   double sum = 0.0, muscle_sum = 0.0, joint_sum = 0.0;
   for (Eigen::Index m = 0; m < points; ++m) {
     for (Eigen::Index j = 0; j < points; ++j) {
-      const double weight = std::exp(-0.5 * (values(m, j) - least));
+      const double muscle = grid[static_cast<std::size_t>(m)];
+      const double joint = grid[static_cast<std::size_t>(j)];
+      const double weight = prior[static_cast<std::size_t>(m)] *
+                            prior[static_cast<std::size_t>(j)] *
+                            std::exp(-0.5 * (values(m, j) - least));
       sum += weight;
-      muscle_sum += weight * std::pow(grid[static_cast<std::size_t>(m)], 2);
-      joint_sum += weight * std::pow(grid[static_cast<std::size_t>(j)], 2);
+      muscle_sum += weight * muscle * muscle;
+      joint_sum += weight * joint * joint;
     }
   }
   Discrepancy result;

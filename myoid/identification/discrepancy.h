@@ -21,9 +21,10 @@ struct Discrepancy {
 ///   r = noise + S'x,   x ~ N(0, size^2 D^2),
 ///   h = S W r ~ N(0, C + size^2 C D^2 C),   C = S W S' - S W J' A^-1 J W S'
 ///
-/// is what of it the fit leaves. There are two sizes, of muscles and of joints; the most likely
-/// ones are taken, each with a prior of half normal 0.1. The estimates then err by A^-1 J W S'x,
-/// with covariance
+/// is what of it the fit leaves. There are two sizes, of muscles and of joints, each 0 with
+/// a probability of one half, else half normal 0.1; taken is the root of its mean square over
+/// the posterior. The estimates
+/// then err by A^-1 J W S'x, with covariance
 ///
 ///   size^2 (A^-1 J W S') D^2 (A^-1 J W S')'.
 ///

@@ -70,23 +70,27 @@ void add_routes(ParameterEstimate& e,
   if (intervals.bootstrap) add("bootstrap", intervals.bootstrap->intervals[index]);
   if (intervals.profiles) add("profile", (*intervals.profiles)[index]);
 
-  // The interval that is reported: to either side the farthest of sandwich, jackknife and
-  // profile, and the model's error on top.
-  double variance = intervals.sandwich.newey_west(at, at);
-  // Trials of one kind differ by more than their noise: what they differ by counts.
-  if (intervals.sandwich.jackknife)
-    variance = std::max(variance, (*intervals.sandwich.jackknife)(at, at));
-  double below = quantile * std::sqrt(std::max(0.0, variance));
+  // The interval that is reported: to either side the farther of sandwich and profile, with the
+  // model's error on top, but never less than trials show that differ by both. Of few trials that
+  // is the jackknife, which is never too small.
+  const auto reach = [&](double variance) { return quantile * std::sqrt(std::max(0.0, variance)); };
+  double below = reach(intervals.sandwich.newey_west(at, at));
   double above = below;
   if (intervals.profiles) {
     const Interval& profile = (*intervals.profiles)[index];
     below = std::max(below, z - profile.low.value_or(p.lower));
     above = std::max(above, profile.high.value_or(p.upper) - z);
   }
-  const double extra = quantile * std::sqrt(std::max(0.0, further));
+  const double extra = reach(further);
+  double least = 0.0;
+  if (intervals.sandwich.cluster) {
+    least = reach((*intervals.sandwich.cluster)(at, at));
+  } else if (intervals.sandwich.jackknife) {
+    least = reach((*intervals.sandwich.jackknife)(at, at));
+  }
   if (std::isfinite(below) && std::isfinite(extra)) {
-    e.ci_low = clipped(z - std::hypot(below, extra));
-    e.ci_high = clipped(z + std::hypot(above, extra));
+    e.ci_low = clipped(z - std::max(std::hypot(below, extra), least));
+    e.ci_high = clipped(z + std::max(std::hypot(above, extra), least));
   }
 }
 

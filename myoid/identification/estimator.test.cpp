@@ -310,6 +310,39 @@ TEST(Sandwich, WhatATrialMovesIsWhatTheFitWithoutItSays) {
   EXPECT_GT(moved.cwiseQuotient(sd).cwiseAbs().maxCoeff(), 0.35);
 }
 
+TEST(Sandwich, SumsOverTrialsAreAsWideAsTheNoiseWhereTheModelIsRightAndTheJackknifeWider) {
+  // One trial lasts as long as all others together: what it says no other can question.
+  double over_trials = 0.0, jackknife = 0.0, count = 0.0;
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    ElbowStudy study = elbow_study({.trials = 8,
+                                    .seconds = 6.0,
+                                    .torque_sd_nm = 0.4,
+                                    .truth_from_prior = true,
+                                    .with_priors = true,
+                                    .seed = seed});
+    const ElbowStudy longer = elbow_study({.trials = 1,
+                                           .seconds = 42.0,
+                                           .torque_sd_nm = 0.4,
+                                           .truth_from_prior = true,
+                                           .with_priors = true,
+                                           .seed = seed});
+    study.data.trials[0] = longer.data.trials[0];
+    const Estimator estimator(study.data, {.correct_attenuation = false, .starts = 1});
+    const Estimator::Solution all = estimator.solve(estimator.model().parameters().start());
+    const Sandwich parts = sandwich(estimator, all);
+    ASSERT_TRUE(parts.cluster);
+    for (Eigen::Index j = 0; j < all.search.x.size(); ++j) {
+      over_trials += (*parts.cluster)(j, j) / parts.model_based(j, j);
+      jackknife += (*parts.jackknife)(j, j) / parts.model_based(j, j);
+      count += 1.0;
+    }
+  }
+  // Eight sums know a variance to 50 %; eight studies and some parameters, that hang together, to
+  // 15 % or so.
+  EXPECT_NEAR(over_trials / count, 1.0, 0.3);
+  EXPECT_GT(jackknife, over_trials);
+}
+
 TEST(Estimator, MusclesThatBeginFarTooStrongAreNotTakenForNoise) {
   ElbowStudy study = elbow_study({.trials = 2, .seconds = 10.0, .torque_sd_nm = 0.2});
   for (MuscleSetup& setup : study.data.muscles) {

@@ -273,7 +273,7 @@ ErrorShapes ResidualModel::error_shapes(const Eigen::VectorXd& z) const {
   constexpr Eigen::Index kPerMuscle = 7;
   constexpr double kLogRange = 2.3;
   constexpr double kLag_s = 0.15;  // 10 % are 15 ms.
-  const double muscle_weight[kPerMuscle] = {1.0, 1.0, 0.5, 0.25, 1.0, 0.5, 1.0};
+  const double muscle_weight[kPerMuscle] = {1.0, 1.0, 1.0, 0.5, 1.0, 1.0, 1.0};
   const double joint_weight[2] = {1.0, 1.0};
   const ModelValues values = map_.values(z);
   const auto muscles = static_cast<Eigen::Index>(values.muscles.size());

@@ -1,6 +1,7 @@
 #include "myoid/identification/study_data.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -19,6 +20,14 @@ std::map<std::string, Prior> literature_priors(const muscle::HillParameters<doub
                                                     start.optimal_fiber_length_m)) {
       priors[std::string(field.name)] = *prior;
     }
+  }
+  // v_max is held at its start by default. What it spreads by then shows in V_sh: at small speeds
+  // only the slope (1 + 1/V_sh) / v_max acts, and d ln V_sh = -(1 + V_sh) d ln v_max along it.
+  const auto curvature = priors.find("concentric_curvature");
+  const auto speed = priors.find("max_shortening_speed");
+  if (curvature != priors.end() && speed != priors.end()) {
+    curvature->second.sd =
+        std::hypot(curvature->second.sd, (1.0 + start.concentric_curvature) * speed->second.sd);
   }
   if (start.eccentric_plateau > 1.0) {
     priors["eccentric_slope_ratio"] = {.mean = muscle::slope_ratio(start.velocity_shape()),

@@ -79,7 +79,8 @@ struct StudyData {
 };
 
 /// What the literature knows beforehand of a muscle that starts here (muscle/literature.h), with
-/// the spread of the slope ratio (ln S 0.5) in place of that of V_sh V_shl where V_ml > 1.
+/// the spread of the slope ratio (ln S 0.5) in place of that of V_sh V_shl where V_ml > 1, and V_sh
+/// spread by what v_max, which is held, may be off: ln V_sh 0.39 instead of 0.3.
 [[nodiscard]] std::map<std::string, Prior> literature_priors(
     const muscle::HillParameters<double>& start);
 

@@ -65,6 +65,22 @@ Eigen::VectorXd solve_positive(const Eigen::MatrixXd& a, const Eigen::VectorXd& 
   return scale.cwiseProduct(factor.solve(scale.cwiseProduct(b)));
 }
 
+/// The sum of a trial's scores as it would be spread if the trial had no part in the fit: with
+/// L L' = A, L (I - L^-1 A_trial L^-T)^-1/2 L^-1 times it (Bell & McCaffrey 2002). A fit runs after
+/// its trials, the more so the more a trial alone says.
+Eigen::VectorXd unfitted(const Eigen::LLT<Eigen::MatrixXd>& factor,
+                         const Eigen::MatrixXd& of_trial,
+                         const Eigen::VectorXd& sum) {
+  constexpr double kLeast = 0.05;  // of the spread that a fit leaves
+  const auto lower = factor.matrixL();
+  const Eigen::MatrixXd half = lower.solve(of_trial);
+  const Eigen::MatrixXd share = lower.solve(half.transpose());
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(0.5 * (share + share.transpose()));
+  const Eigen::VectorXd left = (1.0 - eigen.eigenvalues().array()).max(kLeast).rsqrt().matrix();
+  const Eigen::VectorXd turned = eigen.eigenvectors().transpose() * lower.solve(sum);
+  return lower * (eigen.eigenvectors() * left.cwiseProduct(turned));
+}
+
 /// Rows that are drawn together.
 struct Block {
   int stratum = 0;  ///< Trial; 0 for all where whole trials are drawn.
@@ -195,16 +211,18 @@ Sandwich sandwich(const Estimator& estimator, const Estimator::Solution& solutio
   whole.diagonal() += precision;
   Eigen::MatrixXd sums(z.size(), static_cast<Eigen::Index>(trials.size()));
   result.trial_shift.resize(z.size(), sums.cols());
+  const Eigen::LLT<Eigen::MatrixXd> factor(whole);
   for (Eigen::Index k = 0; k < sums.cols(); ++k) {
-    Eigen::MatrixXd without = whole;
-    sums.col(k).setZero();
+    Eigen::MatrixXd of_trial = Eigen::MatrixXd::Zero(z.size(), z.size());
+    Eigen::VectorXd sum = Eigen::VectorXd::Zero(z.size());
     for (const Piece& piece : model.pieces()) {
       if (piece.trial != trials[static_cast<std::size_t>(k)]) continue;
-      sums.col(k) += scores.middleRows(piece.first, piece.count).colwise().sum().transpose();
+      sum += scores.middleRows(piece.first, piece.count).colwise().sum().transpose();
       const auto rows = by_sample.rows.middleCols(piece.first, piece.count);
-      without -= rows * rows.transpose();
+      of_trial += rows * rows.transpose();
     }
-    result.trial_shift.col(k) = solve_positive(without, sums.col(k));
+    result.trial_shift.col(k) = solve_positive(whole - of_trial, sum);
+    sums.col(k) = factor.info() == Eigen::Success ? unfitted(factor, of_trial, sum) : sum;
   }
   const auto covariance_of = [](const Eigen::MatrixXd& columns) {
     const Eigen::MatrixXd off = columns.colwise() - columns.rowwise().mean();
@@ -213,7 +231,7 @@ Sandwich sandwich(const Estimator& estimator, const Estimator::Solution& solutio
   if (trials.size() >= 5)
     result.jackknife = (clusters - 1.0) / clusters * covariance_of(result.trial_shift);
   if (trials.size() >= 8) {
-    Eigen::MatrixXd sum = clusters / (clusters - 1.0) * sums * sums.transpose();
+    Eigen::MatrixXd sum = sums * sums.transpose();
     sum.diagonal() += precision;
     result.cluster = result.model_based * sum * result.model_based;
   }

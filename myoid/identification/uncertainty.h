@@ -14,8 +14,9 @@ namespace myoid::identification {
 struct Sandwich {
   Eigen::MatrixXd newey_west;  ///< A^-1 B A^-1, B from autocovariances within trials up to 0.4 s;
                                ///< never below A^-1 where weights are used.
-  std::optional<Eigen::MatrixXd> cluster;  ///< B from the sums of scores over trials; with at least
-                                           ///< 8 trials.
+  std::optional<Eigen::MatrixXd> cluster;  ///< B from the sums of scores over trials, each as it
+                                           ///< would be spread outside the fit (Bell & McCaffrey
+                                           ///< 2002); with at least 8 trials.
   std::vector<int> trials;                 ///< Calibration trials, in StudyData::trials.
   Eigen::MatrixXd trial_shift;  ///< p x trials: by how much the estimates move without that trial,
                                 ///< in one Newton step, (A - A_trial)^-1 times its scores.

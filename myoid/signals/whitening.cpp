@@ -174,7 +174,8 @@ WhiteningFilter design_one(std::span<const TimeSeries* const> trials,
   }
   const double bin_hz = segments.frequency_hz[1];
   shape = smoothed(shape / static_cast<double>(active.size()), bin_hz);
-  const double power = math::median(active);
+  std::sort(active.begin(), active.end());
+  const double power = active[active.size() / 4];
   const Eigen::VectorXd noise = smoothed(segments.quiet, bin_hz);
   // A periodogram's bin spreads by its own size; smoothing averages some bins.
   const double relative = 3.0 / std::sqrt(static_cast<double>(active.size()));
