@@ -188,6 +188,34 @@ TEST_F(RunTool, AnalysesShareAMotion) {
   EXPECT_LT((length - read("r/a_Outputs.sto").values().col(0)).cwiseAbs().maxCoeff(), 1e-8);
 }
 
+// A path actuator has a column like the muscles, and its force is its control times its strength.
+TEST_F(RunTool, PathActuatorsShareTheLoad) {
+  write_motion(40);
+  std::string forces =
+      "<OpenSimDocument Version=\"40000\"><ForceSet><objects><PathActuator name=\"cable\">"
+      "<optimal_force>300</optimal_force><min_control>0</min_control><max_control>1</max_control>"
+      "<GeometryPath><PathPointSet><objects><PathPoint name=\"a\"><socket_parent_frame>/ground"
+      "</socket_parent_frame><location>0.05 0.1 0</location></PathPoint><PathPoint name=\"b\">"
+      "<socket_parent_frame>/bodyset/forearm_hand</socket_parent_frame><location>0.02 -0.1 0"
+      "</location></PathPoint></objects></PathPointSet></GeometryPath></PathActuator>";
+  for (const model::Coordinate& c : arm_.coordinates) {
+    forces += "<CoordinateActuator name=\"" + c.name + "_reserve\"><coordinate>" + c.name +
+              "</coordinate><optimal_force>1</optimal_force></CoordinateActuator>";
+  }
+  write("more.xml", forces + "</objects></ForceSet></OpenSimDocument>");
+  const ToolResult result =
+      run("<AnalyzeTool name=\"a\"><model_file>arm.osim</model_file><force_set_files>more.xml"
+          "</force_set_files><initial_time>0.1</initial_time><final_time>0.3</final_time>"
+          "<coordinates_file>motion.mot</coordinates_file><AnalysisSet><objects>"
+          "<StaticOptimization name=\"StaticOptimization\"/></objects></AnalysisSet>"
+          "</AnalyzeTool>");
+  EXPECT_EQ(result.frames_failed, 0) << result.summary;
+  const Eigen::VectorXd control = read("a_StaticOptimization_activation.sto").column("cable");
+  const Eigen::VectorXd force = read("a_StaticOptimization_force.sto").column("cable");
+  EXPECT_GT(control.maxCoeff(), 1e-4);
+  EXPECT_LT((force - 300.0 * control).cwiseAbs().maxCoeff(), 1e-5);  // eight decimals
+}
+
 TEST_F(RunTool, BodiesAreReportedByTheirCentersOfMass) {
   write_motion(40);
   (void)run(

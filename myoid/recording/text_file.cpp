@@ -22,7 +22,7 @@ namespace {
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
 
 /// Two digits before `end`; returns where they begin.
-char* put_pair(char* end, std::uint64_t pair) {
+char* put_pair(char* end, std::uint32_t pair) {
   static constexpr std::array<char, 200> kPairs = [] {
     std::array<char, 200> digits{};
     for (std::size_t i = 0; i < 100; ++i) {
@@ -216,33 +216,35 @@ std::string format_number(double value) {
 char* write_fixed(char* at, double value, int decimals, std::size_t width) {
   constexpr std::array<double, 15> kPower{1e0, 1e1, 1e2,  1e3,  1e4,  1e5,  1e6, 1e7,
                                           1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14};
+  constexpr std::size_t kWidest = 64;  // written in one piece; there is room behind the number
   const double size = std::abs(value);
-  if (decimals >= 0 && decimals <= 14 && size < 1e15) {
+  if (decimals >= 0 && decimals <= 14 && size < 1e15 && width <= kWidest) {
     // Whole part and fraction apart: the one is exact, the other times the power is off by less
     // than 2e-16 of the power, so that its rounding is certain unless it ends that close to one
     // half.
     const double power = kPower[static_cast<std::size_t>(decimals)];
-    auto whole = static_cast<std::uint64_t>(size);
+    auto whole = static_cast<std::int64_t>(size);
     const double fraction = (size - static_cast<double>(whole)) * power;
-    auto count = static_cast<std::uint64_t>(fraction);
+    auto count = static_cast<std::int64_t>(fraction);
     const double rest = fraction - static_cast<double>(count);
     if (std::abs(rest - 0.5) > 4e-16 * power) {
       if (rest > 0.5) ++count;
-      if (count == static_cast<std::uint64_t>(power)) {
+      if (count == static_cast<std::int64_t>(power)) {
         count = 0;
         ++whole;
       }
       const bool negative = std::signbit(value);
       std::size_t needed =
           static_cast<std::size_t>(decimals) + (decimals > 0 ? 2 : 1) + (negative ? 1 : 0);
-      for (std::uint64_t w = whole; w >= 10; w /= 10) ++needed;
+      for (std::int64_t w = whole; w >= 10; w /= 10) ++needed;
+      std::memset(at, ' ', kWidest);
       // From behind.
       char* const end = at + std::max(needed, width);
       char* begin = end;
       int left = decimals;
       if (count == 0) {
         begin -= left;
-        std::memset(begin, '0', static_cast<std::size_t>(left));
+        std::memset(begin, '0', 16);
       } else {
         // The last six digits apart from the first: two short chains of divisions.
         if (left > 6) {
@@ -251,8 +253,11 @@ char* write_fixed(char* at, double value, int decimals, std::size_t width) {
           for (int pair = 0; pair < 3; ++pair, low /= 100) begin = put_pair(begin, low % 100);
           left -= 6;
         }
-        for (; left >= 2; left -= 2, count /= 100) begin = put_pair(begin, count % 100);
-        if (left == 1) *--begin = static_cast<char>('0' + count);
+        if (left <= 8) {
+          auto high = static_cast<std::uint32_t>(count);
+          for (; left >= 2; left -= 2, high /= 100) begin = put_pair(begin, high % 100);
+          if (left == 1) *--begin = static_cast<char>('0' + high);
+        }
       }
       if (decimals > 0) *--begin = '.';
       do {
@@ -260,7 +265,6 @@ char* write_fixed(char* at, double value, int decimals, std::size_t width) {
         whole /= 10;
       } while (whole > 0);
       if (negative) *--begin = '-';
-      while (begin > at) *--begin = ' ';
       return end;
     }
   }
