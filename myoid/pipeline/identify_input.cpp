@@ -75,15 +75,16 @@ class Check {
                                  ", expected positive lengths of 0.01 to 1 m; are the files of "
                                  "--lengths and --velocities in the wrong order?");
       const double typical = median_of(l);
+      const auto& start = data_.muscles[static_cast<std::size_t>(k)].start;
+      const double usual = start.tendon_slack_length_m + start.optimal_fiber_length_m;
       if (typical > kCertainlyLong_m)
-        fail(files_.lengths, found + fmt::format(", expected 0.01 to 1 m; is it in {}? Write it in "
-                                                 "m",
-                                                 typical > 20.0 ? "mm" : "cm"));
+        fail(files_.lengths,
+             found + fmt::format(", expected 0.01 to 1 m; is it in {}? Write it in m",
+                                 typical > 300.0 * usual ? "mm" : "cm"));
       if (typical < kCertainlyShort_m)
         fail(files_.lengths, found + ", expected 0.01 to 1 m; write it in m");
       if (typical > kLongest_m || typical < kShortest_m)
         remark(files_.lengths, found + ", expected 0.01 to 1 m");
-      const auto& start = data_.muscles[static_cast<std::size_t>(k)].start;
       const double fiber = typical - start.tendon_slack_length_m;
       if (fiber <= 0.0)
         fail(files_.lengths,
@@ -174,9 +175,12 @@ class Check {
                          muscle(k)));
       if (r > kTogether && (factor > kLargestFactor || factor < 1.0 / kLargestFactor))
         fail(files_.velocities,
-             fmt::format("velocity of {} is {:.4g} times the rate of its length in {}; expected "
-                         "the same, in m/s",
-                         muscle(k), factor, files_.lengths));
+             fmt::format(
+                 "velocity of {} is {} times the rate of its length in {}; expected "
+                 "the same, in m/s",
+                 muscle(k),
+                 factor >= 10.0 ? fmt::format("{:.0f}", factor) : fmt::format("{:.2g}", factor),
+                 files_.lengths));
       if (r < kDoubtful)
         remark(files_.velocities,
                fmt::format("velocity of {} is not the rate of its length in {} (they agree to "
