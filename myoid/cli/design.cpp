@@ -2,11 +2,13 @@
 #include <cmath>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include "myoid/cli/context.h"
 #include "myoid/core/error.h"
 #include "myoid/pipeline/design_study.h"
+#include "myoid/pipeline/run_identity.h"
 #include "myoid/report/report.h"
 
 namespace myoid::cli {
@@ -163,7 +165,18 @@ void add_design(CLI::App& app, Context& context) {
     choice.catalogue.dynamometer = !options->no_dynamometer;
     choice.seed = context.seed;
     choice.progress = context.progress();
-    if (!options->after.empty()) choice.earlier = pipeline::read_earlier_run(options->after);
+    if (!options->after.empty()) {
+      choice.earlier = pipeline::read_earlier_run(options->after);
+      const pipeline::IdentityDifferences unlike = pipeline::differences(
+          pipeline::identity_of(study), pipeline::read_run_identity(options->after));
+      if (!unlike.grave.empty())
+        throw InvalidInput(fmt::format(
+            "--after {}: {}; its numbers mean something else; give the result of a run of this "
+            "study",
+            options->after, fmt::join(unlike.grave, "; ")));
+      for (const std::string& text : unlike.other)
+        context.warn(fmt::format("--after {}: {}", options->after, text));
+    }
     const pipeline::DesignStudyResult result = pipeline::design_study(study, choice);
     context.end_progress();
     if (result.too_hard == result.catalogue_size)
