@@ -218,16 +218,19 @@ bool is_model(const std::filesystem::path& path) {
          (path == "arm4" && !std::filesystem::exists(path));
 }
 
-/// What a coordinate's values in files are in. One that turns by another law than its own angle
-/// stays in radians there ("coupled", as OpenSim calls it).
-std::string unit_of(const model::BodyModel& m, const model::Coordinate& c) {
+/// What a coordinate's values in files are in. One that turns a body by another law than its own
+/// angle, or follows an angle, is in radians there, whatever OpenSim calls its motion.
+std::string unit_of(const model::BodyModel& m, int index) {
+  const model::Coordinate& c = m.coordinates[static_cast<std::size_t>(index)];
   if (c.motion == model::MotionType::rotational) return "deg";
-  if (c.motion == model::MotionType::translational) return "m";
-  const model::Joint& joint = m.joints[static_cast<std::size_t>(c.joint)];
-  for (const model::TransformAxis& axis : joint.rotation)
-    if (axis.coordinate >= 0 && &m.coordinates[static_cast<std::size_t>(axis.coordinate)] == &c)
-      return "rad, coupled";
-  return "coupled";
+  for (const model::TransformAxis& axis : m.joints[static_cast<std::size_t>(c.joint)].rotation)
+    if (axis.coordinate == index) return "rad";
+  for (const model::CoordinateCoupler& coupler : m.couplers) {
+    const auto leader = static_cast<std::size_t>(coupler.independent);
+    if (coupler.dependent == index && m.coordinates[leader].motion == model::MotionType::rotational)
+      return "rad";
+  }
+  return c.motion == model::MotionType::translational ? "m" : "coupled";
 }
 
 ordered_json osim_json(const std::filesystem::path& path,
@@ -250,12 +253,13 @@ ordered_json osim_json(const std::filesystem::path& path,
                                       m.bodies[static_cast<std::size_t>(joint.parent)].name,
                                       m.bodies[static_cast<std::size_t>(joint.child)].name));
   }
-  for (const model::Coordinate& c : m.coordinates) {
+  for (std::size_t k = 0; k < m.coordinates.size(); ++k) {
+    const model::Coordinate& c = m.coordinates[k];
     const bool angle = c.motion == model::MotionType::rotational;
     const double scale = angle ? 1.0 / kDegree : 1.0;
-    j["coordinates"].push_back(fmt::format("{} [{}] {:.4g} to {:.4g}{}", c.name, unit_of(m, c),
-                                           c.lower * scale, c.upper * scale,
-                                           c.locked ? ", locked" : ""));
+    j["coordinates"].push_back(fmt::format("{} [{}] {:.4g} to {:.4g}{}", c.name,
+                                           unit_of(m, static_cast<int>(k)), c.lower * scale,
+                                           c.upper * scale, c.locked ? ", locked" : ""));
   }
   j["muscles"] = ordered_json::array();
   for (const model::Muscle& muscle : m.muscles) {
