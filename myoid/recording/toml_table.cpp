@@ -216,9 +216,13 @@ void refuse_letters_outside_quotes(std::string_view text, const std::filesystem:
                         fmt::format("not valid TOML: a byte {:#04x}, which is no text",
                                     static_cast<unsigned>(c)));
       if (c == '#') in = In::remark;
+      // toml++ looks through a number to its end, which these are not.
+      const bool opens = std::string_view("\n=[,{").find(before) != std::string_view::npos;
+      if (place.in_value && (c == '=' || ((c == '[' || c == '{') && !opens)))
+        throw ReadError(file, line,
+                        fmt::format("not valid TOML: a '{}' in the middle of a value", c));
       // Elsewhere a quote is a mistake, and begins nothing: after a point only in a dotted key.
-      const bool begins = std::string_view("\n=[,{").find(before) != std::string_view::npos ||
-                          (before == '.' && !place.in_value);
+      const bool begins = opens || (before == '.' && !place.in_value);
       place.pass(c);
       if (c != ' ' && c != '\t' && c != '\r') before = c;
       if ((c == '"' || c == '\'') && !begins)

@@ -64,6 +64,7 @@ TEST(ParseToml, LettersBeyondAsciiStandInQuotesAndRemarksOnly) {
   EXPECT_THROW((void)parse_toml("a = -x'\xEF\xB9\xBF", "f.toml"), ReadError);
   for (const char* text :
        {"\ta = [1.'*\xEF\xBF\xB5'", "a = {b = 1.'\xEF\xBF\xB5'}", "[t]\na = [\n1.'\xEF\xBF\xB5'",
+        "a = 0oa=\"\"\"\\\\5\xEF\xBB\xBD", "a = 1[\"\xEF\xBB\xBD\"]",
         "\"\"\"\n\xEF\xBB\xBF\n"})  // a key of several lines
     EXPECT_THROW((void)parse_toml(text, "f.toml"), ReadError) << text;
   const toml::table t = parse_toml(
@@ -78,6 +79,12 @@ TEST(ParseToml, LettersBeyondAsciiStandInQuotesAndRemarksOnly) {
       parse_toml("a.'\xC3\xA9' = {b.'\xC3\xA9' = [1, 2], c.\"d\" = 3}\n[e.'f']\n", "f.toml");
   EXPECT_EQ(dotted["a"]["\xC3\xA9"]["c"]["d"].value<int>(), 3);
   EXPECT_TRUE(dotted["e"]["f"].is_table());
+  const toml::table lists = parse_toml(
+      "a = [ # first\n [1, 2], [\"\xC3\xA9\"],\n {b = [3], c = {d = 4}}]\n[[t]]\nd = 1979-05-27 "
+      "07:32:00\n",
+      "f.toml");
+  EXPECT_EQ(lists["a"][2]["c"]["d"].value<int>(), 4);
+  EXPECT_TRUE(lists["t"].is_array());
 }
 
 }  // namespace
