@@ -10,6 +10,18 @@
 namespace myoid::recording {
 namespace {
 
+TEST(C3dSurvey, TheLargestForceIsThatOfEveryTypeOfPlate) {
+  const test::TemporaryFolder folder;
+  double largest = 0.0;
+  for (int i = 0; i < 1010; ++i)
+    largest = std::max(largest, test::PlateLoad::force_n(0.001 * i).norm());
+  for (int type = 1; type <= 4; ++type) {
+    const auto path = folder / ("f" + std::to_string(type) + ".c3d");
+    write_c3d(path, test::plate_recording(type));
+    EXPECT_NEAR(survey_c3d(path).largest_force_n.at(0), largest, 1e-3) << type;
+  }
+}
+
 TEST(C3dSurvey, TellsGapsExtremesAndTheLargestForce) {
   const test::TemporaryFolder folder;
   C3dFile file = test::plate_recording(2);

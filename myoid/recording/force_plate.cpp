@@ -245,6 +245,19 @@ ForcePlate force_plate(const PlateSetup& setup,
   return force_plate(setup, std::move(time_s), std::move(values), least_force_n);
 }
 
+Eigen::VectorXd force_sizes(const PlateSetup& setup, Eigen::MatrixXd channel_values) {
+  Eigen::MatrixXd& v = channel_values;
+  for (std::size_t c = 0; c < setup.factors.size(); ++c)
+    v.col(static_cast<Eigen::Index>(c)) *= setup.factors[c];
+  if (setup.type == 4) v = (v * setup.calibration.topRows<3>().transpose()).eval();
+  if (setup.type == 3) {
+    v.col(0) += v.col(1);
+    v.col(1) = v.col(2) + v.col(3);
+    v.col(2) = v.col(4) + v.col(5) + v.col(6) + v.col(7);
+  }
+  return v.leftCols<3>().rowwise().norm();
+}
+
 std::vector<ForcePlate> force_plates(const C3dFile& file,
                                      std::vector<Repair>& repairs,
                                      double least_force_n) {

@@ -74,6 +74,9 @@ inline constexpr double kLeastForce_n = 10.0;  ///< Below it there is no center 
                                      Eigen::Index count,
                                      double least_force_n = kLeastForce_n);
 
+/// Only the size of the force [N] of each row of channels in the unit as written.
+[[nodiscard]] Eigen::VectorXd force_sizes(const PlateSetup& setup, Eigen::MatrixXd channel_values);
+
 /// All plates of a file over all of its time.
 [[nodiscard]] std::vector<ForcePlate> force_plates(const C3dFile& file,
                                                    std::vector<Repair>& repairs,
