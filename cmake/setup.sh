@@ -58,6 +58,16 @@ myoid_install_browser() {
     myoid_log "chromium cannot be installed: pages with a moving model are not tested in a browser"
 }
 
+# clang has libFuzzer. Without it the readers are not fuzzed, and CI says so.
+myoid_install_clang() {
+  command -v clang++ >/dev/null && return 0
+  if [ "$(id -u)" -ne 0 ] && ! command -v sudo >/dev/null; then return 0; fi
+  myoid_log "Installing: clang"
+  { myoid_as_root apt-get update -qq && myoid_as_root env DEBIAN_FRONTEND=noninteractive \
+      apt-get install -y -qq --no-install-recommends clang; } >&2 ||
+    myoid_log "clang cannot be installed: the readers are not fuzzed"
+}
+
 myoid_build() {  # myoid_build [target...]
   myoid_log "Configuring and building in $MYOID_BUILD"
   local log

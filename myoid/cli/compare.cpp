@@ -31,6 +31,7 @@ nlohmann::ordered_json to_json(const pipeline::RunComparison& comparison) {
   return {{"first", comparison.first.string()},
           {"second", comparison.second.string()},
           {"parameters", rows},
+          {"unlike", comparison.unlike},
           {"remarks", comparison.remarks}};
 }
 
@@ -66,6 +67,8 @@ void add_compare(CLI::App& app, Context& context) {
   command.callback([&context, options] {
     const pipeline::RunComparison comparison =
         pipeline::compare_runs(options->first, options->second);
+    for (const std::string& text : comparison.unlike)
+      context.warn(fmt::format("{} and {}: {}", options->first, options->second, text));
     if (!options->out.empty()) {
       context.prepare_folder(options->out);
       report::write_report(pipeline::comparison_report(comparison), options->out);

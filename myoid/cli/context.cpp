@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <mutex>
@@ -10,6 +11,7 @@
 #include <unistd.h>
 
 #include "myoid/core/error.h"
+#include "myoid/recording/text_file.h"
 
 namespace myoid::cli {
 namespace {
@@ -39,6 +41,32 @@ struct ProgressBar {
 };
 
 }  // namespace
+
+namespace {
+
+CLI::Validator number_check(const char* name, bool zero_too) {
+  return CLI::Validator(
+      [zero_too](const std::string& text) -> std::string {
+        const auto value = recording::parse_number(text);
+        if (value && std::isfinite(*value) && (*value > 0.0 || (zero_too && *value == 0.0)))
+          return {};
+        return fmt::format("found '{}', expected a number {}", text,
+                           zero_too ? "of 0 or more" : "above 0");
+      },
+      name);
+}
+
+}  // namespace
+
+const CLI::Validator& above_zero() {
+  static const CLI::Validator check = number_check("POSITIVE", false);
+  return check;
+}
+
+const CLI::Validator& zero_or_more() {
+  static const CLI::Validator check = number_check("NONNEGATIVE", true);
+  return check;
+}
 
 void Context::log(std::string_view line) const {
   std::fflush(stdout);  // so that the two streams stay in order where they go to one place
@@ -148,7 +176,7 @@ void add_common_options(CLI::App& command, Context& context, const CommonOptions
              ->check(CLI::Range(0, 1024)));
   unless(used.seed,
          command.add_option("--seed", context.seed, "Seed of everything random (default 1)")
-             ->check(CLI::NonNegativeNumber));
+             ->check(zero_or_more()));
   unless(used.json, command.add_flag("--json", context.json, "Result for machines on stdout"));
   command.add_flag("--quiet", context.quiet, "Nothing on stderr but errors");
   command.add_flag("--verbose", context.verbose, "More on stderr: repairs, timings");

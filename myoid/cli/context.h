@@ -26,6 +26,11 @@ enum ExitCode : int {
   kInterrupted = 130,
 };
 
+/// Checks of an option's number that say in a short sentence what is expected: CLI11's own print
+/// the largest double.
+[[nodiscard]] const CLI::Validator& above_zero();
+[[nodiscard]] const CLI::Validator& zero_or_more();
+
 /// What every command shares: the common options, progress and log on stderr, and the way to stop.
 struct Context {
   int threads = 0;  ///< 0: all cores.

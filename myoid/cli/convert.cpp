@@ -348,12 +348,12 @@ void add_convert(CLI::App& app, Context& context) {
   command
       .add_option("--least-force", o->least_force_n,
                   "Below it a plate counts as unloaded [N] (default 10)")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
   command
       .add_option("--rate", o->rate_hz,
                   "Put everything on an even clock of this rate [Hz]; low-passed first where that "
                   "is slower (0 dB to 0.4 of it, -100 dB from half of it on)")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
   command.add_option("--subject", o->subject,
                      "Label of the person where IN is a folder of results, written as a BIDS "
                      "derivative (default 01)");

@@ -2,11 +2,13 @@
 #include <cmath>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include "myoid/cli/context.h"
 #include "myoid/core/error.h"
 #include "myoid/pipeline/design_study.h"
+#include "myoid/pipeline/run_identity.h"
 #include "myoid/report/report.h"
 
 namespace myoid::cli {
@@ -124,14 +126,14 @@ void add_design(CLI::App& app, Context& context) {
       ->check(CLI::Range(1, 50))
       ->capture_default_str();
   command.add_option("--budget", design.choice.budget_s, "Recording time at most [s]")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
   command
       .add_option("--fatigue", design.fatigued_share,
                   "Share of a muscle that may be fatigued at any time")
       ->check(CLI::Range(0.001, 1.0))
       ->capture_default_str();
   command.add_option("--masses", design.catalogue.held_masses_kg, "Held masses there are [kg]")
-      ->check(CLI::NonNegativeNumber)
+      ->check(zero_or_more())
       ->capture_default_str();
   command.add_flag("--no-dynamometer", options->no_dynamometer,
                    "No isokinetic movement (isometric torque can be measured still)");
@@ -141,7 +143,7 @@ void add_design(CLI::App& app, Context& context) {
   command
       .add_option("--torque-noise", design.torque_sd_nm,
                   "Standard deviation of the joint torque's error below 2 Hz [N m]")
-      ->check(CLI::PositiveNumber)
+      ->check(above_zero())
       ->capture_default_str();
   command.add_option("--emg-noise", design.emg_cv, "Relative noise of the EMG envelope below 2 Hz")
       ->check(CLI::Range(0.0, 1.0))
@@ -163,7 +165,18 @@ void add_design(CLI::App& app, Context& context) {
     choice.catalogue.dynamometer = !options->no_dynamometer;
     choice.seed = context.seed;
     choice.progress = context.progress();
-    if (!options->after.empty()) choice.earlier = pipeline::read_earlier_run(options->after);
+    if (!options->after.empty()) {
+      choice.earlier = pipeline::read_earlier_run(options->after);
+      const pipeline::IdentityDifferences unlike = pipeline::differences(
+          pipeline::identity_of(study), pipeline::read_run_identity(options->after));
+      if (!unlike.grave.empty())
+        throw InvalidInput(fmt::format(
+            "--after {}: {}; its numbers mean something else; give the result of a run of this "
+            "study",
+            options->after, fmt::join(unlike.grave, "; ")));
+      for (const std::string& text : unlike.other)
+        context.warn(fmt::format("--after {}: {}", options->after, text));
+    }
     const pipeline::DesignStudyResult result = pipeline::design_study(study, choice);
     context.end_progress();
     if (result.too_hard == result.catalogue_size)

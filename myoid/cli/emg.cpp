@@ -34,11 +34,11 @@ void add_emg(CLI::App& app, Context& context) {
   command.add_option("--unit", o->unit,
                      "Unit of the numbers where the file does not say: V, mV, uV");
   command.add_option("--highpass", o->chain.highpass_hz, "High-pass [Hz] (default 20)")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
   command
       .add_option("--lowpass", o->chain.lowpass_hz,
                   "Low-pass of the rectified EMG, -3 dB of both passes [Hz] (default 6)")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
   command.add_flag("--no-notch", o->no_notch, "Leave mains hum in, where it is found");
   command.add_flag("--no-whitening", o->no_whitening,
                    "Rectify what is high-passed, without evening out its spectrum first");
@@ -46,7 +46,7 @@ void add_emg(CLI::App& app, Context& context) {
                    "As the source paper: no high-pass, low-pass designed for one pass");
   command
       .add_option("--window", o->window_s, "Window of the mean that counts as 1 [s] (default 0.5)")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
   command.add_option("--envelope", o->envelope,
                      "Also write the envelope [V] here (.sto, .mot or .csv)");
   add_common_options(command, context, {.threads = false, .seed = false});

@@ -32,7 +32,7 @@ void add_id(CLI::App& app, Context& context) {
   command
       .add_option("--lowpass", o->cutoff_hz,
                   "Smooth the angles, -3 dB at this frequency [Hz] (default: not smoothed)")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
   command.add_option("--speeds", o->speeds,
                      "Speeds of the coordinates at the times of --motion (.sto), instead of its "
                      "derivatives");
@@ -40,7 +40,7 @@ void add_id(CLI::App& app, Context& context) {
   command.add_option("--loads", o->loads,
                      "Forces measured on bodies: an <ExternalLoads> file (.xml) of OpenSim");
   command.add_option("--held-mass", o->mass_kg, "Mass held in the hand [kg] (default 0)")
-      ->check(CLI::NonNegativeNumber);
+      ->check(zero_or_more());
   command.add_option("--held-body", o->body,
                      "Body that holds it (default: the hand of arm4, of other models none)");
   command.add_option("--held-at", o->at, "Where on that body, x y z [m]")->expected(3);

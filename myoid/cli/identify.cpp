@@ -11,8 +11,10 @@
 #include "myoid/identification/cross_validation.h"
 #include "myoid/identification/force.h"
 #include "myoid/identification/paper.h"
+#include "myoid/identification/score.h"
 #include "myoid/identification/torque.h"
 #include "myoid/math/spline.h"
+#include "myoid/pipeline/identify_input.h"
 #include "myoid/pipeline/result_files.h"
 #include "myoid/recording/atomic_file.h"
 #include "myoid/recording/csv_reader.h"
@@ -383,6 +385,18 @@ StudyData read_data(const Options& o, const MuscleTable& table, const Context& c
         }
       }
     }
+    const auto of_trial = [&](const std::vector<std::string>& list) {
+      return i < list.size() ? list[i] : std::string();
+    };
+    pipeline::IdentifyFiles files{.activations = o.activations[i],
+                                  .lengths = o.lengths[i],
+                                  .velocities = of_trial(o.velocities),
+                                  .moment_arms = {},
+                                  .torques = torque ? of_trial(o.torques) : ""};
+    for (std::size_t j = 0; torque && j < joints; ++j)
+      files.moment_arms.push_back(o.arms[joints * i + j]);
+    for (const std::string& remark : pipeline::check_identify_trial(data, trial, files))
+      context.warn(remark);
     data.trials.push_back(std::move(trial));
   }
   return data;
@@ -397,6 +411,10 @@ void print_result(const identification::IdentificationResult& result) {
                                      : "-",
                identification::name(e.verdict), e.reason);
   }
+  if (result.method == "paper")
+    fmt::print(
+        "Method paper holds F_max and v_max at muscles.csv: an error in them goes into every other "
+        "number.\n");
   if (result.exact) fmt::print("The data are free of noise: fitted as they are, without priors.\n");
   for (const std::string& text : result.diagnoses) fmt::print("signature: {}\n", text);
   for (const std::string& text : result.undetermined)
@@ -408,6 +426,33 @@ void print_result(const identification::IdentificationResult& result) {
         "{:.3f})\n",
         test.muscle, test.length_difference_m, test.width_difference_m, test.wald, test.p_value);
   }
+}
+
+/// How the fit meets what it was fitted to: torque by trial and joint, or force by trial and
+/// muscle.
+void print_fit(const identification::IdentificationResult& result,
+               const StudyData& data,
+               bool torque) {
+  fmt::print("\n{:<34}{:>12}{:>8}\n", "fitted", torque ? "RMSE [N m]" : "RMSE [N]", "R2");
+  const auto row = [](const std::string& name, double rmse, double r2) {
+    fmt::print("{:<34}{:>12.4g}{:>8.3f}\n", name, rmse, r2);
+  };
+  for (const identification::TrialFit& t : result.trials) {
+    if (torque) {
+      row(t.joint == "joint" ? t.trial : t.trial + ", " + t.joint, t.rmse_nm, t.r2);
+      continue;
+    }
+    const auto trial = std::find_if(data.trials.begin(), data.trials.end(),
+                                    [&](const TrialData& d) { return d.name == t.trial; });
+    for (std::size_t k = 0; trial != data.trials.end() && k < data.muscles.size(); ++k) {
+      const auto column = static_cast<Eigen::Index>(k);
+      const identification::Score s =
+          identification::score(trial->force_n.col(column), t.force_fit_n.col(column));
+      row(t.trial + ", " + data.muscles[k].name, s.rmse_nm, s.r2);
+    }
+  }
+  fmt::print("{:<34}{:>12}{:>8.3f}\n",
+             torque ? "all, below the fit's cut-off, least" : "all, the least", "", result.r2);
 }
 
 void print_folds(const std::vector<identification::Fold>& folds, const Options& o) {
@@ -586,6 +631,7 @@ void add_identify(CLI::App& app, Context& context) {
       fmt::print("{}", pipeline::parameters_json(results, folds, provenance));
     } else {
       print_result(result);
+      print_fit(result, data, o->method == "torque");
       print_folds(folds, *o);
       for (const auto& [name, comparison] : comparisons) print_comparison(name, comparison);
       fmt::print("{}/parameters.csv\n", o->out);

@@ -1,6 +1,3 @@
-#include <algorithm>
-#include <cmath>
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
@@ -9,15 +6,12 @@
 #include "myoid/cli/stage_input.h"
 #include "myoid/core/error.h"
 #include "myoid/kinematics/inverse_kinematics.h"
+#include "myoid/pipeline/marker_misfit.h"
 #include "myoid/pipeline/result_files.h"
 #include "myoid/recording/recording.h"
 
 namespace myoid::cli {
 namespace {
-
-double rms_of(double sum_of_squares, int count) {
-  return std::sqrt(sum_of_squares / std::max(1, count));
-}
 
 /// Runs of frames that did not converge: "12 to 15 (0.11 to 0.14 s)". Frames count from 1, as in
 /// the first column of a .trc.
@@ -103,19 +97,10 @@ void add_ik(CLI::App& app, Context& context) {
     for (const std::string& note : result.notes) context.warn(note);
     pipeline::write_motion(model, result.q, o->out, {});
     pipeline::write_marker_errors(result, errors);
-    double rms = 0.0;
-    int seen = 0;
-    const Eigen::VectorXd column = result.errors.column("marker_error_RMS");
-    for (const double v : column) {
-      if (!(v == v)) continue;
-      rms += v * v;
-      ++seen;
-    }
-    const double worst_mm = 1000.0 * rms_of(rms, seen);
-    if (worst_mm > 40.0)
-      context.warn(
-          "the markers lie far from the model's: another model, other units or swapped labels? The "
-          "angles may still fit, the marker errors do not");
+    const pipeline::MarkerMisfit misfit = pipeline::marker_misfit(model, markers, result);
+    if (!misfit.warning.empty()) context.warn(misfit.warning);
+    if (misfit.wrong_unit) context.exit_code = kQualityGateFailed;
+    const double worst_mm = 1000.0 * misfit.rms_m;
     const std::vector<std::string> stalled = not_converged(result);
     if (!stalled.empty())
       context.warn(fmt::format("not converged: frames {}", fmt::join(stalled, ", ")));

@@ -12,8 +12,8 @@
 #include "myoid/model/osim_reader.h"
 #include "myoid/model/path_survey.h"
 #include "myoid/pipeline/study.h"
-#include "myoid/recording/c3d_reader.h"
 #include "myoid/recording/c3d_signals.h"
+#include "myoid/recording/c3d_survey.h"
 #include "myoid/recording/csv_reader.h"
 #include "myoid/recording/emg_reader.h"
 #include "myoid/recording/recording.h"
@@ -96,25 +96,11 @@ ordered_json events_json(const std::vector<recording::C3dEvent>& events) {
   return list;
 }
 
-/// Some samples at a time: a plate over time takes more memory than the file.
-double largest_force_n(const recording::PlateSetup& plate, const recording::C3dFile& file) {
-  constexpr Eigen::Index kSamples = 65536;
-  double largest = 0.0;
-  for (Eigen::Index first = 0; first < file.analog.rows(); first += kSamples) {
-    const Eigen::Index count = std::min(kSamples, file.analog.rows() - first);
-    largest = std::max(largest, recording::force_plate(plate, file, first, count)
-                                    .force_n.rowwise()
-                                    .norm()
-                                    .maxCoeff<Eigen::PropagateNumbers>());
-  }
-  return largest;
-}
-
 /// Everything a C3D file says, with the numbers of its channels in the unit as written.
 ordered_json c3d_json(const std::filesystem::path& path) {
-  recording::C3dFile file = recording::read_c3d(path);
-  std::vector<recording::Repair> repairs = file.repairs;
-  const auto frames = file.frame_count();
+  const recording::C3dSurvey survey = recording::survey_c3d(path);
+  const recording::C3dFile& file = survey.file;
+  const Eigen::Index frames = survey.frames;
   ordered_json j{{"kind", "C3D"},
                  {"processor", file.processor == recording::C3dProcessor::intel ? "Intel"
                                : file.processor == recording::C3dProcessor::dec ? "DEC"
@@ -131,11 +117,7 @@ ordered_json c3d_json(const std::filesystem::path& path) {
   std::vector<bool> is_marker(file.point_labels.size(), false);
   for (const Eigen::Index c : columns) {
     is_marker[static_cast<std::size_t>(c)] = true;
-    Eigen::Index missing = 0;
-    for (Eigen::Index k = 0; k < frames; ++k) {
-      const auto p = file.points.block<1, 3>(k, 4 * c);
-      missing += file.points(k, 4 * c + 3) < 0.0F || !p.allFinite() || p.isZero(0.0F) ? 1 : 0;
-    }
+    const Eigen::Index missing = survey.missing_frames[static_cast<std::size_t>(c)];
     ordered_json marker{{"name", file.point_labels[static_cast<std::size_t>(c)]}};
     if (missing > 0) marker["missing_frames"] = missing;
     j["markers"].push_back(marker);
@@ -145,29 +127,21 @@ ordered_json c3d_json(const std::filesystem::path& path) {
     if (!is_marker[c]) j["other_points"].push_back(file.point_labels[c]);
   if (!file.channels.empty()) j["analog_rate_hz"] = file.analog_rate_hz();
   j["channels"] = ordered_json::array();
-  if (file.analog.rows() > 0) {
-    const Eigen::RowVectorXf low = file.analog.colwise().minCoeff();
-    const Eigen::RowVectorXf high = file.analog.colwise().maxCoeff();
-    for (std::size_t c = 0; c < file.channels.size(); ++c) {
-      const recording::C3dChannel& channel = file.channels[c];
-      const auto at = static_cast<Eigen::Index>(c);
-      const double a = (static_cast<double>(low[at]) - channel.offset) * channel.scale;
-      const double b = (static_cast<double>(high[at]) - channel.offset) * channel.scale;
-      ordered_json entry{{"name", channel.name}};
-      if (!channel.unit_text.empty()) entry["unit"] = channel.unit_text;
-      entry["lowest"] = std::min(a, b);
-      entry["highest"] = std::max(a, b);
-      j["channels"].push_back(entry);
-    }
+  for (std::size_t c = 0; c < file.channels.size(); ++c) {
+    ordered_json entry{{"name", file.channels[c].name}};
+    if (!file.channels[c].unit_text.empty()) entry["unit"] = file.channels[c].unit_text;
+    entry["lowest"] = survey.lowest[static_cast<Eigen::Index>(c)];
+    entry["highest"] = survey.highest[static_cast<Eigen::Index>(c)];
+    j["channels"].push_back(entry);
   }
   j["force_plates"] = ordered_json::array();
-  for (const recording::PlateSetup& setup : recording::plate_setups(file, repairs)) {
-    j["force_plates"].push_back({{"name", fmt::format("plate {}", setup.number)},
-                                 {"type", setup.type},
-                                 {"largest_force_n", largest_force_n(setup, file)}});
+  for (std::size_t p = 0; p < survey.plates.size(); ++p) {
+    j["force_plates"].push_back({{"name", fmt::format("plate {}", survey.plates[p].number)},
+                                 {"type", survey.plates[p].type},
+                                 {"largest_force_n", survey.largest_force_n[p]}});
   }
   j["events"] = events_json(file.events);
-  j["repairs"] = repairs_json(repairs);
+  j["repairs"] = repairs_json(survey.repairs);
   return j;
 }
 
@@ -202,9 +176,12 @@ ordered_json storage_json(const std::filesystem::path& path) {
 ordered_json csv_json(const std::filesystem::path& path) {
   try {
     return recording_json(path, "time series (.csv)");
-  } catch (const ReadError&) {
+  } catch (const ReadError& error) {
     const recording::CsvTable table = recording::read_csv_table(path);
-    return {{"kind", "table (.csv)"}, {"rows", table.rows.size()}, {"columns", table.names}};
+    return {{"kind", "table (.csv)"},
+            {"rows", table.rows.size()},
+            {"columns", table.names},
+            {"no_recording", error.what()}};
   }
 }
 
@@ -241,6 +218,21 @@ bool is_model(const std::filesystem::path& path) {
          (path == "arm4" && !std::filesystem::exists(path));
 }
 
+/// What a coordinate's values in files are in. One that turns a body by another law than its own
+/// angle, or follows an angle, is in radians there, whatever OpenSim calls its motion.
+std::string unit_of(const model::BodyModel& m, int index) {
+  const model::Coordinate& c = m.coordinates[static_cast<std::size_t>(index)];
+  if (c.motion == model::MotionType::rotational) return "deg";
+  for (const model::TransformAxis& axis : m.joints[static_cast<std::size_t>(c.joint)].rotation)
+    if (axis.coordinate == index) return "rad";
+  for (const model::CoordinateCoupler& coupler : m.couplers) {
+    const auto leader = static_cast<std::size_t>(coupler.independent);
+    if (coupler.dependent == index && m.coordinates[leader].motion == model::MotionType::rotational)
+      return "rad";
+  }
+  return c.motion == model::MotionType::translational ? "m" : "coupled";
+}
+
 ordered_json osim_json(const std::filesystem::path& path,
                        const ModelQuestions& ask,
                        const Context& context) {
@@ -261,15 +253,13 @@ ordered_json osim_json(const std::filesystem::path& path,
                                       m.bodies[static_cast<std::size_t>(joint.parent)].name,
                                       m.bodies[static_cast<std::size_t>(joint.child)].name));
   }
-  for (const model::Coordinate& c : m.coordinates) {
+  for (std::size_t k = 0; k < m.coordinates.size(); ++k) {
+    const model::Coordinate& c = m.coordinates[k];
     const bool angle = c.motion == model::MotionType::rotational;
     const double scale = angle ? 1.0 / kDegree : 1.0;
-    j["coordinates"].push_back(
-        fmt::format("{} [{}] {:.4g} to {:.4g}{}", c.name,
-                    angle                                          ? "deg"
-                    : c.motion == model::MotionType::translational ? "m"
-                                                                   : "coupled",
-                    c.lower * scale, c.upper * scale, c.locked ? ", locked" : ""));
+    j["coordinates"].push_back(fmt::format("{} [{}] {:.4g} to {:.4g}{}", c.name,
+                                           unit_of(m, static_cast<int>(k)), c.lower * scale,
+                                           c.upper * scale, c.locked ? ", locked" : ""));
   }
   j["muscles"] = ordered_json::array();
   for (const model::Muscle& muscle : m.muscles) {
@@ -291,6 +281,7 @@ ordered_json osim_json(const std::filesystem::path& path,
   for (const model::CoordinateActuator& a : m.actuators) j["actuators"].push_back(a.name);
   for (const model::PointActuator& a : m.point_actuators) j["actuators"].push_back(a.name);
   for (const model::TorqueActuator& a : m.torque_actuators) j["actuators"].push_back(a.name);
+  for (const model::PathActuator& a : m.path_actuators) j["actuators"].push_back(a.name);
   for (const model::PassiveForce& f : m.passive_forces)
     j["passive_forces"].push_back(fmt::format("{} ({})", f.name, f.class_name));
   if (ask.compare_compat)

@@ -4,8 +4,11 @@
 #include <cstdio>
 #include <cstring>
 #include <exception>
+#include <memory>
+#include <string>
 #include <string_view>
 #include <thread>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -15,6 +18,7 @@
 #include "myoid/cli/context.h"
 #include "myoid/core/error.h"
 #include "myoid/core/provenance.h"
+#include "myoid/recording/toml_table.h"
 
 namespace {
 
@@ -74,6 +78,37 @@ const Command* find_command(std::string_view name) {
   return nullptr;
 }
 
+int unknown_command(std::string_view word) {
+  std::vector<std::string> names;
+  std::string list;
+  for (const Command& command : kCommands) {
+    names.emplace_back(command.name);
+    list += fmt::format("{}{}", list.empty() ? "" : ", ", command.name);
+  }
+  const auto near = myoid::recording::nearest_word(word, names);
+  fmt::print(stderr, "error: there is no command '{}'{}; there are {}\n", word,
+             near ? fmt::format(" (did you mean '{}'?)", *near) : "", list);
+  return myoid::cli::kWrongCommandLine;
+}
+
+/// What stands without dashes is written in capitals, as in the guide: "run [OPTIONS] STUDY".
+class CapitalPositionals : public CLI::Formatter {
+ public:
+  std::string make_option_name(const CLI::Option* option, bool is_positional) const override {
+    return is_positional ? capitals(CLI::Formatter::make_option_name(option, true))
+                         : CLI::Formatter::make_option_name(option, false);
+  }
+  std::string make_option_usage(const CLI::Option* option) const override {
+    return capitals(CLI::Formatter::make_option_usage(option));
+  }
+
+ private:
+  static std::string capitals(std::string text) {
+    for (char& c : text) c = c >= 'a' && c <= 'z' ? static_cast<char>(c - 32) : c;
+    return text;
+  }
+};
+
 int run(int argc, char** argv, myoid::cli::Context& context) {
   CLI::App app{
       "Myoid identifies a person's own muscle parameters from motion capture and EMG,\n"
@@ -81,13 +116,18 @@ int run(int argc, char** argv, myoid::cli::Context& context) {
       "myoid"};
   app.set_version_flag("--version,-V", std::string(myoid::version()));
   app.require_subcommand(0, 1);
-  app.footer(
-      "myoid COMMAND --help shows a command's purpose, an example and its options.\n"
-      "First steps: myoid twin --protocol examples/demo/protocol.toml --out rec\n"
-      "             myoid run rec/study.toml --out results");
   // Only the command that is called, where it is one: the options of all take longer than a small
   // run.
-  const Command* const called = find_command(argc > 1 ? argv[1] : "");
+  const std::string_view word = argc > 1 ? argv[1] : "";
+  const Command* const called = find_command(word);
+  if (called == nullptr) {
+    app.footer(
+        "myoid COMMAND --help shows a command's purpose, an example and its options.\n"
+        "First steps: myoid twin --protocol examples/demo/protocol.toml --out rec\n"
+        "             myoid run rec/study.toml --out results");
+    if (!word.empty() && word[0] != '-') return unknown_command(word);
+  }
+  app.formatter(std::make_shared<CapitalPositionals>());
   for (const Command& command : kCommands) {
     if (called == nullptr || called == &command) command.add(app, context);
   }

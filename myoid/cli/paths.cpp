@@ -81,14 +81,14 @@ void add_paths(CLI::App& app, Context& context) {
   command
       .add_option("--lowpass", o->cutoff_hz,
                   "Smooth the angles, -3 dB at this frequency [Hz] (default: not smoothed)")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
   command.add_option("--surrogate", o->surrogates,
                      "File of fitted polynomials (.json) to use in the place of paths where they "
                      "are within tolerance; made if it is not there or belongs to another model");
   command
       .add_option("--surrogate-tolerance", o->tolerance_mm,
                   "Greatest error of a length [mm]; five times that for moment arms [mm/rad]")
-      ->check(CLI::PositiveNumber)
+      ->check(above_zero())
       ->capture_default_str();
   command.add_flag("--check-jumps", o->check_jumps,
                    "Tell where a length or moment arm jumps over the range of a coordinate");

@@ -48,13 +48,13 @@ void add_so(CLI::App& app, Context& context) {
   command
       .add_option("--lowpass", o->cutoff_hz,
                   "Smooth the angles, -3 dB at this frequency [Hz] (default: not smoothed)")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
   command.add_option("--loads", o->loads,
                      "Forces measured on bodies: an <ExternalLoads> file (.xml) of OpenSim");
   command
       .add_option("--tendon", o->tendon,
-                  "rigid, or elastic: fiber and tendon in balance by the muscle's own curves "
-                  "(default rigid)")
+                  "rigid, or elastic: fiber and tendon in balance by the muscle's own curves, in "
+                  "every frame for itself: the tendon's own rate is left out (default rigid)")
       ->check(CLI::IsMember({"rigid", "elastic"}));
   command.add_flag("--passive", o->passive,
                    "The fibers' passive springs and dampers pull too, and the muscles share the "

@@ -145,8 +145,11 @@ void add_twin_study(CLI::App& app, Context& context) {
     for (const pipeline::TwinFailure& f : result.failures)
       context.warn(fmt::format("seed {}: {}", f.seed, f.message));
     const std::vector<TwinSummary> summaries = pipeline::summarize(result);
+    const std::string persons = result.interrupted ? fmt::format("INTERRUPTED: only {} of {}",
+                                                                 result.finished, result.subjects)
+                                                   : fmt::format("{}", result.finished);
     fmt::print("protocol {}, level {}, {} persons, {} failures\n\n", result.protocol, result.level,
-               result.finished, result.failures.size());
+               persons, result.failures.size());
     print_summary(summaries, options->each_muscle);
     print_verdicts(result, summaries);
     if (result.interrupted) throw Interrupted();

@@ -3,9 +3,7 @@
 #include <utility>
 #include <vector>
 
-#include <oneapi/tbb/blocked_range.h>
-#include <oneapi/tbb/parallel_for.h>
-
+#include "myoid/core/parallel.h"
 #include "myoid/dynamics/passive_forces.h"
 #include "myoid/model/kinematic_tree.h"
 
@@ -18,30 +16,30 @@ TimeSeries inverse_dynamics(const model::BodyModel& model,
   const auto count = static_cast<Eigen::Index>(model.coordinates.size());
   Eigen::MatrixXd tau(frames, count);
   const bool passive = options.passive_forces && !model.passive_forces.empty();
-  oneapi::tbb::parallel_for(
-      oneapi::tbb::blocked_range<Eigen::Index>(0, frames, 64), [&](const auto& range) {
-        model::BodyState state = model::make_state(model);
-        std::vector<model::BodyWrench> wrenches;
-        Eigen::VectorXd generalized(count);
-        for (Eigen::Index frame = range.begin(); frame != range.end(); ++frame) {
-          const Eigen::VectorXd q = motion.q.values().row(frame).transpose();
-          const Eigen::VectorXd qdot = motion.qdot.values().row(frame).transpose();
-          wrenches.clear();
-          generalized.setZero();
-          if (options.loads != nullptr || passive) {
-            model::compute_poses(model, q, state);
-            model::compute_velocities(model, qdot, state);
-          }
-          if (options.loads != nullptr)
-            options.loads->append_wrenches(state, motion.q.time_s()[frame], wrenches);
-          if (passive) append_passive_forces(model, state, generalized, wrenches);
-          tau.row(frame) =
-              (model::inverse_dynamics(model, q, qdot, motion.qddot.values().row(frame).transpose(),
-                                       wrenches, state) -
-               generalized)
-                  .transpose();
-        }
-      });
+  parallel_ranges<Eigen::Index>(frames, 64, [&](const auto& range) {
+    model::BodyState state = model::make_state(model);
+    std::vector<model::BodyWrench> wrenches;
+    Eigen::VectorXd generalized(count);
+    for (Eigen::Index frame = range.begin(); frame != range.end(); ++frame) {
+      const Eigen::VectorXd q = motion.q.values().row(frame).transpose();
+      const Eigen::VectorXd qdot = motion.qdot.values().row(frame).transpose();
+      wrenches.clear();
+      generalized.setZero();
+      if (options.loads != nullptr || passive) {
+        model::compute_poses(model, q, state);
+        model::compute_velocities(model, qdot, state);
+      }
+      if (options.loads != nullptr)
+        options.loads->append_wrenches(state, motion.q.time_s()[frame], wrenches);
+      if (passive)
+        append_passive_forces(model, state, generalized, wrenches, motion.q.time_s()[frame]);
+      tau.row(frame) =
+          (model::inverse_dynamics(model, q, qdot, motion.qddot.values().row(frame).transpose(),
+                                   wrenches, state) -
+           generalized)
+              .transpose();
+    }
+  });
   std::vector<Channel> channels;
   for (const model::Coordinate& coordinate : model.coordinates) {
     channels.push_back(

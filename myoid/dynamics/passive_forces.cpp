@@ -1,7 +1,10 @@
 #include "myoid/dynamics/passive_forces.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+
+#include "myoid/dynamics/contact_force.h"
 
 namespace myoid::dynamics {
 namespace {
@@ -45,10 +48,18 @@ void append(const model::Bushing& b,
   const Vec3 angle_rate = inverse * w_F1;
   const Vec3 shift_rate = X_GF1.R.transpose() * (point_velocity(state, b.body2, X_GF2.p) -
                                                  point_velocity(state, b.body1, X_GF2.p));
-  const Vec3 moment =
+  Vec3 moment =
       -(b.rotational_stiffness.cwiseProduct(angle) + b.rotational_damping.cwiseProduct(angle_rate));
-  const Vec3 force = -(b.translational_stiffness.cwiseProduct(shift) +
-                       b.translational_damping.cwiseProduct(shift_rate));
+  Vec3 force = -(b.translational_stiffness.cwiseProduct(shift) +
+                 b.translational_damping.cwiseProduct(shift_rate));
+  const std::array<double, 6> deflection{angle[0], angle[1], angle[2],
+                                         shift[0], shift[1], shift[2]};
+  for (std::size_t k = 0; k < 6; ++k) {
+    double back = 0.0;
+    if (!b.functions.empty()) back += evaluate(b.functions[k], deflection[k]).value;
+    if (!b.formulas.empty()) back += b.formulas[k](deflection);
+    (k < 3 ? moment : force)[static_cast<Eigen::Index>(k % 3)] -= back;
+  }
   const Vec3 m_G = X_GF1.R * (inverse.transpose() * moment);
   const Vec3 f_G = X_GF1.R * force;
   model::BodyWrench second = wrench_at(state, b.body2, X_GF2.p, f_G);
@@ -59,16 +70,44 @@ void append(const model::Bushing& b,
   wrenches.push_back(second);
 }
 
-void append(const model::PointSpring& spring,
-            const model::BodyState& state,
-            std::vector<model::BodyWrench>& wrenches) {
-  const Vec3 p1 = state.X_GB[at(spring.body1)] * spring.p_B1;
-  const Vec3 p2 = state.X_GB[at(spring.body2)] * spring.p_B2;
+/// Two points pulled together by `pull(distance, its rate)`.
+void append_pull(const model::BodyState& state,
+                 model::BodyIndex body1,
+                 const Vec3& p_B1,
+                 model::BodyIndex body2,
+                 const Vec3& p_B2,
+                 const auto& pull,
+                 std::vector<model::BodyWrench>& wrenches) {
+  const Vec3 p1 = state.X_GB[at(body1)] * p_B1;
+  const Vec3 p2 = state.X_GB[at(body2)] * p_B2;
   const double length = (p2 - p1).norm();
   if (length == 0.0) return;  // no direction
-  const Vec3 pull = spring.stiffness_npm * (length - spring.rest_length_m) / length * (p2 - p1);
-  wrenches.push_back(wrench_at(state, spring.body1, p1, pull));
-  wrenches.push_back(wrench_at(state, spring.body2, p2, -pull));
+  const Vec3 u = (p2 - p1) / length;
+  const double rate = (point_velocity(state, body2, p2) - point_velocity(state, body1, p1)).dot(u);
+  const Vec3 force = pull(length, rate) * u;
+  wrenches.push_back(wrench_at(state, body1, p1, force));
+  wrenches.push_back(wrench_at(state, body2, p2, -force));
+}
+
+void append(const model::PrescribedForce& f,
+            const model::BodyState& state,
+            double time_s,
+            std::vector<model::BodyWrench>& wrenches) {
+  const Pose X_GF = state.X_GB[at(f.body)] * f.X_BF;
+  const auto vector = [&](const std::vector<model::Function>& functions) {
+    Vec3 v;
+    for (std::size_t k = 0; k < 3; ++k)
+      v[static_cast<Eigen::Index>(k)] = evaluate(functions[k], time_s).value;
+    return v;
+  };
+  const auto in_ground = [&](const Vec3& v) -> Vec3 { return f.force_is_global ? v : X_GF.R * v; };
+  if (!f.force.empty()) {
+    Vec3 point = X_GF.p;
+    if (!f.point.empty())
+      point = f.point_is_global ? vector(f.point) : Vec3(X_GF * vector(f.point));
+    wrenches.push_back(wrench_at(state, f.body, point, in_ground(vector(f.force))));
+  }
+  if (!f.torque.empty()) wrenches.push_back({f.body, Vec3::Zero(), in_ground(vector(f.torque))});
 }
 
 }  // namespace
@@ -83,7 +122,8 @@ double limit_force(const model::CoordinateLimitForce& f, double q, double qdot) 
 void append_passive_forces(const model::BodyModel& model,
                            const model::BodyState& state,
                            Eigen::VectorXd& generalized,
-                           std::vector<model::BodyWrench>& wrenches) {
+                           std::vector<model::BodyWrench>& wrenches,
+                           double time_s) {
   model::PathWorkspace workspace;
   model::PathResult path;
   for (const model::PassiveForce& force : model.passive_forces) {
@@ -94,10 +134,28 @@ void append_passive_forces(const model::BodyModel& model,
       generalized[spring->coordinate] -=
           spring->stiffness * (state.q[spring->coordinate] - spring->rest) +
           spring->viscosity * state.qdot[spring->coordinate];
+    } else if (const auto* formula = std::get_if<model::CoordinateFormula>(&force.law)) {
+      const std::array<double, 2> at_state{state.q[formula->coordinate],
+                                           state.qdot[formula->coordinate]};
+      generalized[formula->coordinate] += formula->force(at_state);
     } else if (const auto* bushing = std::get_if<model::Bushing>(&force.law)) {
       append(*bushing, state, wrenches);
     } else if (const auto* point = std::get_if<model::PointSpring>(&force.law)) {
-      append(*point, state, wrenches);
+      append_pull(
+          state, point->body1, point->p_B1, point->body2, point->p_B2,
+          [&](double d, double) { return point->stiffness_npm * (d - point->rest_length_m); },
+          wrenches);
+    } else if (const auto* pair = std::get_if<model::PointFormula>(&force.law)) {
+      append_pull(
+          state, pair->body1, pair->p_B1, pair->body2, pair->p_B2,
+          [&](double d, double rate) {
+            return pair->force(std::array<double, 2>{d, rate});
+          },
+          wrenches);
+    } else if (const auto* prescribed = std::get_if<model::PrescribedForce>(&force.law)) {
+      append(*prescribed, state, time_s, wrenches);
+    } else if (const auto* contact = std::get_if<model::Contact>(&force.law)) {
+      append_contact(*contact, state, wrenches);
     } else if (const auto* line = std::get_if<model::PathSpring>(&force.law)) {
       model::compute_path(model, line->path, state, workspace, path);
       const double stretch = path.length_m - line->rest_length_m;

@@ -7,13 +7,15 @@
 
 namespace myoid::dynamics {
 
-/// Adds what the model's passive forces (limit forces, springs, bushings, ligaments) make at the
-/// posture and speeds of `state` (compute_poses, compute_velocities): `generalized` gets the forces
-/// along coordinates [N m, N], `wrenches` those on bodies, about the body origins.
+/// Adds what the model's passive forces (limit forces, springs, bushings, formulas, ligaments,
+/// contacts, forces over time) make at the posture and speeds of `state` (compute_poses,
+/// compute_velocities) and at this time: `generalized` gets the forces along coordinates [N m, N],
+/// `wrenches` those on bodies, about the body origins.
 void append_passive_forces(const model::BodyModel& model,
                            const model::BodyState& state,
                            Eigen::VectorXd& generalized,
-                           std::vector<model::BodyWrench>& wrenches);
+                           std::vector<model::BodyWrench>& wrenches,
+                           double time_s = 0.0);
 
 /// Generalized force of OpenSim's CoordinateLimitForce at q and its rate:
 ///   -K_up (q - q_up) + K_low (q_low - q) - c (K_up/k_up + K_low/k_low) qdot,

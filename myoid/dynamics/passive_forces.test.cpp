@@ -124,5 +124,95 @@ TEST(PassiveForces, PathSpringsAndLigamentsPullAlongTheirPathByTheirLaw) {
   }
 }
 
+// Formulas that say what a spring says make the spring.
+TEST(PassiveForces, FormulasAndFunctionsOfSpringsAreTheSprings) {
+  model::BodyModel arm = bare_arm();
+  const auto n = static_cast<Eigen::Index>(arm.coordinates.size());
+  const auto hand = static_cast<int>(arm.bodies.size()) - 1;
+  model::BodyState state = model::make_state(arm);
+  model::compute_poses(arm, arm.default_q() + Eigen::VectorXd::LinSpaced(n, 0.2, 0.5), state);
+  model::compute_velocities(arm, Eigen::VectorXd::LinSpaced(n, 1.0, -0.7), state);
+  const auto generalized = [&](const model::PassiveForce& force) {
+    arm.passive_forces = {force};
+    Eigen::VectorXd tau = Eigen::VectorXd::Zero(n);
+    std::vector<model::BodyWrench> wrenches;
+    append_passive_forces(arm, state, tau, wrenches);
+    const Eigen::VectorXd zero = Eigen::VectorXd::Zero(n);
+    model::BodyState scratch = model::make_state(arm);
+    const Eigen::VectorXd q = state.q, u = state.qdot;
+    return Eigen::VectorXd(tau - model::inverse_dynamics(arm, q, u, zero, wrenches, scratch) +
+                           model::inverse_dynamics(arm, q, u, zero, {}, scratch));
+  };
+  const Pose X1{Mat3::Identity(), Vec3(0.02, 0.1, -0.03)};
+  const Pose X2{Eigen::AngleAxisd(0.4, Vec3(1.0, 2.0, -1.0).normalized()).toRotationMatrix(),
+                Vec3(-0.01, 0.05, 0.02)};
+  const model::Bushing linear{.body1 = 0,
+                              .body2 = hand,
+                              .X_BF1 = X1,
+                              .X_BF2 = X2,
+                              .rotational_stiffness = Vec3(3.0, 5.0, 7.0),
+                              .translational_stiffness = Vec3(100.0, 200.0, 300.0)};
+  model::Bushing functions = linear, formulas = linear;
+  functions.rotational_stiffness = functions.translational_stiffness = Vec3::Zero();
+  formulas.rotational_stiffness = formulas.translational_stiffness = Vec3::Zero();
+  const std::vector<std::string> names{"theta_x", "theta_y", "theta_z",
+                                       "delta_x", "delta_y", "delta_z"};
+  const double stiffness[] = {3.0, 5.0, 7.0, 100.0, 200.0, 300.0};
+  for (std::size_t k = 0; k < 6; ++k) {
+    functions.functions.emplace_back(model::Linear{stiffness[k], 0.0});
+    formulas.formulas.emplace_back(std::to_string(stiffness[k]) + "*" + names[k], names);
+  }
+  const Eigen::VectorXd expected = generalized({"b", "BushingForce", linear});
+  EXPECT_GT(expected.norm(), 1.0);
+  EXPECT_LT((generalized({"b", "", functions}) - expected).norm(), 1e-12);
+  EXPECT_LT((generalized({"b", "", formulas}) - expected).norm(), 1e-12);
+
+  const Eigen::VectorXd spring =
+      generalized({"s", "", model::PointSpring{0, hand, X1.p, X2.p, 250.0, 0.05}});
+  EXPECT_LT((generalized({"s", "",
+                          model::PointFormula{0, hand, X1.p, X2.p,
+                                              model::Expression("250*(d-0.05)", {"d", "ddot"})}}) -
+             spring)
+                .norm(),
+            1e-12);
+  const Eigen::VectorXd turn = generalized({"c", "", model::CoordinateSpring{1, 8.0, 0.3, 0.2}});
+  EXPECT_LT((generalized({"c", "",
+                          model::CoordinateFormula{
+                              1, model::Expression("-8*(q-0.3)-0.2*qdot", {"q", "qdot"})}}) -
+             turn)
+                .norm(),
+            1e-13);
+}
+
+TEST(PassiveForces, AForceOverTimeActsAtItsPointInItsFrame) {
+  model::BodyModel arm = bare_arm();
+  const auto hand = static_cast<int>(arm.bodies.size()) - 1;
+  const Pose X_BF{Eigen::AngleAxisd(0.7, Vec3::UnitX()).toRotationMatrix(), Vec3(0.0, -0.2, 0.0)};
+  model::BodyState state = model::make_state(arm);
+  const auto n = static_cast<Eigen::Index>(arm.coordinates.size());
+  model::compute_poses(arm, arm.default_q() + Eigen::VectorXd::LinSpaced(n, 0.2, 0.5), state);
+  model::compute_velocities(arm, Eigen::VectorXd::Zero(n), state);
+  const auto at_time = [&](model::PrescribedForce force, double time_s) {
+    arm.passive_forces = {{"f", "PrescribedForce", std::move(force)}};
+    Eigen::VectorXd tau = Eigen::VectorXd::Zero(n);
+    std::vector<model::BodyWrench> wrenches;
+    append_passive_forces(arm, state, tau, wrenches, time_s);
+    return wrenches.at(0);
+  };
+  const Pose X_GF = state.X_GB[static_cast<std::size_t>(hand)] * X_BF;
+  const Vec3 lever = X_GF.p - state.X_GB[static_cast<std::size_t>(hand)].p;
+  model::PrescribedForce f{.body = hand, .X_BF = X_BF, .force_is_global = false};
+  f.force = {model::Linear{10.0, 0.0}, model::Constant{0.0}, model::Constant{2.0}};
+  const model::BodyWrench local = at_time(f, 0.5);
+  EXPECT_LT((local.f_G - X_GF.R * Vec3(5.0, 0.0, 2.0)).norm(), 1e-14);
+  EXPECT_LT((local.m_G - lever.cross(local.f_G)).norm(), 1e-14);
+  f.force_is_global = f.point_is_global = true;
+  f.point = {model::Constant{1.0}, model::Constant{2.0}, model::Constant{3.0}};
+  const model::BodyWrench global = at_time(f, 0.5);
+  EXPECT_EQ(global.f_G, Vec3(5.0, 0.0, 2.0));
+  const Vec3 arm_of_force = Vec3(1.0, 2.0, 3.0) - state.X_GB[static_cast<std::size_t>(hand)].p;
+  EXPECT_LT((global.m_G - arm_of_force.cross(global.f_G)).norm(), 1e-14);
+}
+
 }  // namespace
 }  // namespace myoid::dynamics

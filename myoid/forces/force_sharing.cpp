@@ -6,10 +6,9 @@
 
 #include <Eigen/Cholesky>
 #include <fmt/format.h>
-#include <oneapi/tbb/blocked_range.h>
-#include <oneapi/tbb/parallel_for.h>
 
 #include "myoid/core/error.h"
+#include "myoid/core/parallel.h"
 #include "myoid/forces/optimality.h"
 
 namespace myoid::forces {
@@ -240,51 +239,48 @@ MuscleForces share(const std::vector<TimeSeries>& moment_arms,
   MuscleForces result;
   result.status.resize(static_cast<std::size_t>(frames));
   result.kkt_residual.resize(frames);
-  oneapi::tbb::parallel_for(
-      oneapi::tbb::blocked_range<Eigen::Index>(0, frames, 128), [&](const auto& range) {
-        for (Eigen::Index frame = range.begin(); frame != range.end(); ++frame) {
-          SharingProblem problem;
-          problem.moment_arm.resize(coordinates, muscles);
-          for (Eigen::Index k = 0; k < coordinates; ++k)
-            problem.moment_arm.row(k) =
-                moment_arms[static_cast<std::size_t>(k)].values().row(frame);
-          problem.optimal_force = optimal_force_n.row(frame).transpose();
-          problem.torque = torques.values().row(frame).transpose();
-          problem.lower = Eigen::VectorXd::Constant(muscles, options.min_activation);
-          problem.upper = Eigen::VectorXd::Constant(muscles, options.max_activation);
-          problem.reserve = Eigen::VectorXd::Constant(coordinates, options.reserve_nm);
-          problem.exponent = options.exponent;
-          if (options.objective == "force" || options.objective == "stress") {
-            // (F_i)^p or (F_i / F_max)^p instead of (F_i / F_opt)^p, relative to the mean so that
-            // reserves weigh alike.
-            problem.weight =
-                options.objective == "force"
-                    ? problem.optimal_force
-                    : problem.optimal_force.cwiseQuotient(max_isometric_force_n).eval();
-            const double mean = std::max(problem.weight.mean(), 1e-12);
-            problem.weight = (problem.weight / mean).cwiseMax(1e-6).array().pow(options.exponent);
-          }
-          if (emg.size() > 0) {
-            problem.emg = emg.row(frame).transpose();
-            problem.emg_weight = options.emg_weight;
-          }
-          SharingSolution solution = solve_sharing(problem);
-          if (options.law) {
-            const auto law = [&](Eigen::Index muscle, double x) {
-              return options.law(frame, muscle, x);
-            };
-            solution = solve_sharing(problem, law, solution.activation);
-            for (Eigen::Index i = 0; i < muscles; ++i)
-              force(frame, i) = law(i, solution.activation[i]).force_n;
-          } else {
-            force.row(frame) = solution.activation.cwiseProduct(problem.optimal_force).transpose();
-          }
-          activation.row(frame) = solution.activation.transpose();
-          reserve.row(frame) = solution.reserve_torque.transpose();
-          result.status[static_cast<std::size_t>(frame)] = solution.status;
-          result.kkt_residual[frame] = solution.kkt_residual;
-        }
-      });
+  parallel_ranges<Eigen::Index>(frames, 128, [&](const auto& range) {
+    for (Eigen::Index frame = range.begin(); frame != range.end(); ++frame) {
+      SharingProblem problem;
+      problem.moment_arm.resize(coordinates, muscles);
+      for (Eigen::Index k = 0; k < coordinates; ++k)
+        problem.moment_arm.row(k) = moment_arms[static_cast<std::size_t>(k)].values().row(frame);
+      problem.optimal_force = optimal_force_n.row(frame).transpose();
+      problem.torque = torques.values().row(frame).transpose();
+      problem.lower = Eigen::VectorXd::Constant(muscles, options.min_activation);
+      problem.upper = Eigen::VectorXd::Constant(muscles, options.max_activation);
+      problem.reserve = Eigen::VectorXd::Constant(coordinates, options.reserve_nm);
+      problem.exponent = options.exponent;
+      if (options.objective == "force" || options.objective == "stress") {
+        // (F_i)^p or (F_i / F_max)^p instead of (F_i / F_opt)^p, relative to the mean so that
+        // reserves weigh alike.
+        problem.weight = options.objective == "force"
+                             ? problem.optimal_force
+                             : problem.optimal_force.cwiseQuotient(max_isometric_force_n).eval();
+        const double mean = std::max(problem.weight.mean(), 1e-12);
+        problem.weight = (problem.weight / mean).cwiseMax(1e-6).array().pow(options.exponent);
+      }
+      if (emg.size() > 0) {
+        problem.emg = emg.row(frame).transpose();
+        problem.emg_weight = options.emg_weight;
+      }
+      SharingSolution solution = solve_sharing(problem);
+      if (options.law) {
+        const auto law = [&](Eigen::Index muscle, double x) {
+          return options.law(frame, muscle, x);
+        };
+        solution = solve_sharing(problem, law, solution.activation);
+        for (Eigen::Index i = 0; i < muscles; ++i)
+          force(frame, i) = law(i, solution.activation[i]).force_n;
+      } else {
+        force.row(frame) = solution.activation.cwiseProduct(problem.optimal_force).transpose();
+      }
+      activation.row(frame) = solution.activation.transpose();
+      reserve.row(frame) = solution.reserve_torque.transpose();
+      result.status[static_cast<std::size_t>(frame)] = solution.status;
+      result.kkt_residual[frame] = solution.kkt_residual;
+    }
+  });
   const Eigen::RowVectorXd greatest = torques.values().cwiseAbs().colwise().maxCoeff();
   for (Eigen::Index frame = 0; frame < frames; ++frame) {
     SharingStatus& status = result.status[static_cast<std::size_t>(frame)];

@@ -6,10 +6,9 @@
 #include <numeric>
 
 #include <fmt/format.h>
-#include <oneapi/tbb/blocked_range.h>
-#include <oneapi/tbb/parallel_for.h>
 
 #include "myoid/core/error.h"
+#include "myoid/core/parallel.h"
 #include "myoid/forces/opensim_muscle.h"
 #include "myoid/model/constraints.h"
 #include "myoid/model/kinematic_tree.h"
@@ -109,48 +108,45 @@ MuscleAnalysis muscle_analysis(const model::BodyModel& model,
                                       Eigen::MatrixXd(frames, count));
   std::vector<std::atomic<int>> unbalanced(chosen.size());
   const bool is_coupled = !model.couplers.empty() || !model.constraints.empty();
-  oneapi::tbb::parallel_for(
-      oneapi::tbb::blocked_range<Eigen::Index>(0, frames, 16), [&](const auto& range) {
-        options.progress.check();
-        model::BodyState state = model::make_state(model);
-        model::PathWorkspace workspace;
-        model::PathResult path;
-        Eigen::MatrixXd coupling;
-        for (Eigen::Index frame = range.begin(); frame != range.end(); ++frame) {
-          Eigen::VectorXd q = motion.q.values().row(frame).transpose();
-          if (is_coupled) q = model::assemble(model, q).q;
-          model::compute_poses(model, q, state);
-          model::compute_velocities(model, motion.qdot.values().row(frame).transpose(), state);
-          if (is_coupled && arms > 0) coupling = model::coupling_matrix(model, state);
-          for (Eigen::Index k = 0; k < count; ++k) {
-            const OpensimMuscle& muscle = muscles[at(k)];
-            model::compute_path(model, model.muscles[at(chosen[at(k)])].path, state, workspace,
-                                path);
-            const model::MuscleProperties& p = muscle.properties();
-            const double activation = options.activation.size() > 0
-                                          ? options.activation(frame, chosen[at(k)])
-                                          : p.default_activation;
-            const double length_m = options.fiber_length_m.size() > 0
-                                        ? options.fiber_length_m(frame, chosen[at(k)])
-                                        : p.default_fiber_length_m;
-            const OpensimMuscle::State s =
-                options.equilibrium
-                    ? muscle.equilibrium(activation, path.length_m, path.speed_mps)
-                    : muscle.at_fiber_length(activation, length_m, path.length_m, path.speed_mps);
-            if (!s.converged) ++unbalanced[at(k)];
-            if (is_coupled && arms > 0)
-              path.moment_arm_m = (coupling.transpose() * path.moment_arm_m).eval();
-            for (std::size_t c = 0; c < arms; ++c) {
-              const double arm = path.moment_arm_m[options.coordinates[c]];
-              tables[c](frame, k) = arm;
-              tables[arms + c](frame, k) = arm * s.tendon_force_n;
-            }
-            const auto values = quantities(muscle, s, path);
-            for (std::size_t i = 0; i < values.size(); ++i)
-              tables[2 * arms + i](frame, k) = values[i];
-          }
+  parallel_ranges<Eigen::Index>(frames, 16, [&](const auto& range) {
+    options.progress.check();
+    model::BodyState state = model::make_state(model);
+    model::PathWorkspace workspace;
+    model::PathResult path;
+    Eigen::MatrixXd coupling;
+    for (Eigen::Index frame = range.begin(); frame != range.end(); ++frame) {
+      Eigen::VectorXd q = motion.q.values().row(frame).transpose();
+      if (is_coupled) q = model::assemble(model, q).q;
+      model::compute_poses(model, q, state);
+      model::compute_velocities(model, motion.qdot.values().row(frame).transpose(), state);
+      if (is_coupled && arms > 0) coupling = model::coupling_matrix(model, state);
+      for (Eigen::Index k = 0; k < count; ++k) {
+        const OpensimMuscle& muscle = muscles[at(k)];
+        model::compute_path(model, model.muscles[at(chosen[at(k)])].path, state, workspace, path);
+        const model::MuscleProperties& p = muscle.properties();
+        const double activation = options.activation.size() > 0
+                                      ? options.activation(frame, chosen[at(k)])
+                                      : p.default_activation;
+        const double length_m = options.fiber_length_m.size() > 0
+                                    ? options.fiber_length_m(frame, chosen[at(k)])
+                                    : p.default_fiber_length_m;
+        const OpensimMuscle::State s =
+            options.equilibrium
+                ? muscle.equilibrium(activation, path.length_m, path.speed_mps)
+                : muscle.at_fiber_length(activation, length_m, path.length_m, path.speed_mps);
+        if (!s.converged) ++unbalanced[at(k)];
+        if (is_coupled && arms > 0)
+          path.moment_arm_m = (coupling.transpose() * path.moment_arm_m).eval();
+        for (std::size_t c = 0; c < arms; ++c) {
+          const double arm = path.moment_arm_m[options.coordinates[c]];
+          tables[c](frame, k) = arm;
+          tables[arms + c](frame, k) = arm * s.tendon_force_n;
         }
-      });
+        const auto values = quantities(muscle, s, path);
+        for (std::size_t i = 0; i < values.size(); ++i) tables[2 * arms + i](frame, k) = values[i];
+      }
+    }
+  });
   for (std::size_t k = 0; k < chosen.size(); ++k) {
     if (unbalanced[k] > 0) {
       result.notes.push_back(

@@ -5,10 +5,9 @@
 
 #include <Eigen/QR>
 #include <fmt/format.h>
-#include <oneapi/tbb/blocked_range.h>
-#include <oneapi/tbb/parallel_for.h>
 
 #include "myoid/core/error.h"
+#include "myoid/core/parallel.h"
 #include "myoid/dynamics/passive_forces.h"
 #include "myoid/forces/actuator_sharing.h"
 #include "myoid/forces/opensim_muscle.h"
@@ -23,7 +22,7 @@ std::size_t at(Eigen::Index index) { return static_cast<std::size_t>(index); }
 
 /// One column of the problem.
 struct Actuator {
-  enum class Kind { muscle, coordinate, point, torque } kind = Kind::muscle;
+  enum class Kind { muscle, coordinate, point, torque, path } kind = Kind::muscle;
   std::size_t index = 0;  ///< In the model's list of its kind.
   std::string name;
   double lower = 0.0, upper = 1.0;
@@ -49,6 +48,7 @@ std::vector<Actuator> actuators_of(const model::BodyModel& model) {
   add(Actuator::Kind::coordinate, model.actuators);
   add(Actuator::Kind::point, model.point_actuators);
   add(Actuator::Kind::torque, model.torque_actuators);
+  add(Actuator::Kind::path, model.path_actuators);
   const auto place = [&](const Actuator& a) {
     return std::find(model.force_order.begin(), model.force_order.end(), a.name) -
            model.force_order.begin();
@@ -102,7 +102,7 @@ class Frame {
     Eigen::VectorXd passive = Eigen::VectorXd::Zero(q.size());
     if (options_.loads != nullptr) options_.loads->append_wrenches(state_, time_s, wrenches_);
     if (!model_.passive_forces.empty())
-      dynamics::append_passive_forces(model_, state_, passive, wrenches_);
+      dynamics::append_passive_forces(model_, state_, passive, wrenches_, time_s);
     const Eigen::VectorXd required =
         model::inverse_dynamics(model_, q, u, udot, wrenches_, state_) - passive;
     const auto n = static_cast<Eigen::Index>(actuators_.size());
@@ -209,6 +209,12 @@ class Frame {
         }
         return t.optimal_force;
       }
+      case Actuator::Kind::path: {
+        const model::PathActuator& p = model_.path_actuators[a.index];
+        model::compute_path(model_, p.path, state_, workspace_, path_);
+        columns.col(i) = p.optimal_force * path_.moment_arm_m;
+        return p.optimal_force;
+      }
     }
     return 0.0;
   }
@@ -247,24 +253,23 @@ StaticOptimizationResult static_optimization(const model::BodyModel& model,
   Eigen::MatrixXd control(frames, count), force(frames, count);
   result.kkt_residual.resize(frames);
   std::vector<char> feasible(at(frames), 1), certified(at(frames), 1);
-  oneapi::tbb::parallel_for(
-      oneapi::tbb::blocked_range<Eigen::Index>(0, frames, 8), [&](const auto& range) {
-        Frame frame(model, actuators, muscles, options);
-        Eigen::VectorXd strength;
-        for (Eigen::Index i = range.begin(); i != range.end(); ++i) {
-          options.progress.check();
-          const ActuatorProblem problem = frame.problem(
-              motion.q.values().row(i).transpose(), motion.qdot.values().row(i).transpose(),
-              motion.qddot.values().row(i).transpose(), motion.q.time_s()[i], strength);
-          const ActuatorSolution solution = solve_actuators(problem);
-          if (options.inspect) options.inspect(i, problem, solution);
-          control.row(i) = solution.control.transpose();
-          force.row(i) = solution.control.cwiseProduct(strength).transpose();
-          result.kkt_residual[i] = solution.kkt_residual;
-          feasible[at(i)] = solution.feasible ? 1 : 0;
-          certified[at(i)] = solution.solved ? 1 : 0;
-        }
-      });
+  parallel_ranges<Eigen::Index>(frames, 8, [&](const auto& range) {
+    Frame frame(model, actuators, muscles, options);
+    Eigen::VectorXd strength;
+    for (Eigen::Index i = range.begin(); i != range.end(); ++i) {
+      options.progress.check();
+      const ActuatorProblem problem = frame.problem(
+          motion.q.values().row(i).transpose(), motion.qdot.values().row(i).transpose(),
+          motion.qddot.values().row(i).transpose(), motion.q.time_s()[i], strength);
+      const ActuatorSolution solution = solve_actuators(problem);
+      if (options.inspect) options.inspect(i, problem, solution);
+      control.row(i) = solution.control.transpose();
+      force.row(i) = solution.control.cwiseProduct(strength).transpose();
+      result.kkt_residual[i] = solution.kkt_residual;
+      feasible[at(i)] = solution.feasible ? 1 : 0;
+      certified[at(i)] = solution.solved ? 1 : 0;
+    }
+  });
   result.is_feasible.assign(feasible.begin(), feasible.end());
   result.is_certified.assign(certified.begin(), certified.end());
   result.frames_failed =

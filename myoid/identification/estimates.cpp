@@ -22,6 +22,29 @@ constexpr double kDisagreement = 1.5;
 /// Relative change of a value that is worth a remark.
 constexpr double kSubstance = 0.05;
 
+/// R2 of the residual model's own rows, the least of all joints.
+double explained_share(const ResidualModel& model, const Eigen::VectorXd& z) {
+  Evaluation at;
+  model.evaluate(z, ResidualModel::Depth::value, at);
+  double least = 1.0;
+  for (int joint = 0; joint < model.joint_count(); ++joint) {
+    std::vector<Eigen::Index> rows;
+    for (const Piece& piece : model.pieces()) {
+      for (Eigen::Index i = 0; piece.joint == joint && i < piece.count; ++i)
+        rows.push_back(piece.first + i);
+    }
+    if (rows.empty()) continue;
+    const Eigen::VectorXd measured = model.measured()(rows);
+    const Eigen::VectorXd off = measured.array() - measured.mean();
+    // A torque that does not change has nothing to explain but itself.
+    const double total = off.squaredNorm() > 1e-6 * measured.squaredNorm() ? off.squaredNorm()
+                                                                           : measured.squaredNorm();
+    if (total > 0.0)
+      least = std::min(least, 1.0 - (at.predicted(rows) - measured).squaredNorm() / total);
+  }
+  return least;
+}
+
 struct Intervals {
   Sandwich sandwich;
   Eigen::MatrixXd model_error;  ///< Further covariance.
@@ -197,6 +220,7 @@ void report_estimates(const Estimator& estimator,
   result.solution = z;
   result.values = model.parameters().values(z);
   result.dynamics = options.dynamics;
+  result.r2 = explained_share(model, z);
   for (const MuscleValues& values : result.values.muscles)
     result.muscles.push_back(hill_parameters(values));
   result.delay_s = result.values.channels.front()[kDelay];
@@ -249,6 +273,7 @@ void report_estimates(const Estimator& estimator,
       }
     }
     v.model_error = result.model_error;
+    v.r2 = result.r2;
     v.prior_distance = prior_distance;
     v.determined = determined;
     v.converged = solution.search.termination == math::Termination::converged;
@@ -397,6 +422,12 @@ void report_estimates(const Estimator& estimator,
         "torques "
         "for its effect on the strengths to be taken out: they may come out too weak, above all "
         "where muscles work against each other");
+  }
+  if (result.r2 < VerdictRules{}.least_r2) {
+    result.warnings.push_back(fmt::format(
+        "the fit explains little of what it was fitted to (R2 {:.2f}): no number is called "
+        "identified; look for a wrong sign, unit, order of files or column",
+        result.r2));
   }
   if (result.model_error > VerdictRules{}.model_error) {
     result.warnings.push_back(

@@ -91,6 +91,7 @@ IdentificationResult identify_force(const StudyData& data, const ForceOptions& o
       values = fit.values;
       all.muscles.back() = fit.muscles.front();
       all.exact = all.exact && fit.exact;
+      all.r2 = std::min(all.r2, fit.r2);
       if (fit.termination != math::Termination::converged) {
         all.termination = fit.termination;
         all.message += fmt::format("{}: {}. ", data.muscles[k].name, fit.message);

@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "myoid/core/units.h"
+
 namespace myoid::identification {
 namespace {
 
@@ -36,7 +38,18 @@ std::string diagnosis(const ParameterEstimate& e) {
   return "the value lies outside what a muscle can have: the fit describes something else";
 }
 
+/// Half of a normal distribution's 95 % interval, in standard deviations.
+constexpr double kSpreads95 = 1.96;
+
+std::string unit_text(Unit unit) {
+  return unit == Unit::dimensionless ? "" : " " + std::string(symbol(unit));
+}
+
 }  // namespace
+
+double half_width(const ParameterEstimate& e) {
+  return std::max(*e.ci_high - e.estimate, e.estimate - *e.ci_low);
+}
 
 std::string_view name(Verdict verdict) {
   switch (verdict) {
@@ -72,11 +85,16 @@ void judge(ParameterEstimate& e, const VerdictContext& context, const VerdictRul
             "the same fit puts {} where no muscle can be: none of its numbers describes the muscle",
             context.bad_company));
   }
-  if (e.at_bound && e.parameter == "emg_delay" && e.estimate <= 0.0 && e.ci_high) {
-    return set(*e.ci_high <= rules.delay_identified_s ? Verdict::identified : Verdict::weak,
+  constexpr double kNoDelay_s = 1e-6;
+  const bool unexplained = context.r2 < rules.least_r2;
+  if (e.at_bound && e.parameter == "emg_delay" && e.estimate <= kNoDelay_s && e.ci_high) {
+    return set(*e.ci_high <= rules.delay_identified_s && !unexplained ? Verdict::identified
+                                                                      : Verdict::weak,
                "no delay: EMG and torque go together");
   }
-  if (e.at_bound) {
+  const double prior_sd = zero_by_nature(e.parameter) ? e.prior_sd.value_or(0.0) : 0.0;
+  const bool none = e.at_bound && prior_sd > 0.0 && std::abs(e.estimate) <= 1e-6 * prior_sd;
+  if (e.at_bound && !none) {
     return set(
         Verdict::not_identifiable,
         "the best fit leans on a bound: the recording pulls beyond what is physically possible");
@@ -98,60 +116,68 @@ void judge(ParameterEstimate& e, const VerdictContext& context, const VerdictRul
         fmt::format("mostly the literature's value: the recording narrows it by only {:.0f} %",
                     100.0 * std::max(0.0, *e.shrinkage)));
   }
-  // The farther end: an interval that a bound cuts short is no narrower for that.
-  const double half = std::max(*e.ci_high - e.estimate, e.estimate - *e.ci_low);
+  const double half = half_width(e);
   if (e.parameter == "emg_delay") {
-    if (half <= rules.delay_identified_s && context.model_error <= rules.model_error)
+    if (half <= rules.delay_identified_s && context.model_error <= rules.model_error &&
+        !unexplained)
       return set(Verdict::identified, fmt::format("known to {:.0f} ms", 1000.0 * half));
     if (half <= rules.delay_weak_s)
       return set(Verdict::weak,
                  fmt::format("known only to {:.0f} ms; faster movements tell more", 1000.0 * half));
     return set(Verdict::not_identifiable, "the movements are too slow to show a delay");
   }
-  const double relative = half / std::max(std::abs(e.estimate), 1e-300);
+  // What is 0 by nature is measured by what is known beforehand, all else by itself.
+  const double relative =
+      prior_sd > 0.0 ? half / prior_sd * rules.identified_half_width / rules.zero_half_width
+                     : half / std::max(std::abs(e.estimate), 1e-300);
+  const std::string known =
+      none             ? fmt::format("none to be seen, at most {:.2g}{}", half, unit_text(e.unit))
+      : prior_sd > 0.0 ? fmt::format("known to ± {:.2g}{}", half, unit_text(e.unit))
+                       : fmt::format("known to {:.1f} %", 100.0 * relative);
   if (context.prior_distance > rules.prior_conflict && relative <= rules.weak_half_width) {
     set(Verdict::weak, fmt::format("{:.1f} spreads away from what is known of this muscle: a "
                                    "simplification of the model, or the EMG, may be what is fitted",
                                    context.prior_distance));
   } else if (relative <= rules.identified_half_width) {
-    set(Verdict::identified, fmt::format("known to {:.1f} %", 100.0 * relative));
+    set(Verdict::identified, known);
+  } else if (prior_sd > 0.0) {
+    set(Verdict::weak, fmt::format("{}, of ± {:.2g} beforehand", known, kSpreads95 * prior_sd));
   } else if (relative <= rules.weak_half_width) {
     set(Verdict::weak, fmt::format("known only to {:.0f} %", 100.0 * relative));
   } else {
     set(Verdict::not_identifiable,
-        fmt::format("the interval spans {:.0f} % of the value", 200.0 * relative));
+        fmt::format("the truth may be {:.0f} % away from the value", 100.0 * relative));
   }
-  if (e.verdict == Verdict::identified && e.shrinkage && *e.shrinkage < rules.half_shrinkage) {
-    set(Verdict::weak, fmt::format("known to {:.1f} %, but about as much from the literature as "
-                                   "from the recording",
-                                   100.0 * relative));
-  }
-  if (e.verdict == Verdict::identified && !context.shares_electrode_with.empty()) {
-    set(Verdict::weak,
-        fmt::format(
-            "known to {:.1f} % if it does just what {} does: one electrode stands for both, "
-            "and what is taken from the one is given to the other",
-            100.0 * relative, context.shares_electrode_with));
-  }
-  if (e.verdict == Verdict::identified && context.model_error > rules.model_error) {
-    set(Verdict::weak,
-        fmt::format(
-            "known to {:.1f} %, but what the model leaves of the torque depends on posture and "
-            "effort as if it were wrong by {:.0f} %",
-            100.0 * relative, 100.0 * context.model_error));
-  }
-  if (e.verdict == Verdict::identified && !context.rests_on.empty()) {
-    set(Verdict::weak, fmt::format("rests on trial '{}': without it the value would leave its own "
-                                   "interval; record more like it",
-                                   context.rests_on));
-  }
-  if (context.shared_forces && e.verdict == Verdict::identified) {
-    set(Verdict::weak,
-        fmt::format("precise to {:.1f} %, but about the forces that an optimizer assigned, which "
-                    "carry its assumptions and no co-contraction; method "
-                    "torque does not need them",
-                    100.0 * relative));
-  }
+  // One reason why a narrow interval is not enough, the gravest first.
+  const auto unless = [&](bool wrong, const std::string& reason) {
+    if (wrong && e.verdict == Verdict::identified) set(Verdict::weak, reason);
+  };
+  unless(unexplained,
+         fmt::format("{}, but by a fit that explains little of the torque (R2 {:.2f}): what it "
+                     "finds describes no muscle",
+                     known, context.r2));
+  unless(e.shrinkage && *e.shrinkage < rules.half_shrinkage,
+         known + ", but about as much from the literature as from the recording");
+  unless(!context.shares_electrode_with.empty(),
+         fmt::format("{} if it does just what {} does: one electrode stands for both, "
+                     "and what is taken from the one is given to the other",
+                     known, context.shares_electrode_with));
+  unless(context.model_error > rules.model_error,
+         fmt::format("{}, but what the model leaves of the torque depends on posture and "
+                     "effort as if it were wrong by {:.0f} %",
+                     known, 100.0 * context.model_error));
+  unless(!context.rests_on.empty(),
+         fmt::format("rests on trial '{}': without it the value would leave its own "
+                     "interval; record more like it",
+                     context.rests_on));
+  unless(context.shared_forces,
+         known +
+             ", but about the forces that an optimizer assigned, which carry its assumptions and "
+             "no co-contraction; method torque does not need them");
+  unless(context.given_strength,
+         known +
+             " if F_max is what it was held at: an error in it goes into every other number; "
+             "method force finds it along with them");
   if (e.parameter == "max_isometric_force" && !context.from_mvc) {
     e.reason +=
         "; no maximal contraction was recorded, so this is the force at the study's largest EMG, "

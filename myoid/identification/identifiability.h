@@ -18,6 +18,10 @@ struct VerdictRules {
       0.20;  ///< Systematic error of the model above which nothing is `identified`.
   double prior_conflict = 3.0;  ///< Spreads of the prior away from its mean: at most `weak`.
   double flat_plateau = 1.02;   ///< V_ml whose interval reaches below says nothing about P.
+  /// Of what is 0 by nature (ParameterField::zero_by_nature): the half width in spreads of the
+  /// prior that is `identified`.
+  double zero_half_width = 1.0;
+  double least_r2 = 0.50;  ///< A fit that explains less of the torque identifies nothing.
 };
 
 /// Context that a verdict needs beyond the estimate itself.
@@ -36,8 +40,14 @@ struct VerdictContext {
   std::string rests_on;  ///< Trial without which the value would leave its interval; empty: none.
   bool shared_forces =
       false;  ///< The force that was fitted is an optimizer's share of a torque, not measured.
-  std::string bad_company;  ///< Parameter of the same fit that left physiology; empty: none.
+  bool given_strength = false;  ///< F_max was held where the user put it, and the fit is not exact.
+  double r2 = 1.0;              ///< IdentificationResult::r2.
+  std::string bad_company;      ///< Parameter of the same fit that left physiology; empty: none.
 };
+
+/// Distance from the value to the farther end of its 95 % interval: an interval that a bound cuts
+/// short is no narrower for that. Needs both ends.
+[[nodiscard]] double half_width(const ParameterEstimate& estimate);
 
 /// Fills `verdict` and `reason` of an estimate whose numbers stand.
 void judge(ParameterEstimate& estimate,

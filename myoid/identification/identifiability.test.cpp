@@ -73,6 +73,75 @@ TEST(Judge, NeverTrustsWhatIsNotAnAnswer) {
   EXPECT_EQ(verdict_of(open), Verdict::not_identifiable);
 }
 
+TEST(Judge, AFitThatExplainsLittleIdentifiesNothing) {
+  for (const char* parameter : {"optimal_fiber_length", "joint_viscosity", "emg_delay"}) {
+    ParameterEstimate e = estimate(0.005, parameter);
+    e.prior_sd = 0.2;
+    EXPECT_EQ(verdict_of(e, {.r2 = 0.51}), Verdict::identified) << parameter;
+    EXPECT_EQ(verdict_of(e, {.r2 = 0.49}), Verdict::weak) << parameter;
+    EXPECT_EQ(verdict_of(e, {.r2 = -0.2}), Verdict::weak) << parameter;
+  }
+  ParameterEstimate none = estimate(0.005, "emg_delay");
+  none.estimate = 0.0;
+  none.at_bound = true;
+  none.ci_high = 0.005;
+  EXPECT_EQ(verdict_of(none), Verdict::identified);
+  EXPECT_EQ(verdict_of(none, {.r2 = 0.3}), Verdict::weak);
+}
+
+TEST(Judge, WhatIsZeroByNatureIsMeasuredByWhatWasKnownBefore) {
+  // gamma 0 [0, 0.038] of 0 +- 0.1: that there is none is something that the recording tells.
+  ParameterEstimate e;
+  e.parameter = "length_activation";
+  e.at_bound = true;
+  e.std_error = 0.02;
+  e.ci_low = 0.0;
+  e.ci_high = 0.038;
+  e.prior_sd = 0.1;
+  e.shrinkage = 0.96;
+  EXPECT_EQ(verdict_of(e), Verdict::identified);
+  judge(e, {});
+  EXPECT_NE(e.reason.find("at most 0.038"), std::string::npos) << e.reason;
+  e.ci_high = 0.13;
+  EXPECT_EQ(verdict_of(e), Verdict::weak);
+  e.shrinkage = 0.2;
+  EXPECT_EQ(verdict_of(e), Verdict::prior_dominated);
+  // Viscosity 0.593 [0.31, 1.00] N m s/rad of 0 +- 0.2 is clear of 0, however wide for its size.
+  ParameterEstimate viscosity;
+  viscosity.parameter = "joint_viscosity";
+  viscosity.unit = Unit::newton_meter_second;
+  viscosity.estimate = 0.593;
+  viscosity.std_error = 0.17;
+  viscosity.ci_low = 0.31;
+  viscosity.ci_high = 1.00;
+  viscosity.prior_sd = 0.2;
+  viscosity.shrinkage = 0.4;
+  EXPECT_EQ(verdict_of(viscosity), Verdict::weak);
+  // On its other bound it is pulled where there is none.
+  e.estimate = 0.5;
+  e.ci_low = 0.4;
+  e.ci_high = 0.5;
+  EXPECT_EQ(verdict_of(e), Verdict::not_identifiable);
+}
+
+TEST(Judge, AForceHeldWhereItWasPutVouchesForNothing) {
+  ParameterEstimate e = estimate(0.05, "force_length_width");
+  EXPECT_EQ(verdict_of(e, {.given_strength = true}), Verdict::weak);
+  judge(e, {.given_strength = true});
+  EXPECT_NE(e.reason.find("F_max"), std::string::npos);
+}
+
+TEST(Judge, SaysHowFarTheTruthMayBe) {
+  // 0.227 [0.15, 0.37]: the farther end is 63 % away.
+  ParameterEstimate e = estimate(0.1, "concentric_curvature");
+  e.estimate = 0.227;
+  e.ci_low = 0.15;
+  e.ci_high = 0.37;
+  EXPECT_NEAR(half_width(e), 0.143, 1e-12);
+  judge(e, {});
+  EXPECT_NE(e.reason.find("63 %"), std::string::npos) << e.reason;
+}
+
 TEST(Judge, AProductWithoutARiseInLengtheningHasNoMeaning) {
   EXPECT_EQ(verdict_of(estimate(0.01, "eccentric_curvature_product"), {.plateau_is_flat = true}),
             Verdict::not_identifiable);

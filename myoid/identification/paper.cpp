@@ -12,12 +12,16 @@
 #include "myoid/core/error.h"
 #include "myoid/identification/identifiability.h"
 #include "myoid/identification/muscle_sample.h"
+#include "myoid/identification/score.h"
 #include "myoid/math/covariance.h"
 #include "myoid/math/statistics.h"
 #include "myoid/muscle/hill_muscle.h"
 
 namespace myoid::identification {
 namespace {
+
+/// Residual over force below which the data are free of noise and the model is theirs.
+constexpr double kExact = 1e-6;
 
 /// The samples of one muscle in one case, and the stretches of consecutive ones.
 struct CaseData {
@@ -169,6 +173,16 @@ std::optional<CaseShape> fit_case(const StudyData& data,
     return fit.x[j] != start[j] && std::isfinite(fit.x[j]) &&
            (fit.x[j] < bounds.lower || fit.x[j] > bounds.upper);
   };
+  double r2 = 1.0;
+  bool exact = false;
+  if (computed) {
+    Eigen::VectorXd force(n);
+    for (Eigen::Index i = 0; i < n; ++i)
+      force[i] = samples.samples[static_cast<std::size_t>(i)].force_n;
+    r2 = coefficient_of_determination(force, force + fit.residual);
+    exact = fit.residual.norm() <= kExact * force.norm();
+    result.r2 = std::min(result.r2, r2);
+  }
   std::string bad_company;
   for (Eigen::Index j = 0; j < p; ++j) {
     if (unphysical(j)) bad_company = std::string(list[static_cast<std::size_t>(j)].field->name);
@@ -188,6 +202,8 @@ std::optional<CaseShape> fit_case(const StudyData& data,
     VerdictContext context;
     context.bad_company = bad_company;
     context.shared_forces = options.shared_forces;
+    context.given_strength = !options.shared_forces && !exact;
+    context.r2 = r2;
     if (const auto prior = setup.priors.find(e.parameter);
         prior != setup.priors.end() && !prior->second.logarithmic && options.shared_forces) {
       context.prior_distance = std::abs(e.estimate - prior->second.mean) / prior->second.sd;

@@ -50,7 +50,8 @@ constexpr std::array kFields = {
                    false,
                    {0.0, 1.0},
                    0.05,
-                   "at the optimal fiber length"},
+                   "at the optimal fiber length",
+                   true},
     ParameterField{"passive_force",
                    muscle,
                    kPassiveForce,
@@ -58,7 +59,8 @@ constexpr std::array kFields = {
                    false,
                    {0.0, 3.0},
                    0.5,
-                   "of the stretched fiber at passive_strain, over F_max; 0: none"},
+                   "of the stretched fiber at passive_strain, over F_max; 0: none",
+                   true},
     ParameterField{"passive_strain",
                    muscle,
                    kPassiveStrain,
@@ -82,7 +84,8 @@ constexpr std::array kFields = {
                    false,
                    {0.0, 0.5},
                    0.1,
-                   "gamma: optimal length l_m0 (1 + gamma (1 - a))"},
+                   "gamma: optimal length l_m0 (1 + gamma (1 - a))",
+                   true},
     ParameterField{"tendon_strain",
                    muscle,
                    kTendonStrain,
@@ -108,7 +111,8 @@ constexpr std::array kFields = {
                    false,
                    {-3.0, 3.0},
                    0.8,
-                   "A of (exp(A u) - 1) / (exp(A) - 1); 0: linear"},
+                   "A of (exp(A u) - 1) / (exp(A) - 1); 0: linear",
+                   true},
     ParameterField{"emg_exponent",
                    channel,
                    kExponent,
@@ -148,7 +152,8 @@ constexpr std::array kFields = {
                    false,
                    {0.0, 5.0},
                    0.2,
-                   "B_l"},
+                   "B_l",
+                   true},
     ParameterField{"joint_inertia",
                    joint,
                    kInertia,
@@ -156,7 +161,8 @@ constexpr std::array kFields = {
                    false,
                    {-0.5, 0.5},
                    0.01,
-                   "what inverse dynamics left out"},
+                   "what inverse dynamics left out",
+                   true},
     ParameterField{"joint_stiffness",
                    joint,
                    kStiffness,
@@ -164,7 +170,8 @@ constexpr std::array kFields = {
                    false,
                    {-5.0, 50.0},
                    1.0,
-                   "per radian"},
+                   "per radian",
+                   true},
     ParameterField{"joint_torque_offset",
                    joint,
                    kOffset,
@@ -172,7 +179,8 @@ constexpr std::array kFields = {
                    false,
                    {-20.0, 20.0},
                    1.0,
-                   "constant torque beside the muscles'"},
+                   "constant torque beside the muscles'",
+                   true},
 };
 
 /// What is decided of one number before the unknowns are made.
@@ -229,6 +237,12 @@ FreeParameter make_free(const Slot& slot, const std::string& owner, bool priors)
 }  // namespace
 
 std::span<const ParameterField> parameter_fields() { return kFields; }
+
+bool zero_by_nature(std::string_view parameter) {
+  return std::any_of(kFields.begin(), kFields.end(), [&](const ParameterField& field) {
+    return field.zero_by_nature && field.name == parameter;
+  });
+}
 
 const ParameterField& parameter_field(std::string_view name) {
   std::string names;

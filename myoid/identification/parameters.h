@@ -48,10 +48,15 @@ struct ParameterField {
   double prior_sd = 0.0;  ///< About the start where a prior is wanted and none given: of ln(value)
                           ///< if logarithmic; 0: none.
   std::string_view meaning;
+  bool zero_by_nature =
+      false;  ///< Most have none of it: an error relative to its value says little.
 };
 [[nodiscard]] std::span<const ParameterField> parameter_fields();
 /// The row of this name; throws InvalidInput listing the names there are.
 [[nodiscard]] const ParameterField& parameter_field(std::string_view name);
+
+/// ParameterField::zero_by_nature of this name; false of a name that is none.
+[[nodiscard]] bool zero_by_nature(std::string_view parameter);
 
 /// All numbers of the model.
 struct ModelValues {

@@ -119,6 +119,9 @@ struct IdentificationResult {
   /// Square of the relative spread of each EMG channel's envelope, as it is (force, torque).
   Eigen::VectorXd envelope_variance;
   double model_error = 0.0;  ///< Systematic error, relative to the muscles' torques.
+  /// 1 - SSE/SST of what was fitted (both sides as the residual has them, below its cut-off), about
+  /// the mean over all trials; of several joints or muscles the least.
+  double r2 = 1.0;
   double condition = 0.0;
   int iterations = 0;
   double seconds = 0.0;

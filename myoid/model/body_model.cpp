@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
+#include "myoid/model/joint_orientation.h"
+#include "myoid/recording/toml_table.h"
 
 namespace myoid::model {
 namespace {
@@ -22,7 +24,11 @@ int index_by_name(const Items& items, std::string_view name, std::string_view wh
   if (const auto index = find_by_name(items, name)) return *index;
   std::string names;
   for (const auto& item : items) names += (names.empty() ? "" : ", ") + item.name;
-  throw ModelError(fmt::format("the model has no {} '{}'; there are: {}", what, name,
+  std::vector<std::string> list;
+  for (const auto& item : items) list.push_back(item.name);
+  const auto near = recording::nearest_word(name, list);
+  throw ModelError(fmt::format("the model has no {} '{}'{}; there are: {}", what, name,
+                               near ? fmt::format(" (did you mean '{}'?)", *near) : "",
                                names.empty() ? "none" : names));
 }
 
@@ -52,20 +58,23 @@ void check_references(const BodyModel& model) {
   for (const Marker& marker : model.markers) {
     check_index(marker.body, model.bodies.size(), fmt::format("marker '{}'", marker.name));
   }
-  for (const Muscle& muscle : model.muscles) {
-    if (muscle.path.points.size() < 2) {
-      throw ModelError(fmt::format("muscle '{}' has {} path points; at least two are needed",
-                                   muscle.name, muscle.path.points.size()));
+  const auto check_path = [&](const std::string& owner, const MusclePath& path) {
+    if (path.points.size() < 2) {
+      throw ModelError(fmt::format("muscle '{}' has {} path points; at least two are needed", owner,
+                                   path.points.size()));
     }
-    for (const PathPoint& point : muscle.path.points) {
+    for (const PathPoint& point : path.points) {
       check_index(point.body, model.bodies.size(),
-                  fmt::format("muscle '{}', point '{}'", muscle.name, point.name));
+                  fmt::format("muscle '{}', point '{}'", owner, point.name));
     }
-    for (const PathWrap& wrap : muscle.path.wraps) {
+    for (const PathWrap& wrap : path.wraps) {
       check_index(wrap.wrap_object, model.wrap_objects.size(),
-                  fmt::format("muscle '{}': a wrap", muscle.name));
+                  fmt::format("muscle '{}': a wrap", owner));
     }
-  }
+  };
+  for (const Muscle& muscle : model.muscles) check_path(muscle.name, muscle.path);
+  for (const PathActuator& actuator : model.path_actuators)
+    check_path(actuator.name, actuator.path);
 }
 
 }  // namespace
@@ -244,6 +253,7 @@ void check_tree(const BodyModel& model, const std::vector<Joint>& ordered) {
 BodyModel finalize(BodyModel model) {
   if (model.bodies.empty()) throw ModelError("the model has no ground");
   check_references(model);
+  orient_joints(model);
   cut_loops(model);
   std::vector<Joint> ordered;
   for (const std::size_t j : tree_order(model)) ordered.push_back(model.joints[j]);

@@ -11,6 +11,7 @@
 #include "myoid/core/geometry.h"
 #include "myoid/core/units.h"
 #include "myoid/model/compat.h"
+#include "myoid/model/expression.h"
 #include "myoid/model/functions.h"
 
 namespace myoid::model {
@@ -242,6 +243,16 @@ struct TorqueActuator {
   bool applies_force = true;
 };
 
+/// A tension of optimal_force times control along a path.
+struct PathActuator {
+  std::string name;
+  MusclePath path;
+  double optimal_force = 1.0;
+  double min_control = -std::numeric_limits<double>::infinity();
+  double max_control = std::numeric_limits<double>::infinity();
+  bool applies_force = true;
+};
+
 /// OpenSim's CoordinateLimitForce, in SI: beyond a limit the stiffness rises smoothly to its full
 /// value over `transition`.
 struct CoordinateLimitForce {
@@ -256,19 +267,64 @@ struct CoordinateSpring {
   int coordinate = -1;
   double stiffness = 0.0, rest = 0.0, viscosity = 0.0;
 };
+/// A formula in q and qdot of one coordinate (ExpressionBasedCoordinateForce).
+struct CoordinateFormula {
+  int coordinate = -1;
+  Expression force;
+};
 /// Linear spring and damper between frames F1 (on body 1) and F2, in rotation (body-fixed X-Y-Z
-/// angles of F2 in F1) and translation (in F1).
+/// angles of F2 in F1) and translation (in F1). Instead of stiffnesses each of the six deflections
+/// may have a function (FunctionBasedBushingForce), or each force a formula in all of them
+/// (ExpressionBasedBushingForce); they are what the bushing pulls back with.
 struct Bushing {
   BodyIndex body1 = 0, body2 = 0;
   Pose X_BF1, X_BF2;
   Vec3 rotational_stiffness = Vec3::Zero(), translational_stiffness = Vec3::Zero();
   Vec3 rotational_damping = Vec3::Zero(), translational_damping = Vec3::Zero();
+  std::vector<Function> functions{};   ///< Six or none.
+  std::vector<Expression> formulas{};  ///< Six or none.
 };
 /// stiffness (length - rest) along the line between two points.
 struct PointSpring {
   BodyIndex body1 = 0, body2 = 0;
   Vec3 p_B1 = Vec3::Zero(), p_B2 = Vec3::Zero();
   double stiffness_npm = 0.0, rest_length_m = 0.0;
+};
+/// A formula in the distance d of two points and its rate ddot, pulling them together
+/// (ExpressionBasedPointToPointForce).
+struct PointFormula {
+  BodyIndex body1 = 0, body2 = 0;
+  Vec3 p_B1 = Vec3::Zero(), p_B2 = Vec3::Zero();
+  Expression force;
+};
+/// Force and torque on a frame F of a body over time (PrescribedForce). Without point the force
+/// acts at the frame's origin.
+struct PrescribedForce {
+  BodyIndex body = 0;
+  Pose X_BF;
+  bool point_is_global = false, force_is_global = true;  ///< In ground, else in F.
+  std::vector<Function> force{}, point{}, torque{};      ///< Three or none.
+};
+/// A sphere against a half-space (what lies on the side of +x of its frame) or another sphere:
+/// Hertz and Hunt-Crossley, with friction (HuntCrossleyForce; smooth: SmoothSphereHalfSpaceForce).
+struct Contact {
+  BodyIndex sphere_body = 0, other_body = 0;
+  Vec3 p_BS = Vec3::Zero();  ///< Center of the sphere.
+  double radius_m = 0.0;
+  Pose X_BO;                               ///< The half-space's frame, or the other's center.
+  std::optional<double> other_radius_m{};  ///< The other is a sphere.
+  /// Of the sphere and of the other: modulus [N/m^2], dissipation [s/m], coefficients of friction
+  /// (static, dynamic and viscous [s/m]).
+  struct Material {
+    double stiffness = 0.0, dissipation = 0.0;
+    double static_friction = 0.0, dynamic_friction = 0.0, viscous_friction = 0.0;
+  };
+  std::array<Material, 2> materials{};
+  double transition_velocity_mps = 0.01;
+  struct Smoothing {
+    double constant = 1e-5, hertz = 300.0, hunt_crossley = 50.0;
+  };
+  std::optional<Smoothing> smoothing{};
 };
 /// Tension along a path: stiffness (length - rest)(1 + dissipation dl/dt), none when slack; in
 /// shortening faster than 1 / dissipation it pushes, as OpenSim's does.
@@ -286,7 +342,16 @@ struct Ligament {
 struct PassiveForce {
   std::string name;
   std::string class_name;
-  std::variant<CoordinateLimitForce, CoordinateSpring, Bushing, PointSpring, PathSpring, Ligament>
+  std::variant<CoordinateLimitForce,
+               CoordinateSpring,
+               CoordinateFormula,
+               Bushing,
+               PointSpring,
+               PointFormula,
+               PrescribedForce,
+               Contact,
+               PathSpring,
+               Ligament>
       law;
 };
 
@@ -340,6 +405,7 @@ struct BodyModel {
   std::vector<CoordinateActuator> actuators;
   std::vector<PointActuator> point_actuators;
   std::vector<TorqueActuator> torque_actuators;
+  std::vector<PathActuator> path_actuators;
   /// Names of muscles, actuators and passive forces in the order of the file's force set, which is
   /// that of OpenSim's result columns.
   std::vector<std::string> force_order;

@@ -50,6 +50,32 @@ FunctionValue value_of(const SimmSpline& f, double x) {
           f.b[i] + u * (2.0 * f.c[i] + 3.0 * u * f.d[i]), 2.0 * f.c[i] + 6.0 * u * f.d[i]};
 }
 
+FunctionValue value_of(const PiecewiseConstant& f, double x) {
+  const auto upper = std::upper_bound(f.x.begin(), f.x.end(), x);
+  const auto index = std::max<std::ptrdiff_t>(0, upper - f.x.begin() - 1);
+  return {f.y[static_cast<std::size_t>(index)], 0.0, 0.0};
+}
+
+FunctionValue value_of(const Sine& f, double x) {
+  const double sine = f.amplitude * std::sin(f.omega * x + f.phase);
+  const double cosine = f.amplitude * std::cos(f.omega * x + f.phase);
+  return {f.offset + sine, f.omega * cosine, -f.omega * f.omega * sine};
+}
+
+FunctionValue value_of(const SmoothStep& f, double x) {
+  const double width = f.end - f.start;
+  const double s = std::clamp((x - f.start) / width, 0.0, 1.0);
+  const double height = f.end_value - f.start_value;
+  return {f.start_value + height * s * s * s * (10.0 + s * (-15.0 + 6.0 * s)),
+          height / width * 30.0 * s * s * (1.0 - s) * (1.0 - s),
+          height / (width * width) * 60.0 * s * (1.0 - s) * (1.0 - 2.0 * s)};
+}
+
+FunctionValue value_of(const math::Spline& f, double x) {
+  const math::SplineValue v = f.at(x);
+  return {v.value, v.first, v.second};
+}
+
 void check_knots(const std::vector<double>& x, const std::vector<double>& y) {
   const std::size_t n = x.size();
   if (n != y.size() || n < 2) {
@@ -71,6 +97,18 @@ void check_knots(const std::vector<double>& x, const std::vector<double>& y) {
 PiecewiseLinear make_piecewise_linear(std::vector<double> x, std::vector<double> y) {
   check_knots(x, y);
   return {std::move(x), std::move(y)};
+}
+
+PiecewiseConstant make_piecewise_constant(std::vector<double> x, std::vector<double> y) {
+  check_knots(x, y);
+  return {std::move(x), std::move(y)};
+}
+
+math::Spline make_quintic_spline(const std::vector<double>& x, const std::vector<double>& y) {
+  check_knots(x, y);
+  const auto n = static_cast<Eigen::Index>(x.size());
+  return math::Spline::interpolate(Eigen::Map<const Eigen::VectorXd>(x.data(), n),
+                                   Eigen::Map<const Eigen::VectorXd>(y.data(), n), 5);
 }
 
 SimmSpline make_natural_spline(std::vector<double> x, std::vector<double> y) {

@@ -4,6 +4,8 @@
 #include <variant>
 #include <vector>
 
+#include "myoid/math/spline.h"
+
 namespace myoid::model {
 
 struct Constant {
@@ -26,9 +28,30 @@ struct PiecewiseLinear {
 struct SimmSpline {
   std::vector<double> x, y, b, c, d;
 };
+/// The value at the knot before x; beyond the ends the first and last.
+struct PiecewiseConstant {
+  std::vector<double> x, y;
+};
+/// offset + amplitude sin(omega x + phase).
+struct Sine {
+  double amplitude = 1.0, omega = 1.0, phase = 0.0, offset = 0.0;
+};
+/// From `start_value` to `end_value` between two places, as 10 s^3 - 15 s^4 + 6 s^5.
+struct SmoothStep {
+  double start = 0.0, end = 1.0, start_value = 0.0, end_value = 1.0;
+};
 /// Any of them times a factor (OpenSim's MultiplierFunction is folded into `scale`).
 struct Function {
-  std::variant<Constant, Linear, Polynomial, PiecewiseLinear, SimmSpline> form = Constant{};
+  std::variant<Constant,
+               Linear,
+               Polynomial,
+               PiecewiseLinear,
+               SimmSpline,
+               PiecewiseConstant,
+               Sine,
+               SmoothStep,
+               math::Spline>
+      form = Constant{};
   double scale = 1.0;
   Function() = default;
   template <typename Form>
@@ -39,6 +62,12 @@ struct Function {
 /// Throws InvalidInput if sizes differ, fewer than two knots, or x does not increase.
 [[nodiscard]] SimmSpline make_simm_spline(std::vector<double> x, std::vector<double> y);
 [[nodiscard]] PiecewiseLinear make_piecewise_linear(std::vector<double> x, std::vector<double> y);
+[[nodiscard]] PiecewiseConstant make_piecewise_constant(std::vector<double> x,
+                                                        std::vector<double> y);
+/// The natural spline of degree 5 (OpenSim's GCVSpline of half order 3), a parabola beyond its
+/// ends.
+[[nodiscard]] math::Spline make_quintic_spline(const std::vector<double>& x,
+                                               const std::vector<double>& y);
 /// The natural cubic spline (second derivative 0 at the ends), linear beyond them: OpenSim's
 /// GCVSpline of half order 2. Throws as make_simm_spline.
 [[nodiscard]] SimmSpline make_natural_spline(std::vector<double> x, std::vector<double> y);

@@ -7,19 +7,12 @@
 
 #include "myoid/core/error.h"
 #include "myoid/core/units.h"
-#include "myoid/model/osim_joints.h"
+#include "myoid/model/osim_contacts.h"
+#include "myoid/model/osim_functions.h"
 #include "myoid/model/osim_muscles.h"
 
 namespace myoid::model {
 namespace {
-
-Vec3 unit(const OsimReading& r, pugi::xml_node node, const char* name, const Vec3& otherwise) {
-  const Vec3 v = r.xml.vec3(node, name, otherwise);
-  if (!(v.norm() > 0.0) || !v.allFinite())
-    r.xml.fail(node, fmt::format("{} '{}': <{}> is no direction", node.name(),
-                                 OsimXml::name_of(node), name));
-  return v.normalized();
-}
 
 /// Name, strength, bounds and switch that all actuators have.
 template <typename Actuator>
@@ -49,29 +42,6 @@ CoordinateLimitForce read_limit(const OsimReading& r, pugi::xml_node node, int c
   return f;
 }
 
-/// The two frames that a bushing or a constraint joins, in the new and in the old spelling.
-std::pair<FixedFrame, FixedFrame> two_frames(const OsimReading& r, pugi::xml_node node) {
-  const std::string owner = "/forceset/" + OsimXml::name_of(node);
-  // Frames of its own: <frames><PhysicalOffsetFrame name="...">.
-  const auto own = [&](const char* socket_name, const char* old_name, const char* location,
-                       const char* orientation) {
-    const std::string target = socket(r, node, socket_name);
-    for (const auto frame : node.child("frames").children("PhysicalOffsetFrame")) {
-      const std::string name = OsimXml::name_of(frame);
-      if (target == name || target.ends_with("/" + name)) {
-        const FixedFrame parent = frame_of(r, frame, "parent", owner);
-        return FixedFrame{parent.body,
-                          parent.X_BF * pose_of(r, frame, "translation", "orientation")};
-      }
-    }
-    FixedFrame frame = frame_of(r, node, socket_name, owner, old_name);
-    if (target.empty()) frame.X_BF = frame.X_BF * pose_of(r, node, location, orientation);
-    return frame;
-  };
-  return {own("frame1", "body_1", "location_body_1", "orientation_body_1"),
-          own("frame2", "body_2", "location_body_2", "orientation_body_2")};
-}
-
 Bushing read_bushing(const OsimReading& r, pugi::xml_node node) {
   const auto [first, second] = two_frames(r, node);
   Bushing b{first.body, second.body, first.X_BF, second.X_BF, {}, {}, {}, {}};
@@ -80,6 +50,69 @@ Bushing read_bushing(const OsimReading& r, pugi::xml_node node) {
   b.rotational_damping = r.xml.vec3(node, "rotational_damping", Vec3::Zero());
   b.translational_damping = r.xml.vec3(node, "translational_damping", Vec3::Zero());
   return b;
+}
+
+/// The formula of a property; one that is not understood is an error.
+Expression formula_of(const OsimReading& r,
+                      pugi::xml_node node,
+                      const char* name,
+                      const std::vector<std::string>& variables) {
+  const std::string text = r.xml.word(node, name);
+  try {
+    return text.empty() ? Expression() : Expression(text, variables);
+  } catch (const InvalidInput& error) {
+    r.xml.fail(node, fmt::format("{} '{}': <{}>: {}", node.name(), OsimXml::name_of(node), name,
+                                 error.what()));
+  }
+}
+
+/// A bushing whose forces are functions or formulas of its deflections.
+Bushing read_shaped_bushing(OsimReading& r, pugi::xml_node node) {
+  constexpr const char* kFunctions[] = {"m_x_theta_x_function", "m_y_theta_y_function",
+                                        "m_z_theta_z_function", "f_x_delta_x_function",
+                                        "f_y_delta_y_function", "f_z_delta_z_function"};
+  constexpr const char* kFormulas[] = {"Mx_expression", "My_expression", "Mz_expression",
+                                       "Fx_expression", "Fy_expression", "Fz_expression"};
+  Bushing bushing = read_bushing(r, node);
+  bushing.rotational_stiffness = bushing.translational_stiffness = Vec3::Zero();
+  if (std::string_view(node.name()) == "ExpressionBasedBushingForce") {
+    for (const char* name : kFormulas)
+      bushing.formulas.push_back(formula_of(
+          r, node, name, {"theta_x", "theta_y", "theta_z", "delta_x", "delta_y", "delta_z"}));
+    return bushing;
+  }
+  for (const char* name : kFunctions)
+    bushing.functions.push_back(function_property(r, node, name).value_or(Function(Constant{0.0})));
+  if (r.compat.opensim_paths &&
+      (!bushing.rotational_damping.isZero(0.0) || !bushing.translational_damping.isZero(0.0))) {
+    r.model.notes.push_back(
+        fmt::format("FunctionBasedBushingForce '{}': its damping does not act, as in OpenSim 4.5.2",
+                    OsimXml::name_of(node)));
+    bushing.rotational_damping = bushing.translational_damping = Vec3::Zero();
+  }
+  return bushing;
+}
+
+PrescribedForce read_prescribed(OsimReading& r, pugi::xml_node node) {
+  PrescribedForce f;
+  const FixedFrame frame = frame_of(r, node, "frame", "/forceset/" + OsimXml::name_of(node));
+  f.body = frame.body;
+  f.X_BF = frame.X_BF;
+  f.point_is_global = r.xml.flag(node, "pointIsGlobal", false);
+  f.force_is_global = r.xml.flag(node, "forceIsGlobal", true);
+  const auto three = [&](const char* name) {
+    std::vector<Function> functions = functions_property(r, node, name);
+    if (!functions.empty() && functions.size() != 3) {
+      r.xml.fail(node, fmt::format("PrescribedForce '{}': <{}> has {} functions, expected three or "
+                                   "none",
+                                   OsimXml::name_of(node), name, functions.size()));
+    }
+    return functions;
+  };
+  f.force = three("forceFunctions");
+  f.point = three("pointFunctions");
+  f.torque = three("torqueFunctions");
+  return f;
 }
 
 PointSpring read_point_spring(const OsimReading& r, pugi::xml_node node) {
@@ -108,16 +141,21 @@ void read_force(OsimReading& r, pugi::xml_node node) {
     if (is_enabled(r, node, "appliesForce"))
       r.model.passive_forces.push_back({name, kind, std::move(law)});
   };
-  const auto coordinate = [&] { return coordinate_named(r, node, r.xml.word(node, "coordinate")); };
-  if (is_muscle(node)) {
+  const auto coordinate = [&] {
+    std::string target = r.xml.word(node, "coordinate");
+    if (target.empty()) target = socket(r, node, "coordinate");
+    return coordinate_named(r, node, target);
+  };
+  if (const std::string path = foreign_path(node); !path.empty()) {
+    r.model.unsupported.push_back(fmt::format(
+        "{} '{}' has a path of kind {}, which is not supported: it is left out", kind, name, path));
+  } else if (is_muscle(node)) {
     r.model.muscles.push_back(read_muscle(r, node));
   } else if (kind == "CoordinateActuator" || kind == "GeneralizedForce" ||
              kind == "ActivationCoordinateActuator") {
     CoordinateActuator actuator;
     read_common(r, node, actuator);
-    std::string target = r.xml.word(node, "coordinate");
-    if (target.empty()) target = socket(r, node, "coordinate");
-    actuator.coordinate = coordinate_named(r, node, target);
+    actuator.coordinate = coordinate();
     r.model.actuators.push_back(std::move(actuator));
   } else if (kind == "PointActuator" || kind == "Force") {
     PointActuator actuator;
@@ -125,7 +163,7 @@ void read_force(OsimReading& r, pugi::xml_node node) {
     actuator.body = resolve_frame(r, node, r.xml.word(node, "body"), "").body;
     actuator.point = r.xml.vec3(node, "point", Vec3::Zero());
     actuator.point_is_global = r.xml.flag(node, "point_is_global", false);
-    actuator.direction = unit(r, node, "direction", Vec3::UnitX());
+    actuator.direction = direction_of(r, node, "direction", Vec3::UnitX());
     actuator.force_is_global = r.xml.flag(node, "force_is_global", false);
     r.model.point_actuators.push_back(std::move(actuator));
   } else if (kind == "TorqueActuator" || kind == "Torque") {
@@ -138,17 +176,41 @@ void read_force(OsimReading& r, pugi::xml_node node) {
     };
     actuator.body_a = body("bodyA", "body_A");
     actuator.body_b = body("bodyB", "body_B");
-    actuator.axis = unit(r, node, "axis", Vec3::UnitZ());
+    actuator.axis = direction_of(r, node, "axis", Vec3::UnitZ());
     actuator.torque_is_global = r.xml.flag(node, "torque_is_global", true);
     r.model.torque_actuators.push_back(std::move(actuator));
+  } else if (kind == "PathActuator") {
+    PathActuator actuator;
+    read_common(r, node, actuator);
+    actuator.path = read_path(r, node);
+    r.model.path_actuators.push_back(std::move(actuator));
+  } else if (kind == "BodyActuator") {
+    // Six controls without bounds: none of OpenSim's tools that solve for controls has them.
+    r.model.notes.push_back(fmt::format(
+        "BodyActuator '{}' makes no force: its six controls are zero in every tool here", name));
   } else if (kind == "CoordinateLimitForce") {
     passive(read_limit(r, node, coordinate()));
   } else if (kind == "SpringGeneralizedForce") {
     passive(CoordinateSpring{coordinate(), r.xml.number(node, "stiffness", 0.0),
                              r.xml.number(node, "rest_length", 0.0),
                              r.xml.number(node, "viscosity", 0.0)});
+  } else if (kind == "ExpressionBasedCoordinateForce") {
+    passive(CoordinateFormula{coordinate(), formula_of(r, node, "expression", {"q", "qdot"})});
   } else if (kind == "BushingForce") {
     passive(read_bushing(r, node));
+  } else if (kind == "FunctionBasedBushingForce" || kind == "ExpressionBasedBushingForce") {
+    passive(read_shaped_bushing(r, node));
+  } else if (kind == "ExpressionBasedPointToPointForce") {
+    const PointSpring ends = read_point_spring(r, node);
+    passive(PointFormula{ends.body1, ends.body2, ends.p_B1, ends.p_B2,
+                         formula_of(r, node, "expression", {"d", "ddot"})});
+  } else if (kind == "PrescribedForce") {
+    passive(read_prescribed(r, node));
+  } else if (kind == "HuntCrossleyForce" || kind == "SmoothSphereHalfSpaceForce") {
+    if (is_enabled(r, node, "appliesForce")) {
+      for (Contact& contact : read_contacts(r, node))
+        r.model.passive_forces.push_back({name, kind, std::move(contact)});
+    }
   } else if (kind == "PointToPointSpring") {
     passive(read_point_spring(r, node));
   } else if (kind == "PathSpring") {
@@ -164,7 +226,7 @@ void read_force(OsimReading& r, pugi::xml_node node) {
           name));
       return;
     }
-    if (auto curve = function_in(r, r.xml.property(node, "force_length_curve")))
+    if (auto curve = function_property(r, node, "force_length_curve"))
       ligament.force_length = std::move(*curve);
     passive(std::move(ligament));
   } else if (is_enabled(r, node, "appliesForce")) {
@@ -175,84 +237,32 @@ void read_force(OsimReading& r, pugi::xml_node node) {
 
 }  // namespace
 
-void read_forces(OsimReading& r, pugi::xml_node set) {
-  for (const auto node : OsimXml::objects(set)) {
-    if (node.type() != pugi::node_element) continue;
-    const auto count = [&] {
-      return r.model.muscles.size() + r.model.actuators.size() + r.model.point_actuators.size() +
-             r.model.torque_actuators.size() + r.model.passive_forces.size();
-    };
-    const std::size_t before = count();
-    read_force(r, node);
-    if (count() > before) r.model.force_order.push_back(OsimXml::name_of(node));
-  }
+namespace {
+
+void read_into_order(OsimReading& r, pugi::xml_node node) {
+  const auto count = [&] {
+    return r.model.muscles.size() + r.model.actuators.size() + r.model.point_actuators.size() +
+           r.model.torque_actuators.size() + r.model.path_actuators.size() +
+           r.model.passive_forces.size();
+  };
+  const std::size_t before = count();
+  read_force(r, node);
+  if (count() > before) r.model.force_order.push_back(OsimXml::name_of(node));
 }
 
-void read_constraints(OsimReading& r, pugi::xml_node set) {
-  for (const auto node : OsimXml::objects(set)) {
-    if (node.type() != pugi::node_element || !is_enabled(r, node, "isEnforced")) continue;
-    const std::string kind = node.name();
-    const std::string name = OsimXml::name_of(node);
-    const std::string owner = "/constraintset/" + name;
-    if (kind == "CoordinateCouplerConstraint") {
-      const auto independent = r.xml.words(node, "independent_coordinate_names");
-      const auto function = function_in(r, r.xml.property(node, "coupled_coordinates_function"));
-      if (independent.size() != 1 || !function) {
-        r.model.unsupported.push_back(
-            fmt::format("constraint '{}' couples {} independent coordinates; it is not enforced",
-                        name, independent.size()));
-        continue;
-      }
-      CoordinateCoupler coupler;
-      coupler.name = name;
-      coupler.independent = coordinate_named(r, node, independent[0]);
-      coupler.dependent = coordinate_named(r, node, r.xml.word(node, "dependent_coordinate_name"));
-      coupler.function = *function;
-      coupler.function.scale *= r.xml.number(node, "scale_factor", 1.0);
-      if (coupler.independent == coupler.dependent)
-        r.xml.fail(node, fmt::format("constraint '{}' couples a coordinate with itself", name));
-      for (const CoordinateCoupler& other : r.model.couplers) {
-        if (other.dependent == coupler.dependent) {
-          r.xml.fail(
-              node,
-              fmt::format("constraints '{}' and '{}' both set coordinate '{}'", other.name, name,
-                          r.model.coordinates[static_cast<std::size_t>(coupler.dependent)].name));
-        }
-      }
-      r.model.couplers.push_back(std::move(coupler));
-    } else if (kind == "WeldConstraint") {
-      const auto [first, second] = two_frames(r, node);
-      r.model.constraints.push_back(
-          {name, kind, FrameConstraint{first.body, second.body, first.X_BF, second.X_BF, true}});
-    } else if (kind == "PointConstraint") {
-      const FixedFrame first = frame_of(r, node, "body_1", owner, "body_1");
-      const FixedFrame second = frame_of(r, node, "body_2", owner, "body_2");
-      FrameConstraint law{first.body, second.body, first.X_BF, second.X_BF, false};
-      law.X_BF1.p = first.X_BF * r.xml.vec3(node, "location_body_1", Vec3::Zero());
-      law.X_BF2.p = second.X_BF * r.xml.vec3(node, "location_body_2", Vec3::Zero());
-      r.model.constraints.push_back({name, kind, law});
-    } else if (kind == "ConstantDistanceConstraint") {
-      const FixedFrame first = frame_of(r, node, "body_1", owner, "body_1");
-      const FixedFrame second = frame_of(r, node, "body_2", owner, "body_2");
-      r.model.constraints.push_back(
-          {name, kind,
-           DistanceConstraint{first.body, second.body,
-                              first.X_BF * r.xml.vec3(node, "location_body_1", Vec3::Zero()),
-                              second.X_BF * r.xml.vec3(node, "location_body_2", Vec3::Zero()),
-                              r.xml.number(node, "constant_distance", 0.0)}});
-    } else if (kind == "PointOnLineConstraint") {
-      const FixedFrame line = frame_of(r, node, "line_body", owner, "line_body");
-      const FixedFrame follower = frame_of(r, node, "follower_body", owner, "follower_body");
-      r.model.constraints.push_back(
-          {name, kind,
-           LineConstraint{line.body, follower.body,
-                          line.X_BF.R * unit(r, node, "line_direction_vec", Vec3::UnitX()),
-                          line.X_BF * r.xml.vec3(node, "point_on_line", Vec3::Zero()),
-                          follower.X_BF * r.xml.vec3(node, "point_on_follower", Vec3::Zero())}});
-    } else {
-      r.model.unsupported.push_back(
-          fmt::format("constraint '{}' of kind {} is not enforced", name, kind));
-    }
+}  // namespace
+
+void read_forces(OsimReading& r, pugi::xml_node set) {
+  for (const auto node : OsimXml::objects(set))
+    if (node.type() == pugi::node_element) read_into_order(r, node);
+}
+
+void read_component_forces(OsimReading& r, pugi::xml_node components) {
+  for (const auto node : components.children()) {
+    const std::string_view kind = node.name();
+    if (kind.ends_with("Force") || kind.ends_with("Actuator") || kind.ends_with("Spring") ||
+        kind == "Ligament" || is_muscle(node))
+      read_into_order(r, node);
   }
 }
 

@@ -8,7 +8,7 @@ namespace myoid::model {
 /// partly understood, is listed in `unsupported`.
 void read_forces(OsimReading& reading, pugi::xml_node set);
 
-/// Reads the enforced constraints; those of an unknown kind are listed in `unsupported`.
-void read_constraints(OsimReading& reading, pugi::xml_node set);
+/// The same for forces that stand among the components of a model instead of in its force set.
+void read_component_forces(OsimReading& reading, pugi::xml_node components);
 
 }  // namespace myoid::model

@@ -21,13 +21,20 @@ double six_digits(double value) {
   return std::strtod(text, nullptr);
 }
 
+/// A frame fixed to a body, or a point fixed in one.
+bool is_frame(pugi::xml_node node) {
+  for (const char* kind : {"PhysicalOffsetFrame", "StationDefinedFrame", "Station"})
+    if (std::strcmp(node.name(), kind) == 0) return true;
+  return false;
+}
+
 void collect_frames(OsimReading& r,
                     pugi::xml_node parent,
                     const std::string& owner,
                     int depth = 0) {
   if (depth > 64) r.xml.fail(parent, "frames are nested more than 64 deep");
   for (const auto node : parent.children()) {
-    if (std::strcmp(node.name(), "PhysicalOffsetFrame") == 0) {
+    if (is_frame(node)) {
       const std::string path = owner + "/" + OsimXml::name_of(node);
       r.frames[path] = {node, owner};
       collect_frames(r, node.child("components"), path, depth + 1);
@@ -61,6 +68,61 @@ FixedFrame resolve(const OsimReading& r,
                    pugi::xml_node where,
                    std::string name,
                    const std::string& owner,
+                   int depth);
+
+/// The frame that four stations of one body span: its origin, an axis from a to b, another along
+/// ab x ac (StationDefinedFrame of OpenSim 4.5).
+FixedFrame station_defined(const OsimReading& r,
+                           pugi::xml_node node,
+                           const std::string& owner,
+                           int depth) {
+  const auto point = [&](const char* name) {
+    const std::string target = socket(r, node, name);
+    if (target.empty()) {
+      r.xml.fail(node, fmt::format("StationDefinedFrame '{}': the socket '{}' is missing",
+                                   OsimXml::name_of(node), name));
+    }
+    return resolve(r, node, target, owner, depth + 1);
+  };
+  const FixedFrame a = point("point_a"), b = point("point_b"), c = point("point_c");
+  const FixedFrame origin = point("origin_point");
+  struct Axis {
+    Eigen::Index index = 0;
+    double sign = 1.0;
+  };
+  const auto axis = [&](const char* name, const char* otherwise) {
+    std::string text = r.xml.word(node, name);
+    if (text.empty()) text = otherwise;
+    const bool has_sign = text.front() == '-' || text.front() == '+';
+    const char letter = text.size() == (has_sign ? 2U : 1U) ? text.back() : '?';
+    if (letter < 'x' || letter > 'z') {
+      r.xml.fail(node,
+                 fmt::format("<{}>: expected +x, -x, +y, -y, +z or -z, found '{}'", name, text));
+    }
+    return Axis{letter - 'x', text.front() == '-' ? -1.0 : 1.0};
+  };
+  const Axis first = axis("ab_axis", "+x"), second = axis("ab_x_ac_axis", "+y");
+  const Vec3 ab = b.X_BF.p - a.X_BF.p;
+  const Vec3 across = ab.cross(c.X_BF.p - a.X_BF.p);
+  if (a.body != b.body || a.body != c.body || a.body != origin.body ||
+      first.index == second.index || !(across.norm() > 0.0)) {
+    r.xml.fail(node,
+               fmt::format("StationDefinedFrame '{}': expected four points of one body, three "
+                           "of them not on a line, and two different axes",
+                           OsimXml::name_of(node)));
+  }
+  Mat3 R;
+  R.col(first.index) = first.sign * ab.normalized();
+  R.col(second.index) = second.sign * across.normalized();
+  const Eigen::Index third = 3 - first.index - second.index;
+  R.col(third) = R.col((third + 1) % 3).cross(R.col((third + 2) % 3));
+  return {origin.body, {R, origin.X_BF.p}};
+}
+
+FixedFrame resolve(const OsimReading& r,
+                   pugi::xml_node where,
+                   std::string name,
+                   const std::string& owner,
                    int depth) {
   if (depth > 32) r.xml.fail(where, fmt::format("frame '{}' refers to itself", name));
   const auto found = [&](const std::string& path) -> std::optional<FixedFrame> {
@@ -72,10 +134,18 @@ FixedFrame resolve(const OsimReading& r,
     const auto it = r.frames.find(path);
     if (it == r.frames.end()) return std::nullopt;
     const pugi::xml_node frame = it->second.node;
-    const std::string target = socket(r, frame, "parent");
+    if (std::strcmp(frame.name(), "StationDefinedFrame") == 0)
+      return station_defined(r, frame, it->second.owner, depth);
+    const bool is_point = std::strcmp(frame.name(), "Station") == 0;
+    const std::string target = socket(r, frame, is_point ? "parent_frame" : "parent");
     if (target.empty())
       r.xml.fail(frame, fmt::format("frame '{}': the socket 'parent' is missing", name));
     const FixedFrame parent = resolve(r, frame, target, it->second.owner, depth + 1);
+    if (is_point) {
+      return FixedFrame{
+          parent.body,
+          parent.X_BF * Pose{Mat3::Identity(), r.xml.vec3(frame, "location", Vec3::Zero())}};
+    }
     return FixedFrame{parent.body, parent.X_BF * pose_of(r, frame, "translation", "orientation")};
   };
   if (name.starts_with('/')) {
@@ -102,7 +172,7 @@ void read_bodies(OsimReading& r, pugi::xml_node model) {
   collect_frames(r, model.child("Ground").child("components"), "/ground");
   collect_frames(r, model.child("components"), "");
   for (const auto node : OsimXml::objects(model.child("ComponentSet"))) {
-    if (std::strcmp(node.name(), "PhysicalOffsetFrame") == 0)
+    if (is_frame(node))
       r.frames["/componentset/" + OsimXml::name_of(node)] = {node, "/componentset"};
   }
   for (const auto node : OsimXml::objects(model.child("BodySet"))) {
@@ -122,6 +192,14 @@ void read_bodies(OsimReading& r, pugi::xml_node model) {
     body.I_BBcm_B = body.mass_kg == 0.0 ? Mat3::Zero() : inertia_of(r, node, body.name);
     if (!body.p_BBcm_B.allFinite() || !body.I_BBcm_B.allFinite()) {
       r.xml.fail(node, fmt::format("body '{}': mass center or inertia is not finite", body.name));
+    }
+    for (int k = 0; k < 3; ++k) {
+      if (body.I_BBcm_B(k, k) < 0.0) {
+        r.model.notes.push_back(fmt::format(
+            "body '{}': the moment of inertia about its axis {} is negative, {} kg m^2; it is used "
+            "as it is",
+            body.name, "xyz"[k], body.I_BBcm_B(k, k)));
+      }
     }
     collect_frames(r, node.child("components"), "/bodyset/" + body.name);
     r.model.bodies.push_back(std::move(body));
@@ -191,6 +269,39 @@ bool is_enabled(const OsimReading& r, pugi::xml_node node, const char* positive)
   if (node.child(positive)) return r.xml.flag(node, positive, true);
   if (node.child("isDisabled")) return !r.xml.flag(node, "isDisabled", false);
   return r.xml.flag(node, positive, true);
+}
+
+Vec3 direction_of(const OsimReading& r,
+                  pugi::xml_node node,
+                  const char* name,
+                  const Vec3& otherwise) {
+  const Vec3 v = r.xml.vec3(node, name, otherwise);
+  if (!(v.norm() > 0.0) || !v.allFinite())
+    r.xml.fail(node, fmt::format("{} '{}': <{}> is no direction", node.name(),
+                                 OsimXml::name_of(node), name));
+  return v.normalized();
+}
+
+std::pair<FixedFrame, FixedFrame> two_frames(const OsimReading& r, pugi::xml_node node) {
+  const std::string owner = "/forceset/" + OsimXml::name_of(node);
+  // Frames of its own: <frames><PhysicalOffsetFrame name="...">.
+  const auto own = [&](const char* socket_name, const char* old_name, const char* location,
+                       const char* orientation) {
+    const std::string target = socket(r, node, socket_name);
+    for (const auto frame : node.child("frames").children("PhysicalOffsetFrame")) {
+      const std::string name = OsimXml::name_of(frame);
+      if (target == name || target.ends_with("/" + name)) {
+        const FixedFrame parent = frame_of(r, frame, "parent", owner);
+        return FixedFrame{parent.body,
+                          parent.X_BF * pose_of(r, frame, "translation", "orientation")};
+      }
+    }
+    FixedFrame frame = frame_of(r, node, socket_name, owner, old_name);
+    if (target.empty()) frame.X_BF = frame.X_BF * pose_of(r, node, location, orientation);
+    return frame;
+  };
+  return {own("frame1", "body_1", "location_body_1", "orientation_body_1"),
+          own("frame2", "body_2", "location_body_2", "orientation_body_2")};
 }
 
 }  // namespace myoid::model

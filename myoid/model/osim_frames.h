@@ -3,6 +3,7 @@
 #include <map>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "myoid/model/body_model.h"
 #include "myoid/model/osim_xml.h"
@@ -76,5 +77,15 @@ void read_bodies(OsimReading& reading, pugi::xml_node model);
 [[nodiscard]] bool is_enabled(const OsimReading& reading,
                               pugi::xml_node node,
                               const char* positive);
+
+/// The unit vector that a property gives; throws ReadError if it is no direction.
+[[nodiscard]] Vec3 direction_of(const OsimReading& reading,
+                                pugi::xml_node node,
+                                const char* name,
+                                const Vec3& otherwise);
+
+/// The two frames that a bushing or a constraint joins, in the new and in the old spelling.
+[[nodiscard]] std::pair<FixedFrame, FixedFrame> two_frames(const OsimReading& reading,
+                                                           pugi::xml_node node);
 
 }  // namespace myoid::model

@@ -9,6 +9,7 @@
 
 #include "myoid/core/error.h"
 #include "myoid/core/units.h"
+#include "myoid/model/osim_functions.h"
 
 namespace myoid::model {
 namespace {
@@ -38,7 +39,7 @@ void read_coordinate(OsimReading& r, pugi::xml_node node) {
   c.locked = xml.flag(node, "locked", false);
   c.is_free_to_satisfy_constraints = xml.flag(node, "is_free_to_satisfy_constraints", false);
   if (xml.flag(node, "prescribed", false))
-    c.prescribed = function_in(r, node.child("prescribed_function"));
+    c.prescribed = function_property(r, node, "prescribed_function");
   r.model.coordinates.push_back(std::move(c));
 }
 
@@ -269,10 +270,6 @@ void read_joint(OsimReading& r, pugi::xml_node node, BodyIndex enclosing) {
     const bool in_child = static_cast<bool>(r.xml.property(node, "location_in_child"));
     joint.X_BM = in_child ? pose_of(r, node, "location_in_child", "orientation_in_child", rounded)
                           : pose_of(r, node, "location", "orientation", rounded);
-    if (r.xml.flag(node, "reverse", false)) {
-      r.model.unsupported.push_back(
-          fmt::format("joint '{}' is reversed; it is taken as if it were not", joint.name));
-    }
   } else {
     const FixedFrame parent = frame_of(r, node, "parent_frame", path, "parent_body");
     const FixedFrame child = frame_of(r, node, "child_frame", path, "child_body");
@@ -284,6 +281,11 @@ void read_joint(OsimReading& r, pugi::xml_node node, BodyIndex enclosing) {
       joint.X_PF = joint.X_PF * pose_of(r, node, "location_in_parent", "orientation_in_parent");
     if (node.child("location_in_child"))
       joint.X_BM = joint.X_BM * pose_of(r, node, "location_in_child", "orientation_in_child");
+  }
+  // Before 30514 a joint could be told to move its parent on its child.
+  if (r.xml.version() < 30514 && r.xml.flag(node, "reverse", false)) {
+    std::swap(joint.parent, joint.child);
+    std::swap(joint.X_PF, joint.X_BM);
   }
   if (joint.parent == joint.child) {
     r.xml.fail(node, fmt::format("joint '{}' connects body '{}' with itself", joint.name,
@@ -331,93 +333,22 @@ void add_free_joint(OsimReading& r, BodyIndex body) {
 
 }  // namespace
 
-std::optional<Function> function_in(const OsimReading& r, pugi::xml_node holder) {
-  const auto element = OsimXml::first_element(holder);
-  if (!element) return std::nullopt;
-  return read_function(r, element);
-}
-
-Function read_function(const OsimReading& r, pugi::xml_node node) {
-  // MultiplierFunctions may nest; their scales multiply.
-  double scale = 1.0;
-  for (int depth = 0; std::string_view(node.name()) == "MultiplierFunction"; ++depth) {
-    scale *= r.xml.number(node, "scale", 1.0);
-    const auto inner = OsimXml::first_element(node.child("function"));
-    if (!inner) r.xml.fail(node, "<MultiplierFunction> has no function inside");
-    if (depth > 64) r.xml.fail(node, "<MultiplierFunction> is nested more than 64 deep");
-    node = inner;
-  }
-  const std::string_view kind = node.name();
-  const auto list = [&](const char* name) { return r.xml.numbers(r.xml.property(node, name)); };
-  if (kind == "Constant") return {Constant{r.xml.number(node, "value", 0.0)}, scale};
-  if (kind == "LinearFunction") {
-    const auto given = r.xml.property(node, "coefficients");
-    const auto c = given ? r.xml.numbers(given) : std::vector<double>{1.0, 0.0};
-    if (c.size() != 2) {
-      r.xml.fail(node, fmt::format("<coefficients>: expected slope and intercept, found {} numbers",
-                                   c.size()));
-    }
-    return {Linear{c[0], c[1]}, scale};
-  }
-  if (kind == "PolynomialFunction") {
-    auto c = list("coefficients");
-    if (c.empty()) r.xml.fail(node, "<coefficients>: expected at least one number");
-    return {Polynomial{std::move(c)}, scale};
-  }
-  if (kind == "MultivariatePolynomialFunction" && r.xml.number(node, "dimension", 1.0) == 1.0) {
-    auto c = list("coefficients");  // lowest power first
-    if (c.empty()) r.xml.fail(node, "<coefficients>: expected at least one number");
-    std::reverse(c.begin(), c.end());
-    return {Polynomial{std::move(c)}, scale};
-  }
-  const bool spline = kind == "SimmSpline" || kind == "NaturalCubicSpline" ||
-                      kind == "natCubicSpline" || kind == "natCubicSplineFunction";
-  if (spline || kind == "PiecewiseLinearFunction" || kind == "GCVSpline") {
-    std::vector<double> x = list("x");
-    std::vector<double> y = list("y");
-    try {
-      if (kind == "GCVSpline") {
-        const double order = r.xml.number(node, "half_order", 3.0);
-        if (r.xml.number(node, "error_variance", 0.0) > 0.0)
-          r.xml.fail(node,
-                     "<GCVSpline>: one that smooths (<error_variance> above 0) is not supported");
-        if (order == 1.0) return {make_piecewise_linear(std::move(x), std::move(y)), scale};
-        if (order == 2.0) return {make_natural_spline(std::move(x), std::move(y)), scale};
-        r.xml.fail(
-            node,
-            fmt::format(
-                "<GCVSpline>: half_order {}, expected 1 or 2: others are not supported in a model",
-                order));
-      }
-      if (spline) return {make_simm_spline(std::move(x), std::move(y)), scale};
-      return {make_piecewise_linear(std::move(x), std::move(y)), scale};
-    } catch (const ReadError&) {
-      throw;
-    } catch (const InvalidInput& error) {
-      r.xml.fail(node, error.what());
-    }
-  }
-  r.xml.fail(node, fmt::format("the function <{}> is not supported; supported are Constant, "
-                               "LinearFunction, PolynomialFunction, PiecewiseLinearFunction, "
-                               "SimmSpline, NaturalCubicSpline, GCVSpline, "
-                               "MultivariatePolynomialFunction of one variable and "
-                               "MultiplierFunction",
-                               kind));
-}
-
 void read_joints(OsimReading& r, pugi::xml_node model) {
   for (const auto node : OsimXml::objects(model.child("JointSet"))) {
     if (node.type() == pugi::node_element) read_joint(r, node, -1);
   }
   const std::size_t bodies = r.model.bodies.size();
+  std::vector<bool> has_joint(bodies, false);
   for (const auto body : OsimXml::objects(model.child("BodySet"))) {
     if (const auto node = OsimXml::first_element(body.child("Joint"))) {
       const auto index = r.model.find_body(OsimXml::name_of(body));
-      if (index && *index > 0) read_joint(r, node, *index);
+      if (!index || *index == 0) continue;
+      read_joint(r, node, *index);
+      has_joint[static_cast<std::size_t>(*index)] = true;  // a reversed one has it as the parent
     }
   }
   if (!r.is_old()) return;
-  std::vector<bool> has_joint(r.model.bodies.size(), false);
+  has_joint.resize(r.model.bodies.size(), false);
   for (const Joint& joint : r.model.joints) has_joint[static_cast<std::size_t>(joint.child)] = true;
   for (std::size_t b = 1; b < bodies; ++b) {
     if (!has_joint[b]) add_free_joint(r, static_cast<BodyIndex>(b));

@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "myoid/core/error.h"
-#include "myoid/model/osim_joints.h"
+#include "myoid/model/osim_functions.h"
 #include "myoid/recording/text_file.h"
 
 namespace myoid::model {
@@ -74,9 +76,8 @@ PathPoint::Moving read_moving(OsimReading& r, pugi::xml_node node) {
   const char* old_axes[3] = {"XAttachment", "YAttachment", "ZAttachment"};
   const char* old_coordinates[3] = {"XCoordinate", "YCoordinate", "ZCoordinate"};
   for (std::size_t k = 0; k < 3; ++k) {
-    auto holder = node.child(fmt::format("{}_location", axes[k]).c_str());
-    if (!holder) holder = node.child(old_axes[k]);
-    const auto function = function_in(r, holder);
+    auto function = function_property(r, node, fmt::format("{}_location", axes[k]).c_str());
+    if (!function) function = function_in(r, node.child(old_axes[k]));
     if (!function) continue;
     moving.location[k] = *function;
     const std::string name = fmt::format("{}_coordinate", axes[k]);
@@ -208,13 +209,13 @@ MillardCurves millard_curves(const OsimReading& r, pugi::xml_node node) {
   return c;
 }
 
-SchutteCurves schutte_curves(const OsimReading& r, pugi::xml_node node) {
+SchutteCurves schutte_curves(OsimReading& r, pugi::xml_node node) {
   SchutteCurves c;
   c.time_scale_s = r.xml.number(node, "time_scale", 0.1);
   c.activation1 = r.xml.number(node, "activation1", 7.667);
   c.activation2 = r.xml.number(node, "activation2", 1.459854);
   c.damping = r.xml.number(node, "damping", 0.05);
-  const auto curve = [&](const char* name) { return function_in(r, r.xml.property(node, name)); };
+  const auto curve = [&](const char* name) { return function_property(r, node, name); };
   c.active_force_length = curve("active_force_length_curve");
   c.passive_force_length = curve("passive_force_length_curve");
   c.tendon_force_length = curve("tendon_force_length_curve");
@@ -256,18 +257,22 @@ void read_wrap_objects(OsimReading& r, pugi::xml_node model) {
   }
 }
 
+std::string foreign_path(pugi::xml_node node) {
+  for (const auto holder : {node, node.child("path")}) {
+    for (const auto child : holder.children()) {
+      const std::string_view kind = child.name();
+      if (kind.ends_with("Path") && kind != "GeometryPath") return child.name();
+    }
+  }
+  return {};
+}
+
 MusclePath read_path(OsimReading& r, pugi::xml_node node) {
   const std::string owner = OsimXml::name_of(node);
   pugi::xml_node geometry = node.child("GeometryPath");
   if (!geometry) geometry = OsimXml::first_element(node.child("path"));
   if (!geometry && (node.child("MusclePointSet") || node.child("PathPointSet"))) geometry = node;
   if (!geometry) r.xml.fail(node, fmt::format("{} '{}' has no <GeometryPath>", node.name(), owner));
-  const std::string_view kind = geometry.name();
-  if (kind.ends_with("Path") && kind != "GeometryPath") {
-    r.xml.fail(geometry, fmt::format("{} '{}': a path of kind <{}> is not supported; expected "
-                                     "<GeometryPath>",
-                                     node.name(), owner, kind));
-  }
   MusclePath path;
   for (const auto point : OsimXml::objects(either(geometry, "PathPointSet", "MusclePointSet"))) {
     if (point.type() == pugi::node_element) path.points.push_back(read_point(r, point, owner));
@@ -280,6 +285,23 @@ MusclePath read_path(OsimReading& r, pugi::xml_node node) {
                                      node.name(), owner, path.points.size()));
   }
   return path;
+}
+
+void note_classes(BodyModel& model) {
+  std::map<std::string, std::vector<std::string>> by_class;
+  for (const Muscle& muscle : model.muscles)
+    if (!muscle.class_name.starts_with("Thelen2003Muscle"))
+      by_class[muscle.class_name].push_back(muscle.name);
+  for (const auto& [name, muscles] : by_class) {
+    const bool own = name.starts_with("Millard2012") || name.starts_with("DeGrooteFregly2016");
+    model.notes.push_back(fmt::format(
+        "{} {} of class {}: {}; identification starts from the numbers that the class shares with "
+        "Thelen's ({})",
+        muscles.size(), muscles.size() == 1 ? "muscle is" : "muscles are", name,
+        own ? "so, run-tool and simulate use the class's own curves"
+            : "so, run-tool and simulate take Thelen's curves with their numbers",
+        fmt::join(muscles, ", ")));
+  }
 }
 
 bool is_muscle(pugi::xml_node node) {
@@ -342,11 +364,6 @@ Muscle read_muscle(OsimReading& r, pugi::xml_node node) {
     p.curves = schutte_curves(r, node);
   } else if (de_groote) {
     p.curves = de_groote_curves(r, node);
-  }
-  if (!thelen) {
-    r.model.notes.push_back(fmt::format(
-        "muscle '{}' is a {}; its force law is taken as Thelen's with the numbers it has",
-        muscle.name, muscle.class_name));
   }
   muscle.path = read_path(r, node);
   return muscle;

@@ -15,6 +15,13 @@ void read_wrap_objects(OsimReading& reading, pugi::xml_node model);
 /// <path><GeometryPath>, or the point and wrap sets themselves). Throws ReadError if there is none.
 [[nodiscard]] MusclePath read_path(OsimReading& reading, pugi::xml_node node);
 
+/// The kind of a path that is not made of points (FunctionBasedPath, Scholz2015GeometryPath), which
+/// is not read; empty for others.
+[[nodiscard]] std::string foreign_path(pugi::xml_node node);
+
+/// Notes, by class, the muscles whose curves are not Thelen's, and who takes which.
+void note_classes(BodyModel& model);
+
 /// Whether an element is a muscle of a kind that is read.
 [[nodiscard]] bool is_muscle(pugi::xml_node node);
 [[nodiscard]] Muscle read_muscle(OsimReading& reading, pugi::xml_node node);

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
+#include "myoid/model/osim_constraints.h"
 #include "myoid/model/osim_forces.h"
 #include "myoid/model/osim_frames.h"
 #include "myoid/model/osim_joints.h"
@@ -103,13 +104,8 @@ BodyModel parse_osim(std::string_view text,
            read_forces);
   read_constraints(r, skeleton.child("ConstraintSet") ? skeleton.child("ConstraintSet")
                                                       : model.child("ConstraintSet"));
-  for (const auto node : model.child("components").children()) {
-    const std::string_view kind = node.name();
-    if (kind == "StationDefinedFrame") {
-      r.model.unsupported.push_back(
-          fmt::format("frame '{}' of kind StationDefinedFrame", OsimXml::name_of(node)));
-    }
-  }
+  read_component_forces(r, model.child("components"));
+  note_classes(r.model);
   try {
     return finalize(std::move(r.model));
   } catch (const ModelError& error) {

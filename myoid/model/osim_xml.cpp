@@ -1,6 +1,7 @@
 #include "myoid/model/osim_xml.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <utility>
 
@@ -8,6 +9,7 @@
 
 #include "myoid/core/error.h"
 #include "myoid/recording/text_file.h"
+#include "myoid/recording/wrong_kind.h"
 
 namespace myoid::model {
 
@@ -29,6 +31,9 @@ OsimXml::OsimXml(std::string_view text, std::filesystem::path path, Root root)
     : text_(text), path_(std::move(path)) {
   const auto parsed = document_.load_buffer(text.data(), text.size(), pugi::parse_default);
   if (!parsed) {
+    const std::string other =
+        recording::wrong_kind(path_, {".osim", ".xml"}, "a model (.osim) or a set-up (.xml)");
+    if (!other.empty()) throw ReadError(path_, 0, other);
     throw ReadError(
         path_, line_at(text_, parsed.offset),
         fmt::format("not valid XML: {}; the file may be cut off", parsed.description()));
@@ -83,7 +88,8 @@ std::vector<double> OsimXml::numbers(pugi::xml_node node) const {
   const std::string text = text_of(node);
   for (const std::string_view w : split_words(text)) {
     const auto value = parse_number(w);
-    if (!value) fail(node, fmt::format("<{}>: expected numbers, found '{}'", node.name(), w));
+    if (!value || std::isnan(*value))
+      fail(node, fmt::format("<{}>: expected numbers, found '{}'", node.name(), w));
     values.push_back(*value);
   }
   return values;
@@ -93,8 +99,10 @@ double OsimXml::number(pugi::xml_node object, const char* name, double otherwise
   const auto node = property(object, name);
   if (!node) return otherwise;
   const std::string_view text = trim(node.text().get());
-  if (text.empty()) return otherwise;
-  if (const auto value = parse_number(text)) return *value;
+  if (text.empty())
+    fail(node, fmt::format("<{}> is empty: write a number, or remove the element for {}", name,
+                           otherwise));
+  if (const auto value = parse_number(text); value && !std::isnan(*value)) return *value;
   const auto values = numbers(node);
   if (values.size() != 1)
     fail(node, fmt::format("<{}>: expected one number, found {}", name, values.size()));
@@ -103,7 +111,7 @@ double OsimXml::number(pugi::xml_node object, const char* name, double otherwise
 
 Vec3 OsimXml::vec3(pugi::xml_node object, const char* name, const Vec3& otherwise) const {
   const auto node = property(object, name);
-  if (!node || text_of(node).empty()) return otherwise;
+  if (!node) return otherwise;
   const auto values = numbers(node);
   if (values.size() != 3)
     fail(node, fmt::format("<{}>: expected three numbers, found {}", name, values.size()));

@@ -20,7 +20,8 @@
 namespace myoid::pipeline {
 namespace {
 
-constexpr std::array kKnown{"Kinematics", "MuscleAnalysis", "OutputReporter", "StaticOptimization"};
+constexpr std::array kKnown{"BodyKinematics", "Kinematics", "MuscleAnalysis", "OutputReporter",
+                            "StaticOptimization"};
 
 constexpr const char* kUnits =
     "Units are S.I. units (second, meters, Newtons, ...)\nIf the header above contains a line with "
@@ -249,13 +250,15 @@ bool is_known_analysis(std::string_view class_name) {
 }
 
 std::string known_analyses() {
-  return "Kinematics, MuscleAnalysis, OutputReporter, StaticOptimization";
+  return "BodyKinematics, Kinematics, MuscleAnalysis, OutputReporter, StaticOptimization";
 }
 
 void run_analysis(AnalysisRun& run, pugi::xml_node node) {
   const std::string_view kind = node.name();
   if (kind == "Kinematics") {
     report_kinematics(run, node);
+  } else if (kind == "BodyKinematics") {
+    report_bodies(run, node);
   } else if (kind == "MuscleAnalysis") {
     report_muscles(run, node);
   } else if (kind == "OutputReporter") {

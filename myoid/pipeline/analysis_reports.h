@@ -33,6 +33,8 @@ struct AnalysisRun {
 /// Runs one and writes its files: <results>/<tool>_<analysis>_<quantity>.sto.
 void run_analysis(AnalysisRun& run, pugi::xml_node node);
 void run_static_optimization(AnalysisRun& run, pugi::xml_node node);
+/// BodyKinematics: centers of mass, orientations and their velocities.
+void report_bodies(AnalysisRun& run, pugi::xml_node node);
 
 /// <results>/<tool>_<name>, announced as a file of the run.
 [[nodiscard]] std::filesystem::path claim_result(AnalysisRun& run, const std::string& name);

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "myoid/core/error.h"
 #include "myoid/kinematics/inverse_kinematics.h"
@@ -28,6 +29,40 @@ namespace {
 using Level = Finding::Level;
 using signals::Fault;
 
+/// What is said of several trials in the same words, files apart, is said of the first and the
+/// others are named.
+std::vector<Finding> once(std::vector<Finding> findings) {
+  const auto words = [](const Finding& f) {
+    const std::size_t colon = f.message.find(": ");
+    const bool file = colon != std::string::npos &&
+                      f.message.substr(0, colon).find_first_of("/.") != std::string::npos;
+    return file ? f.message.substr(colon) : f.message;
+  };
+  std::vector<Finding> kept;
+  std::vector<std::vector<std::string>> others;
+  for (Finding& f : findings) {
+    const auto same = std::find_if(kept.begin(), kept.end(), [&](const Finding& k) {
+      return k.level == f.level && !k.fault && !f.fault && k.where != f.where &&
+             words(k) == words(f);
+    });
+    if (same != kept.end() && f.level == Finding::Level::error) {
+      others[static_cast<std::size_t>(same - kept.begin())].push_back(f.where);
+    } else {
+      kept.push_back(std::move(f));
+      others.emplace_back();
+    }
+  }
+  for (std::size_t i = 0; i < kept.size(); ++i) {
+    if (others[i].empty()) continue;
+    const std::size_t shown = std::min<std::size_t>(others[i].size(), 4);
+    kept[i].message += fmt::format(
+        " (so too in {}{})",
+        fmt::join(others[i].begin(), others[i].begin() + static_cast<std::ptrdiff_t>(shown), ", "),
+        shown < others[i].size() ? fmt::format(" and {} more", others[i].size() - shown) : "");
+  }
+  return kept;
+}
+
 class Check {
  public:
   explicit Check(const Study& study) : study_(study) {}
@@ -48,7 +83,7 @@ class Check {
     if (!envelopes_.empty()) attempt("EMG", [&] { check_reference(); });
     std::stable_sort(findings_.begin(), findings_.end(),
                      [](const Finding& a, const Finding& b) { return a.level < b.level; });
-    return std::move(findings_);
+    return once(std::move(findings_));
   }
 
  private:

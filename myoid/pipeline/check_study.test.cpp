@@ -63,6 +63,19 @@ TEST(CheckStudy, NamesAMissingFileWithoutThrowing) {
   EXPECT_NE(study.error().find("nowhere.sto"), std::string::npos) << study.error();
 }
 
+TEST(CheckStudy, AMisspeltChannelOfEveryTrialIsToldOnceWithTheTrialsNamed) {
+  WrittenStudy study;
+  for (const char* name : {"u", "v"})
+    study.text +=
+        fmt::format("[[trial]]\nname = \"{}\"\nmarkers = \"t.trc\"\nemg = \"t.sto\"\n", name);
+  study.text.replace(study.text.find("emg = \"TRI\""), 11, "emg = \"TRJ\"");
+  const std::vector<Finding> findings = study.findings();
+  EXPECT_EQ(std::count_if(findings.begin(), findings.end(),
+                          [](const Finding& f) { return f.level == Finding::Level::error; }),
+            1);
+  EXPECT_NE(study.error().find("(so too in u, v)"), std::string::npos) << study.error();
+}
+
 TEST(CheckStudy, MarkersOfWhichTheModelHasNoneAreAnError) {
   const WrittenStudy study("RWRA");
   EXPECT_NE(study.error().find("t: no marker of the recording (RWRA) is in the model"),

@@ -2,14 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <set>
 #include <tuple>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include "myoid/core/error.h"
+#include "myoid/pipeline/run_identity.h"
 #include "myoid/recording/text_file.h"
 
 namespace myoid::pipeline {
@@ -179,8 +182,15 @@ RunComparison compare_runs(const std::filesystem::path& first,
                            const std::filesystem::path& second) {
   const Run a = read_run(first);
   const Run b = read_run(second);
-  RunComparison comparison{
-      .first = first, .second = second, .parameters = {}, .trials = {}, .remarks = {}};
+  RunComparison comparison{.first = first,
+                           .second = second,
+                           .parameters = {},
+                           .trials = {},
+                           .unlike = {},
+                           .remarks = {}};
+  IdentityDifferences unlike = differences(read_run_identity(first), read_run_identity(second));
+  comparison.unlike = std::move(unlike.grave);
+  std::move(unlike.other.begin(), unlike.other.end(), std::back_inserter(comparison.unlike));
   for (const Key& key : a.order) {
     const auto other = b.estimates.find(key);
     if (other == b.estimates.end()) {
@@ -240,6 +250,9 @@ report::Report comparison_report(const RunComparison& comparison) {
       "difference, and {} cannot be compared because a recording does not determine them.",
       comparison.parameters.size(), count[Change::differs], count[Change::no_change],
       count[Change::cannot_tell]);
+  if (!comparison.unlike.empty())
+    page.headline +=
+        fmt::format(" The two are not of one kind: {}.", fmt::join(comparison.unlike, "; "));
   std::vector<std::string> methods;
   for (const ComparedParameter& p : comparison.parameters) {
     if (std::find(methods.begin(), methods.end(), p.method) == methods.end())

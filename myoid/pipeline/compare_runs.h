@@ -44,7 +44,8 @@ struct RunComparison {
   std::filesystem::path first, second;
   std::vector<ComparedParameter> parameters;
   std::vector<ComparedTrial> trials;
-  std::vector<std::string> remarks;  ///< What only one of them has, and what makes them unlike.
+  std::vector<std::string> unlike;   ///< Model, person, muscles that differ (run_identity.h).
+  std::vector<std::string> remarks;  ///< What only one of them has.
 };
 
 /// Two finished runs, of one person on two days or of one recording by two studies, number by

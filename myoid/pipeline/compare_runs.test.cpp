@@ -81,5 +81,24 @@ TEST(CompareRuns, AFolderWithoutARunIsRefused) {
   EXPECT_THROW(static_cast<void>(compare_runs(good, folder.path() / "bad")), InvalidInput);
 }
 
+TEST(CompareRuns, SaysWhenTheTwoAreNotOfOneKind) {
+  const test::TemporaryFolder folder;
+  const auto write = [&](const char* name, const char* model, double mass_kg) {
+    std::filesystem::create_directories(folder / name);
+    recording::write_file(
+        folder / name / "parameters.json",
+        fmt::format(R"({{"provenance": {{"options": {{"subject": {{"mass_kg": {}}},
+                        "model": {{"builtin": "{}", "coordinate": ["elbow_flexion"]}},
+                        "muscle": [{{"name": "BIC"}}]}}}}, "methods": []}})",
+                    mass_kg, model));
+    return folder / name;
+  };
+  const auto first = write("a", "arm4", 60.0);
+  EXPECT_TRUE(compare_runs(first, write("b", "arm4", 62.0)).unlike.empty());
+  const RunComparison other = compare_runs(first, write("c", "arm7", 90.0));
+  ASSERT_EQ(other.unlike.size(), 2U);
+  EXPECT_NE(comparison_report(other).headline.find("arm7"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace myoid::pipeline

@@ -145,13 +145,31 @@ std::vector<Eigen::Index> targets_of(const std::vector<FreeParameter>& free,
   return targets;
 }
 
-/// What an interval of this width would be called.
+/// The run's own row of an unknown (of its first owner, where it is tied), if it has an interval.
+const ParameterEstimate* found_by(const std::optional<EarlierRun>& earlier,
+                                  const FreeParameter& f) {
+  if (!earlier) return nullptr;
+  const std::size_t dot = f.label.find('.');
+  const std::string owners = f.label.substr(0, dot);
+  const std::string owner = owners.substr(0, owners.find('+'));
+  for (const ParameterEstimate& e : earlier->estimates) {
+    if ((e.muscle == owner || e.muscle == owners) && e.parameter == f.field->name && e.ci_low &&
+        e.ci_high && std::isfinite(e.estimate))
+      return &e;
+  }
+  return nullptr;
+}
+
+/// What an interval of this width would be called. `found`: what an earlier run says, whose
+/// interval becomes `ratio` times as wide.
 ParameterEstimate expected_estimate(const FreeParameter& f,
                                     double mean,
                                     double sd,
                                     double prior_sd,
                                     const std::vector<identification::MuscleSetup>& muscles,
-                                    double model_error) {
+                                    double model_error,
+                                    const ParameterEstimate* found,
+                                    double ratio) {
   ParameterEstimate e;
   const std::size_t dot = f.label.find('.');
   e.muscle = f.label.substr(0, dot);
@@ -160,8 +178,17 @@ ParameterEstimate expected_estimate(const FreeParameter& f,
   e.method = "torque";
   e.fit_case = "both";
   e.initial = e.estimate = f.to_value(mean);
-  e.ci_low = f.to_value(std::max(mean - 1.96 * sd, f.lower));
-  e.ci_high = f.to_value(std::min(mean + 1.96 * sd, f.upper));
+  double below = 1.96 * sd, above = 1.96 * sd;
+  if (found != nullptr) {
+    // Narrower than the run's own interval, by which other routes count too, in the same ratio.
+    const auto scaled = [&](double value) {
+      return f.field->logarithmic ? std::log(std::max(value, 1e-300)) : value;
+    };
+    below = ratio * (scaled(found->estimate) - scaled(*found->ci_low));
+    above = ratio * (scaled(*found->ci_high) - scaled(found->estimate));
+  }
+  e.ci_low = f.to_value(std::max(mean - below, f.lower));
+  e.ci_high = f.to_value(std::min(mean + above, f.upper));
   e.std_error = f.field->logarithmic ? e.estimate * sd : sd;
   e.prior_mean = e.estimate;
   e.prior_sd = f.field->logarithmic ? e.estimate * prior_sd : prior_sd;
@@ -253,6 +280,33 @@ void plan_rests(const std::vector<const Effort*>& efforts,
   }
 }
 
+/// A row of parameters.json; empty without a number.
+std::optional<ParameterEstimate> row_of(const nlohmann::json& row) {
+  const auto number = [&](const char* key) -> std::optional<double> {
+    const auto found = row.find(key);
+    return found != row.end() && found->is_number() ? std::optional<double>(found->get<double>())
+                                                    : std::nullopt;
+  };
+  const std::optional<double> estimate = number("estimate");
+  if (!estimate) return std::nullopt;
+  ParameterEstimate e;
+  e.muscle = row.at("muscle");
+  e.parameter = row.at("parameter");
+  e.estimate = *estimate;
+  e.std_error = number("std_error");
+  e.ci_low = number("ci_low");
+  e.ci_high = number("ci_high");
+  e.reason = row.value("reason", "");
+  const std::string verdict = row.value("verdict", "");
+  for (const auto known :
+       {identification::Verdict::identified, identification::Verdict::weak,
+        identification::Verdict::prior_dominated, identification::Verdict::not_identifiable,
+        identification::Verdict::non_physical}) {
+    if (verdict == identification::name(known)) e.verdict = known;
+  }
+  return e;
+}
+
 }  // namespace
 
 EarlierRun read_earlier_run(const std::filesystem::path& folder) {
@@ -280,6 +334,7 @@ EarlierRun read_earlier_run(const std::filesystem::path& folder) {
       for (const nlohmann::json& e : method.at("estimates")) {
         const std::string label =
             e.at("muscle").get<std::string>() + "." + e.at("parameter").get<std::string>();
+        if (auto row = row_of(e)) run.estimates.push_back(std::move(*row));
         const auto it = std::find(run.parameters.begin(), run.parameters.end(), label);
         if (it == run.parameters.end()) continue;
         run.estimate[it - run.parameters.begin()] = e.at("estimate").get<double>();
@@ -305,7 +360,8 @@ EarlierRun earlier_run(const identification::IdentificationResult& fit) {
                  .covariance = fit.covariance,
                  .torque_sd_nm = fit.torque_sd_nm,
                  .emg_cv = fit.emg_cv,
-                 .model_error = fit.model_error};
+                 .model_error = fit.model_error,
+                 .estimates = fit.estimates};
   for (const ParameterEstimate& e : fit.estimates) {
     const auto it =
         std::find(run.parameters.begin(), run.parameters.end(), e.muscle + "." + e.parameter);
@@ -315,9 +371,10 @@ EarlierRun earlier_run(const identification::IdentificationResult& fit) {
 }
 
 double relative_half_width(const ParameterEstimate& estimate) {
-  const double half = 0.5 * (*estimate.ci_high - *estimate.ci_low);
-  return estimate.parameter == "emg_delay" ? 1e3 * half
-                                           : 100.0 * half / std::abs(estimate.estimate);
+  const double half = identification::half_width(estimate);
+  if (estimate.parameter == "emg_delay") return 1e3 * half;
+  const bool zero = identification::zero_by_nature(estimate.parameter) && estimate.prior_sd;
+  return 100.0 * half / (zero ? 1.96 * *estimate.prior_sd : std::abs(estimate.estimate));
 }
 
 int identified_count(const std::vector<ParameterEstimate>& estimates) {
@@ -329,8 +386,9 @@ int identified_count(const std::vector<ParameterEstimate>& estimates) {
 double median_half_width(const std::vector<ParameterEstimate>& estimates) {
   std::vector<double> widths;
   for (const ParameterEstimate& e : estimates) {
-    if (e.parameter != "emg_delay" || estimates.size() == 1)
-      widths.push_back(relative_half_width(e));
+    const bool of_value =
+        e.parameter != "emg_delay" && !identification::zero_by_nature(e.parameter);
+    if (of_value || estimates.size() == 1) widths.push_back(relative_half_width(e));
   }
   if (widths.empty()) return 0.0;
   const auto middle = widths.begin() + static_cast<std::ptrdiff_t>(widths.size() / 2);
@@ -448,20 +506,27 @@ DesignStudyResult design_study(const Study& study, const DesignStudyOptions& opt
   result.too_tiring = static_cast<std::size_t>(std::accumulate(tiring.begin(), tiring.end(), 0));
   result.too_hard = choice.infeasible.size() - result.too_tiring;
   result.exchanges = choice.exchanges;
-  const auto expected = [&](const Eigen::VectorXd& sd) {
+  const auto expected = [&](const Eigen::VectorXd& sd, bool now) {
     std::vector<ParameterEstimate> estimates;
     for (const Eigen::Index j : problem.targets) {
       const FreeParameter& f = free[static_cast<std::size_t>(j)];
       const double prior_sd = f.prior_sd > 0.0 ? f.prior_sd : choice.prior_sd[j];
+      const ParameterEstimate* found = found_by(options.earlier, f);
+      const double ratio = choice.prior_sd[j] > 0.0 ? sd[j] / choice.prior_sd[j] : 1.0;
       estimates.push_back(expected_estimate(f, known.mean[j], sd[j], prior_sd, data.muscles,
-                                            options.earlier ? options.earlier->model_error : 0.0));
+                                            options.earlier ? options.earlier->model_error : 0.0,
+                                            found, ratio));
+      if (found == nullptr || !now) continue;
+      // What is known now has been judged with all that a run knows: profiles, trials left out.
+      estimates.back().verdict = found->verdict;
+      estimates.back().reason = found->reason;
     }
     return estimates;
   };
-  result.beforehand = expected(choice.prior_sd);
+  result.beforehand = expected(choice.prior_sd, true);
   std::vector<const Effort*> chosen;
   for (const identification::DesignStep& step : choice.steps) {
-    result.plan.push_back({movements[step.movement], 0.0, 0.0, expected(step.sd)});
+    result.plan.push_back({movements[step.movement], 0.0, 0.0, expected(step.sd, false)});
     chosen.push_back(&efforts[step.movement]);
   }
   plan_rests(chosen, options.fatigued_share, rates, result.plan);

@@ -20,7 +20,10 @@ struct EarlierRun {
   Eigen::MatrixXd covariance;  ///< In the estimator's scale (logarithms where it uses them).
   double torque_sd_nm = 0.0;
   double emg_cv = 0.0;
-  double model_error = 0.0;  ///< IdentificationResult::model_error: more recording does not mend it.
+  double model_error =
+      0.0;  ///< IdentificationResult::model_error: more recording does not mend it.
+  /// Its rows: what the run itself says of each number is what is known of it now.
+  std::vector<identification::ParameterEstimate> estimates;
 };
 
 /// Throws ReadError if the folder holds no parameters.json with a fit by method torque.
@@ -29,9 +32,10 @@ struct EarlierRun {
 /// The same of a fit by method torque that is at hand.
 [[nodiscard]] EarlierRun earlier_run(const identification::IdentificationResult& fit);
 
-/// Half the 95 % interval as a percentage of the value; of the EMG delay in ms.
+/// Farther end of the 95 % interval (identification::half_width) as a percentage of the value; of
+/// the EMG delay in ms; of what is 0 by nature as a percentage of what it was beforehand.
 [[nodiscard]] double relative_half_width(const identification::ParameterEstimate& estimate);
-/// Their median, without the delay; 0 if there are none.
+/// Their median over all that are percentages of a value; 0 if there are none.
 [[nodiscard]] double median_half_width(
     const std::vector<identification::ParameterEstimate>& estimates);
 /// How many have the verdict `identified`.

@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <memory>
+#include <set>
 #include <utility>
 
 #include <fmt/format.h>
@@ -24,7 +26,8 @@ struct TaskFile {
 TaskFile task_file(const OpensimSetup& setup, pugi::xml_node owner) {
   TaskFile file;
   const auto inside = owner.child("IKTaskSet");
-  const std::string name = inside.attribute("file").value();
+  std::string name = inside.attribute("file").value();
+  std::replace(name.begin(), name.end(), '\\', '/');
   if (name.empty() || recording::equal_ignoring_case(name, "Unassigned")) {
     file.set = inside;
     return file;
@@ -84,6 +87,7 @@ kinematics::IkOptions read_ik_tasks(const OpensimSetup& setup,
   kinematics::IkOptions ik;
   const TaskFile tasks = task_file(setup, owner);
   const OsimXml& xml = tasks.xml ? *tasks.xml : setup.xml();
+  std::set<std::string> named;
   for (const auto node : OsimXml::objects(tasks.set)) {
     if (node.type() != pugi::node_element) continue;
     const std::string_view kind = node.name();
@@ -98,7 +102,10 @@ kinematics::IkOptions read_ik_tasks(const OpensimSetup& setup,
         xml.fail(node, fmt::format("IKMarkerTask '{}': weight {}, expected 0 or more",
                                    OsimXml::name_of(node), weight));
       }
-      if (weight > 0.0) ik.marker_weights[OsimXml::name_of(node)] = weight;
+      const std::string name = OsimXml::name_of(node);
+      if (!named.insert(name).second)
+        notes.push_back(fmt::format("two tasks for marker '{}': the last one counts", name));
+      if (weight > 0.0) ik.marker_weights[name] = weight;
     } else {
       add_coordinate_task(setup, xml, owner, node, model, markers, ik, notes);
     }
@@ -106,7 +113,7 @@ kinematics::IkOptions read_ik_tasks(const OpensimSetup& setup,
   std::string unknown;
   std::erase_if(ik.marker_weights, [&](const auto& task) {
     if (model.find_marker(task.first)) return false;
-    unknown += (unknown.empty() ? "" : ", ") + task.first;
+    unknown += fmt::format("{}'{}'", unknown.empty() ? "" : ", ", task.first);
     return true;
   });
   if (!unknown.empty())

@@ -9,10 +9,9 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <oneapi/tbb/blocked_range.h>
-#include <oneapi/tbb/parallel_for.h>
 
 #include "myoid/core/error.h"
+#include "myoid/core/parallel.h"
 #include "myoid/model/kinematic_tree.h"
 #include "myoid/model/muscle_path.h"
 #include "myoid/model/path_polyline.h"
@@ -125,24 +124,23 @@ void place(const model::BodyModel& model, const Eigen::MatrixXd& q, report::Scen
   const Eigen::Index frames = q.rows();
   scene.poses.resize(at(frames));
   scene.lines_m.resize(at(frames));
-  oneapi::tbb::parallel_for(
-      oneapi::tbb::blocked_range<Eigen::Index>(0, frames, 16), [&](const auto& range) {
-        model::BodyState state = model::make_state(model);
-        model::PathWorkspace workspace;
-        model::PathResult result;
-        for (Eigen::Index f = range.begin(); f != range.end(); ++f) {
-          model::compute_poses(model, q.row(f).transpose(), state);
-          state.qdot.setZero();
-          model::compute_velocities(model, state.qdot, state);
-          scene.poses[at(f)] = state.X_GB;
-          auto& lines = scene.lines_m[at(f)];
-          for (const int m : scene.moving_muscles) {
-            const model::MusclePath& path = model.muscles[static_cast<std::size_t>(m)].path;
-            model::compute_path(model, path, state, workspace, result);
-            lines.push_back(model::path_polyline(model, path, state, workspace.stations));
-          }
-        }
-      });
+  parallel_ranges<Eigen::Index>(frames, 16, [&](const auto& range) {
+    model::BodyState state = model::make_state(model);
+    model::PathWorkspace workspace;
+    model::PathResult result;
+    for (Eigen::Index f = range.begin(); f != range.end(); ++f) {
+      model::compute_poses(model, q.row(f).transpose(), state);
+      state.qdot.setZero();
+      model::compute_velocities(model, state.qdot, state);
+      scene.poses[at(f)] = state.X_GB;
+      auto& lines = scene.lines_m[at(f)];
+      for (const int m : scene.moving_muscles) {
+        const model::MusclePath& path = model.muscles[static_cast<std::size_t>(m)].path;
+        model::compute_path(model, path, state, workspace, result);
+        lines.push_back(model::path_polyline(model, path, state, workspace.stations));
+      }
+    }
+  });
   scene.coordinate_values = q;
   for (std::size_t c = 0; c < model.coordinates.size(); ++c) {
     if (model.coordinates[c].motion == model::MotionType::rotational)

@@ -102,23 +102,29 @@ void write_opensim_storage(const std::filesystem::path& path,
   for (const Channel& channel : series.channels()) text += "\t" + channel.name;
   text += '\n';
   const auto width = static_cast<std::size_t>(format.decimals + 8);
-  text.reserve(text.size() +
-               static_cast<std::size_t>(series.values().size() + series.sample_count()) *
-                   (width + 1));
-  const auto append = [&](double value) {
-    recording::append_fixed(text, value, format.decimals, width);
+  std::size_t used = text.size();
+  text.resize(used +
+              static_cast<std::size_t>(series.values().size() + series.sample_count()) *
+                  (width + 1) +
+              recording::kFixedRoom + 1);
+  const auto write = [&](double value, char behind) {
+    if (text.size() - used <= recording::kFixedRoom) text.resize(2 * text.size());
+    char* const end = recording::write_fixed(text.data() + used, value, format.decimals, width);
+    *end = behind;
+    used = static_cast<std::size_t>(end - text.data()) + 1;
   };
   std::vector<double> factor;
   for (const Channel& channel : series.channels())
     factor.push_back(format.in_degrees && channel.unit == Unit::radian ? kDegree : 1.0);
+  const Eigen::Index columns = series.channel_count();
   for (Eigen::Index row = 0; row < series.sample_count(); ++row) {
-    append(series.time_s()[row]);
-    for (Eigen::Index c = 0; c < series.channel_count(); ++c) {
-      text += '\t';
-      append(series.values()(row, c) / factor[static_cast<std::size_t>(c)]);
+    write(series.time_s()[row], columns > 0 ? '\t' : '\n');
+    for (Eigen::Index c = 0; c < columns; ++c) {
+      write(series.values()(row, c) / factor[static_cast<std::size_t>(c)],
+            c + 1 < columns ? '\t' : '\n');
     }
-    text += '\n';
   }
+  text.resize(used);
   recording::write_file(path, text, recording::Flush::later);
 }
 

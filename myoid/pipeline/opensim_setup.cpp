@@ -110,6 +110,7 @@ model::BodyModel setup_model(const OpensimSetup& setup,
     model.actuators.clear();
     model.point_actuators.clear();
     model.torque_actuators.clear();
+    model.path_actuators.clear();
     model.passive_forces.clear();
     model.force_order.clear();
   }
@@ -133,6 +134,7 @@ model::BodyModel setup_model(const OpensimSetup& setup,
     drop(model.actuators, actuator);
     drop(model.point_actuators, actuator);
     drop(model.torque_actuators, actuator);
+    drop(model.path_actuators, actuator);
     drop(model.passive_forces, named);
   }
   for (const std::string& text : model.unsupported)

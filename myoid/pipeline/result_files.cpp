@@ -209,6 +209,7 @@ std::string parameters_json(const std::vector<IdentificationResult>& methods,
     };
     m["torque_sd_nm"] = unless_paper(method.torque_sd_nm);
     m["emg_cv"] = unless_paper(method.emg_cv);
+    m["r2"] = number_or_null(method.r2);
     m["model_error"] = unless_paper(method.model_error);
     m["condition"] = unless_paper(method.condition);
     m["emg_delay_s"] = unless_paper(method.delay_s);

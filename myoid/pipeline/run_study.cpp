@@ -350,22 +350,13 @@ std::optional<DesignStudyResult> next_recording(const StudyResult& result, const
   }
   if (masses.size() > 1) options.catalogue.held_masses_kg = masses;
   options.progress.stop = run.progress.stop;
-  const std::vector<identification::ParameterEstimate>* found = nullptr;
   for (const identification::IdentificationResult& method : result.methods) {
     if (method.method != "torque") continue;
     if (method.termination != math::Termination::converged || !method.covariance.allFinite())
       return std::nullopt;
     options.earlier = earlier_run(method);
-    found = &method.estimates;
   }
-  DesignStudyResult next = design_study(study, options);
-  // What is known now has been judged with all that a run knows: profiles, trials left out.
-  for (identification::ParameterEstimate& now : next.beforehand) {
-    for (const identification::ParameterEstimate& e : *found) {
-      if (e.muscle == now.muscle && e.parameter == now.parameter) now.verdict = e.verdict;
-    }
-  }
-  return next;
+  return design_study(study, options);
 }
 
 }  // namespace

@@ -188,6 +188,116 @@ TEST_F(RunTool, AnalysesShareAMotion) {
   EXPECT_LT((length - read("r/a_Outputs.sto").values().col(0)).cwiseAbs().maxCoeff(), 1e-8);
 }
 
+// A path actuator has a column like the muscles, and its force is its control times its strength.
+TEST_F(RunTool, PathActuatorsShareTheLoad) {
+  write_motion(40);
+  std::string forces =
+      "<OpenSimDocument Version=\"40000\"><ForceSet><objects><PathActuator name=\"cable\">"
+      "<optimal_force>300</optimal_force><min_control>0</min_control><max_control>1</max_control>"
+      "<GeometryPath><PathPointSet><objects><PathPoint name=\"a\"><socket_parent_frame>/ground"
+      "</socket_parent_frame><location>0.05 0.1 0</location></PathPoint><PathPoint name=\"b\">"
+      "<socket_parent_frame>/bodyset/forearm_hand</socket_parent_frame><location>0.02 -0.1 0"
+      "</location></PathPoint></objects></PathPointSet></GeometryPath></PathActuator>";
+  for (const model::Coordinate& c : arm_.coordinates) {
+    forces += "<CoordinateActuator name=\"" + c.name + "_reserve\"><coordinate>" + c.name +
+              "</coordinate><optimal_force>1</optimal_force></CoordinateActuator>";
+  }
+  write("more.xml", forces + "</objects></ForceSet></OpenSimDocument>");
+  const ToolResult result =
+      run("<AnalyzeTool name=\"a\"><model_file>arm.osim</model_file><force_set_files>more.xml"
+          "</force_set_files><initial_time>0.1</initial_time><final_time>0.3</final_time>"
+          "<coordinates_file>motion.mot</coordinates_file><AnalysisSet><objects>"
+          "<StaticOptimization name=\"StaticOptimization\"/></objects></AnalysisSet>"
+          "</AnalyzeTool>");
+  EXPECT_EQ(result.frames_failed, 0) << result.summary;
+  const Eigen::VectorXd control = read("a_StaticOptimization_activation.sto").column("cable");
+  const Eigen::VectorXd force = read("a_StaticOptimization_force.sto").column("cable");
+  EXPECT_GT(control.maxCoeff(), 1e-4);
+  EXPECT_LT((force - 300.0 * control).cwiseAbs().maxCoeff(), 1e-5);  // eight decimals
+}
+
+TEST_F(RunTool, BodiesAreReportedByTheirCentersOfMass) {
+  write_motion(40);
+  (void)run(
+      "<AnalyzeTool name=\"a\"><model_file>arm.osim</model_file><results_directory>r"
+      "</results_directory><initial_time>0</initial_time><final_time>0.3</final_time>"
+      "<coordinates_file>motion.mot</coordinates_file><AnalysisSet><objects>"
+      "<BodyKinematics name=\"BodyKinematics\"><bodies>all</bodies></BodyKinematics>"
+      "</objects></AnalysisSet></AnalyzeTool>");
+  const TimeSeries place = read("r/a_BodyKinematics_pos_global.sto");
+  const TimeSeries speed = read("r/a_BodyKinematics_vel_global.sto");
+  const std::string body = arm_.bodies.back().name;
+  ASSERT_TRUE(place.find(body + "_Oz") && place.find("center_of_mass_X"));
+  model::BodyState state = model::make_state(arm_);
+  Eigen::VectorXd q = arm_.default_q();
+  q[arm_.coordinate_index("elbow_flexion")] = elbow(12);
+  model::compute_poses(arm_, q, state);
+  const Vec3 center = state.X_GB.back() * arm_.bodies.back().p_BBcm_B;
+  EXPECT_NEAR(place.column(body + "_X")[12], center.x(), 1e-8);
+  EXPECT_NEAR(place.column(body + "_Y")[12], center.y(), 1e-8);
+  // Speeds are the rates of the places: central differences over 20 ms of a slow swing.
+  EXPECT_NEAR(speed.column(body + "_X")[12],
+              (place.column(body + "_X")[13] - place.column(body + "_X")[11]) / 0.02, 0.02);
+  EXPECT_NEAR(speed.column(body + "_Oz")[12],
+              (place.column(body + "_Oz")[13] - place.column(body + "_Oz")[11]) / 0.02, 1.0);
+}
+
+// A muscle that is not left out pulls with its default activation at its default fiber length: the
+// difference of the two runs is its moment.
+TEST_F(RunTool, MusclesThatAreNotExcludedCountInInverseDynamics) {
+  write_motion(60);
+  const auto torque = [&](const std::string& excluded) {
+    (void)run("<InverseDynamicsTool><model_file>arm.osim</model_file><forces_to_exclude>" +
+              excluded +
+              "</forces_to_exclude><coordinates_file>motion.mot</coordinates_file>"
+              "<output_gen_force_file>id.sto</output_gen_force_file></InverseDynamicsTool>");
+    return read("id.sto").column("elbow_flexion_moment");
+  };
+  std::string others;
+  for (std::size_t m = 1; m < arm_.muscles.size(); ++m) others += arm_.muscles[m].name + " ";
+  const Eigen::VectorXd difference = torque("Muscles") - torque(others);
+  (void)run(
+      "<AnalyzeTool name=\"a\"><model_file>arm.osim</model_file><final_time>0.59</final_time>"
+      "<coordinates_file>motion.mot</coordinates_file><AnalysisSet><objects>"
+      "<MuscleAnalysis name=\"MuscleAnalysis\"/></objects></AnalysisSet></AnalyzeTool>");
+  const Eigen::VectorXd moment =
+      read("a_MuscleAnalysis_Moment_elbow_flexion.sto").column(arm_.muscles[0].name);
+  EXPECT_GT(moment.cwiseAbs().maxCoeff(), 0.1);
+  EXPECT_LT((difference - moment).cwiseAbs().maxCoeff(), 1e-7);  // eight decimals
+}
+
+// Task sets in files of their own, with Windows separators; names with blanks around them.
+TEST_F(RunTool, TasksMayStandInAFileOfTheirOwn) {
+  write_markers(10);
+  std::filesystem::create_directories(folder_ / "tasks");
+  std::string tasks = "<OpenSimDocument Version=\"20302\"><IKTaskSet><objects>";
+  for (const model::Marker& marker : arm_.markers)
+    tasks += "<IKMarkerTask name=\"" + marker.name + "\"><weight>5</weight></IKMarkerTask>";
+  write("tasks/t.xml", tasks + "</objects></IKTaskSet></OpenSimDocument>");
+  const ToolResult result =
+      run("<InverseKinematicsTool><model_file> arm.osim </model_file><IKTaskSet "
+          "file=\"tasks\\t.xml\"/><marker_file>\n  m.trc\t</marker_file>"
+          "<output_motion_file>ik.mot</output_motion_file></InverseKinematicsTool>");
+  EXPECT_EQ(result.frames, 10);
+  EXPECT_NEAR(read("ik.mot").column("elbow_flexion")[5], elbow(5) / kDegree, 1e-6);
+}
+
+TEST_F(RunTool, MarkersFarFromTheModelsAreSaidSo) {
+  write_markers(10);
+  std::string text;
+  {
+    std::ifstream in(folder_ / "m.trc");
+    text.assign(std::istreambuf_iterator<char>(in), {});
+  }
+  // The values stay, the header says millimeters.
+  text.replace(text.find("\tm\t100"), 7, "\tmm\t100");
+  write("m.trc", text);
+  const ToolResult result =
+      run("<InverseKinematicsTool><model_file>arm.osim</model_file><marker_file>m.trc"
+          "</marker_file><output_motion_file>ik.mot</output_motion_file></InverseKinematicsTool>");
+  EXPECT_THAT(result.notes, ::testing::Contains(::testing::HasSubstr("times as far apart")));
+}
+
 TEST_F(RunTool, ScalingByHandMakesALargerModelOfTheGivenMass) {
   const ToolResult result =
       run("<ScaleTool "

@@ -16,6 +16,8 @@
 #include "myoid/model/osim_reader.h"
 #include "myoid/pipeline/channel_muscles.h"
 #include "myoid/pipeline/draft_recordings.h"
+#include "myoid/pipeline/draft_text.h"
+#include "myoid/pipeline/draft_trials.h"
 #include "myoid/recording/bids.h"
 #include "myoid/recording/label_match.h"
 #include "myoid/recording/recording.h"
@@ -25,21 +27,6 @@ namespace myoid::pipeline {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string in_quotes(const std::string& text) {
-  std::string out = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') out += '\\';
-    if (static_cast<unsigned char>(c) >= 0x20U) out += c;
-  }
-  return out + '"';
-}
-
-std::string list_of(const std::vector<std::string>& names) {
-  std::string list;
-  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + in_quotes(name);
-  return "[" + list + "]";
-}
 
 /// Muscles that have a moment arm about the coordinate of more than 1 mm somewhere in its range.
 std::vector<std::string> movers(const model::BodyModel& model, const std::string& coordinate) {
@@ -88,17 +75,18 @@ class Draft {
     }
     head();
     muscles();
-    trials();
+    draft_trials(
+        found_, [&](const fs::path& path) { return relative(path); }, model_file_.has_value(),
+        out_);
     tail();
+    draft_.toml = std::move(out_.toml);
+    draft_.todo = std::move(out_.questions);
     return std::move(draft_);
   }
 
  private:
-  void line(const std::string& text) { draft_.toml += text + '\n'; }
-  void todo(const std::string& text) {
-    line("# TODO: " + text);
-    draft_.todo.push_back(text);
-  }
+  void line(const std::string& text) { out_.line(text); }
+  void todo(const std::string& text) { out_.todo(text); }
   [[nodiscard]] std::string relative(const fs::path& path) const {
     std::error_code error;
     const fs::path absolute = fs::absolute(path, error);
@@ -359,110 +347,6 @@ class Draft {
     return name.size() >= 2 ? name : heads[0];
   }
 
-  /// The EMG file of the same trial: itself, the same stem, or one stem that begins with the other.
-  FoundRecording* emg_of(FoundRecording& motion) {
-    if (!motion.channels.empty()) return &motion;
-    for (FoundRecording& f : found_) {
-      if (!f.channels.empty() && !f.emg_taken && f.stem == motion.stem) return &f;
-    }
-    FoundRecording* best = nullptr;
-    for (FoundRecording& f : found_) {
-      if (f.channels.empty() || f.emg_taken) continue;
-      if (!f.stem.starts_with(motion.stem + "_") && !motion.stem.starts_with(f.stem + "_"))
-        continue;
-      if (best == nullptr || f.stem.size() > best->stem.size()) best = &f;
-    }
-    return best;
-  }
-
-  void trials() {
-    std::set<std::string> names;
-    bool two_clocks = false, any_calibration = false;
-    const auto unique = [&](std::string name) {
-      while (!names.insert(name).second) name += "_2";
-      return name;
-    };
-    // Joint angles first: a trial that has them needs no markers.
-    for (const bool with_angles : {true, false}) {
-      for (FoundRecording& f : found_) {
-        const bool fits = with_angles ? !f.angles.empty() : f.markers.frame_count() > 0;
-        if (!fits || f.motion_taken) continue;
-        if (!with_angles && std::any_of(found_.begin(), found_.end(), [&](const FoundRecording& g) {
-              return !g.angles.empty() && g.motion_taken && g.stem == f.stem;
-            })) {
-          notes_.push_back(
-              fmt::format("# Not used: markers = {} (the trial starts from its joint angles)",
-                          in_quotes(relative(f.path))));
-          continue;
-        }
-        f.motion_taken = true;
-        FoundRecording* emg = emg_of(f);
-        std::string use = guessed_use(f.stem);
-        if (emg == nullptr && use == "calibration") use = "passive";
-        if (emg != nullptr) emg->emg_taken = true;
-        line("[[trial]]");
-        line("name = " + in_quotes(unique(f.stem)));
-        line((with_angles ? "motion = " : "markers = ") + in_quotes(relative(f.path)));
-        if (emg != nullptr) line("emg = " + in_quotes(relative(emg->path)));
-        two_clocks = two_clocks || (emg != nullptr && emg != &f);
-        line("use = " + in_quotes(use));
-        if (use == "calibration") any_calibration = true;
-        if (emg == nullptr && use == "passive")
-          todo(fmt::format("no EMG was found for '{}'; it gives motion and torque only", f.stem));
-        if (f.plates > 0) {
-          line(
-              fmt::format("# force_plates = {{ bodies = \"auto\" }}   # {} in this file, if the "
-                          "person stood on them",
-                          f.plates));
-        }
-        held_mass(f.stem);
-        line("");
-      }
-    }
-    for (FoundRecording& f : found_) {
-      if (f.channels.empty() || f.emg_taken || f.motion_taken) continue;
-      line("[[trial]]");
-      line("name = " + in_quotes(unique(f.stem)));
-      line("emg = " + in_quotes(relative(f.path)));
-      line("use = \"mvc\"");
-      if (guessed_use(f.stem) != "mvc")
-        todo(fmt::format(
-            "'{}' has EMG and no motion: a maximal contraction? Else give it markers or "
-            "motion, or take it out",
-            f.path.filename().string()));
-      line("");
-    }
-    if (!any_calibration)
-      todo("no trial has use = \"calibration\", from which parameters are found");
-    for (const std::string& note : notes_) line(note);
-    if (two_clocks) {
-      line("");
-      line(
-          "# EMG and motion are in different files. If they did not start together, or their "
-          "clocks run");
-      line("# apart, say so (docs/guide/study.md, [sync]):");
-      line("# [sync]");
-      line("# offset_s = 0.0");
-    }
-  }
-
-  /// "flex_2.5kg": a mass in the hand, perhaps.
-  void held_mass(const std::string& stem) {
-    const auto at = stem.find("kg");
-    if (at == std::string::npos) return;
-    std::size_t begin = at;
-    while (begin > 0 && (std::isdigit(static_cast<unsigned char>(stem[begin - 1])) != 0 ||
-                         stem[begin - 1] == '.' || stem[begin - 1] == 'p'))
-      --begin;
-    std::string number = stem.substr(begin, at - begin);
-    std::replace(number.begin(), number.end(), 'p', '.');
-    const auto mass = recording::parse_number(number);
-    if (!mass || !(*mass > 0.0 && *mass <= 100.0)) return;
-    todo(fmt::format("the name says {} kg: held in the hand?{}", *mass,
-                     model_file_ ? " Then [model] held_mass must say where it acts" : ""));
-    line(fmt::format("# held_mass_kg = {}", *mass));
-  }
-
   void tail() {
     line("");
     line("[identify]");
@@ -486,11 +370,11 @@ class Draft {
   bool guessed_coordinate_ = false;
   bool mixed_ = false;
   std::vector<FoundRecording> found_;
-  std::vector<std::string> notes_;
   std::map<std::string, std::string> similar_;
   Eigen::Index most_known_ = 0;
   char up_ = ' ';
   double up_cosine_ = 0.0;
+  DraftText out_;
   StudyDraft draft_;
 };
 

@@ -38,16 +38,23 @@ std::vector<Channel> channels_of(const model::BodyModel& model, int order) {
 }
 
 /// Positions, speeds and accelerations as OpenSim forms them: speeds are the derivative of the
-/// spline through the positions (or given), accelerations that of the spline through the speeds.
+/// spline through the positions (or given), accelerations that of the spline through the speeds;
+/// zero where nobody asks for them.
 kinematics::JointMotion motion_of(const model::BodyModel& model,
                                   TimeSeries q,
-                                  std::optional<TimeSeries> speeds) {
+                                  std::optional<TimeSeries> speeds,
+                                  bool with_accelerations) {
   TimeSeries u = speeds ? std::move(*speeds) : derivative(q, channels_of(model, 1));
-  TimeSeries udot = derivative(u, channels_of(model, 2));
+  TimeSeries udot = with_accelerations
+                        ? derivative(u, channels_of(model, 2))
+                        : TimeSeries(u.time_s(), channels_of(model, 2),
+                                     Eigen::MatrixXd::Zero(u.sample_count(), u.channel_count()));
   return {std::move(q), std::move(u), std::move(udot)};
 }
 
-kinematics::JointMotion read_motion(AnalysisRun& run, const OpensimSetup& setup) {
+kinematics::JointMotion read_motion(AnalysisRun& run,
+                                    const OpensimSetup& setup,
+                                    bool with_accelerations) {
   const auto& xml = setup.xml();
   const auto tool = setup.tool();
   auto& notes = run.result.notes;
@@ -58,7 +65,8 @@ kinematics::JointMotion read_motion(AnalysisRun& run, const OpensimSetup& setup)
     }
     TimeSeries q = read_coordinates(run.model, *states, MissingCoordinate::default_value, notes);
     read_muscle_states(run, *states);
-    return motion_of(run.model, std::move(q), read_speeds(run.model, *states, false));
+    return motion_of(run.model, std::move(q), read_speeds(run.model, *states, false),
+                     with_accelerations);
   }
   const auto path = setup.file(tool, "coordinates_file");
   if (!path) {
@@ -80,7 +88,7 @@ kinematics::JointMotion read_motion(AnalysisRun& run, const OpensimSetup& setup)
                       file->string(), speeds->sample_count(), q.sample_count()));
     }
   }
-  return motion_of(run.model, std::move(q), std::move(speeds));
+  return motion_of(run.model, std::move(q), std::move(speeds), with_accelerations);
 }
 
 TimeSeries chosen_rows(const TimeSeries& series, const std::vector<Eigen::Index>& rows) {
@@ -130,7 +138,10 @@ void run_analyses(const OpensimSetup& setup, const ToolOptions& options, ToolRes
     }
   }
   read_loads(run, setup);
-  const kinematics::JointMotion all = read_motion(run, setup);
+  const bool accelerates = std::any_of(analyses.begin(), analyses.end(), [](pugi::xml_node node) {
+    return std::string_view(node.name()) == "StaticOptimization";
+  });
+  const kinematics::JointMotion all = read_motion(run, setup, accelerates);
   const double start_s = xml.number(tool, "initial_time", 0.0);
   const double end_s = xml.number(tool, "final_time", 1.0);
   const Eigen::VectorXd& times = all.q.time_s();

@@ -5,11 +5,39 @@
 
 #include "myoid/core/error.h"
 #include "myoid/dynamics/inverse_dynamics.h"
+#include "myoid/forces/muscle_analysis.h"
 #include "myoid/pipeline/opensim_files.h"
 #include "myoid/pipeline/tool_stages.h"
 #include "myoid/signals/opensim_lowpass.h"
 
 namespace myoid::pipeline {
+namespace {
+
+/// Generalized forces less the moments of the muscles whose fibers have their default lengths at
+/// their default activations. Every coordinate is on its own, as everywhere in inverse dynamics.
+TimeSeries without_muscles(const model::BodyModel& model,
+                           const kinematics::JointMotion& motion,
+                           const TimeSeries& tau,
+                           const Progress& progress) {
+  model::BodyModel uncoupled = model;
+  uncoupled.couplers.clear();
+  uncoupled.constraints.clear();
+  forces::MuscleAnalysisOptions options{.equilibrium = false, .progress = progress};
+  for (std::size_t m = 0; m < model.muscles.size(); ++m)
+    if (model.muscles[m].applies_force) options.muscles.push_back(static_cast<int>(m));
+  for (std::size_t c = 0; c < model.coordinates.size(); ++c)
+    options.coordinates.push_back(static_cast<int>(c));
+  if (options.muscles.empty()) return tau;
+  Eigen::MatrixXd values = tau.values();
+  const forces::MuscleAnalysis analysis = forces::muscle_analysis(uncoupled, motion, options);
+  for (const auto& [name, table] : analysis.tables) {
+    if (!name.starts_with("Moment_")) continue;
+    values.col(model.coordinate_index(name.substr(7))) -= table.values().rowwise().sum();
+  }
+  return {tau.time_s(), tau.channels(), std::move(values)};
+}
+
+}  // namespace
 
 void run_inverse_dynamics(const OpensimSetup& setup,
                           const ToolOptions& options,
@@ -24,8 +52,8 @@ void run_inverse_dynamics(const OpensimSetup& setup,
   const model::BodyModel model = setup_model(setup, options.compat, excluded, result.notes);
   if (!model.muscles.empty()) {
     result.notes.push_back(
-        "forces_to_exclude does not name the muscles: OpenSim would count what they bear at their "
-        "default activation; here they are left out");
+        "forces_to_exclude does not name the muscles: as in OpenSim they pull with their default "
+        "activations and fiber lengths");
   }
   if (!xml.words(tool, "joints_to_report_body_forces").empty())
     result.notes.push_back("joints_to_report_body_forces: body forces at joints are not written");
@@ -54,7 +82,8 @@ void run_inverse_dynamics(const OpensimSetup& setup,
           motion.q.time_s()[motion.sample_count() - 1]));
     }
   }
-  const TimeSeries tau = dynamics::inverse_dynamics(model, motion, dynamics_options);
+  TimeSeries tau = dynamics::inverse_dynamics(model, motion, dynamics_options);
+  if (!model.muscles.empty()) tau = without_muscles(model, motion, tau, options.progress);
   // OpenSim's columns are in the order of the tree.
   std::vector<std::string> columns;
   for (const model::Joint& joint : model.joints) {

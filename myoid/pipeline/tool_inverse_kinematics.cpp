@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -6,6 +5,7 @@
 
 #include "myoid/core/error.h"
 #include "myoid/kinematics/inverse_kinematics.h"
+#include "myoid/pipeline/marker_misfit.h"
 #include "myoid/pipeline/opensim_files.h"
 #include "myoid/pipeline/tool_stages.h"
 #include "myoid/recording/recording.h"
@@ -110,18 +110,11 @@ void run_inverse_kinematics(const OpensimSetup& setup,
     for (const std::string& name : solved.undetermined) names += (names.empty() ? "" : ", ") + name;
     result.notes.push_back("not determined by the markers: " + names);
   }
-  const Eigen::VectorXd rms = solved.errors.column("marker_error_RMS");
-  double sum = 0.0;
-  int seen = 0;
-  for (const double value : rms) {
-    if (std::isnan(value)) continue;
-    sum += value * value;
-    ++seen;
-  }
-  result.summary =
-      fmt::format("{} frames, {} not converged, {} without markers; marker error {:.2f} mm rms",
-                  result.frames, solved.frames_not_converged, solved.frames_without_markers,
-                  1000.0 * std::sqrt(sum / std::max(1, seen)));
+  const MarkerMisfit misfit = marker_misfit(model, markers, solved);
+  if (!misfit.warning.empty()) result.notes.push_back(misfit.warning);
+  result.summary = fmt::format(
+      "{} frames, {} not converged, {} without markers; marker error {:.2f} mm rms", result.frames,
+      solved.frames_not_converged, solved.frames_without_markers, 1000.0 * misfit.rms_m);
 }
 
 }  // namespace myoid::pipeline

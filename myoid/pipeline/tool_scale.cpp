@@ -162,6 +162,7 @@ std::vector<std::pair<std::string, const model::MusclePath*>> paths_of(
     const model::BodyModel& model) {
   std::vector<std::pair<std::string, const model::MusclePath*>> paths;
   for (const model::Muscle& m : model.muscles) paths.emplace_back(m.name, &m.path);
+  for (const model::PathActuator& a : model.path_actuators) paths.emplace_back(a.name, &a.path);
   for (const model::PassiveForce& f : model.passive_forces) {
     if (const auto* spring = std::get_if<model::PathSpring>(&f.law))
       paths.emplace_back(f.name, &spring->path);

@@ -8,8 +8,9 @@ namespace myoid::pipeline {
 
 void claim_file(const ToolOptions& options, const std::filesystem::path& path, ToolResult& result) {
   std::error_code ignored;
+  const bool exists = std::filesystem::exists(path, ignored);
   for (const std::filesystem::path& input : result.inputs) {
-    if (path != input && !std::filesystem::equivalent(path, input, ignored)) continue;
+    if (path != input && (!exists || !std::filesystem::equivalent(path, input, ignored))) continue;
     throw InvalidInput(fmt::format(
         "{} is read by this set-up and would be replaced by its result; name another file for one "
         "of them",

@@ -198,6 +198,8 @@ TwinStudyResult twin_study(const simulation::Protocol& protocol, const TwinStudy
   result.protocol = protocol.name;
   result.level = simulation::name(protocol.level);
   result.finished = static_cast<int>(std::count(finished.begin(), finished.end(), 1));
+  result.subjects = options.subjects;
+  result.first_seed = options.first_seed;
   result.interrupted = result.finished < options.subjects;
   for (OnePerson& person : persons) {
     std::move(person.rows.begin(), person.rows.end(), std::back_inserter(result.rows));
@@ -279,6 +281,10 @@ void write_twin_study(const TwinStudyResult& result,
                                 {"command", provenance.command},
                                 {"protocol", result.protocol},
                                 {"level", result.level},
+                                {"first_seed", result.first_seed},
+                                {"persons_asked_for", result.subjects},
+                                {"persons_finished", result.finished},
+                                {"interrupted", result.interrupted},
                                 {"inputs", nlohmann::ordered_json::array()},
                                 {"failures", nlohmann::ordered_json::array()}};
   for (const InputFile& file : provenance.inputs)

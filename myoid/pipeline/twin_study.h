@@ -51,7 +51,9 @@ struct TwinStudyResult {
   std::vector<TwinRow> rows;  ///< By seed, then as the estimators list them.
   std::vector<TwinPrediction> predictions;
   std::vector<TwinFailure> failures;
-  int finished = 0;          ///< Persons.
+  int subjects = 0;  ///< Persons asked for ...
+  int finished = 0;  ///< ... and finished.
+  std::uint64_t first_seed = 1;
   bool interrupted = false;  ///< Stopped before all were finished.
 };
 

@@ -5,6 +5,10 @@
 
 #include <gtest/gtest.h>
 
+#include "myoid/recording/text_file.h"
+
+#include "tests/support/temporary_folder.h"
+
 namespace myoid::pipeline {
 namespace {
 
@@ -86,8 +90,15 @@ TEST(TwinStudy, StoppedItSaysSoAndHasOnlyWhoIsFinished) {
   options.progress.stop = stop.get_token();
   const TwinStudyResult result = twin_study(protocol, options);
   EXPECT_TRUE(result.interrupted);
+  EXPECT_EQ(result.subjects, 3);
   EXPECT_EQ(result.finished, 0);
   EXPECT_TRUE(result.rows.empty());
+  const test::TemporaryFolder folder;
+  write_twin_study(result, {}, folder.path());
+  const std::string run = recording::read_text_file(folder / "run.json");
+  EXPECT_NE(run.find("\"persons_asked_for\": 3"), std::string::npos);
+  EXPECT_NE(run.find("\"persons_finished\": 0"), std::string::npos);
+  EXPECT_NE(run.find("\"interrupted\": true"), std::string::npos);
 }
 
 }  // namespace

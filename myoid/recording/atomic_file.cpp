@@ -53,24 +53,29 @@ void write_through(const std::filesystem::path& path, std::string_view content) 
 
 void write_file(const std::filesystem::path& path, std::string_view content, Flush flush) {
   if (path.empty()) throw InvalidInput("the name of the file to write is empty");
+  // What neither exists nor is a link is where it says.
   struct stat existing {};
-  const bool exists = stat(path.c_str(), &existing) == 0;
+  bool exists = lstat(path.c_str(), &existing) == 0;
+  const bool is_link = exists && S_ISLNK(existing.st_mode);
+  if (is_link) exists = stat(path.c_str(), &existing) == 0;
   if (exists && S_ISDIR(existing.st_mode)) {
     throw InvalidInput(fmt::format("{}: is a folder; name a file in it", path.string()));
   }
   if (exists && !S_ISREG(existing.st_mode)) return write_through(path, content);
 
-  const std::filesystem::path target = behind_links(path);
-  if (target.has_parent_path()) {
+  const std::filesystem::path target = is_link ? behind_links(path) : path;
+  std::string temporary = target.string() + ".XXXXXX";
+  int descriptor = mkstemp(temporary.data());
+  if (descriptor < 0 && (errno == ENOENT || errno == ENOTDIR) && target.has_parent_path()) {
     std::error_code error;
     std::filesystem::create_directories(target.parent_path(), error);
     if (error) {
       throw InvalidInput(fmt::format("{}: cannot create the folder {}: {}", path.string(),
                                      target.parent_path().string(), error.message()));
     }
+    temporary = target.string() + ".XXXXXX";
+    descriptor = mkstemp(temporary.data());
   }
-  std::string temporary = target.string() + ".XXXXXX";
-  const int descriptor = mkstemp(temporary.data());
   if (descriptor < 0) fail(path, "cannot be written", errno);
   int cause = write_all(descriptor, content);
   const mode_t permissions = exists ? existing.st_mode & 07777 : 0644;

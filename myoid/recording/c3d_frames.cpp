@@ -25,25 +25,49 @@ void C3dFrames::each_part(
   }
 }
 
-void C3dFrames::points(const std::byte* frame, float* out) const {
-  const std::size_t count = 4 * layout_.points;
-  if (!layout_.integer) return reals(frame, out, count);
-  const auto scale = static_cast<double>(layout_.scale);
-  for (std::size_t i = 0; i < count; i += 4, frame += 8) {
+namespace {
+
+// The byte order is decided outside of the loops.
+template <C3dProcessor kProcessor>
+void scaled_points(const std::byte* p, std::size_t points, double scale, float* out) {
+  constexpr C3dBytes kNumber{kProcessor};
+  for (std::size_t i = 0; i < points; ++i, p += 8, out += 4) {
     // The product in double and then rounded: what a file of reals of the same data holds.
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      out[i + axis] =
-          static_cast<float>(static_cast<double>(number_.i16(frame + 2 * axis)) * scale);
-    out[i + 3] = static_cast<float>(number_.i16(frame + 6));
+    out[0] = static_cast<float>(static_cast<double>(kNumber.i16(p)) * scale);
+    out[1] = static_cast<float>(static_cast<double>(kNumber.i16(p + 2)) * scale);
+    out[2] = static_cast<float>(static_cast<double>(kNumber.i16(p + 4)) * scale);
+    out[3] = static_cast<float>(kNumber.i16(p + 6));
   }
+}
+
+template <C3dProcessor kProcessor>
+void integers(const std::byte* p, std::size_t count, bool is_unsigned, float* out) {
+  constexpr C3dBytes kNumber{kProcessor};
+  if (is_unsigned) {
+    for (std::size_t i = 0; i < count; ++i) out[i] = static_cast<float>(kNumber.u16(p + 2 * i));
+  } else {
+    for (std::size_t i = 0; i < count; ++i) out[i] = static_cast<float>(kNumber.i16(p + 2 * i));
+  }
+}
+
+}  // namespace
+
+void C3dFrames::points(const std::byte* frame, float* out) const {
+  if (!layout_.integer) return reals(frame, out, 4 * layout_.points);
+  const auto scale = static_cast<double>(layout_.scale);
+  // DEC's integers are Intel's.
+  if (number_.processor == C3dProcessor::sgi)
+    return scaled_points<C3dProcessor::sgi>(frame, layout_.points, scale, out);
+  scaled_points<C3dProcessor::intel>(frame, layout_.points, scale, out);
 }
 
 void C3dFrames::analog(const std::byte* frame, float* out) const {
   const std::byte* p = frame + 4 * layout_.points * word_bytes();
   const std::size_t count = layout_.channels * layout_.analog_per_frame;
   if (!layout_.integer) return reals(p, out, count);
-  for (std::size_t i = 0; i < count; ++i, p += 2)
-    out[i] = is_unsigned_ ? static_cast<float>(number_.u16(p)) : static_cast<float>(number_.i16(p));
+  if (number_.processor == C3dProcessor::sgi)
+    return integers<C3dProcessor::sgi>(p, count, is_unsigned_, out);
+  integers<C3dProcessor::intel>(p, count, is_unsigned_, out);
 }
 
 void C3dFrames::reals(const std::byte* p, float* out, std::size_t count) const {

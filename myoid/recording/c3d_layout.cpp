@@ -102,6 +102,31 @@ std::vector<Frames> frame_counts(const C3dHeader& header, const C3dFile& file) {
   return list;
 }
 
+/// Header and parameters that do not tell of the same frames, whichever the size confirms.
+void say_other_frame_counts(const C3dHeader& header,
+                            const C3dFile& file,
+                            const std::vector<Frames>& frames,
+                            const Frames& chosen,
+                            std::vector<Repair>& repairs) {
+  const std::int64_t in_header = header.last_frame - header.first_frame + 1;
+  if (in_header <= 0) {
+    repairs.push_back(
+        {0, fmt::format("the header says frames {} to {}, which is no range; {} says "
+                        "{} frames. If the first one is wrong, so is the time of all",
+                        header.first_frame, header.last_frame, chosen.source, chosen.count)});
+  } else if (&chosen != frames.data()) {
+    repairs.push_back({0, fmt::format("the header says {} frames, {} says {}; the file's size "
+                                      "confirms the latter",
+                                      frames[0].count, chosen.source, chosen.count)});
+  } else if (const auto said = count_in(file.find("POINT", "FRAMES"));
+             said && *said > 0 && *said < 65535 &&
+             static_cast<std::int64_t>(*said) != chosen.count % 65536) {
+    repairs.push_back({0, fmt::format("POINT:FRAMES says {} frames, the header {} ({} to {}); the "
+                                      "header is taken",
+                                      *said, in_header, header.first_frame, header.last_frame)});
+  }
+}
+
 }  // namespace
 
 C3dHeader read_c3d_header(std::span<const std::byte> head, const C3dBytes& number) {
@@ -195,8 +220,8 @@ C3dLayout find_c3d_layout(const C3dHeader& header,
     return (4 * p + s.channels * s.analog_per_frame) * (integer ? 2U : 4U) *
            static_cast<std::uint64_t>(n);
   };
-  const auto confirmed = [&](std::uint64_t needed) {
-    return needed > 0 && needed <= available && available - needed < 2 * kBlock;
+  const auto confirmed = [&](std::uint64_t needed, std::uint64_t padding) {
+    return needed > 0 && needed <= available && available - needed < padding;
   };
   bool found = false;
   const Frames* chosen = frames.data();
@@ -208,11 +233,14 @@ C3dLayout find_c3d_layout(const C3dHeader& header,
     chosen = &f;
     found = true;
   };
-  for (const bool kind : kinds) {
-    for (const Shape& s : shapes) {
-      for (const std::size_t p : points) {
-        for (const Frames& f : frames) {
-          if (!found && confirmed(bytes(kind, p, s, f.count))) take(kind, p, s, f);
+  // Up to a whole block behind the data first: what needs more of it is less likely.
+  for (const std::uint64_t padding : {kBlock, 2 * kBlock}) {
+    for (const bool kind : kinds) {
+      for (const Shape& s : shapes) {
+        for (const std::size_t p : points) {
+          for (const Frames& f : frames) {
+            if (!found && confirmed(bytes(kind, p, s, f.count), padding)) take(kind, p, s, f);
+          }
         }
       }
     }
@@ -264,13 +292,10 @@ C3dLayout find_c3d_layout(const C3dHeader& header,
       if (fits && (!now_fits || f.count > chosen->count)) chosen = &f;
     }
   }
-  if (chosen != frames.data())
-    repairs.push_back({0, fmt::format("the header says {} frames, {} says {}; the file's size "
-                                      "confirms the latter",
-                                      frames[0].count, chosen->source, chosen->count)});
+  say_other_frame_counts(header, file, frames, *chosen, repairs);
   layout.scale = std::abs(static_cast<float>(scale));
   if (layout.integer && header_scale_good && point_scale != 0.0 &&
-      std::abs(std::abs(point_scale) - std::abs(scale)) > 1e-5 * std::abs(scale)) {
+      std::abs(std::abs(point_scale) - std::abs(scale)) > 1e-6 * std::abs(scale)) {
     repairs.push_back({0, fmt::format("POINT:SCALE = {:.6g}, the header says {:.6g}; the header is "
                                       "taken: compare a known distance",
                                       point_scale, scale)});

@@ -261,6 +261,8 @@ EdfFile read(ByteSource& source, const std::filesystem::path& path) {
   Eigen::VectorXd time(records * per_record);
   Eigen::MatrixXd values(time.size(), static_cast<Eigen::Index>(chosen.size()));
   std::optional<double> previous;
+  std::optional<double> first_onset;
+  bool stamps_agree = true;
   for (std::int64_t r = 0; r < records; ++r) {
     const auto record =
         source.view(header.bytes + static_cast<std::uint64_t>(r) * header.record_bytes,
@@ -274,6 +276,16 @@ EdfFile read(ByteSource& source, const std::filesystem::path& path) {
       if (!onset) onset = time_of_record;
     }
     double begin = static_cast<double>(r) * header.record_s;
+    if (!first_onset) first_onset = onset;
+    if (!header.gaps && onset && stamps_agree &&
+        std::abs(*onset - *first_onset - begin) > 0.5 * dt + 1e-6) {
+      stamps_agree = false;
+      file.repairs.push_back(
+          {0, fmt::format("record {} says it begins {:.6g} s after the first, by the header's {} s "
+                          "for a record it is {:.6g} s, which is taken: compare the length of the "
+                          "recording",
+                          r + 1, *onset - *first_onset, header.record_s, begin)});
+    }
     if (header.gaps) {
       if (!onset)
         throw ReadError(path, 0,

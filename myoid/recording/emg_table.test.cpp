@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "myoid/core/error.h"
+#include "myoid/recording/emg_table_layout.h"
 
 namespace myoid::recording {
 namespace {
@@ -85,6 +86,20 @@ TEST(EmgTable, AChannelBeforeTheFirstOfTwoTimeColumnsHasItsClock) {
   EXPECT_EQ(s.data.channel_count(), 3);
   EXPECT_DOUBLE_EQ(s.data.column("A")[1], 8e-3);
   EXPECT_DOUBLE_EQ(s.data.time_s()[1], 0.1);
+}
+
+TEST(EmgTableLayout, NamesStandAboveTheFirstRowsOfNumbersAndUnitsBetween) {
+  const std::vector<std::string_view> lines{
+      "Some lab", "Sampling rate: 1000 Hz", "", "Frame,E1,E2", ",mV,uV", "1,0.5,7", "2,0.25,8"};
+  const auto layout = emg_table::find_table(lines, ',');
+  ASSERT_TRUE(layout);
+  EXPECT_EQ(layout->names_row, 3U);
+  EXPECT_EQ(layout->first_row, 5U);
+  EXPECT_EQ(layout->rate_hz, 1000.0);
+  ASSERT_EQ(layout->labels.size(), 3U);
+  EXPECT_EQ(layout->labels[2].unit->to_si, 1e-6);
+  EXPECT_FALSE(emg_table::is_plain(lines, *layout));
+  EXPECT_FALSE(emg_table::find_table(lines, ';'));
 }
 
 }  // namespace

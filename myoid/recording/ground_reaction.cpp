@@ -107,7 +107,7 @@ TimeSeries ground_reaction(const std::vector<ForcePlate>& plates,
     if (broken > 0)
       repairs.push_back({0, fmt::format("force plate {}: {} samples are no numbers; taken as 0",
                                         plate.number, broken)});
-    if (sign != 0)
+    if (sign != 0 && unloaded > 0)
       repairs.push_back(
           {0, fmt::format("force plate {}: {} of {} samples are below {} N and set to "
                           "0",

@@ -13,7 +13,9 @@
 #include "myoid/recording/atomic_file.h"
 #include "myoid/recording/csv_reader.h"
 #include "myoid/recording/emg_reader.h"
+#include "myoid/recording/recording.h"
 #include "myoid/recording/storage_reader.h"
+#include "myoid/recording/text_file.h"
 #include "myoid/recording/toml_table.h"
 #include "myoid/recording/trc_reader.h"
 
@@ -90,6 +92,27 @@ std::string with(std::string text, const std::string& old, const std::string& re
   const std::size_t at = text.find(old);
   EXPECT_NE(at, std::string::npos) << old;
   return text.replace(at, old.size(), replacement);
+}
+
+/// Found by fuzzing: a name longer than the system takes ended the program.
+TEST(AnyReader, ANameTooLongForTheSystemIsAReadErrorThatNamesIt) {
+  for (const std::size_t length : {300U, 5000U}) {
+    for (const char* ending :
+         {".trc", ".c3d", ".csv", ".edf", ".anc", ".sto", "_emg.edf", "_motion.tsv", ".txt"}) {
+      const std::string name = std::string(length, 'x') + ending;
+      for (const auto& read :
+           {+[](const std::string& n) { static_cast<void>(read_recording(n)); },
+            +[](const std::string& n) { static_cast<void>(read_markers(n)); },
+            +[](const std::string& n) { static_cast<void>(read_emg(n, "", false)); }}) {
+        try {
+          read(name);
+          ADD_FAILURE() << "read " << ending;
+        } catch (const ReadError& error) {
+          EXPECT_EQ(std::string(error.what()).rfind(name, 0), 0U) << ending;
+        }
+      }
+    }
+  }
 }
 
 TEST(AnyReader, CutOffAtAnyByteGivesDataOrAnErrorThatNamesTheFile) {
@@ -276,13 +299,31 @@ TEST(ReadEmg, AUnitIsAppliedOnceWhoeverStatesIt) {
 
 TEST(ReadTextFile, TellsTextFromWhatIsNone) {
   const test::TemporaryFolder folder;
-  write_file(folder / "a.trc", std::string("\xFF\xFE"
-                                           "P\0a\0",
-                                           6));
-  EXPECT_NE(refusal([&] { (void)read_trc(folder / "a.trc"); }).find("UTF-16"), std::string::npos);
+  // An odd byte and half of a surrogate pair: no UTF-16.
+  for (const std::string& bytes : {std::string("\xFF\xFEP\0a", 5), std::string("\xFF\xFE\0\xD8"
+                                                                               "a\0",
+                                                                               6)}) {
+    write_file(folder / "a.trc", bytes);
+    EXPECT_NE(refusal([&] { (void)read_trc(folder / "a.trc"); }).find("UTF-16"), std::string::npos);
+  }
   write_file(folder / "b.sto", std::string("\x02\x50\0\0", 4));
   EXPECT_NE(refusal([&] { (void)read_storage(folder / "b.sto"); }).find("binary"),
             std::string::npos);
+}
+
+TEST(ReadTextFile, Utf16OfBothByteOrdersIsReadAsWhatItSays) {
+  const test::TemporaryFolder folder;
+  // a, u with diaeresis, euro, a letter beyond 16 bits (surrogates), in either order of bytes.
+  const std::string little(
+      "\xFF\xFE"
+      "a\0\xFC\0\xAC\x20\x3D\xD8\x00\xDE",
+      12);
+  std::string big = little;
+  for (std::size_t i = 0; i < big.size(); i += 2) std::swap(big[i], big[i + 1]);
+  for (const std::string& bytes : {little, big}) {
+    write_file(folder / "a.txt", bytes);
+    EXPECT_EQ(read_text_file(folder / "a.txt"), "a\xC3\xBC\xE2\x82\xAC\xF0\x9F\x98\x80");
+  }
 }
 
 TEST(AnyReader, AGermanLocaleChangesNothing) {

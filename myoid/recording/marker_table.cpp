@@ -35,6 +35,7 @@ struct Layout {
   char separator = ',';
   std::vector<std::string> names;
   std::size_t first_column = 0;             ///< Of the first marker.
+  std::vector<std::size_t> columns;         ///< Of each marker, where other columns stand between.
   std::optional<std::size_t> frame_column;  ///< Counts from 1.
   std::optional<std::size_t> time_column;   ///< [s]
   std::size_t first_row = 0, end_row = 0;
@@ -209,10 +210,58 @@ std::optional<Layout> first_principles(const Lines& lines) {
   return std::nullopt;
 }
 
+/// Motive: type, name, number and quantity of each column in rows of their own above "Frame".
+std::optional<Layout> optitrack(const Lines& lines) {
+  if (lines.empty() || !trim(lines[0]).starts_with("Format Version")) return std::nullopt;
+  Layout layout;
+  std::vector<std::string> types, names, kinds;
+  for (std::size_t n = 1; n < std::min<std::size_t>(lines.size(), 12); ++n) {
+    auto cells = cells_of(lines[n], ',');
+    if (cells.size() < 5) continue;
+    const auto has = [&](std::string_view word) {
+      return std::find(cells.begin(), cells.end(), word) != cells.end();
+    };
+    if (cells[0] == "Frame") {
+      layout.frame_column = 0;
+      layout.time_column = 1;
+      layout.first_row = n + 1;
+      kinds.resize(cells.size());
+      types.resize(cells.size());
+      names.resize(cells.size());
+      for (const char* type : {"Marker", "Rigid Body Marker"}) {
+        for (std::size_t c = 2; c + 2 < cells.size(); ++c) {
+          if (types[c] != type || kinds[c] != "Position" || cells[c] != "X") continue;
+          layout.names.push_back(names[c]);
+          layout.columns.push_back(c);
+        }
+        if (!layout.names.empty()) break;
+      }
+      break;
+    }
+    if (has("Position")) {
+      kinds = std::move(cells);
+    } else if (types.empty()) {
+      types = std::move(cells);
+    } else if (names.empty()) {
+      names = std::move(cells);
+    }
+  }
+  if (layout.names.empty()) return std::nullopt;
+  layout.first_column = 2;
+  layout.end_row = lines.size();
+  layout.unit = text_behind(lines, 1, "Length Units", ',');
+  for (const auto& [word, symbol] :
+       {std::pair("meters", "m"), std::pair("centimeters", "cm"), std::pair("millimeters", "mm")}) {
+    if (equal_ignoring_case(layout.unit, word)) layout.unit = symbol;
+  }
+  return layout;
+}
+
 std::optional<Layout> find_layout(const Lines& lines) {
   if (auto layout = qualisys(lines)) return layout;
   if (auto layout = bts(lines)) return layout;
   if (auto layout = vicon(lines)) return layout;
+  if (auto layout = optitrack(lines)) return layout;
   return first_principles(lines);
 }
 
@@ -226,7 +275,7 @@ MarkerFile parse_marker_table(std::string_view text, const std::filesystem::path
   if (!found) {
     throw ReadError(path, 0,
                     "this is no table of markers that is known (Vicon Trajectories, Qualisys 3D, "
-                    "BTS Point 3D tracks, NDI); export .c3d or .trc");
+                    "BTS Point 3D tracks, NDI, OptiTrack); export .c3d or .trc");
   }
   const Layout& layout = *found;
   MarkerFile file;
@@ -245,7 +294,10 @@ MarkerFile parse_marker_table(std::string_view text, const std::filesystem::path
   if (unique.size() < layout.names.size())
     throw ReadError(path, layout.first_row, "a marker's name stands twice; rename one of them");
 
-  const std::size_t width = layout.first_column + 3 * layout.names.size();
+  const auto column_of = [&](std::size_t marker) {
+    return layout.columns.empty() ? layout.first_column + 3 * marker : layout.columns[marker];
+  };
+  const std::size_t width = column_of(layout.names.size() - 1) + 3;
   const auto columns = static_cast<Eigen::Index>(3 * layout.names.size());
   const auto most =
       static_cast<Eigen::Index>(layout.end_row - std::min(layout.end_row, layout.first_row));
@@ -269,7 +321,7 @@ MarkerFile parse_marker_table(std::string_view text, const std::filesystem::path
              fmt::format("the last row has {} of {} cells and is left out", cells.size(), width)});
         break;
       }
-      if ((cells.size() - layout.first_column) % 3 != 0)
+      if (layout.columns.empty() && (cells.size() - layout.first_column) % 3 != 0)
         throw ReadError(path, n + 1, fmt::format("{} cells, expected {}", cells.size(), width));
       cells.resize(width);
     }
@@ -289,7 +341,8 @@ MarkerFile parse_marker_table(std::string_view text, const std::filesystem::path
     for (Eigen::Index m = 0; m < columns / 3; ++m) {
       Eigen::RowVector3d p;
       for (Eigen::Index a = 0; a < 3; ++a)
-        p[a] = number(layout.first_column + static_cast<std::size_t>(3 * m + a)) * unit->to_si;
+        p[a] = number(column_of(static_cast<std::size_t>(m)) + static_cast<std::size_t>(a)) *
+               unit->to_si;
       const bool zero = layout.zero_is_missing && p.isZero(0.0);
       if (zero) ++zeros;
       positions.block<1, 3>(row, 3 * m) =

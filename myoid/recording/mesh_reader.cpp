@@ -61,8 +61,8 @@ class Words {
 };
 
 std::size_t line_of(std::string_view text, std::size_t at) {
-  return 1 + static_cast<std::size_t>(
-                 std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n'));
+  const auto before = text.substr(0, at);  // npos: the end
+  return 1 + static_cast<std::size_t>(std::count(before.begin(), before.end(), '\n'));
 }
 
 void add_fan(const std::vector<int>& polygon, TriangleMesh& mesh) {
@@ -117,7 +117,7 @@ std::vector<double> data_array(std::string_view whole,
        array = find_element(part, "DataArray", array.at + 1)) {
     if (!name.empty() && array.attribute("Name") != name) continue;
     const std::size_t line =
-        line_of(whole, static_cast<std::size_t>(array.content.data() - whole.data()));
+        line_of(whole, static_cast<std::size_t>(array.tag.data() - whole.data()));
     if (array.attribute("format") != "ascii") {
       throw ReadError(path, line,
                       fmt::format("the data are '{}', expected 'ascii': save the mesh as ASCII",
@@ -148,12 +148,18 @@ TriangleMesh parse_vtp(std::string_view text, const std::filesystem::path& path)
     const auto corners = data_array(text, cells.content, "connectivity", path);
     std::size_t begin = 0;
     for (const double offset : data_array(text, cells.content, "offsets", path)) {
-      const auto end = static_cast<std::size_t>(std::max(0.0, offset));
-      if (end < begin || end > corners.size())
+      const bool there =
+          offset >= static_cast<double>(begin) && offset <= static_cast<double>(corners.size());
+      const std::size_t end = there ? static_cast<std::size_t>(offset) : 0;
+      if (!there)
         throw ReadError(path, 0,
                         fmt::format("<{}>: offset {} is beyond its corners", kind, offset));
       std::vector<int> polygon;
-      for (std::size_t k = begin; k < end; ++k) polygon.push_back(static_cast<int>(corners[k]));
+      for (std::size_t k = begin; k < end; ++k) {
+        if (!(std::abs(corners[k]) < 2e9))
+          throw ReadError(path, 0, fmt::format("<{}>: {} is no vertex", kind, corners[k]));
+        polygon.push_back(static_cast<int>(corners[k]));
+      }
       begin = end;
       if (kind[0] == 'P') {
         add_fan(polygon, mesh);
@@ -250,7 +256,8 @@ TriangleMesh parse_obj(std::string_view text, const std::filesystem::path& path)
     for (std::string_view word = words.next(); !word.empty(); word = words.next()) {
       // vertex/texture/normal; from 1, or from the end where negative.
       const auto index = parse_number(word.substr(0, word.find('/')));
-      if (!index) words.fail(fmt::format("expected the number of a vertex, found '{}'", word));
+      if (!index || !(std::abs(*index) < 2e9))
+        words.fail(fmt::format("expected the number of a vertex, found '{}'", word));
       polygon.push_back(*index > 0.0
                             ? static_cast<int>(*index) - 1
                             : static_cast<int>(mesh.vertices.size()) + static_cast<int>(*index));

@@ -105,12 +105,17 @@ TEST(MeshReader, RefusesBrokenFilesWithThePlace) {
       {"m.vtp", replaced(kCubeVtp, "1 1 1  -1", "1 one 1  -1"), "m.vtp:8"},
       {"m.vtp", replaced(kCubeVtp, " 4 7 3 0 ", " 4 7 3 9 "), "vertex 10 of 8"},
       {"m.vtp", replaced(kCubeVtp, "20 24", "20 99"), "offset 99"},
+      // Found by fuzzing: an array without content had no place in the file.
+      {"m.vtp", "<PolyData><Points>\n<DataArray type=\"Float32\"/></Points></PolyData>", "m.vtp:2"},
+      {"m.vtp", replaced(kCubeVtp, " 4 7 3 0 ", " 4 7 3 1e300 "), "no vertex"},
+      {"m.vtp", replaced(kCubeVtp, "20 24", "20 1e300"), "1e+300"},
       {"m.stl", "solid s\nfacet\nouter loop\nvertex 0 0 0\n", "cut off"},
       {"m.stl", "solid s\nvertex 0 0 0\nvertex 0 0 1\nendloop\n", "m.stl:4"},
       {"m.stl", std::string(200, 'x'), "solid"},
       {"m.obj", "v 0 0\n", "m.obj:1"},
       {"m.obj", "v 0 0 0\nf 1 2 3\n", "vertex 2 of 1"},
       {"m.obj", "v 0 0 0\nf a b c\n", "m.obj:2"},
+      {"m.obj", "v 0 0 0\nf 1 1 3e27\n", "m.obj:2"},
       {"m.obj", "v 0 inf 0\n", "m.obj:1"}};
   for (const auto& [name, text, said] : broken) {
     try {

@@ -74,6 +74,12 @@ std::vector<ForcePlate> Recording::force_plates() const {
 }
 
 Recording read_recording(const std::filesystem::path& path) {
+  if (std::error_code ignored; std::filesystem::is_directory(path, ignored)) {
+    throw ReadError(path, 0,
+                    std::filesystem::exists(path / "study.toml", ignored)
+                        ? "this is a folder; did you mean the study.toml in it?"
+                        : "this is a folder; name a file inside it");
+  }
   const std::string extension = extension_of(path);
   Recording recording;
   if (extension == ".trc") {

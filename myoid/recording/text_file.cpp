@@ -22,7 +22,7 @@ namespace {
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
 
 /// Two digits before `end`; returns where they begin.
-char* put_pair(char* end, std::uint64_t pair) {
+char* put_pair(char* end, std::uint32_t pair) {
   static constexpr std::array<char, 200> kPairs = [] {
     std::array<char, 200> digits{};
     for (std::size_t i = 0; i < 100; ++i) {
@@ -36,6 +36,45 @@ char* put_pair(char* end, std::uint64_t pair) {
 }
 
 char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
+
+/// UTF-8 of a text in UTF-16 that begins with its byte-order mark; empty if it cannot be one.
+std::optional<std::string> from_utf16(std::string_view bytes) {
+  if (bytes.size() % 2 != 0) return std::nullopt;
+  const std::size_t low = bytes[0] == '\xFF' ? 0 : 1;  // which byte of a pair is the lower one
+  std::string text;
+  text.reserve(bytes.size() / 2);
+  const auto unit = [&](std::size_t i) {
+    return (std::uint32_t{static_cast<unsigned char>(bytes[i + 1 - low])} << 8U) |
+           std::uint32_t{static_cast<unsigned char>(bytes[i + low])};
+  };
+  for (std::size_t i = 2; i < bytes.size(); i += 2) {
+    std::uint32_t code = unit(i);
+    if (code >= 0xDC00U && code < 0xE000U) return std::nullopt;
+    if (code >= 0xD800U && code < 0xDC00U) {
+      i += 2;
+      if (i >= bytes.size() || unit(i) < 0xDC00U || unit(i) >= 0xE000U) return std::nullopt;
+      code = 0x10000U + ((code - 0xD800U) << 10U) + (unit(i) - 0xDC00U);
+    }
+    const auto put = [&](std::uint32_t byte) { text += static_cast<char>(byte); };
+    const auto tail = [&](unsigned shift) { put(0x80U | ((code >> shift) & 0x3FU)); };
+    if (code < 0x80U) {
+      put(code);
+    } else if (code < 0x800U) {
+      put(0xC0U | (code >> 6U));
+      tail(0);
+    } else if (code < 0x10000U) {
+      put(0xE0U | (code >> 12U));
+      tail(6);
+      tail(0);
+    } else {
+      put(0xF0U | (code >> 18U));
+      tail(12);
+      tail(6);
+      tail(0);
+    }
+  }
+  return text;
+}
 
 }  // namespace
 
@@ -66,8 +105,11 @@ std::string read_text_file(const std::filesystem::path& path) {
   if (text.empty())
     throw ReadError(path, 0, "the file is empty; export it again from the program that made it");
   if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF")) {
-    throw ReadError(path, 0,
-                    "the text is in UTF-16 ('Unicode text'); save it as UTF-8 or plain text");
+    auto decoded = from_utf16(text);
+    if (!decoded)
+      throw ReadError(path, 0,
+                      "the text is in UTF-16 ('Unicode text') and damaged; save it as UTF-8");
+    text = *std::move(decoded);
   }
   if (std::string_view(text).substr(0, 4096).find('\0') != std::string_view::npos) {
     throw ReadError(path, 0, "this is no text but a binary file; export it as text");
@@ -171,51 +213,70 @@ std::string format_number(double value) {
   return {buffer, result.ptr};
 }
 
-void append_fixed(std::string& text, double value, int decimals, std::size_t width) {
+char* write_fixed(char* at, double value, int decimals, std::size_t width) {
   constexpr std::array<double, 15> kPower{1e0, 1e1, 1e2,  1e3,  1e4,  1e5,  1e6, 1e7,
                                           1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14};
-  char digits[400];
-  char* const end = digits + sizeof digits;
-  char* begin = end;
-  const auto kept = static_cast<std::ptrdiff_t>(std::min<std::size_t>(width, 40));
+  constexpr std::size_t kWidest = 64;  // written in one piece; there is room behind the number
   const double size = std::abs(value);
-  if (decimals >= 0 && decimals <= 14 && size < 1e15) {
+  if (decimals >= 0 && decimals <= 14 && size < 1e15 && width <= kWidest) {
     // Whole part and fraction apart: the one is exact, the other times the power is off by less
     // than 2e-16 of the power, so that its rounding is certain unless it ends that close to one
     // half.
     const double power = kPower[static_cast<std::size_t>(decimals)];
-    auto whole = static_cast<std::uint64_t>(size);
+    auto whole = static_cast<std::int64_t>(size);
     const double fraction = (size - static_cast<double>(whole)) * power;
-    auto count = static_cast<std::uint64_t>(fraction);
+    auto count = static_cast<std::int64_t>(fraction);
     const double rest = fraction - static_cast<double>(count);
     if (std::abs(rest - 0.5) > 4e-16 * power) {
       if (rest > 0.5) ++count;
-      if (count == static_cast<std::uint64_t>(power)) {
+      if (count == static_cast<std::int64_t>(power)) {
         count = 0;
         ++whole;
       }
+      const bool negative = std::signbit(value);
+      std::size_t needed =
+          static_cast<std::size_t>(decimals) + (decimals > 0 ? 2 : 1) + (negative ? 1 : 0);
+      for (std::int64_t w = whole; w >= 10; w /= 10) ++needed;
+      std::memset(at, ' ', kWidest);
+      // From behind.
+      char* const end = at + std::max(needed, width);
+      char* begin = end;
       int left = decimals;
-      for (; left >= 2; left -= 2, count /= 100) begin = put_pair(begin, count % 100);
-      if (left == 1) *--begin = static_cast<char>('0' + count);
+      if (count == 0) {
+        begin -= left;
+        std::memset(begin, '0', 16);
+      } else {
+        // The last six digits apart from the first: two short chains of divisions.
+        if (left > 6) {
+          auto low = static_cast<std::uint32_t>(count % 1000000);
+          count /= 1000000;
+          for (int pair = 0; pair < 3; ++pair, low /= 100) begin = put_pair(begin, low % 100);
+          left -= 6;
+        }
+        if (left <= 8) {
+          auto high = static_cast<std::uint32_t>(count);
+          for (; left >= 2; left -= 2, high /= 100) begin = put_pair(begin, high % 100);
+          if (left == 1) *--begin = static_cast<char>('0' + high);
+        }
+      }
       if (decimals > 0) *--begin = '.';
       do {
         *--begin = static_cast<char>('0' + whole % 10);
         whole /= 10;
       } while (whole > 0);
-      if (std::signbit(value)) *--begin = '-';
-      while (end - begin < kept) *--begin = ' ';
+      if (negative) *--begin = '-';
+      return end;
     }
   }
-  const char* stop = end;
-  if (begin == end) {
-    begin = digits;
-    stop = std::isnan(value)
-               ? std::copy_n("NaN", 3, digits)
-               : std::to_chars(digits, end, value, std::chars_format::fixed, decimals).ptr;
-  }
-  const auto count = static_cast<std::size_t>(stop - begin);
-  if (count < width) text.append(width - count, ' ');
-  text.append(begin, count);
+  char* const stop =
+      std::isnan(value)
+          ? std::copy_n("NaN", 3, at)
+          : std::to_chars(at, at + kFixedRoom, value, std::chars_format::fixed, decimals).ptr;
+  const auto count = static_cast<std::size_t>(stop - at);
+  if (count >= width) return stop;
+  std::memmove(at + (width - count), at, count);
+  std::memset(at, ' ', width - count);
+  return at + width;
 }
 
 bool equal_ignoring_case(std::string_view a, std::string_view b) {

@@ -16,7 +16,7 @@ struct Repair {
 };
 
 /// The whole file as bytes. Throws ReadError with the remedy if it is missing, a folder,
-/// unreadable, empty or no text (binary, UTF-16).
+/// unreadable, empty or no text. UTF-16 with a byte-order mark becomes UTF-8.
 [[nodiscard]] std::string read_text_file(const std::filesystem::path& path);
 
 /// The lines of a text without their ends (LF, CRLF or CR), a byte-order mark removed. Views into
@@ -56,9 +56,11 @@ inline constexpr std::string_view kLastRowKept =
 /// Shortest decimal text that reads back to the same double.
 [[nodiscard]] std::string format_number(double value);
 
-/// Appends a number with a fixed count of decimals, correctly rounded, blanks before it up to
-/// `width`; "NaN", "inf", "-inf" for what is not finite.
-void append_fixed(std::string& text, double value, int decimals, std::size_t width = 0);
+/// Writes a number with a fixed count of decimals (at most 40), correctly rounded, blanks before it
+/// up to `width` (at most 60), at a place with kFixedRoom bytes; "NaN", "inf", "-inf" for what is
+/// not finite. Returns the place behind it.
+[[nodiscard]] char* write_fixed(char* at, double value, int decimals, std::size_t width = 0);
+inline constexpr std::size_t kFixedRoom = 400;
 
 /// Without case (ASCII).
 [[nodiscard]] bool equal_ignoring_case(std::string_view a, std::string_view b);

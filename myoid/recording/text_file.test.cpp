@@ -53,14 +53,14 @@ TEST(AppendFixed, WritesWhatTheCLibraryWrites) {
     for (const double value : values) {
       char expected[400];
       const int count = std::snprintf(expected, sizeof expected, "%16.*f", decimals, value);
-      std::string text = "x";
-      append_fixed(text, value, decimals, 16);
-      ASSERT_EQ(text, "x" + std::string(expected, static_cast<std::size_t>(count)));
+      char text[kFixedRoom];
+      const char* const end = write_fixed(text, value, decimals, 16);
+      ASSERT_EQ(std::string_view(text, static_cast<std::size_t>(end - text)),
+                std::string_view(expected, static_cast<std::size_t>(count)));
     }
   }
-  std::string text;
-  append_fixed(text, std::nan(""), 8, 5);
-  EXPECT_EQ(text, "  NaN");
+  char text[kFixedRoom];
+  EXPECT_EQ(std::string(text, write_fixed(text, std::nan(""), 8, 5)), "  NaN");
 }
 
 TEST(ReadTextFile, SaysWhatIsWrongWithAPath) {

@@ -10,6 +10,7 @@
 #include <fmt/ranges.h>
 
 #include "myoid/core/error.h"
+#include "myoid/recording/wrong_kind.h"
 
 namespace myoid::recording {
 
@@ -153,6 +154,25 @@ void TomlTable::finish() const {
 
 namespace {
 
+/// Whether a key or a value stands at the present place of a TOML text.
+struct Place {
+  bool in_value = false;
+  std::string brackets;  ///< Of lists and tables in values that are open.
+
+  void pass(char c) {
+    if (c == '=') in_value = true;
+    if (in_value && (c == '[' || c == '{')) brackets += c;
+    if ((c == ']' || c == '}') && !brackets.empty()) {
+      brackets.pop_back();
+      in_value = true;
+    }
+    if ((c == '{' || c == ',') && brackets.ends_with('{')) in_value = false;
+  }
+  void end_line() {
+    if (brackets.empty()) in_value = false;
+  }
+};
+
 /// TOML has letters beyond ASCII only inside quotes and remarks. toml++ 3.3 asks a table of blanks
 /// about the others whose end it never expects to reach: they are refused before it sees them.
 void refuse_letters_outside_quotes(std::string_view text, const std::filesystem::path& file) {
@@ -161,6 +181,7 @@ void refuse_letters_outside_quotes(std::string_view text, const std::filesystem:
   char quote = '"';
   bool many_lines = false;
   std::size_t line = 1;
+  Place place;
   char before = '\n';  // the last character that is no blank, of what is outside of quotes
   for (std::size_t i = text.starts_with("\xEF\xBB\xBF") ? 3 : 0; i < text.size(); ++i) {
     const char c = text[i];
@@ -168,7 +189,10 @@ void refuse_letters_outside_quotes(std::string_view text, const std::filesystem:
     const auto three = [&] { return text.substr(i, 3) == std::string(3, quote); };
     if (c == '\n') {
       ++line;
-      if (in != In::quotes || !many_lines) before = '\n';
+      if (in != In::quotes || !many_lines) {
+        before = '\n';
+        place.end_line();
+      }
       if (in == In::remark || (in == In::quotes && !many_lines)) in = In::plain;
     } else if (in == In::quotes) {
       const bool escape = quote == '"' && c == '\\';
@@ -192,15 +216,17 @@ void refuse_letters_outside_quotes(std::string_view text, const std::filesystem:
                         fmt::format("not valid TOML: a byte {:#04x}, which is no text",
                                     static_cast<unsigned>(c)));
       if (c == '#') in = In::remark;
-      // Elsewhere a quote is a mistake, and begins nothing.
-      const bool begins = std::string_view("\n=[,{.").find(before) != std::string_view::npos;
+      // Elsewhere a quote is a mistake, and begins nothing: after a point only in a dotted key.
+      const bool begins = std::string_view("\n=[,{").find(before) != std::string_view::npos ||
+                          (before == '.' && !place.in_value);
+      place.pass(c);
       if (c != ' ' && c != '\t' && c != '\r') before = c;
       if ((c == '"' || c == '\'') && !begins)
         throw ReadError(file, line, "not valid TOML: a quote in the middle of a value");
       if (c == '"' || c == '\'') {
         in = In::quotes;
         quote = c;
-        many_lines = three();
+        many_lines = place.in_value && three();  // a key has one line
         i += many_lines ? 2 : 0;
       }
     }
@@ -210,6 +236,9 @@ void refuse_letters_outside_quotes(std::string_view text, const std::filesystem:
 }  // namespace
 
 toml::table parse_toml(std::string_view text, const std::filesystem::path& file) {
+  if (const std::string other = wrong_kind(file, {".toml"}, "a study or protocol (.toml)");
+      !other.empty())
+    throw ReadError(file, 0, other);
   refuse_letters_outside_quotes(text, file);
   try {
     return toml::parse(text, file.string());

@@ -62,6 +62,10 @@ TEST(ParseToml, LettersBeyondAsciiStandInQuotesAndRemarksOnly) {
   // Found by fuzzing: a quote inside a number hid what came after it.
   EXPECT_THROW((void)parse_toml(std::string("a =-\0x2\0'\xEF\xB9\xBF[", 12), "f.toml"), ReadError);
   EXPECT_THROW((void)parse_toml("a = -x'\xEF\xB9\xBF", "f.toml"), ReadError);
+  for (const char* text :
+       {"\ta = [1.'*\xEF\xBF\xB5'", "a = {b = 1.'\xEF\xBF\xB5'}", "[t]\na = [\n1.'\xEF\xBF\xB5'",
+        "\"\"\"\n\xEF\xBB\xBF\n"})  // a key of several lines
+    EXPECT_THROW((void)parse_toml(text, "f.toml"), ReadError) << text;
   const toml::table t = parse_toml(
       "\xEF\xBB\xBF# caf\xC3\xA9 \"\na = \"\xC2\xB5V \\\" #\xC3\xA9\" # \xC3\xA9\n"
       "'\xC3\xA9' = '\xC3\xA9\\'\nm = \"\"\"\n\xC3\xA9 \"\xC3\xA9\" \\\n b\"\"\"\n"
@@ -70,6 +74,10 @@ TEST(ParseToml, LettersBeyondAsciiStandInQuotesAndRemarksOnly) {
   EXPECT_EQ(t["a"].value<std::string>(), "\xC2\xB5V \" #\xC3\xA9");
   EXPECT_EQ(t["\xC3\xA9"].value<std::string>(), "\xC3\xA9\\");
   EXPECT_TRUE(t.contains("m") && t.contains("l"));
+  const toml::table dotted =
+      parse_toml("a.'\xC3\xA9' = {b.'\xC3\xA9' = [1, 2], c.\"d\" = 3}\n[e.'f']\n", "f.toml");
+  EXPECT_EQ(dotted["a"]["\xC3\xA9"]["c"]["d"].value<int>(), 3);
+  EXPECT_TRUE(dotted["e"]["f"].is_table());
 }
 
 }  // namespace

@@ -68,19 +68,20 @@ Eigen::MatrixXd demand(const Eigen::MatrixXd& motion) {
   return result;
 }
 
-/// True if there is a movement whose inertia can be felt: large enough, and quick enough by the
-/// frequency of a sine with its ratio of velocity to position.
-bool is_quick(const Eigen::MatrixXd& motion) {
+/// The frequency of a sine with the movement's ratio of velocity to position [Hz]; empty where
+/// inertia cannot be felt: a movement that is too small or too slow.
+std::optional<double> quickness_hz(const Eigen::MatrixXd& motion) {
   const Eigen::MatrixXd centered = motion.rowwise() - motion.colwise().mean();
   const auto n = static_cast<double>(motion.rows());
-  if (std::sqrt(centered.squaredNorm() / n) < kLeastMotion) return false;
+  if (std::sqrt(centered.squaredNorm() / n) < kLeastMotion) return std::nullopt;
   const auto sections =
       math::design_butterworth(math::FilterBand::low_pass, 2, kMotionBelow_hz, kRate_hz);
   const Eigen::MatrixXd position = principal(motion, 1, false);
-  if (position.cols() == 0) return false;
+  if (position.cols() == 0) return std::nullopt;
   const Eigen::VectorXd q = math::zero_phase(sections, position.col(0));
   const double rate = (q.tail(q.size() - 1) - q.head(q.size() - 1)).norm() * kRate_hz;
-  return rate / (2.0 * kPi * q.norm()) >= kLeastSpeed_hz;
+  const double frequency_hz = rate / (2.0 * kPi * q.norm());
+  return frequency_hz >= kLeastSpeed_hz ? std::optional(frequency_hz) : std::nullopt;
 }
 
 /// Sums of products of [1, x(t - d), y(t)] over one block.
@@ -152,7 +153,8 @@ std::optional<ClockOffset> estimate_clock_offset(const TimeSeries& envelopes,
   const Eigen::VectorXd clock = even_clock(begin_s, end_s, kRate_hz);
   const Eigen::MatrixXd x = principal(resample(envelopes, clock).values(), 4, true);
   const Eigen::MatrixXd path = resample(motion, clock).values();
-  if (!is_quick(path)) return std::nullopt;
+  const std::optional<double> frequency_hz = quickness_hz(path);
+  if (!frequency_hz) return std::nullopt;
   const Eigen::MatrixXd y = demand(path);
   if (x.cols() == 0 || y.cols() == 0) return std::nullopt;
 
@@ -191,9 +193,14 @@ std::optional<ClockOffset> estimate_clock_offset(const TimeSeries& envelopes,
   double squares = 0.0;
   for (const double lead : leads) squares += (lead - mean) * (lead - mean);
   // A jackknife's variance; the grid cannot tell less than a tenth of its step.
-  const double sd_s = std::max(std::sqrt(squares * (kBlocks - 1) / kBlocks), 0.1 / kRate_hz);
-  if (sd_s > kMostSd_s) return std::nullopt;
-  return ClockOffset{.lead_s = peak.lead_s, .sd_s = sd_s, .correlation = peak.correlation};
+  const double scatter_s = std::max(std::sqrt(squares * (kBlocks - 1) / kBlocks), 0.1 / kRate_hz);
+  if (scatter_s > kMostSd_s) return std::nullopt;
+  const double phase_s = 0.25 / *frequency_hz;
+  return ClockOffset{.lead_s = peak.lead_s,
+                     .scatter_s = scatter_s,
+                     .phase_s = phase_s,
+                     .sd_s = std::hypot(scatter_s, phase_s),
+                     .correlation = peak.correlation};
 }
 
 std::vector<Fault> check_clock_offset(const TimeSeries& envelopes,
@@ -205,8 +212,9 @@ std::vector<Fault> check_clock_offset(const TimeSeries& envelopes,
   const double begin_s = std::max(envelopes.time_s()[0], motion.time_s()[0]);
   const double end_s = std::min(envelopes.time_s()[envelopes.sample_count() - 1],
                                 motion.time_s()[motion.sample_count() - 1]);
-  const bool grave = offset->lead_s - 2.0 * offset->sd_s > limits.latest_offset_s ||
-                     offset->lead_s + 2.0 * offset->sd_s < limits.earliest_offset_s;
+  const double unsure_s = offset->phase_s + 2.0 * offset->scatter_s;
+  const bool grave = offset->lead_s - unsure_s > limits.latest_offset_s ||
+                     offset->lead_s + unsure_s < limits.earliest_offset_s;
   faults.push_back(
       {.kind = FaultKind::clock_offset,
        .grave = grave,
@@ -230,7 +238,7 @@ std::vector<Fault> check_clock_offset(const TimeSeries& envelopes,
       estimate_clock_offset(third(envelopes, 2, begin_s, end_s), third(motion, 2, begin_s, end_s));
   if (!first || !last) return faults;
   const double drift_s = last->lead_s - first->lead_s;
-  const double sd_s = std::hypot(first->sd_s, last->sd_s);
+  const double sd_s = std::hypot(first->scatter_s, last->scatter_s);
   if (std::abs(drift_s) < limits.drift_s || std::abs(drift_s) < 3.0 * sd_s) return faults;
   faults.push_back(
       {.kind = FaultKind::clock_drift,

@@ -65,7 +65,10 @@ TEST(ClockOffset, IsFoundWithinItsUncertainty) {
       const auto offset = estimate_clock_offset(effort(swing, 20.0, lead_s), motion(swing, 20.0));
       ASSERT_TRUE(offset) << seed;
       EXPECT_NEAR(offset->lead_s, lead_s, 0.05) << seed;
-      missed += std::abs(offset->lead_s - lead_s) > 2.0 * offset->sd_s + 0.01 ? 1 : 0;
+      missed += std::abs(offset->lead_s - lead_s) > 2.0 * offset->scatter_s + 0.01 ? 1 : 0;
+      // 0.4 to 1.4 Hz.
+      EXPECT_GT(offset->phase_s, 0.25 / 1.4);
+      EXPECT_LT(offset->phase_s, 0.25 / 0.4);
     }
   }
   // Two standard deviations hold 95 % of 30; the model (a linear mixture) is not quite the truth.
@@ -102,7 +105,7 @@ TEST(ClockOffset, OutsideWhatABodyCanDoItIsAWarning) {
   ASSERT_EQ(usual.size(), 1U);
   EXPECT_FALSE(usual[0].grave);
   EXPECT_NE(usual[0].text.find("ahead of the motion"), std::string::npos);
-  const auto late = check_clock_offset(effort(swing, 20.0, -0.3), motion(swing, 20.0));
+  const auto late = check_clock_offset(effort(swing, 20.0, -0.55), motion(swing, 20.0));
   ASSERT_EQ(late.size(), 1U);
   EXPECT_TRUE(late[0].grave);
   EXPECT_NE(late[0].text.find("behind the motion"), std::string::npos);

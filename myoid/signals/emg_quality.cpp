@@ -231,12 +231,16 @@ double common_share(const Eigen::VectorXd& a, const Eigen::VectorXd& b, double r
   return best;
 }
 
-/// Smallest mean over 1 s and largest over 0.5 s of an envelope.
+/// Smallest and largest mean over 0.2 s, shorter than a burst of walking, and the largest over 0.5
+/// s of an envelope.
 struct Levels {
   double least = std::numeric_limits<double>::infinity();
+  double peak = 0.0;
   double greatest = 0.0;
   double greatest_s = 0.0;
 };
+
+constexpr double kEffort_s = 0.5;
 
 Levels levels(const TimeSeries& envelope, Eigen::Index c) {
   Levels result;
@@ -248,15 +252,18 @@ Levels levels(const TimeSeries& envelope, Eigen::Index c) {
     return std::clamp<Eigen::Index>(
         static_cast<Eigen::Index>(std::lround(seconds * envelope.mean_rate_hz())), 1, x.size());
   };
-  const Eigen::Index wide = width(1.0);
-  for (Eigen::Index i = 0; i + wide <= x.size(); ++i)
-    result.least = std::min(result.least, (sum[i + wide] - sum[i]) / static_cast<double>(wide));
-  const Eigen::Index narrow = width(0.5);
+  const Eigen::Index narrow = width(0.2);
   for (Eigen::Index i = 0; i + narrow <= x.size(); ++i) {
     const double mean = (sum[i + narrow] - sum[i]) / static_cast<double>(narrow);
+    result.least = std::min(result.least, mean);
+    result.peak = std::max(result.peak, mean);
+  }
+  const Eigen::Index wide = width(kEffort_s);
+  for (Eigen::Index i = 0; i + wide <= x.size(); ++i) {
+    const double mean = (sum[i + wide] - sum[i]) / static_cast<double>(wide);
     if (mean <= result.greatest) continue;
     result.greatest = mean;
-    result.greatest_s = envelope.time_s()[i + narrow / 2];
+    result.greatest_s = envelope.time_s()[i + wide / 2];
   }
   return result;
 }
@@ -315,6 +322,7 @@ std::vector<Fault> check_emg_levels(std::span<const TrialEnvelope> trials,
   }
   for (const std::string& channel : names) {
     double rest = std::numeric_limits<double>::infinity();
+    double peak = 0.0;
     Levels mvc;
     Levels movement;
     std::string mvc_trial;
@@ -324,23 +332,24 @@ std::vector<Fault> check_emg_levels(std::span<const TrialEnvelope> trials,
       if (!column) continue;
       const Levels here = levels(*trial.envelope, *column);
       rest = std::min(rest, here.least);
-      Levels& most = trial.is_mvc ? mvc : movement;
-      if (here.greatest <= most.greatest) continue;
-      most = here;
+      peak = std::max(peak, here.peak);
+      Levels& most_here = trial.is_mvc ? mvc : movement;
+      if (here.greatest <= most_here.greatest) continue;
+      most_here = here;
       (trial.is_mvc ? mvc_trial : movement_trial) = trial.trial;
     }
-    const double greatest = std::max(mvc.greatest, movement.greatest);
-    if (greatest < limits.signal_to_rest * rest) {
+    const Levels& most = movement.greatest >= mvc.greatest ? movement : mvc;
+    if (peak < limits.signal_to_rest * rest) {
       faults.push_back(
           {.kind = FaultKind::emg_low_signal,
            .grave = true,
            .channel = channel,
-           .begin_s = movement.greatest_s,
-           .end_s = movement.greatest_s,
-           .value = greatest / rest,
+           .begin_s = most.greatest_s - 0.5 * kEffort_s,
+           .end_s = most.greatest_s + 0.5 * kEffort_s,
+           .value = peak / rest,
            .text = fmt::format("channel '{}' rises to only {:.2g} times its lowest level, in all "
                                "trials together",
-                               channel, greatest / rest),
+                               channel, peak / rest),
            .remedy =
                "noise, or a muscle that neither rests nor works here: record a second of rest "
                "and a strong effort, and check the electrode"});

@@ -145,6 +145,20 @@ TEST(EmgLevels, AChannelThatHardlyRisesIsNamed) {
   EXPECT_NEAR(faults[0].value, 3.0, 1e-9);
 }
 
+/// Bursts of 0.3 s in a cycle of 1.1 s: the second of lowest mean always holds most of one.
+TEST(EmgLevels, TwoStepsOfWalkingAreNotComplainedOf) {
+  const Eigen::Index n = 240;
+  Eigen::MatrixXd x(n, 1);
+  for (Eigen::Index i = 0; i < n; ++i)
+    x(i, 0) = 1e-6 +
+              4e-5 * std::exp(-0.5 *
+                              std::pow((std::fmod(0.01 * static_cast<double>(i), 1.1) - 0.5) / 0.12,
+                                       2.0));
+  const TimeSeries walk(Eigen::VectorXd::LinSpaced(n, 0.0, 2.39), {{"GAS", Unit::volt}}, x);
+  const std::vector<TrialEnvelope> trials{{"walk", false, &walk}};
+  EXPECT_TRUE(check_emg_levels(trials).empty());
+}
+
 TEST(EmgLevels, AMovementAboveTheMaximalContractionIsNamedWithTrialAndTime) {
   const TimeSeries movement = envelope({1e-6, 1.3e-4, 1e-6});
   const TimeSeries mvc = envelope({1e-6, 1e-4});

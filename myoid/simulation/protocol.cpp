@@ -4,11 +4,9 @@
 #include <array>
 #include <cctype>
 #include <cmath>
-#include <fstream>
 #include <limits>
 #include <optional>
 #include <set>
-#include <sstream>
 #include <utility>
 
 #include <fmt/format.h>
@@ -17,6 +15,7 @@
 #include "myoid/core/error.h"
 #include "myoid/core/units.h"
 #include "myoid/muscle/hill_parameters.h"
+#include "myoid/recording/text_file.h"
 #include "myoid/recording/toml_table.h"
 
 namespace myoid::simulation {
@@ -411,11 +410,7 @@ Protocol parse_protocol(std::string_view text,
 }
 
 Protocol read_protocol(const std::filesystem::path& file, std::optional<Level> level) {
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) throw ReadError(file, 0, "cannot be opened; check the path");
-  std::ostringstream text;
-  text << stream.rdbuf();
-  return parse_protocol(text.str(), file, level);
+  return parse_protocol(recording::read_text_file(file), file, level);
 }
 
 }  // namespace myoid::simulation

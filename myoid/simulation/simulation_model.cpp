@@ -265,6 +265,15 @@ SimulationModel make_simulation_model(model::BodyModel body, const ModelSetup& s
   }
   for (const model::Coordinate& coordinate : body.coordinates)
     result.joints.push_back(joint_of(coordinate, setup));
+  for (const model::PassiveForce& force : body.passive_forces) {
+    if (std::holds_alternative<model::PrescribedForce>(force.law)) {
+      throw ModelError(
+          fmt::format("force '{}' (PrescribedForce) is given over time; a simulation has only "
+                      "forces of posture "
+                      "and speed: take it out of the model",
+                      force.name));
+    }
+  }
   // One spring on a coordinate joins the joint, whose stored energy is known.
   std::vector<char> sprung(body.coordinates.size(), 0);
   std::erase_if(body.passive_forces, [&](const model::PassiveForce& force) {
@@ -287,8 +296,8 @@ SimulationModel make_simulation_model(model::BodyModel body, const ModelSetup& s
           body.coordinates[static_cast<std::size_t>(c.independent)].name, c.name));
     }
   }
-  const std::size_t actuators =
-      body.actuators.size() + body.point_actuators.size() + body.torque_actuators.size();
+  const std::size_t actuators = body.actuators.size() + body.point_actuators.size() +
+                                body.torque_actuators.size() + body.path_actuators.size();
   if (actuators > 0)
     result.notes.push_back(fmt::format("its {} actuators exert nothing", actuators));
   result.body = std::move(body);

@@ -5,6 +5,7 @@
 
 #include "myoid/core/units.h"
 #include "myoid/model/arm7.h"
+#include "myoid/muscle/force_velocity.h"
 #include "myoid/muscle/hill_parameters.h"
 #include "myoid/simulation/effective_truth.h"
 #include "myoid/simulation/write_recording.h"
@@ -143,6 +144,20 @@ std::string truth_csv(const VirtualRecording& recording) {
     }
   }
   text += fmt::format("subject,emg_delay,s,{}\n", recording.truth.emg_delay_s);
+  for (std::size_t i = 0; i < kArmMuscles.size(); ++i)
+    text += fmt::format("{},eccentric_slope_ratio,1,{}\n", kArmMuscles[i],
+                        muscle::slope_ratio(recording.truth.muscles[i].velocity_shape()));
+  if (!recording.truth.arm) {
+    // Where the fitted model is the person's: what a fit finds beside the muscles.
+    for (std::size_t i = 0; i < kArmMuscles.size(); ++i) {
+      const double exponent = recording.truth.instruments.exponent[i];
+      text += fmt::format("{},length_activation,1,0\n{},emg_exponent,1,{}\n", kArmMuscles[i],
+                          kArmMuscles[i], exponent > 0.0 ? exponent : 1.0);
+    }
+    for (const char* row :
+         {"joint_viscosity,N m s", "joint_stiffness,N m", "joint_torque_offset,N m"})
+      text += fmt::format("elbow_flexion,{},0\n", row);
+  }
   if (recording.truth.arm) {
     const PerMuscle strength_n = anatomical_strength_n(*recording.truth.arm);
     for (std::size_t i = 0; i < kArmMuscles.size(); ++i) {

@@ -170,11 +170,20 @@ TEST_F(WriteRecording, TruthHasARowForEveryParameter) {
     const std::size_t second = row.find(',', row.find(',') + 1);
     values[row.substr(0, second)] = std::stod(row.substr(last + 1));
   }
-  EXPECT_EQ(values.size(), 4U * 8U + 1U);
+  EXPECT_EQ(values.size(), 4U * 8U + 1U + 4U * 3U + 3U);
   EXPECT_EQ(values.at("BRA,max_isometric_force"), made.truth.muscles[1].max_isometric_force_n);
   EXPECT_EQ(values.at("TRI,eccentric_curvature_product"),
             made.truth.muscles[3].eccentric_curvature_product);
   EXPECT_EQ(values.at("subject,emg_delay"), made.truth.emg_delay_s);
+  // P = (V_ml - 1) V_sh / (S (1 + V_sh))
+  const auto& tri = made.truth.muscles[3];
+  EXPECT_NEAR(values.at("TRI,eccentric_slope_ratio"),
+              (tri.eccentric_plateau - 1.0) * tri.concentric_curvature /
+                  (tri.eccentric_curvature_product * (1.0 + tri.concentric_curvature)),
+              1e-12);
+  EXPECT_EQ(values.at("BIC,length_activation"), 0.0);
+  EXPECT_EQ(values.at("BRD,emg_exponent"), made.truth.instruments.exponent[2]);
+  EXPECT_EQ(values.at("elbow_flexion,joint_viscosity"), 0.0);
 }
 
 TEST_F(WriteRecording, LeavesAUsedFolderAloneUnlessToldOtherwise) {

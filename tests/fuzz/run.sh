@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# tests/fuzz/run.sh [SECONDS] [FORMAT...]: builds the fuzz targets and runs each for so long (default
+# tests/fuzz/run.sh [SECONDS|build] [FORMAT...]: builds the fuzz targets and runs each for so long (default
 # 60 s), from the seeds and from what earlier runs found. Corpora and crashes: build/fuzz/corpus.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
@@ -9,6 +9,7 @@ formats=("$@")
 [ "${#formats[@]}" -gt 0 ] || formats=(c3d edf trc sto csv anc toml osim bids loads setup mesh markers)
 cmake --preset fuzz >/dev/null
 cmake --build build/fuzz --target fuzz_seeds "${formats[@]/#/fuzz_}" >&2
+[ "$seconds" != build ] || exit 0
 build/fuzz/bin/fuzz_seeds build/fuzz/seeds
 failed=0
 [ -n "${TMPDIR:-}" ] || [ ! -w /dev/shm ] || export TMPDIR=/dev/shm

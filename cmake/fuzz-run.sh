@@ -1,0 +1,18 @@
+# Sourced by run-tests --ci: every fuzz target for some seconds, from the seeds. A crash fails the run; no clang, or no
+# time left for the build, is said and does not. Longer runs: tests/fuzz/run.sh
+(
+  cd "$MYOID_ROOT"
+  limit=720
+  seconds=10
+  if ! command -v clang++ >/dev/null; then
+    myoid_log "No clang++: the readers are not fuzzed (apt-get install clang)"
+    exit 0
+  fi
+  myoid_log "Fuzzing (build of at most $((limit / 60)) minutes, then $seconds s for each reader)"
+  status=0
+  timeout "$limit" tests/fuzz/run.sh build || status=$?
+  if [ "$status" -eq 124 ]; then myoid_log "fuzzing: out of time while building"; exit 0; fi
+  [ "$status" -eq 0 ] || { myoid_log "fuzzing: the targets do not build"; exit "$status"; }
+  tests/fuzz/run.sh "$seconds" >&2 || { myoid_log "fuzzing: see build/fuzz/corpus"; exit 1; }
+  myoid_log "fuzzing: passed"
+)

@@ -1,0 +1,77 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace myoid::model {
+
+/// A formula in named variables, as OpenSim's expression-based forces have it: numbers, + - * / ^
+/// (^ first, from the right; then the sign, so that -x^2 is -(x^2)), parentheses, and the functions
+/// sqrt exp log sin cos sec csc tan cot asin acos atan sinh cosh tanh erf erfc step (0 below 0,
+/// else 1) delta (1 at 0, else 0) square cube recip abs floor ceil, min max atan2 of two and select
+/// of three (select(x, a, b): b where x is 0, else a). Definitions may follow: "k*y; y=d-0.2;
+/// k=50".
+class Expression {
+ public:
+  /// Zero.
+  Expression() = default;
+  /// Throws InvalidInput that names what is not understood and where (counted from 1).
+  Expression(std::string_view text, const std::vector<std::string>& variables);
+
+  /// The value; `variables` in the order of the names. Not a number where a function has none.
+  [[nodiscard]] double operator()(std::span<const double> variables) const;
+
+  enum class Operation {
+    number,
+    variable,
+    add,
+    subtract,
+    multiply,
+    divide,
+    power,
+    negate,
+    sqrt_,
+    exp_,
+    log_,
+    sin_,
+    cos_,
+    sec_,
+    csc_,
+    tan_,
+    cot_,
+    asin_,
+    acos_,
+    atan_,
+    sinh_,
+    cosh_,
+    tanh_,
+    erf_,
+    erfc_,
+    step_,
+    delta_,
+    square_,
+    cube_,
+    recip_,
+    abs_,
+    floor_,
+    ceil_,
+    min_,
+    max_,
+    atan2_,
+    select_
+  };
+
+ private:
+  /// Operands first: the way a stack machine reads it.
+  struct Step {
+    Operation operation = Operation::number;
+    double number = 0.0;
+    std::size_t variable = 0;
+  };
+  friend class ExpressionParser;
+  std::vector<Step> steps_;
+};
+
+}  // namespace myoid::model

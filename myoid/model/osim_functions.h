@@ -1,0 +1,24 @@
+#pragma once
+
+#include <optional>
+
+#include "myoid/model/osim_frames.h"
+
+namespace myoid::model {
+
+/// A function element of any kind. One that is not supported is listed in BodyModel::unsupported
+/// and read as zero; throws ReadError for bad numbers.
+[[nodiscard]] Function read_function(OsimReading& reading, pugi::xml_node node);
+/// The function inside a holder (<function>, <x_location>, ...); empty if the holder is.
+[[nodiscard]] std::optional<Function> function_in(OsimReading& reading, pugi::xml_node holder);
+/// The function that a property of an object holds, in either of the ways in which OpenSim writes
+/// it: <property><Sine/></property>, or <Sine name="property"/>; empty if there is none.
+[[nodiscard]] std::optional<Function> function_property(OsimReading& reading,
+                                                        pugi::xml_node object,
+                                                        const char* property);
+/// The functions of a property that is a set of them, in either way.
+[[nodiscard]] std::vector<Function> functions_property(OsimReading& reading,
+                                                       pugi::xml_node object,
+                                                       const char* property);
+
+}  // namespace myoid::model
