@@ -2,7 +2,7 @@
 # UBSan, given up after a time. A failing test fails the run; running out of time is said and does not.
 (
   cd "$MYOID_ROOT"
-  limit=720
+  limit=600
   myoid_log "Sanitizer build (at most $((limit / 60)) minutes)"
   start=$SECONDS
   cmake --preset asan >/dev/null
