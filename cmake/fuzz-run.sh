@@ -13,7 +13,7 @@
   timeout "$limit" tests/fuzz/run.sh build || status=$?
   if [ "$status" -eq 124 ]; then myoid_log "fuzzing: out of time while building"; exit 0; fi
   [ "$status" -eq 0 ] || { myoid_log "fuzzing: the targets do not build"; exit "$status"; }
-  # The same executions in every run: a new crash is that of a change, not of luck.
+  # From one seed: a new crash is that of a change, not of luck.
   MYOID_FUZZ_SEED=1 tests/fuzz/run.sh "$seconds" >&2 || { myoid_log "fuzzing: see build/fuzz/corpus"; exit 1; }
   myoid_log "fuzzing: passed"
 )
