@@ -24,8 +24,7 @@ double largest_force_n(const PlateSetup& plate,
         channel.scale *
         (counts.col(plate.channels[c]).head(rows).cast<double>().array() - channel.offset);
   }
-  const double largest =
-      force_sizes(plate, std::move(values)).maxCoeff<Eigen::PropagateNumbers>();
+  const double largest = force_sizes(plate, std::move(values)).maxCoeff<Eigen::PropagateNumbers>();
   return std::isfinite(largest) ? largest : 0.0;
 }
 

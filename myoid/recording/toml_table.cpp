@@ -196,6 +196,12 @@ void refuse_letters_outside_quotes(std::string_view text, const std::filesystem:
       if (in == In::remark || (in == In::quotes && !many_lines)) in = In::plain;
     } else if (in == In::quotes) {
       const bool escape = quote == '"' && c == '\\';
+      // Blanks and line ends behind a backslash are skipped by toml++, and what follows asked
+      // about.
+      const std::size_t after = escape ? text.find_first_not_of(" \t\r\n", i + 1) : text.npos;
+      if (after != text.npos && after > i + 1 && static_cast<unsigned char>(text[after]) >= 0x80U)
+        throw ReadError(file, line,
+                        "not valid TOML: a letter beyond ASCII first after a backslash and blanks");
       if (escape && i + 1 < text.size() && static_cast<unsigned char>(text[i + 1]) < 0x80U) {
         if (text[i + 1] != '\n') ++i;
       } else if (escape) {

@@ -62,10 +62,10 @@ TEST(ParseToml, LettersBeyondAsciiStandInQuotesAndRemarksOnly) {
   // Found by fuzzing: a quote inside a number hid what came after it.
   EXPECT_THROW((void)parse_toml(std::string("a =-\0x2\0'\xEF\xB9\xBF[", 12), "f.toml"), ReadError);
   EXPECT_THROW((void)parse_toml("a = -x'\xEF\xB9\xBF", "f.toml"), ReadError);
-  for (const char* text :
-       {"\ta = [1.'*\xEF\xBF\xB5'", "a = {b = 1.'\xEF\xBF\xB5'}", "[t]\na = [\n1.'\xEF\xBF\xB5'",
-        "a = 0oa=\"\"\"\\\\5\xEF\xBB\xBD", "a = 1[\"\xEF\xBB\xBD\"]",
-        "\"\"\"\n\xEF\xBB\xBF\n"})  // a key of several lines
+  for (const char* text : {"\ta = [1.'*\xEF\xBF\xB5'", "a = {b = 1.'\xEF\xBF\xB5'}",
+                           "[t]\na = [\n1.'\xEF\xBF\xB5'", "a = 0oa=\"\"\"\\\\5\xEF\xBB\xBD",
+                           "a = 1[\"\xEF\xBB\xBD\"]", "a = \"\"\"x \\ \n \xEF\xBB\xB6\"\"\"",
+                           "\"\"\"\n\xEF\xBB\xBF\n"})  // a key of several lines
     EXPECT_THROW((void)parse_toml(text, "f.toml"), ReadError) << text;
   const toml::table t = parse_toml(
       "\xEF\xBB\xBF# caf\xC3\xA9 \"\na = \"\xC2\xB5V \\\" #\xC3\xA9\" # \xC3\xA9\n"

@@ -22,7 +22,10 @@ TimeSeries on_study_clock(TimeSeries series, const ClockMap& clock) {
 
 std::string to_string(const ClockMap& clock) {
   std::string text = fmt::format("{:+.1f}", 1e3 * clock.offset_s);
-  if (clock.offset_sd_s) text += fmt::format(" ± {:.2g}", 1e3 * *clock.offset_sd_s);
+  if (clock.offset_sd_s) {
+    const double sd_ms = 1e3 * *clock.offset_sd_s;
+    text += sd_ms < 99.5 ? fmt::format(" ± {:.2g}", sd_ms) : fmt::format(" ± {:.0f}", sd_ms);
+  }
   text += " ms";
   if (clock.drift_ppm == 0.0 && !clock.drift_sd_ppm) return text;
   text += fmt::format(", {:.0f}", clock.drift_ppm);

@@ -36,6 +36,7 @@ TEST(ClockMap, IsToldWithItsUncertainty) {
       to_string(ClockMap{
           .offset_s = -0.0123, .drift_ppm = 48.2, .offset_sd_s = 0.0006, .drift_sd_ppm = 3.0}),
       "-12.3 ± 0.6 ms, 48 ± 3 ppm");
+  EXPECT_EQ(to_string(ClockMap{.offset_s = -0.1438, .offset_sd_s = 0.2994}), "-143.8 ± 299 ms");
 }
 
 }  // namespace
