@@ -111,6 +111,12 @@ void judge(ParameterEstimate& e, const VerdictContext& context, const VerdictRul
                "without one this number has no effect");
   }
   if (e.shrinkage && *e.shrinkage < rules.least_shrinkage) {
+    if (context.prior_distance > rules.prior_conflict) {
+      return set(Verdict::prior_dominated,
+                 fmt::format("{:.1f} standard deviations from the literature's value and no surer "
+                             "than that: use neither before the cause is known",
+                             context.prior_distance));
+    }
     return set(
         Verdict::prior_dominated,
         fmt::format("mostly the literature's value: the recording narrows it by only {:.0f} %",

@@ -88,6 +88,27 @@ TEST(CheckStudy, AnEmgChannelThatNeverRisesIsAnError) {
   EXPECT_NE(study.error().find("'TRI' never rises"), std::string::npos) << study.error();
 }
 
+TEST(CheckStudy, RawEmgCalledAnEnvelopeIsAnError) {
+  WrittenStudy study;
+  std::string emg = recording::read_text_file(study.folder / "t.sto");
+  for (std::size_t at = emg.find("\t0."); at != std::string::npos; at = emg.find("\t0.", at + 1))
+    if ((at / 7) % 2 == 0) emg.insert(at + 1, "-");
+  recording::write_file(study.folder / "t.sto", emg);
+  EXPECT_NE(study.error().find("is never below zero; is it raw EMG?"), std::string::npos)
+      << study.error();
+}
+
+TEST(CheckStudy, AnActivationInPercentIsAnError) {
+  WrittenStudy study;
+  study.text.replace(study.text.find("\"envelope\""), 10, "\"activation\"");
+  EXPECT_EQ(study.error(), "(no error)");
+  std::string emg = "EMG\nendheader\ntime\tBIC\tBRA\tBRD\tTRI\n";
+  for (int i = 0; i < 200; ++i) emg += fmt::format("{:.2f}\t{}\t5\t5\t5\n", 0.01 * i, i % 90);
+  recording::write_file(study.folder / "t.sto", emg);
+  EXPECT_NE(study.error().find("'BIC' reaches 89, but an activation"), std::string::npos)
+      << study.error();
+}
+
 TEST(CheckStudy, AWeightOfAMarkerThatTheModelLacksIsAnError) {
   WrittenStudy study;
   study.text += "[markers.weight]\nacromion = 10\n";

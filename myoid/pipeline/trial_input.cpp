@@ -250,6 +250,39 @@ void require_channels(const Study& study,
   }
 }
 
+/// What the study calls an envelope or an activation has to be one: raw EMG, which swings about
+/// zero, and signals in other units would give muscle forces a hundred times too large, in silence.
+void require_kind(const Study& study, const std::filesystem::path& path, const TimeSeries& emg) {
+  if (study.emg.kind == EmgKind::raw) return;
+  constexpr double kRinging = 0.2;  // of the maximum, that a filter may swing below zero
+  constexpr double kLargestActivation = 2.0;
+  const bool activation = study.emg.kind == EmgKind::activation;
+  const char* const kind = activation ? "activation" : "envelope";
+  for (const MuscleSpec& muscle : study.muscles) {
+    const auto column = emg.find(muscle.emg);
+    if (!column) continue;
+    double low = 0.0;
+    double high = 0.0;
+    for (const double value : emg.values().col(*column)) {
+      if (!std::isfinite(value)) continue;
+      low = std::min(low, value);
+      high = std::max(high, value);
+    }
+    if (low < -kRinging * high)
+      throw ReadError(path, 0,
+                      fmt::format("channel '{}' reaches from {:.3g} to {:.3g}, but [emg] kind = "
+                                  "\"{}\" is never below zero; is it raw EMG? Then set kind = "
+                                  "\"raw\"",
+                                  muscle.emg, low, high, kind));
+    if (activation && high > kLargestActivation)
+      throw ReadError(
+          path, 0,
+          fmt::format("channel '{}' reaches {:.3g}, but an activation goes from 0 to 1; "
+                      "percent? Divide by 100, or set [emg] kind = \"envelope\"",
+                      muscle.emg, high));
+  }
+}
+
 /// The EMG on the clock of the motion, and how it came there.
 TimeSeries on_clock_of_motion(const Study& study,
                               const TrialSpec& trial,
@@ -325,6 +358,7 @@ TrialInput read_trial_input(const Study& study,
       warn(input, fmt::format("{}: {}", trial.emg->filename().string(), file.unit_conflict));
     name_by_target_muscle(study, *trial.emg, file, input.notes);
     require_channels(study, *trial.emg, file.data);
+    require_kind(study, *trial.emg, file.data);
     std::vector<std::string> wanted;
     for (const MuscleSpec& muscle : study.muscles) {
       if (std::find(wanted.begin(), wanted.end(), muscle.emg) == wanted.end())
