@@ -2,7 +2,7 @@
 # time left for the build, is said and does not. Longer runs: tests/fuzz/run.sh
 (
   cd "$MYOID_ROOT"
-  limit=420
+  limit=600
   seconds=10
   if ! command -v clang++ >/dev/null; then
     myoid_log "No clang++: the readers are not fuzzed (apt-get install clang)"
