@@ -17,6 +17,7 @@ void claim_file(const ToolOptions& options, const std::filesystem::path& path, T
         path.string()));
   }
   if (options.claim) options.claim(path);
+  if (exists) ++result.replaced;
   result.files.push_back(path);
 }
 
