@@ -88,10 +88,11 @@ struct PathPoint {
     double lower = 0.0;
     double upper = 0.0;
   };
-  /// Location as functions of one coordinate [m].
+  /// Location in a frame F of the body as functions of one coordinate [m].
   struct Moving {
     int coordinate = -1;
     std::array<Function, 3> location;
+    Pose X_BF{};
   };
   std::string name;
   BodyIndex body = 0;

@@ -10,6 +10,7 @@
 #include "myoid/model/arm4.h"
 #include "myoid/model/constraints.h"
 #include "myoid/model/kinematic_tree.h"
+#include "myoid/model/muscle_path.h"
 #include "myoid/recording/storage_reader.h"
 
 #include "tests/support/data_folder.h"
@@ -166,6 +167,50 @@ TEST(ParseOsim, CouplersByPolynomialsAndSplinesOfOneVariable) {
   EXPECT_NEAR(
       coupled("<PiecewiseLinearFunction><x>0 1 2</x><y>0 2 2</y></PiecewiseLinearFunction>"), 2.0,
       1e-14);
+}
+
+// A point that moves in a frame turned and shifted against the body of a hinge: length by hand,
+// moment arm as its derivative.
+TEST(ParseOsim, AMovingPointMayLieInAnOffsetFrame) {
+  for (const Compat& compat : {Compat{}, kOpenSim452}) {
+    const BodyModel m = parse_osim(
+        R"(<OpenSimDocument Version="40000"><Model name="m">
+<BodySet><objects><Body name="b"><components><PhysicalOffsetFrame name="f"><socket_parent>..</socket_parent>
+<translation>0.1 0.2 0</translation><orientation>0 0 0.5</orientation></PhysicalOffsetFrame></components>
+<mass>1</mass><inertia>1 1 1 0 0 0</inertia></Body></objects></BodySet>
+<JointSet><objects><PinJoint name="hinge">
+<socket_parent_frame>/ground</socket_parent_frame><socket_child_frame>/bodyset/b</socket_child_frame>
+<coordinates><Coordinate name="q"/></coordinates></PinJoint></objects></JointSet>
+<ForceSet><objects><Thelen2003Muscle name="muscle"><GeometryPath name="geometrypath"><PathPointSet><objects>
+<PathPoint name="p1"><socket_parent_frame>/ground</socket_parent_frame><location>0 0.5 0.1</location></PathPoint>
+<MovingPathPoint name="p2"><socket_parent_frame>/bodyset/b/f</socket_parent_frame>
+<socket_x_coordinate>/jointset/hinge/q</socket_x_coordinate><socket_y_coordinate>/jointset/hinge/q</socket_y_coordinate>
+<socket_z_coordinate>/jointset/hinge/q</socket_z_coordinate>
+<x_location><LinearFunction><coefficients>0.1 0.3</coefficients></LinearFunction></x_location>
+<y_location><Constant><value>0.05</value></Constant></y_location>
+<z_location><Constant><value>0</value></Constant></z_location></MovingPathPoint>
+</objects></PathPointSet></GeometryPath></Thelen2003Muscle></objects></ForceSet></Model></OpenSimDocument>)",
+        "m.osim", {.compat = compat});
+    EXPECT_TRUE(m.unsupported.empty());
+    const auto length = [](double q) {
+      const auto turned = [](double a, const Vec3& p) {
+        return Vec3(std::cos(a) * p.x() - std::sin(a) * p.y(),
+                    std::sin(a) * p.x() + std::cos(a) * p.y(), p.z());
+      };
+      const Vec3 in_body = Vec3(0.1, 0.2, 0.0) + turned(0.5, Vec3(0.1 * q + 0.3, 0.05, 0.0));
+      return (turned(q, in_body) - Vec3(0.0, 0.5, 0.1)).norm();
+    };
+    BodyState state = make_state(m);
+    for (const double q : {-0.8, 0.0, 1.1}) {
+      compute_poses(m, Eigen::VectorXd::Constant(1, q), state);
+      compute_velocities(m, Eigen::VectorXd::Constant(1, 2.0), state);
+      const PathResult path = compute_path(m, 0, state);
+      const double slope = (length(q + 1e-5) - length(q - 1e-5)) / 2e-5;
+      EXPECT_NEAR(path.length_m, length(q), 1e-15);
+      EXPECT_NEAR(path.moment_arm_m[0], -slope, 1e-10);  // h^2 and round-off over h
+      EXPECT_NEAR(path.speed_mps, 2.0 * slope, 1e-9);
+    }
+  }
 }
 
 TEST(ParseOsim, AConstantCurvatureJointBendsARod) {
