@@ -20,8 +20,9 @@
 namespace myoid::pipeline {
 namespace {
 
-constexpr std::array kKnown{"BodyKinematics", "Kinematics", "MuscleAnalysis", "OutputReporter",
-                            "StaticOptimization"};
+constexpr std::array kKnown{"BodyKinematics",  "ForceReporter",     "JointReaction",
+                            "Kinematics",      "MuscleAnalysis",    "OutputReporter",
+                            "PointKinematics", "StaticOptimization"};
 
 constexpr const char* kUnits =
     "Units are S.I. units (second, meters, Newtons, ...)\nIf the header above contains a line with "
@@ -250,7 +251,9 @@ bool is_known_analysis(std::string_view class_name) {
 }
 
 std::string known_analyses() {
-  return "BodyKinematics, Kinematics, MuscleAnalysis, OutputReporter, StaticOptimization";
+  return "BodyKinematics, ForceReporter, JointReaction, Kinematics, MuscleAnalysis, "
+         "OutputReporter, "
+         "PointKinematics, StaticOptimization";
 }
 
 void run_analysis(AnalysisRun& run, pugi::xml_node node) {
@@ -259,6 +262,12 @@ void run_analysis(AnalysisRun& run, pugi::xml_node node) {
     report_kinematics(run, node);
   } else if (kind == "BodyKinematics") {
     report_bodies(run, node);
+  } else if (kind == "ForceReporter") {
+    report_forces(run, node);
+  } else if (kind == "JointReaction") {
+    report_reactions(run, node);
+  } else if (kind == "PointKinematics") {
+    report_point(run, node);
   } else if (kind == "MuscleAnalysis") {
     report_muscles(run, node);
   } else if (kind == "OutputReporter") {
