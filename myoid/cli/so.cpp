@@ -11,7 +11,7 @@
 #include "myoid/forces/force_sharing.h"
 #include "myoid/forces/sharing_input.h"
 #include "myoid/pipeline/muscle_force_law.h"
-#include "myoid/pipeline/result_files.h"
+#include "myoid/pipeline/stage_files.h"
 #include "myoid/pipeline/study_model.h"
 #include "myoid/recording/storage_reader.h"
 #include "myoid/signals/resample.h"

@@ -10,6 +10,7 @@
 #include "myoid/core/error.h"
 #include "myoid/kinematics/inverse_kinematics.h"
 #include "myoid/pipeline/study_model.h"
+#include "myoid/pipeline/trial_emg.h"
 #include "myoid/pipeline/trial_input.h"
 #include "myoid/pipeline/trial_quality.h"
 #include "myoid/recording/csv_reader.h"
