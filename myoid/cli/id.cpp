@@ -11,6 +11,7 @@
 #include "myoid/dynamics/held_mass.h"
 #include "myoid/dynamics/inverse_dynamics.h"
 #include "myoid/model/arm4.h"
+#include "myoid/recording/series_file.h"
 
 namespace myoid::cli {
 
@@ -76,7 +77,7 @@ void add_id(CLI::App& app, Context& context) {
     if (!o->loads.empty()) loads = load_external_loads(model, o->loads, motion, context);
     const TimeSeries forces =
         dynamics::inverse_dynamics(model, motion, {.loads = loads ? &*loads : nullptr});
-    write_series(o->out, forces, "Inverse Dynamics Generalized Forces");
+    recording::write_series(o->out, forces, "Inverse Dynamics Generalized Forces");
     if (context.json) {
       nlohmann::ordered_json json{{"out", o->out}, {"samples", forces.sample_count()}};
       for (Eigen::Index c = 0; c < forces.channel_count(); ++c) {
