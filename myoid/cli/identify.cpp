@@ -15,7 +15,7 @@
 #include "myoid/identification/torque.h"
 #include "myoid/math/spline.h"
 #include "myoid/pipeline/identify_input.h"
-#include "myoid/pipeline/result_files.h"
+#include "myoid/pipeline/parameter_files.h"
 #include "myoid/recording/atomic_file.h"
 #include "myoid/recording/csv_reader.h"
 #include "myoid/report/report.h"

@@ -7,7 +7,7 @@
 #include "myoid/core/error.h"
 #include "myoid/kinematics/inverse_kinematics.h"
 #include "myoid/pipeline/marker_misfit.h"
-#include "myoid/pipeline/result_files.h"
+#include "myoid/pipeline/stage_files.h"
 #include "myoid/recording/recording.h"
 
 namespace myoid::cli {

@@ -9,7 +9,7 @@
 #include "myoid/kinematics/muscle_kinematics.h"
 #include "myoid/model/arm4.h"
 #include "myoid/model/path_survey.h"
-#include "myoid/pipeline/result_files.h"
+#include "myoid/pipeline/stage_files.h"
 #include "myoid/pipeline/surrogate_file.h"
 #include "myoid/recording/text_file.h"
 

@@ -11,6 +11,7 @@
 #include "myoid/kinematics/inverse_kinematics.h"
 #include "myoid/pipeline/study_model.h"
 #include "myoid/pipeline/study_plausibility.h"
+#include "myoid/pipeline/trial_emg.h"
 #include "myoid/pipeline/trial_input.h"
 #include "myoid/pipeline/trial_quality.h"
 #include "myoid/recording/csv_reader.h"

@@ -5,8 +5,8 @@
 
 namespace myoid::pipeline {
 
-/// What to record next: the plan, movement by movement, with the interval that may be expected after
-/// each, and every target before and after the whole plan.
+/// What to record next: the plan, movement by movement, with the interval that may be expected
+/// after each, and every target before and after the whole plan.
 [[nodiscard]] report::Section next_recording_section(const DesignStudyResult& design);
 
 }  // namespace myoid::pipeline

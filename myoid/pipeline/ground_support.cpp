@@ -102,4 +102,13 @@ bool bears_the_body(const model::BodyModel& model,
   return own < others + kAsLow_m;
 }
 
+bool stands(const model::BodyModel& model, const Eigen::VectorXd& q) {
+  return std::any_of(model.coordinates.begin(), model.coordinates.end(),
+                     [&](const model::Coordinate& c) {
+                       return c.motion != model::MotionType::translational &&
+                              model.joints[static_cast<std::size_t>(c.joint)].parent != 0 &&
+                              bears_the_body(model, c.name, q, 0.0);
+                     });
+}
+
 }  // namespace myoid::pipeline

@@ -4,7 +4,6 @@
 #include <string>
 
 #include "myoid/core/time_series.h"
-#include "myoid/kinematics/joint_motion.h"
 #include "myoid/model/body_model.h"
 
 namespace myoid::pipeline {
@@ -33,5 +32,8 @@ struct UnsupportedWeight {
                                   const std::string& coordinate,
                                   const Eigen::VectorXd& q,
                                   double body_mass_kg);
+
+/// The same of any joint beyond the one to the ground: the model stands on something.
+[[nodiscard]] bool stands(const model::BodyModel& model, const Eigen::VectorXd& q);
 
 }  // namespace myoid::pipeline

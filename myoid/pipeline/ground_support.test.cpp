@@ -81,6 +81,8 @@ TEST(BearsTheBody, TheLegThatStandsAndNotTheArm) {
 TEST(BearsTheBody, NothingOfAModelThatIsNoWholePerson) {
   const model::BodyModel model = person(30.0);
   EXPECT_FALSE(bears_the_body(model, "knee_angle", model.default_q(), 75.0));
+  EXPECT_FALSE(stands(person(15.0), model.default_q()));
+  EXPECT_TRUE(stands(person(60.0), model.default_q()));
 }
 
 }  // namespace

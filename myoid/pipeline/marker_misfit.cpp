@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "myoid/pipeline/trial_quality.h"
+#include "myoid/pipeline/marker_segments.h"
 #include "myoid/signals/marker_quality.h"
 
 namespace myoid::pipeline {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "myoid/pipeline/run_study.h"
+#include "myoid/pipeline/study_result.h"
 #include "myoid/report/report.h"
 
 namespace myoid::pipeline {

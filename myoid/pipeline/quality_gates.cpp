@@ -8,7 +8,10 @@
 #include <fmt/ranges.h>
 
 #include "myoid/core/units.h"
+#include "myoid/dynamics/inverse_dynamics.h"
+#include "myoid/pipeline/ground_support.h"
 #include "myoid/pipeline/prediction_gates.h"
+#include "myoid/pipeline/trial_plausibility.h"
 
 namespace myoid::pipeline {
 namespace {
@@ -84,10 +87,55 @@ MissingMuscles missing_muscles(const StudyResult& result) {
   return missing;
 }
 
+/// A trial whose torque no joint can make; empty if there is none.
+std::optional<Gate> torque_gate(const StudyResult& result) {
+  const Capacities capacities = joint_capacities(result.study, result.model);
+  for (const TrialResult& t : result.trials) {
+    if (!t.has_motion()) continue;
+    for (const auto& [name, capacity] : capacities) {
+      const auto c = static_cast<std::size_t>(result.model.coordinate_index(name));
+      const auto column =
+          t.muscle_torque.find(dynamics::generalized_force_name(result.model.coordinates[c]));
+      if (!column) continue;
+      const double greatest = capacity.greatest_nm();
+      const std::string text =
+          too_much_torque(name, usual_peak(t.muscle_torque.values().col(*column)), greatest,
+                          fmt::format("the torque in '{}'", t.spec.name));
+      if (text.empty()) continue;
+      return Gate{"Torques that a joint can make", GateStatus::fail, text,
+                  fmt::format("at most {:.3g} N m", greatest),
+                  "Masses, loads or their units are wrong, or the clock of the motion is."};
+    }
+  }
+  return std::nullopt;
+}
+
+/// A trial in which nothing carries a body that the study's joint bears; empty if there is none.
+std::optional<Gate> support_gate(const StudyResult& result) {
+  for (const TrialResult& t : result.trials) {
+    if (!t.has_motion() || t.spec.external_torque || t.generalized_forces.empty()) continue;
+    const auto weight = unsupported_weight(t.model, t.generalized_forces);
+    if (!weight) continue;
+    for (const std::string& name : study_coordinates(result.study.model)) {
+      if (!bears_the_body(t.model, name, t.motion.q.values().row(0).transpose(),
+                          result.study.subject.mass_kg.value_or(0.0)))
+        continue;
+      return Gate{
+          "Something carries the body", GateStatus::warn,
+          fmt::format("'{}': {}", t.spec.name, weight->sentence()),
+          "less than half of the weight on the joint to the ground",
+          fmt::format("Unless the person hangs, sits or lies, the torque of {} is wrong.", name)};
+    }
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 std::vector<report::Gate> quality_gates(const StudyResult& result) {
   std::vector<Gate> list;
+  if (auto gate = torque_gate(result)) list.push_back(std::move(*gate));
+  if (auto gate = support_gate(result)) list.push_back(std::move(*gate));
   int frames = 0;
   int unconverged = 0;
   int blind = 0;

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "myoid/pipeline/run_study.h"
+#include "myoid/pipeline/study_result.h"
 #include "myoid/pipeline/trial_quality.h"
 #include "myoid/report/report.h"
 

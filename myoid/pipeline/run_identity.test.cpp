@@ -5,7 +5,7 @@
 
 #include "myoid/core/error.h"
 #include "myoid/core/provenance.h"
-#include "myoid/pipeline/result_files.h"
+#include "myoid/pipeline/parameter_files.h"
 #include "myoid/pipeline/study_json.h"
 #include "myoid/recording/atomic_file.h"
 

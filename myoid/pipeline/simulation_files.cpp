@@ -9,7 +9,7 @@
 #include "myoid/muscle/force_length.h"
 #include "myoid/muscle/force_velocity.h"
 #include "myoid/muscle/literature.h"
-#include "myoid/pipeline/result_files.h"
+#include "myoid/pipeline/stage_files.h"
 #include "myoid/recording/atomic_file.h"
 #include "myoid/recording/storage_writer.h"
 #include "myoid/report/svg_plot.h"

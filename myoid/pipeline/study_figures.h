@@ -3,7 +3,7 @@
 #include <cstddef>
 
 #include "myoid/identification/result.h"
-#include "myoid/pipeline/run_study.h"
+#include "myoid/pipeline/study_result.h"
 #include "myoid/report/report.h"
 
 namespace myoid::pipeline {

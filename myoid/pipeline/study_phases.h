@@ -4,7 +4,7 @@
 
 #include "myoid/identification/options.h"
 #include "myoid/pipeline/phases.h"
-#include "myoid/pipeline/run_study.h"
+#include "myoid/pipeline/study_result.h"
 
 namespace myoid::pipeline {
 

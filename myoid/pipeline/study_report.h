@@ -1,7 +1,7 @@
 #pragma once
 
 #include "myoid/core/provenance.h"
-#include "myoid/pipeline/run_study.h"
+#include "myoid/pipeline/study_result.h"
 #include "myoid/report/report.h"
 
 namespace myoid::pipeline {

@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "myoid/pipeline/run_study.h"
+#include "myoid/pipeline/study_result.h"
 #include "myoid/report/scene_page.h"
 
 namespace myoid::pipeline {

@@ -3,41 +3,23 @@
 #include <filesystem>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
-#include "myoid/core/error.h"
 #include "myoid/core/provenance.h"
 #include "myoid/core/time_series.h"
 #include "myoid/dynamics/external_loads.h"
 #include "myoid/model/body_model.h"
+#include "myoid/pipeline/clock_check.h"
 #include "myoid/pipeline/study.h"
 #include "myoid/pipeline/trial_clock.h"
 #include "myoid/recording/marker_series.h"
-#include "myoid/signals/clock_gaps.h"
-#include "myoid/signals/emg_envelope.h"
+#include "myoid/recording/text_file.h"
 #include "myoid/signals/fault.h"
 
 namespace myoid::pipeline {
 
-/// A longer pause in a clock is refused: what a spline makes of it is no measurement.
-inline constexpr double kLongestGap_s = 0.5;
 /// Parts of a trial between such pauses that are shorter are left out.
 inline constexpr double kShortestPart_s = 1.0;
-
-/// A clock with a pause of more than kLongestGap_s.
-class ClockPause : public ReadError {
- public:
-  ClockPause(const std::filesystem::path& path,
-             const std::string& message,
-             std::vector<signals::ClockStretch> stretches)
-      : ReadError(path, 0, message), stretches_(std::move(stretches)) {}
-  /// What lies between the pauses.
-  [[nodiscard]] const std::vector<signals::ClockStretch>& stretches() const { return stretches_; }
-
- private:
-  std::vector<signals::ClockStretch> stretches_;
-};
 
 /// The files of one trial as values: SI, laboratory turned to y up, markers renamed to the model's
 /// and mended.
@@ -63,8 +45,16 @@ struct TrialInput {
                                           const TrialSpec& trial,
                                           const model::BodyModel& model);
 
-/// How the study wants raw EMG to become envelopes.
-[[nodiscard]] signals::EnvelopeOptions envelope_options(const Study& study);
+/// Adds a remark to the notes and to the warnings.
+void warn(TrialInput& input, std::string text);
+
+/// Adds what a reader put right or left out: "file:line: message".
+void add_repairs(const std::filesystem::path& path,
+                 const std::vector<recording::Repair>& repairs,
+                 std::vector<std::string>& notes);
+
+/// "3 samples from its begin to 2 s; at least 10 are needed".
+[[nodiscard]] std::string few_samples(const TrialSpec& trial, const TimeSeries& series);
 
 /// A trial, or a part of it.
 struct TrialPart {

@@ -3,20 +3,12 @@
 #include <string>
 #include <vector>
 
-#include "myoid/model/body_model.h"
+#include "myoid/core/time_series.h"
 #include "myoid/pipeline/study.h"
 #include "myoid/pipeline/trial_input.h"
-#include "myoid/recording/marker_series.h"
-#include "myoid/signals/emg_envelope.h"
 #include "myoid/signals/fault.h"
-#include "myoid/signals/marker_quality.h"
 
 namespace myoid::pipeline {
-
-/// The model's segments that carry two or more of these markers, with where they sit. Bodies that
-/// are welded to one another count as one.
-[[nodiscard]] std::vector<signals::ExpectedSegment> segments_of(
-    const model::BodyModel& model, const recording::MarkerSeries& markers);
 
 /// What moves in a trial: its coordinates, or the paths of the markers that are always there.
 [[nodiscard]] TimeSeries movement_of(const TrialInput& input);

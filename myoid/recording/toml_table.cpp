@@ -131,6 +131,20 @@ std::string TomlTable::choice(std::string_view key,
   return value;
 }
 
+double TomlTable::number_within(
+    std::string_view key, double otherwise, double lower, double upper, std::string_view unit) {
+  const double value = number(key).value_or(otherwise);
+  if (!(value >= lower && value <= upper))
+    fail(key, fmt::format("found {} {}, expected {} to {} {}", value, unit, lower, upper, unit));
+  return value;
+}
+
+double TomlTable::positive_number(std::string_view key, double otherwise) {
+  const double value = number(key).value_or(otherwise);
+  if (!(value > 0.0)) fail(key, fmt::format("found {}, expected a positive number", value));
+  return value;
+}
+
 bool TomlTable::is_text(std::string_view key) const {
   const toml::node* node = table_->get(key);
   return node != nullptr && node->is_string();

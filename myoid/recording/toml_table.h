@@ -41,6 +41,13 @@ class TomlTable {
                                    std::string_view otherwise,
                                    const std::vector<std::string>& allowed);
 
+  /// A number, `otherwise` if absent; throws unless it lies from `lower` to `upper` [unit].
+  [[nodiscard]] double number_within(
+      std::string_view key, double otherwise, double lower, double upper, std::string_view unit);
+
+  /// A number, `otherwise` if absent; throws unless it is above zero.
+  [[nodiscard]] double positive_number(std::string_view key, double otherwise);
+
   /// True if the key holds a string (and not a number or a table).
   [[nodiscard]] bool is_text(std::string_view key) const;
   [[nodiscard]] bool is_table(std::string_view key) const;

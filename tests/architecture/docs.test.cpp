@@ -82,8 +82,10 @@ TEST(Documentation, EveryOptionOfACommandIsInItsPage) {
 
 TEST(Documentation, EveryKeyOfAStudyIsInItsPage) {
   const std::regex key(
-      R"re((?:text|texts|number|numbers|flag|choice|table|tables|has|require_text|path|positive)\((?:table, )?"(\w+)")re");
-  const std::string reader = content(kRoot / "myoid" / "pipeline" / "study.cpp");
+      R"re((?:text|texts|number|numbers|flag|choice|table|tables|has|require_text|path|positive_number|number_within)\("(\w+)")re");
+  std::string reader;
+  for (const char* file : {"study", "study_settings", "trial_table", "muscle_table"})
+    reader += content(kRoot / "myoid" / "pipeline" / (std::string(file) + ".cpp"));
   const std::string page = content(kRoot / "docs" / "guide" / "study.md");
   int seen = 0;
   for (std::sregex_iterator it(reader.begin(), reader.end(), key), end; it != end; ++it) {

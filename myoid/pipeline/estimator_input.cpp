@@ -1,0 +1,112 @@
+#include "myoid/pipeline/estimator_input.h"
+
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "myoid/pipeline/lumped_muscles.h"
+#include "myoid/pipeline/nuisances.h"
+#include "myoid/pipeline/study_model.h"
+
+namespace myoid::pipeline {
+namespace {
+
+identification::TrialData trial_data(const Study& study,
+                                     const TrialResult& trial,
+                                     const std::vector<MuscleGroup>& groups) {
+  identification::TrialData data;
+  data.name = trial.spec.name;
+  data.calibration = trial.spec.use == Use::calibration || trial.spec.use == Use::isometric;
+  data.time_s = trial.motion.q.time_s();
+  LumpedMuscles lumped = lumped_muscles(trial.muscles, groups, study.model.coordinate);
+  data.length_m = std::move(lumped.length_m);
+  data.velocity_mps = std::move(lumped.velocity_mps);
+  data.moment_arm_m = std::move(lumped.moment_arm_m);
+  if (!trial.shared.force.empty()) {
+    data.force_n = Eigen::MatrixXd::Zero(data.length_m.rows(), data.length_m.cols());
+    for (Eigen::Index g = 0; g < data.force_n.cols(); ++g) {
+      for (const int head : groups[static_cast<std::size_t>(g)].members)
+        data.force_n.col(g) += trial.shared.force.values().col(head);
+    }
+  }
+  data.torque_nm = trial.muscle_torque.values().col(0);
+  data.condition = trial.spec.condition;
+  data.joint = study.model.coordinate;
+  data.angle_rad = trial.motion.q.column(study.model.coordinate);
+  data.velocity_radps = trial.motion.qdot.column(study.model.coordinate);
+  data.acceleration_radps2 = trial.motion.qddot.column(study.model.coordinate);
+  for (std::size_t j = 0; j < study.model.more_coordinates.size(); ++j) {
+    const std::string& name = study.model.more_coordinates[j];
+    data.more_joints.push_back(
+        {.name = name,
+         .torque_nm = trial.muscle_torque.values().col(static_cast<Eigen::Index>(j) + 1),
+         .moment_arm_m = lumped_moment_arm_m(trial.muscles, groups, name),
+         .angle_rad = trial.motion.q.column(name),
+         .velocity_radps = trial.motion.qdot.column(name),
+         .acceleration_radps2 = trial.motion.qddot.column(name)});
+  }
+  data.activation = trial.activation;
+  return data;
+}
+
+}  // namespace
+
+identification::StudyData estimator_data(const StudyResult& result) {
+  const Study& study = result.study;
+  const std::vector<MuscleGroup> groups = muscle_groups(study, result.model);
+  identification::StudyData data;
+  data.muscles = muscle_setups(study, result.model);
+  for (const TrialResult& trial : result.trials) {
+    if (!trial.has_motion() || trial.activation.empty()) continue;
+    if (trial.spec.use == Use::mvc || trial.spec.use == Use::static_pose ||
+        trial.spec.use == Use::passive)
+      continue;
+    data.trials.push_back(trial_data(study, trial, groups));
+  }
+  if (study.identify.priors) data.rules = nuisance_rules(study.emg, data);
+  data.rules.insert(data.rules.end(), study.parameters.begin(), study.parameters.end());
+  return data;
+}
+
+identification::TorqueOptions torque_options(const StudyResult& result, const Progress& progress) {
+  const Study& study = result.study;
+  identification::TorqueOptions options;
+  options.muscles = study.identify.muscles;
+  options.priors = study.identify.priors;
+  options.delay_s = study.emg.delay_s;
+  options.max_rate_hz = study.identify.max_rate_hz;
+  options.weights = study.identify.priors;
+  const IdentifySpec& spec = study.identify;
+  options.intervals = {.bootstrap = spec.bootstrap, .profile = spec.profile};
+  options.loss = spec.loss == "huber"    ? identification::Loss::huber
+                 : spec.loss == "cauchy" ? identification::Loss::cauchy
+                                         : identification::Loss::square;
+  options.eccentric = spec.eccentric == "product"       ? identification::Eccentric::product
+                      : spec.eccentric == "slope_ratio" ? identification::Eccentric::slope_ratio
+                      : spec.eccentric == "smooth"      ? identification::Eccentric::smooth
+                                                        : identification::Eccentric::automatic;
+  options.normalised = spec.normalised;
+  options.dynamics = spec.dynamics;
+  options.delay_per_channel = spec.delay_per_channel;
+  options.angle_sd_rad = spec.angle_sd_rad;
+  options.angle_rate_sd_radps = spec.angle_rate_sd_radps;
+  options.from_mvc = study.emg.has_mvc || study.emg.kind == EmgKind::activation;
+  options.progress.stop = progress.stop;
+  if (study.identify.gain) {
+    for (const signals::ChannelNormalisation& n : result.normalisation) {
+      // Activation 1 is the greatest effort of the MVC trials: a share of what the muscle can do.
+      const bool known = study.emg.has_mvc;
+      const double effort = known ? study.emg.mvc_effort : 1.0;
+      const double spread = known ? study.emg.mvc_effort_sd / effort : 0.0;
+      options.gain_prior_sd[n.channel] = std::hypot(n.relative_sd, spread);
+      options.gain_prior_mean[n.channel] = effort * (1.0 + n.relative_bias);
+    }
+  }
+  options.envelope_cutoff_hz = study.emg.lowpass_hz;
+  for (const signals::ChannelNormalisation& n : result.normalisation)
+    options.emg_bandwidth_hz[n.channel] = n.bandwidth_hz;
+  return options;
+}
+
+}  // namespace myoid::pipeline

@@ -1,0 +1,54 @@
+#include "myoid/pipeline/estimator_input.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/written_trial.h"
+
+namespace myoid::pipeline {
+namespace {
+
+using test_trials::arm;
+using test_trials::arm_study;
+
+StudyResult with_one_channel() {
+  StudyResult result;
+  result.study = arm_study();
+  result.model = arm();
+  signals::ChannelNormalisation channel;
+  channel.channel = "BIC";
+  channel.relative_sd = 0.03;
+  channel.relative_bias = 0.02;
+  result.normalisation = {channel};
+  return result;
+}
+
+TEST(TorqueOptions, AGainsPriorIsTheShareOfTheMaximumThatTheMvcTrialsReach) {
+  StudyResult result = with_one_channel();
+  result.study.emg.mvc_effort = 0.8;
+  result.study.emg.mvc_effort_sd = 0.032;
+  result.study.emg.has_mvc = true;
+  const identification::TorqueOptions known = torque_options(result, {});
+  EXPECT_NEAR(known.gain_prior_mean.at("BIC"), 0.8 * 1.02, 1e-12);
+  EXPECT_NEAR(known.gain_prior_sd.at("BIC"), 0.05, 1e-12);  // 3 % and 4 %, independent
+  // Without MVC the greatest effort of the study is no known share of anything.
+  result.study.emg.has_mvc = false;
+  const identification::TorqueOptions unknown = torque_options(result, {});
+  EXPECT_NEAR(unknown.gain_prior_mean.at("BIC"), 1.02, 1e-12);
+  EXPECT_NEAR(unknown.gain_prior_sd.at("BIC"), 0.03, 1e-12);
+  EXPECT_FALSE(unknown.from_mvc);
+}
+
+TEST(EstimatorData, TheStudysOwnRulesComeLastAndTrialsWithoutMotionAreLeftOut) {
+  StudyResult result = with_one_channel();
+  result.study.parameters = {{.parameter = "joint_stiffness", .value = 1.0}};
+  result.trials.resize(1);
+  result.trials[0].spec = result.study.trials[0];
+  const identification::StudyData data = estimator_data(result);
+  EXPECT_TRUE(data.trials.empty());
+  EXPECT_EQ(data.muscles.size(), 4U);
+  ASSERT_FALSE(data.rules.empty());
+  EXPECT_EQ(data.rules.back().value, 1.0);
+}
+
+}  // namespace
+}  // namespace myoid::pipeline

@@ -1,0 +1,26 @@
+#include "myoid/pipeline/json_values.h"
+
+#include <cmath>
+
+namespace myoid::pipeline {
+
+using nlohmann::ordered_json;
+
+ordered_json number_or_null(const std::optional<double>& value) {
+  return value && std::isfinite(*value) ? ordered_json(*value) : ordered_json(nullptr);
+}
+
+ordered_json provenance_json(const Provenance& provenance) {
+  ordered_json json;
+  json["program"] = provenance.program;
+  json["version"] = provenance.version;
+  json["command"] = provenance.command;
+  json["inputs"] = ordered_json::array();
+  for (const InputFile& file : provenance.inputs)
+    json["inputs"].push_back({{"path", file.path}, {"sha256", file.sha256}});
+  json["options"] = provenance.options_json.empty() ? ordered_json::object()
+                                                    : ordered_json::parse(provenance.options_json);
+  return json;
+}
+
+}  // namespace myoid::pipeline

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <optional>
+
+#include <nlohmann/json.hpp>
+
+#include "myoid/core/provenance.h"
+
+namespace myoid::pipeline {
+
+/// A number as JSON; null where it is absent or not finite, which JSON cannot write.
+[[nodiscard]] nlohmann::ordered_json number_or_null(const std::optional<double>& value);
+
+/// Program, version, command, inputs with their SHA-256, and options.
+[[nodiscard]] nlohmann::ordered_json provenance_json(const Provenance& provenance);
+
+}  // namespace myoid::pipeline

@@ -1,0 +1,196 @@
+#include "myoid/pipeline/parameter_files.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "myoid/pipeline/json_values.h"
+#include "myoid/recording/text_file.h"
+
+namespace myoid::pipeline {
+namespace {
+
+using identification::IdentificationResult;
+using identification::ParameterEstimate;
+using nlohmann::ordered_json;
+
+std::string number_or_empty(const std::optional<double>& value) {
+  return value && std::isfinite(*value) ? recording::format_number(*value) : "";
+}
+
+std::string quoted(const std::string& text) {
+  std::string result = "\"";
+  for (const char c : text) result += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return result + "\"";
+}
+
+ordered_json estimate_json(const ParameterEstimate& e) {
+  ordered_json json = {{"muscle", e.muscle},
+                       {"parameter", e.parameter},
+                       {"unit", std::string(symbol(e.unit))},
+                       {"method", e.method},
+                       {"case", e.fit_case},
+                       {"initial", number_or_null(e.initial)},
+                       {"estimate", number_or_null(e.estimate)},
+                       {"std_error", number_or_null(e.std_error)},
+                       {"ci_low", number_or_null(e.ci_low)},
+                       {"ci_high", number_or_null(e.ci_high)},
+                       {"prior_mean", number_or_null(e.prior_mean)},
+                       {"prior_sd", number_or_null(e.prior_sd)},
+                       {"shrinkage", number_or_null(e.shrinkage)},
+                       {"at_bound", e.at_bound},
+                       {"verdict", std::string(identification::name(e.verdict))},
+                       {"reason", e.reason},
+                       {"routes_disagree", e.routes_disagree}};
+  ordered_json routes = ordered_json::array();
+  for (const identification::RouteInterval& r : e.routes) {
+    routes.push_back({{"route", r.route},
+                      {"ci_low", number_or_null(r.low)},
+                      {"ci_high", number_or_null(r.high)}});
+  }
+  json["intervals"] = routes;
+  return json;
+}
+
+ordered_json method_json(const IdentificationResult& method) {
+  ordered_json m;
+  m["method"] = method.method;
+  m["termination"] = std::string(math::name(method.termination));
+  m["message"] = method.message;
+  m["iterations"] = method.iterations;
+  m["samples_used"] = method.samples_used;
+  m["samples_dropped"] = method.samples_dropped;
+  m["effective_samples"] = number_or_null(method.effective_samples);
+  // Method paper knows neither noise nor delay, and predicts forces, not torque.
+  const bool paper = method.method == "paper";
+  const auto unless_paper = [&](double value) {
+    return paper ? ordered_json(nullptr) : number_or_null(value);
+  };
+  m["torque_sd_nm"] = unless_paper(method.torque_sd_nm);
+  m["emg_cv"] = unless_paper(method.emg_cv);
+  m["r2"] = number_or_null(method.r2);
+  m["model_error"] = unless_paper(method.model_error);
+  m["condition"] = unless_paper(method.condition);
+  m["emg_delay_s"] = unless_paper(method.delay_s);
+  m["hardly_told_apart"] = method.collinear;
+  m["estimates"] = ordered_json::array();
+  for (const ParameterEstimate& e : method.estimates) m["estimates"].push_back(estimate_json(e));
+  m["exact_data"] = method.exact;
+  m["left_open_by_the_data"] = method.undetermined;
+  m["diagnoses"] = method.diagnoses;
+  m["warnings"] = method.warnings;
+  m["bootstrap"] = {{"converged", method.bootstrap_replicates},
+                    {"failed", method.bootstrap_failed}};
+  m["branch_tests"] = ordered_json::array();
+  for (const identification::BranchTest& test : method.branch_tests) {
+    m["branch_tests"].push_back({{"muscle", test.muscle},
+                                 {"optimal_fiber_length_difference", test.length_difference_m},
+                                 {"force_length_width_difference", test.width_difference_m},
+                                 {"wald", number_or_null(test.wald)},
+                                 {"p_value", number_or_null(test.p_value)}});
+  }
+  m["covariance"] = {{"parameters", method.free_parameters},
+                     {"scale", "natural logarithm of F_max, V_sh, P and gains; SI otherwise"}};
+  ordered_json rows = ordered_json::array();
+  for (Eigen::Index r = 0; r < method.covariance.rows(); ++r) {
+    ordered_json row = ordered_json::array();
+    for (Eigen::Index c = 0; c < method.covariance.cols(); ++c)
+      row.push_back(number_or_null(method.covariance(r, c)));
+    rows.push_back(row);
+  }
+  m["covariance"]["matrix"] = rows;
+  m["trials"] = ordered_json::array();
+  for (const identification::TrialFit& t : method.trials) {
+    m["trials"].push_back({{"trial", t.trial},
+                           {"joint", t.joint},
+                           {"calibration", t.calibration},
+                           {"rmse_nm", unless_paper(t.rmse_nm)},
+                           {"nrmse_range", unless_paper(t.nrmse_range)},
+                           {"r2", unless_paper(t.r2)},
+                           {"band_rmse_nm", unless_paper(t.band.rmse_nm)},
+                           {"band_nrmse_range", unless_paper(t.band.nrmse_range)},
+                           {"band_r2", unless_paper(t.band.r2)}});
+  }
+  return m;
+}
+
+ordered_json score_json(const identification::Score& s) {
+  return ordered_json{{"rmse_nm", number_or_null(s.rmse_nm)},
+                      {"nrmse_range", number_or_null(s.nrmse_range)},
+                      {"nrmse_sd", number_or_null(s.nrmse_sd)},
+                      {"r2", number_or_null(s.r2)},
+                      {"vaf", number_or_null(s.vaf)}};
+}
+
+}  // namespace
+
+std::string parameters_csv(const std::vector<IdentificationResult>& methods) {
+  std::string text =
+      "muscle,parameter,unit,method,case,initial,estimate,std_error,ci_low,ci_high,prior_mean,"
+      "prior_sd,shrinkage,at_bound,verdict,reason";
+  const std::vector<std::string> routes{"sandwich", "cluster", "jackknife", "bootstrap", "profile"};
+  for (const std::string& route : routes) text += fmt::format(",ci_low_{0},ci_high_{0}", route);
+  text += ",routes_disagree\n";
+  for (const IdentificationResult& method : methods) {
+    for (const ParameterEstimate& e : method.estimates) {
+      text += fmt::format(
+          "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}", e.muscle, e.parameter, symbol(e.unit),
+          e.method, e.fit_case, number_or_empty(e.initial), number_or_empty(e.estimate),
+          number_or_empty(e.std_error), number_or_empty(e.ci_low), number_or_empty(e.ci_high),
+          number_or_empty(e.prior_mean), number_or_empty(e.prior_sd), number_or_empty(e.shrinkage),
+          e.at_bound ? "true" : "false", identification::name(e.verdict), quoted(e.reason));
+      for (const std::string& route : routes) {
+        const auto it = std::find_if(e.routes.begin(), e.routes.end(),
+                                     [&](const auto& r) { return r.route == route; });
+        text += it == e.routes.end()
+                    ? ",,"
+                    : fmt::format(",{},{}", number_or_empty(it->low), number_or_empty(it->high));
+      }
+      text += e.routes_disagree ? ",true\n" : ",false\n";
+    }
+  }
+  return text;
+}
+
+std::string parameters_json(const std::vector<IdentificationResult>& methods,
+                            const std::vector<identification::Fold>& folds,
+                            const Provenance& provenance,
+                            const std::vector<TrialPhases>& phases) {
+  ordered_json json;
+  json["provenance"] = provenance_json(provenance);
+  json["methods"] = ordered_json::array();
+  for (const IdentificationResult& method : methods) json["methods"].push_back(method_json(method));
+  json["segments"] = ordered_json::array();
+  for (const TrialPhases& trial : phases) {
+    for (const Phase& phase : trial.phases) {
+      json["segments"].push_back({{"trial", trial.trial},
+                                  {"phase", std::string(name(phase.kind))},
+                                  {"begin_s", phase.begin_s},
+                                  {"end_s", phase.end_s},
+                                  {"torque_per_emg", number_or_null(phase.gain)},
+                                  {"median_frequency", number_or_null(phase.frequency)},
+                                  {"fitted", !phase.excluded},
+                                  {"reason", phase.reason}});
+    }
+  }
+  json["leave_one_trial_out"] = ordered_json::array();
+  for (const identification::Fold& f : folds) {
+    json["leave_one_trial_out"].push_back(
+        {{"trial", f.trial},
+         {"joint", f.joint},
+         {"identified", score_json(f.identified)},
+         {"identified_below_cutoff", score_json(f.band)},
+         {"literature_with_gain", score_json(f.literature)},
+         {"gain", number_or_null(f.gain)},
+         {"regression_on_emg", score_json(f.regression)},
+         {"constant", score_json(f.constant)},
+         {"paper", f.paper ? score_json(*f.paper) : ordered_json(nullptr)},
+         {"lag_s", number_or_null(f.lag_s)}});
+  }
+  return json.dump(2) + "\n";
+}
+
+}  // namespace myoid::pipeline

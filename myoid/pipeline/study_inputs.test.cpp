@@ -1,0 +1,54 @@
+#include "myoid/pipeline/study_inputs.h"
+
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+#include "tests/support/written_trial.h"
+
+namespace myoid::pipeline {
+namespace {
+
+using test_trials::arm_study;
+using test_trials::message_of;
+using test_trials::WrittenTrial;
+
+/// A study on disk, of one trial.
+struct WrittenStudy {
+  WrittenTrial trial{0.01, 8.0, 3.0};
+  Study study;
+
+  explicit WrittenStudy(const std::string& truth) {
+    const auto file = trial.folder / "study.toml";
+    recording::write_file(file, "\n");
+    recording::write_file(trial.folder / "truth.csv", truth);
+    study = arm_study();
+    study.file = file;
+    study.trials = {trial.spec};
+    study.truth = trial.folder / "truth.csv";
+  }
+};
+
+TEST(ReadInputs, ATrialThatPausesIsReplacedByItsPartsInTheStudyToo) {
+  WrittenStudy written("muscle,parameter,value\nBIC,optimal_fiber_length,0.14\n");
+  const StudyInputs inputs = read_inputs(written.study);
+  ASSERT_EQ(written.study.trials.size(), 2U);
+  ASSERT_EQ(inputs.trials.size(), 2U);
+  EXPECT_EQ(written.study.trials[1].name, "t.2");
+  ASSERT_EQ(inputs.truth.size(), 1U);
+  EXPECT_EQ(inputs.truth[0].value, 0.14);
+  // Both parts are of the same two files, and each file is named once.
+  EXPECT_EQ(std::count_if(inputs.files.begin(), inputs.files.end(),
+                          [&](const InputFile& f) { return f.path == written.trial.spec.emg; }),
+            1);
+}
+
+TEST(ReadInputs, ATrueValueThatIsNoNumberIsRefusedAtItsLine) {
+  WrittenStudy written("muscle,parameter,value\nBIC,optimal_fiber_length,long\n");
+  const std::string message = message_of([&] { (void)read_inputs(written.study); });
+  EXPECT_NE(message.find("truth.csv:2: expected a number, found 'long'"), std::string::npos)
+      << message;
+}
+
+}  // namespace
+}  // namespace myoid::pipeline

@@ -1,0 +1,70 @@
+#include "myoid/pipeline/study_settings.h"
+
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "myoid/core/error.h"
+
+namespace myoid::pipeline {
+namespace {
+
+Study settings_of(const std::string& text) {
+  const toml::table root = recording::parse_toml(text, "dir/study.toml");
+  recording::TomlTable table(root, "dir/study.toml", "study");
+  Study study;
+  read_settings(table, "dir", study);
+  table.finish();
+  return study;
+}
+
+std::string message_of(const std::string& text) {
+  try {
+    (void)settings_of(text);
+  } catch (const ReadError& error) {
+    return error.what();
+  }
+  return "(no error)";
+}
+
+TEST(StudySettings, WithoutAModelTheBuiltInArmIsUsed) {
+  EXPECT_EQ(settings_of("").model.builtin, "arm4");
+  const Study study = settings_of("[model]\nfile = \"a.osim\"\n");
+  EXPECT_EQ(study.model.builtin, "");
+  EXPECT_EQ(study.model.file, "dir/a.osim");
+}
+
+TEST(StudySettings, AMisspeltKeyIsRefusedWithTheNearestKnownOne) {
+  const std::string message = message_of("[emg]\nlowpas_hz = 6\n");
+  EXPECT_NE(message.find("did you mean 'lowpass_hz'"), std::string::npos) << message;
+}
+
+TEST(StudySettings, ARateThatNoMachineCanHoldIsRefusedWithTheRange) {
+  EXPECT_NE(message_of("[motion]\nrate_hz = 1e9\n").find("expected 10 to 2000 Hz"),
+            std::string::npos);
+}
+
+TEST(StudySettings, AnUnknownBuiltInModelIsRefusedWithTheOneThereIs) {
+  EXPECT_NE(message_of("[model]\nbuiltin = \"arm26\"\n").find("expected arm4"), std::string::npos);
+}
+
+TEST(StudySettings, ADelayInMillisecondsIsRefused) {
+  EXPECT_NE(message_of("[emg]\ndelay_s = 60\n").find("expected 0 to 0.3 s"), std::string::npos);
+  EXPECT_EQ(settings_of("[emg]\ndelay_s = 0.06\n").emg.delay_s, 0.06);
+  EXPECT_EQ(settings_of("[emg]\ndelay_s = \"estimate\"\n").emg.delay_s, std::nullopt);
+}
+
+TEST(StudySettings, AngularErrorsAreGivenInDegrees) {
+  const Study study = settings_of("[identify]\nangle_sd_deg = 180\nangle_rate_sd_degps = 90\n");
+  EXPECT_DOUBLE_EQ(study.identify.angle_sd_rad, 3.14159265358979323846);
+  EXPECT_DOUBLE_EQ(study.identify.angle_rate_sd_radps, 1.57079632679489661923);
+}
+
+TEST(StudySettings, AJointNamedTwiceIsRefused) {
+  EXPECT_NE(
+      message_of("[model]\ncoordinate = [\"knee\", \"knee\"]\n").find("'knee' is named twice"),
+      std::string::npos);
+}
+
+}  // namespace
+}  // namespace myoid::pipeline

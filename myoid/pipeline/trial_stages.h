@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string_view>
+
+#include "myoid/pipeline/stage_store.h"
+#include "myoid/pipeline/study_result.h"
+#include "myoid/pipeline/trial_input.h"
+
+namespace myoid::pipeline {
+
+/// From the markers or the coordinates of one trial to its motion, joint torques, muscle paths and,
+/// if `share_forces`, forces by static optimization, all into `trial`, whose `spec` is set. Inverse
+/// kinematics of the same input is taken from `store` and kept there, unless it is nullptr. A trial
+/// without either (an MVC trial) keeps an empty motion. Throws InvalidInput where it cannot be
+/// computed, as when a held mass has no place to act.
+void compute_trial(const Study& study,
+                   const TrialInput& input,
+                   std::string_view model_text,
+                   bool share_forces,
+                   StageStore* store,
+                   TrialResult& trial);
+
+}  // namespace myoid::pipeline
