@@ -264,9 +264,10 @@ std::vector<Finding> check_recording(const std::filesystem::path& path, const Ve
     require_finite(*emg, path.string());
     constexpr Eigen::Index kFewest = 10;
     if (emg->sample_count() < kFewest)
-      throw ReadError(path, 0,
-                      fmt::format("only {} samples of EMG; at least {} are needed",
-                                  emg->sample_count(), kFewest));
+      throw ReadError(
+          path, 0,
+          fmt::format("only {} sample{} of EMG; at least {} are needed", emg->sample_count(),
+                      emg->sample_count() == 1 ? "" : "s", kFewest));
     std::vector<Fault> faults = signals::check_emg(*emg);
     const bool raw = std::none_of(faults.begin(), faults.end(), [](const Fault& f) {
       return f.kind == signals::FaultKind::emg_envelope;
