@@ -10,9 +10,9 @@
 
 #include "myoid/cli/context.h"
 #include "myoid/core/error.h"
+#include "myoid/pipeline/parameter_files.h"
 #include "myoid/pipeline/parameter_tables.h"
 #include "myoid/pipeline/quality_gates.h"
-#include "myoid/pipeline/parameter_files.h"
 #include "myoid/pipeline/result_files.h"
 #include "myoid/pipeline/run_study.h"
 #include "myoid/pipeline/study_json.h"

@@ -143,7 +143,7 @@ class Check {
           std::find(input.warnings.begin(), input.warnings.end(), note) != input.warnings.end();
       add(warning ? Level::warning : Level::note, spec.name, note);
     }
-    for (Finding& f : together_->look_at(spec, input)) findings_.push_back(std::move(f));
+    together_->look_at(spec, input);
     if (input.markers) check_markers(*input.markers);
     const TimeSeries envelope = input.emg ? check_emg(spec, *input.emg) : TimeSeries();
     for (Fault& fault : trial_faults(study_, input, envelope))

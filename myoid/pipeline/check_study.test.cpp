@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "myoid/core/error.h"
 #include "myoid/model/arm4.h"
 #include "myoid/recording/atomic_file.h"
 #include "myoid/recording/text_file.h"

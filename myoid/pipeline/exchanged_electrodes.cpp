@@ -97,9 +97,6 @@ std::optional<ExchangedElectrodes> exchanged_electrodes(const StudyData& data, d
   for (std::size_t i = 0; i < channels.size(); ++i) {
     for (std::size_t j = i + 1; j < channels.size(); ++j) {
       LabelFit fit = fit_of_labels(data, delay_s, channels[i], channels[j]);
-      if (getenv("MYOID_LABELS"))
-        fmt::print(stderr, "{} {}: {:.3f} (R2 {:.3f}) -> {:.3f} (R2 {:.3f})\n", channels[i],
-                   channels[j], now.rms_nm, now.r2, fit.rms_nm, fit.r2);
       if (fit.r2 <= kDescribes || fit.rms_nm >= (1.0 - kStrengthSpread) * now.rms_nm ||
           (best && fit.rms_nm >= best->exchanged.rms_nm))
         continue;

@@ -12,8 +12,9 @@ namespace myoid::pipeline {
 struct Finding {
   enum class Level { error, warning, note };
   Level level = Level::note;
-  std::string where;                         ///< Trial or file.
-  std::string message;                       ///< With the remedy.
+  std::string where;      ///< Trial or file.
+  std::string message;    ///< With the remedy.
+  std::string kind = {};  ///< What is alike in several trials has one; empty: alone.
   std::optional<signals::Fault> fault = {};  ///< If it is about a channel at a time.
 };
 [[nodiscard]] std::string_view name(Finding::Level level);

@@ -80,9 +80,10 @@ bool bears_the_body(const model::BodyModel& model,
                     double body_mass_kg) {
   // Head, arms and trunk are 0.68 of a person (Winter 2009): a model that stands has more.
   constexpr double kMostOfABody = 0.75;
+  constexpr double kGenericBody_kg = 75.0;  // where nobody says what the person weighs
   double mass = 0.0;
   for (const model::Body& body : model.bodies) mass += body.mass_kg;
-  if (mass < kMostOfABody * (body_mass_kg > 0.0 ? body_mass_kg : kLightBody_kg)) return false;
+  if (mass < kMostOfABody * (body_mass_kg > 0.0 ? body_mass_kg : kGenericBody_kg)) return false;
   const double g = model.gravity_G.norm();
   if (!(g > 0.0)) return false;
   const Vec3 up = -model.gravity_G / g;

@@ -26,8 +26,9 @@ struct UnsupportedWeight {
 [[nodiscard]] std::optional<UnsupportedWeight> unsupported_weight(const model::BodyModel& model);
 
 /// Whether the coordinate stands between the ground and the rest of the body, so that a ground
-/// reaction would act on it: the model is most of a person (kMostOfABody of `body_mass_kg`), and
-/// what the coordinate moves reaches lower than everything else in this posture.
+/// reaction would act on it: the model is most of a person (three quarters of `body_mass_kg`, or of
+/// a generic 75 kg), and what the coordinate moves reaches lower than everything else in this
+/// posture.
 [[nodiscard]] bool bears_the_body(const model::BodyModel& model,
                                   const std::string& coordinate,
                                   const Eigen::VectorXd& q,

@@ -19,15 +19,16 @@ class StudyPlausibility {
   /// The study and the model must outlive this.
   StudyPlausibility(const Study& study, const model::BodyModel& model);
 
-  /// What is wrong with this trial by itself; it is remembered for `findings`.
-  [[nodiscard]] std::vector<Finding> look_at(const TrialSpec& trial, const TrialInput& input);
-  /// What is wrong with the trials seen so far, together.
+  void look_at(const TrialSpec& trial, const TrialInput& input);
+  /// What is wrong with the trials seen so far, one by one and together; what several have alike is
+  /// said of the first, and the others are named.
   [[nodiscard]] std::vector<Finding> findings() const;
 
  private:
   const Study* study_;
   const model::BodyModel* model_;
   Capacities capacities_;
+  std::vector<Finding> of_trials_;
   std::vector<TrialPrint> prints_;
   std::vector<TrialLengths> lengths_;
 };

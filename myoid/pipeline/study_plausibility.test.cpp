@@ -62,6 +62,19 @@ TEST(RequirePlausible, RefusesOneEmgInTwoTrialsAndNamesBoth) {
   }
 }
 
+TEST(StudyPlausibility, WhatSeveralTrialsHaveAlikeIsSaidOnce) {
+  TwoTrials two;
+  StudyPlausibility plausibility(two.study, two.model);
+  for (std::size_t i = 0; i < 2; ++i) {
+    two.study.trials[i].held_mass_kg = 60.0;
+    plausibility.look_at(two.study.trials[i], two.inputs[i]);
+  }
+  const std::vector<Finding> found = plausibility.findings();
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].where, "first");
+  EXPECT_NE(found[0].message.find("(likewise in second)"), std::string::npos) << found[0].message;
+}
+
 TEST(RequirePlausible, AWarningGoesToItsTrial) {
   TwoTrials two;
   two.study.trials[1].held_mass_kg = 60.0;

@@ -50,7 +50,8 @@ void check_angles(const Study& study,
                      degrees(c.upper), c.clamped ? "" : " (not clamped)", 100.0 * share,
                      degrees(far),
                      negated ? "is its sign the opposite of the model's? Negate the column"
-                             : "is its zero or sign another than the model's?")});
+                             : "is its zero or sign another than the model's?"),
+         "angles " + name});
   }
 }
 
@@ -60,14 +61,13 @@ void check_held_mass(const Study& study,
                      const TrialSpec& trial,
                      std::vector<Finding>& findings) {
   if (!(trial.held_mass_kg > 0.0)) return;
-  const double body_kg =
-      capacities.empty() ? kLightBody_kg : capacities.begin()->second.body_mass_kg;
-  if (study.subject.mass_kg && trial.held_mass_kg > body_kg) {
+  if (study.subject.mass_kg && trial.held_mass_kg > *study.subject.mass_kg) {
     findings.push_back(
         {Level::error, trial.name,
          fmt::format("held_mass_kg = {} is more than the person weighs ({} kg); is it "
                      "in grams or pounds, or is a decimal point missing?",
-                     trial.held_mass_kg, body_kg)});
+                     trial.held_mass_kg, *study.subject.mass_kg),
+         "held mass"});
     return;
   }
   if (!study.model.held_mass && study.model.file) return;  // an error of its own
@@ -94,7 +94,8 @@ void check_held_mass(const Study& study,
              "held_mass_kg = {} at {:.2f} m weighs up to {:.0f} N m on {}, and all muscles "
              "of the model can hold {:.0f} N m there: is it in other units, or is a decimal "
              "point missing?",
-             trial.held_mass_kg, lever_m, moment_nm, name, capacity.isometric_nm())});
+             trial.held_mass_kg, lever_m, moment_nm, name, capacity.isometric_nm()),
+         "held mass " + name});
   }
 }
 
@@ -144,7 +145,8 @@ void check_vertical(const Study& study,
                      "upright by it, and {:.0f} with up = \"{}\": unless the person lies, gravity "
                      "pulls across the body; correct [markers] up",
                      study.markers.up, std::acos(std::clamp(now, -1.0, 1.0)) / kDegree,
-                     std::acos(std::clamp(other, -1.0, 1.0)) / kDegree, up)});
+                     std::acos(std::clamp(other, -1.0, 1.0)) / kDegree, up),
+         "vertical"});
     return;
   }
 }
@@ -200,7 +202,7 @@ std::vector<Finding> implausible(const Study& study,
       const std::string text =
           too_much_torque(name, usual_peak(input.external_torque->values().col(*column)),
                           capacity.greatest_nm(), trial.external_torque->filename().string());
-      if (!text.empty()) findings.push_back({Level::error, trial.name, text});
+      if (!text.empty()) findings.push_back({Level::error, trial.name, text, "torque " + name});
     }
   }
   if (input.motion) check_angles(study, model, *input.motion, trial.name, findings);

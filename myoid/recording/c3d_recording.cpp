@@ -27,8 +27,7 @@ Recording read(const std::filesystem::path& path,
   std::optional<C3dMarkerBuilder> markers;
   AnalogCounts counts;
   try {
-    if (with_analog && with_markers)
-      recording.plates = plate_setups(head.file, recording.repairs);
+    if (with_analog && with_markers) recording.plates = plate_setups(head.file, recording.repairs);
     if (with_markers && !marker_columns(head.file).empty())
       markers.emplace(head.file, head.layout.frames);
   } catch (const InvalidInput& error) {

@@ -215,8 +215,8 @@ std::vector<Fault> check_clock_offset(const TimeSeries& envelopes,
   const double unsure_s = offset->phase_s + 2.0 * offset->scatter_s;
   const bool grave = offset->lead_s - unsure_s > limits.latest_offset_s ||
                      offset->lead_s + unsure_s < limits.earliest_offset_s;
-  // What is as unsure as the expected range is wide says nothing.
-  const bool tells = 2.0 * offset->sd_s < 0.5 * (limits.latest_offset_s - limits.earliest_offset_s);
+  // What may be anywhere in the range that is expected says nothing.
+  const bool tells = 2.0 * offset->sd_s < limits.latest_offset_s - limits.earliest_offset_s;
   if (grave || tells)
     faults.push_back(
         {.kind = FaultKind::clock_offset,
