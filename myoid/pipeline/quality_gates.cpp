@@ -257,12 +257,15 @@ std::vector<report::Gate> quality_gates(const StudyResult& result) {
         return e.verdict == v && e.tied_to.empty() && !identification::is_nuisance(e);
       });
     };
-    list.push_back({"Parameters that this recording tells",
-                    count(Verdict::identified) > 0 ? GateStatus::pass : GateStatus::warn,
-                    fmt::format("{} identified, {} weak, {} prior-dominated, {} not identifiable",
-                                count(Verdict::identified), count(Verdict::weak),
-                                count(Verdict::prior_dominated), count(Verdict::not_identifiable)),
-                    "those you need", "Use a number only if its verdict allows it."});
+    list.push_back(
+        {"Parameters that this recording tells",
+         count(Verdict::identified) > 0 ? GateStatus::pass : GateStatus::warn,
+         fmt::format("{} identified, {} weak, {} prior-dominated, {} not identifiable, {} "
+                     "non-physical",
+                     count(Verdict::identified), count(Verdict::weak),
+                     count(Verdict::prior_dominated), count(Verdict::not_identifiable),
+                     count(Verdict::non_physical)),
+         "those you need", "Use a number only if its verdict allows it."});
   }
   for (report::Gate& gate : fold_gates(result.folds)) list.push_back(std::move(gate));
   if (result.exchanged) {

@@ -33,7 +33,8 @@ std::optional<Finding> check_support(const Study& study,
         !bears_the_body(model, name, q, study.subject.mass_kg.value_or(0.0)))
       continue;
     const auto weight = unsupported_weight(model);
-    if (weight) return Finding{Finding::Level::warning, trial.name, weight->sentence(), "support"};
+    if (weight)
+      return Finding{Finding::Level::warning, trial.name, weight->sentence(), {}, "support"};
   }
   return std::nullopt;
 }
