@@ -203,6 +203,8 @@ void judge_alone(ParameterEstimate& e, const VerdictContext& context, const Verd
          fmt::format("{}, but what the model leaves of the torque depends on posture and "
                      "effort as if it were wrong by {:.0f} %",
                      known, 100.0 * context.model_error));
+  unless(!rules.possible(context.curve_width),
+         known + ", but by a force-length curve that no muscle has");
   unless(
       context.muscle_distance > rules.prior_conflict,
       fmt::format("{}, but this muscle's numbers together are {:.1f} standard deviations from "
