@@ -113,21 +113,68 @@ TEST_F(RunTool, InverseDynamicsNamesItsColumnsByTheKindOfMotion) {
   EXPECT_TRUE(read("id.sto").find("elbow_flexion_moment"));
 }
 
-TEST_F(RunTool, ATimeRangeBeyondTheDataIsWhatThereIs) {
+TEST_F(RunTool, ATimeRangeBeyondTheDataIsWhatThereIsAndSaid) {
+  const auto says_so = ::testing::Contains(::testing::HasSubstr("asks for -5 to 99 s"));
   write_motion(60);
-  (void)run(
-      "<InverseDynamicsTool name=\"id\"><model_file>arm.osim</model_file>"
-      "<forces_to_exclude>ALL</forces_to_exclude><time_range>-5 99</time_range>"
-      "<coordinates_file>motion.mot</coordinates_file>"
-      "<output_gen_force_file>id.sto</output_gen_force_file></InverseDynamicsTool>");
+  const ToolResult id =
+      run("<InverseDynamicsTool name=\"id\"><model_file>arm.osim</model_file>"
+          "<forces_to_exclude>ALL</forces_to_exclude><time_range>-5 99</time_range>"
+          "<coordinates_file>motion.mot</coordinates_file>"
+          "<output_gen_force_file>id.sto</output_gen_force_file></InverseDynamicsTool>");
   EXPECT_EQ(read("id.sto").sample_count(), 60);
+  EXPECT_THAT(id.notes, says_so);
   write_markers(20);
   const ToolResult ik =
       run("<InverseKinematicsTool><model_file>.\\arm.osim</model_file><time_range>-5 99"
           "</time_range><marker_file> m.trc </marker_file><output_motion_file>sub\\ik.mot"
           "</output_motion_file></InverseKinematicsTool>");
   EXPECT_EQ(ik.frames, 20);
+  EXPECT_THAT(ik.notes, says_so);
   EXPECT_TRUE(std::filesystem::exists(folder_ / "sub/ik.mot"));
+}
+
+// Where nothing was recorded in the range, the results of an earlier run stay.
+TEST_F(RunTool, ATimeRangeOutsideOfTheDataIsRefusedAndNothingIsReplaced) {
+  write_motion(60);
+  write_markers(20);
+  const auto tool = [](const std::string& kind, const std::string& content) {
+    return "<" + kind + " name=\"t\"><model_file>arm.osim</model_file>" + content + "</" + kind +
+           ">";
+  };
+  const std::string ik =
+      "<marker_file>m.trc</marker_file><output_motion_file>result"
+      "</output_motion_file><time_range>50 60</time_range>";
+  const std::string id =
+      "<coordinates_file>motion.mot</coordinates_file><output_gen_force_file>"
+      "result</output_gen_force_file><time_range>50 60</time_range>"
+      "<lowpass_cutoff_frequency_for_coordinates>6"
+      "</lowpass_cutoff_frequency_for_coordinates>";
+  // The filter makes the motion longer at both ends, 0.6 s to 0.885 s: that is nothing recorded.
+  const std::string analyze =
+      "<coordinates_file>motion.mot</coordinates_file><initial_time>0.7"
+      "</initial_time><final_time>0.8</final_time>"
+      "<lowpass_cutoff_frequency_for_coordinates>6"
+      "</lowpass_cutoff_frequency_for_coordinates><AnalysisSet><objects>"
+      "<Kinematics/></objects></AnalysisSet>";
+  write("result", "earlier");
+  write("t_Kinematics_q.sto", "earlier");
+  for (const auto& [setup, recorded] :
+       {std::pair{tool("InverseKinematicsTool", ik), "50 to 60 s, but"},
+        std::pair{tool("InverseDynamicsTool", id), "holds 0 to 0.59 s"},
+        std::pair{tool("AnalyzeTool", analyze), "0.7 to 0.8 s, but"}}) {
+    try {
+      (void)run(setup);
+      ADD_FAILURE() << setup;
+    } catch (const ReadError& error) {
+      EXPECT_THAT(error.what(), ::testing::HasSubstr(recorded));
+    }
+  }
+  for (const char* name : {"result", "t_Kinematics_q.sto"}) {
+    std::ifstream in(folder_ / name);
+    std::string text;
+    in >> text;
+    EXPECT_EQ(text, "earlier") << name;
+  }
 }
 
 // The shoulder has no marker task: what its coordinate tasks say from a file, it does.
