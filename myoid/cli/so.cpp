@@ -10,6 +10,7 @@
 #include "myoid/dynamics/external_loads.h"
 #include "myoid/forces/force_sharing.h"
 #include "myoid/forces/sharing_input.h"
+#include "myoid/pipeline/ground_support.h"
 #include "myoid/pipeline/muscle_force_law.h"
 #include "myoid/pipeline/stage_files.h"
 #include "myoid/pipeline/study_model.h"
@@ -71,6 +72,9 @@ void add_so(CLI::App& app, Context& context) {
                            {o->model, o->motion, o->emg, o->loads});
     std::optional<dynamics::ExternalLoads> loads;
     if (!o->loads.empty()) loads = load_external_loads(model, o->loads, motion, context);
+    if (const auto weight = pipeline::unsupported_weight(model);
+        weight && !loads && pipeline::stands(model, motion.q.values().row(0).transpose()))
+      context.warn(weight->sentence());
     const forces::SharingInput input =
         forces::sharing_input(model, motion, o->coordinates, loads ? &*loads : nullptr);
     for (const std::string& note : input.notes) context.warn(note);

@@ -117,34 +117,90 @@ void add_routes(ParameterEstimate& e,
   }
 }
 
-void compare_routes(ParameterEstimate& e, IdentificationResult& result) {
-  double least = 0.0, most = 0.0;
-  std::string narrow, wide;
-  for (const RouteInterval& r : e.routes) {
-    if (!r.low || !r.high) {
-      result.warnings.push_back(fmt::format(
-          "{} {}: the profile is open {}: the data do not bound it there", e.muscle, e.parameter,
-          !r.low && !r.high ? "on both sides"
-          : r.low           ? "above"
-                            : "below"));
-      continue;
+/// What the routes to an interval disagree on, for few lines at the end.
+class RouteRemarks {
+ public:
+  void compare(ParameterEstimate& e) {
+    double least = 0.0, most = 0.0;
+    std::string narrow, wide;
+    for (const RouteInterval& r : e.routes) {
+      if (!r.low || !r.high) {
+        open_.push_back(e.muscle + " " + e.parameter);
+        continue;
+      }
+      const double width = *r.high - *r.low;
+      if (narrow.empty() || width < least) {
+        least = width;
+        narrow = r.route;
+      }
+      if (wide.empty() || width > most) {
+        most = width;
+        wide = r.route;
+      }
     }
-    const double width = *r.high - *r.low;
-    if (narrow.empty() || width < least) {
-      least = width;
-      narrow = r.route;
-    }
-    if (wide.empty() || width > most) {
-      most = width;
-      wide = r.route;
-    }
+    e.routes_disagree = !narrow.empty() && most > kDisagreement * least;
+    if (!e.routes_disagree) return;
+    ++disagree_;
+    const double ratio = most / std::max(least, 1e-300);
+    if (ratio <= worst_) return;
+    worst_ = ratio;
+    worst_text_ =
+        fmt::format("{} {}, where {} gives {} times the width of {}", e.muscle, e.parameter, wide,
+                    ratio < 100.0 ? fmt::format("{:.1f}", ratio) : "over 100", narrow);
   }
-  e.routes_disagree = !narrow.empty() && most > kDisagreement * least;
-  if (e.routes_disagree) {
-    result.warnings.push_back(fmt::format(
-        "{} {}: the interval by {} is {:.1f} times as wide as that by {}; trust the wider one",
-        e.muscle, e.parameter, wide, most / std::max(least, 1e-300), narrow));
+
+  void add_to(std::vector<std::string>& warnings, std::size_t count) const {
+    if (disagree_ > 0) {
+      warnings.push_back(
+          fmt::format("the routes to the interval disagree by more than {} times for {} of {} "
+                      "numbers, most for {}: trust the wider one (routes_disagree in "
+                      "parameters.csv)",
+                      kDisagreement, disagree_, count, worst_text_));
+    }
+    if (open_.empty()) return;
+    constexpr std::size_t kNamed = 4;
+    const std::size_t named = std::min(kNamed, open_.size());
+    warnings.push_back(fmt::format(
+        "the profile is open for {} of {} numbers ({}{}): there the data bound them on one side at "
+        "most",
+        open_.size(), count,
+        fmt::join(open_.begin(), open_.begin() + static_cast<std::ptrdiff_t>(named), ", "),
+        open_.size() > named ? ", ..." : ""));
   }
+
+ private:
+  int disagree_ = 0;
+  double worst_ = 0.0;
+  std::string worst_text_;
+  std::vector<std::string> open_;
+};
+
+/// Of each muscle that has parameters with priors.
+std::vector<PriorDistance> prior_distances(const std::vector<FreeParameter>& free,
+                                           const Eigen::VectorXd& z,
+                                           const StudyData& data) {
+  std::vector<PriorDistance> result;
+  for (std::size_t k = 0; k < data.muscles.size(); ++k) {
+    PriorDistance of{.muscle = data.muscles[k].name};
+    double squares = 0.0;
+    int count = 0;
+    for (std::size_t j = 0; j < free.size(); ++j) {
+      const FreeParameter& p = free[j];
+      // What is tied between muscles is none of them's.
+      if (p.field->scope != Scope::muscle || p.targets.size() != 1 || !(p.prior_sd > 0.0) ||
+          p.targets.front().owner != static_cast<int>(k))
+        continue;
+      const double d = std::abs(z[static_cast<Eigen::Index>(j)] - p.prior_mean) / p.prior_sd;
+      squares += d * d;
+      ++count;
+      if (d <= of.farthest_distance) continue;
+      of.farthest_distance = d;
+      of.farthest = p.field->name;
+    }
+    of.distance = equivalent_deviations(squares, count);
+    if (count > 0) result.push_back(std::move(of));
+  }
+  return result;
 }
 
 /// Draws from a normal distribution with this covariance, the same in every run.
@@ -194,6 +250,22 @@ std::vector<double> log_products(const Eigen::MatrixXd& draws) {
     logs.push_back(std::log(rise) + draws(i, 0) - draws(i, 2) - std::log1p(vsh));
   }
   return logs;
+}
+
+/// One unknown has one verdict, the worst that any of its owners gives it.
+void agree_on_tied(std::vector<ParameterEstimate>& estimates, std::size_t count) {
+  if (count < 2 || estimates.size() < count || estimates.back().tied_to.empty()) return;
+  const auto first = estimates.end() - static_cast<std::ptrdiff_t>(count);
+  const auto worst = std::max_element(first, estimates.end(), [](const auto& a, const auto& b) {
+    return severity(a.verdict) < severity(b.verdict);
+  });
+  const Verdict verdict = worst->verdict;
+  const std::string reason = worst->reason;
+  for (auto e = first; e != estimates.end(); ++e) {
+    if (e->verdict == verdict) continue;
+    e->verdict = verdict;
+    e->reason = reason;
+  }
 }
 
 }  // namespace
@@ -261,12 +333,20 @@ void report_estimates(const Estimator& estimator,
           VerdictRules{}.flat_plateau;
     }
   }
-  const auto judged = [&](ParameterEstimate e, const FreeParameter& p, double prior_distance,
-                          bool determined, int owner, const std::string& rests_on) {
+  result.prior_distances = prior_distances(free, z, data);
+  RouteRemarks routes;
+  const bool exact = result.r2 > 1.0 - 1e-10;
+  const auto judged = [&](ParameterEstimate e, const FreeParameter& p, bool determined, int owner,
+                          const std::string& rests_on) {
     VerdictContext v;
     v.rests_on = rests_on;
     if (p.field->scope == Scope::muscle) {
       const auto k = static_cast<std::size_t>(owner);
+      for (const PriorDistance& of : result.prior_distances) {
+        if (of.muscle == data.muscles[k].name) v.muscle_distance = of.distance;
+      }
+      if (p.field->field == kWidth && !exact)
+        v.relative_width = e.estimate / result.values.muscles[k][kFiberLength];
       for (std::size_t other = 0; other < muscles; ++other) {
         if (other != k && data.muscles[other].emg_channel == data.muscles[k].emg_channel)
           v.shares_electrode_with = data.muscles[other].name;
@@ -274,7 +354,7 @@ void report_estimates(const Estimator& estimator,
     }
     v.model_error = result.model_error;
     v.r2 = result.r2;
-    v.prior_distance = prior_distance;
+    v.prior_distance = e.prior_distance.value_or(0.0);
     v.determined = determined;
     v.converged = solution.search.termination == math::Termination::converged;
     v.failure = solution.search.message;
@@ -287,7 +367,7 @@ void report_estimates(const Estimator& estimator,
           "carries the uncertainty of the EMG normalisation into the intervals of F_max; the "
           "recording cannot tell it from F_max";
     }
-    compare_routes(e, result);
+    routes.compare(e);
     result.estimates.push_back(std::move(e));
   };
   const auto owner_name = [&](const FreeParameter& p, const FreeParameter::Target& target) {
@@ -320,13 +400,12 @@ void report_estimates(const Estimator& estimator,
         e.std_error = p.field->logarithmic ? e.estimate * sd : std::abs(target.ratio) * sd;
         add_routes(e, row, intervals, at, z[at], quantile);
       }
-      double distance = 0.0;
       if (p.prior_sd > 0.0) {
         e.prior_mean = row.value(p.prior_mean);
         e.prior_sd =
             p.field->logarithmic ? *e.prior_mean * p.prior_sd : std::abs(target.ratio) * p.prior_sd;
         e.shrinkage = 1.0 - sd * sd / (p.prior_sd * p.prior_sd);
-        distance = std::abs(z[at] - p.prior_mean) / p.prior_sd;
+        e.prior_distance = std::abs(z[at] - p.prior_mean) / p.prior_sd;
       }
       std::string rests_on;
       if (e.ci_low && e.ci_high) {
@@ -340,8 +419,9 @@ void report_estimates(const Estimator& estimator,
                                      intervals.sandwich.trials[static_cast<std::size_t>(trial)])]
                          .name;
       }
-      judged(std::move(e), p, distance, determined, target.owner, rests_on);
+      judged(std::move(e), p, determined, target.owner, rests_on);
     }
+    agree_on_tied(result.estimates, p.targets.size());
     // Where the slope ratio is the unknown, the product follows.
     if (p.field->scope != Scope::muscle || p.field->field != kSlopeRatio) continue;
     for (const FreeParameter::Target& target : p.targets) {
@@ -391,9 +471,11 @@ void report_estimates(const Estimator& estimator,
           e.shrinkage = 1.0 - std::pow(posterior.log_sd / prior.log_sd, 2);
         }
       }
-      judged(std::move(e), p, 0.0, determined, target.owner, "");
+      judged(std::move(e), p, determined, target.owner, "");
     }
   }
+
+  routes.add_to(result.warnings, result.estimates.size());
 
   const auto is_gain = [&](Eigen::Index j) {
     const ParameterField& field = *free[static_cast<std::size_t>(j)].field;

@@ -116,6 +116,20 @@ TEST(WriteResults, LeavesTheFilesThatArePromised) {
   EXPECT_TRUE(std::filesystem::exists(out / "parameters.json"));
 }
 
+TEST(WriteResults, AnIdentifiedModelIsThereOnlyIfSomethingWasIdentified) {
+  const ExactRun& run = ExactRun::get();
+  const auto out = run.folder / "some";
+  write_results(run.result, {}, out);
+  EXPECT_TRUE(std::filesystem::exists(out / "arm4_identified.osim"));
+  StudyResult none = run.result;
+  for (auto& method : none.methods) {
+    for (auto& e : method.estimates) e.verdict = identification::Verdict::weak;
+  }
+  write_results(none, {}, run.folder / "none");
+  EXPECT_TRUE(std::filesystem::exists(run.folder / "none" / "parameters.csv"));
+  EXPECT_FALSE(std::filesystem::exists(run.folder / "none" / "arm4_identified.osim"));
+}
+
 TEST(IdentifiedModel, DiffersFromTheInputOnlyInIdentifiedNumbers) {
   const StudyResult& result = ExactRun::get().result;
   IdentifiedMuscle muscle{

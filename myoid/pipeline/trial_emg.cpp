@@ -124,7 +124,15 @@ void check_cover(const TrialSpec& trial, const Eigen::VectorXd& emg_s, TrialInpu
   const double end_s = (*motion_s)[motion_s->size() - 1];
   const double emg_end_s = emg_s[emg_s.size() - 1];
   const double overlap = std::min(emg_end_s, end_s) - std::max(emg_s[0], begin_s);
-  if (overlap < std::max(0.5, 0.5 * (end_s - begin_s))) {
+  constexpr double kShortest_s = 0.5;
+  if (end_s - begin_s < kShortest_s) {
+    throw ReadError(
+        *trial.emg, 0,
+        fmt::format("the trial lasts {:.3g} s ({:.5g} to {:.5g} s); at least {} s are needed: give "
+                    "start_s and end_s that are farther apart",
+                    end_s - begin_s, begin_s, end_s, kShortest_s));
+  }
+  if (overlap < std::max(kShortest_s, 0.5 * (end_s - begin_s))) {
     throw ReadError(
         *trial.emg, 0,
         fmt::format("the EMG ({:.5g} to {:.5g} s) covers less than half of the motion ({:.5g} "

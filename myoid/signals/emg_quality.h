@@ -12,6 +12,10 @@ namespace myoid::signals {
 
 /// Looks at one trial's raw EMG (volts, finite), channel by channel and pair by pair:
 ///
+/// - amplitude: beyond `amplitude_v`, which neither skin nor amplifier gives;
+/// - envelope: never negative, and through its median less than `raw_hz` times a second: it has
+/// been
+///   rectified and smoothed already. Nothing else is then looked for but flat stretches;
 /// - flat: no change at all for `flat_s`, or an rms below `flat_v` throughout;
 /// - clipped: flat tops of three samples or more, and more samples on the largest (or smallest)
 ///   value than in the twentieth of the range next to it; saturated: one such top for
