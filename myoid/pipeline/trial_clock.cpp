@@ -103,8 +103,6 @@ TrialClock triggered(const SyncSpec& spec,
   if (emg.analog.empty() && emg.events.empty())
     throw ReadError(emg_file, 0, "[sync]: there are no channels or events");
   TrialClock result;
-  for (const recording::Repair& repair : motion.repairs)
-    result.notes.push_back(recording::to_string(motion_file.filename(), repair));
   try {
     if (spec.match == "shape") {
       const auto a = signal_of(emg, spec.emg_trigger);
@@ -152,7 +150,6 @@ TrialClock estimated(const SyncSpec& spec,
   return {.clock = {.offset_s = lead->lead_s - kUsualLead_s,
                     .drift_ppm = spec.drift_ppm,
                     .offset_sd_s = std::hypot(lead->sd_s, kUsualLeadSd_s)},
-          .notes = {},
           .source = fmt::format(
               "estimated: it led the motion by {:.0f} ± {:.0f} ms, where people's "
               "EMG leads by {:.0f} ± {:.0f} ms",
@@ -177,20 +174,14 @@ std::optional<TrialClock> trial_clock(
   if (spec == nullptr || !trial.emg || !motion_file || *trial.emg == *motion_file)
     return std::nullopt;
   if (!spec->emg_trigger.empty()) {
-    TrialClock clock = triggered(*spec, *trial.emg, spec->trigger_file.value_or(*motion_file));
-    if (spec->trigger_file) {
-      remember(*spec->trigger_file);
-    } else {
-      clock.notes.clear();  // said when the motion is read
-    }
-    return clock;
+    if (spec->trigger_file) remember(*spec->trigger_file);
+    return triggered(*spec, *trial.emg, spec->trigger_file.value_or(*motion_file));
   }
   if (spec->estimate) return estimated(*spec, *trial.emg, movement, envelopes());
   if (!spec->offset_s && spec->drift_ppm == 0.0) return std::nullopt;
   return TrialClock{.clock = {.offset_s = spec->offset_s.value_or(0.0),
                               .drift_ppm = spec->drift_ppm,
                               .offset_sd_s = spec->offset_sd_s},
-                    .notes = {},
                     .source = "as the study says"};
 }
 

@@ -19,8 +19,7 @@ inline constexpr double kUsualLeadSd_s = 0.054;
 /// How the EMG of a trial stands to the clock of its motion.
 struct TrialClock {
   signals::ClockMap clock;
-  std::vector<std::string> notes;  ///< What the reader of a trigger_file mended.
-  std::string source;              ///< "as the study says", "5 edges of 'Sync' and 'Trig'", ...
+  std::string source;  ///< "as the study says", "5 edges of 'Sync' and 'Trig'", ...
 };
 
 /// The clock of the trial's EMG by the study's [sync] or the trial's own: numbers, instants or a

@@ -106,8 +106,6 @@ TimeSeries on_clock_of_motion(const Study& study,
   };
   input.emg_clock = trial_clock(study, trial, movement_of(input), envelopes, remember);
   if (!input.emg_clock) return emg;
-  input.notes.insert(input.notes.end(), input.emg_clock->notes.begin(),
-                     input.emg_clock->notes.end());
   input.notes.push_back(
       fmt::format("{}: clock put on that of the motion, {} ({})", trial.emg->filename().string(),
                   signals::to_string(input.emg_clock->clock), input.emg_clock->source));
