@@ -101,8 +101,7 @@ void judge_alone(ParameterEstimate& e, const VerdictContext& context, const Verd
   if (!context.converged && !context.outside_physical)
     return set(Verdict::not_identifiable, "the fit did not converge: " + context.failure);
   if (context.outside_physical) return set(Verdict::non_physical, diagnosis(e));
-  if (context.relative_width > 0.0 && (context.relative_width < rules.relative_width.lower ||
-                                       context.relative_width > rules.relative_width.upper)) {
+  if (!rules.possible(context.relative_width)) {
     return set(Verdict::non_physical,
                fmt::format("{:.2g} of the optimal length, and muscles have {} to {}: {}",
                            context.relative_width, rules.relative_width.lower,
@@ -204,6 +203,8 @@ void judge_alone(ParameterEstimate& e, const VerdictContext& context, const Verd
          fmt::format("{}, but what the model leaves of the torque depends on posture and "
                      "effort as if it were wrong by {:.0f} %",
                      known, 100.0 * context.model_error));
+  unless(!rules.possible(context.curve_width),
+         known + ", but by a force-length curve that no muscle has");
   unless(
       context.muscle_distance > rules.prior_conflict,
       fmt::format("{}, but this muscle's numbers together are {:.1f} standard deviations from "
@@ -232,6 +233,9 @@ void judge_alone(ParameterEstimate& e, const VerdictContext& context, const Verd
 
 void judge(ParameterEstimate& e, const VerdictContext& context, const VerdictRules& rules) {
   judge_alone(e, context, rules);
+  if (e.verdict == Verdict::weak && !rules.possible(context.curve_width) &&
+      e.reason.find("no muscle has") == std::string::npos)
+    e.reason += "; by a force-length curve that no muscle has";
   const bool said = e.reason.find("standard deviations") != std::string::npos;
   if (context.prior_distance > rules.prior_conflict && std::isfinite(e.estimate) && !said)
     e.reason += fmt::format("; {:.1f} standard deviations from the literature's value",

@@ -24,6 +24,9 @@ struct VerdictRules {
   /// of 0.35 to 0.4, and fibers of unequal length only widen their sum; half of it is no muscle's.
   /// Models in use go up to 0.71 (Thelen's gamma of 0.5).
   muscle::Range relative_width{0.2, 1.0};
+  [[nodiscard]] bool possible(double width) const {
+    return width == 0.0 || (width >= relative_width.lower && width <= relative_width.upper);
+  }
   double least_r2 = 0.50;  ///< A fit that explains less of the torque identifies nothing.
 };
 
@@ -39,6 +42,7 @@ struct VerdictContext {
       0.0;  ///< |estimate - prior mean| in spreads of the prior; 0 without a prior.
   double muscle_distance = 0.0;  ///< PriorDistance::distance of the muscle.
   double relative_width = 0.0;   ///< Of l_sh: over l0 of the same fit; 0: of something else.
+  double curve_width = 0.0;      ///< The same of the muscle that another number belongs to.
   std::string
       shares_electrode_with;  ///< Another muscle that acts as the same EMG says; empty: none.
   double model_error = 0.0;   ///< IdentificationResult::model_error.

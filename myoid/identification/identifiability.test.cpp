@@ -83,6 +83,14 @@ TEST(Judge, ACurveThatNoMuscleHasIsNonPhysicalHoweverSharp) {
   EXPECT_NE(e.reason.find("0.09 of the optimal length"), std::string::npos) << e.reason;
 }
 
+TEST(Judge, NumbersBesideACurveThatNoMuscleHasAreNotIdentified) {
+  EXPECT_EQ(verdict_of(estimate(0.05), {.curve_width = 0.45}), Verdict::identified);
+  EXPECT_EQ(verdict_of(estimate(0.05), {.curve_width = 0.1}), Verdict::weak);
+  ParameterEstimate e = estimate(0.3);
+  judge(e, {.curve_width = 0.1});
+  EXPECT_NE(e.reason.find("curve that no muscle has"), std::string::npos) << e.reason;
+}
+
 TEST(EquivalentDeviations, AreThoseOfTheChiSquareDistribution) {
   // Tables: P(chi2_k > x) = 0.0027 (three standard deviations) at x = 9.00, 11.83, 16.25, 20.06 for
   // k = 1, 2, 4, 6, and 0.05 at x = 12.592 for k = 6. Wilson and Hilferty are good to about 1 %.

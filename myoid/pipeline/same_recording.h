@@ -15,8 +15,9 @@ namespace myoid::pipeline {
 /// hashes in whatever file, format, window or clock they come.
 using Stretches = std::vector<std::uint64_t>;
 
-/// Of the stretches of 32 samples of every channel those that a rule of their own content picks, a
-/// quarter of them; none of samples that do not change.
+/// Of the stretches of 32 samples of all channels together those that a rule of their own content
+/// picks, a quarter of them; none of samples that do not change. A single channel may be alike in
+/// two trials where nothing is noisy, as of muscles that rest in both.
 [[nodiscard]] Stretches stretches_of(const TimeSeries& series);
 
 /// Share of the shorter recording that is in the other, too.

@@ -31,7 +31,8 @@ void write_trial(const std::filesystem::path& folder, const std::string& stem) {
   std::string emg = "time,Biceps Brachii [mV],Triceps [mV],ECG [mV]\n";
   for (int i = 0; i < 4000; ++i) {
     const double t = 0.001 * i;
-    const double noise = std::sin(700.0 * t) + std::sin(431.0 * t + 1.0);
+    const double phase = static_cast<double>(stem.size());  // of each trial its own
+    const double noise = std::sin(700.0 * t + phase) + std::sin(431.0 * t + 1.0);
     emg += fmt::format("{:.3f},{:.5f},{:.5f},{:.5f}\n", t, noise * (1.0 + std::sin(6.0 * t)),
                        noise * (1.2 - std::sin(6.0 * t)), noise);
   }

@@ -9,6 +9,7 @@
 
 #include "myoid/core/error.h"
 #include "myoid/pipeline/ground_support.h"
+#include "myoid/pipeline/shared_muscles.h"
 
 namespace myoid::pipeline {
 namespace {
@@ -33,7 +34,8 @@ std::optional<Finding> check_support(const Study& study,
         !bears_the_body(model, name, q, study.subject.mass_kg.value_or(0.0)))
       continue;
     const auto weight = unsupported_weight(model);
-    if (weight) return Finding{Finding::Level::warning, trial.name, weight->sentence(), "support"};
+    if (weight)
+      return Finding{Finding::Level::warning, trial.name, weight->sentence(), {}, "support"};
   }
   return std::nullopt;
 }
@@ -81,7 +83,8 @@ void StudyPlausibility::look_at(const TrialSpec& trial, const TrialInput& input)
 
 std::vector<Finding> StudyPlausibility::findings() const {
   std::vector<Finding> found = grouped(of_trials_);
-  for (std::vector<Finding> more : {same_recordings(prints_), unlike_lengths(lengths_)})
+  for (std::vector<Finding> more :
+       {shared_muscles(*study_), same_recordings(prints_), unlike_lengths(lengths_)})
     std::move(more.begin(), more.end(), std::back_inserter(found));
   return found;
 }
@@ -93,7 +96,8 @@ void require_plausible(const Study& study,
   const auto take = [&](std::vector<Finding> findings) {
     for (Finding& f : findings) {
       if (f.level == Finding::Level::error)
-        throw InvalidInput(fmt::format("{} (trial '{}')", f.message, f.where));
+        throw InvalidInput(f.where == "study" ? f.message
+                                              : fmt::format("{} (trial '{}')", f.message, f.where));
       // What is said of the whole study stands with its first trial.
       std::size_t at = 0;
       while (at < inputs.size() && study.trials[at].name != f.where) ++at;

@@ -23,7 +23,7 @@ TimeSeries motion(double to_deg) {
   const Eigen::VectorXd time = Eigen::VectorXd::LinSpaced(200, 0.0, 1.99);
   return {time,
           {{"elbow_flexion", Unit::radian}},
-          Eigen::MatrixXd(kDegree * to_deg * (2.0 * time.array()).sin())};
+          Eigen::MatrixXd(kDegree * to_deg * (2.0 * time.array()).sin().abs())};
 }
 
 struct TwoTrials {

@@ -42,7 +42,8 @@ void check_angles(const Study& study,
     const bool negated =
         (-q.maxCoeff() >= c.lower - kBeyond_rad) && (-q.minCoeff() <= c.upper + kBeyond_rad);
     findings.push_back(
-        {wrong ? Level::error : Level::warning, where,
+        {wrong ? Level::error : Level::warning,
+         where,
          fmt::format("{} goes from {} to {} deg, but the model's range is {} to {} deg{}: {:.0f} % "
                      "of the samples lie outside, by up to {} deg, where its muscle paths mean "
                      "nothing; {}",
@@ -51,6 +52,7 @@ void check_angles(const Study& study,
                      degrees(far),
                      negated ? "is its sign the opposite of the model's? Negate the column"
                              : "is its zero or sign another than the model's?"),
+         {},
          "angles " + name});
   }
 }
@@ -63,10 +65,12 @@ void check_held_mass(const Study& study,
   if (!(trial.held_mass_kg > 0.0)) return;
   if (study.subject.mass_kg && trial.held_mass_kg > *study.subject.mass_kg) {
     findings.push_back(
-        {Level::error, trial.name,
+        {Level::error,
+         trial.name,
          fmt::format("held_mass_kg = {} is more than the person weighs ({} kg); is it "
                      "in grams or pounds, or is a decimal point missing?",
                      trial.held_mass_kg, *study.subject.mass_kg),
+         {},
          "held mass"});
     return;
   }
@@ -89,12 +93,14 @@ void check_held_mass(const Study& study,
     const double moment_nm = trial.held_mass_kg * kStandardGravity * lever_m;
     if (!(capacity.isometric_nm() > 0.0) || moment_nm <= capacity.isometric_nm()) continue;
     findings.push_back(
-        {Level::warning, trial.name,
+        {Level::warning,
+         trial.name,
          fmt::format(
              "held_mass_kg = {} at {:.2f} m weighs up to {:.0f} N m on {}, and all muscles "
              "of the model can hold {:.0f} N m there: is it in other units, or is a decimal "
              "point missing?",
              trial.held_mass_kg, lever_m, moment_nm, name, capacity.isometric_nm()),
+         {},
          "held mass " + name});
   }
 }
@@ -140,12 +146,14 @@ void check_vertical(const Study& study,
     const double other = upright(model, laboratory, up);
     if (up == study.markers.up || other < kUpright) continue;
     findings.push_back(
-        {Level::warning, where,
+        {Level::warning,
+         where,
          fmt::format("[markers] up = \"{}\", but the trunk's markers lie {:.0f} degrees from "
                      "upright by it, and {:.0f} with up = \"{}\": unless the person lies, gravity "
                      "pulls across the body; correct [markers] up",
                      study.markers.up, std::acos(std::clamp(now, -1.0, 1.0)) / kDegree,
                      std::acos(std::clamp(other, -1.0, 1.0)) / kDegree, up),
+         {},
          "vertical"});
     return;
   }
@@ -202,7 +210,7 @@ std::vector<Finding> implausible(const Study& study,
       const std::string text =
           too_much_torque(name, usual_peak(input.external_torque->values().col(*column)),
                           capacity.greatest_nm(), trial.external_torque->filename().string());
-      if (!text.empty()) findings.push_back({Level::error, trial.name, text, "torque " + name});
+      if (!text.empty()) findings.push_back({Level::error, trial.name, text, {}, "torque " + name});
     }
   }
   if (input.motion) check_angles(study, model, *input.motion, trial.name, findings);

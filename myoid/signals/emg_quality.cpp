@@ -60,7 +60,7 @@ class ChannelCheck {
   /// What the pair checks compare; empty where there is nothing.
   Eigen::VectorXd run(std::vector<Fault>& faults) {
     amplitude(faults);
-    const bool smoothed = is_envelope();
+    const bool smoothed = is_envelope(x_, rate_hz_, limits_);
     x_.array() -= x_.mean();
     if (rms(x_) < limits_.flat_v) {
       add(faults, FaultKind::emg_flat, true, 0, x_.size() - 1, rms(x_),
@@ -130,21 +130,6 @@ class ChannelCheck {
         2 * beyond > x_.size()
             ? "is the unit wrong, or is it no EMG?"
             : "leave out what is no measurement: it becomes the greatest effort");
-  }
-
-  /// As it came, its mean included.
-  [[nodiscard]] bool is_envelope() const {
-    constexpr double kRinging = 0.05;  // of the maximum, that a filter may swing below zero
-    const Eigen::Index n = x_.size();
-    if (n < 3 || x_.minCoeff() < -kRinging * x_.maxCoeff() || !(x_.maxCoeff() > x_.minCoeff()))
-      return false;
-    std::vector<double> sorted(x_.data(), x_.data() + n);
-    std::nth_element(sorted.begin(), sorted.begin() + n / 2, sorted.end());
-    const double median = sorted[static_cast<std::size_t>(n / 2)];
-    Eigen::Index crossings = 0;
-    for (Eigen::Index i = 1; i < n; ++i)
-      crossings += (x_[i] > median) != (x_[i - 1] > median) ? 1 : 0;
-    return static_cast<double>(crossings) <= limits_.raw_hz * seconds(n);
   }
 
   bool clipping(std::vector<Fault>& faults) const {
@@ -349,6 +334,21 @@ std::vector<Fault> check_emg(const TimeSeries& raw, bool high_passed, const Qual
     }
   }
   return faults;
+}
+
+bool is_envelope(const Eigen::Ref<const Eigen::VectorXd>& x,
+                 double rate_hz,
+                 const QualityLimits& limits) {
+  constexpr double kRinging = 0.05;  // of the maximum, that a filter may swing below zero
+  const Eigen::Index n = x.size();
+  if (n < 3 || x.minCoeff() < -kRinging * x.maxCoeff() || !(x.maxCoeff() > x.minCoeff()))
+    return false;
+  std::vector<double> sorted(x.begin(), x.end());
+  std::nth_element(sorted.begin(), sorted.begin() + n / 2, sorted.end());
+  const double median = sorted[static_cast<std::size_t>(n / 2)];
+  Eigen::Index crossings = 0;
+  for (Eigen::Index i = 1; i < n; ++i) crossings += (x[i] > median) != (x[i - 1] > median) ? 1 : 0;
+  return static_cast<double>(crossings) * rate_hz <= limits.raw_hz * static_cast<double>(n);
 }
 
 std::vector<Fault> check_emg_levels(std::span<const TrialEnvelope> trials,

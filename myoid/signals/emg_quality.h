@@ -30,6 +30,12 @@ namespace myoid::signals {
                                            bool high_passed = true,
                                            const QualityLimits& limits = {});
 
+/// Whether one channel's samples are never negative (a filter's swing of 5 % apart) and go through
+/// their median less than `raw_hz` times a second: rectified and smoothed EMG.
+[[nodiscard]] bool is_envelope(const Eigen::Ref<const Eigen::VectorXd>& samples,
+                               double rate_hz,
+                               const QualityLimits& limits = {});
+
 /// Looks at all trials together, channel by channel: does the signal rise from rest (largest 0.5 s
 /// mean over smallest 1 s mean), and does no movement exceed the maximal contractions? Channels
 /// that some trial does not have are looked at where they are.
