@@ -6,6 +6,7 @@
 #include "myoid/core/error.h"
 #include "myoid/recording/emg_reader.h"
 #include "myoid/recording/recording.h"
+#include "myoid/recording/series_file.h"
 #include "myoid/signals/emg_envelope.h"
 #include "myoid/signals/emg_quality.h"
 
@@ -120,9 +121,10 @@ void add_emg(CLI::App& app, Context& context) {
     for (const signals::Fault& fault : signals::check_emg_levels(trials)) {
       if (fault.grave) context.warn(signals::sentence(fault));
     }
-    write_series(o->out, cut(signals::normalise(envelope, normalisation), context), "Activation");
+    recording::write_series(o->out, cut(signals::normalise(envelope, normalisation), context),
+                            "Activation");
     if (!o->envelope.empty())
-      write_series(o->envelope, cut(envelope, context), "EMG envelope volt");
+      recording::write_series(o->envelope, cut(envelope, context), "EMG envelope volt");
     if (context.json) {
       nlohmann::ordered_json json{{"out", o->out}};
       json["channels"] = nlohmann::ordered_json::array();

@@ -12,6 +12,7 @@
 #include "myoid/dynamics/inverse_dynamics.h"
 #include "myoid/model/arm4.h"
 #include "myoid/pipeline/ground_support.h"
+#include "myoid/recording/series_file.h"
 
 namespace myoid::cli {
 
@@ -80,7 +81,7 @@ void add_id(CLI::App& app, Context& context) {
     if (const auto weight = pipeline::unsupported_weight(model, forces);
         weight && pipeline::stands(model, motion.q.values().row(0).transpose()))
       context.warn(weight->sentence());
-    write_series(o->out, forces, "Inverse Dynamics Generalized Forces");
+    recording::write_series(o->out, forces, "Inverse Dynamics Generalized Forces");
     if (context.json) {
       nlohmann::ordered_json json{{"out", o->out}, {"samples", forces.sample_count()}};
       for (Eigen::Index c = 0; c < forces.channel_count(); ++c) {

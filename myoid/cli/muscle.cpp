@@ -14,6 +14,7 @@
 #include "myoid/muscle/isolated_muscle.h"
 #include "myoid/pipeline/muscle_file.h"
 #include "myoid/recording/atomic_file.h"
+#include "myoid/recording/series_file.h"
 #include "myoid/recording/storage_writer.h"
 #include "myoid/recording/text_file.h"
 
@@ -34,7 +35,7 @@ struct Column {
 };
 
 Column read_column(const std::string& path, const std::string& wanted) {
-  const TimeSeries series = read_series(path);
+  const TimeSeries series = recording::read_series(path).data;
   std::string names;
   for (const Channel& channel : series.channels())
     names += (names.empty() ? "" : ", ") + channel.name;

@@ -6,9 +6,7 @@
 #include "myoid/model/arm4.h"
 #include "myoid/model/osim_reader.h"
 #include "myoid/model/path_survey.h"
-#include "myoid/recording/csv_reader.h"
 #include "myoid/recording/storage_reader.h"
-#include "myoid/recording/storage_writer.h"
 #include "myoid/signals/clock_gaps.h"
 
 namespace myoid::cli {
@@ -169,33 +167,6 @@ dynamics::ExternalLoads load_external_loads(const model::BodyModel& model,
         path.string(), loads.start_s, loads.end_s, time_s[0], time_s[time_s.size() - 1]));
   }
   return loads;
-}
-
-TimeSeries read_series(const std::filesystem::path& path) {
-  for (const char* table : {".csv", ".tsv", ".txt"}) {
-    if (recording::equal_ignoring_case(path.extension().string(), table))
-      return recording::read_csv_series(path).data;
-  }
-  return recording::read_storage(path).data;
-}
-
-void write_series(const std::filesystem::path& path,
-                  const TimeSeries& series,
-                  const std::string& title) {
-  const std::string extension = path.extension().string();
-  std::error_code ignored;
-  const auto status = std::filesystem::status(path, ignored);
-  if (recording::equal_ignoring_case(extension, ".csv")) {
-    recording::write_csv(path, series);
-  } else if (recording::equal_ignoring_case(extension, ".sto") ||
-             recording::equal_ignoring_case(extension, ".mot") ||
-             (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))) {
-    recording::write_storage(path, series, {.title = title});
-  } else {
-    throw InvalidInput(
-        fmt::format("{}: expected a name that ends in .sto, .mot or .csv, found '{}'",
-                    path.string(), extension));
-  }
 }
 
 }  // namespace myoid::cli

@@ -102,7 +102,11 @@ bool BodyModel::is_constrained(int coordinate) const {
   const Coordinate& c = coordinates[static_cast<std::size_t>(coordinate)];
   return c.locked || c.prescribed || c.is_free_to_satisfy_constraints ||
          std::any_of(couplers.begin(), couplers.end(),
-                     [&](const CoordinateCoupler& k) { return k.dependent == coordinate; });
+                     [&](const CoordinateCoupler& k) { return k.dependent == coordinate; }) ||
+         std::any_of(constraints.begin(), constraints.end(), [&](const LoopConstraint& k) {
+           const auto* f = std::get_if<FunctionConstraint>(&k.law);
+           return f != nullptr && f->dependent == coordinate;
+         });
 }
 
 Eigen::VectorXd BodyModel::default_q() const {

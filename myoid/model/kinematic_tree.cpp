@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
+#include "myoid/model/bent_rod.h"
 
 namespace myoid::model {
 namespace {
@@ -44,6 +45,7 @@ JointPosture posture(const Joint& joint, const Eigen::Ref<const Eigen::VectorXd>
     p.X_FM.p += p.shift[i].value * axis.axis;
   }
   if (joint.ellipsoid_radii_m) p.X_FM.p += joint.ellipsoid_radii_m->cwiseProduct(p.X_FM.R.col(2));
+  if (joint.rod_length_m) p.X_FM.p += bent_rod_end(*joint.rod_length_m, p.X_FM.R.col(1));
   return p;
 }
 
@@ -100,6 +102,12 @@ RelativeMotion relative_motion(const Joint& joint,
     m.v += joint.ellipsoid_radii_m->cwiseProduct(m.w.cross(up));
     m.a += joint.ellipsoid_radii_m->cwiseProduct(m.alpha.cross(up) + m.w.cross(m.w.cross(up)));
   }
+  if (joint.rod_length_m) {
+    const Vec3 u = p.X_FM.R.col(1);
+    const Vec3 du = m.w.cross(u);
+    m.v += bent_rod_velocity(*joint.rod_length_m, u, du);
+    m.a += bent_rod_acceleration(*joint.rod_length_m, u, du, m.alpha.cross(u) + m.w.cross(du));
+  }
   return m;
 }
 
@@ -138,6 +146,10 @@ void compute_poses(const BodyModel& model,
         if (joint.ellipsoid_radii_m)
           state.H_v_G[at(c)] +=
               X_GF.R * joint.ellipsoid_radii_m->cwiseProduct(w_F.cross(p.X_FM.R.col(2)));
+        if (joint.rod_length_m) {
+          const Vec3 u = p.X_FM.R.col(1);
+          state.H_v_G[at(c)] += X_GF.R * bent_rod_velocity(*joint.rod_length_m, u, w_F.cross(u));
+        }
       }
       if (const int c = joint.translation[i].coordinate; c >= 0) {
         state.H_v_G[at(c)] += X_GF.R * (p.shift[i].first * joint.translation[i].axis);

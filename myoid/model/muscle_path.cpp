@@ -38,8 +38,10 @@ void place_points(const BodyModel& model,
         const Coordinate& c = model.coordinates[at(moving.coordinate)];
         q = std::clamp(state.q[moving.coordinate], c.lower, c.upper);
       }
+      Vec3 p_F;
       for (std::size_t k = 0; k < 3; ++k)
-        s.p_B[static_cast<Eigen::Index>(k)] = evaluate(moving.location[k], q).value;
+        p_F[static_cast<Eigen::Index>(k)] = evaluate(moving.location[k], q).value;
+      s.p_B = moving.X_BF * p_F;
     }
     s.p_G = state.X_GB[at(s.body)] * s.p_B;
     workspace.stations.push_back(s);
@@ -114,7 +116,7 @@ Vec3 moving_rate(const BodyModel& model,
   Vec3 rate;
   for (std::size_t k = 0; k < 3; ++k)
     rate[static_cast<Eigen::Index>(k)] = evaluate(moving.location[k], q).first;
-  return state.X_GB[at(point.body)].R * rate;
+  return state.X_GB[at(point.body)].R * (moving.X_BF.R * rate);
 }
 
 void compute_path(const BodyModel& model,

@@ -105,12 +105,8 @@ PathPoint read_point(OsimReading& r, pugi::xml_node node, const std::string& own
   point.body = frame.body;
   const std::string_view kind = node.name();
   if (kind == "MovingPathPoint" || kind == "MovingMusclePoint") {
-    if (frame.X_BF.p != Vec3::Zero() || frame.X_BF.R != Mat3::Identity()) {
-      r.xml.fail(node,
-                 fmt::format("moving point '{}' sits on an offset frame; that is not supported",
-                             point.name));
-    }
     point.moving = read_moving(r, node);
+    point.moving->X_BF = frame.X_BF;
     return point;
   }
   const bool attachment = !r.xml.property(node, "location") && node.child("attachment");

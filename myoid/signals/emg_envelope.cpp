@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include <fmt/format.h>
@@ -19,6 +18,8 @@ namespace {
 
 constexpr double kSpectrumSegment_s = 0.25;
 constexpr double kUsualBandwidth_hz = 150.0;  ///< Of surface EMG where the raw signal is not known.
+constexpr double kRest_s = 1.0;
+constexpr double kRectifiedSpread = 0.7555;  ///< sqrt(pi/2 - 1): of rectified Gaussian noise.
 
 /// Means over a window that slides sample by sample: entry i covers samples i .. i + width - 1.
 Eigen::VectorXd moving_mean(const Eigen::Ref<const Eigen::VectorXd>& x, Eigen::Index width) {
@@ -32,6 +33,23 @@ Eigen::VectorXd moving_mean(const Eigen::Ref<const Eigen::VectorXd>& x, Eigen::I
 Eigen::Index window_samples(const TimeSeries& series, double window_s) {
   const auto wanted = static_cast<Eigen::Index>(std::lround(window_s * series.mean_rate_hz()));
   return std::clamp<Eigen::Index>(wanted, 1, series.sample_count());
+}
+
+/// Mean of the windows that rest: those at most two spreads of a mean above it, found from the
+/// lowest one upward. Of equally quiet windows the lowest lies far below their mean, the farther
+/// the more there are; windows in which something happens come in as far as chance could make them.
+double resting_level(std::vector<double> means, double relative_sd) {
+  std::sort(means.begin(), means.end());
+  double level = means.front();
+  double sum = 0.0;
+  std::size_t count = 0;
+  while (count < means.size() && means[count] <= level * (1.0 + 2.0 * relative_sd)) {
+    do {
+      sum += means[count++];
+    } while (count < means.size() && means[count] <= level * (1.0 + 2.0 * relative_sd));
+    level = sum / static_cast<double>(count);
+  }
+  return level;
 }
 
 /// Hum is said; with `notch` it is gone afterwards.
@@ -138,13 +156,13 @@ std::vector<ChannelNormalisation> find_normalisation(std::span<const TrialEnvelo
   for (const Channel& channel : trials.front().envelope->channels()) {
     ChannelNormalisation n;
     n.channel = channel.name;
-    n.resting_level_v = std::numeric_limits<double>::infinity();
+    std::vector<double> seconds;
     double largest = -1.0;
     double longest_s = 0.0;
     for (const TrialEnvelope& trial : trials) {
       const Eigen::VectorXd x = trial.envelope->column(channel.name);
-      n.resting_level_v = std::min(n.resting_level_v,
-                                   moving_mean(x, window_samples(*trial.envelope, 1.0)).minCoeff());
+      const Eigen::VectorXd second = moving_mean(x, window_samples(*trial.envelope, kRest_s));
+      seconds.insert(seconds.end(), second.begin(), second.end());
       const Eigen::VectorXd& clock = trial.envelope->time_s();
       const double length_s =
           clock[clock.size() - 1] - clock[0] + trial.envelope->mean_interval_s();
@@ -174,7 +192,11 @@ std::vector<ChannelNormalisation> find_normalisation(std::span<const TrialEnvelo
     }
     // Rectified Gaussian noise of bandwidth B averaged over the window: CV = 0.7555 / sqrt(2 B T).
     const double bandwidth_hz = n.bandwidth_hz > 0.0 ? n.bandwidth_hz : kUsualBandwidth_hz;
-    n.relative_sd = 0.7555 / std::sqrt(2.0 * bandwidth_hz * options.window_s);
+    const auto spread_over = [&](double window_s) {
+      return kRectifiedSpread / std::sqrt(2.0 * bandwidth_hz * window_s);
+    };
+    n.relative_sd = spread_over(options.window_s);
+    n.resting_level_v = resting_level(std::move(seconds), spread_over(kRest_s));
     // Windows whose mean may well be the same: by how long they last in all.
     double windows = 0.0;
     for (const TrialEnvelope& trial : trials) {
@@ -214,12 +236,9 @@ TimeSeries normalise(const TimeSeries& envelope,
   for (std::size_t c = 0; c < normalisation.size(); ++c) {
     const ChannelNormalisation& n = normalisation[c];
     channels.push_back({n.channel, Unit::dimensionless});
-    values.col(static_cast<Eigen::Index>(c)) =
-        ((envelope.column(n.channel).array().square() - n.resting_level_v * n.resting_level_v)
-             .max(0.0)
-             .sqrt() /
-         n.reference_v)
-            .matrix();
+    const double rest = n.resting_level_v * n.resting_level_v;
+    const Eigen::ArrayXd above = envelope.column(n.channel).array().square() - rest;
+    values.col(static_cast<Eigen::Index>(c)) = (above.max(0.0).sqrt() / n.reference_v).matrix();
   }
   return {envelope.time_s(), std::move(channels), std::move(values)};
 }

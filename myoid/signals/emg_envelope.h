@@ -65,7 +65,10 @@ struct TrialEnvelope {
 /// What one EMG channel is measured against.
 struct ChannelNormalisation {
   std::string channel;
-  double resting_level_v = 0.0;  ///< Lowest 1 s mean over the study: the noise of the electrode.
+  /// Mean of the quiet seconds of the study (those at most two spreads of a 1 s mean above it): the
+  /// noise of the electrode. The lowest of many noisy means would be 5 to 10 % below, and at rest a
+  /// hundredth of the maximum would be left.
+  double resting_level_v = 0.0;
   double reference_v =
       0.0;  ///< sqrt(m^2 - rest^2), m the largest moving mean over the study: activation 1.
   double relative_sd =
