@@ -14,6 +14,7 @@
 #include "myoid/pipeline/opensim_files.h"
 #include "myoid/pipeline/tool_stages.h"
 #include "myoid/recording/atomic_file.h"
+#include "myoid/recording/recording.h"
 #include "myoid/recording/storage_reader.h"
 #include "myoid/recording/text_file.h"
 
@@ -285,8 +286,12 @@ std::filesystem::path claim_result(AnalysisRun& run, const std::string& name) {
 
 std::optional<TimeSeries> read_speeds(const model::BodyModel& model,
                                       const std::filesystem::path& path,
-                                      bool only_speeds) {
+                                      bool only_speeds,
+                                      std::vector<std::string>& notes) {
   const recording::Storage file = recording::read_storage(path);
+  for (const recording::Repair& repair : file.repairs) {
+    if (only_speeds) notes.push_back(recording::to_string(path, repair));  // else with the states
+  }
   const auto count = static_cast<Eigen::Index>(model.coordinates.size());
   Eigen::MatrixXd values = Eigen::MatrixXd::Zero(file.data.sample_count(), count);
   std::vector<Channel> channels;

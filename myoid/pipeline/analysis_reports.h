@@ -60,7 +60,8 @@ void write_forces(AnalysisRun& run,
 /// own name too.
 [[nodiscard]] std::optional<TimeSeries> read_speeds(const model::BodyModel& model,
                                                     const std::filesystem::path& path,
-                                                    bool only_speeds);
+                                                    bool only_speeds,
+                                                    std::vector<std::string>& notes);
 /// Fills `activation` and `fiber_length_m` from a states file that has them.
 void read_muscle_states(AnalysisRun& run, const std::filesystem::path& path);
 

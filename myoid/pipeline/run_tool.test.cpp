@@ -68,6 +68,15 @@ class RunTool : public ::testing::Test {
     }
     write("m.trc", text);
   }
+  /// An actuator of 1 N m on every coordinate.
+  [[nodiscard]] std::string reserves() const {
+    std::string text;
+    for (const model::Coordinate& c : arm_.coordinates) {
+      text += "<CoordinateActuator name=\"" + c.name + "_reserve\"><coordinate>" + c.name +
+              "</coordinate><optimal_force>1</optimal_force></CoordinateActuator>";
+    }
+    return text;
+  }
   void write_motion(int frames) const {
     std::string text = fmt::format(
         "Coordinates\nversion=1\nnRows={}\nnColumns=2\ninDegrees=no\nendheader\ntime\telbow_"
@@ -201,12 +210,8 @@ TEST_F(RunTool, CoordinateTasksTakeTheirTargetsFromAFile) {
 
 TEST_F(RunTool, AnalysesShareAMotion) {
   write_motion(40);
-  std::string reserves = "<OpenSimDocument Version=\"40000\"><ForceSet><objects>";
-  for (const model::Coordinate& c : arm_.coordinates) {
-    reserves += "<CoordinateActuator name=\"" + c.name + "_reserve\"><coordinate>" + c.name +
-                "</coordinate><optimal_force>1</optimal_force></CoordinateActuator>";
-  }
-  write("reserves.xml", reserves + "</objects></ForceSet></OpenSimDocument>");
+  write("reserves.xml", "<OpenSimDocument Version=\"40000\"><ForceSet><objects>" + reserves() +
+                            "</objects></ForceSet></OpenSimDocument>");
   const ToolResult result =
       run("<AnalyzeTool "
           "name=\"a\"><model_file>arm.osim</model_file><results_directory>r</results_directory>"
@@ -308,11 +313,7 @@ TEST_F(RunTool, PathActuatorsShareTheLoad) {
       "</socket_parent_frame><location>0.05 0.1 0</location></PathPoint><PathPoint name=\"b\">"
       "<socket_parent_frame>/bodyset/forearm_hand</socket_parent_frame><location>0.02 -0.1 0"
       "</location></PathPoint></objects></PathPointSet></GeometryPath></PathActuator>";
-  for (const model::Coordinate& c : arm_.coordinates) {
-    forces += "<CoordinateActuator name=\"" + c.name + "_reserve\"><coordinate>" + c.name +
-              "</coordinate><optimal_force>1</optimal_force></CoordinateActuator>";
-  }
-  write("more.xml", forces + "</objects></ForceSet></OpenSimDocument>");
+  write("more.xml", forces + reserves() + "</objects></ForceSet></OpenSimDocument>");
   const ToolResult result =
       run("<AnalyzeTool name=\"a\"><model_file>arm.osim</model_file><force_set_files>more.xml"
           "</force_set_files><initial_time>0.1</initial_time><final_time>0.3</final_time>"
@@ -482,6 +483,32 @@ TEST_F(RunTool, ScalingByHandMakesALargerModelOfTheGivenMass) {
   EXPECT_EQ(scaled.name, "someone");
   EXPECT_LT((scaled.bodies.back().p_BBcm_B - 1.1 * arm_.bodies.back().p_BBcm_B).norm(), 1e-15);
   EXPECT_EQ(result.files.size(), 2U);
+}
+
+TEST_F(RunTool, AStaticPoseAtTheEndOfARangeIsSaidSo) {
+  write_markers(5);  // the elbow at 69 degrees and more
+  const auto placed_with_range = [&](const std::string& range) {
+    std::string text = model::arm4_osim();
+    const auto at = text.find("<range>", text.find("Coordinate name=\"elbow_flexion\"")) + 7;
+    text.replace(at, text.find('<', at) - at, range);
+    write("arm.osim", text);
+    std::string tasks;
+    for (const model::Marker& marker : arm_.markers)
+      tasks += "<IKMarkerTask name=\"" + marker.name + "\"><weight>1</weight></IKMarkerTask>";
+    return run("<ScaleTool name=\"s\"><GenericModelMaker><model_file>arm.osim</model_file>"
+               "</GenericModelMaker><ModelScaler><apply>false</apply></ModelScaler><MarkerPlacer>"
+               "<IKTaskSet><objects>" +
+               tasks +
+               "</objects></IKTaskSet><marker_file>m.trc"
+               "</marker_file><output_model_file>placed.osim</output_model_file></MarkerPlacer>"
+               "</ScaleTool>")
+        .notes;
+  };
+  const auto said =
+      ::testing::Contains(::testing::HasSubstr("'elbow_flexion' is at its limit of 57.3 degrees"));
+  EXPECT_THAT(placed_with_range("0 1"), said);
+  std::filesystem::remove(folder_ / "placed.osim");
+  EXPECT_THAT(placed_with_range("0 2"), ::testing::Not(said));
 }
 
 TEST_F(RunTool, ASetUpWithoutItsFilesIsRefusedBeforeAnythingIsWritten) {

@@ -83,8 +83,12 @@ void StudyPlausibility::look_at(const TrialSpec& trial, const TrialInput& input)
 
 std::vector<Finding> StudyPlausibility::findings() const {
   std::vector<Finding> found = grouped(of_trials_);
-  for (std::vector<Finding> more :
-       {shared_muscles(*study_), same_recordings(prints_), unlike_lengths(lengths_)})
+  std::vector<Finding> same = same_recordings(prints_);
+  // Activations may be computed, and then alike for good.
+  if (study_->emg.kind == EmgKind::activation) {
+    for (Finding& f : same) f.level = Finding::Level::warning;
+  }
+  for (std::vector<Finding> more : {shared_muscles(*study_), same, unlike_lengths(lengths_)})
     std::move(more.begin(), more.end(), std::back_inserter(found));
   return found;
 }

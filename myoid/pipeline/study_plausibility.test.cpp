@@ -75,6 +75,14 @@ TEST(StudyPlausibility, WhatSeveralTrialsHaveAlikeIsSaidOnce) {
   EXPECT_NE(found[0].message.find("(likewise in second)"), std::string::npos) << found[0].message;
 }
 
+TEST(RequirePlausible, ActivationsThatAreAlikeMayBeComputedAndAreWarnedOf) {
+  TwoTrials two;
+  two.study.emg.kind = EmgKind::activation;
+  two.inputs[1].emg = two.inputs[0].emg;
+  require_plausible(two.study, two.model, two.inputs);
+  EXPECT_EQ(two.inputs[1].warnings.size(), 1U);
+}
+
 TEST(RequirePlausible, AWarningGoesToItsTrial) {
   TwoTrials two;
   two.study.trials[1].held_mass_kg = 60.0;
