@@ -14,9 +14,9 @@ struct ChannelMuscles {
 
 /// Pairs the channels with the model's muscles by what both are usually called: "Biceps_R" and
 /// BIClong, BICshort; "L TRICEPS LAT" and TRIlat, or all heads of the triceps where no other
-/// channel is on them. A name that is no usual one is compared letter by letter. A side stated by
-/// both
-/// (_r, _l, right, left) must be the same. Every channel comes back, in order.
+/// channel is on them. A name of a group ("MH", "quadriceps") is all of its muscles, one that is
+/// not usual is compared letter by letter. A side that both state (_r, _l, right, left) must be the
+/// same. Every channel comes back, in order.
 [[nodiscard]] std::vector<ChannelMuscles> match_channels(const std::vector<std::string>& channels,
                                                          const std::vector<std::string>& muscles);
 

@@ -49,10 +49,10 @@ inline constexpr double kLeastForce_n = 10.0;  ///< Below it there is no center 
 
 /// The plates of types 1 to 4 that FORCE_PLATFORM describes:
 ///
-///   1  F_x F_y F_z, p_x p_y, T_z             center of pressure and free moment as measured
-///   2  F_x F_y F_z M_x M_y M_z               about the transducer; M_surface = M − o × F with
-///   ORIGIN o 3  F_x12 F_x34 F_y14 F_y23 F_z1..F_z4    eight sensors; ORIGIN = a, b, a_z0 4  as 2
-///   after F = CAL_MATRIX V
+/// - 1: F_x F_y F_z, p_x p_y, T_z: center of pressure and free moment as measured.
+/// - 2: F_x F_y F_z M_x M_y M_z about the transducer; M_surface = M − o × F with ORIGIN o.
+/// - 3: F_x12 F_x34 F_y14 F_y23 F_z1..F_z4: eight sensors; ORIGIN = a, b, a_z0.
+/// - 4: as 2 after F = CAL_MATRIX V.
 ///
 /// Other types and plates whose corners or channels make no sense are left out with a note; an
 /// ORIGIN below the surface (z > 0) is turned round with a note, and so is a and b below 0. Forces
