@@ -14,6 +14,7 @@
 #include "myoid/pipeline/excitation_text.h"
 #include "myoid/pipeline/sensitivity_files.h"
 #include "myoid/pipeline/simulation_files.h"
+#include "myoid/recording/recording.h"
 #include "myoid/recording/storage_reader.h"
 #include "myoid/recording/text_file.h"
 #include "myoid/simulation/arm_parameters.h"
@@ -96,7 +97,7 @@ std::vector<Signal> excitations(const Options& o,
   if (o.excitations.empty()) return pipeline::described_excitations(o.excite, o.rest, muscles);
   const recording::Storage file = recording::read_storage(o.excitations);
   for (const recording::Repair& repair : file.repairs)
-    context.warn(fmt::format("{}:{}: {}", o.excitations, repair.line, repair.message));
+    context.warn(recording::to_string(o.excitations, repair));
   try {
     std::vector<Signal> signals = simulation::excitations_from(file.data, muscles);
     if (!context.start_s) start_s = file.data.time_s()[0];

@@ -14,6 +14,7 @@
 #include "myoid/pipeline/muscle_force_law.h"
 #include "myoid/pipeline/stage_files.h"
 #include "myoid/pipeline/study_model.h"
+#include "myoid/recording/recording.h"
 #include "myoid/recording/storage_reader.h"
 #include "myoid/signals/resample.h"
 
@@ -83,7 +84,10 @@ void add_so(CLI::App& app, Context& context) {
     for (const model::Muscle& muscle : model.muscles)
       options.min_activation = std::min(options.min_activation, muscle.properties.min_control);
     if (!o->emg.empty()) {
-      options.emg = signals::resample(recording::read_storage(o->emg).data, motion.q.time_s());
+      const recording::Storage emg = recording::read_storage(o->emg);
+      for (const recording::Repair& repair : emg.repairs)
+        context.warn(recording::to_string(o->emg, repair));
+      options.emg = signals::resample(emg.data, motion.q.time_s());
       options.emg_weight = o->emg_weight;
     }
     const bool elastic = o->tendon == "elastic";

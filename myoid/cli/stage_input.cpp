@@ -6,6 +6,7 @@
 #include "myoid/model/arm4.h"
 #include "myoid/model/osim_reader.h"
 #include "myoid/model/path_survey.h"
+#include "myoid/recording/recording.h"
 #include "myoid/recording/storage_reader.h"
 #include "myoid/signals/clock_gaps.h"
 
@@ -75,7 +76,7 @@ kinematics::JointMotion with_derivatives(kinematics::JointMotion motion,
     if (path.empty()) return;
     const recording::Storage file = recording::read_storage(path);
     for (const recording::Repair& repair : file.repairs)
-      context.warn(fmt::format("{}:{}: {}", path.string(), repair.line, repair.message));
+      context.warn(recording::to_string(path, repair));
     const TimeSeries given =
         cut(recording::to_si(file,
                              [&](const std::string& name) {
@@ -117,7 +118,7 @@ kinematics::JointMotion load_motion(const model::BodyModel& model,
                                     const Context& context) {
   const recording::Storage file = recording::read_storage(path);
   for (const recording::Repair& repair : file.repairs)
-    context.warn(fmt::format("{}:{}: {}", path.string(), repair.line, repair.message));
+    context.warn(recording::to_string(path, repair));
   const TimeSeries q = recording::to_si(file, [&](const std::string& name) {
     const auto c = model.find_coordinate(name);
     return c &&

@@ -56,8 +56,8 @@ struct TransformAxis {
 
 /// X_PB = X_PF X_FM(q) X_BM^-1; X_FM: rotation R = R(a1,f1) R(a2,f2) R(a3,f3), translation
 /// sum f_i a_i in F, on an ellipsoid also radii * (third column of R), element by element, at the
-/// end of a bent rod also where that ends (bent_rod.h). Every OpenSim joint is written in this form,
-/// the speeds being the coordinates' rates.
+/// end of a bent rod also where that ends (bent_rod.h). Every OpenSim joint is written in this
+/// form, the speeds being the coordinates' rates.
 struct Joint {
   std::string name;
   std::string class_name;  ///< As in the file: "CustomJoint", "PinJoint", ...
@@ -66,6 +66,7 @@ struct Joint {
   BodyIndex child = 0;
   Pose X_BM;
   std::vector<int> coordinates;  ///< Indices in BodyModel::coordinates.
+  int place_in_file = -1;        ///< In the order of the file's joints.
   std::array<TransformAxis, 3> rotation;
   std::array<TransformAxis, 3> translation;
   std::optional<Vec3>
@@ -140,9 +141,18 @@ struct PathWrap {
   int range_end = -1;  ///< < 1: to the last.
 };
 
+/// A length given as a polynomial of coordinates instead of points (FunctionBasedPath); the moment
+/// arms are minus its derivatives, or polynomials of their own.
+struct FunctionPath {
+  std::vector<int> coordinates;
+  MultiPolynomial length;
+  std::vector<MultiPolynomial> moment_arms;  ///< None, or one for each coordinate.
+};
+
 struct MusclePath {
   std::vector<PathPoint> points;
   std::vector<PathWrap> wraps;
+  std::optional<FunctionPath> function{};  ///< Then there are neither points nor wraps.
 };
 
 /// Corner points and slopes of Millard's curves (force by normalized length, velocity or strain).

@@ -201,7 +201,8 @@ Eigen::VectorXd inverse_dynamics(const BodyModel& model,
                                  const Eigen::Ref<const Eigen::VectorXd>& qdot,
                                  const Eigen::Ref<const Eigen::VectorXd>& qddot,
                                  const std::vector<BodyWrench>& external,
-                                 BodyState& state) {
+                                 BodyState& state,
+                                 std::vector<BodyWrench>* carried) {
   check_size(model, qddot.size(), "acceleration");
   compute_poses(model, q, state);
   compute_velocities(model, qdot, state);
@@ -242,6 +243,7 @@ Eigen::VectorXd inverse_dynamics(const BodyModel& model,
     force[at(wrench.body)] -= wrench.f_G;
     moment[at(wrench.body)] -= wrench.m_G;
   }
+  if (carried != nullptr) carried->assign(count, BodyWrench{});
   // Inward: wrenches to the parents, projected on each joint's motions.
   Eigen::VectorXd tau = Eigen::VectorXd::Zero(qddot.size());
   for (std::size_t j = model.joints.size(); j-- > 0;) {
@@ -250,6 +252,7 @@ Eigen::VectorXd inverse_dynamics(const BodyModel& model,
     for (const int c : joint.coordinates) {
       tau[c] = state.H_w_G[at(c)].dot(moment[b]) + state.H_v_G[at(c)].dot(force[b]);
     }
+    if (carried != nullptr) (*carried)[b] = {joint.child, force[b], moment[b]};
     const std::size_t parent = at(joint.parent);
     force[parent] += force[b];
     moment[parent] += moment[b] + (state.X_GB[b].p - state.X_GB[parent].p).cross(force[b]);

@@ -127,9 +127,15 @@ std::optional<MultiPolynomial> multi_function_property(const OsimReading& r,
                                                        const char* property,
                                                        int dimension) {
   const auto holder = r.xml.property(object, property);
-  pugi::xml_node node =
+  const auto node =
       holder ? OsimXml::first_element(holder) : object.find_child_by_attribute("name", property);
   if (!node) return std::nullopt;
+  return multi_function(r, node, dimension);
+}
+
+std::optional<MultiPolynomial> multi_function(const OsimReading& r,
+                                              pugi::xml_node node,
+                                              int dimension) {
   const double scale = unwrap(r, node);
   const std::string_view kind = node.name();
   MultiPolynomial f{.dimension = dimension, .degree = 1, .scale = scale};

@@ -23,6 +23,10 @@ namespace myoid::model {
                                                                      pugi::xml_node object,
                                                                      const char* property,
                                                                      int dimension);
+/// The same of a function element.
+[[nodiscard]] std::optional<MultiPolynomial> multi_function(const OsimReading& reading,
+                                                            pugi::xml_node node,
+                                                            int dimension);
 /// The functions of a property that is a set of them, in either way.
 [[nodiscard]] std::vector<Function> functions_property(OsimReading& reading,
                                                        pugi::xml_node object,

@@ -213,6 +213,52 @@ TEST(ParseOsim, AMovingPointMayLieInAnOffsetFrame) {
   }
 }
 
+TEST(ParseOsim, APathMayBeAPolynomialOfCoordinates) {
+  const auto hinges = [](const std::string& path) {
+    return parse_osim(
+        R"(<OpenSimDocument Version="40500"><Model name="m">
+<BodySet><objects><Body name="b"><mass>1</mass><inertia>1 1 1 0 0 0</inertia></Body></objects></BodySet>
+<JointSet><objects><UniversalJoint name="hinge">
+<socket_parent_frame>/ground</socket_parent_frame><socket_child_frame>/bodyset/b</socket_child_frame>
+<coordinates><Coordinate name="p"/><Coordinate name="q"/></coordinates></UniversalJoint></objects></JointSet>
+<ForceSet><objects><Thelen2003Muscle name="muscle"><path><FunctionBasedPath name="path">
+<coordinates>/jointset/hinge/q /jointset/hinge/p</coordinates>)" +
+            path +
+            R"(</FunctionBasedPath></path></Thelen2003Muscle></objects></ForceSet></Model></OpenSimDocument>)",
+        "m.osim");
+  };
+  const std::string length =
+      "<length_function><MultivariatePolynomialFunction><coefficients>0.3 0.1 0.05 0.2 0.4 0.6"
+      "</coefficients><dimension>2</dimension><order>2</order></MultivariatePolynomialFunction>"
+      "</length_function>";
+  const BodyModel m = hinges(length);
+  EXPECT_TRUE(m.unsupported.empty());
+  BodyState state = make_state(m);
+  const double p = 0.2, q = -0.5;
+  compute_poses(m, Eigen::Vector2d(p, q), state);
+  compute_velocities(m, Eigen::Vector2d(1.5, 2.5), state);
+  const PathResult path = compute_path(m, 0, state);
+  EXPECT_NEAR(path.length_m, 0.3 + 0.1 * p + 0.05 * p * p + 0.2 * q + 0.4 * q * p + 0.6 * q * q,
+              1e-15);
+  EXPECT_NEAR(path.moment_arm_m[0], -(0.1 + 0.1 * p + 0.4 * q), 1e-15);
+  EXPECT_NEAR(path.moment_arm_m[1], -(0.2 + 0.4 * p + 1.2 * q), 1e-15);
+  EXPECT_NEAR(path.speed_mps, -path.moment_arm_m.dot(Eigen::Vector2d(1.5, 2.5)), 1e-15);
+  // Moment arms of their own count as they are.
+  const std::string constant =
+      "<MultivariatePolynomialFunction><coefficients>0.07</coefficients><dimension>2</dimension>"
+      "<order>0</order></MultivariatePolynomialFunction>";
+  const BodyModel own =
+      hinges(length + "<moment_arm_functions>" + constant + constant + "</moment_arm_functions>");
+  EXPECT_EQ(compute_path(own, 0, state).moment_arm_m, Eigen::Vector2d(0.07, 0.07));
+  // What cannot be computed is named, and left out.
+  const BodyModel other = hinges("<length_function><SimmSpline/></length_function>");
+  ASSERT_EQ(other.unsupported.size(), 1U);
+  EXPECT_TRUE(other.muscles.empty());
+  EXPECT_THROW(
+      (void)hinges(length + "<moment_arm_functions>" + constant + "</moment_arm_functions>"),
+      ReadError);
+}
+
 TEST(ParseOsim, AConstantCurvatureJointBendsARod) {
   const BodyModel m = parse_osim(
       R"(<OpenSimDocument Version="40000"><Model name="m">

@@ -15,6 +15,7 @@
 #include "myoid/pipeline/trial_input.h"
 #include "myoid/pipeline/trial_quality.h"
 #include "myoid/recording/csv_reader.h"
+#include "myoid/recording/emg_channels.h"
 #include "myoid/recording/emg_reader.h"
 #include "myoid/recording/label_match.h"
 #include "myoid/recording/recording.h"
@@ -218,17 +219,15 @@ class Check {
 
 namespace {
 
-/// The channels in volts, of them those named as EMG if there are such (others may be a load
+/// The channels that may be EMG, of them those named so if there are such (others may be a load
 /// cell's); of a storage file, which has no units of its own, all of them if its title states one.
 std::optional<TimeSeries> voltages(const std::filesystem::path& path,
-                                   const recording::AnalogChannels& analog) {
-  std::vector<std::string> names;
+                                   const recording::AnalogChannels& analog,
+                                   const std::vector<recording::PlateSetup>& plates) {
+  const std::vector<std::string> names = recording::emg_channels(analog.channels(), plates);
   std::vector<std::string> named_emg;
-  for (const Channel& channel : analog.channels()) {
-    if (channel.unit != Unit::volt) continue;
-    names.push_back(channel.name);
-    if (recording::plain_label(channel.name).find("emg") != std::string::npos)
-      named_emg.push_back(channel.name);
+  for (const std::string& name : names) {
+    if (recording::plain_label(name).find("emg") != std::string::npos) named_emg.push_back(name);
   }
   if (!named_emg.empty()) return analog.select(named_emg);
   if (!names.empty()) return analog.select(names);
@@ -261,7 +260,7 @@ std::vector<Finding> check_recording(const std::filesystem::path& path, const Ve
     for (Fault& fault : faults) findings.push_back(finding(where, std::move(fault)));
   };
   add(signals::check_markers(file.markers));
-  if (const auto emg = voltages(path, file.analog)) {
+  if (const auto emg = voltages(path, file.analog, file.plates)) {
     require_finite(*emg, path.string());
     constexpr Eigen::Index kFewest = 10;
     if (emg->sample_count() < kFewest)

@@ -12,6 +12,7 @@
 #include "myoid/math/spline.h"
 #include "myoid/pipeline/identify_input.h"
 #include "myoid/pipeline/same_recording.h"
+#include "myoid/recording/recording.h"
 #include "myoid/recording/series_file.h"
 #include "myoid/signals/resample.h"
 
@@ -114,8 +115,10 @@ IdentifyFiles files_of(const IdentifySources& s, std::size_t trial) {
 /// The files of one trial, each read once.
 class TrialReader {
  public:
-  TrialReader(const IdentifySources& sources, const std::vector<MuscleSetup>& muscles)
-      : sources_(sources), muscles_(muscles) {}
+  TrialReader(const IdentifySources& sources,
+              const std::vector<MuscleSetup>& muscles,
+              const std::function<void(const std::string&)>& remark)
+      : sources_(sources), muscles_(muscles), remark_(remark) {}
 
   TrialData read(std::size_t number) {
     const IdentifyFiles files = files_of(sources_, number);
@@ -147,7 +150,10 @@ class TrialReader {
   const TimeSeries& series(const std::string& path) {
     const auto known = read_.find(path);
     if (known != read_.end()) return known->second;
-    return read_.emplace(path, recording::read_series(path).data).first->second;
+    recording::SeriesFile file = recording::read_series(path);
+    for (const recording::Repair& repair : file.repairs)
+      remark_(recording::to_string(path, repair));
+    return read_.emplace(path, std::move(file.data)).first->second;
   }
 
   /// The columns of the muscles, by name.
@@ -221,6 +227,7 @@ class TrialReader {
 
   const IdentifySources& sources_;
   const std::vector<MuscleSetup>& muscles_;
+  const std::function<void(const std::string&)>& remark_;
   std::map<std::string, TimeSeries> read_;
 };
 
@@ -258,11 +265,12 @@ StudyData read_identify_data(const IdentifySources& sources,
                              const MuscleTable& table,
                              const std::function<void(const std::string&)>& remark) {
   require_counts(sources);
+  for (const std::string& note : table.notes) remark(note);
   StudyData data;
   data.muscles = table.muscles;
   data.rules = table.rules;
   for (std::size_t i = 0; i < sources.lengths.size(); ++i) {
-    TrialData trial = TrialReader(sources, data.muscles).read(i);
+    TrialData trial = TrialReader(sources, data.muscles, remark).read(i);
     for (const std::string& text : check_identify_trial(data, trial, files_of(sources, i)))
       remark(text);
     data.trials.push_back(std::move(trial));

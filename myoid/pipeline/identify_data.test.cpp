@@ -5,7 +5,9 @@
 #include <gtest/gtest.h>
 
 #include "myoid/core/error.h"
+#include "myoid/recording/atomic_file.h"
 #include "myoid/recording/series_file.h"
+#include "myoid/recording/text_file.h"
 
 #include "tests/support/elbow_study.h"
 #include "tests/support/temporary_folder.h"
@@ -91,6 +93,21 @@ TEST(IdentifyData, OnlyTheTimeThatAllFilesCoverIsTaken) {
   EXPECT_NEAR(trial.time_s[trial.time_s.size() - 1], 4.0, 1e-9);
   files.sources.start_s = 4.5;
   EXPECT_NE(files.message().find("must overlap"), std::string::npos) << files.message();
+}
+
+TEST(IdentifyData, ACutOffFileIsSaidOnceWithWhatWasLeftOut) {
+  Written files;
+  std::string text = recording::read_text_file(files.folder / "l.sto");
+  text.resize(text.size() - 200);
+  recording::write_file(files.folder / "l.sto", text);
+  (void)files.read();
+  int said = 0;
+  for (const std::string& remark : files.remarks)
+    said += remark.find("l.sto") != std::string::npos &&
+                    remark.find(recording::kLastRowLeftOut) != std::string::npos
+                ? 1
+                : 0;
+  EXPECT_EQ(said, 1);
 }
 
 TEST(IdentifyData, ActivationsThatAreNamedTwiceAreRemarkedOf) {

@@ -12,6 +12,7 @@ namespace myoid::pipeline {
 struct MuscleTable {
   std::vector<identification::MuscleSetup> muscles;
   std::vector<identification::ParameterRule> rules;  ///< Parameters that are not held by default.
+  std::vector<std::string> notes;                    ///< Of its reader, with the file's name.
   std::vector<std::string> speed_may_be_free;  ///< Muscles whose v_max is neither held nor freed.
 };
 

@@ -4,9 +4,9 @@
 
 #include <gtest/gtest.h>
 
-#include "myoid/core/error.h"
 #include "myoid/recording/atomic_file.h"
 
+#include "tests/support/message_of.h"
 #include "tests/support/temporary_folder.h"
 
 namespace myoid::pipeline {
@@ -24,12 +24,7 @@ MuscleTable table_of(const std::string& text, bool within_bounds = true) {
 }
 
 std::string message_of(const std::string& text) {
-  try {
-    (void)table_of(text);
-  } catch (const ReadError& error) {
-    return error.what();
-  }
-  return "(no error)";
+  return test::message_of([&] { (void)table_of(text); });
 }
 
 TEST(MusclesCsv, AParameterHeldOrFreedByItsColumnIsHeldOrFreed) {

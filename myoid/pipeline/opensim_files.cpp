@@ -11,6 +11,7 @@
 
 #include "myoid/core/error.h"
 #include "myoid/recording/atomic_file.h"
+#include "myoid/recording/recording.h"
 #include "myoid/recording/storage_reader.h"
 #include "myoid/recording/text_file.h"
 
@@ -35,7 +36,7 @@ TimeSeries read_coordinates(const model::BodyModel& model,
                             std::vector<std::string>& notes) {
   const recording::Storage file = recording::read_storage(path);
   for (const recording::Repair& repair : file.repairs)
-    notes.push_back(fmt::format("{}:{}: {}", path.string(), repair.line, repair.message));
+    notes.push_back(recording::to_string(path, repair));
   const auto count = static_cast<Eigen::Index>(model.coordinates.size());
   Eigen::MatrixXd q(file.data.sample_count(), count);
   std::vector<Channel> channels;

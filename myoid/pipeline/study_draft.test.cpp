@@ -83,6 +83,22 @@ TEST(StudyDraft, WithoutARecordingIsRefused) {
   EXPECT_THROW((void)draft_study(folder.path(), {.from = {folder.path()}}), InvalidInput);
 }
 
+TEST(StudyDraft, OfAWalkingTrialTheJointIsThatOfTheChannelsAndTheGroundReactionComesAlong) {
+  const auto data = test::data_folder();
+  MYOID_REQUIRE_DATA(data / "gait-emg");
+  const test::TemporaryFolder folder;
+  const StudyDraft draft = draft_study(folder.path(), {.from = {data / "gait-emg"}});
+  const Study study = parse_study(draft.toml, folder / "study.toml");
+  EXPECT_EQ(study.model.coordinate, "knee_angle_r");
+  ASSERT_EQ(study.trials.size(), 1U);
+  EXPECT_EQ(study.trials[0].external_loads->filename(), "grf_walk.xml");
+  EXPECT_EQ(study.trials[0].emg->filename(), "emg_walk_raw.anc");
+  std::vector<std::string> emg;
+  for (const MuscleSpec& muscle : study.muscles) emg.push_back(muscle.emg);
+  EXPECT_THAT(emg, ::testing::UnorderedElementsAre("GAS", "MH", "BF", "VL", "VM", "RF"));
+  EXPECT_THAT(draft.notes, ::testing::Not(Contains(HasSubstr("grf_walk"))));
+}
+
 TEST(StudyDraft, OfTheElbowRecordingsPassesTheCheck) {
   const auto data = test::data_folder();
   MYOID_REQUIRE_DATA(data / "elbow-emg");

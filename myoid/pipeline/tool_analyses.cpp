@@ -68,7 +68,7 @@ kinematics::JointMotion read_motion(AnalysisRun& run,
     TimeSeries q = read_coordinates(run.model, *states, MissingCoordinate::default_value, notes);
     setup.check_range(range_s, q.time_s(), *states, notes);
     read_muscle_states(run, *states);
-    return motion_of(run.model, std::move(q), read_speeds(run.model, *states, false),
+    return motion_of(run.model, std::move(q), read_speeds(run.model, *states, false, notes),
                      with_accelerations);
   }
   const auto path = setup.file(tool, "coordinates_file");
@@ -81,7 +81,7 @@ kinematics::JointMotion read_motion(AnalysisRun& run,
   if (cutoff_hz > 0.0) q = signals::opensim_lowpass(q, cutoff_hz);
   std::optional<TimeSeries> speeds;
   if (const auto file = setup.file(tool, "speeds_file")) {
-    speeds = read_speeds(run.model, *file, true);
+    speeds = read_speeds(run.model, *file, true, notes);
     if (!speeds) {
       throw InvalidInput(fmt::format("{}: no column is the speed of a coordinate", file->string()));
     }

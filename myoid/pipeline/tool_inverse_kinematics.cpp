@@ -71,8 +71,7 @@ void run_inverse_kinematics(const OpensimSetup& setup,
   const auto marker_path = setup.required_file(trial, "marker_file");
   recording::MarkerFile file = recording::read_markers(marker_path);
   for (const recording::Repair& repair : file.repairs)
-    result.notes.push_back(
-        fmt::format("{}:{}: {}", marker_path.string(), repair.line, repair.message));
+    result.notes.push_back(recording::to_string(marker_path, repair));
   const auto range_s = setup.time_range(trial, "time_range");
   setup.check_range(range_s, file.markers.time_s, marker_path, result.notes);
   const recording::MarkerSeries markers =
