@@ -8,6 +8,7 @@
 #include "myoid/recording/recording.h"
 #include "myoid/recording/series_file.h"
 #include "myoid/signals/emg_envelope.h"
+#include "myoid/signals/emg_levels.h"
 #include "myoid/signals/emg_quality.h"
 
 namespace myoid::cli {

@@ -22,6 +22,7 @@
 #include "myoid/recording/storage_reader.h"
 #include "myoid/signals/clock_offset.h"
 #include "myoid/signals/emg_envelope.h"
+#include "myoid/signals/emg_levels.h"
 #include "myoid/signals/emg_quality.h"
 #include "myoid/signals/marker_quality.h"
 #include "myoid/signals/plate_quality.h"

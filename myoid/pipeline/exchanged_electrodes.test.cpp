@@ -25,23 +25,33 @@ void exchange(StudyData& data, std::size_t a, std::size_t b) {
 }
 
 TEST(ExchangedElectrodes, AreNoneWhereTheyAreNamedRight) {
-  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+  // Of seeds 1 to 150 with twice the noise one was suspected wrongly.
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     const auto found = exchanged_electrodes(person(seed), 0.06);
     EXPECT_FALSE(found) << seed << ": " << found->sentence();
   }
 }
 
-TEST(ExchangedElectrodes, BicepsAndTricepsAreFound) {
-  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
-    StudyData data = person(seed);
-    exchange(data, 0, 3);
-    const auto found = exchanged_electrodes(data, 0.06);
-    ASSERT_TRUE(found) << seed;
-    // The channels still bear the names of the muscles that they should be on.
-    EXPECT_EQ(found->first, "TRI") << seed;
-    EXPECT_EQ(found->second, "BIC") << seed;
-    EXPECT_NE(found->sentence().find("R2"), std::string::npos);
+TEST(ExchangedElectrodes, OfTwoSidesAreFoundAndOfOneSideWhereTheirSignalsDiffer) {
+  // Of seeds 1 to 150: biceps and triceps in 144, biceps and brachioradialis in 77.
+  int opposed = 0;
+  int synergists = 0;
+  constexpr int kPersons = 20;
+  for (std::uint64_t seed = 1; seed <= kPersons; ++seed) {
+    for (const std::size_t other : {3, 2}) {
+      StudyData data = person(seed);
+      exchange(data, 0, other);
+      const auto found = exchanged_electrodes(data, 0.06);
+      if (!found) continue;
+      // The channels still bear the names of the muscles that they should be on.
+      const std::string name = data.muscles[0].emg_channel;
+      const bool right = (found->first == name && found->second == "BIC") ||
+                         (found->first == "BIC" && found->second == name);
+      (other == 3 ? opposed : synergists) += right ? 1 : 0;
+    }
   }
+  EXPECT_GE(opposed, kPersons - 2);
+  EXPECT_GE(synergists, kPersons / 4);
 }
 
 TEST(FitOfLabels, IsThatOfTheMusclesThemselvesWhereTheyAreTheTruth) {

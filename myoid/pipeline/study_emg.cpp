@@ -3,7 +3,7 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include "myoid/pipeline/trial_emg.h"
-#include "myoid/signals/emg_quality.h"
+#include "myoid/signals/emg_levels.h"
 #include "myoid/signals/resample.h"
 
 namespace myoid::pipeline {

@@ -1,10 +1,8 @@
 #pragma once
 
-#include <span>
 #include <vector>
 
 #include "myoid/core/time_series.h"
-#include "myoid/signals/emg_envelope.h"
 #include "myoid/signals/fault.h"
 #include "myoid/signals/quality_limits.h"
 
@@ -35,11 +33,5 @@ namespace myoid::signals {
 [[nodiscard]] bool is_envelope(const Eigen::Ref<const Eigen::VectorXd>& samples,
                                double rate_hz,
                                const QualityLimits& limits = {});
-
-/// Looks at all trials together, channel by channel: does the signal rise from rest (largest 0.5 s
-/// mean over smallest 1 s mean), and does no movement exceed the maximal contractions? Channels
-/// that some trial does not have are looked at where they are.
-[[nodiscard]] std::vector<Fault> check_emg_levels(std::span<const TrialEnvelope> trials,
-                                                  const QualityLimits& limits = {});
 
 }  // namespace myoid::signals

@@ -145,55 +145,5 @@ TEST(EmgQuality, WhatTwoChannelsHaveInCommonIsCrosstalk) {
   EXPECT_NE(same[0].text.find("the same signal"), std::string::npos);
 }
 
-TimeSeries envelope(const std::vector<double>& levels) {
-  const auto n = static_cast<Eigen::Index>(levels.size()) * 200;
-  Eigen::MatrixXd x(n, 1);
-  for (Eigen::Index i = 0; i < n; ++i) x(i, 0) = levels[static_cast<std::size_t>(i / 200)];
-  return {Eigen::VectorXd::LinSpaced(n, 0.0, 0.01 * static_cast<double>(n - 1)),
-          {{"BIC", Unit::volt}},
-          x};
-}
-
-TEST(EmgLevels, AMuscleThatRestsAndWorksIsNotComplainedOf) {
-  const TimeSeries movement = envelope({1e-6, 5e-5});
-  const TimeSeries mvc = envelope({1e-6, 1e-4});
-  const std::vector<TrialEnvelope> trials{{"move", false, &movement}, {"mvc", true, &mvc}};
-  EXPECT_TRUE(check_emg_levels(trials).empty());
-}
-
-TEST(EmgLevels, AChannelThatHardlyRisesIsNamed) {
-  const TimeSeries movement = envelope({1e-5, 3e-5});
-  const std::vector<TrialEnvelope> trials{{"move", false, &movement}};
-  const auto faults = check_emg_levels(trials);
-  ASSERT_EQ(faults.size(), 1U);
-  EXPECT_EQ(faults[0].kind, FaultKind::emg_low_signal);
-  EXPECT_NEAR(faults[0].value, 3.0, 1e-9);
-}
-
-/// Bursts of 0.3 s in a cycle of 1.1 s: the second of lowest mean always holds most of one.
-TEST(EmgLevels, TwoStepsOfWalkingAreNotComplainedOf) {
-  const Eigen::Index n = 240;
-  Eigen::MatrixXd x(n, 1);
-  for (Eigen::Index i = 0; i < n; ++i)
-    x(i, 0) = 1e-6 +
-              4e-5 * std::exp(-0.5 *
-                              std::pow((std::fmod(0.01 * static_cast<double>(i), 1.1) - 0.5) / 0.12,
-                                       2.0));
-  const TimeSeries walk(Eigen::VectorXd::LinSpaced(n, 0.0, 2.39), {{"GAS", Unit::volt}}, x);
-  const std::vector<TrialEnvelope> trials{{"walk", false, &walk}};
-  EXPECT_TRUE(check_emg_levels(trials).empty());
-}
-
-TEST(EmgLevels, AMovementAboveTheMaximalContractionIsNamedWithTrialAndTime) {
-  const TimeSeries movement = envelope({1e-6, 1.3e-4, 1e-6});
-  const TimeSeries mvc = envelope({1e-6, 1e-4});
-  const std::vector<TrialEnvelope> trials{{"move", false, &movement}, {"mvc", true, &mvc}};
-  const auto faults = check_emg_levels(trials);
-  ASSERT_EQ(faults.size(), 1U);
-  EXPECT_EQ(faults[0].kind, FaultKind::emg_over_reference);
-  EXPECT_NEAR(faults[0].value, 1.3, 1e-9);
-  EXPECT_NE(faults[0].text.find("(mvc) in move at "), std::string::npos) << faults[0].text;
-}
-
 }  // namespace
 }  // namespace myoid::signals
