@@ -242,9 +242,12 @@ void report_estimates(const Estimator& estimator,
         if (of.muscle == data.muscles[k].name) v.muscle_distance = of.distance;
       }
       const MuscleValues& values = result.values.muscles[k];
-      if (!exact)
-        (p.field->field == kWidth ? v.relative_width : v.curve_width) =
-            values[kWidth] / values[kFiberLength];
+      const double width = exact ? 0.0 : values[kWidth] / values[kFiberLength];
+      if (p.field->field == kWidth) {
+        v.relative_width = width;
+      } else if (p.targets.size() == 1) {
+        v.curve_width = width;
+      }
       for (std::size_t other = 0; other < muscles; ++other) {
         if (other != k && data.muscles[other].emg_channel == data.muscles[k].emg_channel)
           v.shares_electrode_with = data.muscles[other].name;
