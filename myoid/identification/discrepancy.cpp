@@ -53,12 +53,16 @@ Discrepancy discrepancy(const Estimator& estimator,
   if (weighting.emg_variance.size() > 0) {
     // The noise of the EMG is in the shapes and in the residual alike: that product has a mean.
     const Eigen::MatrixXd noisy =
-        shapes.weight.asDiagonal() * shapes.by_emg * shapes.shapes_nm * root.asDiagonal();
+        shapes.weight.asDiagonal() * shapes.by_emg * shapes.unfiltered * root.asDiagonal();
     for (Eigen::Index b = 0; b < h.size(); ++b) {
       const int channel = shapes.channel[static_cast<std::size_t>(b)];
       if (channel < 0) continue;
       h[b] += estimator.channel_variance()[channel] *
-              (noisy.row(b).transpose().cwiseProduct(root).cwiseProduct(weighting.emg_variance))
+              (noisy.row(b)
+                   .transpose()
+                   .cwiseProduct(root)
+                   .cwiseProduct(weighting.emg_variance)
+                   .cwiseProduct(model.noise_gain().row(channel).transpose()))
                   .dot(at.channel_torque.row(channel).transpose());
     }
   }

@@ -47,7 +47,7 @@ double explained_share(const ResidualModel& model, const Eigen::VectorXd& z) {
 
 struct Intervals {
   Sandwich sandwich;
-  Eigen::MatrixXd model_error;  ///< Further covariance.
+  Eigen::MatrixXd model_error;  ///< Further covariance: of the model, and of how noisy the EMG is.
   std::optional<BootstrapResult> bootstrap;
   std::optional<std::vector<Interval>> profiles;
 };
@@ -234,6 +234,7 @@ void report_estimates(const Estimator& estimator,
     intervals.model_error = error.covariance;
     result.model_error = error.relative_size;
   }
+  intervals.model_error += intervals.sandwich.by_noise * intervals.sandwich.by_noise.transpose();
   result.covariance = intervals.sandwich.newey_west + intervals.model_error;
   result.condition = intervals.sandwich.condition;
   if (options.intervals.bootstrap > 0) {
