@@ -401,15 +401,15 @@ TEST(Sandwich, WhereNothingIsMultipliedByEmgItsNoiseMovesNothing) {
   // The joint's own torque alone: no muscle is an unknown.
   ElbowStudy study = elbow_study({.trials = 2, .seconds = 10.0, .torque_sd_nm = 0.5});
   for (MuscleSetup& setup : study.data.muscles) {
-    for (const muscle::HillField& field : muscle::kHillFields)
-      setup.fixed.emplace_back(field.name);
+    for (const muscle::HillField& field : muscle::kHillFields) setup.fixed.emplace_back(field.name);
   }
   study.data.rules.push_back(
       {.parameter = "joint_torque_offset", .free = true, .prior_mean = 0.0, .prior_sd = 1.0});
   const Estimator still(study.data, {.delay_s = 0.05, .starts = 1});
   const Estimator::Solution solution = still.solve(still.model().parameters().start());
   EXPECT_EQ(sandwich(still, solution).by_noise.norm(), 0.0);
-  // With strengths to find it moves them, and towards stronger ones: more noise, more to make up for.
+  // With strengths to find it moves them, and towards stronger ones: more noise, more to make up
+  // for.
   const ElbowStudy whole = elbow_study(
       {.trials = 2, .seconds = 10.0, .emg_cv = 0.08, .torque_sd_nm = 0.5, .with_priors = true});
   EstimatorOptions options{.starts = 1};

@@ -79,10 +79,10 @@ TEST(Performance, WhatIsBesideTheMusclesHasItsPartInTheEquationOfMotion) {
     for (std::size_t i = 0; i < 4; ++i) {
       muscle::HillParameters<double> p = muscles[i];
       p.optimal_fiber_length_m *= 1.0 + 0.15 * (1.0 - now.activation[i]);
-      torque_nm += geometry.moment_arm_m[i] *
-                   muscle::hill_force(now.activation[i],
-                                      geometry.length_m[i] - p.tendon_slack_length_m,
-                                      geometry.velocity_mps[i], p);
+      torque_nm +=
+          geometry.moment_arm_m[i] *
+          muscle::hill_force(now.activation[i], geometry.length_m[i] - p.tendon_slack_length_m,
+                             geometry.velocity_mps[i], p);
     }
     // Activations are turned in until they change by 1e-10, of some 100 N m at the most.
     EXPECT_NEAR(torque_nm,
