@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <set>
+#include <string>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -66,8 +68,13 @@ void add_check(CLI::App& app, Context& context) {
       }
       fmt::print("{}\n", json.dump(2));
     } else {
-      for (const auto& f : findings)
-        fmt::print("{:<8} {}: {}\n", name(f.level), f.where, f.message);
+      // What to do is said with the first of several faults that ask for the same.
+      std::set<std::string> said;
+      for (const auto& f : findings) {
+        const bool again =
+            f.fault && !f.fault->remedy.empty() && !said.insert(f.fault->remedy).second;
+        fmt::print("{:<8} {}: {}\n", name(f.level), f.where, again ? f.fault->text : f.message);
+      }
       fmt::print("{}: {}, {}\n", what, counted(errors, "error"),
                  counted(static_cast<long>(findings.size()) - errors, "remark"));
     }

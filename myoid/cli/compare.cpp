@@ -1,7 +1,10 @@
+#include <filesystem>
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "myoid/cli/context.h"
+#include "myoid/core/error.h"
 #include "myoid/pipeline/compare_runs.h"
 
 namespace myoid::cli {
@@ -65,6 +68,11 @@ void add_compare(CLI::App& app, Context& context) {
   command.add_option("--out", options->out, "Folder for report.html, figures and tables");
   add_common_options(command, context, {.threads = false, .seed = false, .range = false});
   command.callback([&context, options] {
+    std::error_code ignored;
+    if (std::filesystem::equivalent(options->first, options->second, ignored)) {
+      throw InvalidInput(
+          fmt::format("{} and {} are one folder; name two runs", options->first, options->second));
+    }
     const pipeline::RunComparison comparison =
         pipeline::compare_runs(options->first, options->second);
     for (const std::string& text : comparison.unlike)

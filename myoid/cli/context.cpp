@@ -114,8 +114,17 @@ void Context::prepare_file(const std::filesystem::path& path,
   }
   refuse_existing(path);
   const fs::path folder = path.parent_path();
-  if (!folder.empty() && !fs::exists(folder, ignored))
-    log(fmt::format("the folder {} does not exist yet; it is made", folder.string()));
+  if (!folder.empty() && !fs::exists(folder, ignored) &&
+      std::find(new_folders.begin(), new_folders.end(), folder) == new_folders.end())
+    new_folders.push_back(folder);
+}
+
+void Context::tell_new_folders() const {
+  std::error_code ignored;
+  for (const std::filesystem::path& folder : new_folders) {
+    if (std::filesystem::exists(folder, ignored))
+      log(fmt::format("the folder {} was not there; it was made", folder.string()));
+  }
 }
 
 void Context::protect_inputs(const std::filesystem::path& folder,
@@ -165,7 +174,7 @@ void add_common_options(CLI::App& command, Context& context, const CommonOptions
   std::vector<CLI::Option*> idle;
   const auto unless = [&](bool has_effect, CLI::Option* option) {
     if (has_effect) return;
-    option->group("");
+    option->group(kIdleGroup);
     idle.push_back(option);
   };
   unless(used.threads,

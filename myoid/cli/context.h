@@ -45,6 +45,7 @@ struct Context {
   std::string command_line;
   std::stop_source stop;
   int exit_code = kDone;
+  mutable std::vector<std::filesystem::path> new_folders;  ///< Of prepare_file; not there before.
   std::shared_ptr<oneapi::tbb::global_control> thread_limit;  ///< While it lives, --threads holds.
 
   /// One line on stderr, unless --quiet.
@@ -58,10 +59,12 @@ struct Context {
   /// Throws InvalidInput with the remedy if there is such a file and --overwrite was not given.
   void refuse_existing(const std::filesystem::path& path) const;
   /// For a result that is one file. Throws InvalidInput with the remedy if `path` is one of the
-  /// `inputs` (with --overwrite too), or exists and --overwrite was not given. Says on stderr which
-  /// folder will be made for it.
+  /// `inputs` (with --overwrite too), or exists and --overwrite was not given. Remembers a folder
+  /// that is not there yet, for `tell_new_folders`.
   void prepare_file(const std::filesystem::path& path,
                     const std::vector<std::string>& inputs) const;
+  /// Says on stderr, once each, which folders were made for single files: a slip in --out is seen.
+  void tell_new_folders() const;
   /// Creates the folder for results; one that holds anything but `unless_only` needs --overwrite.
   void prepare_folder(const std::filesystem::path& folder, std::string_view unless_only = "") const;
   /// Throws InvalidInput if one of the `inputs` lies in `folder` under a name that begins like one
@@ -70,6 +73,10 @@ struct Context {
                       const std::vector<std::string_view>& results,
                       const std::vector<std::string>& inputs) const;
 };
+
+/// Group of the options that are accepted and do nothing: no help shows it. (An empty group, which
+/// CLI11 hides, would take the option's name out of error messages too.)
+inline constexpr const char* kIdleGroup = "without effect";
 
 /// Which of the common options a command uses. All are accepted everywhere; one without effect is
 /// left out of the help, and warned of when given.

@@ -13,6 +13,7 @@
 #include "myoid/recording/bids_derivative.h"
 #include "myoid/recording/c3d_reader.h"
 #include "myoid/recording/c3d_writer.h"
+#include "myoid/recording/emg_channels.h"
 #include "myoid/recording/emg_reader.h"
 #include "myoid/recording/ground_reaction.h"
 #include "myoid/recording/make_c3d.h"
@@ -117,6 +118,13 @@ class Converter {
     const std::string to = recording::extension_of(out);
     const bool folder = to.empty();
     if (std::error_code ignored; fs::is_directory(o_.in, ignored)) {
+      for (const char* ending : {".c3d", ".trc", ".sto", ".mot", ".csv", ".tsv", ".edf", ".bdf"}) {
+        if (to == ending)
+          throw InvalidInput(fmt::format(
+              "{} is a folder; the results in it are written as a BIDS derivative, which is a "
+              "folder too: give one as OUT instead of {}",
+              o_.in, o_.out));
+      }
       context_.prepare_folder(out);
       for (const fs::path& file : recording::write_bids_derivative(o_.in, out, o_.subject))
         wrote(file);
@@ -152,9 +160,18 @@ class Converter {
     }
   }
 
-  void report(const std::vector<recording::Repair>& repairs) const {
+  void report(const std::vector<recording::Repair>& repairs) const { report(o_.in, repairs); }
+  void report(const std::string& path, const std::vector<recording::Repair>& repairs) const {
     for (const recording::Repair& repair : repairs)
-      context_.warn(fmt::format("{}: {}", o_.in, recording::to_string(repair)));
+      context_.warn(recording::to_string(path, repair));
+  }
+
+  /// Voltages of a file, in --unit where it does not say.
+  [[nodiscard]] TimeSeries voltages(const std::string& path) const {
+    recording::EmgFile file = recording::read_emg(path, o_.unit, false);
+    report(path, file.repairs);
+    if (!file.unit_conflict.empty()) context_.warn(fmt::format("{}: {}", path, file.unit_conflict));
+    return std::move(file.data);
   }
 
   void wrote(const fs::path& path) { written_.push_back(path.string()); }
@@ -202,9 +219,7 @@ class Converter {
   void channels(const fs::path& out) {
     context_.prepare_file(out, {o_.in, o_.analog});
     if (o_.what == "emg" || !o_.unit.empty()) {
-      recording::EmgFile file = recording::read_emg(o_.in, o_.unit, false);
-      report(file.repairs);
-      write_channels(out, chosen(file.data));
+      write_channels(out, chosen(voltages(o_.in)));
     } else {
       recording::Recording file = recording::read_recording(o_.in);
       report(file.repairs);
@@ -262,9 +277,8 @@ class Converter {
       context_.prepare_file(out, {o_.in, o_.analog});
       write_channels(out, chosen(file.analog));
       wrote(out);
-      std::vector<std::string> volts;
-      for (const Channel& c : file.analog.channels())
-        if (c.unit == Unit::volt) volts.push_back(c.name);
+      const std::vector<std::string> volts =
+          recording::emg_channels(file.analog.channels(), file.plates);
       if (o_.channels.empty() && !volts.empty() &&
           volts.size() < static_cast<std::size_t>(file.analog.channel_count())) {
         const fs::path emg = folder / (stem + "_emg.sto");
@@ -292,12 +306,13 @@ class Converter {
     report(file.repairs);
     recording::AnalogChannels analog = std::move(file.analog);
     if (!o_.analog.empty()) {
-      recording::Recording other =
-          o_.unit.empty() ? recording::read_recording(o_.analog) : recording::Recording{};
-      if (!o_.unit.empty()) other.analog = recording::read_emg(o_.analog, o_.unit, false).data;
-      for (const recording::Repair& repair : other.repairs)
-        context_.warn(fmt::format("{}: {}", o_.analog, recording::to_string(repair)));
-      analog = std::move(other.analog);
+      if (o_.unit.empty()) {
+        recording::Recording other = recording::read_recording(o_.analog);
+        report(o_.analog, other.repairs);
+        analog = std::move(other.analog);
+      } else {
+        analog = voltages(o_.analog);
+      }
     }
     recording::MarkerSeries markers = file.markers;
     if (markers.frame_count() > 0)

@@ -6,10 +6,32 @@
 #include "myoid/core/error.h"
 #include "myoid/recording/emg_reader.h"
 #include "myoid/recording/recording.h"
+#include "myoid/recording/series_file.h"
 #include "myoid/signals/emg_envelope.h"
 #include "myoid/signals/emg_quality.h"
 
 namespace myoid::cli {
+namespace {
+
+/// What can be filtered and normalized at all.
+void require_emg(const std::string& path, const TimeSeries& emg) {
+  constexpr Eigen::Index kFewest = 10;
+  if (emg.sample_count() < kFewest)
+    throw ReadError(path, 0,
+                    fmt::format("only {} {}; at least {} are needed", emg.sample_count(),
+                                emg.sample_count() == 1 ? "sample" : "samples", kFewest));
+  for (Eigen::Index c = 0; c < emg.channel_count(); ++c) {
+    const auto x = emg.values().col(c);
+    if (x.maxCoeff() > x.minCoeff()) continue;
+    throw ReadError(
+        path, 0,
+        fmt::format("channel '{}' has the same value throughout: nothing was connected; "
+                    "leave the column out",
+                    emg.channels()[static_cast<std::size_t>(c)].name));
+  }
+}
+
+}  // namespace
 
 void add_emg(CLI::App& app, Context& context) {
   CLI::App& command =
@@ -65,6 +87,7 @@ void add_emg(CLI::App& app, Context& context) {
         context.warn(fmt::format("{}: {}", path, recording::to_string(repair)));
       if (!file.unit_conflict.empty())
         context.warn(fmt::format("{}: {}", path, file.unit_conflict));
+      require_emg(path, file.data);
       o->chain.notch = !o->no_notch;
       o->chain.whitening = !o->no_whitening;
       for (const signals::Fault& fault : signals::check_emg(file.data, !o->chain.as_published)) {
@@ -95,9 +118,13 @@ void add_emg(CLI::App& app, Context& context) {
     }
     const TimeSeries& envelope = stages.front().envelope;
     const auto normalisation = signals::find_normalisation(trials, {.window_s = o->window_s});
-    write_series(o->out, cut(signals::normalise(envelope, normalisation), context), "Activation");
+    for (const signals::Fault& fault : signals::check_emg_levels(trials)) {
+      if (fault.grave) context.warn(signals::sentence(fault));
+    }
+    recording::write_series(o->out, cut(signals::normalise(envelope, normalisation), context),
+                            "Activation");
     if (!o->envelope.empty())
-      write_series(o->envelope, cut(envelope, context), "EMG envelope volt");
+      recording::write_series(o->envelope, cut(envelope, context), "EMG envelope volt");
     if (context.json) {
       nlohmann::ordered_json json{{"out", o->out}};
       json["channels"] = nlohmann::ordered_json::array();

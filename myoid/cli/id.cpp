@@ -11,6 +11,8 @@
 #include "myoid/dynamics/held_mass.h"
 #include "myoid/dynamics/inverse_dynamics.h"
 #include "myoid/model/arm4.h"
+#include "myoid/pipeline/ground_support.h"
+#include "myoid/recording/series_file.h"
 
 namespace myoid::cli {
 
@@ -76,7 +78,10 @@ void add_id(CLI::App& app, Context& context) {
     if (!o->loads.empty()) loads = load_external_loads(model, o->loads, motion, context);
     const TimeSeries forces =
         dynamics::inverse_dynamics(model, motion, {.loads = loads ? &*loads : nullptr});
-    write_series(o->out, forces, "Inverse Dynamics Generalized Forces");
+    if (const auto weight = pipeline::unsupported_weight(model, forces);
+        weight && pipeline::stands(model, motion.q.values().row(0).transpose()))
+      context.warn(weight->sentence());
+    recording::write_series(o->out, forces, "Inverse Dynamics Generalized Forces");
     if (context.json) {
       nlohmann::ordered_json json{{"out", o->out}, {"samples", forces.sample_count()}};
       for (Eigen::Index c = 0; c < forces.channel_count(); ++c) {

@@ -69,7 +69,7 @@ void add_ik(CLI::App& app, Context& context) {
       model.coordinates[static_cast<std::size_t>(model.coordinate_index(name))].locked = false;
     recording::MarkerFile file = recording::read_markers(o->markers);
     for (const recording::Repair& repair : file.repairs)
-      context.warn(fmt::format("{}: {}", o->markers, recording::to_string(repair)));
+      context.warn(recording::to_string(o->markers, repair));
     recording::MarkerSeries markers =
         recording::rotated(std::move(file.markers), recording::rotation_to_y_up(o->up[0]));
     if (context.start_s || context.end_s) {

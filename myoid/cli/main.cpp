@@ -98,6 +98,12 @@ class CapitalPositionals : public CLI::Formatter {
     return is_positional ? capitals(CLI::Formatter::make_option_name(option, true))
                          : CLI::Formatter::make_option_name(option, false);
   }
+  std::string make_group(std::string group,
+                         bool is_positional,
+                         std::vector<const CLI::Option*> options) const override {
+    if (group == myoid::cli::kIdleGroup) return "";
+    return CLI::Formatter::make_group(std::move(group), is_positional, std::move(options));
+  }
   std::string make_option_usage(const CLI::Option* option) const override {
     return capitals(CLI::Formatter::make_option_usage(option));
   }
@@ -137,6 +143,7 @@ int run(int argc, char** argv, myoid::cli::Context& context) {
     const int code = app.exit(error);
     return code == 0 ? myoid::cli::kDone : myoid::cli::kWrongCommandLine;
   }
+  context.tell_new_folders();
   if (app.get_subcommands().empty()) fmt::print("{}", app.help());
   return context.exit_code;
 }

@@ -24,7 +24,7 @@ pipeline::MuscleColoring coloring(const std::string& name,
                                   const Context& context) {
   recording::Storage file = recording::read_storage(path);
   for (const recording::Repair& repair : file.repairs)
-    context.warn(fmt::format("{}: {}", path, recording::to_string(repair)));
+    context.warn(recording::to_string(path, repair));
   return {name, unit, std::move(file.data)};
 }
 
@@ -82,7 +82,7 @@ std::string write_model_page(const std::string& model_file,
   if (!options.markers.empty()) {
     recording::MarkerFile file = recording::read_markers(options.markers);
     for (const recording::Repair& repair : file.repairs)
-      context.warn(fmt::format("{}: {}", options.markers, recording::to_string(repair)));
+      context.warn(recording::to_string(options.markers, repair));
     markers =
         recording::rotated(std::move(file.markers), recording::rotation_to_y_up(options.up[0]));
     input.markers = &*markers;

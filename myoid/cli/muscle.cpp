@@ -14,6 +14,8 @@
 #include "myoid/muscle/isolated_muscle.h"
 #include "myoid/pipeline/muscle_file.h"
 #include "myoid/recording/atomic_file.h"
+#include "myoid/recording/recording.h"
+#include "myoid/recording/series_file.h"
 #include "myoid/recording/storage_writer.h"
 #include "myoid/recording/text_file.h"
 
@@ -33,8 +35,11 @@ struct Column {
   std::string name;
 };
 
-Column read_column(const std::string& path, const std::string& wanted) {
-  const TimeSeries series = read_series(path);
+Column read_column(const std::string& path, const std::string& wanted, const Context& context) {
+  const recording::SeriesFile file = recording::read_series(path);
+  for (const recording::Repair& repair : file.repairs)
+    context.warn(recording::to_string(path, repair));
+  const TimeSeries& series = file.data;
   std::string names;
   for (const Channel& channel : series.channels())
     names += (names.empty() ? "" : ", ") + channel.name;
@@ -68,7 +73,7 @@ void read_drive(const Options& o, const Context& context, muscle::IsolatedMuscle
     input.drive = Eigen::VectorXd::Constant(1, *constant);
     return;
   }
-  const Column column = read_column(drive, "");
+  const Column column = read_column(drive, "", context);
   input.drive_time_s = column.time_s;
   input.drive = column.values;
   const Eigen::Index last = column.time_s.size() - 1;
@@ -102,7 +107,7 @@ muscle::IsolatedMuscleInput read_input(const Options& o,
                                        const pipeline::MuscleFile& file,
                                        const Context& context) {
   const std::string& path = o.lengths[index];
-  Column length = read_column(path, o.column);
+  Column length = read_column(path, o.column, context);
   cut(length, context);
   muscle::IsolatedMuscleInput input;
   input.time_s = length.time_s;
@@ -116,12 +121,13 @@ muscle::IsolatedMuscleInput read_input(const Options& o,
   }
   const double usual =
       file.parameters.hill.optimal_fiber_length_m + file.parameters.hill.tendon_slack_length_m;
+  // No muscle shortens to a third or lengthens to the triple of fiber and tendon at rest.
   if (input.length_m.size() > 0 &&
-      (input.length_m.mean() > 3.0 * usual || input.length_m.mean() < 0.3 * usual)) {
+      (input.length_m.maxCoeff() > 3.0 * usual || input.length_m.minCoeff() < 0.3 * usual)) {
     throw InvalidInput(fmt::format(
-        "{}: the length is {:g} m on average, fiber and tendon together are about {:g} m; "
-        "expected meters (see --scale and --offset)",
-        path, input.length_m.mean(), usual));
+        "{}: the length goes from {:g} to {:g} m, fiber and tendon together are about {:g} m; "
+        "expected meters (see --scale and --offset), and not the file of forces",
+        path, input.length_m.minCoeff(), input.length_m.maxCoeff(), usual));
   }
   read_drive(o, context, input);
   input.dynamics = file.activation;
@@ -149,7 +155,7 @@ void fit(const Options& o, Context& context, const pipeline::MuscleFile& file) {
   const muscle::IsolatedModel start{file.parameters, file.laws, file.millard};
   std::vector<muscle::IsolatedRecording> recordings;
   for (std::size_t i = 0; i < o.lengths.size(); ++i) {
-    const Column force = read_column(o.measured[i], "");
+    const Column force = read_column(o.measured[i], "", context);
     recordings.push_back(
         {o.measured[i], read_input(o, i, file, context), force.time_s, force.values});
   }
@@ -247,7 +253,7 @@ void run(const Options& o, Context& context) {
   options.progress = context.progress();
   std::optional<Column> measured;
   if (!o.measured.empty()) {
-    measured = read_column(o.measured.front(), "");
+    measured = read_column(o.measured.front(), "", context);
     options.output_time_s = measured->time_s;
   }
   const muscle::IsolatedMuscleResult result = simulate_isolated_muscle(unit, input, options);
@@ -272,6 +278,14 @@ void run(const Options& o, Context& context) {
         o.isometric_n > 0.0 ? o.isometric_n : file.parameters.hill.max_isometric_force_n;
     const double error = (force - measured->values).cwiseAbs().mean();
     comparison = Comparison{error, error / over, force.size()};
+    // Whoever guesses half of the maximum misses no force between none and it by more than half.
+    if (comparison->share > 0.5) {
+      context.warn(
+          fmt::format("the force misses the measured one by {:.0f} % of {:g} N, more than a guess "
+                      "would: are --length and --measured exchanged, in another unit, or of "
+                      "another muscle?",
+                      100.0 * comparison->share, over));
+    }
   }
   if (context.json) {
     nlohmann::json json{{"muscle", file.name},

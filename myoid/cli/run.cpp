@@ -10,9 +10,9 @@
 
 #include "myoid/cli/context.h"
 #include "myoid/core/error.h"
+#include "myoid/pipeline/parameter_files.h"
 #include "myoid/pipeline/parameter_tables.h"
 #include "myoid/pipeline/quality_gates.h"
-#include "myoid/pipeline/parameter_files.h"
 #include "myoid/pipeline/result_files.h"
 #include "myoid/pipeline/run_study.h"
 #include "myoid/pipeline/study_json.h"
@@ -67,7 +67,9 @@ void print_method(const identification::IdentificationResult& method, std::size_
 void print_predictions(const pipeline::StudyResult& result) {
   if (!result.folds.empty()) {
     fmt::print(
-        "\nleave one trial out: torque predicted for a trial that took no part in the fit\n");
+        "\nleave one trial out: torque predicted for a trial that took no part in the fit (R2 "
+        "about "
+        "that trial's own mean)\n");
     fmt::print("{:<20} {:>10} {:>8} {:>26} {:>8}\n", "trial", "RMSE [N m]", "R2",
                "literature x gain: RMSE", "R2");
     for (const identification::Fold& f : result.folds) {

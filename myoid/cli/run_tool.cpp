@@ -24,17 +24,12 @@ void add_run_tool(CLI::App& app, Context& context) {
       ->check(CLI::IsMember({"opensim", "exact"}));
   add_common_options(command, context, {.seed = false, .range = false, .overwrite = false});
   command.callback([&context, o] {
-    pipeline::ToolOptions options{.compat = model::parse_compat(o->compat),
-                                  .progress = context.progress()};
-    int replaced = 0;
-    options.claim = [&](const std::filesystem::path& path) {
-      std::error_code ignored;
-      if (std::filesystem::exists(path, ignored)) ++replaced;
-    };
-    const pipeline::ToolResult result = pipeline::run_tool(o->setup, options);
+    const pipeline::ToolResult result = pipeline::run_tool(
+        o->setup, {.compat = model::parse_compat(o->compat), .progress = context.progress()});
     context.end_progress();
     for (const std::string& note : result.notes) context.warn(note);
-    if (replaced > 0) context.log(fmt::format("{} files of an earlier run are replaced", replaced));
+    if (result.replaced > 0)
+      context.log(fmt::format("{} files of an earlier run are replaced", result.replaced));
     if (context.json) {
       nlohmann::ordered_json json{{"tool", result.tool},
                                   {"summary", result.summary},

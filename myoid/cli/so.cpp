@@ -10,9 +10,11 @@
 #include "myoid/dynamics/external_loads.h"
 #include "myoid/forces/force_sharing.h"
 #include "myoid/forces/sharing_input.h"
+#include "myoid/pipeline/ground_support.h"
 #include "myoid/pipeline/muscle_force_law.h"
 #include "myoid/pipeline/stage_files.h"
 #include "myoid/pipeline/study_model.h"
+#include "myoid/recording/recording.h"
 #include "myoid/recording/storage_reader.h"
 #include "myoid/signals/resample.h"
 
@@ -70,6 +72,9 @@ void add_so(CLI::App& app, Context& context) {
                            {o->model, o->motion, o->emg, o->loads});
     std::optional<dynamics::ExternalLoads> loads;
     if (!o->loads.empty()) loads = load_external_loads(model, o->loads, motion, context);
+    if (const auto weight = pipeline::unsupported_weight(model);
+        weight && !loads && pipeline::stands(model, motion.q.values().row(0).transpose()))
+      context.warn(weight->sentence());
     const forces::SharingInput input =
         forces::sharing_input(model, motion, o->coordinates, loads ? &*loads : nullptr);
     for (const std::string& note : input.notes) context.warn(note);
@@ -79,7 +84,10 @@ void add_so(CLI::App& app, Context& context) {
     for (const model::Muscle& muscle : model.muscles)
       options.min_activation = std::min(options.min_activation, muscle.properties.min_control);
     if (!o->emg.empty()) {
-      options.emg = signals::resample(recording::read_storage(o->emg).data, motion.q.time_s());
+      const recording::Storage emg = recording::read_storage(o->emg);
+      for (const recording::Repair& repair : emg.repairs)
+        context.warn(recording::to_string(o->emg, repair));
+      options.emg = signals::resample(emg.data, motion.q.time_s());
       options.emg_weight = o->emg_weight;
     }
     const bool elastic = o->tendon == "elastic";

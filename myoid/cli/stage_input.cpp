@@ -6,9 +6,8 @@
 #include "myoid/model/arm4.h"
 #include "myoid/model/osim_reader.h"
 #include "myoid/model/path_survey.h"
-#include "myoid/recording/csv_reader.h"
+#include "myoid/recording/recording.h"
 #include "myoid/recording/storage_reader.h"
-#include "myoid/recording/storage_writer.h"
 #include "myoid/signals/clock_gaps.h"
 
 namespace myoid::cli {
@@ -77,7 +76,7 @@ kinematics::JointMotion with_derivatives(kinematics::JointMotion motion,
     if (path.empty()) return;
     const recording::Storage file = recording::read_storage(path);
     for (const recording::Repair& repair : file.repairs)
-      context.warn(fmt::format("{}:{}: {}", path.string(), repair.line, repair.message));
+      context.warn(recording::to_string(path, repair));
     const TimeSeries given =
         cut(recording::to_si(file,
                              [&](const std::string& name) {
@@ -119,7 +118,7 @@ kinematics::JointMotion load_motion(const model::BodyModel& model,
                                     const Context& context) {
   const recording::Storage file = recording::read_storage(path);
   for (const recording::Repair& repair : file.repairs)
-    context.warn(fmt::format("{}:{}: {}", path.string(), repair.line, repair.message));
+    context.warn(recording::to_string(path, repair));
   const TimeSeries q = recording::to_si(file, [&](const std::string& name) {
     const auto c = model.find_coordinate(name);
     return c &&
@@ -169,33 +168,6 @@ dynamics::ExternalLoads load_external_loads(const model::BodyModel& model,
         path.string(), loads.start_s, loads.end_s, time_s[0], time_s[time_s.size() - 1]));
   }
   return loads;
-}
-
-TimeSeries read_series(const std::filesystem::path& path) {
-  for (const char* table : {".csv", ".tsv", ".txt"}) {
-    if (recording::equal_ignoring_case(path.extension().string(), table))
-      return recording::read_csv_series(path).data;
-  }
-  return recording::read_storage(path).data;
-}
-
-void write_series(const std::filesystem::path& path,
-                  const TimeSeries& series,
-                  const std::string& title) {
-  const std::string extension = path.extension().string();
-  std::error_code ignored;
-  const auto status = std::filesystem::status(path, ignored);
-  if (recording::equal_ignoring_case(extension, ".csv")) {
-    recording::write_csv(path, series);
-  } else if (recording::equal_ignoring_case(extension, ".sto") ||
-             recording::equal_ignoring_case(extension, ".mot") ||
-             (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))) {
-    recording::write_storage(path, series, {.title = title});
-  } else {
-    throw InvalidInput(
-        fmt::format("{}: expected a name that ends in .sto, .mot or .csv, found '{}'",
-                    path.string(), extension));
-  }
 }
 
 }  // namespace myoid::cli

@@ -44,15 +44,6 @@ void warn_of_path_differences(const model::BodyModel& model,
                                                           const kinematics::JointMotion& motion,
                                                           const Context& context);
 
-/// A series from a table (.csv, .tsv, .txt) or a storage file (.sto, .mot), by the file's name.
-[[nodiscard]] TimeSeries read_series(const std::filesystem::path& path);
-
-/// Writes a series in the format that the file's name asks for: .csv a table ("name [V]" in the
-/// header row), .sto or .mot a storage file of this title. Throws InvalidInput for other names.
-void write_series(const std::filesystem::path& path,
-                  const TimeSeries& series,
-                  const std::string& title);
-
 /// The series cut to --start/--end.
 [[nodiscard]] TimeSeries cut(const TimeSeries& series, const Context& context);
 

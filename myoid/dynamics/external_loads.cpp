@@ -7,6 +7,7 @@
 
 #include "myoid/core/error.h"
 #include "myoid/model/osim_xml.h"
+#include "myoid/recording/recording.h"
 #include "myoid/recording/storage_reader.h"
 #include "myoid/recording/text_file.h"
 
@@ -225,9 +226,12 @@ ExternalLoads read_external_loads(const model::BodyModel& model,
   }
   std::replace(name.begin(), name.end(), '\\', '/');
   const std::filesystem::path file = path.parent_path() / name;
-  const TimeSeries data = recording::read_storage(file).data;
+  const recording::Storage table = recording::read_storage(file);
+  const TimeSeries& data = table.data;
   if (data.empty()) throw InvalidInput(fmt::format("{}: there are no rows", file.string()));
   ExternalLoads loads;
+  for (const recording::Repair& repair : table.repairs)
+    loads.notes.push_back(recording::to_string(file, repair));
   loads.start_s = data.time_s()[0];
   loads.end_s = data.time_s()[data.sample_count() - 1];
   Clock clock;

@@ -83,6 +83,7 @@ MuscleAnalysis muscle_analysis(const model::BodyModel& model,
     std::iota(chosen.begin(), chosen.end(), 0);
   }
   std::vector<OpensimMuscle> muscles;
+  muscles.reserve(chosen.size());
   for (const int m : chosen) {
     const model::Muscle& muscle = model.muscles.at(static_cast<std::size_t>(m));
     muscles.emplace_back(muscle, model.compat);

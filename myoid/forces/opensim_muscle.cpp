@@ -66,6 +66,8 @@ OpensimMuscle::OpensimMuscle(const model::Muscle& muscle, const model::Compat& c
     rigid_tendon_ = de_groote->ignore_tendon_compliance;
   } else {
     own_curves_ = muscle.class_name.starts_with("Thelen2003");
+    passive_rate_ = p_.passive_shape / p_.max_muscle_strain;
+    passive_scale_ = muscle::thelen_passive_scale(p_.passive_shape);
   }
 }
 
@@ -120,7 +122,7 @@ OpensimMuscle::Curve OpensimMuscle::passive(double l) const {
     case Kind::thelen:
       break;
   }
-  const auto point = muscle::thelen_passive<double>(l, p_.max_muscle_strain, p_.passive_shape);
+  const auto point = muscle::thelen_passive_at<double>(l, passive_rate_, passive_scale_);
   return {point.value, point.slope};
 }
 
@@ -189,7 +191,9 @@ OpensimMuscle::State OpensimMuscle::equilibrium(double activation,
   const auto stiffness = [&] {
     Stiffness k;
     const double sine = std::sqrt(std::max(0.0, 1.0 - cosine * cosine));
-    const double angle_by_length = cosine > 0.0 ? -sine / (s.fiber_length_m * cosine) : 0.0;
+    // Without pennation the fiber may be squeezed to no length at all.
+    const double angle_by_length =
+        sine > 0.0 && cosine > 0.0 ? -sine / (s.fiber_length_m * cosine) : 0.0;
     const double fiber = fmax * (activation * active.slope * fv + rest.slope) / lopt;
     k.fiber_by_length = fiber * cosine - s.fiber_force_n * sine * angle_by_length;
     // d(l cos a)/dl = cos a - l sin a da/dl

@@ -71,6 +71,7 @@ class OpensimMuscle {
   double shortest_m_ = 0.0;    ///< By pennation and, for Millard's, by the active curve.
   double tendon_strain_ = 0.04;
   double width_ = 1.0;
+  double passive_rate_ = 0.0, passive_scale_ = 0.0;  ///< Of Thelen's passive curve.
 };
 
 }  // namespace myoid::forces

@@ -9,67 +9,16 @@
 #include "myoid/core/error.h"
 #include "myoid/core/parallel.h"
 #include "myoid/dynamics/passive_forces.h"
+#include "myoid/forces/actuator_columns.h"
 #include "myoid/forces/actuator_sharing.h"
 #include "myoid/forces/opensim_muscle.h"
 #include "myoid/model/constraints.h"
 #include "myoid/model/kinematic_tree.h"
-#include "myoid/model/muscle_path.h"
 
 namespace myoid::forces {
 namespace {
 
 std::size_t at(Eigen::Index index) { return static_cast<std::size_t>(index); }
-
-/// One column of the problem.
-struct Actuator {
-  enum class Kind { muscle, coordinate, point, torque, path } kind = Kind::muscle;
-  std::size_t index = 0;  ///< In the model's list of its kind.
-  std::string name;
-  double lower = 0.0, upper = 1.0;
-};
-
-std::vector<Actuator> actuators_of(const model::BodyModel& model) {
-  std::vector<Actuator> all;
-  const auto add = [&](Actuator::Kind kind, const auto& list) {
-    for (std::size_t i = 0; i < list.size(); ++i) {
-      if (!list[i].applies_force) continue;
-      Actuator a{kind, i, list[i].name, 0.0, 1.0};
-      if constexpr (requires { list[i].properties; }) {
-        a.lower = list[i].properties.min_control;
-        a.upper = list[i].properties.max_control;
-      } else {
-        a.lower = list[i].min_control;
-        a.upper = list[i].max_control;
-      }
-      all.push_back(std::move(a));
-    }
-  };
-  add(Actuator::Kind::muscle, model.muscles);
-  add(Actuator::Kind::coordinate, model.actuators);
-  add(Actuator::Kind::point, model.point_actuators);
-  add(Actuator::Kind::torque, model.torque_actuators);
-  add(Actuator::Kind::path, model.path_actuators);
-  const auto place = [&](const Actuator& a) {
-    return std::find(model.force_order.begin(), model.force_order.end(), a.name) -
-           model.force_order.begin();
-  };
-  std::stable_sort(all.begin(), all.end(),
-                   [&](const Actuator& a, const Actuator& b) { return place(a) < place(b); });
-  return all;
-}
-
-Vec3 angular_column(const model::BodyModel& model,
-                    const model::BodyState& state,
-                    model::BodyIndex body,
-                    int coordinate) {
-  for (model::BodyIndex b = body; b != 0;) {
-    const model::Joint& joint = model.joints[at(model.joint_of_body[at(b)])];
-    for (const int c : joint.coordinates)
-      if (c == coordinate) return state.H_w_G[at(c)];
-    b = joint.parent;
-  }
-  return Vec3::Zero();
-}
 
 /// What a frame needs, reused from frame to frame; one per thread.
 class Frame {
@@ -82,7 +31,8 @@ class Frame {
         actuators_(actuators),
         muscles_(muscles),
         options_(options),
-        state_(model::make_state(model)) {
+        state_(model::make_state(model)),
+        columns_(model) {
     for (std::size_t c = 0; c < model.coordinates.size(); ++c) {
       if (!model.is_constrained(static_cast<int>(c))) free_.push_back(static_cast<Eigen::Index>(c));
     }
@@ -175,48 +125,14 @@ class Frame {
 
   /// Generalized force of an actuator at control 1; returns its force.
   double column(const Actuator& a, Eigen::MatrixXd& columns, Eigen::Index i) {
-    switch (a.kind) {
-      case Actuator::Kind::muscle: {
-        model::compute_path(model_, model_.muscles[a.index].path, state_, workspace_, path_);
-        const OpensimMuscle& muscle = muscles_[a.index];
-        const double force = options_.muscle_physiology
-                                 ? muscle.optimal_force(path_.length_m, path_.speed_mps)
-                                 : muscle.properties().max_isometric_force_n;
-        columns.col(i) = force * path_.moment_arm_m;
-        return force;
-      }
-      case Actuator::Kind::coordinate: {
-        const model::CoordinateActuator& c = model_.actuators[a.index];
-        columns(c.coordinate, i) = c.optimal_force;
-        return c.optimal_force;
-      }
-      case Actuator::Kind::point: {
-        const model::PointActuator& p = model_.point_actuators[a.index];
-        const Pose& X_GB = state_.X_GB[at(p.body)];
-        const Vec3 station = p.point_is_global ? Vec3(X_GB.inverse() * p.point) : p.point;
-        const Vec3 direction = p.force_is_global ? p.direction : Vec3(X_GB.R * p.direction);
-        columns.col(i) =
-            p.optimal_force *
-            (model::station_jacobian(model_, state_, p.body, station).transpose() * direction);
-        return p.optimal_force;
-      }
-      case Actuator::Kind::torque: {
-        const model::TorqueActuator& t = model_.torque_actuators[a.index];
-        const Vec3 axis = t.torque_is_global ? t.axis : Vec3(state_.X_GB[at(t.body_a)].R * t.axis);
-        for (int c = 0; c < static_cast<int>(model_.coordinates.size()); ++c) {
-          columns(c, i) = t.optimal_force * axis.dot(angular_column(model_, state_, t.body_a, c) -
-                                                     angular_column(model_, state_, t.body_b, c));
-        }
-        return t.optimal_force;
-      }
-      case Actuator::Kind::path: {
-        const model::PathActuator& p = model_.path_actuators[a.index];
-        model::compute_path(model_, p.path, state_, workspace_, path_);
-        columns.col(i) = p.optimal_force * path_.moment_arm_m;
-        return p.optimal_force;
-      }
+    double force = actuator_strength(model_, a);
+    columns.col(i) = columns_.of_unit_force(a, state_);
+    if (a.kind == Actuator::Kind::muscle && options_.muscle_physiology) {
+      const model::PathResult& path = columns_.path();
+      force = muscles_[a.index].optimal_force(path.length_m, path.speed_mps);
     }
-    return 0.0;
+    columns.col(i) *= force;
+    return force;
   }
 
   const model::BodyModel& model_;
@@ -226,8 +142,7 @@ class Frame {
   model::BodyState state_;
   std::vector<Eigen::Index> free_;
   std::vector<model::BodyWrench> wrenches_;
-  model::PathWorkspace workspace_;
-  model::PathResult path_;
+  ActuatorColumns columns_;
 };
 
 }  // namespace

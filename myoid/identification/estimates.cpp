@@ -8,6 +8,7 @@
 #include <fmt/ranges.h>
 
 #include "myoid/identification/discrepancy.h"
+#include "myoid/identification/estimate_remarks.h"
 #include "myoid/identification/identifiability.h"
 #include "myoid/identification/profile_likelihood.h"
 #include "myoid/identification/uncertainty.h"
@@ -15,9 +16,6 @@
 
 namespace myoid::identification {
 namespace {
-
-/// Widths of two intervals that differ by more than this speak of different things.
-constexpr double kDisagreement = 1.5;
 
 constexpr double kProbability = 0.95;  ///< Of every interval.
 
@@ -121,36 +119,6 @@ void add_routes(ParameterEstimate& e,
   };
   e.ci_low = clipped(z - whole(below));
   e.ci_high = clipped(z + whole(above));
-}
-
-void compare_routes(ParameterEstimate& e, IdentificationResult& result) {
-  double least = 0.0, most = 0.0;
-  std::string narrow, wide;
-  for (const RouteInterval& r : e.routes) {
-    if (!r.low || !r.high) {
-      result.warnings.push_back(fmt::format(
-          "{} {}: the profile is open {}: the data do not bound it there", e.muscle, e.parameter,
-          !r.low && !r.high ? "on both sides"
-          : r.low           ? "above"
-                            : "below"));
-      continue;
-    }
-    const double width = *r.high - *r.low;
-    if (narrow.empty() || width < least) {
-      least = width;
-      narrow = r.route;
-    }
-    if (wide.empty() || width > most) {
-      most = width;
-      wide = r.route;
-    }
-  }
-  e.routes_disagree = !narrow.empty() && most > kDisagreement * least;
-  if (e.routes_disagree) {
-    result.warnings.push_back(fmt::format(
-        "{} {}: the interval by {} is {:.1f} times as wide as that by {}; trust the wider one",
-        e.muscle, e.parameter, wide, most / std::max(least, 1e-300), narrow));
-  }
 }
 
 /// Draws from a normal distribution with this covariance, the same in every run.
@@ -266,12 +234,22 @@ void report_estimates(const Estimator& estimator,
           VerdictRules{}.flat_plateau;
     }
   }
-  const auto judged = [&](ParameterEstimate e, const FreeParameter& p, double prior_distance,
-                          bool determined, int owner, const std::string& rests_on) {
+  result.prior_distances = prior_distances(free, z, data);
+  RouteRemarks routes;
+  const bool exact = result.r2 > 1.0 - 1e-10;
+  const auto judged = [&](ParameterEstimate e, const FreeParameter& p, bool determined, int owner,
+                          const std::string& rests_on) {
     VerdictContext v;
     v.rests_on = rests_on;
     if (p.field->scope == Scope::muscle) {
       const auto k = static_cast<std::size_t>(owner);
+      for (const PriorDistance& of : result.prior_distances) {
+        if (of.muscle == data.muscles[k].name) v.muscle_distance = of.distance;
+      }
+      const MuscleValues& values = result.values.muscles[k];
+      if (!exact)
+        (p.field->field == kWidth ? v.relative_width : v.curve_width) =
+            values[kWidth] / values[kFiberLength];
       for (std::size_t other = 0; other < muscles; ++other) {
         if (other != k && data.muscles[other].emg_channel == data.muscles[k].emg_channel)
           v.shares_electrode_with = data.muscles[other].name;
@@ -279,7 +257,7 @@ void report_estimates(const Estimator& estimator,
     }
     v.model_error = result.model_error;
     v.r2 = result.r2;
-    v.prior_distance = prior_distance;
+    v.prior_distance = e.prior_distance.value_or(0.0);
     v.determined = determined;
     v.converged = solution.search.termination == math::Termination::converged;
     v.failure = solution.search.message;
@@ -292,7 +270,7 @@ void report_estimates(const Estimator& estimator,
           "carries the uncertainty of the EMG normalisation into the intervals of F_max; the "
           "recording cannot tell it from F_max";
     }
-    compare_routes(e, result);
+    routes.compare(e);
     result.estimates.push_back(std::move(e));
   };
   const auto owner_name = [&](const FreeParameter& p, const FreeParameter::Target& target) {
@@ -325,13 +303,12 @@ void report_estimates(const Estimator& estimator,
         e.std_error = p.field->logarithmic ? e.estimate * sd : std::abs(target.ratio) * sd;
         add_routes(e, row, intervals, at, z[at], quantile);
       }
-      double distance = 0.0;
       if (p.prior_sd > 0.0) {
         e.prior_mean = row.value(p.prior_mean);
         e.prior_sd =
             p.field->logarithmic ? *e.prior_mean * p.prior_sd : std::abs(target.ratio) * p.prior_sd;
         e.shrinkage = 1.0 - sd * sd / (p.prior_sd * p.prior_sd);
-        distance = std::abs(z[at] - p.prior_mean) / p.prior_sd;
+        e.prior_distance = std::abs(z[at] - p.prior_mean) / p.prior_sd;
       }
       std::string rests_on;
       if (e.ci_low && e.ci_high) {
@@ -345,8 +322,9 @@ void report_estimates(const Estimator& estimator,
                                      intervals.sandwich.trials[static_cast<std::size_t>(trial)])]
                          .name;
       }
-      judged(std::move(e), p, distance, determined, target.owner, rests_on);
+      judged(std::move(e), p, determined, target.owner, rests_on);
     }
+    agree_on_tied(result.estimates, p.targets.size());
     // Where the slope ratio is the unknown, the product follows.
     if (p.field->scope != Scope::muscle || p.field->field != kSlopeRatio) continue;
     for (const FreeParameter::Target& target : p.targets) {
@@ -396,9 +374,11 @@ void report_estimates(const Estimator& estimator,
           e.shrinkage = 1.0 - std::pow(posterior.log_sd / prior.log_sd, 2);
         }
       }
-      judged(std::move(e), p, 0.0, determined, target.owner, "");
+      judged(std::move(e), p, determined, target.owner, "");
     }
   }
+
+  routes.add_to(result.warnings, result.estimates.size());
 
   const auto is_gain = [&](Eigen::Index j) {
     const ParameterField& field = *free[static_cast<std::size_t>(j)].field;
@@ -443,6 +423,7 @@ void report_estimates(const Estimator& estimator,
                     "outside the intervals",
                     100.0 * result.model_error));
   }
+  add_distances_to(result.warnings, result.prior_distances);
   if (result.bootstrap_failed > 0) {
     result.warnings.push_back(fmt::format("{} of {} bootstrap replicates did not converge",
                                           result.bootstrap_failed,

@@ -111,6 +111,7 @@ IdentificationResult identify_force(const StudyData& data, const ForceOptions& o
       const auto take = [&](std::vector<std::string>& to, const std::vector<std::string>& from) {
         for (const std::string& text : from) to.push_back(text);
       };
+      for (const PriorDistance& d : fit.prior_distances) all.prior_distances.push_back(d);
       take(all.collinear, fit.collinear);
       take(all.undetermined, fit.undetermined);
       take(all.diagnoses, fit.diagnoses);

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "myoid/core/units.h"
+#include "myoid/math/statistics.h"
 
 namespace myoid::identification {
 namespace {
@@ -33,8 +34,8 @@ std::string diagnosis(const ParameterEstimate& e) {
                               "co-contraction that force sharing set to zero does this";
   }
   if (p == "force_length_width")
-    return "a width this size is no muscle's: co-contraction set to zero, or a wrong F_max, "
-           "distorts the curve";
+    return "a width this size is no muscle's: co-contraction set to zero, a wrong F_max, geometry "
+           "or electrode distorts the curve";
   return "the value lies outside what a muscle can have: the fit describes something else";
 }
 
@@ -43,6 +44,13 @@ constexpr double kSpreads95 = 1.96;
 
 std::string unit_text(Unit unit) {
   return unit == Unit::dimensionless ? "" : " " + std::string(symbol(unit));
+}
+
+/// What the recording adds to what is known beforehand.
+std::string narrowing(double shrinkage) {
+  return shrinkage > 0.005
+             ? fmt::format("the recording narrows it by only {:.0f} %", 100.0 * shrinkage)
+             : std::string("the recording does not narrow it");
 }
 
 }  // namespace
@@ -67,7 +75,22 @@ std::string_view name(Verdict verdict) {
   return "?";
 }
 
-void judge(ParameterEstimate& e, const VerdictContext& context, const VerdictRules& rules) {
+int severity(Verdict verdict) { return static_cast<int>(verdict); }
+
+double equivalent_deviations(double sum_of_squares, int count) {
+  if (count < 1 || !(sum_of_squares > 0.0)) return 0.0;
+  if (count == 1) return std::sqrt(sum_of_squares);
+  const double n = count;
+  const double spread = 2.0 / (9.0 * n);
+  const double normal = (std::cbrt(sum_of_squares / n) - (1.0 - spread)) / std::sqrt(spread);
+  const double beyond = 0.5 * std::erfc(normal / std::sqrt(2.0));
+  // Where the tail is too small for a number, the one side alone says as much.
+  return beyond > 1e-15 ? math::normal_quantile(1.0 - 0.5 * beyond) : normal;
+}
+
+namespace {
+
+void judge_alone(ParameterEstimate& e, const VerdictContext& context, const VerdictRules& rules) {
   const auto set = [&](Verdict verdict, std::string reason) {
     e.verdict = verdict;
     e.reason = std::move(reason);
@@ -78,6 +101,12 @@ void judge(ParameterEstimate& e, const VerdictContext& context, const VerdictRul
   if (!context.converged && !context.outside_physical)
     return set(Verdict::not_identifiable, "the fit did not converge: " + context.failure);
   if (context.outside_physical) return set(Verdict::non_physical, diagnosis(e));
+  if (!rules.possible(context.relative_width)) {
+    return set(Verdict::non_physical,
+               fmt::format("{:.2g} of the optimal length, and muscles have {} to {}: {}",
+                           context.relative_width, rules.relative_width.lower,
+                           rules.relative_width.upper, diagnosis(e)));
+  }
   if (!context.bad_company.empty()) {
     return set(
         Verdict::not_identifiable,
@@ -112,15 +141,17 @@ void judge(ParameterEstimate& e, const VerdictContext& context, const VerdictRul
   }
   if (e.shrinkage && *e.shrinkage < rules.least_shrinkage) {
     if (context.prior_distance > rules.prior_conflict) {
-      return set(Verdict::prior_dominated,
+      return set(Verdict::not_identifiable,
                  fmt::format("{:.1f} standard deviations from the literature's value and no surer "
                              "than that: use neither before the cause is known",
                              context.prior_distance));
     }
-    return set(
-        Verdict::prior_dominated,
-        fmt::format("mostly the literature's value: the recording narrows it by only {:.0f} %",
-                    100.0 * std::max(0.0, *e.shrinkage)));
+    return set(Verdict::prior_dominated,
+               context.prior_distance <= rules.prior_stays
+                   ? "mostly the literature's value: " + narrowing(*e.shrinkage)
+                   : fmt::format("{}, though the fit moved it {:.1f} standard deviations away from "
+                                 "the literature's value",
+                                 narrowing(*e.shrinkage), context.prior_distance));
   }
   const double half = half_width(e);
   if (e.parameter == "emg_delay") {
@@ -132,18 +163,18 @@ void judge(ParameterEstimate& e, const VerdictContext& context, const VerdictRul
                  fmt::format("known only to {:.0f} ms; faster movements tell more", 1000.0 * half));
     return set(Verdict::not_identifiable, "the movements are too slow to show a delay");
   }
-  // What is 0 by nature is measured by what is known beforehand, all else by itself.
-  const double relative =
-      prior_sd > 0.0 ? half / prior_sd * rules.identified_half_width / rules.zero_half_width
-                     : half / std::max(std::abs(e.estimate), 1e-300);
+  const double relative = half / std::max(std::abs(e.estimate), 1e-300);
   const std::string known =
       none             ? fmt::format("none to be seen, at most {:.2g}{}", half, unit_text(e.unit))
       : prior_sd > 0.0 ? fmt::format("known to ± {:.2g}{}", half, unit_text(e.unit))
                        : fmt::format("known to {:.1f} %", 100.0 * relative);
-  if (context.prior_distance > rules.prior_conflict && relative <= rules.weak_half_width) {
-    set(Verdict::weak, fmt::format("{:.1f} spreads away from what is known of this muscle: a "
-                                   "simplification of the model, or the EMG, may be what is fitted",
-                                   context.prior_distance));
+  // What is 0 by nature tells something at any width: that it is no larger.
+  if (context.prior_distance > rules.prior_conflict &&
+      (prior_sd > 0.0 || relative <= rules.weak_half_width)) {
+    set(Verdict::weak,
+        fmt::format("{:.1f} standard deviations away from what is known beforehand: a "
+                    "simplification of the model, or the EMG, may be what is fitted",
+                    context.prior_distance));
   } else if (relative <= rules.identified_half_width) {
     set(Verdict::identified, known);
   } else if (prior_sd > 0.0) {
@@ -172,6 +203,13 @@ void judge(ParameterEstimate& e, const VerdictContext& context, const VerdictRul
          fmt::format("{}, but what the model leaves of the torque depends on posture and "
                      "effort as if it were wrong by {:.0f} %",
                      known, 100.0 * context.model_error));
+  unless(!rules.possible(context.curve_width),
+         known + ", but by a force-length curve that no muscle has");
+  unless(
+      context.muscle_distance > rules.prior_conflict,
+      fmt::format("{}, but this muscle's numbers together are {:.1f} standard deviations from "
+                  "the literature's: a wrong label, sign, mass or geometry may be what is fitted",
+                  known, context.muscle_distance));
   unless(!context.rests_on.empty(),
          fmt::format("rests on trial '{}': without it the value would leave its own "
                      "interval; record more like it",
@@ -189,6 +227,19 @@ void judge(ParameterEstimate& e, const VerdictContext& context, const VerdictRul
         "; no maximal contraction was recorded, so this is the force at the study's largest EMG, "
         "not the muscle's maximum";
   }
+}
+
+}  // namespace
+
+void judge(ParameterEstimate& e, const VerdictContext& context, const VerdictRules& rules) {
+  judge_alone(e, context, rules);
+  if (e.verdict == Verdict::weak && !rules.possible(context.curve_width) &&
+      e.reason.find("no muscle has") == std::string::npos)
+    e.reason += "; by a force-length curve that no muscle has";
+  const bool said = e.reason.find("standard deviations") != std::string::npos;
+  if (context.prior_distance > rules.prior_conflict && std::isfinite(e.estimate) && !said)
+    e.reason += fmt::format("; {:.1f} standard deviations from the literature's value",
+                            context.prior_distance);
 }
 
 void diagnose(IdentificationResult& result) {

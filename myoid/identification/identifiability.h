@@ -17,10 +17,16 @@ struct VerdictRules {
   double model_error =
       0.20;  ///< Systematic error of the model above which nothing is `identified`.
   double prior_conflict = 3.0;  ///< Spreads of the prior away from its mean: at most `weak`.
+  double prior_stays = 1.0;     ///< So near, a value that is not narrowed is the literature's.
   double flat_plateau = 1.02;   ///< V_ml whose interval reaches below says nothing about P.
-  /// Of what is 0 by nature (ParameterField::zero_by_nature): the half width in spreads of the
-  /// prior that is `identified`.
-  double zero_half_width = 1.0;
+  /// l_sh over l0 that a muscle can have. A sarcomere makes half of its greatest force between
+  /// about 0.65 and 1.3 of its optimal length (Gordon, Huxley and Julian 1966), which is a Gaussian
+  /// of 0.35 to 0.4, and fibers of unequal length only widen their sum; half of it is no muscle's.
+  /// Models in use go up to 0.71 (Thelen's gamma of 0.5).
+  muscle::Range relative_width{0.2, 1.0};
+  [[nodiscard]] bool possible(double width) const {
+    return width == 0.0 || (width >= relative_width.lower && width <= relative_width.upper);
+  }
   double least_r2 = 0.50;  ///< A fit that explains less of the torque identifies nothing.
 };
 
@@ -34,6 +40,9 @@ struct VerdictContext {
   bool outside_physical = false;  ///< Value outside the physical bounds of its field.
   double prior_distance =
       0.0;  ///< |estimate - prior mean| in spreads of the prior; 0 without a prior.
+  double muscle_distance = 0.0;  ///< PriorDistance::distance of the muscle.
+  double relative_width = 0.0;   ///< Of l_sh: over l0 of the same fit; 0: of something else.
+  double curve_width = 0.0;      ///< The same of the muscle that another number belongs to.
   std::string
       shares_electrode_with;  ///< Another muscle that acts as the same EMG says; empty: none.
   double model_error = 0.0;   ///< IdentificationResult::model_error.
@@ -53,6 +62,13 @@ struct VerdictContext {
 void judge(ParameterEstimate& estimate,
            const VerdictContext& context,
            const VerdictRules& rules = {});
+
+/// How far apart two verdicts are from being usable: greater is worse.
+[[nodiscard]] int severity(Verdict verdict);
+
+/// |N(0, 1)| that is as improbable as a sum of squares of `count` of them that is this or more
+/// (chi-square, Wilson and Hilferty 1931): one number in standard deviations for several together.
+[[nodiscard]] double equivalent_deviations(double sum_of_squares, int count);
 
 /// Names, in `result.diagnoses`, the single errors whose signature the estimates carry: an EMG
 /// delay that was not accounted for, co-contraction that force sharing set to zero, EMG and force

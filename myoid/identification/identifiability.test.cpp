@@ -41,6 +41,66 @@ TEST(Judge, CallsAValueThatThePriorMadeByItsName) {
   EXPECT_EQ(verdict_of(e), Verdict::identified);
 }
 
+TEST(Judge, AValueThatLeftTheLiteratureIsNotCalledTheLiteratures) {
+  // Biceps F_max 397 N of 1060 +- 265 (3.9 spreads of the logarithm), less sure than beforehand.
+  ParameterEstimate e = estimate(0.5, "max_isometric_force");
+  e.shrinkage = -0.44;
+  EXPECT_EQ(verdict_of(e, {.prior_distance = 3.9}), Verdict::not_identifiable);
+  judge(e, {.prior_distance = 3.9});
+  EXPECT_NE(e.reason.find("3.9 standard deviations"), std::string::npos) << e.reason;
+  EXPECT_EQ(verdict_of(e, {.prior_distance = 2.2}), Verdict::prior_dominated);
+  judge(e, {.prior_distance = 2.2});
+  EXPECT_EQ(e.reason.find("mostly the literature"), std::string::npos) << e.reason;
+  EXPECT_NE(e.reason.find("does not narrow it"), std::string::npos) << e.reason;
+  judge(e, {.prior_distance = 0.3});
+  EXPECT_NE(e.reason.find("mostly the literature"), std::string::npos) << e.reason;
+  EXPECT_EQ(e.reason.find("0 %"), std::string::npos) << e.reason;
+  // Whatever the verdict, its reason says so.
+  for (const double half : {0.05, 0.4, 0.9}) {
+    ParameterEstimate far = estimate(half);
+    far.shrinkage = 0.9;
+    judge(far, {.prior_distance = 4.5});
+    EXPECT_NE(far.verdict, Verdict::identified);
+    EXPECT_NE(far.reason.find("4.5 standard deviations"), std::string::npos) << far.reason;
+  }
+}
+
+TEST(Judge, AMuscleWhoseNumbersTogetherLeftTheLiteratureIsNotIdentified) {
+  ParameterEstimate e = estimate(0.05);
+  e.shrinkage = 0.9;
+  EXPECT_EQ(verdict_of(e, {.prior_distance = 2.0, .muscle_distance = 2.9}), Verdict::identified);
+  EXPECT_EQ(verdict_of(e, {.prior_distance = 2.0, .muscle_distance = 3.1}), Verdict::weak);
+}
+
+TEST(Judge, ACurveThatNoMuscleHasIsNonPhysicalHoweverSharp) {
+  ParameterEstimate e = estimate(0.01, "force_length_width");
+  e.shrinkage = 0.9;
+  for (const double none : {0.09, 0.19, 1.1})
+    EXPECT_EQ(verdict_of(e, {.relative_width = none}), Verdict::non_physical) << none;
+  for (const double some : {0.25, 0.45, 0.71})
+    EXPECT_EQ(verdict_of(e, {.relative_width = some}), Verdict::identified) << some;
+  judge(e, {.relative_width = 0.09});
+  EXPECT_NE(e.reason.find("0.09 of the optimal length"), std::string::npos) << e.reason;
+}
+
+TEST(Judge, NumbersBesideACurveThatNoMuscleHasAreNotIdentified) {
+  EXPECT_EQ(verdict_of(estimate(0.05), {.curve_width = 0.45}), Verdict::identified);
+  EXPECT_EQ(verdict_of(estimate(0.05), {.curve_width = 0.1}), Verdict::weak);
+  ParameterEstimate e = estimate(0.3);
+  judge(e, {.curve_width = 0.1});
+  EXPECT_NE(e.reason.find("curve that no muscle has"), std::string::npos) << e.reason;
+}
+
+TEST(EquivalentDeviations, AreThoseOfTheChiSquareDistribution) {
+  // Tables: P(chi2_k > x) = 0.0027 (three standard deviations) at x = 9.00, 11.83, 16.25, 20.06 for
+  // k = 1, 2, 4, 6, and 0.05 at x = 12.592 for k = 6. Wilson and Hilferty are good to about 1 %.
+  for (const auto& [k, x] : {std::pair{1, 9.0}, {2, 11.83}, {4, 16.25}, {6, 20.06}})
+    EXPECT_NEAR(equivalent_deviations(x, k), 3.0, 0.04) << k;
+  EXPECT_NEAR(equivalent_deviations(12.592, 6), 1.96, 0.02);
+  EXPECT_EQ(equivalent_deviations(0.0, 4), 0.0);
+  EXPECT_GT(equivalent_deviations(400.0, 6), 8.0);
+}
+
 TEST(Judge, ANarrowIntervalIsNotEnough) {
   ParameterEstimate e = estimate(0.05);
   e.shrinkage = 0.4;
@@ -89,8 +149,8 @@ TEST(Judge, AFitThatExplainsLittleIdentifiesNothing) {
   EXPECT_EQ(verdict_of(none, {.r2 = 0.3}), Verdict::weak);
 }
 
-TEST(Judge, WhatIsZeroByNatureIsMeasuredByWhatWasKnownBefore) {
-  // gamma 0 [0, 0.038] of 0 +- 0.1: that there is none is something that the recording tells.
+TEST(Judge, OfWhatIsZeroByNatureOnlyAValueIsIdentifiedAndABoundIsWeak) {
+  // gamma 0 [0, 0.038] of 0 +- 0.1: that there is hardly any is something that the recording tells.
   ParameterEstimate e;
   e.parameter = "length_activation";
   e.at_bound = true;
@@ -99,7 +159,7 @@ TEST(Judge, WhatIsZeroByNatureIsMeasuredByWhatWasKnownBefore) {
   e.ci_high = 0.038;
   e.prior_sd = 0.1;
   e.shrinkage = 0.96;
-  EXPECT_EQ(verdict_of(e), Verdict::identified);
+  EXPECT_EQ(verdict_of(e), Verdict::weak);
   judge(e, {});
   EXPECT_NE(e.reason.find("at most 0.038"), std::string::npos) << e.reason;
   e.ci_high = 0.13;
@@ -117,6 +177,18 @@ TEST(Judge, WhatIsZeroByNatureIsMeasuredByWhatWasKnownBefore) {
   viscosity.prior_sd = 0.2;
   viscosity.shrinkage = 0.4;
   EXPECT_EQ(verdict_of(viscosity), Verdict::weak);
+  // Stiffness -0.9 [-1.63, -0.17] of 0 +- 1.1: within its prior, and not known to 12 %.
+  ParameterEstimate stiffness = viscosity;
+  stiffness.parameter = "joint_stiffness";
+  stiffness.estimate = -0.9;
+  stiffness.ci_low = -1.63;
+  stiffness.ci_high = -0.17;
+  stiffness.prior_sd = 1.1;
+  stiffness.shrinkage = 0.9;
+  EXPECT_EQ(verdict_of(stiffness), Verdict::weak);
+  stiffness.ci_low = -1.0;
+  stiffness.ci_high = -0.8;
+  EXPECT_EQ(verdict_of(stiffness), Verdict::identified);
   // On its other bound it is pulled where there is none.
   e.estimate = 0.5;
   e.ci_low = 0.4;

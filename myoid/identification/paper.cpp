@@ -217,6 +217,8 @@ std::optional<CaseShape> fit_case(const StudyData& data,
       e.ci_high = e.estimate + quantile * *e.std_error;
     }
     context.outside_physical = unphysical(j);
+    if (e.parameter == "force_length_width" && !exact && fit.x[0] > 0.0 && fit.x[j] != start[j])
+      context.relative_width = std::abs(fit.x[j]) / fit.x[0];
     if (!shortening && p == 4 && std::isfinite(fit.x[3])) {
       const double sd =
           computed ? std::sqrt(covariance.unscaled(3, 3) * covariance.residual_variance * widen)

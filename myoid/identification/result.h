@@ -46,7 +46,10 @@ struct ParameterEstimate {
   std::vector<RouteInterval> routes;      ///< At least two, where they were asked for.
   bool routes_disagree = false;           ///< One is more than half as wide again as another.
   std::optional<double> prior_mean, prior_sd;
-  std::optional<double> shrinkage;  ///< 1 - posterior variance / prior variance.
+  std::optional<double> prior_distance;  ///< Of the estimate from the prior's mean, in its spreads
+                                         ///< (of the logarithm where the prior is on that).
+  std::optional<double> shrinkage;  ///< 1 - posterior variance / prior variance; negative where
+                                    ///< the model's own error makes it less sure than that.
   bool at_bound = false;
   Verdict verdict = Verdict::not_identifiable;
   std::string reason;  ///< One sentence.
@@ -82,6 +85,19 @@ struct BranchTest {
   double p_value = 1.0;
 };
 
+/// How far a muscle's numbers have left what is known beforehand.
+///
+///   D^2 = sum_j ((z_j - prior_j) / sd_j)^2 over its own free parameters
+///
+/// A fit with priors moves an estimate by N(0, P - C), P the prior's and C its own covariance: by
+/// less than P, which therefore stands for it here.
+struct PriorDistance {
+  std::string muscle;
+  double distance = 0.0;           ///< D, as as many standard deviations of one normal number.
+  std::string farthest;            ///< The parameter that is farthest ...
+  double farthest_distance = 0.0;  ///< ... and how far.
+};
+
 /// Whether a parameter is no muscle's and no person's, but freed so that its uncertainty enters the
 /// others: gain and exponent of an EMG channel, torque of the joint itself. Not counted among what
 /// a recording tells.
@@ -105,7 +121,8 @@ struct IdentificationResult {
   std::vector<std::string> free_parameters;  ///< Its rows.
   std::vector<std::string> collinear;     ///< Sets that the data hardly tell apart, as sentences.
   std::vector<std::string> undetermined;  ///< Combinations that the data leave open, as sentences.
-  std::vector<std::string> diagnoses;     ///< What a pattern of values is the signature of.
+  std::vector<PriorDistance> prior_distances;  ///< Of each muscle with priors.
+  std::vector<std::string> diagnoses;          ///< What a pattern of values is the signature of.
   std::vector<std::string> warnings;
   std::vector<BranchTest> branch_tests;  ///< Method paper.
   int bootstrap_replicates = 0;          ///< Converged ones.

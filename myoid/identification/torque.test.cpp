@@ -295,6 +295,62 @@ TEST(IdentifyTorque, AGainOfTheEmgIsInheritedByTheForceAndWidensItsInterval) {
   EXPECT_EQ(find(unsure, "BIC", "emg_gain").verdict, Verdict::prior_dominated);
 }
 
+TEST(IdentifyTorque, OneUnknownOfSeveralMusclesHasOneVerdict) {
+  // BRA by the electrode of BIC, which makes its numbers weak; TRI by its own, one l0 for both.
+  ElbowStudy study = elbow_study({.with_priors = true});
+  study.data.muscles[1].emg_channel = "BIC";
+  test::StudyNoise noise(3);
+  for (TrialData& trial : study.data.trials) {
+    const Eigen::MatrixXd a = muscle_activation(study.data, trial, trial.time_s, study.delay_s);
+    for (Eigen::Index i = 0; i < trial.torque_nm.size(); ++i) {
+      trial.torque_nm[i] = 0.0;
+      for (Eigen::Index k = 0; k < 4; ++k) {
+        const auto& truth = study.truth[static_cast<std::size_t>(k)];
+        trial.torque_nm[i] +=
+            trial.moment_arm_m(i, k) *
+            muscle::hill_force(a(i, k), trial.length_m(i, k) - truth.tendon_slack_length_m,
+                               trial.velocity_mps(i, k), truth);
+      }
+    }
+    trial.torque_nm += 0.2 * noise.band(trial.torque_nm.size(), 6.0, 100.0);
+  }
+  const TorqueOptions options{.starts = 1};
+  const IdentificationResult apart = identify_torque(study.data, options);
+  EXPECT_EQ(find(apart, "BRA", "optimal_fiber_length").verdict, Verdict::weak);
+  EXPECT_EQ(find(apart, "TRI", "optimal_fiber_length").verdict, Verdict::identified);
+  study.data.rules.push_back(
+      {.parameter = "optimal_fiber_length", .owners = {"BRA", "TRI"}, .tie = true});
+  const IdentificationResult tied = identify_torque(study.data, options);
+  for (const char* muscle : {"BRA", "TRI"}) {
+    const ParameterEstimate& e = find(tied, muscle, "optimal_fiber_length");
+    EXPECT_EQ(e.verdict, Verdict::weak) << muscle;
+    EXPECT_NE(e.reason.find("electrode"), std::string::npos) << e.reason;
+  }
+}
+
+TEST(IdentifyTorque, HowFarAMuscleLeftTheLiteratureIsSaidOfItAlone) {
+  ElbowStudy study = elbow_study({.torque_sd_nm = 0.5, .with_priors = true});
+  const IdentificationResult near = identify_torque(study.data, {.starts = 1});
+  ASSERT_EQ(near.prior_distances.size(), 4U);
+  for (const PriorDistance& d : near.prior_distances) EXPECT_LT(d.distance, 3.0) << d.muscle;
+  // A literature that is sure of a BIC of half the length.
+  Prior& prior = study.data.muscles[0].priors.at("optimal_fiber_length");
+  prior.mean *= 0.7;
+  prior.sd = 0.06 * prior.mean;
+  const IdentificationResult far = identify_torque(study.data, {.starts = 1});
+  EXPECT_GT(far.prior_distances[0].distance, 3.0);
+  EXPECT_EQ(far.prior_distances[0].muscle, "BIC");
+  EXPECT_LT(far.prior_distances[3].distance, 3.0);
+  const ParameterEstimate& e = find(far, "BIC", "optimal_fiber_length");
+  EXPECT_NE(e.verdict, Verdict::identified);
+  EXPECT_NE(e.reason.find("standard deviations"), std::string::npos) << e.reason;
+  EXPECT_GT(*e.prior_distance, 3.0);
+  EXPECT_LE(*e.prior_distance, far.prior_distances[0].farthest_distance);
+  EXPECT_TRUE(std::any_of(far.warnings.begin(), far.warnings.end(), [](const std::string& w) {
+    return w.find("BIC has left what is known") == 0;
+  }));
+}
+
 TEST(IdentifyTorque, HeldParametersStayAndOthersTakeTheirBounds) {
   ElbowStudy study = elbow_study({.trials = 2, .seconds = 10.0});
   study.data.muscles[1].fixed = {"concentric_curvature", "force_length_width"};

@@ -303,9 +303,11 @@ Eigen::MatrixXi exponents(int coordinates, int degree) {
 std::vector<int> acting_coordinates(const model::BodyModel& model, const model::MusclePath& path) {
   std::set<model::BodyIndex> bodies;
   std::set<int> acting;
+  if (path.function)
+    acting.insert(path.function->coordinates.begin(), path.function->coordinates.end());
   for (const model::PathPoint& point : path.points) {
     bodies.insert(point.body);
-    if (point.moving) acting.insert(point.moving->coordinate);
+    if (point.moving && point.moving->coordinate >= 0) acting.insert(point.moving->coordinate);
     if (point.condition) acting.insert(point.condition->coordinate);
   }
   for (const model::PathWrap& wrap : path.wraps)

@@ -59,6 +59,11 @@ void check_references(const BodyModel& model) {
     check_index(marker.body, model.bodies.size(), fmt::format("marker '{}'", marker.name));
   }
   const auto check_path = [&](const std::string& owner, const MusclePath& path) {
+    if (path.function) {
+      for (const int c : path.function->coordinates)
+        check_index(c, model.coordinates.size(), fmt::format("muscle '{}': its path", owner));
+      return;
+    }
     if (path.points.size() < 2) {
       throw ModelError(fmt::format("muscle '{}' has {} path points; at least two are needed", owner,
                                    path.points.size()));
@@ -102,7 +107,11 @@ bool BodyModel::is_constrained(int coordinate) const {
   const Coordinate& c = coordinates[static_cast<std::size_t>(coordinate)];
   return c.locked || c.prescribed || c.is_free_to_satisfy_constraints ||
          std::any_of(couplers.begin(), couplers.end(),
-                     [&](const CoordinateCoupler& k) { return k.dependent == coordinate; });
+                     [&](const CoordinateCoupler& k) { return k.dependent == coordinate; }) ||
+         std::any_of(constraints.begin(), constraints.end(), [&](const LoopConstraint& k) {
+           const auto* f = std::get_if<FunctionConstraint>(&k.law);
+           return f != nullptr && f->dependent == coordinate;
+         });
 }
 
 Eigen::VectorXd BodyModel::default_q() const {
@@ -253,6 +262,8 @@ void check_tree(const BodyModel& model, const std::vector<Joint>& ordered) {
 BodyModel finalize(BodyModel model) {
   if (model.bodies.empty()) throw ModelError("the model has no ground");
   check_references(model);
+  for (std::size_t j = 0; j < model.joints.size(); ++j)
+    if (model.joints[j].place_in_file < 0) model.joints[j].place_in_file = static_cast<int>(j);
   orient_joints(model);
   cut_loops(model);
   std::vector<Joint> ordered;

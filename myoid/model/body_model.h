@@ -13,6 +13,7 @@
 #include "myoid/model/compat.h"
 #include "myoid/model/expression.h"
 #include "myoid/model/functions.h"
+#include "myoid/model/multi_polynomial.h"
 
 namespace myoid::model {
 
@@ -54,8 +55,9 @@ struct TransformAxis {
 };
 
 /// X_PB = X_PF X_FM(q) X_BM^-1; X_FM: rotation R = R(a1,f1) R(a2,f2) R(a3,f3), translation
-/// sum f_i a_i in F, on an ellipsoid also radii * (third column of R), element by element. Every
-/// OpenSim joint is written in this form, the speeds being the coordinates' rates.
+/// sum f_i a_i in F, on an ellipsoid also radii * (third column of R), element by element, at the
+/// end of a bent rod also where that ends (bent_rod.h). Every OpenSim joint is written in this
+/// form, the speeds being the coordinates' rates.
 struct Joint {
   std::string name;
   std::string class_name;  ///< As in the file: "CustomJoint", "PinJoint", ...
@@ -64,10 +66,13 @@ struct Joint {
   BodyIndex child = 0;
   Pose X_BM;
   std::vector<int> coordinates;  ///< Indices in BodyModel::coordinates.
+  int place_in_file = -1;        ///< In the order of the file's joints.
   std::array<TransformAxis, 3> rotation;
   std::array<TransformAxis, 3> translation;
   std::optional<Vec3>
       ellipsoid_radii_m;  ///< EllipsoidJoint: the origin of M moves on this surface.
+  std::optional<double>
+      rod_length_m;  ///< ConstantCurvatureJoint: M is at the end of a rod along its y.
 };
 
 struct Marker {
@@ -84,10 +89,11 @@ struct PathPoint {
     double lower = 0.0;
     double upper = 0.0;
   };
-  /// Location as functions of one coordinate [m].
+  /// Location in a frame F of the body as functions of one coordinate [m].
   struct Moving {
     int coordinate = -1;
     std::array<Function, 3> location;
+    Pose X_BF{};
   };
   std::string name;
   BodyIndex body = 0;
@@ -135,9 +141,18 @@ struct PathWrap {
   int range_end = -1;  ///< < 1: to the last.
 };
 
+/// A length given as a polynomial of coordinates instead of points (FunctionBasedPath); the moment
+/// arms are minus its derivatives, or polynomials of their own.
+struct FunctionPath {
+  std::vector<int> coordinates;
+  MultiPolynomial length;
+  std::vector<MultiPolynomial> moment_arms;  ///< None, or one for each coordinate.
+};
+
 struct MusclePath {
   std::vector<PathPoint> points;
   std::vector<PathWrap> wraps;
+  std::optional<FunctionPath> function{};  ///< Then there are neither points nor wraps.
 };
 
 /// Corner points and slopes of Millard's curves (force by normalized length, velocity or strain).
@@ -381,10 +396,17 @@ struct LineConstraint {
   BodyIndex body1 = 0, body2 = 0;
   Vec3 direction = Vec3::UnitX(), p_B1 = Vec3::Zero(), p_B2 = Vec3::Zero();
 };
+/// q_dependent = function(several others): a CoordinateCouplerConstraint of several independent
+/// coordinates.
+struct FunctionConstraint {
+  int dependent = -1;
+  std::vector<int> independent{};
+  MultiPolynomial function{};
+};
 struct LoopConstraint {
   std::string name;
   std::string class_name;
-  std::variant<FrameConstraint, DistanceConstraint, LineConstraint> law;
+  std::variant<FrameConstraint, DistanceConstraint, LineConstraint, FunctionConstraint> law;
 };
 
 /// A person as a multibody system: an immutable value once read. Joints are in tree order, breadth

@@ -16,7 +16,7 @@ std::size_t at(int index) { return static_cast<std::size_t>(index); }
 Eigen::Index rows_of(const LoopConstraint& constraint) {
   if (const auto* frame = std::get_if<FrameConstraint>(&constraint.law))
     return frame->rotation_too ? 6 : 3;
-  return std::holds_alternative<DistanceConstraint>(constraint.law) ? 1 : 2;
+  return std::holds_alternative<LineConstraint>(constraint.law) ? 2 : 1;
 }
 
 Eigen::Index loop_rows(const BodyModel& model) {
@@ -35,6 +35,13 @@ Eigen::Matrix3Xd angular_jacobian(const BodyModel& model, const BodyState& state
     b = joint.parent;
   }
   return J;
+}
+
+MultiPolynomialValue function_value(const FunctionConstraint& f, const Eigen::VectorXd& q) {
+  Eigen::VectorXd x(static_cast<Eigen::Index>(f.independent.size()));
+  for (std::size_t k = 0; k < f.independent.size(); ++k)
+    x[static_cast<Eigen::Index>(k)] = q[f.independent[k]];
+  return evaluate(f.function, x);
 }
 
 /// Two directions across a unit vector.
@@ -82,6 +89,15 @@ void evaluate_loops(const BodyModel& model,
       if (jacobian != nullptr) {
         jacobian->row(row) =
             between.normalized().transpose() * relative(d->body1, d->p_B1, d->body2, d->p_B2);
+      }
+    } else if (const auto* coupled = std::get_if<FunctionConstraint>(&constraint.law)) {
+      const MultiPolynomialValue v = function_value(*coupled, state.q);
+      errors[row] = state.q[coupled->dependent] - v.value;
+      if (jacobian != nullptr) {
+        jacobian->row(row).setZero();
+        (*jacobian)(row, coupled->dependent) = 1.0;
+        for (std::size_t k = 0; k < coupled->independent.size(); ++k)
+          (*jacobian)(row, coupled->independent[k]) -= v.gradient[static_cast<Eigen::Index>(k)];
       }
     } else {
       const auto& line = std::get<LineConstraint>(constraint.law);
@@ -182,6 +198,14 @@ AssemblyResult assemble(const BodyModel& model,
   AssemblyResult result{q, 0.0, true};
   apply_couplers(model, result.q);
   if (model.constraints.empty()) return result;
+  // What depends on several coordinates has no wish of its own.
+  for (std::size_t round = 0; round < model.constraints.size(); ++round) {
+    for (const LoopConstraint& constraint : model.constraints) {
+      if (const auto* f = std::get_if<FunctionConstraint>(&constraint.law))
+        result.q[f->dependent] = function_value(*f, result.q).value;
+    }
+  }
+  apply_couplers(model, result.q);
   const Eigen::VectorXd wished = result.q;
   BodyState state = make_state(model);
   std::vector<Eigen::Index> free;

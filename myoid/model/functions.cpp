@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <Eigen/Sparse>
+#include <Eigen/SparseLU>
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
@@ -74,6 +76,18 @@ FunctionValue value_of(const SmoothStep& f, double x) {
 FunctionValue value_of(const math::Spline& f, double x) {
   const math::SplineValue v = f.at(x);
   return {v.value, v.first, v.second};
+}
+
+FunctionValue value_of(const PiecewisePolynomial& f, double x) {
+  const auto column = std::upper_bound(f.x.begin(), f.x.end(), x) - f.x.begin();
+  const double u = x - f.x[static_cast<std::size_t>(std::max<std::ptrdiff_t>(0, column - 1))];
+  FunctionValue v;
+  for (Eigen::Index k = f.coefficients.rows(); k-- > 0;) {
+    v.second = v.second * u + 2.0 * v.first;
+    v.first = v.first * u + v.value;
+    v.value = v.value * u + f.coefficients(k, column);
+  }
+  return v;
 }
 
 void check_knots(const std::vector<double>& x, const std::vector<double>& y) {
@@ -191,6 +205,65 @@ SimmSpline make_simm_spline(std::vector<double> x, std::vector<double> y) {
   }
   c[last] *= 3.0;
   d[last] = d[last - 1];
+  return s;
+}
+
+PiecewisePolynomial make_septic_spline(const std::vector<double>& x, const std::vector<double>& y) {
+  check_knots(x, y);
+  const auto n = static_cast<Eigen::Index>(x.size());
+  if (n < 4) throw InvalidInput(fmt::format("spline of degree 7: {} knots; four are needed", n));
+  // Unknown: the eight coefficients of each interval, in powers of (x - left)/mean interval.
+  const double unit = (x.back() - x.front()) / static_cast<double>(n - 1);
+  const Eigen::Index unknowns = 8 * (n - 1);
+  std::vector<Eigen::Triplet<double>> terms;
+  Eigen::VectorXd right = Eigen::VectorXd::Zero(unknowns);
+  Eigen::Index row = 0;
+  // sign times the derivative of order d over d! of interval i at u.
+  const auto add = [&](Eigen::Index i, int d, double u, double sign) {
+    double power = sign;
+    for (int k = d; k < 8; ++k) {
+      double binomial = 1.0;
+      for (int j = 1; j <= d; ++j) binomial = binomial * (k - d + j) / j;
+      terms.emplace_back(row, 8 * i + k, binomial * power);
+      power *= u;
+    }
+  };
+  for (int d = 4; d < 7; ++d, ++row) add(0, d, 0.0, 1.0);
+  for (Eigen::Index i = 0; i + 1 < n; ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    const double h = (x[at + 1] - x[at]) / unit;
+    add(i, 0, 0.0, 1.0);
+    right[row++] = y[at];
+    add(i, 0, h, 1.0);
+    right[row++] = y[at + 1];
+    const bool is_last = i + 2 == n;
+    for (int d = is_last ? 4 : 1; d < 7; ++d, ++row) {
+      add(i, d, h, 1.0);
+      if (!is_last) add(i + 1, d, 0.0, -1.0);
+    }
+  }
+  Eigen::SparseMatrix<double> matrix(unknowns, unknowns);
+  matrix.setFromTriplets(terms.begin(), terms.end());
+  Eigen::SparseLU<Eigen::SparseMatrix<double>> factor(matrix);
+  Eigen::VectorXd c = factor.solve(right);
+  c += factor.solve(Eigen::VectorXd(right - matrix * c));  // what rounding left
+  if (!c.allFinite()) throw InvalidInput("spline of degree 7: its knots are too uneven");
+  PiecewisePolynomial s{x, Eigen::MatrixXd::Zero(8, n + 1)};
+  for (Eigen::Index i = 0; i + 1 < n; ++i)
+    for (Eigen::Index k = 0; k < 8; ++k)
+      s.coefficients(k, i + 1) = c[8 * i + k] / std::pow(unit, static_cast<double>(k));
+  // Beyond the ends the first and the last piece go on, of which the higher powers are zero there.
+  s.coefficients.col(0).head(4) = s.coefficients.col(1).head(4);
+  const double h = x.back() - x[x.size() - 2];
+  for (int d = 0; d < 4; ++d) {
+    double sum = 0.0, power = 1.0;
+    for (int k = d; k < 8; ++k, power *= h) {
+      double binomial = 1.0;
+      for (int j = 1; j <= d; ++j) binomial = binomial * (k - d + j) / j;
+      sum += binomial * power * s.coefficients(k, n - 1);
+    }
+    s.coefficients(d, n) = sum;
+  }
   return s;
 }
 

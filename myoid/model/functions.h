@@ -36,6 +36,12 @@ struct PiecewiseConstant {
 struct Sine {
   double amplitude = 1.0, omega = 1.0, phase = 0.0, offset = 0.0;
 };
+/// Polynomials between knots, by rising power of x - left knot: a column each, the first before the
+/// first knot (about it), the last after the last.
+struct PiecewisePolynomial {
+  std::vector<double> x;
+  Eigen::MatrixXd coefficients;
+};
 /// From `start_value` to `end_value` between two places, as 10 s^3 - 15 s^4 + 6 s^5.
 struct SmoothStep {
   double start = 0.0, end = 1.0, start_value = 0.0, end_value = 1.0;
@@ -50,7 +56,8 @@ struct Function {
                PiecewiseConstant,
                Sine,
                SmoothStep,
-               math::Spline>
+               math::Spline,
+               PiecewisePolynomial>
       form = Constant{};
   double scale = 1.0;
   Function() = default;
@@ -71,6 +78,11 @@ struct Function {
 /// The natural cubic spline (second derivative 0 at the ends), linear beyond them: OpenSim's
 /// GCVSpline of half order 2. Throws as make_simm_spline.
 [[nodiscard]] SimmSpline make_natural_spline(std::vector<double> x, std::vector<double> y);
+
+/// The natural spline of degree 7 (fourth to sixth derivative 0 at the ends, a cubic beyond them):
+/// OpenSim's GCVSpline of half order 4. Four knots or more; throws as make_simm_spline.
+[[nodiscard]] PiecewisePolynomial make_septic_spline(const std::vector<double>& x,
+                                                     const std::vector<double>& y);
 
 struct FunctionValue {
   double value = 0.0;

@@ -46,7 +46,7 @@ std::array<TransformAxis, 3> at_rest(std::array<TransformAxis, 3> axes) {
 
 void turn_round(BodyModel& model, std::size_t number) {
   const Joint joint = model.joints[number];
-  if (joint.ellipsoid_radii_m) {
+  if (joint.ellipsoid_radii_m || joint.rod_length_m) {
     throw ModelError(fmt::format(
         "joint '{}' ({}) has its parent '{}' hang on its child '{}'; expected it the other way "
         "round: such a joint cannot be turned",

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
+#include "myoid/model/bent_rod.h"
 
 namespace myoid::model {
 namespace {
@@ -44,6 +45,7 @@ JointPosture posture(const Joint& joint, const Eigen::Ref<const Eigen::VectorXd>
     p.X_FM.p += p.shift[i].value * axis.axis;
   }
   if (joint.ellipsoid_radii_m) p.X_FM.p += joint.ellipsoid_radii_m->cwiseProduct(p.X_FM.R.col(2));
+  if (joint.rod_length_m) p.X_FM.p += bent_rod_end(*joint.rod_length_m, p.X_FM.R.col(1));
   return p;
 }
 
@@ -100,6 +102,12 @@ RelativeMotion relative_motion(const Joint& joint,
     m.v += joint.ellipsoid_radii_m->cwiseProduct(m.w.cross(up));
     m.a += joint.ellipsoid_radii_m->cwiseProduct(m.alpha.cross(up) + m.w.cross(m.w.cross(up)));
   }
+  if (joint.rod_length_m) {
+    const Vec3 u = p.X_FM.R.col(1);
+    const Vec3 du = m.w.cross(u);
+    m.v += bent_rod_velocity(*joint.rod_length_m, u, du);
+    m.a += bent_rod_acceleration(*joint.rod_length_m, u, du, m.alpha.cross(u) + m.w.cross(du));
+  }
   return m;
 }
 
@@ -138,6 +146,10 @@ void compute_poses(const BodyModel& model,
         if (joint.ellipsoid_radii_m)
           state.H_v_G[at(c)] +=
               X_GF.R * joint.ellipsoid_radii_m->cwiseProduct(w_F.cross(p.X_FM.R.col(2)));
+        if (joint.rod_length_m) {
+          const Vec3 u = p.X_FM.R.col(1);
+          state.H_v_G[at(c)] += X_GF.R * bent_rod_velocity(*joint.rod_length_m, u, w_F.cross(u));
+        }
       }
       if (const int c = joint.translation[i].coordinate; c >= 0) {
         state.H_v_G[at(c)] += X_GF.R * (p.shift[i].first * joint.translation[i].axis);
@@ -189,7 +201,8 @@ Eigen::VectorXd inverse_dynamics(const BodyModel& model,
                                  const Eigen::Ref<const Eigen::VectorXd>& qdot,
                                  const Eigen::Ref<const Eigen::VectorXd>& qddot,
                                  const std::vector<BodyWrench>& external,
-                                 BodyState& state) {
+                                 BodyState& state,
+                                 std::vector<BodyWrench>* carried) {
   check_size(model, qddot.size(), "acceleration");
   compute_poses(model, q, state);
   compute_velocities(model, qdot, state);
@@ -230,6 +243,7 @@ Eigen::VectorXd inverse_dynamics(const BodyModel& model,
     force[at(wrench.body)] -= wrench.f_G;
     moment[at(wrench.body)] -= wrench.m_G;
   }
+  if (carried != nullptr) carried->assign(count, BodyWrench{});
   // Inward: wrenches to the parents, projected on each joint's motions.
   Eigen::VectorXd tau = Eigen::VectorXd::Zero(qddot.size());
   for (std::size_t j = model.joints.size(); j-- > 0;) {
@@ -238,6 +252,7 @@ Eigen::VectorXd inverse_dynamics(const BodyModel& model,
     for (const int c : joint.coordinates) {
       tau[c] = state.H_w_G[at(c)].dot(moment[b]) + state.H_v_G[at(c)].dot(force[b]);
     }
+    if (carried != nullptr) (*carried)[b] = {joint.child, force[b], moment[b]};
     const std::size_t parent = at(joint.parent);
     force[parent] += force[b];
     moment[parent] += moment[b] + (state.X_GB[b].p - state.X_GB[parent].p).cross(force[b]);

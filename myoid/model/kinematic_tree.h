@@ -50,13 +50,15 @@ struct BodyWrench {
 
 /// Generalized forces tau that produce qddot at (q, qdot) under gravity and `external`, by
 /// recursive Newton-Euler: tau = M qddot + C - gravity - external. Coordinates in model order, [N
-/// m] or [N].
+/// m] or [N]. `carried`, if given, gets for every body what its joint carries: the wrench on the
+/// body from its parent, that of forces along the joint's coordinates included.
 [[nodiscard]] Eigen::VectorXd inverse_dynamics(const BodyModel& model,
                                                const Eigen::Ref<const Eigen::VectorXd>& q,
                                                const Eigen::Ref<const Eigen::VectorXd>& qdot,
                                                const Eigen::Ref<const Eigen::VectorXd>& qddot,
                                                const std::vector<BodyWrench>& external,
-                                               BodyState& state);
+                                               BodyState& state,
+                                               std::vector<BodyWrench>* carried = nullptr);
 
 /// Joint-space mass matrix, nq x nq.
 [[nodiscard]] Eigen::MatrixXd mass_matrix(const BodyModel& model,

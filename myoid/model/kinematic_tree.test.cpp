@@ -23,8 +23,9 @@ class Uniform {
 
 /// Four bodies in a branched tree, every slot of a joint used, oblique axes, curved functions, a
 /// coordinate that drives a rotation and two translations. With `shared`, joints' rotations share a
-/// coordinate: one and three, two and three, one and two, all three.
-BodyModel crooked_tree(std::uint64_t seed, bool shared = false) {
+/// coordinate: one and three, two and three, one and two, all three. With `bent`, the second joint
+/// is at the end of a rod that bends by up to 1.5 rad, the third on an ellipsoid.
+BodyModel crooked_tree(std::uint64_t seed, bool shared = false, bool bent = false) {
   Uniform u(seed);
   BodyModel m;
   m.bodies.push_back({.name = "ground"});
@@ -63,6 +64,15 @@ BodyModel crooked_tree(std::uint64_t seed, bool shared = false) {
             joint.coordinates[static_cast<std::size_t>(sharing[b - 1][k])];
       }
     }
+    if (bent && b == 2) {
+      joint.rod_length_m = 0.4;
+      const Eigen::Index order[3] = {0, 2, 1};
+      for (std::size_t k = 0; k < 3; ++k) {
+        joint.rotation[k].axis = Vec3::Unit(order[k]);
+        joint.rotation[k].function = Linear{1.0, 0.1};
+      }
+    }
+    if (bent && b == 3) joint.ellipsoid_radii_m = Vec3(0.1, 0.2, 0.15);
     m.joints.push_back(joint);
   }
   return finalize(m);
@@ -74,8 +84,7 @@ Eigen::VectorXd random_vector(Eigen::Index n, Uniform& u) {
   return v;
 }
 
-TEST(KinematicTree, StationJacobianIsTheDerivativeOfThePosition) {
-  const BodyModel m = crooked_tree(1);
+void expect_jacobian_is_derivative(const BodyModel& m) {
   Uniform u(2);
   const Eigen::VectorXd q = random_vector(12, u);
   const Vec3 p_BP(0.1, -0.2, 0.3);
@@ -91,6 +100,14 @@ TEST(KinematicTree, StationJacobianIsTheDerivativeOfThePosition) {
     const Vec3 difference = (plus.X_GB[3] * p_BP - minus.X_GB[3] * p_BP) / (2.0 * h);
     EXPECT_LT((jacobian.col(k) - difference).norm(), 1e-8) << k;  // truncation h^2, round-off eps/h
   }
+}
+
+TEST(KinematicTree, StationJacobianIsTheDerivativeOfThePosition) {
+  expect_jacobian_is_derivative(crooked_tree(1));
+}
+
+TEST(KinematicTree, SoItIsAtBentRodsAndOnEllipsoids) {
+  expect_jacobian_is_derivative(crooked_tree(1, false, true));
 }
 
 TEST(KinematicTree, VelocitiesAreTheJacobianTimesTheRates) {
@@ -186,6 +203,10 @@ TEST(InverseDynamics, LagrangesEquationsGiveTheSameForces) {
 
 TEST(InverseDynamics, LagrangesEquationsHoldWhereRotationsShareACoordinate) {
   expect_lagranges_equations(crooked_tree(7, true));
+}
+
+TEST(InverseDynamics, LagrangesEquationsHoldAtBentRodsAndOnEllipsoids) {
+  expect_lagranges_equations(crooked_tree(7, false, true));
 }
 
 TEST(MassMatrix, IsSymmetricPositiveAndTheKineticEnergysForm) {

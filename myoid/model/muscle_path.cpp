@@ -17,6 +17,22 @@ bool is_active(const PathPoint& point, const BodyState& state) {
   return q >= point.condition->lower - kSlack_rad && q <= point.condition->upper + kSlack_rad;
 }
 
+void compute_function_path(const FunctionPath& path, const BodyState& state, PathResult& result) {
+  Eigen::VectorXd x(static_cast<Eigen::Index>(path.coordinates.size()));
+  for (std::size_t k = 0; k < path.coordinates.size(); ++k)
+    x[static_cast<Eigen::Index>(k)] = state.q[path.coordinates[k]];
+  const MultiPolynomialValue length = evaluate(path.length, x);
+  result.length_m = length.value;
+  for (std::size_t k = 0; k < path.coordinates.size(); ++k) {
+    result.moment_arm_m[path.coordinates[k]] += path.moment_arms.empty()
+                                                    ? -length.gradient[static_cast<Eigen::Index>(k)]
+                                                    : evaluate(path.moment_arms[k], x).value;
+  }
+  result.speed_mps = -result.moment_arm_m.dot(state.qdot);
+  result.wrapped = false;
+  result.settled = true;
+}
+
 }  // namespace
 
 void place_points(const BodyModel& model,
@@ -38,8 +54,10 @@ void place_points(const BodyModel& model,
         const Coordinate& c = model.coordinates[at(moving.coordinate)];
         q = std::clamp(state.q[moving.coordinate], c.lower, c.upper);
       }
+      Vec3 p_F;
       for (std::size_t k = 0; k < 3; ++k)
-        s.p_B[static_cast<Eigen::Index>(k)] = evaluate(moving.location[k], q).value;
+        p_F[static_cast<Eigen::Index>(k)] = evaluate(moving.location[k], q).value;
+      s.p_B = moving.X_BF * p_F;
     }
     s.p_G = state.X_GB[at(s.body)] * s.p_B;
     workspace.stations.push_back(s);
@@ -114,7 +132,7 @@ Vec3 moving_rate(const BodyModel& model,
   Vec3 rate;
   for (std::size_t k = 0; k < 3; ++k)
     rate[static_cast<Eigen::Index>(k)] = evaluate(moving.location[k], q).first;
-  return state.X_GB[at(point.body)].R * rate;
+  return state.X_GB[at(point.body)].R * (moving.X_BF.R * rate);
 }
 
 void compute_path(const BodyModel& model,
@@ -123,7 +141,10 @@ void compute_path(const BodyModel& model,
                   PathWorkspace& workspace,
                   PathResult& result) {
   result.moment_arm_m.setZero(static_cast<Eigen::Index>(model.coordinates.size()));
-  if (model.compat.opensim_paths) {
+  if (path.function) {
+    workspace.stations.clear();
+    compute_function_path(*path.function, state, result);
+  } else if (model.compat.opensim_paths) {
     compute_opensim_path(model, path, state, workspace, result);
   } else {
     compute_exact_path(model, path, state, workspace, result);

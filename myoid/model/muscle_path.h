@@ -53,6 +53,8 @@ struct PathResult {
 /// With Compat::opensim_paths all is as OpenSim 4.5.2 computes it (compat.h): r the moments of the
 /// unit tension, speed from the velocities of the points.
 ///
+/// A path given by functions has no stations; its speed is -r . qdot.
+///
 /// `compute_poses` (and for the speed `compute_velocities`) must have been called on the state.
 void compute_path(const BodyModel& model,
                   const MusclePath& path,

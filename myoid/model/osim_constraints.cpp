@@ -8,6 +8,35 @@
 #include "myoid/model/osim_functions.h"
 
 namespace myoid::model {
+namespace {
+
+/// A coordinate that depends on several others.
+void read_function_constraint(OsimReading& r,
+                              pugi::xml_node node,
+                              const std::string& name,
+                              const std::vector<std::string>& independent) {
+  auto function = multi_function_property(r, node, "coupled_coordinates_function",
+                                          static_cast<int>(independent.size()));
+  if (!function) {
+    r.model.unsupported.push_back(
+        fmt::format("constraint '{}' couples {} independent coordinates by another function than a "
+                    "LinearFunction or a MultivariatePolynomialFunction; it is not enforced",
+                    name, independent.size()));
+    return;
+  }
+  FunctionConstraint law;
+  law.dependent = coordinate_named(r, node, r.xml.word(node, "dependent_coordinate_name"));
+  for (const std::string& coordinate : independent) {
+    law.independent.push_back(coordinate_named(r, node, coordinate));
+    if (law.independent.back() == law.dependent)
+      r.xml.fail(node, fmt::format("constraint '{}' couples a coordinate with itself", name));
+  }
+  law.function = *std::move(function);
+  law.function.scale *= r.xml.number(node, "scale_factor", 1.0);
+  r.model.constraints.push_back({name, node.name(), std::move(law)});
+}
+
+}  // namespace
 
 void read_constraints(OsimReading& r, pugi::xml_node set) {
   for (const auto node : OsimXml::objects(set)) {
@@ -17,6 +46,10 @@ void read_constraints(OsimReading& r, pugi::xml_node set) {
     const std::string owner = "/constraintset/" + name;
     if (kind == "CoordinateCouplerConstraint") {
       const auto independent = r.xml.words(node, "independent_coordinate_names");
+      if (independent.size() > 1) {
+        read_function_constraint(r, node, name, independent);
+        continue;
+      }
       const std::size_t listed = r.model.unsupported.size();
       const auto function = function_property(r, node, "coupled_coordinates_function");
       if (independent.size() != 1 || !function || r.model.unsupported.size() > listed) {

@@ -210,6 +210,8 @@ void OsimEditor::scale_joint(pugi::xml_node joint, const Vec3& parent, const Vec
     multiply_function(xml_, axis, direction.cwiseAbs().dot(parent), true);
   }
   multiply(xml_, joint, "radii_x_y_z", parent);
+  if (std::string_view(joint.name()) == "ConstantCurvatureJoint")
+    multiply(xml_, joint, "length", child[1]);
   multiply(xml_, joint, "thoracic_ellipsoid_radii_x_y_z", parent);
   if (const auto origin = xml_.property(joint, "scapula_winging_axis_origin")) {
     const auto v = xml_.numbers(origin);

@@ -10,6 +10,7 @@
 #include "myoid/model/osim_contacts.h"
 #include "myoid/model/osim_functions.h"
 #include "myoid/model/osim_muscles.h"
+#include "myoid/model/osim_paths.h"
 
 namespace myoid::model {
 namespace {
@@ -146,7 +147,7 @@ void read_force(OsimReading& r, pugi::xml_node node) {
     if (target.empty()) target = socket(r, node, "coordinate");
     return coordinate_named(r, node, target);
   };
-  if (const std::string path = foreign_path(node); !path.empty()) {
+  if (const std::string path = foreign_path(r, node); !path.empty()) {
     r.model.unsupported.push_back(fmt::format(
         "{} '{}' has a path of kind {}, which is not supported: it is left out", kind, name, path));
   } else if (is_muscle(node)) {

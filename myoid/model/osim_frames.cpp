@@ -271,6 +271,15 @@ bool is_enabled(const OsimReading& r, pugi::xml_node node, const char* positive)
   return r.xml.flag(node, positive, true);
 }
 
+double positive(const OsimReading& r, pugi::xml_node node, const char* name, double otherwise) {
+  const double value = r.xml.number(node, name, otherwise);
+  if (!(value > 0.0) || !std::isfinite(value)) {
+    r.xml.fail(node, fmt::format("{} '{}': expected <{}> above 0, found {}", node.name(),
+                                 OsimXml::name_of(node), name, value));
+  }
+  return value;
+}
+
 Vec3 direction_of(const OsimReading& r,
                   pugi::xml_node node,
                   const char* name,

@@ -78,6 +78,12 @@ void read_bodies(OsimReading& reading, pugi::xml_node model);
                               pugi::xml_node node,
                               const char* positive);
 
+/// A number above 0; throws ReadError for another.
+[[nodiscard]] double positive(const OsimReading& reading,
+                              pugi::xml_node node,
+                              const char* name,
+                              double otherwise);
+
 /// The unit vector that a property gives; throws ReadError if it is no direction.
 [[nodiscard]] Vec3 direction_of(const OsimReading& reading,
                                 pugi::xml_node node,

@@ -14,7 +14,7 @@ namespace {
 constexpr const char* kSupported =
     "supported are Constant, LinearFunction, PolynomialFunction, PiecewiseLinearFunction, "
     "PiecewiseConstantFunction, StepFunction, Sine, SimmSpline, NaturalCubicSpline, GCVSpline that "
-    "interpolates (degree 1, 3 or 5), MultivariatePolynomialFunction of one variable and "
+    "interpolates (degree 1, 3, 5 or 7), MultivariatePolynomialFunction of one variable and "
     "MultiplierFunction";
 
 bool is_simm_spline(std::string_view kind) {
@@ -69,12 +69,27 @@ Function read_knots(OsimReading& r, pugi::xml_node node, double scale) {
     if (half_order == 1.0) return {make_piecewise_linear(std::move(x), std::move(y)), scale};
     if (half_order == 2.0) return {make_natural_spline(std::move(x), std::move(y)), scale};
     if (half_order == 3.0) return {make_quintic_spline(x, y), scale};
+    if (half_order == 4.0) return {make_septic_spline(x, y), scale};
     return unsupported(r, node, fmt::format("has <half_order> {}", half_order));
   } catch (const ReadError&) {
     throw;
   } catch (const InvalidInput& error) {
     r.xml.fail(node, error.what());
   }
+}
+
+/// Goes from MultiplierFunctions to the function inside; their scales multiply.
+double unwrap(const OsimReading& r, pugi::xml_node& node) {
+  double scale = 1.0;
+  for (int depth = 0; std::string_view(node.name()) == "MultiplierFunction"; ++depth) {
+    scale *= r.xml.number(node, "scale", 1.0);
+    auto inner = OsimXml::first_element(node.child("function"));
+    if (!inner) inner = node.find_child_by_attribute("name", "function");
+    if (!inner) r.xml.fail(node, "<MultiplierFunction> has no function inside");
+    if (depth > 64) r.xml.fail(node, "<MultiplierFunction> is nested more than 64 deep");
+    node = inner;
+  }
+  return scale;
 }
 
 }  // namespace
@@ -107,17 +122,52 @@ std::vector<Function> functions_property(OsimReading& r,
   return functions;
 }
 
-Function read_function(OsimReading& r, pugi::xml_node node) {
-  // MultiplierFunctions may nest; their scales multiply.
-  double scale = 1.0;
-  for (int depth = 0; std::string_view(node.name()) == "MultiplierFunction"; ++depth) {
-    scale *= r.xml.number(node, "scale", 1.0);
-    auto inner = OsimXml::first_element(node.child("function"));
-    if (!inner) inner = node.find_child_by_attribute("name", "function");
-    if (!inner) r.xml.fail(node, "<MultiplierFunction> has no function inside");
-    if (depth > 64) r.xml.fail(node, "<MultiplierFunction> is nested more than 64 deep");
-    node = inner;
+std::optional<MultiPolynomial> multi_function_property(const OsimReading& r,
+                                                       pugi::xml_node object,
+                                                       const char* property,
+                                                       int dimension) {
+  const auto holder = r.xml.property(object, property);
+  const auto node =
+      holder ? OsimXml::first_element(holder) : object.find_child_by_attribute("name", property);
+  if (!node) return std::nullopt;
+  return multi_function(r, node, dimension);
+}
+
+std::optional<MultiPolynomial> multi_function(const OsimReading& r,
+                                              pugi::xml_node node,
+                                              int dimension) {
+  const double scale = unwrap(r, node);
+  const std::string_view kind = node.name();
+  MultiPolynomial f{.dimension = dimension, .degree = 1, .scale = scale};
+  if (kind == "LinearFunction") {
+    // Slopes in the order of the variables, then the intercept: the other way round.
+    f.coefficients = coefficients_of(r, node);
+    std::reverse(f.coefficients.begin(), f.coefficients.end());
+  } else if (kind == "MultivariatePolynomialFunction") {
+    const double stated = r.xml.number(node, "dimension", 0.0);
+    const double order = r.xml.number(node, "order", 0.0);
+    constexpr double kHighest = 100.0;
+    if (stated != dimension || !(order >= 0.0 && order <= kHighest)) {
+      r.xml.fail(node, fmt::format("<dimension> {} and <order> {}, expected a function of {} "
+                                   "variables and an order of 0 to {}",
+                                   stated, order, dimension, kHighest));
+    }
+    f.degree = static_cast<int>(order);
+    f.coefficients = coefficients_of(r, node);
+  } else {
+    return std::nullopt;
   }
+  const double needed = term_count(f.dimension, f.degree);
+  if (static_cast<double>(f.coefficients.size()) != needed) {
+    r.xml.fail(node, fmt::format("<coefficients>: expected {} for {} variables and order {}, found "
+                                 "{}",
+                                 needed, f.dimension, f.degree, f.coefficients.size()));
+  }
+  return f;
+}
+
+Function read_function(OsimReading& r, pugi::xml_node node) {
+  const double scale = unwrap(r, node);
   const std::string_view kind = node.name();
   if (kind == "Constant") return {Constant{r.xml.number(node, "value", 0.0)}, scale};
   if (kind == "LinearFunction") {

@@ -16,6 +16,17 @@ namespace myoid::model {
 [[nodiscard]] std::optional<Function> function_property(OsimReading& reading,
                                                         pugi::xml_node object,
                                                         const char* property);
+/// The function of several variables that a property holds, a MultivariatePolynomialFunction or a
+/// LinearFunction, inside MultiplierFunctions or not; empty for another. Throws ReadError if it
+/// has not as many coefficients as its dimension and order ask for, or is of other dimension.
+[[nodiscard]] std::optional<MultiPolynomial> multi_function_property(const OsimReading& reading,
+                                                                     pugi::xml_node object,
+                                                                     const char* property,
+                                                                     int dimension);
+/// The same of a function element.
+[[nodiscard]] std::optional<MultiPolynomial> multi_function(const OsimReading& reading,
+                                                            pugi::xml_node node,
+                                                            int dimension);
 /// The functions of a property that is a set of them, in either way.
 [[nodiscard]] std::vector<Function> functions_property(OsimReading& reading,
                                                        pugi::xml_node object,

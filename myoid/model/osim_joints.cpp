@@ -1,6 +1,7 @@
 #include "myoid/model/osim_joints.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <utility>
@@ -177,6 +178,25 @@ bool set_axes(OsimReading& r, pugi::xml_node node, Joint& joint) {
     }
     if (kind == "EllipsoidJoint")
       joint.ellipsoid_radii_m = r.xml.vec3(node, "radii_x_y_z", Vec3::Ones());
+  } else if (kind == "ConstantCurvatureJoint") {
+    need_coordinates(r, node, joint, 3);
+    const Vec3 neutral_rad = r.xml.vec3(node, "neutral_angle_x_z_y", Vec3::Zero());
+    joint.rod_length_m = r.xml.number(node, "length", 1.0);
+    if (!std::isfinite(*joint.rod_length_m) || !neutral_rad.allFinite())
+      r.xml.fail(node,
+                 fmt::format("joint '{}': length or neutral angle is not finite", joint.name));
+    constexpr std::array<Eigen::Index, 3> kOrder{0, 2, 1};  // x, z, y
+    for (std::size_t k = 0; k < 3; ++k) {
+      drive(joint.rotation[k], kOrder[k]);
+      joint.rotation[k].function = Linear{1.0, neutral_rad[static_cast<Eigen::Index>(k)]};
+      r.model.coordinates[static_cast<std::size_t>(joint.coordinates[k])].clamped = true;
+    }
+    r.model.notes.push_back(fmt::format(
+        "joint '{}' (ConstantCurvatureJoint): its speeds are the rates of its coordinates and move "
+        "its end along the arc; OpenSim gives its velocities in the axes of the child and leaves a "
+        "part of its accelerations out, so that moment arms, inverse dynamics and static "
+        "optimization differ there",
+        joint.name));
   } else {
     return false;
   }

@@ -12,6 +12,7 @@
 #include "myoid/model/osim_frames.h"
 #include "myoid/model/osim_joints.h"
 #include "myoid/model/osim_muscles.h"
+#include "myoid/model/osim_paths.h"
 #include "myoid/recording/text_file.h"
 
 namespace myoid::model {

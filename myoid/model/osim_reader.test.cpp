@@ -1,5 +1,6 @@
 #include "myoid/model/osim_reader.h"
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 
@@ -7,7 +8,9 @@
 
 #include "myoid/core/error.h"
 #include "myoid/model/arm4.h"
+#include "myoid/model/constraints.h"
 #include "myoid/model/kinematic_tree.h"
+#include "myoid/model/muscle_path.h"
 #include "myoid/recording/storage_reader.h"
 
 #include "tests/support/data_folder.h"
@@ -164,6 +167,163 @@ TEST(ParseOsim, CouplersByPolynomialsAndSplinesOfOneVariable) {
   EXPECT_NEAR(
       coupled("<PiecewiseLinearFunction><x>0 1 2</x><y>0 2 2</y></PiecewiseLinearFunction>"), 2.0,
       1e-14);
+}
+
+// A point that moves in a frame turned and shifted against the body of a hinge: length by hand,
+// moment arm as its derivative.
+TEST(ParseOsim, AMovingPointMayLieInAnOffsetFrame) {
+  for (const Compat& compat : {Compat{}, kOpenSim452}) {
+    const BodyModel m = parse_osim(
+        R"(<OpenSimDocument Version="40000"><Model name="m">
+<BodySet><objects><Body name="b"><components><PhysicalOffsetFrame name="f"><socket_parent>..</socket_parent>
+<translation>0.1 0.2 0</translation><orientation>0 0 0.5</orientation></PhysicalOffsetFrame></components>
+<mass>1</mass><inertia>1 1 1 0 0 0</inertia></Body></objects></BodySet>
+<JointSet><objects><PinJoint name="hinge">
+<socket_parent_frame>/ground</socket_parent_frame><socket_child_frame>/bodyset/b</socket_child_frame>
+<coordinates><Coordinate name="q"/></coordinates></PinJoint></objects></JointSet>
+<ForceSet><objects><Thelen2003Muscle name="muscle"><GeometryPath name="geometrypath"><PathPointSet><objects>
+<PathPoint name="p1"><socket_parent_frame>/ground</socket_parent_frame><location>0 0.5 0.1</location></PathPoint>
+<MovingPathPoint name="p2"><socket_parent_frame>/bodyset/b/f</socket_parent_frame>
+<socket_x_coordinate>/jointset/hinge/q</socket_x_coordinate><socket_y_coordinate>/jointset/hinge/q</socket_y_coordinate>
+<socket_z_coordinate>/jointset/hinge/q</socket_z_coordinate>
+<x_location><LinearFunction><coefficients>0.1 0.3</coefficients></LinearFunction></x_location>
+<y_location><Constant><value>0.05</value></Constant></y_location>
+<z_location><Constant><value>0</value></Constant></z_location></MovingPathPoint>
+</objects></PathPointSet></GeometryPath></Thelen2003Muscle></objects></ForceSet></Model></OpenSimDocument>)",
+        "m.osim", {.compat = compat});
+    EXPECT_TRUE(m.unsupported.empty());
+    const auto length = [](double q) {
+      const auto turned = [](double a, const Vec3& p) {
+        return Vec3(std::cos(a) * p.x() - std::sin(a) * p.y(),
+                    std::sin(a) * p.x() + std::cos(a) * p.y(), p.z());
+      };
+      const Vec3 in_body = Vec3(0.1, 0.2, 0.0) + turned(0.5, Vec3(0.1 * q + 0.3, 0.05, 0.0));
+      return (turned(q, in_body) - Vec3(0.0, 0.5, 0.1)).norm();
+    };
+    BodyState state = make_state(m);
+    for (const double q : {-0.8, 0.0, 1.1}) {
+      compute_poses(m, Eigen::VectorXd::Constant(1, q), state);
+      compute_velocities(m, Eigen::VectorXd::Constant(1, 2.0), state);
+      const PathResult path = compute_path(m, 0, state);
+      const double slope = (length(q + 1e-5) - length(q - 1e-5)) / 2e-5;
+      EXPECT_NEAR(path.length_m, length(q), 1e-15);
+      EXPECT_NEAR(path.moment_arm_m[0], -slope, 1e-10);  // h^2 and round-off over h
+      EXPECT_NEAR(path.speed_mps, 2.0 * slope, 1e-9);
+    }
+  }
+}
+
+TEST(ParseOsim, APathMayBeAPolynomialOfCoordinates) {
+  const auto hinges = [](const std::string& path) {
+    return parse_osim(
+        R"(<OpenSimDocument Version="40500"><Model name="m">
+<BodySet><objects><Body name="b"><mass>1</mass><inertia>1 1 1 0 0 0</inertia></Body></objects></BodySet>
+<JointSet><objects><UniversalJoint name="hinge">
+<socket_parent_frame>/ground</socket_parent_frame><socket_child_frame>/bodyset/b</socket_child_frame>
+<coordinates><Coordinate name="p"/><Coordinate name="q"/></coordinates></UniversalJoint></objects></JointSet>
+<ForceSet><objects><Thelen2003Muscle name="muscle"><path><FunctionBasedPath name="path">
+<coordinates>/jointset/hinge/q /jointset/hinge/p</coordinates>)" +
+            path +
+            R"(</FunctionBasedPath></path></Thelen2003Muscle></objects></ForceSet></Model></OpenSimDocument>)",
+        "m.osim");
+  };
+  const std::string length =
+      "<length_function><MultivariatePolynomialFunction><coefficients>0.3 0.1 0.05 0.2 0.4 0.6"
+      "</coefficients><dimension>2</dimension><order>2</order></MultivariatePolynomialFunction>"
+      "</length_function>";
+  const BodyModel m = hinges(length);
+  EXPECT_TRUE(m.unsupported.empty());
+  BodyState state = make_state(m);
+  const double p = 0.2, q = -0.5;
+  compute_poses(m, Eigen::Vector2d(p, q), state);
+  compute_velocities(m, Eigen::Vector2d(1.5, 2.5), state);
+  const PathResult path = compute_path(m, 0, state);
+  EXPECT_NEAR(path.length_m, 0.3 + 0.1 * p + 0.05 * p * p + 0.2 * q + 0.4 * q * p + 0.6 * q * q,
+              1e-15);
+  EXPECT_NEAR(path.moment_arm_m[0], -(0.1 + 0.1 * p + 0.4 * q), 1e-15);
+  EXPECT_NEAR(path.moment_arm_m[1], -(0.2 + 0.4 * p + 1.2 * q), 1e-15);
+  EXPECT_NEAR(path.speed_mps, -path.moment_arm_m.dot(Eigen::Vector2d(1.5, 2.5)), 1e-15);
+  // Moment arms of their own count as they are.
+  const std::string constant =
+      "<MultivariatePolynomialFunction><coefficients>0.07</coefficients><dimension>2</dimension>"
+      "<order>0</order></MultivariatePolynomialFunction>";
+  const BodyModel own =
+      hinges(length + "<moment_arm_functions>" + constant + constant + "</moment_arm_functions>");
+  EXPECT_EQ(compute_path(own, 0, state).moment_arm_m, Eigen::Vector2d(0.07, 0.07));
+  // What cannot be computed is named, and left out.
+  const BodyModel other = hinges("<length_function><SimmSpline/></length_function>");
+  ASSERT_EQ(other.unsupported.size(), 1U);
+  EXPECT_TRUE(other.muscles.empty());
+  EXPECT_THROW(
+      (void)hinges(length + "<moment_arm_functions>" + constant + "</moment_arm_functions>"),
+      ReadError);
+}
+
+TEST(ParseOsim, AConstantCurvatureJointBendsARod) {
+  const BodyModel m = parse_osim(
+      R"(<OpenSimDocument Version="40000"><Model name="m">
+<BodySet><objects><Body name="b"><mass>1</mass><inertia>1 1 1 0 0 0</inertia></Body></objects></BodySet>
+<JointSet><objects><ConstantCurvatureJoint name="spine">
+<socket_parent_frame>/ground</socket_parent_frame><socket_child_frame>/bodyset/b</socket_child_frame>
+<coordinates><Coordinate name="x"/><Coordinate name="z"/><Coordinate name="y"/></coordinates>
+<neutral_angle_x_z_y>0.1 0 0</neutral_angle_x_z_y><length>0.4</length>
+</ConstantCurvatureJoint></objects></JointSet></Model></OpenSimDocument>)",
+      "m.osim");
+  EXPECT_TRUE(m.unsupported.empty());
+  EXPECT_EQ(m.coordinates[0].motion, MotionType::rotational);
+  BodyState state = make_state(m);
+  // Bent about x by 0.5 rad, then twisted about its own y.
+  compute_poses(m, Eigen::Vector3d(0.4, 0.0, 0.7), state);
+  const Pose& pose = state.X_GB[1];
+  EXPECT_LT((pose.p - 0.4 / 0.5 * Vec3(0.0, std::sin(0.5), 1.0 - std::cos(0.5))).norm(), 1e-15);
+  EXPECT_LT((pose.R.col(1) - Vec3(0.0, std::cos(0.5), std::sin(0.5))).norm(), 1e-15);
+  EXPECT_NEAR(pose.R(0, 0), std::cos(0.7), 1e-15);
+}
+
+// shoulder_rotation = 2 (0.1 + 0.2 e + 0.3 e^2 + 0.4 s + 0.5 s e + 0.6 s^2), s the first of the two
+// independent coordinates.
+TEST(ParseOsim, ACouplerMayHaveSeveralIndependentCoordinates) {
+  const auto coupled = [](const std::string& function) {
+    return parse_osim(
+        arm_with(
+            "</Model>",
+            "<ConstraintSet><objects><CoordinateCouplerConstraint name=\"c\">"
+            "<coupled_coordinates_function>" +
+                function +
+                "</coupled_coordinates_function><independent_coordinate_names>shoulder_flexion "
+                "elbow_flexion</independent_coordinate_names><dependent_coordinate_name>"
+                "shoulder_rotation</dependent_coordinate_name><scale_factor>2</scale_factor>"
+                "</CoordinateCouplerConstraint></objects></ConstraintSet></Model>"),
+        "arm.osim");
+  };
+  const BodyModel m = coupled(
+      "<MultivariatePolynomialFunction><dimension>2</dimension><order>2</order><coefficients>"
+      "0.1 0.2 0.3 0.4 0.5 0.6</coefficients></MultivariatePolynomialFunction>");
+  EXPECT_TRUE(m.unsupported.empty());
+  const int s = m.coordinate_index("shoulder_flexion"), e = m.coordinate_index("elbow_flexion");
+  const int r = m.coordinate_index("shoulder_rotation");
+  EXPECT_TRUE(m.is_constrained(r));
+  Eigen::VectorXd q = m.default_q();
+  q[s] = 0.3;
+  q[e] = 0.9;
+  const AssemblyResult assembled = assemble(m, q);
+  EXPECT_TRUE(assembled.converged);
+  EXPECT_EQ(assembled.q[s], 0.3);  // the independent ones stay
+  EXPECT_EQ(assembled.q[e], 0.9);
+  EXPECT_NEAR(assembled.q[r], 2.0 * (0.1 + 0.18 + 0.243 + 0.12 + 0.135 + 0.054), 1e-13);
+  BodyState state = make_state(m);
+  compute_poses(m, assembled.q, state);
+  const Eigen::MatrixXd A = constraint_jacobian(m, state);
+  EXPECT_NEAR(A(0, r), 1.0, 0.0);
+  EXPECT_NEAR(A(0, s), -2.0 * (0.4 + 0.45 + 0.36), 1e-13);
+  EXPECT_NEAR(A(0, e), -2.0 * (0.2 + 0.54 + 0.15), 1e-13);
+  // By slopes and intercept.
+  const BodyModel line =
+      coupled("<LinearFunction><coefficients>0.5 -0.25 0.125</coefficients></LinearFunction>");
+  EXPECT_NEAR(assemble(line, q).q[r], 2.0 * (0.15 - 0.225 + 0.125), 1e-14);
+  EXPECT_THROW((void)coupled("<LinearFunction><coefficients>1 2</coefficients></LinearFunction>"),
+               ReadError);
+  EXPECT_EQ(coupled("<SimmSpline><x>0 1</x><y>0 1</y></SimmSpline>").unsupported.size(), 1U);
 }
 
 TEST(ParseOsim, MarkersOfArm26LieWhereOpenSimPutsThem) {

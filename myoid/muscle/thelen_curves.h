@@ -28,15 +28,24 @@ template <typename T>
 }
 
 /// Passive multiplier (exp(k (l - 1) / e) - 1) / (exp(k) - 1) above l = 1, else 0; 1 at l = 1 + e.
-/// Published: k = 5 (OpenSim 4), e = 0.6 (0.5 in old age). Its slope jumps at l = 1.
+/// Published: k = 5 (OpenSim 4), e = 0.6 (0.5 in old age). Its slope jumps at l = 1. For one
+/// muscle, `rate` k / e and `scale` 1 / (exp(k) - 1) stay.
 template <typename T>
-[[nodiscard]] CurvePoint<T> thelen_passive(const T& l, const T& strain, const T& shape) {
+[[nodiscard]] CurvePoint<T> thelen_passive_at(const T& l, const T& rate, const T& scale) {
   using std::exp;
   if (value_of(l) <= 1.0) return {T(0.0), 0.0};
-  const T rate = shape / strain;
-  const T scale = T(1.0) / (exp(shape) - T(1.0));
   const T e = exp(rate * (l - T(1.0)));
   return {(e - T(1.0)) * scale, value_of(e * scale * rate)};
+}
+template <typename T>
+[[nodiscard]] T thelen_passive_scale(const T& shape) {
+  using std::exp;
+  return T(1.0) / (exp(shape) - T(1.0));
+}
+template <typename T>
+[[nodiscard]] CurvePoint<T> thelen_passive(const T& l, const T& strain, const T& shape) {
+  if (value_of(l) <= 1.0) return {T(0.0), 0.0};
+  return thelen_passive_at(l, T(shape / strain), thelen_passive_scale(shape));
 }
 
 /// Its integral, the energy over F_max l0.

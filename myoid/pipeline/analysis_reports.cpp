@@ -14,14 +14,16 @@
 #include "myoid/pipeline/opensim_files.h"
 #include "myoid/pipeline/tool_stages.h"
 #include "myoid/recording/atomic_file.h"
+#include "myoid/recording/recording.h"
 #include "myoid/recording/storage_reader.h"
 #include "myoid/recording/text_file.h"
 
 namespace myoid::pipeline {
 namespace {
 
-constexpr std::array kKnown{"BodyKinematics", "Kinematics", "MuscleAnalysis", "OutputReporter",
-                            "StaticOptimization"};
+constexpr std::array kKnown{"BodyKinematics",  "ForceReporter",     "JointReaction",
+                            "Kinematics",      "MuscleAnalysis",    "OutputReporter",
+                            "PointKinematics", "StaticOptimization"};
 
 constexpr const char* kUnits =
     "Units are S.I. units (second, meters, Newtons, ...)\nIf the header above contains a line with "
@@ -250,7 +252,9 @@ bool is_known_analysis(std::string_view class_name) {
 }
 
 std::string known_analyses() {
-  return "BodyKinematics, Kinematics, MuscleAnalysis, OutputReporter, StaticOptimization";
+  return "BodyKinematics, ForceReporter, JointReaction, Kinematics, MuscleAnalysis, "
+         "OutputReporter, "
+         "PointKinematics, StaticOptimization";
 }
 
 void run_analysis(AnalysisRun& run, pugi::xml_node node) {
@@ -259,6 +263,12 @@ void run_analysis(AnalysisRun& run, pugi::xml_node node) {
     report_kinematics(run, node);
   } else if (kind == "BodyKinematics") {
     report_bodies(run, node);
+  } else if (kind == "ForceReporter") {
+    report_forces(run, node);
+  } else if (kind == "JointReaction") {
+    report_reactions(run, node);
+  } else if (kind == "PointKinematics") {
+    report_point(run, node);
   } else if (kind == "MuscleAnalysis") {
     report_muscles(run, node);
   } else if (kind == "OutputReporter") {
@@ -276,8 +286,12 @@ std::filesystem::path claim_result(AnalysisRun& run, const std::string& name) {
 
 std::optional<TimeSeries> read_speeds(const model::BodyModel& model,
                                       const std::filesystem::path& path,
-                                      bool only_speeds) {
+                                      bool only_speeds,
+                                      std::vector<std::string>& notes) {
   const recording::Storage file = recording::read_storage(path);
+  for (const recording::Repair& repair : file.repairs) {
+    if (only_speeds) notes.push_back(recording::to_string(path, repair));  // else with the states
+  }
   const auto count = static_cast<Eigen::Index>(model.coordinates.size());
   Eigen::MatrixXd values = Eigen::MatrixXd::Zero(file.data.sample_count(), count);
   std::vector<Channel> channels;

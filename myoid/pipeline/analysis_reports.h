@@ -33,8 +33,24 @@ struct AnalysisRun {
 /// Runs one and writes its files: <results>/<tool>_<analysis>_<quantity>.sto.
 void run_analysis(AnalysisRun& run, pugi::xml_node node);
 void run_static_optimization(AnalysisRun& run, pugi::xml_node node);
+/// ForceReporter: muscles by their states, passive forces and external loads.
+void report_forces(AnalysisRun& run, pugi::xml_node node);
+/// JointReaction: what joints carry.
+void report_reactions(AnalysisRun& run, pugi::xml_node node);
 /// BodyKinematics: centers of mass, orientations and their velocities.
 void report_bodies(AnalysisRun& run, pugi::xml_node node);
+/// PointKinematics: place and velocity of a point of a body, in the axes of another.
+void report_point(AnalysisRun& run, pugi::xml_node node);
+
+/// The forces of all actuators at the motion's rows: tendons' of muscles by their states, 0 of
+/// others.
+[[nodiscard]] TimeSeries forces_of_states(AnalysisRun& run);
+/// Writes what OpenSim's force reporter records: these forces of actuators and the passive ones, in
+/// the order of the force set, and the external loads.
+void write_forces(AnalysisRun& run,
+                  const model::BodyModel& model,
+                  const std::filesystem::path& path,
+                  const TimeSeries& actuators);
 
 /// <results>/<tool>_<name>, announced as a file of the run.
 [[nodiscard]] std::filesystem::path claim_result(AnalysisRun& run, const std::string& name);
@@ -44,7 +60,8 @@ void report_bodies(AnalysisRun& run, pugi::xml_node node);
 /// own name too.
 [[nodiscard]] std::optional<TimeSeries> read_speeds(const model::BodyModel& model,
                                                     const std::filesystem::path& path,
-                                                    bool only_speeds);
+                                                    bool only_speeds,
+                                                    std::vector<std::string>& notes);
 /// Fills `activation` and `fiber_length_m` from a states file that has them.
 void read_muscle_states(AnalysisRun& run, const std::filesystem::path& path);
 

@@ -14,14 +14,18 @@ namespace {
 struct Family {
   const char* name;
   std::vector<std::string_view> in_channels, in_models;
+  bool several = false;  ///< Of several muscles that have families of their own.
 };
 
 // Longer and more special names stand before those that they contain.
 const std::vector<Family>& families() {
   static const std::vector<Family> list{
       {"biceps femoris",
-       {"bicepsfem", "bifem", "bicfem", "bflh", "bfsh", "ham"},
+       {"bicepsfem", "bifem", "bicfem", "bflh", "bfsh", "bf", "lh", "lathams", "lateralham",
+        "hamlat"},
        {"bifem", "bflh", "bfsh"}},
+      {"medial hamstrings", {"mh", "medham", "medialham", "hammed"}, {"semimem", "semiten"}, true},
+      {"hamstrings", {"ham"}, {"ham", "semimem", "semiten", "bifem", "bflh", "bfsh"}, true},
       {"brachioradialis",
        {"brachiorad", "brachrad", "brd", "brachior"},
        {"brd", "brachiorad", "brachior"}},
@@ -42,7 +46,7 @@ const std::vector<Family>& families() {
       {"posterior deltoid",
        {"deltoidposterior", "posteriordeltoid", "deltpost", "deltoidp", "deltp", "postdelt"},
        {"deltpost", "delt3", "deltscap", "deltp"}},
-      {"deltoid", {"deltoid", "delt"}, {"delt"}},
+      {"deltoid", {"deltoid", "delt"}, {"delt"}, true},
       {"pectoralis major", {"pectoralis", "pec", "pecm"}, {"pec"}},
       {"latissimus dorsi", {"latissimus", "latdor", "lat", "ld"}, {"latdor", "lat"}},
       {"infraspinatus", {"infraspinatus", "infra", "infsp"}, {"infsp", "infra"}},
@@ -54,12 +58,15 @@ const std::vector<Family>& families() {
       {"gastrocnemius medialis",
        {"gastrocnemiusmed", "gasmed", "gm", "medgas", "mg"},
        {"gasmed", "medgas"}},
-      {"gastrocnemius", {"gastrocnemius", "gastroc", "gas"}, {"gas", "medgas", "latgas"}},
+      {"gastrocnemius", {"gastrocnemius", "gastroc", "gas"}, {"gas", "medgas", "latgas"}, true},
       {"tibialis anterior", {"tibialisanterior", "tibant", "ta", "tibialis"}, {"tibant"}},
       {"rectus femoris", {"rectusfemoris", "rectfem", "recfem", "rf"}, {"rectfem", "recfem"}},
       {"vastus lateralis", {"vastuslat", "vaslat", "vl"}, {"vaslat"}},
       {"vastus medialis", {"vastusmed", "vasmed", "vm"}, {"vasmed"}},
+      {"quadriceps", {"quad"}, {"quad", "rectfem", "recfem", "vas"}, true},
       {"semitendinosus", {"semiten", "semit", "st"}, {"semiten"}},
+      {"semimembranosus", {"semimem", "sm"}, {"semimem"}},
+      {"peroneus longus", {"peroneuslong", "perlong", "pl"}, {"perlong"}},
       {"gluteus maximus", {"gluteusmax", "glutmax", "gmax"}, {"glutmax", "glmax"}},
       {"gluteus medius", {"gluteusmed", "glutmed", "gmed"}, {"glutmed", "glmed"}},
   };
@@ -120,6 +127,7 @@ bool begins_with_any(const std::string& text,
 
 const Family* family_of(const std::string& letters, bool channel) {
   for (const Family& f : families()) {
+    if (f.several && !channel) continue;
     if (begins_with_any(letters, channel ? f.in_channels : f.in_models, channel)) return &f;
   }
   return nullptr;
@@ -143,22 +151,27 @@ std::vector<ChannelMuscles> match_channels(const std::vector<std::string>& chann
                                            const std::vector<std::string>& muscles) {
   std::vector<ChannelMuscles> result;
   std::map<std::string, int> of_family;
+  std::vector<const Family*> family_of_channel;
   for (const std::string& channel : channels) {
     const Name name = name_of(channel);
     const Family* family = family_of(name.letters, true);
+    family_of_channel.push_back(family);
     result.push_back({channel, {}, family != nullptr ? family->name : ""});
     if (family != nullptr) ++of_family[std::string(family->name) + name.side];
   }
-  for (ChannelMuscles& pair : result) {
+  for (std::size_t c = 0; c < result.size(); ++c) {
+    ChannelMuscles& pair = result[c];
+    const Family* const wanted = family_of_channel[c];
     const Name name = name_of(pair.channel);
     std::vector<std::string> of_head;
     for (const std::string& muscle : muscles) {
       const Name other = name_of(muscle);
       // A model of both sides calls them by a last letter: "soleus_r".
       if (name.side != ' ' && other.side != ' ' && name.side != other.side) continue;
-      const Family* family = family_of(other.letters, false);
-      const bool same = !pair.family.empty()
-                            ? family != nullptr && pair.family == family->name
+      const bool same = wanted != nullptr && wanted->several
+                            ? begins_with_any(other.letters, wanted->in_models, false)
+                        : wanted != nullptr
+                            ? family_of(other.letters, false) == wanted
                             : name.letters.size() > 2 && (other.letters.starts_with(name.letters) ||
                                                           name.letters.starts_with(other.letters));
       if (!same) continue;

@@ -42,6 +42,19 @@ TEST(MatchChannels, SidesThatAreStatedMustAgree) {
   EXPECT_THAT(pairs[2].muscles, ElementsAre("soleus_r", "soleus_l"));
 }
 
+TEST(MatchChannels, AGroupOfMusclesIsAllOfThemAndAShortNameIsOne) {
+  const std::vector<std::string> leg{"semimem_r",  "semiten_r", "bifemlh_r", "bifemsh_r",
+                                     "rect_fem_r", "vas_med_r", "vas_lat_r", "med_gas_r",
+                                     "lat_gas_r",  "soleus_r"};
+  const auto pairs = match_channels({"MH", "BF", "GAS", "quadriceps", "VL", "SOL"}, leg);
+  EXPECT_THAT(pairs[0].muscles, ElementsAre("semimem_r", "semiten_r"));
+  EXPECT_THAT(pairs[1].muscles, ElementsAre("bifemlh_r", "bifemsh_r"));
+  EXPECT_THAT(pairs[2].muscles, ElementsAre("med_gas_r", "lat_gas_r"));
+  EXPECT_THAT(pairs[3].muscles, ElementsAre("rect_fem_r", "vas_med_r", "vas_lat_r"));
+  EXPECT_THAT(pairs[4].muscles, ElementsAre("vas_lat_r"));
+  EXPECT_THAT(pairs[5].muscles, ElementsAre("soleus_r"));
+}
+
 TEST(MatchChannels, ANameThatIsNoUsualOneIsComparedLetterByLetter) {
   EXPECT_THAT(match_channels({"popliteus"}, {"popliteus_r"})[0].muscles,
               ElementsAre("popliteus_r"));

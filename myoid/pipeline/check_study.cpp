@@ -10,10 +10,12 @@
 #include "myoid/core/error.h"
 #include "myoid/kinematics/inverse_kinematics.h"
 #include "myoid/pipeline/study_model.h"
+#include "myoid/pipeline/study_plausibility.h"
 #include "myoid/pipeline/trial_emg.h"
 #include "myoid/pipeline/trial_input.h"
 #include "myoid/pipeline/trial_quality.h"
 #include "myoid/recording/csv_reader.h"
+#include "myoid/recording/emg_channels.h"
 #include "myoid/recording/emg_reader.h"
 #include "myoid/recording/label_match.h"
 #include "myoid/recording/recording.h"
@@ -81,6 +83,9 @@ class Check {
     for (const TrialSpec& trial : study_.trials) {
       if (model_) attempt(trial.name, [&] { check_trial(trial); });
     }
+    if (together_) {
+      for (Finding& f : together_->findings()) findings_.push_back(std::move(f));
+    }
     if (!envelopes_.empty()) attempt("EMG", [&] { check_reference(); });
     std::stable_sort(findings_.begin(), findings_.end(),
                      [](const Finding& a, const Finding& b) { return a.level < b.level; });
@@ -120,6 +125,7 @@ class Check {
       for (const std::string& text : model.unsupported) add(Level::warning, "model", text);
       for (const std::string& text : model.notes) add(Level::note, "model", text);
       model_ = std::move(model);
+      together_.emplace(study_, *model_);
     });
   }
 
@@ -138,6 +144,7 @@ class Check {
           std::find(input.warnings.begin(), input.warnings.end(), note) != input.warnings.end();
       add(warning ? Level::warning : Level::note, spec.name, note);
     }
+    together_->look_at(spec, input);
     if (input.markers) check_markers(*input.markers);
     const TimeSeries envelope = input.emg ? check_emg(spec, *input.emg) : TimeSeries();
     for (Fault& fault : trial_faults(study_, input, envelope))
@@ -201,6 +208,7 @@ class Check {
 
   const Study& study_;
   std::optional<model::BodyModel> model_;
+  std::optional<StudyPlausibility> together_;
   std::vector<Envelope> envelopes_;
   std::vector<Finding> findings_;
   bool all_read_ = true;
@@ -208,37 +216,17 @@ class Check {
 
 }  // namespace
 
-std::string_view name(Finding::Level level) {
-  switch (level) {
-    case Level::error:
-      return "error";
-    case Level::warning:
-      return "warning";
-    case Level::note:
-      return "note";
-  }
-  return "?";
-}
-
-Finding finding(std::string where, Fault fault) {
-  Finding result{fault.grave ? Level::warning : Level::note, std::move(where), sentence(fault), {}};
-  result.fault = std::move(fault);
-  return result;
-}
-
 namespace {
 
-/// The channels in volts, of them those named as EMG if there are such (others may be a load
+/// The channels that may be EMG, of them those named so if there are such (others may be a load
 /// cell's); of a storage file, which has no units of its own, all of them if its title states one.
 std::optional<TimeSeries> voltages(const std::filesystem::path& path,
-                                   const recording::AnalogChannels& analog) {
-  std::vector<std::string> names;
+                                   const recording::AnalogChannels& analog,
+                                   const std::vector<recording::PlateSetup>& plates) {
+  const std::vector<std::string> names = recording::emg_channels(analog.channels(), plates);
   std::vector<std::string> named_emg;
-  for (const Channel& channel : analog.channels()) {
-    if (channel.unit != Unit::volt) continue;
-    names.push_back(channel.name);
-    if (recording::plain_label(channel.name).find("emg") != std::string::npos)
-      named_emg.push_back(channel.name);
+  for (const std::string& name : names) {
+    if (recording::plain_label(name).find("emg") != std::string::npos) named_emg.push_back(name);
   }
   if (!named_emg.empty()) return analog.select(named_emg);
   if (!names.empty()) return analog.select(names);
@@ -246,6 +234,17 @@ std::optional<TimeSeries> voltages(const std::filesystem::path& path,
   if (extension != ".sto" && extension != ".mot") return std::nullopt;
   if (!recording::stated_voltage(recording::read_storage(path))) return std::nullopt;
   return recording::read_emg(path, "", false).data;
+}
+
+/// Whether the EMG of one recording rises from rest.
+std::vector<Fault> levels_alone(const TimeSeries& emg, bool raw, const std::string& where) {
+  constexpr double kSlowest_hz = 100.0;  // twice what the high-pass needs
+  if (raw && emg.mean_rate_hz() < kSlowest_hz) return {};
+  signals::EnvelopeOptions options;
+  options.whitening = false;
+  const TimeSeries envelope = raw ? signals::process_emg(emg, options).envelope : emg;
+  const std::vector<signals::TrialEnvelope> one{{where, false, &envelope, {}}};
+  return signals::check_emg_levels(one);
 }
 
 }  // namespace
@@ -260,9 +259,20 @@ std::vector<Finding> check_recording(const std::filesystem::path& path, const Ve
     for (Fault& fault : faults) findings.push_back(finding(where, std::move(fault)));
   };
   add(signals::check_markers(file.markers));
-  if (const auto emg = voltages(path, file.analog)) {
+  if (const auto emg = voltages(path, file.analog, file.plates)) {
     require_finite(*emg, path.string());
-    add(signals::check_emg(*emg));
+    constexpr Eigen::Index kFewest = 10;
+    if (emg->sample_count() < kFewest)
+      throw ReadError(
+          path, 0,
+          fmt::format("only {} sample{} of EMG; at least {} are needed", emg->sample_count(),
+                      emg->sample_count() == 1 ? "" : "s", kFewest));
+    std::vector<Fault> faults = signals::check_emg(*emg);
+    const bool raw = std::none_of(faults.begin(), faults.end(), [](const Fault& f) {
+      return f.kind == signals::FaultKind::emg_envelope;
+    });
+    add(std::move(faults));
+    add(levels_alone(*emg, raw, where));
     if (auto uneven = signals::check_clock_evenness(emg->time_s(), "EMG")) add({*uneven});
   }
   for (const recording::PlateSetup& plate : file.plates)

@@ -1,29 +1,13 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
-#include <string>
-#include <string_view>
 #include <vector>
 
 #include "myoid/core/geometry.h"
+#include "myoid/pipeline/finding.h"
 #include "myoid/pipeline/study.h"
-#include "myoid/signals/fault.h"
 
 namespace myoid::pipeline {
-
-/// What reading all inputs brings to light.
-struct Finding {
-  enum class Level { error, warning, note };
-  Level level = Level::note;
-  std::string where;                    ///< Trial or file.
-  std::string message;                  ///< With the remedy.
-  std::optional<signals::Fault> fault;  ///< If it is about a channel at a time.
-};
-[[nodiscard]] std::string_view name(Finding::Level level);
-
-/// The finding that a fault is.
-[[nodiscard]] Finding finding(std::string where, signals::Fault fault);
 
 /// What a single recording shows (`read_recording`): markers, EMG in volts, force plates under this
 /// vertical. Throws ReadError.

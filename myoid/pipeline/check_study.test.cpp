@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "myoid/core/error.h"
 #include "myoid/model/arm4.h"
 #include "myoid/recording/atomic_file.h"
 #include "myoid/recording/text_file.h"
@@ -83,6 +84,30 @@ TEST(CheckStudy, MarkersOfWhichTheModelHasNoneAreAnError) {
       << study.error();
 }
 
+TEST(CheckStudy, OneRecordingInTwoTrialsIsAnErrorThatNamesBoth) {
+  WrittenStudy study;
+  study.text += "[[trial]]\nname = \"u\"\nmarkers = \"t.trc\"\nemg = \"t.sto\"\n";
+  const std::string error = study.error();
+  EXPECT_EQ(error.find("u: 100 % of its EMG (t.sto) and of its motion are those of trial 't'"), 0U)
+      << error;
+}
+
+TEST(CheckStudy, TrialsThatAreWindowsOfOneRecordingAreTwo) {
+  WrittenStudy study;
+  study.text.replace(study.text.find("name = \"t\""), 10, "name = \"t\"\nend_s = 1.0");
+  study.text += "[[trial]]\nname = \"u\"\nmarkers = \"t.trc\"\nemg = \"t.sto\"\nstart_s = 1.0\n";
+  EXPECT_EQ(study.error(), "(no error)");
+}
+
+TEST(CheckStudy, ATrialOfLessThanHalfASecondIsNamedAsSuch) {
+  WrittenStudy study;
+  study.text.replace(study.text.find("name = \"t\""), 10,
+                     "name = \"t\"\nstart_s = 1.0\nend_s = 1.3");
+  EXPECT_NE(study.error().find("the trial lasts 0.3 s (1 to 1.3 s); at least 0.5 s"),
+            std::string::npos)
+      << study.error();
+}
+
 TEST(CheckStudy, AnEmgChannelThatNeverRisesIsAnError) {
   const WrittenStudy study("r_styloid_radial", true);
   EXPECT_NE(study.error().find("'TRI' never rises"), std::string::npos) << study.error();
@@ -145,10 +170,11 @@ TEST(CheckRecording, LooksAtASingleFile) {
   const test::TemporaryFolder folder;
   std::string text = "time,a [V],b [V]\n";
   for (int i = 0; i < 4000; ++i) {
+    const double effort = i < 2000 ? 0.02 : 1.0;
     const double noise = ((i * 7919) % 2003) / 2003.0 - 0.5;
     const double hum = std::sin(2.0 * 3.14159265358979 * 50.0 * 0.001 * i);
-    text += fmt::format("{:.3f},{:.9f},{:.9f}\n", 0.001 * i, 1e-4 * noise,
-                        1e-4 * ((i * 104729) % 4001) / 4001.0 + 1e-4 * hum);
+    text += fmt::format("{:.3f},{:.9f},{:.9f}\n", 0.001 * i, 1e-4 * effort * noise,
+                        1e-4 * effort * ((i * 104729) % 4001) / 4001.0 + 1e-4 * hum);
   }
   recording::write_file(folder / "emg.csv", text);
   const std::vector<Finding> findings = check_recording(folder / "emg.csv", Vec3::UnitZ());
@@ -163,6 +189,29 @@ std::vector<Finding> warnings_of(const std::filesystem::path& file) {
   std::vector<Finding> findings = check_recording(file, Vec3::UnitZ());
   std::erase_if(findings, [](const Finding& f) { return f.level != Finding::Level::warning; });
   return findings;
+}
+
+TEST(CheckRecording, NoiseAloneIsNoEmg) {
+  const test::TemporaryFolder folder;
+  std::string text = "time,a [mV]\n";
+  for (int i = 0; i < 4000; ++i)
+    text += fmt::format("{:.3f},{:.9f}\n", 0.001 * i, ((i * 7919) % 2003) / 2003.0 - 0.5);
+  recording::write_file(folder / "emg.csv", text);
+  const std::vector<Finding> found = warnings_of(folder / "emg.csv");
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].fault->kind, signals::FaultKind::emg_low_signal);
+  EXPECT_LT(found[0].fault->value, 2.0);
+}
+
+TEST(CheckRecording, OneSampleIsNoRecording) {
+  const test::TemporaryFolder folder;
+  recording::write_file(folder / "emg.csv", "time,a [mV]\n0,1\n");
+  try {
+    (void)check_recording(folder / "emg.csv", Vec3::UnitZ());
+    FAIL() << "not refused";
+  } catch (const ReadError& error) {
+    EXPECT_NE(std::string(error.what()).find("only 1 sample"), std::string::npos) << error.what();
+  }
 }
 
 /// Recordings of three laboratories. What may be said of them is known: markers that were hidden

@@ -13,10 +13,7 @@
 namespace myoid::pipeline {
 namespace {
 
-using test_trials::arm;
-using test_trials::arm_study;
-using test_trials::message_of;
-using test_trials::WrittenTrial;
+using namespace test_trials;
 
 TEST(ClockOfATrial, AShortPauseOfTheClockIsWarnedOfAndALongOneRefused) {
   const Study study = arm_study();

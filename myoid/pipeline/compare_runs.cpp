@@ -36,7 +36,8 @@ struct Run {
   json content;
   std::vector<Key> order;
   std::map<Key, std::pair<SessionEstimate, std::string>> estimates;  ///< With unit.
-  std::vector<std::pair<std::string, std::string>> trial_order;      ///< Method, trial.
+  std::map<Key, std::vector<std::string>> sharers;  ///< Further muscles of the same unknown.
+  std::vector<std::pair<std::string, std::string>> trial_order;  ///< Method, trial.
   std::map<std::pair<std::string, std::string>, std::optional<double>> rmse_nm;
 };
 
@@ -51,6 +52,12 @@ Run read_run(const std::filesystem::path& folder) {
         const Key key{e.at("muscle"), e.at("parameter"), e.at("method"), e.at("case")};
         const std::optional<double> estimate = number(e, "estimate");
         if (!estimate) continue;
+        // One unknown of several muscles is one number: the first owner's.
+        if (const auto tied = e.value("tied_to", std::string()); !tied.empty()) {
+          run.sharers[{tied, e.at("parameter"), e.at("method"), e.at("case")}].push_back(
+              e.at("muscle").get<std::string>());
+          continue;
+        }
         run.order.push_back(key);
         run.estimates[key] = {{.estimate = *estimate,
                                .std_error = number(e, "std_error"),
@@ -205,6 +212,8 @@ RunComparison compare_runs(const std::filesystem::path& first,
                         .fit_case = std::get<3>(key),
                         .first = estimate,
                         .second = other->second.first};
+    if (const auto sharers = a.sharers.find(key); sharers != a.sharers.end())
+      p.muscle += fmt::format(", {}", fmt::join(sharers->second, ", "));
     p.difference = p.second.estimate - p.first.estimate;
     if (told(p.first) && told(p.second)) {
       const double se = std::hypot(*p.first.std_error, *p.second.std_error);

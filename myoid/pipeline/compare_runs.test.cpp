@@ -17,6 +17,7 @@ struct Row {
   const char* muscle;
   double estimate, std_error;
   const char* verdict;
+  const char* tied_to = "";
 };
 
 /// A run's folder with one method and these estimates of F_max.
@@ -27,9 +28,9 @@ std::filesystem::path run(const std::filesystem::path& folder,
   for (const Row& r : rows) {
     estimates += fmt::format(
         R"({}{{"muscle": "{}", "parameter": "max_isometric_force", "unit": "N", "method": "torque", "case": "both",
-            "estimate": {}, "std_error": {}, "ci_low": {}, "ci_high": {}, "verdict": "{}"}})",
+            "estimate": {}, "std_error": {}, "ci_low": {}, "ci_high": {}, "verdict": "{}", "tied_to": "{}"}})",
         estimates.empty() ? "" : ",", r.muscle, r.estimate, r.std_error,
-        r.estimate - 2 * r.std_error, r.estimate + 2 * r.std_error, r.verdict);
+        r.estimate - 2 * r.std_error, r.estimate + 2 * r.std_error, r.verdict, r.tied_to);
   }
   std::filesystem::create_directories(folder);
   recording::write_file(folder / "parameters.json",
@@ -37,6 +38,23 @@ std::filesystem::path run(const std::filesystem::path& folder,
                   "trials": [{{"trial": "a", "rmse_nm": {}}}]}}]}})",
                                     estimates, rmse_nm));
   return folder;
+}
+
+TEST(CompareRuns, OneUnknownOfSeveralMusclesIsOneNumberAndCountsOnce) {
+  const test::TemporaryFolder folder;
+  const auto rows = [](double shared, double own) {
+    return std::vector<Row>{{"BIC", shared, 5, "identified"},
+                            {"BRA", shared, 5, "identified", "BIC"},
+                            {"BRD", shared, 5, "identified", "BIC"},
+                            {"TRI", own, 50, "identified"}};
+  };
+  const RunComparison c = compare_runs(run(folder.path() / "one", rows(100, 900), 1.0),
+                                       run(folder.path() / "two", rows(117, 910), 1.0));
+  ASSERT_EQ(c.parameters.size(), 2u);
+  EXPECT_EQ(c.parameters[0].muscle, "BIC, BRA, BRD");
+  // z = 17 / (5 sqrt 2) = 2.404, p = 0.0162, of two numbers, not of four.
+  EXPECT_NEAR(*c.parameters[0].p_value, 2 * 0.01621, 2e-4);
+  EXPECT_EQ(c.parameters[0].change, Change::differs);
 }
 
 TEST(CompareRuns, TellsChangeFromChanceAndFromIgnorance) {

@@ -1,7 +1,6 @@
 #include "myoid/pipeline/design_study.h"
 
 #include <cmath>
-#include <fstream>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -13,8 +12,6 @@
 #include "myoid/muscle/hill_muscle.h"
 #include "myoid/pipeline/study_model.h"
 #include "myoid/simulation/random.h"
-
-#include "tests/support/temporary_folder.h"
 
 namespace myoid::pipeline {
 namespace {
@@ -229,15 +226,6 @@ TEST(DesignStudy, RefusesATargetThatIsNoneAndNamesThoseThereAre) {
     EXPECT_THAT(error.what(), HasSubstr("BIC.max_isometric_froce"));
     EXPECT_THAT(error.what(), HasSubstr("TRI.force_length_width"));
   }
-}
-
-TEST(ReadEarlierRun, SaysWhatIsWrongWithAFolderThatHoldsNoRun) {
-  const test::TemporaryFolder folder;
-  EXPECT_THROW((void)read_earlier_run(folder.path()), ReadError);
-  std::ofstream(folder / "parameters.json") << R"({"methods": [{"method": "paper"}]})";
-  EXPECT_THROW((void)read_earlier_run(folder.path()), ReadError);
-  std::ofstream(folder / "parameters.json") << "{\"methods\": [";
-  EXPECT_THROW((void)read_earlier_run(folder.path()), ReadError);
 }
 
 }  // namespace

@@ -7,12 +7,15 @@
 #include <Eigen/SVD>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <pugixml.hpp>
 
 #include "myoid/model/kinematic_tree.h"
 #include "myoid/recording/bids.h"
+#include "myoid/recording/emg_channels.h"
 #include "myoid/recording/emg_reader.h"
 #include "myoid/recording/recording.h"
 #include "myoid/recording/storage_reader.h"
+#include "myoid/recording/text_file.h"
 
 namespace myoid::pipeline {
 namespace {
@@ -41,18 +44,20 @@ std::vector<std::string> words_of(const std::string& stem) {
 
 std::string trial_stem(const fs::path& path) {
   static const std::set<std::string, std::less<>> kKinds{
-      "emg",       "raw",    "uv",    "mv",     "v",      "env", "envelope",
-      "markers",   "marker", "mocap", "analog", "motion", "ik",  "imu",
-      "landmarks", "kalman", "elbow", "angles", "trc",    "c3d", "mot"};
+      "emg",   "raw",    "uv",     "mv",  "v",      "env",       "envelope", "markers", "marker",
+      "mocap", "analog", "motion", "ik",  "imu",    "landmarks", "kalman",   "elbow",   "angles",
+      "trc",   "c3d",    "mot",    "grf", "forces", "loads",     "external"};
   std::vector<std::string> words = words_of(path.stem().string());
   while (words.size() > 1 && kKinds.contains(words.back())) words.pop_back();
+  while (words.size() > 1 && kKinds.contains(words.front())) words.erase(words.begin());
   return fmt::format("{}", fmt::join(words, "_"));
 }
 
-void find_emg(const fs::path& path, const TimeSeries& analog, FoundRecording& found) {
-  for (const Channel& c : analog.channels()) {
-    if (c.unit == Unit::volt) found.channels.push_back(c.name);
-  }
+void find_emg(const fs::path& path,
+              const TimeSeries& analog,
+              const std::vector<recording::PlateSetup>& plates,
+              FoundRecording& found) {
+  found.channels = recording::emg_channels(analog.channels(), plates);
   const std::string extension = recording::extension_of(path);
   const bool storage = extension == ".sto" || extension == ".mot";
   const std::string name = small(path.filename().string());
@@ -93,8 +98,16 @@ void find_emg(const fs::path& path, const TimeSeries& analog, FoundRecording& fo
   found.raw = 2 * raw >= varying;
 }
 
-std::vector<fs::path> recordings_in(const std::vector<fs::path>& from,
-                                    std::vector<fs::path>& models) {
+fs::path loads_data_file(const fs::path& external_loads) {
+  pugi::xml_document document;
+  if (!document.load_file(external_loads.c_str())) return {};
+  const pugi::xml_node loads = document.document_element().child("ExternalLoads");
+  std::string name(recording::trim(loads.child("datafile").text().get()));
+  std::replace(name.begin(), name.end(), '\\', '/');
+  return name.empty() ? fs::path() : external_loads.parent_path() / name;
+}
+
+std::vector<fs::path> recordings_in(const std::vector<fs::path>& from, FoundBeside& beside) {
   static const std::set<std::string, std::less<>> kKnown{".c3d", ".trc", ".edf", ".bdf",
                                                          ".anc", ".csv", ".sto", ".mot"};
   constexpr int kDeep = 6;
@@ -111,13 +124,16 @@ std::vector<fs::path> recordings_in(const std::vector<fs::path>& from,
       if (it.depth() > kDeep) it.disable_recursion_pending();
       if (!it->is_regular_file(error)) continue;
       const std::string extension = recording::extension_of(it->path());
-      if (extension == ".osim") models.push_back(it->path());
+      if (extension == ".osim") beside.models.push_back(it->path());
+      if (extension == ".xml" && !loads_data_file(it->path()).empty())
+        beside.external_loads.push_back(it->path());
       if (kKnown.contains(extension) || recording::is_bids_motion(it->path()))
         files.push_back(it->path());
     }
   }
   std::sort(files.begin(), files.end());
-  std::sort(models.begin(), models.end());
+  std::sort(beside.models.begin(), beside.models.end());
+  std::sort(beside.external_loads.begin(), beside.external_loads.end());
   return files;
 }
 

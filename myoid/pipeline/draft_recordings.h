@@ -6,6 +6,7 @@
 
 #include "myoid/core/time_series.h"
 #include "myoid/model/body_model.h"
+#include "myoid/recording/force_plate.h"
 #include "myoid/recording/marker_series.h"
 
 namespace myoid::pipeline {
@@ -24,21 +25,34 @@ struct FoundRecording {
   bool emg_taken = false;
 };
 
-/// The recordings among the files, and in the folders with their folders, by name; models beside
-/// them are added to `models`.
+/// What is in the folders beside the recordings.
+struct FoundBeside {
+  std::vector<std::filesystem::path> models;          ///< .osim
+  std::vector<std::filesystem::path> external_loads;  ///< .xml with <ExternalLoads>.
+};
+
+/// The recordings among the files, and in the folders with their folders, by name; what is beside
+/// them is added to `beside`.
 [[nodiscard]] std::vector<std::filesystem::path> recordings_in(
-    const std::vector<std::filesystem::path>& from, std::vector<std::filesystem::path>& models);
+    const std::vector<std::filesystem::path>& from, FoundBeside& beside);
+
+/// The data file that an ExternalLoads file names; empty if it names none.
+[[nodiscard]] std::filesystem::path loads_data_file(const std::filesystem::path& external_loads);
 
 /// The name of the trial that a file belongs to: small letters, without what it says of its own
-/// kind ("flex_2kg" of "Flex_2kg_emg_raw.sto").
+/// kind at its begin and end ("flex_2kg" of "Flex_2kg_emg_raw.sto", "walk" of "grf_walk.xml").
 [[nodiscard]] std::string trial_stem(const std::filesystem::path& path);
 
 /// What the name says that the trial is for: "mvc", "static", "passive", else "calibration".
 [[nodiscard]] std::string guessed_use(const std::string& stem);
 
-/// Adds the channels of a file that are voltages, or are called EMG, and whether they are raw: raw
-/// EMG goes through its median more than 30 times a second, an envelope does not.
-void find_emg(const std::filesystem::path& path, const TimeSeries& analog, FoundRecording& found);
+/// Adds the channels of a file that may be EMG (`recording::emg_channels`), or all of one that is
+/// called EMG, and whether they are raw: raw EMG goes through its median more than 30 times a
+/// second, an envelope does not.
+void find_emg(const std::filesystem::path& path,
+              const TimeSeries& analog,
+              const std::vector<recording::PlateSetup>& plates,
+              FoundRecording& found);
 
 /// How well the model's markers, at its default pose, lie on the first complete frame when `up`
 /// points up: cosine of the angle between its vertical and the laboratory's; -2 if fewer than four

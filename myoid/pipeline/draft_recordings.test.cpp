@@ -19,6 +19,8 @@ TEST(TrialStem, IsTheNameWithoutWhatAFileSaysOfItsOwnKind) {
   EXPECT_EQ(trial_stem("a/Flex_2kg_emg_raw_uV.sto"), "flex_2kg");
   EXPECT_EQ(trial_stem("load2p75_T1_imu_landmarks.trc"), "load2p75_t1");
   EXPECT_EQ(trial_stem("markers.trc"), "markers");
+  EXPECT_EQ(trial_stem("emg_walk_raw.anc"), "walk");
+  EXPECT_EQ(trial_stem("grf_walk.xml"), "walk");
 }
 
 TEST(GuessedUse, IsWhatAWordOfTheNameSays) {
@@ -31,12 +33,18 @@ TEST(RecordingsIn, AFolderAreThoseWithAKnownEndingInItAndItsFolders) {
   const test::TemporaryFolder folder;
   for (const char* name : {"b.trc", "a.sto", "c.txt", "notes.md", "sub/d.edf", "m.osim"})
     recording::write_file(folder / name, "x");
-  std::vector<std::filesystem::path> models;
-  const auto files = recordings_in({folder.path()}, models);
+  recording::write_file(folder / "grf_walk.xml",
+                        "<OpenSimDocument><ExternalLoads name=\"g\"><datafile>grf\\walk.mot"
+                        "</datafile></ExternalLoads></OpenSimDocument>");
+  recording::write_file(folder / "setup.xml", "<OpenSimDocument><IKTool/></OpenSimDocument>");
+  FoundBeside beside;
+  const auto files = recordings_in({folder.path()}, beside);
+  ASSERT_EQ(beside.external_loads.size(), 1U);
+  EXPECT_EQ(loads_data_file(beside.external_loads[0]), folder / "grf/walk.mot");
   ASSERT_EQ(files.size(), 3U);
   EXPECT_EQ(files[0].filename(), "a.sto");
   EXPECT_EQ(files[2].filename(), "d.edf");
-  EXPECT_EQ(models.size(), 1U);
+  EXPECT_EQ(beside.models.size(), 1U);
 }
 
 TEST(FindEmg, VoltagesThatGoThroughTheirMedianOftenAreRaw) {
@@ -45,18 +53,18 @@ TEST(FindEmg, VoltagesThatGoThroughTheirMedianOftenAreRaw) {
   x.col(0) = 3.0 + (700.0 * t.array()).sin();
   x.col(1).setOnes();
   FoundRecording found;
-  find_emg("a.csv", TimeSeries(t, {{"BIC", Unit::volt}, {"Fz", Unit::newton}}, x), found);
+  find_emg("a.csv", TimeSeries(t, {{"BIC", Unit::volt}, {"Fz", Unit::newton}}, x), {}, found);
   EXPECT_EQ(found.channels, std::vector<std::string>{"BIC"});
   EXPECT_TRUE(found.raw);
   FoundRecording unused;  // channels without an electrode do not vote
   Eigen::MatrixXd zeros = Eigen::MatrixXd::Zero(1000, 3);
   zeros.col(1) = x.col(0);
   find_emg("a.csv", TimeSeries(t, {{"A", Unit::volt}, {"B", Unit::volt}, {"C", Unit::volt}}, zeros),
-           unused);
+           {}, unused);
   EXPECT_TRUE(unused.raw);
   FoundRecording envelope;
   const Eigen::VectorXd slow = 1.0 + (20.0 * t.array()).sin();
-  find_emg("a.csv", TimeSeries(t, {{"BIC", Unit::volt}}, slow), envelope);
+  find_emg("a.csv", TimeSeries(t, {{"BIC", Unit::volt}}, slow), {}, envelope);
   EXPECT_FALSE(envelope.raw);
 }
 

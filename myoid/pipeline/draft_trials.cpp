@@ -46,6 +46,7 @@ void held_mass(const std::string& stem, bool own_model, DraftText& out) {
 }  // namespace
 
 void draft_trials(std::vector<FoundRecording>& found,
+                  const std::vector<std::filesystem::path>& external_loads,
                   const std::function<std::string(const std::filesystem::path&)>& relative,
                   bool own_model,
                   DraftText& out) {
@@ -83,6 +84,9 @@ void draft_trials(std::vector<FoundRecording>& found,
       if (use == "calibration") any_calibration = true;
       if (emg == nullptr && use == "passive")
         out.todo(fmt::format("no EMG was found for '{}'; it gives motion and torque only", f.stem));
+      for (const std::filesystem::path& loads : external_loads) {
+        if (trial_stem(loads) == f.stem) out.line("external_loads = " + in_quotes(relative(loads)));
+      }
       if (f.plates > 0) {
         out.line(
             fmt::format("# force_plates = {{ bodies = \"auto\" }}   # {} in this file, if the "
@@ -95,15 +99,17 @@ void draft_trials(std::vector<FoundRecording>& found,
   }
   for (FoundRecording& f : found) {
     if (f.channels.empty() || f.emg_taken || f.motion_taken) continue;
-    out.line("[[trial]]");
-    out.line("name = " + in_quotes(unique(f.stem)));
-    out.line("emg = " + in_quotes(relative(f.path)));
-    out.line("use = \"mvc\"");
-    if (guessed_use(f.stem) != "mvc")
-      out.todo(
-          fmt::format("'{}' has EMG and no motion: a maximal contraction? Else give it markers or "
-                      "motion, or take it out",
-                      f.path.filename().string()));
+    const bool mvc = guessed_use(f.stem) == "mvc";
+    if (!mvc)
+      out.todo(fmt::format(
+          "'{}' has EMG and no motion: give it markers or motion; or take the # away if "
+          "it is a maximal contraction",
+          f.path.filename().string()));
+    const std::string remark = mvc ? "" : "# ";
+    out.line(remark + "[[trial]]");
+    out.line(remark + "name = " + in_quotes(unique(f.stem)));
+    out.line(remark + "emg = " + in_quotes(relative(f.path)));
+    out.line(remark + "use = \"mvc\"");
     out.line("");
   }
   if (!any_calibration)

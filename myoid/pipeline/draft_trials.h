@@ -11,9 +11,11 @@
 namespace myoid::pipeline {
 
 /// The [[trial]] tables of a draft: joint angles or markers with the EMG of the same name, then EMG
-/// alone as maximal contractions; what each is for is guessed from its name. `relative` gives a
-/// path as the study writes it. Marks what was taken.
+/// alone: a maximal contraction if it is called one, else in remarks, for activation 1 must not be
+/// what some movement reached. What each is for is guessed from its name. `external_loads` of a
+/// trial's name go with it. `relative` gives a path as the study writes it. Marks what was taken.
 void draft_trials(std::vector<FoundRecording>& found,
+                  const std::vector<std::filesystem::path>& external_loads,
                   const std::function<std::string(const std::filesystem::path&)>& relative,
                   bool own_model,
                   DraftText& out);

@@ -25,13 +25,14 @@ TEST(DraftText, QuotesAsTomlWritesThem) {
   EXPECT_EQ(list_of({"a", "b"}), "[\"a\", \"b\"]");
 }
 
-TEST(DraftTrials, MotionAndEmgOfOneNameAreATrialAndEmgAloneIsAMaximalContraction) {
+TEST(DraftTrials, MotionAndEmgOfOneNameAreATrialAndEmgCalledSoIsAMaximalContraction) {
   std::vector<FoundRecording> files{found("flex_2p5kg.mot", true, false),
                                     found("flex_2p5kg_emg.csv", false, true),
                                     found("mvc_emg.csv", false, true)};
   DraftText out;
   draft_trials(
-      files, [](const std::filesystem::path& path) { return "in/" + path.string(); }, true, out);
+      files, {}, [](const std::filesystem::path& path) { return "in/" + path.string(); }, true,
+      out);
   EXPECT_THAT(out.toml,
               HasSubstr("motion = \"in/flex_2p5kg.mot\"\nemg = \"in/flex_2p5kg_emg.csv\"\n"
                         "use = \"calibration\""));
@@ -39,6 +40,19 @@ TEST(DraftTrials, MotionAndEmgOfOneNameAreATrialAndEmgAloneIsAMaximalContraction
   EXPECT_THAT(out.toml, HasSubstr("emg = \"in/mvc_emg.csv\"\nuse = \"mvc\""));
   EXPECT_THAT(out.toml, Not(HasSubstr("no trial has use")));
   EXPECT_EQ(out.questions.size(), 1U);  // is the mass held in the hand?
+}
+
+TEST(DraftTrials, EmgOfSomeMovementIsNotTakenForAMaximum) {
+  std::vector<FoundRecording> files{found("ik_walk.mot", true, false),
+                                    found("run_emg.csv", false, true)};
+  DraftText out;
+  draft_trials(
+      files, {"in/grf_walk.xml", "in/grf_run.xml"},
+      [](const std::filesystem::path& path) { return path.string(); }, true, out);
+  EXPECT_THAT(out.toml, Not(HasSubstr("\nuse = \"mvc\"")));
+  EXPECT_THAT(out.toml, HasSubstr("# emg = \"run_emg.csv\"\n# use = \"mvc\""));
+  EXPECT_THAT(out.toml, HasSubstr("external_loads = \"in/grf_walk.xml\""));
+  EXPECT_THAT(out.toml, Not(HasSubstr("grf_run")));
 }
 
 }  // namespace

@@ -7,8 +7,7 @@
 namespace myoid::pipeline {
 namespace {
 
-using test_trials::arm;
-using test_trials::arm_study;
+using namespace test_trials;
 
 StudyResult with_one_channel() {
   StudyResult result;

@@ -10,6 +10,8 @@
 #include "myoid/core/error.h"
 #include "myoid/identification/torque.h"
 #include "myoid/math/statistics.h"
+#include "myoid/pipeline/joint_capacity.h"
+#include "myoid/pipeline/trial_plausibility.h"
 
 namespace myoid::pipeline {
 namespace {
@@ -53,6 +55,7 @@ class Check {
     velocities();
     moment_arms();
     length_changes();
+    torque_sizes();
     torques();
     return std::move(remarks_);
   }
@@ -254,6 +257,27 @@ class Check {
                        "trial or joint?",
                        100.0 * std::max(0.0, all),
                        who.empty() ? "" : fmt::format("; without {} they do", who)));
+  }
+
+  void torque_sizes() {
+    const std::size_t joints = files_.moment_arms.size();
+    if (joints == 0 || files_.torques.empty()) return;
+    Eigen::VectorXd strength_n(trial_.length_m.cols());
+    for (Eigen::Index k = 0; k < strength_n.size(); ++k)
+      strength_n[k] = data_.muscles[static_cast<std::size_t>(k)].start.max_isometric_force_n;
+    for (std::size_t j = 0; j < joints; ++j) {
+      const auto pull_nm = (arms(j) * strength_n.asDiagonal()).eval();
+      // How heavy and long the person is, nobody said: 100 kg at 1 m.
+      const JointCapacity joint{
+          .positive_nm = pull_nm.cwiseMax(0.0).rowwise().sum().maxCoeff(),
+          .negative_nm = pull_nm.cwiseMin(0.0).rowwise().sum().cwiseAbs().maxCoeff(),
+          .lever_m = 1.0,
+          .body_mass_kg = 100.0};
+      const std::string text =
+          too_much_torque(j == 0 ? trial_.joint : trial_.more_joints[j - 1].name,
+                          usual_peak(torque(j)), joint.greatest_nm(), "the torque");
+      if (!text.empty()) fail(files_.torques, text);
+    }
   }
 
   void torques() {

@@ -27,6 +27,8 @@ struct IdentifyFiles {
 ///   both go together (correlation above 0.9) by a factor outside 1/3 to 3, or against each other.
 /// - Moment arms are at most 0.2 m; certain above 0.5 m. With more muscles than joints, dl = -r dq
 ///   leaves little of the lengths' changes: a remark below half.
+/// - Torques are certain to be wrong beyond JointCapacity::greatest_nm of the starting values, with
+///   100 kg at 1 m: N mm.
 /// - Torque and moment arms agree in sign: with the starting values the muscles' torque goes with
 /// the
 ///   one measured (cosine of both); certain below -0.8. Of two joints whose files are given in the

@@ -120,6 +120,16 @@ TEST(IdentifyInput, MomentArmsOfAWrongUnitSignOrMuscleAreNamed) {
   expect_in(remarks[0], {"r.sto", "without BIC"});
 }
 
+TEST(IdentifyInput, TorqueInNewtonMillimetersIsNamed) {
+  Spoiled mm;
+  mm.trial().torque_nm *= 1000.0;
+  expect_in(mm.error(), {"id.sto", "N mm", "Divide by 1000"});
+  // A person of twice the strength that the search starts with is one.
+  Spoiled strong;
+  strong.trial().torque_nm *= 2.0;
+  EXPECT_EQ(strong.error(), "");
+}
+
 TEST(IdentifyInput, MomentArmsOfTwoJointsInTheWrongOrderAreNamed) {
   // A second joint that the muscles turn otherwise.
   Spoiled two;

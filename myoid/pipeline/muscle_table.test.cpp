@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "myoid/core/error.h"
+#include "tests/support/message_of.h"
 
 namespace myoid::pipeline {
 namespace {
@@ -12,12 +12,8 @@ namespace {
 template <typename Read>
 std::string message_of(const std::string& text, Read read) {
   const toml::table root = recording::parse_toml(text, "dir/study.toml");
-  try {
-    (void)read(recording::TomlTable(root, "dir/study.toml", "[[table]]"));
-  } catch (const ReadError& error) {
-    return error.what();
-  }
-  return "(no error)";
+  return test::message_of(
+      [&] { (void)read(recording::TomlTable(root, "dir/study.toml", "[[table]]")); });
 }
 
 TEST(MuscleTable, AStartThatNoMuscleHasIsRefusedWithTheRange) {

@@ -1,13 +1,17 @@
 #include "myoid/pipeline/opensim_files.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstring>
+#include <memory>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
 #include "myoid/recording/atomic_file.h"
+#include "myoid/recording/recording.h"
 #include "myoid/recording/storage_reader.h"
 #include "myoid/recording/text_file.h"
 
@@ -32,7 +36,7 @@ TimeSeries read_coordinates(const model::BodyModel& model,
                             std::vector<std::string>& notes) {
   const recording::Storage file = recording::read_storage(path);
   for (const recording::Repair& repair : file.repairs)
-    notes.push_back(fmt::format("{}:{}: {}", path.string(), repair.line, repair.message));
+    notes.push_back(recording::to_string(path, repair));
   const auto count = static_cast<Eigen::Index>(model.coordinates.size());
   Eigen::MatrixXd q(file.data.sample_count(), count);
   std::vector<Channel> channels;
@@ -102,16 +106,35 @@ void write_opensim_storage(const std::filesystem::path& path,
   for (const Channel& channel : series.channels()) text += "\t" + channel.name;
   text += '\n';
   const auto width = static_cast<std::size_t>(format.decimals + 8);
-  std::size_t used = text.size();
-  text.resize(used +
-              static_cast<std::size_t>(series.values().size() + series.sample_count()) *
-                  (width + 1) +
-              recording::kFixedRoom + 1);
+  // Room for every number and, behind the last, for the longest.
+  std::size_t room =
+      text.size() +
+      static_cast<std::size_t>(series.values().size() + series.sample_count()) * (width + 1) +
+      recording::kFixedRoom + 1;
+  auto buffer = std::make_unique_for_overwrite<char[]>(room);
+  std::size_t used = text.copy(buffer.get(), text.size());
+  // Most moment arms of a body are zero; the copy is of one size, the place has room.
+  constexpr std::size_t kZeroRoom = 64;
+  static_assert(recording::kFixedRoom >= kZeroRoom);
+  std::array<char, recording::kFixedRoom> zero{};
+  const auto zero_size = static_cast<std::size_t>(
+      recording::write_fixed(zero.data(), 0.0, format.decimals, width) - zero.data());
   const auto write = [&](double value, char behind) {
-    if (text.size() - used <= recording::kFixedRoom) text.resize(2 * text.size());
-    char* const end = recording::write_fixed(text.data() + used, value, format.decimals, width);
+    if (room - used <= recording::kFixedRoom) {
+      auto larger = std::make_unique_for_overwrite<char[]>(2 * room);
+      std::memcpy(larger.get(), buffer.get(), used);
+      buffer = std::move(larger);
+      room *= 2;
+    }
+    char* end = buffer.get() + used;
+    if (value == 0.0 && !std::signbit(value)) {
+      std::memcpy(end, zero.data(), kZeroRoom);
+      end += zero_size;
+    } else {
+      end = recording::write_fixed(end, value, format.decimals, width);
+    }
     *end = behind;
-    used = static_cast<std::size_t>(end - text.data()) + 1;
+    used = static_cast<std::size_t>(end - buffer.get()) + 1;
   };
   std::vector<double> factor;
   for (const Channel& channel : series.channels())
@@ -124,8 +147,7 @@ void write_opensim_storage(const std::filesystem::path& path,
             c + 1 < columns ? '\t' : '\n');
     }
   }
-  text.resize(used);
-  recording::write_file(path, text, recording::Flush::later);
+  recording::write_file(path, {buffer.get(), used}, recording::Flush::later);
 }
 
 }  // namespace myoid::pipeline

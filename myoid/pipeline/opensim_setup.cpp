@@ -1,6 +1,7 @@
 #include "myoid/pipeline/opensim_setup.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -94,6 +95,29 @@ std::pair<double, double> OpensimSetup::time_range(pugi::xml_node object, const 
                                 name, model::OsimXml::text_of(node)));
   }
   return {values[0], values[1]};
+}
+
+void OpensimSetup::check_range(std::pair<double, double> asked_s,
+                               const Eigen::VectorXd& recorded_s,
+                               const std::filesystem::path& file,
+                               std::vector<std::string>& notes) const {
+  const auto [start_s, end_s] = asked_s;
+  const Eigen::Index count = recorded_s.size();
+  const double first_s = recorded_s[0], last_s = recorded_s[count - 1];
+  const double interval_s = count > 1 ? (last_s - first_s) / static_cast<double>(count - 1) : 0.0;
+  if (start_s > last_s + interval_s || end_s < first_s - interval_s) {
+    xml_.fail(tool_, fmt::format("the set-up asks for {} to {} s, but {} holds {} to {} s; nothing "
+                                 "is written",
+                                 start_s, end_s, file.string(), first_s, last_s));
+  }
+  const bool early = start_s < first_s - interval_s && std::isfinite(start_s);
+  const bool late = end_s > last_s + interval_s && std::isfinite(end_s);
+  if (early || late) {
+    notes.push_back(
+        fmt::format("the set-up asks for {} to {} s; {} holds {} to {} s, and what it "
+                    "holds is used, as in OpenSim",
+                    start_s, end_s, file.string(), first_s, last_s));
+  }
 }
 
 model::BodyModel setup_model(const OpensimSetup& setup,

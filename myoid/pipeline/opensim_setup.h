@@ -39,6 +39,12 @@ class OpensimSetup {
   [[nodiscard]] std::filesystem::path results_folder() const;
   /// Two numbers; (-inf, inf) where absent. Throws ReadError unless they increase.
   [[nodiscard]] std::pair<double, double> time_range(pugi::xml_node object, const char* name) const;
+  /// Throws ReadError where the times asked for have nothing in common with those recorded in
+  /// `file`; adds a note where they reach more than a sample beyond.
+  void check_range(std::pair<double, double> asked_s,
+                   const Eigen::VectorXd& recorded_s,
+                   const std::filesystem::path& file,
+                   std::vector<std::string>& notes) const;
 
  private:
   std::filesystem::path path_;

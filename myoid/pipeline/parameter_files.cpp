@@ -40,11 +40,13 @@ ordered_json estimate_json(const ParameterEstimate& e) {
                        {"ci_high", number_or_null(e.ci_high)},
                        {"prior_mean", number_or_null(e.prior_mean)},
                        {"prior_sd", number_or_null(e.prior_sd)},
+                       {"prior_distance", number_or_null(e.prior_distance)},
                        {"shrinkage", number_or_null(e.shrinkage)},
                        {"at_bound", e.at_bound},
                        {"verdict", std::string(identification::name(e.verdict))},
                        {"reason", e.reason},
                        {"routes_disagree", e.routes_disagree}};
+  if (!e.tied_to.empty()) json["tied_to"] = e.tied_to;
   ordered_json routes = ordered_json::array();
   for (const identification::RouteInterval& r : e.routes) {
     routes.push_back({{"route", r.route},
@@ -82,6 +84,12 @@ ordered_json method_json(const IdentificationResult& method) {
   m["left_open_by_the_data"] = method.undetermined;
   m["diagnoses"] = method.diagnoses;
   m["warnings"] = method.warnings;
+  m["prior_distances"] = ordered_json::array();
+  for (const identification::PriorDistance& d : method.prior_distances)
+    m["prior_distances"].push_back({{"muscle", d.muscle},
+                                    {"standard_deviations", d.distance},
+                                    {"farthest", d.farthest},
+                                    {"farthest_standard_deviations", d.farthest_distance}});
   m["bootstrap"] = {{"converged", method.bootstrap_replicates},
                     {"failed", method.bootstrap_failed}};
   m["branch_tests"] = ordered_json::array();

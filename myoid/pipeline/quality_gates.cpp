@@ -8,7 +8,10 @@
 #include <fmt/ranges.h>
 
 #include "myoid/core/units.h"
-#include "myoid/math/statistics.h"
+#include "myoid/dynamics/inverse_dynamics.h"
+#include "myoid/pipeline/ground_support.h"
+#include "myoid/pipeline/prediction_gates.h"
+#include "myoid/pipeline/trial_plausibility.h"
 
 namespace myoid::pipeline {
 namespace {
@@ -84,38 +87,55 @@ MissingMuscles missing_muscles(const StudyResult& result) {
   return missing;
 }
 
-/// How much of the torque of the fitted trials, or of those held back, the fit makes: in the band
-/// of the fit, all trials and joints together, each about its own mean.
-struct Explained {
-  Eigen::Index samples = 0;
-  double r2 = 0.0, rms_nm = 0.0;
-  double torque_rms_nm = 0.0;  ///< What predicting none at all would err by.
-};
-
-Explained explained(const IdentificationResult& fit, bool calibration) {
-  Explained all;
-  double errors = 0.0, total = 0.0, torque = 0.0;
-  for (const identification::TrialFit& t : fit.trials) {
-    const Eigen::Index n = t.torque_nm.size();
-    if (t.calibration != calibration || n < 2 || t.torque_fit_nm.size() != n) continue;
-    const double squares = static_cast<double>(n) * t.band.rmse_nm * t.band.rmse_nm;
-    if (!std::isfinite(squares)) continue;
-    errors += squares;
-    total += t.band.r2 < 1.0 ? squares / (1.0 - t.band.r2) : 0.0;
-    torque += t.torque_nm.squaredNorm();
-    all.samples += n;
+/// A trial whose torque no joint can make; empty if there is none.
+std::optional<Gate> torque_gate(const StudyResult& result) {
+  const Capacities capacities = joint_capacities(result.study, result.model);
+  for (const TrialResult& t : result.trials) {
+    if (!t.has_motion()) continue;
+    for (const auto& [name, capacity] : capacities) {
+      const auto c = static_cast<std::size_t>(result.model.coordinate_index(name));
+      const auto column =
+          t.muscle_torque.find(dynamics::generalized_force_name(result.model.coordinates[c]));
+      if (!column) continue;
+      const double greatest = capacity.greatest_nm();
+      const std::string text =
+          too_much_torque(name, usual_peak(t.muscle_torque.values().col(*column)), greatest,
+                          fmt::format("the torque in '{}'", t.spec.name));
+      if (text.empty()) continue;
+      return Gate{"Torques that a joint can make", GateStatus::fail, text,
+                  fmt::format("at most {:.3g} N m", greatest),
+                  "Masses, loads or their units are wrong, or the clock of the motion is."};
+    }
   }
-  if (all.samples == 0) return all;
-  all.rms_nm = std::sqrt(errors / static_cast<double>(all.samples));
-  all.torque_rms_nm = std::sqrt(torque / static_cast<double>(all.samples));
-  all.r2 = total > 0.0 ? 1.0 - errors / total : 1.0;
-  return all;
+  return std::nullopt;
+}
+
+/// A trial in which nothing carries a body that the study's joint bears; empty if there is none.
+std::optional<Gate> support_gate(const StudyResult& result) {
+  for (const TrialResult& t : result.trials) {
+    if (!t.has_motion() || t.spec.external_torque || t.generalized_forces.empty()) continue;
+    const auto weight = unsupported_weight(t.model, t.generalized_forces);
+    if (!weight) continue;
+    for (const std::string& name : study_coordinates(result.study.model)) {
+      if (!bears_the_body(t.model, name, t.motion.q.values().row(0).transpose(),
+                          result.study.subject.mass_kg.value_or(0.0)))
+        continue;
+      return Gate{
+          "Something carries the body", GateStatus::warn,
+          fmt::format("'{}': {}", t.spec.name, weight->sentence()),
+          "less than half of the weight on the joint to the ground",
+          fmt::format("Unless the person hangs, sits or lies, the torque of {} is wrong.", name)};
+    }
+  }
+  return std::nullopt;
 }
 
 }  // namespace
 
 std::vector<report::Gate> quality_gates(const StudyResult& result) {
   std::vector<Gate> list;
+  if (auto gate = torque_gate(result)) list.push_back(std::move(*gate));
+  if (auto gate = support_gate(result)) list.push_back(std::move(*gate));
   int frames = 0;
   int unconverged = 0;
   int blind = 0;
@@ -231,57 +251,34 @@ std::vector<report::Gate> quality_gates(const StudyResult& result) {
         {"Fit converged",
          torque->termination == math::Termination::converged ? GateStatus::pass : GateStatus::fail,
          torque->message, "converged", "Only a converged fit is an answer."});
-    if (const Explained fit = explained(*torque, true); fit.samples > 0) {
-      list.push_back({"Describes the torque it was fitted to",
-                      fit.rms_nm > fit.torque_rms_nm ? GateStatus::fail
-                      : fit.r2 > 0.5                 ? GateStatus::pass
-                                                     : GateStatus::warn,
-                      fmt::format("R2 {:.2f} over all trials, {:.2f} of {:.2f} N m rms", fit.r2,
-                                  fit.rms_nm, fit.torque_rms_nm),
-                      "R2 above 0.5; fails where no torque at all would be nearer",
-                      "Muscles that do not even make the torque they were fitted to are none."});
-    }
-    if (const Explained held = explained(*torque, false); held.samples > 0) {
-      list.push_back({"Predicts the trials held back",
-                      held.r2 > 0.0 ? GateStatus::pass : GateStatus::warn,
-                      fmt::format("R2 {:.2f}, {:.2f} N m rms", held.r2, held.rms_nm), "R2 above 0",
-                      "Below 0 their own mean torque predicts them better."});
-    }
+    for (report::Gate& gate : fit_gates(*torque)) list.push_back(std::move(gate));
     const auto count = [&](Verdict v) {
       return std::count_if(torque->estimates.begin(), torque->estimates.end(), [&](const auto& e) {
         return e.verdict == v && e.tied_to.empty() && !identification::is_nuisance(e);
       });
     };
-    list.push_back({"Parameters that this recording tells",
-                    count(Verdict::identified) > 0 ? GateStatus::pass : GateStatus::warn,
-                    fmt::format("{} identified, {} weak, {} prior-dominated, {} not identifiable",
-                                count(Verdict::identified), count(Verdict::weak),
-                                count(Verdict::prior_dominated), count(Verdict::not_identifiable)),
-                    "those you need", "Use a number only if its verdict allows it."});
-  }
-  if (!result.folds.empty()) {
-    double ours = 0.0;
-    double theirs = 0.0;
-    std::vector<double> r2;
-    int better = 0;
-    for (const auto& f : result.folds) {
-      ours += f.identified.rmse_nm;
-      theirs += f.literature.rmse_nm;
-      r2.push_back(f.identified.r2);
-      better += f.identified.rmse_nm < f.literature.rmse_nm ? 1 : 0;
-    }
-    const double n = static_cast<double>(result.folds.size());
-    // Trials without load have hardly a torque to be told from their mean: a mean R2 would be
-    // theirs.
-    const double median = math::median(std::move(r2));
     list.push_back(
-        {"Predicts torque it has not seen",
-         better * 2 > static_cast<int>(result.folds.size()) && median > 0.0 ? GateStatus::pass
-                                                                            : GateStatus::warn,
-         fmt::format("{:.2f} N m rms (median R2 {:.2f}), literature with best gain {:.2f} N m",
-                     ours / n, median, theirs / n),
-         "R2 above 0 and better than the literature's parameters",
-         fmt::format("Better in {} of {} trials left out.", better, result.folds.size())});
+        {"Parameters that this recording tells",
+         count(Verdict::identified) > 0 ? GateStatus::pass : GateStatus::warn,
+         fmt::format("{} identified, {} weak, {} prior-dominated, {} not identifiable, {} "
+                     "non-physical",
+                     count(Verdict::identified), count(Verdict::weak),
+                     count(Verdict::prior_dominated), count(Verdict::not_identifiable),
+                     count(Verdict::non_physical)),
+         "those you need", "Use a number only if its verdict allows it."});
+  }
+  for (report::Gate& gate : fold_gates(result.folds)) list.push_back(std::move(gate));
+  if (result.exchanged) {
+    // Synergists may also differ by more than usual in strength.
+    constexpr double kDescribes = 0.5;
+    const bool described = result.exchanged->as_named.r2 > kDescribes;
+    list.push_back(
+        {"Electrodes on the muscles that they are named for",
+         described ? GateStatus::warn : GateStatus::fail, result.exchanged->sentence(),
+         fmt::format("no two channels that fit {:.0f} % better as each other; fails where "
+                     "they make less than half of the torque as they are (R2 0.5)",
+                     100.0 * kStrengthSpread),
+         "Every number of the two muscles is then the other's."});
   }
   return list;
 }
@@ -338,12 +335,16 @@ bool motion_is_unreliable(const StudyResult& result) {
 }
 
 void demote_by_gates(StudyResult& result) {
-  if (!motion_is_unreliable(result)) return;
+  const char* reason = motion_is_unreliable(result)
+                           ? "The motion it rests on failed its quality gate: mend that first."
+                       : result.exchanged ? "Two electrodes seem to be exchanged: mend that first."
+                                          : nullptr;
+  if (reason == nullptr) return;
   for (IdentificationResult& method : result.methods) {
     for (identification::ParameterEstimate& e : method.estimates) {
       if (e.verdict != Verdict::identified) continue;
       e.verdict = Verdict::weak;
-      e.reason = "The motion it rests on failed its quality gate: mend that first.";
+      e.reason = reason;
     }
   }
 }

@@ -24,7 +24,8 @@ namespace myoid::pipeline {
 /// parameter can then be better than the motion it was computed from.
 [[nodiscard]] bool motion_is_unreliable(const StudyResult& result);
 
-/// Where the motion is unreliable, every `identified` parameter becomes `weak`, with that reason.
+/// Where the motion is unreliable, or electrodes are exchanged, every `identified` parameter
+/// becomes `weak`, with that reason.
 void demote_by_gates(StudyResult& result);
 
 }  // namespace myoid::pipeline

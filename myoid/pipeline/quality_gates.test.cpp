@@ -65,24 +65,16 @@ TEST(QualityGates, RadiansTakenForDegreesAreAFailure) {
   EXPECT_EQ(status_of(some_result(0.01, 0, 90.0 * kDegree), "The joint moves"), GateStatus::fail);
 }
 
-TEST(QualityGates, AFitThatDoesNotMakeItsOwnTorqueFails) {
-  const auto gate = [](double r2, bool calibration, std::string_view name) {
-    StudyResult result = some_result(0.01, 0, 90.0);
-    identification::TrialFit fit;
-    fit.calibration = calibration;
-    fit.torque_nm = fit.torque_fit_nm = Eigen::VectorXd::Ones(10);
-    fit.band.rmse_nm = r2 > -30.0 ? 0.5 : 1.5;  // of a torque of 1 N m
-    fit.band.r2 = r2;
-    result.methods[0].trials.push_back(fit);
-    return status_of(result, name);
-  };
-  const char* own = "Describes the torque it was fitted to";
-  EXPECT_EQ(gate(0.9, true, own), GateStatus::pass);
-  EXPECT_EQ(gate(0.3, true, own), GateStatus::warn);
-  EXPECT_EQ(gate(-40.0, true, own), GateStatus::fail);
-  const char* held = "Predicts the trials held back";
-  EXPECT_EQ(gate(0.9, false, held), GateStatus::pass);
-  EXPECT_EQ(gate(-100.0, false, held), GateStatus::warn);
+TEST(QualityGates, ExchangedElectrodesAreAFailureOrOfSynergistsACaution) {
+  const char* gate = "Electrodes on the muscles that they are named for";
+  StudyResult result = some_result(0.01, 0, 90.0);
+  EXPECT_EQ(status_of(result, gate), GateStatus::info);
+  result.exchanged = {.first = "BIC", .second = "TRI", .as_named = {}, .exchanged = {}};
+  EXPECT_EQ(status_of(result, gate), GateStatus::fail);
+  result.exchanged->as_named.r2 = 0.9;
+  EXPECT_EQ(status_of(result, gate), GateStatus::warn);
+  demote_by_gates(result);
+  EXPECT_EQ(result.methods[0].estimates[0].verdict, identification::Verdict::weak);
 }
 
 TEST(QualityGates, NothingIsIdentifiedFromAMotionThatFailed) {

@@ -140,4 +140,56 @@ void report_bodies(AnalysisRun& run, pugi::xml_node node) {
   run.result.frames = static_cast<int>(frames);
 }
 
+void report_point(AnalysisRun& run, pugi::xml_node node) {
+  const auto& xml = run.setup.xml();
+  const model::BodyModel& model = run.model;
+  const auto body_of = [&](const char* property) {
+    std::string name = xml.word(node, property);
+    if (const auto slash = name.rfind('/'); slash != std::string::npos) name.erase(0, slash + 1);
+    if (name.empty() || name == "Unassigned") name = "ground";
+    const auto body = model.find_body(name);
+    if (!body) xml.fail(node, fmt::format("<{}>: the model has no body '{}'", property, name));
+    return at(*body);
+  };
+  const std::size_t body = body_of("body_name"), relative = body_of("relative_to_body_name");
+  const Vec3 point = xml.vec3(node, "point", Vec3::Zero());
+  std::string point_name = xml.word(node, "point_name");
+  if (point_name.empty()) point_name = "NONAME";
+  const Eigen::Index frames = run.motion.sample_count();
+  Eigen::MatrixXd position(frames, 3), velocity(frames, 3);
+  model::BodyState state = model::make_state(model);
+  for (Eigen::Index i = 0; i < frames; ++i) {
+    const Eigen::VectorXd q = model::assemble(model, run.motion.q.values().row(i).transpose()).q;
+    model::compute_poses(model, q, state);
+    model::compute_velocities(model, run.motion.qdot.values().row(i).transpose(), state);
+    const Pose& X_GB = state.X_GB[body];
+    const Vec3 v_G = state.v_GB[body] + state.w_GB[body].cross(X_GB.R * point);
+    // Of the velocity only the axes are those of the other body.
+    position.row(i) = (state.X_GB[relative].inverse() * (X_GB * point)).transpose();
+    velocity.row(i) = (state.X_GB[relative].R.transpose() * v_G).transpose();
+  }
+  std::string name = model::OsimXml::name_of(node);
+  if (name.empty()) name = node.name();
+  const std::string description = fmt::format(
+      "\nThis file contains the kinematics (position, velocity, or acceleration) of\npoint ({:f}, "
+      "{:f}, {:f}) on the {} of model {}.\n\nUnits are S.I. units (seconds, meters, "
+      "Newtons,...)\n\n",
+      point[0], point[1], point[2], model.bodies[body].name, model.name);
+  const auto write = [&](const char* quantity, const char* title, Unit unit,
+                         Eigen::MatrixXd& values) {
+    write_opensim_storage(
+        claim_result(run, fmt::format("{}_{}_{}.sto", name, point_name, quantity)),
+        {run.motion.q.time_s(),
+         {{point_name + "_X", unit}, {point_name + "_Y", unit}, {point_name + "_Z", unit}},
+         std::move(values)},
+        {.title = title, .description = description, .decimals = run.decimals});
+  };
+  write("pos", "PointPosition", Unit::meter, position);
+  write("vel", "PointVelocity", Unit::meter_per_second, velocity);
+  run.result.notes.push_back(fmt::format(
+      "{}: accelerations (_acc) are those of OpenSim's forward dynamics and are not written",
+      name));
+  run.result.frames = static_cast<int>(frames);
+}
+
 }  // namespace myoid::pipeline

@@ -67,7 +67,7 @@ void write_informed_forces(const StudyResult& result,
 }
 
 /// Only numbers that are `identified`; F_max only if it means the maximum (EMG relative to an MVC);
-/// no model at all if the motion failed its gates.
+/// no model at all if the motion failed its gates, or nothing is to be changed in it.
 void write_identified_model(const StudyResult& result, const std::filesystem::path& folder) {
   if (motion_is_unreliable(result)) return;
   const bool from_mvc = result.study.emg.kind == EmgKind::activation || result.study.emg.has_mvc;
@@ -84,6 +84,9 @@ void write_identified_model(const StudyResult& result, const std::filesystem::pa
       }
       muscles.push_back(std::move(muscle));
     }
+    if (std::all_of(muscles.begin(), muscles.end(),
+                    [](const IdentifiedMuscle& m) { return m.changed.empty(); }))
+      return;
     const std::string stem =
         result.study.model.file ? result.study.model.file->stem().string() : "arm4";
     recording::write_file(folder / (stem + "_identified.osim"),

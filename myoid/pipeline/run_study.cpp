@@ -129,6 +129,13 @@ void identify_parameters(const Study& study, const Progress& progress, StudyResu
     result.phases = study_phases(result, torque_options(result, progress));
     exclude_phases(study.phases.exclude, result.phases, result.data);
   }
+  const bool torque = std::find(study.identify.methods.begin(), study.identify.methods.end(),
+                                "torque") != study.identify.methods.end();
+  if (torque) {
+    result.exchanged = exchanged_electrodes(
+        result.data,
+        study.emg.delay_s.value_or(identification::TorqueOptions{}.delay_prior_mean_s));
+  }
   for (const std::string& method : study.identify.methods) {
     if (method == "paper") {
       result.methods.push_back(identification::identify_paper(

@@ -23,6 +23,7 @@ struct ToolResult {
   std::vector<std::filesystem::path> inputs;  ///< Read; never replaced.
   std::string tool;                           ///< "InverseKinematicsTool", ...
   std::vector<std::filesystem::path> files;   ///< Written, in order.
+  int replaced = 0;                           ///< Of these, results of an earlier run.
   std::vector<std::string> notes;             ///< What a user must know, a sentence each.
   std::string summary;                        ///< One line.
   int frames = 0;

@@ -68,6 +68,15 @@ class RunTool : public ::testing::Test {
     }
     write("m.trc", text);
   }
+  /// An actuator of 1 N m on every coordinate.
+  [[nodiscard]] std::string reserves() const {
+    std::string text;
+    for (const model::Coordinate& c : arm_.coordinates) {
+      text += "<CoordinateActuator name=\"" + c.name + "_reserve\"><coordinate>" + c.name +
+              "</coordinate><optimal_force>1</optimal_force></CoordinateActuator>";
+    }
+    return text;
+  }
   void write_motion(int frames) const {
     std::string text = fmt::format(
         "Coordinates\nversion=1\nnRows={}\nnColumns=2\ninDegrees=no\nendheader\ntime\telbow_"
@@ -113,21 +122,68 @@ TEST_F(RunTool, InverseDynamicsNamesItsColumnsByTheKindOfMotion) {
   EXPECT_TRUE(read("id.sto").find("elbow_flexion_moment"));
 }
 
-TEST_F(RunTool, ATimeRangeBeyondTheDataIsWhatThereIs) {
+TEST_F(RunTool, ATimeRangeBeyondTheDataIsWhatThereIsAndSaid) {
+  const auto says_so = ::testing::Contains(::testing::HasSubstr("asks for -5 to 99 s"));
   write_motion(60);
-  (void)run(
-      "<InverseDynamicsTool name=\"id\"><model_file>arm.osim</model_file>"
-      "<forces_to_exclude>ALL</forces_to_exclude><time_range>-5 99</time_range>"
-      "<coordinates_file>motion.mot</coordinates_file>"
-      "<output_gen_force_file>id.sto</output_gen_force_file></InverseDynamicsTool>");
+  const ToolResult id =
+      run("<InverseDynamicsTool name=\"id\"><model_file>arm.osim</model_file>"
+          "<forces_to_exclude>ALL</forces_to_exclude><time_range>-5 99</time_range>"
+          "<coordinates_file>motion.mot</coordinates_file>"
+          "<output_gen_force_file>id.sto</output_gen_force_file></InverseDynamicsTool>");
   EXPECT_EQ(read("id.sto").sample_count(), 60);
+  EXPECT_THAT(id.notes, says_so);
   write_markers(20);
   const ToolResult ik =
       run("<InverseKinematicsTool><model_file>.\\arm.osim</model_file><time_range>-5 99"
           "</time_range><marker_file> m.trc </marker_file><output_motion_file>sub\\ik.mot"
           "</output_motion_file></InverseKinematicsTool>");
   EXPECT_EQ(ik.frames, 20);
+  EXPECT_THAT(ik.notes, says_so);
   EXPECT_TRUE(std::filesystem::exists(folder_ / "sub/ik.mot"));
+}
+
+// Where nothing was recorded in the range, the results of an earlier run stay.
+TEST_F(RunTool, ATimeRangeOutsideOfTheDataIsRefusedAndNothingIsReplaced) {
+  write_motion(60);
+  write_markers(20);
+  const auto tool = [](const std::string& kind, const std::string& content) {
+    return "<" + kind + " name=\"t\"><model_file>arm.osim</model_file>" + content + "</" + kind +
+           ">";
+  };
+  const std::string ik =
+      "<marker_file>m.trc</marker_file><output_motion_file>result"
+      "</output_motion_file><time_range>50 60</time_range>";
+  const std::string id =
+      "<coordinates_file>motion.mot</coordinates_file><output_gen_force_file>"
+      "result</output_gen_force_file><time_range>50 60</time_range>"
+      "<lowpass_cutoff_frequency_for_coordinates>6"
+      "</lowpass_cutoff_frequency_for_coordinates>";
+  // The filter makes the motion longer at both ends, 0.6 s to 0.885 s: that is nothing recorded.
+  const std::string analyze =
+      "<coordinates_file>motion.mot</coordinates_file><initial_time>0.7"
+      "</initial_time><final_time>0.8</final_time>"
+      "<lowpass_cutoff_frequency_for_coordinates>6"
+      "</lowpass_cutoff_frequency_for_coordinates><AnalysisSet><objects>"
+      "<Kinematics/></objects></AnalysisSet>";
+  write("result", "earlier");
+  write("t_Kinematics_q.sto", "earlier");
+  for (const auto& [setup, recorded] :
+       {std::pair{tool("InverseKinematicsTool", ik), "50 to 60 s, but"},
+        std::pair{tool("InverseDynamicsTool", id), "holds 0 to 0.59 s"},
+        std::pair{tool("AnalyzeTool", analyze), "0.7 to 0.8 s, but"}}) {
+    try {
+      (void)run(setup);
+      ADD_FAILURE() << setup;
+    } catch (const ReadError& error) {
+      EXPECT_THAT(error.what(), ::testing::HasSubstr(recorded));
+    }
+  }
+  for (const char* name : {"result", "t_Kinematics_q.sto"}) {
+    std::ifstream in(folder_ / name);
+    std::string text;
+    in >> text;
+    EXPECT_EQ(text, "earlier") << name;
+  }
 }
 
 // The shoulder has no marker task: what its coordinate tasks say from a file, it does.
@@ -154,12 +210,8 @@ TEST_F(RunTool, CoordinateTasksTakeTheirTargetsFromAFile) {
 
 TEST_F(RunTool, AnalysesShareAMotion) {
   write_motion(40);
-  std::string reserves = "<OpenSimDocument Version=\"40000\"><ForceSet><objects>";
-  for (const model::Coordinate& c : arm_.coordinates) {
-    reserves += "<CoordinateActuator name=\"" + c.name + "_reserve\"><coordinate>" + c.name +
-                "</coordinate><optimal_force>1</optimal_force></CoordinateActuator>";
-  }
-  write("reserves.xml", reserves + "</objects></ForceSet></OpenSimDocument>");
+  write("reserves.xml", "<OpenSimDocument Version=\"40000\"><ForceSet><objects>" + reserves() +
+                            "</objects></ForceSet></OpenSimDocument>");
   const ToolResult result =
       run("<AnalyzeTool "
           "name=\"a\"><model_file>arm.osim</model_file><results_directory>r</results_directory>"
@@ -171,9 +223,9 @@ TEST_F(RunTool, AnalysesShareAMotion) {
           "<StaticOptimization name=\"StaticOptimization\"/><Kinematics name=\"Kinematics\"/>"
           "<OutputReporter name=\"o\"><output_paths>/forceset/" +
           arm_.muscles[0].name +
-          "/path|length</output_paths></OutputReporter><JointReaction name=\"jr\"/>"
+          "/path|length</output_paths></OutputReporter><InducedAccelerations name=\"ia\"/>"
           "</objects></AnalysisSet></AnalyzeTool>");
-  EXPECT_THAT(result.notes, ::testing::Contains(::testing::HasSubstr("JointReaction")));
+  EXPECT_THAT(result.notes, ::testing::Contains(::testing::HasSubstr("InducedAccelerations")));
   for (const char* name :
        {"r/a_MuscleAnalysis_Length.sto", "r/a_MuscleAnalysis_MomentArm_elbow_flexion.sto",
         "r/a_StaticOptimization_activation.sto", "r/a_StaticOptimization_force.sto",
@@ -188,6 +240,69 @@ TEST_F(RunTool, AnalysesShareAMotion) {
   EXPECT_LT((length - read("r/a_Outputs.sto").values().col(0)).cwiseAbs().maxCoeff(), 1e-8);
 }
 
+// Static optimization's forces make the motion's accelerations: gravity and inertia of everything
+// are carried by the joint to ground, the arm's weight and what accelerates it by the shoulder.
+TEST_F(RunTool, JointReactionCarriesWhatForcesOfStaticOptimizationMake) {
+  write_motion(40);
+  std::string reserves = "<OpenSimDocument Version=\"40000\"><ForceSet><objects>";
+  for (const model::Coordinate& c : arm_.coordinates) {
+    reserves += "<CoordinateActuator name=\"" + c.name + "_reserve\"><coordinate>" + c.name +
+                "</coordinate><optimal_force>1</optimal_force></CoordinateActuator>";
+  }
+  write("reserves.xml", reserves + "</objects></ForceSet></OpenSimDocument>");
+  const auto tool = [](const std::string& analysis) {
+    return "<AnalyzeTool name=\"a\"><model_file>arm.osim</model_file><force_set_files>reserves.xml"
+           "</force_set_files><initial_time>0.1</initial_time><final_time>0.3</final_time>"
+           "<coordinates_file>motion.mot</coordinates_file><AnalysisSet><objects>" +
+           analysis + "</objects></AnalysisSet></AnalyzeTool>";
+  };
+  (void)run(tool("<StaticOptimization name=\"so\"/><Kinematics name=\"k\"/>"));
+  const ToolResult result = run(tool(
+      "<JointReaction name=\"jr\"><forces_file>a_so_force.sto</forces_file><joint_names>All"
+      "</joint_names><apply_on_bodies>child</apply_on_bodies><express_in_frame>ground"
+      "</express_in_frame></JointReaction>"
+      "<JointReaction name=\"up\"><forces_file>a_so_force.sto</forces_file><joint_names>shoulder"
+      "</joint_names><apply_on_bodies>parent</apply_on_bodies><express_in_frame>child"
+      "</express_in_frame></JointReaction>"));
+  const TimeSeries loads = read("a_jr_ReactionLoads.sto");
+  ASSERT_EQ(loads.sample_count(), 21);
+  EXPECT_EQ(loads.channel_count(), static_cast<Eigen::Index>(9 * arm_.joints.size()));
+  // The centers of mass of arm and forearm by second differences of the motion.
+  double mass_kg = 0.0;
+  for (const model::Body& body : arm_.bodies) mass_kg += body.mass_kg;
+  const auto momentum_center = [&](double frame) {
+    Eigen::VectorXd q = arm_.default_q();
+    q.setZero();
+    q[arm_.coordinate_index("elbow_flexion")] = 1.2 + 0.5 * std::sin(0.1 * frame);
+    model::BodyState state = model::make_state(arm_);
+    model::compute_poses(arm_, q, state);
+    Vec3 sum = Vec3::Zero();
+    for (std::size_t b = 1; b < arm_.bodies.size(); ++b)
+      sum += arm_.bodies[b].mass_kg * (state.X_GB[b] * arm_.bodies[b].p_BBcm_B);
+    return sum;
+  };
+  for (Eigen::Index i = 5; i < 16; ++i) {
+    const double frame = static_cast<double>(i) + 10.0;
+    const Vec3 inertia = (momentum_center(frame + 0.1) - 2.0 * momentum_center(frame) +
+                          momentum_center(frame - 0.1)) /
+                         (0.001 * 0.001);
+    const Vec3 expected = inertia - mass_kg * arm_.gravity_G;
+    for (Eigen::Index k = 0; k < 3; ++k) {
+      const std::string column =
+          arm_.joints[0].name + "_on_" + arm_.bodies[1].name + "_in_ground_f" + "xyz"[k];
+      // The spline through 40 samples misses the sine's second derivative by 1e-4 of 5 rad/s^2 at
+      // these places; 1 kg m of it.
+      EXPECT_NEAR(loads.column(column)[i], expected[k], 2e-3) << column;
+    }
+  }
+  const TimeSeries up = read("a_up_ReactionLoads.sto");
+  const Vec3 on_child(loads.column("shoulder_on_upper_arm_in_ground_fx")[7],
+                      loads.column("shoulder_on_upper_arm_in_ground_fy")[7],
+                      loads.column("shoulder_on_upper_arm_in_ground_fz")[7]);
+  EXPECT_NEAR(up.values().row(7).head(3).norm(), on_child.norm(), 1e-6);
+  EXPECT_LT(up.values().row(7).segment(6, 3).norm(), 1e-8);  // both frames of a ball are together
+}
+
 // A path actuator has a column like the muscles, and its force is its control times its strength.
 TEST_F(RunTool, PathActuatorsShareTheLoad) {
   write_motion(40);
@@ -198,11 +313,7 @@ TEST_F(RunTool, PathActuatorsShareTheLoad) {
       "</socket_parent_frame><location>0.05 0.1 0</location></PathPoint><PathPoint name=\"b\">"
       "<socket_parent_frame>/bodyset/forearm_hand</socket_parent_frame><location>0.02 -0.1 0"
       "</location></PathPoint></objects></PathPointSet></GeometryPath></PathActuator>";
-  for (const model::Coordinate& c : arm_.coordinates) {
-    forces += "<CoordinateActuator name=\"" + c.name + "_reserve\"><coordinate>" + c.name +
-              "</coordinate><optimal_force>1</optimal_force></CoordinateActuator>";
-  }
-  write("more.xml", forces + "</objects></ForceSet></OpenSimDocument>");
+  write("more.xml", forces + reserves() + "</objects></ForceSet></OpenSimDocument>");
   const ToolResult result =
       run("<AnalyzeTool name=\"a\"><model_file>arm.osim</model_file><force_set_files>more.xml"
           "</force_set_files><initial_time>0.1</initial_time><final_time>0.3</final_time>"
@@ -244,6 +355,60 @@ TEST_F(RunTool, BodiesAreReportedByTheirCentersOfMass) {
 
 // A muscle that is not left out pulls with its default activation at its default fiber length: the
 // difference of the two runs is its moment.
+TEST_F(RunTool, TheForceReporterHasWhatTheMuscleAnalysisHas) {
+  write_motion(40);
+  const ToolResult result =
+      run("<AnalyzeTool name=\"a\"><model_file>arm.osim</model_file><initial_time>0</initial_time>"
+          "<final_time>0.2</final_time><coordinates_file>motion.mot</coordinates_file>"
+          "<solve_for_equilibrium_for_auxiliary_states>true"
+          "</solve_for_equilibrium_for_auxiliary_states><AnalysisSet><objects>"
+          "<ForceReporter name=\"f\"/><MuscleAnalysis name=\"m\"/></objects></AnalysisSet>"
+          "</AnalyzeTool>");
+  EXPECT_EQ(result.frames_failed, 0);
+  const TimeSeries forces = read("a_f_forces.sto"), tendons = read("a_m_TendonForce.sto");
+  ASSERT_EQ(forces.sample_count(), 21);
+  ASSERT_EQ(forces.channel_count(), static_cast<Eigen::Index>(arm_.muscles.size()));
+  for (const model::Muscle& muscle : arm_.muscles) {
+    EXPECT_GT(forces.column(muscle.name).maxCoeff(), 0.0);
+    EXPECT_EQ(forces.column(muscle.name), tendons.column(muscle.name));
+  }
+}
+
+// A marker's place is that of its point, in ground and in another body.
+TEST_F(RunTool, APointIsReportedWithItsVelocity) {
+  write_motion(40);
+  const model::Marker& marker = arm_.markers.back();
+  const std::string body = arm_.bodies[static_cast<std::size_t>(marker.body)].name;
+  const auto analysis = [&](const std::string& name, const std::string& relative) {
+    return fmt::format(
+        "<PointKinematics name=\"{}\"><body_name>{}</body_name><relative_to_body_name>{}"
+        "</relative_to_body_name><point_name>p</point_name><point>{} {} {}</point>"
+        "</PointKinematics>",
+        name, body, relative, marker.p_BM[0], marker.p_BM[1], marker.p_BM[2]);
+  };
+  (void)run(
+      "<AnalyzeTool name=\"a\"><model_file>arm.osim</model_file><initial_time>0</initial_time>"
+      "<final_time>0.39</final_time><coordinates_file>motion.mot</coordinates_file>"
+      "<AnalysisSet><objects>" +
+      analysis("k", "ground") + analysis("own", body) + "</objects></AnalysisSet></AnalyzeTool>");
+  const TimeSeries place = read("a_k_p_pos.sto"), speed = read("a_k_p_vel.sto");
+  ASSERT_EQ(place.sample_count(), 40);
+  model::BodyState state = model::make_state(arm_);
+  Eigen::VectorXd q = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(arm_.coordinates.size()));
+  for (int i = 0; i < 40; ++i) {
+    q[arm_.coordinate_index("elbow_flexion")] = elbow(i);
+    model::compute_poses(arm_, q, state);
+    const Vec3 p = state.X_GB[static_cast<std::size_t>(marker.body)] * marker.p_BM;
+    EXPECT_LT((place.values().row(i).transpose() - p).norm(), 2e-8);  // eight decimals
+    if (i < 10 || i > 29) continue;
+    // Differences over 0.02 s of a motion of 10 rad/s: 1e-4 of 1.5 m/s times (0.1)^2/6.
+    const Eigen::RowVector3d rate = (place.values().row(i + 1) - place.values().row(i - 1)) / 0.02;
+    EXPECT_LT((speed.values().row(i) - rate).norm(), 0.02);
+  }
+  const TimeSeries own = read("a_own_p_pos.sto");
+  EXPECT_LT((own.values().rowwise() - marker.p_BM.transpose()).cwiseAbs().maxCoeff(), 2e-8);
+}
+
 TEST_F(RunTool, MusclesThatAreNotExcludedCountInInverseDynamics) {
   write_motion(60);
   const auto torque = [&](const std::string& excluded) {
@@ -320,6 +485,32 @@ TEST_F(RunTool, ScalingByHandMakesALargerModelOfTheGivenMass) {
   EXPECT_EQ(result.files.size(), 2U);
 }
 
+TEST_F(RunTool, AStaticPoseAtTheEndOfARangeIsSaidSo) {
+  write_markers(5);  // the elbow at 69 degrees and more
+  const auto placed_with_range = [&](const std::string& range) {
+    std::string text = model::arm4_osim();
+    const auto at = text.find("<range>", text.find("Coordinate name=\"elbow_flexion\"")) + 7;
+    text.replace(at, text.find('<', at) - at, range);
+    write("arm.osim", text);
+    std::string tasks;
+    for (const model::Marker& marker : arm_.markers)
+      tasks += "<IKMarkerTask name=\"" + marker.name + "\"><weight>1</weight></IKMarkerTask>";
+    return run("<ScaleTool name=\"s\"><GenericModelMaker><model_file>arm.osim</model_file>"
+               "</GenericModelMaker><ModelScaler><apply>false</apply></ModelScaler><MarkerPlacer>"
+               "<IKTaskSet><objects>" +
+               tasks +
+               "</objects></IKTaskSet><marker_file>m.trc"
+               "</marker_file><output_model_file>placed.osim</output_model_file></MarkerPlacer>"
+               "</ScaleTool>")
+        .notes;
+  };
+  const auto said =
+      ::testing::Contains(::testing::HasSubstr("'elbow_flexion' is at its limit of 57.3 degrees"));
+  EXPECT_THAT(placed_with_range("0 1"), said);
+  std::filesystem::remove(folder_ / "placed.osim");
+  EXPECT_THAT(placed_with_range("0 2"), ::testing::Not(said));
+}
+
 TEST_F(RunTool, ASetUpWithoutItsFilesIsRefusedBeforeAnythingIsWritten) {
   EXPECT_THROW((void)run("<InverseKinematicsTool name=\"x\"><model_file>none.osim</model_file>"
                          "<marker_file>m.trc</marker_file></InverseKinematicsTool>"),
@@ -334,7 +525,7 @@ TEST_F(RunTool, ASetUpWithoutItsFilesIsRefusedBeforeAnythingIsWritten) {
 
 TEST(Analyses, AreKnownByTheirClass) {
   EXPECT_TRUE(is_known_analysis("MuscleAnalysis"));
-  EXPECT_FALSE(is_known_analysis("JointReaction"));
+  EXPECT_FALSE(is_known_analysis("InducedAccelerations"));
 }
 
 }  // namespace

@@ -60,10 +60,13 @@ class Draft {
       : folder_(std::move(folder)), options_(options) {}
 
   StudyDraft write() {
-    std::vector<fs::path> models;
-    const std::vector<fs::path> files = recordings_in(options_.from, models);
-    choose_model(models);
+    FoundBeside beside;
+    const std::vector<fs::path> files = recordings_in(options_.from, beside);
+    for (const fs::path& loads : beside.external_loads)
+      loads_data_.insert(loads_data_file(loads).lexically_normal());
+    choose_model(beside.models);
     for (const fs::path& file : files) read(file);
+    if (coordinate_.empty()) choose_coordinate();
     if (std::none_of(found_.begin(), found_.end(), [](const FoundRecording& f) {
           return f.markers.frame_count() > 0 || !f.angles.empty() || !f.channels.empty();
         })) {
@@ -76,8 +79,8 @@ class Draft {
     head();
     muscles();
     draft_trials(
-        found_, [&](const fs::path& path) { return relative(path); }, model_file_.has_value(),
-        out_);
+        found_, beside.external_loads, [&](const fs::path& path) { return relative(path); },
+        model_file_.has_value(), out_);
     tail();
     draft_.toml = std::move(out_.toml);
     draft_.todo = std::move(out_.questions);
@@ -110,17 +113,34 @@ class Draft {
       (void)model_.coordinate_index(coordinate_);
       return;
     }
-    for (const char* word : {"elbowflex", "elbow", "kneeangle", "ankleangle"}) {
-      for (const model::Coordinate& c : model_.coordinates) {
-        if (coordinate_.empty() && recording::plain_label(c.name).find(word) != std::string::npos)
-          coordinate_ = c.name;
+  }
+
+  /// The coordinate that the muscles of most channels move; of equals, one that is often studied.
+  void choose_coordinate() {
+    const std::vector<std::string> channels = all_channels();
+    std::vector<std::string> names = free_coordinates();
+    const auto rank = [](const std::string& name) {
+      static const std::vector<std::string> kUsual{"elbowflex", "elbow", "kneeangle", "ankleangle"};
+      const std::string plain = recording::plain_label(name);
+      for (std::size_t k = 0; k < kUsual.size(); ++k) {
+        if (plain.find(kUsual[k]) != std::string::npos) return k;
       }
+      return kUsual.size();
+    };
+    std::stable_sort(names.begin(), names.end(),
+                     [&](const std::string& a, const std::string& b) { return rank(a) < rank(b); });
+    std::size_t most = 0;
+    for (const std::string& name : names) {
+      std::size_t count = 0;
+      for (const ChannelMuscles& pair : match_channels(channels, movers(model_, name)))
+        count += pair.muscles.empty() ? 0 : 1;
+      if (count <= most) continue;
+      most = count;
+      coordinate_ = name;
     }
-    if (coordinate_.empty()) {
-      const std::vector<std::string> names = free_coordinates();
-      coordinate_ = names.empty() ? "TODO" : names[0];
-      guessed_coordinate_ = true;
-    }
+    if (!coordinate_.empty()) return;
+    coordinate_ = names.empty() ? "TODO" : names[0];
+    guessed_coordinate_ = names.empty() || rank(names[0]) == rank("") || !channels.empty();
   }
 
   [[nodiscard]] std::vector<std::string> free_coordinates() const {
@@ -145,11 +165,12 @@ class Draft {
           f.angles.push_back(c.name);
       }
       if (f.angles.empty() && !file.analog.empty() && !recording::is_bids_motion(path))
-        find_emg(path, file.analog.series(), f);
+        find_emg(path, file.analog.series(), file.plates, f);
     } catch (const InvalidInput& error) {
       draft_.notes.push_back(fmt::format("not read: {}", error.what()));
       return;
     }
+    if (loads_data_.contains(path.lexically_normal())) return;  // goes with its ExternalLoads
     if (f.markers.frame_count() == 0 && f.angles.empty() && f.channels.empty()) {
       draft_.notes.push_back(
           fmt::format("{}: no markers, no coordinate of the model, no EMG; not used",
@@ -255,8 +276,18 @@ class Draft {
     line("");
   }
 
-  void muscles() {
+  [[nodiscard]] std::vector<std::string> all_channels() const {
     std::vector<std::string> channels;
+    for (const FoundRecording& f : found_) {
+      for (const std::string& c : f.channels) {
+        if (std::find(channels.begin(), channels.end(), c) == channels.end()) channels.push_back(c);
+      }
+    }
+    return channels;
+  }
+
+  void muscles() {
+    const std::vector<std::string> channels = all_channels();
     bool raw = true, unit = true, any = false;
     for (const FoundRecording& f : found_) {
       if (!f.channels.empty()) {
@@ -265,9 +296,6 @@ class Draft {
         any = true;
       }
       unit = unit && f.has_unit;
-      for (const std::string& c : f.channels) {
-        if (std::find(channels.begin(), channels.end(), c) == channels.end()) channels.push_back(c);
-      }
     }
     line("[emg]");
     line(fmt::format("kind = \"{}\"   # {}", raw ? "raw" : "envelope",
@@ -369,6 +397,7 @@ class Draft {
   std::string coordinate_;
   bool guessed_coordinate_ = false;
   bool mixed_ = false;
+  std::set<fs::path> loads_data_;
   std::vector<FoundRecording> found_;
   std::map<std::string, std::string> similar_;
   Eigen::Index most_known_ = 0;

@@ -31,7 +31,8 @@ void write_trial(const std::filesystem::path& folder, const std::string& stem) {
   std::string emg = "time,Biceps Brachii [mV],Triceps [mV],ECG [mV]\n";
   for (int i = 0; i < 4000; ++i) {
     const double t = 0.001 * i;
-    const double noise = std::sin(700.0 * t) + std::sin(431.0 * t + 1.0);
+    const double phase = static_cast<double>(stem.size());  // of each trial its own
+    const double noise = std::sin(700.0 * t + phase) + std::sin(431.0 * t + 1.0);
     emg += fmt::format("{:.3f},{:.5f},{:.5f},{:.5f}\n", t, noise * (1.0 + std::sin(6.0 * t)),
                        noise * (1.2 - std::sin(6.0 * t)), noise);
   }
@@ -80,6 +81,22 @@ TEST(StudyDraft, WhereNoChannelIsKnownTheCheckSaysWhatToFillIn) {
 TEST(StudyDraft, WithoutARecordingIsRefused) {
   const test::TemporaryFolder folder;
   EXPECT_THROW((void)draft_study(folder.path(), {.from = {folder.path()}}), InvalidInput);
+}
+
+TEST(StudyDraft, OfAWalkingTrialTheJointIsThatOfTheChannelsAndTheGroundReactionComesAlong) {
+  const auto data = test::data_folder();
+  MYOID_REQUIRE_DATA(data / "gait-emg");
+  const test::TemporaryFolder folder;
+  const StudyDraft draft = draft_study(folder.path(), {.from = {data / "gait-emg"}});
+  const Study study = parse_study(draft.toml, folder / "study.toml");
+  EXPECT_EQ(study.model.coordinate, "knee_angle_r");
+  ASSERT_EQ(study.trials.size(), 1U);
+  EXPECT_EQ(study.trials[0].external_loads->filename(), "grf_walk.xml");
+  EXPECT_EQ(study.trials[0].emg->filename(), "emg_walk_raw.anc");
+  std::vector<std::string> emg;
+  for (const MuscleSpec& muscle : study.muscles) emg.push_back(muscle.emg);
+  EXPECT_THAT(emg, ::testing::UnorderedElementsAre("GAS", "MH", "BF", "VL", "VM", "RF"));
+  EXPECT_THAT(draft.notes, ::testing::Not(Contains(HasSubstr("grf_walk"))));
 }
 
 TEST(StudyDraft, OfTheElbowRecordingsPassesTheCheck) {

@@ -7,7 +7,7 @@
 namespace myoid::pipeline {
 namespace {
 
-using test_trials::arm_study;
+using namespace test_trials;
 
 /// Two seconds at rest, then three at this level.
 TrialInput step_of(double level) {

@@ -8,6 +8,7 @@
 
 #include "myoid/core/error.h"
 #include "myoid/pipeline/study_model.h"
+#include "myoid/pipeline/study_plausibility.h"
 #include "myoid/recording/csv_reader.h"
 #include "myoid/recording/text_file.h"
 
@@ -59,6 +60,7 @@ StudyInputs read_inputs(Study& study) {
       inputs.trials.push_back(std::move(part.input));
     }
   }
+  require_plausible(study, model, inputs.trials);
   for (const TrialInput& trial : inputs.trials) {
     for (const InputFile& file : trial.files) {
       const bool known = std::any_of(inputs.files.begin(), inputs.files.end(),

@@ -9,9 +9,7 @@
 namespace myoid::pipeline {
 namespace {
 
-using test_trials::arm_study;
-using test_trials::message_of;
-using test_trials::WrittenTrial;
+using namespace test_trials;
 
 /// A study on disk, of one trial.
 struct WrittenStudy {

@@ -13,6 +13,7 @@
 #include "myoid/kinematics/inverse_kinematics.h"
 #include "myoid/kinematics/muscle_kinematics.h"
 #include "myoid/pipeline/design_study.h"
+#include "myoid/pipeline/exchanged_electrodes.h"
 #include "myoid/pipeline/phases.h"
 #include "myoid/pipeline/study.h"
 #include "myoid/pipeline/study_inputs.h"
@@ -68,6 +69,7 @@ struct StudyResult {
   /// `data`. Empty without method torque.
   std::vector<identification::InformedForces> informed;
   std::optional<identification::ForceLoop> force_loop;  ///< If the study asks for it.
+  std::optional<ExchangedElectrodes> exchanged;  ///< Labels that fit better the other way round.
   /// Which movements would tell more; empty without method torque, or if none is asked for.
   std::optional<DesignStudyResult> next;
   std::vector<TrueValue> truth;

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "myoid/core/error.h"
+#include "tests/support/message_of.h"
 
 namespace myoid::pipeline {
 namespace {
@@ -19,12 +19,7 @@ Study settings_of(const std::string& text) {
 }
 
 std::string message_of(const std::string& text) {
-  try {
-    (void)settings_of(text);
-  } catch (const ReadError& error) {
-    return error.what();
-  }
-  return "(no error)";
+  return test::message_of([&] { (void)settings_of(text); });
 }
 
 TEST(StudySettings, WithoutAModelTheBuiltInArmIsUsed) {

@@ -52,8 +52,10 @@ kinematics::JointMotion motion_of(const model::BodyModel& model,
   return {std::move(q), std::move(u), std::move(udot)};
 }
 
+/// The range is compared with the times of the file: a filter adds some at both ends.
 kinematics::JointMotion read_motion(AnalysisRun& run,
                                     const OpensimSetup& setup,
+                                    std::pair<double, double> range_s,
                                     bool with_accelerations) {
   const auto& xml = setup.xml();
   const auto tool = setup.tool();
@@ -64,8 +66,9 @@ kinematics::JointMotion read_motion(AnalysisRun& run,
         notes.push_back(fmt::format("<{}> is not read: there is a <states_file>", other));
     }
     TimeSeries q = read_coordinates(run.model, *states, MissingCoordinate::default_value, notes);
+    setup.check_range(range_s, q.time_s(), *states, notes);
     read_muscle_states(run, *states);
-    return motion_of(run.model, std::move(q), read_speeds(run.model, *states, false),
+    return motion_of(run.model, std::move(q), read_speeds(run.model, *states, false, notes),
                      with_accelerations);
   }
   const auto path = setup.file(tool, "coordinates_file");
@@ -73,11 +76,12 @@ kinematics::JointMotion read_motion(AnalysisRun& run,
     xml.fail(tool, "expected a <states_file> or a <coordinates_file>: the motion to analyze");
   }
   TimeSeries q = read_coordinates(run.model, *path, MissingCoordinate::zero, notes);
+  setup.check_range(range_s, q.time_s(), *path, notes);
   const double cutoff_hz = xml.number(tool, "lowpass_cutoff_frequency_for_coordinates", -1.0);
   if (cutoff_hz > 0.0) q = signals::opensim_lowpass(q, cutoff_hz);
   std::optional<TimeSeries> speeds;
   if (const auto file = setup.file(tool, "speeds_file")) {
-    speeds = read_speeds(run.model, *file, true);
+    speeds = read_speeds(run.model, *file, true, notes);
     if (!speeds) {
       throw InvalidInput(fmt::format("{}: no column is the speed of a coordinate", file->string()));
     }
@@ -141,16 +145,20 @@ void run_analyses(const OpensimSetup& setup, const ToolOptions& options, ToolRes
   const bool accelerates = std::any_of(analyses.begin(), analyses.end(), [](pugi::xml_node node) {
     return std::string_view(node.name()) == "StaticOptimization";
   });
-  const kinematics::JointMotion all = read_motion(run, setup, accelerates);
   const double start_s = xml.number(tool, "initial_time", 0.0);
   const double end_s = xml.number(tool, "final_time", 1.0);
-  const Eigen::VectorXd& times = all.q.time_s();
-  if (!(start_s <= end_s) || end_s < times[0] || start_s > times[times.size() - 1]) {
-    xml.fail(tool, fmt::format("<initial_time> {} and <final_time> {}, expected an interval within "
-                               "the motion, {} to {} s",
-                               start_s, end_s, times[0], times[times.size() - 1]));
+  if (!(start_s <= end_s)) {
+    xml.fail(tool, fmt::format("<initial_time> {} and <final_time> {}, expected the first not "
+                               "after the second",
+                               start_s, end_s));
   }
+  const kinematics::JointMotion all = read_motion(run, setup, {start_s, end_s}, accelerates);
+  const Eigen::VectorXd& times = all.q.time_s();
   const Eigen::Index first = row_at(times, start_s), last = row_at(times, end_s);
+  if (run.loads) {
+    note_missing_loads(*run.loads, *setup.file(tool, "external_loads_file"),
+                       times.segment(first, last - first + 1), result.notes);
+  }
   for (const auto node : analyses) {
     if (!is_known_analysis(node.name())) continue;
     const auto rows =

@@ -57,12 +57,14 @@ void run_inverse_dynamics(const OpensimSetup& setup,
   }
   if (!xml.words(tool, "joints_to_report_body_forces").empty())
     result.notes.push_back("joints_to_report_body_forces: body forces at joints are not written");
-  TimeSeries q = read_coordinates(model, setup.required_file(tool, "coordinates_file"),
-                                  MissingCoordinate::default_value, result.notes);
+  const auto motion_file = setup.required_file(tool, "coordinates_file");
+  TimeSeries q =
+      read_coordinates(model, motion_file, MissingCoordinate::default_value, result.notes);
+  const auto [start_s, end_s] = setup.time_range(tool, "time_range");
+  setup.check_range({start_s, end_s}, q.time_s(), motion_file, result.notes);
   const double cutoff_hz = xml.number(tool, "lowpass_cutoff_frequency_for_coordinates", -1.0);
   if (cutoff_hz > 0.0) q = signals::opensim_lowpass(q, cutoff_hz);
   kinematics::JointMotion motion = kinematics::joint_motion(model, q).motion;
-  const auto [start_s, end_s] = setup.time_range(tool, "time_range");
   const Eigen::Index first = row_at(motion.q.time_s(), start_s);
   const Eigen::Index last = row_at(motion.q.time_s(), end_s);
   motion = {rows_of(motion.q, first, last), rows_of(motion.qdot, first, last),
@@ -73,14 +75,7 @@ void run_inverse_dynamics(const OpensimSetup& setup,
     loads = dynamics::read_external_loads(model, *file);
     dynamics_options.loads = &loads;
     result.notes.insert(result.notes.end(), loads.notes.begin(), loads.notes.end());
-    if (motion.q.time_s()[0] < loads.start_s - 1e-3 ||
-        motion.q.time_s()[motion.sample_count() - 1] > loads.end_s + 1e-3) {
-      result.notes.push_back(fmt::format(
-          "{}: the loads are known from {} to {} s, the motion goes from {} to {} s; beyond, they "
-          "are guessed by straight lines",
-          file->string(), loads.start_s, loads.end_s, motion.q.time_s()[0],
-          motion.q.time_s()[motion.sample_count() - 1]));
-    }
+    note_missing_loads(loads, *file, motion.q.time_s(), result.notes);
   }
   TimeSeries tau = dynamics::inverse_dynamics(model, motion, dynamics_options);
   if (!model.muscles.empty()) tau = without_muscles(model, motion, tau, options.progress);

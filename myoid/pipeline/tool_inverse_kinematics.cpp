@@ -71,10 +71,11 @@ void run_inverse_kinematics(const OpensimSetup& setup,
   const auto marker_path = setup.required_file(trial, "marker_file");
   recording::MarkerFile file = recording::read_markers(marker_path);
   for (const recording::Repair& repair : file.repairs)
-    result.notes.push_back(
-        fmt::format("{}:{}: {}", marker_path.string(), repair.line, repair.message));
-  const auto [start_s, end_s] = setup.time_range(trial, "time_range");
-  const recording::MarkerSeries markers = within(std::move(file.markers), start_s, end_s);
+    result.notes.push_back(recording::to_string(marker_path, repair));
+  const auto range_s = setup.time_range(trial, "time_range");
+  setup.check_range(range_s, file.markers.time_s, marker_path, result.notes);
+  const recording::MarkerSeries markers =
+      within(std::move(file.markers), range_s.first, range_s.second);
 
   kinematics::IkOptions ik = read_ik_tasks(setup, tool, model, markers, result.notes);
   ik.progress = options.progress;

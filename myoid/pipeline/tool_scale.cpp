@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
+#include "myoid/core/units.h"
 #include "myoid/kinematics/inverse_kinematics.h"
 #include "myoid/model/constraints.h"
 #include "myoid/model/kinematic_tree.h"
@@ -35,6 +36,17 @@ model::BodyState default_state(const model::BodyModel& model) {
   model::BodyState state = model::make_state(model);
   model::compute_poses(model, model::assemble(model, model.default_q()).q, state);
   return state;
+}
+
+/// Measuring and placing usually read one file: what its reader mended is noted once.
+recording::MarkerSeries markers_of(const Scaling& scaling, const std::filesystem::path& file) {
+  recording::MarkerFile markers = recording::read_markers(file);
+  auto& notes = scaling.result.notes;
+  for (const recording::Repair& repair : markers.repairs) {
+    const std::string note = recording::to_string(file, repair);
+    if (std::find(notes.begin(), notes.end(), note) == notes.end()) notes.push_back(note);
+  }
+  return std::move(markers.markers);
 }
 
 /// First and last frame of a time range; all frames where it says nothing.
@@ -120,8 +132,7 @@ model::OsimEditor::Factors factors_of(const Scaling& scaling,
       for (const auto node : OsimXml::objects(scaler.child("MeasurementSet"))) {
         if (node.type() != pugi::node_element || !xml.flag(node, "apply", true)) continue;
         if (!markers)
-          markers =
-              recording::read_markers(scaling.setup.required_file(scaler, "marker_file")).markers;
+          markers = markers_of(scaling, scaling.setup.required_file(scaler, "marker_file"));
         const auto factor = measured_factor(scaling, node, model, state, *markers,
                                             scaling.setup.time_range(scaler, "time_range"));
         if (!factor) continue;
@@ -272,11 +283,30 @@ TimeSeries states_of(const model::BodyModel& model, const Eigen::VectorXd& q, do
           Eigen::Map<Eigen::RowVectorXd>(values.data(), static_cast<Eigen::Index>(values.size()))};
 }
 
+/// A static pose that leans on the end of a coordinate's range is not the person's: the markers
+/// that do not fit are then placed into the model for good.
+void note_limits(const model::BodyModel& model,
+                 const Eigen::VectorXd& q,
+                 std::vector<std::string>& notes) {
+  for (std::size_t k = 0; k < model.coordinates.size(); ++k) {
+    const model::Coordinate& c = model.coordinates[k];
+    if (!c.clamped || c.locked || !(c.lower < c.upper)) continue;
+    const double value = q[static_cast<Eigen::Index>(k)];
+    const double near = 1e-6 * (c.upper - c.lower);
+    if (value > c.lower + near && value < c.upper - near) continue;
+    const bool angle = c.motion == model::MotionType::rotational;
+    notes.push_back(fmt::format(
+        "static pose: '{}' is at its limit of {:.4g} {}; the markers placed from it take over what "
+        "does not fit. Is the range right, and the markers' places in the model?",
+        c.name, angle ? value / kDegree : value, angle ? "degrees" : "m"));
+  }
+}
+
 void place_markers(const Scaling& scaling, pugi::xml_node placer, model::OsimEditor& editor) {
   const OsimXml& xml = scaling.setup.xml();
   auto& notes = scaling.result.notes;
   const auto file = scaling.setup.required_file(placer, "marker_file");
-  const recording::MarkerSeries all = recording::read_markers(file).markers;
+  const recording::MarkerSeries all = markers_of(scaling, file);
   if (all.frame_count() == 0)
     throw InvalidInput(fmt::format("{}: there are no frames", file.string()));
   const auto range = scaling.setup.time_range(placer, "time_range");
@@ -291,6 +321,7 @@ void place_markers(const Scaling& scaling, pugi::xml_node placer, model::OsimEdi
   const kinematics::IkResult solved = kinematics::inverse_kinematics(model, pose, ik);
   if (solved.frames_not_converged > 0) ++scaling.result.frames_failed;
   const Eigen::VectorXd q = solved.q.values().row(0).transpose();
+  note_limits(model, q, notes);
   model::BodyState state = model::make_state(model);
   model::compute_poses(model, q, state);
   int moved = 0;

@@ -6,6 +6,18 @@
 
 namespace myoid::pipeline {
 
+void note_missing_loads(const dynamics::ExternalLoads& loads,
+                        const std::filesystem::path& file,
+                        const Eigen::VectorXd& times_s,
+                        std::vector<std::string>& notes) {
+  const double first_s = times_s[0], last_s = times_s[times_s.size() - 1];
+  if (first_s >= loads.start_s - 1e-3 && last_s <= loads.end_s + 1e-3) return;
+  notes.push_back(fmt::format(
+      "{}: the loads are known from {} to {} s, the motion goes from {} to {} s; beyond, they are "
+      "guessed by straight lines",
+      file.string(), loads.start_s, loads.end_s, first_s, last_s));
+}
+
 void claim_file(const ToolOptions& options, const std::filesystem::path& path, ToolResult& result) {
   std::error_code ignored;
   const bool exists = std::filesystem::exists(path, ignored);
@@ -17,6 +29,7 @@ void claim_file(const ToolOptions& options, const std::filesystem::path& path, T
         path.string()));
   }
   if (options.claim) options.claim(path);
+  if (exists) ++result.replaced;
   result.files.push_back(path);
 }
 

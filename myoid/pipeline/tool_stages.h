@@ -1,5 +1,6 @@
 #pragma once
 
+#include "myoid/dynamics/external_loads.h"
 #include "myoid/kinematics/inverse_kinematics.h"
 #include "myoid/pipeline/opensim_setup.h"
 #include "myoid/pipeline/run_tool.h"
@@ -24,6 +25,12 @@ void run_scale(const OpensimSetup& setup, const ToolOptions& options, ToolResult
                                                   const model::BodyModel& model,
                                                   const recording::MarkerSeries& markers,
                                                   std::vector<std::string>& notes);
+
+/// Adds a note where the loads of `file` are not known over all of these times.
+void note_missing_loads(const dynamics::ExternalLoads& loads,
+                        const std::filesystem::path& file,
+                        const Eigen::VectorXd& times_s,
+                        std::vector<std::string>& notes);
 
 /// Asks `claim` and remembers the file.
 void claim_file(const ToolOptions& options, const std::filesystem::path& path, ToolResult& result);

@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "myoid/pipeline/prediction_gates.h"
+
 namespace myoid::pipeline {
 namespace {
 
@@ -91,9 +93,15 @@ Table folds_table(const StudyResult& result) {
       {"trial", "RMSE [N m]", "NRMSE", "R2", "NRMSE below 1.5 Hz", "R2 below 1.5 Hz", "VAF",
        "lag [ms]", "literature x gain", "regression", "paper", "constant"},
       {}};
+  const std::vector<OutlyingFold> outlying = outlying_folds(result.folds);
   for (const identification::Fold& f : result.folds) {
+    const bool stands_out = std::any_of(
+        outlying.begin(), outlying.end(),
+        [&](const OutlyingFold& o) { return o.trial == f.trial && o.joint == f.joint; });
+    const std::string title = title_of(result, f.trial, f.joint);
     table.rows.push_back(
-        {{title_of(result, f.trial, f.joint)},
+        {stands_out ? Cell{title, Badge::bad, "its error stands out from those of the others"}
+                    : Cell{title},
          {fmt::format("{:.2f}", f.identified.rmse_nm)},
          {fmt::format("{:.1f} %", 100.0 * f.identified.nrmse_range)},
          {fmt::format("{:.3f}", f.identified.r2),

@@ -15,6 +15,7 @@
 #include "myoid/recording/emg_reader.h"
 #include "myoid/recording/text_file.h"
 #include "myoid/recording/toml_table.h"
+#include "myoid/signals/emg_quality.h"
 
 namespace myoid::pipeline {
 namespace {
@@ -60,10 +61,35 @@ void require_channels(const Study& study,
   }
 }
 
+/// What the study calls raw must not be envelopes, of which a high-pass leaves hardly anything but
+/// noise, nor what no electrode gives.
+void require_raw(const Study& study, const std::filesystem::path& path, const TimeSeries& emg) {
+  constexpr double kCertainlyNone_v = 1000.0;
+  int envelopes = 0;
+  int others = 0;
+  for (const MuscleSpec& muscle : study.muscles) {
+    const auto column = emg.find(muscle.emg);
+    if (!column || !emg.values().col(*column).allFinite()) continue;
+    const auto x = emg.values().col(*column);
+    if (x.cwiseAbs().maxCoeff() > kCertainlyNone_v)
+      throw ReadError(
+          path, 0,
+          fmt::format("channel '{}' reaches {:.3g} V, which no electrode gives; correct "
+                      "[emg] unit, or leave out what is no measurement",
+                      muscle.emg, x.cwiseAbs().maxCoeff()));
+    if (x.maxCoeff() > x.minCoeff())
+      ++(signals::is_envelope(x, emg.mean_rate_hz()) ? envelopes : others);
+  }
+  if (envelopes > 0 && others == 0)
+    throw ReadError(path, 0,
+                    "no channel is ever negative or goes up and down as raw EMG does: these are "
+                    "envelopes; set [emg] kind = \"envelope\"");
+}
+
 /// What the study calls an envelope or an activation has to be one: raw EMG, which swings about
 /// zero, and signals in other units would give muscle forces a hundred times too large, in silence.
 void require_kind(const Study& study, const std::filesystem::path& path, const TimeSeries& emg) {
-  if (study.emg.kind == EmgKind::raw) return;
+  if (study.emg.kind == EmgKind::raw) return require_raw(study, path, emg);
   constexpr double kRinging = 0.2;  // of the maximum, that a filter may swing below zero
   constexpr double kLargestActivation = 2.0;
   const bool activation = study.emg.kind == EmgKind::activation;
@@ -122,7 +148,15 @@ void check_cover(const TrialSpec& trial, const Eigen::VectorXd& emg_s, TrialInpu
   const double end_s = (*motion_s)[motion_s->size() - 1];
   const double emg_end_s = emg_s[emg_s.size() - 1];
   const double overlap = std::min(emg_end_s, end_s) - std::max(emg_s[0], begin_s);
-  if (overlap < std::max(0.5, 0.5 * (end_s - begin_s))) {
+  constexpr double kShortest_s = 0.5;
+  if (end_s - begin_s < kShortest_s) {
+    throw ReadError(
+        *trial.emg, 0,
+        fmt::format("the trial lasts {:.3g} s ({:.5g} to {:.5g} s); at least {} s are needed: give "
+                    "start_s and end_s that are farther apart",
+                    end_s - begin_s, begin_s, end_s, kShortest_s));
+  }
+  if (overlap < std::max(kShortest_s, 0.5 * (end_s - begin_s))) {
     throw ReadError(
         *trial.emg, 0,
         fmt::format("the EMG ({:.5g} to {:.5g} s) covers less than half of the motion ({:.5g} "

@@ -13,10 +13,7 @@
 namespace myoid::pipeline {
 namespace {
 
-using test_trials::arm;
-using test_trials::arm_study;
-using test_trials::message_of;
-using test_trials::WrittenTrial;
+using namespace test_trials;
 
 TEST(ReadTrialEmg, AMissingEmgChannelIsNamedWithThoseThereAre) {
   const test::TemporaryFolder folder;
@@ -44,12 +41,13 @@ TEST(ReadTrialEmg, EmgThatCoversLessThanHalfOfTheMotionIsRefusedAndALittleLessIs
       << shorter.warnings[0];
 }
 
-/// What reading the trial's EMG says, when all four channels hold these two values in turn.
-std::string emg_of(const Study& study, double low, double high) {
+/// What reading the trial's EMG says, when all four channels hold these two values in turn, each
+/// for so many samples of 10 ms.
+std::string emg_of(const Study& study, double low, double high, int samples = 1) {
   const test::TemporaryFolder folder;
   std::string text = "EMG\nendheader\ntime\tBIC\tBRA\tBRD\tTRI\n";
   for (int i = 0; i < 300; ++i) {
-    const double v = i % 2 == 0 ? low : high;
+    const double v = i / samples % 2 == 0 ? low : high;
     text += fmt::format("{0}\t{1}\t{1}\t{1}\t{1}\n", 0.01 * i, v);
   }
   recording::write_file(folder / "e.sto", text);
@@ -65,6 +63,23 @@ std::string emg_of(const Study& study, double low, double high) {
 TEST(ReadTrialEmg, AnEnvelopeMayRingBelowZeroButNotSwingAboutIt) {
   EXPECT_EQ(emg_of(arm_study(), -0.1, 1.0), "(no error)");
   EXPECT_NE(emg_of(arm_study(), -0.9, 1.0).find("is it raw EMG?"), std::string::npos);
+}
+
+TEST(ReadTrialEmg, AnEnvelopeThatIsCalledRawIsRefused) {
+  Study study = arm_study();
+  study.emg.kind = EmgKind::raw;
+  study.emg.unit = "V";
+  EXPECT_EQ(emg_of(study, -1e-4, 1e-4), "(no error)");
+  EXPECT_EQ(emg_of(study, 2.0, 2.1), "(no error)");  // a converter without negative numbers
+  const std::string message = emg_of(study, 0.0, 1e-4, 20);
+  EXPECT_NE(message.find("set [emg] kind = \"envelope\""), std::string::npos) << message;
+}
+
+TEST(ReadTrialEmg, RawEmgOfThousandsOfVoltsIsRefused) {
+  Study study = arm_study();
+  study.emg.kind = EmgKind::raw;
+  study.emg.unit = "V";
+  EXPECT_NE(emg_of(study, -1e27, 1e27).find("which no electrode gives"), std::string::npos);
 }
 
 TEST(ReadTrialEmg, AnActivationInPercentIsRefused) {

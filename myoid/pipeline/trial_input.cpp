@@ -11,6 +11,7 @@
 #include "myoid/pipeline/trial_loads.h"
 #include "myoid/pipeline/trial_markers.h"
 #include "myoid/recording/byte_source.h"
+#include "myoid/recording/recording.h"
 #include "myoid/recording/storage_reader.h"
 
 namespace myoid::pipeline {
@@ -112,12 +113,8 @@ TimeSeries read_external_torque(const Study& study,
 void add_repairs(const std::filesystem::path& path,
                  const std::vector<recording::Repair>& repairs,
                  std::vector<std::string>& notes) {
-  for (const recording::Repair& repair : repairs) {
-    notes.push_back(
-        repair.line > 0
-            ? fmt::format("{}:{}: {}", path.filename().string(), repair.line, repair.message)
-            : fmt::format("{}: {}", path.filename().string(), repair.message));
-  }
+  for (const recording::Repair& repair : repairs)
+    notes.push_back(recording::to_string(path.filename(), repair));
 }
 
 void warn(TrialInput& input, std::string text) {

@@ -12,6 +12,7 @@
 #include "myoid/model/osim_reader.h"
 #include "myoid/pipeline/plate_loads.h"
 #include "myoid/pipeline/trial_clock.h"
+#include "myoid/pipeline/trial_input.h"
 #include "myoid/recording/recording.h"
 #include "myoid/recording/text_file.h"
 #include "myoid/signals/filter.h"
@@ -76,7 +77,9 @@ dynamics::ExternalForce read_load_cell(
   const std::filesystem::path& file = *trial.load_cell;
   remember(file);
   remember(spec.calibration);
-  const recording::AnalogChannels channels = recording::read_recording(file).analog;
+  const recording::Recording recorded = recording::read_recording(file);
+  add_repairs(file, recorded.repairs, notes);
+  const recording::AnalogChannels& channels = recorded.analog;
   if (channels.empty()) throw ReadError(file, 0, "there are no channels, so no load cell");
   TimeSeries wrench;
   try {
@@ -131,8 +134,7 @@ dynamics::ExternalLoads read_plates(
   const auto name = spec.file.filename().string();
   if (!trial.markers || *trial.markers != spec.file) remember(spec.file);
   const recording::Recording file = recording::read_recording(spec.file);
-  for (const recording::Repair& repair : file.repairs)
-    notes.push_back(fmt::format("{}: {}", name, recording::to_string(repair)));
+  add_repairs(spec.file, file.repairs, notes);
   std::vector<recording::ForcePlate> plates = file.force_plates();
   if (const auto clock = loads_clock(study, trial, spec.file)) {
     for (recording::ForcePlate& plate : plates) {

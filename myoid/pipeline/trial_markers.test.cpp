@@ -14,9 +14,7 @@
 namespace myoid::pipeline {
 namespace {
 
-using test_trials::arm;
-using test_trials::arm_study;
-using test_trials::message_of;
+using namespace test_trials;
 
 /// Every marker of the arm, at 100 Hz, where the model has it in its own body: a pose that no arm
 /// takes, but that its reader does not judge.

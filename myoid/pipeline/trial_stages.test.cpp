@@ -12,9 +12,7 @@
 namespace myoid::pipeline {
 namespace {
 
-using test_trials::arm;
-using test_trials::arm_study;
-using test_trials::message_of;
+using namespace test_trials;
 
 constexpr double kAngle_rad = 60.0 * kDegree;
 

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "myoid/core/error.h"
+#include "tests/support/message_of.h"
 
 namespace myoid::pipeline {
 namespace {
@@ -15,12 +15,7 @@ TrialSpec trial_of(const std::string& text) {
 }
 
 std::string message_of(const std::string& text) {
-  try {
-    (void)trial_of(text);
-  } catch (const ReadError& error) {
-    return error.what();
-  }
-  return "(no error)";
+  return test::message_of([&] { (void)trial_of(text); });
 }
 
 const std::string kTrial = "name = \"t1\"\nmarkers = \"a/t1.trc\"\nemg = \"t1.sto\"\n";

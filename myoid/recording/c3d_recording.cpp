@@ -27,8 +27,10 @@ Recording read(const std::filesystem::path& path,
   std::optional<C3dMarkerBuilder> markers;
   AnalogCounts counts;
   try {
-    if (with_analog && with_markers)
-      recording.plates = plate_setups(head.file, recording.repairs);
+    // Who wants the channels alone is not told what is odd about the plates.
+    std::vector<Repair> unsaid;
+    if (with_analog)
+      recording.plates = plate_setups(head.file, with_markers ? recording.repairs : unsaid);
     if (with_markers && !marker_columns(head.file).empty())
       markers.emplace(head.file, head.layout.frames);
   } catch (const InvalidInput& error) {

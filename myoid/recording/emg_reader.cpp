@@ -1,6 +1,8 @@
 #include "myoid/recording/emg_reader.h"
 
 #include <optional>
+#include <set>
+#include <string>
 #include <utility>
 
 #include <fmt/format.h>
@@ -11,6 +13,7 @@
 #include "myoid/recording/c3d_recording.h"
 #include "myoid/recording/csv_reader.h"
 #include "myoid/recording/edf_reader.h"
+#include "myoid/recording/emg_channels.h"
 #include "myoid/recording/emg_table.h"
 #include "myoid/recording/storage_reader.h"
 
@@ -50,8 +53,13 @@ std::optional<TimeSeries> volts_of(const CsvSeries& series,
   std::vector<std::string> kept;
   std::vector<double> factors;
   bool stated = false;
+  std::string other_instruments;
   for (std::size_t c = 0; c < series.has_unit.size(); ++c) {
     const Channel& channel = series.data.channels()[c];
+    if (named_as_no_emg(channel.name)) {
+      other_instruments += (other_instruments.empty() ? "" : ", ") + channel.name;
+      continue;
+    }
     if (series.has_unit[c] && channel.unit != Unit::volt) {
       repairs.push_back({0, fmt::format("column '{}' is in {} and no EMG; left out", channel.name,
                                         symbol(channel.unit))});
@@ -62,6 +70,9 @@ std::optional<TimeSeries> volts_of(const CsvSeries& series,
     kept.push_back(channel.name);
     factors.push_back(series.has_unit[c] ? 1.0 : *to_volt);
   }
+  if (!other_instruments.empty())
+    repairs.push_back(
+        {0, fmt::format("no EMG by what they are called, left out: {}", other_instruments)});
   if (stated && to_volt)
     repairs.push_back(
         {0, "columns that name their unit keep it; the unit given is for the others"});
@@ -94,9 +105,13 @@ std::optional<CsvSeries> read_channels(const std::filesystem::path& path, bool v
     CsvSeries series;
     std::vector<std::string> names;
     std::size_t others = 0;
+    std::set<Eigen::Index> of_plates;
+    for (const PlateSetup& plate : file.plates)
+      of_plates.insert(plate.channels.begin(), plate.channels.end());
     for (std::size_t c = 0; c < has_unit.size(); ++c) {
       const Channel& channel = file.analog.channels()[c];
-      if (voltages_only && has_unit[c] && channel.unit != Unit::volt) {
+      if (voltages_only && ((has_unit[c] && channel.unit != Unit::volt) ||
+                            of_plates.contains(static_cast<Eigen::Index>(c)))) {
         ++others;
         continue;
       }
@@ -104,10 +119,13 @@ std::optional<CsvSeries> read_channels(const std::filesystem::path& path, bool v
       series.has_unit.push_back(has_unit[c]);
     }
     if (names.empty())
-      throw ReadError(path, 0, "none of the analog channels is a voltage, so there is no EMG");
+      throw ReadError(path, 0,
+                      "none of the analog channels is a voltage beside the force plates', so "
+                      "there is no EMG");
     if (others > 0)
       file.repairs.push_back(
-          {0, fmt::format("{} analog channels are no voltages (forces, ...); left out", others)});
+          {0, fmt::format("{} analog channels are no voltages or belong to force plates; left out",
+                          others)});
     series.data = file.analog.select(names);
     series.repairs = std::move(file.repairs);
     return series;

@@ -28,8 +28,9 @@ struct EmgFile {
 /// EMG from .c3d, .edf, .bdf, .anc, .sto, .mot or a table (.csv, .tsv, .txt; see `read_emg_table`).
 /// Raw EMG must have a unit: that of its channel ("name [mV]") or of the file (`stated_voltage`),
 /// else `unit` if given ("uV"); where there is none, ReadError says how to give it. Channels in
-/// newtons or the like are left out, with a note. With `dimensionless` (envelopes, activations) no
-/// unit is looked for.
+/// newtons or the like, those of force plates (FORCE_PLATFORM:CHANNEL) and those called like
+/// another instrument's (`named_as_no_emg`) are left out, with a note. With `dimensionless`
+/// (envelopes, activations) no unit is looked for.
 [[nodiscard]] EmgFile read_emg(const std::filesystem::path& path,
                                const std::string& unit,
                                bool dimensionless);

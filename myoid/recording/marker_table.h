@@ -9,7 +9,8 @@ namespace myoid::recording {
 
 /// True if a text is a table of marker positions as these programs export it: Vicon Nexus (.csv
 /// with a section "Trajectories"), Qualisys (.tsv, DATA_INCLUDED 3D), BTS (.emt, "Point 3D
-/// tracks"), OptiTrack Motive (.csv), NDI First Principles (.csv: "NAME x", "NAME y", "NAME z" and a collection frequency).
+/// tracks"), OptiTrack Motive (.csv), NDI First Principles (.csv: "NAME x", "NAME y", "NAME z" and
+/// a collection frequency).
 [[nodiscard]] bool is_marker_table(std::string_view text);
 
 /// Its markers. An empty cell, and in Qualisys' files 0 0 0, is a gap. Time is the file's own

@@ -27,6 +27,11 @@ std::string to_string(const Repair& repair) {
   return repair.line > 0 ? fmt::format("line {}: {}", repair.line, repair.message) : repair.message;
 }
 
+std::string to_string(const std::filesystem::path& path, const Repair& repair) {
+  return repair.line > 0 ? fmt::format("{}:{}: {}", path.string(), repair.line, repair.message)
+                         : fmt::format("{}: {}", path.string(), repair.message);
+}
+
 namespace {
 
 bool is_table(std::string_view extension) {

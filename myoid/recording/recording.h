@@ -44,6 +44,9 @@ struct Recording {
 /// "line 3: message", or the message alone where a repair has no line.
 [[nodiscard]] std::string to_string(const Repair& repair);
 
+/// "flex.sto:3: message", or "flex.sto: message" where it has none: a repair of this file.
+[[nodiscard]] std::string to_string(const std::filesystem::path& path, const Repair& repair);
+
 /// The ending of the name in small letters, with its point: ".c3d".
 [[nodiscard]] std::string extension_of(const std::filesystem::path& path);
 

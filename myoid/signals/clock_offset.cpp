@@ -215,21 +215,24 @@ std::vector<Fault> check_clock_offset(const TimeSeries& envelopes,
   const double unsure_s = offset->phase_s + 2.0 * offset->scatter_s;
   const bool grave = offset->lead_s - unsure_s > limits.latest_offset_s ||
                      offset->lead_s + unsure_s < limits.earliest_offset_s;
-  faults.push_back(
-      {.kind = FaultKind::clock_offset,
-       .grave = grave,
-       .channel = "EMG and motion",
-       .begin_s = begin_s,
-       .end_s = end_s,
-       .value = offset->lead_s,
-       .text = fmt::format("the EMG is {:.0f} ± {:.0f} ms {} the motion that it drives",
-                           1000.0 * std::abs(offset->lead_s), 1000.0 * offset->sd_s,
-                           offset->lead_s < 0.0 ? "behind" : "ahead of"),
-       .remedy =
-           grave ? fmt::format("expected {:.0f} to {:.0f} ms ahead: were the two recordings "
-                               "started together? Shift the clock of one of them",
-                               1000.0 * limits.earliest_offset_s, 1000.0 * limits.latest_offset_s)
-                 : ""});
+  // What may be anywhere in the range that is expected says nothing.
+  const bool tells = 2.0 * offset->sd_s < limits.latest_offset_s - limits.earliest_offset_s;
+  if (grave || tells)
+    faults.push_back(
+        {.kind = FaultKind::clock_offset,
+         .grave = grave,
+         .channel = "EMG and motion",
+         .begin_s = begin_s,
+         .end_s = end_s,
+         .value = offset->lead_s,
+         .text = fmt::format("the EMG is {:.0f} ± {:.0f} ms {} the motion that it drives",
+                             1000.0 * std::abs(offset->lead_s), 1000.0 * offset->sd_s,
+                             offset->lead_s < 0.0 ? "behind" : "ahead of"),
+         .remedy =
+             grave ? fmt::format("expected {:.0f} to {:.0f} ms ahead: were the two recordings "
+                                 "started together? Shift the clock of one of them",
+                                 1000.0 * limits.earliest_offset_s, 1000.0 * limits.latest_offset_s)
+                   : ""});
   constexpr double kLongEnough_s = 30.0;
   if (end_s - begin_s < kLongEnough_s) return faults;
   const auto first =

@@ -30,8 +30,8 @@ struct ClockOffset {
 /// slower than a sine of 0.5 Hz (posture then goes with the EMG at any delay), a correlation below
 /// 0.6, the best d at the end of the range, another d nearly as good (searched beyond 0.6 s only),
 /// or a scatter above 0.1 s. On virtual recordings whose clocks agree it was 70 ms behind to 450 ms
-/// ahead in movements of a period of 1.2 s: it finds errors of clocks of half a second, it does not measure the
-/// electromechanical delay.
+/// ahead in movements of a period of 1.2 s: it finds errors of clocks of half a second, it does not
+/// measure the electromechanical delay.
 [[nodiscard]] std::optional<ClockOffset> estimate_clock_offset(const TimeSeries& envelopes,
                                                                const TimeSeries& motion,
                                                                double reach_s = 0.6);

@@ -101,10 +101,8 @@ TEST(ClockOffset, OfASlowOrATinyMovementNothingIsSaid) {
 
 TEST(ClockOffset, OutsideWhatABodyCanDoItIsAWarning) {
   const Swing swing{2};
-  const auto usual = check_clock_offset(effort(swing, 20.0, 0.08), motion(swing, 20.0));
-  ASSERT_EQ(usual.size(), 1U);
-  EXPECT_FALSE(usual[0].grave);
-  EXPECT_NE(usual[0].text.find("ahead of the motion"), std::string::npos);
+  // Within what is usual, and to a quarter of a second: that says nothing.
+  EXPECT_TRUE(check_clock_offset(effort(swing, 20.0, 0.08), motion(swing, 20.0)).empty());
   const auto late = check_clock_offset(effort(swing, 20.0, -0.55), motion(swing, 20.0));
   ASSERT_EQ(late.size(), 1U);
   EXPECT_TRUE(late[0].grave);

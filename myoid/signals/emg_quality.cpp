@@ -59,6 +59,8 @@ class ChannelCheck {
 
   /// What the pair checks compare; empty where there is nothing.
   Eigen::VectorXd run(std::vector<Fault>& faults) {
+    amplitude(faults);
+    const bool smoothed = is_envelope(x_, rate_hz_, limits_);
     x_.array() -= x_.mean();
     if (rms(x_) < limits_.flat_v) {
       add(faults, FaultKind::emg_flat, true, 0, x_.size() - 1, rms(x_),
@@ -74,6 +76,15 @@ class ChannelCheck {
           fmt::format("channel '{}' does not change at all from {:.6g} to {:.6g} s", name_,
                       time_s_[flat.begin], time_s_[flat.begin + flat.length - 1]),
           "was the transmission lost? Cut that part off with start_s and end_s");
+    }
+    if (smoothed) {
+      add(faults, FaultKind::emg_envelope, true, 0, x_.size() - 1, 0.0,
+          fmt::format("channel '{}' is never negative and hardly goes up and down: it has been "
+                      "rectified and smoothed",
+                      name_),
+          "an envelope that is high-passed and rectified once more is no activation: set [emg] "
+          "kind = \"envelope\"");
+      return {};
     }
     if (rate_hz_ < 4.0 * kEmgFrom_hz || x_.size() < static_cast<Eigen::Index>(rate_hz_)) return {};
     emg_ = filtered(x_, FilterBand::high_pass, kEmgFrom_hz, rate_hz_);
@@ -104,6 +115,21 @@ class ChannelCheck {
                       .value = value,
                       .text = std::move(text),
                       .remedy = std::move(remedy)});
+  }
+
+  void amplitude(std::vector<Fault>& faults) const {
+    Eigen::Index at = 0;
+    const double most = x_.cwiseAbs().maxCoeff(&at);
+    if (most <= limits_.amplitude_v) return;
+    const auto beyond = (x_.array().abs() > limits_.amplitude_v).count();
+    add(faults, FaultKind::emg_amplitude, true, at, at, most,
+        fmt::format(
+            "channel '{}' reaches {:.3g} V at {:.6g} s ({} of {} samples lie beyond {:g} V); "
+            "skin gives millivolts, and no amplifier more than {:g} V",
+            name_, most, time_s_[at], beyond, x_.size(), limits_.amplitude_v, limits_.amplitude_v),
+        2 * beyond > x_.size()
+            ? "is the unit wrong, or is it no EMG?"
+            : "leave out what is no measurement: it becomes the greatest effort");
   }
 
   bool clipping(std::vector<Fault>& faults) const {
@@ -308,6 +334,21 @@ std::vector<Fault> check_emg(const TimeSeries& raw, bool high_passed, const Qual
     }
   }
   return faults;
+}
+
+bool is_envelope(const Eigen::Ref<const Eigen::VectorXd>& x,
+                 double rate_hz,
+                 const QualityLimits& limits) {
+  constexpr double kRinging = 0.05;  // of the maximum, that a filter may swing below zero
+  const Eigen::Index n = x.size();
+  if (n < 3 || x.minCoeff() < -kRinging * x.maxCoeff() || !(x.maxCoeff() > x.minCoeff()))
+    return false;
+  std::vector<double> sorted(x.begin(), x.end());
+  std::nth_element(sorted.begin(), sorted.begin() + n / 2, sorted.end());
+  const double median = sorted[static_cast<std::size_t>(n / 2)];
+  Eigen::Index crossings = 0;
+  for (Eigen::Index i = 1; i < n; ++i) crossings += (x[i] > median) != (x[i - 1] > median) ? 1 : 0;
+  return static_cast<double>(crossings) * rate_hz <= limits.raw_hz * static_cast<double>(n);
 }
 
 std::vector<Fault> check_emg_levels(std::span<const TrialEnvelope> trials,

@@ -12,6 +12,10 @@ namespace myoid::signals {
 
 /// Looks at one trial's raw EMG (volts, finite), channel by channel and pair by pair:
 ///
+/// - amplitude: beyond `amplitude_v`, which neither skin nor amplifier gives;
+/// - envelope: never negative, and through its median less than `raw_hz` times a second: it has
+/// been
+///   rectified and smoothed already. Nothing else is then looked for but flat stretches;
 /// - flat: no change at all for `flat_s`, or an rms below `flat_v` throughout;
 /// - clipped: flat tops of three samples or more, and more samples on the largest (or smallest)
 ///   value than in the twentieth of the range next to it; saturated: one such top for
@@ -25,6 +29,12 @@ namespace myoid::signals {
 [[nodiscard]] std::vector<Fault> check_emg(const TimeSeries& raw,
                                            bool high_passed = true,
                                            const QualityLimits& limits = {});
+
+/// Whether one channel's samples are never negative (a filter's swing of 5 % apart) and go through
+/// their median less than `raw_hz` times a second: rectified and smoothed EMG.
+[[nodiscard]] bool is_envelope(const Eigen::Ref<const Eigen::VectorXd>& samples,
+                               double rate_hz,
+                               const QualityLimits& limits = {});
 
 /// Looks at all trials together, channel by channel: does the signal rise from rest (largest 0.5 s
 /// mean over smallest 1 s mean), and does no movement exceed the maximal contractions? Channels

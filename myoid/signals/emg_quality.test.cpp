@@ -55,6 +55,31 @@ std::set<FaultKind> kinds(const Eigen::VectorXd& x, bool high_passed = true) {
 
 using Kinds = std::set<FaultKind>;
 
+TEST(EmgQuality, WhatNoElectrodeGivesIsNamedWithItsSize) {
+  EXPECT_TRUE(kinds(muscle(3)).empty());
+  EXPECT_TRUE(kinds(1e4 * muscle(3)).empty());  // an amplifier's output, some 8 V
+  const std::vector<Fault> faults = check_emg(recording({4e5 * muscle(3)}));
+  ASSERT_EQ(faults.size(), 1U);
+  EXPECT_EQ(faults[0].kind, FaultKind::emg_amplitude);
+  EXPECT_GT(faults[0].value, 100.0);
+  EXPECT_NE(faults[0].text.find(" V at "), std::string::npos) << faults[0].text;
+  Eigen::VectorXd spike = muscle(3);
+  spike[7000] = 1e30;
+  EXPECT_TRUE(kinds(spike).contains(FaultKind::emg_amplitude));
+}
+
+TEST(EmgQuality, AnEnvelopeIsToldFromRawEmgWhateverItsOffset) {
+  Eigen::VectorXd envelope = 1e-4 * (1.0 - (1.3 * seconds()).cos());
+  EXPECT_EQ(kinds(envelope), Kinds{FaultKind::emg_envelope});
+  envelope[100] = -2e-6;  // a filter's swing
+  EXPECT_EQ(kinds(envelope), Kinds{FaultKind::emg_envelope});
+  // Of a converter that knows no negative numbers.
+  EXPECT_FALSE(kinds(muscle(3).array() + 2.5).contains(FaultKind::emg_envelope));
+  // A baseline that wanders far keeps raw EMG from its median for long.
+  EXPECT_FALSE(
+      kinds(muscle(3).array() + 1e-3 * (0.3 * seconds()).sin()).contains(FaultKind::emg_envelope));
+}
+
 TEST(EmgQuality, OfCleanRecordingsNothingIsSaid) {
   for (std::uint64_t seed = 1; seed <= 10; ++seed)
     EXPECT_TRUE(check_emg(recording({muscle(3 * seed), muscle(3 * seed + 1), muscle(3 * seed + 2)}))

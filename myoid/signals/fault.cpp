@@ -16,6 +16,10 @@ std::string_view name(FaultKind kind) {
       return "marker_swap";
     case FaultKind::segment_not_rigid:
       return "segment_not_rigid";
+    case FaultKind::emg_amplitude:
+      return "emg_amplitude";
+    case FaultKind::emg_envelope:
+      return "emg_envelope";
     case FaultKind::emg_flat:
       return "emg_flat";
     case FaultKind::emg_clipped:

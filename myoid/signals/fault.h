@@ -12,6 +12,8 @@ enum class FaultKind {
   marker_jump,
   marker_swap,
   segment_not_rigid,
+  emg_amplitude,
+  emg_envelope,
   emg_flat,
   emg_clipped,
   emg_saturated,

@@ -13,6 +13,8 @@ std::vector<LimitRow> limit_rows(const QualityLimits& l) {
       {marker_swap, fmt::format("{:g} mm apart", 1000.0 * l.swap_m)},
       {segment_not_rigid,
        fmt::format("{:g} mm and {:g} %", 1000.0 * l.rigid_m, 100.0 * l.rigid_share)},
+      {emg_amplitude, fmt::format("{:g} V", l.amplitude_v)},
+      {emg_envelope, fmt::format("{:g} times a second", l.raw_hz)},
       {emg_flat, fmt::format("{} s, {:g} uV rms", l.flat_s, 1e6 * l.flat_v)},
       {emg_clipped, fmt::format("{:g} % of the samples", 100.0 * l.clipped_share)},
       {emg_saturated, fmt::format("{} s", l.saturated_s)},

@@ -18,8 +18,10 @@ struct QualityLimits {
   double rigid_m = 0.03;      ///< Change of a distance within a segment (skin moves 1 to 2 cm) ...
   double rigid_share = 0.15;  ///< ... and of its own size.
   // EMG.
-  double flat_s = 0.25;         ///< Without any change.
-  double flat_v = 1e-7;         ///< Rms below the noise of every amplifier.
+  double amplitude_v = 10.0;  ///< Skin gives 10 mV at most, converters take +-10 V.
+  double raw_hz = 30.0;  ///< Goes through its median less often and is never negative: an envelope.
+  double flat_s = 0.25;  ///< Without any change.
+  double flat_v = 1e-7;  ///< Rms below the noise of every amplifier.
   double clipped_share = 1e-4;  ///< Of the samples, on flat tops.
   double saturated_s = 0.02;    ///< On one flat top.
   double hum_share = 0.10;      ///< Of the power above 20 Hz, in lines of the mains.

@@ -84,15 +84,25 @@ std::string last_part(std::string name) {
   return name;
 }
 
-/// J of inverse kinematics at the postures of a motion, frame by frame.
-Eigen::VectorXd objective(const fs::path& setup_file, const fs::path& motion) {
+/// J of inverse kinematics, frame by frame, `share` of the way from the postures of one motion to
+/// those of another.
+Eigen::VectorXd objective(const fs::path& setup_file,
+                          const fs::path& from,
+                          const fs::path& to,
+                          double share) {
   const pipeline::OpensimSetup setup(setup_file);
   std::vector<std::string> notes;
   const model::BodyModel model = pipeline::setup_model(setup, model::kOpenSim452, {}, notes);
   const recording::MarkerSeries markers =
       recording::read_markers(setup.required_file(setup.tool(), "marker_file")).markers;
-  const TimeSeries q =
-      pipeline::read_coordinates(model, motion, pipeline::MissingCoordinate::default_value, notes);
+  const auto read = [&](const fs::path& motion) {
+    return pipeline::read_coordinates(model, motion, pipeline::MissingCoordinate::default_value,
+                                      notes);
+  };
+  const TimeSeries first = read(from), second = read(to);
+  if (first.sample_count() != second.sample_count()) return {};
+  const TimeSeries q(first.time_s(), first.channels(),
+                     (1.0 - share) * first.values() + share * second.values());
   const kinematics::IkOptions ik =
       pipeline::read_ik_tasks(setup, setup.tool(), model, markers, notes);
   model::BodyState state = model::make_state(model);
@@ -168,13 +178,24 @@ void compare_ik(const fs::path& setup_file,
   const TimeSeries ours = recording::read_storage(ours_file).data;
   const TimeSeries theirs = recording::read_storage(tight).data;
   rows.add(code(tight), compare(ours, theirs, 0, same), "deg, m");
-  const Eigen::VectorXd j = objective(setup_file, ours_file), k = objective(setup_file, tight);
-  if (j.size() != k.size()) return;
+  const auto along = [&](double share) { return objective(setup_file, tight, ours_file, share); };
+  const Eigen::VectorXd j = along(1.0), k = along(0.0);
+  if (j.size() == 0) return;
   Eigen::ArrayXd excess = (j - k).array() / (k.array() + 1e-12);
   const double worst = excess.maxCoeff();
   std::sort(excess.data(), excess.data() + excess.size());
   rows.add("objective, ours above theirs", fmt::format("{:.1e}", worst),
            fmt::format("median {:.1e}", excess[excess.size() / 2]));
+  // Where J tells the two apart, a parabola through it tells where it is least on the way.
+  if (excess[0] > -1e-8) return;
+  const Eigen::ArrayXd middle = along(0.5).array();
+  const Eigen::ArrayXd slope = 4.0 * middle - 3.0 * k.array() - j.array();
+  const Eigen::ArrayXd bend = 2.0 * (j.array() + k.array() - 2.0 * middle);
+  Eigen::ArrayXd least = -0.5 * slope / bend;
+  std::sort(least.data(), least.data() + least.size());
+  rows.add("least objective between theirs (0) and ours (1)",
+           fmt::format("{:.3f} to {:.3f}", least[0], least[least.size() - 1]),
+           fmt::format("median {:.4f}", least[least.size() / 2]));
 }
 
 /// Every frame of a static optimization as it was solved here.

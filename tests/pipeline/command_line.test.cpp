@@ -25,10 +25,10 @@ using testing::Not;
 
 const std::string kProtocols = MYOID_SOURCE_DIR "/examples/protocols/";
 
-constexpr const char* kCommands[] = {"run",    "check",    "info",      "emg",      "ik",
-                                     "id",     "muscle",   "paths",     "so",       "identify",
-                                     "twin",   "report",   "convert",   "simulate", "compare",
-                                     "design", "run-tool", "twin-study"};
+constexpr const char* kCommands[] = {"run",    "check",    "info",       "emg",      "ik",
+                                     "id",     "muscle",   "paths",      "so",       "identify",
+                                     "twin",   "report",   "convert",    "simulate", "compare",
+                                     "design", "run-tool", "twin-study", "init"};
 
 /// One second of elbow flexion from 0 to 90 degrees, written in degrees under this header value.
 std::string ramp_motion(const std::string& in_degrees) {
@@ -77,6 +77,10 @@ TEST(CommandLine, IsWrongWithExitCodeTwoAndNothingOnStdout) {
     EXPECT_EQ(finished.out, "");
     EXPECT_NE(finished.err, "");
   }
+  // An option that has no effect here is named like any other.
+  const Finished seed = myoid({"run", folder / "s.toml", "--out", folder / "o", "--seed", "abc"});
+  EXPECT_EQ(seed.exit_code, 2);
+  EXPECT_THAT(seed.err, AllOf(HasSubstr("--seed"), HasSubstr("'abc'")));
 }
 
 TEST(CommandLine, AWrongPathIsNamedWithExitCodeThree) {
@@ -210,7 +214,15 @@ TEST(CommandLine, AFolderThatIsMadeForAResultIsSaid) {
   write_text(folder / "e.sto", emg_text("EMG microvolt"));
   const Finished emg = myoid({"emg", folder / "e.sto", "--out", folder / "new/a.sto"});
   EXPECT_EQ(emg.exit_code, 0) << emg.err;
-  EXPECT_THAT(emg.err, AllOf(HasSubstr((folder / "new").string()), HasSubstr("it is made")));
+  EXPECT_THAT(emg.err, AllOf(HasSubstr((folder / "new").string()), HasSubstr("it was made")));
+  // Once, whatever the number of files; and not at all where nothing was made.
+  const Finished two = myoid(
+      {"emg", folder / "e.sto", "--out", folder / "two/a.sto", "--envelope", folder / "two/e.sto"});
+  EXPECT_EQ(two.exit_code, 0) << two.err;
+  EXPECT_EQ(two.err.find("it was made"), two.err.rfind("it was made"));
+  const Finished none = myoid({"emg", folder / "none.sto", "--out", folder / "three/a.sto"});
+  EXPECT_EQ(none.exit_code, 3);
+  EXPECT_THAT(none.err, Not(HasSubstr("three")));
 }
 
 TEST(CommandLine, AResultThatStandardOutputLosesIsAnError) {
@@ -269,6 +281,30 @@ TEST(CommandLine, TheUnitThatAnEmgFileStatesHoldsWithAWarning) {
       myoid({"emg", folder / "e.sto", "--unit", "V", "--out", folder / "a.sto", "--overwrite"});
   EXPECT_EQ(other.out, as_said.out);
   EXPECT_THAT(other.err, AllOf(HasSubstr("warning"), HasSubstr("is not used")));
+}
+
+TEST(CommandLine, WhatAReaderLeftOutIsSaidByTheStagesThatReadSeries) {
+  const TemporaryFolder folder;
+  write_text(folder / "m.mot", ramp_motion("yes"));
+  std::string cut = "EMG\nendheader\ntime\tBIC\tBRA\tBRD\tTRI\n";
+  for (int i = 0; i <= 110; ++i) cut += std::to_string(0.01 * i) + "\t0.10\t0.10\t0.10\t0.10\n";
+  cut.resize(cut.size() - 3);
+  write_text(folder / "cut.sto", cut);
+  const Finished so = myoid({"so", "--model", "arm4", "--motion", folder / "m.mot", "--out",
+                             folder / "so", "--emg", folder / "cut.sto", "--emg-weight", "1"});
+  EXPECT_EQ(so.exit_code, 0) << so.err;
+  EXPECT_THAT(so.err, AllOf(HasSubstr("cut.sto:114"), HasSubstr("left out")));
+}
+
+TEST(Compare, OneFolderWithItselfIsRefused) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directories(folder / "a");
+  std::filesystem::create_symlink("a", folder / "b");
+  for (const char* second : {"a", "b"}) {
+    const Finished compared = myoid({"compare", folder / "a", folder / second});
+    EXPECT_EQ(compared.exit_code, 3);
+    EXPECT_THAT(compared.err, HasSubstr("are one folder"));
+  }
 }
 
 TEST(CommandLine, OfACommonOptionWithoutEffectTheHelpIsSilentAndAWarningSpeaks) {

@@ -1,4 +1,7 @@
 // Recordings there and back again through the program.
+#include <filesystem>
+#include <string>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -61,6 +64,27 @@ TEST(Convert, TurnsTheLaboratory) {
       myoid({"convert", (folder / "a.trc").string(), out, "--overwrite", "--rotate", "q:90"});
   EXPECT_EQ(wrong.exit_code, 3);
   EXPECT_THAT(wrong.err, HasSubstr("AXIS:DEGREES"));
+}
+
+TEST(Convert, AUnitThatTheFileContradictsIsNotUsedAndThatIsSaid) {
+  const TemporaryFolder folder;
+  write_text(folder / "a.trc", kTrc);
+  std::string emg = "EMG uV\nendheader\ntime\tBIC\n";
+  for (int i = 0; i < 8; ++i) emg += std::to_string(0.005 * i) + "\t" + std::to_string(i) + "\n";
+  write_text(folder / "e.sto", emg);
+  const Finished done = myoid({"convert", folder / "a.trc", folder / "a.c3d", "--analog",
+                               folder / "e.sto", "--unit", "mV"});
+  EXPECT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_THAT(done.err, HasSubstr("the unit given (mV) is not used"));
+}
+
+TEST(Convert, TheFolderOfARunBecomesAFolder) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directories(folder / "results");
+  const Finished done = myoid({"convert", folder / "results", folder / "out.c3d"});
+  EXPECT_EQ(done.exit_code, 3);
+  EXPECT_THAT(done.err, HasSubstr("a folder too"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "out.c3d"));
 }
 
 TEST(Convert, WhatCannotBeWrittenIsSaid) {

@@ -56,6 +56,28 @@ TEST(MuscleCommand, ComparesWithAMeasuredForce) {
   EXPECT_THAT(done.out, AllOf(HasSubstr("\"samples\": 3"), HasSubstr("mean_absolute_error")));
 }
 
+TEST(MuscleCommand, ExchangedFilesOfLengthAndForceAreNoticed) {
+  const TemporaryFolder folder;
+  std::string length = "time,length\n", force = "time,force\n";
+  for (int k = 0; k <= 100; ++k) {
+    length +=
+        std::to_string(0.005 * k) + "," + std::to_string(0.0321 + 0.001 * std::sin(0.1 * k)) + "\n";
+    force += std::to_string(0.005 * k) + "," + std::to_string(0.6 + 0.5 * std::sin(0.1 * k)) + "\n";
+  }
+  write_text(folder / "l.csv", length);
+  write_text(folder / "f.csv", force);
+  const auto run = [&](const char* lengths, const char* measured) {
+    return myoid({"muscle", "--muscle", kSoleus, "--length", folder / lengths, "--activation", "1",
+                  "--measured", folder / measured});
+  };
+  EXPECT_EQ(run("l.csv", "f.csv").err, "");
+  const Finished exchanged = run("f.csv", "l.csv");
+  EXPECT_EQ(exchanged.exit_code, 3);
+  EXPECT_THAT(exchanged.err, HasSubstr("not the file of forces"));
+  // Lengths given as forces: 3 % of the maximum throughout.
+  EXPECT_THAT(run("l.csv", "l.csv").err, HasSubstr("exchanged"));
+}
+
 TEST(MuscleCommand, SaysWhatItCannotUse) {
   const TemporaryFolder folder;
   write_text(folder / "d.csv", displacement());

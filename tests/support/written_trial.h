@@ -1,21 +1,22 @@
 #pragma once
 
 #include <cmath>
-#include <functional>
 #include <string>
 
 #include <fmt/format.h>
 
-#include "myoid/core/error.h"
 #include "myoid/model/arm4.h"
 #include "myoid/model/osim_reader.h"
 #include "myoid/pipeline/study.h"
 #include "myoid/pipeline/trial_input.h"
 #include "myoid/recording/atomic_file.h"
 
+#include "tests/support/message_of.h"
 #include "tests/support/temporary_folder.h"
 
 namespace myoid::pipeline::test_trials {
+
+using myoid::test::message_of;
 
 /// A study of the built-in arm whose EMG comes as envelopes of four muscles.
 inline Study arm_study(const std::string& more = "") {
@@ -29,15 +30,6 @@ inline Study arm_study(const std::string& more = "") {
 inline const model::BodyModel& arm() {
   static const model::BodyModel model = model::parse_osim(model::arm4_osim(), "arm4.osim");
   return model;
-}
-
-inline std::string message_of(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const InvalidInput& error) {
-    return error.what();
-  }
-  return "(no error)";
 }
 
 /// A trial of an elbow that turns with this time step, with EMG from 0 s for `emg_s` seconds.

@@ -1,0 +1,162 @@
+#include "myoid/forces/actuator_columns.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace myoid::forces {
+namespace {
+
+std::size_t at(Eigen::Index index) { return static_cast<std::size_t>(index); }
+
+Vec3 angular_column(const model::BodyModel& model,
+                    const model::BodyState& state,
+                    model::BodyIndex body,
+                    int coordinate) {
+  for (model::BodyIndex b = body; b != 0;) {
+    const model::Joint& joint = model.joints[at(model.joint_of_body[at(b)])];
+    for (const int c : joint.coordinates)
+      if (c == coordinate) return state.H_w_G[at(c)];
+    b = joint.parent;
+  }
+  return Vec3::Zero();
+}
+
+const model::MusclePath& path_of(const model::BodyModel& model, const Actuator& a) {
+  return a.kind == Actuator::Kind::muscle ? model.muscles[a.index].path
+                                          : model.path_actuators[a.index].path;
+}
+
+/// Where a point actuator acts, in its body, and its direction in ground.
+std::pair<Vec3, Vec3> line_of(const model::PointActuator& p, const model::BodyState& state) {
+  const Pose& X_GB = state.X_GB[at(p.body)];
+  return {p.point_is_global ? Vec3(X_GB.inverse() * p.point) : p.point,
+          p.force_is_global ? p.direction : Vec3(X_GB.R * p.direction)};
+}
+
+Vec3 axis_of(const model::TorqueActuator& t, const model::BodyState& state) {
+  return t.torque_is_global ? t.axis : Vec3(state.X_GB[at(t.body_a)].R * t.axis);
+}
+
+}  // namespace
+
+std::vector<Actuator> actuators_of(const model::BodyModel& model) {
+  std::vector<Actuator> all;
+  const auto add = [&](Actuator::Kind kind, const auto& list) {
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      if (!list[i].applies_force) continue;
+      Actuator a{kind, i, list[i].name, 0.0, 1.0};
+      if constexpr (requires { list[i].properties; }) {
+        a.lower = list[i].properties.min_control;
+        a.upper = list[i].properties.max_control;
+      } else {
+        a.lower = list[i].min_control;
+        a.upper = list[i].max_control;
+      }
+      all.push_back(std::move(a));
+    }
+  };
+  add(Actuator::Kind::muscle, model.muscles);
+  add(Actuator::Kind::coordinate, model.actuators);
+  add(Actuator::Kind::point, model.point_actuators);
+  add(Actuator::Kind::torque, model.torque_actuators);
+  add(Actuator::Kind::path, model.path_actuators);
+  const auto place = [&](const Actuator& a) {
+    return std::find(model.force_order.begin(), model.force_order.end(), a.name) -
+           model.force_order.begin();
+  };
+  std::stable_sort(all.begin(), all.end(),
+                   [&](const Actuator& a, const Actuator& b) { return place(a) < place(b); });
+  return all;
+}
+
+double actuator_strength(const model::BodyModel& model, const Actuator& a) {
+  switch (a.kind) {
+    case Actuator::Kind::muscle:
+      return model.muscles[a.index].properties.max_isometric_force_n;
+    case Actuator::Kind::coordinate:
+      return model.actuators[a.index].optimal_force;
+    case Actuator::Kind::point:
+      return model.point_actuators[a.index].optimal_force;
+    case Actuator::Kind::torque:
+      return model.torque_actuators[a.index].optimal_force;
+    case Actuator::Kind::path:
+      return model.path_actuators[a.index].optimal_force;
+  }
+  return 0.0;
+}
+
+const Eigen::VectorXd& ActuatorColumns::of_unit_force(const Actuator& a,
+                                                      const model::BodyState& state) {
+  const model::BodyModel& model = *model_;
+  column_.setZero(static_cast<Eigen::Index>(model.coordinates.size()));
+  switch (a.kind) {
+    case Actuator::Kind::muscle:
+    case Actuator::Kind::path:
+      model::compute_path(model, path_of(model, a), state, workspace_, path_);
+      column_ = path_.moment_arm_m;
+      break;
+    case Actuator::Kind::coordinate:
+      column_[model.actuators[a.index].coordinate] = 1.0;
+      break;
+    case Actuator::Kind::point: {
+      const model::PointActuator& p = model.point_actuators[a.index];
+      const auto [station, direction] = line_of(p, state);
+      column_ = model::station_jacobian(model, state, p.body, station).transpose() * direction;
+      break;
+    }
+    case Actuator::Kind::torque: {
+      const model::TorqueActuator& t = model.torque_actuators[a.index];
+      const Vec3 axis = axis_of(t, state);
+      for (int c = 0; c < static_cast<int>(model.coordinates.size()); ++c) {
+        column_[c] = axis.dot(angular_column(model, state, t.body_a, c) -
+                              angular_column(model, state, t.body_b, c));
+      }
+      break;
+    }
+  }
+  return column_;
+}
+
+void ActuatorColumns::append_wrenches(const Actuator& a,
+                                      double force,
+                                      const model::BodyState& state,
+                                      std::vector<model::BodyWrench>& wrenches) {
+  const model::BodyModel& model = *model_;
+  const auto push = [&](model::BodyIndex body, const Vec3& p_B, const Vec3& f_G) {
+    const Vec3 arm_G = state.X_GB[at(body)].R * p_B;
+    wrenches.push_back({body, f_G, arm_G.cross(f_G)});
+  };
+  switch (a.kind) {
+    case Actuator::Kind::muscle:
+    case Actuator::Kind::path: {
+      model::compute_path(model, path_of(model, a), state, workspace_, path_);
+      for (std::size_t i = 0; i + 1 < workspace_.stations.size(); ++i) {
+        const model::PathStation& here = workspace_.stations[i];
+        const model::PathStation& next = workspace_.stations[i + 1];
+        const Vec3 along = next.p_G - here.p_G;
+        if (here.body == next.body || !(along.norm() > 0.0)) continue;
+        const Vec3 f_G = force * along.normalized();
+        push(here.body, here.p_B, f_G);
+        push(next.body, next.p_B, -f_G);
+      }
+      break;
+    }
+    case Actuator::Kind::coordinate:
+      break;
+    case Actuator::Kind::point: {
+      const model::PointActuator& p = model.point_actuators[a.index];
+      const auto [station, direction] = line_of(p, state);
+      push(p.body, station, force * direction);
+      break;
+    }
+    case Actuator::Kind::torque: {
+      const model::TorqueActuator& t = model.torque_actuators[a.index];
+      const Vec3 m_G = force * axis_of(t, state);
+      wrenches.push_back({t.body_a, Vec3::Zero(), m_G});
+      wrenches.push_back({t.body_b, Vec3::Zero(), -m_G});
+      break;
+    }
+  }
+}
+
+}  // namespace myoid::forces

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "myoid/model/kinematic_tree.h"
+#include "myoid/model/muscle_path.h"
+
+namespace myoid::forces {
+
+/// A muscle or an actuator of a model that applies its force.
+struct Actuator {
+  enum class Kind { muscle, coordinate, point, torque, path } kind = Kind::muscle;
+  std::size_t index = 0;  ///< In the model's list of its kind.
+  std::string name;
+  double lower = 0.0, upper = 1.0;  ///< Of its control.
+};
+
+/// All of them, in the order of the file's force set.
+[[nodiscard]] std::vector<Actuator> actuators_of(const model::BodyModel& model);
+
+/// Force at control 1: a muscle's greatest isometric force, an actuator's optimal force.
+[[nodiscard]] double actuator_strength(const model::BodyModel& model, const Actuator& actuator);
+
+/// What actuators exert at a posture; one per thread. `compute_poses` (for path().speed_mps also
+/// `compute_velocities`) must have been called on the states given.
+class ActuatorColumns {
+ public:
+  explicit ActuatorColumns(const model::BodyModel& model) : model_(&model) {}
+
+  /// Generalized forces at a force of 1 N (1 N m), by every coordinate on its own. Good until the
+  /// next call.
+  [[nodiscard]] const Eigen::VectorXd& of_unit_force(const Actuator& actuator,
+                                                     const model::BodyState& state);
+  /// The path of the last muscle or path actuator.
+  [[nodiscard]] const model::PathResult& path() const { return path_; }
+  /// Adds what it exerts on bodies at this force; a force along a coordinate acts on none. Paths
+  /// pull along their straight pieces, at their points and where they leave wrap objects.
+  void append_wrenches(const Actuator& actuator,
+                       double force,
+                       const model::BodyState& state,
+                       std::vector<model::BodyWrench>& wrenches);
+
+ private:
+  const model::BodyModel* model_;
+  Eigen::VectorXd column_;
+  model::PathWorkspace workspace_;
+  model::PathResult path_;
+};
+
+}  // namespace myoid::forces

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace myoid::model {
+
+/// A polynomial of several variables up to a total degree (OpenSim's
+/// MultivariatePolynomialFunction; a LinearFunction of several variables has degree 1). Terms in
+/// the order of their exponents, those of the last variable changing fastest: for two variables up
+/// to degree 2, the coefficients of 1, y, y^2, x, x y, x^2.
+struct MultiPolynomial {
+  int dimension = 1;
+  int degree = 0;
+  std::vector<double> coefficients;
+  double scale = 1.0;  ///< Of a MultiplierFunction around it.
+};
+
+/// How many terms there are: (dimension + degree)! / (dimension! degree!).
+[[nodiscard]] double term_count(int dimension, int degree);
+
+struct MultiPolynomialValue {
+  double value = 0.0;
+  Eigen::VectorXd gradient;
+};
+
+/// Value and gradient at x, one number a variable. `coefficients` must be as many as terms.
+[[nodiscard]] MultiPolynomialValue evaluate(const MultiPolynomial& polynomial,
+                                            const Eigen::Ref<const Eigen::VectorXd>& x);
+
+}  // namespace myoid::model

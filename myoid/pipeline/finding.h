@@ -1,0 +1,25 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "myoid/signals/fault.h"
+
+namespace myoid::pipeline {
+
+/// What looking at the inputs brings to light.
+struct Finding {
+  enum class Level { error, warning, note };
+  Level level = Level::note;
+  std::string where;                         ///< Trial or file.
+  std::string message;                       ///< With the remedy.
+  std::optional<signals::Fault> fault = {};  ///< If it is about a channel at a time.
+  std::string kind = {};  ///< What is alike in several trials has one; empty: alone.
+};
+[[nodiscard]] std::string_view name(Finding::Level level);
+
+/// The finding that a fault is.
+[[nodiscard]] Finding finding(std::string where, signals::Fault fault);
+
+}  // namespace myoid::pipeline

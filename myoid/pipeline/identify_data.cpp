@@ -1,0 +1,252 @@
+#include "myoid/pipeline/identify_data.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <string_view>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "myoid/core/error.h"
+#include "myoid/math/spline.h"
+#include "myoid/pipeline/identify_input.h"
+#include "myoid/recording/recording.h"
+#include "myoid/recording/series_file.h"
+#include "myoid/signals/resample.h"
+
+namespace myoid::pipeline {
+namespace {
+
+using identification::MuscleSetup;
+using identification::StudyData;
+using identification::TrialData;
+
+/// Finite values of a series on another clock; as they are if the clocks agree.
+Eigen::MatrixXd on_clock_of(const TimeSeries& series,
+                            const std::string& path,
+                            const Eigen::VectorXd& clock) {
+  require_finite(series, path);
+  if (series.time_s().size() == clock.size() &&
+      (series.time_s() - clock).cwiseAbs().maxCoeff() < 1e-9)
+    return series.values();
+  return signals::resample(series, clock).values();
+}
+
+/// Rates of the columns on another clock, by the quintic spline through them.
+Eigen::MatrixXd rates_of(const TimeSeries& series, const Eigen::VectorXd& clock) {
+  const math::SplineKnots knots(series.time_s());
+  Eigen::MatrixXd rates(clock.size(), series.channel_count());
+  for (Eigen::Index c = 0; c < rates.cols(); ++c)
+    rates.col(c) = knots.interpolate(series.values().col(c)).evaluate(clock).first;
+  return rates;
+}
+
+void require_count(std::size_t count, std::size_t trials, std::string_view option) {
+  if (count != trials)
+    throw InvalidInput(
+        fmt::format("{}: {} files for {} trials; give one per trial, in the same order", option,
+                    count, trials));
+}
+
+void require_counts(const IdentifySources& s) {
+  const std::size_t trials = s.lengths.size();
+  require_count(s.activations.size(), trials, "--activations");
+  if (!s.velocities.empty()) require_count(s.velocities.size(), trials, "--velocities");
+  if (!s.torque) {
+    require_count(s.forces.size(), trials, "--forces");
+    return;
+  }
+  const std::size_t joints = std::max<std::size_t>(1, s.coordinates.size());
+  if (joints > 1 && s.moment_arms.size() != joints * trials) {
+    throw InvalidInput(
+        fmt::format("--moment-arms: {} files for {} trials with {} coordinates each; give the "
+                    "first trial's in the order of --coordinate, then the next trial's",
+                    s.moment_arms.size(), trials, joints));
+  }
+  if (joints == 1) require_count(s.moment_arms.size(), trials, "--moment-arms");
+  require_count(s.torques.size(), trials, "--torques");
+  if (!s.forces.empty()) require_count(s.forces.size(), trials, "--forces");
+}
+
+/// Columns of the torque file, one for each coordinate; without any the only one.
+std::vector<Channel> torque_columns(const std::vector<std::string>& coordinates,
+                                    const std::string& path,
+                                    const TimeSeries& torques) {
+  if (coordinates.empty()) {
+    if (torques.channel_count() != 1) {
+      throw ReadError(path, 0,
+                      fmt::format("has several columns ({}); name the joint's with --coordinate",
+                                  channel_names(torques)));
+    }
+    return torques.channels();
+  }
+  std::vector<Channel> columns;
+  for (const std::string& coordinate : coordinates) {
+    auto column = torques.find(coordinate);
+    if (!column) column = torques.find(coordinate + "_moment");
+    if (!column) {
+      throw ReadError(path, 0,
+                      fmt::format("no column '{}' or '{}_moment'; found {}", coordinate, coordinate,
+                                  channel_names(torques)));
+    }
+    columns.push_back(torques.channels()[static_cast<std::size_t>(*column)]);
+  }
+  return columns;
+}
+
+/// The names of one trial's files.
+IdentifyFiles files_of(const IdentifySources& s, std::size_t trial) {
+  const auto of_trial = [&](const std::vector<std::string>& list) {
+    return trial < list.size() ? list[trial] : std::string();
+  };
+  IdentifyFiles files{.activations = s.activations[trial],
+                      .lengths = s.lengths[trial],
+                      .velocities = of_trial(s.velocities),
+                      .moment_arms = {},
+                      .torques = s.torque ? of_trial(s.torques) : ""};
+  const std::size_t joints = std::max<std::size_t>(1, s.coordinates.size());
+  for (std::size_t j = 0; s.torque && j < joints; ++j)
+    files.moment_arms.push_back(s.moment_arms[joints * trial + j]);
+  return files;
+}
+
+/// The files of one trial, each read once.
+class TrialReader {
+ public:
+  TrialReader(const IdentifySources& sources,
+              const std::vector<MuscleSetup>& muscles,
+              const std::function<void(const std::string&)>& remark)
+      : sources_(sources), muscles_(muscles), remark_(remark) {}
+
+  TrialData read(std::size_t number) {
+    const IdentifyFiles files = files_of(sources_, number);
+    const std::string forces = sources_.forces.empty() ? "" : sources_.forces[number];
+    TrialData trial;
+    trial.name = std::filesystem::path(files.lengths).stem().string();
+    if (sources_.lengths.size() > 1) trial.name = fmt::format("{} ({})", number + 1, trial.name);
+    trial.time_s = clock(files, forces);
+    trial.length_m = columns_of(files.lengths, trial.time_s);
+    trial.velocity_mps = files.velocities.empty()
+                             ? rates_of(muscle_series(files.lengths), trial.time_s)
+                             : columns_of(files.velocities, trial.time_s);
+    trial.activation = series(files.activations);
+    require_finite(trial.activation, files.activations);
+    for (const MuscleSetup& m : muscles_) {
+      if (!trial.activation.find(m.emg_channel))
+        throw ReadError(files.activations, 0,
+                        fmt::format("no column '{}'; found {}", m.emg_channel,
+                                    channel_names(trial.activation)));
+    }
+    trial.torque_nm = Eigen::VectorXd::Zero(trial.time_s.size());
+    trial.moment_arm_m = Eigen::MatrixXd::Zero(trial.time_s.size(), trial.length_m.cols());
+    if (!forces.empty()) trial.force_n = columns_of(forces, trial.time_s);
+    if (sources_.torque) add_torques(files, trial);
+    return trial;
+  }
+
+ private:
+  const TimeSeries& series(const std::string& path) {
+    const auto known = read_.find(path);
+    if (known != read_.end()) return known->second;
+    recording::SeriesFile file = recording::read_series(path);
+    for (const recording::Repair& repair : file.repairs)
+      remark_(recording::to_string(path, repair));
+    return read_.emplace(path, std::move(file.data)).first->second;
+  }
+
+  /// The columns of the muscles, by name.
+  TimeSeries muscle_series(const std::string& path) {
+    const TimeSeries& all = series(path);
+    std::vector<std::string> names;
+    for (const MuscleSetup& m : muscles_) {
+      if (!all.find(m.name))
+        throw ReadError(path, 0,
+                        fmt::format("no column '{}'; found {}", m.name, channel_names(all)));
+      names.push_back(m.name);
+    }
+    return all.select(names);
+  }
+
+  Eigen::MatrixXd columns_of(const std::string& path, const Eigen::VectorXd& clock_s) {
+    return on_clock_of(muscle_series(path), path, clock_s);
+  }
+
+  /// Times of the lengths, within what is asked for and what all the files cover: nothing is made
+  /// up beyond their ends.
+  Eigen::VectorXd clock(const IdentifyFiles& files, const std::string& forces) {
+    TimeSeries lengths = series(files.lengths);
+    if (sources_.start_s || sources_.end_s)
+      lengths = lengths.slice(sources_.start_s.value_or(-1e300), sources_.end_s.value_or(1e300));
+    if (lengths.sample_count() < 2)
+      throw ReadError(files.lengths, 0, "fewer than two samples in the time asked for");
+    std::vector<std::string> others{files.activations, files.velocities, forces, files.torques};
+    others.insert(others.end(), files.moment_arms.begin(), files.moment_arms.end());
+    for (const std::string& file : others) {
+      if (file.empty()) continue;
+      const Eigen::VectorXd& time_s = series(file).time_s();
+      const double begin_s = lengths.time_s()[0];
+      const double end_s = lengths.time_s()[lengths.sample_count() - 1];
+      const double last_s = time_s[time_s.size() - 1];
+      // Half a sample more is where neither clock has anything to say.
+      const double spare_s =
+          0.5 * (end_s - begin_s) / static_cast<double>(lengths.sample_count() - 1);
+      if (begin_s >= time_s[0] - spare_s && end_s <= last_s + spare_s) continue;
+      const bool apart = last_s <= begin_s || time_s[0] >= end_s;
+      if (!apart) lengths = lengths.slice(time_s[0] - 1e-9, last_s + 1e-9);
+      if (apart || lengths.sample_count() < 2) {
+        throw ReadError(file, 0,
+                        fmt::format("covers {:g} to {:g} s, {} covers {:g} to {:g} s: they must "
+                                    "overlap; bring them to one clock",
+                                    time_s[0], last_s, files.lengths, begin_s, end_s));
+      }
+    }
+    return lengths.time_s();
+  }
+
+  void add_torques(const IdentifyFiles& files, TrialData& trial) {
+    trial.moment_arm_m = columns_of(files.moment_arms[0], trial.time_s);
+    const TimeSeries& torques = series(files.torques);
+    const std::vector<Channel> columns =
+        torque_columns(sources_.coordinates, files.torques, torques);
+    for (std::size_t j = 0; j < columns.size(); ++j) {
+      Eigen::VectorXd torque_nm =
+          on_clock_of(torques.select({columns[j].name}), files.torques, trial.time_s).col(0);
+      if (j == 0) {
+        trial.torque_nm = std::move(torque_nm);
+        if (!sources_.coordinates.empty()) trial.joint = sources_.coordinates[0];
+      } else {
+        trial.more_joints.push_back(
+            {.name = sources_.coordinates[j],
+             .torque_nm = std::move(torque_nm),
+             .moment_arm_m = columns_of(files.moment_arms[j], trial.time_s)});
+      }
+    }
+  }
+
+  const IdentifySources& sources_;
+  const std::vector<MuscleSetup>& muscles_;
+  const std::function<void(const std::string&)>& remark_;
+  std::map<std::string, TimeSeries> read_;
+};
+
+}  // namespace
+
+StudyData read_identify_data(const IdentifySources& sources,
+                             const MuscleTable& table,
+                             const std::function<void(const std::string&)>& remark) {
+  require_counts(sources);
+  for (const std::string& note : table.notes) remark(note);
+  StudyData data;
+  data.muscles = table.muscles;
+  data.rules = table.rules;
+  for (std::size_t i = 0; i < sources.lengths.size(); ++i) {
+    TrialData trial = TrialReader(sources, data.muscles, remark).read(i);
+    for (const std::string& text : check_identify_trial(data, trial, files_of(sources, i)))
+      remark(text);
+    data.trials.push_back(std::move(trial));
+  }
+  return data;
+}
+
+}  // namespace myoid::pipeline

@@ -1,0 +1,67 @@
+#include "myoid/pipeline/muscles_csv.h"
+
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "myoid/recording/atomic_file.h"
+
+#include "tests/support/message_of.h"
+#include "tests/support/temporary_folder.h"
+
+namespace myoid::pipeline {
+namespace {
+
+const std::string kHeader =
+    "muscle,max_isometric_force,optimal_fiber_length,tendon_slack_length,force_length_width,"
+    "max_shortening_speed,concentric_curvature,eccentric_curvature_product,eccentric_plateau";
+const std::string kBiceps = "BIC,1000,0.12,0.2,0.055,1.2,0.28,0.2,1.4";
+
+MuscleTable table_of(const std::string& text, bool within_bounds = true) {
+  const test::TemporaryFolder folder;
+  recording::write_file(folder / "muscles.csv", text);
+  return read_muscles_csv(folder / "muscles.csv", within_bounds);
+}
+
+std::string message_of(const std::string& text) {
+  return test::message_of([&] { (void)table_of(text); });
+}
+
+TEST(MusclesCsv, AParameterHeldOrFreedByItsColumnIsHeldOrFreed) {
+  const MuscleTable table =
+      table_of(kHeader + ",max_shortening_speed_fixed,passive_force_fixed,emg\n" + kBiceps +
+               ",yes,no,Ch 1\nBRA" + kBiceps.substr(3) + ",,,\n");
+  ASSERT_EQ(table.muscles.size(), 2U);
+  EXPECT_EQ(table.muscles[0].start.max_isometric_force_n, 1000.0);
+  EXPECT_EQ(table.muscles[0].fixed, std::vector<std::string>{"max_shortening_speed"});
+  EXPECT_EQ(table.muscles[0].emg_channel, "Ch 1");
+  EXPECT_EQ(table.muscles[1].emg_channel, "BRA");
+  ASSERT_EQ(table.rules.size(), 1U);
+  EXPECT_EQ(table.rules[0].parameter, "passive_force");
+  EXPECT_EQ(table.rules[0].owners, std::vector<std::string>{"BIC"});
+  EXPECT_EQ(table.speed_may_be_free, std::vector<std::string>{"BRA"});
+}
+
+TEST(MusclesCsv, WhatCannotBeMeantIsRefusedAtItsLine) {
+  EXPECT_NE(message_of("name\nBIC\n").find("no column 'muscle'"), std::string::npos);
+  EXPECT_NE(message_of(kHeader + ",colour\n" + kBiceps + ",red\n").find("unknown column 'colour'"),
+            std::string::npos);
+  EXPECT_NE(message_of(kHeader + "\n" + kBiceps + "\n" + kBiceps + "\n")
+                .find("muscles.csv:3: muscle 'BIC' is listed twice"),
+            std::string::npos);
+  EXPECT_NE(message_of(kHeader + "\nBIC,strong,0.12,0.2,0.055,1.2,0.28,0.2,1.4\n")
+                .find("muscles.csv:2: max_isometric_force: expected a number, found 'strong'"),
+            std::string::npos);
+  EXPECT_NE(message_of(kHeader + "\nBIC,,0.12,0.2,0.055,1.2,0.28,0.2,1.4\n")
+                .find("'BIC' has no max_isometric_force"),
+            std::string::npos);
+}
+
+TEST(MusclesCsv, AStartOutsideItsBoundsIsRefusedOnlyWhereTheMethodKeepsToThem) {
+  const std::string millimeters = kHeader + "\nBIC,1000,120,200,55,1200,0.28,0.2,1.4\n";
+  EXPECT_NE(message_of(millimeters).find("optimal_fiber_length"), std::string::npos);
+  EXPECT_EQ(table_of(millimeters, false).muscles.at(0).start.optimal_fiber_length_m, 120.0);
+}
+
+}  // namespace
+}  // namespace myoid::pipeline

@@ -1,0 +1,199 @@
+#include "myoid/pipeline/recording_contents.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "myoid/core/error.h"
+#include "myoid/recording/c3d_signals.h"
+#include "myoid/recording/c3d_survey.h"
+#include "myoid/recording/csv_reader.h"
+#include "myoid/recording/emg_reader.h"
+#include "myoid/recording/recording.h"
+#include "myoid/recording/storage_reader.h"
+#include "myoid/recording/trc_reader.h"
+
+namespace myoid::pipeline {
+
+using nlohmann::ordered_json;
+
+namespace {
+
+ordered_json repairs_json(const std::vector<recording::Repair>& repairs) {
+  ordered_json list = ordered_json::array();
+  for (const recording::Repair& r : repairs) list.push_back(recording::to_string(r));
+  return list;
+}
+
+ordered_json series_json(const TimeSeries& series) {
+  ordered_json j;
+  j["samples"] = series.sample_count();
+  j["start_s"] = series.time_s()[0];
+  j["duration_s"] = series.time_s()[series.sample_count() - 1] - series.time_s()[0];
+  j["rate_hz"] = series.mean_rate_hz();
+  j["evenly_sampled"] = series.is_uniform();
+  j["channels"] = ordered_json::array();
+  for (std::size_t c = 0; c < series.channels().size(); ++c) {
+    const Eigen::VectorXd x = series.values().col(static_cast<Eigen::Index>(c));
+    double low = INFINITY;
+    double high = -INFINITY;
+    int gaps = 0;
+    for (const double v : x) {
+      if (std::isfinite(v)) {
+        low = std::min(low, v);
+        high = std::max(high, v);
+      } else {
+        ++gaps;
+      }
+    }
+    ordered_json channel{{"name", series.channels()[c].name}};
+    if (series.channels()[c].unit != Unit::dimensionless)
+      channel["unit"] = std::string(symbol(series.channels()[c].unit));
+    if (low <= high) {
+      channel["lowest"] = low;
+      channel["highest"] = high;
+    }
+    if (gaps > 0) channel["gaps"] = gaps;
+    j["channels"].push_back(channel);
+  }
+  return j;
+}
+
+ordered_json trc_json(const std::filesystem::path& path) {
+  const recording::TrcFile file = recording::read_trc(path);
+  ordered_json j{
+      {"kind", "markers (.trc)"}, {"unit", file.unit}, {"frames", file.markers.frame_count()}};
+  const auto& t = file.markers.time_s;
+  j["start_s"] = t[0];
+  j["duration_s"] = t[t.size() - 1] - t[0];
+  j["rate_hz"] = t.size() > 1 ? static_cast<double>(t.size() - 1) / (t[t.size() - 1] - t[0]) : 0.0;
+  j["markers"] = ordered_json::array();
+  for (Eigen::Index m = 0; m < file.markers.marker_count(); ++m) {
+    Eigen::Index missing = 0;
+    for (Eigen::Index f = 0; f < file.markers.frame_count(); ++f)
+      missing += file.markers.missing(f, m) ? 1 : 0;
+    ordered_json marker{{"name", file.markers.names[static_cast<std::size_t>(m)]}};
+    if (missing > 0) marker["missing_frames"] = missing;
+    j["markers"].push_back(marker);
+  }
+  j["repairs"] = repairs_json(file.repairs);
+  return j;
+}
+
+ordered_json events_json(const std::vector<recording::C3dEvent>& events) {
+  ordered_json list = ordered_json::array();
+  for (const recording::C3dEvent& e : events) {
+    ordered_json j{{"name", e.label.empty() ? "event" : e.label}, {"time_s", e.time_s}};
+    if (!e.context.empty()) j["context"] = e.context;
+    list.push_back(j);
+  }
+  return list;
+}
+
+/// Everything a C3D file says, with the numbers of its channels in the unit as written.
+ordered_json c3d_json(const std::filesystem::path& path) {
+  const recording::C3dSurvey survey = recording::survey_c3d(path);
+  const recording::C3dFile& file = survey.file;
+  const Eigen::Index frames = survey.frames;
+  ordered_json j{{"kind", "C3D"},
+                 {"processor", file.processor == recording::C3dProcessor::intel ? "Intel"
+                               : file.processor == recording::C3dProcessor::dec ? "DEC"
+                                                                                : "SGI"},
+                 {"samples", file.integer ? "16-bit integers" : "32-bit reals"},
+                 {"frames", frames},
+                 {"first_frame", file.first_frame},
+                 {"start_s", file.start_s()},
+                 {"duration_s", static_cast<double>(frames - 1) / file.point_rate_hz},
+                 {"rate_hz", file.point_rate_hz}};
+  if (!file.point_labels.empty()) j["point_unit"] = file.point_unit;
+  const auto columns = recording::marker_columns(file);
+  j["markers"] = ordered_json::array();
+  std::vector<bool> is_marker(file.point_labels.size(), false);
+  for (const Eigen::Index c : columns) {
+    is_marker[static_cast<std::size_t>(c)] = true;
+    const Eigen::Index missing = survey.missing_frames[static_cast<std::size_t>(c)];
+    ordered_json marker{{"name", file.point_labels[static_cast<std::size_t>(c)]}};
+    if (missing > 0) marker["missing_frames"] = missing;
+    j["markers"].push_back(marker);
+  }
+  j["other_points"] = ordered_json::array();
+  for (std::size_t c = 0; c < is_marker.size(); ++c)
+    if (!is_marker[c]) j["other_points"].push_back(file.point_labels[c]);
+  if (!file.channels.empty()) j["analog_rate_hz"] = file.analog_rate_hz();
+  j["channels"] = ordered_json::array();
+  for (std::size_t c = 0; c < file.channels.size(); ++c) {
+    ordered_json entry{{"name", file.channels[c].name}};
+    if (!file.channels[c].unit_text.empty()) entry["unit"] = file.channels[c].unit_text;
+    entry["lowest"] = survey.lowest[static_cast<Eigen::Index>(c)];
+    entry["highest"] = survey.highest[static_cast<Eigen::Index>(c)];
+    j["channels"].push_back(entry);
+  }
+  j["force_plates"] = ordered_json::array();
+  for (std::size_t p = 0; p < survey.plates.size(); ++p) {
+    j["force_plates"].push_back({{"name", fmt::format("plate {}", survey.plates[p].number)},
+                                 {"type", survey.plates[p].type},
+                                 {"largest_force_n", survey.largest_force_n[p]}});
+  }
+  j["events"] = events_json(file.events);
+  j["repairs"] = repairs_json(survey.repairs);
+  return j;
+}
+
+/// EDF, BDF, ANC: channels in SI.
+ordered_json recording_json(const std::filesystem::path& path, const char* kind) {
+  const recording::Recording file = recording::read_recording(path);
+  ordered_json j{{"kind", kind}};
+  j.update(series_json(file.analog.series()));
+  j["events"] = events_json(file.events);
+  j["repairs"] = repairs_json(file.repairs);
+  return j;
+}
+
+ordered_json storage_json(const std::filesystem::path& path) {
+  const recording::Storage file = recording::read_storage(path);
+  ordered_json j{{"kind", "storage (.mot, .sto)"}, {"title", file.title}};
+  // An EMG file has no angles; one that does not speak of them may have none either.
+  if (const auto to_volt = recording::stated_voltage(file)) {
+    j["emg_unit"] = recording::voltage_name(*to_volt) + ", as the header says";
+  } else if (std::any_of(file.header.begin(), file.header.end(), [](const auto& entry) {
+               return recording::equal_ignoring_case(entry.first, "inDegrees");
+             })) {
+    j["angles"] = file.in_degrees ? "degrees" : "radians";
+  } else if (file.in_degrees) {
+    j["angles"] = "degrees (the header does not say; files of this kind are)";
+  }
+  j.update(series_json(file.data));
+  j["repairs"] = repairs_json(file.repairs);
+  return j;
+}
+
+ordered_json csv_json(const std::filesystem::path& path) {
+  try {
+    return recording_json(path, "time series (.csv)");
+  } catch (const ReadError& error) {
+    const recording::CsvTable table = recording::read_csv_table(path);
+    return {{"kind", "table (.csv)"},
+            {"rows", table.rows.size()},
+            {"columns", table.names},
+            {"no_recording", error.what()}};
+  }
+}
+
+}  // namespace
+
+std::optional<ordered_json> recording_contents(const std::filesystem::path& path) {
+  const std::string extension = recording::extension_of(path);
+  if (extension == ".trc") return trc_json(path);
+  if (extension == ".mot" || extension == ".sto") return storage_json(path);
+  if (extension == ".csv" || extension == ".tsv" || extension == ".txt" || extension == ".emt")
+    return csv_json(path);
+  if (extension == ".c3d") return c3d_json(path);
+  if (extension == ".edf" || extension == ".bdf") return recording_json(path, "EMG (.edf, .bdf)");
+  if (extension == ".anc") return recording_json(path, "analog channels (.anc)");
+  return std::nullopt;
+}
+
+}  // namespace myoid::pipeline

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "myoid/core/time_series.h"
+#include "myoid/model/body_model.h"
+#include "myoid/pipeline/finding.h"
+#include "myoid/pipeline/joint_capacity.h"
+#include "myoid/pipeline/study.h"
+#include "myoid/pipeline/trial_input.h"
+
+namespace myoid::pipeline {
+
+/// Of each of the study's coordinates that turns.
+using Capacities = std::map<std::string, JointCapacity>;
+[[nodiscard]] Capacities joint_capacities(const Study& study, const model::BodyModel& model);
+
+/// What no person can have done or held: an external torque that no joint makes (N mm?), a held
+/// mass that no muscle holds, angles far outside the model's range (sign or convention?), the
+/// laboratory's vertical lying across the trunk. Each with numbers and remedy.
+[[nodiscard]] std::vector<Finding> implausible(const Study& study,
+                                               const model::BodyModel& model,
+                                               const Capacities& capacities,
+                                               const TrialSpec& trial,
+                                               const TrialInput& input);
+
+/// The share of samples by whose size a torque is judged: what one in a hundred exceeds, so that a
+/// spike does not.
+[[nodiscard]] double usual_peak(const Eigen::Ref<const Eigen::VectorXd>& values);
+
+/// "16194 N m at elbow_flexion is more than ...; N mm?" if it is, else empty.
+[[nodiscard]] std::string too_much_torque(const std::string& coordinate,
+                                          double peak_nm,
+                                          double greatest_nm,
+                                          const std::string& what_it_is);
+
+/// How long EMG and motion of a trial last, each in a file of its own and without a window.
+struct TrialLengths {
+  std::string trial;
+  double emg_s = 0.0, motion_s = 0.0;  ///< Both from the same begin.
+  double motion_rate_hz = 0.0;
+};
+/// Empty where the two need not be alike: one file, a window, no motion, other begins.
+[[nodiscard]] std::vector<TrialLengths> lengths_of(const TrialSpec& trial, const TrialInput& input);
+
+/// EMG that outlasts the motion by one and the same factor in every trial: the motion's frame rate
+/// is wrong by it.
+[[nodiscard]] std::vector<Finding> unlike_lengths(const std::vector<TrialLengths>& trials);
+
+}  // namespace myoid::pipeline

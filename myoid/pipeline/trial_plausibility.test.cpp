@@ -1,0 +1,174 @@
+#include "myoid/pipeline/trial_plausibility.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "myoid/core/units.h"
+#include "myoid/model/arm4.h"
+#include "myoid/model/osim_reader.h"
+
+namespace myoid::pipeline {
+namespace {
+
+using Level = Finding::Level;
+
+struct Elbow {
+  Study study;
+  model::BodyModel model = model::parse_osim(model::arm4_osim(), "arm4.osim");
+  TrialSpec trial;
+  TrialInput input;
+
+  Elbow() {
+    study.model.builtin = "arm4";
+    trial.name = "t";
+  }
+  [[nodiscard]] std::vector<Finding> findings() const {
+    return implausible(study, model, joint_capacities(study, model), trial, input);
+  }
+};
+
+/// Sine between two angles.
+TimeSeries angle(double from_deg, double to_deg) {
+  const Eigen::VectorXd time = Eigen::VectorXd::LinSpaced(400, 0.0, 4.0);
+  const Eigen::MatrixXd q = kDegree * (0.5 * (from_deg + to_deg) +
+                                       0.5 * (to_deg - from_deg) * (3.0 * time.array()).sin());
+  return {time, {{"elbow_flexion", Unit::radian}}, q};
+}
+
+TEST(Implausible, TorqueInNewtonMillimetersIsAnErrorWithTheRemedy) {
+  Elbow elbow;
+  elbow.trial.external_torque = "push.sto";
+  const Eigen::VectorXd time = Eigen::VectorXd::LinSpaced(400, 0.0, 4.0);
+  for (const double peak_nm : {2.0, 20.0, 70.0}) {
+    for (const double unit : {1.0, 1000.0}) {
+      elbow.input.external_torque =
+          TimeSeries(time, {{"elbow_flexion_moment", Unit::newton_meter}},
+                     Eigen::MatrixXd(unit * peak_nm * (2.0 * time.array()).sin()));
+      const std::vector<Finding> found = elbow.findings();
+      ASSERT_EQ(found.size(), unit > 1.0 ? 1U : 0U) << peak_nm;
+      if (found.empty()) continue;
+      EXPECT_EQ(found[0].level, Level::error);
+      EXPECT_NE(found[0].message.find("push.sto reaches"), std::string::npos) << found[0].message;
+      EXPECT_NE(found[0].message.find("N mm? Divide by 1000"), std::string::npos)
+          << found[0].message;
+    }
+  }
+}
+
+TEST(Implausible, ASpikeOfTheTorqueIsNotItsSize) {
+  Eigen::VectorXd torque = Eigen::VectorXd::LinSpaced(1000, -20.0, 20.0);
+  torque[500] = 1e5;
+  EXPECT_LT(usual_peak(torque), 20.1);
+  torque.segment(0, 20).setConstant(1e5);
+  EXPECT_EQ(usual_peak(torque), 1e5);
+}
+
+TEST(Implausible, ANegatedAngleIsAnErrorThatAsksForTheSign) {
+  Elbow elbow;
+  elbow.input.motion = angle(-150.0, -20.0);
+  const std::vector<Finding> found = elbow.findings();
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].level, Level::error);
+  EXPECT_NE(found[0].message.find("-10 to 150 deg"), std::string::npos) << found[0].message;
+  EXPECT_NE(found[0].message.find("sign the opposite"), std::string::npos) << found[0].message;
+}
+
+TEST(Implausible, APostureBeyondTheRangeIsAWarningAndAFewDegreesAreNone) {
+  Elbow elbow;
+  elbow.input.motion = angle(-30.0, 130.0);
+  const std::vector<Finding> found = elbow.findings();
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].level, Level::warning);
+  elbow.input.motion = angle(-15.0, 155.0);
+  EXPECT_TRUE(elbow.findings().empty());
+}
+
+TEST(Implausible, AHeldMassThatNoMuscleHoldsIsAWarningAndOneBeyondThePersonsAnError) {
+  Elbow elbow;
+  elbow.study.subject.mass_kg = 75.0;
+  elbow.input.motion = angle(10.0, 130.0);
+  elbow.trial.held_mass_kg = 5.5;
+  EXPECT_TRUE(elbow.findings().empty());
+  elbow.trial.held_mass_kg = 55.0;
+  std::vector<Finding> found = elbow.findings();
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].level, Level::warning);
+  EXPECT_NE(found[0].message.find("decimal point"), std::string::npos) << found[0].message;
+  elbow.trial.held_mass_kg = 550.0;
+  found = elbow.findings();
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].level, Level::error);
+}
+
+/// Whole trunk with an arm: four markers on the trunk, which stands on a free joint.
+model::BodyModel trunk_with_arm() {
+  model::BodyModel model;
+  model.bodies = {{.name = "ground"},
+                  {.name = "thorax", .mass_kg = 40.0},
+                  {.name = "humerus", .mass_kg = 2.0},
+                  {.name = "forearm", .mass_kg = 1.5}};
+  const auto hinge = [](const char* name, int parent, int child, int coordinate) {
+    model::Joint joint{.name = name, .class_name = "PinJoint", .parent = parent, .child = child};
+    joint.coordinates = {coordinate};
+    joint.rotation[0] = {Vec3::UnitZ(), coordinate, model::Linear{1.0, 0.0}};
+    joint.rotation[1].axis = Vec3::UnitX();
+    joint.rotation[2].axis = Vec3::UnitY();
+    return joint;
+  };
+  model.joints = {hinge("root", 0, 1, 0), hinge("shoulder", 1, 2, 1), hinge("elbow", 2, 3, 2)};
+  model.joints[2].X_PF.p = Vec3(0.0, -0.3, 0.0);
+  for (const char* name : {"tilt", "shoulder", "elbow_flexion"}) {
+    model.coordinates.push_back(
+        {.name = name, .joint = static_cast<int>(model.coordinates.size())});
+  }
+  const std::vector<Vec3> places{
+      {0, 0, 0}, {0.1, 0.4, 0}, {0, 0.4, 0.2}, {0, 0.4, -0.2}, {0.1, 0.1, 0.1}};
+  for (std::size_t i = 0; i < places.size(); ++i)
+    model.markers.push_back({"T" + std::to_string(i), 1, places[i]});
+  return model::finalize(std::move(model));
+}
+
+TEST(Implausible, AVerticalThatLiesAcrossTheTrunkIsAWarning) {
+  Elbow elbow;
+  elbow.model = trunk_with_arm();
+  recording::MarkerSeries markers;
+  markers.time_s = Eigen::VectorXd::LinSpaced(20, 0.0, 0.19);
+  markers.positions_m.resize(20, 0);
+  for (const model::Marker& m : elbow.model.markers) {
+    markers.names.push_back(m.name);
+    markers.positions_m.conservativeResize(Eigen::NoChange, markers.positions_m.cols() + 3);
+    // A laboratory whose z points up: the model's (x, y, z) is its (x, -z, y).
+    markers.positions_m.rightCols(3) =
+        Vec3(m.p_BM.x(), -m.p_BM.z(), m.p_BM.y()).transpose().replicate(20, 1);
+  }
+  elbow.study.model.builtin.clear();
+  for (const char up : {'z', 'x', 'y'}) {
+    elbow.study.markers.up = up;
+    elbow.input.markers = recording::rotated(markers, recording::rotation_to_y_up(up));
+    const std::vector<Finding> found = elbow.findings();
+    ASSERT_EQ(found.size(), up == 'z' ? 0U : 1U) << up;
+    if (found.empty()) continue;
+    EXPECT_EQ(found[0].level, Level::warning);
+    EXPECT_NE(found[0].message.find("up = \"z\""), std::string::npos) << found[0].message;
+  }
+}
+
+TEST(UnlikeLengths, EmgTwiceAsLongInEveryTrialNamesTheFrameRate) {
+  const std::vector<TrialLengths> half{{"a", 26.6, 13.3, 200.0}, {"b", 21.0, 10.45, 200.0}};
+  const std::vector<Finding> found = unlike_lengths(half);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].level, Level::warning);
+  EXPECT_NE(found[0].message.find("At 100 Hz instead of 200 Hz"), std::string::npos)
+      << found[0].message;
+}
+
+TEST(UnlikeLengths, AnAmplifierThatRunsOnIsNoFault) {
+  EXPECT_TRUE(unlike_lengths({{"a", 30.0, 20.0, 100.0}, {"b", 26.0, 10.0, 100.0}}).empty());
+  EXPECT_TRUE(unlike_lengths({{"a", 20.3, 20.0, 100.0}, {"b", 10.2, 10.0, 100.0}}).empty());
+  EXPECT_TRUE(unlike_lengths({{"a", 12.0, 10.0, 100.0}}).empty());
+  EXPECT_EQ(unlike_lengths({{"a", 20.0, 10.0, 100.0}}).size(), 1U);
+}
+
+}  // namespace
+}  // namespace myoid::pipeline

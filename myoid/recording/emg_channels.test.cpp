@@ -1,0 +1,34 @@
+#include "myoid/recording/emg_channels.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace myoid::recording {
+namespace {
+
+using ::testing::ElementsAre;
+
+TEST(NamedAsNoEmg, ForcesMomentsAndOtherInstrumentsAreAndMusclesAreNot) {
+  for (const char* name :
+       {"F1X", "f3z", "M2Y", "Fx1", "FZ", "Force.Fx1", "Moment.Mz2", "COPx", "Plate 1.Fy", "FP2Fz",
+        "Fx12", "Fy23", "fz4", "1Fx", "Sync", "Trigger 1", "Footswitch L"})
+    EXPECT_TRUE(named_as_no_emg(name)) << name;
+  for (const char* name : {"SOL", "TA", "BIC", "Flexor carpi", "MG", "M1", "F8", "Max", "FDS", "PL",
+                           "Voltage.1", "Soleus_R", "Mylohyoid", "EMG 3", "Temporalis", ""})
+    EXPECT_FALSE(named_as_no_emg(name)) << name;
+}
+
+TEST(EmgChannels, NeedVoltsAndNoPlate) {
+  const std::vector<Channel> channels{{"Voltage.1", Unit::volt},
+                                      {"Voltage.2", Unit::volt},
+                                      {"Fz1", Unit::volt},
+                                      {"Elbow", Unit::radian},
+                                      {"BIC", Unit::volt}};
+  EXPECT_THAT(emg_channels(channels, {}), ElementsAre("Voltage.1", "Voltage.2", "BIC"));
+  PlateSetup plate;
+  plate.channels = {1, 2, 99};
+  EXPECT_THAT(emg_channels(channels, {plate}), ElementsAre("Voltage.1", "BIC"));
+}
+
+}  // namespace
+}  // namespace myoid::recording

@@ -1,0 +1,102 @@
+// Input that would give a wrong number is refused or named, by every command that meets it.
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "program.h"
+#include "tests/support/temporary_folder.h"
+
+namespace {
+
+using myoid::test::Finished;
+using myoid::test::myoid;
+using myoid::test::replace_in;
+using myoid::test::TemporaryFolder;
+using myoid::test::write_text;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+std::string noise_csv(const std::string& unit, double scale) {
+  std::string text = "time,BIC [" + unit + "]\n";
+  for (int i = 0; i < 4000; ++i) {
+    const double x = ((i * 7919) % 2003) / 2003.0 - 0.5;
+    text += std::to_string(0.001 * i) + "," + std::to_string(scale * x) + "\n";
+  }
+  return text;
+}
+
+/// Two trials of a virtual person.
+std::filesystem::path two_trials(const TemporaryFolder& folder) {
+  std::string protocol = "name = \"two\"\nlevel = \"L1\"\n[motion]\nrate_hz = 100\n";
+  for (const std::string name : {"slow", "fast"})
+    protocol += "[[trial]]\nname = \"" + name +
+                "\"\nkind = \"flexion\"\nfrequency_hz = " + (name == "slow" ? "0.5" : "0.8") +
+                "\ncentre_deg = 72\namplitude_deg = 40\nheld_mass_kg = 1.0\nduration_s = 6\n";
+  write_text(folder / "protocol.toml", protocol);
+  const Finished twin = myoid(
+      {"twin", "--protocol", folder / "protocol.toml", "--seed", "1", "--out", folder / "rec"});
+  EXPECT_EQ(twin.exit_code, 0) << twin.err;
+  return folder / "rec";
+}
+
+TEST(PlausibleInput, EmgOfNoiseAloneIsSaid) {
+  const TemporaryFolder folder;
+  write_text(folder / "e.csv", noise_csv("mV", 1.0));
+  const Finished emg = myoid({"emg", folder / "e.csv", "--out", folder / "a.sto"});
+  EXPECT_EQ(emg.exit_code, 0) << emg.err;
+  EXPECT_THAT(emg.err,
+              AllOf(HasSubstr("'BIC' rises to only"), HasSubstr("times its lowest level")));
+  EXPECT_THAT(myoid({"check", folder / "e.csv"}).out, HasSubstr("'BIC' rises to only"));
+}
+
+TEST(PlausibleInput, EmgOfHundredsOfVoltsIsSaid) {
+  const TemporaryFolder folder;
+  write_text(folder / "e.csv", noise_csv("V", 300.0));
+  EXPECT_THAT(myoid({"emg", folder / "e.csv", "--out", folder / "a.sto"}).err,
+              AllOf(HasSubstr("reaches 150 V"), HasSubstr("unit")));
+  EXPECT_THAT(myoid({"check", folder / "e.csv"}).out, HasSubstr("reaches 150 V"));
+}
+
+TEST(PlausibleInput, EmgThatDoesNotChangeOrHasOneSampleIsAnErrorInItsOwnWords) {
+  const TemporaryFolder folder;
+  write_text(folder / "still.csv", noise_csv("mV", 0.0));
+  write_text(folder / "one.csv", "time,BIC [mV]\n0,1\n");
+  const Finished still = myoid({"emg", folder / "still.csv", "--out", folder / "a.sto"});
+  EXPECT_EQ(still.exit_code, 3);
+  EXPECT_THAT(still.err, AllOf(HasSubstr("still.csv"), HasSubstr("the same value throughout"),
+                               Not(HasSubstr("quantile"))));
+  const Finished one = myoid({"emg", folder / "one.csv", "--out", folder / "a.sto"});
+  EXPECT_EQ(one.exit_code, 3);
+  EXPECT_THAT(one.err, AllOf(HasSubstr("one.csv"), HasSubstr("only 1 sample"),
+                             Not(HasSubstr("Butterworth"))));
+  EXPECT_EQ(myoid({"check", folder / "one.csv"}).exit_code, 3);
+}
+
+TEST(PlausibleInput, OneEmgInTwoTrialsIsRefusedByCheckAndRun) {
+  const TemporaryFolder folder;
+  const auto rec = two_trials(folder);
+  EXPECT_EQ(myoid({"check", rec / "study.toml"}).exit_code, 0);
+  replace_in(rec / "study.toml", "emg = \"fast_emg.sto\"", "emg = \"slow_emg.sto\"");
+  const Finished check = myoid({"check", rec / "study.toml"});
+  EXPECT_EQ(check.exit_code, 3);
+  EXPECT_THAT(check.out, AllOf(HasSubstr("EMG of trial 'slow'"), HasSubstr("correct its emg")));
+  const Finished run = myoid({"run", rec / "study.toml", "--out", folder / "out"});
+  EXPECT_EQ(run.exit_code, 3);
+  EXPECT_THAT(run.err, AllOf(HasSubstr("EMG of trial 'slow'"), HasSubstr("(trial 'fast')")));
+  EXPECT_FALSE(std::filesystem::exists(folder / "out/parameters.csv"));
+}
+
+TEST(PlausibleInput, AHeldMassWithoutItsDecimalPointIsSaidByCheckAndRun) {
+  const TemporaryFolder folder;
+  const auto rec = two_trials(folder);
+  replace_in(rec / "study.toml", "held_mass_kg = 1", "held_mass_kg = 50");
+  EXPECT_THAT(myoid({"check", rec / "study.toml"}).out, HasSubstr("decimal point"));
+  EXPECT_THAT(myoid({"run", rec / "study.toml", "--out", folder / "out"}).err,
+              HasSubstr("decimal point"));
+}
+
+}  // namespace
