@@ -377,7 +377,8 @@ TEST(Estimator, NoiseOfTheEmgIsNeverTakenToBeFarFromWhatItsBandwidthSays) {
 
 TEST(NoiseGain, IsWhatTheSubtractedNoiseOfTheElectrodeMakesOfTheSpread) {
   // An amplitude m that spreads by 8 %, of a muscle's a in noise of 0.03, and u^2 = m^2 - 0.03^2.
-  // 60 000 draws: 0.3 % of a spread; 8 % is not infinitesimal, which bends it by some percent.
+  // 60 000 draws: 0.3 % of a spread; 8 % is not infinitesimal, which bends it by some percent, a
+  // tenth where the muscle is as weak as the noise (there the gain is 2).
   constexpr double kRest = 0.03, kSpread = 0.08;
   constexpr Eigen::Index n = 60000;
   std::mt19937_64 engine(3);
@@ -392,7 +393,7 @@ TEST(NoiseGain, IsWhatTheSubtractedNoiseOfTheElectrodeMakesOfTheSpread) {
     const double spread = std::sqrt((u.array() - u.mean()).square().mean() / u.squaredNorm() *
                                     static_cast<double>(n));
     const double gain = noise_gain(Envelope(time_s, u), 0.0, 600.0, kRest, kSpread);
-    EXPECT_NEAR(gain * kSpread / spread, 1.0, 0.05) << a;
+    EXPECT_NEAR(gain * kSpread / spread, 1.0, 0.1) << a;
     EXPECT_EQ(noise_gain(Envelope(time_s, u), 0.0, 600.0, 0.0, kSpread), 1.0);
   }
 }
