@@ -113,8 +113,10 @@ TEST_F(Loads, APointThatIsNoNumberWhileUnloadedIsMendedAndSaid) {
         data("0\t0\t500\t0\t0.1\t0\t0\t0\t0\t0\n0.1\t0\t0.01\t0\tNaN\tNaN\tNaN\t0\t0\t0\n"
              "0.2\t0\t0\t0\t1e9\t0\t0\t0\t0\t0\n0.3\t0\t500\t0\t0.4\t0\t0\t0\t0\t0\n"));
   const ExternalLoads loads = read();
-  ASSERT_EQ(loads.notes.size(), 1U);
-  EXPECT_THAT(loads.notes[0], ::testing::HasSubstr("2 rows"));
+  // What the table's reader says, and what became of it.
+  ASSERT_EQ(loads.notes.size(), 2U);
+  EXPECT_THAT(loads.notes[0], ::testing::HasSubstr("loads.mot"));
+  EXPECT_THAT(loads.notes[1], ::testing::HasSubstr("2 rows"));
   EXPECT_NEAR(loads.forces[0].point->at(0.1)[0], 0.2, 1e-12);
   EXPECT_NEAR(loads.forces[0].point->at(0.2)[0], 0.3, 1e-12);
 }

@@ -11,6 +11,7 @@
 #include "myoid/core/error.h"
 #include "myoid/math/spline.h"
 #include "myoid/pipeline/identify_input.h"
+#include "myoid/pipeline/same_recording.h"
 #include "myoid/recording/recording.h"
 #include "myoid/recording/series_file.h"
 #include "myoid/signals/resample.h"
@@ -230,6 +231,34 @@ class TrialReader {
   std::map<std::string, TimeSeries> read_;
 };
 
+/// One recording in two trials. Data may be computed, and then alike for good: a remark only.
+void compare_trials(const StudyData& data,
+                    const IdentifySources& sources,
+                    const std::function<void(const std::string&)>& remark) {
+  constexpr double kAlike = 0.1;
+  std::vector<Stretches> activations, lengths;
+  for (const TrialData& trial : data.trials) {
+    std::vector<Channel> names;
+    for (const identification::MuscleSetup& muscle : data.muscles)
+      names.push_back({muscle.name, Unit::meter});
+    activations.push_back(stretches_of(trial.activation));
+    lengths.push_back(stretches_of({trial.time_s, std::move(names), trial.length_m}));
+    const std::size_t b = activations.size() - 1;
+    for (std::size_t a = 0; a < b; ++a) {
+      const double shared = common_share(activations[a], activations[b]);
+      if (shared <= kAlike) continue;
+      const bool moved = common_share(lengths[a], lengths[b]) <= kAlike;
+      remark(
+          fmt::format("{}: {:.0f} % of its activations are those of {}{}; was a file named twice "
+                      "by mistake?",
+                      sources.activations[b], 100.0 * shared, sources.activations[a],
+                      moved ? ", but the lengths are others"
+                            : ", and the lengths, too: one "
+                              "effort counts twice"));
+    }
+  }
+}
+
 }  // namespace
 
 StudyData read_identify_data(const IdentifySources& sources,
@@ -246,6 +275,7 @@ StudyData read_identify_data(const IdentifySources& sources,
       remark(text);
     data.trials.push_back(std::move(trial));
   }
+  compare_trials(data, sources, remark);
   return data;
 }
 

@@ -23,9 +23,9 @@ struct IdentifySources {
 
 /// What the estimators need, on the clock of each trial's lengths and over the time that all of its
 /// files cover. `remark` is told what readers mended or left out and what is suspicious, of one
-/// trial after the other (`check_identify_trial`). Throws InvalidInput for files that do not match
-/// the number of trials, ReadError for missing columns and files that do not overlap, and as
-/// `check_identify_trial`.
+/// trial after the other (`check_identify_trial`), and of trials that have the same activations.
+/// Throws InvalidInput for files that do not match the number of trials, ReadError for missing
+/// columns and files that do not overlap, and as `check_identify_trial`.
 [[nodiscard]] identification::StudyData read_identify_data(
     const IdentifySources& sources,
     const MuscleTable& table,

@@ -110,6 +110,20 @@ TEST(IdentifyData, ACutOffFileIsSaidOnceWithWhatWasLeftOut) {
   EXPECT_EQ(said, 1);
 }
 
+TEST(IdentifyData, ActivationsThatAreNamedTwiceAreRemarkedOf) {
+  Written once;
+  (void)once.read();
+  EXPECT_TRUE(once.remarks.empty());
+  Written twice;
+  for (auto* files : {&twice.sources.activations, &twice.sources.lengths, &twice.sources.velocities,
+                      &twice.sources.moment_arms, &twice.sources.torques})
+    files->push_back(files->front());
+  (void)twice.read();
+  ASSERT_EQ(twice.remarks.size(), 1U);
+  EXPECT_NE(twice.remarks[0].find("one effort counts twice"), std::string::npos)
+      << twice.remarks[0];
+}
+
 TEST(IdentifyData, FilesThatDoNotMatchTheTrialsOrTheMusclesAreRefused) {
   Written two;
   two.sources.torques.push_back(two.sources.torques[0]);
