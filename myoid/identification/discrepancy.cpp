@@ -1,5 +1,6 @@
 #include "myoid/identification/discrepancy.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -7,6 +8,28 @@
 #include <Eigen/Cholesky>
 
 namespace myoid::identification {
+
+double Discrepancy::reach(Eigen::Index j, double variance, double probability) const {
+  std::vector<double> sd;
+  double most = 0.0, all = 0.0;
+  for (const Sizes& s : posterior) {
+    sd.push_back(
+        std::sqrt(variance + s.muscle * s.muscle * by_muscle[j] + s.joint * s.joint * by_joint[j]));
+    most = std::max(most, sd.back());
+    all += s.probability;
+  }
+  // What was left out is shared among the rest; beyond ten of the largest sd there is nothing.
+  double low = 0.0, high = 10.0 * most;
+  for (int step = 0; step < 60 && high > low; ++step) {
+    const double middle = 0.5 * (low + high);
+    double inside = 0.0;
+    for (std::size_t k = 0; k < sd.size(); ++k)
+      inside += posterior[k].probability / all *
+                (sd[k] > 0.0 ? std::erf(middle / (std::sqrt(2.0) * sd[k])) : 1.0);
+    (inside < probability ? low : high) = middle;
+  }
+  return high;
+}
 
 Discrepancy discrepancy(const Estimator& estimator,
                         const Estimator::Solution& solution,
@@ -53,12 +76,16 @@ Discrepancy discrepancy(const Estimator& estimator,
   if (weighting.emg_variance.size() > 0) {
     // The noise of the EMG is in the shapes and in the residual alike: that product has a mean.
     const Eigen::MatrixXd noisy =
-        shapes.weight.asDiagonal() * shapes.by_emg * shapes.shapes_nm * root.asDiagonal();
+        shapes.weight.asDiagonal() * shapes.by_emg * shapes.unfiltered * root.asDiagonal();
     for (Eigen::Index b = 0; b < h.size(); ++b) {
       const int channel = shapes.channel[static_cast<std::size_t>(b)];
       if (channel < 0) continue;
       h[b] += estimator.channel_variance()[channel] *
-              (noisy.row(b).transpose().cwiseProduct(root).cwiseProduct(weighting.emg_variance))
+              (noisy.row(b)
+                   .transpose()
+                   .cwiseProduct(root)
+                   .cwiseProduct(weighting.emg_variance)
+                   .cwiseProduct(model.noise_gain().row(channel).transpose()))
                   .dot(at.channel_torque.row(channel).transpose());
     }
   }
@@ -113,8 +140,18 @@ Discrepancy discrepancy(const Estimator& estimator,
   Discrepancy result;
   result.relative_size = std::sqrt(muscle_sum / sum);
   result.joint_size = std::sqrt(joint_sum / sum);
-  const Eigen::MatrixXd moved =
-      response * sj.transpose() * sizes(result.relative_size, result.joint_size).asDiagonal();
+  for (Eigen::Index m = 0; m < points; ++m) {
+    for (Eigen::Index j = 0; j < points; ++j) {
+      const auto at_m = static_cast<std::size_t>(m), at_j = static_cast<std::size_t>(j);
+      const double share =
+          prior[at_m] * prior[at_j] * std::exp(-0.5 * (values(m, j) - least)) / sum;
+      if (share > 1e-4) result.posterior.push_back({grid[at_m], grid[at_j], share});
+    }
+  }
+  const Eigen::MatrixXd unit = response * sj.transpose();
+  result.by_muscle = (unit * sizes(1.0, 0.0).asDiagonal()).rowwise().squaredNorm();
+  result.by_joint = (unit * sizes(0.0, 1.0).asDiagonal()).rowwise().squaredNorm();
+  const Eigen::MatrixXd moved = unit * sizes(result.relative_size, result.joint_size).asDiagonal();
   result.covariance = moved * moved.transpose();
   return result;
 }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include <Eigen/Core>
 
 #include "myoid/identification/uncertainty.h"
@@ -11,6 +13,17 @@ struct Discrepancy {
   double relative_size = 0.0;  ///< Standard deviation, relative to the muscles' torques ...
   double joint_size = 0.0;     ///< ... and of what is passive, relative to the torque's rms.
   Eigen::MatrixXd covariance;  ///< What it adds to that of the estimates, in the solver's scale.
+  /// A pair of sizes and its posterior probability; those below 1e-4 are left out.
+  struct Sizes {
+    double muscle = 0.0, joint = 0.0, probability = 0.0;
+  };
+  std::vector<Sizes> posterior;
+  Eigen::VectorXd by_muscle, by_joint;  ///< Variance of each estimate for a size of 1.
+
+  /// Distance to both sides of estimate j within which an error lies with this probability, where
+  /// it has `variance` besides. No more than a normal error of the same whole variance where the
+  /// model may well be right: then that variance is that of rare large errors.
+  [[nodiscard]] double reach(Eigen::Index j, double variance, double probability) const;
 };
 
 /// No muscle is as its model. The residuals then hold, beside noise, something that depends

@@ -60,6 +60,23 @@ TEST(Discrepancy, IsSmallWhereTheModelIsRightAndSeenWhereTheEmgIsNotLinear) {
   EXPECT_GT(wrong, 0.10);
 }
 
+TEST(Discrepancy, AnIntervalHoldsItsShareOfAllSizesTogether) {
+  Discrepancy error;
+  error.by_muscle = Eigen::VectorXd::Constant(1, 9.0);
+  error.by_joint = Eigen::VectorXd::Constant(1, 4.0);
+  // One size alone: a normal error of variance 1 + 9 (1/3)^2 + 4 = 6.
+  error.posterior = {{1.0 / 3.0, 1.0, 1.0}};
+  EXPECT_NEAR(error.reach(0, 1.0, 0.95), 1.959964 * std::sqrt(6.0), 1e-5);
+  // None in three cases of four, else ten times the noise: few errors come from there, most of the
+  // variance does.
+  error.posterior = {{0.0, 0.0, 0.75}, {10.0 / 3.0, 0.0, 0.25}};
+  const double reach = error.reach(0, 1.0, 0.95);
+  const double inside =
+      0.75 * std::erf(reach / std::sqrt(2.0)) + 0.25 * std::erf(reach / std::sqrt(2.0 * 101.0));
+  EXPECT_NEAR(inside, 0.95, 1e-9);
+  EXPECT_NEAR(error.reach(0, 0.0, 0.7), 0.0, 1e-9);  // three in four have no error at all
+}
+
 TEST(Discrepancy, AParameterOnItsBoundIsNoErrorOfTheModel) {
   // No delay at all: the estimate lies on its bound, and what a negative delay would explain stays
   // in the residual.

@@ -112,7 +112,6 @@ void agree_on_tied(std::vector<ParameterEstimate>& estimates, std::size_t count)
   const Verdict verdict = worst->verdict;
   const std::string reason = worst->reason;
   for (auto e = first; e != estimates.end(); ++e) {
-    if (e->verdict == verdict) continue;
     e->verdict = verdict;
     e->reason = reason;
   }

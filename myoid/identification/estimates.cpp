@@ -17,6 +17,8 @@
 namespace myoid::identification {
 namespace {
 
+constexpr double kProbability = 0.95;  ///< Of every interval.
+
 /// Relative change of a value that is worth a remark.
 constexpr double kSubstance = 0.05;
 
@@ -45,7 +47,7 @@ double explained_share(const ResidualModel& model, const Eigen::VectorXd& z) {
 
 struct Intervals {
   Sandwich sandwich;
-  Eigen::MatrixXd model_error;  ///< Further covariance.
+  std::optional<Discrepancy> model_error;
   std::optional<BootstrapResult> bootstrap;
   std::optional<std::vector<Interval>> profiles;
 };
@@ -77,7 +79,6 @@ void add_routes(ParameterEstimate& e,
     // A bound is knowledge, too: no interval reaches where no muscle lives.
     e.routes.push_back({route, clipped(z - quantile * sd), clipped(z + quantile * sd)});
   };
-  const double further = intervals.model_error(at, at);
   normal("sandwich", intervals.sandwich.newey_west(at, at));
   if (intervals.sandwich.cluster) normal("cluster", (*intervals.sandwich.cluster)(at, at));
   if (intervals.sandwich.jackknife) normal("jackknife", (*intervals.sandwich.jackknife)(at, at));
@@ -102,17 +103,22 @@ void add_routes(ParameterEstimate& e,
     below = std::max(below, z - profile.low.value_or(p.lower));
     above = std::max(above, profile.high.value_or(p.upper) - z);
   }
-  const double extra = reach(further);
   double least = 0.0;
   if (intervals.sandwich.cluster) {
     least = reach((*intervals.sandwich.cluster)(at, at));
   } else if (intervals.sandwich.jackknife) {
     least = reach((*intervals.sandwich.jackknife)(at, at));
   }
-  if (std::isfinite(below) && std::isfinite(extra)) {
-    e.ci_low = clipped(z - std::max(std::hypot(below, extra), least));
-    e.ci_high = clipped(z + std::max(std::hypot(above, extra), least));
-  }
+  if (!std::isfinite(below) || !std::isfinite(above)) return;
+  const auto whole = [&](double half) {
+    const double noise = half / quantile;
+    const double variance = noise * noise + std::pow(intervals.sandwich.by_noise[at], 2);
+    return std::max(least, intervals.model_error
+                               ? intervals.model_error->reach(at, variance, kProbability)
+                               : quantile * std::sqrt(variance));
+  };
+  e.ci_low = clipped(z - whole(below));
+  e.ci_high = clipped(z + whole(above));
 }
 
 /// Draws from a normal distribution with this covariance, the same in every run.
@@ -195,14 +201,13 @@ void report_estimates(const Estimator& estimator,
 
   Intervals intervals;
   intervals.sandwich = sandwich(estimator, solution);
-  const Eigen::Index size = z.size();
-  intervals.model_error = Eigen::MatrixXd::Zero(size, size);
+  result.covariance = intervals.sandwich.newey_west +
+                      intervals.sandwich.by_noise * intervals.sandwich.by_noise.transpose();
   if (options.model_error && options.weights) {
-    const Discrepancy error = discrepancy(estimator, solution, intervals.sandwich.model_based);
-    intervals.model_error = error.covariance;
-    result.model_error = error.relative_size;
+    intervals.model_error = discrepancy(estimator, solution, intervals.sandwich.model_based);
+    result.covariance += intervals.model_error->covariance;
+    result.model_error = intervals.model_error->relative_size;
   }
-  result.covariance = intervals.sandwich.newey_west + intervals.model_error;
   result.condition = intervals.sandwich.condition;
   if (options.intervals.bootstrap > 0) {
     intervals.bootstrap = bootstrap(estimator, solution);
@@ -211,7 +216,7 @@ void report_estimates(const Estimator& estimator,
   }
   if (options.intervals.profile) intervals.profiles = profile(estimator, solution);
 
-  const double quantile = math::normal_quantile(0.975);
+  const double quantile = math::normal_quantile(0.5 + 0.5 * kProbability);
   const auto muscles = data.muscles.size();
   std::vector<bool> flat(muscles, false);
   std::vector<Positions> positions(muscles);
@@ -242,9 +247,12 @@ void report_estimates(const Estimator& estimator,
         if (of.muscle == data.muscles[k].name) v.muscle_distance = of.distance;
       }
       const MuscleValues& values = result.values.muscles[k];
-      if (!exact)
-        (p.field->field == kWidth ? v.relative_width : v.curve_width) =
-            values[kWidth] / values[kFiberLength];
+      const double width = exact ? 0.0 : values[kWidth] / values[kFiberLength];
+      if (p.field->field == kWidth) {
+        v.relative_width = width;
+      } else if (p.targets.size() == 1) {
+        v.curve_width = width;
+      }
       for (std::size_t other = 0; other < muscles; ++other) {
         if (other != k && data.muscles[other].emg_channel == data.muscles[k].emg_channel)
           v.shares_electrode_with = data.muscles[other].name;

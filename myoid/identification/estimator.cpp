@@ -114,7 +114,13 @@ NoiseLevel fit_known_noise(const Eigen::ArrayXd& squared,
   const double reach = std::log(16.0);
   const double log_b = golden(-reach, reach, [&](double x) { return cost(best_a(x), x); });
   const double factor = std::exp(0.5 * log_b);
-  return {std::exp(0.5 * best_a(log_b)), factor, factor};
+  const double h = 0.2;
+  const auto profile = [&](double x) { return cost(best_a(x), x); };
+  const double curvature =
+      (profile(log_b + h) - 2.0 * profile(log_b) + profile(log_b - h)) / (h * h);
+  const double least = 1.0 / std::pow(2.0 * kLogSd, 2);  // the prior's
+  return {std::exp(0.5 * best_a(log_b)), factor, factor,
+          1.0 / std::sqrt(std::max(curvature, least))};
 }
 
 /// No envelope of EMG is noisier.
@@ -159,8 +165,6 @@ Estimator::Estimator(const StudyData& data, const EstimatorOptions& options)
   const auto n = static_cast<double>(model_->sample_count());
   const double typical = std::sqrt(model_->measured().squaredNorm() / n);
   floor_nm_ = 1e-9 * std::max(typical, 1e-3);
-  // Relative spread of an envelope: that of rectified Gaussian noise of the EMG's bandwidth over
-  // the time that the filters average (0.6 / cut-off of two passes of second order).
   const std::vector<std::string>& channels = model_->parameters().channels();
   channel_variance_ = Eigen::VectorXd::Ones(static_cast<Eigen::Index>(channels.size()));
   emg_noise_known_ = true;
@@ -170,9 +174,8 @@ Estimator::Estimator(const StudyData& data, const EstimatorOptions& options)
       emg_noise_known_ = false;
       continue;
     }
-    const double cutoff_hz = options.envelope_cutoff_hz * kept_by_residual_filter();
     channel_variance_[static_cast<Eigen::Index>(c)] =
-        0.7555 * 0.7555 / (2.0 * known->second * 0.6 / cutoff_hz);
+        std::pow(envelope_spread(options, channels[c]), 2) * kept_by_residual_filter();
   }
   if (!emg_noise_known_) channel_variance_.setOnes();
   const Eigen::Index p = model_->parameters().size();
@@ -249,7 +252,9 @@ NormalEquations Estimator::normal_equations(const Eigen::VectorXd& z,
       auto torque = local.channel_torque.col(i);
       const double squared = scale[i] * scale[i] * weighting.emg_variance[i];
       by_noise += squared * torque.cwiseAbs2().cwiseProduct(channel_variance_);
-      if (sloped) torque = squared * torque.cwiseProduct(channel_variance_);
+      if (sloped)
+        torque = squared *
+                 torque.cwiseProduct(channel_variance_).cwiseProduct(model_->noise_gain().col(i));
     }
   }
   sum -= by_noise.sum() / weighting.share;
@@ -261,7 +266,7 @@ NormalEquations Estimator::normal_equations(const Eigen::VectorXd& z,
     result.gradient = local.gradient * by_residual + prior_precision_.cwiseProduct(off);
     if (corrected) {
       const Eigen::VectorXd exponent = exponents(z);
-      const Eigen::MatrixXd by_channel = local.gradient * local.channel_torque.transpose();
+      const Eigen::MatrixXd by_channel = local.unfiltered * local.channel_torque.transpose();
       for (Eigen::Index j = 0; j < p; ++j) {
         const ChannelSlope s = channel_slope(j, exponent);
         if (s.channel < 0) continue;
@@ -314,8 +319,8 @@ void Estimator::correct_curvature(const Weighting& weighting, Eigen::MatrixXd& i
     for (Eigen::Index j = 0; j < p; ++j) {
       const int channel = model_->channel_of_variable(i);
       if (channel >= 0 && channel == model_->channel_of_variable(j))
-        unit(i, j) /=
-            1.0 + variance * channel_variance_[channel] * std::pow(weighting.exponent[channel], 2);
+        unit(i, j) /= 1.0 + variance * channel_variance_[channel] * weighting.noise_gain[channel] *
+                                std::pow(weighting.exponent[channel], 2);
     }
   }
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(unit);
@@ -335,6 +340,7 @@ Estimator::Scores Estimator::scores(const Solution& solution) const {
   const Eigen::Index p = solution.search.x.size();
   Scores result;
   result.scores.resize(p, sd.size());
+  result.attenuation.setZero(p);
   Eigen::MatrixXd weighted(p, sd.size());
   const Eigen::VectorXd exponent = exponents(solution.search.x);
   for (Eigen::Index i = 0; i < sd.size(); ++i) {
@@ -347,12 +353,17 @@ Estimator::Scores Estimator::scores(const Solution& solution) const {
       const ChannelSlope s = channel_slope(j, exponent);
       if (s.channel < 0) continue;
       const double torque = at.channel_torque(s.channel, i);
-      result.scores(j, i) -= weight * weighting.emg_variance[i] * channel_variance_[s.channel] *
-                             torque * (s.slope * at.gradient(j, i) + (s.adds ? torque : 0.0)) /
-                             (sd[i] * sd[i]);
+      const double by_noise = weight * weighting.emg_variance[i] * channel_variance_[s.channel] *
+                              torque *
+                              (s.slope * model_->noise_gain()(s.channel, i) * at.unfiltered(j, i) +
+                               (s.adds ? torque : 0.0)) /
+                              (sd[i] * sd[i]);
+      result.scores(j, i) -= by_noise;
+      result.attenuation[j] += by_noise;
     }
   }
   result.scores *= weighting.share;
+  result.attenuation *= weighting.share;
   result.rows = std::sqrt(weighting.share) * weighted;
   result.information = result.rows * result.rows.transpose();
   if (weighting.emg_variance.size() > 0) correct_curvature(weighting, result.information);
@@ -363,6 +374,10 @@ void Estimator::find_noise(const Eigen::VectorXd& z,
                            const Evaluation& at,
                            Weighting& weighting) const {
   weighting.exponent = exponents(z);
+  const Eigen::ArrayXXd part =
+      (at.channel_torque * weighting.sd_nm.cwiseInverse().asDiagonal()).array().square();
+  weighting.noise_gain = (part.rowwise().sum() + 1e-300) /
+                         ((part / model_->noise_gain().array().square()).rowwise().sum() + 1e-300);
   const bool correct = options_.correct_attenuation && weighting.corrected;
   const Eigen::VectorXd residual = at.predicted - model_->measured();
   const auto n = static_cast<double>(residual.size());

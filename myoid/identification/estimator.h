@@ -15,6 +15,7 @@ struct NoiseLevel {
   double emg_cv = 0.0;      ///< Of a channel: root mean square over the channels.
   double emg_factor = 0.0;  ///< By which every channel's expected relative sd is multiplied; where
                             ///< nothing is expected, 1 is, and this is `emg_cv`.
+  double log_variance_sd = 0.0;  ///< Of ln emg_factor^2: how well that is known.
 };
 
 /// How much a sample counts: held within a pass of the search.
@@ -26,6 +27,7 @@ struct Weighting {
   /// What the correction subtracts grows with the square of the torques. Where the data hardly
   /// bound these, it would outgrow what it is subtracted from: false, and it is left out.
   bool corrected = true;
+  Eigen::VectorXd noise_gain;     ///< Square of the model's noise gain by EMG channel, in the mean.
   Eigen::VectorXd exponent;       ///< p of a = g u^p by EMG channel where the noise was found.
   std::vector<NoiseLevel> noise;  ///< Per joint.
 };
@@ -97,7 +99,8 @@ class Estimator {
   struct Scores {
     Eigen::MatrixXd scores;
     Eigen::MatrixXd information;
-    Eigen::MatrixXd rows;  ///< p x n: (nu W)^1/2 J', nothing taken out.
+    Eigen::MatrixXd rows;         ///< p x n: (nu W)^1/2 J', nothing taken out.
+    Eigen::VectorXd attenuation;  ///< What the correction took out of the sum of the scores.
   };
   [[nodiscard]] Scores scores(const Solution& solution) const;
   /// Start number s: the given one moved by a spread of the prior in a fixed pattern of signs.

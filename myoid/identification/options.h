@@ -50,9 +50,14 @@ struct EstimatorOptions {
   std::map<std::string, double> gain_prior_sd;
   std::map<std::string, double> gain_prior_mean;  ///< Instead of 1.
   /// Statistical bandwidth [Hz] of the raw EMG by channel (signals::statistical_bandwidth_hz),
-  /// which says how noisy an envelope is: relative sd 0.7555 / sqrt(2 B T), T = 0.6 / cut-off.
-  /// Where known for every channel, c_a is found about it (ln 0.3), else from the residuals alone.
+  /// which says how noisy an envelope is: relative sd 0.7555 / sqrt(2 B T), T = 0.4815 / cut-off
+  /// (two passes, -3 dB). Where known for every channel, c_a is found about it (ln 0.3), else from
+  /// the residuals alone.
   std::map<std::string, double> emg_bandwidth_hz;
+  /// Resting level of each channel over the level that counts as 1: the noise of the electrode,
+  /// whose power was taken from the envelope's. Its spread is still there, and makes that of a
+  /// small envelope u larger than in proportion to u, by 1 + (rest / u)^2.
+  std::map<std::string, double> emg_rest;
   double envelope_cutoff_hz = 6.0;  ///< Of the smoothing of the rectified EMG.
   double max_rate_hz = 50.0;  ///< Samples are thinned to at most this; torque and EMG hold 6 Hz.
   /// Both sides of the residual are low-passed here (two passes, -3 dB). T^ is linear in the

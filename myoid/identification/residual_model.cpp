@@ -17,6 +17,15 @@ constexpr Eigen::Index kWorthSharing = 8000;
 
 }  // namespace
 
+double envelope_spread(const EstimatorOptions& options, const std::string& channel) {
+  constexpr double kUsualBandwidth_hz = 150.0;
+  const auto known = options.emg_bandwidth_hz.find(channel);
+  const double bandwidth_hz = known != options.emg_bandwidth_hz.end() && known->second > 0.0
+                                  ? known->second
+                                  : kUsualBandwidth_hz;
+  return 0.7555 / std::sqrt(2.0 * bandwidth_hz * 0.4815 / options.envelope_cutoff_hz);
+}
+
 ResidualModel::ResidualModel(const StudyData& data, const EstimatorOptions& options)
     : map_(data, options),
       dynamics_(options.dynamics),
@@ -103,6 +112,15 @@ void ResidualModel::add_block(const StudyData& data,
   }
   for (const std::string& channel : map_.channels())
     block.envelopes.emplace_back(clock, trial.activation.column(channel));
+  block.noise_gain.resize(static_cast<Eigen::Index>(map_.channels().size()));
+  for (std::size_t c = 0; c < map_.channels().size(); ++c) {
+    const auto rest = options.emg_rest.find(map_.channels()[c]);
+    const double delay_s = options.delay_s.value_or(options.delay_prior_mean_s);
+    block.noise_gain[static_cast<Eigen::Index>(c)] = identification::noise_gain(
+        block.envelopes[c], block.time_s[0] - delay_s, block.time_s[n - 1] - delay_s,
+        rest != options.emg_rest.end() ? rest->second : 0.0,
+        envelope_spread(options, map_.channels()[c]));
+  }
 
   const auto add_joint = [&](const std::string& name, const Eigen::VectorXd& torque,
                              const Eigen::MatrixXd& arm, const Eigen::VectorXd& q,
@@ -122,6 +140,8 @@ void ResidualModel::add_block(const StudyData& data,
     filter_rows(block.filter, target);
     measured_.conservativeResize(joint.first + n);
     measured_.tail(n) = target.row(0).transpose();
+    noise_gain_.conservativeResize(block.noise_gain.size(), joint.first + n);
+    noise_gain_.rightCols(n) = block.noise_gain.replicate(1, n);
     pieces_.push_back({index, joint.joint, joint.first, n});
     block.joints.push_back(std::move(joint));
   };
@@ -154,7 +174,10 @@ void ResidualModel::evaluate(const Eigen::VectorXd& z, Depth depth, Evaluation& 
   const bool gradient = depth != Depth::value;
   const ModelValues values = map_.values(z, gradient ? &chains : nullptr);
   out.predicted.setZero(measured_.size());
-  if (gradient) out.gradient.setZero(map_.size(), measured_.size());
+  if (gradient) {
+    out.gradient.setZero(map_.size(), measured_.size());
+    out.unfiltered.resize(map_.size(), measured_.size());
+  }
   out.channel_torque.setZero(static_cast<Eigen::Index>(map_.channels().size()), measured_.size());
   if (depth == Depth::noise) out.motion_variance.setZero(measured_.size());
   // Every block writes rows of its own: the result does not depend on the number of threads.
@@ -216,7 +239,8 @@ void ResidualModel::evaluate_block(const Block& block,
         // What a relative error of the envelope does to the torque; for a force proportional to the
         // activation that is the torque itself.
         out.channel_torque(static_cast<Eigen::Index>(c), row) +=
-            arm * t.by_activation * a.by_log_envelope;
+            arm * t.by_activation * a.by_log_envelope *
+            block.noise_gain[static_cast<Eigen::Index>(c)];
         if (with_gradient) {
           double* gradient = out.gradient.data() + row * out.gradient.rows();
           for (const ParameterMap::Chain& chain : of_muscle[k])
@@ -256,6 +280,8 @@ void ResidualModel::evaluate_block(const Block& block,
       if (chain.field == kInertia) row -= chain.slope * joint.motion.col(2).transpose();
       if (chain.field == kStiffness) row -= chain.slope * joint.motion.col(0).transpose();
     }
+    if (with_gradient)
+      out.unfiltered.middleCols(joint.first, n) = out.gradient.middleCols(joint.first, n);
     if (!block.filter.empty()) {
       std::vector<SignalRow> rows{{out.predicted.data() + joint.first, 1}};
       const auto add = [&](Eigen::MatrixXd& signals) {
@@ -263,7 +289,6 @@ void ResidualModel::evaluate_block(const Block& block,
           rows.push_back({signals.data() + joint.first * signals.rows() + r, signals.rows()});
       };
       if (with_gradient) add(out.gradient);
-      add(out.channel_torque);
       filter_rows(block.filter, rows, n);
     }
   }
@@ -271,13 +296,22 @@ void ResidualModel::evaluate_block(const Block& block,
 
 ErrorShapes ResidualModel::error_shapes(const Eigen::VectorXd& z) const {
   constexpr Eigen::Index kPerMuscle = 7;
+  constexpr Eigen::Index kPerJoint = 2;  // the first two of a muscle's, without its force
   constexpr double kLogRange = 2.3;
   constexpr double kLag_s = 0.15;  // 10 % are 15 ms.
   const double muscle_weight[kPerMuscle] = {1.0, 1.0, 1.0, 0.5, 1.0, 1.0, 1.0};
-  const double joint_weight[2] = {1.0, 1.0};
+  // What the fit finds of a joint with a prior is not a shape besides: the data say nothing of it
+  // that they have not said already.
+  const Eigen::Index joints = joint_count();
+  const auto left_to_find = [&](Eigen::Index joint, int field) {
+    return std::none_of(map_.free().begin(), map_.free().end(), [&](const FreeParameter& p) {
+      return p.field->scope == Scope::joint && p.field->field == field &&
+             std::any_of(p.targets.begin(), p.targets.end(),
+                         [&](const auto& target) { return target.owner == joint; });
+    });
+  };
   const ModelValues values = map_.values(z);
   const auto muscles = static_cast<Eigen::Index>(values.muscles.size());
-  const Eigen::Index joints = joint_count();
   Eigen::VectorXd shortest = Eigen::VectorXd::Constant(muscles, 1e9);
   Eigen::VectorXd longest = -shortest, fastest = Eigen::VectorXd::Constant(muscles, 1e-9);
   for (const Block& block : blocks_) {
@@ -293,7 +327,7 @@ ErrorShapes ResidualModel::error_shapes(const Eigen::VectorXd& z) const {
   size_nm = size_nm.cwiseQuotient(count.cwiseMax(1.0)).cwiseSqrt();
 
   ErrorShapes result;
-  result.shapes_nm.setZero(kPerMuscle * muscles + 2 * joints, measured_.size());
+  result.shapes_nm.setZero(kPerMuscle * muscles + kPerJoint * joints, measured_.size());
   result.weight.resize(result.shapes_nm.rows());
   result.channel.assign(static_cast<std::size_t>(result.shapes_nm.rows()), -1);
   result.by_emg.setZero(result.weight.size(), result.weight.size());
@@ -310,9 +344,10 @@ ErrorShapes ResidualModel::error_shapes(const Eigen::VectorXd& z) const {
           map_.channel_of_muscle(static_cast<std::size_t>(k));
     }
   }
-  for (Eigen::Index j = 0; j < joints; ++j)
-    for (Eigen::Index b = 0; b < 2; ++b)
-      result.weight[kPerMuscle * muscles + 2 * j + b] = joint_weight[b];
+  for (Eigen::Index j = 0; j < joints; ++j) {
+    auto weight = result.weight.segment<kPerJoint>(kPerMuscle * muscles + kPerJoint * j);
+    weight << (left_to_find(j, kOffset) ? 1.0 : 0.0), (left_to_find(j, kStiffness) ? 1.0 : 0.0);
+  }
   for (const Block& block : blocks_) {
     const Eigen::Index n = block.time_s.size();
     std::vector<std::vector<Activation>> activations;
@@ -342,14 +377,17 @@ ErrorShapes ResidualModel::error_shapes(const Eigen::VectorXd& z) const {
             result.shapes_nm(kPerMuscle * k + b, joint.first + i) +=
                 joint.arm_m(i, k) * force_n * factor[b];
           if (k > 0) continue;
-          const Eigen::Index row = kPerMuscle * muscles + 2 * joint.joint;
-          result.shapes_nm(row, joint.first + i) = size_nm[joint.joint];
-          result.shapes_nm(row + 1, joint.first + i) = size_nm[joint.joint] * x;
+          const Eigen::Index row = kPerMuscle * muscles + kPerJoint * joint.joint;
+          for (Eigen::Index b = 0; b < kPerJoint; ++b)
+            result.shapes_nm(row + b, joint.first + i) = size_nm[joint.joint] * factor[b];
         }
       }
     }
+  }
+  result.unfiltered = result.shapes_nm;
+  for (const Block& block : blocks_) {
     for (const Block::Joint& joint : block.joints)
-      filter_rows(block.filter, result.shapes_nm.middleCols(joint.first, n));
+      filter_rows(block.filter, result.shapes_nm.middleCols(joint.first, block.time_s.size()));
   }
   return result;
 }

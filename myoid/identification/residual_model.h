@@ -11,6 +11,11 @@
 
 namespace myoid::identification {
 
+/// Relative spread that an envelope has where no noise of the electrode matters: that of rectified
+/// Gaussian noise of the EMG's bandwidth over the time that the filters average (0.4815 / cut-off
+/// of two passes of second order). Where the bandwidth is not known, as of 150 Hz.
+[[nodiscard]] double envelope_spread(const EstimatorOptions& options, const std::string& channel);
+
 /// Consecutive rows of the residual: one joint of one trial.
 struct Piece {
   int trial = 0;  ///< In StudyData::trials.
@@ -20,19 +25,23 @@ struct Piece {
 
 /// What the model says at one point of the search; rows as in the pieces.
 struct Evaluation {
-  Eigen::VectorXd predicted;        ///< Low-passed as `measured()`.
-  Eigen::MatrixXd gradient;         ///< p x n: column i is d predicted_i / dz.
-  Eigen::MatrixXd channel_torque;   ///< C x n: what each EMG channel's relative error is multiplied
-                                    ///< by, low-passed likewise.
+  Eigen::VectorXd predicted;   ///< Low-passed as `measured()`.
+  Eigen::MatrixXd gradient;    ///< p x n: column i is d predicted_i / dz.
+  Eigen::MatrixXd unfiltered;  ///< p x n: the gradient before it is low-passed.
+  /// C x n: what the relative spread of each channel's rectified EMG is multiplied by, not
+  /// low-passed: what is left of that noise behind a low-pass goes with the mean square of this,
+  /// not with the square of its mean.
+  Eigen::MatrixXd channel_torque;
   Eigen::VectorXd motion_variance;  ///< n: from the errors of angle and rate.
 };
 
 /// Ways in which a model of muscles errs, as torques: sum_b x_b shape_b(t) with independent x_b of
 /// standard deviation `weight_b` times the relative size of the error.
 struct ErrorShapes {
-  Eigen::MatrixXd shapes_nm;  ///< k x n, low-passed as `measured()`.
-  Eigen::VectorXd weight;     ///< k
-  std::vector<int> channel;   ///< k: EMG channel that it is multiplied by; -1: none.
+  Eigen::MatrixXd shapes_nm;   ///< k x n, low-passed as `measured()`.
+  Eigen::MatrixXd unfiltered;  ///< k x n, before that.
+  Eigen::VectorXd weight;      ///< k
+  std::vector<int> channel;    ///< k: EMG channel that it is multiplied by; -1: none.
   /// k x k: d shape_b / d ln(envelope) of its channel = sum_j by_emg(b, j) shape_j.
   Eigen::MatrixXd by_emg;
 };
@@ -54,6 +63,8 @@ class ResidualModel {
   [[nodiscard]] int channel_of_variable(Eigen::Index j) const {
     return channel_of_variable_[static_cast<std::size_t>(j)];
   }
+  /// noise_gain of every EMG channel (C x n), one number for each run of samples.
+  [[nodiscard]] const Eigen::MatrixXd& noise_gain() const { return noise_gain_; }
   [[nodiscard]] int joint_count() const { return static_cast<int>(map_.joints().size()); }
 
   /// What of the Evaluation is filled: the prediction and the torque of the channels; also the
@@ -64,9 +75,11 @@ class ResidualModel {
   /// For each muscle its torque times 1, the Legendre polynomials P1 to P3 of its length over the
   /// recorded range, ln(activation) / 2.3 + 1 (a non-linear EMG), its speed over the greatest, and
   /// its change within 0.15 s (a delay of its own);
-  /// for each joint a constant and P1 of the first muscle's length, of the size of the torque
-  /// (what is passive). What moment arms, force-length curves, tendons, passive tissue, EMG that is
-  /// not linear and motion under the skin do wrong is smooth in these.
+  /// for each joint 1 and P1 of the first muscle's length, of the size of the torque (what is
+  /// passive), but not what the fit finds of it with a prior: 1 weighs nothing where an offset, P1
+  /// where a stiffness of the joint is an unknown. What
+  /// moment arms, force-length curves, tendons, passive tissue, EMG that is not linear and motion
+  /// under the skin do wrong is smooth in these.
   [[nodiscard]] ErrorShapes error_shapes(const Eigen::VectorXd& z) const;
 
  private:
@@ -75,6 +88,7 @@ class ResidualModel {
     Eigen::VectorXd time_s;
     Eigen::MatrixXd length_m, velocity_mps;  ///< n x m
     std::vector<Envelope> envelopes;         ///< Per channel.
+    Eigen::VectorXd noise_gain;              ///< Per channel.
     struct Joint {
       int joint = 0;
       Eigen::Index first = 0;
@@ -99,6 +113,7 @@ class ResidualModel {
   std::vector<Block> blocks_;
   std::vector<Piece> pieces_;
   Eigen::VectorXd measured_;
+  Eigen::MatrixXd noise_gain_;
   std::vector<int> channel_of_variable_;
   bool dynamics_ = false;
   double angle_sd_rad_ = 0.0, angle_rate_sd_radps_ = 0.0;

@@ -160,6 +160,10 @@ Sandwich sandwich(const Estimator& estimator, const Estimator::Solution& solutio
   }
   a.diagonal() += precision;
   result.model_based = inverse_of(a);
+  double unsure = 0.0;
+  for (const NoiseLevel& level : solution.weighting.noise)
+    unsure = std::max(unsure, level.log_variance_sd);
+  result.by_noise = unsure * result.model_based * by_sample.attenuation;
 
   // What the data alone determine: eigenvectors of the unit-column information.
   const Eigen::VectorXd norm = result.information.diagonal().cwiseSqrt();

@@ -24,10 +24,14 @@ struct Sandwich {
                                              ///< least 5 trials.
   Eigen::MatrixXd model_based;               ///< A^-1
   Eigen::MatrixXd information;               ///< Of the data alone, nu J'WJ.
-  int rank = 0;                              ///< Of the data with unit columns, tolerance 1e-7.
-  double condition = 0.0;                    ///< Of J with unit columns.
-  std::vector<bool> determined;              ///< By the data alone.
-  Eigen::MatrixXd undetermined;              ///< Unit columns: combinations the data leave free.
+  /// By how much the estimates move where the variance of the EMG's noise is larger by its own
+  /// spread (NoiseLevel::log_variance_sd): the more, the less the data tell muscles from what is
+  /// not noisy.
+  Eigen::VectorXd by_noise;
+  int rank = 0;                  ///< Of the data with unit columns, tolerance 1e-7.
+  double condition = 0.0;        ///< Of J with unit columns.
+  std::vector<bool> determined;  ///< By the data alone.
+  Eigen::MatrixXd undetermined;  ///< Unit columns: combinations the data leave free.
 };
 [[nodiscard]] Sandwich sandwich(const Estimator& estimator, const Estimator::Solution& solution);
 

@@ -104,8 +104,10 @@ identification::TorqueOptions torque_options(const StudyResult& result, const Pr
     }
   }
   options.envelope_cutoff_hz = study.emg.lowpass_hz;
-  for (const signals::ChannelNormalisation& n : result.normalisation)
+  for (const signals::ChannelNormalisation& n : result.normalisation) {
     options.emg_bandwidth_hz[n.channel] = n.bandwidth_hz;
+    options.emg_rest[n.channel] = n.resting_level_v / n.reference_v;
+  }
   return options;
 }
 

@@ -25,7 +25,7 @@ void exchange(StudyData& data, std::size_t a, std::size_t b) {
 }
 
 TEST(ExchangedElectrodes, AreNoneWhereTheyAreNamedRight) {
-  // Of seeds 1 to 150 with twice the noise one was suspected wrongly.
+  // Of seeds 1 to 150 with twice the noise none was suspected wrongly, either.
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     const auto found = exchanged_electrodes(person(seed), 0.06);
     EXPECT_FALSE(found) << seed << ": " << found->sentence();
@@ -33,7 +33,8 @@ TEST(ExchangedElectrodes, AreNoneWhereTheyAreNamedRight) {
 }
 
 TEST(ExchangedElectrodes, OfTwoSidesAreFoundAndOfOneSideWhereTheirSignalsDiffer) {
-  // Of seeds 1 to 150: biceps and triceps in 144, biceps and brachioradialis in 77.
+  // Of seeds 1 to 150 with twice the noise: biceps and triceps in 134, biceps and brachioradialis
+  // in 41.
   int opposed = 0;
   int synergists = 0;
   constexpr int kPersons = 20;
@@ -50,7 +51,7 @@ TEST(ExchangedElectrodes, OfTwoSidesAreFoundAndOfOneSideWhereTheirSignalsDiffer)
       (other == 3 ? opposed : synergists) += right ? 1 : 0;
     }
   }
-  EXPECT_GE(opposed, kPersons - 2);
+  EXPECT_GE(opposed, 3 * kPersons / 4);
   EXPECT_GE(synergists, kPersons / 4);
 }
 

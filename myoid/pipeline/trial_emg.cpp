@@ -64,7 +64,7 @@ void require_channels(const Study& study,
 /// What the study calls raw must not be envelopes, of which a high-pass leaves hardly anything but
 /// noise, nor what no electrode gives.
 void require_raw(const Study& study, const std::filesystem::path& path, const TimeSeries& emg) {
-  constexpr double kCertainlyNone_v = 1000.0;
+  constexpr double kCertainlyNone_v = 1e8;  // more than the counts of a converter of 24 bits
   int envelopes = 0;
   int others = 0;
   for (const MuscleSpec& muscle : study.muscles) {
@@ -74,7 +74,7 @@ void require_raw(const Study& study, const std::filesystem::path& path, const Ti
     if (x.cwiseAbs().maxCoeff() > kCertainlyNone_v)
       throw ReadError(
           path, 0,
-          fmt::format("channel '{}' reaches {:.3g} V, which no electrode gives; correct "
+          fmt::format("channel '{}' reaches {:.3g} V, which no converter gives; correct "
                       "[emg] unit, or leave out what is no measurement",
                       muscle.emg, x.cwiseAbs().maxCoeff()));
     if (x.maxCoeff() > x.minCoeff())

@@ -75,11 +75,12 @@ TEST(ReadTrialEmg, AnEnvelopeThatIsCalledRawIsRefused) {
   EXPECT_NE(message.find("set [emg] kind = \"envelope\""), std::string::npos) << message;
 }
 
-TEST(ReadTrialEmg, RawEmgOfThousandsOfVoltsIsRefused) {
+TEST(ReadTrialEmg, RawEmgThatNoConverterGivesIsRefusedAndItsCountsAreNot) {
   Study study = arm_study();
   study.emg.kind = EmgKind::raw;
   study.emg.unit = "V";
-  EXPECT_NE(emg_of(study, -1e27, 1e27).find("which no electrode gives"), std::string::npos);
+  EXPECT_NE(emg_of(study, -1e27, 1e27).find("which no converter gives"), std::string::npos);
+  EXPECT_EQ(emg_of(study, -32768.0, 32767.0), "(no error)");
 }
 
 TEST(ReadTrialEmg, AnActivationInPercentIsRefused) {

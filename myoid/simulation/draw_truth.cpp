@@ -73,6 +73,19 @@ bool sensible(const Hill& p) {
 
 }  // namespace
 
+BesideMuscles draw_beside_muscles(const TruthSpec& spec, Random random) {
+  BesideMuscles drawn;
+  if (!spec.beside_muscles) return drawn;
+  const auto normal = [&] { return spec.spread * random.normal(); };
+  drawn.length_activation = 0.1 * std::abs(normal());
+  drawn.joint_torque_nm = normal();
+  drawn.joint_stiffness_nm_per_rad = normal();
+  drawn.joint_viscosity_nms_per_rad = 0.2 * std::abs(normal());
+  for (double& exponent : drawn.emg_exponent)
+    exponent = std::exp(std::clamp(0.2 * normal(), -0.6, 0.6));
+  return drawn;
+}
+
 HillSet draw_muscles(const TruthSpec& spec, const HillSet& literature, Random& random) {
   const double z = random.normal();
   const double shared_strength = varies(spec, "max_isometric_force") ? spec.spread * z : 0.0;

@@ -18,4 +18,18 @@ namespace myoid::simulation {
                                    const HillSet& literature,
                                    Random& random);
 
+/// What of a person at L0 and L1 is in the fitted model beside the muscles' parameters.
+struct BesideMuscles {
+  double length_activation = 0.0;  ///< gamma of l_0 (1 + gamma (1 - a)), of all muscles.
+  /// Of the joint: torque_nm - stiffness q - viscosity qdot, beside the muscles'.
+  double joint_torque_nm = 0.0, joint_stiffness_nm_per_rad = 0.0, joint_viscosity_nms_per_rad = 0.0;
+  PerMuscle emg_exponent = {1.0, 1.0, 1.0, 1.0};
+};
+
+/// As a fit expects it beforehand (pipeline/nuisances.h), `spec.spread` times: gamma 0.1, torque 1
+/// N m, stiffness 1 N m/rad, viscosity 0.2 N m s/rad, ln of the exponents 0.2; gamma and viscosity
+/// are sizes of normal numbers, since no fit lets them be negative. Nothing unless
+/// `spec.beside_muscles`.
+[[nodiscard]] BesideMuscles draw_beside_muscles(const TruthSpec& spec, Random random);
+
 }  // namespace myoid::simulation

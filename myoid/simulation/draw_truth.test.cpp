@@ -9,6 +9,28 @@
 namespace myoid::simulation {
 namespace {
 
+TEST(DrawBesideMuscles, SpreadsAsAFitExpectsItBeforehandAndOnlyWhereAsked) {
+  TruthSpec spec;
+  const BesideMuscles none = draw_beside_muscles(spec, Random(1));
+  EXPECT_EQ(none.length_activation, 0.0);
+  EXPECT_EQ(none.joint_stiffness_nm_per_rad, 0.0);
+  EXPECT_EQ(none.emg_exponent[2], 1.0);
+  spec.beside_muscles = true;
+  constexpr int n = 4000;  // a mean square of them spreads by 2 %
+  double squares[5] = {};
+  for (int k = 0; k < n; ++k) {
+    const BesideMuscles drawn = draw_beside_muscles(spec, Random(static_cast<std::uint64_t>(k)));
+    EXPECT_GE(drawn.length_activation, 0.0);
+    EXPECT_GE(drawn.joint_viscosity_nms_per_rad, 0.0);
+    squares[0] += std::pow(drawn.length_activation / 0.1, 2) / n;
+    squares[1] += std::pow(drawn.joint_torque_nm, 2) / n;
+    squares[2] += std::pow(drawn.joint_stiffness_nm_per_rad, 2) / n;
+    squares[3] += std::pow(drawn.joint_viscosity_nms_per_rad / 0.2, 2) / n;
+    squares[4] += std::pow(std::log(drawn.emg_exponent[1]) / 0.2, 2) / n;
+  }
+  for (const double square : squares) EXPECT_NEAR(square, 1.0, 0.1);
+}
+
 TEST(DrawMuscles, SpreadsAsThePriorsSay) {
   const HillSet literature = model::arm4_muscles();
   Random random(3);

@@ -316,7 +316,8 @@ TimeSeries record_emg(const Protocol& protocol,
     const double gain = 1.0 + kColdGain * script.cold(t);
     for (std::size_t m = 0; m < 4; ++m) {
       const double p = instruments.exponent[m];
-      sources[m].amplitude(k) = gain * (p == 1.0 ? u[m] : std::pow(u[m], 1.0 / p));
+      // Where an effort begins its level is 0 but for round-off of either sign.
+      sources[m].amplitude(k) = gain * (p == 1.0 ? u[m] : std::pow(std::max(u[m], 0.0), 1.0 / p));
       sources[m].excitation(k) = u[m];
       sources[m].fatigued(k) = fatigued[m];
     }

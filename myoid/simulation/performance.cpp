@@ -41,10 +41,12 @@ ExactPerformance::ExactPerformance(const VirtualArm& arm,
                                    TrialScript script,
                                    double delay_s,
                                    const PerMuscle& effort,
-                                   Tiredness<4>& tiredness)
+                                   Tiredness<4>& tiredness,
+                                   const BesideMuscles& beside)
     : Performance(std::move(script)),
       arm_(&arm),
       muscles_(&muscles),
+      beside_(beside),
       delay_s_(delay_s),
       effort_(effort) {
   if (!tiredness.rates) return;
@@ -68,28 +70,57 @@ PerMuscle ExactPerformance::fatigued(double time_s) const {
   return share;
 }
 
+PerMuscle ExactPerformance::force_per_activation_n(const MuscleGeometry& geometry,
+                                                   const PerMuscle& activation) const {
+  if (beside_.length_activation == 0.0) return full_force_n(geometry, *muscles_);
+  HillSet shifted = *muscles_;
+  for (std::size_t i = 0; i < shifted.size(); ++i)
+    shifted[i].optimal_fiber_length_m *= 1.0 + beside_.length_activation * (1.0 - activation[i]);
+  return full_force_n(geometry, shifted);
+}
+
 Instant ExactPerformance::at(double time_s) const {
   const TrialScript& script = this->script();
   Instant now;
   now.q = script.motion(time_s);
   const MuscleGeometry geometry = arm_->geometry(now.q);
-  PerMuscle full_n = full_force_n(geometry, *muscles_);
   const PerMuscle left = strength(time_s);
-  PerMuscle capacity_nm = {};
-  for (std::size_t i = 0; i < 4; ++i) {
-    full_n[i] *= left[i];
-    capacity_nm[i] = full_n[i] * geometry.moment_arm_m[i];
+  PerMuscle full_n{}, capacity_nm{};
+  const auto find_capacity = [&] {
+    full_n = force_per_activation_n(geometry, now.activation);
+    for (std::size_t i = 0; i < 4; ++i) {
+      full_n[i] *= left[i];
+      capacity_nm[i] = full_n[i] * geometry.moment_arm_m[i];
+    }
+  };
+  for (std::size_t i = 0; i < 4; ++i)
     now.fiber_length_m[i] = geometry.length_m[i] - (*muscles_)[i].tendon_slack_length_m;
-  }
+  now.passive_torque_nm = beside_.joint_torque_nm -
+                          beside_.joint_stiffness_nm_per_rad * now.q.value -
+                          beside_.joint_viscosity_nms_per_rad * now.q.first;
   const double required_nm =
-      arm_->required_torque_nm(now.q, script.protocol.plane, script.protocol.held_mass_kg);
+      arm_->required_torque_nm(now.q, script.protocol.plane, script.protocol.held_mass_kg) -
+      now.passive_torque_nm;
   if (script.against_dynamometer()) {
     now.activation = script.prescribed_activations(time_s);
     if (script.protocol.kind == TrialKind::mvc) {
       for (std::size_t i = 0; i < 4; ++i) now.activation[i] *= effort_[i];
     }
+    find_capacity();
   } else {
-    now.activation = activations_for(required_nm, capacity_nm, script.coordination(time_s));
+    // What a muscle exerts per activation depends a little on the activation: in turn, until both
+    // agree.
+    constexpr int kMostTurns = 100;
+    const int turns = beside_.length_activation == 0.0 ? 1 : kMostTurns;
+    for (int turn = 0; turn < turns; ++turn) {
+      const PerMuscle before = now.activation;
+      find_capacity();
+      now.activation = activations_for(required_nm, capacity_nm, script.coordination(time_s));
+      double change = 0.0;
+      for (std::size_t i = 0; i < 4; ++i)
+        change = std::max(change, std::abs(now.activation[i] - before[i]));
+      if (change < 1e-10) break;
+    }
   }
   for (std::size_t i = 0; i < 4; ++i) {
     now.force_n[i] = now.activation[i] * full_n[i];

@@ -8,6 +8,7 @@
 
 #include "myoid/muscle/fatigue.h"
 #include "myoid/simulation/arm_stepper.h"
+#include "myoid/simulation/draw_truth.h"
 #include "myoid/simulation/trial_script.h"
 #include "myoid/simulation/true_arm.h"
 #include "myoid/simulation/virtual_arm.h"
@@ -88,7 +89,8 @@ class ExactPerformance : public Performance {
                    TrialScript script,
                    double delay_s,
                    const PerMuscle& effort,
-                   Tiredness<4>& tiredness);
+                   Tiredness<4>& tiredness,
+                   const BesideMuscles& beside = {});
 
   [[nodiscard]] Instant at(double time_s) const override;
   [[nodiscard]] Moment motion(double time_s) const override { return script().motion(time_s); }
@@ -100,9 +102,13 @@ class ExactPerformance : public Performance {
 
  private:
   [[nodiscard]] PerMuscle strength(double time_s) const;
+  /// Force over activation at these activations.
+  [[nodiscard]] PerMuscle force_per_activation_n(const MuscleGeometry& geometry,
+                                                 const PerMuscle& activation) const;
 
   const VirtualArm* arm_;
   const HillSet* muscles_;
+  BesideMuscles beside_;
   double delay_s_;
   PerMuscle effort_;
   std::vector<PerMuscle> strength_;  ///< On an even clock from 0; empty: 1.

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "myoid/core/units.h"
+#include "myoid/muscle/hill_muscle.h"
 #include "myoid/simulation/forward_simulation.h"
 
 namespace myoid::simulation {
@@ -56,6 +57,38 @@ TEST(Performance, TheElectrodeSeesTheActivationADelayBefore) {
     const PerMuscle seen = performance.drive(t);
     const PerMuscle done = performance.at(t + 0.05).activation;
     for (std::size_t m = 0; m < 4; ++m) EXPECT_EQ(seen[m], done[m]);
+  }
+}
+
+TEST(Performance, WhatIsBesideTheMusclesHasItsPartInTheEquationOfMotion) {
+  const VirtualArm arm{VirtualSubject{}};
+  const HillSet& muscles = arm.literature();
+  BesideMuscles beside;
+  beside.length_activation = 0.15;
+  beside.joint_torque_nm = 0.7;
+  beside.joint_stiffness_nm_per_rad = 1.1;
+  beside.joint_viscosity_nms_per_rad = 0.2;
+  Tiredness<4> tireless;
+  const ExactPerformance performance(arm, muscles, make_script(swing(), {}, 4), 0.05,
+                                     {1.0, 1.0, 1.0, 1.0}, tireless, beside);
+  for (const double t : {0.5, 1.7, 3.1}) {
+    const Instant now = performance.at(t);
+    const MuscleGeometry geometry = arm.geometry(now.q);
+    // a f_l f_v F_max r of every muscle, its optimum moved by its own activation, and the joint's.
+    double torque_nm = 0.7 - 1.1 * now.q.value - 0.2 * now.q.first;
+    for (std::size_t i = 0; i < 4; ++i) {
+      muscle::HillParameters<double> p = muscles[i];
+      p.optimal_fiber_length_m *= 1.0 + 0.15 * (1.0 - now.activation[i]);
+      torque_nm +=
+          geometry.moment_arm_m[i] *
+          muscle::hill_force(now.activation[i], geometry.length_m[i] - p.tendon_slack_length_m,
+                             geometry.velocity_mps[i], p);
+    }
+    // Activations are turned in until they change by 1e-10, of some 100 N m at the most.
+    EXPECT_NEAR(torque_nm,
+                arm.required_torque_nm(now.q, performance.script().protocol.plane,
+                                       performance.script().protocol.held_mass_kg),
+                1e-7);
   }
 }
 

@@ -94,6 +94,7 @@ void read_subject(TomlTable table, VirtualSubject& subject) {
 void read_truth(TomlTable table, Level level, TruthSpec& truth) {
   number_into(table, "spread", truth.spread, 0.0, 3.0);
   number_into(table, "offset", truth.offset, -3.0, 3.0);
+  truth.beside_muscles = table.flag("beside_muscles").value_or(truth.beside_muscles);
   truth.curves = table.choice("curves", truth.curves, {"any", "de_groote", "millard"});
   range_into(table, "tendon_strain", truth.tendon_strain_min, truth.tendon_strain_max, 0.005, 0.15);
   number_into(table, "moment_arm_sd", truth.moment_arm_sd, 0.0, 0.3);

@@ -123,6 +123,17 @@ std::string study_toml(const VirtualRecording& recording, RecordingFormat format
                 ? "emg = { same_as = \"BIC\" }         # deep: no electrode on it\n"
                 : fmt::format("emg = \"{}\"\n", muscle);
   }
+  const std::vector<std::string>& vary = protocol.truth.vary;
+  if (protocol.level == Level::noisy && !recording.truth.arm &&
+      std::find(vary.begin(), vary.end(), "max_shortening_speed") == vary.end()) {
+    // A study allows V_sh what v_max, which it holds, may be off. Here it is this person's own.
+    const VirtualArm arm(protocol.subject, protocol.seven_heads);
+    for (std::size_t i = 0; i < kArmMuscles.size(); ++i)
+      text += fmt::format(
+          "\n[[parameter]]\nname = \"concentric_curvature\"\nof = [\"{}\"]\nprior_sd = {}  # v_max "
+          "is known\n",
+          kArmMuscles[i], number(0.3 * arm.literature()[i].concentric_curvature));
+  }
   for (const VirtualTrial& trial : recording.trials) add_trial(trial, format, text);
   text +=
       "\n[identify]\n"
@@ -151,12 +162,16 @@ std::string truth_csv(const VirtualRecording& recording) {
     // Where the fitted model is the person's: what a fit finds beside the muscles.
     for (std::size_t i = 0; i < kArmMuscles.size(); ++i) {
       const double exponent = recording.truth.instruments.exponent[i];
-      text += fmt::format("{},length_activation,1,0\n{},emg_exponent,1,{}\n", kArmMuscles[i],
-                          kArmMuscles[i], exponent > 0.0 ? exponent : 1.0);
+      text += fmt::format("{},length_activation,1,{}\n{},emg_exponent,1,{}\n", kArmMuscles[i],
+                          recording.truth.beside.length_activation, kArmMuscles[i],
+                          exponent > 0.0 ? exponent : 1.0);
     }
-    for (const char* row :
-         {"joint_viscosity,N m s", "joint_stiffness,N m", "joint_torque_offset,N m"})
-      text += fmt::format("elbow_flexion,{},0\n", row);
+    const BesideMuscles& beside = recording.truth.beside;
+    text +=
+        fmt::format("elbow_flexion,joint_viscosity,N m s,{}\n", beside.joint_viscosity_nms_per_rad);
+    text +=
+        fmt::format("elbow_flexion,joint_stiffness,N m,{}\n", beside.joint_stiffness_nm_per_rad);
+    text += fmt::format("elbow_flexion,joint_torque_offset,N m,{}\n", beside.joint_torque_nm);
   }
   if (recording.truth.arm) {
     const PerMuscle strength_n = anatomical_strength_n(*recording.truth.arm);

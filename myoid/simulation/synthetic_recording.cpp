@@ -128,7 +128,7 @@ Session perform_exactly(const Protocol& protocol,
   Tiredness<4> tiredness = fresh<4>(protocol);
   for (const TrialScript& script : scripts) {
     auto performance = std::make_unique<ExactPerformance>(
-        arm, truth.muscles, script, truth.emg_delay_s, truth.effort, tiredness);
+        arm, truth.muscles, script, truth.emg_delay_s, truth.effort, tiredness, truth.beside);
     if (performance->greatest_activation(100.0) > kGreatestActivation) {
       session.too_hard = script.protocol.name;
       session.why = "the muscles are too weak";
@@ -229,6 +229,11 @@ VirtualRecording make(const Protocol& protocol, std::uint64_t seed, bool record)
                              .trials = {}};
   Truth& truth = recording.truth;
   truth.instruments = attach_instruments(protocol, arm, seed);
+  if (!simulated) {
+    truth.beside = draw_beside_muscles(protocol.truth, Random(seed_for(seed, "beside muscles")));
+    for (std::size_t m = 0; protocol.truth.beside_muscles && m < 4; ++m)
+      truth.instruments.exponent[m] *= truth.beside.emg_exponent[m];
+  }
   Random random(seed_for(seed, "truth"));
   truth.emg_delay_s =
       random.uniform(protocol.truth.emg_delay_min_s, protocol.truth.emg_delay_max_s);

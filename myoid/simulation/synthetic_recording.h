@@ -10,6 +10,7 @@
 #include "myoid/core/time_series.h"
 #include "myoid/recording/marker_series.h"
 #include "myoid/simulation/control.h"
+#include "myoid/simulation/draw_truth.h"
 #include "myoid/simulation/instruments.h"
 #include "myoid/simulation/protocol.h"
 #include "myoid/simulation/true_arm.h"
@@ -27,6 +28,7 @@ struct Truth {
   PerMuscle effort = {1.0, 1.0, 1.0,
                       1.0};  ///< What the MVC trials reach of the greatest activation.
   Instruments instruments;
+  BesideMuscles beside;        ///< L0, L1.
   int draws = 1;               ///< Persons drawn until every trial could be done.
   std::optional<TrueArm> arm;  ///< L2: what the person really is.
   PerMuscle misfit = {};       ///< L2: of `muscles`, a share of the torque.
