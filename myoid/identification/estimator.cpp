@@ -177,7 +177,7 @@ Estimator::Estimator(const StudyData& data, const EstimatorOptions& options)
     channel_variance_[static_cast<Eigen::Index>(c)] =
         std::pow(envelope_spread(options, channels[c]), 2) * kept_by_residual_filter();
   }
-  if (!emg_noise_known_) channel_variance_.setOnes();
+  if (!emg_noise_known_) channel_variance_.setConstant(kept_by_residual_filter());
   const Eigen::Index p = model_->parameters().size();
   lower_.resize(p);
   upper_.resize(p);

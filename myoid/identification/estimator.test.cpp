@@ -360,6 +360,20 @@ TEST(Estimator, MusclesThatBeginFarTooStrongAreNotTakenForNoise) {
         << k;
 }
 
+TEST(Estimator, WhatWasTakenFromAnEnvelopeOfUnknownMakingIsNotGuessed) {
+  // Of raw EMG it is known that the noise of the electrode was taken out as power, and how it
+  // spreads; of an envelope that came as a file it is not.
+  const ElbowStudy study = elbow_study(
+      {.trials = 2, .seconds = 5.0, .emg_cv = 0.1, .torque_sd_nm = 0.2, .with_priors = true});
+  EstimatorOptions options{.starts = 1};
+  const IdentificationResult without = identify_torque(study.data, options);
+  for (const char* channel : {"BIC", "BRA", "BRD", "TRI"}) options.emg_rest[channel] = 0.3;
+  const IdentificationResult with = identify_torque(study.data, options);
+  EXPECT_EQ(with.emg_cv, without.emg_cv);
+  for (std::size_t k = 0; k < 4; ++k)
+    EXPECT_EQ(with.muscles[k].max_isometric_force_n, without.muscles[k].max_isometric_force_n);
+}
+
 TEST(Estimator, NoiseOfTheEmgIsNeverTakenToBeFarFromWhatItsBandwidthSays) {
   // Clean EMG that is said to be raw EMG of 150 Hz bandwidth: the expected noise, within a factor.
   const ElbowStudy study =

@@ -115,10 +115,13 @@ void ResidualModel::add_block(const StudyData& data,
   block.noise_gain.resize(static_cast<Eigen::Index>(map_.channels().size()));
   for (std::size_t c = 0; c < map_.channels().size(); ++c) {
     const auto rest = options.emg_rest.find(map_.channels()[c]);
+    // Of an envelope that others made nobody knows what noise was taken from it.
+    const auto bandwidth = options.emg_bandwidth_hz.find(map_.channels()[c]);
+    const bool raw = bandwidth != options.emg_bandwidth_hz.end() && bandwidth->second > 0.0;
     const double delay_s = options.delay_s.value_or(options.delay_prior_mean_s);
     block.noise_gain[static_cast<Eigen::Index>(c)] = identification::noise_gain(
         block.envelopes[c], block.time_s[0] - delay_s, block.time_s[n - 1] - delay_s,
-        rest != options.emg_rest.end() ? rest->second : 0.0,
+        raw && rest != options.emg_rest.end() ? rest->second : 0.0,
         envelope_spread(options, map_.channels()[c]));
   }
 
