@@ -10,11 +10,10 @@
 #include <fmt/ranges.h>
 
 #include "myoid/core/error.h"
-#include "myoid/kinematics/joint_motion.h"
-#include "myoid/kinematics/muscle_kinematics.h"
 #include "myoid/model/arm4.h"
 #include "myoid/model/osim_reader.h"
 #include "myoid/pipeline/channel_muscles.h"
+#include "myoid/pipeline/draft_coordinate.h"
 #include "myoid/pipeline/draft_recordings.h"
 #include "myoid/pipeline/draft_text.h"
 #include "myoid/pipeline/draft_trials.h"
@@ -27,32 +26,6 @@ namespace myoid::pipeline {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Muscles that have a moment arm about the coordinate of more than 1 mm somewhere in its range.
-std::vector<std::string> movers(const model::BodyModel& model, const std::string& coordinate) {
-  const auto& c = model.coordinates[static_cast<std::size_t>(model.coordinate_index(coordinate))];
-  const double low = std::max(c.lower, c.default_value - 1.5);
-  const double high = std::min(c.upper, c.default_value + 1.5);
-  constexpr Eigen::Index kPoses = 7;
-  Eigen::MatrixXd q = model.default_q().transpose().replicate(kPoses, 1);
-  for (Eigen::Index i = 0; i < kPoses; ++i)
-    q(i, model.coordinate_index(coordinate)) =
-        low + (high - low) * (static_cast<double>(i) + 0.5) / kPoses;
-  std::vector<Channel> channels;
-  for (const model::Coordinate& each : model.coordinates)
-    channels.push_back({each.name, kinematics::coordinate_unit(each, 0)});
-  const Eigen::VectorXd clock = Eigen::VectorXd::LinSpaced(kPoses, 0.0, 6.0);
-  const kinematics::JointMotion motion =
-      kinematics::joint_motion(model, TimeSeries(clock, channels, q)).motion;
-  const kinematics::MuscleKinematics muscles = kinematics::muscle_kinematics(model, motion);
-  const TimeSeries& arms = muscles.moment_arm.at(coordinate);
-  std::vector<std::string> names;
-  for (Eigen::Index m = 0; m < arms.channel_count(); ++m) {
-    if (arms.values().col(m).cwiseAbs().maxCoeff() > 1e-3)
-      names.push_back(arms.channels()[static_cast<std::size_t>(m)].name);
-  }
-  return names;
-}
 
 class Draft {
  public:
@@ -115,32 +88,13 @@ class Draft {
     }
   }
 
-  /// The coordinate that the muscles of most channels move; of equals, one that is often studied.
   void choose_coordinate() {
+    const std::vector<std::string> names = usual_first(free_coordinates());
     const std::vector<std::string> channels = all_channels();
-    std::vector<std::string> names = free_coordinates();
-    const auto rank = [](const std::string& name) {
-      static const std::vector<std::string> kUsual{"elbowflex", "elbow", "kneeangle", "ankleangle"};
-      const std::string plain = recording::plain_label(name);
-      for (std::size_t k = 0; k < kUsual.size(); ++k) {
-        if (plain.find(kUsual[k]) != std::string::npos) return k;
-      }
-      return kUsual.size();
-    };
-    std::stable_sort(names.begin(), names.end(),
-                     [&](const std::string& a, const std::string& b) { return rank(a) < rank(b); });
-    std::size_t most = 0;
-    for (const std::string& name : names) {
-      std::size_t count = 0;
-      for (const ChannelMuscles& pair : match_channels(channels, movers(model_, name)))
-        count += pair.muscles.empty() ? 0 : 1;
-      if (count <= most) continue;
-      most = count;
-      coordinate_ = name;
-    }
+    coordinate_ = coordinate_of_channels(model_, names, channels);
     if (!coordinate_.empty()) return;
     coordinate_ = names.empty() ? "TODO" : names[0];
-    guessed_coordinate_ = names.empty() || rank(names[0]) == rank("") || !channels.empty();
+    guessed_coordinate_ = names.empty() || !is_usual(names[0]) || !channels.empty();
   }
 
   [[nodiscard]] std::vector<std::string> free_coordinates() const {
