@@ -50,7 +50,13 @@ TrialData of_joint(const TrialData& trial, std::size_t joint) {
   one.angle_rad = of.angle_rad;
   one.velocity_radps = of.velocity_radps;
   one.acceleration_radps2 = of.acceleration_radps2;
+  one.resting_nm = of.resting_nm;
   return one;
+}
+
+Eigen::VectorXd resting_torque_nm(const TrialData& trial) {
+  if (trial.resting_nm.size() > 0) return trial.resting_nm;
+  return Eigen::VectorXd::Zero(trial.time_s.size());
 }
 
 std::vector<std::string> joint_names(const StudyData& data) {
@@ -98,14 +104,22 @@ void validate(const StudyData& data) {
     }
     if (!trial.length_m.allFinite() || !trial.velocity_mps.allFinite() ||
         !trial.moment_arm_m.allFinite() || !trial.torque_nm.allFinite() ||
-        !trial.force_n.allFinite()) {
+        !trial.force_n.allFinite() || !trial.resting_nm.allFinite()) {
       throw InvalidInput(
           fmt::format("trial '{}': a length, velocity, moment arm, torque or force is not a number",
                       trial.name));
     }
+    const auto resting_or_none = [n](const Eigen::VectorXd& x) {
+      return x.size() == 0 || (x.size() == n && x.allFinite());
+    };
+    if (!resting_or_none(trial.resting_nm))
+      throw InvalidInput(fmt::format("trial '{}': the resting torque must be {} samples or none, "
+                                     "found {}",
+                                     trial.name, n, trial.resting_nm.size()));
     for (const JointData& joint : trial.more_joints) {
       if (joint.torque_nm.size() != n || !sized(joint.moment_arm_m) ||
-          !joint.torque_nm.allFinite() || !joint.moment_arm_m.allFinite()) {
+          !joint.torque_nm.allFinite() || !joint.moment_arm_m.allFinite() ||
+          !resting_or_none(joint.resting_nm)) {
         throw InvalidInput(fmt::format(
             "trial '{}', joint '{}': torque and moment arms must be {} finite samples x {} muscles",
             trial.name, joint.name, n, m));

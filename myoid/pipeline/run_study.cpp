@@ -14,6 +14,7 @@
 #include "myoid/identification/force.h"
 #include "myoid/pipeline/estimator_input.h"
 #include "myoid/pipeline/quality_gates.h"
+#include "myoid/pipeline/resting_joints.h"
 #include "myoid/pipeline/stage_store.h"
 #include "myoid/pipeline/study_emg.h"
 #include "myoid/pipeline/study_model.h"
@@ -124,6 +125,7 @@ void compute_trials(const Study& study,
 
 /// The parameters by every method that the study names, without the phases that it excludes.
 void identify_parameters(const Study& study, const Progress& progress, StudyResult& result) {
+  result.resting = resting_joints(result);
   result.data = estimator_data(result);
   if (study.phases.search && !result.data.trials.empty()) {
     result.phases = study_phases(result, torque_options(result, progress));

@@ -9,6 +9,7 @@
 #include "myoid/identification/cross_validation.h"
 #include "myoid/identification/force_loop.h"
 #include "myoid/identification/paper.h"
+#include "myoid/identification/resting_torque.h"
 #include "myoid/identification/torque.h"
 #include "myoid/kinematics/inverse_kinematics.h"
 #include "myoid/kinematics/muscle_kinematics.h"
@@ -46,6 +47,13 @@ struct TrialResult {
   [[nodiscard]] bool has_motion() const { return motion.q.sample_count() > 0 && failure.empty(); }
 };
 
+/// What a joint of the study does by itself, as passive trials measured it.
+struct RestingJoint {
+  std::string joint;
+  identification::RestingTorque torque;
+  std::vector<std::string> trials;
+};
+
 struct StageTime {
   std::string stage;
   double seconds = 0.0;
@@ -61,6 +69,7 @@ struct StudyResult {
   std::vector<signals::Fault> level_faults;         ///< Of EMG channels, over all trials.
   std::vector<signals::WhiteningFilter> whitening;  ///< Of raw EMG; empty if not whitened.
   std::vector<signals::ChannelNormalisation> normalisation;  ///< Empty if EMG came as activations.
+  std::vector<RestingJoint> resting;  ///< Joints whose passive torque was measured.
   identification::StudyData data;                            ///< What the estimators saw.
   std::vector<identification::IdentificationResult> methods;
   std::vector<identification::Fold> folds;
