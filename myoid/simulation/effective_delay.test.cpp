@@ -1,0 +1,3 @@
+#include "myoid/simulation/effective_delay.h"
+
+#include <gtest/gtest.h>
