@@ -9,110 +9,17 @@
 #include "myoid/core/error.h"
 #include "myoid/math/change_points.h"
 #include "myoid/math/statistics.h"
+#include "myoid/pipeline/movement_blocks.h"
+#include "myoid/pipeline/warm_up.h"
 
 namespace myoid::pipeline {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr Eigen::Index kFewestBlocks = 8;
-
-/// Samples first .. last-1.
-struct Stretch {
-  Eigen::Index first = 0, last = 0;
-  bool still = false;
-};
-
-double mean_interval(const Eigen::VectorXd& time_s) {
-  return (time_s[time_s.size() - 1] - time_s[0]) / static_cast<double>(time_s.size() - 1);
-}
-
-/// Stretches of standing still and of movement, in turn.
-std::vector<Stretch> still_and_moving(const PhaseSignals& s, const PhaseOptions& options) {
-  const Eigen::Index n = s.time_s.size();
-  const auto half = static_cast<Eigen::Index>(std::lround(0.5 / mean_interval(s.time_s)));
-  Eigen::VectorXd squares(n + 1);
-  squares[0] = 0.0;
-  for (Eigen::Index i = 0; i < n; ++i) {
-    squares[i + 1] = squares[i] + s.velocity_radps[i] * s.velocity_radps[i];
-  }
-  std::vector<Stretch> all;
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const Eigen::Index a = std::max<Eigen::Index>(0, i - half);
-    const Eigen::Index b = std::min(n, i + half + 1);
-    const double rms = std::sqrt((squares[b] - squares[a]) / static_cast<double>(b - a));
-    const bool still = rms < options.still_radps;
-    if (all.empty() || all.back().still != still) all.push_back({i, i, still});
-    all.back().last = i + 1;
-  }
-  // A short stop between two movements is a part of them.
-  std::vector<Stretch> merged;
-  for (Stretch stretch : all) {
-    const double long_s = s.time_s[stretch.last - 1] - s.time_s[stretch.first];
-    if (stretch.still && long_s < options.shortest_s) stretch.still = false;
-    if (!merged.empty() && merged.back().still == stretch.still) {
-      merged.back().last = stretch.last;
-    } else {
-      merged.push_back(stretch);
-    }
-  }
-  return merged;
-}
-
-/// A block of movement, long enough to tell how much torque the EMG is worth.
-struct Block {
-  Eigen::Index first = 0, last = 0;
-  double gain = kNan;       ///< Regression of measured on predicted torque through the origin.
-  double frequency = kNan;  ///< Mean over channels of the logarithm of the median frequency.
-  double speed = 0.0, torque = 0.0;  ///< Root mean squares.
-};
-
-double mean_log_frequency(const TimeSeries& median, double begin_s, double end_s) {
-  double sum = 0.0;
-  int count = 0;
-  for (Eigen::Index c = 0; c < median.channel_count(); ++c) {
-    std::vector<double> known;
-    for (const double f : median.values().col(c)) {
-      if (std::isfinite(f)) known.push_back(std::log(f));
-    }
-    const double whole = math::median(std::move(known));
-    for (Eigen::Index w = 0; w < median.sample_count(); ++w) {
-      const double f = median.values()(w, c);
-      const double t = median.time_s()[w];
-      if (!std::isfinite(f) || t < begin_s || t > end_s) continue;
-      sum += std::log(f) - whole;  // channels that are known in different blocks are comparable
-      ++count;
-    }
-  }
-  return count > 0 ? sum / count : kNan;
-}
-
-std::vector<Block> blocks_of(const PhaseSignals& s,
-                             const std::vector<Stretch>& stretches,
-                             const PhaseOptions& options) {
-  std::vector<Block> blocks;
-  for (const Stretch& stretch : stretches) {
-    if (stretch.still) continue;
-    const double span = s.time_s[stretch.last - 1] - s.time_s[stretch.first];
-    const auto count = static_cast<Eigen::Index>(std::floor(span / options.block_s + 1e-9));
-    for (Eigen::Index k = 0; k < count; ++k) {
-      const Eigen::Index length = stretch.last - stretch.first;
-      Block block{.first = stretch.first + k * length / count,
-                  .last = stretch.first + (k + 1) * length / count};
-      const Eigen::Index m = block.last - block.first;
-      const auto predicted = s.predicted_nm.segment(block.first, m);
-      const auto measured = s.torque_nm.segment(block.first, m);
-      if (predicted.squaredNorm() > 0.0)
-        block.gain = measured.dot(predicted) / predicted.squaredNorm();
-      block.frequency = mean_log_frequency(s.median_frequency_hz, s.time_s[block.first],
-                                           s.time_s[block.last - 1]);
-      block.speed = std::sqrt(s.velocity_radps.segment(block.first, m).squaredNorm() /
-                              static_cast<double>(m));
-      block.torque = std::sqrt(measured.squaredNorm() / static_cast<double>(m));
-      blocks.push_back(block);
-    }
-  }
-  return blocks;
-}
+/// Of the means from which the noise is measured: some 8 s, longer than what people vary by from
+/// cycle to cycle hangs together.
+constexpr Eigen::Index kBatch = 4;
 
 /// Blocks first .. last-1 between two changes, and how they compare with others.
 struct Segment {
@@ -130,29 +37,49 @@ double block_sd(const Eigen::VectorXd& x) {
   return std::max(0.01, 1.4826 * math::median(differences) / std::sqrt(2.0));
 }
 
+/// The blocks' frequencies; a block in which no channel was loud enough takes its neighbor's. Empty
+/// if more than a fifth of them are such.
+Eigen::VectorXd known_frequencies(const std::vector<Block>& blocks) {
+  const auto n = static_cast<Eigen::Index>(blocks.size());
+  Eigen::VectorXd frequency(n);
+  double last = kNan;
+  Eigen::Index unknown = 0;
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const double f = blocks[static_cast<std::size_t>(i)].frequency;
+    if (std::isfinite(f)) last = f;
+    unknown += std::isfinite(f) ? 0 : 1;
+    frequency[i] = last;
+  }
+  for (Eigen::Index i = n - 2; i >= 0; --i) {
+    if (!std::isfinite(frequency[i])) frequency[i] = frequency[i + 1];
+  }
+  return 5 * unknown > n ? Eigen::VectorXd() : frequency;
+}
+
+/// What one block spreads by, alone or as it counts in a mean, whichever is more.
+double noise_sd(const Eigen::VectorXd& x) {
+  const double long_run = long_run_sd(x, kBatch);
+  return std::isfinite(long_run) ? std::max(block_sd(x), long_run) : block_sd(x);
+}
+
 struct Changes {
+  Eigen::VectorXd gain, frequency;  ///< Per block; the latter empty if not known.
   std::vector<Segment> segments;
   double gain_sd = 0.0, frequency_sd = 0.0;  ///< Of one block.
 };
 
 Changes find_changes(const std::vector<Block>& blocks) {
   const auto n = static_cast<Eigen::Index>(blocks.size());
-  Eigen::VectorXd gain(n), frequency(n);
-  bool frequency_known = true;
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const Block& block = blocks[static_cast<std::size_t>(i)];
-    gain[i] = std::log(std::clamp(block.gain, 0.05, 20.0));
-    frequency[i] = block.frequency;
-    frequency_known = frequency_known && std::isfinite(block.frequency);
-  }
-  Changes changes{.segments = {}, .gain_sd = block_sd(gain), .frequency_sd = 0.0};
+  Changes changes{.gain = Eigen::VectorXd(n), .frequency = known_frequencies(blocks)};
+  for (Eigen::Index i = 0; i < n; ++i) changes.gain[i] = blocks[static_cast<std::size_t>(i)].gain;
+  const bool frequency_known = changes.frequency.size() > 0;
   Eigen::MatrixXd x(n, frequency_known ? 2 : 1);
   Eigen::VectorXd sd(x.cols());
-  x.col(0) = gain;
-  sd[0] = changes.gain_sd;
+  x.col(0) = changes.gain;
+  sd[0] = changes.gain_sd = noise_sd(changes.gain);
   if (frequency_known) {
-    x.col(1) = frequency;
-    sd[1] = changes.frequency_sd = block_sd(frequency);
+    x.col(1) = changes.frequency;
+    sd[1] = changes.frequency_sd = noise_sd(changes.frequency);
   }
   const math::ChangePoints found =
       math::change_points(x, {.cost = math::SegmentCost::mean, .min_length = 2, .noise_sd = sd});
@@ -168,6 +95,36 @@ Changes find_changes(const std::vector<Block>& blocks) {
     changes.segments.push_back(segment);
   }
   return changes;
+}
+
+bool alike(double speed, double torque, double other_speed, double other_torque, double factor) {
+  const auto within = [&](double a, double b) {
+    return std::max(a, b) < factor * std::max(1e-9, std::min(a, b));
+  };
+  return within(speed, other_speed) && within(torque, other_torque);
+}
+
+/// The longest segment; but if torque per EMG and frequency were both higher in an earlier one, in
+/// that one the muscles were fresh, and the longest is one of tiring.
+std::size_t regular_segment(const Changes& changes, const PhaseOptions& options) {
+  const std::vector<Segment>& all = changes.segments;
+  const auto longest =
+      std::max_element(all.begin(), all.end(),
+                       [](const Segment& a, const Segment& b) { return a.count() < b.count(); });
+  auto regular = static_cast<std::size_t>(longest - all.begin());
+  if (changes.frequency.size() == 0) return regular;
+  for (std::size_t i = regular; i-- > 0;) {
+    const Segment& now = all[regular];
+    const double share = std::sqrt(1.0 / all[i].count() + 1.0 / now.count());
+    const double gain = (all[i].gain - now.gain) / (changes.gain_sd * share);
+    const double frequency = (all[i].frequency - now.frequency) / (changes.frequency_sd * share);
+    if (gain > 1.0 && frequency > 1.0 && std::hypot(gain, frequency) > options.significance &&
+        all[i].count() >= static_cast<double>(kBatch) &&
+        alike(all[i].speed, all[i].torque, now.speed, now.torque, options.alike)) {
+      regular = i;
+    }
+  }
+  return regular;
 }
 
 /// A segment against the regular one.
@@ -189,28 +146,27 @@ Phase judge(const Segment& segment,
   const bool frequency_fell = frequency_known &&
                               -frequency > -std::log1p(-options.frequency_fall) &&
                               -frequency > options.significance * changes.frequency_sd * share;
-  const auto factor = [](double a, double b) {
-    return std::max(a, b) / std::max(1e-9, std::min(a, b));
-  };
-  const bool alike = factor(segment.speed, regular.speed) < options.alike &&
-                     factor(segment.torque, regular.torque) < options.alike;
+  const bool same_movement =
+      alike(segment.speed, segment.torque, regular.speed, regular.torque, options.alike);
   const std::string numbers = fmt::format(
       "torque per EMG {:+.0f} %{}", 100.0 * std::expm1(gain),
       frequency_known ? fmt::format(", median frequency {:+.0f} %", 100.0 * std::expm1(frequency))
                       : std::string());
-  if (!before && gain < 0.0 && gain_differs && alike && (frequency_fell || !frequency_known)) {
+  if (!before && gain < 0.0 && gain_differs && same_movement &&
+      (frequency_fell || !frequency_known)) {
     phase.kind = PhaseKind::fatigued;
     phase.reason =
         numbers + (frequency_known ? ": the muscles tire"
                                    : ": the muscles tire, by the torque alone (no raw EMG)");
-  } else if (before && gain_differs && alike) {
+  } else if (before && gain_differs && same_movement) {
     phase.kind = PhaseKind::warm_up;
     phase.reason = numbers + " against the regular phase that follows";
   } else if (gain_differs) {
     phase.kind = PhaseKind::changed;
     phase.reason =
-        numbers + (alike ? ", and the frequency of the EMG does not show fatigue"
-                         : ": another movement or load; the law of the muscle may explain it");
+        numbers + (same_movement
+                       ? ", and the frequency of the EMG does not show fatigue"
+                       : ": another movement or load; the law of the muscle may explain it");
   } else {
     phase.kind = PhaseKind::regular;
     phase.reason = frequency_fell ? numbers + ": the frequency fell, the torque did not" : numbers;
@@ -224,22 +180,74 @@ struct BlockPhase {
   Phase phase;
 };
 
+/// The first block behind a warm-up, in which the muscles work harder, or less hard, for the same
+/// torque than later on, by the EMG or against each other; 0: none. Blocks of another movement,
+/// such as one of starting from rest, are passed over.
+std::size_t end_of_warm_up(const std::vector<Block>& blocks,
+                           const Segment& regular,
+                           const PhaseOptions& options,
+                           Phase& phase) {
+  std::vector<std::size_t> comparable;
+  std::vector<double> economy;
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    if (!std::isfinite(blocks[b].economy)) return 0;
+    if (!alike(blocks[b].speed, blocks[b].torque, regular.speed, regular.torque, 1.25)) continue;
+    comparable.push_back(b);
+    economy.push_back(blocks[b].economy);
+  }
+  const auto found = find_warm_up(
+      Eigen::Map<const Eigen::VectorXd>(economy.data(), static_cast<Eigen::Index>(economy.size())),
+      -std::log1p(-options.warm_up_change), options.false_alarm);
+  if (!found || found->blocks == 0) return 0;
+  phase.kind = PhaseKind::warm_up;
+  phase.reason = fmt::format(
+      "at first {:+.0f} % effort of the muscles for the same torque, by the EMG or against each "
+      "other, fading (t = {:.1f}; chance reaches {:.1f} in {:.2g} of trials)",
+      100.0 * std::expm1(-found->change), found->t, found->critical, options.false_alarm);
+  return comparable[static_cast<std::size_t>(found->blocks)];
+}
+
+/// Where tiring goes on through the change, the change has no place of its own: the block from
+/// which on torque per EMG is `gain_change` below the regular phase's, on a line through both
+/// segments, if that describes them better than the step.
+std::size_t begin_of_fatigue(const Segment& before,
+                             const Segment& after,
+                             const Segment& regular,
+                             const Changes& changes,
+                             const PhaseOptions& options) {
+  const auto first = static_cast<Eigen::Index>(before.first);
+  const auto n = static_cast<Eigen::Index>(after.last) - first;
+  const Eigen::VectorXd y = changes.gain.segment(first, n);
+  const Eigen::VectorXd t = Eigen::VectorXd::LinSpaced(n, 0.0, static_cast<double>(n - 1));
+  const Eigen::VectorXd centred = (t.array() - t.mean()).matrix();
+  const double slope = centred.dot(y) / centred.squaredNorm();
+  const double line = (y.array() - y.mean() - slope * centred.array()).square().sum();
+  const auto split = static_cast<Eigen::Index>(after.first) - first;
+  const double step = (y.head(split).array() - before.gain).square().sum() +
+                      (y.tail(n - split).array() - after.gain).square().sum();
+  if (line >= step || slope >= 0.0) return after.first;
+  const double fallen = regular.gain + std::log1p(-options.gain_change);
+  const double place = t.mean() + (fallen - y.mean()) / slope;
+  return static_cast<std::size_t>(std::clamp(std::lround(place), 1L, static_cast<long>(n) - 1) +
+                                  first);
+}
+
 std::vector<BlockPhase> moving_phases(const std::vector<Block>& blocks,
                                       const PhaseOptions& options) {
   const bool known = std::all_of(blocks.begin(), blocks.end(),
                                  [](const Block& b) { return std::isfinite(b.gain); });
   if (static_cast<Eigen::Index>(blocks.size()) < kFewestBlocks || !known) return {};
   const Changes changes = find_changes(blocks);
-  const Segment& regular =
-      *std::max_element(changes.segments.begin(), changes.segments.end(),
-                        [](const Segment& a, const Segment& b) { return a.count() < b.count(); });
+  const std::size_t regular = regular_segment(changes, options);
+  const Segment& reference = changes.segments[regular];
   std::vector<BlockPhase> phases;
   bool tired = false;
-  for (const Segment& segment : changes.segments) {
-    Phase phase = &segment == &regular ? Phase{.kind = PhaseKind::regular,
-                                               .gain = 1.0,
-                                               .reason = "the longest phase without a change"}
-                                       : judge(segment, regular, changes, options);
+  for (std::size_t i = 0; i < changes.segments.size(); ++i) {
+    const Segment& segment = changes.segments[i];
+    Phase phase = i == regular ? Phase{.kind = PhaseKind::regular,
+                                       .gain = 1.0,
+                                       .reason = "what the others are compared with"}
+                               : judge(segment, reference, changes, options);
     // Tired muscles stay tired until their torque is back.
     if (tired && phase.kind != PhaseKind::fatigued &&
         *phase.gain < 1.0 - 0.5 * options.gain_change) {
@@ -249,11 +257,38 @@ std::vector<BlockPhase> moving_phases(const std::vector<Block>& blocks,
     tired = phase.kind == PhaseKind::fatigued;
     phases.push_back({segment.first, segment.last, std::move(phase)});
   }
+  for (std::size_t i = phases.size() - 1; i-- > regular;) {
+    // Less torque before fatigue is its beginning, even if the frequency had not fallen enough yet.
+    const Phase& next = phases[i + 1].phase;
+    Phase& here = phases[i].phase;
+    if (next.kind == PhaseKind::fatigued && here.kind == PhaseKind::changed && *here.gain < 1.0 &&
+        here.frequency && *here.frequency < 1.0) {
+      here.kind = PhaseKind::fatigued;
+      here.reason = next.reason;
+    }
+    if (next.kind == PhaseKind::fatigued && here.kind == PhaseKind::regular) {
+      phases[i].last = phases[i + 1].first = begin_of_fatigue(
+          changes.segments[i], changes.segments[i + 1], reference, changes, options);
+    }
+  }
+  Phase warm_up;
+  const std::size_t warm = end_of_warm_up(blocks, reference, options, warm_up);
+  const bool known_already =
+      phases.front().phase.kind == PhaseKind::warm_up && phases.front().last >= warm;
+  if (warm > 0 && warm < reference.last && !known_already) {
+    const auto count = static_cast<Eigen::Index>(warm);
+    warm_up.gain = std::exp(changes.gain.head(count).mean() - reference.gain);
+    if (changes.frequency.size() > 0)
+      warm_up.frequency = std::exp(changes.frequency.head(count).mean() - reference.frequency);
+    while (phases.front().last <= warm) phases.erase(phases.begin());
+    phases.front().first = warm;
+    phases.insert(phases.begin(), {0, warm, std::move(warm_up)});
+  }
   return phases;
 }
 
 /// The phases of movement within one stretch.
-std::vector<Phase> phases_within(const Stretch& stretch,
+std::vector<Phase> phases_within(const TrialStretch& stretch,
                                  const std::vector<Block>& blocks,
                                  const std::vector<BlockPhase>& moving,
                                  const Eigen::VectorXd& time_s) {
@@ -274,8 +309,10 @@ std::vector<Phase> phases_within(const Stretch& stretch,
 void require_valid(const PhaseSignals& s) {
   const Eigen::Index n = s.time_s.size();
   if (n < 2 || s.velocity_radps.size() != n || s.torque_nm.size() != n ||
-      s.predicted_nm.size() != n || s.activation.rows() != n || !s.velocity_radps.allFinite() ||
-      !s.torque_nm.allFinite() || !s.predicted_nm.allFinite() || !s.activation.allFinite()) {
+      s.predicted_nm.size() != n || s.activation.rows() != n ||
+      (s.effort_nm.size() != 0 && (s.effort_nm.size() != n || !s.effort_nm.allFinite())) ||
+      !s.velocity_radps.allFinite() || !s.torque_nm.allFinite() || !s.predicted_nm.allFinite() ||
+      !s.activation.allFinite()) {
     throw InvalidInput(fmt::format(
         "phases of {} samples: rate, torques and activations must be as many and finite", n));
   }
@@ -303,13 +340,18 @@ std::string_view name(PhaseKind kind) {
 
 std::vector<Phase> find_phases(const PhaseSignals& signals, const PhaseOptions& options) {
   require_valid(signals);
-  const std::vector<Stretch> stretches = still_and_moving(signals, options);
-  const std::vector<Block> blocks = blocks_of(signals, stretches, options);
+  const std::vector<TrialStretch> stretches = still_and_moving(signals, options);
+  std::vector<Block> blocks;
+  for (const TrialStretch& stretch : stretches) {
+    if (stretch.still) continue;
+    const std::vector<Block> some = blocks_of(signals, stretch, options);
+    blocks.insert(blocks.end(), some.begin(), some.end());
+  }
   const std::vector<BlockPhase> moving = moving_phases(blocks, options);
   const Eigen::VectorXd& t = signals.time_s;
 
   std::vector<Phase> phases;
-  for (const Stretch& stretch : stretches) {
+  for (const TrialStretch& stretch : stretches) {
     const double begin_s = t[stretch.first];
     const double end_s = stretch.last < t.size() ? t[stretch.last] : t[t.size() - 1];
     if (stretch.still) {

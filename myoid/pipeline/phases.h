@@ -39,6 +39,8 @@ struct PhaseSignals {
   Eigen::VectorXd velocity_radps;
   Eigen::VectorXd torque_nm;     ///< Measured.
   Eigen::VectorXd predicted_nm;  ///< From the EMG, with one set of parameters for the whole trial.
+  /// Sum of the magnitudes of the muscles' torques, from the EMG as `predicted_nm`; may be empty.
+  Eigen::VectorXd effort_nm;
   Eigen::MatrixXd activation;    ///< n x channels, 0..1.
   TimeSeries median_frequency_hz;  ///< signals/spectrum.h; may be empty, values may be NaN.
 };
@@ -59,6 +61,7 @@ struct PhaseOptions {
                                   ///< average, and leaving it out costs little.
   double frequency_fall = 0.08;   ///< Smaller falls of the median frequency are none (8-10 %).
   double significance = 4.0;  ///< Standard errors by which a phase differs from the regular one.
+  double false_alarm = 0.001;  ///< Chance that a trial begins with a warm-up that is none.
   double alike = 1.6;         ///< Phases whose speed or torque differ by a larger factor are not
                               ///< compared: the law, not the muscle, may explain them.
 };

@@ -4,7 +4,11 @@
 #include <cmath>
 #include <numbers>
 
+#include "myoid/identification/parameters.h"
 #include "myoid/identification/torque.h"
+#include "myoid/pipeline/trial_emg.h"
+#include "myoid/signals/emg_envelope.h"
+#include "myoid/signals/emg_levels.h"
 #include "myoid/signals/spectrum.h"
 
 namespace myoid::pipeline {
@@ -32,14 +36,63 @@ TimeSeries frequency_of(const StudyResult& result, const TrialResult& trial, dou
   return signals::median_frequency(raw, options);
 }
 
+const TrialResult* result_of(const StudyResult& result, const std::string& trial) {
+  const auto found = std::find_if(result.trials.begin(), result.trials.end(),
+                                  [&](const TrialResult& t) { return t.spec.name == trial; });
+  return found == result.trials.end() ? nullptr : &*found;
+}
+
+/// What the estimator sees, but for two things that would hide fatigue. Whitening, made for a fresh
+/// muscle, takes out of the EMG's amplitude what tiring adds to it, since its frequencies fall at
+/// the same time: activations are those without. And only strengths, the delay and the joint are
+/// found: by a bent law of the EMG a fit would make one of fresh and tired muscles.
+identification::StudyData plain_data(const StudyResult& result) {
+  identification::StudyData data = result.data;
+  for (const identification::ParameterField& field : identification::parameter_fields()) {
+    if (field.scope == identification::Scope::joint || field.name == "max_isometric_force" ||
+        field.name == "emg_delay")
+      continue;
+    identification::ParameterRule held;
+    held.parameter = field.name;
+    held.free = false;
+    data.rules.push_back(std::move(held));
+  }
+  if (result.whitening.empty()) return data;
+
+  const signals::EnvelopeOptions options = envelope_options(result.study);
+  std::vector<const TrialResult*> trials;
+  std::vector<TimeSeries> plain;
+  for (const TrialResult& trial : result.trials) {
+    if (!trial.emg || trial.emg->filtered.empty()) continue;
+    signals::EmgStages stages = *trial.emg;
+    signals::add_envelope(stages, options);
+    trials.push_back(&trial);
+    plain.push_back(std::move(stages.envelope));
+  }
+  std::vector<signals::TrialEnvelope> envelopes;
+  for (std::size_t i = 0; i < trials.size(); ++i) {
+    envelopes.push_back({trials[i]->spec.name, trials[i]->spec.use == Use::mvc, &plain[i],
+                         trials[i]->emg->bandwidth_hz});
+  }
+  const auto normalisation =
+      signals::find_normalisation(envelopes, {.window_s = result.study.emg.normalise_window_s});
+  for (identification::TrialData& trial : data.trials) {
+    for (std::size_t i = 0; i < trials.size(); ++i) {
+      if (trials[i]->spec.name == trial.name)
+        trial.activation = signals::normalise(plain[i], normalisation);
+    }
+  }
+  return data;
+}
+
 }  // namespace
 
 std::vector<TrialPhases> study_phases(const StudyResult& result,
                                       identification::EstimatorOptions options) {
-  const identification::StudyData& data = result.data;
-  const bool worth_a_fit = std::any_of(data.trials.begin(), data.trials.end(), [](const auto& t) {
-    return t.calibration && duration_s(t) >= kShortest_s;
-  });
+  const bool worth_a_fit =
+      std::any_of(result.data.trials.begin(), result.data.trials.end(),
+                  [](const auto& t) { return t.calibration && duration_s(t) >= kShortest_s; });
+  const identification::StudyData data = worth_a_fit ? plain_data(result) : result.data;
   identification::IdentificationResult fit;
   if (worth_a_fit) {
     options.loss = identification::Loss::huber;
@@ -53,25 +106,23 @@ std::vector<TrialPhases> study_phases(const StudyResult& result,
   const PhaseOptions how;
   std::vector<TrialPhases> all;
   for (const identification::TrialData& trial : data.trials) {
-    const auto found =
-        std::find_if(result.trials.begin(), result.trials.end(),
-                     [&](const TrialResult& t) { return t.spec.name == trial.name; });
-    const identification::Prediction prediction =
-        worth_a_fit ? identification::predict(data, trial, fit.values, options.dynamics)
-                    : identification::Prediction{.force_n = {},
-                                                 .torque_nm = trial.torque_nm,
-                                                 .activation = identification::muscle_activation(
-                                                     data, trial, trial.time_s, 0.0)};
-    all.push_back({trial.name, find_phases({.time_s = trial.time_s,
-                                            .velocity_radps = trial.velocity_radps,
-                                            .torque_nm = trial.torque_nm,
-                                            .predicted_nm = prediction.torque_nm,
-                                            .activation = prediction.activation,
-                                            .median_frequency_hz =
-                                                worth_a_fit && found != result.trials.end()
-                                                    ? frequency_of(result, *found, how.block_s)
-                                                    : TimeSeries{}},
-                                           how)});
+    PhaseSignals signals{.time_s = trial.time_s,
+                         .velocity_radps = trial.velocity_radps,
+                         .torque_nm = trial.torque_nm};
+    if (worth_a_fit) {
+      identification::Prediction prediction =
+          identification::predict(data, trial, fit.values, options.dynamics);
+      signals.predicted_nm = std::move(prediction.torque_nm);
+      signals.effort_nm =
+          prediction.force_n.cwiseProduct(trial.moment_arm_m).cwiseAbs().rowwise().sum();
+      signals.activation = std::move(prediction.activation);
+      if (const TrialResult* found = result_of(result, trial.name))
+        signals.median_frequency_hz = frequency_of(result, *found, 0.5 * how.block_s);
+    } else {
+      signals.predicted_nm = trial.torque_nm;
+      signals.activation = identification::muscle_activation(data, trial, trial.time_s, 0.0);
+    }
+    all.push_back({trial.name, find_phases(signals, how)});
   }
   return all;
 }
