@@ -17,7 +17,7 @@ namespace {
 identification::TrialData trial_data(const Study& study,
                                      const TrialResult& trial,
                                      const std::vector<MuscleGroup>& groups,
-                                     const std::vector<RestingJoint>& resting) {
+                                     const std::vector<identification::RestingJoint>& resting) {
   identification::TrialData data;
   data.name = trial.spec.name;
   data.calibration = trial.spec.use == Use::calibration || trial.spec.use == Use::isometric;

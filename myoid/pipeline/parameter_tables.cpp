@@ -89,14 +89,13 @@ Cell truth_cell(const StudyResult& result, const ParameterEstimate& e) {
 std::string measured_at_rest(const StudyResult& result) {
   constexpr double kDegrees = 180.0 / std::numbers::pi;
   std::string text;
-  for (const RestingJoint& joint : result.resting) {
+  for (const identification::RestingJoint& joint : result.resting) {
     const identification::RestingTorque& torque = joint.torque;
     text += fmt::format(
         " What {} does by itself was measured ({}): {:.1f} N m at {:.0f}°, {:.1f} N m at {:.0f}°. "
         "It is part of every torque predicted, and the joint's numbers here come on top of it.",
         joint.joint, fmt::join(joint.trials, ", "), torque.at(torque.lowest_rad),
-        torque.lowest_rad * kDegrees, torque.at(torque.highest_rad),
-        torque.highest_rad * kDegrees);
+        torque.lowest_rad * kDegrees, torque.at(torque.highest_rad), torque.highest_rad * kDegrees);
   }
   return text;
 }

@@ -103,18 +103,25 @@ void compute_trials(const Study& study,
   std::optional<StageStore> store;
   if (options.store) store.emplace(*options.store);
   std::atomic<int> done = 0;
-  oneapi::tbb::parallel_for(std::size_t{0}, study.trials.size(), [&](std::size_t i) {
+  const auto compute = [&](std::size_t i) {
     options.progress.check();
     TrialResult& trial = result.trials[i];
     try {
-      compute_trial(study, inputs[i], result.model_text, options.share_forces,
+      compute_trial(study, inputs[i], result.model_text, options.share_forces, result.resting,
                     store ? &*store : nullptr, trial);
     } catch (const InvalidInput& error) {
       trial.failure = error.what();
     }
     options.progress.tell(0.3 + 0.4 * ++done / static_cast<double>(study.trials.size()),
                           trial.spec.name);
-  });
+  };
+  // Relaxed joints first: what they do by themselves no muscle shares in the other trials.
+  for (const bool relaxed : {true, false}) {
+    oneapi::tbb::parallel_for(std::size_t{0}, study.trials.size(), [&](std::size_t i) {
+      if ((study.trials[i].use == Use::passive) == relaxed) compute(i);
+    });
+    if (relaxed) result.resting = resting_joints(result);
+  }
   for (const TrialResult& trial : result.trials) {
     if (!trial.failure.empty()) ++result.failed_trials;
   }
@@ -125,7 +132,6 @@ void compute_trials(const Study& study,
 
 /// The parameters by every method that the study names, without the phases that it excludes.
 void identify_parameters(const Study& study, const Progress& progress, StudyResult& result) {
-  result.resting = resting_joints(result);
   result.data = estimator_data(result);
   if (study.phases.search && !result.data.trials.empty()) {
     result.phases = study_phases(result, torque_options(result, progress));

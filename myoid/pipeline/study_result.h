@@ -47,13 +47,6 @@ struct TrialResult {
   [[nodiscard]] bool has_motion() const { return motion.q.sample_count() > 0 && failure.empty(); }
 };
 
-/// What a joint of the study does by itself, as passive trials measured it.
-struct RestingJoint {
-  std::string joint;
-  identification::RestingTorque torque;
-  std::vector<std::string> trials;
-};
-
 struct StageTime {
   std::string stage;
   double seconds = 0.0;
@@ -69,8 +62,8 @@ struct StudyResult {
   std::vector<signals::Fault> level_faults;         ///< Of EMG channels, over all trials.
   std::vector<signals::WhiteningFilter> whitening;  ///< Of raw EMG; empty if not whitened.
   std::vector<signals::ChannelNormalisation> normalisation;  ///< Empty if EMG came as activations.
-  std::vector<RestingJoint> resting;  ///< Joints whose passive torque was measured.
-  identification::StudyData data;                            ///< What the estimators saw.
+  std::vector<identification::RestingJoint> resting;  ///< Joints whose passive torque was measured.
+  identification::StudyData data;                     ///< What the estimators saw.
   std::vector<identification::IdentificationResult> methods;
   std::vector<identification::Fold> folds;
   std::vector<TrialPhases> phases;  ///< Of the trials of `data`; empty: not searched.
