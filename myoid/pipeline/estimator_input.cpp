@@ -5,12 +5,37 @@
 #include <utility>
 #include <vector>
 
+#include "myoid/pipeline/emg_cover.h"
 #include "myoid/pipeline/lumped_muscles.h"
 #include "myoid/pipeline/nuisances.h"
 #include "myoid/pipeline/study_model.h"
 
 namespace myoid::pipeline {
 namespace {
+
+/// Leaves out the rows for which there is no EMG.
+void keep(const Rows& rows, identification::TrialData& data) {
+  if (rows.count() == data.time_s.size()) return;
+  const auto cut = [&](auto& values) {
+    if (values.rows() > 0) values = values.middleRows(rows.first, rows.count()).eval();
+  };
+  cut(data.time_s);
+  cut(data.length_m);
+  cut(data.velocity_mps);
+  cut(data.moment_arm_m);
+  cut(data.torque_nm);
+  cut(data.force_n);
+  cut(data.angle_rad);
+  cut(data.velocity_radps);
+  cut(data.acceleration_radps2);
+  for (identification::JointData& joint : data.more_joints) {
+    cut(joint.torque_nm);
+    cut(joint.moment_arm_m);
+    cut(joint.angle_rad);
+    cut(joint.velocity_radps);
+    cut(joint.acceleration_radps2);
+  }
+}
 
 identification::TrialData trial_data(const Study& study,
                                      const TrialResult& trial,
@@ -47,6 +72,8 @@ identification::TrialData trial_data(const Study& study,
          .acceleration_radps2 = trial.motion.qddot.column(name)});
   }
   data.activation = trial.activation;
+  if (trial.uncarried) data.excluded = trial.uncarried->stretches;
+  keep(rows_with_emg(trial.motion.q.time_s(), trial.activation.time_s()), data);
   return data;
 }
 
