@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "myoid/pipeline/effort_prior.h"
+#include "myoid/pipeline/emg_cover.h"
 #include "myoid/pipeline/lumped_muscles.h"
 #include "myoid/pipeline/nuisances.h"
 #include "myoid/pipeline/resting_joints.h"
@@ -52,7 +53,10 @@ identification::TrialData trial_data(const Study& study,
          .resting_nm = resting_torque_nm(resting, name, trial.motion.q.column(name))});
   }
   data.activation = trial.activation;
-  return data;
+  if (trial.uncarried) data.excluded = trial.uncarried->stretches;
+  // Where there is no EMG there is nothing to fit.
+  const Rows rows = rows_with_emg(trial.motion.q.time_s(), trial.activation.time_s());
+  return identification::part(data, rows.first, rows.count());
 }
 
 }  // namespace
