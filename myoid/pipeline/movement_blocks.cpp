@@ -116,7 +116,9 @@ std::vector<Block> blocks_of(const PhaseSignals& s,
     }
     block.frequency =
         mean_log_frequency(s.median_frequency_hz, s.time_s[block.first], s.time_s[block.last - 1]);
-    block.speed = std::sqrt(s.velocity_radps.segment(block.first, m).squaredNorm() / count);
+    block.speed =
+        std::max(options.still_radps,
+                 std::sqrt(s.velocity_radps.segment(block.first, m).squaredNorm() / count));
     block.torque = measured.norm() / std::sqrt(count);
     blocks.push_back(block);
     begin = block.last;

@@ -28,7 +28,8 @@ struct Block {
   double economy = std::numeric_limits<double>::quiet_NaN();
   /// Mean over channels and windows of ln(median frequency / the channel's median).
   double frequency = std::numeric_limits<double>::quiet_NaN();
-  double speed = 0.0, torque = 0.0;  ///< Root mean squares.
+  double speed = 0.0;   ///< Root mean square, at least `still_radps`.
+  double torque = 0.0;  ///< Root mean square.
 };
 
 /// Blocks of `block_s` or more, one after another from the beginning of the stretch. A block ends

@@ -104,24 +104,26 @@ bool alike(double speed, double torque, double other_speed, double other_torque,
   return within(speed, other_speed) && within(torque, other_torque);
 }
 
-/// The longest segment; but if torque per EMG and frequency were both higher in an earlier one, in
-/// that one the muscles were fresh, and the longest is one of tiring.
+/// The longest segment; but if torque per EMG and frequency were both higher in earlier ones, the
+/// muscles were fresh in those, and the longest is one of tiring: then that with the most torque.
 std::size_t regular_segment(const Changes& changes, const PhaseOptions& options) {
+  constexpr double kSurely = 3.0;  // standard errors, of either
   const std::vector<Segment>& all = changes.segments;
   const auto longest =
       std::max_element(all.begin(), all.end(),
                        [](const Segment& a, const Segment& b) { return a.count() < b.count(); });
   auto regular = static_cast<std::size_t>(longest - all.begin());
   if (changes.frequency.size() == 0) return regular;
-  for (std::size_t i = regular; i-- > 0;) {
-    const Segment& now = all[regular];
-    const double share = std::sqrt(1.0 / all[i].count() + 1.0 / now.count());
-    const double gain = (all[i].gain - now.gain) / (changes.gain_sd * share);
-    const double frequency = (all[i].frequency - now.frequency) / (changes.frequency_sd * share);
-    if (gain > 1.0 && frequency > 1.0 && std::hypot(gain, frequency) > options.significance &&
-        all[i].count() >= static_cast<double>(kBatch) &&
-        alike(all[i].speed, all[i].torque, now.speed, now.torque, options.alike)) {
-      regular = i;
+  for (auto segment = all.begin(); segment != longest; ++segment) {
+    const double share = std::sqrt(1.0 / segment->count() + 1.0 / longest->count());
+    const double gain = segment->gain - longest->gain;
+    const double frequency = segment->frequency - longest->frequency;
+    if (segment->count() >= static_cast<double>(kBatch) &&
+        gain > kSurely * changes.gain_sd * share &&
+        frequency > kSurely * changes.frequency_sd * share &&
+        alike(segment->speed, segment->torque, longest->speed, longest->torque, options.alike) &&
+        segment->gain > all[regular].gain) {
+      regular = static_cast<std::size_t>(segment - all.begin());
     }
   }
   return regular;
@@ -140,7 +142,7 @@ Phase judge(const Segment& segment,
   const bool frequency_known = std::isfinite(frequency);
   if (frequency_known) phase.frequency = std::exp(frequency);
   const bool before = segment.first < regular.first;
-  const double least = before ? options.warm_up_change : options.gain_change;
+  const double least = before && gain < 0.0 ? options.warm_up_change : options.gain_change;
   const bool gain_differs = std::abs(gain) > -std::log1p(-least) &&
                             std::abs(gain) > options.significance * changes.gain_sd * share;
   const bool frequency_fell = frequency_known &&
@@ -158,6 +160,10 @@ Phase judge(const Segment& segment,
     phase.reason =
         numbers + (frequency_known ? ": the muscles tire"
                                    : ": the muscles tire, by the torque alone (no raw EMG)");
+  } else if (before && gain_differs && same_movement && gain > 0.0 && frequency_known &&
+             frequency > 2.0 * changes.frequency_sd * share) {
+    phase.kind = PhaseKind::regular;
+    phase.reason = numbers + ": fresher than in the phase that the others are compared with";
   } else if (before && gain_differs && same_movement) {
     phase.kind = PhaseKind::warm_up;
     phase.reason = numbers + " against the regular phase that follows";
@@ -287,6 +293,32 @@ std::vector<BlockPhase> moving_phases(const std::vector<Block>& blocks,
   return phases;
 }
 
+/// A contraction without movement: isometric, and fatigued where torque per EMG and frequency fall
+/// within it. Only one whose torque stays much the same is searched, in windows.
+std::vector<Phase> isometric_phases(const PhaseSignals& signals,
+                                    const TrialStretch& stretch,
+                                    const PhaseOptions& options,
+                                    const Phase& whole) {
+  const std::vector<Block> blocks = blocks_of(signals, stretch, options);
+  std::vector<double> torques;
+  for (const Block& b : blocks) torques.push_back(b.torque);
+  const double middle = math::median(torques);
+  const bool even = std::all_of(blocks.begin(), blocks.end(), [&](const Block& b) {
+    return alike(b.speed, b.torque, b.speed, middle, options.alike);
+  });
+  std::vector<Phase> phases{whole};
+  if (!even) return phases;
+  for (const BlockPhase& found : moving_phases(blocks, options)) {
+    const bool tired = found.phase.kind == PhaseKind::fatigued && found.phase.frequency;
+    if (tired == (phases.back().kind == PhaseKind::fatigued)) continue;
+    Phase next = tired ? found.phase : whole;
+    next.begin_s = phases.back().end_s = signals.time_s[blocks[found.first].first];
+    next.end_s = whole.end_s;
+    phases.push_back(std::move(next));
+  }
+  return phases;
+}
+
 /// The phases of movement within one stretch.
 std::vector<Phase> phases_within(const TrialStretch& stretch,
                                  const std::vector<Block>& blocks,
@@ -361,11 +393,14 @@ std::vector<Phase> find_phases(const PhaseSignals& signals, const PhaseOptions& 
               .mean()
               .maxCoeff();
       const bool rest = activation < options.rest_activation;
-      phases.push_back(
-          {.kind = rest ? PhaseKind::rest : PhaseKind::isometric,
-           .begin_s = begin_s,
-           .end_s = end_s,
-           .reason = fmt::format("the joint stands still, mean activation {:.3f}", activation)});
+      const Phase whole{
+          .kind = rest ? PhaseKind::rest : PhaseKind::isometric,
+          .begin_s = begin_s,
+          .end_s = end_s,
+          .reason = fmt::format("the joint stands still, mean activation {:.3f}", activation)};
+      const std::vector<Phase> parts =
+          rest ? std::vector{whole} : isometric_phases(signals, stretch, options, whole);
+      phases.insert(phases.end(), parts.begin(), parts.end());
       continue;
     }
     std::vector<Phase> parts = phases_within(stretch, blocks, moving, t);

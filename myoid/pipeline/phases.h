@@ -41,7 +41,7 @@ struct PhaseSignals {
   Eigen::VectorXd predicted_nm;  ///< From the EMG, with one set of parameters for the whole trial.
   /// Sum of the magnitudes of the muscles' torques, from the EMG as `predicted_nm`; may be empty.
   Eigen::VectorXd effort_nm;
-  Eigen::MatrixXd activation;    ///< n x channels, 0..1.
+  Eigen::MatrixXd activation;      ///< n x channels, 0..1.
   TimeSeries median_frequency_hz;  ///< signals/spectrum.h; may be empty, values may be NaN.
 };
 
@@ -60,20 +60,23 @@ struct PhaseOptions {
   double warm_up_change = 0.06;   ///< ... before the regular phase these: what fades is small on
                                   ///< average, and leaving it out costs little.
   double frequency_fall = 0.08;   ///< Smaller falls of the median frequency are none (8-10 %).
-  double significance = 4.0;  ///< Standard errors by which a phase differs from the regular one.
+  double significance = 4.0;   ///< Standard errors by which a phase differs from the regular one.
   double false_alarm = 0.001;  ///< Chance that a trial begins with a warm-up that is none.
-  double alike = 1.6;         ///< Phases whose speed or torque differ by a larger factor are not
-                              ///< compared: the law, not the muscle, may explain them.
+  double alike = 1.6;          ///< Phases whose speed or torque differ by a larger factor are not
+                               ///< compared: the law, not the muscle, may explain them.
 };
 
 /// Phases that cover the trial, in order. Rest and isometric phases are where the joint stands
 /// still. In what remains, torque measured per torque predicted and the EMG's median frequency are
-/// formed per block, and both are searched together for the times at which their means change
-/// (math/change_points.h, Bayesian information criterion). The longest stretch without change is
-/// `regular`; a stretch before it is warm-up if its torque per EMG differs, one behind it is
-/// fatigue if its torque per EMG is lower and, where it is known, the median frequency as well.
-/// Nothing is searched with fewer than 8 blocks. Throws InvalidInput unless sizes agree and values
-/// are finite.
+/// formed per block of whole cycles (movement_blocks.h), and both are searched together for the
+/// times at which their means change (math/change_points.h, Bayesian information criterion, the
+/// noise as it counts in means of several blocks). The longest segment is `regular`, or an earlier
+/// one that was fresher; one behind it is fatigue if its torque per EMG is lower and, where it is
+/// known, the median frequency as well; it begins where `gain_change` is lost. Warm-up is a segment
+/// before the regular one whose torque per EMG differs, or a beginning in which the muscles' effort
+/// for the same torque is another and fades (warm_up.h). A contraction that is held is searched for
+/// fatigue in the same way, in windows. Nothing is searched with fewer than 8 blocks. Throws
+/// InvalidInput unless sizes agree and values are finite.
 [[nodiscard]] std::vector<Phase> find_phases(const PhaseSignals& signals,
                                              const PhaseOptions& options = {});
 

@@ -22,6 +22,8 @@ struct Scene {
   double gain_slope = 0.0;  ///< Its change per second.
   double frequency_hz = 80.0;
   double frequency_slope = 0.0;
+  double wasted = 0.0;    ///< Share of the effort that antagonists undo at the beginning ...
+  double fading_s = 8.0;  ///< ... and how it fades.
 };
 
 /// A recording by its script: torque noise of 4 % within a movement, 3 % of frequency per window.
@@ -32,7 +34,7 @@ PhaseSignals recording(const std::vector<Scene>& scenes,
   const auto n = static_cast<Eigen::Index>(scenes.back().end_s * kRate_hz) + 1;
   PhaseSignals s;
   s.time_s = Eigen::VectorXd::LinSpaced(n, 0.0, scenes.back().end_s);
-  s.velocity_radps = s.torque_nm = s.predicted_nm = Eigen::VectorXd::Zero(n);
+  s.velocity_radps = s.torque_nm = s.predicted_nm = s.effort_nm = Eigen::VectorXd::Zero(n);
   s.activation = Eigen::MatrixXd::Zero(n, 2);
   Eigen::VectorXd frequency(n);
   std::size_t k = 0;
@@ -48,6 +50,7 @@ PhaseSignals recording(const std::vector<Scene>& scenes,
     s.predicted_nm[i] =
         scene.amplitude_rad > 0.0 ? 10.0 + 5.0 * std::sin(phase) : 12.0 * scene.activation;
     s.torque_nm[i] = s.predicted_nm[i] * (scene.gain + scene.gain_slope * since + cycle_noise);
+    s.effort_nm[i] = s.predicted_nm[i] * (1.0 + scene.wasted * std::exp(-since / scene.fading_s));
     s.activation.row(i).setConstant(scene.activation);
     frequency[i] = scene.frequency_hz + scene.frequency_slope * since;
   }
@@ -121,6 +124,34 @@ TEST(FindPhases, AnotherMovementIsNotAWarmUp) {
   EXPECT_EQ(kinds(find_phases(
                 recording({{.end_s = 16.0, .amplitude_rad = 0.3, .gain = 1.3}, {.end_s = 60.0}}))),
             (std::vector{PhaseKind::changed, PhaseKind::regular}));
+}
+
+TEST(FindPhases, AWarmUpIsSeenByTheEffortEvenIfTheTorquePerEmgIsRegular) {
+  const auto phases = find_phases(recording({{.end_s = 100.0, .wasted = 0.3}}));
+  ASSERT_EQ(kinds(phases), (std::vector{PhaseKind::warm_up, PhaseKind::regular}));
+  // ln 1.3 = 0.26 fades to 0.06 in 8 ln(4.3) = 12 s; fadings of 6 and 12 s are tried.
+  EXPECT_NEAR(phases[1].begin_s, 12.0, 6.0);
+}
+
+TEST(FindPhases, OfMusclesThatTireFromTheBeginningTheFreshOnesAreRegular) {
+  // Torque per EMG falls by 0.3 % each second: a tenth of that of 4 to 20 s is lost some 33 s after
+  // it, and the longest segment may be any.
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const auto phases = find_phases(
+        recording({{.end_s = 150.0, .gain_slope = -0.003, .frequency_slope = -0.25}}, true, seed));
+    ASSERT_EQ(kinds(phases), (std::vector{PhaseKind::regular, PhaseKind::fatigued})) << seed;
+    EXPECT_NEAR(phases[1].begin_s, 45.0, 20.0) << seed;
+  }
+}
+
+TEST(FindPhases, AHeldContractionTires) {
+  const auto phases = find_phases(recording(
+      {{.end_s = 60.0, .amplitude_rad = 0.0, .gain_slope = -0.006, .frequency_slope = -0.4}}));
+  ASSERT_EQ(kinds(phases), (std::vector{PhaseKind::isometric, PhaseKind::fatigued}));
+  EXPECT_NEAR(phases[1].begin_s, 20.0, 10.0);
+  EXPECT_DOUBLE_EQ(phases[1].end_s, 60.0);
+  EXPECT_EQ(kinds(find_phases(recording({{.end_s = 60.0, .amplitude_rad = 0.0}}))),
+            std::vector{PhaseKind::isometric});
 }
 
 TEST(FindPhases, RestIsStandingStillWithoutActivation) {
