@@ -37,7 +37,7 @@ TEST(Blocks, AreWholeCyclesOfTwoSecondsOrMore) {
 }
 
 TEST(Blocks, OfASlowMovementAreWindows) {
-  const auto blocks = blocks_of(swing(0.05), {.first = 0, .last = 3001}, {});
+  const auto blocks = blocks_of(swing(0.01), {.first = 0, .last = 3001}, {});
   ASSERT_EQ(blocks.size(), 15u);
   EXPECT_EQ(blocks[7].first, 1400);
 }

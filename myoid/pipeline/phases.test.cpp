@@ -127,20 +127,20 @@ TEST(FindPhases, AnotherMovementIsNotAWarmUp) {
 }
 
 TEST(FindPhases, AWarmUpIsSeenByTheEffortEvenIfTheTorquePerEmgIsRegular) {
-  const auto phases = find_phases(recording({{.end_s = 100.0, .wasted = 0.3}}));
+  const auto phases = find_phases(recording({{.end_s = 100.0, .wasted = 1.0}}));
   ASSERT_EQ(kinds(phases), (std::vector{PhaseKind::warm_up, PhaseKind::regular}));
-  // ln 1.3 = 0.26 fades to 0.06 in 8 ln(4.3) = 12 s; fadings of 6 and 12 s are tried.
-  EXPECT_NEAR(phases[1].begin_s, 12.0, 6.0);
+  // ln 2 = 0.69 fades to 0.06 in some 8 ln(11) = 19 s; fadings of 6 and 12 s are tried.
+  EXPECT_NEAR(phases[1].begin_s, 19.0, 9.5);
 }
 
 TEST(FindPhases, OfMusclesThatTireFromTheBeginningTheFreshOnesAreRegular) {
-  // Torque per EMG falls by 0.3 % each second: a tenth of that of 4 to 20 s is lost some 33 s after
-  // it, and the longest segment may be any.
+  // Torque per EMG falls by 0.3 % each second: a tenth of what it was in the first 30 s in
+  // the mean is lost after 46 s; that segment may be half or twice as long.
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     const auto phases = find_phases(
         recording({{.end_s = 150.0, .gain_slope = -0.003, .frequency_slope = -0.25}}, true, seed));
     ASSERT_EQ(kinds(phases), (std::vector{PhaseKind::regular, PhaseKind::fatigued})) << seed;
-    EXPECT_NEAR(phases[1].begin_s, 45.0, 20.0) << seed;
+    EXPECT_NEAR(phases[1].begin_s, 46.0, 25.0) << seed;
   }
 }
 

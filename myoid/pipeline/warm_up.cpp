@@ -14,6 +14,8 @@ namespace {
 
 constexpr Eigen::Index kFewest = 24;
 constexpr Eigen::Index kMostOrder = 8;
+/// The autoregression is estimated from the same blocks, which the t does not know.
+constexpr double kCaution = 1.25;
 
 /// Student's t of `freedom` at probability p, by the expansion of Cornish and Fisher about the
 /// normal quantile: 1 % low with 6 degrees of freedom at p = 0.9995.
@@ -46,10 +48,10 @@ Eigen::VectorXd autoregression(const Eigen::VectorXd& x) {
     for (Eigen::Index i = 1; i <= order; ++i) regressors.col(3 + i) = x.segment(i, rows);
     const Eigen::VectorXd solution = regressors.colPivHouseholderQr().solve(x.head(rows));
     const double squares = (x.head(rows) - regressors * solution).squaredNorm();
-    const double akaike = static_cast<double>(rows) * std::log(std::max(squares, 1e-300)) +
-                          2.0 * static_cast<double>(order);
-    if (akaike < least) {
-      least = akaike;
+    const double schwarz = static_cast<double>(rows) * std::log(std::max(squares, 1e-300)) +
+                           std::log(static_cast<double>(rows)) * static_cast<double>(order);
+    if (schwarz < least) {
+      least = schwarz;
       best = solution.tail(order);
     }
   }
@@ -91,7 +93,8 @@ std::optional<WarmUp> find_warm_up(const Eigen::VectorXd& x, double least, doubl
     if (!(t > best.t)) continue;
     best = {.change = solution[4], .fading = fading, .blocks = 0, .t = t, .critical = freedom};
   }
-  best.critical = student_quantile(1.0 - 0.5 * false_alarm / std::max(1, tried), best.critical);
+  best.critical =
+      kCaution * student_quantile(1.0 - 0.5 * false_alarm / std::max(1, tried), best.critical);
   const double mean = std::abs(best.change) * (1.0 - std::exp(-1.0));
   if (tried == 0 || !(best.t > best.critical) || mean < least) return std::nullopt;
   best.blocks = std::min(
