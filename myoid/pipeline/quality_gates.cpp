@@ -116,7 +116,8 @@ std::optional<Gate> support_gate(const StudyResult& result) {
   for (const TrialResult& t : result.trials) {
     if (t.uncarried)
       return Gate{"Something carries the body", GateStatus::warn,
-                  fmt::format("'{}': {}", t.spec.name, t.uncarried->sentence()),
+                  fmt::format("'{}': nothing measured does in {:.0f} % of the time", t.spec.name,
+                              100.0 * t.uncarried->share),
                   "no time in which half of the weight is on the joint to the ground",
                   "Torques of the legs there lack the ground reaction; they are not fitted."};
     if (!t.has_motion() || t.spec.external_torque || t.generalized_forces.empty()) continue;
