@@ -190,8 +190,8 @@ void add_run(CLI::App& app, Context& context) {
       }
     }
     if (context.json) {
-      fmt::print(
-          "{}", pipeline::parameters_json(result.methods, result.folds, provenance, result.phases));
+      fmt::print("{}", pipeline::parameters_json(result.methods, result.folds, provenance,
+                                                 result.phases, result.resting));
     } else {
       print_results(result, gates);
       const double seconds =

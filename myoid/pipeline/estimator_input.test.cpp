@@ -39,6 +39,23 @@ TEST(TorqueOptions, AGainsPriorIsTheShareOfTheMaximumThatTheMvcTrialsReach) {
   EXPECT_FALSE(unknown.from_mvc);
 }
 
+TEST(EstimatorData, WithoutAMaximalContractionFMaxMayBeThatOfAnySmallerEffort) {
+  StudyResult result = with_one_channel();
+  const auto prior = [&] {
+    return estimator_data(result).muscles[0].priors.at("max_isometric_force");
+  };
+  result.study.emg = {.kind = EmgKind::raw, .has_mvc = true};
+  const Prior literature = prior();
+  result.study.emg.has_mvc = false;
+  EXPECT_LT(prior().mean, 0.5 * literature.mean);
+  EXPECT_GT(prior().sd, 3.0 * literature.sd);
+  // The muscle itself is what it was: so is what it starts from where it is held.
+  EXPECT_EQ(estimator_data(result).muscles[0].start.max_isometric_force_n, literature.mean);
+  // Activation is taken at its word.
+  result.study.emg.kind = EmgKind::activation;
+  EXPECT_EQ(prior(), literature);
+}
+
 TEST(EstimatorData, TheStudysOwnRulesComeLastAndTrialsWithoutMotionAreLeftOut) {
   StudyResult result = with_one_channel();
   result.study.parameters = {{.parameter = "joint_stiffness", .value = 1.0}};

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
 #include <utility>
 
@@ -86,6 +87,21 @@ Cell truth_cell(const StudyResult& result, const ParameterEstimate& e) {
   return {value_of(e, *truth), inside ? Badge::good : Badge::weak, {}};
 }
 
+/// What passive trials measured of the joints, for beneath the table of what is left to find.
+std::string measured_at_rest(const StudyResult& result) {
+  constexpr double kDegrees = 180.0 / std::numbers::pi;
+  std::string text;
+  for (const identification::RestingJoint& joint : result.resting) {
+    const identification::RestingTorque& torque = joint.torque;
+    text += fmt::format(
+        " What {} does by itself was measured ({}): {:.1f} N m at {:.0f}°, {:.1f} N m at {:.0f}°. "
+        "It is part of every torque predicted, and the joint's numbers here come on top of it.",
+        joint.joint, fmt::join(joint.trials, ", "), torque.at(torque.lowest_rad),
+        torque.lowest_rad * kDegrees, torque.at(torque.highest_rad), torque.highest_rad * kDegrees);
+  }
+  return text;
+}
+
 }  // namespace
 
 bool is_undetermined(const ParameterEstimate& e) {
@@ -147,7 +163,7 @@ std::vector<Table> torque_tables(const StudyResult& result, const Identification
                "Numbers of the electrodes and of the joint",
                "Freed so that not knowing them widens the muscles' intervals as it must; nobody's "
                "muscle, and not counted above." +
-                   truth,
+                   measured_at_rest(result) + truth,
                muscles.columns,
                {}};
   others.columns.front() = "of";

@@ -16,6 +16,7 @@
 #include "myoid/pipeline/estimator_input.h"
 #include "myoid/pipeline/ground_support.h"
 #include "myoid/pipeline/quality_gates.h"
+#include "myoid/pipeline/resting_joints.h"
 #include "myoid/pipeline/stage_store.h"
 #include "myoid/pipeline/study_emg.h"
 #include "myoid/pipeline/study_model.h"
@@ -137,11 +138,11 @@ void compute_trials(const Study& study,
   std::optional<StageStore> store;
   if (options.store) store.emplace(*options.store);
   std::atomic<int> done = 0;
-  oneapi::tbb::parallel_for(std::size_t{0}, study.trials.size(), [&](std::size_t i) {
+  const auto compute = [&](std::size_t i) {
     options.progress.check();
     TrialResult& trial = result.trials[i];
     try {
-      compute_trial(study, inputs[i], result.model_text, options.share_forces,
+      compute_trial(study, inputs[i], result.model_text, options.share_forces, result.resting,
                     store ? &*store : nullptr, trial);
       find_uncarried(study, trial);
     } catch (const InvalidInput& error) {
@@ -149,7 +150,14 @@ void compute_trials(const Study& study,
     }
     options.progress.tell(0.3 + 0.4 * ++done / static_cast<double>(study.trials.size()),
                           trial.spec.name);
-  });
+  };
+  // Relaxed joints first: what they do by themselves no muscle shares in the other trials.
+  for (const bool relaxed : {true, false}) {
+    oneapi::tbb::parallel_for(std::size_t{0}, study.trials.size(), [&](std::size_t i) {
+      if ((study.trials[i].use == Use::passive) == relaxed) compute(i);
+    });
+    if (relaxed) result.resting = resting_joints(result);
+  }
   for (const TrialResult& trial : result.trials) {
     if (!trial.failure.empty()) ++result.failed_trials;
   }

@@ -9,6 +9,7 @@
 #include "myoid/identification/cross_validation.h"
 #include "myoid/identification/force_loop.h"
 #include "myoid/identification/paper.h"
+#include "myoid/identification/resting_torque.h"
 #include "myoid/identification/torque.h"
 #include "myoid/kinematics/inverse_kinematics.h"
 #include "myoid/kinematics/muscle_kinematics.h"
@@ -63,7 +64,8 @@ struct StudyResult {
   std::vector<signals::Fault> level_faults;         ///< Of EMG channels, over all trials.
   std::vector<signals::WhiteningFilter> whitening;  ///< Of raw EMG; empty if not whitened.
   std::vector<signals::ChannelNormalisation> normalisation;  ///< Empty if EMG came as activations.
-  identification::StudyData data;                            ///< What the estimators saw.
+  std::vector<identification::RestingJoint> resting;  ///< Joints whose passive torque was measured.
+  identification::StudyData data;                     ///< What the estimators saw.
   std::vector<identification::IdentificationResult> methods;
   std::vector<identification::Fold> folds;
   std::vector<TrialPhases> phases;  ///< Of the trials of `data`; empty: not searched.
