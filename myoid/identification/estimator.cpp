@@ -96,7 +96,7 @@ NoiseLevel fit_known_noise(const Eigen::ArrayXd& squared,
   constexpr double kLogSd = 0.3;
   const NoiseBins bins = bins_of(squared, power);
   const double mean = squared.mean();
-  if (!(mean > 0.0)) return {0.0, 1.0, 1.0};
+  if (!(mean > 0.0)) return {.torque_sd_nm = 0.0, .emg_cv = 1.0, .emg_factor = 1.0};
   const auto cost = [&](double log_a, double log_b) {
     const double a = std::exp(log_a), b = std::exp(log_b);
     double sum = 0.0;
@@ -119,8 +119,16 @@ NoiseLevel fit_known_noise(const Eigen::ArrayXd& squared,
   const double curvature =
       (profile(log_b + h) - 2.0 * profile(log_b) + profile(log_b - h)) / (h * h);
   const double least = 1.0 / std::pow(2.0 * kLogSd, 2);  // the prior's
-  return {std::exp(0.5 * best_a(log_b)), factor, factor,
-          1.0 / std::sqrt(std::max(curvature, least))};
+  NoiseLevel level{.torque_sd_nm = std::exp(0.5 * best_a(log_b)),
+                   .emg_cv = factor,
+                   .emg_factor = factor,
+                   .log_variance_sd = 1.0 / std::sqrt(std::max(curvature, least))};
+  if (log_b > 0.0) {
+    // What is beyond the expected may yet be the EMG's, as far as that is uncertain.
+    level.emg_share = std::exp(-log_b);
+    level.log_variance_sd = std::min(std::hypot(level.log_variance_sd, log_b), 2.0 * kLogSd);
+  }
+  return level;
 }
 
 /// No envelope of EMG is noisier.
@@ -155,7 +163,7 @@ NoiseLevel fit_unknown_noise(const Eigen::ArrayXd& squared, const Eigen::ArrayXd
     b = next_b;
   }
   const double factor = std::min(std::sqrt(b), kLargestNoise);
-  return {std::sqrt(std::max(a, 0.0)), factor, factor};
+  return {.torque_sd_nm = std::sqrt(std::max(a, 0.0)), .emg_cv = factor, .emg_factor = factor};
 }
 
 }  // namespace
@@ -430,7 +438,7 @@ void Estimator::find_noise(const Eigen::VectorXd& z,
     for (const Eigen::Index row : rows) {
       weighting.sd_nm[row] = std::sqrt(level.torque_sd_nm * level.torque_sd_nm +
                                        variance * power[row] + at.motion_variance[row]);
-      if (correct) weighting.emg_variance[row] = variance;
+      if (correct) weighting.emg_variance[row] = level.emg_share * variance;
     }
   }
   weighting.share = math::effective_sample_size(residual.cwiseQuotient(weighting.sd_nm),
@@ -454,7 +462,7 @@ Estimator::Solution Estimator::solve(const Eigen::VectorXd& start) const {
     const double freedom =
         std::max(1.0, static_cast<double>(n) - static_cast<double>(free().size()));
     const double sd = std::sqrt(2.0 * solution.search.cost / freedom);
-    for (NoiseLevel& level : weighting.noise) level = {sd, 0.0, 0.0};
+    for (NoiseLevel& level : weighting.noise) level = {.torque_sd_nm = sd};
     solution.misfit = solution.search.cost;
     return solution;
   }

@@ -15,15 +15,19 @@ struct NoiseLevel {
   double emg_cv = 0.0;      ///< Of a channel: root mean square over the channels.
   double emg_factor = 0.0;  ///< By which every channel's expected relative sd is multiplied; where
                             ///< nothing is expected, 1 is, and this is `emg_cv`.
-  double log_variance_sd = 0.0;  ///< Of ln emg_factor^2: how well that is known.
+  /// Of emg_factor^2 what is noise of the EMG. Where that is expected from the EMG's bandwidth,
+  /// what goes with the muscles' torques beyond it is the model's error.
+  double emg_share = 1.0;
+  double log_variance_sd = 0.0;  ///< Of ln(emg_share emg_factor^2): how well that is known.
 };
 
 /// How much a sample counts: held within a pass of the search.
 struct Weighting {
-  Eigen::VectorXd sd_nm;         ///< Per sample.
-  double share = 1.0;            ///< nu: effective over all samples.
-  Eigen::VectorXd emg_variance;  ///< Per sample: emg_factor^2 of its joint; empty: no correction.
-  double offset = 0.0;           ///< Keeps the corrected cost positive.
+  Eigen::VectorXd sd_nm;  ///< Per sample.
+  double share = 1.0;     ///< nu: effective over all samples.
+  /// Per sample: emg_share emg_factor^2 of its joint; empty: no correction.
+  Eigen::VectorXd emg_variance;
+  double offset = 0.0;  ///< Keeps the corrected cost positive.
   /// What the correction subtracts grows with the square of the torques. Where the data hardly
   /// bound these, it would outgrow what it is subtracted from: false, and it is left out.
   bool corrected = true;
@@ -48,7 +52,10 @@ enum class Derivatives { none, gradient, curvature };
 ///
 ///   rho -> rho - c_a^2 sum_channels T_channel(z)^2 / s_i^2,
 ///
-/// and from J'J, in the same way, what noise alone contributes to it.
+/// and from J'J, in the same way, what noise alone contributes to it. Of c_a^2 no more than the
+/// EMG's bandwidth makes expected: residuals that go with the muscles' torques beyond that are the
+/// model's error, which is in the torque and weakens nothing. Taken for noise of the EMG they would
+/// drive the strengths up, which makes more of them, and so on.
 class Estimator {
  public:
   Estimator(const StudyData& data, const EstimatorOptions& options);
