@@ -150,6 +150,27 @@ double share_of_error(const muscle::IsolatedModel& model,
          over_n;
 }
 
+/// A force that this muscle cannot make: the starting F_max is right within a few times, and what a
+/// lengthening muscle makes is below twice F_max.
+void check_size(const std::vector<muscle::IsolatedRecording>& recordings,
+                double max_isometric_n,
+                const Context& context) {
+  constexpr double kLarge = 5.0, kNone = 50.0;
+  for (const muscle::IsolatedRecording& r : recordings) {
+    const double largest = r.force_n.cwiseAbs().maxCoeff();
+    const std::string found = fmt::format(
+        "{}: forces up to {:.4g} N, {:.3g} times the muscle's F_max "
+        "of {:.4g} N",
+        r.name, largest, largest / max_isometric_n, max_isometric_n);
+    if (largest > kNone * max_isometric_n)
+      throw InvalidInput(found +
+                         "; expected at most some 2 times: write them in N (are they in mN?), and "
+                         "give the files of --length and --measured in the same order");
+    if (largest > kLarge * max_isometric_n || largest < max_isometric_n / kNone)
+      context.warn(found + "; are they in another unit, or of another muscle?");
+  }
+}
+
 /// --fit: the parameters from all recordings, and how well those from the others predict each.
 void fit(const Options& o, Context& context, const pipeline::MuscleFile& file) {
   const muscle::IsolatedModel start{file.parameters, file.laws, file.millard};
@@ -161,6 +182,7 @@ void fit(const Options& o, Context& context, const pipeline::MuscleFile& file) {
   }
   const double over =
       o.isometric_n > 0.0 ? o.isometric_n : start.parameters.hill.max_isometric_force_n;
+  check_size(recordings, start.parameters.hill.max_isometric_force_n, context);
   muscle::IsolatedFitOptions options;
   options.parameters = o.fit;
   options.relative_tolerance = std::max(o.tolerance, 1e-8);
@@ -199,6 +221,17 @@ void fit(const Options& o, Context& context, const pipeline::MuscleFile& file) {
   context.end_progress();
   if (!o.out.empty()) recording::write_file(o.out, csv);
   if (!converged) context.exit_code = kQualityGateFailed;
+  // Whoever guesses half of the maximum misses no force between none and it by more than half.
+  constexpr double kGuess = 0.5;
+  for (const auto& error : json_errors) {
+    if (error["fitted"].get<double>() <= kGuess) continue;
+    context.warn(fmt::format(
+        "{}: the fit misses the force by {:.0f} % of {:.4g} N, more than a "
+        "guess would: are the files of --length and --measured in the same "
+        "order, and in m and N?",
+        error["recording"].get<std::string>(), 100.0 * error["fitted"].get<double>(), over));
+    context.exit_code = kQualityGateFailed;
+  }
   if (context.json) {
     nlohmann::json json{{"muscle", file.name}, {"converged", converged}, {"errors", json_errors}};
     for (const muscle::IsolatedEstimate& e : all.estimates)

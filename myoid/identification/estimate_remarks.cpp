@@ -64,15 +64,13 @@ void RouteRemarks::add_to(std::vector<std::string>& warnings, std::size_t count)
       open_.size() > named ? ", ..." : ""));
 }
 
-double distance_from_prior(const FreeParameter& parameter, double z, bool from_mvc) {
-  const double off = (z - parameter.prior_mean) / parameter.prior_sd;
-  return !from_mvc && parameter.field->field == kMaxForce && off < 0.0 ? 0.0 : std::abs(off);
+double distance_from_prior(const FreeParameter& parameter, double z) {
+  return std::abs(z - parameter.prior_mean) / parameter.prior_sd;
 }
 
 std::vector<PriorDistance> prior_distances(const std::vector<FreeParameter>& free,
                                            const Eigen::VectorXd& z,
-                                           const StudyData& data,
-                                           bool from_mvc) {
+                                           const StudyData& data) {
   std::vector<PriorDistance> result;
   for (std::size_t k = 0; k < data.muscles.size(); ++k) {
     PriorDistance of{.muscle = data.muscles[k].name};
@@ -84,7 +82,7 @@ std::vector<PriorDistance> prior_distances(const std::vector<FreeParameter>& fre
       if (p.field->scope != Scope::muscle || p.targets.size() != 1 || !(p.prior_sd > 0.0) ||
           p.targets.front().owner != static_cast<int>(k))
         continue;
-      const double d = distance_from_prior(p, z[static_cast<Eigen::Index>(j)], from_mvc);
+      const double d = distance_from_prior(p, z[static_cast<Eigen::Index>(j)]);
       squares += d * d;
       ++count;
       if (d <= of.farthest_distance) continue;

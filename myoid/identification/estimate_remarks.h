@@ -28,16 +28,13 @@ class RouteRemarks {
   std::vector<std::string> open_;
 };
 
-/// |z - prior mean| / prior sd, of the logarithm where the solver has that. 0 for an F_max below
-/// its prior where no maximal contraction was recorded (`from_mvc` false): the force of the study's
-/// greatest effort, whatever that was, is less than the muscle's.
-[[nodiscard]] double distance_from_prior(const FreeParameter& parameter, double z, bool from_mvc);
+/// |z - prior mean| / prior sd, of the logarithm where the solver has that.
+[[nodiscard]] double distance_from_prior(const FreeParameter& parameter, double z);
 
 /// Of each muscle that has free parameters of its own with priors, at the solver's numbers `z`.
 [[nodiscard]] std::vector<PriorDistance> prior_distances(const std::vector<FreeParameter>& free,
                                                          const Eigen::VectorXd& z,
-                                                         const StudyData& data,
-                                                         bool from_mvc);
+                                                         const StudyData& data);
 
 /// A line for each muscle that is more than VerdictRules::prior_conflict away.
 void add_distances_to(std::vector<std::string>& warnings,

@@ -74,22 +74,12 @@ TEST(PriorDistances, AboveThreeMakeALineThatNamesTheMuscleAndTheFarthestNumber) 
   EXPECT_NE(lines[0].find("max_isometric_force 3.4"), std::string::npos) << lines[0];
 }
 
-TEST(DistanceFromPrior, OfAnEffortThatNobodyKnowsIsNoneBelowTheLiteraturesStrength) {
-  const auto fields = parameter_fields();
-  const auto named = [&](std::string_view name) {
-    return &*std::find_if(fields.begin(), fields.end(),
-                          [&](const ParameterField& f) { return f.name == name; });
-  };
+TEST(DistanceFromPrior, CountsInSpreadsOfWhatTheSolverSees) {
   FreeParameter strength;
-  strength.field = named("max_isometric_force");
   strength.prior_mean = std::log(1000.0);
   strength.prior_sd = 0.25;
-  EXPECT_NEAR(distance_from_prior(strength, std::log(400.0), true), std::log(2.5) / 0.25, 1e-12);
-  EXPECT_EQ(distance_from_prior(strength, std::log(400.0), false), 0.0);
-  EXPECT_NEAR(distance_from_prior(strength, std::log(2500.0), false), std::log(2.5) / 0.25, 1e-12);
-  FreeParameter width = strength;
-  width.field = named("force_length_width");
-  EXPECT_NEAR(distance_from_prior(width, std::log(400.0), false), std::log(2.5) / 0.25, 1e-12);
+  EXPECT_NEAR(distance_from_prior(strength, std::log(400.0)), std::log(2.5) / 0.25, 1e-12);
+  EXPECT_NEAR(distance_from_prior(strength, std::log(2500.0)), std::log(2.5) / 0.25, 1e-12);
 }
 
 }  // namespace

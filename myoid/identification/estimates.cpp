@@ -234,7 +234,7 @@ void report_estimates(const Estimator& estimator,
           VerdictRules{}.flat_plateau;
     }
   }
-  result.prior_distances = prior_distances(free, z, data, options.from_mvc);
+  result.prior_distances = prior_distances(free, z, data);
   RouteRemarks routes;
   const bool exact = result.r2 > 1.0 - 1e-10;
   const auto judged = [&](ParameterEstimate e, const FreeParameter& p, bool determined, int owner,
@@ -311,7 +311,7 @@ void report_estimates(const Estimator& estimator,
         e.prior_sd =
             p.field->logarithmic ? *e.prior_mean * p.prior_sd : std::abs(target.ratio) * p.prior_sd;
         e.shrinkage = 1.0 - sd * sd / (p.prior_sd * p.prior_sd);
-        e.prior_distance = distance_from_prior(p, z[at], options.from_mvc);
+        e.prior_distance = distance_from_prior(p, z[at]);
       }
       std::string rests_on;
       if (e.ci_low && e.ci_high) {

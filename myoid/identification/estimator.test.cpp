@@ -194,6 +194,23 @@ TEST(Estimator, AnOutlierPullsARobustFitLess) {
   EXPECT_LT(error(Loss::cauchy), square);
 }
 
+TEST(ParameterMap, AnUnknownBeginsAtItsPriorsMeanUnlessARuleSaysWhere) {
+  ElbowStudy study = elbow_study({.trials = 1, .seconds = 2.0, .with_priors = true});
+  MuscleSetup& biceps = study.data.muscles[0];
+  const double start_n = biceps.start.max_isometric_force_n;
+  biceps.priors["max_isometric_force"] = {.mean = 0.3 * start_n, .sd = 0.8, .logarithmic = true};
+  const auto begins = [&](const EstimatorOptions& options) {
+    return ParameterMap(study.data, options).held().muscles[0][kMaxForce] / start_n;
+  };
+  EXPECT_NEAR(begins({}), 0.3, 1e-12);
+  EXPECT_NEAR(begins({.priors = false}), 1.0, 1e-12);
+  study.data.rules = {{.parameter = "max_isometric_force", .owners = {"BIC"}, .value = start_n}};
+  EXPECT_NEAR(begins({}), 1.0, 1e-12);
+  study.data.rules.clear();
+  biceps.fixed = {"max_isometric_force"};
+  EXPECT_NEAR(begins({}), 1.0, 1e-12);
+}
+
 TEST(Rules, TieFixBoundAndFreeWhatTheyName) {
   ElbowStudy study = elbow_study({.trials = 2, .seconds = 10.0});
   ParameterRule tie;

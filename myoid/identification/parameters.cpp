@@ -189,6 +189,7 @@ struct Slot {
   int owner = 0;
   bool free = false;
   double value = 0.0;
+  bool start_is_given = false;  ///< By a rule; else an unknown begins at its prior's mean.
   muscle::Range bounds;
   std::optional<Prior> prior;
   std::vector<int> tied;  ///< Owners that go with it; empty: none.
@@ -226,6 +227,7 @@ FreeParameter make_free(const Slot& slot, const std::string& owner, bool priors)
   p.start = std::clamp(scaled(field, slot.value), p.lower, p.upper);
   if (priors && slot.prior) {
     const Prior& prior = *slot.prior;
+    if (!slot.start_is_given) p.start = std::clamp(scaled(field, prior.mean), p.lower, p.upper);
     p.prior_mean = scaled(field, prior.mean);
     p.prior_sd = prior.logarithmic == field.logarithmic ? prior.sd
                  : field.logarithmic                    ? prior.sd / prior.mean
@@ -376,6 +378,7 @@ ParameterMap::ParameterMap(const StudyData& data, const EstimatorOptions& option
           std::find(owners.begin(), owners.end(), slot.owner) == owners.end())
         continue;
       if (rule.value) slot.value = *rule.value;
+      slot.start_is_given = slot.start_is_given || rule.value;
       if (field.field == kSlopeRatio && field.scope == muscle && (rule.free || rule.value)) {
         if (!(slot.value > 0.0)) slot.value = 1.0;
         slope_ratio_[static_cast<std::size_t>(slot.owner)] = slot.value;

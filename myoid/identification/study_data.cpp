@@ -78,6 +78,33 @@ TrialData of_joint(const TrialData& trial, std::size_t joint) {
   return one;
 }
 
+TrialData part(const TrialData& trial, Eigen::Index first, Eigen::Index count) {
+  TrialData t = trial;
+  t.time_s = trial.time_s.segment(first, count);
+  t.length_m = trial.length_m.middleRows(first, count);
+  t.velocity_mps = trial.velocity_mps.middleRows(first, count);
+  t.moment_arm_m = trial.moment_arm_m.middleRows(first, count);
+  t.torque_nm = trial.torque_nm.segment(first, count);
+  if (trial.force_n.rows() == trial.time_s.size())
+    t.force_n = trial.force_n.middleRows(first, count);
+  const auto cut = [&](Eigen::VectorXd& x) {
+    if (x.size() == trial.time_s.size()) x = x.segment(first, count).eval();
+  };
+  cut(t.angle_rad);
+  cut(t.velocity_radps);
+  cut(t.acceleration_radps2);
+  cut(t.resting_nm);
+  for (JointData& joint : t.more_joints) {
+    cut(joint.torque_nm);
+    cut(joint.angle_rad);
+    cut(joint.velocity_radps);
+    cut(joint.acceleration_radps2);
+    cut(joint.resting_nm);
+    joint.moment_arm_m = joint.moment_arm_m.middleRows(first, count).eval();
+  }
+  return t;
+}
+
 Eigen::VectorXd resting_torque_nm(const TrialData& trial) {
   if (trial.resting_nm.size() > 0) return trial.resting_nm;
   return Eigen::VectorXd::Zero(trial.time_s.size());

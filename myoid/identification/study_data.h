@@ -105,6 +105,9 @@ void free_speeds(StudyData& data, const std::vector<std::string>& muscles);
 /// `more_joints` in order.
 [[nodiscard]] TrialData of_joint(const TrialData& trial, std::size_t joint);
 
+/// Samples [first, first + count) of a trial, as a trial of their own with the whole EMG.
+[[nodiscard]] TrialData part(const TrialData& trial, Eigen::Index first, Eigen::Index count);
+
 /// The resting torque of the trial's own joint, n: zeros where none was measured.
 [[nodiscard]] Eigen::VectorXd resting_torque_nm(const TrialData& trial);
 

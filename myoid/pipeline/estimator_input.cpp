@@ -5,6 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "myoid/pipeline/effort_prior.h"
+#include "myoid/pipeline/emg_cover.h"
 #include "myoid/pipeline/lumped_muscles.h"
 #include "myoid/pipeline/nuisances.h"
 #include "myoid/pipeline/resting_joints.h"
@@ -16,7 +18,7 @@ namespace {
 identification::TrialData trial_data(const Study& study,
                                      const TrialResult& trial,
                                      const std::vector<MuscleGroup>& groups,
-                                     const std::vector<RestingJoint>& resting) {
+                                     const std::vector<identification::RestingJoint>& resting) {
   identification::TrialData data;
   data.name = trial.spec.name;
   data.calibration = trial.spec.use == Use::calibration || trial.spec.use == Use::isometric;
@@ -51,7 +53,10 @@ identification::TrialData trial_data(const Study& study,
          .resting_nm = resting_torque_nm(resting, name, trial.motion.q.column(name))});
   }
   data.activation = trial.activation;
-  return data;
+  if (trial.uncarried) data.excluded = trial.uncarried->stretches;
+  // Where there is no EMG there is nothing to fit.
+  const Rows rows = rows_with_emg(trial.motion.q.time_s(), trial.activation.time_s());
+  return identification::part(data, rows.first, rows.count());
 }
 
 }  // namespace
@@ -61,6 +66,7 @@ identification::StudyData estimator_data(const StudyResult& result) {
   const std::vector<MuscleGroup> groups = muscle_groups(study, result.model);
   identification::StudyData data;
   data.muscles = muscle_setups(study, result.model);
+  if (!from_maximal_effort(study.emg)) expect_any_effort(data.muscles);
   for (const TrialResult& trial : result.trials) {
     if (!trial.has_motion() || trial.activation.empty()) continue;
     if (trial.spec.use == Use::mvc || trial.spec.use == Use::static_pose ||
@@ -96,7 +102,7 @@ identification::TorqueOptions torque_options(const StudyResult& result, const Pr
   options.delay_per_channel = spec.delay_per_channel;
   options.angle_sd_rad = spec.angle_sd_rad;
   options.angle_rate_sd_radps = spec.angle_rate_sd_radps;
-  options.from_mvc = study.emg.has_mvc || study.emg.kind == EmgKind::activation;
+  options.from_mvc = from_maximal_effort(study.emg);
   options.progress.stop = progress.stop;
   if (study.identify.gain) {
     for (const signals::ChannelNormalisation& n : result.normalisation) {

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "myoid/pipeline/trial_stages.h"
+
 #include "tests/support/written_trial.h"
 
 namespace myoid::pipeline {
@@ -63,6 +65,23 @@ TEST(EstimatorData, AVmaxThatTheStudyDoesNotStateIsFree) {
   EXPECT_EQ(freed().size(), result.study.muscles.size() - 1);
 }
 
+TEST(EstimatorData, WithoutAMaximalContractionFMaxMayBeThatOfAnySmallerEffort) {
+  StudyResult result = with_one_channel();
+  const auto prior = [&] {
+    return estimator_data(result).muscles[0].priors.at("max_isometric_force");
+  };
+  result.study.emg = {.kind = EmgKind::raw, .has_mvc = true};
+  const Prior literature = prior();
+  result.study.emg.has_mvc = false;
+  EXPECT_LT(prior().mean, 0.5 * literature.mean);
+  EXPECT_GT(prior().sd, 3.0 * literature.sd);
+  // The muscle itself is what it was: so is what it starts from where it is held.
+  EXPECT_EQ(estimator_data(result).muscles[0].start.max_isometric_force_n, literature.mean);
+  // Activation is taken at its word.
+  result.study.emg.kind = EmgKind::activation;
+  EXPECT_EQ(prior(), literature);
+}
+
 TEST(EstimatorData, TheStudysOwnRulesComeLastAndTrialsWithoutMotionAreLeftOut) {
   StudyResult result = with_one_channel();
   result.study.parameters = {{.parameter = "joint_stiffness", .value = 1.0}};
@@ -73,6 +92,30 @@ TEST(EstimatorData, TheStudysOwnRulesComeLastAndTrialsWithoutMotionAreLeftOut) {
   EXPECT_EQ(data.muscles.size(), 4U);
   ASSERT_FALSE(data.rules.empty());
   EXPECT_EQ(data.rules.back().value, 1.0);
+}
+
+TEST(EstimatorData, HoldsNothingOfTheTimeWithoutEmg) {
+  StudyResult result = with_one_channel();
+  const test::TemporaryFolder folder;
+  const Eigen::VectorXd motion_s = Eigen::VectorXd::LinSpaced(201, 0.0, 20.0);
+  const Eigen::VectorXd emg_s = Eigen::VectorXd::LinSpaced(1251, 2.0, 14.5);
+  TrialInput input;
+  input.motion = TimeSeries(motion_s, {{"elbow_flexion", Unit::radian}},
+                            Eigen::MatrixXd(motion_s.array().sin()));
+  result.trials.resize(1);
+  TrialResult& trial = result.trials[0];
+  trial.spec = result.study.trials[0];
+  compute_trial(result.study, input, "", false, nullptr, trial);
+  std::vector<Channel> channels;
+  for (const char* name : {"BIC", "BRA", "BRD", "TRI"})
+    channels.push_back({name, Unit::dimensionless});
+  trial.activation = TimeSeries(emg_s, channels, Eigen::MatrixXd::Constant(emg_s.size(), 4, 0.3));
+  const identification::StudyData data = estimator_data(result);
+  ASSERT_EQ(data.trials.size(), 1U);
+  EXPECT_NEAR(data.trials[0].time_s[0], 2.0, 0.1);
+  EXPECT_NEAR(data.trials[0].time_s[data.trials[0].time_s.size() - 1], 14.5, 0.1);
+  EXPECT_EQ(data.trials[0].torque_nm.size(), data.trials[0].time_s.size());
+  EXPECT_NO_THROW(identification::validate(data));
 }
 
 }  // namespace

@@ -191,6 +191,18 @@ std::string parameters_json(const std::vector<IdentificationResult>& methods,
                           {"rounds", loop.rounds.size()}};
   }
   json["left_out"] = context.left_out;
+  json["resting_torque"] = ordered_json::array();
+  for (const identification::RestingJoint& joint : context.resting) {
+    const Eigen::VectorXd& c = joint.torque.coefficient_nm;
+    json["resting_torque"].push_back(
+        {{"joint", joint.joint},
+         {"trials", joint.trials},
+         {"lowest_rad", joint.torque.lowest_rad},
+         {"highest_rad", joint.torque.highest_rad},
+         {"legendre_nm", std::vector<double>(c.data(), c.data() + c.size())},
+         {"viscosity_nms", joint.torque.viscosity_nms},
+         {"residual_nm", joint.torque.residual_nm}});
+  }
   json["leave_one_trial_out"] = ordered_json::array();
   for (const identification::Fold& f : folds) {
     json["leave_one_trial_out"].push_back(
@@ -210,6 +222,7 @@ std::string parameters_json(const std::vector<IdentificationResult>& methods,
 
 ParameterContext parameter_context(const StudyResult& result) {
   return {.phases = result.phases,
+          .resting = result.resting,
           .left_out = result.study.identify.folds,
           .force_loop = result.force_loop ? &*result.force_loop : nullptr};
 }

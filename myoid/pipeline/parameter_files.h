@@ -6,6 +6,7 @@
 #include "myoid/core/provenance.h"
 #include "myoid/identification/cross_validation.h"
 #include "myoid/identification/force_loop.h"
+#include "myoid/identification/resting_torque.h"
 #include "myoid/identification/result.h"
 #include "myoid/pipeline/phases.h"
 #include "myoid/pipeline/study_result.h"
@@ -21,12 +22,13 @@ namespace myoid::pipeline {
 /// What parameters.json tells beside the estimates and the folds.
 struct ParameterContext {
   std::vector<TrialPhases> phases;
+  std::vector<identification::RestingJoint> resting;
   std::string left_out = "trial";  ///< What a fold is: trial, condition or block.
   const identification::ForceLoop* force_loop = nullptr;  ///< Null: none was asked for.
 };
 
-/// The same with covariance, diagnostics, folds, phases and how the loop of forces and parameters
-/// ended.
+/// The same with covariance, diagnostics, folds, phases, resting torques and how the loop of forces
+/// and parameters ended.
 [[nodiscard]] std::string parameters_json(
     const std::vector<identification::IdentificationResult>& methods,
     const std::vector<identification::Fold>& folds,

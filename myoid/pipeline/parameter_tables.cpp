@@ -46,8 +46,9 @@ std::string spelled(std::string_view text) {
 /// Rounded as the ends of its interval are, so that all three can be compared.
 std::string value_of(const ParameterEstimate& e, double value) {
   if (!std::isfinite(value)) return "-";
-  return e.ci_low && e.ci_high ? format_rounded(value, *e.ci_high - *e.ci_low)
-                               : format_value(value);
+  return e.ci_low && e.ci_high && !is_undetermined(e)
+             ? format_rounded(value, *e.ci_high - *e.ci_low)
+             : format_value(value);
 }
 
 std::string unit(const ParameterEstimate& e) {
@@ -55,6 +56,7 @@ std::string unit(const ParameterEstimate& e) {
 }
 
 std::string interval(const ParameterEstimate& e) {
+  if (is_undetermined(e)) return "not determined";
   return e.ci_low && e.ci_high ? report::format_interval(*e.ci_low, *e.ci_high) : "none";
 }
 
@@ -89,19 +91,24 @@ Cell truth_cell(const StudyResult& result, const ParameterEstimate& e) {
 std::string measured_at_rest(const StudyResult& result) {
   constexpr double kDegrees = 180.0 / std::numbers::pi;
   std::string text;
-  for (const RestingJoint& joint : result.resting) {
+  for (const identification::RestingJoint& joint : result.resting) {
     const identification::RestingTorque& torque = joint.torque;
     text += fmt::format(
         " What {} does by itself was measured ({}): {:.1f} N m at {:.0f}°, {:.1f} N m at {:.0f}°. "
         "It is part of every torque predicted, and the joint's numbers here come on top of it.",
         joint.joint, fmt::join(joint.trials, ", "), torque.at(torque.lowest_rad),
-        torque.lowest_rad * kDegrees, torque.at(torque.highest_rad),
-        torque.highest_rad * kDegrees);
+        torque.lowest_rad * kDegrees, torque.at(torque.highest_rad), torque.highest_rad * kDegrees);
   }
   return text;
 }
 
 }  // namespace
+
+bool is_undetermined(const ParameterEstimate& e) {
+  constexpr double kMeaningless = 1e3;
+  const double size = std::max({std::abs(e.initial), std::abs(e.estimate), 1e-12});
+  return e.ci_low && e.ci_high && *e.ci_high - *e.ci_low > kMeaningless * size;
+}
 
 std::vector<EstimateLine> estimate_lines(const IdentificationResult& method,
                                          std::size_t muscle_count) {

@@ -9,6 +9,9 @@
 #include "myoid/pipeline/study_model.h"
 
 namespace myoid::pipeline {
+
+using identification::RestingJoint;
+
 namespace {
 
 constexpr double kRelaxed = 0.02, kRelaxedWithoutMvc = 0.05;
@@ -18,8 +21,8 @@ constexpr double kLargestShare = 0.25;
 double strength_nm(const StudyResult& result,
                    const TrialResult& trial,
                    const std::string& coordinate) {
-  const Eigen::MatrixXd arms = lumped_moment_arm_m(
-      trial.muscles, muscle_groups(result.study, result.model), coordinate);
+  const Eigen::MatrixXd arms =
+      lumped_moment_arm_m(trial.muscles, muscle_groups(result.study, result.model), coordinate);
   const auto setups = muscle_setups(result.study, result.model);
   double sum = 0.0;
   for (Eigen::Index k = 0; k < arms.cols(); ++k)
@@ -50,7 +53,8 @@ std::string not_at_rest(const StudyResult& result, const TrialResult& trial) {
     const double strength = strength_nm(result, trial, name);
     if (largest > kLargestShare * strength) {
       return fmt::format(
-          "{} reaches {:.1f} N m, more than a quarter of what its muscles could exert ({:.0f} N m): "
+          "{} reaches {:.1f} N m, more than a quarter of what its muscles could exert ({:.0f} N "
+          "m): "
           "no relaxed joint resists that much",
           name, largest, strength);
     }
@@ -75,7 +79,8 @@ std::vector<RestingJoint> resting_joints(StudyResult& result) {
     if (why.empty()) {
       relaxed.push_back(&trial);
     } else {
-      trial.warnings.push_back("what the joint does by itself is not taken from this trial: " + why);
+      trial.warnings.push_back("what the joint does by itself is not taken from this trial: " +
+                               why);
       trial.notes.push_back(trial.warnings.back());
     }
   }

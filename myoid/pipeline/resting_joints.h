@@ -14,12 +14,13 @@ namespace myoid::pipeline {
 /// contraction (5 % of its greatest EMG where none was recorded), or if the torque exceeds a
 /// quarter of what the joint's muscles could exert, sum of the largest |r| times F_max: no relaxed
 /// joint resists that much within its range. A trial whose torque nobody measured tells nothing.
-[[nodiscard]] std::vector<RestingJoint> resting_joints(StudyResult& result);
+[[nodiscard]] std::vector<identification::RestingJoint> resting_joints(StudyResult& result);
 
 /// The resting torque of a coordinate at these angles, one a sample; empty where it was not
 /// measured.
-[[nodiscard]] Eigen::VectorXd resting_torque_nm(const std::vector<RestingJoint>& joints,
-                                                const std::string& coordinate,
-                                                const Eigen::VectorXd& angle_rad);
+[[nodiscard]] Eigen::VectorXd resting_torque_nm(
+    const std::vector<identification::RestingJoint>& joints,
+    const std::string& coordinate,
+    const Eigen::VectorXd& angle_rad);
 
 }  // namespace myoid::pipeline

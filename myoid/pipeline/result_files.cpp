@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "myoid/pipeline/effort_prior.h"
 #include "myoid/pipeline/json_values.h"
 #include "myoid/pipeline/parameter_files.h"
 #include "myoid/pipeline/quality_gates.h"
@@ -70,7 +71,7 @@ void write_informed_forces(const StudyResult& result,
 /// no model at all if the motion failed its gates, or nothing is to be changed in it.
 void write_identified_model(const StudyResult& result, const std::filesystem::path& folder) {
   if (motion_is_unreliable(result)) return;
-  const bool from_mvc = result.study.emg.kind == EmgKind::activation || result.study.emg.has_mvc;
+  const bool from_mvc = from_maximal_effort(result.study.emg);
   for (const IdentificationResult& method : result.methods) {
     if (method.method != "torque") continue;
     std::vector<IdentifiedMuscle> muscles;

@@ -60,8 +60,8 @@ std::vector<SteadyPoint> steady_points(const TrueArm& person,
   for (const double angle_deg : kAngles_deg) {
     const double q_rad = angle_deg * kDegree;
     const model::MuscleTravel model = modelled.modelled_travel(m, q_rad);
-    const double resting_nm = muscle.torque_nm(0.0, q_rad, 0.0);
     for (const double speed_radps : kSpeeds_radps) {
+      const double resting_nm = muscle.torque_nm(0.0, q_rad, speed_radps);
       for (const double a : kActivations) {
         points.push_back({a, model.length_m, -model.moment_arm_m * speed_radps, model.moment_arm_m,
                           muscle.torque_nm(a, q_rad, speed_radps) - resting_nm});
@@ -189,8 +189,11 @@ HillSet effective_muscles(const TrueArm& person, const VirtualArm& modelled, Per
   return result;
 }
 
-double resting_torque_nm(const TrueArm& person, std::size_t muscle, double elbow_flexion_rad) {
-  return TrueMuscle(person, muscle).torque_nm(0.0, elbow_flexion_rad, 0.0);
+double resting_torque_nm(const TrueArm& person,
+                         std::size_t muscle,
+                         double elbow_flexion_rad,
+                         double elbow_flexion_speed_radps) {
+  return TrueMuscle(person, muscle).torque_nm(0.0, elbow_flexion_rad, elbow_flexion_speed_radps);
 }
 
 PerMuscle anatomical_strength_n(const TrueArm& person) {
