@@ -105,7 +105,7 @@ TEST(EstimatorData, HoldsNothingOfTheTimeWithoutEmg) {
   result.trials.resize(1);
   TrialResult& trial = result.trials[0];
   trial.spec = result.study.trials[0];
-  compute_trial(result.study, input, "", false, nullptr, trial);
+  compute_trial(result.study, input, "", false, {}, nullptr, trial);
   std::vector<Channel> channels;
   for (const char* name : {"BIC", "BRA", "BRD", "TRI"})
     channels.push_back({name, Unit::dimensionless});
