@@ -290,6 +290,17 @@ std::vector<report::Gate> quality_gates(const StudyResult& result) {
          "those you need", "Use a number only if its verdict allows it."});
   }
   for (report::Gate& gate : fold_gates(result.folds)) list.push_back(std::move(gate));
+  if (result.force_loop) {
+    const identification::ForceLoop& loop = *result.force_loop;
+    list.push_back({"Forces and parameters agree in their loop",
+                    loop.end == identification::LoopEnd::converged  ? GateStatus::pass
+                    : loop.end == identification::LoopEnd::diverged ? GateStatus::fail
+                                                                    : GateStatus::warn,
+                    fmt::format("{} after {} rounds: {}", identification::name(loop.end),
+                                loop.rounds.size(), loop.message),
+                    "converged",
+                    "Concerns the loop's own numbers only; method torque does not need it."});
+  }
   if (result.exchanged) {
     // Synergists may also differ by more than usual in strength.
     constexpr double kDescribes = 0.5;
