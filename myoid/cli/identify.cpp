@@ -3,15 +3,19 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "myoid/cli/context.h"
 #include "myoid/core/error.h"
+#include "myoid/identification/compare_paper_solvers.h"
 #include "myoid/identification/compare_solvers.h"
 #include "myoid/identification/cross_validation.h"
 #include "myoid/identification/force.h"
 #include "myoid/identification/paper.h"
+#include "myoid/identification/parameters.h"
 #include "myoid/identification/score.h"
 #include "myoid/identification/torque.h"
+#include "myoid/pipeline/estimator_input.h"
 #include "myoid/pipeline/identify_data.h"
 #include "myoid/pipeline/muscles_csv.h"
 #include "myoid/pipeline/parameter_files.h"
@@ -37,7 +41,42 @@ struct Options {
   int starts = 3;
   double residual_hz = identification::EstimatorOptions{}.residual_cutoff_hz.value_or(0.0);
   std::vector<std::string> free_more;
+  double motion_cutoff_hz = 0.0;
 };
+
+bool is_free(const StudyData& data, bool (*about)(const identification::ParameterRule&)) {
+  return std::any_of(data.rules.begin(), data.rules.end(),
+                     [&](const auto& rule) { return rule.free.value_or(false) && about(rule); });
+}
+
+/// What is asked for and the method or the files cannot give.
+void refuse_what_cannot_be(const Options& o, const pipeline::MuscleTable& table) {
+  std::vector<std::string> asked;
+  if (o.delay_s) asked.emplace_back("--delay");
+  if (o.loss != "square") asked.emplace_back("--loss");
+  if (o.bootstrap > 0) asked.emplace_back("--bootstrap");
+  if (o.profile) asked.emplace_back("--profile");
+  for (const std::string& name : o.free_more) asked.push_back("--free " + name);
+  for (const identification::ParameterRule& rule : table.rules)
+    asked.push_back(fmt::format("{}_fixed = false in {}", rule.parameter, o.muscles));
+  if (o.method == "paper" && !asked.empty()) {
+    throw InvalidInput(
+        fmt::format("{}: the published method has none of it; leave it out, or use --method force, "
+                    "which fits the same forces",
+                    fmt::join(asked, ", ")));
+  }
+  for (const std::string& name : o.free_more) {
+    const identification::ParameterField& field = identification::parameter_field(name);
+    if (field.scope != identification::Scope::joint) continue;
+    if (o.method != "torque")
+      throw InvalidInput(fmt::format("--free {}: it is the joint's; use --method torque", name));
+    if (field.field != identification::kOffset && o.files.motions.empty())
+      throw InvalidInput(fmt::format(
+          "--free {}: it acts by the joint's motion; give its angles with --motion, one "
+          "file per trial",
+          name));
+  }
+}
 
 identification::EstimatorOptions estimator_options(const Options& o, const Context& context) {
   identification::EstimatorOptions options;
@@ -55,7 +94,7 @@ identification::EstimatorOptions estimator_options(const Options& o, const Conte
   return options;
 }
 
-void print_result(const identification::IdentificationResult& result) {
+void print_result(const identification::IdentificationResult& result, bool freed_speeds) {
   for (const auto& e : result.estimates) {
     fmt::print("{:<10} {:<28} {:<12} {:>14} {:>26}  {}: {}\n", e.muscle, e.parameter, e.fit_case,
                std::isfinite(e.estimate) ? report::format_value(e.estimate, 6) : "-",
@@ -68,6 +107,10 @@ void print_result(const identification::IdentificationResult& result) {
     fmt::print(
         "Method paper holds F_max and v_max at muscles.csv: an error in them goes into every other "
         "number.\n");
+  if (freed_speeds)
+    fmt::print(
+        "max_shortening_speed is not stated as known: it is free, and concentric_curvature carries "
+        "what is not known of it. Where it is known: max_shortening_speed_fixed = true.\n");
   if (result.exact) fmt::print("The data are free of noise: fitted as they are, without priors.\n");
   for (const std::string& text : result.diagnoses) fmt::print("signature: {}\n", text);
   for (const std::string& text : result.undetermined)
@@ -125,7 +168,7 @@ void print_folds(const std::vector<identification::Fold>& folds, const Options& 
 /// By name of the fit: all muscles together, or one after the other.
 using Comparisons = std::vector<std::pair<std::string, identification::SolverComparison>>;
 
-/// Every solver on the same fits, if it is asked for.
+/// Every solver on the same fits, if it is asked for: those of the method.
 Comparisons compare(const Options& o,
                     const StudyData& data,
                     const identification::EstimatorOptions& options,
@@ -134,6 +177,13 @@ Comparisons compare(const Options& o,
   Comparisons comparisons;
   if (o.compare && o.method == "torque") {
     comparisons.emplace_back("all muscles", identification::compare_solvers(data, options, how));
+  } else if (o.compare && o.method == "paper") {
+    for (std::size_t k = 0; k < data.muscles.size(); ++k) {
+      for (const bool shortening : {true, false})
+        comparisons.emplace_back(
+            fmt::format("{} {}", data.muscles[k].name, shortening ? "shortening" : "lengthening"),
+            identification::compare_paper_solvers(data, k, shortening, how));
+    }
   } else if (o.compare) {
     for (std::size_t k = 0; k < data.muscles.size(); ++k) {
       comparisons.emplace_back(
@@ -145,6 +195,10 @@ Comparisons compare(const Options& o,
 }
 
 void print_comparison(const std::string& name, const identification::SolverComparison& c) {
+  if (c.runs.empty()) {
+    fmt::print("\nSolvers, {}: nothing to fit\n", name);
+    return;
+  }
   fmt::print("\nSolvers, {}:\n{:<22}{:>6}{:>16}{:>12}{:>13}{:>10}  {}\n", name, "solver", "start",
              "cost", "distance", "evaluations", "seconds", "ended");
   for (const identification::SolverRun& run : c.runs) {
@@ -168,6 +222,16 @@ std::string solvers_csv(const Comparisons& comparisons) {
     }
   }
   return text;
+}
+
+/// The data for all that follows the fit, with the v_max free that the fit had free.
+void free_what_is_free(const identification::IdentificationResult& result,
+                       const pipeline::MuscleTable& table,
+                       StudyData& data) {
+  const bool found =
+      std::any_of(result.estimates.begin(), result.estimates.end(),
+                  [](const auto& e) { return e.parameter == "max_shortening_speed"; });
+  if (found) identification::free_speeds(data, table.speed_may_be_free);
 }
 
 }  // namespace
@@ -199,6 +263,14 @@ void add_identify(CLI::App& app, Context& context) {
                      "Moment arms [m] by muscle, for --method torque");
   command.add_option("--torques", o->files.torques,
                      "Joint torque of the muscles [N m], for --method torque");
+  command.add_option("--motion", o->files.motions,
+                     "Joint angles (.mot, .sto), one file per trial, for --free joint_viscosity, "
+                     "joint_inertia, joint_stiffness");
+  command
+      .add_option("--lowpass", o->motion_cutoff_hz,
+                  "Smooth the angles of --motion, -3 dB at this frequency [Hz] (default: not "
+                  "smoothed)")
+      ->check(above_zero());
   command.add_option("--coordinate", o->files.coordinates,
                      "Columns of the torque file, where it has several; with more than one, "
                      "--moment-arms has a file for each, trial by trial");
@@ -236,7 +308,9 @@ void add_identify(CLI::App& app, Context& context) {
   command.callback([&context, o] {
     const pipeline::MuscleTable table =
         pipeline::read_muscles_csv(o->muscles, o->method != "paper");
+    refuse_what_cannot_be(*o, table);
     o->files.torque = o->method == "torque";
+    if (o->motion_cutoff_hz > 0.0) o->files.motion_cutoff_hz = o->motion_cutoff_hz;
     o->files.start_s = context.start_s;
     o->files.end_s = context.end_s;
     StudyData data = pipeline::read_identify_data(
@@ -250,7 +324,13 @@ void add_identify(CLI::App& app, Context& context) {
     }
     context.prepare_folder(o->out);
     context.protect_inputs(o->out, {"parameters.", "solvers."}, {o->muscles});
-    const identification::EstimatorOptions options = estimator_options(*o, context);
+    identification::EstimatorOptions options = estimator_options(*o, context);
+    if (is_free(data, pipeline::is_about_lags)) {
+      pipeline::use_dynamics(options);
+      context.warn(
+          "the lags of equation (1) are to be identified: the activations given are taken for "
+          "excitations that pass them, and the delay is what is left beside them");
+    }
     identification::IdentificationResult result;
     std::vector<identification::Fold> folds;
     if (o->method == "paper") {
@@ -259,6 +339,7 @@ void add_identify(CLI::App& app, Context& context) {
       result = identification::identify_force(data, {.estimator = options,
                                                      .detect_exact = true,
                                                      .speed_may_be_free = table.speed_may_be_free});
+      free_what_is_free(result, table, data);
       for (std::size_t k = 0; !result.exact && k < data.muscles.size(); ++k) {
         const auto more =
             identification::cross_validate(identification::force_study(data, k), options);
@@ -266,6 +347,7 @@ void add_identify(CLI::App& app, Context& context) {
       }
     } else {
       result = identification::identify_torque_or_exact(data, options, table.speed_may_be_free);
+      free_what_is_free(result, table, data);
       if (!result.exact) folds = identification::cross_validate(data, options);
     }
     const Comparisons comparisons = compare(*o, data, options, context.seed);
@@ -273,8 +355,9 @@ void add_identify(CLI::App& app, Context& context) {
     Provenance provenance;
     provenance.command = context.command_line;
     provenance.inputs.push_back({o->muscles, sha256(recording::read_text_file(o->muscles))});
-    for (const auto* list : {&o->files.activations, &o->files.lengths, &o->files.velocities,
-                             &o->files.forces, &o->files.moment_arms, &o->files.torques}) {
+    for (const auto* list :
+         {&o->files.activations, &o->files.lengths, &o->files.velocities, &o->files.forces,
+          &o->files.moment_arms, &o->files.torques, &o->files.motions}) {
       for (const std::string& path : *list)
         provenance.inputs.push_back({path, sha256(recording::read_text_file(path))});
     }
@@ -288,7 +371,8 @@ void add_identify(CLI::App& app, Context& context) {
     if (context.json) {
       fmt::print("{}", pipeline::parameters_json(results, folds, provenance));
     } else {
-      print_result(result);
+      print_result(result,
+                   o->method != "paper" && !result.exact && !table.speed_may_be_free.empty());
       print_fit(result, data, o->method == "torque");
       print_folds(folds, *o);
       for (const auto& [name, comparison] : comparisons) print_comparison(name, comparison);

@@ -115,12 +115,13 @@ void add_ik(CLI::App& app, Context& context) {
                                         {"not_converged", stalled},
                                         {"frames_without_markers", result.frames_without_markers},
                                         {"marker_error_rms_m", worst_mm / 1000.0},
+                                        {"wrong_unit", misfit.wrong_unit},
                                         {"undetermined", result.undetermined}};
       fmt::print("{}\n", json.dump(2));
     } else {
-      fmt::print("{} frames, {} not converged, {} without markers; marker error {:.2f} mm rms\n",
+      fmt::print("{} frames, {} not converged, {} without markers; marker error {:.2f} mm rms{}\n",
                  result.status.size(), result.frames_not_converged, result.frames_without_markers,
-                 worst_mm);
+                 worst_mm, misfit.wrong_unit ? " (the unit of the markers is wrong)" : "");
       fmt::print("{}\n{}\n", o->out, errors.string());
     }
     if (result.frames_not_converged > 0) context.exit_code = kQualityGateFailed;

@@ -171,6 +171,36 @@ void check_size(const std::vector<muscle::IsolatedRecording>& recordings,
   }
 }
 
+/// Two recordings of which each is the other's experiment: with the muscle as it starts, the errors
+/// of both together are less than half with their forces exchanged.
+void check_order(const muscle::IsolatedModel& start,
+                 const std::vector<muscle::IsolatedRecording>& recordings,
+                 double tolerance,
+                 const Context& context) {
+  constexpr double kBetter = 0.5;
+  const auto error = [&](std::size_t length, std::size_t force) {
+    muscle::IsolatedRecording mixed = recordings[length];
+    mixed.time_s = recordings[force].time_s;
+    mixed.force_n = recordings[force].force_n;
+    return share_of_error(start, mixed, 1.0, tolerance);
+  };
+  const auto covers = [&](std::size_t length, std::size_t force) {
+    const Eigen::VectorXd& from = recordings[length].input.time_s;
+    const Eigen::VectorXd& wanted = recordings[force].time_s;
+    return from[0] <= wanted[0] && from[from.size() - 1] >= wanted[wanted.size() - 1];
+  };
+  for (std::size_t i = 0; i < recordings.size(); ++i) {
+    for (std::size_t j = i + 1; j < recordings.size(); ++j) {
+      if (!covers(i, j) || !covers(j, i)) continue;
+      if (error(i, j) + error(j, i) >= kBetter * (error(i, i) + error(j, j))) continue;
+      context.warn(fmt::format(
+          "{} and {} fit each other's length much better than their own, with the muscle as it "
+          "starts: give --length, --scale and --measured in the same order",
+          recordings[i].name, recordings[j].name));
+    }
+  }
+}
+
 /// --fit: the parameters from all recordings, and how well those from the others predict each.
 void fit(const Options& o, Context& context, const pipeline::MuscleFile& file) {
   const muscle::IsolatedModel start{file.parameters, file.laws, file.millard};
@@ -183,6 +213,7 @@ void fit(const Options& o, Context& context, const pipeline::MuscleFile& file) {
   const double over =
       o.isometric_n > 0.0 ? o.isometric_n : start.parameters.hill.max_isometric_force_n;
   check_size(recordings, start.parameters.hill.max_isometric_force_n, context);
+  check_order(start, recordings, std::max(o.tolerance, 1e-8), context);
   muscle::IsolatedFitOptions options;
   options.parameters = o.fit;
   options.relative_tolerance = std::max(o.tolerance, 1e-8);

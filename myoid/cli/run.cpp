@@ -68,11 +68,12 @@ void print_method(const identification::IdentificationResult& method, std::size_
 
 void print_predictions(const pipeline::StudyResult& result) {
   if (!result.folds.empty()) {
+    const std::string& left_out = result.study.identify.folds;
     fmt::print(
-        "\nleave one trial out: torque predicted for a trial that took no part in the fit (R2 "
-        "about "
-        "that trial's own mean)\n");
-    fmt::print("{:<20} {:>10} {:>8} {:>26} {:>8}\n", "trial", "RMSE [N m]", "R2",
+        "\nleave one {0} out: torque predicted for a {0} that took no part in the fit (R2 about "
+        "that {0}'s own mean)\n",
+        left_out);
+    fmt::print("{:<20} {:>10} {:>8} {:>26} {:>8}\n", left_out, "RMSE [N m]", "R2",
                "literature x gain: RMSE", "R2");
     for (const identification::Fold& f : result.folds) {
       fmt::print("{:<20} {:>10.2f} {:>8.3f} {:>26.2f} {:>8.3f}\n", f.trial, f.identified.rmse_nm,
@@ -191,7 +192,7 @@ void add_run(CLI::App& app, Context& context) {
     }
     if (context.json) {
       fmt::print("{}", pipeline::parameters_json(result.methods, result.folds, provenance,
-                                                 result.phases, result.resting));
+                                                 pipeline::parameter_context(result)));
     } else {
       print_results(result, gates);
       const double seconds =

@@ -42,7 +42,7 @@ void add_run_tool(CLI::App& app, Context& context) {
       fmt::print("{}{}{}\n", result.tool, result.summary.empty() ? "" : ": ", result.summary);
       for (const auto& file : result.files) fmt::print("{}\n", file.string());
     }
-    if (result.frames_failed > 0) context.exit_code = kQualityGateFailed;
+    if (result.frames_failed > 0 || result.wrong_unit) context.exit_code = kQualityGateFailed;
   });
 }
 

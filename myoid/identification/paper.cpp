@@ -1,17 +1,18 @@
 #include "myoid/identification/paper.h"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <limits>
-#include <numeric>
+#include <string_view>
 
 #include <Eigen/LU>
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
 #include "myoid/identification/identifiability.h"
-#include "myoid/identification/muscle_sample.h"
+#include "myoid/identification/paper_case.h"
 #include "myoid/identification/score.h"
 #include "myoid/math/covariance.h"
 #include "myoid/math/statistics.h"
@@ -23,73 +24,12 @@ namespace {
 /// Residual over force below which the data are free of noise and the model is theirs.
 constexpr double kExact = 1e-6;
 
-/// The samples of one muscle in one case, and the stretches of consecutive ones.
-struct CaseData {
-  std::vector<MuscleSample> samples;
-  std::vector<Eigen::Index> pieces;
-  int dropped = 0;
-};
-
-CaseData collect(const StudyData& data, std::size_t muscle, bool shortening) {
-  CaseData result;
-  const MuscleSetup& setup = data.muscles[muscle];
-  const auto column = static_cast<Eigen::Index>(muscle);
-  for (const TrialData& trial : data.trials) {
-    if (!trial.calibration) continue;
-    if (trial.force_n.rows() != trial.time_s.size()) {
-      throw InvalidInput(fmt::format(
-          "method paper: trial '{}' has no muscle forces; share the torque first (myoid so)",
-          trial.name));
-    }
-    const Eigen::MatrixXd activation = muscle_activation(data, trial, trial.time_s, 0.0);
-    Eigen::Index run = 0;
-    for (const Eigen::Index i : included_rows(trial)) {
-      const double v = trial.velocity_mps(i, column);
-      const bool here = (v <= 0.0) == shortening;
-      const bool informative =
-          activation(i, column) > 0.0 && v > -setup.start.max_shortening_speed_mps;
-      if (here && !informative) ++result.dropped;
-      if (here && informative) {
-        result.samples.push_back({trial.time_s[i], activation(i, column),
-                                  trial.length_m(i, column) - setup.start.tendon_slack_length_m, v,
-                                  trial.force_n(i, column)});
-        ++run;
-      } else if (run > 0) {
-        result.pieces.push_back(run);
-        run = 0;
-      }
-    }
-    if (run > 0) result.pieces.push_back(run);
-  }
-  return result;
-}
-
-struct Unknown {
-  const muscle::HillField* field;
-  double muscle::HillForce::*derivative;
-};
-
-std::vector<Unknown> unknowns(bool shortening) {
-  std::vector<Unknown> list{
-      {&muscle::hill_field("optimal_fiber_length"), &muscle::HillForce::by_optimal_fiber_length},
-      {&muscle::hill_field("force_length_width"), &muscle::HillForce::by_force_length_width}};
-  if (shortening) {
-    list.push_back(
-        {&muscle::hill_field("concentric_curvature"), &muscle::HillForce::by_concentric_curvature});
-  } else {
-    list.push_back({&muscle::hill_field("eccentric_curvature_product"),
-                    &muscle::HillForce::by_eccentric_curvature_product});
-    list.push_back(
-        {&muscle::hill_field("eccentric_plateau"), &muscle::HillForce::by_eccentric_plateau});
-  }
-  return list;
-}
-
-/// l0 and l_sh of one case with their covariance.
+/// l0 and l_sh of one case with their covariance, which is 0 of what is held.
 struct CaseShape {
   Eigen::Vector2d value = Eigen::Vector2d::Zero();
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();
 };
+constexpr std::array<std::string_view, 2> kShared{"optimal_fiber_length", "force_length_width"};
 
 std::optional<CaseShape> fit_case(const StudyData& data,
                                   std::size_t muscle,
@@ -97,44 +37,34 @@ std::optional<CaseShape> fit_case(const StudyData& data,
                                   const PaperOptions& options,
                                   IdentificationResult& result) {
   const MuscleSetup& setup = data.muscles[muscle];
-  const CaseData samples = collect(data, muscle, shortening);
-  const std::vector<Unknown> list = unknowns(shortening);
+  const PaperCase samples = paper_case(data, muscle, shortening);
+  const std::vector<PaperUnknown>& list = samples.unknowns;
   const auto p = static_cast<Eigen::Index>(list.size());
   const auto n = static_cast<Eigen::Index>(samples.samples.size());
   result.samples_dropped += samples.dropped;
   result.samples_used += static_cast<int>(n);
-  Eigen::VectorXd start(p);
-  for (Eigen::Index j = 0; j < p; ++j)
-    start[j] = setup.start.*list[static_cast<std::size_t>(j)].field->member;
+  result.muscles[muscle] = samples.start;
+  if (p == 0) return std::nullopt;
+  const Eigen::VectorXd start = samples.start_vector();
+  /// Where an unknown is in x, or -1 if it is held.
+  const auto at = [&](std::string_view name) {
+    const auto it = std::find_if(list.begin(), list.end(),
+                                 [&](const PaperUnknown& u) { return u.field->name == name; });
+    return it == list.end() ? Eigen::Index{-1} : static_cast<Eigen::Index>(it - list.begin());
+  };
+  const Eigen::Index length = at("optimal_fiber_length");
+  const Eigen::Index width = at("force_length_width");
+  const Eigen::Index plateau = at("eccentric_plateau");
 
-  const double force_scale = std::accumulate(
-      samples.samples.begin(), samples.samples.end(), 0.0,
-      [](double sum, const MuscleSample& s) { return std::max(sum, std::abs(s.force_n)); });
   math::LeastSquaresResult fit;
   fit.x = start;
   std::string failure;
   if (n < 10 * p) {
     failure = fmt::format("only {} samples in {}", n, shortening ? "shortening" : "lengthening");
-  } else if (!(force_scale > 0.0)) {
+  } else if (!(samples.largest_force_n() > 0.0)) {
     failure = "force sharing assigned no force to this muscle here";
   } else {
-    math::LeastSquaresProblem problem;
-    problem.residual_count = n;
-    problem.evaluate = [&](const Eigen::VectorXd& x, Eigen::VectorXd& r,
-                           Eigen::MatrixXd* jacobian) {
-      muscle::HillParameters<double> parameters = setup.start;
-      for (Eigen::Index j = 0; j < p; ++j)
-        parameters.*list[static_cast<std::size_t>(j)].field->member = x[j];
-      for (Eigen::Index i = 0; i < n; ++i) {
-        const MuscleSample& s = samples.samples[static_cast<std::size_t>(i)];
-        const muscle::HillForce f = muscle::hill_force_derivatives(
-            s.activation, s.fiber_length_m, s.fiber_velocity_mps, parameters);
-        r[i] = f.force_n - s.force_n;
-        if (jacobian == nullptr) continue;
-        for (Eigen::Index j = 0; j < p; ++j)
-          (*jacobian)(i, j) = f.*list[static_cast<std::size_t>(j)].derivative;
-      }
-    };
+    const math::LeastSquaresProblem problem = samples.problem();
     try {
       fit = math::minimize(problem, start,
                            {.method = math::LeastSquaresMethod::gauss_newton,
@@ -148,7 +78,7 @@ std::optional<CaseShape> fit_case(const StudyData& data,
   }
   result.iterations += fit.iterations;
   // l_sh enters squared: its sign means nothing.
-  fit.x[1] = std::abs(fit.x[1]);
+  if (width >= 0) fit.x[width] = std::abs(fit.x[width]);
   for (Eigen::Index j = 0; j < p; ++j) {
     if (!(std::abs(fit.x[j]) <= 1e3 * std::abs(start[j])))
       failure = "plain Gauss-Newton steps diverged";
@@ -217,38 +147,69 @@ std::optional<CaseShape> fit_case(const StudyData& data,
       e.ci_high = e.estimate + quantile * *e.std_error;
     }
     context.outside_physical = unphysical(j);
-    if (e.parameter == "force_length_width" && !exact && fit.x[0] > 0.0 && fit.x[j] != start[j])
-      context.relative_width = std::abs(fit.x[j]) / fit.x[0];
-    if (!shortening && p == 4 && std::isfinite(fit.x[3])) {
-      const double sd =
-          computed ? std::sqrt(covariance.unscaled(3, 3) * covariance.residual_variance * widen)
-                   : 0.0;
-      context.plateau_is_flat = std::abs(fit.x[3] - 1.0) < quantile * sd;
+    const double l0 = length >= 0 ? fit.x[length] : samples.start.optimal_fiber_length_m;
+    if (j == width && !exact && l0 > 0.0 && fit.x[j] != start[j])
+      context.relative_width = std::abs(fit.x[j]) / l0;
+    if (plateau >= 0 && std::isfinite(fit.x[plateau])) {
+      const double sd = computed ? std::sqrt(covariance.unscaled(plateau, plateau) *
+                                             covariance.residual_variance * widen)
+                                 : 0.0;
+      context.plateau_is_flat = std::abs(fit.x[plateau] - 1.0) < quantile * sd;
     }
     judge(e, context);
     result.estimates.push_back(std::move(e));
   }
   if (!failure.empty() || !computed || covariance.rank < p) return std::nullopt;
-  return CaseShape{fit.x.head(2),
-                   covariance.unscaled.topLeftCorner(2, 2) * covariance.residual_variance * widen};
+  CaseShape shape{{samples.start.optimal_fiber_length_m, samples.start.force_length_width_m}, {}};
+  shape.covariance.setZero();
+  const std::array<Eigen::Index, 2> where{length, width};
+  for (Eigen::Index a = 0; a < 2; ++a) {
+    const Eigen::Index i = where[static_cast<std::size_t>(a)];
+    if (i < 0) continue;
+    shape.value[a] = fit.x[i];
+    for (Eigen::Index b = 0; b < 2; ++b) {
+      const Eigen::Index j = where[static_cast<std::size_t>(b)];
+      if (j >= 0)
+        shape.covariance(a, b) = covariance.unscaled(i, j) * covariance.residual_variance * widen;
+    }
+  }
+  return shape;
 }
 
-/// Wald test of what both cases share.
+/// Wald test of what both cases share and neither holds; where it rejects, neither case is trusted.
 void compare_branches(const std::string& muscle,
                       const CaseShape& shortening,
                       const CaseShape& lengthening,
                       IdentificationResult& result) {
+  constexpr double kReject = 0.01;
   const Eigen::Vector2d difference = lengthening.value - shortening.value;
   const Eigen::Matrix2d covariance = shortening.covariance + lengthening.covariance;
-  if (!(covariance.determinant() > 0.0)) return;
-  const double wald = difference.dot(covariance.inverse() * difference);
-  result.branch_tests.push_back(
-      {muscle, difference[0], difference[1], wald, std::exp(-0.5 * wald)});
-  if (wald > 13.8) {  // p < 0.001
-    result.warnings.push_back(fmt::format(
-        "{}: shortening and lengthening give different l0 or l_sh (by {:+.1f} and {:+.1f} mm, p < "
-        "0.001): one muscle has one of each, so the model or the data are wrong for it",
-        muscle, 1000.0 * difference[0], 1000.0 * difference[1]));
+  std::vector<Eigen::Index> free;
+  for (Eigen::Index j = 0; j < 2; ++j) {
+    if (covariance(j, j) > 0.0) free.push_back(j);
+  }
+  const Eigen::MatrixXd of_free = covariance(free, free);
+  if (free.empty() || !(of_free.determinant() > 0.0)) return;
+  const Eigen::VectorXd d = difference(free);
+  const double wald = d.dot(of_free.inverse() * d);
+  // Upper tail of chi-square with one or two degrees of freedom.
+  const double p = free.size() == 2 ? std::exp(-0.5 * wald) : std::erfc(std::sqrt(0.5 * wald));
+  result.branch_tests.push_back({muscle, difference[0], difference[1], wald, p});
+  if (!(p < kReject)) return;
+  const std::string how = p < 0.001 ? "p < 0.001" : fmt::format("p = {:.3f}", p);
+  result.warnings.push_back(fmt::format(
+      "{}: shortening and lengthening give different l0 or l_sh (by {:+.1f} and {:+.1f} mm, {}): "
+      "one muscle has one of each, so the model or the data are wrong for it, and none of its "
+      "numbers is called identified",
+      muscle, 1000.0 * difference[0], 1000.0 * difference[1], how));
+  for (ParameterEstimate& e : result.estimates) {
+    if (e.muscle != muscle || e.verdict != Verdict::identified) continue;
+    const bool shared = std::find(kShared.begin(), kShared.end(), e.parameter) != kShared.end();
+    e.verdict = Verdict::weak;
+    e.reason += fmt::format(", but {} ({}): one muscle has one of each, the model is refuted",
+                            shared ? "the other branch gives another value"
+                                   : "the two branches give different l0 or l_sh",
+                            how);
   }
 }
 
@@ -285,7 +246,7 @@ IdentificationResult identify_paper(const StudyData& data, const PaperOptions& o
     for (std::size_t k = 0; k < data.muscles.size(); ++k) {
       const auto column = static_cast<Eigen::Index>(k);
       const MuscleSetup& setup = data.muscles[k];
-      muscle::HillParameters<double> by_case[2] = {setup.start, setup.start};
+      muscle::HillParameters<double> by_case[2] = {result.muscles[k], result.muscles[k]};
       for (const ParameterEstimate& e : result.estimates) {
         if (e.muscle != setup.name || !std::isfinite(e.estimate)) continue;
         by_case[e.fit_case == "shortening" ? 0 : 1].*muscle::hill_field(e.parameter).member =

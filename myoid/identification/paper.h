@@ -20,11 +20,13 @@ struct PaperOptions {
 ///
 /// by plain Gauss-Newton from the starting values, without bounds, weights or priors, with F_max
 /// and v_max held, the EMG envelope taken for the activation without a delay; samples with a = 0 or
-/// v <= -v_max are left out and counted. All calibration trials together.
+/// v <= -v_max are left out and counted. All calibration trials together. What a muscle's setup or
+/// a rule holds is held here too (paper_case.h); bounds, priors and ties do not exist in it.
 ///
 /// What the paper does not give is added: standard errors from the SVD of the Jacobian, widened for
-/// the correlation of the residuals in time (n over the effective number of samples), and a
-/// verdict. Throws InvalidInput if the data have no forces.
+/// the correlation of the residuals in time (n over the effective number of samples), a Wald test
+/// of the l0 and l_sh that both cases found (where p < 0.01 nothing of that muscle is
+/// `identified`), and a verdict. Throws InvalidInput if the data have no forces.
 [[nodiscard]] IdentificationResult identify_paper(const StudyData& data,
                                                   const PaperOptions& options = {});
 

@@ -135,6 +135,52 @@ TEST(IdentifyPaper, TheTwoBranchesAreTestedAgainstEachOther) {
   const IdentificationResult other = identify_paper(study.data);
   EXPECT_LT(other.branch_tests[0].p_value, 1e-6);
   EXPECT_NEAR(other.branch_tests[0].length_difference_m, 0.010, 0.002);
+  // The model is refuted for that muscle.
+  ASSERT_FALSE(other.warnings.empty());
+  EXPECT_NE(other.warnings.front().find("BIC: shortening and lengthening give different l0"),
+            std::string::npos);
+}
+
+TEST(IdentifyPaper, ABranchTestThatRejectsDemotesExactNumbersToo) {
+  ElbowStudy study = study_for_paper();
+  for (TrialData& trial : study.data.trials) {
+    for (Eigen::Index i = 0; i < trial.time_s.size(); ++i) {
+      if (trial.velocity_mps(i, 0) > 0.0) trial.length_m(i, 0) += 0.006;
+    }
+  }
+  const IdentificationResult result = identify_paper(study.data, {.muscles = {"BIC"}});
+  for (const std::string branch : {"shortening", "lengthening"}) {
+    const ParameterEstimate& e = find(result, "BIC", "optimal_fiber_length", branch);
+    EXPECT_EQ(e.verdict, Verdict::weak) << branch;
+    EXPECT_NE(e.reason.find("the other branch gives another value (p < 0.001)"), std::string::npos)
+        << e.reason;
+  }
+}
+
+TEST(IdentifyPaper, WhatIsHeldIsNotFitted) {
+  // Truth, in which l0 is held at the truth by the setup and l_sh of BIC by a rule, whose value is
+  // the truth too: what is left comes out exactly, and only with the values that are held.
+  ElbowStudy study = study_for_paper();
+  study.data.muscles[0].fixed = {"optimal_fiber_length"};
+  study.data.muscles[0].start.optimal_fiber_length_m = study.truth[0].optimal_fiber_length_m;
+  study.data.rules = {{.parameter = "force_length_width",
+                       .owners = {"BIC"},
+                       .free = false,
+                       .value = study.truth[0].force_length_width_m}};
+  const IdentificationResult result = identify_paper(study.data, {.muscles = {"BIC"}});
+  ASSERT_EQ(result.estimates.size(), 3u);
+  for (const ParameterEstimate& e : result.estimates) {
+    const double truth = study.truth[0].*muscle::hill_field(e.parameter).member;
+    EXPECT_NE(e.parameter, "optimal_fiber_length");
+    EXPECT_NE(e.parameter, "force_length_width");
+    EXPECT_NEAR(e.estimate, truth, 1e-6 * truth) << e.parameter;
+  }
+  for (std::size_t t = 0; t < study.data.trials.size(); ++t) {
+    const TrialData& trial = study.data.trials[t];
+    EXPECT_LT((result.trials[t].force_fit_n.col(0) - trial.force_n.col(0)).norm(),
+              1e-5 * trial.force_n.col(0).norm());
+  }
+  EXPECT_TRUE(result.branch_tests.empty());
 }
 
 }  // namespace

@@ -93,7 +93,7 @@ class ResidualModel {
       int joint = 0;
       Eigen::Index first = 0;
       Eigen::MatrixXd arm_m;
-      Eigen::MatrixXd motion;  ///< n x 3: angle, rate, acceleration; empty if not known.
+      Eigen::MatrixXd motion;      ///< n x 3: angle, rate, acceleration; empty if not known.
       Eigen::VectorXd resting_nm;  ///< n, or empty: none.
     };
     std::vector<Joint> joints;

@@ -64,8 +64,8 @@ std::optional<RestingTorque> fit_resting_torque(const Eigen::VectorXd& angle_rad
   const Eigen::VectorXd found = columns.colPivHouseholderQr().solve(torque_nm);
   result.coefficient_nm = found.head(terms);
   if (both_ways) result.viscosity_nms = found[terms];
-  result.residual_nm = std::sqrt((columns * found - torque_nm).squaredNorm() /
-                                 static_cast<double>(n));
+  result.residual_nm =
+      std::sqrt((columns * found - torque_nm).squaredNorm() / static_cast<double>(n));
   return result;
 }
 

@@ -21,7 +21,7 @@ struct Moved {
 };
 
 TEST(RestingTorque, APolynomialOfTheFifthDegreeAndADashpotComeBack) {
-  const Moved moved(0.2, 2.2, 400);
+  const Moved moved(0.2, 2.2, 401);
   const auto elastic = [](double q) {
     return 4.0 - 3.0 * q + 0.8 * q * q - 1.1 * std::pow(q, 3) + 0.4 * std::pow(q, 4) -
            0.07 * std::pow(q, 5);
@@ -35,16 +35,16 @@ TEST(RestingTorque, APolynomialOfTheFifthDegreeAndADashpotComeBack) {
 }
 
 TEST(RestingTorque, AnExponentialThatRisesTwentyfoldIsMetToAThousandth) {
-  const Moved moved(0.0, 2.0, 400);
+  const Moved moved(0.0, 2.0, 401);
   const auto elastic = [](double q) { return -6.0 * std::exp(0.5 * std::log(20.0) * (q - 2.0)); };
-  const auto found = fit_resting_torque(moved.angle_rad, moved.velocity_radps,
-                                        moved.angle_rad.unaryExpr(elastic));
+  const auto found =
+      fit_resting_torque(moved.angle_rad, moved.velocity_radps, moved.angle_rad.unaryExpr(elastic));
   ASSERT_TRUE(found);
   for (double q = 0.0; q <= 2.0; q += 0.05) EXPECT_NEAR(found->at(q), elastic(q), 6e-3);
 }
 
 TEST(RestingTorque, BeyondTheMeasuredAnglesTheValueAtTheirEndStays) {
-  const Moved moved(0.5, 1.5, 200);
+  const Moved moved(0.5, 1.5, 201);
   const auto found =
       fit_resting_torque(moved.angle_rad, moved.velocity_radps, -2.0 * moved.angle_rad);
   ASSERT_TRUE(found);

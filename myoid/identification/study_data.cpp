@@ -21,20 +21,44 @@ std::map<std::string, Prior> literature_priors(const muscle::HillParameters<doub
       priors[std::string(field.name)] = *prior;
     }
   }
-  // v_max is held at its start by default. What it spreads by then shows in V_sh: at small speeds
-  // only the slope (1 + 1/V_sh) / v_max acts, and d ln V_sh = -(1 + V_sh) d ln v_max along it.
-  const auto curvature = priors.find("concentric_curvature");
-  const auto speed = priors.find("max_shortening_speed");
-  if (curvature != priors.end() && speed != priors.end()) {
-    curvature->second.sd =
-        std::hypot(curvature->second.sd, (1.0 + start.concentric_curvature) * speed->second.sd);
-  }
   if (start.eccentric_plateau > 1.0) {
     priors["eccentric_slope_ratio"] = {.mean = muscle::slope_ratio(start.velocity_shape()),
                                        .sd = kSlopeRatioSd,
                                        .logarithmic = true};
   }
   return priors;
+}
+
+std::vector<std::string> unstated_speeds(const StudyData& data,
+                                         const std::vector<std::string>& wanted) {
+  std::vector<std::string> names;
+  const auto is_in = [](const std::vector<std::string>& list, const std::string& name) {
+    return std::find(list.begin(), list.end(), name) != list.end();
+  };
+  for (const MuscleSetup& setup : data.muscles) {
+    if ((wanted.empty() || is_in(wanted, setup.name)) &&
+        !is_in(setup.fixed, "max_shortening_speed"))
+      names.push_back(setup.name);
+  }
+  return names;
+}
+
+void free_speeds(StudyData& data, const std::vector<std::string>& muscles) {
+  const muscle::Range usual = muscle::hill_field("max_shortening_speed").bounds;
+  std::vector<ParameterRule> rules;
+  for (const MuscleSetup& setup : data.muscles) {
+    if (std::find(muscles.begin(), muscles.end(), setup.name) == muscles.end()) continue;
+    ParameterRule rule{.parameter = "max_shortening_speed", .owners = {setup.name}, .free = true};
+    // A model's own value may lie where no muscle of a person is: it is free about that.
+    const double start = setup.start.max_shortening_speed_mps;
+    if (!setup.bounds.contains("max_shortening_speed") &&
+        (start < usual.lower || start > usual.upper)) {
+      rule.lower = start / 3.0;
+      rule.upper = 3.0 * start;
+    }
+    rules.push_back(std::move(rule));
+  }
+  data.rules.insert(data.rules.begin(), rules.begin(), rules.end());
 }
 
 std::size_t joint_count(const TrialData& trial) { return 1 + trial.more_joints.size(); }

@@ -83,10 +83,20 @@ struct StudyData {
 };
 
 /// What the literature knows beforehand of a muscle that starts here (muscle/literature.h), with
-/// the spread of the slope ratio (ln S 0.5) in place of that of V_sh V_shl where V_ml > 1, and V_sh
-/// spread by what v_max, which is held, may be off: ln V_sh 0.39 instead of 0.3.
+/// the spread of the slope ratio (ln S 0.5) in place of that of V_sh V_shl where V_ml > 1. That of
+/// V_sh is for a v_max that is known, or free: one that is only held belongs to `free_speeds`.
 [[nodiscard]] std::map<std::string, Prior> literature_priors(
     const muscle::HillParameters<double>& start);
+
+/// Muscles of `wanted` (empty: all) whose v_max nobody states: it is not in MuscleSetup::fixed.
+[[nodiscard]] std::vector<std::string> unstated_speeds(const StudyData& data,
+                                                       const std::vector<std::string>& wanted = {});
+
+/// Frees the v_max of these muscles, ahead of `StudyData::rules`, which may hold it again. At small
+/// speeds only the slope (1 + 1/V_sh) / v_max of f_v acts, so that d ln V_sh = -(1 + V_sh) d ln
+/// v_max along it: with v_max held at a value that is not the muscle's own, V_sh makes up for it
+/// outside of its interval. Free, with the literature's spread (ln 0.2), its interval carries that.
+void free_speeds(StudyData& data, const std::vector<std::string>& muscles);
 
 /// Joints of a trial: its own and `more_joints`.
 [[nodiscard]] std::size_t joint_count(const TrialData& trial);

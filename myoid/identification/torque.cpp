@@ -181,8 +181,7 @@ IdentificationResult identify_torque_or_exact(const StudyData& data,
   plain.residual_cutoff_hz.reset();
   plain.gain_prior_sd.clear();
   StudyData freed = data;
-  for (const std::string& muscle : speed_may_be_free)
-    freed.rules.push_back({.parameter = "max_shortening_speed", .owners = {muscle}, .free = true});
+  free_speeds(freed, speed_may_be_free);
   for (const StudyData* study : {&data, static_cast<const StudyData*>(&freed)}) {
     if (study == &freed && speed_may_be_free.empty()) break;
     const Estimator estimator(*study, plain);
@@ -209,7 +208,7 @@ IdentificationResult identify_torque_or_exact(const StudyData& data,
       return result;
     }
   }
-  return identify_torque(data, options);
+  return identify_torque(freed, options);
 }
 
 }  // namespace myoid::identification

@@ -36,8 +36,8 @@ using TorqueOptions = EstimatorOptions;
 /// The same estimator for data that may be free of noise: first without priors, weights and
 /// low-pass, from several starts. If that leaves less than 1e-6 of the data's size, it is the
 /// answer
-/// (`exact`). Where `speed_may_be_free` names muscles, their v_max is freed if only then the data
-/// are met exactly. Else `identify_torque`.
+/// (`exact`). Where `speed_may_be_free` names muscles, their v_max is freed unless the data are met
+/// exactly without (free_speeds). Else `identify_torque`.
 [[nodiscard]] IdentificationResult identify_torque_or_exact(
     const StudyData& data,
     const TorqueOptions& options = {},

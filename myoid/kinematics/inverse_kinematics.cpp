@@ -24,11 +24,12 @@ std::vector<Pair> pair_markers(const model::BodyModel& model,
                                const IkOptions& options,
                                std::vector<std::string>& notes) {
   std::vector<Pair> pairs;
+  std::vector<std::string> unseen, unknown;
   for (std::size_t i = 0; i < model.markers.size(); ++i) {
     const std::string& name = model.markers[i].name;
     const auto it = std::find(markers.names.begin(), markers.names.end(), name);
     if (it == markers.names.end()) {
-      notes.push_back(fmt::format("marker '{}' of the model is not in the recording", name));
+      unseen.push_back(name);
       continue;
     }
     const auto weight = options.marker_weights.find(name);
@@ -46,9 +47,14 @@ std::vector<Pair> pair_markers(const model::BodyModel& model,
                                    name, fmt::join(names, ", ")));
   }
   for (const std::string& name : markers.names) {
-    if (!model.find_marker(name))
-      notes.push_back(fmt::format("marker '{}' of the recording is not in the model", name));
+    if (!model.find_marker(name)) unknown.push_back(name);
   }
+  if (!unseen.empty())
+    notes.push_back(fmt::format("markers of the model that are not in the recording: {}",
+                                fmt::join(unseen, ", ")));
+  if (!unknown.empty())
+    notes.push_back(fmt::format("markers of the recording that are not in the model: {}",
+                                fmt::join(unknown, ", ")));
   if (pairs.empty()) {
     std::vector<std::string> names;
     for (const model::Marker& marker : model.markers) names.push_back(marker.name);

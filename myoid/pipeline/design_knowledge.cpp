@@ -87,7 +87,9 @@ std::vector<Eigen::Index> targets_of(const std::vector<FreeParameter>& free,
     const std::size_t dot = label.find('.');
     const std::string owner = label.substr(0, dot);
     const std::string parameter = label.substr(dot + 1);
-    const bool nuisance = free[j].field->name == "emg_gain";
+    // Freed so that the others carry what is not known of it; by name it is a target all the same.
+    const bool nuisance =
+        free[j].field->name == "emg_gain" || free[j].field->name == "max_shortening_speed";
     for (const std::string& w : wanted) {
       if (w == label || w == owner || w == parameter || (w == "all" && !nuisance)) {
         targets.push_back(static_cast<Eigen::Index>(j));

@@ -75,6 +75,7 @@ DesignStudyResult design_study(const Study& study, const DesignStudyOptions& opt
   StudyData data;
   data.muscles = muscle_setups(study, model);
   if (data.muscles.empty()) throw InvalidInput("design: the study has no [[muscle]]");
+  identification::free_speeds(data, identification::unstated_speeds(data, study.identify.muscles));
   EstimatorOptions torque;
   torque.muscles = study.identify.muscles;
   torque.delay_s = study.emg.delay_s;
@@ -157,6 +158,7 @@ DesignStudyResult design_study(const Study& study, const DesignStudyOptions& opt
       if (trial) {
         StudyData one;
         one.muscles = data.muscles;
+        one.rules = data.rules;
         one.trials = {*trial};
         information.per_person.push_back(
             information_of(one, torque, persons[k], torque_sd, emg_cv));

@@ -104,6 +104,7 @@ TEST(DesignStudy, ItsExpectedSpreadIsTheSpreadThatIdentificationHas) {
   ASSERT_EQ(design.plan.size(), 5U);
   identification::StudyData data;
   data.muscles = muscle_setups(study, load_model(study));
+  identification::free_speeds(data, identification::unstated_speeds(data));
   const MovementPerson person = typical(data.muscles);
   constexpr double kRate_hz = 50.0;
   const double above_2_hz = std::sqrt(2.0 * 2.0 / kRate_hz);  // of white noise stays below

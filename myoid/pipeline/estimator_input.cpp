@@ -76,6 +76,7 @@ identification::StudyData estimator_data(const StudyResult& result) {
   }
   if (study.identify.priors) data.rules = nuisance_rules(study.emg, data);
   data.rules.insert(data.rules.end(), study.parameters.begin(), study.parameters.end());
+  identification::free_speeds(data, identification::unstated_speeds(data, study.identify.muscles));
   return data;
 }
 
@@ -97,7 +98,7 @@ identification::TorqueOptions torque_options(const StudyResult& result, const Pr
                       : spec.eccentric == "smooth"      ? identification::Eccentric::smooth
                                                         : identification::Eccentric::automatic;
   options.normalised = spec.normalised;
-  options.dynamics = spec.dynamics;
+  if (spec.dynamics) use_dynamics(options);
   options.delay_per_channel = spec.delay_per_channel;
   options.angle_sd_rad = spec.angle_sd_rad;
   options.angle_rate_sd_radps = spec.angle_rate_sd_radps;
@@ -119,6 +120,17 @@ identification::TorqueOptions torque_options(const StudyResult& result, const Pr
     options.emg_rest[n.channel] = n.resting_level_v / n.reference_v;
   }
   return options;
+}
+
+void use_dynamics(identification::EstimatorOptions& options) {
+  options.dynamics = true;
+  options.delay_prior_mean_s = 0.010;
+  options.delay_prior_sd_s = 0.010;
+}
+
+bool is_about_lags(const identification::ParameterRule& rule) {
+  return rule.parameter == "excitation_time" || rule.parameter == "activation_time" ||
+         rule.parameter == "deactivation_time";
 }
 
 }  // namespace myoid::pipeline

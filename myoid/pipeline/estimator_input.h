@@ -17,4 +17,12 @@ namespace myoid::pipeline {
 [[nodiscard]] identification::TorqueOptions torque_options(const StudyResult& result,
                                                            const Progress& progress);
 
+/// The envelope passes the lags of equation (1) (`dynamics`), and the pure delay is what is left
+/// beside them: 10 +- 10 ms in place of 60 +- 20 ms, which by cross-correlation of EMG and force
+/// hold both (tau_ne + tau_ac are some 55 ms of them).
+void use_dynamics(identification::EstimatorOptions& options);
+
+/// Whether a rule is about a lag of equation (1), which acts only with `dynamics`.
+[[nodiscard]] bool is_about_lags(const identification::ParameterRule& rule);
+
 }  // namespace myoid::pipeline

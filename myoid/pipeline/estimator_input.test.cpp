@@ -39,6 +39,32 @@ TEST(TorqueOptions, AGainsPriorIsTheShareOfTheMaximumThatTheMvcTrialsReach) {
   EXPECT_FALSE(unknown.from_mvc);
 }
 
+TEST(TorqueOptions, WithTheLagsOfTheActivationTheDelayIsWhatIsLeftBesideThem) {
+  StudyResult result = with_one_channel();
+  EXPECT_NEAR(torque_options(result, {}).delay_prior_mean_s, 0.060, 1e-12);
+  result.study.identify.dynamics = true;
+  const identification::TorqueOptions lags = torque_options(result, {});
+  EXPECT_TRUE(lags.dynamics);
+  EXPECT_NEAR(lags.delay_prior_mean_s, 0.010, 1e-12);
+  EXPECT_NEAR(lags.delay_prior_sd_s, 0.010, 1e-12);
+}
+
+TEST(EstimatorData, AVmaxThatTheStudyDoesNotStateIsFree) {
+  StudyResult result = with_one_channel();
+  const auto freed = [&] {
+    std::vector<std::string> owners;
+    for (const identification::ParameterRule& rule : estimator_data(result).rules) {
+      if (rule.parameter == "max_shortening_speed" && rule.free.value_or(false))
+        owners.insert(owners.end(), rule.owners.begin(), rule.owners.end());
+    }
+    return owners;
+  };
+  ASSERT_FALSE(freed().empty());
+  EXPECT_EQ(freed().size(), result.study.muscles.size());
+  result.study.muscles[0].fixed = {"max_shortening_speed"};
+  EXPECT_EQ(freed().size(), result.study.muscles.size() - 1);
+}
+
 TEST(EstimatorData, WithoutAMaximalContractionFMaxMayBeThatOfAnySmallerEffort) {
   StudyResult result = with_one_channel();
   const auto prior = [&] {
@@ -79,7 +105,7 @@ TEST(EstimatorData, HoldsNothingOfTheTimeWithoutEmg) {
   result.trials.resize(1);
   TrialResult& trial = result.trials[0];
   trial.spec = result.study.trials[0];
-  compute_trial(result.study, input, "", false, nullptr, trial);
+  compute_trial(result.study, input, "", false, {}, nullptr, trial);
   std::vector<Channel> channels;
   for (const char* name : {"BIC", "BRA", "BRD", "TRI"})
     channels.push_back({name, Unit::dimensionless});

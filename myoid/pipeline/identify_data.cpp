@@ -9,11 +9,13 @@
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
+#include "myoid/core/units.h"
 #include "myoid/math/spline.h"
 #include "myoid/pipeline/identify_input.h"
 #include "myoid/pipeline/same_recording.h"
 #include "myoid/recording/recording.h"
 #include "myoid/recording/series_file.h"
+#include "myoid/recording/storage_reader.h"
 #include "myoid/signals/resample.h"
 
 namespace myoid::pipeline {
@@ -67,6 +69,7 @@ void require_counts(const IdentifySources& s) {
   }
   if (joints == 1) require_count(s.moment_arms.size(), trials, "--moment-arms");
   require_count(s.torques.size(), trials, "--torques");
+  if (!s.motions.empty()) require_count(s.motions.size(), trials, "--motion");
   if (!s.forces.empty()) require_count(s.forces.size(), trials, "--forces");
 }
 
@@ -123,10 +126,12 @@ class TrialReader {
   TrialData read(std::size_t number) {
     const IdentifyFiles files = files_of(sources_, number);
     const std::string forces = sources_.forces.empty() ? "" : sources_.forces[number];
+    const std::string motion =
+        sources_.torque && !sources_.motions.empty() ? sources_.motions[number] : "";
     TrialData trial;
     trial.name = std::filesystem::path(files.lengths).stem().string();
     if (sources_.lengths.size() > 1) trial.name = fmt::format("{} ({})", number + 1, trial.name);
-    trial.time_s = clock(files, forces);
+    trial.time_s = clock(files, {forces, motion});
     trial.length_m = columns_of(files.lengths, trial.time_s);
     trial.velocity_mps = files.velocities.empty()
                              ? rates_of(muscle_series(files.lengths), trial.time_s)
@@ -143,6 +148,7 @@ class TrialReader {
     trial.moment_arm_m = Eigen::MatrixXd::Zero(trial.time_s.size(), trial.length_m.cols());
     if (!forces.empty()) trial.force_n = columns_of(forces, trial.time_s);
     if (sources_.torque) add_torques(files, trial);
+    if (!motion.empty()) add_motion(motion, trial);
     return trial;
   }
 
@@ -150,6 +156,8 @@ class TrialReader {
   const TimeSeries& series(const std::string& path) {
     const auto known = read_.find(path);
     if (known != read_.end()) return known->second;
+    if (std::find(sources_.motions.begin(), sources_.motions.end(), path) != sources_.motions.end())
+      return read_.emplace(path, motion_series(path)).first->second;
     recording::SeriesFile file = recording::read_series(path);
     for (const recording::Repair& repair : file.repairs)
       remark_(recording::to_string(path, repair));
@@ -175,13 +183,14 @@ class TrialReader {
 
   /// Times of the lengths, within what is asked for and what all the files cover: nothing is made
   /// up beyond their ends.
-  Eigen::VectorXd clock(const IdentifyFiles& files, const std::string& forces) {
+  Eigen::VectorXd clock(const IdentifyFiles& files, const std::vector<std::string>& more) {
     TimeSeries lengths = series(files.lengths);
     if (sources_.start_s || sources_.end_s)
       lengths = lengths.slice(sources_.start_s.value_or(-1e300), sources_.end_s.value_or(1e300));
     if (lengths.sample_count() < 2)
       throw ReadError(files.lengths, 0, "fewer than two samples in the time asked for");
-    std::vector<std::string> others{files.activations, files.velocities, forces, files.torques};
+    std::vector<std::string> others{files.activations, files.velocities, files.torques};
+    others.insert(others.end(), more.begin(), more.end());
     others.insert(others.end(), files.moment_arms.begin(), files.moment_arms.end());
     for (const std::string& file : others) {
       if (file.empty()) continue;
@@ -223,6 +232,54 @@ class TrialReader {
              .moment_arm_m = columns_of(files.moment_arms[j], trial.time_s)});
       }
     }
+  }
+
+  /// Angle, speed and acceleration of every joint, of the whole file's quintic spline.
+  void add_motion(const std::string& path, TrialData& trial) {
+    const TimeSeries& angles = series(path);
+    const auto column = [&](const std::string& joint) {
+      const auto found = angles.find(joint);
+      if (!found && !(sources_.coordinates.empty() && angles.channel_count() == 1)) {
+        throw ReadError(
+            path, 0,
+            sources_.coordinates.empty()
+                ? fmt::format("has several columns ({}); name the joint's with "
+                              "--coordinate",
+                              channel_names(angles))
+                : fmt::format("no column '{}'; found {}", joint, channel_names(angles)));
+      }
+      return angles.values().col(found.value_or(0));
+    };
+    const auto set = [&](auto& joint, const std::string& name) {
+      const math::Spline spline =
+          sources_.motion_cutoff_hz
+              ? math::Spline::smooth(angles.time_s(), column(name),
+                                     {.cutoff_hz = sources_.motion_cutoff_hz, .noise_sd = {}})
+              : math::Spline::interpolate(angles.time_s(), column(name));
+      math::SplineValues at = spline.evaluate(trial.time_s);
+      joint.angle_rad = std::move(at.value);
+      joint.velocity_radps = std::move(at.first);
+      joint.acceleration_radps2 = std::move(at.second);
+    };
+    set(trial, trial.joint);
+    for (identification::JointData& joint : trial.more_joints) set(joint, joint.name);
+  }
+
+  /// Angles in radians, whatever the file has.
+  TimeSeries motion_series(const std::string& path) {
+    const recording::Storage file = recording::read_storage(path);
+    for (const recording::Repair& repair : file.repairs)
+      remark_(recording::to_string(path, repair));
+    TimeSeries angles = recording::to_si(file, [](const std::string&) { return true; });
+    require_finite(angles, path);
+    constexpr double kTwoTurns_rad = 4.0 * kPi;
+    if (angles.values().cwiseAbs().maxCoeff() > kTwoTurns_rad) {
+      throw ReadError(path, 0,
+                      fmt::format("an angle reaches {:.4g} rad: these are degrees; write "
+                                  "inDegrees=yes into the header",
+                                  angles.values().cwiseAbs().maxCoeff()));
+    }
+    return angles;
   }
 
   const IdentifySources& sources_;

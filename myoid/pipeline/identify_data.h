@@ -16,9 +16,11 @@ struct IdentifySources {
   std::vector<std::string> activations, lengths;
   std::vector<std::string> velocities;  ///< None: by a spline through the lengths.
   std::vector<std::string> forces, moment_arms, torques;
-  std::vector<std::string> coordinates;  ///< Columns of the torque files; none: their only one.
-  bool torque = true;                    ///< Fitted to torques; else to forces.
-  std::optional<double> start_s, end_s;  ///< [s]
+  std::vector<std::string> motions;  ///< Joint angles (.mot, .sto); none: no motion of the joints.
+  std::optional<double> motion_cutoff_hz;  ///< They are smoothed, -3 dB here; empty: not at all.
+  std::vector<std::string> coordinates;    ///< Columns of the torque files; none: their only one.
+  bool torque = true;                      ///< Fitted to torques; else to forces.
+  std::optional<double> start_s, end_s;    ///< [s]
 };
 
 /// What the estimators need, on the clock of each trial's lengths and over the time that all of its

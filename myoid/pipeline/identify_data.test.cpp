@@ -5,8 +5,10 @@
 #include <gtest/gtest.h>
 
 #include "myoid/core/error.h"
+#include "myoid/identification/torque.h"
 #include "myoid/recording/atomic_file.h"
 #include "myoid/recording/series_file.h"
+#include "myoid/recording/storage_writer.h"
 #include "myoid/recording/text_file.h"
 
 #include "tests/support/elbow_study.h"
@@ -134,6 +136,64 @@ TEST(IdentifyData, FilesThatDoNotMatchTheTrialsOrTheMusclesAreRefused) {
   Written joint;
   joint.sources.coordinates = {"knee"};
   EXPECT_NE(joint.message().find("no column 'knee' or 'knee_moment'"), std::string::npos);
+}
+
+TEST(IdentifyData, ViscosityInertiaAndStiffnessComeBackFromTheJointsMotion) {
+  Written files;
+  // T = sum r F - B qdot - J qddot - k q of an angle whose derivatives are known.
+  constexpr double kViscosity = 0.31, kInertia = 0.012, kStiffness = 1.7;
+  const identification::TrialData& truth = files.study.data.trials[0];
+  const Eigen::ArrayXd t = truth.time_s.array();
+  const Eigen::VectorXd q = 1.1 + 0.7 * (3.1 * t).sin() + 0.3 * (7.3 * t).cos();
+  const Eigen::VectorXd qdot = 0.7 * 3.1 * (3.1 * t).cos() - 0.3 * 7.3 * (7.3 * t).sin();
+  const Eigen::VectorXd qddot =
+      -0.7 * 3.1 * 3.1 * (3.1 * t).sin() - 0.3 * 7.3 * 7.3 * (7.3 * t).cos();
+  recording::write_series(files.folder / "id.sto",
+                          {truth.time_s,
+                           {{"elbow_moment", Unit::newton_meter}},
+                           truth.torque_nm - kViscosity * qdot - kInertia * qddot - kStiffness * q},
+                          "torque");
+  recording::write_storage(files.folder / "q.mot", {truth.time_s, {{"elbow", Unit::radian}}, q},
+                           {.title = "Coordinates", .angles_in_degrees = true});
+  files.sources.motions = {files.path("q.mot")};
+  const identification::TrialData trial = files.read();
+  // The natural quintic, away from its ends: (h w)^6 and less.
+  const Eigen::Index margin = 30, n = q.size() - 2 * margin;
+  EXPECT_LT((trial.angle_rad - q).cwiseAbs().maxCoeff(), 1e-6);
+  EXPECT_LT((trial.velocity_radps - qdot).segment(margin, n).cwiseAbs().maxCoeff(), 1e-5);
+  EXPECT_LT((trial.acceleration_radps2 - qddot).segment(margin, n).cwiseAbs().maxCoeff(), 1e-3);
+  identification::StudyData data{.muscles = files.table.muscles, .trials = {trial}, .rules = {}};
+  for (const char* name : {"joint_viscosity", "joint_inertia", "joint_stiffness"})
+    data.rules.push_back({.parameter = name, .free = true});
+  const identification::IdentificationResult fit = identification::identify_torque(
+      data, {.priors = false, .residual_cutoff_hz = {}, .weights = false, .predictions = false});
+  ASSERT_EQ(fit.values.joints.size(), 1u);
+  const auto& joint = fit.values.joints[0];
+  // What the spline errs by near its ends, over 5 s.
+  EXPECT_NEAR(joint[identification::kViscosity], kViscosity, 1e-3);
+  EXPECT_NEAR(joint[identification::kInertia], kInertia, 1e-4);
+  EXPECT_NEAR(joint[identification::kStiffness], kStiffness, 1e-2);
+}
+
+TEST(IdentifyData, AMotionThatIsNotTheJointsOrNoAngleIsRefused) {
+  Written files;
+  const identification::TrialData& truth = files.study.data.trials[0];
+  const auto motion = [&](const std::vector<Channel>& channels, double value) {
+    recording::write_storage(
+        files.folder / "q.mot",
+        {truth.time_s, channels,
+         Eigen::MatrixXd::Constant(truth.time_s.size(), static_cast<Eigen::Index>(channels.size()),
+                                   value)},
+        {.title = "Coordinates"});
+    files.sources.motions = {files.path("q.mot")};
+    return files.message();
+  };
+  EXPECT_NE(motion({{"a", Unit::radian}, {"b", Unit::radian}}, 1.0).find("--coordinate"),
+            std::string::npos);
+  EXPECT_NE(motion({{"a", Unit::radian}}, 95.0).find("these are degrees"), std::string::npos);
+  EXPECT_EQ(motion({{"a", Unit::radian}}, 1.0), "(no error)");
+  files.sources.coordinates = {"elbow"};
+  EXPECT_NE(motion({{"a", Unit::radian}}, 1.0).find("no column 'elbow'"), std::string::npos);
 }
 
 }  // namespace

@@ -11,7 +11,8 @@ struct MarkerMisfit {
   double rms_m = 0.0;       ///< Of all distances, over the frames in which markers were seen.
   bool wrong_unit = false;  ///< The recording is not in the unit that its file says.
   /// What to tell a person where the markers lie more than 4 cm off; a unit that was probably meant
-  /// is named, from distances within the segments of the model. Empty where they fit.
+  /// is named, from distances within the segments of the model, and a shift that all have in
+  /// common. Empty where they fit.
   std::string warning;
 };
 

@@ -13,6 +13,7 @@
 #include "myoid/kinematics/inverse_kinematics.h"
 #include "myoid/model/kinematic_tree.h"
 #include "myoid/model/osim_reader.h"
+#include "myoid/pipeline/marker_misfit.h"
 #include "myoid/pipeline/opensim_files.h"
 #include "myoid/recording/atomic_file.h"
 #include "myoid/recording/recording.h"
@@ -206,6 +207,9 @@ void place_markers(const Scaling& scaling, pugi::xml_node placer, model::OsimEdi
   ik.range_barrier = barrier_of(model);
   if (ik.range_barrier > 0.0) solved = kinematics::inverse_kinematics(model, pose, ik);
   if (solved.frames_not_converged > 0) ++scaling.result.frames_failed;
+  const MarkerMisfit misfit = marker_misfit(model, pose, solved);
+  if (!misfit.warning.empty()) notes.push_back("static pose: " + misfit.warning);
+  scaling.result.wrong_unit = misfit.wrong_unit;
   const Eigen::VectorXd q = solved.q.values().row(0).transpose();
   model::BodyState state = model::make_state(model);
   model::compute_poses(model, q, state);

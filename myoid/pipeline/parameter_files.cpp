@@ -166,14 +166,13 @@ std::string parameters_csv(const std::vector<IdentificationResult>& methods) {
 std::string parameters_json(const std::vector<IdentificationResult>& methods,
                             const std::vector<identification::Fold>& folds,
                             const Provenance& provenance,
-                            const std::vector<TrialPhases>& phases,
-                            const std::vector<identification::RestingJoint>& resting) {
+                            const ParameterContext& context) {
   ordered_json json;
   json["provenance"] = provenance_json(provenance);
   json["methods"] = ordered_json::array();
   for (const IdentificationResult& method : methods) json["methods"].push_back(method_json(method));
   json["segments"] = ordered_json::array();
-  for (const TrialPhases& trial : phases) {
+  for (const TrialPhases& trial : context.phases) {
     for (const Phase& phase : trial.phases) {
       json["segments"].push_back({{"trial", trial.trial},
                                   {"phase", std::string(name(phase.kind))},
@@ -185,8 +184,15 @@ std::string parameters_json(const std::vector<IdentificationResult>& methods,
                                   {"reason", phase.reason}});
     }
   }
+  if (context.force_loop != nullptr) {
+    const identification::ForceLoop& loop = *context.force_loop;
+    json["force_loop"] = {{"end", std::string(identification::name(loop.end))},
+                          {"message", loop.message},
+                          {"rounds", loop.rounds.size()}};
+  }
+  json["left_out"] = context.left_out;
   json["resting_torque"] = ordered_json::array();
-  for (const identification::RestingJoint& joint : resting) {
+  for (const identification::RestingJoint& joint : context.resting) {
     const Eigen::VectorXd& c = joint.torque.coefficient_nm;
     json["resting_torque"].push_back(
         {{"joint", joint.joint},
@@ -212,6 +218,13 @@ std::string parameters_json(const std::vector<IdentificationResult>& methods,
          {"lag_s", number_or_null(f.lag_s)}});
   }
   return json.dump(2) + "\n";
+}
+
+ParameterContext parameter_context(const StudyResult& result) {
+  return {.phases = result.phases,
+          .resting = result.resting,
+          .left_out = result.study.identify.folds,
+          .force_loop = result.force_loop ? &*result.force_loop : nullptr};
 }
 
 }  // namespace myoid::pipeline

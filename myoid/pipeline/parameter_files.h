@@ -5,9 +5,11 @@
 
 #include "myoid/core/provenance.h"
 #include "myoid/identification/cross_validation.h"
+#include "myoid/identification/force_loop.h"
 #include "myoid/identification/resting_torque.h"
 #include "myoid/identification/result.h"
 #include "myoid/pipeline/phases.h"
+#include "myoid/pipeline/study_result.h"
 
 namespace myoid::pipeline {
 
@@ -17,12 +19,23 @@ namespace myoid::pipeline {
 [[nodiscard]] std::string parameters_csv(
     const std::vector<identification::IdentificationResult>& methods);
 
-/// The same with covariance, diagnostics, folds, phases and resting torques.
+/// What parameters.json tells beside the estimates and the folds.
+struct ParameterContext {
+  std::vector<TrialPhases> phases;
+  std::vector<identification::RestingJoint> resting;
+  std::string left_out = "trial";  ///< What a fold is: trial, condition or block.
+  const identification::ForceLoop* force_loop = nullptr;  ///< Null: none was asked for.
+};
+
+/// The same with covariance, diagnostics, folds, phases, resting torques and how the loop of forces
+/// and parameters ended.
 [[nodiscard]] std::string parameters_json(
     const std::vector<identification::IdentificationResult>& methods,
     const std::vector<identification::Fold>& folds,
     const Provenance& provenance,
-    const std::vector<TrialPhases>& phases = {},
-    const std::vector<identification::RestingJoint>& resting = {});
+    const ParameterContext& context = {});
+
+/// That of a finished study, whose result has to outlive it.
+[[nodiscard]] ParameterContext parameter_context(const StudyResult& result);
 
 }  // namespace myoid::pipeline

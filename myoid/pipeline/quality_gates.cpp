@@ -116,7 +116,8 @@ std::optional<Gate> support_gate(const StudyResult& result) {
   for (const TrialResult& t : result.trials) {
     if (t.uncarried)
       return Gate{"Something carries the body", GateStatus::warn,
-                  fmt::format("'{}': {}", t.spec.name, t.uncarried->sentence()),
+                  fmt::format("'{}': nothing measured does in {:.0f} % of the time", t.spec.name,
+                              100.0 * t.uncarried->share),
                   "no time in which half of the weight is on the joint to the ground",
                   "Torques of the legs there lack the ground reaction; they are not fitted."};
     if (!t.has_motion() || t.spec.external_torque || t.generalized_forces.empty()) continue;
@@ -289,6 +290,17 @@ std::vector<report::Gate> quality_gates(const StudyResult& result) {
          "those you need", "Use a number only if its verdict allows it."});
   }
   for (report::Gate& gate : fold_gates(result.folds)) list.push_back(std::move(gate));
+  if (result.force_loop) {
+    const identification::ForceLoop& loop = *result.force_loop;
+    list.push_back({"Forces and parameters agree in their loop",
+                    loop.end == identification::LoopEnd::converged  ? GateStatus::pass
+                    : loop.end == identification::LoopEnd::diverged ? GateStatus::fail
+                                                                    : GateStatus::warn,
+                    fmt::format("{} after {} rounds: {}", identification::name(loop.end),
+                                loop.rounds.size(), loop.message),
+                    "converged",
+                    "Concerns the loop's own numbers only; method torque does not need it."});
+  }
   if (result.exchanged) {
     // Synergists may also differ by more than usual in strength.
     constexpr double kDescribes = 0.5;

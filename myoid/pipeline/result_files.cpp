@@ -208,7 +208,7 @@ void write_results(const StudyResult& result,
   write_identified_model(result, folder);
   recording::write_file(
       folder / "parameters.json",
-      parameters_json(result.methods, result.folds, provenance, result.phases, result.resting));
+      parameters_json(result.methods, result.folds, provenance, parameter_context(result)));
   recording::write_file(folder / "parameters.csv", parameters_csv(result.methods));
   recording::write_file(folder / "run.json", run_json(result, provenance).dump(2) + "\n");
 }

@@ -2,10 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 #include <pugixml.hpp>
 
+#include "myoid/pipeline/parameter_files.h"
+#include "myoid/pipeline/quality_gates.h"
 #include "myoid/pipeline/result_files.h"
 #include "myoid/pipeline/study_model.h"
 #include "myoid/pipeline/study_report.h"
@@ -170,6 +175,61 @@ TEST(StudyReport, HasGatesTablesAndFiguresThatFitTogether) {
        {"parameters_torque", "table_1_shortening", "table_2_lengthening", "trials"}) {
     EXPECT_NE(std::find(tables.begin(), tables.end(), wanted), tables.end()) << wanted;
   }
+}
+
+TEST(IdentifiedModel, AWidthIsWrittenOnlyWhereWidthAndLengthAreBothIdentified) {
+  const StudyResult& result = ExactRun::get().result;
+  const auto start = result.data.muscles[0].start;
+  IdentifiedMuscle muscle{"BIC", start, start, {"optimal_fiber_length"}};
+  muscle.identified.optimal_fiber_length_m *= 1.1;
+  muscle.identified.force_length_width_m *= 1.3;
+  muscle.identified.concentric_curvature *= 1.2;
+  muscle.identified.eccentric_plateau *= 1.05;
+  const auto number = [&](const std::vector<std::string>& changed, const std::string& property) {
+    muscle.changed = changed;
+    pugi::xml_document document;
+    EXPECT_TRUE(
+        document.load_string(identified_model(result.study, result.model_text, {muscle}).c_str()));
+    return document.select_node(("//*[@name='BIC']/" + property).c_str()).node().text().as_double();
+  };
+  const std::vector<std::string> all{"optimal_fiber_length", "force_length_width",
+                                     "concentric_curvature", "eccentric_plateau",
+                                     "max_isometric_force"};
+  for (const auto& [property, needed] :
+       std::vector<std::pair<std::string, std::vector<std::string>>>{
+           {"KshapeActive", {"optimal_fiber_length", "force_length_width"}},
+           {"optimal_fiber_length", {"optimal_fiber_length"}},
+           {"Af", {"concentric_curvature"}},
+           {"Flen", {"eccentric_plateau"}}}) {
+    const double before = number({}, property);
+    EXPECT_NE(number(needed, property), before) << property;
+    // Without any one of what it is made of it stays, whatever else is identified.
+    for (const std::string& left_out : needed) {
+      std::vector<std::string> others = all;
+      std::erase(others, left_out);
+      EXPECT_EQ(number(others, property), before) << property << " without " << left_out;
+    }
+  }
+  const double ratio =
+      muscle.identified.force_length_width_m / muscle.identified.optimal_fiber_length_m;
+  EXPECT_NEAR(number(all, "KshapeActive"), ratio * ratio, 1e-12);
+}
+
+TEST(WriteResults, ALoopThatDivergedFailsAGateAndStandsInTheJson) {
+  StudyResult result = ExactRun::get().result;
+  result.force_loop = identification::ForceLoop{.end = identification::LoopEnd::diverged,
+                                                .message = "the changes grow: do not use it",
+                                                .rounds = {{}, {}}};
+  bool failed = false;
+  for (const report::Gate& gate : quality_gates(result)) {
+    if (gate.name == "Forces and parameters agree in their loop")
+      failed = gate.status == report::GateStatus::fail &&
+               gate.value == "diverged after 2 rounds: the changes grow: do not use it";
+  }
+  EXPECT_TRUE(failed);
+  const std::string json = parameters_json({}, {}, {}, parameter_context(result));
+  EXPECT_NE(json.find("the changes grow: do not use it"), std::string::npos);
+  EXPECT_NE(json.find("\"left_out\": \"trial\""), std::string::npos);
 }
 
 }  // namespace

@@ -27,7 +27,8 @@ struct ToolResult {
   std::vector<std::string> notes;             ///< What a user must know, a sentence each.
   std::string summary;                        ///< One line.
   int frames = 0;
-  int frames_failed = 0;  ///< Without a converged or certified solution.
+  int frames_failed = 0;    ///< Without a converged or certified solution.
+  bool wrong_unit = false;  ///< The markers are not in the unit that their file says.
 };
 
 /// Runs a set-up file of OpenSim's InverseKinematicsTool, InverseDynamicsTool or AnalyzeTool (with

@@ -120,12 +120,15 @@ profile = false
 [[muscle]]
 name = "HAM"
 emg = "HAM"
+fixed = ["max_shortening_speed"]
 [[muscle]]
 name = "GLU"
 emg = "GLU"
+fixed = ["max_shortening_speed"]
 [[muscle]]
 name = "QUA"
 emg = "QUA"
+fixed = ["max_shortening_speed"]
 [[trial]]
 name = "one"
 motion = "one.mot"

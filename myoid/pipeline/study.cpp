@@ -8,6 +8,7 @@
 
 #include "myoid/core/error.h"
 #include "myoid/identification/parameters.h"
+#include "myoid/pipeline/estimator_input.h"
 #include "myoid/pipeline/muscle_table.h"
 #include "myoid/pipeline/study_settings.h"
 #include "myoid/pipeline/trial_table.h"
@@ -48,6 +49,12 @@ void check_references(const Study& study) {
     }
   }
   for (const identification::ParameterRule& rule : study.parameters) {
+    if (is_about_lags(rule) && !study.identify.dynamics) {
+      refuse(
+          fmt::format("[[parameter]] {}: the lags of the activation act only with dynamics = "
+                      "true in [identify]; add that, or leave the table out",
+                      rule.parameter));
+    }
     if (identification::parameter_field(rule.parameter).scope != identification::Scope::muscle)
       continue;
     for (const std::string& owner : rule.owners) {

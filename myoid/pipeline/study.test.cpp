@@ -57,5 +57,13 @@ TEST(ParseStudy, WithoutATrialToLearnFromItIsRefused) {
             std::string::npos);
 }
 
+TEST(ParseStudy, LagsOfTheActivationWithoutDynamicsAreRefusedWithTheRemedy) {
+  const std::string lag = "\n[[parameter]]\nname = \"activation_time\"\nfree = true\n";
+  EXPECT_NE(message_of(kMinimal + lag)
+                .find("activation_time: the lags of the activation act only with "
+                      "dynamics = true"),
+            std::string::npos);
+}
+
 }  // namespace
 }  // namespace myoid::pipeline

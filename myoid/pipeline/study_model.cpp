@@ -243,7 +243,8 @@ std::string identified_model(const Study& study,
       }
       // The shapes are Thelen's; other classes have curves of their own.
       if (!old.class_name.starts_with("Thelen2003Muscle")) continue;
-      if (changed("force_length_width") || changed("optimal_fiber_length")) {
+      // (l_sh / l0)^2 is as sure as both.
+      if (changed("force_length_width") && changed("optimal_fiber_length")) {
         const double ratio =
             muscle.identified.force_length_width_m / muscle.identified.optimal_fiber_length_m;
         set("KshapeActive", ratio * ratio);

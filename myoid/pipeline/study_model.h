@@ -37,9 +37,10 @@ struct MuscleGroup {
 [[nodiscard]] std::vector<MuscleGroup> muscle_groups(const Study& study,
                                                      const model::BodyModel& model);
 
-/// The model's text in which only the identified numbers changed: F_max, optimal fiber length,
-/// KshapeActive, Af and Flen of the muscles of each group, in the proportion in which the group's
-/// changed. Everything else stays byte for byte.
+/// The model's text in which only the identified numbers changed, of the muscles of each group:
+/// F_max and optimal fiber length in the proportion in which the group's changed, and of Thelen's
+/// muscles KshapeActive = (l_sh / l0)^2 where both are identified, Af = V_sh and Flen = V_ml.
+/// Everything else stays byte for byte.
 struct IdentifiedMuscle {
   std::string group;
   muscle::HillParameters<double> start, identified;

@@ -122,9 +122,10 @@ std::string headline(const StudyResult& result) {
       theirs.push_back(f.literature.r2);
     }
     text += fmt::format(
-        " Torque of trials left out of the fit is predicted with a median R2 of {:.2f} "
+        " Torque of {}s left out of the fit is predicted with a median R2 of {:.2f} "
         "(literature's parameters with a best gain: {:.2f}).",
-        math::median(std::move(ours)), math::median(std::move(theirs)));
+        result.study.identify.folds, math::median(std::move(ours)),
+        math::median(std::move(theirs)));
   }
   return text;
 }

@@ -113,9 +113,11 @@ void run_inverse_kinematics(const OpensimSetup& setup,
   }
   const MarkerMisfit misfit = marker_misfit(model, markers, solved);
   if (!misfit.warning.empty()) result.notes.push_back(misfit.warning);
+  result.wrong_unit = misfit.wrong_unit;
   result.summary = fmt::format(
-      "{} frames, {} not converged, {} without markers; marker error {:.2f} mm rms", result.frames,
-      solved.frames_not_converged, solved.frames_without_markers, 1000.0 * misfit.rms_m);
+      "{} frames, {} not converged, {} without markers; marker error {:.2f} mm rms{}",
+      result.frames, solved.frames_not_converged, solved.frames_without_markers,
+      1000.0 * misfit.rms_m, misfit.wrong_unit ? " (the unit of the markers is wrong)" : "");
 }
 
 }  // namespace myoid::pipeline

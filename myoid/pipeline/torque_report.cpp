@@ -59,12 +59,15 @@ Panel torque_panel(std::string title,
 }
 
 Figure folds_figure(const StudyResult& result, double delay_s) {
-  Figure figure{"torque_held_out",
-                "Joint torque predicted for trials that took no part in the fit",
-                "Blue: inverse dynamics. Orange dashed: muscles identified on the other trials. "
-                "Grey dotted: literature's muscles with one best gain.",
-                {},
-                2};
+  const std::string& left_out = result.study.identify.folds;
+  Figure figure{
+      "torque_held_out",
+      fmt::format("Joint torque predicted for {}s that took no part in the fit", left_out),
+      fmt::format("Blue: inverse dynamics. Orange dashed: muscles identified on the other {}s. "
+                  "Grey dotted: literature's muscles with one best gain.",
+                  left_out),
+      {},
+      2};
   for (const identification::Fold& f : result.folds) {
     figure.panels.push_back(torque_panel(
         fmt::format("{}: R2 {:.2f}", title_of(result, f.trial, f.joint), f.identified.r2), f.time_s,
@@ -79,18 +82,21 @@ std::string error_and_r2(const identification::Score& score) {
 }
 
 Table folds_table(const StudyResult& result) {
+  const std::string& left_out = result.study.identify.folds;
   Table table{
       "leave_one_trial_out",
-      "Leave-one-trial-out prediction of the joint torque",
-      "R2 = 1 - SSE/SST, negative when worse than the trial's own mean. NRMSE is RMSE over the "
-      "range. Below 1.5 Hz both torques are compared without what is faster, which in the "
-      "prediction "
-      "is above all the noise of the EMG. Lag: positive if the prediction comes late. Baselines, "
-      "RMSE in N m and R2 in "
-      "brackets: the literature's parameters with the one gain that fits the other trials best; "
-      "torque regressed on EMG times moment arm; the source paper's method; the other trials' mean "
-      "torque.",
-      {"trial", "RMSE [N m]", "NRMSE", "R2", "NRMSE below 1.5 Hz", "R2 below 1.5 Hz", "VAF",
+      fmt::format("Leave-one-{}-out prediction of the joint torque", left_out),
+      fmt::format("R2 = 1 - SSE/SST, negative when worse than the {}'s own mean. ", left_out) +
+          "NRMSE is RMSE over the "
+          "range. Below 1.5 Hz both torques are compared without what is faster, which in the "
+          "prediction "
+          "is above all the noise of the EMG. Lag: positive if the prediction comes late. "
+          "Baselines, "
+          "RMSE in N m and R2 in "
+          "brackets: the literature's parameters with the one gain that fits the others best; "
+          "torque regressed on EMG times moment arm; the source paper's method; the others' mean "
+          "torque.",
+      {left_out, "RMSE [N m]", "NRMSE", "R2", "NRMSE below 1.5 Hz", "R2 below 1.5 Hz", "VAF",
        "lag [ms]", "literature x gain", "regression", "paper", "constant"},
       {}};
   const std::vector<OutlyingFold> outlying = outlying_folds(result.folds);
@@ -169,7 +175,7 @@ std::vector<Section> validation_sections(const StudyResult& result) {
   std::vector<Section> sections;
   if (!result.folds.empty()) {
     sections.push_back({"validation",
-                        "Validation on trials left out",
+                        fmt::format("Validation on {}s left out", result.study.identify.folds),
                         {},
                         {},
                         {folds_table(result)},

@@ -91,8 +91,8 @@ void check_held_mass(const Study& study,
       lever_m = (state.X_GB[b] * study.model.held_mass->p_BP_m - center).norm();
     }
     const double moment_nm = trial.held_mass_kg * kStandardGravity * lever_m;
-    // Four lifts in a row are done with 90 % of what can be lifted once (Brzycki 1993), and that with
-    // what the muscles do at the worst angle of the lift, some 80 % of the best.
+    // Four lifts in a row are done with 90 % of what can be lifted once (Brzycki 1993), and that
+    // with what the muscles do at the worst angle of the lift, some 80 % of the best.
     constexpr double kSeveralTimes = 0.75;
     const bool still =
         trial.use == Use::isometric || trial.use == Use::static_pose || trial.use == Use::mvc;

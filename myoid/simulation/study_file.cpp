@@ -115,6 +115,11 @@ std::string study_toml(const VirtualRecording& recording, RecordingFormat format
     }
   }
 
+  // Whoever is drawn with the literature's v_max has it known; without the word it would be found.
+  const std::vector<std::string>& vary = protocol.truth.vary;
+  const bool speed_is_known =
+      !recording.truth.arm &&
+      std::find(vary.begin(), vary.end(), "max_shortening_speed") == vary.end();
   for (std::size_t i = 0; i < kArmMuscles.size(); ++i) {
     const std::string_view muscle = kArmMuscles[i];
     text += fmt::format("\n[[muscle]]\nname = \"{}\"\nosim = [{}]\n", muscle,
@@ -122,17 +127,7 @@ std::string study_toml(const VirtualRecording& recording, RecordingFormat format
     text += i == kBrachialis && !own_brachialis
                 ? "emg = { same_as = \"BIC\" }         # deep: no electrode on it\n"
                 : fmt::format("emg = \"{}\"\n", muscle);
-  }
-  const std::vector<std::string>& vary = protocol.truth.vary;
-  if (protocol.level == Level::noisy && !recording.truth.arm &&
-      std::find(vary.begin(), vary.end(), "max_shortening_speed") == vary.end()) {
-    // A study allows V_sh what v_max, which it holds, may be off. Here it is this person's own.
-    const VirtualArm arm(protocol.subject, protocol.seven_heads);
-    for (std::size_t i = 0; i < kArmMuscles.size(); ++i)
-      text += fmt::format(
-          "\n[[parameter]]\nname = \"concentric_curvature\"\nof = [\"{}\"]\nprior_sd = {}  # v_max "
-          "is known\n",
-          kArmMuscles[i], number(0.3 * arm.literature()[i].concentric_curvature));
+    if (speed_is_known) text += "fixed = [\"max_shortening_speed\"]    # v_max is known\n";
   }
   for (const VirtualTrial& trial : recording.trials) add_trial(trial, format, text);
   text +=
@@ -159,9 +154,11 @@ std::string truth_csv(const VirtualRecording& recording) {
     text += fmt::format("{},eccentric_slope_ratio,1,{}\n", kArmMuscles[i],
                         muscle::slope_ratio(recording.truth.muscles[i].velocity_shape()));
   if (!recording.truth.arm) {
-    // Where the fitted model is the person's: what a fit finds beside the muscles.
+    // Where the fitted model is the person's: what a fit finds beside the muscles. Exact
+    // activations are the muscles' own: no electrode bends them.
+    const bool exact = recording.protocol.level == Level::noise_free;
     for (std::size_t i = 0; i < kArmMuscles.size(); ++i) {
-      const double exponent = recording.truth.instruments.exponent[i];
+      const double exponent = exact ? 1.0 : recording.truth.instruments.exponent[i];
       text += fmt::format("{},length_activation,1,{}\n{},emg_exponent,1,{}\n", kArmMuscles[i],
                           recording.truth.beside.length_activation, kArmMuscles[i],
                           exponent > 0.0 ? exponent : 1.0);

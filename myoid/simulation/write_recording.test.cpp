@@ -186,6 +186,28 @@ TEST_F(WriteRecording, TruthHasARowForEveryParameter) {
   EXPECT_EQ(values.at("elbow_flexion,joint_viscosity"), 0.0);
 }
 
+TEST_F(WriteRecording, ExactActivationsHaveNoExponentAndAVmaxThatIsNotDrawnIsKnown) {
+  VirtualRecording made = recording(1, Level::noise_free);
+  made.truth.instruments.exponent.fill(1.4);
+  std::istringstream rows(truth_csv(made));
+  int exponents = 0;
+  for (std::string row; std::getline(rows, row);) {
+    if (row.find(",emg_exponent,") == std::string::npos) continue;
+    ++exponents;
+    EXPECT_EQ(std::stod(row.substr(row.rfind(',') + 1)), 1.0) << row;
+  }
+  EXPECT_EQ(exponents, 4);
+  const auto held = [&](const std::string& folder) {
+    write_virtual_recording(made, directory_ / folder);
+    const toml::table study =
+        recording::parse_toml(content(directory_ / folder / "study.toml"), "study.toml");
+    return study["muscle"][0]["fixed"][0].value<std::string>();
+  };
+  EXPECT_EQ(held("known"), "max_shortening_speed");
+  made.protocol.truth.vary.push_back("max_shortening_speed");
+  EXPECT_FALSE(held("drawn"));
+}
+
 TEST_F(WriteRecording, LeavesAUsedFolderAloneUnlessToldOtherwise) {
   fs::create_directories(directory_);
   std::ofstream(directory_ / "mine.txt") << "x";

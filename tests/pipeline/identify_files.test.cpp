@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include <fmt/format.h>
@@ -311,6 +312,89 @@ TEST(IdentifyFromFiles, SeveralTrialsOfForcesPredictEachOther) {
   EXPECT_THAT(run.out, HasSubstr("left out of the fit"));
   EXPECT_THAT(run.out, HasSubstr("1 (l1), A"));
   EXPECT_THAT(run.out, HasSubstr("3 (l3), B"));
+}
+
+TEST(IdentifyFromFiles, WhatTheMethodCannotGiveIsRefusedByName) {
+  const TemporaryFolder folder;
+  const std::vector<Muscle> muscles = random_muscles(10);
+  write_trial(folder, muscles, 1, {.seconds = 4.0});
+  write_muscles(folder, muscles, true);
+  const auto with = [&](const std::string& method, const std::vector<std::string>& more) {
+    std::vector<std::string> arguments = command(folder, method, 1);
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return myoid(arguments);
+  };
+  for (const auto& [method, more, said] :
+       std::vector<std::tuple<std::string, std::vector<std::string>, std::string>>{
+           {"paper", {"--free", "emg_shape"}, "--free emg_shape: the published method has none"},
+           {"paper", {"--loss", "huber", "--profile"}, "--loss, --profile: the published method"},
+           {"force", {"--free", "joint_viscosity"}, "use --method torque"},
+           {"torque", {"--free", "joint_viscosity"}, "give its angles with --motion"}}) {
+    const Finished run = with(method, more);
+    EXPECT_EQ(run.exit_code, 3) << run.out;
+    EXPECT_THAT(run.err, HasSubstr(said));
+  }
+}
+
+TEST(IdentifyFromFiles, MethodPaperHoldsWhatIsFixedAndComparesItsOwnProblem) {
+  const TemporaryFolder folder;
+  const std::vector<Muscle> muscles = random_muscles(11);
+  write_trial(folder, muscles, 1, {.seconds = 4.0});
+  write_muscles(folder, muscles, true, ",force_length_width_fixed", {",true", ",false"});
+  std::vector<std::string> arguments = command(folder, "paper", 1);
+  arguments.insert(arguments.end(), {"--compare-solvers", "--starts", "1"});
+  const Finished run = myoid(arguments);
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  for (const Row& row : myoid::test::read_rows(folder / "out/parameters.csv"))
+    EXPECT_FALSE(row.at("muscle") == "A" && row.at("parameter") == "force_length_width");
+  std::vector<std::string> fits;
+  for (const Row& row : myoid::test::read_rows(folder / "out/solvers.csv"))
+    fits.push_back(row.at("fit"));
+  EXPECT_EQ(fits.size(), 16u);  // two muscles, two branches, four solvers
+  EXPECT_EQ(std::count(fits.begin(), fits.end(), "B lengthening"), 4);
+}
+
+TEST(IdentifyFromFiles, LagsThatAreFreedActAndAVmaxThatNobodyStatesIsFree) {
+  const TemporaryFolder folder;
+  const std::vector<Muscle> muscles = random_muscles(12);
+  write_trial(folder, muscles, 1, {.seconds = 6.0});
+  write_muscles(folder, muscles, false);
+  // Not exact: one force is 3 % off here and there.
+  std::string forces = "time,A,B\n";
+  for (int i = 0; i <= 600; ++i)
+    forces += fmt::format("{},{},{}\n", 0.01 * i, 100 + i % 7, 200 + i % 5);
+  write_text(folder / "f1.csv", forces);
+  std::vector<std::string> arguments = command(folder, "force", 1);
+  for (std::string& argument : arguments) {
+    if (argument == folder / "f1.sto") argument = folder / "f1.csv";
+  }
+  const auto speeds = [&] {
+    int count = 0;
+    for (const Row& row : myoid::test::read_rows(folder / "out/parameters.csv"))
+      count += row.at("parameter") == "max_shortening_speed" ? 1 : 0;
+    return count;
+  };
+  std::vector<std::string> lags = arguments;
+  lags.insert(lags.end(), {"--free", "activation_time"});
+  const Finished run = myoid(lags);
+  EXPECT_THAT(run.err, HasSubstr("the lags of equation (1) are to be identified"));
+  EXPECT_EQ(speeds(), 0);  // `_fixed` in muscles.csv
+  bool delay = false;
+  for (const Row& row : myoid::test::read_rows(folder / "out/parameters.csv")) {
+    if (row.at("parameter") != "emg_delay") continue;
+    delay = true;
+    EXPECT_NEAR(std::stod(row.at("prior_mean")), 0.010, 1e-9);
+  }
+  EXPECT_TRUE(delay);
+  std::filesystem::remove_all(folder / "out");
+  std::string text = myoid::test::read_text(folder / "muscles.csv");
+  text.erase(text.find(",max_shortening_speed_fixed"), 27);
+  for (std::size_t at = text.find(",true"); at != std::string::npos; at = text.find(",true"))
+    text.erase(at, 5);
+  write_text(folder / "muscles.csv", text);
+  const Finished free = myoid(arguments);
+  EXPECT_EQ(speeds(), 2) << free.err;
+  EXPECT_THAT(free.out, HasSubstr("max_shortening_speed is not stated as known"));
 }
 
 }  // namespace

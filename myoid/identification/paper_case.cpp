@@ -1,0 +1,115 @@
+#include "myoid/identification/paper_case.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "myoid/core/error.h"
+
+namespace myoid::identification {
+namespace {
+
+void add_samples(const StudyData& data, std::size_t muscle, PaperCase& result) {
+  const auto column = static_cast<Eigen::Index>(muscle);
+  for (const TrialData& trial : data.trials) {
+    if (!trial.calibration) continue;
+    if (trial.force_n.rows() != trial.time_s.size()) {
+      throw InvalidInput(fmt::format(
+          "method paper: trial '{}' has no muscle forces; share the torque first (myoid so)",
+          trial.name));
+    }
+    const Eigen::MatrixXd activation = muscle_activation(data, trial, trial.time_s, 0.0);
+    Eigen::Index run = 0;
+    for (const Eigen::Index i : included_rows(trial)) {
+      const double v = trial.velocity_mps(i, column);
+      const bool here = (v <= 0.0) == result.shortening;
+      const bool informative =
+          activation(i, column) > 0.0 && v > -result.start.max_shortening_speed_mps;
+      if (here && !informative) ++result.dropped;
+      if (here && informative) {
+        result.samples.push_back({trial.time_s[i], activation(i, column),
+                                  trial.length_m(i, column) - result.start.tendon_slack_length_m, v,
+                                  trial.force_n(i, column)});
+        ++run;
+      } else if (run > 0) {
+        result.pieces.push_back(run);
+        run = 0;
+      }
+    }
+    if (run > 0) result.pieces.push_back(run);
+  }
+}
+
+}  // namespace
+
+PaperCase paper_case(const StudyData& data, std::size_t muscle, bool shortening) {
+  const MuscleSetup& setup = data.muscles[muscle];
+  PaperCase result;
+  result.muscle = setup.name;
+  result.shortening = shortening;
+  result.start = setup.start;
+  std::vector<std::string> held = setup.fixed;
+  for (const ParameterRule& rule : data.rules) {
+    const bool about_it = rule.owners.empty() || std::find(rule.owners.begin(), rule.owners.end(),
+                                                           setup.name) != rule.owners.end();
+    if (!about_it) continue;
+    for (const muscle::HillField& field : muscle::kHillFields) {
+      if (field.name == rule.parameter && rule.value) result.start.*field.member = *rule.value;
+    }
+    if (rule.free) std::erase(held, rule.parameter);
+    if (rule.free == std::optional(false)) held.push_back(rule.parameter);
+  }
+  const auto add = [&](std::string_view name, double muscle::HillForce::*derivative) {
+    if (std::find(held.begin(), held.end(), name) == held.end())
+      result.unknowns.push_back({&muscle::hill_field(name), derivative});
+  };
+  add("optimal_fiber_length", &muscle::HillForce::by_optimal_fiber_length);
+  add("force_length_width", &muscle::HillForce::by_force_length_width);
+  if (shortening) {
+    add("concentric_curvature", &muscle::HillForce::by_concentric_curvature);
+  } else {
+    add("eccentric_curvature_product", &muscle::HillForce::by_eccentric_curvature_product);
+    add("eccentric_plateau", &muscle::HillForce::by_eccentric_plateau);
+  }
+  add_samples(data, muscle, result);
+  return result;
+}
+
+Eigen::VectorXd PaperCase::start_vector() const {
+  Eigen::VectorXd x(static_cast<Eigen::Index>(unknowns.size()));
+  for (std::size_t j = 0; j < unknowns.size(); ++j)
+    x[static_cast<Eigen::Index>(j)] = start.*unknowns[j].field->member;
+  return x;
+}
+
+double PaperCase::largest_force_n() const {
+  double largest = 0.0;
+  for (const MuscleSample& s : samples) largest = std::max(largest, std::abs(s.force_n));
+  return largest;
+}
+
+math::LeastSquaresProblem PaperCase::problem() const {
+  math::LeastSquaresProblem problem;
+  problem.residual_count = static_cast<Eigen::Index>(samples.size());
+  problem.evaluate = [this](const Eigen::VectorXd& x, Eigen::VectorXd& r,
+                            Eigen::MatrixXd* jacobian) {
+    muscle::HillParameters<double> parameters = start;
+    for (std::size_t j = 0; j < unknowns.size(); ++j)
+      parameters.*unknowns[j].field->member = x[static_cast<Eigen::Index>(j)];
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+      const MuscleSample& s = samples[i];
+      const auto row = static_cast<Eigen::Index>(i);
+      const muscle::HillForce f = muscle::hill_force_derivatives(s.activation, s.fiber_length_m,
+                                                                 s.fiber_velocity_mps, parameters);
+      r[row] = f.force_n - s.force_n;
+      if (jacobian == nullptr) continue;
+      for (std::size_t j = 0; j < unknowns.size(); ++j)
+        (*jacobian)(row, static_cast<Eigen::Index>(j)) = f.*unknowns[j].derivative;
+    }
+  };
+  return problem;
+}
+
+}  // namespace myoid::identification

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "myoid/identification/muscle_sample.h"
+#include "myoid/identification/study_data.h"
+#include "myoid/math/least_squares.h"
+#include "myoid/muscle/hill_muscle.h"
+
+namespace myoid::identification {
+
+/// One unknown of the source paper's method.
+struct PaperUnknown {
+  const muscle::HillField* field = nullptr;
+  double muscle::HillForce::*derivative = nullptr;
+};
+
+/// What the source paper's method fits at a time: one muscle in shortening (v <= 0) or lengthening.
+struct PaperCase {
+  std::string muscle;
+  bool shortening = true;
+  muscle::HillParameters<double> start;
+  /// l0, l_sh, V_sh, or l0, l_sh, P, V_ml, without what is held at its start.
+  std::vector<PaperUnknown> unknowns;
+  std::vector<MuscleSample> samples;
+  std::vector<Eigen::Index> pieces;  ///< Lengths of the stretches of consecutive samples.
+  int dropped = 0;                   ///< Samples with a = 0 or v <= -v_max.
+
+  [[nodiscard]] Eigen::VectorXd start_vector() const;
+  [[nodiscard]] double largest_force_n() const;
+  /// r_i = F_m(x) - F_i, without bounds; it refers to this case, which has to outlive it.
+  [[nodiscard]] math::LeastSquaresProblem problem() const;
+};
+
+/// From all calibration trials, the EMG envelope taken for the activation without a delay. Held is
+/// what MuscleSetup::fixed names or the last of `StudyData::rules` about it frees not; a rule's
+/// value is where it starts. Throws InvalidInput if a trial has no forces.
+[[nodiscard]] PaperCase paper_case(const StudyData& data, std::size_t muscle, bool shortening);
+
+}  // namespace myoid::identification
