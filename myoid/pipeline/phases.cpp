@@ -164,13 +164,15 @@ Phase judge(const Segment& segment,
              frequency > 2.0 * changes.frequency_sd * share) {
     phase.kind = PhaseKind::regular;
     phase.reason = numbers + ": fresher than in the phase that the others are compared with";
-  } else if (before && gain_differs && same_movement) {
+  } else if (before && gain_differs && same_movement &&
+             segment.count() >= static_cast<double>(kBatch)) {
     phase.kind = PhaseKind::warm_up;
     phase.reason = numbers + " against the regular phase that follows";
   } else if (gain_differs) {
     phase.kind = PhaseKind::changed;
     phase.reason =
-        numbers + (same_movement
+        numbers + (before && same_movement ? ", for too few cycles to be called a warm-up"
+                   : same_movement
                        ? ", and the frequency of the EMG does not show fatigue"
                        : ": another movement or load; the law of the muscle may explain it");
   } else {

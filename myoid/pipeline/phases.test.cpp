@@ -133,6 +133,11 @@ TEST(FindPhases, AWarmUpIsSeenByTheEffortEvenIfTheTorquePerEmgIsRegular) {
   EXPECT_NEAR(phases[1].begin_s, 19.0, 9.5);
 }
 
+TEST(FindPhases, TheFirstCyclesAloneAreNoWarmUp) {
+  const auto phases = find_phases(recording({{.end_s = 4.75, .gain = 1.5}, {.end_s = 40.0}}));
+  EXPECT_EQ(kinds(phases), (std::vector{PhaseKind::changed, PhaseKind::regular}));
+}
+
 TEST(FindPhases, OfMusclesThatTireFromTheBeginningTheFreshOnesAreRegular) {
   // Torque per EMG falls by 0.3 % each second: a tenth of what it was in the first 30 s in
   // the mean is lost after 46 s; that segment may be half or twice as long.
