@@ -30,6 +30,7 @@ const std::map<std::string, std::string> kWithoutTest = {
     {"myoid/identification/normal_search.h", "exercised by torque.test"},
     {"myoid/identification/options.h", "plain values, exercised by the estimators"},
     {"myoid/identification/parameters.h", "exercised by torque.test"},
+    {"myoid/identification/paper_case.h", "exercised by paper.test and compare_solvers"},
     {"myoid/identification/uncertainty.h", "exercised by torque.test"},
     {"myoid/identification/muscle_sample.h", "a plain value, exercised by the estimators"},
     {"myoid/identification/result.h", "a plain value, exercised by the estimators"},
