@@ -46,7 +46,7 @@ std::vector<std::string> unstated_speeds(const StudyData& data,
 void free_speeds(StudyData& data, const std::vector<std::string>& muscles) {
   const muscle::Range usual = muscle::hill_field("max_shortening_speed").bounds;
   std::vector<ParameterRule> rules;
-  for (const MuscleSetup& setup : data.muscles) {
+  for (MuscleSetup& setup : data.muscles) {
     if (std::find(muscles.begin(), muscles.end(), setup.name) == muscles.end()) continue;
     ParameterRule rule{.parameter = "max_shortening_speed", .owners = {setup.name}, .free = true};
     // A model's own value may lie where no muscle of a person is: it is free about that.
@@ -57,6 +57,13 @@ void free_speeds(StudyData& data, const std::vector<std::string>& muscles) {
       rule.upper = 3.0 * start;
     }
     rules.push_back(std::move(rule));
+    const auto curvature = setup.priors.find("concentric_curvature");
+    const auto speed = setup.priors.find("max_shortening_speed");
+    if (curvature != setup.priors.end() && speed != setup.priors.end() &&
+        curvature->second.logarithmic && speed->second.logarithmic) {
+      curvature->second.sd = std::hypot(
+          curvature->second.sd, (1.0 + setup.start.concentric_curvature) * speed->second.sd);
+    }
   }
   data.rules.insert(data.rules.begin(), rules.begin(), rules.end());
 }

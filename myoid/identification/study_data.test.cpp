@@ -1,5 +1,6 @@
 #include "myoid/identification/study_data.h"
 
+#include <cmath>
 #include <stdexcept>
 
 #include <gtest/gtest.h>
@@ -97,6 +98,10 @@ TEST(FreeSpeeds, CarryIntoTheIntervalsWhatIsNotKnownOfVmax) {
   const StudyData held = force_of_wrong_speed(study);
   StudyData freed = held;
   free_speeds(freed, unstated_speeds(freed));
+  // ln 0.3, and ln 0.2 along d ln V_sh = -(1 + V_sh) d ln v_max.
+  const double shape = held.muscles[0].start.concentric_curvature;
+  EXPECT_NEAR(freed.muscles[0].priors.at("concentric_curvature").sd,
+              std::hypot(0.3, 0.2 * (1.0 + shape)), 1e-12);
   const double truth = study.truth[0].concentric_curvature;
   const TorqueOptions options{.predictions = false};
   // Held, it goes into V_sh, whose interval does not hold the truth.
