@@ -57,6 +57,8 @@ void free_speeds(StudyData& data, const std::vector<std::string>& muscles) {
       rule.upper = 3.0 * start;
     }
     rules.push_back(std::move(rule));
+    // The literature's V_sh goes with the v_max of its own source, of which this one may be off by
+    // as much: its prior is as much wider, ln 0.39 instead of 0.3.
     const auto curvature = setup.priors.find("concentric_curvature");
     const auto speed = setup.priors.find("max_shortening_speed");
     if (curvature != setup.priors.end() && speed != setup.priors.end() &&

@@ -96,8 +96,6 @@ struct StudyData {
 /// speeds only the slope (1 + 1/V_sh) / v_max of f_v acts, so that d ln V_sh = -(1 + V_sh) d ln
 /// v_max along it: with v_max held at a value that is not the muscle's own, V_sh makes up for it
 /// outside of its interval. Free, with the literature's spread (ln 0.2), its interval carries that.
-/// The literature's V_sh goes with the v_max of its own source, of which this one may be off by as
-/// much: its prior is as much wider, ln 0.39 instead of 0.3.
 void free_speeds(StudyData& data, const std::vector<std::string>& muscles);
 
 /// Joints of a trial: its own and `more_joints`.
