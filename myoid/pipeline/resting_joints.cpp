@@ -33,6 +33,7 @@ double strength_nm(const StudyResult& result,
 
 /// Why a passive trial does not show a relaxed joint; empty: it does.
 std::string not_at_rest(const StudyResult& result, const TrialResult& trial) {
+  if (trial.activation.empty()) return "no EMG shows that the muscles were at rest; give it by emg";
   const bool mvc = result.study.emg.has_mvc;
   const double limit = mvc ? kRelaxed : kRelaxedWithoutMvc;
   for (const Channel& channel : trial.activation.channels()) {

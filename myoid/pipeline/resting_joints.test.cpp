@@ -85,6 +85,16 @@ TEST(RestingJoints, MusclesThatWereAtWorkShowNoRestingJoint) {
   EXPECT_EQ(result.data.trials[0].resting_nm.size(), 0);
 }
 
+TEST(RestingJoints, WithoutEmgNobodyKnowsWhetherTheMusclesWereAtRest) {
+  Recorded r = recorded();
+  r.inputs.trials[0].emg.reset();
+  r.study.trials[0].emg.reset();
+  const StudyResult result = analyse(r.study, std::move(r.inputs), {});
+  EXPECT_TRUE(result.resting.empty());
+  ASSERT_FALSE(result.trials[0].warnings.empty());
+  EXPECT_THAT(result.trials[0].warnings.back(), HasSubstr("no EMG shows that the muscles were at"));
+}
+
 TEST(RestingJoints, ATorqueThatNoRelaxedJointHasIsNotTaken) {
   Recorded r = recorded();
   TimeSeries& torque = *r.inputs.trials[0].external_torque;
