@@ -91,10 +91,16 @@ std::vector<Frames> frame_counts(const C3dHeader& header, const C3dFile& file) {
         std::none_of(list.begin(), list.end(), [&](const Frames& f) { return f.count == count; }))
       list.push_back({count, first, source});
   };
-  add(header.last_frame - header.first_frame + 1, header.first_frame, "the header");
   const auto start = long_count(file.find("TRIAL", "ACTUAL_START_FIELD"));
   const auto end = long_count(file.find("TRIAL", "ACTUAL_END_FIELD"));
-  if (start && end) add(*end - *start + 1, *start, "TRIAL:ACTUAL_START_FIELD and ACTUAL_END_FIELD");
+  const auto add_actual = [&] {
+    if (start && end)
+      add(*end - *start + 1, *start, "TRIAL:ACTUAL_START_FIELD and ACTUAL_END_FIELD");
+  };
+  // A header whose last frame is the largest that it can hold cannot say more.
+  if (header.last_frame >= 65535) add_actual();
+  add(header.last_frame - header.first_frame + 1, header.first_frame, "the header");
+  add_actual();
   if (const auto count = count_in(file.find("POINT", "LONG_FRAMES")))
     add(static_cast<std::int64_t>(*count), header.first_frame, "POINT:LONG_FRAMES");
   if (const auto count = count_in(file.find("POINT", "FRAMES")))
