@@ -13,11 +13,13 @@
 #include "myoid/recording/bids_derivative.h"
 #include "myoid/recording/c3d_reader.h"
 #include "myoid/recording/c3d_writer.h"
+#include "myoid/recording/channel_writer.h"
 #include "myoid/recording/emg_channels.h"
 #include "myoid/recording/emg_reader.h"
 #include "myoid/recording/ground_reaction.h"
 #include "myoid/recording/make_c3d.h"
 #include "myoid/recording/recording.h"
+#include "myoid/recording/storage_reader.h"
 #include "myoid/recording/storage_writer.h"
 #include "myoid/recording/trc_writer.h"
 #include "myoid/signals/resample.h"
@@ -79,32 +81,9 @@ void without_blanks(recording::MarkerSeries& markers, std::vector<recording::Rep
     repairs.push_back({0, fmt::format("blanks in {} marker names became '_'", changed)});
 }
 
-bool all_in_volts(const TimeSeries& series) {
-  return series.channel_count() > 0 &&
-         std::all_of(series.channels().begin(), series.channels().end(),
-                     [](const Channel& c) { return c.unit == Unit::volt; });
-}
-
-/// Channels as a storage or table file, their units beside them.
-void write_channels(const fs::path& out, const TimeSeries& series) {
-  const std::string extension = recording::extension_of(out);
-  if (extension == ".csv") {
-    recording::write_csv(out, series);
-    return;
-  }
-  recording::StorageFormat format;
-  format.title = out.stem().string();
-  if (all_in_volts(series)) {
-    format.comments.emplace_back("unit=V");
-  } else {
-    for (const Channel& c : series.channels())
-      format.comments.push_back(fmt::format("channel {} [{}]", c.name, symbol(c.unit)));
-  }
-  // Column labels are separated by tabs: none inside a name.
-  std::vector<Channel> named = series.channels();
-  for (Channel& c : named) std::replace(c.name.begin(), c.name.end(), '\t', ' ');
-  recording::write_storage(out, TimeSeries(series.time_s(), std::move(named), series.values()),
-                           format);
+bool is_storage(const std::string& file) {
+  const std::string extension = recording::extension_of(file);
+  return extension == ".sto" || extension == ".mot";
 }
 
 class Converter {
@@ -174,6 +153,10 @@ class Converter {
     return std::move(file.data);
   }
 
+  [[nodiscard]] static bool states_voltage(const std::string& file) {
+    return is_storage(file) && recording::stated_voltage(recording::read_storage(file));
+  }
+
   void wrote(const fs::path& path) { written_.push_back(path.string()); }
 
   void write_markers(const fs::path& out,
@@ -190,6 +173,23 @@ class Converter {
     recording::MarkerFile file = recording::read_markers(o_.in);
     write_markers(out, std::move(file.markers), file.repairs);
     report(file.repairs);
+  }
+
+  /// The chosen channels of what was read in SI.
+  void write_read(const fs::path& out, const recording::AnalogChannels& channels) {
+    const TimeSeries series = chosen(channels);
+    recording::write_channels(out, series, recording::statement_of(series, o_.in));
+  }
+
+  void storage_channels(const fs::path& out) {
+    recording::Storage file = recording::read_storage(o_.in);
+    report(file.repairs);
+    const recording::ChannelStatement all = recording::statement_of(file);
+    recording::ChannelStatement said{all.title, all.in_degrees, {}};
+    const TimeSeries series = chosen(file.data);
+    for (const Channel& c : series.channels())
+      said.units.push_back(all.units[static_cast<std::size_t>(*file.data.find(c.name))]);
+    recording::write_channels(out, series, said);
   }
 
   [[nodiscard]] TimeSeries chosen(const recording::AnalogChannels& channels) const {
@@ -219,14 +219,16 @@ class Converter {
   void channels(const fs::path& out) {
     context_.prepare_file(out, {o_.in, o_.analog});
     if (o_.what == "emg" || !o_.unit.empty()) {
-      write_channels(out, chosen(voltages(o_.in)));
+      write_read(out, voltages(o_.in));
+    } else if (is_storage(o_.in)) {
+      storage_channels(out);
     } else {
       recording::Recording file = recording::read_recording(o_.in);
       report(file.repairs);
       if (file.analog.empty())
         throw ReadError(o_.in, 0,
                         "there are no analog channels to write; markers go to a .trc file");
-      write_channels(out, chosen(file.analog));
+      write_read(out, file.analog);
     }
     wrote(out);
   }
@@ -275,7 +277,7 @@ class Converter {
     if (!file.analog.empty()) {
       const fs::path out = folder / (stem + "_analog.sto");
       context_.prepare_file(out, {o_.in, o_.analog});
-      write_channels(out, chosen(file.analog));
+      write_read(out, file.analog);
       wrote(out);
       const std::vector<std::string> volts =
           recording::emg_channels(file.analog.channels(), file.plates);
@@ -283,7 +285,8 @@ class Converter {
           volts.size() < static_cast<std::size_t>(file.analog.channel_count())) {
         const fs::path emg = folder / (stem + "_emg.sto");
         context_.prepare_file(emg, {o_.in});
-        write_channels(emg, at_rate(cut(file.analog.select(volts), context_)));
+        const TimeSeries series = at_rate(cut(file.analog.select(volts), context_));
+        recording::write_channels(emg, series, recording::statement_of(series, o_.in));
         wrote(emg);
       }
     }
@@ -305,8 +308,9 @@ class Converter {
     recording::Recording file = recording::read_recording(o_.in);
     report(file.repairs);
     recording::AnalogChannels analog = std::move(file.analog);
+    if (states_voltage(o_.in)) analog = voltages(o_.in);
     if (!o_.analog.empty()) {
-      if (o_.unit.empty()) {
+      if (o_.unit.empty() && !states_voltage(o_.analog)) {
         recording::Recording other = recording::read_recording(o_.analog);
         report(o_.analog, other.repairs);
         analog = std::move(other.analog);

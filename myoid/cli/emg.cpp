@@ -1,4 +1,7 @@
+#include <algorithm>
+
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include "myoid/cli/context.h"
@@ -29,6 +32,35 @@ void require_emg(const std::string& path, const TimeSeries& emg) {
         fmt::format("channel '{}' has the same value throughout: nothing was connected; "
                     "leave the column out",
                     emg.channels()[static_cast<std::size_t>(c)].name));
+  }
+}
+
+/// Says what is wrong with raw EMG. Throws ReadError if none of it is raw.
+void warn_of_faults(const std::string& path,
+                    const TimeSeries& emg,
+                    bool highpass,
+                    const Context& context) {
+  std::vector<std::string> envelopes;
+  const std::vector<signals::Fault> faults = signals::check_emg(emg, highpass);
+  for (const signals::Fault& fault : faults) {
+    if (fault.kind == signals::FaultKind::emg_envelope) envelopes.push_back(fault.channel);
+  }
+  const std::string what = fmt::format(
+      "{} never negative and slow: rectified and smoothed already, an envelope, of which this "
+      "command would leave noise",
+      envelopes.size() == 1 ? fmt::format("channel '{}' is", envelopes[0])
+                            : fmt::format("channels {} are", fmt::join(envelopes, ", ")));
+  if (static_cast<Eigen::Index>(envelopes.size()) == emg.channel_count())
+    throw ReadError(path, 0,
+                    what +
+                        "; give the raw EMG, or divide by the largest effort yourself (a study "
+                        "does it with [emg] kind = \"envelope\")");
+  if (!envelopes.empty()) context.warn(fmt::format("{}: {}; leave them out", path, what));
+  for (const signals::Fault& fault : faults) {
+    const bool envelope =
+        std::find(envelopes.begin(), envelopes.end(), fault.channel) != envelopes.end();
+    if (fault.grave && !envelope)
+      context.warn(fmt::format("{}: {}", path, signals::sentence(fault)));
   }
 }
 
@@ -91,9 +123,7 @@ void add_emg(CLI::App& app, Context& context) {
       require_emg(path, file.data);
       o->chain.notch = !o->no_notch;
       o->chain.whitening = !o->no_whitening;
-      for (const signals::Fault& fault : signals::check_emg(file.data, !o->chain.as_published)) {
-        if (fault.grave) context.warn(fmt::format("{}: {}", path, signals::sentence(fault)));
-      }
+      warn_of_faults(path, file.data, !o->chain.as_published, context);
       return signals::clean_emg(file.data, o->chain);
     };
     std::vector<std::string> paths{o->in};

@@ -80,7 +80,7 @@ void add_id(CLI::App& app, Context& context) {
         dynamics::inverse_dynamics(model, motion, {.loads = loads ? &*loads : nullptr});
     if (const auto weight = pipeline::unsupported_weight(model, forces);
         weight && pipeline::stands(model, motion.q.values().row(0).transpose()))
-      context.warn(weight->sentence());
+      context.warn(weight->sentence("--loads"));
     recording::write_series(o->out, forces, "Inverse Dynamics Generalized Forces");
     if (context.json) {
       nlohmann::ordered_json json{{"out", o->out}, {"samples", forces.sample_count()}};

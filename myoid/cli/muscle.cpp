@@ -150,6 +150,57 @@ double share_of_error(const muscle::IsolatedModel& model,
          over_n;
 }
 
+/// A force that this muscle cannot make: the starting F_max is right within a few times, and what a
+/// lengthening muscle makes is below twice F_max.
+void check_size(const std::vector<muscle::IsolatedRecording>& recordings,
+                double max_isometric_n,
+                const Context& context) {
+  constexpr double kLarge = 5.0, kNone = 50.0;
+  for (const muscle::IsolatedRecording& r : recordings) {
+    const double largest = r.force_n.cwiseAbs().maxCoeff();
+    const std::string found = fmt::format(
+        "{}: forces up to {:.4g} N, {:.3g} times the muscle's F_max "
+        "of {:.4g} N",
+        r.name, largest, largest / max_isometric_n, max_isometric_n);
+    if (largest > kNone * max_isometric_n)
+      throw InvalidInput(found +
+                         "; expected at most some 2 times: write them in N (are they in mN?), and "
+                         "give the files of --length and --measured in the same order");
+    if (largest > kLarge * max_isometric_n || largest < max_isometric_n / kNone)
+      context.warn(found + "; are they in another unit, or of another muscle?");
+  }
+}
+
+/// Two recordings of which each is the other's experiment: with the muscle as it starts, the errors
+/// of both together are less than half with their forces exchanged.
+void check_order(const muscle::IsolatedModel& start,
+                 const std::vector<muscle::IsolatedRecording>& recordings,
+                 double tolerance,
+                 const Context& context) {
+  constexpr double kBetter = 0.5;
+  const auto error = [&](std::size_t length, std::size_t force) {
+    muscle::IsolatedRecording mixed = recordings[length];
+    mixed.time_s = recordings[force].time_s;
+    mixed.force_n = recordings[force].force_n;
+    return share_of_error(start, mixed, 1.0, tolerance);
+  };
+  const auto covers = [&](std::size_t length, std::size_t force) {
+    const Eigen::VectorXd& from = recordings[length].input.time_s;
+    const Eigen::VectorXd& wanted = recordings[force].time_s;
+    return from[0] <= wanted[0] && from[from.size() - 1] >= wanted[wanted.size() - 1];
+  };
+  for (std::size_t i = 0; i < recordings.size(); ++i) {
+    for (std::size_t j = i + 1; j < recordings.size(); ++j) {
+      if (!covers(i, j) || !covers(j, i)) continue;
+      if (error(i, j) + error(j, i) >= kBetter * (error(i, i) + error(j, j))) continue;
+      context.warn(fmt::format(
+          "{} and {} fit each other's length much better than their own, with the muscle as it "
+          "starts: give --length, --scale and --measured in the same order",
+          recordings[i].name, recordings[j].name));
+    }
+  }
+}
+
 /// --fit: the parameters from all recordings, and how well those from the others predict each.
 void fit(const Options& o, Context& context, const pipeline::MuscleFile& file) {
   const muscle::IsolatedModel start{file.parameters, file.laws, file.millard};
@@ -161,6 +212,8 @@ void fit(const Options& o, Context& context, const pipeline::MuscleFile& file) {
   }
   const double over =
       o.isometric_n > 0.0 ? o.isometric_n : start.parameters.hill.max_isometric_force_n;
+  check_size(recordings, start.parameters.hill.max_isometric_force_n, context);
+  check_order(start, recordings, std::max(o.tolerance, 1e-8), context);
   muscle::IsolatedFitOptions options;
   options.parameters = o.fit;
   options.relative_tolerance = std::max(o.tolerance, 1e-8);
@@ -199,6 +252,17 @@ void fit(const Options& o, Context& context, const pipeline::MuscleFile& file) {
   context.end_progress();
   if (!o.out.empty()) recording::write_file(o.out, csv);
   if (!converged) context.exit_code = kQualityGateFailed;
+  // Whoever guesses half of the maximum misses no force between none and it by more than half.
+  constexpr double kGuess = 0.5;
+  for (const auto& error : json_errors) {
+    if (error["fitted"].get<double>() <= kGuess) continue;
+    context.warn(fmt::format(
+        "{}: the fit misses the force by {:.0f} % of {:.4g} N, more than a "
+        "guess would: are the files of --length and --measured in the same "
+        "order, and in m and N?",
+        error["recording"].get<std::string>(), 100.0 * error["fitted"].get<double>(), over));
+    context.exit_code = kQualityGateFailed;
+  }
   if (context.json) {
     nlohmann::json json{{"muscle", file.name}, {"converged", converged}, {"errors", json_errors}};
     for (const muscle::IsolatedEstimate& e : all.estimates)

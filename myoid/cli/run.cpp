@@ -51,13 +51,15 @@ void print_method(const identification::IdentificationResult& method, std::size_
       nuisances = true;
       fmt::print("of the electrodes and the joint, freed for the intervals' sake:\n");
     }
-    const bool interval = e.ci_low && e.ci_high;
+    const bool interval = e.ci_low && e.ci_high && !pipeline::is_undetermined(e);
     const std::string estimate = !std::isfinite(e.estimate) ? "-"
                                  : interval
                                      ? report::format_rounded(e.estimate, *e.ci_high - *e.ci_low)
                                      : report::format_value(e.estimate);
     const std::string ends =
-        interval ? fmt::format("[{}]", report::format_interval(*e.ci_low, *e.ci_high, ", ")) : "-";
+        interval ? fmt::format("[{}]", report::format_interval(*e.ci_low, *e.ci_high, ", "))
+        : pipeline::is_undetermined(e) ? "not determined"
+                                       : "-";
     fmt::print("{:<{}}  {:<{}}  {:<11} {:>10} {:>10} {:>24}  {}\n", line.owners, owner, labelled(e),
                parameter, e.fit_case, report::format_value(e.initial), estimate, ends,
                identification::name(e.verdict));
@@ -188,8 +190,8 @@ void add_run(CLI::App& app, Context& context) {
       }
     }
     if (context.json) {
-      fmt::print(
-          "{}", pipeline::parameters_json(result.methods, result.folds, provenance, result.phases));
+      fmt::print("{}", pipeline::parameters_json(result.methods, result.folds, provenance,
+                                                 result.phases, result.resting));
     } else {
       print_results(result, gates);
       const double seconds =

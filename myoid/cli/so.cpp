@@ -74,7 +74,7 @@ void add_so(CLI::App& app, Context& context) {
     if (!o->loads.empty()) loads = load_external_loads(model, o->loads, motion, context);
     if (const auto weight = pipeline::unsupported_weight(model);
         weight && !loads && pipeline::stands(model, motion.q.values().row(0).transpose()))
-      context.warn(weight->sentence());
+      context.warn(weight->sentence("--loads"));
     const forces::SharingInput input =
         forces::sharing_input(model, motion, o->coordinates, loads ? &*loads : nullptr);
     for (const std::string& note : input.notes) context.warn(note);

@@ -14,32 +14,6 @@
 namespace myoid::identification {
 namespace {
 
-/// Rows [first, first + count) of a trial, as a trial of their own with the whole EMG.
-TrialData part(const TrialData& trial, Eigen::Index first, Eigen::Index count) {
-  TrialData t = trial;
-  t.time_s = trial.time_s.segment(first, count);
-  t.length_m = trial.length_m.middleRows(first, count);
-  t.velocity_mps = trial.velocity_mps.middleRows(first, count);
-  t.moment_arm_m = trial.moment_arm_m.middleRows(first, count);
-  t.torque_nm = trial.torque_nm.segment(first, count);
-  if (trial.force_n.rows() == trial.time_s.size())
-    t.force_n = trial.force_n.middleRows(first, count);
-  const auto cut = [&](Eigen::VectorXd& x) {
-    if (x.size() == trial.time_s.size()) x = x.segment(first, count).eval();
-  };
-  cut(t.angle_rad);
-  cut(t.velocity_radps);
-  cut(t.acceleration_radps2);
-  for (JointData& joint : t.more_joints) {
-    cut(joint.torque_nm);
-    cut(joint.angle_rad);
-    cut(joint.velocity_radps);
-    cut(joint.acceleration_radps2);
-    joint.moment_arm_m = joint.moment_arm_m.middleRows(first, count).eval();
-  }
-  return t;
-}
-
 /// What a fold is fitted on, and what it predicts.
 struct Split {
   std::string name;
@@ -142,15 +116,18 @@ Fold score_joint(const std::string& name,
   Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(m, m);
   Eigen::VectorXd right = Eigen::VectorXd::Zero(m);
   for (const TrialData& t : training) {
+    // Whoever predicts knows what the joint was measured to do by itself.
+    const Eigen::VectorXd resting = resting_torque_nm(t);
+    const Eigen::VectorXd active = t.torque_nm - resting;
     const Eigen::VectorXd torque =
-        predict(by.data, t, by.literature, by.literature_delay_s).torque_nm;
-    product += torque.dot(t.torque_nm);
+        predict(by.data, t, by.literature, by.literature_delay_s).torque_nm - resting;
+    product += torque.dot(active);
     square += torque.squaredNorm();
     sum += t.torque_nm.sum();
     count += static_cast<double>(t.torque_nm.size());
     const Eigen::MatrixXd x = regressors(by.data, t, by.fit.delay_s);
     normal += x.transpose() * x;
-    right += x.transpose() * t.torque_nm;
+    right += x.transpose() * active;
   }
   const Eigen::VectorXd slopes = normal.completeOrthogonalDecomposition().solve(right);
   Fold fold;
@@ -166,21 +143,25 @@ Fold score_joint(const std::string& name,
     const auto smooth = [&](const Eigen::VectorXd& torque) {
       return below(t.time_s, torque, found.cutoff_hz);
     };
-    const Eigen::VectorXd before =
-        smooth(predict(by.data, t, by.literature, by.literature_delay_s).torque_nm);
-    const Eigen::VectorXd regressed = smooth(regressors(by.data, t, by.fit.delay_s) * slopes);
+    const Eigen::VectorXd resting = resting_torque_nm(t);
+    const Eigen::VectorXd muscles =
+        predict(by.data, t, by.literature, by.literature_delay_s).torque_nm - resting;
+    const Eigen::VectorXd before = resting + fold.gain * smooth(muscles);
+    const Eigen::VectorXd regressed =
+        resting + smooth(regressors(by.data, t, by.fit.delay_s) * slopes);
     time.emplace_back(t.time_s(rows));
     measured.emplace_back(t.torque_nm(rows));
     predicted.emplace_back(whole(rows));
     slow_measured.emplace_back(below(t.time_s, t.torque_nm, by.cutoff_hz)(rows));
     slow_predicted.emplace_back(below(t.time_s, whole, by.cutoff_hz)(rows));
-    by_literature.emplace_back(fold.gain * before(rows));
+    by_literature.emplace_back(before(rows));
     by_regression.emplace_back(regressed(rows));
     if (by.paper) {
       const Eigen::MatrixXd slow = predict(by.data, t, by.shortening, 0.0).force_n;
       const Eigen::MatrixXd fast = predict(by.data, t, by.lengthening, 0.0).force_n;
       const Eigen::MatrixXd force = (t.velocity_mps.array() <= 0.0).select(slow, fast);
-      const Eigen::VectorXd paper = smooth(t.moment_arm_m.cwiseProduct(force).rowwise().sum());
+      const Eigen::VectorXd paper =
+          resting + smooth(t.moment_arm_m.cwiseProduct(force).rowwise().sum());
       by_paper.emplace_back(paper(rows));
     }
     fold.lag_s += best_lag_s(t.time_s, t.torque_nm, whole) / static_cast<double>(held.size());

@@ -142,9 +142,10 @@ IdentificationResult identify_force(const StudyData& data, const ForceOptions& o
     if (trial.moment_arm_m.rows() != trial.time_s.size() ||
         trial.torque_nm.size() != trial.time_s.size())
       continue;
+    const Eigen::VectorXd resting = resting_torque_nm(trial);
     fit.literature_torque_nm =
-        trial.moment_arm_m.cwiseProduct(fit.literature_force_n).rowwise().sum();
-    fit.torque_fit_nm = trial.moment_arm_m.cwiseProduct(fit.force_fit_n).rowwise().sum();
+        trial.moment_arm_m.cwiseProduct(fit.literature_force_n).rowwise().sum() + resting;
+    fit.torque_fit_nm = trial.moment_arm_m.cwiseProduct(fit.force_fit_n).rowwise().sum() + resting;
     const std::vector<Eigen::Index> rows = included_rows(trial);
     const Eigen::VectorXd measured = trial.torque_nm(rows);
     const Eigen::VectorXd predicted = fit.torque_fit_nm(rows);

@@ -143,11 +143,14 @@ InformedForces informed_forces(const TrialData& trial,
       arms.row(j) = trial.more_joints[static_cast<std::size_t>(j - 1)].moment_arm_m.row(i);
     return arms;
   };
+  std::vector<Eigen::VectorXd> active;  // less what the joint does by itself
+  for (std::size_t j = 0; j < joint_count(trial); ++j) {
+    const TrialData one = of_joint(trial, j);
+    active.emplace_back(one.torque_nm - resting_torque_nm(one));
+  }
   const auto torque = [&](Eigen::Index i) {
     Eigen::VectorXd torques(joints);
-    torques[0] = trial.torque_nm[i];
-    for (Eigen::Index j = 1; j < joints; ++j)
-      torques[j] = trial.more_joints[static_cast<std::size_t>(j - 1)].torque_nm[i];
+    for (Eigen::Index j = 0; j < joints; ++j) torques[j] = active[static_cast<std::size_t>(j)][i];
     return torques;
   };
   Eigen::MatrixXd rest(n, m);

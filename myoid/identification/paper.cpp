@@ -301,9 +301,11 @@ IdentificationResult identify_paper(const StudyData& data, const PaperOptions& o
       }
     }
     if (trial.moment_arm_m.rows() == trial.time_s.size()) {
+      const Eigen::VectorXd resting = resting_torque_nm(trial);
       fit.literature_torque_nm =
-          trial.moment_arm_m.cwiseProduct(fit.literature_force_n).rowwise().sum();
-      fit.torque_fit_nm = trial.moment_arm_m.cwiseProduct(fit.force_fit_n).rowwise().sum();
+          trial.moment_arm_m.cwiseProduct(fit.literature_force_n).rowwise().sum() + resting;
+      fit.torque_fit_nm =
+          trial.moment_arm_m.cwiseProduct(fit.force_fit_n).rowwise().sum() + resting;
     }
     result.trials.push_back(std::move(fit));
   }

@@ -127,7 +127,8 @@ void ResidualModel::add_block(const StudyData& data,
 
   const auto add_joint = [&](const std::string& name, const Eigen::VectorXd& torque,
                              const Eigen::MatrixXd& arm, const Eigen::VectorXd& q,
-                             const Eigen::VectorXd& qdot, const Eigen::VectorXd& qddot) {
+                             const Eigen::VectorXd& qdot, const Eigen::VectorXd& qddot,
+                             const Eigen::VectorXd& resting) {
     Block::Joint joint;
     joint.joint = static_cast<int>(std::find(map_.joints().begin(), map_.joints().end(), name) -
                                    map_.joints().begin());
@@ -139,6 +140,7 @@ void ResidualModel::add_block(const StudyData& data,
       joint.motion.col(1) = qdot(rows);
       joint.motion.col(2) = qddot(rows);
     }
+    if (resting.size() == all) joint.resting_nm = resting(rows);
     Eigen::MatrixXd target = torque(rows).transpose();
     filter_rows(block.filter, target);
     measured_.conservativeResize(joint.first + n);
@@ -149,10 +151,10 @@ void ResidualModel::add_block(const StudyData& data,
     block.joints.push_back(std::move(joint));
   };
   add_joint(trial.joint, trial.torque_nm, trial.moment_arm_m, trial.angle_rad, trial.velocity_radps,
-            trial.acceleration_radps2);
+            trial.acceleration_radps2, trial.resting_nm);
   for (const JointData& joint : trial.more_joints)
     add_joint(joint.name, joint.torque_nm, joint.moment_arm_m, joint.angle_rad,
-              joint.velocity_radps, joint.acceleration_radps2);
+              joint.velocity_radps, joint.acceleration_radps2, joint.resting_nm);
   for (const FreeParameter& p : map_.free()) {
     if (p.field->scope != Scope::joint || p.field->field == kOffset) continue;
     for (const Block::Joint& joint : block.joints) {
@@ -274,6 +276,7 @@ void ResidualModel::evaluate_block(const Block& block,
                                                p[kStiffness] * joint.motion.col(0);
     }
     out.predicted.segment(joint.first, n).array() += p[kOffset];
+    if (joint.resting_nm.size() > 0) out.predicted.segment(joint.first, n) += joint.resting_nm;
     for (const ParameterMap::Chain& chain : of_joint) {
       if (chain.owner != joint.joint) continue;
       auto row = out.gradient.row(chain.variable).segment(joint.first, n);

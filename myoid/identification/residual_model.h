@@ -94,6 +94,7 @@ class ResidualModel {
       Eigen::Index first = 0;
       Eigen::MatrixXd arm_m;
       Eigen::MatrixXd motion;  ///< n x 3: angle, rate, acceleration; empty if not known.
+      Eigen::VectorXd resting_nm;  ///< n, or empty: none.
     };
     std::vector<Joint> joints;
     std::vector<math::SecondOrderSection> filter;

@@ -50,7 +50,40 @@ TrialData of_joint(const TrialData& trial, std::size_t joint) {
   one.angle_rad = of.angle_rad;
   one.velocity_radps = of.velocity_radps;
   one.acceleration_radps2 = of.acceleration_radps2;
+  one.resting_nm = of.resting_nm;
   return one;
+}
+
+TrialData part(const TrialData& trial, Eigen::Index first, Eigen::Index count) {
+  TrialData t = trial;
+  t.time_s = trial.time_s.segment(first, count);
+  t.length_m = trial.length_m.middleRows(first, count);
+  t.velocity_mps = trial.velocity_mps.middleRows(first, count);
+  t.moment_arm_m = trial.moment_arm_m.middleRows(first, count);
+  t.torque_nm = trial.torque_nm.segment(first, count);
+  if (trial.force_n.rows() == trial.time_s.size())
+    t.force_n = trial.force_n.middleRows(first, count);
+  const auto cut = [&](Eigen::VectorXd& x) {
+    if (x.size() == trial.time_s.size()) x = x.segment(first, count).eval();
+  };
+  cut(t.angle_rad);
+  cut(t.velocity_radps);
+  cut(t.acceleration_radps2);
+  cut(t.resting_nm);
+  for (JointData& joint : t.more_joints) {
+    cut(joint.torque_nm);
+    cut(joint.angle_rad);
+    cut(joint.velocity_radps);
+    cut(joint.acceleration_radps2);
+    cut(joint.resting_nm);
+    joint.moment_arm_m = joint.moment_arm_m.middleRows(first, count).eval();
+  }
+  return t;
+}
+
+Eigen::VectorXd resting_torque_nm(const TrialData& trial) {
+  if (trial.resting_nm.size() > 0) return trial.resting_nm;
+  return Eigen::VectorXd::Zero(trial.time_s.size());
 }
 
 std::vector<std::string> joint_names(const StudyData& data) {
@@ -98,14 +131,23 @@ void validate(const StudyData& data) {
     }
     if (!trial.length_m.allFinite() || !trial.velocity_mps.allFinite() ||
         !trial.moment_arm_m.allFinite() || !trial.torque_nm.allFinite() ||
-        !trial.force_n.allFinite()) {
+        !trial.force_n.allFinite() || !trial.resting_nm.allFinite()) {
       throw InvalidInput(
           fmt::format("trial '{}': a length, velocity, moment arm, torque or force is not a number",
                       trial.name));
     }
+    const auto resting_or_none = [n](const Eigen::VectorXd& x) {
+      return x.size() == 0 || (x.size() == n && x.allFinite());
+    };
+    if (!resting_or_none(trial.resting_nm))
+      throw InvalidInput(
+          fmt::format("trial '{}': the resting torque must be {} samples or none, "
+                      "found {}",
+                      trial.name, n, trial.resting_nm.size()));
     for (const JointData& joint : trial.more_joints) {
       if (joint.torque_nm.size() != n || !sized(joint.moment_arm_m) ||
-          !joint.torque_nm.allFinite() || !joint.moment_arm_m.allFinite()) {
+          !joint.torque_nm.allFinite() || !joint.moment_arm_m.allFinite() ||
+          !resting_or_none(joint.resting_nm)) {
         throw InvalidInput(fmt::format(
             "trial '{}', joint '{}': torque and moment arms must be {} finite samples x {} muscles",
             trial.name, joint.name, n, m));

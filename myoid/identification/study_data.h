@@ -45,6 +45,7 @@ struct JointData {
   Eigen::VectorXd torque_nm;
   Eigen::MatrixXd moment_arm_m;                                    ///< n x m
   Eigen::VectorXd angle_rad, velocity_radps, acceleration_radps2;  ///< Empty, or n.
+  Eigen::VectorXd resting_nm;                                      ///< As TrialData's.
 };
 
 /// A stretch of time, ends included.
@@ -67,6 +68,9 @@ struct TrialData {
   TimeSeries activation;    ///< Envelope of each EMG channel, 0..1, on its own clock.
   std::string joint = "joint";  ///< Name of the joint of `torque_nm`.
   Eigen::VectorXd angle_rad, velocity_radps, acceleration_radps2;  ///< Of it: empty, or n.
+  /// Share of `torque_nm` that the joint was measured to make by itself (RestingTorque): empty for
+  /// none, or n. The muscles' activity has to make the rest.
+  Eigen::VectorXd resting_nm;
   std::vector<JointData> more_joints;  ///< Method `torque` fits them too.
   /// Predicted, but neither fitted nor scored: warm-up, fatigue, what a study's rule leaves out.
   std::vector<Stretch> excluded;
@@ -90,6 +94,12 @@ struct StudyData {
 /// The trial as one joint's alone: that joint's torque, moment arms and motion, 0 its own, then
 /// `more_joints` in order.
 [[nodiscard]] TrialData of_joint(const TrialData& trial, std::size_t joint);
+
+/// Samples [first, first + count) of a trial, as a trial of their own with the whole EMG.
+[[nodiscard]] TrialData part(const TrialData& trial, Eigen::Index first, Eigen::Index count);
+
+/// The resting torque of the trial's own joint, n: zeros where none was measured.
+[[nodiscard]] Eigen::VectorXd resting_torque_nm(const TrialData& trial);
 
 /// Names of all joints of all trials, in order of appearance.
 [[nodiscard]] std::vector<std::string> joint_names(const StudyData& data);

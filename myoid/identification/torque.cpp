@@ -86,8 +86,10 @@ Prediction predict(const StudyData& data,
                                            trial.velocity_mps(i, k), parameters);
     }
   }
-  if (trial.moment_arm_m.rows() == trial.time_s.size())
-    p.torque_nm = trial.moment_arm_m.cwiseProduct(p.force_n).rowwise().sum();
+  if (trial.moment_arm_m.rows() == trial.time_s.size()) {
+    p.torque_nm =
+        trial.moment_arm_m.cwiseProduct(p.force_n).rowwise().sum() + resting_torque_nm(trial);
+  }
   return p;
 }
 
@@ -126,7 +128,8 @@ Prediction predict(const StudyData& data,
     }
   }
   if (with_torque) {
-    p.torque_nm = trial.moment_arm_m.cwiseProduct(p.force_n).rowwise().sum();
+    p.torque_nm =
+        trial.moment_arm_m.cwiseProduct(p.force_n).rowwise().sum() + resting_torque_nm(trial);
     const std::vector<std::string> joints = joint_names(data);
     const auto at = static_cast<std::size_t>(std::find(joints.begin(), joints.end(), trial.joint) -
                                              joints.begin());

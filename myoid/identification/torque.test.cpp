@@ -134,6 +134,31 @@ TEST(IdentifyTorque, FindsTheTruthWithoutNoise) {
   for (const TrialFit& fit : result.trials) EXPECT_GT(fit.r2, 1.0 - 1e-10);
 }
 
+TEST(IdentifyTorque, WhatTheJointMakesByItselfIsNoMusclesForce) {
+  ElbowStudy study = elbow_study({.trials = 2, .seconds = 10.0});
+  for (TrialData& trial : study.data.trials) {
+    // Stretched tissue pulls out of both ends of the range: 4 N m there.
+    const Eigen::VectorXd x = (trial.length_m.col(0).array() - trial.length_m.col(0).mean()) / 0.02;
+    trial.resting_nm = x.array().cube();
+    trial.torque_nm += trial.resting_nm;
+  }
+  const TorqueOptions options{.priors = false, .weights = false};
+  const IdentificationResult with = identify_torque(study.data, options);
+  for (const ParameterEstimate& e : with.estimates) {
+    const double truth = true_value(study, e);
+    EXPECT_NEAR(e.estimate, truth, 1e-6 * truth) << e.muscle << " " << e.parameter;
+  }
+  for (const TrialFit& fit : with.trials) EXPECT_GT(fit.r2, 1.0 - 1e-10);
+  for (TrialData& trial : study.data.trials) trial.resting_nm.resize(0);
+  const IdentificationResult without = identify_torque(study.data, options);
+  double worst = 0.0;
+  for (const ParameterEstimate& e : without.estimates) {
+    if (e.parameter == "max_isometric_force")
+      worst = std::max(worst, std::abs(e.estimate / true_value(study, e) - 1.0));
+  }
+  EXPECT_GT(worst, 0.05) << "the torque was too small to matter";
+}
+
 TEST(IdentifyTorque, FindsTheTruthWithoutNoiseFromTwentyStarts) {
   // Each number of each muscle begins up to two spreads of people away from the truth, either way.
   const ElbowStudy study = elbow_study({.trials = 2, .seconds = 10.0});

@@ -134,6 +134,10 @@ IkResult inverse_kinematics(const model::BodyModel& model,
   std::vector<bool> undetermined(fit.free().size(), false);
   const std::vector<Eigen::VectorXd> fresh = fresh_starts(model);
   double cost_before = std::numeric_limits<double>::infinity();
+  const auto solve_from = [&](const Eigen::VectorXd& start) {
+    return options.range_barrier > 0.0 ? fit.solve_inside(start, options.range_barrier)
+                                       : fit.solve(start);
+  };
   for (Eigen::Index frame = 0; frame < frames; ++frame) {
     if (frame % 256 == 0) {
       options.progress.check();
@@ -151,15 +155,16 @@ IkResult inverse_kinematics(const model::BodyModel& model,
       fit.locate(locations, frame);
       continue;
     }
-    PoseFit::Pose pose = fit.solve(posture);
+    PoseFit::Pose pose = solve_from(posture);
     const bool jumped = pose.cost > 4.0 * cost_before + 1e-8;
     if (!std::isfinite(cost_before) || !pose.converged || jumped) {
       for (const Eigen::VectorXd& start : fresh) {
-        PoseFit::Pose again = fit.solve(start);
+        PoseFit::Pose again = solve_from(start);
         if (pose.converged ? much_better(again, pose) : better(again, pose))
           pose = std::move(again);
       }
     }
+    pose.cost = fit.place(pose.q);
     if (!std::isfinite(cost_before)) fit.unwind(pose);
     cost_before = pose.cost;
     fit.place(pose.q);

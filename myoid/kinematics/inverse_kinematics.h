@@ -26,6 +26,9 @@ struct IkOptions {
   std::vector<CoordinateTask> tasks{};
   /// Markers that are not named in `marker_weights` do not count, as with OpenSim's marker tasks.
   bool only_named_markers = false;
+  /// Above 0: clamped coordinates are kept inside their ranges by a barrier of this weight added
+  /// to J (range_barrier.h) [m^2]; one that the markers do not determine comes to the middle.
+  double range_barrier = 0.0;
   int max_iterations = 200;
   Progress progress{};
 };

@@ -15,6 +15,8 @@ namespace myoid::kinematics {
 namespace {
 
 constexpr double kLongestTurn_rad = 0.5;  ///< Of any coordinate in one step.
+/// The strongest barrier, in units of J [m^2]: that of markers 0.4 m off.
+constexpr double kFirstBarrier = 0.1;
 
 std::size_t at(Eigen::Index index) { return static_cast<std::size_t>(index); }
 
@@ -39,6 +41,7 @@ PoseFit::PoseFit(const model::BodyModel& model, const IkOptions& options, std::v
     reduced_[c] = static_cast<int>(free_.size());
     free_.push_back(static_cast<Eigen::Index>(c));
   }
+  barrier_ = RangeBarrier(model, free_);
   for (std::size_t c = 0; c < count; ++c) {
     int root = static_cast<int>(c);
     for (std::size_t step = 0; step < count && coupler_of_[at(root)] >= 0; ++step)
@@ -140,6 +143,7 @@ double PoseFit::cost_at(const Eigen::VectorXd& q) {
     const double off = q[task_index_[j]] - target_of(j);
     cost += options_.tasks[j].weight * off * off;
   }
+  if (barrier_.acts()) cost += 2.0 * barrier_.value(q);
   return cost;
 }
 
@@ -224,6 +228,7 @@ void PoseFit::linearize(const Eigen::VectorXd& q) {
     gradient_[k] += weight * gain_[c] * (q[c] - target_of(j));
     gauss_(k, k) += weight * gain_[c] * gain_[c];
   }
+  if (barrier_.acts()) barrier_.add_derivatives(q, gradient_, gauss_);
 }
 
 Eigen::VectorXd PoseFit::moved(const Eigen::VectorXd& q, const Eigen::VectorXd& step) const {
@@ -261,6 +266,10 @@ Eigen::MatrixXd PoseFit::allowed_directions(const Eigen::VectorXd& q) const {
 
 PoseFit::Pose PoseFit::solve(Eigen::VectorXd start) {
   obey(start);
+  if (barrier_.acts()) {
+    barrier_.move_inside(start, 0.01);
+    obey(start);
+  }
   Pose pose{std::move(start), 0.0, false};
   pose.cost = cost_at(pose.q);
   const auto n = static_cast<Eigen::Index>(free_.size());
@@ -313,6 +322,7 @@ PoseFit::Pose PoseFit::solve(Eigen::VectorXd start) {
       // would turn them against each other by any number of turns.
       const double farthest = farthest_turn(step);
       if (farthest > kLongestTurn_rad) step *= kLongestTurn_rad / farthest;
+      if (barrier_.acts()) step *= barrier_.longest_share(pose.q, step);
       Eigen::VectorXd q = moved(pose.q, step);
       const double distance = (q - pose.q).cwiseAbs().maxCoeff();
       const double cost = cost_at(q);
@@ -338,6 +348,18 @@ PoseFit::Pose PoseFit::solve(Eigen::VectorXd start) {
   return pose;
 }
 
+PoseFit::Pose PoseFit::solve_inside(Eigen::VectorXd start, double barrier) {
+  Pose pose{std::move(start), 0.0, false};
+  for (double weight = std::max(barrier, kFirstBarrier);;
+       weight = std::max(barrier, 0.1 * weight)) {
+    barrier_.set_weight(weight);
+    pose = solve(std::move(pose.q));
+    if (weight == barrier) break;
+  }
+  barrier_.set_weight(0.0);
+  return pose;
+}
+
 void PoseFit::unwind(Pose& pose) {
   constexpr double kTurn = 2.0 * kPi;
   for (std::size_t k = 0; k < free_.size(); ++k) {
@@ -360,7 +382,7 @@ void PoseFit::unwind(Pose& pose) {
   }
 }
 
-void PoseFit::place(const Eigen::VectorXd& q) { (void)cost_at(q); }
+double PoseFit::place(const Eigen::VectorXd& q) { return cost_at(q); }
 
 void PoseFit::collect_undetermined(std::vector<bool>& undetermined) {
   linearize(state_.q);

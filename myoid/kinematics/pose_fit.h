@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 
 #include "myoid/kinematics/inverse_kinematics.h"
+#include "myoid/kinematics/range_barrier.h"
 #include "myoid/model/kinematic_tree.h"
 #include "myoid/recording/marker_series.h"
 
@@ -23,7 +24,7 @@ class PoseFit {
   };
   struct Pose {
     Eigen::VectorXd q;
-    double cost = 0.0;  ///< 2 J
+    double cost = 0.0;  ///< 2 J, with the barrier where there is one
     bool converged = false;
   };
 
@@ -37,13 +38,16 @@ class PoseFit {
 
   /// The nearest minimum of J; the start is made to obey locks, ranges and constraints first.
   [[nodiscard]] Pose solve(Eigen::VectorXd start);
+  /// The minimum of J and of a barrier at the ends of the ranges (range_barrier.h), reached from
+  /// the minima with stronger ones: they lead to it from the middle of the ranges, along no end.
+  [[nodiscard]] Pose solve_inside(Eigen::VectorXd start, double barrier);
 
   /// Turns coordinates that lie outside their range back into it, or nearer, by whole turns, where
   /// that leaves the pose and the cost as they are.
   void unwind(Pose& pose);
 
-  /// Makes q the posture that the functions below speak of.
-  void place(const Eigen::VectorXd& q);
+  /// Makes q the posture that the functions below speak of; returns 2 J there.
+  double place(const Eigen::VectorXd& q);
   /// Marks the free coordinates with a part in directions that markers and tasks leave open.
   void collect_undetermined(std::vector<bool>& undetermined);
   /// Distance of a marker from its target; NaN if it was not seen.
@@ -82,6 +86,7 @@ class PoseFit {
   const IkOptions& options_;
   std::vector<Pair> pairs_;
   std::vector<Eigen::Index> free_;
+  RangeBarrier barrier_;
   std::vector<int> reduced_;  ///< Per coordinate: the free coordinate that moves it, or -1.
   Eigen::VectorXd gain_;      ///< Per coordinate: its rate per rate of that one.
   std::vector<int> coupler_of_;

@@ -126,6 +126,47 @@ TEST(PoseFit, ATaskPullsACoordinateByItsWeight) {
   EXPECT_NEAR(r2 * std::sin(pose.q[0] - 0.3), 0.05 * (0.8 - pose.q[0]), 1e-12);
 }
 
+TEST(PoseFit, ABarrierBalancesTheMarkersPullToTheEndOfARange) {
+  // One hinge with one marker at distance r, as above:
+  // r^2 sin(q - m) = mu (1/(q - lower) - 1/(upper - q)).
+  model::BodyModel m = coupled_chain();  // q1 from -2 to 2
+  m.couplers.clear();
+  m.coordinates[1].locked = true;
+  Eigen::VectorXd q(2);
+  q << 2.2, 0.0;  // beyond the end
+  const recording::MarkerSeries markers = one_frame(m, q);
+  const IkOptions options;
+  PoseFit fit(m, options, {{1, 1, 1.0}});
+  fit.set_targets(markers, 0);
+  const double mu = 1e-3, r2 = 0.2 * 0.2 + 0.05 * 0.05;
+  const PoseFit::Pose pose = fit.solve_inside(Eigen::VectorXd::Zero(2), mu);
+  ASSERT_TRUE(pose.converged);
+  EXPECT_LT(pose.q[0], 2.0);
+  EXPECT_NEAR(r2 * std::sin(pose.q[0] - 2.2),
+              mu * (1.0 / (pose.q[0] + 2.0) - 1.0 / (2.0 - pose.q[0])), 1e-10);
+  // Afterwards there is none.
+  EXPECT_DOUBLE_EQ(fit.solve(Eigen::VectorXd::Zero(2)).q[0], 2.0);
+}
+
+TEST(PoseFit, UnderABarrierWhatNoMarkerDeterminesStandsInTheMiddle) {
+  model::BodyModel m = coupled_chain();
+  m.couplers.clear();
+  m.coordinates[1].clamped = true;
+  m.coordinates[1].lower = -0.5;
+  m.coordinates[1].upper = 1.5;
+  Eigen::VectorXd q(2);
+  q << 0.3, 0.0;
+  const recording::MarkerSeries markers = one_frame(m, q);
+  const IkOptions options;
+  PoseFit fit(m, options, {{1, 1, 1.0}});  // only the marker on the first body
+  fit.set_targets(markers, 0);
+  const PoseFit::Pose pose = fit.solve_inside(Eigen::VectorXd::Zero(2), 1e-5);
+  EXPECT_TRUE(pose.converged);
+  EXPECT_NEAR(pose.q[1], 0.5, 1e-6);
+  // Pulled towards the middle of -2..2 by mu (1/1.7 - 1/2.3) / r^2 = 3.6e-5.
+  EXPECT_NEAR(pose.q[0], 0.3 - 1e-5 * (1.0 / 1.7 - 1.0 / 2.3) / 0.0425, 1e-7);
+}
+
 TEST(PoseFit, MarksWhatTheMarkersLeaveOpen) {
   model::BodyModel m = coupled_chain();
   m.couplers.clear();

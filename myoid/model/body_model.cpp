@@ -146,39 +146,42 @@ BodyIndex add_copy(BodyModel& model, BodyIndex b, int number) {
 /// Joints in the order in which OpenSim builds the tree: level by level, in the order of the file;
 /// a body without mass at once with the heaviest that hangs on it.
 std::vector<std::size_t> tree_order(const BodyModel& model) {
+  std::vector<std::vector<std::size_t>> hanging_on(model.bodies.size());  // joints by their parent
+  for (std::size_t j = 0; j < model.joints.size(); ++j)
+    hanging_on[static_cast<std::size_t>(model.joints[j].parent)].push_back(j);
   std::vector<int> level(model.bodies.size(), -1);
   level[0] = 0;
+  std::vector<std::vector<std::size_t>> bodies_at{{0}};  // by their level
   std::vector<bool> used(model.joints.size(), false);
   std::vector<std::size_t> ordered;
+  const auto child_of = [&](std::size_t j) {
+    return static_cast<std::size_t>(model.joints[j].child);
+  };
   const auto place = [&](std::size_t j) {
     used[j] = true;
-    const Joint& joint = model.joints[j];
-    level[static_cast<std::size_t>(joint.child)] =
-        level[static_cast<std::size_t>(joint.parent)] + 1;
+    const int below = level[static_cast<std::size_t>(model.joints[j].parent)] + 1;
+    level[child_of(j)] = below;
+    bodies_at.resize(std::max(bodies_at.size(), static_cast<std::size_t>(below) + 1));
+    bodies_at[static_cast<std::size_t>(below)].push_back(child_of(j));
     ordered.push_back(j);
   };
-  const auto is_placed = [&](std::size_t j) {
-    return level[static_cast<std::size_t>(model.joints[j].child)] >= 0;
-  };
-  for (int current = 0; static_cast<std::size_t>(current) < model.bodies.size(); ++current) {
-    for (std::size_t j = 0; j < model.joints.size(); ++j) {
-      if (used[j] || is_placed(j) ||
-          level[static_cast<std::size_t>(model.joints[j].parent)] != current)
-        continue;
+  const auto is_open = [&](std::size_t j) { return !used[j] && level[child_of(j)] < 0; };
+  for (std::size_t current = 0; current < bodies_at.size(); ++current) {
+    std::vector<std::size_t> next;
+    for (const std::size_t body : bodies_at[current])
+      next.insert(next.end(), hanging_on[body].begin(), hanging_on[body].end());
+    std::sort(next.begin(), next.end());
+    for (const std::size_t j : next) {
+      if (!is_open(j)) continue;
       place(j);
-      for (BodyIndex end = model.joints[j].child;
-           model.bodies[static_cast<std::size_t>(end)].mass_kg == 0.0;) {
+      for (std::size_t end = child_of(j); model.bodies[end].mass_kg == 0.0;) {
         std::optional<std::size_t> heaviest;
-        for (std::size_t k = 0; k < model.joints.size(); ++k) {
-          if (used[k] || is_placed(k) || model.joints[k].parent != end) continue;
-          const auto mass = [&](std::size_t i) {
-            return model.bodies[static_cast<std::size_t>(model.joints[i].child)].mass_kg;
-          };
-          if (!heaviest || mass(k) > mass(*heaviest)) heaviest = k;
-        }
+        const auto mass = [&](std::size_t i) { return model.bodies[child_of(i)].mass_kg; };
+        for (const std::size_t k : hanging_on[end])
+          if (is_open(k) && (!heaviest || mass(k) > mass(*heaviest))) heaviest = k;
         if (!heaviest) break;
         place(*heaviest);
-        end = model.joints[*heaviest].child;
+        end = child_of(*heaviest);
       }
     }
   }
@@ -221,9 +224,10 @@ void cut_loops(BodyModel& model) {
 
 void check_tree(const BodyModel& model, const std::vector<Joint>& ordered) {
   if (ordered.size() != model.joints.size()) {
+    std::vector<bool> has_joint(model.bodies.size(), false);
+    for (const Joint& joint : ordered) has_joint[static_cast<std::size_t>(joint.child)] = true;
     for (const Joint& joint : model.joints) {
-      const auto same = [&](const Joint& o) { return o.child == joint.child; };
-      if (std::none_of(ordered.begin(), ordered.end(), same)) {
+      if (!has_joint[static_cast<std::size_t>(joint.child)]) {
         throw ModelError(fmt::format(
             "body '{}' is not connected to ground by joints: joint '{}' hangs on '{}', which hangs "
             "on it or on nothing",

@@ -37,6 +37,9 @@ struct Compat {
   bool axes_carried_by_coordinates = false;
   /// Static optimization: Millard's cos(pennation) at the normalized fiber length.
   bool normalized_pennation = false;
+  /// Scale: the static pose is that of an interior-point search which stops while its barrier still
+  /// holds clamped coordinates off the ends of their ranges.
+  bool static_pose_inside_ranges = false;
 
   [[nodiscard]] bool operator==(const Compat&) const = default;
 };
@@ -51,7 +54,8 @@ inline constexpr Compat kOpenSim452{.opensim_paths = true,
                                     .unseen_moving_points = true,
                                     .six_digit_offsets = true,
                                     .axes_carried_by_coordinates = true,
-                                    .normalized_pennation = true};
+                                    .normalized_pennation = true,
+                                    .static_pose_inside_ranges = true};
 
 /// "exact" or "opensim"; throws InvalidInput for anything else.
 [[nodiscard]] Compat parse_compat(std::string_view name);

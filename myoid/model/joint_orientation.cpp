@@ -103,12 +103,18 @@ void orient_joints(BodyModel& model) {
   std::vector<bool> reached(model.bodies.size(), false);
   reached[0] = true;
   for (;;) {
-    bool grows = true;
-    while (grows) {
-      grows = false;
-      for (const Joint& joint : model.joints) {
-        if (!reached[at(joint.parent)] || reached[at(joint.child)]) continue;
-        reached[at(joint.child)] = grows = true;
+    std::vector<std::vector<BodyIndex>> children(model.bodies.size());
+    for (const Joint& joint : model.joints) children[at(joint.parent)].push_back(joint.child);
+    std::vector<BodyIndex> grown;
+    for (std::size_t b = 0; b < reached.size(); ++b)
+      if (reached[b]) grown.push_back(static_cast<BodyIndex>(b));
+    while (!grown.empty()) {
+      const BodyIndex parent = grown.back();
+      grown.pop_back();
+      for (const BodyIndex child : children[at(parent)]) {
+        if (reached[at(child)]) continue;
+        reached[at(child)] = true;
+        grown.push_back(child);
       }
     }
     const auto backward = std::find_if(

@@ -283,14 +283,14 @@ void OsimEditor::scale_geometry(const Factors& factors) {
   scale_wraps(model_.child("Ground"), {}, factor_of(factors, 0));
   for (const auto node : OsimXml::objects(skeleton_.child("BodySet"))) {
     if (node.type() != pugi::node_element) continue;
-    const auto body = reading_->model.find_body(OsimXml::name_of(node)).value_or(0);
+    const auto body = reading_->find_body(OsimXml::name_of(node)).value_or(0);
     const Vec3 factor = factor_of(factors, body);
     multiply(xml_, node, "mass_center", factor);
     scale_wraps(node, {body, {}}, factor);
     scale_meshes(xml_, node, factor);
     auto joint = OsimXml::first_element(node.child("Joint"));
     if (!joint) continue;
-    const auto parent = reading_->model.find_body(xml_.word(joint, "parent_body")).value_or(0);
+    const auto parent = reading_->find_body(xml_.word(joint, "parent_body")).value_or(0);
     multiply(xml_, joint, "location_in_parent", factor_of(factors, parent));
     multiply(xml_, joint, "location", factor);
     multiply(xml_, joint, "location_in_child", factor);
@@ -351,7 +351,7 @@ void OsimEditor::scale_masses(const Factors& factors, bool keep_masses, double t
   const double share = total_kg > 0.0 && total > 0.0 ? total_kg / total : 1.0;
   for (const auto node : OsimXml::objects(skeleton_.child("BodySet"))) {
     if (node.type() != pugi::node_element) continue;
-    const auto body = reading_->model.find_body(OsimXml::name_of(node));
+    const auto body = reading_->find_body(OsimXml::name_of(node));
     if (!body || *body == 0) continue;
     const auto b = static_cast<std::size_t>(*body);
     set_text(node, "mass", fmt::format("{}", share * masses[b]));

@@ -128,7 +128,7 @@ FixedFrame resolve(const OsimReading& r,
   const auto found = [&](const std::string& path) -> std::optional<FixedFrame> {
     if (path == "/ground") return FixedFrame{};
     if (path.starts_with("/bodyset/")) {
-      if (const auto body = r.model.find_body(std::string_view(path).substr(9)))
+      if (const auto body = r.find_body(std::string_view(path).substr(9)))
         return FixedFrame{*body, {}};
     }
     const auto it = r.frames.find(path);
@@ -167,8 +167,51 @@ FixedFrame resolve(const OsimReading& r,
 
 }  // namespace
 
+namespace {
+
+using Places = std::map<std::string, int, std::less<>>;
+
+std::optional<int> place_of(const Places& places, std::string_view name) {
+  const auto it = places.find(name);
+  return it == places.end() ? std::nullopt : std::optional(it->second);
+}
+
+}  // namespace
+
+OsimReading::OsimReading(const OsimXml& document,
+                         const Compat& as,
+                         BodyModel known,
+                         Frames known_frames)
+    : xml(document), compat(as), model(std::move(known)), frames(std::move(known_frames)) {
+  for (std::size_t b = 0; b < model.bodies.size(); ++b)
+    body_places.emplace(model.bodies[b].name, static_cast<int>(b));
+  for (std::size_t c = 0; c < model.coordinates.size(); ++c)
+    coordinate_places.emplace(model.coordinates[c].name, static_cast<int>(c));
+}
+
+int OsimReading::add(Body body) {
+  const auto place = static_cast<int>(model.bodies.size());
+  body_places.emplace(body.name, place);
+  model.bodies.push_back(std::move(body));
+  return place;
+}
+
+int OsimReading::add(Coordinate coordinate) {
+  const auto place = static_cast<int>(model.coordinates.size());
+  coordinate_places.emplace(coordinate.name, place);
+  model.coordinates.push_back(std::move(coordinate));
+  return place;
+}
+
+std::optional<int> OsimReading::find_body(std::string_view name) const {
+  return place_of(body_places, name);
+}
+std::optional<int> OsimReading::find_coordinate(std::string_view name) const {
+  return place_of(coordinate_places, name);
+}
+
 void read_bodies(OsimReading& r, pugi::xml_node model) {
-  r.model.bodies.push_back({.name = "ground"});
+  r.add(Body{.name = "ground"});
   collect_frames(r, model.child("Ground").child("components"), "/ground");
   collect_frames(r, model.child("components"), "");
   for (const auto node : OsimXml::objects(model.child("ComponentSet"))) {
@@ -181,7 +224,7 @@ void read_bodies(OsimReading& r, pugi::xml_node model) {
     body.name = OsimXml::name_of(node);
     if (body.name.empty()) r.xml.fail(node, "a body has no name");
     if (body.name == "ground") continue;
-    if (r.model.find_body(body.name))
+    if (r.find_body(body.name))
       r.xml.fail(node, fmt::format("two bodies are named '{}'", body.name));
     body.mass_kg = r.xml.number(node, "mass", r.is_old() ? 0.0 : std::nan(""));
     if (!(body.mass_kg >= 0.0) || !std::isfinite(body.mass_kg)) {
@@ -202,7 +245,7 @@ void read_bodies(OsimReading& r, pugi::xml_node model) {
       }
     }
     collect_frames(r, node.child("components"), "/bodyset/" + body.name);
-    r.model.bodies.push_back(std::move(body));
+    r.add(std::move(body));
   }
   for (const auto node : OsimXml::objects(model.child("JointSet")))
     collect_frames(r, node.child("frames"), "/jointset/" + OsimXml::name_of(node));
@@ -260,7 +303,7 @@ Pose pose_of(const OsimReading& r,
 int coordinate_named(const OsimReading& r, pugi::xml_node where, std::string_view text) {
   const std::size_t slash = text.find_last_of('/');
   const auto index =
-      r.model.find_coordinate(slash == std::string_view::npos ? text : text.substr(slash + 1));
+      r.find_coordinate(slash == std::string_view::npos ? text : text.substr(slash + 1));
   if (!index) r.xml.fail(where, fmt::format("there is no coordinate '{}'", text));
   return *index;
 }

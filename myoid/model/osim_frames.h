@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -27,7 +28,21 @@ struct OsimReading {
     pugi::xml_node node;
     std::string owner;  ///< Path of the component that holds it.
   };
-  std::map<std::string, OffsetFrame, std::less<>> frames;  ///< By absolute path.
+  using Frames = std::map<std::string, OffsetFrame, std::less<>>;
+  Frames frames;  ///< By absolute path.
+
+  /// Places in the model by name; of one name twice the first.
+  std::map<std::string, int, std::less<>> body_places, coordinate_places;
+
+  /// With what is known of the model already.
+  explicit OsimReading(const OsimXml& document,
+                       const Compat& as = {},
+                       BodyModel known = {},
+                       Frames known_frames = {});
+  int add(Body body);
+  int add(Coordinate coordinate);
+  [[nodiscard]] std::optional<int> find_body(std::string_view name) const;
+  [[nodiscard]] std::optional<int> find_coordinate(std::string_view name) const;
 
   /// Documents before this have joints inside bodies and name bodies instead of sockets.
   [[nodiscard]] bool is_old() const { return xml.version() < 30500; }

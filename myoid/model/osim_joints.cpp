@@ -23,7 +23,7 @@ void read_coordinate(OsimReading& r, pugi::xml_node node) {
   Coordinate c;
   c.name = OsimXml::name_of(node);
   if (c.name.empty()) xml.fail(node, "a coordinate has no name");
-  if (r.model.find_coordinate(c.name))
+  if (r.find_coordinate(c.name))
     xml.fail(node, fmt::format("two coordinates are named '{}'", c.name));
   c.default_value = xml.number(node, "default_value", xml.number(node, "initial_value", 0.0));
   c.default_speed = xml.number(node, "default_speed_value", 0.0);
@@ -41,7 +41,7 @@ void read_coordinate(OsimReading& r, pugi::xml_node node) {
   c.is_free_to_satisfy_constraints = xml.flag(node, "is_free_to_satisfy_constraints", false);
   if (xml.flag(node, "prescribed", false))
     c.prescribed = function_property(r, node, "prescribed_function");
-  r.model.coordinates.push_back(std::move(c));
+  r.add(std::move(c));
 }
 
 pugi::xml_node transform_axis(const OsimReading& r, pugi::xml_node node, std::size_t slot) {
@@ -83,7 +83,7 @@ void set_custom_axes(OsimReading& r, pugi::xml_node node, Joint& joint) {
                              joint.name, names.size()));
     }
     if (!names.empty()) {
-      const auto index = r.model.find_coordinate(names[0]);
+      const auto index = r.find_coordinate(names[0]);
       if (!index || std::find(joint.coordinates.begin(), joint.coordinates.end(), *index) ==
                         joint.coordinates.end()) {
         r.xml.fail(slot, fmt::format("<coordinates>: joint '{}' has no coordinate '{}'", joint.name,
@@ -111,8 +111,10 @@ void set_custom_axes(OsimReading& r, pugi::xml_node node, Joint& joint) {
     sorted.push_back(r.model.coordinates[static_cast<std::size_t>(order[k])]);
     moved[order[k]] = joint.coordinates[k];
   }
-  for (std::size_t k = 0; k < order.size(); ++k)
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    r.coordinate_places[sorted[k].name] = joint.coordinates[k];
     r.model.coordinates[static_cast<std::size_t>(joint.coordinates[k])] = sorted[k];
+  }
   for (auto* axes : {&joint.rotation, &joint.translation}) {
     for (TransformAxis& axis : *axes) {
       if (axis.coordinate >= 0) axis.coordinate = moved.at(axis.coordinate);
@@ -235,10 +237,9 @@ void add_scapulothoracic(OsimReading& r, pugi::xml_node node, Joint joint) {
   const double winging_rad = r.xml.number(node, "scapula_winging_axis_direction", 0.0);
   const Mat3 quarter = Eigen::AngleAxisd(0.5 * kPi, Vec3::UnitZ()).toRotationMatrix();
 
-  r.model.bodies.push_back({.name = joint.name + "_winging_base"});
   Joint ellipsoid = joint;
   ellipsoid.name = joint.name + "_ellipsoid";
-  ellipsoid.child = static_cast<BodyIndex>(r.model.bodies.size()) - 1;
+  ellipsoid.child = r.add(Body{.name = joint.name + "_winging_base"});
   ellipsoid.X_PF = joint.X_PF * Pose{quarter, Vec3::Zero()};
   ellipsoid.X_BM = Pose{quarter, Vec3::Zero()};
   ellipsoid.coordinates.resize(3);
@@ -344,7 +345,7 @@ void add_free_joint(OsimReading& r, BodyIndex body) {
     axis = {Vec3::Unit(static_cast<Eigen::Index>(k % 3)),
             static_cast<int>(r.model.coordinates.size()), Linear{1.0, 0.0}};
     joint.coordinates.push_back(axis.coordinate);
-    r.model.coordinates.push_back(std::move(c));
+    r.add(std::move(c));
   }
   r.model.notes.push_back(fmt::format("body '{}' has no joint; it is free to move",
                                       r.model.bodies[static_cast<std::size_t>(body)].name));
@@ -361,7 +362,7 @@ void read_joints(OsimReading& r, pugi::xml_node model) {
   std::vector<bool> has_joint(bodies, false);
   for (const auto body : OsimXml::objects(model.child("BodySet"))) {
     if (const auto node = OsimXml::first_element(body.child("Joint"))) {
-      const auto index = r.model.find_body(OsimXml::name_of(body));
+      const auto index = r.find_body(OsimXml::name_of(body));
       if (!index || *index == 0) continue;
       read_joint(r, node, *index);
       has_joint[static_cast<std::size_t>(*index)] = true;  // a reversed one has it as the parent

@@ -186,7 +186,7 @@ void read_wrap_objects(OsimReading& r, pugi::xml_node model) {
   // A path finds the first object of a name over the bodies in tree order.
   std::vector<pugi::xml_node> nodes(r.model.bodies.size());
   for (const auto node : OsimXml::objects(model.child("BodySet"))) {
-    if (const auto body = r.model.find_body(OsimXml::name_of(node)))
+    if (const auto body = r.find_body(OsimXml::name_of(node)))
       nodes[static_cast<std::size_t>(*body)] = node;
   }
   if (nodes[0]) read_wraps_of(r, nodes[0], {});

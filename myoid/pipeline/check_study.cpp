@@ -9,6 +9,8 @@
 
 #include "myoid/core/error.h"
 #include "myoid/kinematics/inverse_kinematics.h"
+#include "myoid/pipeline/dynamometer_sign.h"
+#include "myoid/pipeline/load_points.h"
 #include "myoid/pipeline/study_model.h"
 #include "myoid/pipeline/study_plausibility.h"
 #include "myoid/pipeline/trial_emg.h"
@@ -20,6 +22,7 @@
 #include "myoid/recording/label_match.h"
 #include "myoid/recording/recording.h"
 #include "myoid/recording/storage_reader.h"
+#include "myoid/recording/text_file.h"
 #include "myoid/signals/clock_offset.h"
 #include "myoid/signals/emg_envelope.h"
 #include "myoid/signals/emg_levels.h"
@@ -73,11 +76,15 @@ class Check {
 
   std::vector<Finding> findings() {
     check_model();
-    if (!study_.emg.has_mvc && study_.emg.kind == EmgKind::raw) {
+    if (!study_.emg.has_mvc && study_.emg.kind != EmgKind::activation) {
       add(Level::warning, "study",
           "no trial is a maximal contraction (use = \"mvc\"): F_max will mean the force at the "
           "study's largest EMG");
     }
+    if (!study_.model.file && !study_.subject.mass_kg)
+      add(Level::warning, "study",
+          "[subject] mass_kg is not given: the built-in arm has the segments of a person of 73 kg");
+    check_todos();
     if (study_.truth) {
       attempt("truth", [&] { (void)recording::read_csv_table(*study_.truth); });
     }
@@ -88,6 +95,7 @@ class Check {
       for (Finding& f : together_->findings()) findings_.push_back(std::move(f));
     }
     if (!envelopes_.empty()) attempt("EMG", [&] { check_reference(); });
+    if (model_ && all_read_) attempt("study", [&] { check_dynamometers(); });
     std::stable_sort(findings_.begin(), findings_.end(),
                      [](const Finding& a, const Finding& b) { return a.level < b.level; });
     return once(std::move(findings_));
@@ -106,6 +114,28 @@ class Check {
       add(Level::error, where, error.what());
       all_read_ = false;
     }
+  }
+
+  /// What `init` left to be answered.
+  void check_todos() {
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(study_.file, error)) return;
+    const std::string text = recording::read_text_file(study_.file);
+    std::vector<std::string> asked;
+    const auto lines = recording::split_lines(text);
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      const auto at = lines[i].find("# TODO: ");
+      if (at == std::string_view::npos) continue;
+      std::string what(recording::trim(lines[i].substr(at + 8)));
+      constexpr std::size_t kMost = 60;
+      if (what.size() > kMost) what = what.substr(0, what.rfind(' ', kMost)) + " ...";
+      asked.push_back(fmt::format("line {}: {}", i + 1, what));
+    }
+    if (asked.empty()) return;
+    add(Level::warning, study_.file.filename().string(),
+        fmt::format("{} line{} still ask{} for an answer (TODO), or for being deleted: {}",
+                    asked.size(), asked.size() == 1 ? "" : "s", asked.size() == 1 ? "s" : "",
+                    fmt::join(asked, "; ")));
   }
 
   void check_model() {
@@ -146,10 +176,12 @@ class Check {
       add(warning ? Level::warning : Level::note, spec.name, note);
     }
     together_->look_at(spec, input);
+    for (Finding& f : unloaded_times(*model_, spec, input)) findings_.push_back(std::move(f));
     if (input.markers) check_markers(*input.markers);
     const TimeSeries envelope = input.emg ? check_emg(spec, *input.emg) : TimeSeries();
     for (Fault& fault : trial_faults(study_, input, envelope))
       findings_.push_back(finding(spec.name, std::move(fault)));
+    if (input.emg) efforts_.push_back({spec, input.external_torque, envelope});
   }
 
   void check_markers(const recording::MarkerSeries& markers) {
@@ -201,6 +233,19 @@ class Check {
       (void)signals::find_normalisation(trials, {.window_s = study_.emg.normalise_window_s});
   }
 
+  void check_dynamometers() {
+    std::vector<EffortTrial> trials;
+    for (const Effort& e : efforts_)
+      trials.push_back({&e.spec, e.torque ? &*e.torque : nullptr, e.envelope});
+    for (Finding& f : grouped(dynamometer_signs(study_, *model_, trials)))
+      findings_.push_back(std::move(f));
+  }
+
+  struct Effort {
+    TrialSpec spec;
+    std::optional<TimeSeries> torque;
+    TimeSeries envelope;
+  };
   struct Envelope {
     std::string trial;
     bool is_mvc = false;
@@ -211,6 +256,7 @@ class Check {
   std::optional<model::BodyModel> model_;
   std::optional<StudyPlausibility> together_;
   std::vector<Envelope> envelopes_;
+  std::vector<Effort> efforts_;
   std::vector<Finding> findings_;
   bool all_read_ = true;
 };

@@ -134,6 +134,30 @@ TEST(CheckStudy, AnActivationInPercentIsAnError) {
       << study.error();
 }
 
+TEST(CheckStudy, WhatInitLeftToBeAnsweredIsAWarningWithItsLine) {
+  WrittenStudy study;
+  const auto asked = [&] {
+    recording::write_file(study.folder / "study.toml", study.text);
+    for (const Finding& f : study.findings()) {
+      if (f.message.find("TODO") != std::string::npos) return f.message;
+    }
+    return std::string();
+  };
+  EXPECT_EQ(asked(), "");
+  study.text = "# Lines with TODO want an answer\n# TODO: the person's mass\n" + study.text;
+  EXPECT_NE(asked().find("1 line still asks for an answer (TODO), or for being deleted: line 2: "
+                         "the person's mass"),
+            std::string::npos)
+      << asked();
+}
+
+TEST(CheckStudy, EnvelopesWithoutAMaximalContractionAreSaidToBeSo) {
+  const std::vector<Finding> found = WrittenStudy().findings();
+  EXPECT_TRUE(std::any_of(found.begin(), found.end(), [](const Finding& f) {
+    return f.message.find("no trial is a maximal contraction") != std::string::npos;
+  }));
+}
+
 TEST(CheckStudy, AWeightOfAMarkerThatTheModelLacksIsAnError) {
   WrittenStudy study;
   study.text += "[markers.weight]\nacromion = 10\n";

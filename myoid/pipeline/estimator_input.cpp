@@ -6,8 +6,10 @@
 #include <vector>
 
 #include "myoid/pipeline/effort_prior.h"
+#include "myoid/pipeline/emg_cover.h"
 #include "myoid/pipeline/lumped_muscles.h"
 #include "myoid/pipeline/nuisances.h"
+#include "myoid/pipeline/resting_joints.h"
 #include "myoid/pipeline/study_model.h"
 
 namespace myoid::pipeline {
@@ -15,7 +17,8 @@ namespace {
 
 identification::TrialData trial_data(const Study& study,
                                      const TrialResult& trial,
-                                     const std::vector<MuscleGroup>& groups) {
+                                     const std::vector<MuscleGroup>& groups,
+                                     const std::vector<identification::RestingJoint>& resting) {
   identification::TrialData data;
   data.name = trial.spec.name;
   data.calibration = trial.spec.use == Use::calibration || trial.spec.use == Use::isometric;
@@ -37,6 +40,7 @@ identification::TrialData trial_data(const Study& study,
   data.angle_rad = trial.motion.q.column(study.model.coordinate);
   data.velocity_radps = trial.motion.qdot.column(study.model.coordinate);
   data.acceleration_radps2 = trial.motion.qddot.column(study.model.coordinate);
+  data.resting_nm = resting_torque_nm(resting, data.joint, data.angle_rad);
   for (std::size_t j = 0; j < study.model.more_coordinates.size(); ++j) {
     const std::string& name = study.model.more_coordinates[j];
     data.more_joints.push_back(
@@ -45,10 +49,14 @@ identification::TrialData trial_data(const Study& study,
          .moment_arm_m = lumped_moment_arm_m(trial.muscles, groups, name),
          .angle_rad = trial.motion.q.column(name),
          .velocity_radps = trial.motion.qdot.column(name),
-         .acceleration_radps2 = trial.motion.qddot.column(name)});
+         .acceleration_radps2 = trial.motion.qddot.column(name),
+         .resting_nm = resting_torque_nm(resting, name, trial.motion.q.column(name))});
   }
   data.activation = trial.activation;
-  return data;
+  if (trial.uncarried) data.excluded = trial.uncarried->stretches;
+  // Where there is no EMG there is nothing to fit.
+  const Rows rows = rows_with_emg(trial.motion.q.time_s(), trial.activation.time_s());
+  return identification::part(data, rows.first, rows.count());
 }
 
 }  // namespace
@@ -64,7 +72,7 @@ identification::StudyData estimator_data(const StudyResult& result) {
     if (trial.spec.use == Use::mvc || trial.spec.use == Use::static_pose ||
         trial.spec.use == Use::passive)
       continue;
-    data.trials.push_back(trial_data(study, trial, groups));
+    data.trials.push_back(trial_data(study, trial, groups, result.resting));
   }
   if (study.identify.priors) data.rules = nuisance_rules(study.emg, data);
   data.rules.insert(data.rules.end(), study.parameters.begin(), study.parameters.end());

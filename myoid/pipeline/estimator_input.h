@@ -8,8 +8,8 @@
 namespace myoid::pipeline {
 
 /// What the estimators see of a study whose trials are computed: the muscles, every trial that
-/// moves and has EMG (but MVC, static and passive ones), and the rules of the parameters: those of
-/// the nuisances first, so that the study's own win.
+/// moves and has EMG (but MVC, static and passive ones) over the time that has EMG, and the rules
+/// of the parameters: those of the nuisances first, so that the study's own win.
 [[nodiscard]] identification::StudyData estimator_data(const StudyResult& result);
 
 /// How the study wants its parameters found, with the gains' priors from the normalisation of the

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "myoid/pipeline/trial_stages.h"
+
 #include "tests/support/written_trial.h"
 
 namespace myoid::pipeline {
@@ -64,6 +66,30 @@ TEST(EstimatorData, TheStudysOwnRulesComeLastAndTrialsWithoutMotionAreLeftOut) {
   EXPECT_EQ(data.muscles.size(), 4U);
   ASSERT_FALSE(data.rules.empty());
   EXPECT_EQ(data.rules.back().value, 1.0);
+}
+
+TEST(EstimatorData, HoldsNothingOfTheTimeWithoutEmg) {
+  StudyResult result = with_one_channel();
+  const test::TemporaryFolder folder;
+  const Eigen::VectorXd motion_s = Eigen::VectorXd::LinSpaced(201, 0.0, 20.0);
+  const Eigen::VectorXd emg_s = Eigen::VectorXd::LinSpaced(1251, 2.0, 14.5);
+  TrialInput input;
+  input.motion = TimeSeries(motion_s, {{"elbow_flexion", Unit::radian}},
+                            Eigen::MatrixXd(motion_s.array().sin()));
+  result.trials.resize(1);
+  TrialResult& trial = result.trials[0];
+  trial.spec = result.study.trials[0];
+  compute_trial(result.study, input, "", false, {}, nullptr, trial);
+  std::vector<Channel> channels;
+  for (const char* name : {"BIC", "BRA", "BRD", "TRI"})
+    channels.push_back({name, Unit::dimensionless});
+  trial.activation = TimeSeries(emg_s, channels, Eigen::MatrixXd::Constant(emg_s.size(), 4, 0.3));
+  const identification::StudyData data = estimator_data(result);
+  ASSERT_EQ(data.trials.size(), 1U);
+  EXPECT_NEAR(data.trials[0].time_s[0], 2.0, 0.1);
+  EXPECT_NEAR(data.trials[0].time_s[data.trials[0].time_s.size() - 1], 14.5, 0.1);
+  EXPECT_EQ(data.trials[0].torque_nm.size(), data.trials[0].time_s.size());
+  EXPECT_NO_THROW(identification::validate(data));
 }
 
 }  // namespace

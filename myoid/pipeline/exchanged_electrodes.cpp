@@ -55,9 +55,12 @@ LabelFit fit_of_labels(const StudyData& data,
       const TrialData trial = identification::of_joint(whole, j);
       const std::vector<Eigen::Index> rows = identification::included_rows(trial);
       if (rows.empty()) continue;
+      // What the joint makes by itself no electrode tells.
+      const Eigen::VectorXd resting = identification::resting_torque_nm(trial);
+      const Eigen::VectorXd active = trial.torque_nm - resting;
       const Eigen::VectorXd torque =
-          identification::predict(named, trial, literature, delay_s).torque_nm;
-      Sides sides{identification::below(trial.time_s, trial.torque_nm, kCutoff_hz)(rows),
+          identification::predict(named, trial, literature, delay_s).torque_nm - resting;
+      Sides sides{identification::below(trial.time_s, active, kCutoff_hz)(rows),
                   identification::below(trial.time_s, torque, kCutoff_hz)(rows)};
       product += sides.predicted.dot(sides.measured);
       square += sides.predicted.squaredNorm();

@@ -1,6 +1,10 @@
 #include "myoid/pipeline/finding.h"
 
+#include <algorithm>
 #include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace myoid::pipeline {
 
@@ -21,6 +25,32 @@ Finding finding(std::string where, signals::Fault fault) {
                  sentence(fault)};
   result.fault = std::move(fault);
   return result;
+}
+
+std::vector<Finding> grouped(const std::vector<Finding>& findings) {
+  constexpr std::size_t kNamed = 4;
+  std::vector<Finding> kept;
+  std::vector<std::vector<std::string>> others;
+  for (const Finding& f : findings) {
+    const auto same = std::find_if(kept.begin(), kept.end(), [&](const Finding& k) {
+      return !f.kind.empty() && k.kind == f.kind && k.level == f.level;
+    });
+    if (same != kept.end()) {
+      others[static_cast<std::size_t>(same - kept.begin())].push_back(f.where);
+      continue;
+    }
+    kept.push_back(f);
+    others.emplace_back();
+  }
+  for (std::size_t i = 0; i < kept.size(); ++i) {
+    const std::size_t named = std::min(kNamed, others[i].size());
+    if (named == 0) continue;
+    kept[i].message += fmt::format(
+        " (likewise in {}{})",
+        fmt::join(others[i].begin(), others[i].begin() + static_cast<std::ptrdiff_t>(named), ", "),
+        named < others[i].size() ? fmt::format(" and {} more", others[i].size() - named) : "");
+  }
+  return kept;
 }
 
 }  // namespace myoid::pipeline

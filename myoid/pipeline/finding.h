@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "myoid/signals/fault.h"
 
@@ -21,5 +22,8 @@ struct Finding {
 
 /// The finding that a fault is.
 [[nodiscard]] Finding finding(std::string where, signals::Fault fault);
+
+/// What has one kind and level is said once, of the trial that has it first; the others are named.
+[[nodiscard]] std::vector<Finding> grouped(const std::vector<Finding>& findings);
 
 }  // namespace myoid::pipeline

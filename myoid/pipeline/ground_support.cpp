@@ -5,6 +5,7 @@
 #include <limits>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "myoid/core/units.h"
 #include "myoid/dynamics/inverse_dynamics.h"
@@ -46,12 +47,11 @@ Root root_of(const model::BodyModel& model) {
 
 }  // namespace
 
-std::string UnsupportedWeight::sentence() const {
+std::string UnsupportedWeight::sentence(const std::string& given_by) const {
   return fmt::format(
       "nothing carries the body: {} has to bear {:.0f} N, {:.0f} % of the model's weight ({:.0f} "
-      "N); the torques between the ground and the trunk lack the ground reaction: give it by "
-      "external_loads or plates",
-      coordinate, force_n, 100.0 * force_n / weight_n, weight_n);
+      "N); the torques between the ground and the trunk lack the ground reaction: give it by {}",
+      coordinate, force_n, 100.0 * force_n / weight_n, weight_n, given_by);
 }
 
 std::optional<UnsupportedWeight> unsupported_weight(const model::BodyModel& model,
@@ -72,6 +72,58 @@ std::optional<UnsupportedWeight> unsupported_weight(const model::BodyModel& mode
   if (root.coordinate < 0 || !(root.weight_n > 0.0)) return std::nullopt;
   return UnsupportedWeight{model.coordinates[static_cast<std::size_t>(root.coordinate)].name,
                            root.weight_n, root.weight_n};
+}
+
+std::string UncarriedTime::sentence() const {
+  std::vector<std::string> times;
+  for (const identification::Stretch& s : stretches)
+    times.push_back(fmt::format("{:.4g} to {:.4g} s", s.begin_s, s.end_s));
+  return fmt::format(
+      "no measured force carries the body in {:.0f} % of the trial ({}): {} has to bear up to "
+      "{:.0f} "
+      "N of a weight of {:.0f} N; was a foot beside the plates, or a hand on a rail? The torques "
+      "of "
+      "the legs are wrong there, so that those times are not fitted; start_s and end_s leave them "
+      "out altogether",
+      100.0 * share, fmt::join(times, ", "), coordinate, force_n, weight_n);
+}
+
+std::optional<UncarriedTime> uncarried_time(const model::BodyModel& model,
+                                            const TimeSeries& generalized_forces) {
+  constexpr double kUncarried = 0.5, kAffected = 0.25;  // of the weight
+  constexpr double kBriefest_s = 0.05;
+  constexpr double kThroughout = 0.9;
+  const Root root = root_of(model);
+  if (root.coordinate < 0 || !(root.weight_n > 0.0)) return std::nullopt;
+  const model::Coordinate& c = model.coordinates[static_cast<std::size_t>(root.coordinate)];
+  const auto column = generalized_forces.find(dynamics::generalized_force_name(c));
+  const Eigen::VectorXd& t = generalized_forces.time_s();
+  if (!column || t.size() < 2) return std::nullopt;
+  const Eigen::VectorXd force = generalized_forces.values().col(*column).cwiseAbs();
+  UncarriedTime found{.stretches = {},
+                      .share = 0.0,
+                      .coordinate = c.name,
+                      .force_n = 0.0,
+                      .weight_n = root.weight_n};
+  const auto affected = [&](Eigen::Index i) { return force[i] >= kAffected * root.weight_n; };
+  double sum_s = 0.0;
+  for (Eigen::Index i = 0; i < t.size(); ++i) {
+    if (!affected(i)) continue;
+    const Eigen::Index first = i;
+    Eigen::Index half_first = -1, half_last = -1;
+    for (; i < t.size() && affected(i); ++i) {
+      if (force[i] < kUncarried * root.weight_n) continue;
+      if (half_first < 0) half_first = i;
+      half_last = i;
+    }
+    if (half_first < 0 || t[half_last] - t[half_first] < kBriefest_s) continue;
+    found.stretches.push_back({t[first], t[i - 1]});
+    found.force_n = std::max(found.force_n, force.segment(first, i - first).maxCoeff());
+    sum_s += t[i - 1] - t[first];
+  }
+  found.share = sum_s / (t[t.size() - 1] - t[0]);
+  if (found.stretches.empty() || found.share > kThroughout) return std::nullopt;
+  return found;
 }
 
 bool bears_the_body(const model::BodyModel& model,

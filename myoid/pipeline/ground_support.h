@@ -2,8 +2,10 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "myoid/core/time_series.h"
+#include "myoid/identification/study_data.h"
 #include "myoid/model/body_model.h"
 
 namespace myoid::pipeline {
@@ -13,7 +15,9 @@ struct UnsupportedWeight {
   std::string coordinate;  ///< The translation along gravity of the joint to the ground.
   double force_n = 0.0;    ///< Its mean generalized force.
   double weight_n = 0.0;   ///< Of all bodies.
-  [[nodiscard]] std::string sentence() const;
+  /// `given_by` names where the ground reaction would be given: a study's keys, a command's option.
+  [[nodiscard]] std::string sentence(
+      const std::string& given_by = "external_loads or force_plates") const;
 };
 
 /// The model's free translation along gravity with the force that it would have to bear, if that is
@@ -24,6 +28,23 @@ struct UnsupportedWeight {
 
 /// The same for a motion without any load: the translation has the whole weight.
 [[nodiscard]] std::optional<UnsupportedWeight> unsupported_weight(const model::BodyModel& model);
+
+/// Parts of a trial in which something that was not measured carries the body, while elsewhere the
+/// measured forces do: a foot beside the plates.
+struct UncarriedTime {
+  std::vector<identification::Stretch> stretches;
+  double share = 0.0;      ///< Of the trial's time.
+  std::string coordinate;  ///< The translation along gravity of the joint to the ground.
+  double force_n = 0.0;    ///< The largest that it has to bear in them.
+  double weight_n = 0.0;   ///< Of all bodies.
+  [[nodiscard]] std::string sentence() const;
+};
+
+/// Where the model's free translation along gravity has to bear half of the weight for 50 ms or
+/// more, each stretch as far as it bears a quarter; a body in flight needs nothing. Empty where
+/// that is nowhere or, as of people who sit, lie or hang, in nine tenths of the time.
+[[nodiscard]] std::optional<UncarriedTime> uncarried_time(const model::BodyModel& model,
+                                                          const TimeSeries& generalized_forces);
 
 /// Whether the coordinate stands between the ground and the rest of the body, so that a ground
 /// reaction would act on it: the model is most of a person (three quarters of `body_mass_kg`, or of

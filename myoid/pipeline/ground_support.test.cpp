@@ -71,6 +71,30 @@ TEST(UnsupportedWeight, IsNoneWhereTheModelIsFixedOrThereIsNoGravity) {
   EXPECT_TRUE(unsupported_weight(person(60.0)));
 }
 
+TEST(UncarriedTime, IsThatInWhichAFootIsBesideThePlates) {
+  const model::BodyModel model = person(60.0);
+  const double weight = 75.0 * kStandardGravity;
+  const Eigen::VectorXd time = Eigen::VectorXd::LinSpaced(201, 0.0, 2.0);
+  const auto residual = [&](double from_s, double to_s, double share) {
+    Eigen::MatrixXd values = Eigen::MatrixXd::Constant(201, 1, 0.05 * weight);
+    for (Eigen::Index i = 0; i < 201; ++i) {
+      if (time[i] >= from_s - 1e-9 && time[i] <= to_s + 1e-9) values(i, 0) = share * weight;
+    }
+    return TimeSeries(time, {{"pelvis_ty_force", Unit::newton}}, values);
+  };
+  const auto found = uncarried_time(model, residual(0.0, 0.42, 1.1));
+  ASSERT_TRUE(found);
+  ASSERT_EQ(found->stretches.size(), 1U);
+  EXPECT_NEAR(found->stretches[0].begin_s, 0.0, 1e-9);
+  EXPECT_NEAR(found->stretches[0].end_s, 0.42, 1e-9);
+  EXPECT_NEAR(found->share, 0.21, 1e-9);
+  EXPECT_NEAR(found->force_n, 1.1 * weight, 1e-9);
+  // What inverse dynamics leaves at an impact, and what someone who sits leaves throughout.
+  EXPECT_FALSE(uncarried_time(model, residual(1.0, 1.03, 0.8)));
+  EXPECT_FALSE(uncarried_time(model, residual(0.5, 1.0, 0.3)));
+  EXPECT_FALSE(uncarried_time(model, residual(0.0, 2.0, 0.7)));
+}
+
 TEST(BearsTheBody, TheLegThatStandsAndNotTheArm) {
   const model::BodyModel model = person(60.0);
   EXPECT_TRUE(bears_the_body(model, "knee_angle", model.default_q(), 75.0));

@@ -7,6 +7,9 @@
 
 namespace myoid::pipeline {
 
+/// Activations of which none is above it are none.
+inline constexpr double kFlatActivation = 0.02;
+
 /// Where the numbers of one trial of `myoid identify` came from.
 struct IdentifyFiles {
   std::string activations, lengths;
@@ -21,7 +24,7 @@ struct IdentifyFiles {
 ///
 /// - Lengths are 1 cm to 1 m; certain below 2 mm, not positive, above 3 m. With a tendon slack
 ///   length, fibers are 0.1 to 3 times their optimal length; certain if most are not positive.
-/// - Activations are 0 to 1; certain above 2 or below -0.1.
+/// - Activations are 0 to 1, in the mean of half a second; certain above 2 or below -0.1.
 /// - Velocities are dl/dt: over windows of 0.1 s the lengths change by their integral. Certain if
 ///   both go together (correlation above 0.9) by a factor outside 1/3 to 3, or against each other.
 /// - Moment arms are at most 0.2 m; certain above 0.5 m. With more muscles than joints, dl = -r dq

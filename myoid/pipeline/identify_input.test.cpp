@@ -86,6 +86,16 @@ TEST(IdentifyInput, ActivationsInPercentOrRawAreNamed) {
   expect_in(remarks[0], {"volts"});
 }
 
+TEST(IdentifyInput, APeakAboveTheGreatestHalfSecondIsNothingToSay) {
+  Spoiled peaked;
+  const TimeSeries& a = peaked.trial().activation;
+  Eigen::MatrixXd values = a.values() / a.values().maxCoeff();
+  const auto brief = static_cast<Eigen::Index>(0.05 * a.mean_rate_hz());
+  values.block(values.rows() / 2, 0, brief, 1).setConstant(1.6);
+  peaked.trial().activation = TimeSeries(a.time_s(), a.channels(), values);
+  EXPECT_TRUE(peaked.check().empty());
+}
+
 TEST(IdentifyInput, VelocitiesThatAreNotTheRateOfTheLengthsAreNamed) {
   Spoiled flipped, mm, other;
   flipped.trial().velocity_mps *= -1.0;

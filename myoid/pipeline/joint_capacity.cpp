@@ -73,6 +73,7 @@ JointCapacity joint_capacity(const model::BodyModel& model,
     if (moved[b])
       capacity.lever_m = std::max(capacity.lever_m, (state.X_GB[b] * marker.p_BM - center).norm());
   }
+  capacity.lever_m = std::min(capacity.lever_m, kLongestLever_m);
   capacity.body_mass_kg = body_mass_kg > 0.0 ? body_mass_kg : std::max(mass, kLightBody_kg);
   return capacity;
 }

@@ -10,7 +10,8 @@ namespace myoid::pipeline {
 struct JointCapacity {
   double positive_nm = 0.0;  ///< All muscles that turn it so at F_max, where they do most together.
   double negative_nm = 0.0;  ///< Likewise the other way, as a magnitude.
-  double lever_m = 0.0;      ///< From the joint to the farthest body or marker that it moves.
+  double lever_m = 0.0;      ///< From the joint to the farthest body or marker that it moves, at
+                             ///< most kLongestLever_m.
   double body_mass_kg = 0.0;  ///< As given, or of the model's bodies, at least kLightBody_kg.
 
   [[nodiscard]] double isometric_nm() const;
@@ -25,6 +26,9 @@ struct JointCapacity {
 
 /// Body weight is never taken to be less: models of one arm weigh little.
 inline constexpr double kLightBody_kg = 50.0;
+
+/// No lever is taken to be longer, whatever the model: a tall person's hip stands 1.1 m high.
+inline constexpr double kLongestLever_m = 1.2;
 
 /// Over the range of the coordinate, half a turn either way of its default at most, all others at
 /// their default. Throws ModelError if there is no such coordinate.

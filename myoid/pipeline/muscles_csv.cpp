@@ -82,7 +82,9 @@ MuscleTable read_muscles_csv(const std::filesystem::path& path, bool within_boun
     };
     const auto number = [&](const std::string& name) -> std::optional<double> {
       if (cell(name).empty()) return std::nullopt;
-      const auto value = recording::parse_number(cell(name));
+      auto value = recording::parse_number(cell(name));
+      // A cell holds a comma only where another sign stands between the columns.
+      if (!value) value = recording::parse_comma_number(cell(name));
       if (!value) fail(fmt::format("{}: expected a number, found '{}'", name, cell(name)));
       return value;
     };

@@ -42,6 +42,13 @@ TEST(MusclesCsv, AParameterHeldOrFreedByItsColumnIsHeldOrFreed) {
   EXPECT_EQ(table.speed_may_be_free, std::vector<std::string>{"BRA"});
 }
 
+TEST(MusclesCsv, SemicolonsAndDecimalCommasAreRead) {
+  std::string text = kHeader + "\n" + kBiceps + "\n";
+  for (char& c : text) c = c == ',' ? ';' : c;
+  for (char& c : text) c = c == '.' ? ',' : c;
+  EXPECT_EQ(table_of(text).muscles.at(0).start.optimal_fiber_length_m, 0.12);
+}
+
 TEST(MusclesCsv, WhatCannotBeMeantIsRefusedAtItsLine) {
   EXPECT_NE(message_of("name\nBIC\n").find("no column 'muscle'"), std::string::npos);
   EXPECT_NE(message_of(kHeader + ",colour\n" + kBiceps + ",red\n").find("unknown column 'colour'"),

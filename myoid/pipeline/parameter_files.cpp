@@ -166,7 +166,8 @@ std::string parameters_csv(const std::vector<IdentificationResult>& methods) {
 std::string parameters_json(const std::vector<IdentificationResult>& methods,
                             const std::vector<identification::Fold>& folds,
                             const Provenance& provenance,
-                            const std::vector<TrialPhases>& phases) {
+                            const std::vector<TrialPhases>& phases,
+                            const std::vector<identification::RestingJoint>& resting) {
   ordered_json json;
   json["provenance"] = provenance_json(provenance);
   json["methods"] = ordered_json::array();
@@ -183,6 +184,18 @@ std::string parameters_json(const std::vector<IdentificationResult>& methods,
                                   {"fitted", !phase.excluded},
                                   {"reason", phase.reason}});
     }
+  }
+  json["resting_torque"] = ordered_json::array();
+  for (const identification::RestingJoint& joint : resting) {
+    const Eigen::VectorXd& c = joint.torque.coefficient_nm;
+    json["resting_torque"].push_back(
+        {{"joint", joint.joint},
+         {"trials", joint.trials},
+         {"lowest_rad", joint.torque.lowest_rad},
+         {"highest_rad", joint.torque.highest_rad},
+         {"legendre_nm", std::vector<double>(c.data(), c.data() + c.size())},
+         {"viscosity_nms", joint.torque.viscosity_nms},
+         {"residual_nm", joint.torque.residual_nm}});
   }
   json["leave_one_trial_out"] = ordered_json::array();
   for (const identification::Fold& f : folds) {

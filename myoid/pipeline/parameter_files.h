@@ -5,6 +5,7 @@
 
 #include "myoid/core/provenance.h"
 #include "myoid/identification/cross_validation.h"
+#include "myoid/identification/resting_torque.h"
 #include "myoid/identification/result.h"
 #include "myoid/pipeline/phases.h"
 
@@ -16,11 +17,12 @@ namespace myoid::pipeline {
 [[nodiscard]] std::string parameters_csv(
     const std::vector<identification::IdentificationResult>& methods);
 
-/// The same with covariance, diagnostics, folds and phases.
+/// The same with covariance, diagnostics, folds, phases and resting torques.
 [[nodiscard]] std::string parameters_json(
     const std::vector<identification::IdentificationResult>& methods,
     const std::vector<identification::Fold>& folds,
     const Provenance& provenance,
-    const std::vector<TrialPhases>& phases = {});
+    const std::vector<TrialPhases>& phases = {},
+    const std::vector<identification::RestingJoint>& resting = {});
 
 }  // namespace myoid::pipeline

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
 #include <utility>
 
@@ -45,8 +46,9 @@ std::string spelled(std::string_view text) {
 /// Rounded as the ends of its interval are, so that all three can be compared.
 std::string value_of(const ParameterEstimate& e, double value) {
   if (!std::isfinite(value)) return "-";
-  return e.ci_low && e.ci_high ? format_rounded(value, *e.ci_high - *e.ci_low)
-                               : format_value(value);
+  return e.ci_low && e.ci_high && !is_undetermined(e)
+             ? format_rounded(value, *e.ci_high - *e.ci_low)
+             : format_value(value);
 }
 
 std::string unit(const ParameterEstimate& e) {
@@ -54,6 +56,7 @@ std::string unit(const ParameterEstimate& e) {
 }
 
 std::string interval(const ParameterEstimate& e) {
+  if (is_undetermined(e)) return "not determined";
   return e.ci_low && e.ci_high ? report::format_interval(*e.ci_low, *e.ci_high) : "none";
 }
 
@@ -84,7 +87,28 @@ Cell truth_cell(const StudyResult& result, const ParameterEstimate& e) {
   return {value_of(e, *truth), inside ? Badge::good : Badge::weak, {}};
 }
 
+/// What passive trials measured of the joints, for beneath the table of what is left to find.
+std::string measured_at_rest(const StudyResult& result) {
+  constexpr double kDegrees = 180.0 / std::numbers::pi;
+  std::string text;
+  for (const identification::RestingJoint& joint : result.resting) {
+    const identification::RestingTorque& torque = joint.torque;
+    text += fmt::format(
+        " What {} does by itself was measured ({}): {:.1f} N m at {:.0f}°, {:.1f} N m at {:.0f}°. "
+        "It is part of every torque predicted, and the joint's numbers here come on top of it.",
+        joint.joint, fmt::join(joint.trials, ", "), torque.at(torque.lowest_rad),
+        torque.lowest_rad * kDegrees, torque.at(torque.highest_rad), torque.highest_rad * kDegrees);
+  }
+  return text;
+}
+
 }  // namespace
+
+bool is_undetermined(const ParameterEstimate& e) {
+  constexpr double kMeaningless = 1e3;
+  const double size = std::max({std::abs(e.initial), std::abs(e.estimate), 1e-12});
+  return e.ci_low && e.ci_high && *e.ci_high - *e.ci_low > kMeaningless * size;
+}
 
 std::vector<EstimateLine> estimate_lines(const IdentificationResult& method,
                                          std::size_t muscle_count) {
@@ -139,7 +163,7 @@ std::vector<Table> torque_tables(const StudyResult& result, const Identification
                "Numbers of the electrodes and of the joint",
                "Freed so that not knowing them widens the muscles' intervals as it must; nobody's "
                "muscle, and not counted above." +
-                   truth,
+                   measured_at_rest(result) + truth,
                muscles.columns,
                {}};
   others.columns.front() = "of";

@@ -21,6 +21,10 @@ struct EstimateLine {
 [[nodiscard]] std::vector<EstimateLine> estimate_lines(
     const identification::IdentificationResult& method, std::size_t muscle_count);
 
+/// Whether the 95 % interval is a thousand times as wide as the number is large: the fit does not
+/// hold it at all, and the interval is printed as "not determined".
+[[nodiscard]] bool is_undetermined(const identification::ParameterEstimate& e);
+
 /// What the recording tells: first the muscles' and the person's parameters with prior, estimate,
 /// 95 % interval, truth (of a virtual recording), verdict and reason; then, if there are any, gains
 /// and exponents of the channels and the joint's own torque.

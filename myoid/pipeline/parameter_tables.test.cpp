@@ -78,5 +78,19 @@ TEST(PaperTables, SplitTheBranches) {
   EXPECT_EQ(tables[1].rows.size(), 4U);
 }
 
+TEST(PaperTables, AnIntervalBeyondAllMeaningIsSaidToBeNone) {
+  IdentificationResult method = two_muscles();
+  ParameterEstimate& e = method.estimates[0];
+  e.initial = 0.14;
+  e.estimate = 0.1338;
+  e.ci_low = -1.46e16;
+  e.ci_high = 1.46e16;
+  e.fit_case = "shortening";
+  const std::vector<report::Table> tables = paper_tables(method);
+  ASSERT_EQ(tables[0].rows.size(), 1U);
+  EXPECT_EQ(tables[0].rows[0][4].text, "0.134");
+  EXPECT_EQ(tables[0].rows[0][5].text, "not determined");
+}
+
 }  // namespace
 }  // namespace myoid::pipeline

@@ -129,5 +129,15 @@ TEST(FoldGates, FailWhereTrialsLeftOutArePredictedWorseThanByAnUnrelatedTorque) 
             GateStatus::fail);
 }
 
+TEST(FoldGates, DoNotPassWhereTheLiteraturePredictsBetterOverAll) {
+  const char* name = "Predicts torque it has not seen";
+  // A little better in two trials, much worse in the third.
+  std::vector<Fold> folds{fold("a", 3.0, 0.5), fold("b", 3.0, 0.5), fold("c", 3.0, 1.5)};
+  for (std::size_t i = 0; i < 3; ++i) folds[i].literature.rmse_nm = i < 2 ? 0.6 : 0.9;
+  EXPECT_EQ(status_of(fold_gates(folds), name), GateStatus::warn);
+  folds[2].literature.rmse_nm = 1.6;
+  EXPECT_EQ(status_of(fold_gates(folds), name), GateStatus::pass);
+}
+
 }  // namespace
 }  // namespace myoid::pipeline

@@ -110,9 +110,16 @@ std::optional<Gate> torque_gate(const StudyResult& result) {
   return std::nullopt;
 }
 
-/// A trial in which nothing carries a body that the study's joint bears; empty if there is none.
+/// A trial in which nothing, or not all the time something, carries a body that the study's joint
+/// bears; empty if there is none.
 std::optional<Gate> support_gate(const StudyResult& result) {
   for (const TrialResult& t : result.trials) {
+    if (t.uncarried)
+      return Gate{"Something carries the body", GateStatus::warn,
+                  fmt::format("'{}': nothing measured does in {:.0f} % of the time", t.spec.name,
+                              100.0 * t.uncarried->share),
+                  "no time in which half of the weight is on the joint to the ground",
+                  "Torques of the legs there lack the ground reaction; they are not fitted."};
     if (!t.has_motion() || t.spec.external_torque || t.generalized_forces.empty()) continue;
     const auto weight = unsupported_weight(t.model, t.generalized_forces);
     if (!weight) continue;
@@ -128,6 +135,32 @@ std::optional<Gate> support_gate(const StudyResult& result) {
     }
   }
   return std::nullopt;
+}
+
+/// What `check` warns of: faults of channels, and remarks on files that may make numbers wrong.
+Gate recordings_gate(const StudyResult& result) {
+  std::set<std::string> kinds;
+  std::ptrdiff_t grave = 0;
+  for (const NamedFault& f : all_faults(result)) {
+    if (!f.fault.grave) continue;
+    ++grave;
+    kinds.insert(std::string(signals::name(f.fault.kind)));
+  }
+  std::ptrdiff_t warnings = 0;
+  std::vector<std::string> trials;
+  for (const TrialResult& t : result.trials) {
+    warnings += static_cast<std::ptrdiff_t>(t.warnings.size());
+    if (!t.warnings.empty()) trials.push_back(t.spec.name);
+  }
+  std::vector<std::string> found;
+  if (grave > 0) found.push_back(fmt::format("{} found: {}", grave, fmt::join(kinds, ", ")));
+  if (warnings > 0)
+    found.push_back(fmt::format("{} warning{} about the files of {}", warnings,
+                                warnings == 1 ? "" : "s", fmt::join(trials, ", ")));
+  return {"Recordings without faults", found.empty() ? GateStatus::pass : GateStatus::warn,
+          found.empty() ? std::string("none found") : fmt::format("{}", fmt::join(found, "; ")),
+          "no gap, jump, hum, clipping, missing EMG, ... beyond the limits",
+          "Each is listed below with its channel, its time and what to do."};
 }
 
 }  // namespace
@@ -173,18 +206,7 @@ std::vector<report::Gate> quality_gates(const StudyResult& result) {
                     fmt::format("{} of {} failed", result.failed_trials, result.trials.size()),
                     "all", "The others are reported; the failures are listed under the trials."});
   }
-  const std::vector<NamedFault> faults = all_faults(result);
-  const auto grave = std::count_if(faults.begin(), faults.end(),
-                                   [](const NamedFault& f) { return f.fault.grave; });
-  std::set<std::string> kinds;
-  for (const NamedFault& f : faults) {
-    if (f.fault.grave) kinds.insert(std::string(signals::name(f.fault.kind)));
-  }
-  list.push_back({"Recordings without faults", grave == 0 ? GateStatus::pass : GateStatus::warn,
-                  grave == 0 ? std::string("none found")
-                             : fmt::format("{} found: {}", grave, fmt::join(kinds, ", ")),
-                  "no gap, jump, hum, clipping, ... beyond the limits",
-                  "Each is listed below with its channel, its time and what to do."});
+  list.push_back(recordings_gate(result));
   if (any_ik) {
     const int lost = unconverged + blind;
     list.push_back({"Inverse kinematics converged",
@@ -295,7 +317,12 @@ std::vector<NamedFault> all_faults(const StudyResult& result) {
 report::Section recordings_section(const StudyResult& result) {
   report::Section section{"recordings", "Quality of the recordings", {}, {}, {}, {}};
   std::vector<NamedFault> faults = all_faults(result);
-  if (faults.empty()) {
+  std::vector<std::vector<report::Cell>> warnings;
+  for (const TrialResult& t : result.trials) {
+    for (const std::string& text : t.warnings)
+      warnings.push_back({{"warning", report::Badge::weak}, {t.spec.name}, {""}, {text}, {""}});
+  }
+  if (faults.empty() && warnings.empty()) {
     section.paragraphs.emplace_back("No fault was found in any channel.");
     return section;
   }
@@ -308,7 +335,7 @@ report::Section recordings_section(const StudyResult& result) {
                       "As they came, before anything was mended. The limits stand in the guide to "
                       "`myoid check`.",
                       {"level", "trial", "time", "what was found", "what to do"},
-                      {}};
+                      std::move(warnings)};
   for (std::size_t i = 0; i < std::min(faults.size(), kMost); ++i) {
     const NamedFault& f = faults[i];
     table.rows.push_back(

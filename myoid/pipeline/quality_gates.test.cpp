@@ -53,6 +53,17 @@ TEST(QualityGates, MarkersThatMissTheModelByCentimetresAreACautionThenAFailure) 
   EXPECT_EQ(status_of(some_result(0.050, 0, 90.0), "Markers fit the model"), GateStatus::fail);
 }
 
+TEST(QualityGates, AWarningAboutAFileIsNoRecordingWithoutFaults) {
+  const char* gate = "Recordings without faults";
+  StudyResult result = some_result(0.010, 0, 90.0);
+  EXPECT_EQ(status_of(result, gate), GateStatus::pass);
+  result.trials[0].warnings = {"e.sto: the EMG lacks 7.5 s of the motion"};
+  EXPECT_EQ(status_of(result, gate), GateStatus::warn);
+  const report::Section section = recordings_section(result);
+  ASSERT_EQ(section.tables.size(), 1U);
+  EXPECT_EQ(section.tables[0].rows[0][3].text, result.trials[0].warnings[0]);
+}
+
 TEST(QualityGates, FramesWithoutAPoseAreACautionThenAFailure) {
   const char* gate = "Inverse kinematics converged";
   EXPECT_EQ(status_of(some_result(0.01, 0, 90.0), gate), GateStatus::pass);

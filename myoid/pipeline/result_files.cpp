@@ -206,8 +206,9 @@ void write_results(const StudyResult& result,
   for (const identification::InformedForces& forces : result.informed)
     write_informed_forces(result, forces, folder / forces.trial, comments);
   write_identified_model(result, folder);
-  recording::write_file(folder / "parameters.json",
-                        parameters_json(result.methods, result.folds, provenance, result.phases));
+  recording::write_file(
+      folder / "parameters.json",
+      parameters_json(result.methods, result.folds, provenance, result.phases, result.resting));
   recording::write_file(folder / "parameters.csv", parameters_csv(result.methods));
   recording::write_file(folder / "run.json", run_json(result, provenance).dump(2) + "\n");
 }

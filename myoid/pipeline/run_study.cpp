@@ -12,8 +12,11 @@
 
 #include "myoid/core/error.h"
 #include "myoid/identification/force.h"
+#include "myoid/pipeline/dynamometer_sign.h"
 #include "myoid/pipeline/estimator_input.h"
+#include "myoid/pipeline/ground_support.h"
 #include "myoid/pipeline/quality_gates.h"
+#include "myoid/pipeline/resting_joints.h"
 #include "myoid/pipeline/stage_store.h"
 #include "myoid/pipeline/study_emg.h"
 #include "myoid/pipeline/study_model.h"
@@ -94,6 +97,39 @@ void find_faults(const Study& study, const std::vector<TrialInput>& inputs, Stud
   });
 }
 
+/// Throws InvalidInput where the sign of every dynamometer is reversed, warns of that of some.
+void check_dynamometers(const Study& study,
+                        const std::vector<TrialInput>& inputs,
+                        StudyResult& result) {
+  std::vector<EffortTrial> trials;
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    const auto& torque = inputs[i].external_torque;
+    if (!result.trials[i].activation.empty())
+      trials.push_back(
+          {&study.trials[i], torque ? &*torque : nullptr, result.trials[i].activation});
+  }
+  for (const Finding& f : grouped(dynamometer_signs(study, result.model, trials))) {
+    if (f.level == Finding::Level::error)
+      throw InvalidInput(fmt::format("{} (trial '{}')", f.message, f.where));
+    for (TrialResult& trial : result.trials) {
+      if (trial.spec.name == f.where) trial.warnings.push_back(f.message);
+    }
+  }
+}
+
+/// Marks the times in which a leg's torque lacks the ground reaction.
+void find_uncarried(const Study& study, TrialResult& trial) {
+  if (!trial.has_motion() || trial.spec.external_torque) return;
+  const std::vector<std::string> names = study_coordinates(study.model);
+  const bool bears = std::any_of(names.begin(), names.end(), [&](const std::string& name) {
+    return bears_the_body(trial.model, name, trial.motion.q.values().row(0).transpose(),
+                          study.subject.mass_kg.value_or(0.0));
+  });
+  if (!bears) return;
+  trial.uncarried = uncarried_time(trial.model, trial.generalized_forces);
+  if (trial.uncarried) trial.warnings.push_back(trial.uncarried->sentence());
+}
+
 /// Motion and forces of every trial. Throws if none of them can be computed.
 void compute_trials(const Study& study,
                     const std::vector<TrialInput>& inputs,
@@ -102,18 +138,26 @@ void compute_trials(const Study& study,
   std::optional<StageStore> store;
   if (options.store) store.emplace(*options.store);
   std::atomic<int> done = 0;
-  oneapi::tbb::parallel_for(std::size_t{0}, study.trials.size(), [&](std::size_t i) {
+  const auto compute = [&](std::size_t i) {
     options.progress.check();
     TrialResult& trial = result.trials[i];
     try {
-      compute_trial(study, inputs[i], result.model_text, options.share_forces,
+      compute_trial(study, inputs[i], result.model_text, options.share_forces, result.resting,
                     store ? &*store : nullptr, trial);
+      find_uncarried(study, trial);
     } catch (const InvalidInput& error) {
       trial.failure = error.what();
     }
     options.progress.tell(0.3 + 0.4 * ++done / static_cast<double>(study.trials.size()),
                           trial.spec.name);
-  });
+  };
+  // Relaxed joints first: what they do by themselves no muscle shares in the other trials.
+  for (const bool relaxed : {true, false}) {
+    oneapi::tbb::parallel_for(std::size_t{0}, study.trials.size(), [&](std::size_t i) {
+      if ((study.trials[i].use == Use::passive) == relaxed) compute(i);
+    });
+    if (relaxed) result.resting = resting_joints(result);
+  }
   for (const TrialResult& trial : result.trials) {
     if (!trial.failure.empty()) ++result.failed_trials;
   }
@@ -203,6 +247,7 @@ StudyResult analyse(const Study& study, StudyInputs given, const RunOptions& opt
   result.inputs = std::move(given.files);
   Stages stages(options, result.times);
   stages.run("EMG", 0.15, [&] { process_emg_of_trials(study, inputs, result); });
+  check_dynamometers(study, inputs, result);
   stages.run("quality", 0.25, [&] { find_faults(study, inputs, result); });
   stages.run("motion and forces", 0.3, [&] { compute_trials(study, inputs, options, result); });
   stages.run("identification", 0.7, [&] { identify_parameters(study, options.progress, result); });

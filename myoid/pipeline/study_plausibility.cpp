@@ -5,10 +5,12 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "myoid/core/error.h"
 #include "myoid/pipeline/ground_support.h"
+#include "myoid/pipeline/identify_input.h"
+#include "myoid/pipeline/load_points.h"
+#include "myoid/pipeline/marker_sides.h"
 #include "myoid/pipeline/shared_muscles.h"
 
 namespace myoid::pipeline {
@@ -40,33 +42,6 @@ std::optional<Finding> check_support(const Study& study,
   return std::nullopt;
 }
 
-/// What has one kind and level is said once, of the trial that has it first.
-std::vector<Finding> grouped(const std::vector<Finding>& findings) {
-  constexpr std::size_t kNamed = 4;
-  std::vector<Finding> kept;
-  std::vector<std::vector<std::string>> others;
-  for (const Finding& f : findings) {
-    const auto same = std::find_if(kept.begin(), kept.end(), [&](const Finding& k) {
-      return !f.kind.empty() && k.kind == f.kind && k.level == f.level;
-    });
-    if (same != kept.end()) {
-      others[static_cast<std::size_t>(same - kept.begin())].push_back(f.where);
-      continue;
-    }
-    kept.push_back(f);
-    others.emplace_back();
-  }
-  for (std::size_t i = 0; i < kept.size(); ++i) {
-    const std::size_t named = std::min(kNamed, others[i].size());
-    if (named == 0) continue;
-    kept[i].message += fmt::format(
-        " (likewise in {}{})",
-        fmt::join(others[i].begin(), others[i].begin() + static_cast<std::ptrdiff_t>(named), ", "),
-        named < others[i].size() ? fmt::format(" and {} more", others[i].size() - named) : "");
-  }
-  return kept;
-}
-
 }  // namespace
 
 StudyPlausibility::StudyPlausibility(const Study& study, const model::BodyModel& model)
@@ -75,7 +50,19 @@ StudyPlausibility::StudyPlausibility(const Study& study, const model::BodyModel&
 void StudyPlausibility::look_at(const TrialSpec& trial, const TrialInput& input) {
   prints_.push_back(print_of(trial, input));
   for (TrialLengths& lengths : lengths_of(trial, input)) lengths_.push_back(std::move(lengths));
+  if (input.emg) {
+    for (const MuscleSpec& muscle : study_->muscles) {
+      if (const auto column = input.emg->find(muscle.emg))
+        largest_emg_ = std::max(largest_emg_, input.emg->values().col(*column).maxCoeff());
+    }
+  }
   std::vector<Finding> found = implausible(*study_, *model_, capacities_, trial, input);
+  std::move(found.begin(), found.end(), std::back_inserter(of_trials_));
+  auto sides = input.markers
+                   ? exchanged_sides(*model_, trial, *input.markers, study_->markers.weight)
+                   : std::nullopt;
+  // Exchanged labels put every force under the other foot.
+  found = sides ? std::vector<Finding>{*sides} : misplaced_loads(*model_, trial, input);
   std::move(found.begin(), found.end(), std::back_inserter(of_trials_));
   if (auto support = check_support(*study_, *model_, trial, input))
     of_trials_.push_back(std::move(*support));
@@ -87,8 +74,17 @@ std::vector<Finding> StudyPlausibility::findings() const {
   // Activations may be computed, and then alike for good.
   if (study_->emg.kind == EmgKind::activation) {
     for (Finding& f : same) f.level = Finding::Level::warning;
+    if (largest_emg_ > 0.0 && largest_emg_ < kFlatActivation) {
+      found.push_back(
+          {Finding::Level::warning, "study",
+           fmt::format("[emg] kind = \"activation\", but no activation of any trial is above "
+                       "{:.2g}, expected up to 1 in the greatest effort: is this EMG in volts? Set "
+                       "[emg] kind = \"envelope\"",
+                       largest_emg_)});
+    }
   }
-  for (std::vector<Finding> more : {shared_muscles(*study_), same, unlike_lengths(lengths_)})
+  for (std::vector<Finding> more :
+       {shared_muscles(*study_), same, grouped(unlike_lengths(lengths_))})
     std::move(more.begin(), more.end(), std::back_inserter(found));
   return found;
 }

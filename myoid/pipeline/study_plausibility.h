@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "myoid/model/body_model.h"
+#include "myoid/pipeline/emg_cover.h"
 #include "myoid/pipeline/finding.h"
 #include "myoid/pipeline/same_recording.h"
 #include "myoid/pipeline/study.h"
@@ -31,6 +32,7 @@ class StudyPlausibility {
   std::vector<Finding> of_trials_;
   std::vector<TrialPrint> prints_;
   std::vector<TrialLengths> lengths_;
+  double largest_emg_ = 0.0;  ///< Of all trials.
 };
 
 /// All of it: throws InvalidInput for the first error, adds the warnings to the trials'.

@@ -75,6 +75,22 @@ TEST(StudyPlausibility, WhatSeveralTrialsHaveAlikeIsSaidOnce) {
   EXPECT_NE(found[0].message.find("(likewise in second)"), std::string::npos) << found[0].message;
 }
 
+TEST(RequirePlausible, VoltsThatAreCalledActivationsAreWarnedOf) {
+  for (const bool volts : {true, false}) {
+    TwoTrials two;
+    two.study.emg.kind = EmgKind::activation;
+    two.study.muscles = {{.name = "BIC", .osim = {"BIC"}, .emg = "BIC"}};
+    for (std::size_t i = 0; i < 2; ++i)
+      two.inputs[i].emg = TimeSeries(two.inputs[i].emg->time_s(), two.inputs[i].emg->channels(),
+                                     (volts ? 1.0 : 1e4) * two.inputs[i].emg->values());
+    require_plausible(two.study, two.model, two.inputs);
+    ASSERT_EQ(two.inputs[0].warnings.size(), volts ? 1U : 0U);
+    if (!volts) continue;
+    EXPECT_NE(two.inputs[0].warnings[0].find("is this EMG in volts?"), std::string::npos)
+        << two.inputs[0].warnings[0];
+  }
+}
+
 TEST(RequirePlausible, ActivationsThatAreAlikeMayBeComputedAndAreWarnedOf) {
   TwoTrials two;
   two.study.emg.kind = EmgKind::activation;

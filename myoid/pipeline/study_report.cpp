@@ -62,7 +62,7 @@ std::vector<std::string> assumptions(const StudyResult& result) {
                       "hardly be told apart.",
                       muscle.name, *muscle.same_as));
   }
-  if (!result.study.subject.mass_kg)
+  if (!result.study.subject.mass_kg && !result.study.model.file)
     list.push_back("Body mass is not given: 73 kg is assumed for the built-in arm's inertia.");
   std::string white;
   for (const signals::WhiteningFilter& filter : result.whitening) {
@@ -137,9 +137,9 @@ report::Report study_report(const StudyResult& result, const Provenance& provena
   std::vector<std::string> joints;
   for (const std::string& name : study_coordinates(result.study.model))
     joints.push_back(spelled(name));
-  report.subtitle =
-      fmt::format("{} trials; joint coordinate{} {}; model {}", result.trials.size(),
-                  joints.size() > 1 ? "s" : "", fmt::join(joints, ", "), result.model.name);
+  report.subtitle = fmt::format("{} trial{}; joint coordinate{} {}; model {}", result.trials.size(),
+                                result.trials.size() == 1 ? "" : "s", joints.size() > 1 ? "s" : "",
+                                fmt::join(joints, ", "), result.model.name);
   report.headline = headline(result);
   if (has_motion_page(result))
     report.links.push_back({"The model moving through every trial, in the browser", kMotionPage});

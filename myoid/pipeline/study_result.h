@@ -9,11 +9,13 @@
 #include "myoid/identification/cross_validation.h"
 #include "myoid/identification/force_loop.h"
 #include "myoid/identification/paper.h"
+#include "myoid/identification/resting_torque.h"
 #include "myoid/identification/torque.h"
 #include "myoid/kinematics/inverse_kinematics.h"
 #include "myoid/kinematics/muscle_kinematics.h"
 #include "myoid/pipeline/design_study.h"
 #include "myoid/pipeline/exchanged_electrodes.h"
+#include "myoid/pipeline/ground_support.h"
 #include "myoid/pipeline/phases.h"
 #include "myoid/pipeline/study.h"
 #include "myoid/pipeline/study_inputs.h"
@@ -36,12 +38,13 @@ struct TrialResult {
   TimeSeries activation;                  ///< Per EMG channel, 0..1.
   TimeSeries generalized_forces;          ///< Inverse dynamics, all coordinates.
   kinematics::MuscleKinematics muscles;   ///< Of the model's muscles.
-  TimeSeries muscle_torque;        ///< Of the study's coordinates: what the muscles provide [N m].
-  forces::MuscleForces shared;     ///< Of the model's muscles.
-  std::vector<std::string> notes;  ///< Repairs and remarks, with file and line.
-  std::vector<std::string> warnings;   ///< Those of them that may make numbers wrong.
-  std::vector<signals::Fault> faults;  ///< Of its recordings, as they came.
-  std::string failure;                 ///< Why it could not be computed; empty: it could.
+  TimeSeries muscle_torque;     ///< Of the study's coordinates: what the muscles provide [N m].
+  forces::MuscleForces shared;  ///< Of the model's muscles.
+  std::optional<UncarriedTime> uncarried;  ///< What of it has torques that lack a ground reaction.
+  std::vector<std::string> notes;          ///< Repairs and remarks, with file and line.
+  std::vector<std::string> warnings;       ///< Those of them that may make numbers wrong.
+  std::vector<signals::Fault> faults;      ///< Of its recordings, as they came.
+  std::string failure;                     ///< Why it could not be computed; empty: it could.
 
   [[nodiscard]] bool has_motion() const { return motion.q.sample_count() > 0 && failure.empty(); }
 };
@@ -61,7 +64,8 @@ struct StudyResult {
   std::vector<signals::Fault> level_faults;         ///< Of EMG channels, over all trials.
   std::vector<signals::WhiteningFilter> whitening;  ///< Of raw EMG; empty if not whitened.
   std::vector<signals::ChannelNormalisation> normalisation;  ///< Empty if EMG came as activations.
-  identification::StudyData data;                            ///< What the estimators saw.
+  std::vector<identification::RestingJoint> resting;  ///< Joints whose passive torque was measured.
+  identification::StudyData data;                     ///< What the estimators saw.
   std::vector<identification::IdentificationResult> methods;
   std::vector<identification::Fold> folds;
   std::vector<TrialPhases> phases;  ///< Of the trials of `data`; empty: not searched.

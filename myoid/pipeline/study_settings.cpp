@@ -12,6 +12,21 @@ namespace {
 
 using recording::TomlTable;
 
+/// A length of a person, adult or child, in meters; what lies outside is in another unit.
+std::optional<double> segment_length(TomlTable& table, const char* key) {
+  constexpr double kShortest_m = 0.08, kLongest_m = 0.5;
+  if (!table.has(key)) return std::nullopt;
+  const double length_m = table.positive_number(key, 0.0);
+  if (length_m < kShortest_m || length_m > kLongest_m) {
+    const char* unit = length_m > 5.0 && length_m < 60.0      ? "; is it in cm? Divide by 100"
+                       : length_m > 60.0 && length_m < 1000.0 ? "; is it in mm? Divide by 1000"
+                                                              : "";
+    table.fail(key, fmt::format("found {} m, expected {} to {} m, as people's arms have{}",
+                                length_m, kShortest_m, kLongest_m, unit));
+  }
+  return length_m;
+}
+
 SubjectSpec read_subject(TomlTable table) {
   SubjectSpec subject;
   subject.name = table.text("name").value_or(subject.name);
@@ -35,10 +50,8 @@ ModelSpec read_model(TomlTable table, const std::filesystem::path& folder) {
   if (model.file && !model.builtin.empty()) {
     table.fail("builtin", "give either 'file' or 'builtin', not both");
   }
-  if (table.has("upper_arm_length_m"))
-    model.upper_arm_length_m = table.positive_number("upper_arm_length_m", 0.0);
-  if (table.has("forearm_length_m"))
-    model.forearm_length_m = table.positive_number("forearm_length_m", 0.0);
+  model.upper_arm_length_m = segment_length(table, "upper_arm_length_m");
+  model.forearm_length_m = segment_length(table, "forearm_length_m");
   model.horizontal = table.choice("plane", "vertical", {"vertical", "horizontal"}) == "horizontal";
   model.forearm_rotations = table.flag("forearm_rotations").value_or(false);
   if (const auto names = table.texts("coordinate")) {
@@ -58,6 +71,12 @@ ModelSpec read_model(TomlTable table, const std::filesystem::path& folder) {
     if (!at || at->size() != 3)
       held->fail("at_m", "expected the point's three coordinates in the body [m]");
     spec.p_BP_m = Vec3((*at)[0], (*at)[1], (*at)[2]);
+    constexpr double kFarthest_m = 2.0;  // what a person may hold at the end of a pole
+    if (spec.p_BP_m.norm() > kFarthest_m) {
+      held->fail("at_m", fmt::format("found a point {:.3g} m from the body's origin, expected less "
+                                     "than {} m; is it in cm or mm?",
+                                     spec.p_BP_m.norm(), kFarthest_m));
+    }
     held->finish();
     model.held_mass = spec;
   }

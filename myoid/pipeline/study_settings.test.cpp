@@ -43,6 +43,18 @@ TEST(StudySettings, AnUnknownBuiltInModelIsRefusedWithTheOneThereIs) {
   EXPECT_NE(message_of("[model]\nbuiltin = \"arm26\"\n").find("expected arm4"), std::string::npos);
 }
 
+TEST(StudySettings, ALengthInCentimetersOrMillimetersIsRefusedByItsKey) {
+  EXPECT_NE(message_of("[model]\nforearm_length_m = 25\n").find("forearm_length_m"),
+            std::string::npos);
+  EXPECT_NE(message_of("[model]\nforearm_length_m = 25\n").find("is it in cm?"), std::string::npos);
+  EXPECT_NE(message_of("[model]\nupper_arm_length_m = 300\n").find("is it in mm?"),
+            std::string::npos);
+  EXPECT_EQ(settings_of("[model]\nforearm_length_m = 0.25\n").model.forearm_length_m, 0.25);
+  EXPECT_NE(message_of("[model]\nheld_mass = { body = \"hand\", at_m = [0, -32, 0] }\n")
+                .find("32 m from the body's origin"),
+            std::string::npos);
+}
+
 TEST(StudySettings, ADelayInMillisecondsIsRefused) {
   EXPECT_NE(message_of("[emg]\ndelay_s = 60\n").find("expected 0 to 0.3 s"), std::string::npos);
   EXPECT_EQ(settings_of("[emg]\ndelay_s = 0.06\n").emg.delay_s, 0.06);

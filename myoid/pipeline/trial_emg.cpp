@@ -10,6 +10,7 @@
 
 #include "myoid/core/error.h"
 #include "myoid/pipeline/clock_check.h"
+#include "myoid/pipeline/emg_cover.h"
 #include "myoid/pipeline/trial_clock.h"
 #include "myoid/pipeline/trial_quality.h"
 #include "myoid/recording/emg_reader.h"
@@ -97,6 +98,9 @@ void require_kind(const Study& study, const std::filesystem::path& path, const T
   for (const MuscleSpec& muscle : study.muscles) {
     const auto column = emg.find(muscle.emg);
     if (!column) continue;
+    const Unit in = emg.channels()[static_cast<std::size_t>(*column)].unit;
+    const std::string unit =
+        in == Unit::dimensionless ? "(the file's own numbers)" : std::string(symbol(in));
     double low = 0.0;
     double high = 0.0;
     for (const double value : emg.values().col(*column)) {
@@ -106,10 +110,10 @@ void require_kind(const Study& study, const std::filesystem::path& path, const T
     }
     if (low < -kRinging * high)
       throw ReadError(path, 0,
-                      fmt::format("channel '{}' reaches from {:.3g} to {:.3g}, but [emg] kind = "
+                      fmt::format("channel '{}' reaches from {:.3g} to {:.3g} {}, but [emg] kind = "
                                   "\"{}\" is never below zero; is it raw EMG? Then set kind = "
                                   "\"raw\"",
-                                  muscle.emg, low, high, kind));
+                                  muscle.emg, low, high, unit, kind));
     if (activation && high > kLargestActivation)
       throw ReadError(
           path, 0,
@@ -136,39 +140,6 @@ TimeSeries on_clock_of_motion(const Study& study,
       fmt::format("{}: clock put on that of the motion, {} ({})", trial.emg->filename().string(),
                   signals::to_string(input.emg_clock->clock), input.emg_clock->source));
   return signals::on_study_clock(std::move(emg), input.emg_clock->clock);
-}
-
-/// Both recordings must have most of the movement.
-void check_cover(const TrialSpec& trial, const Eigen::VectorXd& emg_s, TrialInput& input) {
-  const Eigen::VectorXd* motion_s = input.markers  ? &input.markers->time_s
-                                    : input.motion ? &input.motion->time_s()
-                                                   : nullptr;
-  if (motion_s == nullptr) return;
-  const double begin_s = (*motion_s)[0];
-  const double end_s = (*motion_s)[motion_s->size() - 1];
-  const double emg_end_s = emg_s[emg_s.size() - 1];
-  const double overlap = std::min(emg_end_s, end_s) - std::max(emg_s[0], begin_s);
-  constexpr double kShortest_s = 0.5;
-  if (end_s - begin_s < kShortest_s) {
-    throw ReadError(
-        *trial.emg, 0,
-        fmt::format("the trial lasts {:.3g} s ({:.5g} to {:.5g} s); at least {} s are needed: give "
-                    "start_s and end_s that are farther apart",
-                    end_s - begin_s, begin_s, end_s, kShortest_s));
-  }
-  if (overlap < std::max(kShortest_s, 0.5 * (end_s - begin_s))) {
-    throw ReadError(
-        *trial.emg, 0,
-        fmt::format("the EMG ({:.5g} to {:.5g} s) covers less than half of the motion ({:.5g} "
-                    "to {:.5g} s); are both in seconds, on one clock? If so, give the trial "
-                    "the start_s and end_s that both have",
-                    emg_s[0], emg_end_s, begin_s, end_s));
-  }
-  if (overlap < end_s - begin_s - 0.1) {
-    warn(input, fmt::format("{}: the motion goes on for {:.3g} s without EMG; there the EMG's "
-                            "end value is taken. start_s and end_s leave it out",
-                            trial.emg->filename().string(), end_s - begin_s - overlap));
-  }
 }
 
 }  // namespace

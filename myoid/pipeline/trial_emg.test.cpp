@@ -37,7 +37,7 @@ TEST(ReadTrialEmg, EmgThatCoversLessThanHalfOfTheMotionIsRefusedAndALittleLessIs
       << message;
   const TrialInput shorter = WrittenTrial(0.01, 4.0).read(study);
   ASSERT_EQ(shorter.warnings.size(), 1U);
-  EXPECT_NE(shorter.warnings[0].find("0.99 s without EMG"), std::string::npos)
+  EXPECT_NE(shorter.warnings[0].find("lacks 0.99 s of the motion"), std::string::npos)
       << shorter.warnings[0];
 }
 

@@ -29,6 +29,8 @@ TimeSeries read_motion(const std::filesystem::path& path,
   };
   TimeSeries motion = recording::to_si(file, is_angle);
   bool any = false;
+  double largest_rad = 0.0, widest_rad = 0.0;
+  std::string largest_name;
   for (Eigen::Index c = 0; c < motion.channel_count(); ++c) {
     const Channel& channel = motion.channels()[static_cast<std::size_t>(c)];
     if (!model.find_coordinate(channel.name)) continue;
@@ -45,11 +47,17 @@ TimeSeries read_motion(const std::filesystem::path& path,
                       file.in_degrees ? "yes" : "no"));
     }
     const double range = motion.values().col(c).maxCoeff() - motion.values().col(c).minCoeff();
-    if (file.in_degrees && largest < 3.5 * kDegree && range > 0.2 * kDegree) {
-      warn(input, fmt::format("{}: column '{}' stays below 3.5 degrees although the header says "
-                              "inDegrees=yes; if these are radians, write inDegrees=no",
-                              path.filename().string(), channel.name));
+    if (largest > largest_rad) {
+      largest_rad = largest;
+      largest_name = channel.name;
     }
+    widest_rad = std::max(widest_rad, range);
+  }
+  // A small joint may move little; one that moves of a whole motion turns by more.
+  if (file.in_degrees && largest_rad < 3.5 * kDegree && widest_rad > 0.2 * kDegree) {
+    warn(input, fmt::format("{}: no angle reaches 3.5 degrees (the largest is '{}') although the "
+                            "header says inDegrees=yes; if these are radians, write inDegrees=no",
+                            path.filename().string(), largest_name));
   }
   if (!any) {
     std::string names;

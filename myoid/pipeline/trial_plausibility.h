@@ -36,17 +36,4 @@ using Capacities = std::map<std::string, JointCapacity>;
                                           double greatest_nm,
                                           const std::string& what_it_is);
 
-/// How long EMG and motion of a trial last, each in a file of its own and without a window.
-struct TrialLengths {
-  std::string trial;
-  double emg_s = 0.0, motion_s = 0.0;  ///< Both from the same begin.
-  double motion_rate_hz = 0.0;
-};
-/// Empty where the two need not be alike: one file, a window, no motion, other begins.
-[[nodiscard]] std::vector<TrialLengths> lengths_of(const TrialSpec& trial, const TrialInput& input);
-
-/// EMG that outlasts the motion by one and the same factor in every trial: the motion's frame rate
-/// is wrong by it.
-[[nodiscard]] std::vector<Finding> unlike_lengths(const std::vector<TrialLengths>& trials);
-
 }  // namespace myoid::pipeline

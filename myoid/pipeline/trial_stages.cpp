@@ -13,6 +13,7 @@
 #include "myoid/dynamics/inverse_dynamics.h"
 #include "myoid/model/arm4.h"
 #include "myoid/model/thelen_properties.h"
+#include "myoid/pipeline/resting_joints.h"
 #include "myoid/pipeline/study_model.h"
 #include "myoid/signals/resample.h"
 
@@ -105,7 +106,11 @@ void compute_motion(const Study& study,
   trial.notes.insert(trial.notes.end(), result.notes.begin(), result.notes.end());
 }
 
-void compute_forces(const Study& study, const TrialInput& input, bool share, TrialResult& trial) {
+void compute_forces(const Study& study,
+                    const TrialInput& input,
+                    bool share,
+                    const std::vector<identification::RestingJoint>& resting,
+                    TrialResult& trial) {
   trial.generalized_forces = dynamics::inverse_dynamics(
       trial.model, trial.motion, {.loads = input.loads ? &*input.loads : nullptr});
   trial.muscles = kinematics::muscle_kinematics(trial.model, trial.motion);
@@ -125,9 +130,16 @@ void compute_forces(const Study& study, const TrialInput& input, bool share, Tri
   // What the surroundings exert on the coordinates, the muscles need not.
   if (input.external_torque)
     torque -= signals::resample(*input.external_torque, trial.motion.q.time_s()).values();
-  trial.muscle_torque = TimeSeries(trial.motion.q.time_s(), std::move(columns), torque);
+  trial.muscle_torque = TimeSeries(trial.motion.q.time_s(), columns, torque);
 
   if (!share) return;
+  // What a joint does by itself its muscles do not share.
+  for (std::size_t j = 0; j < coordinates.size(); ++j) {
+    const Eigen::VectorXd by_itself =
+        resting_torque_nm(resting, coordinates[j], trial.motion.q.column(coordinates[j]));
+    if (by_itself.size() > 0) torque.col(static_cast<Eigen::Index>(j)) -= by_itself;
+  }
+  const TimeSeries active(trial.motion.q.time_s(), std::move(columns), torque);
   const auto count = static_cast<Eigen::Index>(trial.model.muscles.size());
   Eigen::MatrixXd optimal(trial.motion.sample_count(), count);
   Eigen::VectorXd greatest(count);
@@ -140,7 +152,7 @@ void compute_forces(const Study& study, const TrialInput& input, bool share, Tri
                                                    trial.muscles.velocity.values()(i, m));
     }
   }
-  trial.shared = forces::share(moment_arms, trial.muscle_torque, optimal, greatest,
+  trial.shared = forces::share(moment_arms, active, optimal, greatest,
                                {.objective = study.sharing.objective,
                                 .exponent = study.sharing.exponent,
                                 .reserve_nm = study.sharing.reserve_nm});
@@ -152,6 +164,7 @@ void compute_trial(const Study& study,
                    const TrialInput& input,
                    std::string_view model_text,
                    bool share_forces,
+                   const std::vector<identification::RestingJoint>& resting,
                    StageStore* store,
                    TrialResult& trial) {
   trial.model = load_model(study, input.markers ? &*input.markers : nullptr);
@@ -168,7 +181,7 @@ void compute_trial(const Study& study,
                                            trial.spec.held_mass_kg);
   }
   compute_motion(study, input, model_text, store, trial);
-  if (trial.motion.q.sample_count() > 0) compute_forces(study, input, share_forces, trial);
+  if (trial.motion.q.sample_count() > 0) compute_forces(study, input, share_forces, resting, trial);
 }
 
 }  // namespace myoid::pipeline

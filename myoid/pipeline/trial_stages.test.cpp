@@ -25,7 +25,7 @@ TrialResult held_still(const Study& study, double mass_kg) {
   TrialResult trial;
   trial.spec = study.trials[0];
   trial.spec.held_mass_kg = mass_kg;
-  compute_trial(study, input, "", true, nullptr, trial);
+  compute_trial(study, input, "", true, {}, nullptr, trial);
   return trial;
 }
 

@@ -83,6 +83,23 @@ std::optional<TimeSeries> volts_of(const CsvSeries& series,
   return TimeSeries(chosen.time_s(), chosen.channels(), std::move(values));
 }
 
+/// Columns in SI where a line of the header names their unit.
+CsvSeries with_named_units(Storage storage) {
+  CsvSeries series;
+  std::vector<Channel> channels = storage.data.channels();
+  Eigen::MatrixXd values = storage.data.values();
+  for (std::size_t c = 0; c < channels.size(); ++c) {
+    const auto named = storage.units.find(channels[c].name);
+    const auto unit = named == storage.units.end() ? std::nullopt : parse_unit(named->second);
+    series.has_unit.push_back(unit.has_value());
+    if (!unit) continue;
+    channels[c].unit = unit->unit;
+    values.col(static_cast<Eigen::Index>(c)) *= unit->to_si;
+  }
+  series.data = TimeSeries(storage.data.time_s(), std::move(channels), std::move(values));
+  return series;
+}
+
 /// The channels of every kind of file that may name their units.
 std::optional<CsvSeries> read_channels(const std::filesystem::path& path, bool voltages_only) {
   const std::string extension = path.extension().string();
@@ -230,6 +247,8 @@ EmgFile read_emg(const std::filesystem::path& path, const std::string& unit, boo
     if (stated) to_volt = stated;
     if (dimensionless) {
       series = std::move(storage.data);
+    } else if (!stated && !storage.units.empty()) {
+      series = volts_of(with_named_units(std::move(storage)), to_volt, file.repairs);
     } else if (to_volt) {
       series = with_unit(storage.data, Unit::volt, *to_volt);
     }

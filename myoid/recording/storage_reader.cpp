@@ -91,6 +91,19 @@ std::optional<std::pair<std::string, std::string>> key_and_value(std::string_vie
   return std::pair(std::string(words[0]), std::string(words[1]));
 }
 
+/// NAME and unit of a line "channel NAME [unit]".
+std::optional<std::pair<std::string, std::string>> channel_unit(std::string_view line) {
+  constexpr std::string_view kStart = "channel ";
+  const std::size_t open = line.rfind('[');
+  if (!line.starts_with(kStart) || !line.ends_with(']') || open == std::string_view::npos ||
+      open < kStart.size())
+    return std::nullopt;
+  const std::string_view name = trim(line.substr(kStart.size(), open - kStart.size()));
+  const std::string_view unit = trim(line.substr(open + 1, line.size() - open - 2));
+  if (name.empty() || unit.empty()) return std::nullopt;
+  return std::pair(std::string(name), std::string(unit));
+}
+
 /// Comma decimals: "1,5<tab>2,25" without any decimal point. Only when the file has one number a
 /// cell.
 bool looks_like_comma_decimals(std::string_view line) {
@@ -111,7 +124,9 @@ Storage parse_storage(std::string_view text, const std::filesystem::path& path) 
       found = true;
       break;
     }
-    if (const auto pair = key_and_value(content)) {
+    if (auto channel = channel_unit(content); channel && line > 0) {
+      storage.units.insert(std::move(*channel));
+    } else if (const auto pair = key_and_value(content)) {
       storage.header[pair->first] = pair->second;
       if (equal_ignoring_case(pair->first, "inDegrees")) {
         storage.in_degrees = is_one_of(pair->second, {"yes", "y", "true", "1"});

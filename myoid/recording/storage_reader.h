@@ -18,6 +18,7 @@ namespace myoid::recording {
 struct Storage {
   std::string title;                          ///< First line of the header, if it is free text.
   std::map<std::string, std::string> header;  ///< key=value pairs.
+  std::map<std::string, std::string> units;   ///< Of columns with a line "channel NAME [unit]".
   bool in_degrees =
       false;        ///< Said by the header (`inDegrees=yes`), or a .mot of the old SIMM kind.
   TimeSeries data;  ///< Dimensionless channels; Vec3 columns are `name_1`, `name_2`, `name_3`.

@@ -15,7 +15,7 @@ std::string format_storage(const TimeSeries& series, const StorageFormat& format
   std::string text = fmt::format("{}\nversion=1\nnRows={}\nnColumns={}\ninDegrees={}\n\n",
                                  format.title, series.sample_count(), series.channel_count() + 1,
                                  format.angles_in_degrees ? "yes" : "no");
-  text += "Units are S.I. units (second, meters, Newtons, ...)\n";
+  if (format.in_si) text += "Units are S.I. units (second, meters, Newtons, ...)\n";
   if (format.angles_in_degrees) text += "Angles are in degrees.\n";
   for (const std::string& comment : format.comments) text += comment + "\n";
   text += "\nendheader\ntime";
@@ -40,8 +40,12 @@ void write_storage(const std::filesystem::path& path,
   write_file(path, format_storage(series, format));
 }
 
-void write_csv(const std::filesystem::path& path, const TimeSeries& series) {
-  std::string text = "time_s";
+void write_csv(const std::filesystem::path& path,
+               const TimeSeries& series,
+               const std::vector<std::string>& remarks) {
+  std::string text;
+  for (const std::string& remark : remarks) text += "# " + remark + "\n";
+  text += "time_s";
   for (const Channel& channel : series.channels()) {
     text += "," + channel.name;
     if (channel.unit != Unit::dimensionless) text += fmt::format(" [{}]", symbol(channel.unit));

@@ -11,7 +11,8 @@ namespace myoid::recording {
 struct StorageFormat {
   std::string title = "Storage";
   bool angles_in_degrees =
-      false;  ///< Columns in radians are written in degrees, and the header says so.
+      false;          ///< Columns in radians are written in degrees, and the header says so.
+  bool in_si = true;  ///< The header says that the units are S.I.; false where they are not known.
   std::vector<std::string> comments;  ///< Lines of free text in the header (provenance).
 };
 
@@ -26,8 +27,10 @@ void write_storage(const std::filesystem::path& path,
                    const TimeSeries& series,
                    const StorageFormat& format);
 
-/// A plain table: a header line "time_s,name [unit],..." (no unit where there is none) and the
-/// numbers; gaps are empty cells.
-void write_csv(const std::filesystem::path& path, const TimeSeries& series);
+/// A plain table: lines "# remark", a header line "time_s,name [unit],..." (no unit where there is
+/// none) and the numbers; gaps are empty cells.
+void write_csv(const std::filesystem::path& path,
+               const TimeSeries& series,
+               const std::vector<std::string>& remarks = {});
 
 }  // namespace myoid::recording

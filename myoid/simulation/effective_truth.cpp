@@ -20,36 +20,51 @@ constexpr std::array kActivations = {0.1, 0.3, 0.6, 0.9};
 
 /// A steady state of a muscle, and the model's kinematics in it.
 struct SteadyPoint {
-  double angle_rad, activation, path_m, path_mps, arm_m, torque_nm;
+  double activation, path_m, path_mps, arm_m, torque_nm;
+};
+
+/// The heads of one muscle of a person.
+class TrueMuscle {
+ public:
+  TrueMuscle(const TrueArm& person, std::size_t m) {
+    for (const TrueHead& head : person.heads) {
+      if (head.muscle != m) continue;
+      heads_.push_back(&head);
+      units_.emplace_back(head.parameters, person.laws, person.millard);
+    }
+  }
+
+  /// In equilibrium of fibers and tendons, the joint at a steady speed.
+  [[nodiscard]] double torque_nm(double activation, double angle_rad, double speed_radps) const {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < heads_.size(); ++i) {
+      const model::MuscleTravel path = model::travel(heads_[i]->path, angle_rad);
+      const muscle::MusculotendonInput<double> input{activation, path.length_m,
+                                                     -path.moment_arm_m * speed_radps};
+      const auto state = muscle::equilibrium_state(units_[i], input);
+      sum += path.moment_arm_m * muscle::musculotendon_rate(units_[i], input, state).tendon_force_n;
+    }
+    return sum;
+  }
+
+ private:
+  std::vector<const TrueHead*> heads_;
+  std::vector<muscle::Musculotendon<double>> units_;
 };
 
 std::vector<SteadyPoint> steady_points(const TrueArm& person,
                                        const VirtualArm& modelled,
                                        std::size_t m) {
-  std::vector<muscle::Musculotendon<double>> units;
-  std::vector<const TrueHead*> heads;
-  for (const TrueHead& head : person.heads) {
-    if (head.muscle != m) continue;
-    heads.push_back(&head);
-    units.emplace_back(head.parameters, person.laws, person.millard);
-  }
+  const TrueMuscle muscle(person, m);
   std::vector<SteadyPoint> points;
   for (const double angle_deg : kAngles_deg) {
     const double q_rad = angle_deg * kDegree;
     const model::MuscleTravel model = modelled.modelled_travel(m, q_rad);
     for (const double speed_radps : kSpeeds_radps) {
+      const double resting_nm = muscle.torque_nm(0.0, q_rad, speed_radps);
       for (const double a : kActivations) {
-        SteadyPoint point{
-            q_rad, a, model.length_m, -model.moment_arm_m * speed_radps, model.moment_arm_m, 0.0};
-        for (std::size_t i = 0; i < heads.size(); ++i) {
-          const model::MuscleTravel path = model::travel(heads[i]->path, q_rad);
-          const muscle::MusculotendonInput<double> input{a, path.length_m,
-                                                         -path.moment_arm_m * speed_radps};
-          const auto state = muscle::equilibrium_state(units[i], input);
-          point.torque_nm +=
-              path.moment_arm_m * muscle::musculotendon_rate(units[i], input, state).tendon_force_n;
-        }
-        points.push_back(point);
+        points.push_back({a, model.length_m, -model.moment_arm_m * speed_radps, model.moment_arm_m,
+                          muscle.torque_nm(a, q_rad, speed_radps) - resting_nm});
       }
     }
   }
@@ -80,8 +95,7 @@ double bound_of(double Hill::*value, bool upper) {
 }  // namespace
 
 HillSet effective_muscles(const TrueArm& person, const VirtualArm& modelled, PerMuscle* misfit) {
-  constexpr auto kPerMuscle = static_cast<Eigen::Index>(kFitted.size()) + 2;
-  constexpr double kMiddle_rad = 70.0 * kDegree;
+  constexpr auto kPerMuscle = static_cast<Eigen::Index>(kFitted.size());
   const HillSet literature = modelled.literature();
   const auto muscles = static_cast<Eigen::Index>(literature.size());
   std::vector<std::vector<SteadyPoint>> points;
@@ -94,8 +108,7 @@ HillSet effective_muscles(const TrueArm& person, const VirtualArm& modelled, Per
     largest_nm.push_back(largest);
     count += static_cast<Eigen::Index>(points.back().size());
   }
-  // The solver sees each parameter over the literature's value; then the muscle's passive torque, a
-  // constant and a slope, over its largest torque; at the end gamma of all.
+  // The solver sees each parameter over the literature's value; at the end gamma of all.
   const Eigen::Index gamma = kPerMuscle * muscles;
   const auto hill_of = [&literature](const Eigen::VectorXd& x, Eigen::Index m) {
     Hill p = literature[static_cast<std::size_t>(m)];
@@ -112,7 +125,6 @@ HillSet effective_muscles(const TrueArm& person, const VirtualArm& modelled, Per
       const auto muscle = static_cast<std::size_t>(m);
       const Hill p = hill_of(x, m);
       const Eigen::Index first = kPerMuscle * m;
-      const Eigen::Index passive = first + static_cast<Eigen::Index>(kFitted.size());
       for (const SteadyPoint& point : points[muscle]) {
         const double longer = 1.0 + x(gamma) * (1.0 - point.activation);
         Hill at = p;
@@ -120,9 +132,7 @@ HillSet effective_muscles(const TrueArm& person, const VirtualArm& modelled, Per
         const muscle::HillForce f = muscle::hill_force_derivatives(
             point.activation, point.path_m - p.tendon_slack_length_m, point.path_mps, at);
         const double scale = point.arm_m / largest_nm[muscle];
-        const double away = point.angle_rad - kMiddle_rad;
-        r(row) = scale * f.force_n + x(passive) + x(passive + 1) * away -
-                 point.torque_nm / largest_nm[muscle];
+        r(row) = scale * f.force_n - point.torque_nm / largest_nm[muscle];
         if (J != nullptr) {
           for (std::size_t i = 0; i < kFitted.size(); ++i) {
             const double inner = kFitted[i].value == &Hill::optimal_fiber_length_m ? longer : 1.0;
@@ -130,8 +140,6 @@ HillSet effective_muscles(const TrueArm& person, const VirtualArm& modelled, Per
                 scale * inner * (f.*(kFitted[i].derivative)) *
                 literature[muscle].*(kFitted[i].value);
           }
-          (*J)(row, passive) = 1.0;
-          (*J)(row, passive + 1) = away;
           (*J)(row, gamma) = scale * f.by_optimal_fiber_length * p.optimal_fiber_length_m *
                              (1.0 - point.activation);
         }
@@ -179,6 +187,13 @@ HillSet effective_muscles(const TrueArm& person, const VirtualArm& modelled, Per
     row += here;
   }
   return result;
+}
+
+double resting_torque_nm(const TrueArm& person,
+                         std::size_t muscle,
+                         double elbow_flexion_rad,
+                         double elbow_flexion_speed_radps) {
+  return TrueMuscle(person, muscle).torque_nm(0.0, elbow_flexion_rad, elbow_flexion_speed_radps);
 }
 
 PerMuscle anatomical_strength_n(const TrueArm& person) {

@@ -9,6 +9,7 @@
 
 #include "myoid/core/error.h"
 #include "myoid/simulation/draw_truth.h"
+#include "myoid/simulation/effective_delay.h"
 #include "myoid/simulation/effective_truth.h"
 #include "myoid/simulation/performance.h"
 #include "myoid/simulation/random.h"
@@ -19,9 +20,6 @@ namespace {
 
 constexpr double kGreatestActivation = 0.95;  ///< More cannot be asked of a person.
 constexpr int kMostDraws = 500;
-/// Lags among which the delay of a person at L2 is sought.
-constexpr double kLongestDelay_s = 0.20;
-constexpr double kDelayStep_s = 0.005;
 
 std::vector<Channel> per_muscle(Unit unit) {
   std::vector<Channel> channels;
@@ -169,30 +167,6 @@ Session perform_by_simulation(const Protocol& protocol,
   return session;
 }
 
-/// The delay that, put on what the electrodes saw, comes closest to what the muscles did.
-double effective_delay_s(const Session& session) {
-  const auto count = static_cast<std::size_t>(kLongestDelay_s / kDelayStep_s) + 1;
-  std::vector<double> error(count, 0.0);
-  for (const auto& performance : session.performances) {
-    if (performance->script().protocol.kind == TrialKind::passive) continue;
-    const Eigen::VectorXd time_s = clock(performance->script().duration_s, 25.0);
-    for (const double t : time_s) {
-      const PerMuscle a = performance->at(t).activation;
-      for (std::size_t k = 0; k < count; ++k) {
-        const PerMuscle u = performance->drive(t - static_cast<double>(k) * kDelayStep_s);
-        for (std::size_t m = 0; m < 4; ++m) error[k] += (a[m] - u[m]) * (a[m] - u[m]);
-      }
-    }
-  }
-  const auto best = std::min_element(error.begin(), error.end()) - error.begin();
-  const auto k = static_cast<std::size_t>(best);
-  if (k == 0 || k + 1 == count) return static_cast<double>(k) * kDelayStep_s;
-  // The bottom of the parabola through the three lowest.
-  const double fall = error[k - 1] - error[k];
-  const double rise = error[k + 1] - error[k];
-  return (static_cast<double>(k) + 0.5 * (fall - rise) / (fall + rise)) * kDelayStep_s;
-}
-
 /// At L2 the brachialis goes its own way, electrode or not: 0.7 to 1.3 of the biceps' activation,
 /// and slowly wandering.
 struct OwnBrachialis {
@@ -268,7 +242,7 @@ VirtualRecording make(const Protocol& protocol, std::uint64_t seed, bool record)
   }
   if (simulated) {
     truth.muscles = effective_muscles(*truth.arm, arm, &truth.misfit);
-    truth.emg_delay_s = effective_delay_s(session);
+    truth.emg_delay_s = effective_delay_s(*truth.arm, arm, truth.muscles, session.performances);
   }
   if (!record) return recording;
 

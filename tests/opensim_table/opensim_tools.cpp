@@ -31,6 +31,8 @@
 #include "myoid/recording/recording.h"
 #include "myoid/recording/storage_reader.h"
 
+#include "scaled_model.h"
+
 namespace {
 
 using namespace myoid;
@@ -280,6 +282,26 @@ void compare_file(const fs::path& file, const fs::path& theirs, bool dynamics, c
   }
 }
 
+/// A model that Scale has written beside the one that OpenSim's left, and the static pose.
+void compare_scaled(const fs::path& ours, const fs::path& theirs, const Rows& rows) {
+  if (!fs::exists(theirs)) return;
+  if (ours.extension() == ".osim") {
+    const model::OsimOptions as{.compat = model::kOpenSim452};
+    for (const ModelDifference& d :
+         compare_models(model::read_osim(ours, as), model::read_osim(theirs, as))) {
+      rows.add(code(theirs) + " " + d.property, fmt::format("{:.1e} ({})", d.error, d.where),
+               fmt::format("{:.1e}", d.relative));
+    }
+  } else if (ours.extension() == ".mot" || ours.extension() == ".sto") {
+    TimeSeries pose = recording::read_storage(ours).data;
+    std::vector<std::string> coordinates;
+    for (const Channel& c : pose.channels())
+      if (c.name.ends_with("/value")) coordinates.push_back(c.name);
+    Worst worst = compare(pose.select(coordinates), recording::read_storage(theirs).data, 0, same);
+    rows.add(code(theirs) + " static pose", worst, "rad, m");
+  }
+}
+
 void run_setup(const fs::path& setup, const fs::path& reference, const Options& options) {
   const Rows rows{setup.stem().string(), options.columns};
   pipeline::ToolResult result;
@@ -297,7 +319,9 @@ void run_setup(const fs::path& setup, const fs::path& reference, const Options& 
     for (const std::string& note : result.notes) rows.add("note: " + note, "", "");
   for (const fs::path& file : result.files) {
     const fs::path theirs = reference / file.filename();
-    if (result.tool == "InverseKinematicsTool") {
+    if (result.tool == "ScaleTool") {
+      compare_scaled(file, reference.parent_path() / file.filename(), rows);
+    } else if (result.tool == "InverseKinematicsTool") {
       if (file.extension() == ".mot") compare_ik(setup, file, reference, rows);
     } else if (file.extension() == ".sto" && fs::exists(theirs)) {
       compare_file(file, theirs, result.tool == "InverseDynamicsTool", rows);

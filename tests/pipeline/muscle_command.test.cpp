@@ -1,5 +1,7 @@
 // The command `muscle` as a user runs it.
+#include <algorithm>
 #include <cmath>
+#include <sstream>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -76,6 +78,51 @@ TEST(MuscleCommand, ExchangedFilesOfLengthAndForceAreNoticed) {
   EXPECT_THAT(exchanged.err, HasSubstr("not the file of forces"));
   // Lengths given as forces: 3 % of the maximum throughout.
   EXPECT_THAT(run("l.csv", "l.csv").err, HasSubstr("exchanged"));
+}
+
+TEST(MuscleCommand, ForcesInMillinewtonsOrInAnotherOrderAreNoFit) {
+  const TemporaryFolder folder;
+  write_text(folder / "d.csv", displacement());
+  const auto force_at = [&](const std::string& scale, const std::string& name) {
+    const Finished done =
+        myoid({"muscle", "--muscle", kSoleus, "--length", folder / "d.csv", "--scale", scale,
+               "--offset", "0.0321", "--activation", "1", "--out", folder / (name + ".sto")});
+    ASSERT_EQ(done.exit_code, 0) << done.err;
+  };
+  force_at("0.0002", "small");
+  force_at("0.001", "large");
+  const auto column = [&](const std::string& name, double scale) {
+    std::istringstream file(read_text(folder / (name + ".sto")));
+    std::string line, text = "time,force\n", cell;
+    std::ptrdiff_t at = -1;
+    while (std::getline(file, line)) {
+      std::vector<std::string> cells;
+      for (std::istringstream row(line); row >> cell;) cells.push_back(cell);
+      if (at >= 0) {
+        text += cells[0] + "," +
+                std::to_string(scale * std::stod(cells[static_cast<std::size_t>(at)])) + "\n";
+      } else if (!cells.empty() && cells[0] == "time") {
+        at = std::find(cells.begin(), cells.end(), "tendon_force") - cells.begin();
+      }
+    }
+    write_text(folder / (name + (scale > 1.0 ? "_mn.csv" : "_n.csv")), text);
+  };
+  column("small", 1.0);
+  column("large", 1.0);
+  column("large", 1000.0);
+  const auto fit = [&](const std::string& first, const std::string& second) {
+    return myoid({"muscle", "--muscle", kSoleus, "--length", folder / "d.csv", folder / "d.csv",
+                  "--scale", "0.0002", "0.001", "--offset", "0.0321", "--activation", "1",
+                  "--measured", folder / first, folder / second, "--fit", "max_isometric_force"});
+  };
+  const Finished good = fit("small_n.csv", "large_n.csv");
+  EXPECT_EQ(good.exit_code, 0) << good.err;
+  EXPECT_EQ(good.err, "");
+  EXPECT_THAT(fit("large_n.csv", "small_n.csv").err,
+              HasSubstr("fit each other's length much better than their own"));
+  const Finished millinewtons = fit("small_n.csv", "large_mn.csv");
+  EXPECT_EQ(millinewtons.exit_code, 3);
+  EXPECT_THAT(millinewtons.err, AllOf(HasSubstr("large_mn.csv"), HasSubstr("are they in mN?")));
 }
 
 TEST(MuscleCommand, SaysWhatItCannotUse) {

@@ -1,4 +1,5 @@
 // Input that would give a wrong number is refused or named, by every command that meets it.
+#include <cmath>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -59,6 +60,22 @@ TEST(PlausibleInput, EmgOfHundredsOfVoltsIsSaid) {
   EXPECT_THAT(myoid({"emg", folder / "e.csv", "--out", folder / "a.sto"}).err,
               AllOf(HasSubstr("reaches 150 V"), HasSubstr("unit")));
   EXPECT_THAT(myoid({"check", folder / "e.csv"}).out, HasSubstr("reaches 150 V"));
+}
+
+TEST(PlausibleInput, EnvelopesAreRefusedByTheCommandEmgOnce) {
+  const TemporaryFolder folder;
+  std::string text = "time,BIC [mV],TRI [mV]\n";
+  for (int i = 0; i < 4000; ++i) {
+    const double x = 0.001 * i;
+    text += std::to_string(x) + "," + std::to_string(0.5 + 0.4 * std::sin(3.0 * x)) + "," +
+            std::to_string(0.5 + 0.4 * std::cos(3.0 * x)) + "\n";
+  }
+  write_text(folder / "e.csv", text);
+  const Finished emg = myoid({"emg", folder / "e.csv", "--out", folder / "a.sto"});
+  EXPECT_EQ(emg.exit_code, 3);
+  EXPECT_THAT(emg.err, AllOf(HasSubstr("BIC, TRI are never negative and slow"),
+                             Not(HasSubstr("saturated"))));
+  EXPECT_FALSE(std::filesystem::exists(folder / "a.sto"));
 }
 
 TEST(PlausibleInput, EmgThatDoesNotChangeOrHasOneSampleIsAnErrorInItsOwnWords) {

@@ -1,0 +1,298 @@
+#include "myoid/pipeline/load_points.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include <Eigen/QR>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "myoid/math/statistics.h"
+#include "myoid/model/kinematic_tree.h"
+#include "myoid/pipeline/ground_support.h"
+
+namespace myoid::pipeline {
+namespace {
+
+constexpr double kOff_m = 0.2;        ///< A foot is 0.27 m long: half of it and what markers miss.
+constexpr double kElsewhere_m = 2.0;  ///< Beyond any body.
+constexpr double kNearer = 0.5;
+constexpr double kLoaded = 0.2;  ///< Of the largest force.
+constexpr int kFrames = 200;
+constexpr double kNone = std::numeric_limits<double>::infinity();
+
+/// A body's points at one frame; a body has those of its neighbors across a joint, too: a foot may
+/// have its markers on the toes, and a marker of the ankle may be the shank's.
+class BodyPoints {
+ public:
+  BodyPoints(const model::BodyModel& model, const TrialInput& input)
+      : model_(&model), input_(&input), state_(model::make_state(model)) {
+    if (!input.markers) return;
+    for (const std::string& name : input.markers->names) {
+      const auto known = model.find_marker(name);
+      marker_body_.push_back(known ? model.markers[static_cast<std::size_t>(*known)].body : -1);
+    }
+  }
+
+  [[nodiscard]] Eigen::Index frame_count() const {
+    return input_->markers ? input_->markers->frame_count() : input_->motion->sample_count();
+  }
+  [[nodiscard]] double time_s(Eigen::Index frame) const {
+    return input_->markers ? input_->markers->time_s[frame] : input_->motion->time_s()[frame];
+  }
+
+  void pose(Eigen::Index frame) {
+    points_.assign(model_->bodies.size(), {});
+    if (input_->markers) {
+      for (std::size_t m = 0; m < marker_body_.size(); ++m) {
+        const auto column = static_cast<Eigen::Index>(m);
+        if (marker_body_[m] < 0 || input_->markers->missing(frame, column)) continue;
+        points_[static_cast<std::size_t>(marker_body_[m])].push_back(
+            input_->markers->position(frame, column));
+      }
+      return;
+    }
+    Eigen::VectorXd q = model_->default_q();
+    const TimeSeries& motion = *input_->motion;
+    for (Eigen::Index c = 0; c < motion.channel_count(); ++c) {
+      const auto index =
+          model_->find_coordinate(motion.channels()[static_cast<std::size_t>(c)].name);
+      if (index) q[*index] = motion.values()(frame, c);
+    }
+    model::compute_poses(*model_, q, state_);
+    for (std::size_t b = 1; b < model_->bodies.size(); ++b) {
+      points_[b].push_back(state_.X_GB[b].p);
+      points_[b].push_back(state_.X_GB[b] * model_->bodies[b].p_BBcm_B);
+    }
+    for (const model::Marker& marker : model_->markers) {
+      const auto b = static_cast<std::size_t>(marker.body);
+      points_[b].push_back(state_.X_GB[b] * marker.p_BM);
+    }
+  }
+
+  /// From the nearest point of the body or its neighbors; infinite if it has none.
+  [[nodiscard]] double distance(const Vec3& p_G, model::BodyIndex body) const {
+    double least = of_one(p_G, body);
+    for (const model::Joint& joint : model_->joints) {
+      if (joint.parent == body) least = std::min(least, of_one(p_G, joint.child));
+      if (joint.child == body && joint.parent != 0)
+        least = std::min(least, of_one(p_G, joint.parent));
+    }
+    return least;
+  }
+  [[nodiscard]] double of_one(const Vec3& p_G, model::BodyIndex body) const {
+    double least = kNone;
+    for (const Vec3& point : points_[static_cast<std::size_t>(body)])
+      least = std::min(least, (point - p_G).norm());
+    return least;
+  }
+
+ private:
+  const model::BodyModel* model_;
+  const TrialInput* input_;
+  model::BodyState state_;
+  std::vector<model::BodyIndex> marker_body_;
+  std::vector<std::vector<Vec3>> points_;
+};
+
+/// A force on a body through a center of pressure that moves over the ground.
+bool is_under_a_foot(const dynamics::ExternalForce& force) {
+  return force.body != 0 && force.force_frame == 0 && force.point_frame == 0 && force.force &&
+         force.point && !force.force->splines.empty() && !force.point->splines.empty();
+}
+
+struct Load {
+  const dynamics::ExternalForce* force = nullptr;
+  std::vector<double> distance_m;  ///< Median, by body with its neighbors.
+  std::vector<double> alone_m;     ///< Median, by body.
+};
+
+double median_of(std::vector<double> values) {
+  return values.empty() ? kNone : math::median(std::move(values));
+}
+
+std::vector<Load> distances(const model::BodyModel& model,
+                            const dynamics::ExternalLoads& loads,
+                            BodyPoints& points) {
+  std::vector<Load> result;
+  std::vector<double> largest_n;
+  const Eigen::Index n = points.frame_count();
+  const Eigen::Index step = std::max<Eigen::Index>(1, n / kFrames);
+  const auto at = [&](Eigen::Index frame) {
+    return (points.time_s(frame) - loads.offset_s) / (1.0 + 1e-6 * loads.drift_ppm);
+  };
+  for (const dynamics::ExternalForce& force : loads.forces) {
+    if (!is_under_a_foot(force)) continue;
+    double largest = 0.0;
+    for (Eigen::Index i = 0; i < n; i += step)
+      largest = std::max(largest, force.force->at(at(i)).norm());
+    if (!(largest > 0.0)) continue;
+    result.push_back({&force, {}, {}});
+    largest_n.push_back(largest);
+  }
+  const std::vector<std::vector<double>> none(model.bodies.size());
+  std::vector<std::vector<std::vector<double>>> all(result.size(), none), alone = all;
+  for (Eigen::Index i = 0; i < n && !result.empty(); i += step) {
+    points.pose(i);
+    for (std::size_t k = 0; k < result.size(); ++k) {
+      if (result[k].force->force->at(at(i)).norm() < kLoaded * largest_n[k]) continue;
+      const Vec3 p = result[k].force->point->at(at(i));
+      for (std::size_t b = 1; b < model.bodies.size(); ++b) {
+        const double d = points.distance(p, static_cast<model::BodyIndex>(b));
+        if (std::isfinite(d)) all[k][b].push_back(d);
+        const double one = points.of_one(p, static_cast<model::BodyIndex>(b));
+        if (std::isfinite(one)) alone[k][b].push_back(one);
+      }
+    }
+  }
+  for (std::size_t k = 0; k < result.size(); ++k) {
+    for (std::vector<double>& of_body : all[k])
+      result[k].distance_m.push_back(median_of(std::move(of_body)));
+    for (std::vector<double>& of_body : alone[k])
+      result[k].alone_m.push_back(median_of(std::move(of_body)));
+  }
+  return result;
+}
+
+/// Mean height of what is seen in every frame, or of the joint to the ground.
+std::optional<Eigen::VectorXd> height_of(const model::BodyModel& model, const TrialInput& input) {
+  if (!input.markers) {
+    const auto root = unsupported_weight(model);
+    const auto column = root ? input.motion->find(root->coordinate) : std::nullopt;
+    if (!column) return std::nullopt;
+    return input.motion->values().col(*column);
+  }
+  const recording::MarkerSeries& markers = *input.markers;
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(markers.frame_count());
+  double count = 0.0;
+  for (Eigen::Index m = 0; m < markers.marker_count(); ++m) {
+    const auto height = markers.positions_m.col(3 * m + 1);
+    if (!height.allFinite()) continue;
+    sum += height;
+    count += 1.0;
+  }
+  if (!(count > 0.0)) return std::nullopt;
+  return sum / count;
+}
+
+/// Acceleration of the parabola through these samples.
+double acceleration_of(const Eigen::VectorXd& time_s, const Eigen::VectorXd& height_m) {
+  Eigen::MatrixX3d terms(time_s.size(), 3);
+  const Eigen::ArrayXd t = time_s.array() - time_s.mean();
+  terms.col(0).setOnes();
+  terms.col(1) = t;
+  terms.col(2) = 0.5 * t.square();
+  return terms.colPivHouseholderQr().solve(height_m)[2];
+}
+
+}  // namespace
+
+std::vector<Finding> unloaded_times(const model::BodyModel& model,
+                                    const TrialSpec& trial,
+                                    const TrialInput& input) {
+  constexpr double kBears = 0.5, kBearsNothing = 0.05;  // of the weight
+  constexpr double kBriefest_s = 0.1;
+  if (!input.loads || (!input.markers && !input.motion)) return {};
+  const auto weight = unsupported_weight(model);
+  const auto height = weight ? height_of(model, input) : std::nullopt;
+  if (!height) return {};
+  const Eigen::VectorXd& t = input.markers ? input.markers->time_s : input.motion->time_s();
+  const double g = model.gravity_G.norm();
+  const Vec3 up = -model.gravity_G / g;
+  Eigen::VectorXd share(t.size());
+  for (Eigen::Index i = 0; i < t.size(); ++i) {
+    double sum = 0.0;
+    const double at = (t[i] - input.loads->offset_s) / (1.0 + 1e-6 * input.loads->drift_ppm);
+    for (const dynamics::ExternalForce& force : input.loads->forces) {
+      if (force.body != 0 && force.force_frame == 0 && force.force)
+        sum += up.dot(force.force->at(at));
+    }
+    share[i] = sum / weight->weight_n;
+  }
+  if (share.maxCoeff() < kBears) return {};  // held in the hands, not stood upon
+  std::vector<std::string> times;
+  double sum_s = 0.0;
+  for (Eigen::Index i = 0; i < t.size(); ++i) {
+    const Eigen::Index first = i;
+    while (i < t.size() && share[i] < kBearsNothing) ++i;
+    if (i == first || t[i - 1] - t[first] < kBriefest_s || i - first < 4) continue;
+    // Who flies falls.
+    if (acceleration_of(t.segment(first, i - first), height->segment(first, i - first)) < -0.5 * g)
+      continue;
+    times.push_back(fmt::format("{:.4g} to {:.4g} s", t[first], t[i - 1]));
+    sum_s += t[i - 1] - t[first];
+  }
+  if (times.empty()) return {};
+  return {{Finding::Level::warning,
+           trial.name,
+           fmt::format("no measured force carries the body in {:.0f} % of the trial ({}), and it "
+                       "does not fall: was a foot beside the plates? `run` does not fit those "
+                       "times; start_s and end_s leave them out altogether",
+                       100.0 * sum_s / (t[t.size() - 1] - t[0]), fmt::join(times, ", ")),
+           {},
+           "unloaded"}};
+}
+
+std::vector<Finding> misplaced_loads(const model::BodyModel& model,
+                                     const TrialSpec& trial,
+                                     const TrialInput& input) {
+  using Level = Finding::Level;
+  std::vector<Finding> found;
+  if (!input.loads || (!input.markers && !input.motion)) return found;
+  BodyPoints points(model, input);
+  const std::vector<Load> loads = distances(model, *input.loads, points);
+  const auto file =
+      trial.external_loads ? trial.external_loads->filename().string() : std::string("the loads");
+  const auto name = [&](model::BodyIndex b) {
+    return model.bodies[static_cast<std::size_t>(b)].name;
+  };
+  const auto off = [&](const Load& load, model::BodyIndex body) {
+    return load.distance_m[static_cast<std::size_t>(body)];
+  };
+  std::vector<bool> said(loads.size(), false);
+  for (std::size_t i = 0; i < loads.size(); ++i) {
+    const model::BodyIndex own = loads[i].force->body;
+    if (off(loads[i], own) > kElsewhere_m && off(loads[i], own) < kNone) {
+      said[i] = true;
+      found.push_back(
+          {Level::error, trial.name,
+           fmt::format("{}: the point of '{}' lies {:.3g} m from {}, on which it acts (median "
+                       "while loaded), expected under it: is it in mm, or in other axes or another "
+                       "origin than the motion?",
+                       file, loads[i].force->name, off(loads[i], own), name(own))});
+    }
+    for (std::size_t j = i + 1; j < loads.size() && !said[i]; ++j) {
+      const model::BodyIndex other = loads[j].force->body;
+      if (other == own || said[j] || off(loads[i], own) < kOff_m || off(loads[j], other) < kOff_m ||
+          off(loads[i], other) > kNearer * off(loads[i], own) ||
+          off(loads[j], own) > kNearer * off(loads[j], other))
+        continue;
+      said[i] = said[j] = true;
+      found.push_back(
+          {Level::error, trial.name,
+           fmt::format("{}: '{}' is applied to {} and '{}' to {}, but each acts at the other's: "
+                       "{:.2g} m from its own body and {:.2g} m from the other (median while "
+                       "loaded); exchange their applied_to_body",
+                       file, loads[i].force->name, name(own), loads[j].force->name, name(other),
+                       off(loads[i], own), off(loads[i], other))});
+    }
+  }
+  for (std::size_t i = 0; i < loads.size(); ++i) {
+    const model::BodyIndex own = loads[i].force->body;
+    if (said[i] || off(loads[i], own) < kOff_m || off(loads[i], own) == kNone) continue;
+    const std::vector<double>& alone = loads[i].alone_m;
+    const auto nearest = std::min_element(alone.begin() + 1, alone.end()) - alone.begin();
+    if (alone[static_cast<std::size_t>(nearest)] > kNearer * off(loads[i], own)) continue;
+    found.push_back({Level::warning, trial.name,
+                     fmt::format("{}: '{}' is applied to {}, but acts {:.2g} m from it (median "
+                                 "while loaded) and {:.2g} m from {}; is applied_to_body right?",
+                                 file, loads[i].force->name, name(own), off(loads[i], own),
+                                 alone[static_cast<std::size_t>(nearest)],
+                                 name(static_cast<model::BodyIndex>(nearest)))});
+  }
+  return found;
+}
+
+}  // namespace myoid::pipeline

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "myoid/model/body_model.h"
+#include "myoid/pipeline/finding.h"
+#include "myoid/pipeline/study.h"
+#include "myoid/pipeline/trial_input.h"
+
+namespace myoid::pipeline {
+
+/// Whether the measured forces on the ground act where the bodies are that they are applied to: a
+/// center of pressure lies under its foot. Of every force with a moving point in ground, the median
+/// distance over the frames in which it is loaded (a fifth of its largest or more) from the nearest
+/// marker of each body, or, of a motion without markers, from the nearest of its markers, joints
+/// and center of mass in the model. An error where two forces are each nearer to the other's body
+/// (their feet are exchanged) or one is more than 2 m away (its unit or axes are others); a warning
+/// where one is more than 0.2 m from its own body and half as far from another.
+[[nodiscard]] std::vector<Finding> misplaced_loads(const model::BodyModel& model,
+                                                   const TrialSpec& trial,
+                                                   const TrialInput& input);
+
+/// Times of 0.1 s and more in which the forces on the ground, which elsewhere carry half of the
+/// weight and more, are below a twentieth of it although the body does not fall (the parabola
+/// through the mean height of its markers, or of its joint to the ground, is flatter than g/2).
+[[nodiscard]] std::vector<Finding> unloaded_times(const model::BodyModel& model,
+                                                  const TrialSpec& trial,
+                                                  const TrialInput& input);
+
+}  // namespace myoid::pipeline

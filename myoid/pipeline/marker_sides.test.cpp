@@ -1,0 +1,79 @@
+#include "myoid/pipeline/marker_sides.h"
+
+#include <gtest/gtest.h>
+
+namespace myoid::pipeline {
+namespace {
+
+TEST(OtherSide, IsToldByALetterOrWordThatStandsApart) {
+  EXPECT_EQ(other_side("R.Knee"), "L.Knee");
+  EXPECT_EQ(other_side("LASI"), "RASI");
+  EXPECT_EQ(other_side("knee_r"), "knee_l");
+  EXPECT_EQ(other_side("r_acromion"), "l_acromion");
+  EXPECT_EQ(other_side("LeftHeel"), "RightHeel");
+  EXPECT_EQ(other_side("ANKLE_L"), "ANKLE_R");
+  EXPECT_EQ(other_side("Radius"), std::nullopt);
+  EXPECT_EQ(other_side("lateral"), std::nullopt);
+  EXPECT_EQ(other_side("Sternum"), std::nullopt);
+}
+
+/// A free trunk with a head that looks forward (x), and on each side of it four markers.
+model::BodyModel trunk() {
+  model::BodyModel model;
+  model.bodies = {{.name = "ground"}, {.name = "trunk", .mass_kg = 40.0}};
+  model::Joint root{.name = "root", .class_name = "CustomJoint", .parent = 0, .child = 1};
+  const Vec3 axes[3] = {Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ()};
+  for (int k = 0; k < 3; ++k) {
+    root.coordinates.push_back(k);
+    root.coordinates.push_back(3 + k);
+    root.rotation[static_cast<std::size_t>(k)] = {axes[k], k, model::Linear{1.0, 0.0}};
+    root.translation[static_cast<std::size_t>(k)] = {axes[k], 3 + k, model::Linear{1.0, 0.0}};
+  }
+  model.joints = {root};
+  for (int k = 0; k < 6; ++k) {
+    model.coordinates.push_back({.name = "q" + std::to_string(k), .joint = 0});
+    if (k > 2) model.coordinates.back().motion = model::MotionType::translational;
+  }
+  model.markers = {{"nose", 1, Vec3(0.15, 0.6, 0.0)}, {"chin", 1, Vec3(0.12, 0.5, 0.0)}};
+  for (const double side : {1.0, -1.0}) {
+    const std::string letter = side > 0.0 ? "R." : "L.";
+    model.markers.push_back({letter + "Shoulder", 1, Vec3(0.0, 0.4, 0.2 * side)});
+    model.markers.push_back({letter + "ASIS", 1, Vec3(0.1, 0.0, 0.15 * side)});
+    model.markers.push_back({letter + "PSIS", 1, Vec3(-0.12, 0.02, 0.06 * side)});
+    model.markers.push_back({letter + "Ear", 1, Vec3(0.0, 0.58, 0.08 * side)});
+  }
+  return model::finalize(std::move(model));
+}
+
+recording::MarkerSeries measured(const model::BodyModel& model) {
+  recording::MarkerSeries markers;
+  markers.time_s = Eigen::VectorXd::LinSpaced(3, 0.0, 0.02);
+  markers.positions_m.resize(3, static_cast<Eigen::Index>(3 * model.markers.size()));
+  const Mat3 R = Eigen::AngleAxisd(0.4, Vec3::UnitY()).toRotationMatrix();
+  for (std::size_t m = 0; m < model.markers.size(); ++m) {
+    markers.names.push_back(model.markers[m].name);
+    markers.positions_m.middleCols(3 * static_cast<Eigen::Index>(m), 3) =
+        (R * model.markers[m].p_BM + Vec3(1.0, 0.9, 0.3)).transpose().replicate(3, 1);
+  }
+  return markers;
+}
+
+TEST(ExchangedSides, AreFoundAndRightOnesAreNot) {
+  const model::BodyModel model = trunk();
+  recording::MarkerSeries markers = measured(model);
+  TrialSpec trial;
+  trial.name = "walk";
+  trial.markers = "walk.trc";
+  EXPECT_FALSE(exchanged_sides(model, trial, markers, {}));
+  for (std::string& name : markers.names) name = other_side(name).value_or(name);
+  const auto found = exchanged_sides(model, trial, markers, {});
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->level, Finding::Level::error);
+  EXPECT_NE(found->message.find("walk.trc"), std::string::npos) << found->message;
+  // A model that does not fit either way says nothing.
+  markers.positions_m *= 1.5;
+  EXPECT_FALSE(exchanged_sides(model, trial, markers, {}));
+}
+
+}  // namespace
+}  // namespace myoid::pipeline

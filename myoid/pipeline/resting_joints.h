@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "myoid/identification/resting_torque.h"
+#include "myoid/pipeline/study_result.h"
+
+namespace myoid::pipeline {
+
+/// What the joints of a study do by themselves, from its passive trials that a dynamometer
+/// measured: all of them together, joint by joint. The muscles must have been at rest: a trial is
+/// left out, with a warning of its own, if an EMG channel is on average above 2 % of its maximal
+/// contraction (5 % of its greatest EMG where none was recorded), or if the torque exceeds a
+/// quarter of what the joint's muscles could exert, sum of the largest |r| times F_max: no relaxed
+/// joint resists that much within its range. A trial whose torque nobody measured tells nothing.
+[[nodiscard]] std::vector<identification::RestingJoint> resting_joints(StudyResult& result);
+
+/// The resting torque of a coordinate at these angles, one a sample; empty where it was not
+/// measured.
+[[nodiscard]] Eigen::VectorXd resting_torque_nm(
+    const std::vector<identification::RestingJoint>& joints,
+    const std::string& coordinate,
+    const Eigen::VectorXd& angle_rad);
+
+}  // namespace myoid::pipeline

@@ -1,0 +1,107 @@
+#include "myoid/pipeline/resting_joints.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "myoid/core/units.h"
+#include "myoid/pipeline/run_study.h"
+#include "myoid/simulation/synthetic_recording.h"
+#include "myoid/simulation/write_recording.h"
+
+namespace myoid::pipeline {
+namespace {
+
+using ::testing::HasSubstr;
+
+/// A person whose joint has a torque of its own, relaxed and at one effort.
+struct Recorded {
+  simulation::VirtualRecording recording;
+  Study study;
+  StudyInputs inputs;
+};
+
+Recorded recorded() {
+  simulation::Protocol protocol;
+  protocol.truth.beside_muscles = true;
+  const auto trial = [&](const char* name, simulation::TrialKind kind, const char* use) {
+    simulation::TrialProtocol t;
+    t.name = name;
+    t.kind = kind;
+    t.use = use;
+    t.from_rad = 15.0 * kDegree;
+    t.to_rad = 125.0 * kDegree;
+    t.raise_s = 4.0;
+    t.lower_s = 4.0;
+    protocol.trials.push_back(t);
+  };
+  trial("relaxed", simulation::TrialKind::passive, "passive");
+  trial("mvc", simulation::TrialKind::mvc, "mvc");
+  trial("ramp", simulation::TrialKind::isometric_ramp, "calibration");
+  Recorded r{simulation::make_virtual_recording(protocol, 5), {}, {}};
+  r.study = parse_study(simulation::study_toml(r.recording), "study.toml");
+  r.study.model.text = r.recording.model_osim;
+  r.study.identify.methods = {"torque"};
+  r.study.identify.cross_validate = false;
+  r.study.identify.next_movements = 0;
+  r.study.identify.bootstrap = 0;
+  r.study.truth.reset();
+  for (const simulation::VirtualTrial& t : r.recording.trials) {
+    TrialInput input;
+    input.markers = t.markers;
+    input.emg = t.emg;
+    input.external_torque = t.external_torque;
+    r.inputs.trials.push_back(std::move(input));
+  }
+  return r;
+}
+
+TEST(RestingJoints, WhatTheJointOfAPersonDoesByItselfIsFoundWithinANewtonMetersTenth) {
+  // Torque of the dynamometer: 0.3 N m below 5 Hz, 80 independent values for six unknowns.
+  Recorded r = recorded();
+  const simulation::BesideMuscles truth = r.recording.truth.beside;
+  const StudyResult result = analyse(r.study, std::move(r.inputs), {});
+  ASSERT_EQ(result.resting.size(), 1U);
+  EXPECT_EQ(result.resting[0].joint, "elbow_flexion");
+  EXPECT_EQ(result.resting[0].trials, std::vector<std::string>{"relaxed"});
+  ASSERT_GT(std::abs(truth.joint_torque_nm) + std::abs(truth.joint_stiffness_nm_per_rad), 0.5);
+  for (const double angle_deg : {25.0, 50.0, 70.0, 90.0, 115.0}) {
+    const double q = angle_deg * kDegree;
+    EXPECT_NEAR(result.resting[0].torque.at(q),
+                truth.joint_torque_nm - truth.joint_stiffness_nm_per_rad * q, 0.2)
+        << angle_deg;
+  }
+  ASSERT_EQ(result.data.trials.size(), 1U);
+  const identification::TrialData& ramp = result.data.trials[0];
+  EXPECT_EQ(ramp.resting_nm, result.resting[0].torque.at(ramp.angle_rad));
+}
+
+TEST(RestingJoints, MusclesThatWereAtWorkShowNoRestingJoint) {
+  Recorded r = recorded();
+  r.inputs.trials[0].emg = r.inputs.trials[2].emg;  // that of the effort
+  const StudyResult result = analyse(r.study, std::move(r.inputs), {});
+  EXPECT_TRUE(result.resting.empty());
+  ASSERT_FALSE(result.trials[0].warnings.empty());
+  EXPECT_THAT(result.trials[0].warnings.back(), HasSubstr("the muscles were not at rest: EMG"));
+  EXPECT_EQ(result.data.trials[0].resting_nm.size(), 0);
+}
+
+TEST(RestingJoints, ATorqueThatNoRelaxedJointHasIsNotTaken) {
+  Recorded r = recorded();
+  TimeSeries& torque = *r.inputs.trials[0].external_torque;
+  torque = TimeSeries(torque.time_s(), torque.channels(), torque.values().array() + 60.0);
+  const StudyResult result = analyse(r.study, std::move(r.inputs), {});
+  EXPECT_TRUE(result.resting.empty());
+  ASSERT_FALSE(result.trials[0].warnings.empty());
+  EXPECT_THAT(result.trials[0].warnings.back(),
+              HasSubstr("more than a quarter of what its muscles"));
+}
+
+TEST(RestingJoints, WithoutAMeasuredTorqueNothingIsKnown) {
+  Recorded r = recorded();
+  r.study.trials[0].external_torque.reset();
+  const StudyResult result = analyse(r.study, std::move(r.inputs), {});
+  EXPECT_TRUE(result.resting.empty());
+}
+
+}  // namespace
+}  // namespace myoid::pipeline
