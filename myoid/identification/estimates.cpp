@@ -3,14 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Eigenvalues>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "myoid/identification/discrepancy.h"
 #include "myoid/identification/estimate_remarks.h"
 #include "myoid/identification/identifiability.h"
+#include "myoid/identification/product_estimate.h"
 #include "myoid/identification/profile_likelihood.h"
+#include "myoid/identification/reported_interval.h"
 #include "myoid/identification/uncertainty.h"
 #include "myoid/math/statistics.h"
 
@@ -43,131 +44,6 @@ double explained_share(const ResidualModel& model, const Eigen::VectorXd& z) {
       least = std::min(least, 1.0 - (at.predicted(rows) - measured).squaredNorm() / total);
   }
   return least;
-}
-
-struct Intervals {
-  Sandwich sandwich;
-  std::optional<Discrepancy> model_error;
-  std::optional<BootstrapResult> bootstrap;
-  std::optional<std::vector<Interval>> profiles;
-};
-
-/// Scale of a row: what a number of the solver is in the row's unit.
-struct RowScale {
-  const FreeParameter* parameter = nullptr;
-  double ratio = 1.0;
-  [[nodiscard]] double value(double z) const { return ratio * parameter->to_value(z); }
-};
-
-/// The solver's number of a value of this row.
-double z_of(const RowScale& row, double value) {
-  const double x = value / row.ratio;
-  return row.parameter->field->logarithmic ? std::log(std::max(x, 1e-300)) : x;
-}
-
-void add_routes(ParameterEstimate& e,
-                const RowScale& row,
-                const Intervals& intervals,
-                Eigen::Index at,
-                double z,
-                double quantile) {
-  const FreeParameter& p = *row.parameter;
-  const auto clipped = [&](double x) { return row.value(std::clamp(x, p.lower, p.upper)); };
-  const auto normal = [&](const std::string& route, double variance) {
-    const double sd = std::sqrt(std::max(0.0, variance));
-    if (!std::isfinite(sd)) return;
-    // A bound is knowledge, too: no interval reaches where no muscle lives.
-    e.routes.push_back({route, clipped(z - quantile * sd), clipped(z + quantile * sd)});
-  };
-  normal("sandwich", intervals.sandwich.newey_west(at, at));
-  if (intervals.sandwich.cluster) normal("cluster", (*intervals.sandwich.cluster)(at, at));
-  if (intervals.sandwich.jackknife) normal("jackknife", (*intervals.sandwich.jackknife)(at, at));
-  const auto add = [&](const std::string& route, const Interval& interval) {
-    RouteInterval r{route, {}, {}};
-    if (interval.low) r.low = clipped(*interval.low);
-    if (interval.high) r.high = clipped(*interval.high);
-    if (r.low || r.high || route == "profile") e.routes.push_back(r);
-  };
-  const auto index = static_cast<std::size_t>(at);
-  if (intervals.bootstrap) add("bootstrap", intervals.bootstrap->intervals[index]);
-  if (intervals.profiles) add("profile", (*intervals.profiles)[index]);
-
-  // The interval that is reported: to either side the farther of sandwich and profile, with the
-  // model's error on top, but never less than trials show that differ by both. Of few trials that
-  // is the jackknife, which is never too small.
-  const auto reach = [&](double variance) { return quantile * std::sqrt(std::max(0.0, variance)); };
-  double below = reach(intervals.sandwich.newey_west(at, at));
-  double above = below;
-  if (intervals.profiles) {
-    const Interval& profile = (*intervals.profiles)[index];
-    below = std::max(below, z - profile.low.value_or(p.lower));
-    above = std::max(above, profile.high.value_or(p.upper) - z);
-  }
-  double least = 0.0;
-  if (intervals.sandwich.cluster) {
-    least = reach((*intervals.sandwich.cluster)(at, at));
-  } else if (intervals.sandwich.jackknife) {
-    least = reach((*intervals.sandwich.jackknife)(at, at));
-  }
-  if (!std::isfinite(below) || !std::isfinite(above)) return;
-  const auto whole = [&](double half) {
-    const double noise = half / quantile;
-    const double variance = noise * noise + std::pow(intervals.sandwich.by_noise[at], 2);
-    return std::max(least, intervals.model_error
-                               ? intervals.model_error->reach(at, variance, kProbability)
-                               : quantile * std::sqrt(variance));
-  };
-  e.ci_low = clipped(z - whole(below));
-  e.ci_high = clipped(z + whole(above));
-}
-
-/// Draws from a normal distribution with this covariance, the same in every run.
-Eigen::MatrixXd draws_about(const Eigen::VectorXd& mean, const Eigen::MatrixXd& covariance, int n) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(covariance);
-  const Eigen::MatrixXd root =
-      eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal();
-  Eigen::MatrixXd result(n, mean.size());
-  // Quasi-random: the additive recurrence with square roots of primes, through the normal quantile.
-  const double primes[] = {2.0, 3.0, 5.0};
-  for (int i = 0; i < n; ++i) {
-    Eigen::VectorXd u(mean.size());
-    for (Eigen::Index j = 0; j < mean.size(); ++j) {
-      const double x = (i + 0.5) * std::sqrt(primes[j % 3]) + 0.37 * static_cast<double>(j);
-      u[j] = math::normal_quantile(std::clamp(x - std::floor(x), 1e-6, 1.0 - 1e-6));
-    }
-    result.row(i) = (mean + root * u).transpose();
-  }
-  return result;
-}
-
-/// Standard deviation of ln x and quantiles of x.
-struct Spread {
-  double log_sd = 0.0;
-  double low = 0.0, high = 0.0;
-};
-
-Spread spread_of(std::vector<double> logs) {
-  std::sort(logs.begin(), logs.end());
-  const auto at = [&](double share) {
-    return logs[static_cast<std::size_t>(share * static_cast<double>(logs.size() - 1))];
-  };
-  // Robust: the far tail is where V_ml comes down to 1 and the logarithm has no end.
-  return {(at(0.8413) - at(0.1587)) / 2.0, std::exp(at(0.025)), std::exp(at(0.975))};
-}
-
-struct Positions {
-  Eigen::Index curvature = -1, plateau = -1, ratio = -1;
-};
-
-/// ln P of draws of (ln V_sh, V_ml, ln S).
-std::vector<double> log_products(const Eigen::MatrixXd& draws) {
-  std::vector<double> logs;
-  for (Eigen::Index i = 0; i < draws.rows(); ++i) {
-    const double vsh = std::exp(draws(i, 0));
-    const double rise = std::max(draws(i, 1) - 1.0, 0.002);
-    logs.push_back(std::log(rise) + draws(i, 0) - draws(i, 2) - std::log1p(vsh));
-  }
-  return logs;
 }
 
 }  // namespace
@@ -219,12 +95,12 @@ void report_estimates(const Estimator& estimator,
   const double quantile = math::normal_quantile(0.5 + 0.5 * kProbability);
   const auto muscles = data.muscles.size();
   std::vector<bool> flat(muscles, false);
-  std::vector<Positions> positions(muscles);
+  std::vector<ProductPositions> positions(muscles);
   for (std::size_t j = 0; j < free.size(); ++j) {
     if (free[j].field->scope != Scope::muscle) continue;
     const auto at = static_cast<Eigen::Index>(j);
     for (const FreeParameter::Target& target : free[j].targets) {
-      Positions& p = positions[static_cast<std::size_t>(target.owner)];
+      ProductPositions& p = positions[static_cast<std::size_t>(target.owner)];
       if (free[j].field->field == kCurvature) p.curvature = at;
       if (free[j].field->field == kSlopeRatio) p.ratio = at;
       if (free[j].field->field != kPlateau) continue;
@@ -304,7 +180,7 @@ void report_estimates(const Estimator& estimator,
       e.at_bound = solution.search.at_bound[j];
       if (determined && std::isfinite(sd)) {
         e.std_error = p.field->logarithmic ? e.estimate * sd : std::abs(target.ratio) * sd;
-        add_routes(e, row, intervals, at, z[at], quantile);
+        add_routes(e, row, intervals, at, z[at]);
       }
       if (p.prior_sd > 0.0) {
         e.prior_mean = row.value(p.prior_mean);
@@ -332,7 +208,7 @@ void report_estimates(const Estimator& estimator,
     if (p.field->scope != Scope::muscle || p.field->field != kSlopeRatio) continue;
     for (const FreeParameter::Target& target : p.targets) {
       const auto k = static_cast<std::size_t>(target.owner);
-      const Positions& where = positions[k];
+      const ProductPositions& where = positions[k];
       ParameterEstimate e;
       e.method = context.method;
       e.fit_case = "both";
@@ -345,38 +221,8 @@ void report_estimates(const Estimator& estimator,
       const double inside = std::clamp(e.estimate, physical.lower, physical.upper);
       e.at_bound = inside != e.estimate;
       e.estimate = inside;
-      if (where.curvature >= 0 && where.plateau >= 0) {
-        const std::vector<Eigen::Index> three{where.curvature, where.plateau, at};
-        constexpr int kDraws = 2000;
-        const Spread posterior =
-            spread_of(log_products(draws_about(z(three), result.covariance(three, three), kDraws)));
-        e.std_error = e.estimate * posterior.log_sd;
-        e.ci_low = posterior.low;
-        e.ci_high = posterior.high;
-        e.routes.push_back({"sandwich", e.ci_low, e.ci_high});
-        if (intervals.bootstrap && intervals.bootstrap->replicates.rows() >= 40) {
-          const Spread boot =
-              spread_of(log_products(intervals.bootstrap->replicates(Eigen::all, three)));
-          e.routes.push_back({"bootstrap", boot.low, boot.high});
-        }
-        Eigen::Vector3d mean = z(three);
-        Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
-        bool all_priors = true;
-        for (int i = 0; i < 3; ++i) {
-          const FreeParameter& f =
-              free[static_cast<std::size_t>(three[static_cast<std::size_t>(i)])];
-          all_priors = all_priors && f.prior_sd > 0.0;
-          mean[i] = f.prior_mean;
-          spread(i, i) = f.prior_sd * f.prior_sd;
-        }
-        if (all_priors) {
-          const Spread prior = spread_of(log_products(draws_about(mean, spread, kDraws)));
-          e.prior_mean = std::exp(std::log(std::max(mean[1] - 1.0, 0.002)) + mean[0] - mean[2] -
-                                  std::log1p(std::exp(mean[0])));
-          e.prior_sd = *e.prior_mean * prior.log_sd;
-          e.shrinkage = 1.0 - std::pow(posterior.log_sd / prior.log_sd, 2);
-        }
-      }
+      add_product_interval(e, where, free, z, result.covariance,
+                           intervals.bootstrap ? &*intervals.bootstrap : nullptr);
       judged(std::move(e), p, determined, target.owner, "");
     }
   }

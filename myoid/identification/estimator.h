@@ -4,22 +4,11 @@
 #include <optional>
 #include <vector>
 
+#include "myoid/identification/noise_level.h"
 #include "myoid/identification/normal_search.h"
 #include "myoid/identification/residual_model.h"
 
 namespace myoid::identification {
-
-/// Two noise levels of a joint: of the torque, and of what is multiplied by the EMG.
-struct NoiseLevel {
-  double torque_sd_nm = 1.0;
-  double emg_cv = 0.0;      ///< Of a channel: root mean square over the channels.
-  double emg_factor = 0.0;  ///< By which every channel's expected relative sd is multiplied; where
-                            ///< nothing is expected, 1 is, and this is `emg_cv`.
-  /// Of emg_factor^2 what is noise of the EMG. Where that is expected from the EMG's bandwidth,
-  /// what goes with the muscles' torques beyond it is the model's error.
-  double emg_share = 1.0;
-  double log_variance_sd = 0.0;  ///< Of ln(emg_share emg_factor^2): how well that is known.
-};
 
 /// How much a sample counts: held within a pass of the search.
 struct Weighting {

@@ -1,69 +1,15 @@
 #pragma once
 
-#include <array>
-#include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include <Eigen/Core>
 
 #include "myoid/identification/options.h"
+#include "myoid/identification/parameter_fields.h"
 #include "myoid/identification/study_data.h"
 
 namespace myoid::identification {
-
-/// Whose number a parameter is.
-enum class Scope { muscle, channel, joint };
-
-/// Unknown of the force-velocity relation from which V_sh V_shl follows; no MuscleValues entry.
-inline constexpr int kSlopeRatio = kMuscleFieldCount;
-
-/// Numbers of an EMG channel.
-enum ChannelField : int {
-  kDelay,
-  kGain,
-  kShape,  ///< A of (exp(A u) - 1) / (exp(A) - 1); 0: linear.
-  kExcitationTime,
-  kActivationTime,
-  kDeactivationTime,
-  kExponent,  ///< p of activation = gain envelope^p; 1: proportional.
-  kChannelFieldCount
-};
-using ChannelValues = std::array<double, kChannelFieldCount>;
-
-/// Numbers of a joint, by which its torque is less than that of the muscles:
-///   T = sum r F - viscosity qdot - inertia qddot - stiffness q + offset
-enum JointField : int { kViscosity, kInertia, kStiffness, kOffset, kJointFieldCount };
-using JointValues = std::array<double, kJointFieldCount>;
-
-/// One row per number that can be identified: the only place of its name, unit and bounds.
-struct ParameterField {
-  std::string_view name;
-  Scope scope = Scope::muscle;
-  int field = 0;
-  Unit unit = Unit::dimensionless;
-  bool logarithmic = false;  ///< The solver sees ln(value).
-  muscle::Range bounds;
-  double prior_sd = 0.0;  ///< About the start where a prior is wanted and none given: of ln(value)
-                          ///< if logarithmic; 0: none.
-  std::string_view meaning;
-  bool zero_by_nature =
-      false;  ///< Most have none of it: an error relative to its value says little.
-};
-[[nodiscard]] std::span<const ParameterField> parameter_fields();
-/// The row of this name; throws InvalidInput listing the names there are.
-[[nodiscard]] const ParameterField& parameter_field(std::string_view name);
-
-/// ParameterField::zero_by_nature of this name; false of a name that is none.
-[[nodiscard]] bool zero_by_nature(std::string_view parameter);
-
-/// All numbers of the model.
-struct ModelValues {
-  std::vector<MuscleValues> muscles;
-  std::vector<ChannelValues> channels;
-  std::vector<JointValues> joints;
-};
 
 /// One entry of the solver's vector.
 struct FreeParameter {

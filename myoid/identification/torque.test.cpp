@@ -416,5 +416,21 @@ TEST(IdentifyTorque, RefusesWhatDoesNotFitTogether) {
   }
 }
 
+TEST(IdentifyTorqueOrExact, FreesTheSpeedOnlyIfTheDataAreMetOnlyThen) {
+  ElbowStudy study = elbow_study({.trials = 3});
+  const std::vector<std::string> all{"BIC", "BRA", "BRD", "TRI"};
+  const IdentificationResult held = identify_torque_or_exact(study.data, {}, all);
+  EXPECT_TRUE(held.exact);
+  EXPECT_EQ(held.solution.size(), 25);
+  for (MuscleSetup& setup : study.data.muscles) setup.start.max_shortening_speed_mps *= 1.2;
+  const IdentificationResult freed_speed = identify_torque_or_exact(study.data, {}, all);
+  ASSERT_TRUE(freed_speed.exact);
+  EXPECT_EQ(freed_speed.solution.size(), 29);
+  for (std::size_t k = 0; k < 4; ++k)
+    EXPECT_NEAR(freed_speed.muscles[k].max_shortening_speed_mps,
+                study.truth[k].max_shortening_speed_mps,
+                1e-6 * study.truth[k].max_shortening_speed_mps);
+}
+
 }  // namespace
 }  // namespace myoid::identification

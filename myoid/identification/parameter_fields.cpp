@@ -1,0 +1,202 @@
+#include "myoid/identification/parameter_fields.h"
+
+#include <algorithm>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "myoid/core/error.h"
+
+namespace myoid::identification {
+namespace {
+
+constexpr muscle::Range hill_bounds(int field) {
+  return muscle::kHillFields[static_cast<std::size_t>(field)].bounds;
+}
+
+using enum Scope;
+constexpr std::array kFields = {
+    ParameterField{"max_isometric_force", muscle, kMaxForce, Unit::newton, true,
+                   hill_bounds(kMaxForce), 0.25, "F_max"},
+    ParameterField{"optimal_fiber_length", muscle, kFiberLength, Unit::meter, false,
+                   hill_bounds(kFiberLength), 0.0, "l_m0"},
+    ParameterField{"force_length_width", muscle, kWidth, Unit::meter, false, hill_bounds(kWidth),
+                   0.0, "l_msh"},
+    ParameterField{"concentric_curvature", muscle, kCurvature, Unit::dimensionless, true,
+                   hill_bounds(kCurvature), 0.3, "V_sh"},
+    ParameterField{"eccentric_curvature_product", muscle, kProduct, Unit::dimensionless, true,
+                   hill_bounds(kProduct), 0.65, "V_sh V_shl"},
+    ParameterField{"eccentric_slope_ratio",
+                   muscle,
+                   kSlopeRatio,
+                   Unit::dimensionless,
+                   true,
+                   {0.02, 100.0},
+                   0.5,
+                   "S, slope of f_v in lengthening over that in shortening"},
+    ParameterField{"eccentric_plateau", muscle, kPlateau, Unit::dimensionless, false,
+                   hill_bounds(kPlateau), 0.15, "V_ml"},
+    ParameterField{"max_shortening_speed", muscle, kSpeed, Unit::meter_per_second, true,
+                   hill_bounds(kSpeed), 0.20, "v_max"},
+    ParameterField{"tendon_slack_length", muscle, kSlack, Unit::meter, false, hill_bounds(kSlack),
+                   0.0, "l_t0"},
+    ParameterField{"pennation_angle",
+                   muscle,
+                   kPennation,
+                   Unit::radian,
+                   false,
+                   {0.0, 1.0},
+                   0.05,
+                   "at the optimal fiber length",
+                   true},
+    ParameterField{"passive_force",
+                   muscle,
+                   kPassiveForce,
+                   Unit::dimensionless,
+                   false,
+                   {0.0, 3.0},
+                   0.5,
+                   "of the stretched fiber at passive_strain, over F_max; 0: none",
+                   true},
+    ParameterField{"passive_strain",
+                   muscle,
+                   kPassiveStrain,
+                   Unit::dimensionless,
+                   true,
+                   {0.1, 2.0},
+                   0.2,
+                   "strain of the fiber at which passive_force is reached"},
+    ParameterField{"passive_shape",
+                   muscle,
+                   kPassiveShape,
+                   Unit::dimensionless,
+                   true,
+                   {0.5, 10.0},
+                   0.3,
+                   "exponent of the passive force"},
+    ParameterField{"length_activation",
+                   muscle,
+                   kLengthActivation,
+                   Unit::dimensionless,
+                   false,
+                   {0.0, 0.5},
+                   0.1,
+                   "gamma: optimal length l_m0 (1 + gamma (1 - a))",
+                   true},
+    ParameterField{"tendon_strain",
+                   muscle,
+                   kTendonStrain,
+                   Unit::dimensionless,
+                   true,
+                   {0.005, 0.2},
+                   0.4,
+                   "of the tendon at F_max; 0: rigid"},
+    ParameterField{"activation_share",
+                   muscle,
+                   kShare,
+                   Unit::dimensionless,
+                   true,
+                   {0.1, 10.0},
+                   0.3,
+                   "activation of a muscle over that of the electrode that serves it"},
+    ParameterField{"emg_delay", channel, kDelay, Unit::second, false, {0.0, 0.15}, 0.02, "d"},
+    ParameterField{"emg_gain", channel, kGain, Unit::dimensionless, true, {0.2, 5.0}, 0.1, "g"},
+    ParameterField{"emg_shape",
+                   channel,
+                   kShape,
+                   Unit::dimensionless,
+                   false,
+                   {-3.0, 3.0},
+                   0.8,
+                   "A of (exp(A u) - 1) / (exp(A) - 1); 0: linear",
+                   true},
+    ParameterField{"emg_exponent",
+                   channel,
+                   kExponent,
+                   Unit::dimensionless,
+                   true,
+                   {0.5, 2.5},
+                   0.2,
+                   "p of activation = gain envelope^p; 1: proportional"},
+    ParameterField{"excitation_time",
+                   channel,
+                   kExcitationTime,
+                   Unit::second,
+                   true,
+                   {0.001, 0.2},
+                   0.25,
+                   "tau_ne of equation (1)"},
+    ParameterField{"activation_time",
+                   channel,
+                   kActivationTime,
+                   Unit::second,
+                   true,
+                   {0.001, 0.2},
+                   0.25,
+                   "tau_ac of equation (1)"},
+    ParameterField{"deactivation_time",
+                   channel,
+                   kDeactivationTime,
+                   Unit::second,
+                   true,
+                   {0.001, 0.4},
+                   0.25,
+                   "tau_deac of equation (1)"},
+    ParameterField{"joint_viscosity",
+                   joint,
+                   kViscosity,
+                   Unit::newton_meter_second,
+                   false,
+                   {0.0, 5.0},
+                   0.2,
+                   "B_l",
+                   true},
+    ParameterField{"joint_inertia",
+                   joint,
+                   kInertia,
+                   Unit::kilogram_meter2,
+                   false,
+                   {-0.5, 0.5},
+                   0.01,
+                   "what inverse dynamics left out",
+                   true},
+    ParameterField{"joint_stiffness",
+                   joint,
+                   kStiffness,
+                   Unit::newton_meter,
+                   false,
+                   {-5.0, 50.0},
+                   1.0,
+                   "per radian",
+                   true},
+    ParameterField{"joint_torque_offset",
+                   joint,
+                   kOffset,
+                   Unit::newton_meter,
+                   false,
+                   {-20.0, 20.0},
+                   1.0,
+                   "constant torque beside the muscles'",
+                   true},
+};
+
+}  // namespace
+
+std::span<const ParameterField> parameter_fields() { return kFields; }
+
+bool zero_by_nature(std::string_view parameter) {
+  return std::any_of(kFields.begin(), kFields.end(), [&](const ParameterField& field) {
+    return field.zero_by_nature && field.name == parameter;
+  });
+}
+
+const ParameterField& parameter_field(std::string_view name) {
+  std::string names;
+  for (const ParameterField& field : kFields) {
+    if (field.name == name) return field;
+    names += (names.empty() ? "" : ", ") + std::string(field.name);
+  }
+  throw InvalidInput(fmt::format("no parameter is named '{}'; there are {}", name, names));
+}
+
+}  // namespace myoid::identification

@@ -1,0 +1,77 @@
+#include "myoid/identification/reported_interval.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "myoid/math/statistics.h"
+
+namespace myoid::identification {
+namespace {
+
+constexpr double kProbability = 0.95;
+
+}  // namespace
+
+double z_of(const RowScale& row, double value) {
+  const double x = value / row.ratio;
+  return row.parameter->field->logarithmic ? std::log(std::max(x, 1e-300)) : x;
+}
+
+void add_routes(ParameterEstimate& e,
+                const RowScale& row,
+                const Intervals& intervals,
+                Eigen::Index at,
+                double z) {
+  const double quantile = math::normal_quantile(0.5 + 0.5 * kProbability);
+  const FreeParameter& p = *row.parameter;
+  const auto clipped = [&](double x) { return row.value(std::clamp(x, p.lower, p.upper)); };
+  const auto normal = [&](const std::string& route, double variance) {
+    const double sd = std::sqrt(std::max(0.0, variance));
+    if (!std::isfinite(sd)) return;
+    // A bound is knowledge, too: no interval reaches where no muscle lives.
+    e.routes.push_back({route, clipped(z - quantile * sd), clipped(z + quantile * sd)});
+  };
+  normal("sandwich", intervals.sandwich.newey_west(at, at));
+  if (intervals.sandwich.cluster) normal("cluster", (*intervals.sandwich.cluster)(at, at));
+  if (intervals.sandwich.jackknife) normal("jackknife", (*intervals.sandwich.jackknife)(at, at));
+  const auto add = [&](const std::string& route, const Interval& interval) {
+    RouteInterval r{route, {}, {}};
+    if (interval.low) r.low = clipped(*interval.low);
+    if (interval.high) r.high = clipped(*interval.high);
+    if (r.low || r.high || route == "profile") e.routes.push_back(r);
+  };
+  const auto index = static_cast<std::size_t>(at);
+  if (intervals.bootstrap) add("bootstrap", intervals.bootstrap->intervals[index]);
+  if (intervals.profiles) add("profile", (*intervals.profiles)[index]);
+
+  // The interval that is reported: to either side the farther of sandwich and profile, with the
+  // model's error on top, but never less than trials show that differ by both. Of few trials that
+  // is the jackknife, which is never too small.
+  const auto reach = [&](double variance) { return quantile * std::sqrt(std::max(0.0, variance)); };
+  double below = reach(intervals.sandwich.newey_west(at, at));
+  double above = below;
+  if (intervals.profiles) {
+    const Interval& profile = (*intervals.profiles)[index];
+    below = std::max(below, z - profile.low.value_or(p.lower));
+    above = std::max(above, profile.high.value_or(p.upper) - z);
+  }
+  double least = 0.0;
+  if (intervals.sandwich.cluster) {
+    least = reach((*intervals.sandwich.cluster)(at, at));
+  } else if (intervals.sandwich.jackknife) {
+    least = reach((*intervals.sandwich.jackknife)(at, at));
+  }
+  if (!std::isfinite(below) || !std::isfinite(above)) return;
+  const auto whole = [&](double half) {
+    const double noise = half / quantile;
+    const double variance = noise * noise + std::pow(intervals.sandwich.by_noise[at], 2);
+    return std::max(least, intervals.model_error
+                               ? intervals.model_error->reach(at, variance, kProbability)
+                               : quantile * std::sqrt(variance));
+  };
+  e.ci_low = clipped(z - whole(below));
+  e.ci_high = clipped(z + whole(above));
+}
+
+}  // namespace myoid::identification
