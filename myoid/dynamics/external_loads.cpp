@@ -175,10 +175,13 @@ Vec3 LoadColumns::at(double time_s) const {
   return {splines[0].at(time_s).value, splines[1].at(time_s).value, splines[2].at(time_s).value};
 }
 
+double ExternalLoads::data_time_s(double motion_time_s) const {
+  return (motion_time_s - offset_s) / (1.0 + 1e-6 * drift_ppm);
+}
+
 void ExternalLoads::set_clock(double offset, double drift) {
-  const auto data_time = [this](double t) { return (t - offset_s) / (1.0 + 1e-6 * drift_ppm); };
-  const double first_s = data_time(start_s);
-  const double last_s = data_time(end_s);
+  const double first_s = data_time_s(start_s);
+  const double last_s = data_time_s(end_s);
   offset_s = offset;
   drift_ppm = drift;
   start_s = first_s + offset + 1e-6 * drift * first_s;
@@ -188,9 +191,7 @@ void ExternalLoads::set_clock(double offset, double drift) {
 void ExternalLoads::append_wrenches(const model::BodyState& state,
                                     double motion_time_s,
                                     std::vector<model::BodyWrench>& wrenches) const {
-  const double time_s = offset_s == 0.0 && drift_ppm == 0.0
-                            ? motion_time_s
-                            : (motion_time_s - offset_s) / (1.0 + 1e-6 * drift_ppm);
+  const double time_s = data_time_s(motion_time_s);
   for (const ExternalForce& force : forces) {
     if (force.body == 0) continue;
     const Pose& X_GB = state.X_GB[static_cast<std::size_t>(force.body)];

@@ -121,7 +121,7 @@ std::vector<Load> distances(const model::BodyModel& model,
   const Eigen::Index n = points.frame_count();
   const Eigen::Index step = std::max<Eigen::Index>(1, n / kFrames);
   const auto at = [&](Eigen::Index frame) {
-    return (points.time_s(frame) - loads.offset_s) / (1.0 + 1e-6 * loads.drift_ppm);
+    return loads.data_time_s(points.time_s(frame));
   };
   for (const dynamics::ExternalForce& force : loads.forces) {
     if (!is_under_a_foot(force)) continue;
@@ -204,7 +204,7 @@ std::vector<Finding> unloaded_times(const model::BodyModel& model,
   Eigen::VectorXd share(t.size());
   for (Eigen::Index i = 0; i < t.size(); ++i) {
     double sum = 0.0;
-    const double at = (t[i] - input.loads->offset_s) / (1.0 + 1e-6 * input.loads->drift_ppm);
+    const double at = input.loads->data_time_s(t[i]);
     for (const dynamics::ExternalForce& force : input.loads->forces) {
       if (force.body != 0 && force.force_frame == 0 && force.force)
         sum += up.dot(force.force->at(at));
