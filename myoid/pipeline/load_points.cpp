@@ -120,9 +120,7 @@ std::vector<Load> distances(const model::BodyModel& model,
   std::vector<double> largest_n;
   const Eigen::Index n = points.frame_count();
   const Eigen::Index step = std::max<Eigen::Index>(1, n / kFrames);
-  const auto at = [&](Eigen::Index frame) {
-    return loads.data_time_s(points.time_s(frame));
-  };
+  const auto at = [&](Eigen::Index frame) { return loads.data_time_s(points.time_s(frame)); };
   for (const dynamics::ExternalForce& force : loads.forces) {
     if (!is_under_a_foot(force)) continue;
     double largest = 0.0;
