@@ -6,9 +6,8 @@
 #include <fmt/ranges.h>
 
 #include "myoid/cli/context.h"
+#include "myoid/cli/solver_contests.h"
 #include "myoid/core/error.h"
-#include "myoid/identification/compare_paper_solvers.h"
-#include "myoid/identification/compare_solvers.h"
 #include "myoid/identification/cross_validation.h"
 #include "myoid/identification/force.h"
 #include "myoid/identification/paper.h"
@@ -165,65 +164,6 @@ void print_folds(const std::vector<identification::Fold>& folds, const Options& 
   }
 }
 
-/// By name of the fit: all muscles together, or one after the other.
-using Comparisons = std::vector<std::pair<std::string, identification::SolverComparison>>;
-
-/// Every solver on the same fits, if it is asked for: those of the method.
-Comparisons compare(const Options& o,
-                    const StudyData& data,
-                    const identification::EstimatorOptions& options,
-                    std::uint64_t seed) {
-  const identification::CompareOptions how{.starts = o.starts, .seed = seed};
-  Comparisons comparisons;
-  if (o.compare && o.method == "torque") {
-    comparisons.emplace_back("all muscles", identification::compare_solvers(data, options, how));
-  } else if (o.compare && o.method == "paper") {
-    for (std::size_t k = 0; k < data.muscles.size(); ++k) {
-      for (const bool shortening : {true, false})
-        comparisons.emplace_back(
-            fmt::format("{} {}", data.muscles[k].name, shortening ? "shortening" : "lengthening"),
-            identification::compare_paper_solvers(data, k, shortening, how));
-    }
-  } else if (o.compare) {
-    for (std::size_t k = 0; k < data.muscles.size(); ++k) {
-      comparisons.emplace_back(
-          data.muscles[k].name,
-          identification::compare_solvers(identification::force_study(data, k), options, how));
-    }
-  }
-  return comparisons;
-}
-
-void print_comparison(const std::string& name, const identification::SolverComparison& c) {
-  if (c.runs.empty()) {
-    fmt::print("\nSolvers, {}: nothing to fit\n", name);
-    return;
-  }
-  fmt::print("\nSolvers, {}:\n{:<22}{:>6}{:>16}{:>12}{:>13}{:>10}  {}\n", name, "solver", "start",
-             "cost", "distance", "evaluations", "seconds", "ended");
-  for (const identification::SolverRun& run : c.runs) {
-    fmt::print("{:<22}{:>6}{:>16.6g}{:>12.2g}{:>13}{:>10.3f}  {}\n", run.solver, run.start,
-               run.cost, run.distance, run.evaluations, run.seconds, math::name(run.termination));
-  }
-  fmt::print("Basins of Levenberg-Marquardt from {} starts:\n", c.multistart.starts.size());
-  for (std::size_t i = 0; i < c.multistart.basins.size() && i < 8; ++i) {
-    const math::Basin& basin = c.multistart.basins[i];
-    fmt::print("  cost {:<14.6g} reached from {} starts{}\n", basin.cost, basin.members.size(),
-               basin.rival && i > 0 ? ", as good as the best: both are answers" : "");
-  }
-}
-
-std::string solvers_csv(const Comparisons& comparisons) {
-  std::string text = "fit,solver,start,cost,distance,evaluations,seconds,termination\n";
-  for (const auto& [name, c] : comparisons) {
-    for (const identification::SolverRun& run : c.runs) {
-      text += fmt::format("{},{},{},{},{},{},{},{}\n", name, run.solver, run.start, run.cost,
-                          run.distance, run.evaluations, run.seconds, math::name(run.termination));
-    }
-  }
-  return text;
-}
-
 /// The data for all that follows the fit, with the v_max free that the fit had free.
 void free_what_is_free(const identification::IdentificationResult& result,
                        const pipeline::MuscleTable& table,
@@ -350,7 +290,12 @@ void add_identify(CLI::App& app, Context& context) {
       free_what_is_free(result, table, data);
       if (!result.exact) folds = identification::cross_validate(data, options);
     }
-    const Comparisons comparisons = compare(*o, data, options, context.seed);
+    std::vector<NamedContest> contests;
+    if (o->compare) {
+      contests = solver_contests(
+          data, o->method, options,
+          {.starts = o->starts, .seed = context.seed, .progress = context.progress()});
+    }
     context.end_progress();
     Provenance provenance;
     provenance.command = context.command_line;
@@ -366,8 +311,7 @@ void add_identify(CLI::App& app, Context& context) {
     recording::write_file(folder / "parameters.json",
                           pipeline::parameters_json(results, folds, provenance));
     recording::write_file(folder / "parameters.csv", pipeline::parameters_csv(results));
-    if (!comparisons.empty())
-      recording::write_file(folder / "solvers.csv", solvers_csv(comparisons));
+    if (!contests.empty()) recording::write_file(folder / "solvers.csv", solvers_csv(contests));
     if (context.json) {
       fmt::print("{}", pipeline::parameters_json(results, folds, provenance));
     } else {
@@ -375,7 +319,7 @@ void add_identify(CLI::App& app, Context& context) {
                    o->method != "paper" && !result.exact && !table.speed_may_be_free.empty());
       print_fit(result, data, o->method == "torque");
       print_folds(folds, *o);
-      for (const auto& [name, comparison] : comparisons) print_comparison(name, comparison);
+      for (const NamedContest& contest : contests) print_contest(contest);
       fmt::print("{}/parameters.csv\n", o->out);
     }
     bool gate = o->method != "paper" && result.termination != math::Termination::converged;

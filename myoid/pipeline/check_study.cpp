@@ -16,6 +16,7 @@
 #include "myoid/pipeline/trial_emg.h"
 #include "myoid/pipeline/trial_input.h"
 #include "myoid/pipeline/trial_quality.h"
+#include "myoid/pipeline/unloaded_times.h"
 #include "myoid/recording/csv_reader.h"
 #include "myoid/recording/emg_channels.h"
 #include "myoid/recording/emg_reader.h"

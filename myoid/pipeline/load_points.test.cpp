@@ -147,37 +147,5 @@ TEST(MisplacedLoads, APointInMillimetersIsAnError) {
   EXPECT_NE(found[0].message.find("is it in mm"), std::string::npos) << found[0].message;
 }
 
-/// A pelvis that may also rise, whose feet share the weight but for 0.4 s; it falls then, or not.
-std::vector<Finding> walked_over_a_gap(bool falls) {
-  Walk walk;
-  model::Joint& root = walk.model.joints[0];
-  root.coordinates.push_back(3);
-  root.translation[1] = {Vec3::UnitY(), 3, model::Linear{1.0, 0.0}};
-  walk.model.coordinates.push_back(
-      {.name = "height", .joint = 0, .motion = model::MotionType::translational});
-  walk.model = model::finalize(std::move(walk.model));
-  const Eigen::VectorXd& t = walk.input.motion->time_s();
-  Eigen::MatrixXd q(200, 1);
-  Eigen::MatrixX3d force = Eigen::MatrixX3d::Zero(200, 3);
-  for (Eigen::Index i = 0; i < 200; ++i) {
-    const double into = t[i] - 0.8;
-    const bool gap = into > 0.0 && into < 0.4;
-    force(i, 1) = gap ? 0.0 : 300.0;
-    q(i, 0) = gap && falls ? 0.5 * 9.81 * into * (0.4 - into) : 0.0;
-  }
-  for (dynamics::ExternalForce& f : walk.input.loads->forces) f.force = columns(t, force);
-  walk.input.motion = TimeSeries(t, {{"height", Unit::meter}}, q);
-  return unloaded_times(walk.model, walk.trial, walk.input);
-}
-
-TEST(UnloadedTimes, AreThoseInWhichNobodyFliesAndNoPlateBears) {
-  const std::vector<Finding> found = walked_over_a_gap(false);
-  ASSERT_EQ(found.size(), 1U);
-  EXPECT_EQ(found[0].level, Level::warning);
-  EXPECT_NE(found[0].message.find("in 20 % of the trial (0.8"), std::string::npos)
-      << found[0].message;
-  EXPECT_TRUE(walked_over_a_gap(true).empty());
-}
-
 }  // namespace
 }  // namespace myoid::pipeline

@@ -97,8 +97,9 @@ std::vector<Frames> frame_counts(const C3dHeader& header, const C3dFile& file) {
     if (start && end)
       add(*end - *start + 1, *start, "TRIAL:ACTUAL_START_FIELD and ACTUAL_END_FIELD");
   };
-  // A header whose last frame is the largest that it can hold cannot say more.
-  if (header.last_frame >= 65535) add_actual();
+  // Frames beyond the header's 16 bits stand there as the largest number or wrapped around.
+  if (end && *end >= 65535 && (header.last_frame >= 65535 || header.last_frame == *end % 65536))
+    add_actual();
   add(header.last_frame - header.first_frame + 1, header.first_frame, "the header");
   add_actual();
   if (const auto count = count_in(file.find("POINT", "LONG_FRAMES")))
@@ -121,9 +122,10 @@ void say_other_frame_counts(const C3dHeader& header,
                         "{} frames. If the first one is wrong, so is the time of all",
                         header.first_frame, header.last_frame, chosen.source, chosen.count)});
   } else if (&chosen != frames.data()) {
-    repairs.push_back({0, fmt::format("the header says {} frames, {} says {}; the file's size "
-                                      "confirms the latter",
-                                      frames[0].count, chosen.source, chosen.count)});
+    repairs.push_back(
+        {0, fmt::format("{} says {} frames, {} says {}; the file's size confirms the "
+                        "latter",
+                        frames[0].source, frames[0].count, chosen.source, chosen.count)});
   } else if (const auto said = count_in(file.find("POINT", "FRAMES"));
              said && *said > 0 && *said < 65535 &&
              static_cast<std::int64_t>(*said) != chosen.count % 65536) {

@@ -1,0 +1,64 @@
+#include "myoid/identification/basins.h"
+
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+namespace myoid::identification {
+namespace {
+
+const StartBox kBox{.given = Eigen::VectorXd::Constant(1, 0.9),
+                    .spread = Eigen::VectorXd::Constant(1, 0.5),
+                    .lower = Eigen::VectorXd::Constant(1, -1.0),
+                    .upper = Eigen::VectorXd::Constant(1, 1.0)};
+
+/// Two valleys, at -0.5 with cost 10 and at 0.5 with `higher`; the search ends in its start's,
+/// short of convergence from beyond 0.8 and nowhere from below -0.9.
+math::LocalMinimum descend(const Eigen::VectorXd& start, double higher) {
+  if (start[0] < -0.9)
+    return {math::Termination::not_finite, start, std::numeric_limits<double>::infinity(), 1};
+  const bool right = start[0] > 0.0;
+  return {start[0] > 0.8 ? math::Termination::iteration_limit : math::Termination::converged,
+          Eigen::VectorXd::Constant(1, right ? 0.5 : -0.5), right ? higher : 10.0, 1};
+}
+
+TEST(Basins, TellHowManyStartsEndedWhereAndHowFarFromTheBest) {
+  const BasinTable table = find_basins(
+      [](const Eigen::VectorXd& x, Eigen::Index) { return descend(x, 13.0); }, kBox, 65);
+  EXPECT_EQ(table.starts, 65);
+  ASSERT_EQ(table.basins.size(), 2U);
+  const BasinRow& best = table.basins[0];
+  const BasinRow& other = table.basins[1];
+  EXPECT_EQ(best.x[0], -0.5);
+  EXPECT_EQ(best.cost, 10.0);
+  EXPECT_EQ(best.distance, 0.0);
+  EXPECT_TRUE(best.rival);
+  EXPECT_EQ(other.cost, 13.0);
+  EXPECT_EQ(other.distance, 2.0);  // 1 at a spread of 0.5
+  EXPECT_FALSE(other.rival);
+  // Sobol points are even: a twentieth of them each below -0.9 and nearly a half in either valley;
+  // the given start is one beyond 0.8.
+  EXPECT_NEAR(table.failed, 0.05 * 64, 1.0);
+  EXPECT_EQ(best.starts, best.converged);
+  EXPECT_NEAR(other.starts, 33, 1);
+  EXPECT_NEAR(other.starts - other.converged, 1 + 0.1 * 64, 1.0);
+  EXPECT_EQ(best.starts + other.starts + table.failed, 65);
+}
+
+TEST(Basins, ARivalIsWithinAChiSquareOfFourOfTheBest) {
+  const auto rival = [](double higher, Eigen::Index plain_samples) {
+    return find_basins([&](const Eigen::VectorXd& x, Eigen::Index) { return descend(x, higher); },
+                       kBox, 9, plain_samples)
+        .basins.at(1)
+        .rival;
+  };
+  EXPECT_TRUE(rival(11.9, 0));
+  EXPECT_FALSE(rival(12.1, 0));
+  // Without weights the residuals' own variance is 2 C / n: 0.2 of 100 samples.
+  EXPECT_TRUE(rival(10.38, 100));
+  EXPECT_FALSE(rival(10.42, 100));
+}
+
+}  // namespace
+}  // namespace myoid::identification

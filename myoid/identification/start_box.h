@@ -1,0 +1,32 @@
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "myoid/identification/estimator.h"
+#include "myoid/identification/paper_case.h"
+#include "myoid/identification/study_data.h"
+
+namespace myoid::identification {
+
+/// Where searches begin: about the given start, as far as what is known beforehand spreads.
+struct StartBox {
+  Eigen::VectorXd given;
+  Eigen::VectorXd spread;  ///< Of the prior; without one 0.3 of a logarithm, a tenth of a value.
+  Eigen::VectorXd lower;   ///< Two spreads below the given start, inside the bounds.
+  Eigen::VectorXd upper;
+};
+[[nodiscard]] StartBox start_box(const Estimator& estimator);
+/// Of the source paper's unknowns, each in its own unit; its bounds are what is physical.
+[[nodiscard]] StartBox start_box(const PaperCase& samples, const MuscleSetup& setup);
+
+/// The given start and Sobol points of the box.
+[[nodiscard]] std::vector<Eigen::VectorXd> starts_in(const StartBox& box, int count);
+
+/// Root mean square over the unknowns of what they differ by, in spreads.
+[[nodiscard]] double distance(const Eigen::VectorXd& a,
+                              const Eigen::VectorXd& b,
+                              const StartBox& box);
+
+}  // namespace myoid::identification
