@@ -81,6 +81,7 @@ identification::EstimatorOptions estimator_options(const Options& o, const Conte
   identification::EstimatorOptions options;
   options.priors = !o.no_priors;
   options.weights = !o.no_priors;
+  options.choose_lag = !o.no_priors;
   options.max_rate_hz = 200.0;
   options.delay_s = o.delay_s;
   options.residual_cutoff_hz.reset();

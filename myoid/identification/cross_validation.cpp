@@ -120,7 +120,7 @@ Fold score_joint(const std::string& name,
     const Eigen::VectorXd resting = resting_torque_nm(t);
     const Eigen::VectorXd active = t.torque_nm - resting;
     const Eigen::VectorXd torque =
-        predict(by.data, t, by.literature, by.literature_delay_s).torque_nm - resting;
+        predict(by.data, t, by.literature, by.literature_delay_s, by.fit.lag).torque_nm - resting;
     product += torque.dot(active);
     square += torque.squaredNorm();
     sum += t.torque_nm.sum();
@@ -145,7 +145,7 @@ Fold score_joint(const std::string& name,
     };
     const Eigen::VectorXd resting = resting_torque_nm(t);
     const Eigen::VectorXd muscles =
-        predict(by.data, t, by.literature, by.literature_delay_s).torque_nm - resting;
+        predict(by.data, t, by.literature, by.literature_delay_s, by.fit.lag).torque_nm - resting;
     const Eigen::VectorXd before = resting + fold.gain * smooth(muscles);
     const Eigen::VectorXd regressed =
         resting + smooth(regressors(by.data, t, by.fit.delay_s) * slopes);

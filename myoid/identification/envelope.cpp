@@ -22,12 +22,19 @@ Lagged lagged(const Envelope& envelope, const ChannelValues& c) {
   double e = u[0], a = u[0];
   double e_ne = 0.0;
   Eigen::Vector3d a_by = Eigen::Vector3d::Zero();
+  // What is kept over a step of h: most clocks have one h.
+  double h = 0.0, keep_e = 0.0, keep_rising = 0.0, keep_falling = 0.0;
+  const double tau_ne = c[kExcitationTime];
   for (Eigen::Index i = 0; i < t.size(); ++i) {
     if (i > 0) {
-      const double h = t[i] - t[i - 1];
+      const double step = t[i] - t[i - 1];
+      if (std::abs(step - h) > 1e-9 * step) {
+        h = step;
+        keep_e = std::exp(-h / tau_ne);
+        keep_rising = std::exp(-h / c[kActivationTime]);
+        keep_falling = std::exp(-h / c[kDeactivationTime]);
+      }
       const double input = 0.5 * (u[i - 1] + u[i]);
-      const double tau_ne = c[kExcitationTime];
-      const double keep_e = std::exp(-h / tau_ne);
       // Mean of e over the interval drives a.
       const double e_before = e, e_ne_before = e_ne;
       e = input + keep_e * (e_before - input);
@@ -36,7 +43,7 @@ Lagged lagged(const Envelope& envelope, const ChannelValues& c) {
       const double middle_ne = 0.5 * (e_ne + e_ne_before);
       const bool rising = middle >= a;
       const double tau = rising ? c[kActivationTime] : c[kDeactivationTime];
-      const double keep = std::exp(-h / tau);
+      const double keep = rising ? keep_rising : keep_falling;
       const double gap = a - middle;
       a = middle + keep * gap;
       a_by *= keep;
@@ -54,6 +61,19 @@ Lagged lagged(const Envelope& envelope, const ChannelValues& c) {
     r.slope_by_time(i, branch) -= (e - a) / (tau * tau);
   }
   return r;
+}
+
+/// The channel with the delay that is left and the time constants that d is shared among. A time
+/// constant of nothing divides by nothing: 0.1 ms is none.
+ChannelValues shared(const ChannelValues& c) {
+  constexpr LagShares kShare;
+  constexpr double kLeast_s = 1e-4;
+  ChannelValues result = c;
+  result[kDelay] = kShare.pure * c[kDelay];
+  result[kExcitationTime] = std::max(kLeast_s, kShare.excitation * c[kDelay]);
+  result[kActivationTime] = std::max(kLeast_s, kShare.activation * c[kDelay]);
+  result[kDeactivationTime] = std::max(kLeast_s, kShare.deactivation * c[kDelay]);
+  return result;
 }
 
 /// (exp(A u) - 1) / (exp(A) - 1), its slope in u and in A.
@@ -192,11 +212,19 @@ double noise_gain(
   return signal > 0.0 ? std::sqrt(noise / signal) : 1.0;
 }
 
+std::array<double, 2> lag_times_s(const ChannelValues& channel, EmgLag lag) {
+  if (lag == EmgLag::delay) return {};
+  const ChannelValues c = lag == EmgLag::shared ? shared(channel) : channel;
+  return {c[kExcitationTime], 0.5 * (c[kActivationTime] + c[kDeactivationTime])};
+}
+
 std::vector<Activation> activation(const Envelope& envelope,
                                    const Eigen::Ref<const Eigen::VectorXd>& time_s,
-                                   const ChannelValues& c,
-                                   bool dynamics,
+                                   const ChannelValues& channel,
+                                   EmgLag kind,
                                    bool with_exponent) {
+  const ChannelValues c = kind == EmgLag::shared ? shared(channel) : channel;
+  const bool dynamics = kind != EmgLag::delay;
   std::vector<Activation> result(static_cast<std::size_t>(time_s.size()));
   Lagged lag;
   Eigen::Index at = 0;
@@ -243,8 +271,16 @@ std::vector<Activation> activation(const Envelope& envelope,
     a.by_field[kGain] = by_u * raised;
     a.by_field[kExponent] = by_u * c[kGain] * by_exponent;
     a.by_field[kShape] = by_shape;
-    for (int k = 0; k < 3; ++k)
-      a.by_field[static_cast<std::size_t>(kExcitationTime + k)] = by_envelope * by_time[k];
+    if (kind == EmgLag::shared) {
+      constexpr LagShares kShare;
+      a.by_field[kDelay] =
+          kShare.pure * a.by_field[kDelay] +
+          by_envelope * by_time.dot(Eigen::Vector3d(kShare.excitation, kShare.activation,
+                                                    kShare.deactivation));
+    } else {
+      for (int k = 0; k < 3; ++k)
+        a.by_field[static_cast<std::size_t>(kExcitationTime + k)] = by_envelope * by_time[k];
+    }
   }
   return result;
 }

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include <Eigen/Core>
 
+#include "myoid/identification/emg_lag.h"
 #include "myoid/identification/parameters.h"
 
 namespace myoid::identification {
@@ -40,6 +42,10 @@ class Envelope {
 [[nodiscard]] double noise_gain(
     const Envelope& envelope, double from_s, double to_s, double rest, double spread);
 
+/// Time constants of the two lags that a channel's envelope passes, that of the activation as the
+/// mean of rise and fall; 0: none.
+[[nodiscard]] std::array<double, 2> lag_times_s(const ChannelValues& channel, EmgLag lag);
+
 /// Activation at one instant, before the muscle's share, and its derivatives.
 struct Activation {
   double value = 0.0;
@@ -47,17 +53,19 @@ struct Activation {
   std::array<double, kChannelFieldCount> by_field{};
 };
 
-/// Activation of a channel at `time_s` (n): a(t) = shape(g env(t - d)^p), and with `dynamics` the
-/// envelope first passes the two lags of equation (1),
+/// Activation of a channel at `time_s` (n): a(t) = shape(g env(t - d)^p), and but for
+/// `EmgLag::delay` the envelope first passes the two lags of equation (1),
 ///
 ///   de/dt = (u - e) / tau_ne,   da/dt = (e - a) / (tau_ac if e >= a, tau_deac if e < a),
 ///
-/// integrated exactly for an input that is constant between the samples of the envelope.
+/// integrated exactly for an input that is constant between the samples of the envelope. With
+/// `EmgLag::shared` the time constants are shares of the channel's d, and so is the delay that is
+/// left.
 /// `with_exponent`: false where nobody asks what p changes (then 0 is given where p = 1).
 [[nodiscard]] std::vector<Activation> activation(const Envelope& envelope,
                                                  const Eigen::Ref<const Eigen::VectorXd>& time_s,
                                                  const ChannelValues& channel,
-                                                 bool dynamics,
+                                                 EmgLag lag,
                                                  bool with_exponent = true);
 
 }  // namespace myoid::identification

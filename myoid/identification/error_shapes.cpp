@@ -101,8 +101,7 @@ ErrorShapes ResidualModel::error_shapes(const Eigen::VectorXd& z) const {
     const Eigen::Index n = block.time_s.size();
     std::vector<std::vector<Activation>> activations;
     for (std::size_t c = 0; c < block.envelopes.size(); ++c)
-      activations.push_back(
-          activation(block.envelopes[c], block.time_s, values.channels[c], dynamics_));
+      activations.push_back(activation(block.envelopes[c], block.time_s, values.channels[c], lag_));
     for (Eigen::Index k = 0; k < muscles; ++k) {
       const auto muscle = static_cast<std::size_t>(k);
       const auto c = static_cast<std::size_t>(map_.channel_of_muscle(muscle));

@@ -69,7 +69,7 @@ void report_estimates(const Estimator& estimator,
   result.envelope_variance = estimator.envelope_variance(solution.weighting.noise.front());
   result.solution = z;
   result.values = model.parameters().values(z);
-  result.dynamics = options.dynamics;
+  result.lag = options.lag;
   result.r2 = explained_share(model, z);
   for (const MuscleValues& values : result.values.muscles)
     result.muscles.push_back(hill_parameters(values));

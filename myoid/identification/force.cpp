@@ -58,7 +58,7 @@ IdentificationResult identify_force(const StudyData& data, const ForceOptions& o
   all.method = "force";
   all.termination = math::Termination::converged;
   all.exact = true;
-  all.dynamics = options.estimator.dynamics;
+  all.lag = options.estimator.lag;
   for (const TrialData& trial : data.trials) {
     TrialFit fit;
     fit.trial = trial.name;

@@ -9,6 +9,7 @@
 #include <Eigen/Core>
 
 #include "myoid/core/progress.h"
+#include "myoid/identification/emg_lag.h"
 
 namespace myoid::identification {
 
@@ -75,11 +76,12 @@ struct EstimatorOptions {
   Loss loss = Loss::square;
   Eccentric eccentric = Eccentric::automatic;
   bool normalised = false;     ///< l_sh and v_max keep their ratio to l0.
-  bool dynamics = false;       ///< Envelope -> activation by the two lags of equation (1).
+  EmgLag lag = EmgLag::delay;  ///< How a muscle follows its EMG.
+  bool choose_lag = false;     ///< Method `torque`: `delay` or `shared`, whichever the data prefer.
   bool measured_is_force = false;  ///< What is fitted is the force of one muscle, not a torque.
-  bool gauss_newton = false;   ///< Plain full steps instead of Levenberg-Marquardt.
-  int passes = 4;              ///< Of finding the noise and weighting by it.
-  int starts = 3;              ///< The given start and moved ones; the best is kept.
+  bool gauss_newton = false;       ///< Plain full steps instead of Levenberg-Marquardt.
+  int passes = 4;                  ///< Of finding the noise and weighting by it.
+  int starts = 3;                  ///< The given start and moved ones; the best is kept.
   Eigen::VectorXd warm_start;  ///< IdentificationResult::solution of a kindred fit, to begin there;
                                ///< empty: the muscles' start.
   bool from_mvc = true;        ///< For the verdicts.

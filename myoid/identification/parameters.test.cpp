@@ -89,7 +89,7 @@ TEST(Rules, WhatThePapersLawLeavesOutIsFoundWhereItIsInTheData) {
     // The joint's rate from a muscle's: v = -r qdot.
     trial.velocity_radps = -trial.velocity_mps.col(0).cwiseQuotient(trial.moment_arm_m.col(0));
     trial.acceleration_radps2 = Eigen::VectorXd::Zero(n);
-    trial.torque_nm = predict(study.data, trial, truth, false).torque_nm;
+    trial.torque_nm = predict(study.data, trial, truth, EmgLag::delay).torque_nm;
   }
   for (MuscleSetup& setup : study.data.muscles)
     setup.extras = {.passive_force = 0.6, .length_activation = 0.10};

@@ -28,7 +28,7 @@ double envelope_spread(const EstimatorOptions& options, const std::string& chann
 
 ResidualModel::ResidualModel(const StudyData& data, const EstimatorOptions& options)
     : map_(data, options),
-      dynamics_(options.dynamics),
+      lag_(options.lag),
       measured_is_force_(options.measured_is_force),
       angle_sd_rad_(options.angle_sd_rad),
       angle_rate_sd_radps_(options.angle_rate_sd_radps) {
@@ -218,7 +218,7 @@ void ResidualModel::evaluate_block(const Block& block,
         std::any_of(of_channel[c].begin(), of_channel[c].end(),
                     [](const ParameterMap::Chain& chain) { return chain.field == kExponent; });
     activations.push_back(
-        activation(block.envelopes[c], block.time_s, values.channels[c], dynamics_, with_exponent));
+        activation(block.envelopes[c], block.time_s, values.channels[c], lag_, with_exponent));
   }
   for (std::size_t k = 0; k < values.muscles.size(); ++k) {
     const auto column = static_cast<Eigen::Index>(k);

@@ -108,7 +108,7 @@ class ResidualModel {
   Eigen::VectorXd measured_;
   Eigen::MatrixXd noise_gain_;
   std::vector<int> channel_of_variable_;
-  bool dynamics_ = false;
+  EmgLag lag_ = EmgLag::delay;
   bool measured_is_force_ = false;
   double angle_sd_rad_ = 0.0, angle_rate_sd_radps_ = 0.0;
   double rate_hz_ = 0.0;

@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 
 #include "myoid/core/units.h"
+#include "myoid/identification/emg_lag.h"
 #include "myoid/identification/parameters.h"
 #include "myoid/identification/score.h"
 #include "myoid/math/least_squares.h"
@@ -112,8 +113,11 @@ struct IdentificationResult {
   std::string message;
   std::vector<ParameterEstimate> estimates;
   std::vector<muscle::HillParameters<double>> muscles;  ///< With the estimates (force, torque).
-  ModelValues values;        ///< All numbers of the model with the estimates (force, torque).
-  bool dynamics = false;     ///< The envelope passes the lags of equation (1).
+  ModelValues values;          ///< All numbers of the model with the estimates (force, torque).
+  EmgLag lag = EmgLag::delay;  ///< How the muscles follow their EMG.
+  /// By how much the data prefer `shared` to `delay`, in -2 ln of their likelihood, where it was
+  /// chosen by that.
+  std::optional<double> shared_lag_gain;
   double delay_s = 0.0;      ///< Of the first channel.
   Eigen::VectorXd solution;  ///< In the solver's scale (force, torque).
   Eigen::MatrixXd

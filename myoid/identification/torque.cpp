@@ -32,7 +32,7 @@ void add_predictions(const StudyData& data,
       fit.calibration = trial.calibration;
       fit.time_s = trial.time_s;
       fit.torque_nm = trial.torque_nm;
-      Prediction before = predict(data, trial, literature, options.dynamics);
+      Prediction before = predict(data, trial, literature, options.lag);
       auto [after, smooth] = predict(data, trial, result, options.envelope_cutoff_hz);
       after.torque_nm = std::move(smooth.torque_nm);
       fit.smooth_hz = smooth.cutoff_hz;
@@ -69,14 +69,36 @@ IdentificationResult finish(const Estimator& estimator,
   return result;
 }
 
+/// -2 ln of the likelihood of the residuals, up to a constant, as `share` of them were independent.
+double misfit(const Estimator& estimator, const Estimator::Solution& solution, double share) {
+  Evaluation at;
+  estimator.model().evaluate(solution.search.x, ResidualModel::Depth::value, at);
+  const Eigen::ArrayXd sd = solution.weighting.sd_nm.array();
+  const Eigen::ArrayXd residual = (at.predicted - estimator.model().measured()).array();
+  return share * ((residual / sd).square() + 2.0 * sd.log()).sum();
+}
+
 }  // namespace
 
 Prediction predict(const StudyData& data,
                    const TrialData& trial,
                    const std::vector<muscle::HillParameters<double>>& muscles,
-                   double delay_s) {
+                   double delay_s,
+                   EmgLag lag) {
   Prediction p;
   p.activation = muscle_activation(data, trial, trial.time_s, delay_s);
+  if (lag != EmgLag::delay) {
+    ChannelValues as_it_is{};
+    as_it_is[kDelay] = delay_s;
+    as_it_is[kGain] = as_it_is[kExponent] = 1.0;
+    for (std::size_t k = 0; k < data.muscles.size(); ++k) {
+      const Envelope envelope(trial.activation.time_s(),
+                              trial.activation.column(data.muscles[k].emg_channel));
+      const std::vector<Activation> a = activation(envelope, trial.time_s, as_it_is, lag);
+      for (std::size_t i = 0; i < a.size(); ++i)
+        p.activation(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k)) = a[i].value;
+    }
+  }
   p.force_n.resize(trial.time_s.size(), trial.length_m.cols());
   for (Eigen::Index k = 0; k < p.force_n.cols(); ++k) {
     const auto& parameters = muscles[static_cast<std::size_t>(k)];
@@ -96,7 +118,7 @@ Prediction predict(const StudyData& data,
 Prediction predict(const StudyData& data,
                    const TrialData& trial,
                    const ModelValues& values,
-                   bool dynamics) {
+                   EmgLag lag) {
   const Eigen::Index n = trial.time_s.size();
   Prediction p;
   p.force_n.resize(n, trial.length_m.cols());
@@ -113,7 +135,7 @@ Prediction predict(const StudyData& data,
       channels.push_back(name);
       activations.push_back(
           activation(Envelope(trial.activation.time_s(), trial.activation.column(name)),
-                     trial.time_s, values.channels[c], dynamics));
+                     trial.time_s, values.channels[c], lag));
     }
     const auto column = static_cast<Eigen::Index>(k);
     for (Eigen::Index i = 0; i < n; ++i) {
@@ -151,13 +173,19 @@ FittedPrediction predict(const StudyData& data,
                          const TrialData& trial,
                          const IdentificationResult& fit,
                          double envelope_cutoff_hz) {
-  FittedPrediction result{predict(data, trial, fit.values, fit.dynamics), {}};
+  FittedPrediction result{predict(data, trial, fit.values, fit.lag), {}};
   const Eigen::MatrixXd& torque = result.of.channel_torque_nm;
-  const double noise_nm2 = torque.cols() == fit.envelope_variance.size() && torque.rows() > 0
-                               ? torque.cwiseAbs2().colwise().mean().dot(fit.envelope_variance)
-                               : 0.0;
-  result.smooth =
-      smooth_prediction(trial.time_s, result.of.torque_nm, noise_nm2, envelope_cutoff_hz);
+  EnvelopeNoise noise{.cutoff_hz = envelope_cutoff_hz};
+  if (torque.cols() == fit.envelope_variance.size() && torque.rows() > 0) {
+    const Eigen::VectorXd variance_nm2 =
+        torque.cwiseAbs2().colwise().mean().transpose().cwiseProduct(fit.envelope_variance);
+    noise.variance_nm2 = variance_nm2.sum();
+    // Channels may lag differently: as the one that brings most of the noise.
+    Eigen::Index loudest = 0;
+    variance_nm2.maxCoeff(&loudest);
+    noise.lag_s = lag_times_s(fit.values.channels[static_cast<std::size_t>(loudest)], fit.lag);
+  }
+  result.smooth = smooth_prediction(trial.time_s, result.of.torque_nm, noise);
   return result;
 }
 
@@ -167,7 +195,23 @@ IdentificationResult identify_torque(const StudyData& data, const TorqueOptions&
   const Estimator estimator(data, options);
   Eigen::VectorXd start = estimator.model().parameters().start();
   if (options.warm_start.size() == start.size()) start = options.warm_start;
-  return finish(estimator, estimator.solve_from_all_starts(start), data, begin);
+  const Estimator::Solution by_delay = estimator.solve_from_all_starts(start);
+  const double delay_s =
+      estimator.model().parameters().values(by_delay.search.x).channels.front()[kDelay];
+  if (!options.choose_lag || options.lag != EmgLag::delay || !options.weights || delay_s < 1e-3)
+    return finish(estimator, by_delay, data, begin);
+
+  TorqueOptions with_lags = options;
+  with_lags.lag = EmgLag::shared;
+  const Estimator lagging(data, with_lags);
+  const Estimator::Solution by_lags = lagging.solve(by_delay.search.x);
+  const double share = by_delay.weighting.share;
+  const double gain = misfit(estimator, by_delay, share) - misfit(lagging, by_lags, share);
+  const bool lags = gain > 0.0 && by_lags.search.termination == math::Termination::converged;
+  IdentificationResult result =
+      lags ? finish(lagging, by_lags, data, begin) : finish(estimator, by_delay, data, begin);
+  result.shared_lag_gain = gain;
+  return result;
 }
 
 IdentificationResult identify_torque_or_exact(const StudyData& data,

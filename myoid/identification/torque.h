@@ -28,6 +28,8 @@ using TorqueOptions = EstimatorOptions;
 /// and c_a are found from the residuals and held within a pass, four passes; data count as their
 /// effective number of independent samples. Covariance: sandwich A^-1 B A^-1 with B from Newey and
 /// West within trials, lag 0.4 s; beside it over trials, bootstrap and profiles as asked for.
+/// With `choose_lag` the fit is made twice, the delay as it is and shared among lags (EmgLag), and
+/// the one under which the residuals are likelier is the answer: they have as many unknowns.
 /// Throws InvalidInput for data that do not fit together. A search that fails does not throw: read
 /// `termination`.
 [[nodiscard]] IdentificationResult identify_torque(const StudyData& data,
@@ -53,12 +55,13 @@ struct Prediction {
 [[nodiscard]] Prediction predict(const StudyData& data,
                                  const TrialData& trial,
                                  const std::vector<muscle::HillParameters<double>>& muscles,
-                                 double delay_s);
+                                 double delay_s,
+                                 EmgLag lag = EmgLag::delay);
 /// With all numbers of the model, of the trial's first joint (others: `of_joint`).
 [[nodiscard]] Prediction predict(const StudyData& data,
                                  const TrialData& trial,
                                  const ModelValues& values,
-                                 bool dynamics);
+                                 EmgLag lag);
 /// With what a fit found; torque below the cut-off where the noise of the EMG does least harm.
 struct FittedPrediction {
   Prediction of;

@@ -113,10 +113,16 @@ TEST(ResidualModel, DerivativesOfAllThatCanBeFreedAreThoseOfTheTorque) {
   study.data.trials[0].more_joints[0].velocity_radps = trial.velocity_radps;
   study.data.trials[0].more_joints[0].acceleration_radps2 = trial.acceleration_radps2;
   for (const bool normalised : {false, true}) {
-    expect_derivatives(study.data,
-                       {.residual_cutoff_hz = {}, .normalised = normalised, .dynamics = true},
-                       4 * 14 - 3 + 1 + 1 + 4 * 6 + 4);
+    expect_derivatives(
+        study.data, {.residual_cutoff_hz = {}, .normalised = normalised, .lag = EmgLag::equation_1},
+        4 * 14 - 3 + 1 + 1 + 4 * 6 + 4);
   }
+}
+
+TEST(ResidualModel, DerivativesAreThoseOfTheTorqueWhereTheDelayIsSharedAmongLags) {
+  const ElbowStudy study = elbow_study({.trials = 1, .seconds = 5.0, .with_priors = true});
+  expect_derivatives(study.data, {.gain_prior_sd = {{"BIC", 0.1}}, .lag = EmgLag::shared},
+                     4 * 6 + 1 + 1);
 }
 
 TEST(IdentifyTorque, FindsTheTruthWithoutNoise) {

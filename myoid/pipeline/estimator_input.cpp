@@ -98,6 +98,8 @@ identification::TorqueOptions torque_options(const StudyResult& result, const Pr
                       : spec.eccentric == "smooth"      ? identification::Eccentric::smooth
                                                         : identification::Eccentric::automatic;
   options.normalised = spec.normalised;
+  options.choose_lag = spec.lag == "automatic";
+  if (spec.lag == "shared") options.lag = identification::EmgLag::shared;
   if (spec.dynamics) use_dynamics(options);
   options.delay_per_channel = spec.delay_per_channel;
   options.angle_sd_rad = spec.angle_sd_rad;
@@ -123,7 +125,7 @@ identification::TorqueOptions torque_options(const StudyResult& result, const Pr
 }
 
 void use_dynamics(identification::EstimatorOptions& options) {
-  options.dynamics = true;
+  options.lag = identification::EmgLag::equation_1;
   options.delay_prior_mean_s = 0.010;
   options.delay_prior_sd_s = 0.010;
 }

@@ -44,9 +44,20 @@ TEST(TorqueOptions, WithTheLagsOfTheActivationTheDelayIsWhatIsLeftBesideThem) {
   EXPECT_NEAR(torque_options(result, {}).delay_prior_mean_s, 0.060, 1e-12);
   result.study.identify.dynamics = true;
   const identification::TorqueOptions lags = torque_options(result, {});
-  EXPECT_TRUE(lags.dynamics);
+  EXPECT_EQ(lags.lag, identification::EmgLag::equation_1);
   EXPECT_NEAR(lags.delay_prior_mean_s, 0.010, 1e-12);
   EXPECT_NEAR(lags.delay_prior_sd_s, 0.010, 1e-12);
+}
+
+TEST(TorqueOptions, WhatTheDelayIsFollowsTheStudyAndElseTheRecording) {
+  StudyResult result = with_one_channel();
+  EXPECT_TRUE(torque_options(result, {}).choose_lag);
+  result.study.identify.lag = "shared";
+  EXPECT_FALSE(torque_options(result, {}).choose_lag);
+  EXPECT_EQ(torque_options(result, {}).lag, identification::EmgLag::shared);
+  result.study.identify.lag = "delay";
+  EXPECT_FALSE(torque_options(result, {}).choose_lag);
+  EXPECT_EQ(torque_options(result, {}).lag, identification::EmgLag::delay);
 }
 
 TEST(EstimatorData, AVmaxThatTheStudyDoesNotStateIsFree) {

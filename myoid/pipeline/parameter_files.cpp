@@ -77,6 +77,8 @@ ordered_json method_json(const IdentificationResult& method) {
   m["model_error"] = unless_paper(method.model_error);
   m["condition"] = unless_paper(method.condition);
   m["emg_delay_s"] = unless_paper(method.delay_s);
+  m["emg_lag"] = paper ? ordered_json(nullptr) : ordered_json(identification::name(method.lag));
+  m["shared_lag_gain"] = method.shared_lag_gain ? number_or_null(*method.shared_lag_gain) : nullptr;
   m["hardly_told_apart"] = method.collinear;
   m["estimates"] = ordered_json::array();
   for (const ParameterEstimate& e : method.estimates) m["estimates"].push_back(estimate_json(e));

@@ -201,7 +201,7 @@ void inform_forces(StudyResult& result) {
     if (method.method != "torque") continue;
     for (const identification::TrialData& trial : result.data.trials) {
       const identification::Prediction p =
-          identification::predict(result.data, trial, method.values, method.dynamics);
+          identification::predict(result.data, trial, method.values, method.lag);
       result.informed.push_back(
           identification::informed_forces(trial, p.activation, method.values.muscles));
     }
@@ -211,7 +211,9 @@ void inform_forces(StudyResult& result) {
 std::vector<identification::Fold> folds(const StudyResult& result, const Progress& progress) {
   identification::TorqueOptions options = torque_options(result, progress);
   for (const identification::IdentificationResult& method : result.methods) {
-    if (method.method == "torque") options.warm_start = method.solution;
+    if (method.method != "torque") continue;
+    options.warm_start = method.solution;
+    options.lag = method.lag;
   }
   const std::string& left_out = result.study.identify.folds;
   const identification::FoldKind kind = left_out == "condition"

@@ -179,10 +179,11 @@ struct IdentifySpec {
   bool profile = true;          ///< Profile likelihood, the third.
   std::string loss = "square";
   std::string eccentric = "automatic";
-  bool normalised = false;      ///< l_sh and v_max keep their ratio to l0.
-  bool dynamics = false;        ///< Envelope to activation by the lags of equation (1).
-  bool model_muscles = false;   ///< Pennation and passive force as the model has them; else none.
-  bool elastic_tendon = false;  ///< The model's tendon strain, quasi-static; else rigid.
+  bool normalised = false;        ///< l_sh and v_max keep their ratio to l0.
+  std::string lag = "automatic";  ///< What the EMG delay is: automatic, delay, shared.
+  bool dynamics = false;          ///< Envelope to activation by the lags of equation (1).
+  bool model_muscles = false;     ///< Pennation and passive force as the model has them; else none.
+  bool elastic_tendon = false;    ///< The model's tendon strain, quasi-static; else rigid.
   bool delay_per_channel = false;
   double angle_sd_rad = 0.0;  ///< Error of the joint angle and of its rate, propagated.
   double angle_rate_sd_radps = 0.0;

@@ -150,6 +150,7 @@ std::string study_json(const Study& study) {
                    {"loss", study.identify.loss},
                    {"eccentric", study.identify.eccentric},
                    {"normalised", study.identify.normalised},
+                   {"lag", study.identify.lag},
                    {"dynamics", study.identify.dynamics},
                    {"muscle_law", study.identify.model_muscles ? "model" : "paper"},
                    {"tendon", study.identify.elastic_tendon ? "elastic" : "rigid"},

@@ -100,6 +100,7 @@ std::vector<TrialPhases> study_phases(const StudyResult& result,
     options.passes = 2;
     options.intervals = {};
     options.predictions = false;
+    options.choose_lag = false;
     options.progress.report = nullptr;
     fit = identification::identify_torque(data, options);
   }
@@ -111,7 +112,7 @@ std::vector<TrialPhases> study_phases(const StudyResult& result,
                          .torque_nm = trial.torque_nm};
     if (worth_a_fit) {
       identification::Prediction prediction =
-          identification::predict(data, trial, fit.values, options.dynamics);
+          identification::predict(data, trial, fit.values, options.lag);
       signals.predicted_nm = std::move(prediction.torque_nm);
       signals.effort_nm =
           prediction.force_n.cwiseProduct(trial.moment_arm_m).cwiseAbs().rowwise().sum();

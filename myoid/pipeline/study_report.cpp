@@ -158,6 +158,17 @@ report::Report study_report(const StudyResult& result, const Provenance& provena
                     torque->emg_cv < 0.005 ? std::string("too small to be told from it, below 1 %")
                                            : fmt::format("{:.0f} %", 100.0 * torque->emg_cv),
                     1000.0 * torque->delay_s));
+    if (torque->shared_lag_gain) {
+      section.paragraphs.push_back(fmt::format(
+          "The muscles follow their EMG {} (-2 ln likelihood less by {:.0f}).",
+          torque->lag == identification::EmgLag::shared
+              ? "with the lags of excitation and activation, of which the delay is the mean, "
+                "rather "
+                "than with a delay that leaves the EMG's shape as it is"
+              : "with a delay that leaves its shape as it is, rather than with the lags of "
+                "excitation and activation",
+          std::abs(*torque->shared_lag_gain)));
+    }
     if (!torque->collinear.empty())
       section.paragraphs.push_back(
           fmt::format("Hardly told apart: {}.", fmt::join(torque->collinear, "; ")));

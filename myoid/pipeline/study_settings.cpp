@@ -252,6 +252,7 @@ IdentifySpec read_identify(TomlTable table) {
   identify.eccentric =
       table.choice("eccentric", "automatic", {"automatic", "product", "slope_ratio", "smooth"});
   identify.normalised = table.flag("normalised").value_or(identify.normalised);
+  identify.lag = table.choice("lag", "automatic", {"automatic", "delay", "shared"});
   identify.dynamics = table.flag("dynamics").value_or(identify.dynamics);
   identify.model_muscles = table.choice("muscle_law", "paper", {"paper", "model"}) == "model";
   identify.elastic_tendon = table.choice("tendon", "rigid", {"rigid", "elastic"}) == "elastic";
