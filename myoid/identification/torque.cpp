@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "myoid/identification/basins.h"
 #include "myoid/identification/estimates.h"
 #include "myoid/identification/estimator.h"
 #include "myoid/muscle/hill_muscle.h"
@@ -67,6 +68,28 @@ IdentificationResult finish(const Estimator& estimator,
   if (options.predictions) add_predictions(data, options, result);
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return result;
+}
+
+/// The best of the minima at which searches from many starts end, and the table of them all, at its
+/// weights.
+Estimator::Solution best_of_basins(const Estimator& estimator,
+                                   const Eigen::VectorXd& start,
+                                   BasinTable& table) {
+  constexpr double kLower = 1e-3;  // of the cost: the same minimum is found to less
+  Estimator::Solution best = estimator.solve(start);
+  for (bool again = true; again;) {
+    table = find_basins(estimator, best.weighting, estimator.options().multistart);
+    again = false;
+    for (const BasinRow& basin : table.basins) {
+      if (!(basin.cost < (1.0 - kLower) * best.search.cost)) break;
+      Estimator::Solution attempt = estimator.solve(basin.x);
+      if (!(attempt.misfit < best.misfit)) continue;
+      best = std::move(attempt);
+      again = true;
+      break;
+    }
+  }
+  return best;
 }
 
 }  // namespace
@@ -167,7 +190,13 @@ IdentificationResult identify_torque(const StudyData& data, const TorqueOptions&
   const Estimator estimator(data, options);
   Eigen::VectorXd start = estimator.model().parameters().start();
   if (options.warm_start.size() == start.size()) start = options.warm_start;
-  return finish(estimator, estimator.solve_from_all_starts(start), data, begin);
+  if (options.multistart < 2)
+    return finish(estimator, estimator.solve_from_all_starts(start), data, begin);
+  BasinTable table;
+  const Estimator::Solution best = best_of_basins(estimator, start, table);
+  IdentificationResult result = finish(estimator, best, data, begin);
+  result.basins.push_back(std::move(table));
+  return result;
 }
 
 IdentificationResult identify_torque_or_exact(const StudyData& data,
@@ -205,6 +234,8 @@ IdentificationResult identify_torque_or_exact(const StudyData& data,
     if (found) {
       IdentificationResult result = finish(estimator, *found, *study, begin);
       result.exact = true;
+      if (options.multistart > 1)
+        result.basins.push_back(find_basins(estimator, found->weighting, options.multistart));
       return result;
     }
   }
