@@ -37,11 +37,14 @@ struct Options {
   int bootstrap = 0;
   bool profile = false;
   std::string loss = "square";
-  int starts = 3;
+  std::string folds = "trial";
+  int starts = 0;  ///< 0: not given.
   double residual_hz = identification::EstimatorOptions{}.residual_cutoff_hz.value_or(0.0);
   std::vector<std::string> free_more;
   double motion_cutoff_hz = 0.0;
 };
+
+constexpr int kStartsToCompare = 3;
 
 bool is_free(const StudyData& data, bool (*about)(const identification::ParameterRule&)) {
   return std::any_of(data.rules.begin(), data.rules.end(),
@@ -55,6 +58,7 @@ void refuse_what_cannot_be(const Options& o, const pipeline::MuscleTable& table)
   if (o.loss != "square") asked.emplace_back("--loss");
   if (o.bootstrap > 0) asked.emplace_back("--bootstrap");
   if (o.profile) asked.emplace_back("--profile");
+  if (o.folds == "block") asked.emplace_back("--folds block");
   for (const std::string& name : o.free_more) asked.push_back("--free " + name);
   for (const identification::ParameterRule& rule : table.rules)
     asked.push_back(fmt::format("{}_fixed = false in {}", rule.parameter, o.muscles));
@@ -90,6 +94,7 @@ identification::EstimatorOptions estimator_options(const Options& o, const Conte
                  : o.loss == "cauchy" ? identification::Loss::cauchy
                                       : identification::Loss::square;
   options.intervals = {.bootstrap = o.bootstrap, .profile = o.profile, .seed = context.seed};
+  options.multistart = o.starts;
   options.progress = context.progress();
   return options;
 }
@@ -175,6 +180,29 @@ void free_what_is_free(const identification::IdentificationResult& result,
   if (found) identification::free_speeds(data, table.speed_may_be_free);
 }
 
+/// Trials or blocks predicted from the others.
+std::vector<identification::Fold> held_out(const Options& o,
+                                           const StudyData& data,
+                                           const identification::EstimatorOptions& options,
+                                           const identification::IdentificationResult& result) {
+  const identification::CrossValidationOptions how{.kind = o.folds == "block"
+                                                               ? identification::FoldKind::block
+                                                               : identification::FoldKind::trial};
+  identification::EstimatorOptions from_here = options;
+  if (o.method == "torque") {
+    from_here.warm_start = result.solution;
+    return identification::cross_validate(data, from_here, how);
+  }
+  std::vector<identification::Fold> folds;
+  for (std::size_t k = 0; k < data.muscles.size(); ++k) {
+    from_here.warm_start = result.solutions[k];
+    const auto more =
+        identification::cross_validate(identification::force_study(data, k), from_here, how);
+    folds.insert(folds.end(), more.begin(), more.end());
+  }
+  return folds;
+}
+
 }  // namespace
 
 void add_identify(CLI::App& app, Context& context) {
@@ -241,8 +269,17 @@ void add_identify(CLI::App& app, Context& context) {
   command.add_flag("--profile", o->profile, "Profile likelihood of every parameter");
   command.add_flag("--compare-solvers", o->compare,
                    "Gauss-Newton, Levenberg-Marquardt, simplex and annealing from the same starts");
-  command.add_option("--starts", o->starts, "Starts of --compare-solvers (default 3)")
-      ->check(CLI::Range(1, 100));
+  command
+      .add_option("--starts", o->starts,
+                  "Starts of the search: the given one and points spread about it, with a table of "
+                  "where they end (default 1; of --compare-solvers 3)")
+      ->check(CLI::Range(1, 1000));
+  command
+      .add_option("--folds", o->folds,
+                  "Methods force and torque, what is left out and predicted: trial, block (a fifth "
+                  "of every trial) or none")
+      ->check(CLI::IsMember({"trial", "block", "none"}))
+      ->capture_default_str();
   command.add_option("--out", o->out, "Folder for parameters.csv, parameters.json")->required();
   command.add_flag("--strict", context.strict, "Exit with 4 if a parameter is not identifiable");
   add_common_options(command, context);
@@ -275,27 +312,24 @@ void add_identify(CLI::App& app, Context& context) {
     identification::IdentificationResult result;
     std::vector<identification::Fold> folds;
     if (o->method == "paper") {
-      result = identification::identify_paper(data);
+      result = identification::identify_paper(data, {.multistart = o->starts});
     } else if (o->method == "force") {
       result = identification::identify_force(data, {.estimator = options,
                                                      .detect_exact = true,
                                                      .speed_may_be_free = table.speed_may_be_free});
       free_what_is_free(result, table, data);
-      for (std::size_t k = 0; !result.exact && k < data.muscles.size(); ++k) {
-        const auto more =
-            identification::cross_validate(identification::force_study(data, k), options);
-        folds.insert(folds.end(), more.begin(), more.end());
-      }
     } else {
       result = identification::identify_torque_or_exact(data, options, table.speed_may_be_free);
       free_what_is_free(result, table, data);
-      if (!result.exact) folds = identification::cross_validate(data, options);
     }
+    if (o->method != "paper" && o->folds != "none" && !result.exact)
+      folds = held_out(*o, data, options, result);
     std::vector<NamedContest> contests;
     if (o->compare) {
-      contests = solver_contests(
-          data, o->method, options,
-          {.starts = o->starts, .seed = context.seed, .progress = context.progress()});
+      contests = solver_contests(data, o->method, options,
+                                 {.starts = o->starts > 0 ? o->starts : kStartsToCompare,
+                                  .seed = context.seed,
+                                  .progress = context.progress()});
     }
     context.end_progress();
     Provenance provenance;
@@ -320,6 +354,10 @@ void add_identify(CLI::App& app, Context& context) {
                    o->method != "paper" && !result.exact && !table.speed_may_be_free.empty());
       print_fit(result, data, o->method == "torque");
       print_folds(folds, *o);
+      for (const identification::BasinTable& searches : result.basins) {
+        fmt::print("\nSearches, {}:\n", searches.fit);
+        print_basins(searches);
+      }
       for (const NamedContest& contest : contests) print_contest(contest);
       fmt::print("{}/parameters.csv\n", o->out);
     }

@@ -96,7 +96,7 @@ void print_basins(const identification::BasinTable& table) {
                basin.rival && i > 0 ? "  as good as the best: both are answers" : "");
   }
   if (table.basins.size() > kMost) fmt::print("  and {} more\n", table.basins.size() - kMost);
-  if (table.failed > 0) fmt::print("  {} starts ended at no finite cost\n", table.failed);
+  if (table.failed > 0) fmt::print("  {:<20}{:>12}\n", "no minimum", table.failed);
 }
 
 std::string solvers_csv(const std::vector<NamedContest>& contests) {

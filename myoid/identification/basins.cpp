@@ -1,5 +1,7 @@
 #include "myoid/identification/basins.h"
 
+#include "myoid/identification/paper_case.h"
+
 namespace myoid::identification {
 
 BasinTable find_basins(const math::LocalSearch& search,
@@ -20,6 +22,10 @@ BasinTable find_basins(const math::LocalSearch& search,
   table.failed = static_cast<int>(found.failed.size());
   constexpr double kRival = 2.0;  // a chi-square of 4, of which the cost is half
   for (const math::Basin& basin : found.basins) {
+    if (basin.converged == 0 && &basin != found.basins.data()) {
+      table.failed += static_cast<int>(basin.members.size());
+      continue;
+    }
     const double best = found.basins.front().cost;
     const double variance =
         plain_samples > 0 ? 2.0 * best / static_cast<double>(plain_samples) : 1.0;
@@ -28,8 +34,40 @@ BasinTable find_basins(const math::LocalSearch& search,
                             .starts = static_cast<int>(basin.members.size()),
                             .converged = static_cast<int>(basin.converged),
                             .distance = distance(basin.x, found.basins.front().x, box),
-                            .rival = basin.cost - best <= kRival * variance});
+                            .rival = basin.cost - best <= kRival * variance,
+                            .given = basin.members.front() == 0});
   }
+  return table;
+}
+
+BasinTable find_basins(const Estimator& estimator, const Weighting& weighting, int starts) {
+  BasinTable table = find_basins(
+      [&](const Eigen::VectorXd& start, Eigen::Index) {
+        const NormalSearchResult end = estimator.search(start, weighting, 1e-9, 1e-12);
+        return math::LocalMinimum{end.termination, end.x, end.cost, end.evaluations};
+      },
+      start_box(estimator), starts,
+      estimator.options().weights ? 0 : estimator.model().sample_count(),
+      {{}, estimator.options().progress.stop});
+  table.fit = "all muscles";
+  return table;
+}
+
+BasinTable find_paper_basins(const StudyData& data,
+                             std::size_t muscle,
+                             bool shortening,
+                             int starts) {
+  const PaperCase samples = paper_case(data, muscle, shortening);
+  const StartBox box = start_box(samples, data.muscles[muscle]);
+  BasinTable table;
+  if (box.given.size() > 0 && samples.obstacle().empty()) {
+    const auto search = [&](const Eigen::VectorXd& start, Eigen::Index) {
+      const math::LeastSquaresResult end = search_as_published(samples, start);
+      return math::LocalMinimum{end.termination, end.x, end.cost, end.evaluations};
+    };
+    table = find_basins(search, box, starts, static_cast<Eigen::Index>(samples.samples.size()));
+  }
+  table.fit = data.muscles[muscle].name + (shortening ? " shortening" : " lengthening");
   return table;
 }
 

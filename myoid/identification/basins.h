@@ -1,33 +1,12 @@
 #pragma once
 
-#include <string>
-#include <vector>
-
-#include <Eigen/Core>
-
 #include "myoid/core/progress.h"
+#include "myoid/identification/estimator.h"
+#include "myoid/identification/result.h"
 #include "myoid/identification/start_box.h"
 #include "myoid/math/multistart.h"
 
 namespace myoid::identification {
-
-/// Where searches from several starts ended together.
-struct BasinRow {
-  Eigen::VectorXd x;      ///< Of its lowest end, in the solver's scale.
-  double cost = 0.0;      ///< Of that end.
-  int starts = 0;         ///< That ended here ...
-  int converged = 0;      ///< ... and converged.
-  double distance = 0.0;  ///< From the best: root mean square over the unknowns, in spreads of what
-                          ///< is known beforehand (StartBox).
-  bool rival = false;     ///< As good as the best: a chi-square of at most 4 worse.
-};
-
-struct BasinTable {
-  std::string fit;  ///< "all muscles", or the muscle's name with, in method paper, the branch.
-  int starts = 0;
-  int failed = 0;                ///< Starts that ended at no finite cost.
-  std::vector<BasinRow> basins;  ///< By rising cost.
-};
 
 /// Searches from the given start and Sobol points of the box, in parallel. Two ends are one basin
 /// if no unknown differs by more than 0.04 spreads. `plain_samples` is the number of residuals of a
@@ -38,5 +17,17 @@ struct BasinTable {
                                      int starts,
                                      Eigen::Index plain_samples = 0,
                                      const Progress& progress = {});
+
+/// Of the estimator's own search, with these weights.
+[[nodiscard]] BasinTable find_basins(const Estimator& estimator,
+                                     const Weighting& weighting,
+                                     int starts);
+
+/// Of the source paper's plain Gauss-Newton steps on one muscle in one branch; no basins where all
+/// is held or it is not fitted (PaperCase::obstacle).
+[[nodiscard]] BasinTable find_paper_basins(const StudyData& data,
+                                           std::size_t muscle,
+                                           bool shortening,
+                                           int starts);
 
 }  // namespace myoid::identification

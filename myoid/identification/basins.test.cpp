@@ -5,6 +5,12 @@
 
 #include <gtest/gtest.h>
 
+#include "myoid/identification/force.h"
+#include "myoid/identification/paper.h"
+#include "myoid/identification/torque.h"
+
+#include "tests/support/elbow_study.h"
+
 namespace myoid::identification {
 namespace {
 
@@ -37,6 +43,8 @@ TEST(Basins, TellHowManyStartsEndedWhereAndHowFarFromTheBest) {
   EXPECT_EQ(other.cost, 13.0);
   EXPECT_EQ(other.distance, 2.0);  // 1 at a spread of 0.5
   EXPECT_FALSE(other.rival);
+  EXPECT_FALSE(best.given);
+  EXPECT_TRUE(other.given);
   // Sobol points are even: a twentieth of them each below -0.9 and nearly a half in either valley;
   // the given start is one beyond 0.8.
   EXPECT_NEAR(table.failed, 0.05 * 64, 1.0);
@@ -58,6 +66,79 @@ TEST(Basins, ARivalIsWithinAChiSquareOfFourOfTheBest) {
   // Without weights the residuals' own variance is 2 C / n: 0.2 of 100 samples.
   EXPECT_TRUE(rival(10.38, 100));
   EXPECT_FALSE(rival(10.42, 100));
+}
+
+TEST(Basins, AnEndWithoutConvergenceWhereNoOtherConvergedIsNoBasin) {
+  const auto search = [](const Eigen::VectorXd& x, Eigen::Index) {
+    math::LocalMinimum end = descend(x, 13.0);
+    if (x[0] > 0.0) end.termination = math::Termination::iteration_limit;
+    return end;
+  };
+  const BasinTable table = find_basins(search, kBox, 65);
+  ASSERT_EQ(table.basins.size(), 1U);
+  EXPECT_EQ(table.basins[0].starts + table.failed, 65);
+  EXPECT_GT(table.failed, 30);
+}
+
+/// Two trials of which one muscle's numbers follow; its start is `off` of the truth.
+test::ElbowStudy forces_from(double off) {
+  test::ElbowStudy study = test::elbow_study({.trials = 2, .seconds = 6.0, .delay_s = 0.0});
+  study.data.muscles[0].start = study.truth[0];
+  study.data.muscles[0].start.optimal_fiber_length_m *= off;
+  return study;
+}
+
+TEST(Basins, OfThePublishedMethodAndOfOursHaveTheTruthOfExactDataForTheirBest) {
+  const test::ElbowStudy study = forces_from(1.05);
+  const double l0 = study.truth[0].optimal_fiber_length_m;
+  const IdentificationResult paper =
+      identify_paper(study.data, {.multistart = 9, .muscles = {"BIC"}});
+  ASSERT_EQ(paper.basins.size(), 2U);
+  EXPECT_EQ(paper.basins[0].fit, "BIC shortening");
+  EXPECT_EQ(paper.basins[1].fit, "BIC lengthening");
+  EXPECT_EQ(paper.basins[0].starts, 9);
+  EXPECT_NEAR(paper.basins[0].basins[0].x[0], l0, 1e-6 * l0);
+  const IdentificationResult force = identify_force(
+      study.data, {.estimator = {.muscles = {"BIC"}, .multistart = 9}, .detect_exact = true});
+  ASSERT_EQ(force.basins.size(), 1U);
+  EXPECT_EQ(force.basins[0].fit, "BIC");
+  EXPECT_EQ(force.basins[0].starts, 9);
+  EXPECT_LT(force.basins[0].basins[0].cost, 1e-6);
+}
+
+TEST(Basins, AFitFromSeveralStartsEndsInTheLowest) {
+  // EMG of 8 Hz with some of 1.1 Hz, and a delay of 120 ms as the only unknown: one period earlier
+  // there is a second minimum, not quite as good, and the given start of 50 ms is nearer to it.
+  test::ElbowStudy study = test::elbow_study({.trials = 1, .seconds = 8.0, .delay_s = 0.0});
+  TrialData& trial = study.data.trials[0];
+  Eigen::MatrixXd emg(trial.activation.sample_count(), trial.activation.channel_count());
+  for (Eigen::Index i = 0; i < emg.rows(); ++i) {
+    const double t = trial.activation.time_s()[i];
+    emg.row(i).setConstant(0.4 + 0.2 * std::sin(16.0 * kPi * t) + 0.05 * std::sin(2.2 * kPi * t));
+  }
+  trial.activation = TimeSeries(trial.activation.time_s(), trial.activation.channels(), emg);
+  for (std::size_t k = 0; k < 4; ++k) {
+    study.data.muscles[k].start = study.truth[k];
+    study.data.muscles[k].fixed = {"max_isometric_force", "optimal_fiber_length",
+                                   "force_length_width",  "concentric_curvature",
+                                   "eccentric_plateau",   "eccentric_curvature_product"};
+  }
+  trial.torque_nm = predict(study.data, trial, study.truth, 0.12).torque_nm;
+  TorqueOptions options{.delay_prior_mean_s = 0.05,
+                        .delay_prior_sd_s = 0.04,
+                        .residual_cutoff_hz = std::nullopt,
+                        .model_error = false,
+                        .correct_attenuation = false,
+                        .starts = 1};
+  EXPECT_LT(identify_torque(study.data, options).delay_s, 0.01);
+  options.multistart = 16;
+  const IdentificationResult fit = identify_torque(study.data, options);
+  EXPECT_NEAR(fit.delay_s, 0.12, 1e-3);
+  ASSERT_EQ(fit.basins.size(), 1U);
+  ASSERT_GE(fit.basins[0].basins.size(), 2U);
+  EXPECT_FALSE(fit.basins[0].basins[0].given);
+  EXPECT_TRUE(fit.basins[0].basins[1].given);
+  EXPECT_FALSE(fit.basins[0].basins[1].rival);
 }
 
 }  // namespace

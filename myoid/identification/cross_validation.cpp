@@ -222,6 +222,7 @@ std::vector<Fold> cross_validate(const StudyData& data,
     training.trials = split.training;
     TorqueOptions once = options;
     once.starts = 1;
+    once.multistart = 0;
     once.passes =
         once.warm_start.size() > 0 ? 2 : once.passes;  // the noise hardly changes with one trial
     once.predictions = false;

@@ -90,6 +90,7 @@ IdentificationResult identify_force(const StudyData& data, const ForceOptions& o
       IdentificationResult fit = options.detect_exact ? identify_torque_or_exact(one, once, speed)
                                                       : identify_torque(one, once);
       values = fit.values;
+      all.solutions.push_back(fit.solution);
       all.muscles.back() = fit.muscles.front();
       all.exact = all.exact && fit.exact;
       all.r2 = std::min(all.r2, fit.r2);
@@ -113,6 +114,10 @@ IdentificationResult identify_force(const StudyData& data, const ForceOptions& o
         for (const std::string& text : from) to.push_back(text);
       };
       for (const PriorDistance& d : fit.prior_distances) all.prior_distances.push_back(d);
+      for (BasinTable& table : fit.basins) {
+        table.fit = data.muscles[k].name;
+        all.basins.push_back(std::move(table));
+      }
       take(all.collinear, fit.collinear);
       take(all.undetermined, fit.undetermined);
       take(all.diagnoses, fit.diagnoses);
@@ -129,6 +134,7 @@ IdentificationResult identify_force(const StudyData& data, const ForceOptions& o
         all.trials[t].force_fit_n.col(column) = fit.trials[t].force_fit_n.col(0);
       }
     } else {
+      all.solutions.emplace_back();
       for (std::size_t t = 0; t < data.trials.size(); ++t) {
         const Prediction p = predict(one, one.trials[t], {data.muscles[k].start},
                                      once.delay_s.value_or(once.delay_prior_mean_s));

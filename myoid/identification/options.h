@@ -82,6 +82,8 @@ struct EstimatorOptions {
   bool gauss_newton = false;       ///< Plain full steps instead of Levenberg-Marquardt.
   int passes = 4;                  ///< Of finding the noise and weighting by it.
   int starts = 3;                  ///< The given start and moved ones; the best is kept.
+  int multistart = 0;              ///< Above 1: instead of these, the given start and Sobol points
+                                   ///< (start_box.h), and IdentificationResult::basins.
   Eigen::VectorXd warm_start;  ///< IdentificationResult::solution of a kindred fit, to begin there;
                                ///< empty: the muscles' start.
   bool from_mvc = true;        ///< For the verdicts.

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
+#include "myoid/identification/basins.h"
 #include "myoid/identification/identifiability.h"
 #include "myoid/identification/paper_case.h"
 #include "myoid/identification/score.h"
@@ -58,31 +59,12 @@ std::optional<CaseShape> fit_case(const StudyData& data,
 
   math::LeastSquaresResult fit;
   fit.x = start;
-  std::string failure;
-  if (n < 10 * p) {
-    failure = fmt::format("only {} samples in {}", n, shortening ? "shortening" : "lengthening");
-  } else if (!(samples.largest_force_n() > 0.0)) {
-    failure = "force sharing assigned no force to this muscle here";
-  } else {
-    const math::LeastSquaresProblem problem = samples.problem();
-    try {
-      fit = math::minimize(problem, start,
-                           {.method = math::LeastSquaresMethod::gauss_newton,
-                            .max_iterations = options.max_iterations,
-                            .step_tolerance = 1e-10,
-                            .gradient_tolerance = 1e-13});
-      if (fit.termination != math::Termination::converged) failure = fit.message;
-    } catch (const InvalidInput& error) {
-      failure = error.what();
-    }
+  std::string failure = samples.obstacle();
+  if (failure.empty()) {
+    fit = search_as_published(samples, start);
+    if (fit.termination != math::Termination::converged) failure = fit.message;
   }
   result.iterations += fit.iterations;
-  // l_sh enters squared: its sign means nothing.
-  if (width >= 0) fit.x[width] = std::abs(fit.x[width]);
-  for (Eigen::Index j = 0; j < p; ++j) {
-    if (!(std::abs(fit.x[j]) <= 1e3 * std::abs(start[j])))
-      failure = "plain Gauss-Newton steps diverged";
-  }
   if (!failure.empty())
     result.message +=
         fmt::format("{}, {}: {}. ", setup.name, shortening ? "shortening" : "lengthening", failure);
@@ -213,6 +195,23 @@ void compare_branches(const std::string& muscle,
   }
 }
 
+/// The table, and a word where the given start missed the lowest minimum.
+void add_basins(const StudyData& data,
+                std::size_t muscle,
+                bool shortening,
+                const PaperOptions& options,
+                IdentificationResult& result) {
+  BasinTable table = find_paper_basins(data, muscle, shortening, options.multistart);
+  if (table.basins.empty()) return;
+  const BasinRow& best = table.basins.front();
+  if (!best.given && best.converged > 0)
+    result.warnings.push_back(fmt::format(
+        "{}: {} of {} starts end at a lower sum of squares than the given one; its numbers are "
+        "those of the given start, as published",
+        table.fit, best.starts, table.starts));
+  result.basins.push_back(std::move(table));
+}
+
 }  // namespace
 
 IdentificationResult identify_paper(const StudyData& data, const PaperOptions& options) {
@@ -228,6 +227,9 @@ IdentificationResult identify_paper(const StudyData& data, const PaperOptions& o
       continue;
     const auto shortening = fit_case(data, k, true, options, result);
     const auto lengthening = fit_case(data, k, false, options, result);
+    if (options.multistart > 1) {
+      for (const bool branch : {true, false}) add_basins(data, k, branch, options, result);
+    }
     if (shortening && lengthening)
       compare_branches(data.muscles[k].name, *shortening, *lengthening, result);
   }

@@ -6,7 +6,8 @@
 namespace myoid::identification {
 
 struct PaperOptions {
-  int max_iterations = 100;
+  int multistart = 0;  ///< Above 1: where the search ends from as many starts (start_box.h), in
+                       ///< IdentificationResult::basins. The estimates are the given start's.
   std::vector<std::string> muscles;  ///< Empty: all.
   bool shared_forces =
       false;  ///< The forces are an optimizer's: no verdict is then better than `weak`.

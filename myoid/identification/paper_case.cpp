@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include <fmt/format.h>
@@ -90,6 +91,14 @@ double PaperCase::largest_force_n() const {
   return largest;
 }
 
+std::string PaperCase::obstacle() const {
+  if (samples.size() < 10 * unknowns.size())
+    return fmt::format("only {} samples in {}", samples.size(),
+                       shortening ? "shortening" : "lengthening");
+  if (!(largest_force_n() > 0.0)) return "force sharing assigned no force to this muscle here";
+  return {};
+}
+
 math::LeastSquaresProblem PaperCase::problem() const {
   math::LeastSquaresProblem problem;
   problem.residual_count = static_cast<Eigen::Index>(samples.size());
@@ -110,6 +119,35 @@ math::LeastSquaresProblem PaperCase::problem() const {
     }
   };
   return problem;
+}
+
+math::LeastSquaresResult search_as_published(const PaperCase& samples,
+                                             const Eigen::VectorXd& start,
+                                             const Progress& progress) {
+  constexpr double kAway = 1e3;
+  math::LeastSquaresResult found;
+  try {
+    found = math::minimize(samples.problem(), start,
+                           {.method = math::LeastSquaresMethod::gauss_newton,
+                            .max_iterations = 100,
+                            .step_tolerance = 1e-10,
+                            .gradient_tolerance = 1e-13,
+                            .progress = progress});
+  } catch (const InvalidInput& error) {
+    found.x = start;
+    found.cost = std::numeric_limits<double>::infinity();
+    found.termination = math::Termination::not_finite;
+    found.message = error.what();
+    return found;
+  }
+  for (Eigen::Index j = 0; j < start.size(); ++j) {
+    if (samples.unknowns[static_cast<std::size_t>(j)].field->name == "force_length_width")
+      found.x[j] = std::abs(found.x[j]);
+    if (std::abs(found.x[j]) <= kAway * std::abs(start[j])) continue;
+    found.termination = math::Termination::no_descent;
+    found.message = "plain Gauss-Newton steps diverged";
+  }
+  return found;
 }
 
 }  // namespace myoid::identification

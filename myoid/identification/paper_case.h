@@ -31,6 +31,9 @@ struct PaperCase {
 
   [[nodiscard]] Eigen::VectorXd start_vector() const;
   [[nodiscard]] double largest_force_n() const;
+  /// Why it is not fitted, in a few words: fewer than ten samples per unknown, or no force at all.
+  /// Empty: it is.
+  [[nodiscard]] std::string obstacle() const;
   /// r_i = F_m(x) - F_i, without bounds; it refers to this case, which has to outlive it.
   [[nodiscard]] math::LeastSquaresProblem problem() const;
 };
@@ -39,5 +42,13 @@ struct PaperCase {
 /// what MuscleSetup::fixed names or the last of `StudyData::rules` about it frees not; a rule's
 /// value is where it starts. Throws InvalidInput if a trial has no forces.
 [[nodiscard]] PaperCase paper_case(const StudyData& data, std::size_t muscle, bool shortening);
+
+/// Plain Gauss-Newton steps, as published. Steps that run away, to where an unknown is a thousand
+/// times what it was at the start, are `no_descent`, whatever is flat out there; the width, which
+/// enters squared, comes back without its sign. A start where the force is not finite is
+/// `not_finite`. Throws Interrupted.
+[[nodiscard]] math::LeastSquaresResult search_as_published(const PaperCase& samples,
+                                                           const Eigen::VectorXd& start,
+                                                           const Progress& progress = {});
 
 }  // namespace myoid::identification

@@ -1,5 +1,6 @@
 #include "myoid/identification/paper_case.h"
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -48,6 +49,39 @@ TEST(PaperCase, EverySampleIsInOneBranchOrCountedAsDropped) {
   }
   EXPECT_GT(dropped, 0);
   EXPECT_EQ(samples + static_cast<std::size_t>(dropped), 2u * 401u);
+}
+
+TEST(PaperCase, StepsThatRunAwayAreNoMinimumHoweverFlatItIsOutThere) {
+  test::ElbowStudy study = test::elbow_study({.trials = 1, .seconds = 6.0, .delay_s = 0.0});
+  StudyData& data = study.data;
+  data.muscles[0].start = study.truth[0];
+  data.muscles[0].start.optimal_fiber_length_m *= 1.02;
+  const PaperCase samples = paper_case(data, 0, true);
+  const Eigen::VectorXd start = samples.start_vector();
+  const auto good = search_as_published(samples, start);
+  EXPECT_EQ(good.termination, math::Termination::converged) << good.message;
+  // From far outside of the fibers' lengths the force is zero, and so is its slope.
+  Eigen::VectorXd far = start;
+  far[0] *= 4.0;
+  const auto away = search_as_published(samples, far);
+  EXPECT_NE(away.termination, math::Termination::converged);
+  // The width enters squared.
+  Eigen::VectorXd mirrored = start;
+  mirrored[1] *= -1.0;
+  EXPECT_NEAR(search_as_published(samples, mirrored).x[1], good.x[1], 1e-6 * good.x[1]);
+  mirrored[0] = std::nan("");
+  EXPECT_EQ(search_as_published(samples, mirrored).termination, math::Termination::not_finite);
+}
+
+TEST(PaperCase, TenSamplesPerUnknownAndAForceAreNeeded) {
+  StudyData data = test::elbow_study({.trials = 1, .seconds = 4.0, .delay_s = 0.0}).data;
+  EXPECT_EQ(paper_case(data, 0, true).obstacle(), "");
+  StudyData idle = data;
+  idle.trials[0].force_n.col(0).setZero();
+  EXPECT_NE(paper_case(idle, 0, true).obstacle().find("no force"), std::string::npos);
+  data.trials[0].velocity_mps.col(0).setConstant(0.1);
+  data.trials[0].velocity_mps.col(0).head(29).setConstant(-0.1);
+  EXPECT_EQ(paper_case(data, 0, true).obstacle(), "only 29 samples in shortening");
 }
 
 }  // namespace

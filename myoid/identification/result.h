@@ -77,6 +77,28 @@ struct TrialFit {
   Score band;
 };
 
+/// Where searches from several starts ended together.
+struct BasinRow {
+  Eigen::VectorXd x;      ///< Of its lowest end, in the solver's scale.
+  double cost = 0.0;      ///< Of that end.
+  int starts = 0;         ///< That ended here ...
+  int converged = 0;      ///< ... and converged.
+  double distance = 0.0;  ///< From the best: root mean square over the unknowns, in spreads of what
+                          ///< is known beforehand (start_box.h).
+  bool rival = false;     ///< As good as the best: a chi-square of at most 4 worse.
+  bool given = false;     ///< The given start ended here.
+};
+
+/// What the fit's search finds from the given start and from points spread about it.
+struct BasinTable {
+  std::string fit;  ///< "all muscles", a muscle's name, or with its branch: "BIC shortening".
+  int starts = 0;
+  /// Starts from which the search did not converge, nor end where another one did, or ended at no
+  /// finite cost. The best end is a basin in any case.
+  int failed = 0;
+  std::vector<BasinRow> basins;  ///< By rising cost.
+};
+
 /// Whether the two branches of method `paper` agree on what they share.
 struct BranchTest {
   std::string muscle;
@@ -119,7 +141,8 @@ struct IdentificationResult {
   /// chosen by that.
   std::optional<double> shared_lag_gain;
   double delay_s = 0.0;      ///< Of the first channel.
-  Eigen::VectorXd solution;  ///< In the solver's scale (force, torque).
+  Eigen::VectorXd solution;  ///< In the solver's scale (torque).
+  std::vector<Eigen::VectorXd> solutions;  ///< The same of each muscle's fit (force); empty: held.
   Eigen::MatrixXd
       covariance;  ///< Of the free parameters in solver's scale (logarithms where logarithmic).
   std::vector<std::string> free_parameters;  ///< Its rows.
@@ -129,6 +152,7 @@ struct IdentificationResult {
   std::vector<std::string> diagnoses;          ///< What a pattern of values is the signature of.
   std::vector<std::string> warnings;
   std::vector<BranchTest> branch_tests;  ///< Method paper.
+  std::vector<BasinTable> basins;        ///< Of each fit, where several starts were asked for.
   int bootstrap_replicates = 0;          ///< Converged ones.
   int bootstrap_failed = 0;
   bool exact = false;  ///< The data are free of noise: fitted as they are, without priors.

@@ -138,14 +138,7 @@ SolverContest compare_paper_solvers(const StudyData& data,
   const Progress stop{{}, options.progress.stop};
   return contest(
       {.gauss_newton =
-           [&](const Eigen::VectorXd& x) {
-             return end_of(math::minimize(problem, x,
-                                          {.method = math::LeastSquaresMethod::gauss_newton,
-                                           .max_iterations = 100,
-                                           .step_tolerance = 1e-10,
-                                           .gradient_tolerance = 1e-13,
-                                           .progress = stop}));
-           },
+           [&](const Eigen::VectorXd& x) { return end_of(search_as_published(samples, x, stop)); },
        .levenberg_marquardt =
            [&](const Eigen::VectorXd& x) {
              return end_of(math::minimize(problem, x, {.progress = stop}));

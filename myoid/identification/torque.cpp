@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "myoid/identification/basins.h"
 #include "myoid/identification/estimates.h"
 #include "myoid/identification/estimator.h"
 #include "myoid/muscle/hill_muscle.h"
@@ -76,6 +77,37 @@ double misfit(const Estimator& estimator, const Estimator::Solution& solution, d
   const Eigen::ArrayXd sd = solution.weighting.sd_nm.array();
   const Eigen::ArrayXd residual = (at.predicted - estimator.model().measured()).array();
   return share * ((residual / sd).square() + 2.0 * sd.log()).sum();
+}
+
+/// The best of the minima at which searches from many starts end, and the table of them all, at its
+/// weights.
+Estimator::Solution best_of_basins(const Estimator& estimator,
+                                   const Eigen::VectorXd& start,
+                                   BasinTable& table) {
+  constexpr double kLower = 1e-3;  // of the cost: the same minimum is found to less
+  Estimator::Solution best = estimator.solve(start);
+  for (bool again = true; again;) {
+    table = find_basins(estimator, best.weighting, estimator.options().multistart);
+    again = false;
+    for (const BasinRow& basin : table.basins) {
+      if (!(basin.cost < (1.0 - kLower) * best.search.cost)) break;
+      Estimator::Solution attempt = estimator.solve(basin.x);
+      if (!(attempt.misfit < best.misfit)) continue;
+      best = std::move(attempt);
+      again = true;
+      break;
+    }
+  }
+  return best;
+}
+
+/// The best minimum from all starts that the options ask for; with `multistart` also the table.
+Estimator::Solution best_solution(const Estimator& estimator,
+                                  const Eigen::VectorXd& start,
+                                  std::vector<BasinTable>& tables) {
+  tables.clear();
+  if (estimator.options().multistart < 2) return estimator.solve_from_all_starts(start);
+  return best_of_basins(estimator, start, tables.emplace_back());
 }
 
 }  // namespace
@@ -195,21 +227,29 @@ IdentificationResult identify_torque(const StudyData& data, const TorqueOptions&
   const Estimator estimator(data, options);
   Eigen::VectorXd start = estimator.model().parameters().start();
   if (options.warm_start.size() == start.size()) start = options.warm_start;
-  const Estimator::Solution by_delay = estimator.solve_from_all_starts(start);
+  std::vector<BasinTable> tables;
+  const Estimator::Solution by_delay = best_solution(estimator, start, tables);
   const double delay_s =
       estimator.model().parameters().values(by_delay.search.x).channels.front()[kDelay];
-  if (!options.choose_lag || options.lag != EmgLag::delay || !options.weights || delay_s < 1e-3)
-    return finish(estimator, by_delay, data, begin);
-
+  const bool choose = options.choose_lag && options.lag == EmgLag::delay && options.weights;
+  if (!choose || delay_s < 1e-3) {
+    IdentificationResult result = finish(estimator, by_delay, data, begin);
+    result.basins = std::move(tables);
+    return result;
+  }
   TorqueOptions with_lags = options;
   with_lags.lag = EmgLag::shared;
   const Estimator lagging(data, with_lags);
-  const Estimator::Solution by_lags = lagging.solve(by_delay.search.x);
+  std::vector<BasinTable> tables_of_lags;
+  const Estimator::Solution by_lags =
+      options.multistart < 2 ? lagging.solve(by_delay.search.x)
+                             : best_solution(lagging, by_delay.search.x, tables_of_lags);
   const double share = by_delay.weighting.share;
   const double gain = misfit(estimator, by_delay, share) - misfit(lagging, by_lags, share);
   const bool lags = gain > 0.0 && by_lags.search.termination == math::Termination::converged;
   IdentificationResult result =
       lags ? finish(lagging, by_lags, data, begin) : finish(estimator, by_delay, data, begin);
+  result.basins = std::move(lags ? tables_of_lags : tables);
   result.shared_lag_gain = gain;
   return result;
 }
@@ -233,6 +273,11 @@ IdentificationResult identify_torque_or_exact(const StudyData& data,
     const auto exact = [&](const Estimator::Solution& s) {
       return 2.0 * s.search.cost <= 1e-12 * size;
     };
+    // A search that settles with a hundredth of the data unexplained is at no exact minimum.
+    constexpr double kNear = 1e-4;
+    Weighting as_they_are;
+    as_they_are.sd_nm = Eigen::VectorXd::Ones(estimator.model().sample_count());
+    as_they_are.noise.resize(static_cast<std::size_t>(estimator.model().joint_count()));
     const Eigen::VectorXd start = estimator.model().parameters().start();
     std::optional<Estimator::Solution> found;
     for (int s = 0; s < 12 && !found; ++s) {
@@ -243,12 +288,16 @@ IdentificationResult identify_torque_or_exact(const StudyData& data,
         if (f.field->scope == Scope::channel && f.field->field == kDelay)
           x[static_cast<Eigen::Index>(j)] = f.lower + (f.upper - f.lower) * 0.2 * (s % 4);
       }
-      Estimator::Solution attempt = estimator.solve(x);
+      const NormalSearchResult look = estimator.search(x, as_they_are, 1e-6, 1e-6);
+      if (2.0 * look.cost > kNear * size) continue;
+      Estimator::Solution attempt = estimator.solve(look.x);
       if (exact(attempt)) found = std::move(attempt);
     }
     if (found) {
       IdentificationResult result = finish(estimator, *found, *study, begin);
       result.exact = true;
+      if (options.multistart > 1)
+        result.basins.push_back(find_basins(estimator, found->weighting, options.multistart));
       return result;
     }
   }

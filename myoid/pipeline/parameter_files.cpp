@@ -57,6 +57,22 @@ ordered_json estimate_json(const ParameterEstimate& e) {
   return json;
 }
 
+ordered_json basins_json(const identification::BasinTable& table) {
+  ordered_json json = {{"fit", table.fit},
+                       {"starts", table.starts},
+                       {"starts_without_a_minimum", table.failed},
+                       {"basins", ordered_json::array()}};
+  for (const identification::BasinRow& basin : table.basins) {
+    json["basins"].push_back({{"cost", number_or_null(basin.cost)},
+                              {"starts", basin.starts},
+                              {"converged", basin.converged},
+                              {"distance", number_or_null(basin.distance)},
+                              {"as_good_as_the_best", basin.rival},
+                              {"of_the_given_start", basin.given}});
+  }
+  return json;
+}
+
 ordered_json method_json(const IdentificationResult& method) {
   ordered_json m;
   m["method"] = method.method;
@@ -102,6 +118,9 @@ ordered_json method_json(const IdentificationResult& method) {
                                  {"wald", number_or_null(test.wald)},
                                  {"p_value", number_or_null(test.p_value)}});
   }
+  m["searches"] = ordered_json::array();
+  for (const identification::BasinTable& table : method.basins)
+    m["searches"].push_back(basins_json(table));
   m["covariance"] = {{"parameters", method.free_parameters},
                      {"scale", "natural logarithm of F_max, V_sh, P and gains; SI otherwise"}};
   ordered_json rows = ordered_json::array();

@@ -64,5 +64,34 @@ TEST(ParametersJson, MethodPaperHasNoNoiseAndNoDelay) {
             0.24);
 }
 
+TEST(ParametersJson, SearchesTellWhereTheirStartsEnded) {
+  identification::IdentificationResult torque = one_estimate();
+  const auto none = nlohmann::json::parse(parameters_json({torque}, {}, {}));
+  EXPECT_TRUE(none.at("methods").at(0).at("searches").empty());
+  torque.basins = {{.fit = "all muscles",
+                    .starts = 12,
+                    .failed = 2,
+                    .basins = {{.cost = 4.5, .starts = 9, .converged = 8, .rival = true},
+                               {.cost = 5.5,
+                                .starts = 1,
+                                .converged = 1,
+                                .distance = 1.25,
+                                .rival = true,
+                                .given = true}}}};
+  const auto json = nlohmann::json::parse(parameters_json({torque}, {}, {}));
+  const auto& searches = json.at("methods").at(0).at("searches").at(0);
+  EXPECT_EQ(searches.at("fit"), "all muscles");
+  EXPECT_EQ(searches.at("starts"), 12);
+  EXPECT_EQ(searches.at("starts_without_a_minimum"), 2);
+  ASSERT_EQ(searches.at("basins").size(), 2U);
+  const auto& second = searches.at("basins").at(1);
+  EXPECT_EQ(second.at("cost"), 5.5);
+  EXPECT_EQ(second.at("starts"), 1);
+  EXPECT_EQ(second.at("distance"), 1.25);
+  EXPECT_EQ(second.at("as_good_as_the_best"), true);
+  EXPECT_EQ(second.at("of_the_given_start"), true);
+  EXPECT_EQ(searches.at("basins").at(0).at("converged"), 8);
+}
+
 }  // namespace
 }  // namespace myoid::pipeline

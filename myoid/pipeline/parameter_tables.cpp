@@ -206,4 +206,40 @@ std::vector<Table> paper_tables(const IdentificationResult& method) {
   return tables;
 }
 
+std::vector<Table> basin_tables(const IdentificationResult& method) {
+  if (method.basins.empty()) return {};
+  Table table{"basins_" + method.method,
+              fmt::format("Where the searches from {} starts ended (method {})",
+                          method.basins.front().starts, method.method),
+              "The given start and points spread evenly over two standard deviations of what is "
+              "known beforehand. Distance: from the best minimum, root mean square over the "
+              "unknowns, in those standard deviations. A second minimum as good as the best is as "
+              "good an answer.",
+              {"fit", "cost", "starts", "of them converged", "distance", "the given start"},
+              {}};
+  for (const identification::BasinTable& searches : method.basins) {
+    for (const identification::BasinRow& basin : searches.basins) {
+      const bool other_answer = basin.rival && &basin != searches.basins.data();
+      table.rows.push_back({{searches.fit},
+                            {fmt::format("{:.6g}", basin.cost)},
+                            {fmt::format("{}", basin.starts)},
+                            {fmt::format("{}", basin.converged),
+                             basin.converged < basin.starts ? Badge::weak : Badge::none,
+                             {}},
+                            other_answer ? Cell{fmt::format("{:.2g}", basin.distance), Badge::weak,
+                                                "as good as the best"}
+                                         : Cell{fmt::format("{:.2g}", basin.distance)},
+                            {basin.given ? "ends here" : ""}});
+    }
+    if (searches.failed > 0)
+      table.rows.push_back({{searches.fit},
+                            {"none found", Badge::weak, {}},
+                            {fmt::format("{}", searches.failed)},
+                            {"0"},
+                            {"–"},
+                            {""}});
+  }
+  return {table};
+}
+
 }  // namespace myoid::pipeline

@@ -35,4 +35,9 @@ struct EstimateLine {
 [[nodiscard]] std::vector<report::Table> paper_tables(
     const identification::IdentificationResult& method);
 
+/// Where searches from several starts ended, of every fit for which they were asked; no table
+/// where none were.
+[[nodiscard]] std::vector<report::Table> basin_tables(
+    const identification::IdentificationResult& method);
+
 }  // namespace myoid::pipeline

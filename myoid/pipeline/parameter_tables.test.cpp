@@ -92,5 +92,34 @@ TEST(PaperTables, AnIntervalBeyondAllMeaningIsSaidToBeNone) {
   EXPECT_EQ(tables[0].rows[0][5].text, "not determined");
 }
 
+TEST(BasinTables, HaveARowForEachMinimumAndOneForStartsThatFoundNone) {
+  IdentificationResult method = two_muscles();
+  EXPECT_TRUE(basin_tables(method).empty());
+  method.basins = {{.fit = "BIC",
+                    .starts = 12,
+                    .failed = 2,
+                    .basins = {{.cost = 4.5, .starts = 8, .converged = 7, .rival = true},
+                               {.cost = 5.5,
+                                .starts = 2,
+                                .converged = 2,
+                                .distance = 1.25,
+                                .rival = true,
+                                .given = true}}},
+                   {.fit = "TRI", .starts = 12, .basins = {{.cost = 1.0, .starts = 12}}}};
+  const std::vector<report::Table> tables = basin_tables(method);
+  ASSERT_EQ(tables.size(), 1U);
+  const auto& rows = tables[0].rows;
+  ASSERT_EQ(rows.size(), 4U);
+  for (const auto& row : rows) EXPECT_EQ(row.size(), tables[0].columns.size());
+  EXPECT_EQ(rows[0][3].badge, report::Badge::weak);
+  EXPECT_EQ(rows[0][4].hint, "") << "the best is no rival of its own";
+  EXPECT_EQ(rows[1][1].text, "5.5");
+  EXPECT_EQ(rows[1][4].text, "1.2");
+  EXPECT_EQ(rows[1][4].hint, "as good as the best");
+  EXPECT_EQ(rows[1][5].text, "ends here");
+  EXPECT_EQ(rows[2][2].text, "2");
+  EXPECT_EQ(rows[3][0].text, "TRI");
+}
+
 }  // namespace
 }  // namespace myoid::pipeline

@@ -182,16 +182,20 @@ void identify_parameters(const Study& study, const Progress& progress, StudyResu
   }
   for (const std::string& method : study.identify.methods) {
     if (method == "paper") {
-      result.methods.push_back(identification::identify_paper(
-          result.data, {.muscles = study.identify.muscles, .shared_forces = true}));
+      result.methods.push_back(
+          identification::identify_paper(result.data, {.multistart = study.identify.starts,
+                                                       .muscles = study.identify.muscles,
+                                                       .shared_forces = true}));
     } else if (method == "force") {
       identification::EstimatorOptions estimator = torque_options(result, progress);
       estimator.intervals.profile = false;
+      estimator.multistart = study.identify.starts;
       result.methods.push_back(identification::identify_force(
           result.data, {.estimator = std::move(estimator), .shared_forces = true}));
     } else {
-      result.methods.push_back(
-          identification::identify_torque(result.data, torque_options(result, progress)));
+      identification::TorqueOptions estimator = torque_options(result, progress);
+      estimator.multistart = study.identify.starts;
+      result.methods.push_back(identification::identify_torque(result.data, estimator));
     }
   }
 }

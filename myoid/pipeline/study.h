@@ -177,6 +177,7 @@ struct IdentifySpec {
   std::string folds = "trial";  ///< What cross-validation leaves out: trial, condition, block.
   int bootstrap = 100;          ///< Replicates for the second route to intervals; 0: none.
   bool profile = true;          ///< Profile likelihood, the third.
+  int starts = 1;               ///< Above 1: Sobol points too, and the table of basins.
   std::string loss = "square";
   std::string eccentric = "automatic";
   bool normalised = false;        ///< l_sh and v_max keep their ratio to l0.

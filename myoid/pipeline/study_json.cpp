@@ -144,6 +144,7 @@ std::string study_json(const Study& study) {
                    {"max_rate_hz", study.identify.max_rate_hz},
                    {"cross_validate", study.identify.cross_validate},
                    {"next_movements", study.identify.next_movements},
+                   {"starts", study.identify.starts},
                    {"folds", study.identify.folds},
                    {"bootstrap", study.identify.bootstrap},
                    {"profile", study.identify.profile},

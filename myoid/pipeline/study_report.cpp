@@ -173,6 +173,7 @@ report::Report study_report(const StudyResult& result, const Provenance& provena
       section.paragraphs.push_back(
           fmt::format("Hardly told apart: {}.", fmt::join(torque->collinear, "; ")));
     section.tables = torque_tables(result, *torque);
+    for (Table& table : basin_tables(*torque)) section.tables.push_back(std::move(table));
     for (std::size_t m = 0; m < result.data.muscles.size(); ++m)
       section.figures.push_back(muscle_curves(result, *torque, m));
     report.sections.push_back(std::move(section));
@@ -188,6 +189,7 @@ report::Report study_report(const StudyResult& result, const Provenance& provena
         "person's own "
         "strength, so that its numbers often leave physiology; the verdicts say where.");
     section.tables = paper_tables(*paper);
+    for (Table& table : basin_tables(*paper)) section.tables.push_back(std::move(table));
     report.sections.push_back(std::move(section));
   }
   Section forces{"forces", "Muscle forces", {}, {}, {}, {}};

@@ -240,14 +240,17 @@ IdentifySpec read_identify(TomlTable table) {
   identify.priors = table.flag("priors").value_or(identify.priors);
   identify.gain = table.flag("gain").value_or(identify.gain);
   identify.cross_validate = table.flag("cross_validate").value_or(identify.cross_validate);
-  identify.next_movements = static_cast<int>(
-      table.number_within("next_movements", identify.next_movements, 0.0, 50.0, ""));
+  const auto count = [&](std::string_view key, int otherwise, int least, int most) {
+    const double value = table.number_within(key, otherwise, least, most, "");
+    if (value != std::floor(value))
+      table.fail(key, fmt::format("found {}, expected a whole number", value));
+    return static_cast<int>(value);
+  };
+  identify.next_movements = count("next_movements", identify.next_movements, 0, 50);
   identify.folds = table.choice("folds", "trial", {"trial", "condition", "block"});
-  const double replicates = table.number("bootstrap").value_or(identify.bootstrap);
-  if (!(replicates >= 0.0 && replicates <= 100000.0))
-    table.fail("bootstrap", fmt::format("found {}, expected 0 to 100000 replicates", replicates));
-  identify.bootstrap = static_cast<int>(replicates);
+  identify.bootstrap = count("bootstrap", identify.bootstrap, 0, 100000);
   identify.profile = table.flag("profile").value_or(identify.profile);
+  identify.starts = count("starts", identify.starts, 1, 1000);
   identify.loss = table.choice("loss", "square", {"square", "huber", "cauchy"});
   identify.eccentric =
       table.choice("eccentric", "automatic", {"automatic", "product", "slope_ratio", "smooth"});
