@@ -69,7 +69,7 @@ struct Walk {
       input.markers->names = {"sternum", "lost"};
       input.markers->positions_m = Eigen::MatrixXd::Zero(n, 6);
       input.markers->positions_m.col(up) = height.array() + 1.3;
-      input.markers->positions_m(7, 4) = std::numeric_limits<double>::quiet_NaN();
+      input.markers->positions_m(170, 4) = std::numeric_limits<double>::quiet_NaN();
     } else {
       input.motion = TimeSeries(t, {{"height", Unit::meter}}, height);
     }
