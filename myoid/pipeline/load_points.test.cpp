@@ -203,20 +203,22 @@ TEST(MisplacedLoads, AreLookedForAtTheLoadsOwnTime) {
 }
 
 TEST(MisplacedLoads, ABodyHasThePointsOfItsNeighbors) {
-  // Toes in front of the right foot: the force is on either, the markers on the other.
-  for (const bool force_on_toes : {false, true}) {
+  // The toes are a body of their own, and one marker of the foot is 0.4 m up: the force is on the
+  // body that has this one, the marker beside it on the other.
+  for (const bool on_toes : {false, true}) {
     Walk walk;
+    model::Marker& heel = walk.model.markers[0];
+    model::Marker& toe = walk.model.markers[1];
+    (on_toes ? toe : heel).p_BM += Vec3(0.0, 0.4, 0.0);
+    walk.with_markers();
     walk.model.bodies.push_back({.name = "toes_r", .mass_kg = 0.2});
     model::Joint joint{.name = "mtp", .class_name = "WeldJoint", .parent = 2, .child = 4};
     joint.X_PF.p = Vec3(0.15, 0.0, 0.0);
     walk.model.joints.push_back(joint);
-    walk.with_markers();
-    for (model::Marker& marker : walk.model.markers) {
-      if (marker.body == 2 && !force_on_toes) marker.body = 4;
-    }
+    toe.body = 4;
     walk.model = model::finalize(std::move(walk.model));
-    if (force_on_toes) walk.input.loads->forces[0].body = 4;
-    EXPECT_TRUE(walk.findings().empty()) << force_on_toes;
+    if (on_toes) walk.input.loads->forces[0].body = 4;
+    EXPECT_TRUE(walk.findings().empty()) << on_toes;
   }
 }
 
