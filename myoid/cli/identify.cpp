@@ -51,6 +51,12 @@ bool is_free(const StudyData& data, bool (*about)(const identification::Paramete
                      [&](const auto& rule) { return rule.free.value_or(false) && about(rule); });
 }
 
+/// Of the joint, acting by its motion.
+bool is_about_motion(const identification::ParameterRule& rule) {
+  const identification::ParameterField& field = identification::parameter_field(rule.parameter);
+  return field.scope == identification::Scope::joint && field.field != identification::kOffset;
+}
+
 /// What is asked for and the method or the files cannot give.
 void refuse_what_cannot_be(const Options& o, const pipeline::MuscleTable& table) {
   std::vector<std::string> asked;
@@ -68,6 +74,8 @@ void refuse_what_cannot_be(const Options& o, const pipeline::MuscleTable& table)
                     "which fits the same forces",
                     fmt::join(asked, ", ")));
   }
+  if (o.motion_cutoff_hz > 0.0 && o.files.motions.empty())
+    throw InvalidInput("--lowpass smooths the angles of --motion, which is not given");
   for (const std::string& name : o.free_more) {
     const identification::ParameterField& field = identification::parameter_field(name);
     if (field.scope != identification::Scope::joint) continue;
@@ -303,6 +311,10 @@ void add_identify(CLI::App& app, Context& context) {
     context.prepare_folder(o->out);
     context.protect_inputs(o->out, {"parameters.", "solvers."}, {o->muscles});
     identification::EstimatorOptions options = estimator_options(*o, context);
+    if (!o->files.motions.empty() && !is_free(data, is_about_motion))
+      context.warn(
+          "--motion has no effect: no joint_viscosity, joint_inertia or joint_stiffness is to be "
+          "identified (--free)");
     if (is_free(data, pipeline::is_about_lags)) {
       pipeline::use_dynamics(options);
       context.warn(

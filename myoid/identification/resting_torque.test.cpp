@@ -79,5 +79,25 @@ TEST(RestingTorque, TooFewSamplesOrANaNTellNothing) {
   EXPECT_FALSE(fit_resting_torque(enough.angle_rad, enough.velocity_radps, torque));
 }
 
+TEST(RestingTorque, AJointThatHardlyMovesHasNoDashpotToBeSeen) {
+  const Moved moved(0.0, 2.0, 401);
+  const Eigen::VectorXd creeping = 0.04 * moved.velocity_radps;
+  const auto found = fit_resting_torque(moved.angle_rad, creeping, -0.25 * creeping);
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->viscosity_nms, 0.0);
+}
+
+TEST(RestingTorque, TheResidualIsTheRootMeanSquareOfWhatIsLeft) {
+  const Moved moved(0.0, 2.0, 4000);
+  Eigen::VectorXd torque = -2.0 * moved.angle_rad;
+  for (Eigen::Index i = 0; i < torque.size(); ++i) torque[i] += i % 2 == 0 ? 0.3 : -0.3;
+  const auto found = fit_resting_torque(moved.angle_rad, moved.velocity_radps, torque);
+  ASSERT_TRUE(found);
+  EXPECT_NEAR(found->residual_nm, 0.3, 1e-3);
+  Eigen::VectorXd velocity = moved.velocity_radps;
+  velocity[9] = std::numeric_limits<double>::infinity();
+  EXPECT_FALSE(fit_resting_torque(moved.angle_rad, velocity, torque));
+}
+
 }  // namespace
 }  // namespace myoid::identification

@@ -65,6 +65,40 @@ TEST(DynamometerSigns, ReversedInOneTrialAreAWarningOfThatTrial) {
   EXPECT_EQ(found[0].where, "down");
 }
 
+/// Its torque turns about at a share of the trial.
+void turn_after(Push& push, double share) {
+  Eigen::MatrixXd values = push.torque.values();
+  values.bottomRows(static_cast<Eigen::Index>((1.0 - share) * 500.0)) *= -1.0;
+  push.torque = TimeSeries(push.torque.time_s(), push.torque.channels(), values);
+}
+
+TEST(DynamometerSigns, AreAnErrorOnlyWhereAllTrialsAndAllOfThemSaySo) {
+  // A torque that is half against the muscles and half with them says nothing.
+  std::vector<Push> half{{"both", true, 1.0, -50.0}};
+  turn_after(half[0], 0.5);
+  EXPECT_TRUE(findings(half).empty());
+  // The muscles' effort is sin(0.63 t): its squares are even about the middle of 5 s, and by 71 %
+  // of the time 81 % of them are past: cosine -0.62.
+  std::vector<Push> most{{"most", true, 1.0, -50.0}};
+  turn_after(most[0], 0.71);
+  const std::vector<Finding> unsure = findings(most);
+  ASSERT_EQ(unsure.size(), 1U);
+  EXPECT_EQ(unsure[0].level, Level::warning);
+  // A small one that is right, beside a large one that is not.
+  const std::vector<Finding> one =
+      findings({{"large", true, 1.0, -50.0}, {"small", true, 0.3, 15.0}});
+  ASSERT_EQ(one.size(), 1U);
+  EXPECT_EQ(one[0].level, Level::warning);
+}
+
+TEST(DynamometerSigns, AreToldWhereThereIsEmg) {
+  std::vector<Push> pushes{{"up", true, 1.0, -50.0}};
+  const TimeSeries whole = pushes[0].envelopes;
+  pushes[0].envelopes = TimeSeries(whole.time_s().segment(100, 300), whole.channels(),
+                                   whole.values().middleRows(100, 300));
+  EXPECT_EQ(findings(pushes).size(), 1U);
+}
+
 TEST(DynamometerSigns, OfAPassiveLimbOrALightTouchNobodyKnows) {
   std::vector<Push> pushes{{"up", true, 1.0, 50.0}, {"light", true, 1.0, -3.0}};
   EXPECT_TRUE(findings(pushes).empty());

@@ -25,9 +25,48 @@ TEST(LengthsOf, AreOfRecordingsThatShouldLastAlike) {
   EXPECT_NEAR(found[0].motion_rate_hz, 100.0, 1e-6);
   trial.use = Use::mvc;
   EXPECT_TRUE(lengths_of(trial, input).empty());
+  trial.use = Use::static_pose;
+  EXPECT_TRUE(lengths_of(trial, input).empty());
   trial.use = Use::calibration;
+  EXPECT_NEAR(found[0].emg_rate_hz, 100.0, 1e-6);
   trial.end_s = 10.0;
   EXPECT_TRUE(lengths_of(trial, input).empty());
+  trial.end_s.reset();
+  trial.emg = trial.motion;  // one file: one clock
+  EXPECT_TRUE(lengths_of(trial, input).empty());
+}
+
+TEST(LengthsOf, AreNotOfClocksThatWereMatchedNorOfARecordingThatBeganLater) {
+  TrialInput input = WrittenTrial(0.01, 4.99).read(arm_study());
+  TrialSpec trial;
+  trial.motion = "m.mot";
+  trial.emg = "e.sto";
+  const TimeSeries emg = *input.emg;
+  input.emg = TimeSeries(emg.time_s().array() + 0.6, emg.channels(), emg.values());
+  EXPECT_TRUE(lengths_of(trial, input).empty());
+  input.emg = TimeSeries(emg.time_s().array() + 0.4, emg.channels(), emg.values());
+  EXPECT_EQ(lengths_of(trial, input).size(), 1U);
+  input.emg_clock.emplace();
+  EXPECT_TRUE(lengths_of(trial, input).empty());
+}
+
+TEST(CheckCover, WantsHalfASecondAndHalfOfTheMotion) {
+  TrialSpec trial;
+  trial.emg = "e.sto";
+  const auto check = [&](double motion_to_s, double emg_from_s, double emg_to_s) {
+    TrialInput input;
+    input.motion = TimeSeries(Eigen::VectorXd::LinSpaced(50, 0.0, motion_to_s),
+                              {{"elbow_flexion", Unit::radian}}, Eigen::MatrixXd::Zero(50, 1));
+    check_cover(trial, Eigen::VectorXd::LinSpaced(50, emg_from_s, emg_to_s), input);
+    return input.warnings.size();
+  };
+  EXPECT_NE(message_of([&] { check(0.4, 0.0, 0.4); }).find("at least 0.5 s are needed"),
+            std::string::npos);
+  EXPECT_EQ(check(0.6, 0.0, 0.6), 0U);
+  EXPECT_NE(message_of([&] { check(10.0, 0.0, 4.0); }).find("less than half"), std::string::npos);
+  EXPECT_NE(message_of([&] { check(10.0, 6.0, 12.0); }).find("less than half"), std::string::npos);
+  EXPECT_EQ(check(10.0, 0.0, 6.0), 1U);
+  EXPECT_EQ(check(10.0, 0.05, 10.0), 0U);
 }
 
 TEST(UnlikeLengths, EmgExactlyTwiceAsLongIsAnErrorThatNamesBothRates) {
@@ -40,6 +79,8 @@ TEST(UnlikeLengths, EmgExactlyTwiceAsLongIsAnErrorThatNamesBothRates) {
 }
 
 TEST(UnlikeLengths, EmgOfHalfTheMotionIsAnError) {
+  // 1 % from a half: motion that is longer than its EMG was not stopped late.
+  EXPECT_EQ(unlike_lengths({lengths(25.8, 51.1)}).at(0).level, Level::error);
   const std::vector<Finding> found = unlike_lengths({lengths(25.6, 51.1)});
   ASSERT_EQ(found.size(), 1U);
   EXPECT_EQ(found[0].level, Level::error);

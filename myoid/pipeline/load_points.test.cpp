@@ -147,5 +147,89 @@ TEST(MisplacedLoads, APointInMillimetersIsAnError) {
   EXPECT_NE(found[0].message.find("is it in mm"), std::string::npos) << found[0].message;
 }
 
+/// Its points from here on, or while its force is below a newton.
+void move_points(Walk& walk, std::size_t load, const Vec3& by, bool unloaded_only) {
+  dynamics::ExternalForce& force = walk.input.loads->forces[load];
+  const Eigen::VectorXd t = Eigen::VectorXd::LinSpaced(200, 0.0, 2.0);
+  Eigen::MatrixX3d point(200, 3);
+  for (Eigen::Index i = 0; i < 200; ++i) {
+    const bool moves = !unloaded_only || force.force->at(t[i]).norm() < 1.0;
+    point.row(i) = (force.point->at(t[i]) + (moves ? by : Vec3::Zero())).transpose();
+  }
+  force.point = columns(t, point);
+}
+
+TEST(MisplacedLoads, WhereNothingIsLoadedThePointMeansNothing) {
+  Walk walk;
+  for (const std::size_t load : {0U, 1U}) move_points(walk, load, Vec3(-30.0, 0.0, 4.0), true);
+  EXPECT_TRUE(walk.findings().empty());
+  // Nor does that of a plate on which nobody stepped.
+  Eigen::MatrixX3d none = Eigen::MatrixX3d::Zero(200, 3);
+  walk.input.loads->forces[1].force = columns(walk.input.motion->time_s(), none);
+  move_points(walk, 1, Vec3(-30.0, 0.0, 4.0), false);
+  EXPECT_TRUE(walk.findings().empty());
+}
+
+TEST(MisplacedLoads, APointInTheFrameOfItsBodyIsNoneInGround) {
+  Walk walk;
+  for (dynamics::ExternalForce& force : walk.input.loads->forces) force.point_frame = force.body;
+  std::swap(walk.input.loads->forces[0].body, walk.input.loads->forces[1].body);
+  EXPECT_TRUE(walk.findings().empty());
+}
+
+TEST(MisplacedLoads, APointFarFromEveryBodyIsNoOtherBodys) {
+  Walk walk;
+  move_points(walk, 0, Vec3(0.0, 0.0, 0.7), false);
+  EXPECT_TRUE(walk.findings().empty());
+}
+
+TEST(MisplacedLoads, AreLookedForAtTheLoadsOwnTime) {
+  // The loads' clock is 0.9 s behind: each foot is then elsewhere.
+  Walk walk;
+  std::swap(walk.input.loads->forces[0].body, walk.input.loads->forces[1].body);
+  for (dynamics::ExternalForce& force : walk.input.loads->forces) {
+    const Eigen::VectorXd t = Eigen::VectorXd::LinSpaced(200, 0.0, 2.0);
+    Eigen::MatrixX3d f(200, 3), p(200, 3);
+    for (Eigen::Index i = 0; i < 200; ++i) {
+      f.row(i) = force.force->at(t[i]).transpose();
+      p.row(i) = force.point->at(t[i]).transpose();
+    }
+    const Eigen::VectorXd later = t.array() + 100.0;
+    force.force = columns(later, f);
+    force.point = columns(later, p);
+  }
+  walk.input.loads->set_clock(-100.0, 0.0);
+  EXPECT_EQ(walk.findings().size(), 1U);
+}
+
+TEST(MisplacedLoads, ABodyHasThePointsOfItsNeighbors) {
+  // The toes are a body of their own, and one marker of the foot is 0.4 m up: the force is on the
+  // body that has this one, the marker beside it on the other.
+  for (const bool on_toes : {false, true}) {
+    Walk walk;
+    model::Marker& heel = walk.model.markers[0];
+    model::Marker& toe = walk.model.markers[1];
+    (on_toes ? toe : heel).p_BM += Vec3(0.0, 0.4, 0.0);
+    walk.with_markers();
+    walk.model.bodies.push_back({.name = "toes_r", .mass_kg = 0.2});
+    model::Joint joint{.name = "mtp", .class_name = "WeldJoint", .parent = 2, .child = 4};
+    joint.X_PF.p = Vec3(0.15, 0.0, 0.0);
+    walk.model.joints.push_back(joint);
+    toe.body = 4;
+    walk.model = model::finalize(std::move(walk.model));
+    if (on_toes) walk.input.loads->forces[0].body = 4;
+    EXPECT_TRUE(walk.findings().empty()) << on_toes;
+  }
+}
+
+TEST(MisplacedLoads, OfABodyWithoutAnyMarkerNothingIsSaid) {
+  Walk walk;
+  walk.with_markers();
+  auto& markers = *walk.input.markers;
+  markers.names = {markers.names[2], markers.names[3]};  // of the left foot
+  markers.positions_m = markers.positions_m.rightCols(6).eval();
+  EXPECT_TRUE(walk.findings().empty());
+}
+
 }  // namespace
 }  // namespace myoid::pipeline

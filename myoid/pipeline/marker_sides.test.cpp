@@ -1,5 +1,9 @@
 #include "myoid/pipeline/marker_sides.h"
 
+#include <limits>
+#include <map>
+#include <string>
+
 #include <gtest/gtest.h>
 
 namespace myoid::pipeline {
@@ -12,13 +16,14 @@ TEST(OtherSide, IsToldByALetterOrWordThatStandsApart) {
   EXPECT_EQ(other_side("r_acromion"), "l_acromion");
   EXPECT_EQ(other_side("LeftHeel"), "RightHeel");
   EXPECT_EQ(other_side("ANKLE_L"), "ANKLE_R");
+  EXPECT_EQ(other_side("rightknee"), "leftknee");
   EXPECT_EQ(other_side("Radius"), std::nullopt);
   EXPECT_EQ(other_side("lateral"), std::nullopt);
   EXPECT_EQ(other_side("Sternum"), std::nullopt);
 }
 
 /// A free trunk with a head that looks forward (x), and on each side of it four markers.
-model::BodyModel trunk() {
+model::BodyModel trunk(double width = 1.0) {
   model::BodyModel model;
   model.bodies = {{.name = "ground"}, {.name = "trunk", .mass_kg = 40.0}};
   model::Joint root{.name = "root", .class_name = "CustomJoint", .parent = 0, .child = 1};
@@ -35,7 +40,7 @@ model::BodyModel trunk() {
     if (k > 2) model.coordinates.back().motion = model::MotionType::translational;
   }
   model.markers = {{"nose", 1, Vec3(0.15, 0.6, 0.0)}, {"chin", 1, Vec3(0.12, 0.5, 0.0)}};
-  for (const double side : {1.0, -1.0}) {
+  for (const double side : {width, -width}) {
     const std::string letter = side > 0.0 ? "R." : "L.";
     model.markers.push_back({letter + "Shoulder", 1, Vec3(0.0, 0.4, 0.2 * side)});
     model.markers.push_back({letter + "ASIS", 1, Vec3(0.1, 0.0, 0.15 * side)});
@@ -73,6 +78,59 @@ TEST(ExchangedSides, AreFoundAndRightOnesAreNot) {
   // A model that does not fit either way says nothing.
   markers.positions_m *= 1.5;
   EXPECT_FALSE(exchanged_sides(model, trial, markers, {}));
+}
+
+/// What is said of markers of this model whose labels of left and right are exchanged.
+struct Exchanged {
+  model::BodyModel model;
+  recording::MarkerSeries markers;
+  std::map<std::string, double> weights;
+
+  explicit Exchanged(double width = 1.0) : model(trunk(width)), markers(measured(model)) {
+    for (std::string& name : markers.names) name = other_side(name).value_or(name);
+  }
+  [[nodiscard]] bool said() const {
+    TrialSpec trial;
+    trial.name = "walk";
+    return exchanged_sides(model, trial, markers, weights).has_value();
+  }
+};
+
+TEST(ExchangedSides, AreLookedForInTheFrameWithTheMostMarkers) {
+  Exchanged e;
+  e.markers.positions_m.row(0).tail(21).setConstant(std::numeric_limits<double>::quiet_NaN());
+  EXPECT_TRUE(e.said());
+}
+
+TEST(ExchangedSides, OfTwoPairsNothingIsSaid) {
+  Exchanged e;
+  for (const int keep : {3, 2}) {  // pairs: nose, chin, then four of either side
+    recording::MarkerSeries few = e.markers;
+    few.names.clear();
+    few.positions_m.resize(3, 0);
+    for (int m = 0; m < 10; ++m) {
+      if (m >= 2 && (m - 2) % 4 >= keep) continue;
+      few.names.push_back(e.markers.names[static_cast<std::size_t>(m)]);
+      few.positions_m.conservativeResize(Eigen::NoChange, few.positions_m.cols() + 3);
+      few.positions_m.rightCols(3) = e.markers.positions_m.middleCols(3 * m, 3);
+    }
+    Exchanged with = e;
+    with.markers = few;
+    EXPECT_EQ(with.said(), keep == 3) << keep << " pairs";
+  }
+}
+
+TEST(ExchangedSides, WhereTheyAreNarrowTheMarkersFitEitherWay) {
+  EXPECT_FALSE(Exchanged(0.12).said());
+  EXPECT_TRUE(Exchanged(0.7).said());
+}
+
+TEST(ExchangedSides, AMarkerWithoutWeightDecidesNothing) {
+  Exchanged e;
+  e.markers.positions_m.leftCols(3).array() += 0.6;  // the nose
+  EXPECT_FALSE(e.said());
+  e.weights["nose"] = 0.0;
+  EXPECT_TRUE(e.said());
 }
 
 }  // namespace

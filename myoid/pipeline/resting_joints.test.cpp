@@ -70,6 +70,8 @@ TEST(RestingJoints, WhatTheJointOfAPersonDoesByItselfIsFound) {
                 truth.joint_torque_nm - truth.joint_stiffness_nm_per_rad * q, 0.3)
         << angle_deg;
   }
+  for (const std::string& warning : result.trials[2].warnings)
+    EXPECT_THAT(warning, ::testing::Not(HasSubstr("what the joint does by itself")));
   ASSERT_EQ(result.data.trials.size(), 1U);
   const identification::TrialData& ramp = result.data.trials[0];
   EXPECT_EQ(ramp.resting_nm, result.resting[0].torque.at(ramp.angle_rad));
@@ -82,7 +84,22 @@ TEST(RestingJoints, MusclesThatWereAtWorkShowNoRestingJoint) {
   EXPECT_TRUE(result.resting.empty());
   ASSERT_FALSE(result.trials[0].warnings.empty());
   EXPECT_THAT(result.trials[0].warnings.back(), HasSubstr("the muscles were not at rest: EMG"));
+  EXPECT_EQ(result.trials[0].notes.back(), result.trials[0].warnings.back());
   EXPECT_EQ(result.data.trials[0].resting_nm.size(), 0);
+}
+
+TEST(RestingJoints, WithoutAMaximalContractionRestIsAgainstTheGreatestOfTheStudy) {
+  for (const bool at_work : {false, true}) {
+    Recorded r = recorded();
+    r.study.emg.has_mvc = false;
+    r.study.trials[1].use = Use::validation;
+    if (at_work) r.inputs.trials[0].emg = r.inputs.trials[2].emg;
+    const StudyResult result = analyse(r.study, std::move(r.inputs), {});
+    EXPECT_EQ(result.resting.empty(), at_work);
+    if (!at_work) continue;
+    ASSERT_FALSE(result.trials[0].warnings.empty());
+    EXPECT_THAT(result.trials[0].warnings.back(), HasSubstr("its greatest value in the study"));
+  }
 }
 
 TEST(RestingJoints, WithoutEmgNobodyKnowsWhetherTheMusclesWereAtRest) {

@@ -1,5 +1,6 @@
 #include "myoid/pipeline/study_plausibility.h"
 
+#include <algorithm>
 #include <random>
 
 #include <gtest/gtest.h>
@@ -106,6 +107,85 @@ TEST(RequirePlausible, AWarningGoesToItsTrial) {
   EXPECT_TRUE(two.inputs[0].warnings.empty());
   ASSERT_EQ(two.inputs[1].warnings.size(), 1U);
   EXPECT_EQ(two.inputs[1].notes, two.inputs[1].warnings);
+}
+
+TEST(RequirePlausible, RefusesEmgThatLastsTwiceAsLongAsTheMotion) {
+  TwoTrials two;
+  for (TrialInput& input : two.inputs) {
+    const TimeSeries m = *input.motion;
+    const TimeSeries e = *input.emg;
+    input.emg = TimeSeries(10.0 * e.time_s(), e.channels(), e.values());
+    input.motion = TimeSeries(10.0 * m.time_s().head(101), m.channels(), m.values().topRows(101));
+  }
+  for (TrialSpec& trial : two.study.trials) {
+    trial.motion = "m.mot";
+    trial.emg = "e.sto";
+  }
+  EXPECT_THROW(require_plausible(two.study, two.model, two.inputs), InvalidInput);
+}
+
+/// A person of 70 kg with one limb that hangs from 0.3 m above its origin and is 0.9 m long; it
+/// stands on the ground by a vertical slider.
+model::BodyModel stander() {
+  model::BodyModel model;
+  model.bodies = {{.name = "ground"},
+                  {.name = "pelvis", .mass_kg = 60.0},
+                  {.name = "shank", .mass_kg = 9.0},
+                  {.name = "foot", .mass_kg = 1.0}};
+  model::Joint root{.name = "root", .class_name = "CustomJoint", .parent = 0, .child = 1};
+  root.coordinates = {0};
+  root.rotation = {model::TransformAxis{Vec3::UnitX()}, model::TransformAxis{Vec3::UnitY()},
+                   model::TransformAxis{Vec3::UnitZ()}};
+  root.translation = {model::TransformAxis{Vec3::UnitX()},
+                      model::TransformAxis{Vec3::UnitY(), 0, model::Linear{1.0, 0.0}},
+                      model::TransformAxis{Vec3::UnitZ()}};
+  model::Joint knee{.name = "knee", .class_name = "PinJoint", .parent = 1, .child = 2};
+  knee.X_PF.p = Vec3(0.0, 0.3, 0.0);
+  knee.coordinates = {1};
+  knee.rotation[0] = {Vec3::UnitZ(), 1, model::Linear{1.0, 0.0}};
+  knee.rotation[1].axis = Vec3::UnitX();
+  knee.rotation[2].axis = Vec3::UnitY();
+  model::Joint ankle{.name = "ankle", .class_name = "WeldJoint", .parent = 2, .child = 3};
+  ankle.X_PF.p = Vec3(0.0, -0.9, 0.0);
+  model.joints = {root, knee, ankle};
+  model.coordinates = {{.name = "height", .joint = 0, .motion = model::MotionType::translational},
+                       {.name = "knee_angle", .joint = 1}};
+  return model::finalize(std::move(model));
+}
+
+TEST(StudyPlausibility, AStandingPersonWithoutAnyMeasuredForceIsSaid) {
+  Study study;
+  study.model.file = "person.osim";
+  study.model.coordinate = "knee_angle";
+  const model::BodyModel model = stander();
+  const auto said = [&](const TrialInput& input, Use use, double knee_rad) {
+    TrialSpec trial;
+    trial.name = "squat";
+    trial.use = use;
+    if (input.external_torque) trial.external_torque = "push.sto";
+    TrialInput with = input;
+    const Eigen::VectorXd t = Eigen::VectorXd::LinSpaced(100, 0.0, 1.0);
+    with.motion =
+        TimeSeries(t, {{"knee_angle", Unit::radian}}, Eigen::MatrixXd::Constant(100, 1, knee_rad));
+    StudyPlausibility plausibility(study, model);
+    plausibility.look_at(trial, with);
+    const auto found = plausibility.findings();
+    return std::any_of(found.begin(), found.end(), [](const Finding& f) {
+      return f.message.find("external_loads or force_plates") != std::string::npos;
+    });
+  };
+  EXPECT_TRUE(said({}, Use::calibration, 0.0));
+  EXPECT_FALSE(said({}, Use::static_pose, 0.0));
+  // With the limb up it stands on nothing that the knee moves.
+  EXPECT_FALSE(said({}, Use::calibration, 3.0));
+  TrialInput measured;
+  measured.loads.emplace();
+  EXPECT_FALSE(said(measured, Use::calibration, 0.0));
+  TrialInput held;
+  held.external_torque =
+      TimeSeries(Eigen::VectorXd::LinSpaced(100, 0.0, 1.0),
+                 {{"knee_angle_moment", Unit::newton_meter}}, Eigen::MatrixXd::Ones(100, 1));
+  EXPECT_FALSE(said(held, Use::calibration, 0.0));
 }
 
 }  // namespace

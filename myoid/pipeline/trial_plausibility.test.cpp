@@ -74,6 +74,41 @@ TEST(Implausible, ANegatedAngleIsAnErrorThatAsksForTheSign) {
   EXPECT_NE(found[0].message.find("sign the opposite"), std::string::npos) << found[0].message;
 }
 
+TEST(Implausible, AnAngleOfAnotherConventionIsOnlyAWarningWhereTheRangeIsNoLimit) {
+  Elbow elbow;
+  elbow.input.motion = angle(200.0, 300.0);  // neither it nor its negative is in -10 to 150
+  ASSERT_EQ(elbow.findings().size(), 1U);
+  EXPECT_EQ(elbow.findings()[0].level, Level::error);
+  EXPECT_NE(elbow.findings()[0].message.find("zero or sign another"), std::string::npos);
+  model::Coordinate& c =
+      elbow.model
+          .coordinates[static_cast<std::size_t>(elbow.model.coordinate_index("elbow_flexion"))];
+  c.clamped = false;
+  EXPECT_EQ(elbow.findings()[0].level, Level::warning);
+  c.lower = c.upper = 0.0;  // nobody wrote a range
+  EXPECT_TRUE(elbow.findings().empty());
+}
+
+TEST(Implausible, AHeldMassCountsWhereItIsHeld) {
+  Elbow elbow;
+  elbow.study.subject.mass_kg = 75.0;
+  elbow.trial.held_mass_kg = 5.5;
+  const std::string forearm = elbow.model.bodies.back().name;
+  elbow.study.model.held_mass = {.body = forearm, .p_BP_m = Vec3(0.0, -0.2, 0.0)};
+  EXPECT_TRUE(elbow.findings().empty());
+  elbow.study.model.held_mass->p_BP_m = Vec3(0.0, -2.5, 0.0);  // 135 N m
+  EXPECT_EQ(elbow.findings().size(), 1U);
+  // What the elbow does not move, its muscles need not hold.
+  elbow.trial.held_mass_kg = 60.0;
+  elbow.study.model.held_mass->body = "ground";
+  EXPECT_TRUE(elbow.findings().empty());
+  // Nor is anything known of a file's model that does not say where.
+  elbow.study.model.held_mass.reset();
+  EXPECT_EQ(elbow.findings().size(), 1U);
+  elbow.study.model.file = "arm.osim";
+  EXPECT_TRUE(elbow.findings().empty());
+}
+
 TEST(Implausible, APostureBeyondTheRangeIsAWarningAndAFewDegreesAreNone) {
   Elbow elbow;
   elbow.input.motion = angle(-30.0, 130.0);
@@ -158,6 +193,38 @@ TEST(Implausible, AVerticalThatLiesAcrossTheTrunkIsAWarning) {
     EXPECT_EQ(found[0].level, Level::warning);
     EXPECT_NE(found[0].message.find("up = \"z\""), std::string::npos) << found[0].message;
   }
+}
+
+/// What is said of a trunk whose long axis points there, in a laboratory whose y points up.
+std::vector<Finding> of_a_trunk_along(const Vec3& axis, const std::string& coordinate = "") {
+  Elbow elbow;
+  elbow.model = trunk_with_arm();
+  elbow.study.model.builtin.clear();
+  if (!coordinate.empty()) elbow.study.model.coordinate = coordinate;
+  elbow.study.markers.up = 'y';
+  recording::MarkerSeries& markers = elbow.input.markers.emplace();
+  markers.time_s = Eigen::VectorXd::LinSpaced(20, 0.0, 0.19);
+  markers.positions_m.resize(20, 0);
+  const Mat3 R = Eigen::Quaterniond::FromTwoVectors(Vec3::UnitY(), axis).toRotationMatrix();
+  for (const model::Marker& m : elbow.model.markers) {
+    markers.names.push_back(m.name);
+    markers.positions_m.conservativeResize(Eigen::NoChange, markers.positions_m.cols() + 3);
+    markers.positions_m.rightCols(3) = (R * m.p_BM).transpose().replicate(20, 1);
+  }
+  return elbow.findings();
+}
+
+TEST(Implausible, ALeaningTrunkOrALimbIsNoWrongVertical) {
+  const auto leaning = [](double deg) {
+    return Vec3(0.0, std::cos(deg * kDegree), std::sin(deg * kDegree));
+  };
+  EXPECT_EQ(of_a_trunk_along(leaning(65.0)).size(), 1U);
+  EXPECT_TRUE(of_a_trunk_along(leaning(57.0)).empty());
+  // Across, but upright by no other axis either.
+  EXPECT_TRUE(of_a_trunk_along(Vec3(0.65, 0.4, 0.65)).empty());
+  // A body that the study's own joint moves may lie as it will.
+  EXPECT_TRUE(of_a_trunk_along(leaning(90.0), "tilt").empty());
+  EXPECT_TRUE(of_a_trunk_along(leaning(90.0), "shoulder").empty());
 }
 
 }  // namespace

@@ -37,7 +37,8 @@ struct Walk {
   double gap_s = 0.4;
   bool falls = false;
   bool markers = false;
-  int up = 1;  ///< The model's axis against gravity.
+  int up = 1;            ///< The model's axis against gravity.
+  double clock_s = 0.0;  ///< The loads' time at the motion's 0 s.
 
   [[nodiscard]] std::vector<Finding> findings() const {
     const Eigen::Index n = 401;
@@ -53,7 +54,7 @@ struct Walk {
       dynamics::LoadColumns columns;
       for (int axis = 0; axis < 3; ++axis)
         columns.splines.push_back(
-            math::Spline::interpolate(t, (axis == up ? 1.0 : 0.0) * values, 1));
+            math::Spline::interpolate(t.array() + clock_s, (axis == up ? 1.0 : 0.0) * values, 1));
       return columns;
     };
     TrialInput input;
@@ -63,13 +64,20 @@ struct Walk {
                                    .force = upward(kWeight_n * share),
                                    .point = upward(0.0 * share),
                                    .torque = {}});
+    // What the person does to the ground bears nobody.
+    input.loads->forces.push_back({.name = "ground",
+                                   .body = 0,
+                                   .force = upward(Eigen::VectorXd::Constant(n, kWeight_n)),
+                                   .point = upward(0.0 * share),
+                                   .torque = {}});
+    input.loads->set_clock(-clock_s, 0.0);
     if (markers) {
       input.markers.emplace();
       input.markers->time_s = t;
       input.markers->names = {"sternum", "lost"};
       input.markers->positions_m = Eigen::MatrixXd::Zero(n, 6);
       input.markers->positions_m.col(up) = height.array() + 1.3;
-      input.markers->positions_m(7, 4) = std::numeric_limits<double>::quiet_NaN();
+      input.markers->positions_m(170, 4) = std::numeric_limits<double>::quiet_NaN();
     } else {
       input.motion = TimeSeries(t, {{"height", Unit::meter}}, height);
     }
@@ -96,6 +104,12 @@ TEST(UnloadedTimes, OfAModelWhoseThirdAxisPointsUpAreTheSame) {
     EXPECT_EQ((Walk{.markers = markers, .up = 2}.findings().size()), 1U);
     EXPECT_TRUE((Walk{.falls = true, .markers = markers, .up = 2}.findings().empty()));
   }
+}
+
+TEST(UnloadedTimes, AreToldOnTheMotionsClock) {
+  const std::vector<Finding> found = Walk{.clock_s = 60.0}.findings();
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_THAT(found[0].message, testing::HasSubstr("0.805 to 1.195 s"));
 }
 
 TEST(UnloadedTimes, ABriefGapAndALightStepAreNone) {

@@ -74,5 +74,31 @@ TEST(FindWarmUp, OfFewBlocksNothingIsSaid) {
   EXPECT_THROW(static_cast<void>(find_warm_up(x, kLeast, 0.01)), InvalidInput);
 }
 
+/// n blocks of hardly any noise whose beginning is off by `change`, fading over 3 blocks.
+Eigen::VectorXd fading(Eigen::Index n, double change) {
+  Eigen::VectorXd x = 0.04 * noise(n, 0.0, 0.0, 7);  // sd 0.002
+  for (Eigen::Index k = 0; k < n; ++k) x[k] += change * std::exp(-static_cast<double>(k) / 3.0);
+  return x;
+}
+
+TEST(FindWarmUp, LastsUntilLessThanTheLeastIsLeft) {
+  const auto found = find_warm_up(fading(90, -0.5), kLeast, 0.001);
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->fading, 3.0);
+  EXPECT_NEAR(found->change, -0.5, 0.02);
+  EXPECT_EQ(found->blocks, 7);  // 3 ln(0.5 / 0.06) = 6.4
+}
+
+TEST(FindWarmUp, WhatIsSmallIsNoneHoweverSureItIs) {
+  // Over the first 3 blocks 63 % of it are there on average: 0.05 and 0.075.
+  EXPECT_FALSE(find_warm_up(fading(90, -0.08), kLeast, 0.001));
+  EXPECT_TRUE(find_warm_up(fading(90, -0.12), kLeast, 0.001));
+}
+
+TEST(FindWarmUp, NeedsTwentyFourBlocks) {
+  EXPECT_FALSE(find_warm_up(fading(23, -0.5), kLeast, 0.001));
+  EXPECT_TRUE(find_warm_up(fading(30, -0.5), kLeast, 0.001));
+}
+
 }  // namespace
 }  // namespace myoid::pipeline
