@@ -64,6 +64,14 @@ TEST(MovingPhases, LessTorqueAndFrequencyLaterIsFatigueAndBeforeAWarmUp) {
             (Kinds{kWarmUp, kRegular}));
   EXPECT_EQ(kinds(moving_phases(blocks({{20, 100, 100}, {10, 92, 85}}), {})),
             (Kinds{kRegular, kRegular}));
+  // More torque for the same EMG at first is none either unless it is a tenth.
+  EXPECT_EQ(kinds(moving_phases(blocks({{10, 108, 100}, {20, 100, 100}}), {})),
+            (Kinds{kRegular, kRegular}));
+  EXPECT_EQ(kinds(moving_phases(blocks({{10, 115, 100}, {20, 100, 100}}), {})),
+            (Kinds{kWarmUp, kRegular}));
+  // Three fresh blocks with more torque and higher frequencies are no warm-up.
+  EXPECT_EQ(kinds(moving_phases(blocks({{3, 125, 112}, {20, 100, 100}}), {})),
+            (Kinds{kRegular, kRegular}));
 }
 
 TEST(MovingPhases, WhatNeitherExplainsIsChanged) {
@@ -72,7 +80,10 @@ TEST(MovingPhases, WhatNeitherExplainsIsChanged) {
             (Kinds{kRegular, kChanged}));
   EXPECT_EQ(kinds(moving_phases(blocks({{20, 100, 100}, {10, 80, 85, 0, 4.0}}), {})),
             (Kinds{kRegular, kChanged}));
-  EXPECT_EQ(kinds(moving_phases(blocks({{20, 100, 100}, {10, 125, 100}}), {})),
+  EXPECT_EQ(kinds(moving_phases(blocks({{20, 100, 100}, {10, 125, 85}}), {})),
+            (Kinds{kRegular, kChanged}));
+  // A twentieth is less than frequencies vary by.
+  EXPECT_EQ(kinds(moving_phases(blocks({{20, 100, 100}, {10, 80, 95}}), {})),
             (Kinds{kRegular, kChanged}));
   EXPECT_EQ(kinds(moving_phases(blocks({{10, 80, 100, 0, 4.0}, {20, 100, 100}}), {})),
             (Kinds{kChanged, kRegular}));
@@ -117,21 +128,27 @@ TEST(MovingPhases, TiringThatGoesOnBeginsWhereATenthIsLost) {
 }
 
 TEST(MovingPhases, EffortThatFadesIsAWarmUpThoughTheTorquePerEmgIsRegular) {
-  std::vector<Block> some = blocks({{60, 100, 100}});
+  std::vector<Block> some = blocks({{60, 80, 100}});
   math::Random random(9, 0);
   for (std::size_t b = 0; b < some.size(); ++b)
-    some[b].economy = -0.6 * std::exp(-static_cast<double>(b) / 3.0) + 0.03 * random.normal();
+    some[b].economy = -0.6 * std::exp(-static_cast<double>(b) / 3.0) + 0.004 * random.normal();
   const auto found = moving_phases(some, {});
   ASSERT_EQ(kinds(found), (Kinds{kWarmUp, kRegular}));
   // 3 ln(0.6 / 0.06) = 7 blocks until less than 6 % is left.
   EXPECT_NEAR(static_cast<double>(found[0].last), 7.0, 3.0);
   EXPECT_EQ(found[1].first, found[0].last);
   EXPECT_EQ(found[1].last, 60U);
+  EXPECT_NEAR(found[0].phase.gain.value_or(0.0), 1.0, 0.05);
   // Blocks of another movement at the beginning are not counted, but lie before its end.
-  for (std::size_t b = 0; b < 2; ++b) some[b].speed = 0.5;
+  for (std::size_t b = 0; b < 3; ++b) {
+    some[b].speed = 0.5;
+    some[b].economy = 0.5;
+  }
   const auto late = moving_phases(some, {});
   ASSERT_FALSE(late.empty());
   EXPECT_EQ(late[0].phase.kind, kWarmUp);
+  // From block 3 on 0.22 is left: 3 ln(0.22 / 0.06) = 4 blocks more.
+  EXPECT_NEAR(static_cast<double>(late[0].last), 7.0, 1.5);
 }
 
 }  // namespace

@@ -146,20 +146,25 @@ std::vector<EstimateLine> estimate_lines(const IdentificationResult& method,
   return lines;
 }
 
-std::vector<Table> torque_tables(const StudyResult& result, const IdentificationResult& method) {
+std::vector<Table> estimate_tables(const StudyResult& result, const IdentificationResult& method) {
   const bool known = !result.truth.empty();
   const std::string truth =
       known ? " Truth: green where it lies in the interval, else yellow." : "";
+  const std::string by = method.method == "force"
+                             ? "Every muscle alone, both branches at once, against the force that "
+                               "force sharing assigned to it. "
+                             : "All muscles and both branches at once against the joint torque. ";
   Table muscles{
-      "parameters_torque",
-      "Identified parameters (method torque)",
-      "All muscles and both branches at once against the joint torque. Interval: 95 %, "
-      "for correlated residuals. Prior: the literature's mean ± standard deviation." +
+      "parameters_" + method.method,
+      fmt::format("Identified parameters (method {})", method.method),
+      by +
+          "Interval: 95 %, for correlated residuals. Prior: the literature's mean ± standard "
+          "deviation." +
           truth,
       {"muscle", "parameter", "unit", "prior", "estimate", "95 % interval", "verdict", "why"},
       {}};
   if (known) muscles.columns.insert(muscles.columns.begin() + 6, "truth");
-  Table others{"nuisances_torque",
+  Table others{"nuisances_" + method.method,
                "Numbers of the electrodes and of the joint",
                "Freed so that not knowing them widens the muscles' intervals as it must; nobody's "
                "muscle, and not counted above." +

@@ -25,10 +25,10 @@ struct EstimateLine {
 /// hold it at all, and the interval is printed as "not determined".
 [[nodiscard]] bool is_undetermined(const identification::ParameterEstimate& e);
 
-/// What the recording tells: first the muscles' and the person's parameters with prior, estimate,
-/// 95 % interval, truth (of a virtual recording), verdict and reason; then, if there are any, gains
-/// and exponents of the channels and the joint's own torque.
-[[nodiscard]] std::vector<report::Table> torque_tables(
+/// What the recording tells by method torque or force: first the muscles' and the person's
+/// parameters with prior, estimate, 95 % interval, truth (of a virtual recording), verdict and
+/// reason; then, if there are any, gains and exponents of the channels and the joint's own torque.
+[[nodiscard]] std::vector<report::Table> estimate_tables(
     const StudyResult& result, const identification::IdentificationResult& method);
 
 /// The source paper's tables I and II: shortening, lengthening.

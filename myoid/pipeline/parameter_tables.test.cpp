@@ -49,11 +49,11 @@ TEST(EstimateLines, KeepApartWhatIsTiedByARatio) {
   EXPECT_EQ(estimate_lines(method, 2).size(), 5U);
 }
 
-TEST(TorqueTables, ShowTheTruthAsWideAsTheIntervalAndWhetherItLiesInside) {
+TEST(EstimateTables, ShowTheTruthAsWideAsTheIntervalAndWhetherItLiesInside) {
   StudyResult result;
   result.truth = {{"BIC", "optimal_fiber_length", 0.145}, {"TRI", "optimal_fiber_length", 0.15}};
   result.data.muscles.resize(2);
-  const std::vector<report::Table> tables = torque_tables(result, two_muscles());
+  const std::vector<report::Table> tables = estimate_tables(result, two_muscles());
   ASSERT_EQ(tables.size(), 2U);
   const auto& rows = tables[0].rows;
   ASSERT_EQ(rows.size(), 3U);
@@ -90,6 +90,17 @@ TEST(PaperTables, AnIntervalBeyondAllMeaningIsSaidToBeNone) {
   ASSERT_EQ(tables[0].rows.size(), 1U);
   EXPECT_EQ(tables[0].rows[0][4].text, "0.134");
   EXPECT_EQ(tables[0].rows[0][5].text, "not determined");
+}
+
+TEST(EstimateTables, AreCalledByTheirMethod) {
+  IdentificationResult method = two_muscles();
+  method.method = "force";
+  const std::vector<report::Table> tables = estimate_tables({}, method);
+  ASSERT_EQ(tables.size(), 2U);
+  EXPECT_EQ(tables[0].id, "parameters_force");
+  EXPECT_EQ(tables[0].title, "Identified parameters (method force)");
+  EXPECT_NE(tables[0].caption.find("force that force sharing assigned"), std::string::npos);
+  EXPECT_EQ(tables[1].id, "nuisances_force");
 }
 
 TEST(BasinTables, HaveARowForEachMinimumAndOneForStartsThatFoundNone) {

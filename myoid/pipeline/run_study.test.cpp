@@ -163,6 +163,25 @@ TEST(IdentifiedModel, DiffersFromTheInputOnlyInIdentifiedNumbers) {
             before.select_node(other).node().text().get());
 }
 
+TEST(RunStudy, TheReportHasMethodForceAndWhereSearchesEnded) {
+  StudyResult result = ExactRun::get().result;
+  const auto torque = std::find_if(result.methods.begin(), result.methods.end(),
+                                   [](const auto& m) { return m.method == "torque"; });
+  ASSERT_NE(torque, result.methods.end());
+  identification::IdentificationResult force = *torque;
+  force.method = "force";
+  force.basins = {{.fit = "BIC", .starts = 4, .basins = {{.cost = 1.0, .starts = 4}}}};
+  result.methods = {force};
+  const report::Report report = study_report(result, {});
+  EXPECT_EQ(report.headline.find("source paper"), std::string::npos) << report.headline;
+  const auto section =
+      std::find_if(report.sections.begin(), report.sections.end(),
+                   [](const report::Section& s) { return s.id == "force_method"; });
+  ASSERT_NE(section, report.sections.end());
+  EXPECT_EQ(section->tables.front().id, "parameters_force");
+  EXPECT_EQ(section->tables.back().id, "basins_force");
+}
+
 TEST(StudyReport, HasGatesTablesAndFiguresThatFitTogether) {
   const report::Report report = study_report(ExactRun::get().result, {});
   EXPECT_NO_THROW(report::validate(report));

@@ -51,7 +51,14 @@ std::vector<std::string> assumptions(const StudyResult& result) {
       result.study.identify.model_muscles
           ? "Pennation and passive muscle force are those of the model"
           : "Pennation and passive muscle force are neglected, as in the source paper"));
-  list.push_back("v_max is held at its starting value; an error in it goes into V_sh.");
+  const bool freed = std::any_of(
+      result.methods.begin(), result.methods.end(), [](const IdentificationResult& method) {
+        return std::any_of(method.estimates.begin(), method.estimates.end(),
+                           [](const auto& e) { return e.parameter == "max_shortening_speed"; });
+      });
+  list.push_back(freed ? "v_max is found with the other numbers where nobody states it; where it "
+                         "is held, as always in method paper, an error in it goes into V_sh."
+                       : "v_max is held at its starting value; an error in it goes into V_sh.");
   list.push_back(
       "At low activation the optimal length is longer than at full activation (about 15 %); the l0 "
       "given here belongs to the activations of this recording.");
@@ -100,12 +107,13 @@ std::vector<std::string> assumptions(const StudyResult& result) {
 }
 
 std::string headline(const StudyResult& result) {
-  const IdentificationResult* torque = method_of(result, "torque");
-  if (torque == nullptr)
+  const IdentificationResult* best = method_of(result, "torque");
+  if (best == nullptr) best = method_of(result, "force");
+  if (best == nullptr)
     return "Parameters by the source paper's method, each with an interval and a verdict.";
   std::vector<std::string> sure;
   int total = 0;
-  for (const ParameterEstimate& e : torque->estimates) {
+  for (const ParameterEstimate& e : best->estimates) {
     if (identification::is_nuisance(e) || !e.tied_to.empty()) continue;
     ++total;
     if (e.verdict == Verdict::identified) sure.push_back(e.muscle + " " + spelled(e.parameter));
@@ -172,10 +180,16 @@ report::Report study_report(const StudyResult& result, const Provenance& provena
     if (!torque->collinear.empty())
       section.paragraphs.push_back(
           fmt::format("Hardly told apart: {}.", fmt::join(torque->collinear, "; ")));
-    section.tables = torque_tables(result, *torque);
+    section.tables = estimate_tables(result, *torque);
     for (Table& table : basin_tables(*torque)) section.tables.push_back(std::move(table));
     for (std::size_t m = 0; m < result.data.muscles.size(); ++m)
       section.figures.push_back(muscle_curves(result, *torque, m));
+    report.sections.push_back(std::move(section));
+  }
+  if (const IdentificationResult* force = method_of(result, "force")) {
+    Section section{"force_method", "Muscle by muscle", {}, {}, {}, {}};
+    section.tables = estimate_tables(result, *force);
+    for (Table& table : basin_tables(*force)) section.tables.push_back(std::move(table));
     report.sections.push_back(std::move(section));
   }
   for (Section& section : validation_sections(result))
