@@ -30,6 +30,7 @@ enum class Verdict {
 struct RouteInterval {
   std::string route;                ///< sandwich | cluster | jackknife | bootstrap | profile
   std::optional<double> low, high;  ///< Empty: open on that side.
+  double spread = 0.0;  ///< Of the logarithm of the width, from the route's own sample; 0: none.
 };
 
 /// One row of parameters.csv.
@@ -140,8 +141,8 @@ struct IdentificationResult {
   /// By how much the data prefer `shared` to `delay`, in -2 ln of their likelihood, where it was
   /// chosen by that.
   std::optional<double> shared_lag_gain;
-  double delay_s = 0.0;      ///< Of the first channel.
-  Eigen::VectorXd solution;  ///< In the solver's scale (torque).
+  double delay_s = 0.0;                    ///< Of the first channel.
+  Eigen::VectorXd solution;                ///< In the solver's scale (torque).
   std::vector<Eigen::VectorXd> solutions;  ///< The same of each muscle's fit (force); empty: held.
   Eigen::MatrixXd
       covariance;  ///< Of the free parameters in solver's scale (logarithms where logarithmic).
