@@ -74,6 +74,7 @@ IdentificationResult identify_force(const StudyData& data, const ForceOptions& o
     const StudyData one = force_study(data, k);
     EstimatorOptions once = options.estimator;
     once.muscles.clear();
+    once.measured_is_force = !options.shared_forces;
     once.warm_start = {};
     once.progress.report = nullptr;
     const auto column = static_cast<Eigen::Index>(k);

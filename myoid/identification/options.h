@@ -76,6 +76,7 @@ struct EstimatorOptions {
   Eccentric eccentric = Eccentric::automatic;
   bool normalised = false;     ///< l_sh and v_max keep their ratio to l0.
   bool dynamics = false;       ///< Envelope -> activation by the two lags of equation (1).
+  bool measured_is_force = false;  ///< What is fitted is the force of one muscle, not a torque.
   bool gauss_newton = false;   ///< Plain full steps instead of Levenberg-Marquardt.
   int passes = 4;              ///< Of finding the noise and weighting by it.
   int starts = 3;              ///< The given start and moved ones; the best is kept.

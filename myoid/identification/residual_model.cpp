@@ -29,6 +29,7 @@ double envelope_spread(const EstimatorOptions& options, const std::string& chann
 ResidualModel::ResidualModel(const StudyData& data, const EstimatorOptions& options)
     : map_(data, options),
       dynamics_(options.dynamics),
+      measured_is_force_(options.measured_is_force),
       angle_sd_rad_(options.angle_sd_rad),
       angle_rate_sd_radps_(options.angle_rate_sd_radps) {
   for (std::size_t i = 0; i < data.trials.size(); ++i) {
@@ -298,104 +299,6 @@ void ResidualModel::evaluate_block(const Block& block,
       filter_rows(block.filter, rows, n);
     }
   }
-}
-
-ErrorShapes ResidualModel::error_shapes(const Eigen::VectorXd& z) const {
-  constexpr Eigen::Index kPerMuscle = 7;
-  constexpr Eigen::Index kPerJoint = 2;  // the first two of a muscle's, without its force
-  constexpr double kLogRange = 2.3;
-  constexpr double kLag_s = 0.15;  // 10 % are 15 ms.
-  const double muscle_weight[kPerMuscle] = {1.0, 1.0, 1.0, 0.5, 1.0, 1.0, 1.0};
-  // What the fit finds of a joint with a prior is not a shape besides: the data say nothing of it
-  // that they have not said already.
-  const Eigen::Index joints = joint_count();
-  const auto left_to_find = [&](Eigen::Index joint, int field) {
-    return std::none_of(map_.free().begin(), map_.free().end(), [&](const FreeParameter& p) {
-      return p.field->scope == Scope::joint && p.field->field == field &&
-             std::any_of(p.targets.begin(), p.targets.end(),
-                         [&](const auto& target) { return target.owner == joint; });
-    });
-  };
-  const ModelValues values = map_.values(z);
-  const auto muscles = static_cast<Eigen::Index>(values.muscles.size());
-  Eigen::VectorXd shortest = Eigen::VectorXd::Constant(muscles, 1e9);
-  Eigen::VectorXd longest = -shortest, fastest = Eigen::VectorXd::Constant(muscles, 1e-9);
-  for (const Block& block : blocks_) {
-    shortest = shortest.cwiseMin(block.length_m.colwise().minCoeff().transpose());
-    longest = longest.cwiseMax(block.length_m.colwise().maxCoeff().transpose());
-    fastest = fastest.cwiseMax(block.velocity_mps.cwiseAbs().colwise().maxCoeff().transpose());
-  }
-  Eigen::VectorXd size_nm = Eigen::VectorXd::Zero(joints), count = Eigen::VectorXd::Zero(joints);
-  for (const Piece& piece : pieces_) {
-    size_nm[piece.joint] += measured_.segment(piece.first, piece.count).squaredNorm();
-    count[piece.joint] += static_cast<double>(piece.count);
-  }
-  size_nm = size_nm.cwiseQuotient(count.cwiseMax(1.0)).cwiseSqrt();
-
-  ErrorShapes result;
-  result.shapes_nm.setZero(kPerMuscle * muscles + kPerJoint * joints, measured_.size());
-  result.weight.resize(result.shapes_nm.rows());
-  result.channel.assign(static_cast<std::size_t>(result.shapes_nm.rows()), -1);
-  result.by_emg.setZero(result.weight.size(), result.weight.size());
-  for (Eigen::Index k = 0; k < muscles; ++k) {
-    // Every shape is proportional to the activation, and the logarithm grows with it.
-    const double exponent = values.channels[static_cast<std::size_t>(
-        map_.channel_of_muscle(static_cast<std::size_t>(k)))][kExponent];
-    for (Eigen::Index b = 0; b < kPerMuscle; ++b)
-      result.by_emg(kPerMuscle * k + b, kPerMuscle * k + b) = exponent;
-    result.by_emg(kPerMuscle * k + 4, kPerMuscle * k) = exponent / kLogRange;
-    for (Eigen::Index b = 0; b < kPerMuscle; ++b) {
-      result.weight[kPerMuscle * k + b] = muscle_weight[b];
-      result.channel[static_cast<std::size_t>(kPerMuscle * k + b)] =
-          map_.channel_of_muscle(static_cast<std::size_t>(k));
-    }
-  }
-  for (Eigen::Index j = 0; j < joints; ++j) {
-    auto weight = result.weight.segment<kPerJoint>(kPerMuscle * muscles + kPerJoint * j);
-    weight << (left_to_find(j, kOffset) ? 1.0 : 0.0), (left_to_find(j, kStiffness) ? 1.0 : 0.0);
-  }
-  for (const Block& block : blocks_) {
-    const Eigen::Index n = block.time_s.size();
-    std::vector<std::vector<Activation>> activations;
-    for (std::size_t c = 0; c < block.envelopes.size(); ++c)
-      activations.push_back(
-          activation(block.envelopes[c], block.time_s, values.channels[c], dynamics_));
-    for (Eigen::Index k = 0; k < muscles; ++k) {
-      const auto muscle = static_cast<std::size_t>(k);
-      const auto c = static_cast<std::size_t>(map_.channel_of_muscle(muscle));
-      const double range = std::max(longest[k] - shortest[k], 1e-9);
-      for (Eigen::Index i = 0; i < n; ++i) {
-        const Activation& activated = activations[c][static_cast<std::size_t>(i)];
-        const double a = activated.value;
-        const double force_n =
-            tension_n(a, block.length_m(i, k), block.velocity_mps(i, k), values.muscles[muscle]);
-        const double x = 2.0 * (block.length_m(i, k) - shortest[k]) / range - 1.0;
-        const double factor[kPerMuscle] = {
-            1.0,
-            x,
-            0.5 * (3.0 * x * x - 1.0),
-            0.5 * x * (5.0 * x * x - 3.0),
-            1.0 + std::log(std::max(a, 0.01)) / kLogRange,
-            block.velocity_mps(i, k) / fastest[k],
-            -kLag_s * activated.by_field[kDelay] / std::max(a, 0.01)};
-        for (const Block::Joint& joint : block.joints) {
-          for (Eigen::Index b = 0; b < kPerMuscle; ++b)
-            result.shapes_nm(kPerMuscle * k + b, joint.first + i) +=
-                joint.arm_m(i, k) * force_n * factor[b];
-          if (k > 0) continue;
-          const Eigen::Index row = kPerMuscle * muscles + kPerJoint * joint.joint;
-          for (Eigen::Index b = 0; b < kPerJoint; ++b)
-            result.shapes_nm(row + b, joint.first + i) = size_nm[joint.joint] * factor[b];
-        }
-      }
-    }
-  }
-  result.unfiltered = result.shapes_nm;
-  for (const Block& block : blocks_) {
-    for (const Block::Joint& joint : block.joints)
-      filter_rows(block.filter, result.shapes_nm.middleCols(joint.first, block.time_s.size()));
-  }
-  return result;
 }
 
 }  // namespace myoid::identification

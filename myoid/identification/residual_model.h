@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 
 #include "myoid/identification/envelope.h"
+#include "myoid/identification/error_shapes.h"
 #include "myoid/identification/parameters.h"
 #include "myoid/math/butterworth.h"
 
@@ -33,17 +34,6 @@ struct Evaluation {
   /// not with the square of its mean.
   Eigen::MatrixXd channel_torque;
   Eigen::VectorXd motion_variance;  ///< n: from the errors of angle and rate.
-};
-
-/// Ways in which a model of muscles errs, as torques: sum_b x_b shape_b(t) with independent x_b of
-/// standard deviation `weight_b` times the relative size of the error.
-struct ErrorShapes {
-  Eigen::MatrixXd shapes_nm;   ///< k x n, low-passed as `measured()`.
-  Eigen::MatrixXd unfiltered;  ///< k x n, before that.
-  Eigen::VectorXd weight;      ///< k
-  std::vector<int> channel;    ///< k: EMG channel that it is multiplied by; -1: none.
-  /// k x k: d shape_b / d ln(envelope) of its channel = sum_j by_emg(b, j) shape_j.
-  Eigen::MatrixXd by_emg;
 };
 
 /// The one residual of all estimators: predicted minus measured torque (or force: one muscle with a
@@ -76,10 +66,12 @@ class ResidualModel {
   /// recorded range, ln(activation) / 2.3 + 1 (a non-linear EMG), its speed over the greatest, and
   /// its change within 0.15 s (a delay of its own);
   /// for each joint 1 and P1 of the first muscle's length, of the size of the torque (what is
-  /// passive), but not what the fit finds of it with a prior: 1 weighs nothing where an offset, P1
-  /// where a stiffness of the joint is an unknown. What
-  /// moment arms, force-length curves, tendons, passive tissue, EMG that is not linear and motion
-  /// under the skin do wrong is smooth in these.
+  /// passive). What moment arms, force-length curves, tendons, passive tissue, EMG that is not
+  /// linear and motion under the skin do wrong is smooth in these. What the fit finds as a number
+  /// of its own weighs nothing, lest it counts twice: 1 where the gain of the muscle's own
+  /// electrode is an unknown (or F_max, of a force that was measured: no moment arm is between),
+  /// ln(activation) where its exponent or shape, the lag where a delay of its own, 1 and P1 of a
+  /// joint where its offset and its stiffness.
   [[nodiscard]] ErrorShapes error_shapes(const Eigen::VectorXd& z) const;
 
  private:
@@ -117,6 +109,7 @@ class ResidualModel {
   Eigen::MatrixXd noise_gain_;
   std::vector<int> channel_of_variable_;
   bool dynamics_ = false;
+  bool measured_is_force_ = false;
   double angle_sd_rad_ = 0.0, angle_rate_sd_radps_ = 0.0;
   double rate_hz_ = 0.0;
   int dropped_ = 0;
