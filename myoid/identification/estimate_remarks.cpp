@@ -13,45 +13,63 @@ namespace {
 
 /// Widths of two intervals that differ by more than this speak of different things.
 constexpr double kDisagreement = 1.5;
+/// Of what chance makes of their widths: of a hundred pairs none is farther apart.
+constexpr double kDeviations = 3.0;
+/// Of what an identified number may be off: no verdict hangs on it.
+constexpr double kNegligible = 0.1;
+
+double tolerance(const ParameterEstimate& e) {
+  if (e.parameter == "emg_delay") return VerdictRules{}.delay_identified_s;
+  if (zero_by_nature(e.parameter)) return e.prior_sd.value_or(0.0);
+  return VerdictRules{}.identified_half_width * std::abs(e.estimate);
+}
 
 }  // namespace
 
 void RouteRemarks::compare(ParameterEstimate& e) {
-  double least = 0.0, most = 0.0;
-  std::string narrow, wide;
-  for (const RouteInterval& r : e.routes) {
-    if (!r.low || !r.high) {
+  const RouteInterval* narrow = nullptr;
+  const RouteInterval* wide = nullptr;
+  double ratio = 1.0, width = 0.0;
+  const auto width_of = [](const RouteInterval& r) { return std::max(*r.high - *r.low, 1e-300); };
+  for (const RouteInterval& a : e.routes) {
+    if (!a.low || !a.high) {
       open_.push_back(e.muscle + " " + e.parameter);
       continue;
     }
-    const double width = *r.high - *r.low;
-    if (narrow.empty() || width < least) {
-      least = width;
-      narrow = r.route;
-    }
-    if (wide.empty() || width > most) {
-      most = width;
-      wide = r.route;
+    width = std::max(width, width_of(a));
+    for (const RouteInterval& b : e.routes) {
+      if (!b.low || !b.high) continue;
+      const double here = width_of(a) / width_of(b);
+      const double by_chance = std::exp(kDeviations * std::hypot(a.spread, b.spread));
+      if (here <= std::max(kDisagreement, by_chance) || here <= ratio) continue;
+      ratio = here;
+      wide = &a;
+      narrow = &b;
     }
   }
-  e.routes_disagree = !narrow.empty() && most > kDisagreement * least;
+  e.routes_disagree = wide != nullptr && 0.5 * width > kNegligible * tolerance(e);
   if (!e.routes_disagree) return;
   ++disagree_;
-  const double ratio = most / std::max(least, 1e-300);
+  const bool beyond = e.ci_low && e.ci_high && width_of(*wide) > 1.05 * (*e.ci_high - *e.ci_low);
+  beyond_ += beyond ? 1 : 0;
   if (ratio <= worst_) return;
   worst_ = ratio;
-  worst_text_ =
-      fmt::format("{} {}, where {} gives {} times the width of {}", e.muscle, e.parameter, wide,
-                  ratio < 100.0 ? fmt::format("{:.1f}", ratio) : "over 100", narrow);
+  worst_text_ = fmt::format("{} {}, where {} gives {} times the width of {}", e.muscle, e.parameter,
+                            wide->route, ratio < 100.0 ? fmt::format("{:.1f}", ratio) : "over 100",
+                            narrow->route);
 }
 
 void RouteRemarks::add_to(std::vector<std::string>& warnings, std::size_t count) const {
   if (disagree_ > 0) {
-    warnings.push_back(
-        fmt::format("the routes to the interval disagree by more than {} times for {} of {} "
-                    "numbers, most for {}: trust the wider one (routes_disagree in "
-                    "parameters.csv)",
-                    kDisagreement, disagree_, count, worst_text_));
+    warnings.push_back(fmt::format(
+        "the routes to the interval disagree by more than chance makes of them for {} of {} "
+        "numbers, "
+        "most for {}: {} (routes_disagree in parameters.csv)",
+        disagree_, count, worst_text_,
+        beyond_ == 0
+            ? std::string("the wider one is what is reported")
+            : fmt::format("for {} of them a route is wider than what is reported: trust that one",
+                          beyond_)));
   }
   if (open_.empty()) return;
   constexpr std::size_t kNamed = 4;
@@ -62,6 +80,53 @@ void RouteRemarks::add_to(std::vector<std::string>& warnings, std::size_t count)
       open_.size(), count,
       fmt::join(open_.begin(), open_.begin() + static_cast<std::ptrdiff_t>(named), ", "),
       open_.size() > named ? ", ..." : ""));
+}
+
+std::vector<ActiveMotion> active_motion(const StudyData& data, double delay_s) {
+  constexpr double kActive = 0.02, kShareOfSpeed = 0.01, kLeast_s = 0.1;
+  const std::size_t muscles = data.muscles.size();
+  std::vector<double> shortening_s(muscles, 0.0), lengthening_s(muscles, 0.0);
+  for (const TrialData& trial : data.trials) {
+    const Eigen::Index n = trial.time_s.size();
+    if (!trial.calibration || n < 2) continue;
+    const Eigen::MatrixXd activation = muscle_activation(data, trial, trial.time_s, delay_s);
+    const double step_s = (trial.time_s[n - 1] - trial.time_s[0]) / static_cast<double>(n - 1);
+    for (const Eigen::Index i : included_rows(trial)) {
+      for (std::size_t k = 0; k < muscles; ++k) {
+        const auto column = static_cast<Eigen::Index>(k);
+        const double least = kShareOfSpeed * data.muscles[k].start.max_shortening_speed_mps;
+        const double v = trial.velocity_mps(i, column);
+        if (!(activation(i, column) > kActive)) continue;
+        if (v > least) lengthening_s[k] += step_s;
+        if (v < -least) shortening_s[k] += step_s;
+      }
+    }
+  }
+  std::vector<ActiveMotion> result(muscles);
+  for (std::size_t k = 0; k < muscles; ++k)
+    result[k] = {.shortened = shortening_s[k] >= kLeast_s,
+                 .lengthened = lengthening_s[k] >= kLeast_s};
+  return result;
+}
+
+std::string never_done(const FreeParameter& parameter, const ActiveMotion& motion, bool by_ratio) {
+  const ParameterField& field = *parameter.field;
+  if (field.scope != Scope::muscle) return "";
+  const bool lengthening =
+      field.field == kProduct || field.field == kPlateau || field.field == kSlopeRatio;
+  if (lengthening && !motion.lengthened) return "lengthened";
+  const bool elsewhere = by_ratio && motion.lengthened;
+  if (field.field == kCurvature && !motion.shortened && !elsewhere) return "shortened";
+  return "";
+}
+
+std::string known_beforehand(const FreeParameter& parameter, bool from_mvc) {
+  const ParameterField& field = *parameter.field;
+  if (parameter.prior_is_given) return "what the study gave beforehand";
+  if (field.scope != Scope::muscle || field.zero_by_nature) return "what is expected beforehand";
+  if (field.field == kMaxForce && !from_mvc)
+    return "what any effort may be, 1/20 to 1 of the literature's strength";
+  return "the literature's value";
 }
 
 double distance_from_prior(const FreeParameter& parameter, double z) {
@@ -101,8 +166,8 @@ void add_distances_to(std::vector<std::string>& warnings,
     if (std::max(d.distance, d.farthest_distance) <= VerdictRules{}.prior_conflict) continue;
     warnings.push_back(fmt::format(
         "{} has left what is known beforehand: its numbers together lie {:.1f} standard deviations "
-        "away, {} {:.1f}: use none of them before the cause is known (electrode, sign, unit, mass, "
-        "geometry)",
+        "of their priors away, {} {:.1f}: use none of them before the cause is known (electrode, "
+        "sign, unit, mass, geometry)",
         d.muscle, d.distance, d.farthest, d.farthest_distance));
   }
 }

@@ -15,18 +15,39 @@ namespace myoid::identification {
 /// What the routes to an interval disagree on, for few lines at the end.
 class RouteRemarks {
  public:
-  /// Fills `routes_disagree`: one interval is more than 1.5 times as wide as another.
+  /// Fills `routes_disagree`: one interval is more than 1.5 times as wide as another, by more than
+  /// three times what chance makes of both (RouteInterval::spread; of a hundred pairs none), and
+  /// wider than a tenth of what an identified number may be off.
   void compare(ParameterEstimate& estimate);
 
-  /// One line for all that disagree of `count` numbers, and one for all open profiles.
+  /// One line for all that disagree of `count` numbers, which says whether the reported interval is
+  /// the wider, and one for all open profiles.
   void add_to(std::vector<std::string>& warnings, std::size_t count) const;
 
  private:
   int disagree_ = 0;
+  int beyond_ = 0;  ///< Of these, where a route is wider than what is reported.
   double worst_ = 0.0;
   std::string worst_text_;
   std::vector<std::string> open_;
 };
+
+/// What a muscle did while it was active (above 2 % of the greatest EMG) for a tenth of a second in
+/// all, faster than a hundredth of v_max, where f_v differs from 1 by a few percent.
+struct ActiveMotion {
+  bool shortened = false, lengthened = false;
+};
+/// Of every muscle over the calibration trials, the activation `delay_s` late.
+[[nodiscard]] std::vector<ActiveMotion> active_motion(const StudyData& data, double delay_s);
+
+/// What a muscle's number only acts in and it never did, for VerdictContext::never: "lengthened",
+/// "shortened"; empty: nothing is missing. `by_ratio`: V_sh acts in lengthening, too.
+[[nodiscard]] std::string never_done(const FreeParameter& parameter,
+                                     const ActiveMotion& motion,
+                                     bool by_ratio);
+
+/// What the prior of a number is, in words.
+[[nodiscard]] std::string known_beforehand(const FreeParameter& parameter, bool from_mvc);
 
 /// |z - prior mean| / prior sd, of the logarithm where the solver has that.
 [[nodiscard]] double distance_from_prior(const FreeParameter& parameter, double z);

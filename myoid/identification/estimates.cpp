@@ -12,6 +12,7 @@
 #include "myoid/identification/product_estimate.h"
 #include "myoid/identification/profile_likelihood.h"
 #include "myoid/identification/reported_interval.h"
+#include "myoid/identification/signatures.h"
 #include "myoid/identification/uncertainty.h"
 #include "myoid/math/statistics.h"
 
@@ -113,6 +114,14 @@ void report_estimates(const Estimator& estimator,
   result.prior_distances = prior_distances(free, z, data);
   RouteRemarks routes;
   const bool exact = result.r2 > 1.0 - 1e-10;
+  const std::vector<ActiveMotion> motion = active_motion(data, result.delay_s);
+  const auto is_free = [&](int field, int muscle) {
+    return std::any_of(free.begin(), free.end(), [&](const FreeParameter& p) {
+      return p.field->scope == Scope::muscle && p.field->field == field &&
+             std::any_of(p.targets.begin(), p.targets.end(),
+                         [&](const auto& target) { return target.owner == muscle; });
+    });
+  };
   const auto judged = [&](ParameterEstimate e, const FreeParameter& p, bool determined, int owner,
                           const std::string& rests_on) {
     VerdictContext v;
@@ -134,6 +143,16 @@ void report_estimates(const Estimator& estimator,
           v.shares_electrode_with = data.muscles[other].name;
       }
     }
+    if (p.field->scope == Scope::muscle) {
+      v.speed_is_free = is_free(kSpeed, owner);
+      v.never = never_done(p, motion[static_cast<std::size_t>(owner)], is_free(kSlopeRatio, owner));
+    }
+    v.beforehand = known_beforehand(p, options.from_mvc);
+    v.prior_is_given = p.prior_is_given;
+    v.prior_of_logarithm = p.field->logarithmic;
+    const bool low =
+        std::abs(e.estimate - p.to_value(p.lower)) <= std::abs(e.estimate - p.to_value(p.upper));
+    v.given_bound = low ? p.lower_is_given : p.upper_is_given;
     v.model_error = result.model_error;
     v.r2 = result.r2;
     v.prior_distance = e.prior_distance.value_or(0.0);
@@ -278,7 +297,8 @@ void report_estimates(const Estimator& estimator,
                                           result.bootstrap_failed,
                                           result.bootstrap_failed + result.bootstrap_replicates));
   }
-  diagnose(result);
+  if (result.termination == math::Termination::converged)
+    result.diagnoses = signatures(result.estimates);
 }
 
 }  // namespace myoid::identification

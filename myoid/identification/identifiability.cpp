@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include <fmt/format.h>
 
@@ -33,9 +32,14 @@ std::string diagnosis(const ParameterEstimate& e) {
                             : "a curvature this small is below that of the slowest muscle: "
                               "co-contraction that force sharing set to zero does this";
   }
-  if (p == "force_length_width")
-    return "a width this size is no muscle's: co-contraction set to zero, a wrong F_max, geometry "
-           "or electrode distorts the curve";
+  if (p == "force_length_width") {
+    return e.initial > 0.0 && e.estimate > e.initial
+               ? "a width this size is no muscle's: F_max or the EMG gain too high, a wrong "
+                 "geometry "
+                 "or electrode flattens the curve"
+               : "a width this size is no muscle's: co-contraction set to zero, a delay, a wrong "
+                 "geometry or electrode narrows the curve";
+  }
   return "the value lies outside what a muscle can have: the fit describes something else";
 }
 
@@ -44,6 +48,12 @@ constexpr double kSpreads95 = 1.96;
 
 std::string unit_text(Unit unit) {
   return unit == Unit::dimensionless ? "" : " " + std::string(symbol(unit));
+}
+
+/// A distance from the prior's mean, with what it is measured in.
+std::string deviations(double distance, const VerdictContext& context) {
+  return fmt::format("{:.1f} standard deviations of the prior{}", distance,
+                     context.prior_of_logarithm ? " (of the logarithm)" : "");
 }
 
 /// What the recording adds to what is known beforehand.
@@ -100,7 +110,12 @@ void judge_alone(ParameterEstimate& e, const VerdictContext& context, const Verd
                context.failure.empty() ? "the fit gave no number" : context.failure);
   if (!context.converged && !context.outside_physical)
     return set(Verdict::not_identifiable, "the fit did not converge: " + context.failure);
-  if (context.outside_physical) return set(Verdict::non_physical, diagnosis(e));
+  if (context.outside_physical) {
+    return set(Verdict::non_physical,
+               context.converged ? diagnosis(e)
+                                 : "the fit did not converge (" + context.failure +
+                                       ") and stopped where no muscle can be: that says nothing");
+  }
   if (!rules.possible(context.relative_width)) {
     return set(Verdict::non_physical,
                fmt::format("{:.2g} of the optimal length, and muscles have {} to {}: {}",
@@ -117,6 +132,13 @@ void judge_alone(ParameterEstimate& e, const VerdictContext& context, const Verd
   constexpr double kNoDelay_s = 1e-6;
   const bool unexplained = context.r2 < rules.least_r2;
   if (e.at_bound && e.parameter == "emg_delay" && e.estimate <= kNoDelay_s && e.ci_high) {
+    if (*e.ci_high > rules.delay_weak_s) {
+      return set(
+          Verdict::not_identifiable,
+          fmt::format("any delay up to {:.0f} ms does as well: the EMG changes too little or "
+                      "too slowly to show one",
+                      1000.0 * *e.ci_high));
+    }
     return set(*e.ci_high <= rules.delay_identified_s && !unexplained ? Verdict::identified
                                                                       : Verdict::weak,
                "no delay: EMG and torque go together");
@@ -124,9 +146,18 @@ void judge_alone(ParameterEstimate& e, const VerdictContext& context, const Verd
   const double prior_sd = zero_by_nature(e.parameter) ? e.prior_sd.value_or(0.0) : 0.0;
   const bool none = e.at_bound && prior_sd > 0.0 && std::abs(e.estimate) <= 1e-6 * prior_sd;
   if (e.at_bound && !none) {
+    return set(Verdict::not_identifiable,
+               context.given_bound
+                   ? "the best fit leans on the bound that was given: the recording pulls beyond it"
+                   : "the best fit leans on a bound: the recording pulls beyond what is physically "
+                     "possible");
+  }
+  if (!context.never.empty()) {
+    const bool known = e.shrinkage.has_value();  // beforehand
     return set(
-        Verdict::not_identifiable,
-        "the best fit leans on a bound: the recording pulls beyond what is physically possible");
+        known ? Verdict::prior_dominated : Verdict::not_identifiable,
+        fmt::format("the muscle never {} while active: nothing in the recording speaks of it",
+                    context.never));
   }
   if (!context.determined || !e.std_error || !e.ci_low || !e.ci_high) {
     return set(
@@ -142,16 +173,29 @@ void judge_alone(ParameterEstimate& e, const VerdictContext& context, const Verd
   if (e.shrinkage && *e.shrinkage < rules.least_shrinkage) {
     if (context.prior_distance > rules.prior_conflict) {
       return set(Verdict::not_identifiable,
-                 fmt::format("{:.1f} standard deviations from the literature's value and no surer "
-                             "than that: use neither before the cause is known",
-                             context.prior_distance));
+                 fmt::format("{} away from {} and no surer than that: use neither before the cause "
+                             "is known",
+                             deviations(context.prior_distance, context), context.beforehand));
     }
-    return set(Verdict::prior_dominated,
-               context.prior_distance <= rules.prior_stays
-                   ? "mostly the literature's value: " + narrowing(*e.shrinkage)
-                   : fmt::format("{}, though the fit moved it {:.1f} standard deviations away from "
-                                 "the literature's value",
-                                 narrowing(*e.shrinkage), context.prior_distance));
+    // A fit with a prior moves a value by N(0, P - C), P the prior's and C its own variance: much
+    // farther, and what the recording says and the prior contradict each other.
+    constexpr double kLeastShrinkage = 0.005;
+    const double conflict = context.prior_is_given && *e.shrinkage > kLeastShrinkage
+                                ? context.prior_distance / std::sqrt(*e.shrinkage)
+                                : 0.0;
+    if (conflict > rules.prior_conflict) {
+      return set(
+          Verdict::not_identifiable,
+          fmt::format("mostly {}, which the recording contradicts by {:.1f} of their standard "
+                      "deviations: use neither before the cause is known",
+                      context.beforehand, conflict));
+    }
+    return set(
+        Verdict::prior_dominated,
+        context.prior_distance <= rules.prior_stays
+            ? fmt::format("mostly {}: {}", context.beforehand, narrowing(*e.shrinkage))
+            : fmt::format("{}, though the fit moved it {} away from {}", narrowing(*e.shrinkage),
+                          deviations(context.prior_distance, context), context.beforehand));
   }
   const double half = half_width(e);
   if (e.parameter == "emg_delay") {
@@ -172,9 +216,9 @@ void judge_alone(ParameterEstimate& e, const VerdictContext& context, const Verd
   if (context.prior_distance > rules.prior_conflict &&
       (prior_sd > 0.0 || relative <= rules.weak_half_width)) {
     set(Verdict::weak,
-        fmt::format("{:.1f} standard deviations away from what is known beforehand: a "
-                    "simplification of the model, or the EMG, may be what is fitted",
-                    context.prior_distance));
+        fmt::format("{} away from {}: a simplification of the model, or the EMG, may be what is "
+                    "fitted",
+                    deviations(context.prior_distance, context), context.beforehand));
   } else if (relative <= rules.identified_half_width) {
     set(Verdict::identified, known);
   } else if (prior_sd > 0.0) {
@@ -205,11 +249,12 @@ void judge_alone(ParameterEstimate& e, const VerdictContext& context, const Verd
                      known, 100.0 * context.model_error));
   unless(!rules.possible(context.curve_width),
          known + ", but by a force-length curve that no muscle has");
-  unless(
-      context.muscle_distance > rules.prior_conflict,
-      fmt::format("{}, but this muscle's numbers together are {:.1f} standard deviations from "
-                  "the literature's: a wrong label, sign, mass or geometry may be what is fitted",
-                  known, context.muscle_distance));
+  unless(context.muscle_distance > rules.prior_conflict,
+         fmt::format(
+             "{}, but this muscle's numbers together are {:.1f} standard deviations of "
+             "their priors away from these: a wrong label, sign, mass or geometry may be what is "
+             "fitted",
+             known, context.muscle_distance));
   unless(!context.rests_on.empty(),
          fmt::format("rests on trial '{}': without it the value would leave its own "
                      "interval; record more like it",
@@ -238,56 +283,11 @@ void judge(ParameterEstimate& e, const VerdictContext& context, const VerdictRul
     e.reason += "; by a force-length curve that no muscle has";
   const bool said = e.reason.find("standard deviations") != std::string::npos;
   if (context.prior_distance > rules.prior_conflict && std::isfinite(e.estimate) && !said)
-    e.reason += fmt::format("; {:.1f} standard deviations from the literature's value",
-                            context.prior_distance);
-}
-
-void diagnose(IdentificationResult& result) {
-  struct Pattern {
-    std::optional<double> width_ratio, curvature, product, plateau;
-    bool plateau_near_one = false;
-  };
-  std::map<std::string, Pattern> patterns;
-  for (const ParameterEstimate& e : result.estimates) {
-    // What is mostly the prior's says nothing about the data.
-    if (!std::isfinite(e.estimate) || (e.shrinkage && *e.shrinkage < 0.3)) continue;
-    Pattern& p = patterns[e.muscle];
-    if (e.parameter == "force_length_width" && e.initial > 0.0) {
-      const double ratio = e.estimate / e.initial;
-      p.width_ratio = std::min(p.width_ratio.value_or(ratio), ratio);
-    }
-    if (e.parameter == "concentric_curvature") p.curvature = e.estimate;
-    if (e.parameter == "eccentric_curvature_product") p.product = e.estimate;
-    if (e.parameter == "eccentric_plateau") {
-      p.plateau = e.estimate;
-      p.plateau_near_one = std::abs(e.estimate - 1.0) < 0.12;
-    }
-  }
-  for (const auto& [muscle, p] : patterns) {
-    const bool straight = p.curvature && *p.curvature > 2.0;
-    const bool bent = p.curvature && *p.curvature < 0.12;
-    const bool narrow = p.width_ratio && *p.width_ratio < 0.5;
-    if ((p.product && *p.product <= 0.0 && p.plateau_near_one) || straight) {
-      result.diagnoses.push_back(fmt::format(
-          "{}: emg_delay_ignored: no effect of velocity is resolved (V_sh very large, "
-          "or V_sh V_shl not positive with V_ml near 1), as when the force lags the EMG "
-          "and no delay is allowed for",
-          muscle));
-    }
-    if (p.plateau && *p.plateau < 0.6 && p.product && std::abs(*p.product) < 0.15) {
-      result.diagnoses.push_back(fmt::format(
-          "{}: gain_mismatch: V_ml far below 1 with V_sh V_shl near 0 is a step in gain between "
-          "shortening and lengthening: EMG is there while (almost) no force is assigned "
-          "(co-contraction, or F_max or the EMG gain too high)",
-          muscle));
-    }
-    if (narrow && (bent || (p.product && *p.product <= 0.0) || (p.plateau && *p.plateau > 1.6))) {
-      result.diagnoses.push_back(fmt::format(
-          "{}: co_contraction_zeroed: a narrow force-length curve with a strongly bent "
-          "force-velocity curve is what is left when an optimizer sets the antagonist to zero",
-          muscle));
-    }
-  }
+    e.reason += fmt::format("; {} away from {}", deviations(context.prior_distance, context),
+                            context.beforehand);
+  if (e.parameter == "concentric_curvature" && context.speed_is_free &&
+      e.verdict != Verdict::identified && e.verdict != Verdict::non_physical)
+    e.reason += "; v_max is not known, and another v_max asks for another V_sh";
 }
 
 }  // namespace myoid::identification

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 #include "myoid/identification/result.h"
 
 namespace myoid::identification {
@@ -40,6 +42,15 @@ struct VerdictContext {
   bool outside_physical = false;  ///< Value outside the physical bounds of its field.
   double prior_distance =
       0.0;  ///< |estimate - prior mean| in spreads of the prior; 0 without a prior.
+  /// What the prior is: "the literature's value", "what the study gave", ...
+  std::string beforehand = "the literature's value";
+  bool prior_of_logarithm = false;  ///< Its standard deviation is that of the logarithm.
+  bool prior_is_given = false;      ///< By the study.
+  bool given_bound = false;         ///< The bound that was reached is the study's, not physics'.
+  bool speed_is_free = false;       ///< v_max of the same muscle is an unknown.
+  /// "lengthened" or "shortened": what the muscle never did while active, of a number that only
+  /// acts then; empty: it did.
+  std::string never;
   double muscle_distance = 0.0;  ///< PriorDistance::distance of the muscle.
   double relative_width = 0.0;   ///< Of l_sh: over l0 of the same fit; 0: of something else.
   double curve_width = 0.0;      ///< The same of the muscle that another number belongs to.
@@ -69,10 +80,5 @@ void judge(ParameterEstimate& estimate,
 /// |N(0, 1)| that is as improbable as a sum of squares of `count` of them that is this or more
 /// (chi-square, Wilson and Hilferty 1931): one number in standard deviations for several together.
 [[nodiscard]] double equivalent_deviations(double sum_of_squares, int count);
-
-/// Names, in `result.diagnoses`, the single errors whose signature the estimates carry: an EMG
-/// delay that was not accounted for, co-contraction that force sharing set to zero, EMG and force
-/// that disagree in gain. Found by simulation of each error alone; a signature is no proof.
-void diagnose(IdentificationResult& result);
 
 }  // namespace myoid::identification

@@ -234,6 +234,94 @@ TEST(Judge, NamesTheErrorThatTheSourcePapersValuesAreTheSignatureOf) {
   EXPECT_NE(product.reason.find("delay"), std::string::npos);
 }
 
+TEST(Judge, AFitThatStoppedWhereNoMuscleIsNamesNoCause) {
+  ParameterEstimate product = estimate(0.01, "eccentric_curvature_product");
+  product.estimate = -0.005;
+  judge(product, {.converged = false, .failure = "steps diverged", .outside_physical = true});
+  EXPECT_EQ(product.verdict, Verdict::non_physical);
+  EXPECT_EQ(product.reason.find("delay"), std::string::npos) << product.reason;
+  EXPECT_NE(product.reason.find("steps diverged"), std::string::npos) << product.reason;
+}
+
+TEST(Judge, AWideCurveIsNotBlamedOnWhatNarrowsIt) {
+  ParameterEstimate width = estimate(0.01, "force_length_width");
+  width.initial = 0.5;
+  judge(width, {.outside_physical = true});
+  EXPECT_EQ(width.reason.find("co-contraction"), std::string::npos) << width.reason;
+  width.initial = 2.0;
+  judge(width, {.outside_physical = true});
+  EXPECT_NE(width.reason.find("co-contraction"), std::string::npos) << width.reason;
+}
+
+TEST(Judge, SaysWhosePriorItIsAndInWhatItIsMeasured) {
+  ParameterEstimate e = estimate(0.1);
+  e.shrinkage = 0.2;
+  judge(e, {.prior_distance = 0.2, .beforehand = "what the study gave beforehand"});
+  EXPECT_EQ(e.reason.find("mostly what the study gave beforehand"), 0U) << e.reason;
+  e.shrinkage = 0.9;
+  judge(e, {.prior_distance = 4.0, .prior_of_logarithm = true});
+  EXPECT_NE(e.reason.find("4.0 standard deviations of the prior (of the logarithm)"),
+            std::string::npos)
+      << e.reason;
+}
+
+TEST(Judge, APriorOfTheStudysOwnThatTheDataContradictIsToldSo) {
+  // 0.08 -+ 0.0005 given, the data alone 0.047 -+ 0.002: the fit ends between, at a precision of
+  // 1/0.0005^2 + 1/0.002^2, 0.0019 below the one. It has moved by 3.9 of the given spreads, and by
+  // 16 of what a fit with that prior moves, sqrt(P - C).
+  const double p = 0.0005 * 0.0005, c = 1.0 / (1.0 / p + 1.0 / (0.002 * 0.002));
+  ParameterEstimate e = estimate(0.001);
+  e.shrinkage = 1.0 - c / p;
+  const double moved = (0.08 - 0.047) * c / (0.002 * 0.002) / 0.0005;
+  EXPECT_NEAR(moved, 3.9, 0.05);
+  // Moved by less it still is a contradiction, and the literature's alone is not called one.
+  judge(e, {.prior_distance = 0.25 * moved, .prior_is_given = true});
+  EXPECT_EQ(e.verdict, Verdict::not_identifiable);
+  EXPECT_NE(e.reason.find("contradicts"), std::string::npos) << e.reason;
+  judge(e, {.prior_distance = 0.25 * moved});
+  EXPECT_EQ(e.verdict, Verdict::prior_dominated);
+}
+
+TEST(Judge, ABoundThatWasGivenIsNotCalledPhysical) {
+  ParameterEstimate e = estimate(0.01);
+  e.at_bound = true;
+  judge(e, {.given_bound = true});
+  EXPECT_EQ(e.verdict, Verdict::not_identifiable);
+  EXPECT_EQ(e.reason.find("physically"), std::string::npos) << e.reason;
+  judge(e, {});
+  EXPECT_NE(e.reason.find("physically"), std::string::npos) << e.reason;
+}
+
+TEST(Judge, WhatAMuscleNeverDidIsSaid) {
+  ParameterEstimate e = estimate(0.3, "eccentric_plateau");
+  judge(e, {.never = "lengthened"});
+  EXPECT_EQ(e.verdict, Verdict::not_identifiable);
+  EXPECT_NE(e.reason.find("never lengthened while active"), std::string::npos) << e.reason;
+  e.shrinkage = 0.0;
+  EXPECT_EQ(verdict_of(e, {.never = "lengthened"}), Verdict::prior_dominated);
+}
+
+TEST(Judge, ACurvatureBesideAFreeSpeedSaysSo) {
+  ParameterEstimate e = estimate(0.3, "concentric_curvature");
+  judge(e, {.speed_is_free = true});
+  EXPECT_NE(e.reason.find("v_max is not known"), std::string::npos) << e.reason;
+  judge(e, {});
+  EXPECT_EQ(e.reason.find("v_max"), std::string::npos) << e.reason;
+}
+
+TEST(Judge, ADelayOfZeroThatCouldBeAnyIsNoFinding) {
+  ParameterEstimate e = estimate(0.1, "emg_delay");
+  e.estimate = 0.0;
+  e.at_bound = true;
+  e.ci_low = 0.0;
+  e.ci_high = 0.15;
+  judge(e, {});
+  EXPECT_EQ(e.verdict, Verdict::not_identifiable);
+  EXPECT_NE(e.reason.find("any delay up to 150 ms"), std::string::npos) << e.reason;
+  e.ci_high = 0.01;
+  EXPECT_EQ(verdict_of(e), Verdict::identified);
+}
+
 TEST(Judge, TheDelayIsJudgedInMilliseconds) {
   const auto delay = [](double half) {
     ParameterEstimate e = estimate(half, "emg_delay");

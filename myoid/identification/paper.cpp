@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string_view>
 
 #include <Eigen/LU>
@@ -15,6 +16,7 @@
 #include "myoid/identification/identifiability.h"
 #include "myoid/identification/paper_case.h"
 #include "myoid/identification/score.h"
+#include "myoid/identification/signatures.h"
 #include "myoid/math/covariance.h"
 #include "myoid/math/statistics.h"
 #include "myoid/muscle/hill_muscle.h"
@@ -32,11 +34,32 @@ struct CaseShape {
 };
 constexpr std::array<std::string_view, 2> kShared{"optimal_fiber_length", "force_length_width"};
 
+/// Where full steps find no minimum, damped ones may: no estimate, but it shows the signature of an
+/// error that the data carry. Empty where they find none either.
+std::optional<Eigen::VectorXd> damped_minimum(const PaperCase& samples) {
+  const auto p = static_cast<Eigen::Index>(samples.unknowns.size());
+  if (static_cast<Eigen::Index>(samples.samples.size()) < 10 * p) return std::nullopt;
+  if (!(samples.largest_force_n() > 0.0)) return std::nullopt;
+  try {
+    const math::LeastSquaresResult fit = math::minimize(samples.problem(), samples.start_vector());
+    // V_sh or P on their way to infinity never arrive, and change nothing any more.
+    const std::vector<double>& costs = fit.cost_history;
+    constexpr std::size_t kLast = 10;
+    const bool settled =
+        costs.size() > kLast && costs.back() > (1.0 - 1e-3) * costs[costs.size() - 1 - kLast];
+    if (fit.x.allFinite() && (fit.termination == math::Termination::converged || settled))
+      return fit.x;
+  } catch (const InvalidInput&) {  // not finite at the start
+  }
+  return std::nullopt;
+}
+
 std::optional<CaseShape> fit_case(const StudyData& data,
                                   std::size_t muscle,
                                   bool shortening,
                                   const PaperOptions& options,
-                                  IdentificationResult& result) {
+                                  IdentificationResult& result,
+                                  std::vector<ParameterEstimate>& minima) {
   const MuscleSetup& setup = data.muscles[muscle];
   const PaperCase samples = paper_case(data, muscle, shortening);
   const std::vector<PaperUnknown>& list = samples.unknowns;
@@ -68,6 +91,8 @@ std::optional<CaseShape> fit_case(const StudyData& data,
   if (!failure.empty())
     result.message +=
         fmt::format("{}, {}: {}. ", setup.name, shortening ? "shortening" : "lengthening", failure);
+  const std::optional<Eigen::VectorXd> minimum =
+      failure.empty() ? std::optional(fit.x) : damped_minimum(samples);
 
   math::CovarianceResult covariance;
   double widen = 1.0;
@@ -139,6 +164,10 @@ std::optional<CaseShape> fit_case(const StudyData& data,
       context.plateau_is_flat = std::abs(fit.x[plateau] - 1.0) < quantile * sd;
     }
     judge(e, context);
+    if (minimum) {
+      minima.push_back(e);
+      minima.back().estimate = j == width ? std::abs((*minimum)[j]) : (*minimum)[j];
+    }
     result.estimates.push_back(std::move(e));
   }
   if (!failure.empty() || !computed || covariance.rank < p) return std::nullopt;
@@ -220,13 +249,14 @@ IdentificationResult identify_paper(const StudyData& data, const PaperOptions& o
   IdentificationResult result;
   result.method = "paper";
   result.termination = math::Termination::converged;
+  std::vector<ParameterEstimate> minima;
   for (std::size_t k = 0; k < data.muscles.size(); ++k) {
     result.muscles.push_back(data.muscles[k].start);
     if (!options.muscles.empty() && std::find(options.muscles.begin(), options.muscles.end(),
                                               data.muscles[k].name) == options.muscles.end())
       continue;
-    const auto shortening = fit_case(data, k, true, options, result);
-    const auto lengthening = fit_case(data, k, false, options, result);
+    const auto shortening = fit_case(data, k, true, options, result, minima);
+    const auto lengthening = fit_case(data, k, false, options, result, minima);
     if (options.multistart > 1) {
       for (const bool branch : {true, false}) add_basins(data, k, branch, options, result);
     }
@@ -234,7 +264,7 @@ IdentificationResult identify_paper(const StudyData& data, const PaperOptions& o
       compare_branches(data.muscles[k].name, *shortening, *lengthening, result);
   }
   if (!result.message.empty()) result.termination = math::Termination::no_descent;
-  diagnose(result);
+  result.diagnoses = signatures(minima);
   for (const TrialData& trial : data.trials) {
     TrialFit fit;
     fit.trial = trial.name;

@@ -65,6 +65,8 @@ ParameterSlots default_slots(const StudyData& data,
         if (const auto b = setup.bounds.find(name); b != setup.bounds.end())
           slot.bounds = b->second;
         if (const auto p = setup.priors.find(name); p != setup.priors.end()) slot.prior = p->second;
+        slot.prior_is_given = std::find(setup.given_priors.begin(), setup.given_priors.end(),
+                                        name) != setup.given_priors.end();
       } else if (field.scope == channel) {
         slot.value = values.channels[k][f];
         if (field.field == kDelay) {
@@ -141,6 +143,7 @@ void apply_rules(const std::vector<ParameterRule>& rules,
         const double mean = rule.prior_mean.value_or(slot.prior ? slot.prior->mean : slot.value);
         const double usual = field.logarithmic ? field.prior_sd * std::abs(mean) : field.prior_sd;
         slot.prior = Prior{.mean = mean, .sd = rule.prior_sd.value_or(usual)};
+        slot.prior_is_given = !rule.usual;
       } else if (!slot.prior && rule.free.value_or(false) && field.prior_sd > 0.0) {
         slot.prior =
             Prior{.mean = slot.value, .sd = field.prior_sd, .logarithmic = field.logarithmic};

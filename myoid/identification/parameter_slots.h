@@ -19,8 +19,9 @@ struct ParameterSlot {
   bool start_is_given = false;  ///< By a rule; else an unknown begins at its prior's mean.
   muscle::Range bounds;
   std::optional<Prior> prior;
-  std::vector<int> tied;  ///< Owners that go with it; empty: none.
-  bool follows = false;   ///< Another owner's unknown moves it.
+  bool prior_is_given = false;  ///< By the study: not the literature's.
+  std::vector<int> tied;        ///< Owners that go with it; empty: none.
+  bool follows = false;         ///< Another owner's unknown moves it.
 };
 
 /// Names of those who own numbers, in order.

@@ -25,7 +25,10 @@ struct FreeParameter {
   double lower = 0.0;
   double upper = 0.0;
   double prior_mean = 0.0;
-  double prior_sd = 0.0;  ///< 0: no prior.
+  double prior_sd = 0.0;        ///< 0: no prior.
+  bool prior_is_given = false;  ///< By the study: not the literature's.
+  /// Tighter than what is physical: the study's.
+  bool lower_is_given = false, upper_is_given = false;
 
   [[nodiscard]] double to_value(double z) const;
 };

@@ -26,24 +26,28 @@ void add_routes(ParameterEstimate& e,
   const double quantile = math::normal_quantile(0.5 + 0.5 * kProbability);
   const FreeParameter& p = *row.parameter;
   const auto clipped = [&](double x) { return row.value(std::clamp(x, p.lower, p.upper)); };
-  const auto normal = [&](const std::string& route, double variance) {
+  const auto normal = [&](const std::string& route, double variance, double spread) {
     const double sd = std::sqrt(std::max(0.0, variance));
     if (!std::isfinite(sd)) return;
     // A bound is knowledge, too: no interval reaches where no muscle lives.
-    e.routes.push_back({route, clipped(z - quantile * sd), clipped(z + quantile * sd)});
+    e.routes.push_back({route, clipped(z - quantile * sd), clipped(z + quantile * sd), spread});
   };
-  normal("sandwich", intervals.sandwich.newey_west(at, at));
-  if (intervals.sandwich.cluster) normal("cluster", (*intervals.sandwich.cluster)(at, at));
-  if (intervals.sandwich.jackknife) normal("jackknife", (*intervals.sandwich.jackknife)(at, at));
-  const auto add = [&](const std::string& route, const Interval& interval) {
-    RouteInterval r{route, {}, {}};
+  const Sandwich& s = intervals.sandwich;
+  const double by_trials = s.trial_spread.size() > at ? s.trial_spread[at] : 0.0;
+  normal("sandwich", s.newey_west(at, at), s.sample_spread);
+  if (s.cluster) normal("cluster", (*s.cluster)(at, at), by_trials);
+  if (s.jackknife) normal("jackknife", (*s.jackknife)(at, at), by_trials);
+  const auto add = [&](const std::string& route, const Interval& interval, double spread) {
+    RouteInterval r{route, {}, {}, spread};
     if (interval.low) r.low = clipped(*interval.low);
     if (interval.high) r.high = clipped(*interval.high);
     if (r.low || r.high || route == "profile") e.routes.push_back(r);
   };
   const auto index = static_cast<std::size_t>(at);
-  if (intervals.bootstrap) add("bootstrap", intervals.bootstrap->intervals[index]);
-  if (intervals.profiles) add("profile", (*intervals.profiles)[index]);
+  if (intervals.bootstrap) {
+    add("bootstrap", intervals.bootstrap->intervals[index], intervals.bootstrap->spread);
+  }
+  if (intervals.profiles) add("profile", (*intervals.profiles)[index], 0.0);
 
   // The interval that is reported: to either side the farther of sandwich and profile, with the
   // model's error on top, but never less than trials show that differ by both. Of few trials that

@@ -29,6 +29,7 @@ enum class Verdict {
 struct RouteInterval {
   std::string route;                ///< sandwich | cluster | jackknife | bootstrap | profile
   std::optional<double> low, high;  ///< Empty: open on that side.
+  double spread = 0.0;  ///< Of the logarithm of the width, from the route's own sample; 0: none.
 };
 
 /// One row of parameters.csv.

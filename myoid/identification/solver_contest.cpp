@@ -39,8 +39,6 @@ math::LocalMinimum searched(const Search& search, const Eigen::VectorXd& start) 
 SolverContest contest(const Contestants& who, const StartBox& box, const ContestOptions& options) {
   const std::vector<Eigen::VectorXd> starts = starts_in(box, options.starts);
   const Progress stop{{}, options.progress.stop};
-  // Annealing has the box of the starts, so that its temperature fits what is searched.
-  const math::DirectSearchProblem boxed{who.cost.cost, box.lower, box.upper};
   std::uint64_t seed = options.seed;
   const std::vector<std::pair<const char*, Search>> solvers{
       {"gauss_newton", who.gauss_newton},
@@ -51,9 +49,16 @@ SolverContest contest(const Contestants& who, const StartBox& box, const Contest
              who.cost, x, {.max_evaluations = options.direct_evaluations, .progress = stop}));
        }},
       {"simulated_annealing", [&](const Eigen::VectorXd& x) {
-         return end_of(math::simulated_annealing(
-             boxed, x,
-             {.seed = seed++, .max_evaluations = options.direct_evaluations, .progress = stop}));
+         return end_of(math::simulated_annealing(who.cost, x,
+                                                 // The costs of the starts' box spread over many
+                                                 // powers of ten: the temperature follows them.
+                                                 {.seed = seed++,
+                                                  .max_evaluations = options.direct_evaluations,
+                                                  .spread_cooling = 0.7,
+                                                  .cycles = 10,
+                                                  .adjustments = 1,
+                                                  .reach = box.upper - box.lower,
+                                                  .progress = stop}));
        }}};
   SolverContest result;
   std::vector<Eigen::VectorXd> ends;

@@ -38,14 +38,15 @@ struct ContestOptions {
 
 /// The four solvers that the source paper weighs against each other, on the same cost, with the
 /// same weights (those of the usual fit) and bounds, from the same starts. Gauss-Newton takes full
-/// steps. The estimator's own progress is not used. Throws Interrupted.
+/// steps; annealing begins with steps as wide as the box of the starts. The estimator's own
+/// progress is not used. Throws Interrupted.
 [[nodiscard]] SolverContest compare_solvers(const StudyData& data,
                                             const EstimatorOptions& estimator,
                                             const ContestOptions& options = {});
 
 /// The same on the problem that the source paper solves: 1/2 sum (F_t - F_m(x))^2 of one muscle in
 /// one branch (paper_case.h), without weights, priors or bounds. Gauss-Newton is that of
-/// `identify_paper`; annealing needs a box, that of the starts. Costs are in N^2. No runs where the
+/// `identify_paper`. Costs are in N^2. No runs where the
 /// branch has fewer samples than unknowns, or all is held.
 [[nodiscard]] SolverContest compare_paper_solvers(const StudyData& data,
                                                   std::size_t muscle,

@@ -24,7 +24,8 @@ struct MuscleSetup {
   /// Absent: no prior for that parameter. With one for `eccentric_slope_ratio` that ratio is the
   /// unknown and V_sh V_shl follows from it.
   std::map<std::string, Prior> priors;
-  MuscleExtras extras;  ///< What the source paper's law leaves out.
+  std::vector<std::string> given_priors;  ///< Those of `priors` that are not the literature's.
+  MuscleExtras extras;                    ///< What the source paper's law leaves out.
 };
 
 /// What is asked of a parameter beyond the defaults; later rules win.
@@ -35,6 +36,7 @@ struct ParameterRule {
   std::optional<double> value;  ///< Start, or what it is held at.
   std::optional<double> lower, upper;
   std::optional<double> prior_mean, prior_sd;  ///< In the parameter's unit.
+  bool usual = false;  ///< Not asked for by the study: what is expected of every recording.
   bool tie = false;  ///< One unknown for all owners: their ratios to the starting values are equal.
 };
 

@@ -11,6 +11,7 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include "myoid/core/units.h"
+#include "myoid/identification/score_blocks.h"
 #include "myoid/math/statistics.h"
 
 namespace myoid::identification {
@@ -44,17 +45,6 @@ class Stream {
   std::uint64_t state_;
 };
 
-Eigen::MatrixXd inverse_of(const Eigen::MatrixXd& a) {
-  // Scaled to unit diagonal before inverting; near-zero directions stay near-infinite.
-  const Eigen::VectorXd scale = a.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
-  const Eigen::MatrixXd scaled = scale.asDiagonal() * a * scale.asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scaled);
-  const Eigen::VectorXd values =
-      eigen.eigenvalues().cwiseMax(1e-14 * eigen.eigenvalues().maxCoeff()).cwiseInverse();
-  return scale.asDiagonal() * eigen.eigenvectors() * values.asDiagonal() *
-         eigen.eigenvectors().transpose() * scale.asDiagonal();
-}
-
 /// inverse_of(a) * b, by a Cholesky factor where one is at hand.
 Eigen::VectorXd solve_positive(const Eigen::MatrixXd& a, const Eigen::VectorXd& b) {
   const Eigen::VectorXd scale = a.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
@@ -63,54 +53,6 @@ Eigen::VectorXd solve_positive(const Eigen::MatrixXd& a, const Eigen::VectorXd& 
                        factor.matrixLLT().diagonal().minCoeff() > 1e-5;  // 1 in each column
   if (!regular) return inverse_of(a) * b;
   return scale.cwiseProduct(factor.solve(scale.cwiseProduct(b)));
-}
-
-/// The sum of a trial's scores as it would be spread if the trial had no part in the fit: with
-/// L L' = A, L (I - L^-1 A_trial L^-T)^-1/2 L^-1 times it (Bell & McCaffrey 2002). A fit runs after
-/// its trials, the more so the more a trial alone says.
-Eigen::VectorXd unfitted(const Eigen::LLT<Eigen::MatrixXd>& factor,
-                         const Eigen::MatrixXd& of_trial,
-                         const Eigen::VectorXd& sum) {
-  constexpr double kLeast = 0.05;  // of the spread that a fit leaves
-  const auto lower = factor.matrixL();
-  const Eigen::MatrixXd half = lower.solve(of_trial);
-  const Eigen::MatrixXd share = lower.solve(half.transpose());
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(0.5 * (share + share.transpose()));
-  const Eigen::VectorXd left = (1.0 - eigen.eigenvalues().array()).max(kLeast).rsqrt().matrix();
-  const Eigen::VectorXd turned = eigen.eigenvectors().transpose() * lower.solve(sum);
-  return lower * (eigen.eigenvectors() * left.cwiseProduct(turned));
-}
-
-/// Rows that are drawn together.
-struct Block {
-  int stratum = 0;  ///< Trial; 0 for all where whole trials are drawn.
-  std::vector<std::pair<Eigen::Index, Eigen::Index>> rows;  ///< First and count.
-};
-
-std::vector<Block> blocks_of(const ResidualModel& model, double block_s) {
-  std::vector<Block> blocks;
-  int trial = -1;
-  std::size_t first_of_trial = 0;
-  for (const Piece& piece : model.pieces()) {
-    const bool same = piece.trial == trial;
-    if (!same) first_of_trial = blocks.size();
-    trial = piece.trial;
-    Eigen::Index count = 1;
-    if (block_s > 0.0) {
-      count = std::max<Eigen::Index>(
-          1, static_cast<Eigen::Index>(
-                 std::lround(static_cast<double>(piece.count) / (model.rate_hz() * block_s))));
-    }
-    for (Eigen::Index b = 0; b < count; ++b) {
-      const Eigen::Index begin = piece.count * b / count;
-      const Eigen::Index end = piece.count * (b + 1) / count;
-      // Joints of one trial are drawn together.
-      const std::size_t at = first_of_trial + static_cast<std::size_t>(b);
-      if (!same || at >= blocks.size()) blocks.push_back({block_s > 0.0 ? trial : 0, {}});
-      blocks[same ? at : blocks.size() - 1].rows.emplace_back(piece.first + begin, end - begin);
-    }
-  }
-  return blocks;
 }
 
 /// Whether the smallest eigenvalue of these rows and columns of a matrix surely exceeds `least`:
@@ -193,6 +135,10 @@ Sandwich sandwich(const Estimator& estimator, const Estimator::Solution& solutio
   Eigen::MatrixXd b = math::newey_west(scores, model.piece_lengths(), lag);
   b.diagonal() += precision;
   result.newey_west = result.model_based * b * result.model_based;
+  // Var(B) / B^2 = 4/3 L / n of the triangle of lags; the width goes with the root of B.
+  result.sample_spread =
+      0.5 * std::sqrt(4.0 / 3.0 * static_cast<double>(std::max<Eigen::Index>(1, lag)) /
+                      static_cast<double>(model.sample_count()));
   if (estimator.options().weights) {
     // Few effective samples make B itself unsure: never below the model-based covariance.
     for (Eigen::Index j = 0; j < a.rows(); ++j) {
@@ -216,6 +162,10 @@ Sandwich sandwich(const Estimator& estimator, const Estimator::Solution& solutio
   Eigen::MatrixXd sums(z.size(), static_cast<Eigen::Index>(trials.size()));
   result.trial_shift.resize(z.size(), sums.cols());
   const Eigen::LLT<Eigen::MatrixXd> factor(whole);
+  const Eigen::MatrixXd of_priors =
+      result.model_based * precision.asDiagonal() * result.model_based;
+  // Expected share of each trial in the variance over trials, and its square.
+  Eigen::VectorXd shares = of_priors.diagonal(), squared_shares = Eigen::VectorXd::Zero(z.size());
   for (Eigen::Index k = 0; k < sums.cols(); ++k) {
     Eigen::MatrixXd of_trial = Eigen::MatrixXd::Zero(z.size(), z.size());
     Eigen::VectorXd sum = Eigen::VectorXd::Zero(z.size());
@@ -226,14 +176,26 @@ Sandwich sandwich(const Estimator& estimator, const Estimator::Solution& solutio
       of_trial += rows * rows.transpose();
     }
     result.trial_shift.col(k) = solve_positive(whole - of_trial, sum);
+    const Eigen::VectorXd share =
+        (result.model_based * of_trial).cwiseProduct(result.model_based).rowwise().sum();
+    shares += share;
+    squared_shares += share.cwiseAbs2();
     sums.col(k) = factor.info() == Eigen::Success ? unfitted(factor, of_trial, sum) : sum;
+  }
+  if (!estimator.options().weights) {
+    // No A^-1 that B could fall back to: few effective samples make Newey and West's too small by a
+    // third. Blocks that hold many correlation times, each as outside of the fit, with the quantile
+    // of their number (Bell & McCaffrey 2002).
+    if (const auto over_blocks = block_covariance(model, by_sample, whole, precision))
+      result.newey_west = *over_blocks;
   }
   const auto covariance_of = [](const Eigen::MatrixXd& columns) {
     const Eigen::MatrixXd off = columns.colwise() - columns.rowwise().mean();
     return Eigen::MatrixXd(off * off.transpose());
   };
   if (trials.size() >= 5)
-    result.jackknife = (clusters - 1.0) / clusters * covariance_of(result.trial_shift);
+    result.jackknife = (clusters - 1.0) / clusters * covariance_of(result.trial_shift) + of_priors;
+  result.trial_spread = (0.5 * squared_shares.array()).sqrt() / shares.array().max(1e-300);
   if (trials.size() >= 8) {
     Eigen::MatrixXd sum = sums * sums.transpose();
     sum.diagonal() += precision;
@@ -289,6 +251,11 @@ BootstrapResult bootstrap(const Estimator& estimator, const Estimator::Solution&
   for (std::size_t i = 0; i < good.size(); ++i)
     result.replicates.row(static_cast<Eigen::Index>(i)) = found[good[i]].transpose();
   result.intervals.resize(static_cast<std::size_t>(p));
+  // Both ends are quantiles of the replicates, sd sqrt(0.975 0.025 / R) / 0.0585 (density at 1.96)
+  // each; blocks that are drawn anew are a sample themselves.
+  if (!good.empty())
+    result.spread = std::hypot(0.96 / std::sqrt(static_cast<double>(good.size())),
+                               std::sqrt(0.5 / static_cast<double>(blocks.size())));
   if (good.size() >= 40) {
     for (Eigen::Index j = 0; j < p; ++j) {
       const std::vector<double> values(result.replicates.col(j).begin(),

@@ -13,17 +13,24 @@ namespace myoid::identification {
 /// What the curvature at the minimum says; all in the solver's scale.
 struct Sandwich {
   Eigen::MatrixXd newey_west;  ///< A^-1 B A^-1, B from autocovariances within trials up to 0.4 s;
-                               ///< never below A^-1 where weights are used.
+                               ///< never below A^-1 where weights are used; without them B from
+                               ///< blocks of 2 s as below over trials, with Student's quantile.
   std::optional<Eigen::MatrixXd> cluster;  ///< B from the sums of scores over trials, each as it
                                            ///< would be spread outside the fit (Bell & McCaffrey
                                            ///< 2002); with at least 8 trials.
   std::vector<int> trials;                 ///< Calibration trials, in StudyData::trials.
   Eigen::MatrixXd trial_shift;  ///< p x trials: by how much the estimates move without that trial,
                                 ///< in one Newton step, (A - A_trial)^-1 times its scores.
-  std::optional<Eigen::MatrixXd> jackknife;  ///< (K - 1)/K sum of those shifts squared; with at
-                                             ///< least 5 trials.
-  Eigen::MatrixXd model_based;               ///< A^-1
-  Eigen::MatrixXd information;               ///< Of the data alone, nu J'WJ.
+  std::optional<Eigen::MatrixXd> jackknife;  ///< (K - 1)/K sum of those shifts squared, and the
+                                             ///< prior's share as in the other two; with at least
+                                             ///< 5 trials.
+  /// By how much chance alone makes an interval too wide or too narrow, as the standard deviation
+  /// of the logarithm of its width: of the sums over trials, and of the jackknife, by parameter,
+  /// the more so the fewer trials speak of it (Satterthwaite 1946) ...
+  Eigen::VectorXd trial_spread;
+  double sample_spread = 0.0;   ///< ... and of Newey and West's, with its triangle of lags.
+  Eigen::MatrixXd model_based;  ///< A^-1
+  Eigen::MatrixXd information;  ///< Of the data alone, nu J'WJ.
   /// By how much the estimates move where the variance of the EMG's noise is larger by its own
   /// spread (NoiseLevel::log_variance_sd): the more, the less the data tell muscles from what is
   /// not noisy.
@@ -44,6 +51,7 @@ struct BootstrapResult {
   Eigen::MatrixXd replicates;  ///< Converged ones, rows.
   int failed = 0;
   std::vector<Interval> intervals;  ///< 2.5 and 97.5 % quantiles.
+  double spread = 0.0;  ///< As Sandwich::trial_spread, from the numbers of replicates and blocks.
 };
 /// Refits to resampled data: blocks are drawn with replacement within each trial (whole trials if
 /// `bootstrap_block_s` is 0), and prior means are drawn from the priors; weights are those of the

@@ -14,17 +14,21 @@ namespace myoid::math {
 namespace {
 
 void validate(const CountedCost& cost, const AnnealingOptions& options) {
-  if (!cost.lower().allFinite() || !cost.upper().allFinite())
+  const Eigen::VectorXd& reach = options.reach;
+  if (reach.size() > 0 &&
+      (reach.size() != cost.lower().size() || !reach.allFinite() || (reach.array() < 0.0).any()))
+    throw InvalidInput("simulated annealing: reach must be one finite width per parameter");
+  if (reach.size() == 0 && (!cost.lower().allFinite() || !cost.upper().allFinite()))
     throw InvalidInput("simulated annealing: every parameter needs two finite bounds");
   if (!(options.cooling > 0.0 && options.cooling < 1.0)) {
     throw InvalidInput(
         fmt::format("simulated annealing: cooling is {}; between 0 and 1", options.cooling));
   }
   if (options.cycles < 1 || options.adjustments < 1 || options.stop_temperatures < 1 ||
-      !(options.first_temperature >= 0.0)) {
+      !(options.first_temperature >= 0.0) || !(options.spread_cooling >= 0.0)) {
     throw InvalidInput(
         "simulated annealing: cycles, adjustments and stop_temperatures must be at least 1, the "
-        "first temperature not negative");
+        "first temperature and the cooling by spread not negative");
   }
 }
 
@@ -32,24 +36,44 @@ double uniform_between(Random& random, double low, double high) {
   return std::clamp(low + random.uniform() * (high - low), low, high);
 }
 
-/// Spread of the cost over the box; walls are left out.
-double spread_of_costs(CountedCost& cost, Random& random) {
-  const Eigen::Index p = cost.lower().size();
-  double sum = 0.0, squares = 0.0;
-  int finite = 0;
+/// Mean and spread as they come in (Welford): safe for huge costs. Walls are left out.
+class Spread {
+ public:
+  void add(double value) {
+    if (!std::isfinite(value)) return;
+    const double change = value - mean_;
+    mean_ += change / ++count_;
+    squares_ += change * (value - mean_);
+  }
+  [[nodiscard]] double sd() const { return count_ > 1 ? std::sqrt(squares_ / (count_ - 1)) : 0.0; }
+
+ private:
+  double mean_ = 0.0, squares_ = 0.0;
+  int count_ = 0;
+};
+
+/// Spread of the cost over a box.
+double spread_of_costs(CountedCost& cost,
+                       const Eigen::VectorXd& lower,
+                       const Eigen::VectorXd& upper,
+                       Random& random) {
+  const Eigen::Index p = lower.size();
+  Spread costs;
   for (Eigen::Index i = 0; i < 20 * p; ++i) {
     Eigen::VectorXd x(p);
-    for (Eigen::Index j = 0; j < p; ++j)
-      x[j] = uniform_between(random, cost.lower()[j], cost.upper()[j]);
-    const double value = cost(x);
-    if (!std::isfinite(value)) continue;
-    ++finite;
-    const double change = value - sum;  // running mean (Welford), safe for huge costs
-    sum += change / finite;
-    squares += change * (value - sum);
+    for (Eigen::Index j = 0; j < p; ++j) x[j] = uniform_between(random, lower[j], upper[j]);
+    costs.add(cost(x));
   }
-  const double spread = finite > 1 ? std::sqrt(squares / (finite - 1)) : 0.0;
+  const double spread = costs.sd();
   return std::isfinite(spread) && spread > 0.0 ? spread : 1.0;
+}
+
+/// Temperature over the one before, `spread` the costs' at that.
+double cooling(const AnnealingOptions& options, double temperature, double spread) {
+  if (!(options.spread_cooling > 0.0)) return options.cooling;
+  const double slowest = options.cooling * options.cooling;
+  if (!(spread > 0.0)) return slowest;  // nothing moved
+  return std::max(slowest, std::exp(-options.spread_cooling * temperature / spread));
 }
 
 /// One temperature's walk: the point, the steps, and the best point met.
@@ -57,8 +81,10 @@ struct Walk {
   CountedCost& cost;
   Random& random;
   const AnnealingOptions& options;
+  Eigen::VectorXd reach;  ///< Largest steps.
   Eigen::VectorXd x, best, step;
   double current = 0.0, lowest = 0.0;
+  Spread met;  ///< Costs of the points that were kept, at this temperature.
 
   bool spent() const { return cost.evaluations() >= options.max_evaluations; }
 
@@ -67,7 +93,10 @@ struct Walk {
     const double low = cost.lower()[j], high = cost.upper()[j];
     Eigen::VectorXd next = x;
     next[j] += (2.0 * random.uniform() - 1.0) * step[j];
-    if (next[j] < low || next[j] > high) next[j] = uniform_between(random, low, high);
+    if (next[j] < low || next[j] > high) {
+      next[j] = uniform_between(random, std::isfinite(low) ? low : x[j] - step[j],
+                                std::isfinite(high) ? high : x[j] + step[j]);
+    }
     const double value = cost(next);
     const double luck = random.uniform();  // always drawn: the stream does not depend on the cost
     if (!(value <= current) && !(luck < std::exp((current - value) / temperature))) return false;
@@ -82,11 +111,13 @@ struct Walk {
 
   void at(double temperature) {
     const Eigen::Index p = x.size();
+    met = {};
     for (int adjustment = 0; adjustment < options.adjustments && !spent(); ++adjustment) {
       std::vector<int> accepted(static_cast<std::size_t>(p), 0);
       for (int cycle = 0; cycle < options.cycles && !spent(); ++cycle) {
         for (Eigen::Index j = 0; j < p && !spent(); ++j) {
           if (step[j] > 0.0 && try_move(j, temperature)) ++accepted[static_cast<std::size_t>(j)];
+          met.add(current);
         }
       }
       for (Eigen::Index j = 0; j < p; ++j) {
@@ -94,7 +125,7 @@ struct Walk {
             static_cast<double>(accepted[static_cast<std::size_t>(j)]) / options.cycles;
         if (share > 0.6) step[j] *= 1.0 + options.step_growth * (share - 0.6) / 0.4;
         if (share < 0.4) step[j] /= 1.0 + options.step_growth * (0.4 - share) / 0.4;
-        step[j] = std::min(step[j], cost.upper()[j] - cost.lower()[j]);
+        step[j] = std::min(step[j], reach[j]);
       }
     }
   }
@@ -113,20 +144,26 @@ DirectSearchResult simulated_annealing(const DirectSearchProblem& problem,
   const double first_cost = cost(inside);
   if (!std::isfinite(first_cost))
     throw InvalidInput("simulated annealing: no finite cost at the start");
-  const double first_temperature =
-      options.first_temperature > 0.0 ? options.first_temperature : spread_of_costs(cost, random);
+  const bool near = options.reach.size() > 0;
+  const Eigen::VectorXd reach = near ? options.reach : cost.upper() - cost.lower();
+  const Eigen::VectorXd low = near ? cost.clipped(inside - 0.5 * reach) : cost.lower();
+  const Eigen::VectorXd high = near ? cost.clipped(inside + 0.5 * reach) : cost.upper();
+  const double first_temperature = options.first_temperature > 0.0
+                                       ? options.first_temperature
+                                       : spread_of_costs(cost, low, high, random);
   Walk walk{.cost = cost,
             .random = random,
             .options = options,
+            .reach = reach,
             .x = inside,
             .best = inside,
-            .step = cost.upper() - cost.lower(),
+            .step = reach,
             .current = first_cost,
             .lowest = first_cost};
   DirectSearchResult result;
   std::deque<double> ends;
   double temperature = first_temperature;
-  for (;; temperature *= options.cooling) {
+  for (;; temperature *= cooling(options, temperature, walk.met.sd())) {
     options.progress.check();
     walk.at(temperature);
     if (walk.spent()) {
@@ -135,7 +172,8 @@ DirectSearchResult simulated_annealing(const DirectSearchProblem& problem,
       break;
     }
     ++result.iterations;
-    const double tolerance = options.cost_tolerance * (std::abs(walk.lowest) + first_temperature);
+    const double scale = options.spread_cooling > 0.0 ? 0.0 : first_temperature;
+    const double tolerance = options.cost_tolerance * (std::abs(walk.lowest) + scale);
     ends.push_back(walk.current);
     if (static_cast<int>(ends.size()) > options.stop_temperatures) ends.pop_front();
     const bool frozen = static_cast<int>(ends.size()) == options.stop_temperatures &&

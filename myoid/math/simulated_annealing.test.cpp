@@ -66,9 +66,34 @@ TEST(SimulatedAnnealing, LeavesAWellThatNoDescentLeavesIfItIsHot) {
       simulated_annealing(boxed(wells, 2, 2.0), start, {.first_temperature = 1.0});
   EXPECT_NEAR(hot.x[0], 1.0, 1e-3);
   EXPECT_NEAR(hot.x[1], 1.0, 1e-3);
+  const DirectSearchResult by_spread = simulated_annealing(
+      boxed(wells, 2, 2.0), start, {.first_temperature = 1.0, .spread_cooling = 0.7});
+  EXPECT_NEAR(by_spread.x[0], 1.0, 1e-3);
   const DirectSearchResult cold =
       simulated_annealing(boxed(wells, 2, 2.0), start, {.first_temperature = 1e-6});
   EXPECT_NEAR(cold.x[0], -1.0, 1e-3);
+}
+
+TEST(SimulatedAnnealing, FollowsCostsOverManyPowersOfTenWhereTheTemperatureFallsWithTheirSpread) {
+  // A smooth valley, 4 times as long as wide, whose costs reach 1e13 in the box and 6 at its
+  // lowest: the last term couples every pair of the six unknowns (eigenvalues 1 and 1 + 6 * 2.5 =
+  // 16).
+  const Eigen::VectorXd lowest = Eigen::VectorXd::Constant(6, 0.3);
+  const auto valley = [&](const Eigen::VectorXd& x) {
+    const Eigen::VectorXd off = x - lowest;
+    return 6.0 + 1e12 * (off.squaredNorm() + 2.5 * std::pow(off.sum(), 2));
+  };
+  const Eigen::VectorXd start = Eigen::VectorXd::Constant(6, -0.5);
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    const DirectSearchResult result = simulated_annealing(boxed(valley, 6, 1.0), start,
+                                                          {.seed = seed,
+                                                           .max_evaluations = 20000,
+                                                           .spread_cooling = 0.7,
+                                                           .cycles = 10,
+                                                           .adjustments = 1});
+    EXPECT_LT(result.cost, 6.01) << seed;
+    EXPECT_LT((result.x - lowest).norm(), 1e-6) << seed;
+  }
 }
 
 TEST(SimulatedAnnealing, IsReproducibleBySeedAndCountsEvaluations) {
@@ -110,6 +135,18 @@ TEST(SimulatedAnnealing, StaysInTheBoxAndTakesNotANumberForAWall) {
   EXPECT_NEAR(result.x[1], 0.25, 1e-5);
 }
 
+TEST(SimulatedAnnealing, GoesBeyondItsReachWhereNoBoundIs) {
+  // From 0 with steps of at most 1 to a lowest point 5 away; what lies below -2 is out of bounds.
+  const DirectSearchResult result = simulated_annealing(
+      {.cost =
+           [](const Eigen::VectorXd& x) { return (x - Eigen::Vector2d(5.0, -3.0)).squaredNorm(); },
+       .lower = Eigen::Vector2d(-2.0, -2.0),
+       .upper = {}},
+      Eigen::Vector2d::Zero(), {.reach = Eigen::Vector2d(1.0, 1.0)});
+  EXPECT_NEAR(result.x[0], 5.0, 1e-3);
+  EXPECT_NEAR(result.x[1], -2.0, 1e-3);
+}
+
 TEST(SimulatedAnnealing, RefusesAnOpenBoxAndStrangeOptions) {
   const Eigen::VectorXd start = Eigen::VectorXd::Zero(1);
   const DirectSearchProblem open{.cost = rastrigin, .lower = {}, .upper = {}};
@@ -117,6 +154,9 @@ TEST(SimulatedAnnealing, RefusesAnOpenBoxAndStrangeOptions) {
   const DirectSearchProblem box = boxed(rastrigin, 1, 1.0);
   EXPECT_THROW((void)simulated_annealing(box, start, {.cooling = 1.0}), InvalidInput);
   EXPECT_THROW((void)simulated_annealing(box, start, {.cycles = 0}), InvalidInput);
+  EXPECT_THROW((void)simulated_annealing(box, start, {.reach = Eigen::VectorXd::Zero(2)}),
+               InvalidInput);
+  EXPECT_THROW((void)simulated_annealing(box, start, {.spread_cooling = -1.0}), InvalidInput);
   EXPECT_THROW((void)simulated_annealing(box, Eigen::VectorXd::Constant(1, std::nan(""))),
                InvalidInput);
 }

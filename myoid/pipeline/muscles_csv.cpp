@@ -9,6 +9,7 @@
 
 #include "myoid/core/error.h"
 #include "myoid/identification/parameters.h"
+#include "myoid/muscle/force_velocity.h"
 #include "myoid/muscle/hill_parameters.h"
 #include "myoid/recording/csv_reader.h"
 #include "myoid/recording/text_file.h"
@@ -107,9 +108,20 @@ MuscleTable read_muscles_csv(const std::filesystem::path& path, bool within_boun
       if (other.name == setup.name) fail(fmt::format("muscle '{}' is listed twice", setup.name));
     }
     setup.emg_channel = cell("emg").empty() ? setup.name : cell("emg");
+    // With the slopes' ratio alone, the product follows from it.
+    const std::string ratio_name = "eccentric_slope_ratio";
+    const std::string product_name = "eccentric_curvature_product";
+    const std::optional<double> ratio = number(ratio_name);
+    const bool by_ratio = ratio && cell(product_name).empty();
+    if (by_ratio && !(*ratio > 0.0))
+      fail(fmt::format("{}: expected a positive number, found {}", ratio_name, *ratio));
     for (const muscle::HillField& field : muscle::kHillFields) {
       const std::string name(field.name);
-      const auto start = number(name);
+      auto start = number(name);
+      const auto curvature = number("concentric_curvature"), plateau = number("eccentric_plateau");
+      if (by_ratio && name == product_name && curvature && plateau)
+        start = muscle::curvature_product_from_slope_ratio(*ratio, *curvature, *plateau);
+      if (by_ratio && name == product_name && !start) continue;  // said of those it follows from
       if (!start && name != "tendon_slack_length") {
         fail(
             fmt::format("muscle '{}' has no {}; every parameter needs a starting value in SI units",
@@ -155,14 +167,26 @@ MuscleTable read_muscles_csv(const std::filesystem::path& path, bool within_boun
                         "{}_upper set other bounds",
                         setup.name, name, start, least, most, name, name));
       }
-      if (sd) setup.priors[name] = {.mean = start, .sd = *sd};
+      if (sd) {
+        setup.priors[name] = {.mean = start, .sd = *sd};
+        setup.given_priors.push_back(name);
+      }
       const bool usual = field.field <= identification::kPlateau;
       // What the paper's law leaves out is held anyway.
       if (held.value_or(false) && (usual || given_for_hill(name))) setup.fixed.push_back(name);
       // Who asks something of the product itself has it as the unknown.
       if (name == "eccentric_curvature_product" && (held.value_or(false) || lower || upper || sd))
         setup.priors.erase("eccentric_slope_ratio");
-      if (held && !*held && !usual) {
+      const bool the_ratio = by_ratio && name == ratio_name;
+      if (the_ratio && held.value_or(false)) {
+        identification::ParameterRule rule;
+        rule.parameter = name;
+        rule.owners = {setup.name};
+        rule.free = false;
+        rule.value = *ratio;
+        result.rules.push_back(rule);
+      }
+      if (!usual && !held.value_or(!the_ratio)) {
         identification::ParameterRule rule;
         rule.parameter = name;
         rule.owners = {setup.name};

@@ -64,6 +64,30 @@ TEST(MusclesCsv, WhatCannotBeMeantIsRefusedAtItsLine) {
             std::string::npos);
 }
 
+TEST(MusclesCsv, TheSlopesRatioAloneStandsForTheProduct) {
+  const std::string header =
+      "muscle,max_isometric_force,optimal_fiber_length,force_length_width,max_shortening_speed,"
+      "concentric_curvature,eccentric_plateau,eccentric_slope_ratio";
+  const std::string values = ",1000,0.12,0.055,1.2,0.28,1.4,1.6";
+  const MuscleTable table = table_of(header + "\nBIC" + values + "\n");
+  // P = (V_ml - 1) V_sh / (S (1 + V_sh)) = 0.4 * 0.28 / (1.6 * 1.28)
+  EXPECT_NEAR(table.muscles.at(0).start.eccentric_curvature_product, 0.0546875, 1e-12);
+  ASSERT_EQ(table.rules.size(), 1U);
+  EXPECT_EQ(table.rules[0].parameter, "eccentric_slope_ratio");
+  EXPECT_EQ(table.rules[0].free, true);
+  EXPECT_EQ(table.rules[0].value, 1.6);
+  const MuscleTable held =
+      table_of(header + ",eccentric_slope_ratio_fixed\nBIC" + values + ",true\n");
+  ASSERT_EQ(held.rules.size(), 1U);
+  EXPECT_EQ(held.rules[0].free, false);
+  EXPECT_EQ(held.rules[0].value, 1.6);
+  EXPECT_NE(message_of(header + "\nBIC,1000,0.12,0.055,1.2,0.28,1.4,-1\n").find("positive number"),
+            std::string::npos);
+  EXPECT_NE(
+      message_of(header + "\nBIC,1000,0.12,0.055,1.2,0.28,,1.6\n").find("no eccentric_plateau"),
+      std::string::npos);
+}
+
 TEST(MusclesCsv, AStartOutsideItsBoundsIsRefusedOnlyWhereTheMethodKeepsToThem) {
   const std::string millimeters = kHeader + "\nBIC,1000,120,200,55,1200,0.28,0.2,1.4\n";
   EXPECT_NE(message_of(millimeters).find("optimal_fiber_length"), std::string::npos);

@@ -21,6 +21,7 @@ ParameterRule rule(const char* parameter, double mean, double sd) {
   r.free = true;
   r.prior_mean = mean;
   r.prior_sd = sd;
+  r.usual = true;
   return r;
 }
 
