@@ -127,7 +127,11 @@ TEST(FreeSpeeds, AreThoseThatNobodyStates) {
   const ParameterMap map(data, {});
   std::vector<std::string> free;
   for (const FreeParameter& p : map.free()) {
-    if (p.field->name == "max_shortening_speed") free.push_back(p.owner);
+    if (p.field->name != "max_shortening_speed") continue;
+    free.push_back(p.owner);
+    if (p.owner != "TRI") continue;
+    EXPECT_NEAR(p.to_value(p.lower), 20.0 / 3.0, 1e-9);
+    EXPECT_NEAR(p.to_value(p.upper), 3.0 * 20.0, 1e-9);
   }
   EXPECT_EQ(free, (std::vector<std::string>{"BIC", "TRI"}));
 }

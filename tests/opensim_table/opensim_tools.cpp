@@ -12,8 +12,6 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <map>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
@@ -21,7 +19,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "myoid/forces/actuator_sharing.h"
 #include "myoid/model/kinematic_tree.h"
 #include "myoid/model/osim_reader.h"
 #include "myoid/model/osim_writer.h"
@@ -32,59 +29,16 @@
 #include "myoid/recording/storage_reader.h"
 
 #include "scaled_model.h"
+#include "shared_frames.h"
+#include "table_rows.h"
 
 namespace {
 
 using namespace myoid;
+using namespace myoid::opensim_table;
 namespace fs = std::filesystem;
 
-struct Worst {
-  double error = 0.0, relative = 0.0;
-  std::string column;
-  double time = 0.0;
-  bool any = false;
-};
-
 std::size_t at(Eigen::Index i) { return static_cast<std::size_t>(i); }
-
-/// Worst difference of the columns that both have; `skip` rows at both ends are left out.
-Worst compare(const TimeSeries& ours,
-              const TimeSeries& theirs,
-              Eigen::Index skip,
-              const auto& their_name) {
-  Worst worst;
-  for (const Channel& channel : ours.channels()) {
-    const auto column = theirs.find(their_name(channel.name));
-    if (!column) continue;
-    const auto mine = ours.column(channel.name);
-    const double peak = theirs.values().col(*column).cwiseAbs().maxCoeff();
-    for (Eigen::Index i = skip; i < theirs.sample_count() - skip; ++i) {
-      Eigen::Index row = 0;
-      (ours.time_s().array() - theirs.time_s()[i]).abs().minCoeff(&row);
-      if (std::abs(ours.time_s()[row] - theirs.time_s()[i]) > 1e-5) continue;
-      const double error = std::abs(mine[row] - theirs.values()(i, *column));
-      worst.any = true;
-      if (!(error <= worst.error)) {
-        worst.error = error;
-        worst.column = channel.name;
-        worst.time = theirs.time_s()[i];
-      }
-      worst.relative = std::max(worst.relative, error / std::max(peak, 1e-12));
-    }
-  }
-  return worst;
-}
-
-std::string same(const std::string& name) { return name; }
-
-std::string last_part(std::string name) {
-  if (name.starts_with("/forceset/")) {
-    const auto bar = name.rfind('|');
-    std::string owner = name.substr(10, name.find('/', 10) - 10);
-    return owner + name.substr(bar);
-  }
-  return name;
-}
 
 /// J of inverse kinematics at the postures of a motion, frame by frame.
 Eigen::VectorXd objective(const fs::path& setup_file, const fs::path& motion) {
@@ -136,24 +90,6 @@ void copy_case(const fs::path& from, const fs::path& to) {
   }
 }
 
-/// Where a row belongs, and whether to name its worst column.
-struct Rows {
-  std::string setup;
-  bool columns = false;
-  void add(const std::string& what, const std::string& error, const std::string& relative) const {
-    fmt::print("| {} | {} | {} | {} |\n", setup, what, error, relative);
-  }
-  void add(const std::string& what, const Worst& worst, const std::string& unit) const {
-    if (!worst.any) return;
-    std::string text = fmt::format("{:.1e}", worst.error);
-    if (!unit.empty()) text += " " + unit;
-    if (columns) text += fmt::format(" ({} at {} s)", worst.column, worst.time);
-    add(what, text, fmt::format("{:.1e}", worst.relative));
-  }
-};
-
-std::string code(const fs::path& file) { return "`" + file.filename().string() + "`"; }
-
 struct Options {
   fs::path folder;
   std::string only;
@@ -177,59 +113,6 @@ void compare_ik(const fs::path& setup_file,
   std::sort(excess.data(), excess.data() + excess.size());
   rows.add("objective, ours above theirs", fmt::format("{:.1e}", worst),
            fmt::format("median {:.1e}", excess[excess.size() / 2]));
-}
-
-/// Every frame of a static optimization as it was solved here.
-struct SharedFrames {
-  std::map<Eigen::Index, std::pair<forces::ActuatorProblem, forces::ActuatorSolution>> frames;
-  std::mutex mutex;
-  forces::InspectFrame keep() {
-    return [this](Eigen::Index i, const forces::ActuatorProblem& p,
-                  const forces::ActuatorSolution& s) {
-      const std::lock_guard lock(mutex);
-      frames.insert_or_assign(i, std::pair(p, s));
-    };
-  }
-};
-
-/// Cost and constraint residual of every frame, ours against those of OpenSim's controls in the
-/// same problem. A residual buys cost: the last row charges theirs for it at the price of the
-/// multipliers, which makes a lower bound of the cost, since the problem is convex.
-void compare_sharing(const SharedFrames& shared, const fs::path& reference, const Rows& rows) {
-  const TimeSeries theirs = recording::read_storage(reference).data;
-  double residual_ours = 0.0, residual_theirs = 0.0, excess = -INFINITY, priced = -INFINITY;
-  int residual_above = 0, cost_above = 0, priced_above = 0, count = 0;
-  for (const auto& [i, frame] : shared.frames) {
-    const auto& [problem, solution] = frame;
-    if (i >= theirs.sample_count() || problem.forces.cols() != theirs.channel_count()) return;
-    const Eigen::VectorXd x = theirs.values().row(i).transpose();
-    const auto cost = [&](const Eigen::VectorXd& control) {
-      return control.cwiseAbs().array().pow(problem.exponent).sum();
-    };
-    const Eigen::VectorXd gap = problem.required - problem.forces * x;
-    const double mine =
-        (problem.required - problem.forces * solution.control).cwiseAbs().maxCoeff();
-    const double other = gap.cwiseAbs().maxCoeff();
-    residual_ours = std::max(residual_ours, mine);
-    residual_theirs = std::max(residual_theirs, other);
-    const double above = cost(solution.control) / cost(x) - 1.0;
-    const double charged = cost(solution.control) / (cost(x) + solution.multiplier.dot(gap)) - 1.0;
-    excess = std::max(excess, above);
-    priced = std::max(priced, charged);
-    residual_above += mine > other ? 1 : 0;
-    cost_above += above > 1e-9 ? 1 : 0;
-    priced_above += charged > 1e-9 ? 1 : 0;
-    ++count;
-  }
-  if (count == 0) return;
-  const auto frames = [&](int above) {
-    return fmt::format("above in {} of {} frames", above, count);
-  };
-  rows.add("constraint residual",
-           fmt::format("{:.1e}, OpenSim's {:.1e} N m, N", residual_ours, residual_theirs),
-           frames(residual_above));
-  rows.add("cost, ours above theirs", fmt::format("{:.1e}", excess), frames(cost_above));
-  rows.add("the same, their residual charged", fmt::format("{:.1e}", priced), frames(priced_above));
 }
 
 void compare_moment_arms(const std::vector<fs::path>& files,
