@@ -8,60 +8,120 @@
 namespace myoid::identification {
 namespace {
 
-/// The lags' output at the samples of the envelope, and what it changes by with each time constant.
+/// The lags' output at the samples of the envelope, and what it changes by along D directions in
+/// the space of the three time constants.
+template <int D>
 struct Lagged {
   Eigen::VectorXd value, slope;
-  Eigen::MatrixXd by_time, slope_by_time;  ///< n x 3
+  Eigen::Matrix<double, D, Eigen::Dynamic> by, slope_by;
 };
 
-Lagged lagged(const Envelope& envelope, const ChannelValues& c) {
+/// `directions`: D x 3, by excitation, activation and deactivation time.
+template <int D>
+Lagged<D> lagged(const Envelope& envelope,
+                 const ChannelValues& c,
+                 const Eigen::Matrix<double, D, 3>& directions) {
+  using Slopes = Eigen::Matrix<double, D, 1>;
   const Eigen::VectorXd& t = envelope.time_s();
   const Eigen::VectorXd& u = envelope.samples();
-  Lagged r{Eigen::VectorXd(t.size()), Eigen::VectorXd(t.size()), Eigen::MatrixXd(t.size(), 3),
-           Eigen::MatrixXd(t.size(), 3)};
+  Lagged<D> r{Eigen::VectorXd(t.size()), Eigen::VectorXd(t.size()),
+              Eigen::Matrix<double, D, Eigen::Dynamic>(D, t.size()),
+              Eigen::Matrix<double, D, Eigen::Dynamic>(D, t.size())};
   double e = u[0], a = u[0];
   double e_ne = 0.0;
-  Eigen::Vector3d a_by = Eigen::Vector3d::Zero();
+  const Slopes by_excitation = directions.col(0);
+  Slopes a_by = Slopes::Zero();
   // What is kept over a step of h: most clocks have one h.
-  double h = 0.0, keep_e = 0.0, keep_rising = 0.0, keep_falling = 0.0;
-  const double tau_ne = c[kExcitationTime];
+  double h = 0.0, keep_e = 0.0, by_keep_e = 0.0;
+  struct Branch {
+    double per_tau = 0.0, keep = 0.0;
+    Slopes direction = Slopes::Zero();
+  };
+  Branch rise{.per_tau = 1.0 / c[kActivationTime], .direction = directions.col(1)};
+  Branch fall{.per_tau = 1.0 / c[kDeactivationTime], .direction = directions.col(2)};
+  const double per_tau_ne = 1.0 / c[kExcitationTime];
   for (Eigen::Index i = 0; i < t.size(); ++i) {
     if (i > 0) {
       const double step = t[i] - t[i - 1];
       if (std::abs(step - h) > 1e-9 * step) {
         h = step;
-        keep_e = std::exp(-h / tau_ne);
-        keep_rising = std::exp(-h / c[kActivationTime]);
-        keep_falling = std::exp(-h / c[kDeactivationTime]);
+        keep_e = std::exp(-h * per_tau_ne);
+        by_keep_e = h * per_tau_ne * per_tau_ne;
+        rise.keep = std::exp(-h * rise.per_tau);
+        fall.keep = std::exp(-h * fall.per_tau);
       }
       const double input = 0.5 * (u[i - 1] + u[i]);
       // Mean of e over the interval drives a.
       const double e_before = e, e_ne_before = e_ne;
       e = input + keep_e * (e_before - input);
-      e_ne = keep_e * (e_ne_before + (e_before - input) * h / (tau_ne * tau_ne));
+      e_ne = keep_e * (e_ne_before + (e_before - input) * by_keep_e);
       const double middle = 0.5 * (e + e_before);
       const double middle_ne = 0.5 * (e_ne + e_ne_before);
-      const bool rising = middle >= a;
-      const double tau = rising ? c[kActivationTime] : c[kDeactivationTime];
-      const double keep = rising ? keep_rising : keep_falling;
+      const Branch& branch = middle >= a ? rise : fall;
       const double gap = a - middle;
-      a = middle + keep * gap;
-      a_by *= keep;
-      a_by[0] += (1.0 - keep) * middle_ne;
-      a_by[rising ? 1 : 2] += keep * gap * h / (tau * tau);
+      a = middle + branch.keep * gap;
+      a_by = branch.keep * a_by + ((1.0 - branch.keep) * middle_ne) * by_excitation +
+             (branch.keep * gap * h * branch.per_tau * branch.per_tau) * branch.direction;
     }
     r.value[i] = a;
-    const int branch = e >= a ? 1 : 2;
-    const double tau = branch == 1 ? c[kActivationTime] : c[kDeactivationTime];
-    r.slope[i] = (e - a) / tau;
-    r.by_time.row(i) = a_by.transpose();
-    Eigen::Vector3d gap_by = -a_by;
-    gap_by[0] += e_ne;
-    r.slope_by_time.row(i) = gap_by.transpose() / tau;
-    r.slope_by_time(i, branch) -= (e - a) / (tau * tau);
+    const Branch& branch = e >= a ? rise : fall;
+    r.slope[i] = (e - a) * branch.per_tau;
+    r.by.col(i) = a_by;
+    r.slope_by.col(i) =
+        (e_ne * by_excitation - a_by - r.slope[i] * branch.direction) * branch.per_tau;
   }
   return r;
 }
+
+/// Cubic through values and slopes at both ends of an interval of h, at the share x of it.
+struct Cubic {
+  double value = 0.0, slope = 0.0;
+};
+Cubic between(double y0, double y1, double slope0, double slope1, double h, double x) {
+  const double d0 = h * slope0, d1 = h * slope1;
+  const double c2 = 3.0 * (y1 - y0) - 2.0 * d0 - d1;
+  const double c3 = d0 + d1 - 2.0 * (y1 - y0);
+  return {y0 + x * (d0 + x * (c2 + x * c3)), (d0 + x * (2.0 * c2 + x * 3.0 * c3)) / h};
+}
+
+/// What activation() needs of the envelope at one instant, D directions as in Lagged.
+template <int D>
+struct Read {
+  double value = 0.0, slope = 0.0;
+  Eigen::Matrix<double, D, 1> by = Eigen::Matrix<double, D, 1>::Zero();
+};
+
+/// Reads the output of the lags at rising times; the end values beyond its ends.
+template <int D>
+class LaggedReader {
+ public:
+  LaggedReader(const Envelope& envelope,
+               const ChannelValues& channel,
+               const Eigen::Matrix<double, D, 3>& directions)
+      : time_s_(envelope.time_s()), lagged_(lagged<D>(envelope, channel, directions)) {}
+
+  [[nodiscard]] Read<D> at(double time_s) {
+    const Eigen::Index n = time_s_.size();
+    const double inside = std::clamp(time_s, time_s_[0], time_s_[n - 1]);
+    if (inside < time_s_[at_]) at_ = 0;
+    while (at_ + 2 < n && time_s_[at_ + 1] <= inside) ++at_;
+    const double h = time_s_[at_ + 1] - time_s_[at_];
+    const double x = (inside - time_s_[at_]) / h;
+    const Cubic cubic = between(lagged_.value[at_], lagged_.value[at_ + 1], lagged_.slope[at_],
+                                lagged_.slope[at_ + 1], h, x);
+    Read<D> r{.value = std::max(0.0, cubic.value), .slope = inside == time_s ? cubic.slope : 0.0};
+    const double rise = x * x * (3.0 - 2.0 * x);
+    r.by = (1.0 - rise) * lagged_.by.col(at_) + rise * lagged_.by.col(at_ + 1) +
+           h * x * (1.0 - x) *
+               ((1.0 - x) * lagged_.slope_by.col(at_) - x * lagged_.slope_by.col(at_ + 1));
+    return r;
+  }
+
+ private:
+  const Eigen::VectorXd& time_s_;
+  Lagged<D> lagged_;
+  Eigen::Index at_ = 0;
+};
 
 /// The channel with the delay that is left and the time constants that d is shared among. A time
 /// constant of nothing divides by nothing: 0.1 ms is none.
@@ -218,68 +278,63 @@ std::array<double, 2> lag_times_s(const ChannelValues& channel, EmgLag lag) {
   return {c[kExcitationTime], 0.5 * (c[kActivationTime] + c[kDeactivationTime])};
 }
 
+namespace {
+
+/// From the envelope, delayed and lagged, to activation with its derivatives; `by` is left to the
+/// caller.
+Activation activation_of(
+    double value, double slope, const ChannelValues& c, bool with_exponent, double& by_envelope) {
+  Activation a;
+  double raised = value, by_value = 1.0, by_exponent = 0.0;
+  power(value, c[kExponent], with_exponent, raised, by_value, by_exponent);
+  const double u = c[kGain] * raised;
+  double by_u = 1.0, by_shape = 0.5 * u * (u - 1.0);
+  a.value = u;
+  if (c[kShape] != 0.0) shape(u, c[kShape], a.value, by_u, by_shape);
+  if (c[kShape] == 0.0) by_u = 1.0;
+  by_envelope = by_u * c[kGain] * by_value;
+  a.by_log_envelope = by_envelope * value;
+  a.by_field[kDelay] = -by_envelope * slope;
+  a.by_field[kGain] = by_u * raised;
+  a.by_field[kExponent] = by_u * c[kGain] * by_exponent;
+  a.by_field[kShape] = by_shape;
+  return a;
+}
+
+}  // namespace
+
 std::vector<Activation> activation(const Envelope& envelope,
                                    const Eigen::Ref<const Eigen::VectorXd>& time_s,
                                    const ChannelValues& channel,
-                                   EmgLag kind,
+                                   EmgLag lag,
                                    bool with_exponent) {
-  const ChannelValues c = kind == EmgLag::shared ? shared(channel) : channel;
-  const bool dynamics = kind != EmgLag::delay;
-  std::vector<Activation> result(static_cast<std::size_t>(time_s.size()));
-  Lagged lag;
-  Eigen::Index at = 0;
-  if (dynamics) lag = lagged(envelope, c);
-  for (Eigen::Index s = 0; s < time_s.size(); ++s) {
-    Activation& a = result[static_cast<std::size_t>(s)];
-    const double when = time_s[s] - c[kDelay];
-    double value = 0.0, slope = 0.0;
-    Eigen::Vector3d by_time = Eigen::Vector3d::Zero();
-    if (!dynamics) {
-      const Envelope::Value v = envelope.at(when);
-      value = v.value;
-      slope = v.slope;
-    } else {
-      const Eigen::VectorXd& t = envelope.time_s();
-      const Eigen::Index n = t.size();
-      const double inside = std::clamp(when, t[0], t[n - 1]);
-      while (at + 2 < n && t[at + 1] <= inside) ++at;
-      const double h = t[at + 1] - t[at];
-      const double x = (inside - t[at]) / h;
-      // Cubic through values and slopes.
-      const double y0 = lag.value[at], y1 = lag.value[at + 1];
-      const double d0 = h * lag.slope[at], d1 = h * lag.slope[at + 1];
-      const double c2 = 3.0 * (y1 - y0) - 2.0 * d0 - d1;
-      const double c3 = d0 + d1 - 2.0 * (y1 - y0);
-      value = std::max(0.0, y0 + x * (d0 + x * (c2 + x * c3)));
-      slope = inside == when ? (d0 + x * (2.0 * c2 + x * 3.0 * c3)) / h : 0.0;
-      const double rise = x * x * (3.0 - 2.0 * x);
-      by_time = ((1.0 - rise) * lag.by_time.row(at) + rise * lag.by_time.row(at + 1) +
-                 h * x * (1.0 - x) *
-                     ((1.0 - x) * lag.slope_by_time.row(at) - x * lag.slope_by_time.row(at + 1)))
-                    .transpose();
+  std::vector<Activation> result;
+  result.reserve(static_cast<std::size_t>(time_s.size()));
+  double by_envelope = 0.0;
+  if (lag == EmgLag::delay) {
+    for (const double t : time_s) {
+      const Envelope::Value v = envelope.at(t - channel[kDelay]);
+      result.push_back(activation_of(v.value, v.slope, channel, with_exponent, by_envelope));
     }
-    double raised = value, by_value = 1.0, by_exponent = 0.0;
-    power(value, c[kExponent], with_exponent, raised, by_value, by_exponent);
-    const double u = c[kGain] * raised;
-    double by_u = 1.0, by_shape = 0.5 * u * (u - 1.0);
-    a.value = u;
-    if (c[kShape] != 0.0) shape(u, c[kShape], a.value, by_u, by_shape);
-    if (c[kShape] == 0.0) by_u = 1.0;
-    const double by_envelope = by_u * c[kGain] * by_value;
-    a.by_log_envelope = by_envelope * value;
-    a.by_field[kDelay] = -by_envelope * slope;
-    a.by_field[kGain] = by_u * raised;
-    a.by_field[kExponent] = by_u * c[kGain] * by_exponent;
-    a.by_field[kShape] = by_shape;
-    if (kind == EmgLag::shared) {
-      constexpr LagShares kShare;
-      a.by_field[kDelay] =
-          kShare.pure * a.by_field[kDelay] +
-          by_envelope * by_time.dot(Eigen::Vector3d(kShare.excitation, kShare.activation,
-                                                    kShare.deactivation));
-    } else {
+  } else if (lag == EmgLag::shared) {
+    constexpr LagShares kShare;
+    const ChannelValues c = shared(channel);
+    LaggedReader<1> reader(
+        envelope, c, Eigen::RowVector3d(kShare.excitation, kShare.activation, kShare.deactivation));
+    for (const double t : time_s) {
+      const Read<1> r = reader.at(t - c[kDelay]);
+      Activation a = activation_of(r.value, r.slope, c, with_exponent, by_envelope);
+      a.by_field[kDelay] = kShare.pure * a.by_field[kDelay] + by_envelope * r.by[0];
+      result.push_back(a);
+    }
+  } else {
+    LaggedReader<3> reader(envelope, channel, Eigen::Matrix3d::Identity());
+    for (const double t : time_s) {
+      const Read<3> r = reader.at(t - channel[kDelay]);
+      Activation a = activation_of(r.value, r.slope, channel, with_exponent, by_envelope);
       for (int k = 0; k < 3; ++k)
-        a.by_field[static_cast<std::size_t>(kExcitationTime + k)] = by_envelope * by_time[k];
+        a.by_field[static_cast<std::size_t>(kExcitationTime + k)] = by_envelope * r.by[k];
+      result.push_back(a);
     }
   }
   return result;

@@ -47,6 +47,7 @@ BENCHMARK(identify_one_muscle)
 /// replicates.
 void identify_arm(benchmark::State& state) {
   identification::EstimatorOptions options;
+  options.choose_lag = true;  // as `run` does
   options.max_rate_hz = static_cast<double>(state.range(0));
   options.intervals.bootstrap = static_cast<int>(state.range(1));
   options.predictions = false;
