@@ -9,7 +9,8 @@ enum class EmgLag {
   /// A pure delay d: a(t) = env(t - d).
   delay,
   /// The same d, most of it the two lags of equation (1) (excitation, activation), which weaken
-  /// what changes fast: at 1 Hz by a tenth for d = 80 ms. In the proportions of `LagShares`.
+  /// what changes fast: for d = 80 ms by a twentieth at 1 Hz, by a third at 3 Hz. In the
+  /// proportions of `LagShares`.
   shared,
   /// A pure delay d, and beside it the two lags with time constants of their own.
   equation_1,

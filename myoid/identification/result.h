@@ -138,7 +138,7 @@ struct IdentificationResult {
   std::vector<muscle::HillParameters<double>> muscles;  ///< With the estimates (force, torque).
   ModelValues values;          ///< All numbers of the model with the estimates (force, torque).
   EmgLag lag = EmgLag::delay;  ///< How the muscles follow their EMG.
-  /// By how much the data prefer `shared` to `delay`, in -2 ln of their likelihood, where it was
+  /// By how much the data prefer `shared` to `delay`, as a difference of chi-squares, where it was
   /// chosen by that.
   std::optional<double> shared_lag_gain;
   double delay_s = 0.0;                    ///< Of the first channel.

@@ -36,6 +36,11 @@ double power(const EnvelopeNoise& noise, Gain gain) {
 
 }  // namespace
 
+double share_behind_lags(const EnvelopeNoise& noise) {
+  const auto all = [](double) { return 1.0; };
+  return power(noise, all) / power({.cutoff_hz = noise.cutoff_hz}, all);
+}
+
 SmoothPrediction smooth_prediction(const Eigen::VectorXd& time_s,
                                    const Eigen::VectorXd& predicted_nm,
                                    const EnvelopeNoise& noise) {
@@ -43,10 +48,8 @@ SmoothPrediction smooth_prediction(const Eigen::VectorXd& time_s,
   constexpr double kStep = 1.125;
   SmoothPrediction best{predicted_nm, 0.0};
   if (!(noise.variance_nm2 > 0.0) || !(noise.cutoff_hz > 0.0)) return best;
-  const auto all = [](double) { return 1.0; };
-  const double whole = power(noise, all);
-  const double before_lags = power({.cutoff_hz = noise.cutoff_hz}, all);
-  const double noise_nm2 = noise.variance_nm2 * whole / before_lags;
+  const double whole = power(noise, [](double) { return 1.0; });
+  const double noise_nm2 = noise.variance_nm2 * share_behind_lags(noise);
   double least = noise_nm2;
   for (double cutoff_hz = kLowest_hz; cutoff_hz < noise.cutoff_hz; cutoff_hz *= kStep) {
     Eigen::VectorXd smooth = below(time_s, predicted_nm, cutoff_hz);

@@ -19,6 +19,9 @@ struct EnvelopeNoise {
                                   ///< 1 / sqrt(1 + (2 pi f tau)^2) each; 0: none.
 };
 
+/// Share of the variance of the noise that passes the lags.
+[[nodiscard]] double share_behind_lags(const EnvelopeNoise& noise);
+
 /// A torque predicted from EMG, below the cut-off at which it is expected to come closest to what
 /// it would be without the noise of the envelopes. Of y = s + n, n of known variance and spectrum,
 /// a smoother L errs by

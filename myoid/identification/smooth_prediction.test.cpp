@@ -51,6 +51,27 @@ TEST(SmoothPrediction, ComesCloseToTheBestCutOffWithoutKnowingTheTruth) {
   }
 }
 
+TEST(ShareBehindLags, IsThatOfWhiteNoiseBehindTheSameFilters) {
+  constexpr double kTau_s = 0.04;
+  const double share =
+      share_behind_lags({.variance_nm2 = 1.0, .cutoff_hz = 6.0, .lag_s = {kTau_s, kTau_s}});
+  double before = 0.0, behind = 0.0;
+  for (unsigned seed = 1; seed <= 20; ++seed) {
+    const Eigen::VectorXd x = noise(1.0, seed);
+    before += x.squaredNorm();
+    double first = 0.0, second = 0.0;
+    const double step = 1.0 - std::exp(-1.0 / (kRate_hz * kTau_s));
+    for (const double value : x) {
+      first += (value - first) * step;
+      second += (first - second) * step;
+      behind += second * second;
+    }
+  }
+  // 20 x 240 independent values: 2 %; steps of 10 ms in lags of 40 ms.
+  EXPECT_NEAR(share, behind / before, 0.04);
+  EXPECT_EQ(share_behind_lags({.variance_nm2 = 1.0, .cutoff_hz = 6.0}), 1.0);
+}
+
 TEST(SmoothPrediction, NoiseThatPassedLagsIsSmoothedAsItIsBehindThem) {
   // Two lags of 40 ms keep 54 % of the noise's variance, mostly of its slow part: taken for noise
   // without lags it would cost more of the movement than of the noise.

@@ -70,13 +70,39 @@ IdentificationResult finish(const Estimator& estimator,
   return result;
 }
 
-/// -2 ln of the likelihood of the residuals, up to a constant, as `share` of them were independent.
-double misfit(const Estimator& estimator, const Estimator::Solution& solution, double share) {
-  Evaluation at;
-  estimator.model().evaluate(solution.search.x, ResidualModel::Depth::value, at);
-  const Eigen::ArrayXd sd = solution.weighting.sd_nm.array();
-  const Eigen::ArrayXd residual = (at.predicted - estimator.model().measured()).array();
-  return share * ((residual / sd).square() + 2.0 * sd.log()).sum();
+/// By how much the data prefer lags to a delay: the sum of the squared residuals over what is
+/// expected of them, with a delay less that with lags, counted as often as samples are independent.
+/// Expected is the noise of the fit with a delay, that of the envelopes weakened by the lags: a
+/// prediction that is smoother comes closer to the torque by that alone, and would be preferred
+/// where muscles follow by a delay.
+double preference_for_lags(const Estimator& by_delay,
+                           const Estimator::Solution& delayed,
+                           const Estimator& by_lags,
+                           const Estimator::Solution& lagged) {
+  Evaluation with_delay, with_lags;
+  by_delay.model().evaluate(delayed.search.x, ResidualModel::Depth::value, with_delay);
+  by_lags.model().evaluate(lagged.search.x, ResidualModel::Depth::value, with_lags);
+  const EstimatorOptions& options = by_lags.options();
+  const ChannelValues channel =
+      by_lags.model().parameters().values(lagged.search.x).channels.front();
+  const double kept = share_behind_lags(
+      {.cutoff_hz = options.residual_cutoff_hz.value_or(options.envelope_cutoff_hz),
+       .lag_s = lag_times_s(channel, EmgLag::shared)});
+  const Eigen::VectorXd& measured = by_delay.model().measured();
+  double sum = 0.0;
+  for (const Piece& piece : by_delay.model().pieces()) {
+    const double factor = delayed.weighting.noise[static_cast<std::size_t>(piece.joint)].emg_factor;
+    for (Eigen::Index i = piece.first; i < piece.first + piece.count; ++i) {
+      const double variance = std::pow(delayed.weighting.sd_nm[i], 2);
+      const double of_emg =
+          factor * factor *
+          with_delay.channel_torque.col(i).cwiseAbs2().dot(by_delay.channel_variance());
+      const double behind = variance - (1.0 - kept) * std::min(of_emg, variance);
+      sum += std::pow(with_delay.predicted[i] - measured[i], 2) / variance -
+             std::pow(with_lags.predicted[i] - measured[i], 2) / behind;
+    }
+  }
+  return delayed.weighting.share * sum;
 }
 
 /// The best of the minima at which searches from many starts end, and the table of them all, at its
@@ -244,8 +270,7 @@ IdentificationResult identify_torque(const StudyData& data, const TorqueOptions&
   const Estimator::Solution by_lags =
       options.multistart < 2 ? lagging.solve(by_delay.search.x)
                              : best_solution(lagging, by_delay.search.x, tables_of_lags);
-  const double share = by_delay.weighting.share;
-  const double gain = misfit(estimator, by_delay, share) - misfit(lagging, by_lags, share);
+  const double gain = preference_for_lags(estimator, by_delay, lagging, by_lags);
   const bool lags = gain > 0.0 && by_lags.search.termination == math::Termination::converged;
   IdentificationResult result =
       lags ? finish(lagging, by_lags, data, begin) : finish(estimator, by_delay, data, begin);

@@ -29,7 +29,8 @@ using TorqueOptions = EstimatorOptions;
 /// effective number of independent samples. Covariance: sandwich A^-1 B A^-1 with B from Newey and
 /// West within trials, lag 0.4 s; beside it over trials, bootstrap and profiles as asked for.
 /// With `choose_lag` the fit is made twice, the delay as it is and shared among lags (EmgLag), and
-/// the one under which the residuals are likelier is the answer: they have as many unknowns.
+/// the one whose residuals are smaller against what is expected of them is the answer: they have
+/// as many unknowns.
 /// Throws InvalidInput for data that do not fit together. A search that fails does not throw: read
 /// `termination`.
 [[nodiscard]] IdentificationResult identify_torque(const StudyData& data,

@@ -167,7 +167,7 @@ report::Report study_report(const StudyResult& result, const Provenance& provena
                                            : fmt::format("{:.0f} %", 100.0 * torque->emg_cv),
                     1000.0 * torque->delay_s));
     if (torque->shared_lag_gain) {
-      // 4 in -2 ln likelihood is e^2 to one.
+      // Two standard deviations.
       const bool clear = std::abs(*torque->shared_lag_gain) >= 4.0;
       section.paragraphs.push_back(fmt::format(
           "The muscles follow their EMG {}; {}.",
@@ -175,7 +175,7 @@ report::Report study_report(const StudyResult& result, const Provenance& provena
               ? "with the lags of excitation and activation, of which the delay is the mean"
               : "with a delay that leaves its shape as it is, not with the lags of excitation and "
                 "activation",
-          clear ? fmt::format("the recording tells that (-2 ln likelihood less by {:.0f})",
+          clear ? fmt::format("the recording tells that (chi-square less by {:.0f})",
                               std::abs(*torque->shared_lag_gain))
                 : std::string("the recording hardly tells which")));
     }
