@@ -280,25 +280,23 @@ std::array<double, 2> lag_times_s(const ChannelValues& channel, EmgLag lag) {
 
 namespace {
 
-/// From the envelope, delayed and lagged, to activation with its derivatives; `by` is left to the
-/// caller.
-Activation activation_of(
-    double value, double slope, const ChannelValues& c, bool with_exponent, double& by_envelope) {
-  Activation a;
+/// From the envelope, delayed and lagged, to activation with its derivatives but those by the lags;
+/// returned is d activation / d envelope.
+inline double fill(
+    Activation& a, double value, double slope, const ChannelValues& c, bool with_exponent) {
   double raised = value, by_value = 1.0, by_exponent = 0.0;
   power(value, c[kExponent], with_exponent, raised, by_value, by_exponent);
   const double u = c[kGain] * raised;
   double by_u = 1.0, by_shape = 0.5 * u * (u - 1.0);
   a.value = u;
   if (c[kShape] != 0.0) shape(u, c[kShape], a.value, by_u, by_shape);
-  if (c[kShape] == 0.0) by_u = 1.0;
-  by_envelope = by_u * c[kGain] * by_value;
+  const double by_envelope = by_u * c[kGain] * by_value;
   a.by_log_envelope = by_envelope * value;
   a.by_field[kDelay] = -by_envelope * slope;
   a.by_field[kGain] = by_u * raised;
   a.by_field[kExponent] = by_u * c[kGain] * by_exponent;
   a.by_field[kShape] = by_shape;
-  return a;
+  return by_envelope;
 }
 
 }  // namespace
@@ -308,13 +306,12 @@ std::vector<Activation> activation(const Envelope& envelope,
                                    const ChannelValues& channel,
                                    EmgLag lag,
                                    bool with_exponent) {
-  std::vector<Activation> result;
-  result.reserve(static_cast<std::size_t>(time_s.size()));
-  double by_envelope = 0.0;
+  std::vector<Activation> result(static_cast<std::size_t>(time_s.size()));
+  std::size_t i = 0;
   if (lag == EmgLag::delay) {
     for (const double t : time_s) {
       const Envelope::Value v = envelope.at(t - channel[kDelay]);
-      result.push_back(activation_of(v.value, v.slope, channel, with_exponent, by_envelope));
+      fill(result[i++], v.value, v.slope, channel, with_exponent);
     }
   } else if (lag == EmgLag::shared) {
     constexpr LagShares kShare;
@@ -323,18 +320,18 @@ std::vector<Activation> activation(const Envelope& envelope,
         envelope, c, Eigen::RowVector3d(kShare.excitation, kShare.activation, kShare.deactivation));
     for (const double t : time_s) {
       const Read<1> r = reader.at(t - c[kDelay]);
-      Activation a = activation_of(r.value, r.slope, c, with_exponent, by_envelope);
+      Activation& a = result[i++];
+      const double by_envelope = fill(a, r.value, r.slope, c, with_exponent);
       a.by_field[kDelay] = kShare.pure * a.by_field[kDelay] + by_envelope * r.by[0];
-      result.push_back(a);
     }
   } else {
     LaggedReader<3> reader(envelope, channel, Eigen::Matrix3d::Identity());
     for (const double t : time_s) {
       const Read<3> r = reader.at(t - channel[kDelay]);
-      Activation a = activation_of(r.value, r.slope, channel, with_exponent, by_envelope);
+      Activation& a = result[i++];
+      const double by_envelope = fill(a, r.value, r.slope, channel, with_exponent);
       for (int k = 0; k < 3; ++k)
         a.by_field[static_cast<std::size_t>(kExcitationTime + k)] = by_envelope * r.by[k];
-      result.push_back(a);
     }
   }
   return result;
