@@ -76,6 +76,7 @@ IdentificationResult identify_force(const StudyData& data, const ForceOptions& o
     once.muscles.clear();
     once.measured_is_force = !options.shared_forces;
     once.warm_start = {};
+    once.choose_lag = false;  // muscles of one person follow their EMG alike
     once.progress.report = nullptr;
     const auto column = static_cast<Eigen::Index>(k);
     all.muscles.push_back(data.muscles[k].start);

@@ -1,5 +1,7 @@
 #include "myoid/identification/force.h"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "myoid/identification/torque.h"
@@ -28,6 +30,29 @@ TEST(IdentifyForce, GivesBothBranchesBackAtOnce) {
     }
   }
   EXPECT_EQ(seen, 24);
+}
+
+TEST(IdentifyForce, FollowsTheEmgAsItIsTold) {
+  // Forces behind lags: each muscle alone would choose lags, the result says what all were told.
+  ElbowStudy study = elbow_study({.trials = 1, .delay_s = 0.08});
+  test::StudyNoise noise(1);
+  for (TrialData& trial : study.data.trials) {
+    trial.force_n = predict(study.data, trial, study.truth, study.delay_s, EmgLag::shared).force_n;
+    for (auto column : trial.force_n.colwise())
+      column += 2.0 * noise.band(column.size(), 6.0, 100.0);
+  }
+  for (const bool choose : {false, true}) {
+    for (const EmgLag lag : {EmgLag::delay, EmgLag::shared}) {
+      const IdentificationResult r =
+          identify_force(study.data, {.estimator = {.lag = lag, .choose_lag = choose}});
+      ASSERT_EQ(r.trials.size(), 1U);
+      const auto& measured = study.data.trials[0].force_n;
+      const double rmse_n = std::sqrt((r.trials[0].force_fit_n - measured).squaredNorm() /
+                                      static_cast<double>(measured.size()));
+      EXPECT_EQ(r.lag, lag);
+      EXPECT_EQ(rmse_n < 3.0, lag == EmgLag::shared) << rmse_n;
+    }
+  }
 }
 
 }  // namespace
