@@ -16,14 +16,7 @@ namespace {
 
 using test::elbow_study;
 using test::ElbowStudy;
-
-ParameterRule freed(const char* parameter, std::vector<std::string> owners = {}) {
-  ParameterRule rule;
-  rule.parameter = parameter;
-  rule.owners = std::move(owners);
-  rule.free = true;
-  return rule;
-}
+using test::freed;
 
 TEST(Estimator, TheGradientOfTheCorrectedCostIsThatOfDifferences) {
   ElbowStudy study = elbow_study(

@@ -1,7 +1,6 @@
 #include "myoid/identification/parameters.h"
 
 #include <string>
-#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -17,14 +16,7 @@ namespace {
 
 using test::elbow_study;
 using test::ElbowStudy;
-
-ParameterRule freed(const char* parameter, std::vector<std::string> owners = {}) {
-  ParameterRule rule;
-  rule.parameter = parameter;
-  rule.owners = std::move(owners);
-  rule.free = true;
-  return rule;
-}
+using test::freed;
 
 TEST(ParameterMap, AnUnknownBeginsAtItsPriorsMeanUnlessARuleSaysWhere) {
   ElbowStudy study = elbow_study({.trials = 1, .seconds = 2.0, .with_priors = true});

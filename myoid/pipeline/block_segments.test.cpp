@@ -5,36 +5,17 @@
 
 #include <gtest/gtest.h>
 
-#include "myoid/math/random.h"
+#include "tests/support/gain_blocks.h"
 
 namespace myoid::pipeline {
 namespace {
 
+using test::gain_blocks;
+
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-/// Blocks of one movement with these gains and frequencies (per cent of the first's).
-struct Part {
-  int count;
-  double gain, frequency;
-};
-std::vector<Block> blocks(const std::vector<Part>& parts) {
-  math::Random random(4, 0);
-  std::vector<Block> result;
-  for (const Part& part : parts) {
-    for (int i = 0; i < part.count; ++i) {
-      Block block;
-      block.gain = std::log(part.gain / 100.0) + 0.02 * random.normal();
-      block.frequency = std::log(part.frequency / 100.0) + 0.01 * random.normal();
-      block.speed = 2.0;
-      block.torque = 10.0;
-      result.push_back(block);
-    }
-  }
-  return result;
-}
-
 TEST(FindChanges, TellsSegmentsWithTheirMeans) {
-  const BlockChanges found = find_changes(blocks({{12, 100, 100}, {10, 80, 90}}));
+  const BlockChanges found = find_changes(gain_blocks({{12, 100, 100}, {10, 80, 90}}));
   ASSERT_EQ(found.segments.size(), 2U);
   EXPECT_EQ(found.segments[0].last, 12U);
   EXPECT_EQ(found.segments[1].first, 12U);
@@ -47,7 +28,7 @@ TEST(FindChanges, TellsSegmentsWithTheirMeans) {
 }
 
 TEST(FindChanges, NoiseIsNeverTakenForLessThanAPercent) {
-  std::vector<Block> same = blocks({{20, 100, 100}});
+  std::vector<Block> same = gain_blocks({{20, 100, 100}});
   for (Block& b : same) b.gain = b.frequency = 0.0;
   const BlockChanges found = find_changes(same);
   EXPECT_DOUBLE_EQ(found.gain_sd, 0.01);
@@ -56,7 +37,7 @@ TEST(FindChanges, NoiseIsNeverTakenForLessThanAPercent) {
 }
 
 TEST(FindChanges, UpToAFifthOfTheFrequenciesMayBeUnknown) {
-  std::vector<Block> some = blocks({{20, 100, 100}});
+  std::vector<Block> some = gain_blocks({{20, 100, 100}});
   for (const std::size_t b : {0U, 7U, 8U, 19U}) some[b].frequency = kNan;
   const BlockChanges found = find_changes(some);
   ASSERT_EQ(found.frequency.size(), 20);
@@ -70,18 +51,23 @@ TEST(FindChanges, UpToAFifthOfTheFrequenciesMayBeUnknown) {
 
 TEST(RegularSegment, IsTheLongestUnlessAnEarlierOneWasFresher) {
   const PhaseOptions options;
-  EXPECT_EQ(regular_segment(find_changes(blocks({{8, 80, 100}, {20, 100, 100}})), options), 1U);
-  EXPECT_EQ(regular_segment(find_changes(blocks({{8, 125, 110}, {20, 100, 100}})), options), 0U);
+  EXPECT_EQ(regular_segment(find_changes(gain_blocks({{8, 80, 100}, {20, 100, 100}})), options),
+            1U);
+  EXPECT_EQ(regular_segment(find_changes(gain_blocks({{8, 125, 110}, {20, 100, 100}})), options),
+            0U);
   // More torque alone is no fresher muscle, nor is what comes later, nor a few blocks.
-  EXPECT_EQ(regular_segment(find_changes(blocks({{8, 125, 100}, {20, 100, 100}})), options), 1U);
-  EXPECT_EQ(regular_segment(find_changes(blocks({{20, 100, 100}, {8, 125, 110}})), options), 0U);
-  EXPECT_EQ(regular_segment(find_changes(blocks({{3, 125, 110}, {20, 100, 100}})), options), 1U);
+  EXPECT_EQ(regular_segment(find_changes(gain_blocks({{8, 125, 100}, {20, 100, 100}})), options),
+            1U);
+  EXPECT_EQ(regular_segment(find_changes(gain_blocks({{20, 100, 100}, {8, 125, 110}})), options),
+            0U);
+  EXPECT_EQ(regular_segment(find_changes(gain_blocks({{3, 125, 110}, {20, 100, 100}})), options),
+            1U);
   // Another movement is not compared.
-  std::vector<Block> faster = blocks({{8, 125, 110}, {20, 100, 100}});
+  std::vector<Block> faster = gain_blocks({{8, 125, 110}, {20, 100, 100}});
   for (std::size_t b = 0; b < 8; ++b) faster[b].speed = 4.0;
   EXPECT_EQ(regular_segment(find_changes(faster), options), 1U);
   // Without frequencies the longest.
-  std::vector<Block> torque_alone = blocks({{8, 125, 110}, {20, 100, 100}});
+  std::vector<Block> torque_alone = gain_blocks({{8, 125, 110}, {20, 100, 100}});
   for (Block& b : torque_alone) b.frequency = kNan;
   EXPECT_EQ(regular_segment(find_changes(torque_alone), options), 1U);
 }

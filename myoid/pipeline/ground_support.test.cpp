@@ -4,6 +4,8 @@
 
 #include "myoid/core/units.h"
 
+#include "tests/support/vertical_slider.h"
+
 namespace myoid::pipeline {
 namespace {
 
@@ -15,13 +17,6 @@ model::BodyModel person(double trunk_kg) {
                   {.name = "thigh", .mass_kg = 8.0},
                   {.name = "shank", .mass_kg = 4.0},
                   {.name = "arm", .mass_kg = 3.0}};
-  model::Joint root{.name = "root", .class_name = "CustomJoint", .parent = 0, .child = 1};
-  root.coordinates = {0};
-  root.rotation = {model::TransformAxis{Vec3::UnitX()}, model::TransformAxis{Vec3::UnitY()},
-                   model::TransformAxis{Vec3::UnitZ()}};
-  root.translation = {model::TransformAxis{Vec3::UnitX()},
-                      model::TransformAxis{Vec3::UnitY(), 0, model::Linear{1.0, 0.0}},
-                      model::TransformAxis{Vec3::UnitZ()}};
   const auto hinge = [](const char* name, int parent, int child, int coordinate, const Vec3& at) {
     model::Joint joint{.name = name, .class_name = "PinJoint", .parent = parent, .child = child};
     joint.X_PF.p = at;
@@ -31,7 +26,7 @@ model::BodyModel person(double trunk_kg) {
     joint.rotation[2].axis = Vec3::UnitY();
     return joint;
   };
-  model.joints = {root, hinge("hip", 1, 2, 1, Vec3::Zero()),
+  model.joints = {test::vertical_slider(), hinge("hip", 1, 2, 1, Vec3::Zero()),
                   hinge("knee", 2, 3, 2, Vec3(0.0, -0.4, 0.0)),
                   hinge("shoulder", 1, 4, 3, Vec3(0.0, 0.5, 0.0))};
   model.coordinates = {

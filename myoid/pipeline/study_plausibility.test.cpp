@@ -10,6 +10,8 @@
 #include "myoid/model/arm4.h"
 #include "myoid/model/osim_reader.h"
 
+#include "tests/support/vertical_slider.h"
+
 namespace myoid::pipeline {
 namespace {
 
@@ -132,13 +134,6 @@ model::BodyModel stander() {
                   {.name = "pelvis", .mass_kg = 60.0},
                   {.name = "shank", .mass_kg = 9.0},
                   {.name = "foot", .mass_kg = 1.0}};
-  model::Joint root{.name = "root", .class_name = "CustomJoint", .parent = 0, .child = 1};
-  root.coordinates = {0};
-  root.rotation = {model::TransformAxis{Vec3::UnitX()}, model::TransformAxis{Vec3::UnitY()},
-                   model::TransformAxis{Vec3::UnitZ()}};
-  root.translation = {model::TransformAxis{Vec3::UnitX()},
-                      model::TransformAxis{Vec3::UnitY(), 0, model::Linear{1.0, 0.0}},
-                      model::TransformAxis{Vec3::UnitZ()}};
   model::Joint knee{.name = "knee", .class_name = "PinJoint", .parent = 1, .child = 2};
   knee.X_PF.p = Vec3(0.0, 0.3, 0.0);
   knee.coordinates = {1};
@@ -147,7 +142,7 @@ model::BodyModel stander() {
   knee.rotation[2].axis = Vec3::UnitY();
   model::Joint ankle{.name = "ankle", .class_name = "WeldJoint", .parent = 2, .child = 3};
   ankle.X_PF.p = Vec3(0.0, -0.9, 0.0);
-  model.joints = {root, knee, ankle};
+  model.joints = {test::vertical_slider(), knee, ankle};
   model.coordinates = {{.name = "height", .joint = 0, .motion = model::MotionType::translational},
                        {.name = "knee_angle", .joint = 1}};
   return model::finalize(std::move(model));

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -158,6 +159,16 @@ inline ElbowStudy elbow_study(const ElbowStudyOptions& o = {}) {
     study.data.trials.push_back(std::move(trial));
   }
   return study;
+}
+
+/// That a parameter is to be found, of these owners or of all.
+inline identification::ParameterRule freed(const char* parameter,
+                                           std::vector<std::string> owners = {}) {
+  identification::ParameterRule rule;
+  rule.parameter = parameter;
+  rule.owners = std::move(owners);
+  rule.free = true;
+  return rule;
 }
 
 }  // namespace myoid::test
