@@ -9,6 +9,7 @@
 #include "myoid/cli/solver_contests.h"
 #include "myoid/core/error.h"
 #include "myoid/identification/cross_validation.h"
+#include "myoid/identification/estimate_remarks.h"
 #include "myoid/identification/force.h"
 #include "myoid/identification/paper.h"
 #include "myoid/identification/parameters.h"
@@ -38,7 +39,8 @@ struct Options {
   bool profile = false;
   std::string loss = "square";
   std::string folds = "trial";
-  int starts = 0;  ///< 0: not given.
+  std::string lag;  ///< Empty: not given.
+  int starts = 0;   ///< 0: not given.
   double residual_hz = identification::EstimatorOptions{}.residual_cutoff_hz.value_or(0.0);
   std::vector<std::string> free_more;
   double motion_cutoff_hz = 0.0;
@@ -65,6 +67,7 @@ void refuse_what_cannot_be(const Options& o, const pipeline::MuscleTable& table)
   if (o.bootstrap > 0) asked.emplace_back("--bootstrap");
   if (o.profile) asked.emplace_back("--profile");
   if (o.folds == "block") asked.emplace_back("--folds block");
+  if (!o.lag.empty()) asked.push_back("--lag " + o.lag);
   for (const std::string& name : o.free_more) asked.push_back("--free " + name);
   for (const identification::ParameterRule& rule : table.rules)
     asked.push_back(fmt::format("{}_fixed = false in {}", rule.parameter, o.muscles));
@@ -73,6 +76,12 @@ void refuse_what_cannot_be(const Options& o, const pipeline::MuscleTable& table)
         fmt::format("{}: the published method has none of it; leave it out, or use --method force, "
                     "which fits the same forces",
                     fmt::join(asked, ", ")));
+  }
+  if (o.method == "force" && o.lag == "automatic") {
+    throw InvalidInput(
+        "--lag automatic: method force fits each muscle alone, and all follow their EMG alike; "
+        "give "
+        "--lag delay or shared, or use --method torque");
   }
   if (o.motion_cutoff_hz > 0.0 && o.files.motions.empty())
     throw InvalidInput("--lowpass smooths the angles of --motion, which is not given");
@@ -93,7 +102,9 @@ identification::EstimatorOptions estimator_options(const Options& o, const Conte
   identification::EstimatorOptions options;
   options.priors = !o.no_priors;
   options.weights = !o.no_priors;
-  options.choose_lag = !o.no_priors;
+  options.choose_lag =
+      o.method == "torque" && !o.no_priors && (o.lag.empty() || o.lag == "automatic");
+  if (o.lag == "shared") options.lag = identification::EmgLag::shared;
   options.max_rate_hz = 200.0;
   options.delay_s = o.delay_s;
   options.residual_cutoff_hz.reset();
@@ -124,6 +135,8 @@ void print_result(const identification::IdentificationResult& result, bool freed
     fmt::print(
         "max_shortening_speed is not stated as known: it is free, and concentric_curvature carries "
         "what is not known of it. Where it is known: max_shortening_speed_fixed = true.\n");
+  const std::string lag = identification::lag_remark(result);
+  if (!lag.empty()) fmt::print("{}\n", lag);
   if (result.exact) fmt::print("The data are free of noise: fitted as they are, without priors.\n");
   for (const std::string& text : result.diagnoses) fmt::print("signature: {}\n", text);
   for (const std::string& text : result.undetermined)
@@ -257,6 +270,14 @@ void add_identify(CLI::App& app, Context& context) {
       .add_option("--delay", o->delay_s,
                   "EMG delay held at this [s] (default: estimated, methods force and torque)")
       ->check(CLI::Range(0.0, 0.3));
+  command
+      .add_option(
+          "--lag", o->lag,
+          "How muscles follow their EMG: delay, the activation is the envelope of that time "
+          "ago; shared, the delay is the mean of a pure one and the lags of excitation and "
+          "activation; automatic, what the data prefer (default automatic for torque, else "
+          "delay)")
+      ->check(CLI::IsMember({"automatic", "delay", "shared"}));
   command.add_flag("--no-priors", o->no_priors,
                    "Methods force and torque: the data alone, plain least squares");
   command
@@ -316,6 +337,12 @@ void add_identify(CLI::App& app, Context& context) {
           "--motion has no effect: no joint_viscosity, joint_inertia or joint_stiffness is to be "
           "identified (--free)");
     if (is_free(data, pipeline::is_about_lags)) {
+      if (!o->lag.empty()) {
+        throw InvalidInput(
+            fmt::format("--lag {}: the lags of equation (1) are to be identified, which is a third "
+                        "way to follow the EMG; leave one of both out",
+                        o->lag));
+      }
       pipeline::use_dynamics(options);
       context.warn(
           "the lags of equation (1) are to be identified: the activations given are taken for "
@@ -334,6 +361,8 @@ void add_identify(CLI::App& app, Context& context) {
       result = identification::identify_torque_or_exact(data, options, table.speed_may_be_free);
       free_what_is_free(result, table, data);
     }
+    options.lag = result.lag;
+    options.choose_lag = false;
     if (o->method != "paper" && o->folds != "none" && !result.exact)
       folds = held_out(*o, data, options, result);
     std::vector<NamedContest> contests;

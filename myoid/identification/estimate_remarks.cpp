@@ -172,6 +172,20 @@ void add_distances_to(std::vector<std::string>& warnings,
   }
 }
 
+std::string lag_remark(const IdentificationResult& result) {
+  if (!result.shared_lag_gain) return {};
+  const double gain = std::abs(*result.shared_lag_gain);
+  const bool clear = gain >= 4.0;  // two standard deviations
+  return fmt::format(
+      "The muscles follow their EMG {}; {}.",
+      result.lag == EmgLag::shared
+          ? "with the lags of excitation and activation, of which the delay is the mean"
+          : "with a delay that leaves its shape as it is, not with the lags of excitation and "
+            "activation",
+      clear ? fmt::format("the recording tells that (chi-square less by {:.0f})", gain)
+            : std::string("the recording hardly tells which"));
+}
+
 void agree_on_tied(std::vector<ParameterEstimate>& estimates, std::size_t count) {
   if (count < 2 || estimates.size() < count || estimates.back().tied_to.empty()) return;
   const auto first = estimates.end() - static_cast<std::ptrdiff_t>(count);

@@ -61,6 +61,10 @@ struct ActiveMotion {
 void add_distances_to(std::vector<std::string>& warnings,
                       const std::vector<PriorDistance>& distances);
 
+/// How the muscles follow their EMG, where the fit chose that (`shared_lag_gain`), and whether the
+/// recording tells: a sentence; empty where nothing was chosen.
+[[nodiscard]] std::string lag_remark(const IdentificationResult& result);
+
 /// The last `count` estimates are one unknown of several owners: they get one verdict, the worst
 /// that any of them has, with its reason. Nothing is done to a number of one owner.
 void agree_on_tied(std::vector<ParameterEstimate>& estimates, std::size_t count);

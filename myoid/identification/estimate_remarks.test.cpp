@@ -162,5 +162,17 @@ TEST(DistanceFromPrior, CountsInSpreadsOfWhatTheSolverSees) {
   EXPECT_NEAR(distance_from_prior(strength, std::log(2500.0)), std::log(2.5) / 0.25, 1e-12);
 }
 
+TEST(LagRemark, SaysWhatWasChosenAndWhetherTheRecordingTells) {
+  IdentificationResult result;
+  EXPECT_EQ(lag_remark(result), "");
+  result.shared_lag_gain = -3.9;
+  EXPECT_NE(lag_remark(result).find("with a delay that leaves its shape"), std::string::npos);
+  EXPECT_NE(lag_remark(result).find("hardly tells"), std::string::npos);
+  result.lag = EmgLag::shared;
+  result.shared_lag_gain = 4.1;
+  EXPECT_NE(lag_remark(result).find("with the lags of excitation"), std::string::npos);
+  EXPECT_NE(lag_remark(result).find("chi-square less by 4"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace myoid::identification

@@ -218,6 +218,7 @@ std::vector<identification::Fold> folds(const StudyResult& result, const Progres
     if (method.method != "torque") continue;
     options.warm_start = method.solution;
     options.lag = method.lag;
+    options.choose_lag = false;  // chosen by all trials
   }
   const std::string& left_out = result.study.identify.folds;
   const identification::FoldKind kind = left_out == "condition"

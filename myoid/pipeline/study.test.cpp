@@ -65,5 +65,12 @@ TEST(ParseStudy, LagsOfTheActivationWithoutDynamicsAreRefusedWithTheRemedy) {
             std::string::npos);
 }
 
+TEST(ParseStudy, AnEmgIsFollowedInOneWayOnly) {
+  const std::string both = "\n[identify]\nlag = \"shared\"\ndynamics = true\n";
+  EXPECT_NE(message_of(kMinimal + both).find("lag: it stands beside dynamics = true"),
+            std::string::npos)
+      << message_of(kMinimal + both);
+}
+
 }  // namespace
 }  // namespace myoid::pipeline

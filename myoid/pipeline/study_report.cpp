@@ -166,19 +166,8 @@ report::Report study_report(const StudyResult& result, const Provenance& provena
                     torque->emg_cv < 0.005 ? std::string("too small to be told from it, below 1 %")
                                            : fmt::format("{:.0f} %", 100.0 * torque->emg_cv),
                     1000.0 * torque->delay_s));
-    if (torque->shared_lag_gain) {
-      // Two standard deviations.
-      const bool clear = std::abs(*torque->shared_lag_gain) >= 4.0;
-      section.paragraphs.push_back(fmt::format(
-          "The muscles follow their EMG {}; {}.",
-          torque->lag == identification::EmgLag::shared
-              ? "with the lags of excitation and activation, of which the delay is the mean"
-              : "with a delay that leaves its shape as it is, not with the lags of excitation and "
-                "activation",
-          clear ? fmt::format("the recording tells that (chi-square less by {:.0f})",
-                              std::abs(*torque->shared_lag_gain))
-                : std::string("the recording hardly tells which")));
-    }
+    const std::string lag = identification::lag_remark(*torque);
+    if (!lag.empty()) section.paragraphs.push_back(lag);
     if (!torque->collinear.empty())
       section.paragraphs.push_back(
           fmt::format("Hardly told apart: {}.", fmt::join(torque->collinear, "; ")));

@@ -257,6 +257,11 @@ IdentifySpec read_identify(TomlTable table) {
   identify.normalised = table.flag("normalised").value_or(identify.normalised);
   identify.lag = table.choice("lag", "automatic", {"automatic", "delay", "shared"});
   identify.dynamics = table.flag("dynamics").value_or(identify.dynamics);
+  if (identify.dynamics && table.has("lag")) {
+    table.fail("lag",
+               "it stands beside dynamics = true, which is a third way to follow the EMG; leave "
+               "one of both out");
+  }
   identify.model_muscles = table.choice("muscle_law", "paper", {"paper", "model"}) == "model";
   identify.elastic_tendon = table.choice("tendon", "rigid", {"rigid", "elastic"}) == "elastic";
   identify.delay_per_channel = table.flag("delay_per_channel").value_or(identify.delay_per_channel);

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <string>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -24,6 +25,7 @@ using myoid::test::Row;
 using myoid::test::TemporaryFolder;
 using myoid::test::write_text;
 using testing::HasSubstr;
+using testing::Not;
 
 /// The numbers of one muscle, in the order of `kNames`; then v_max and the tendon's slack length.
 struct Muscle {
@@ -328,11 +330,46 @@ TEST(IdentifyFromFiles, WhatTheMethodCannotGiveIsRefusedByName) {
        std::vector<std::tuple<std::string, std::vector<std::string>, std::string>>{
            {"paper", {"--free", "emg_shape"}, "--free emg_shape: the published method has none"},
            {"paper", {"--loss", "huber", "--profile"}, "--loss, --profile: the published method"},
+           {"paper", {"--lag", "shared"}, "--lag shared: the published method has none"},
+           {"force", {"--lag", "automatic"}, "give --lag delay or shared"},
+           {"torque", {"--lag", "shared", "--free", "activation_time"}, "leave one of both out"},
            {"force", {"--free", "joint_viscosity"}, "use --method torque"},
            {"torque", {"--free", "joint_viscosity"}, "give its angles with --motion"}}) {
     const Finished run = with(method, more);
     EXPECT_EQ(run.exit_code, 3) << run.out;
     EXPECT_THAT(run.err, HasSubstr(said));
+  }
+}
+
+TEST(IdentifyFromFiles, TheLagIsChosenByTheDataOrAsItIsTold) {
+  const TemporaryFolder folder;
+  const std::vector<Muscle> muscles = random_muscles(13);
+  for (int i = 1; i <= 2; ++i) write_trial(folder, muscles, i, {.seconds = 6.0});
+  // Not exact: a torque of no such muscles.
+  std::string torques = "time,elbow\n";
+  for (int i = 0; i <= 600; ++i) torques += fmt::format("{},{}\n", 0.01 * i, 10 + i % 7);
+  write_text(folder / "t1.csv", torques);
+  write_muscles(folder, muscles, true);
+  std::vector<std::string> arguments = command(folder, "torque", 2);
+  for (std::string& argument : arguments) {
+    if (argument == folder / "t1.sto") argument = folder / "t1.csv";
+  }
+  const auto with = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> all = arguments;
+    all.insert(all.end(), {"--folds", "none"});
+    all.insert(all.end(), more.begin(), more.end());
+    std::filesystem::remove_all(folder / "out");
+    const Finished run = myoid(all);
+    return std::pair{run.out, myoid::test::read_text(folder / "out/parameters.json")};
+  };
+  const auto [by_data, chosen] = with({});
+  EXPECT_THAT(by_data, HasSubstr("The muscles follow their EMG with"));
+  EXPECT_THAT(chosen, Not(HasSubstr("\"shared_lag_gain\": null")));
+  for (const std::string lag : {"delay", "shared"}) {
+    const auto [said, json] = with({"--lag", lag});
+    EXPECT_THAT(said, Not(HasSubstr("The muscles follow their EMG")));
+    EXPECT_THAT(json, HasSubstr("\"emg_lag\": \"" + lag + "\""));
+    EXPECT_THAT(json, HasSubstr("\"shared_lag_gain\": null"));
   }
 }
 
