@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "myoid/identification/estimate_remarks.h"
 #include "myoid/math/statistics.h"
 #include "myoid/pipeline/design_report.h"
 #include "myoid/pipeline/parameter_tables.h"
