@@ -29,7 +29,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct ConvertOptions {
   std::string in, out, what, up = "y", unit, analog, subject = "01";
   std::vector<std::string> turns, bodies, channels;
   double least_force_n = 10.0;
@@ -37,7 +37,7 @@ struct Options {
 };
 
 /// "x:-90" after "z:90": turns about the laboratory's axes, one after the other.
-Mat3 rotation_of(const Options& o) {
+Mat3 rotation_of(const ConvertOptions& o) {
   Mat3 R = recording::rotation_to_y_up(o.up[0]);
   for (const std::string& turn : o.turns) {
     const auto degrees = turn.size() > 2 && turn[1] == ':'
@@ -88,7 +88,7 @@ bool is_storage(const std::string& file) {
 
 class Converter {
  public:
-  Converter(const Options& options, const Context& context)
+  Converter(const ConvertOptions& options, const Context& context)
       : o_(options), context_(context), R_(rotation_of(options)) {}
 
   void run() {
@@ -326,7 +326,7 @@ class Converter {
     wrote(out);
   }
 
-  const Options& o_;
+  const ConvertOptions& o_;
   const Context& context_;
   Mat3 R_;
   std::vector<std::string> written_;
@@ -339,7 +339,7 @@ void add_convert(CLI::App& app, Context& context) {
       "convert",
       "Writes a recording in another format: C3D, TRC, STO/MOT, CSV; EDF, BDF and ANC are read.\n"
       "Example: myoid convert walk.c3d walk/ --up z --body calcn_r --body calcn_l");
-  const auto o = std::make_shared<Options>();
+  const auto o = std::make_shared<ConvertOptions>();
   command
       .add_option(
           "in", o->in,

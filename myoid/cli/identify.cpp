@@ -29,7 +29,7 @@ namespace {
 using identification::StudyData;
 using identification::TrialData;
 
-struct Options {
+struct IdentifyOptions {
   std::string muscles, out, method = "torque";
   pipeline::IdentifySources files;
   std::optional<double> delay_s;
@@ -60,7 +60,7 @@ bool is_about_motion(const identification::ParameterRule& rule) {
 }
 
 /// What is asked for and the method or the files cannot give.
-void refuse_what_cannot_be(const Options& o, const pipeline::MuscleTable& table) {
+void refuse_what_cannot_be(const IdentifyOptions& o, const pipeline::MuscleTable& table) {
   std::vector<std::string> asked;
   if (o.delay_s) asked.emplace_back("--delay");
   if (o.loss != "square") asked.emplace_back("--loss");
@@ -98,7 +98,8 @@ void refuse_what_cannot_be(const Options& o, const pipeline::MuscleTable& table)
   }
 }
 
-identification::EstimatorOptions estimator_options(const Options& o, const Context& context) {
+identification::EstimatorOptions estimator_options(const IdentifyOptions& o,
+                                                   const Context& context) {
   identification::EstimatorOptions options;
   options.priors = !o.no_priors;
   options.weights = !o.no_priors;
@@ -177,7 +178,7 @@ void print_fit(const identification::IdentificationResult& result,
              torque ? "all, below the fit's cut-off, least" : "all, the least", "", result.r2);
 }
 
-void print_folds(const std::vector<identification::Fold>& folds, const Options& o) {
+void print_folds(const std::vector<identification::Fold>& folds, const IdentifyOptions& o) {
   if (folds.empty()) return;
   const bool several = o.method == "force" || o.files.coordinates.size() > 1;
   fmt::print("\n{:<34}{:>12}{:>14}{:>8}   {}\n", "left out of the fit, then predicted",
@@ -202,7 +203,7 @@ void free_what_is_free(const identification::IdentificationResult& result,
 }
 
 /// Trials or blocks predicted from the others.
-std::vector<identification::Fold> held_out(const Options& o,
+std::vector<identification::Fold> held_out(const IdentifyOptions& o,
                                            const StudyData& data,
                                            const identification::EstimatorOptions& options,
                                            const identification::IdentificationResult& result) {
@@ -233,7 +234,7 @@ void add_identify(CLI::App& app, Context& context) {
       "Example: myoid identify --muscles muscles.csv --activations a.sto --lengths l.sto "
       "--velocities v.sto\n"
       "                        --moment-arms r.sto --torques id.sto --method torque --out results");
-  const auto o = std::make_shared<Options>();
+  const auto o = std::make_shared<IdentifyOptions>();
   command.add_option("--muscles", o->muscles, "muscles.csv: starting values, SI")->required();
   command
       .add_option("--activations", o->files.activations,

@@ -22,7 +22,7 @@
 namespace myoid::cli {
 namespace {
 
-struct Options {
+struct MuscleOptions {
   std::string muscle, out, column, activation, excitation, initial = "0.01";
   std::vector<std::string> lengths, measured, fit;
   std::vector<double> scales{1.0};
@@ -66,7 +66,9 @@ std::optional<double> as_number(const std::string& text) {
 }
 
 /// A number, or a file with the drive over time.
-void read_drive(const Options& o, const Context& context, muscle::IsolatedMuscleInput& input) {
+void read_drive(const MuscleOptions& o,
+                const Context& context,
+                muscle::IsolatedMuscleInput& input) {
   input.drive_is_excitation = !o.excitation.empty();
   const std::string& drive = input.drive_is_excitation ? o.excitation : o.activation;
   if (const std::optional<double> constant = as_number(drive)) {
@@ -102,7 +104,7 @@ struct Comparison {
 };
 
 /// The experiment of one length file.
-muscle::IsolatedMuscleInput read_input(const Options& o,
+muscle::IsolatedMuscleInput read_input(const MuscleOptions& o,
                                        std::size_t index,
                                        const pipeline::MuscleFile& file,
                                        const Context& context) {
@@ -202,7 +204,7 @@ void check_order(const muscle::IsolatedModel& start,
 }
 
 /// --fit: the parameters from all recordings, and how well those from the others predict each.
-void fit(const Options& o, Context& context, const pipeline::MuscleFile& file) {
+void fit(const MuscleOptions& o, Context& context, const pipeline::MuscleFile& file) {
   const muscle::IsolatedModel start{file.parameters, file.laws, file.millard};
   std::vector<muscle::IsolatedRecording> recordings;
   for (std::size_t i = 0; i < o.lengths.size(); ++i) {
@@ -287,7 +289,7 @@ void fit(const Options& o, Context& context, const pipeline::MuscleFile& file) {
   if (!o.out.empty()) fmt::print("{}\n", o.out);
 }
 
-void run(const Options& o, Context& context) {
+void run(const MuscleOptions& o, Context& context) {
   if (o.activation.empty() == o.excitation.empty()) {
     throw InvalidInput("give the drive once: --activation or --excitation, a number or a file");
   }
@@ -381,7 +383,7 @@ void add_muscle(CLI::App& app, Context& context) {
                           "One muscle alone: which force does it make under an imposed length?\n"
                           "Example: myoid muscle --muscle soleus.toml --length length.sto "
                           "--excitation 1 --out force.sto");
-  const auto o = std::make_shared<Options>();
+  const auto o = std::make_shared<MuscleOptions>();
   command.add_option("--muscle", o->muscle, "The muscle (.toml)")->required();
   command
       .add_option("--length", o->lengths,

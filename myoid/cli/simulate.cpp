@@ -27,7 +27,7 @@ namespace {
 
 using simulation::Signal;
 
-struct Options {
+struct SimulateOptions {
   std::string model = "arm4";
   std::string excitations, out, tendon, curves, activation, held_body;
   std::vector<std::string> excite, initial, speed, lock, sensitivity;
@@ -89,7 +89,7 @@ std::pair<std::string, double> assignment(const std::string& text, std::string_v
 }
 
 /// From the file or the command line; `end_s` becomes the end of the file.
-std::vector<Signal> excitations(const Options& o,
+std::vector<Signal> excitations(const SimulateOptions& o,
                                 const std::vector<std::string>& muscles,
                                 const Context& context,
                                 double& start_s,
@@ -110,7 +110,7 @@ std::vector<Signal> excitations(const Options& o,
   }
 }
 
-std::string options_json(const Options& o, double start_s, double end_s) {
+std::string options_json(const SimulateOptions& o, double start_s, double end_s) {
   return nlohmann::ordered_json{{"model", o.model},           {"excitations", o.excitations},
                                 {"excite", o.excite},         {"rest", o.rest},
                                 {"tendon", o.tendon},         {"curves", o.curves},
@@ -125,7 +125,7 @@ std::string options_json(const Options& o, double start_s, double end_s) {
 }
 
 /// Sets what --initial, --initial-speed and --lock name among the coordinates.
-void place(const Options& o,
+void place(const SimulateOptions& o,
            const std::vector<std::pair<std::string, bool>>& coordinates,
            simulation::SimulationStart& start,
            std::vector<simulation::Device>& devices) {
@@ -153,7 +153,7 @@ void place(const Options& o,
 }
 
 /// What follows another coordinate cannot be placed by itself. (`simulate` refuses to hold it.)
-void refuse_followers(const Options& o, const model::BodyModel& body) {
+void refuse_followers(const SimulateOptions& o, const model::BodyModel& body) {
   for (const model::CoordinateCoupler& c : body.couplers) {
     const std::string& name = body.coordinates[static_cast<std::size_t>(c.dependent)].name;
     for (const auto* list : {&o.initial, &o.speed}) {
@@ -175,7 +175,9 @@ struct Outcome {
   double start_s = 0.0, end_s = 0.0;
 };
 
-simulation::SimulationOptions run_options(const Options& o, const Context& context, double end_s) {
+simulation::SimulationOptions run_options(const SimulateOptions& o,
+                                          const Context& context,
+                                          double end_s) {
   simulation::SimulationOptions options;
   options.end_s = end_s;
   options.output_rate_hz = o.rate_hz;
@@ -187,7 +189,8 @@ simulation::SimulationOptions run_options(const Options& o, const Context& conte
 }
 
 /// The parameters of --sensitivity: names, or the beginning of names before a '*'.
-std::vector<std::string> wanted_parameters(const Options& o, const simulation::Arm<double>& arm) {
+std::vector<std::string> wanted_parameters(const SimulateOptions& o,
+                                           const simulation::Arm<double>& arm) {
   std::vector<std::string> all = simulation::arm_parameter_names(arm);
   all.insert(all.end(), {"start_angle", "start_speed"});
   std::vector<std::string> result;
@@ -207,7 +210,7 @@ std::vector<std::string> wanted_parameters(const Options& o, const simulation::A
   return result;
 }
 
-Outcome simulate_arm4(Options& o, const Context& context) {
+Outcome simulate_arm4(SimulateOptions& o, const Context& context) {
   if (o.tendon.empty()) o.tendon = "equilibrium";
   if (o.curves.empty()) o.curves = "paper";
   if (o.activation.empty()) o.activation = "two_lags";
@@ -242,7 +245,7 @@ Outcome simulate_arm4(Options& o, const Context& context) {
   return result;
 }
 
-Outcome simulate_file(Options& o, const Context& context) {
+Outcome simulate_file(SimulateOptions& o, const Context& context) {
   if (o.tendon.empty()) o.tendon = "equilibrium";
   if (o.curves.empty()) o.curves = "file";
   if (o.activation.empty()) o.activation = "thelen";
@@ -283,7 +286,7 @@ Outcome simulate_file(Options& o, const Context& context) {
   return result;
 }
 
-void draw_paper_figures(const Options& o, const Context& context) {
+void draw_paper_figures(const SimulateOptions& o, const Context& context) {
   context.prepare_folder(o.out);
   for (const report::Figure& figure : pipeline::paper_figures()) {
     pipeline::write_figure(figure, o.out);
@@ -291,7 +294,7 @@ void draw_paper_figures(const Options& o, const Context& context) {
   }
 }
 
-void run(Options& o, Context& context) {
+void run(SimulateOptions& o, Context& context) {
   if (o.paper_figures) return draw_paper_figures(o, context);
   if (!o.excitations.empty() && !o.excite.empty())
     throw InvalidInput("give either --excitations or --excite, not both");
@@ -350,7 +353,7 @@ void add_simulate(CLI::App& app, Context& context) {
       "simulate",
       "Forward dynamics: excitations of the muscles to motion, forces and lengths.\n"
       "Example: myoid simulate --model arm4 --excite BIC=0.1@0.2+0.3 --end 2 --out sim");
-  const auto o = std::make_shared<Options>();
+  const auto o = std::make_shared<SimulateOptions>();
   command.add_option("--model", o->model, "OpenSim model (.osim), or arm4 (default)");
   command.add_option("--excitations", o->excitations,
                      "Excitation per muscle over time (.sto), 0 to 1, linear between its samples");

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "myoid/core/index.h"
+
 namespace myoid::dynamics {
 namespace {
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 struct Touch {
   double depth_m = 0.0;  ///< Above 0 where the surfaces overlap.

@@ -22,7 +22,7 @@ Eigen::MatrixX3d three(const TimeSeries& wrench, const std::array<const char*, 3
   return values;
 }
 
-LoadColumns fit(const Eigen::VectorXd& time_s, const Eigen::MatrixX3d& values) {
+LoadColumns splines_through(const Eigen::VectorXd& time_s, const Eigen::MatrixX3d& values) {
   LoadColumns columns;
   for (Eigen::Index k = 0; k < 3; ++k)
     columns.splines.push_back(math::Spline::interpolate(time_s, values.col(k), 3));
@@ -66,9 +66,9 @@ ExternalForce instrument_load(const model::BodyModel& object,
   ExternalForce load;
   load.name = name;
   load.body = applied_to;
-  load.force = fit(clock, force);
-  load.point = fit(clock, point);
-  load.torque = fit(clock, moment);
+  load.force = splines_through(clock, force);
+  load.point = splines_through(clock, point);
+  load.torque = splines_through(clock, moment);
   return load;
 }
 
@@ -83,9 +83,9 @@ ExternalForce instrument_load(model::BodyIndex frame,
   load.body = applied_to;
   load.force_frame = frame;
   load.point_frame = frame;
-  load.force = fit(wrench.time_s(), three(wrench, kForce));
+  load.force = splines_through(wrench.time_s(), three(wrench, kForce));
   load.point = LoadColumns{};  // the origin of the frame
-  load.torque = fit(wrench.time_s(), three(wrench, kMoment));
+  load.torque = splines_through(wrench.time_s(), three(wrench, kMoment));
   return load;
 }
 

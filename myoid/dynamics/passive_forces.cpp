@@ -4,12 +4,11 @@
 #include <array>
 #include <cmath>
 
+#include "myoid/core/index.h"
 #include "myoid/dynamics/contact_force.h"
 
 namespace myoid::dynamics {
 namespace {
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 double smooth_step(double s) {
   s = std::clamp(s, 0.0, 1.0);

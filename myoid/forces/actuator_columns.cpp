@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <utility>
 
+#include "myoid/core/index.h"
+
 namespace myoid::forces {
 namespace {
-
-std::size_t at(Eigen::Index index) { return static_cast<std::size_t>(index); }
 
 Vec3 angular_column(const model::BodyModel& model,
                     const model::BodyState& state,

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
+#include "myoid/core/index.h"
 #include "myoid/core/parallel.h"
 #include "myoid/dynamics/passive_forces.h"
 #include "myoid/forces/actuator_columns.h"
@@ -14,14 +15,12 @@
 namespace myoid::forces {
 namespace {
 
-std::size_t at(Eigen::Index index) { return static_cast<std::size_t>(index); }
-
 /// One frame after the other; one per thread.
-class Frame {
+class ReactionFrame {
  public:
-  Frame(const model::BodyModel& model,
-        const std::vector<Actuator>& actuators,
-        const JointReactionOptions& options)
+  ReactionFrame(const model::BodyModel& model,
+                const std::vector<Actuator>& actuators,
+                const JointReactionOptions& options)
       : model_(model),
         actuators_(actuators),
         options_(options),
@@ -139,7 +138,7 @@ std::vector<JointLoads> joint_reactions(const model::BodyModel& model,
   }
   std::vector<JointLoads> result(at(frames));
   parallel_ranges<Eigen::Index>(frames, 8, [&](const auto& range) {
-    Frame frame(model, actuators, options);
+    ReactionFrame frame(model, actuators, options);
     for (Eigen::Index i = range.begin(); i != range.end(); ++i) {
       options.progress.check();
       result[at(i)] =

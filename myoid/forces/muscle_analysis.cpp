@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
+#include "myoid/core/index.h"
 #include "myoid/core/parallel.h"
 #include "myoid/forces/opensim_muscle.h"
 #include "myoid/model/constraints.h"
@@ -16,8 +17,6 @@
 
 namespace myoid::forces {
 namespace {
-
-std::size_t at(Eigen::Index index) { return static_cast<std::size_t>(index); }
 
 struct Quantity {
   const char* name;

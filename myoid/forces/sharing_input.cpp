@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
+#include "myoid/core/index.h"
 #include "myoid/dynamics/inverse_dynamics.h"
 #include "myoid/forces/opensim_muscle.h"
 #include "myoid/model/constraints.h"
@@ -13,8 +14,6 @@
 
 namespace myoid::forces {
 namespace {
-
-std::size_t at(Eigen::Index index) { return static_cast<std::size_t>(index); }
 
 std::vector<Eigen::Index> balanced(const model::BodyModel& model,
                                    const std::vector<std::string>& names) {

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
+#include "myoid/core/index.h"
 #include "myoid/core/parallel.h"
 #include "myoid/dynamics/passive_forces.h"
 #include "myoid/forces/actuator_columns.h"
@@ -18,15 +19,13 @@
 namespace myoid::forces {
 namespace {
 
-std::size_t at(Eigen::Index index) { return static_cast<std::size_t>(index); }
-
 /// What a frame needs, reused from frame to frame; one per thread.
-class Frame {
+class SharedFrame {
  public:
-  Frame(const model::BodyModel& model,
-        const std::vector<Actuator>& actuators,
-        const std::vector<OpensimMuscle>& muscles,
-        const StaticOptimizationOptions& options)
+  SharedFrame(const model::BodyModel& model,
+              const std::vector<Actuator>& actuators,
+              const std::vector<OpensimMuscle>& muscles,
+              const StaticOptimizationOptions& options)
       : model_(model),
         actuators_(actuators),
         muscles_(muscles),
@@ -169,7 +168,7 @@ StaticOptimizationResult static_optimization(const model::BodyModel& model,
   result.kkt_residual.resize(frames);
   std::vector<char> feasible(at(frames), 1), certified(at(frames), 1);
   parallel_ranges<Eigen::Index>(frames, 8, [&](const auto& range) {
-    Frame frame(model, actuators, muscles, options);
+    SharedFrame frame(model, actuators, muscles, options);
     Eigen::VectorXd strength;
     for (Eigen::Index i = range.begin(); i != range.end(); ++i) {
       options.progress.check();

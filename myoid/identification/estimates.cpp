@@ -19,8 +19,6 @@
 namespace myoid::identification {
 namespace {
 
-constexpr double kProbability = 0.95;  ///< Of every interval.
-
 /// Relative change of a value that is worth a remark.
 constexpr double kSubstance = 0.05;
 
@@ -93,7 +91,7 @@ void report_estimates(const Estimator& estimator,
   }
   if (options.intervals.profile) intervals.profiles = profile(estimator, solution);
 
-  const double quantile = math::normal_quantile(0.5 + 0.5 * kProbability);
+  const double quantile = math::normal_quantile(0.5 + 0.5 * kReportedProbability);
   const auto muscles = data.muscles.size();
   std::vector<bool> flat(muscles, false);
   std::vector<ProductPositions> positions(muscles);

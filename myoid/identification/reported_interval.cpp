@@ -7,12 +7,6 @@
 #include "myoid/math/statistics.h"
 
 namespace myoid::identification {
-namespace {
-
-constexpr double kProbability = 0.95;
-
-}  // namespace
-
 double z_of(const RowScale& row, double value) {
   const double x = value / row.ratio;
   return row.parameter->field->logarithmic ? std::log(std::max(x, 1e-300)) : x;
@@ -23,7 +17,7 @@ void add_routes(ParameterEstimate& e,
                 const Intervals& intervals,
                 Eigen::Index at,
                 double z) {
-  const double quantile = math::normal_quantile(0.5 + 0.5 * kProbability);
+  const double quantile = math::normal_quantile(0.5 + 0.5 * kReportedProbability);
   const FreeParameter& p = *row.parameter;
   const auto clipped = [&](double x) { return row.value(std::clamp(x, p.lower, p.upper)); };
   const auto normal = [&](const std::string& route, double variance, double spread) {
@@ -71,7 +65,7 @@ void add_routes(ParameterEstimate& e,
     const double noise = half / quantile;
     const double variance = noise * noise + std::pow(intervals.sandwich.by_noise[at], 2);
     return std::max(least, intervals.model_error
-                               ? intervals.model_error->reach(at, variance, kProbability)
+                               ? intervals.model_error->reach(at, variance, kReportedProbability)
                                : quantile * std::sqrt(variance));
   };
   e.ci_low = clipped(z - whole(below));

@@ -11,6 +11,8 @@
 
 namespace myoid::identification {
 
+inline constexpr double kReportedProbability = 0.95;  ///< Of every interval.
+
 /// All routes to the intervals of one fit.
 struct Intervals {
   Sandwich sandwich;

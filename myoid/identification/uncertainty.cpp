@@ -4,20 +4,18 @@
 #include <atomic>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <oneapi/tbb/parallel_for.h>
 
+#include "myoid/core/numbers.h"
 #include "myoid/core/units.h"
 #include "myoid/identification/score_blocks.h"
 #include "myoid/math/statistics.h"
 
 namespace myoid::identification {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// A stream of numbers that depends on the seed and the stream's number alone (SplitMix64).
 class Stream {

@@ -9,13 +9,12 @@
 #include <fmt/ranges.h>
 
 #include "myoid/core/error.h"
+#include "myoid/core/index.h"
 #include "myoid/kinematics/joint_motion.h"
 #include "myoid/kinematics/pose_fit.h"
 
 namespace myoid::kinematics {
 namespace {
-
-std::size_t at(Eigen::Index index) { return static_cast<std::size_t>(index); }
 
 using Pair = PoseFit::Pair;
 

@@ -9,6 +9,7 @@
 #include <Eigen/Cholesky>
 #include <oneapi/tbb/parallel_for.h>
 
+#include "myoid/core/index.h"
 #include "myoid/math/random.h"
 #include "myoid/math/sobol.h"
 #include "myoid/model/constraints.h"
@@ -17,8 +18,6 @@
 
 namespace myoid::kinematics {
 namespace {
-
-std::size_t at(Eigen::Index index) { return static_cast<std::size_t>(index); }
 
 void add_exponents(
     int left, int position, Eigen::RowVectorXi& row, Eigen::MatrixXi& all, Eigen::Index& count) {

@@ -9,6 +9,7 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/QR>
 
+#include "myoid/core/index.h"
 #include "myoid/model/constraints.h"
 
 namespace myoid::kinematics {
@@ -17,8 +18,6 @@ namespace {
 constexpr double kLongestTurn_rad = 0.5;  ///< Of any coordinate in one step.
 /// The strongest barrier, in units of J [m^2]: that of markers 0.4 m off.
 constexpr double kFirstBarrier = 0.1;
-
-std::size_t at(Eigen::Index index) { return static_cast<std::size_t>(index); }
 
 bool turns(const model::Joint& joint, int coordinate) {
   return std::any_of(joint.rotation.begin(), joint.rotation.end(),

@@ -2,18 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
+#include "myoid/core/numbers.h"
 #include "myoid/math/statistics.h"
 
 namespace myoid::math {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 void validate(const Eigen::MatrixXd& x, const ChangePointOptions& options) {
   if (x.rows() == 0 || x.cols() == 0) throw InvalidInput("change points: there is no sample");

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
+#include "myoid/core/numbers.h"
 
 namespace myoid::math {
 
@@ -21,7 +22,6 @@ DirectSearchProblem direct_search_problem(const LeastSquaresProblem& problem) {
 
 CountedCost::CountedCost(const DirectSearchProblem& problem, Eigen::Index parameters)
     : cost_(problem.cost), lower_(problem.lower), upper_(problem.upper) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
   if (parameters == 0) throw InvalidInput("direct search: there is no free parameter");
   if (lower_.size() == 0) lower_ = Eigen::VectorXd::Constant(parameters, -kInfinity);
   if (upper_.size() == 0) upper_ = Eigen::VectorXd::Constant(parameters, kInfinity);

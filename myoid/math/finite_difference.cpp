@@ -2,17 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
+#include "myoid/core/numbers.h"
 
 namespace myoid::math {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Options with empty vectors filled in, checked.
 DifferenceOptions filled(const DifferenceOptions& options, const Eigen::VectorXd& x) {

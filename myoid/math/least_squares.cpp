@@ -2,18 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include <Eigen/QR>
 #include <Eigen/SVD>
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
+#include "myoid/core/numbers.h"
 
 namespace myoid::math {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// The problem with its bounds filled in, counting evaluations.
 struct Search {

@@ -16,11 +16,6 @@ namespace {
 
 using test::NistProblem;
 
-/// Correct digits: -log10 of the relative error.
-double digits(double found, double certified) {
-  return std::min(11.0, -std::log10(std::abs(found - certified) / std::abs(certified) + 1e-300));
-}
-
 TEST(NistProblems, TheirDataAndCertifiedParametersGiveTheCertifiedResidualSum) {
   // A misprinted datum or parameter would show: the sum is certified to 11 digits, and at the
   // minimum it hardly depends on the last digit of the parameters. Of Lanczos1, fitted to 13
@@ -30,7 +25,7 @@ TEST(NistProblems, TheirDataAndCertifiedParametersGiveTheCertifiedResidualSum) {
     Eigen::VectorXd r(static_cast<Eigen::Index>(nist.response.size()));
     least_squares(nist).evaluate(nist.certified, r, nullptr);
     const double wanted = name == "Lanczos1" ? -20.0 : name == "Lanczos2" ? 3.0 : 8.0;
-    EXPECT_GE(digits(r.squaredNorm(), nist.residual_sum_of_squares), wanted) << name;
+    EXPECT_GE(test::correct_digits(r.squaredNorm(), nist.residual_sum_of_squares), wanted) << name;
   }
 }
 
@@ -46,11 +41,11 @@ TEST(LevenbergMarquardt, FindsNistsCertifiedParametersAndStandardDeviationsFromB
       EXPECT_EQ(fit.termination, Termination::converged)
           << name << " start " << s + 1 << ": " << fit.message;
       for (Eigen::Index j = 0; j < fit.x.size(); ++j) {
-        EXPECT_GE(digits(fit.x[j], nist.certified[j]), 6.0)
+        EXPECT_GE(test::correct_digits(fit.x[j], nist.certified[j]), 6.0)
             << name << " start " << s + 1 << " b" << j + 1;
         const double deviation =
             std::sqrt(covariance_of_fit.unscaled(j, j) * covariance_of_fit.residual_variance);
-        EXPECT_GE(digits(deviation, nist.standard_deviation[j]), 6.0)
+        EXPECT_GE(test::correct_digits(deviation, nist.standard_deviation[j]), 6.0)
             << name << " start " << s + 1 << " sd of b" << j + 1;
       }
     }
@@ -65,7 +60,7 @@ TEST(GaussNewton, FindsThemWithFullStepsFromTheNearerStartWhereThoseLead) {
         minimize(least_squares(nist), nist.starts[1],
                  {.method = LeastSquaresMethod::gauss_newton, .max_iterations = 200});
     for (Eigen::Index j = 0; j < fit.x.size(); ++j)
-      EXPECT_GE(digits(fit.x[j], nist.certified[j]), 6.0) << name << " b" << j + 1;
+      EXPECT_GE(test::correct_digits(fit.x[j], nist.certified[j]), 6.0) << name << " b" << j + 1;
   }
 }
 

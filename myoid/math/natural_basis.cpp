@@ -7,8 +7,6 @@
 namespace myoid::math {
 namespace {
 
-constexpr std::array<double, 4> kFactorial{1.0, 1.0, 2.0, 6.0};
-
 using Polynomial = std::array<double, 3>;  ///< By rising power.
 
 /// (a + b u) p

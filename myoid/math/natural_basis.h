@@ -6,6 +6,8 @@
 
 namespace myoid::math {
 
+inline constexpr std::array<double, 4> kFactorial{1.0, 1.0, 2.0, 6.0};  ///< 0! to 3!
+
 /// What natural splines of degree 2m - 1 (m = 1, 2, 3) over the same knots t_0 < .. < t_(n-1) have
 /// in common. Their m-th derivative is s^(m) = sum_j c_j M_j with the B-splines M_j of degree m - 1
 /// over t_j .. t_(j+m), of unit integral: the divided difference of order m is

@@ -14,8 +14,6 @@
 namespace myoid::math {
 namespace {
 
-constexpr std::array<double, 4> kFactorial{1.0, 1.0, 2.0, 6.0};
-
 struct Fit {
   Eigen::VectorXd g;  ///< Spline values at the knots.
   Eigen::VectorXd c;  ///< s^(m) = sum c_j M_j.

@@ -34,6 +34,13 @@ double median(std::vector<double> values) {
                                 : 0.5 * (*middle + *std::max_element(values.begin(), middle));
 }
 
+double upper_median(std::vector<double> values) {
+  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
 double effective_sample_size(const Eigen::Ref<const Eigen::VectorXd>& x,
                              const std::vector<Eigen::Index>& pieces) {
   const Eigen::Index n = x.size();

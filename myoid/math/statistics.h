@@ -13,6 +13,9 @@ namespace myoid::math {
 /// The middle value, or the mean of the two middle ones; NaN of none.
 [[nodiscard]] double median(std::vector<double> values);
 
+/// The middle value, or the larger of the two middle ones: always one of them. NaN of none.
+[[nodiscard]] double upper_median(std::vector<double> values);
+
 /// Independent samples that n correlated ones are worth: n / (1 + 2 sum_k rho_k), the sum over lags
 /// up to the first autocorrelation that is not positive. Sums run within `pieces` (lengths of
 /// consecutive stretches), never across. At least 1.

@@ -26,6 +26,12 @@ TEST(Median, IsTheMiddleOrTheMeanOfTheTwoInTheMiddle) {
   EXPECT_TRUE(std::isnan(median({})));
 }
 
+TEST(UpperMedian, IsTheMiddleOrTheLargerOfTheTwoInTheMiddle) {
+  EXPECT_EQ(upper_median({5.0, 1.0, 3.0}), 3.0);
+  EXPECT_EQ(upper_median({4.0, 1.0, 3.0, 100.0}), 4.0);
+  EXPECT_TRUE(std::isnan(upper_median({})));
+}
+
 TEST(NormalQuantile, HasTheTabulatedValues) {
   EXPECT_NEAR(normal_quantile(0.975), 1.959963984540054, 1e-12);
   EXPECT_NEAR(normal_quantile(0.5), 0.0, 1e-12);

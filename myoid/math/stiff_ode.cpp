@@ -17,42 +17,6 @@
 namespace myoid::math {
 namespace {
 
-struct ContextDeleter {
-  void operator()(SUNContext context) const { SUNContext_Free(&context); }
-};
-struct VectorDeleter {
-  void operator()(N_Vector v) const { N_VDestroy(v); }
-};
-struct MatrixDeleter {
-  void operator()(SUNMatrix m) const { SUNMatDestroy(m); }
-};
-struct SolverDeleter {
-  void operator()(SUNLinearSolver s) const { SUNLinSolFree(s); }
-};
-struct CvodeDeleter {
-  void operator()(void* memory) const { CVodeFree(&memory); }
-};
-using Context = std::unique_ptr<std::remove_pointer_t<SUNContext>, ContextDeleter>;
-using Vector = std::unique_ptr<std::remove_pointer_t<N_Vector>, VectorDeleter>;
-using Matrix = std::unique_ptr<std::remove_pointer_t<SUNMatrix>, MatrixDeleter>;
-using Solver = std::unique_ptr<std::remove_pointer_t<SUNLinearSolver>, SolverDeleter>;
-using Memory = std::unique_ptr<void, CvodeDeleter>;
-
-/// Vectors that belong together, with the array of pointers that the solver wants.
-struct Vectors {
-  std::vector<Vector> owned;
-  std::vector<N_Vector> raw;
-
-  Vectors(std::size_t count, std::size_t length, SUNContext context) {
-    for (std::size_t k = 0; k < count; ++k) {
-      owned.emplace_back(N_VNew_Serial(static_cast<sunindextype>(length), context));
-      if (!owned.back()) throw std::bad_alloc();
-      N_VConst(0.0, owned.back().get());
-      raw.push_back(owned.back().get());
-    }
-  }
-};
-
 void must(int flag) {
   if (flag < 0) throw std::bad_alloc();  // set-up calls fail only without memory
 }
@@ -85,6 +49,42 @@ bool finite(const double* x, std::size_t n) {
 }  // namespace
 
 struct StiffIntegrator::Parts {
+  struct ContextDeleter {
+    void operator()(SUNContext context) const { SUNContext_Free(&context); }
+  };
+  struct VectorDeleter {
+    void operator()(N_Vector v) const { N_VDestroy(v); }
+  };
+  struct MatrixDeleter {
+    void operator()(SUNMatrix m) const { SUNMatDestroy(m); }
+  };
+  struct SolverDeleter {
+    void operator()(SUNLinearSolver s) const { SUNLinSolFree(s); }
+  };
+  struct CvodeDeleter {
+    void operator()(void* memory) const { CVodeFree(&memory); }
+  };
+  using Context = std::unique_ptr<std::remove_pointer_t<SUNContext>, ContextDeleter>;
+  using Vector = std::unique_ptr<std::remove_pointer_t<N_Vector>, VectorDeleter>;
+  using Matrix = std::unique_ptr<std::remove_pointer_t<SUNMatrix>, MatrixDeleter>;
+  using Solver = std::unique_ptr<std::remove_pointer_t<SUNLinearSolver>, SolverDeleter>;
+  using Memory = std::unique_ptr<void, CvodeDeleter>;
+
+  /// Vectors that belong together, with the array of pointers that the solver wants.
+  struct Vectors {
+    std::vector<Vector> owned;
+    std::vector<N_Vector> raw;
+
+    Vectors(std::size_t count, std::size_t length, SUNContext context) {
+      for (std::size_t k = 0; k < count; ++k) {
+        owned.emplace_back(N_VNew_Serial(static_cast<sunindextype>(length), context));
+        if (!owned.back()) throw std::bad_alloc();
+        N_VConst(0.0, owned.back().get());
+        raw.push_back(owned.back().get());
+      }
+    }
+  };
+
   Context context;
   StiffProblem problem;
   OdeOptions options;
@@ -216,7 +216,7 @@ StiffIntegrator::StiffIntegrator(StiffProblem problem, const OdeOptions& options
   }
   if (p.problem.sensitivity_count > 0) {
     const std::size_t count = p.problem.sensitivity_count;
-    p.sensitivity = std::make_unique<Vectors>(count, p.problem.state_count, context);
+    p.sensitivity = std::make_unique<Parts::Vectors>(count, p.problem.state_count, context);
     p.s_in.resize(count);
     p.s_out.resize(count);
     must(CVodeSensInit(memory, static_cast<int>(count), CV_STAGGERED, Parts::sensitivity_rate,

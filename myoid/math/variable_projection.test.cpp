@@ -87,10 +87,6 @@ Separated separated(const NistProblem& nist) {
   return result;
 }
 
-double digits(double found, double certified) {
-  return std::min(11.0, -std::log10(std::abs(found - certified) / std::abs(certified) + 1e-300));
-}
-
 /// Exponentials that exchanged their names are the same model: brings them back to NIST's order.
 void order_exponentials(const std::string& name, VariableProjectionResult& fit) {
   const Eigen::Index rates = fit.search.x.size();
@@ -135,9 +131,9 @@ TEST(VariableProjection, FindsNistsCertifiedParametersAndDeviationsWithoutLinear
         for (Eigen::Index k = 0; k < nist.certified.size(); ++k) {
           const int j = split.order[static_cast<std::size_t>(k)];
           const double found = k < split.linear ? fit.linear[k] : fit.search.x[k - split.linear];
-          EXPECT_GE(digits(found, nist.certified[j]), 6.0) << where << " b" << j + 1;
+          EXPECT_GE(test::correct_digits(found, nist.certified[j]), 6.0) << where << " b" << j + 1;
           const double deviation = std::sqrt(spread.unscaled(k, k) * spread.residual_variance);
-          EXPECT_GE(digits(deviation, nist.standard_deviation[j]), wanted_deviation)
+          EXPECT_GE(test::correct_digits(deviation, nist.standard_deviation[j]), wanted_deviation)
               << where << " sd of b" << j + 1;
         }
       }

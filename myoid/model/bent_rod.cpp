@@ -63,19 +63,19 @@ Rod rod_at(double c, double s) {
 
 Rod rod_along(const Vec3& u) { return rod_at(u.y(), std::hypot(u.x(), u.z())); }
 
-Vec3 across(const Vec3& v) { return {v.x(), 0.0, v.z()}; }
+Vec3 across_y(const Vec3& v) { return {v.x(), 0.0, v.z()}; }
 
 }  // namespace
 
 Vec3 bent_rod_end(double length_m, const Vec3& u) {
   const Rod rod = rod_along(u);
-  return length_m * (rod.across.value * across(u) + rod.along.value * Vec3::UnitY());
+  return length_m * (rod.across.value * across_y(u) + rod.along.value * Vec3::UnitY());
 }
 
 Vec3 bent_rod_velocity(double length_m, const Vec3& u, const Vec3& du) {
   const Rod rod = rod_along(u);
   const double dc = du.y();
-  return length_m * (rod.across.first * dc * across(u) + rod.across.value * across(du) +
+  return length_m * (rod.across.first * dc * across_y(u) + rod.across.value * across_y(du) +
                      rod.along.first * dc * Vec3::UnitY());
 }
 
@@ -83,8 +83,8 @@ Vec3 bent_rod_acceleration(double length_m, const Vec3& u, const Vec3& du, const
   const Rod rod = rod_along(u);
   const double dc = du.y(), ddc = ddu.y();
   const auto rate2 = [&](const Curve& f) { return f.second * dc * dc + f.first * ddc; };
-  return length_m * (rate2(rod.across) * across(u) + 2.0 * rod.across.first * dc * across(du) +
-                     rod.across.value * across(ddu) + rate2(rod.along) * Vec3::UnitY());
+  return length_m * (rate2(rod.across) * across_y(u) + 2.0 * rod.across.first * dc * across_y(du) +
+                     rod.across.value * across_y(ddu) + rate2(rod.along) * Vec3::UnitY());
 }
 
 }  // namespace myoid::model

@@ -7,11 +7,10 @@
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
+#include "myoid/core/index.h"
 
 namespace myoid::model {
 namespace {
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 Eigen::Index rows_of(const LoopConstraint& constraint) {
   if (const auto* frame = std::get_if<FrameConstraint>(&constraint.law))

@@ -12,13 +12,13 @@
 namespace myoid::model {
 namespace {
 
-FunctionValue value_of(const Constant& f, double) { return {f.value, 0.0, 0.0}; }
+FunctionValue form_value(const Constant& f, double) { return {f.value, 0.0, 0.0}; }
 
-FunctionValue value_of(const Linear& f, double x) {
+FunctionValue form_value(const Linear& f, double x) {
   return {f.slope * x + f.intercept, f.slope, 0.0};
 }
 
-FunctionValue value_of(const Polynomial& f, double x) {
+FunctionValue form_value(const Polynomial& f, double x) {
   FunctionValue v;
   for (const double c : f.coefficients) {
     v.second = v.second * x + 2.0 * v.first;
@@ -36,13 +36,13 @@ std::size_t interval(const std::vector<double>& knots, double x) {
   return std::min(index, knots.size() - 2);
 }
 
-FunctionValue value_of(const PiecewiseLinear& f, double x) {
+FunctionValue form_value(const PiecewiseLinear& f, double x) {
   const std::size_t i = interval(f.x, x);
   const double slope = (f.y[i + 1] - f.y[i]) / (f.x[i + 1] - f.x[i]);
   return {f.y[i] + slope * (x - f.x[i]), slope, 0.0};
 }
 
-FunctionValue value_of(const SimmSpline& f, double x) {
+FunctionValue form_value(const SimmSpline& f, double x) {
   const std::size_t last = f.x.size() - 1;
   if (x < f.x.front()) return {f.y.front() + f.b.front() * (x - f.x.front()), f.b.front(), 0.0};
   if (x > f.x.back()) return {f.y[last] + f.b[last] * (x - f.x[last]), f.b[last], 0.0};
@@ -52,19 +52,19 @@ FunctionValue value_of(const SimmSpline& f, double x) {
           f.b[i] + u * (2.0 * f.c[i] + 3.0 * u * f.d[i]), 2.0 * f.c[i] + 6.0 * u * f.d[i]};
 }
 
-FunctionValue value_of(const PiecewiseConstant& f, double x) {
+FunctionValue form_value(const PiecewiseConstant& f, double x) {
   const auto upper = std::upper_bound(f.x.begin(), f.x.end(), x);
   const auto index = std::max<std::ptrdiff_t>(0, upper - f.x.begin() - 1);
   return {f.y[static_cast<std::size_t>(index)], 0.0, 0.0};
 }
 
-FunctionValue value_of(const Sine& f, double x) {
+FunctionValue form_value(const Sine& f, double x) {
   const double sine = f.amplitude * std::sin(f.omega * x + f.phase);
   const double cosine = f.amplitude * std::cos(f.omega * x + f.phase);
   return {f.offset + sine, f.omega * cosine, -f.omega * f.omega * sine};
 }
 
-FunctionValue value_of(const SmoothStep& f, double x) {
+FunctionValue form_value(const SmoothStep& f, double x) {
   const double width = f.end - f.start;
   const double s = std::clamp((x - f.start) / width, 0.0, 1.0);
   const double height = f.end_value - f.start_value;
@@ -73,12 +73,12 @@ FunctionValue value_of(const SmoothStep& f, double x) {
           height / (width * width) * 60.0 * s * (1.0 - s) * (1.0 - 2.0 * s)};
 }
 
-FunctionValue value_of(const math::Spline& f, double x) {
+FunctionValue form_value(const math::Spline& f, double x) {
   const math::SplineValue v = f.at(x);
   return {v.value, v.first, v.second};
 }
 
-FunctionValue value_of(const PiecewisePolynomial& f, double x) {
+FunctionValue form_value(const PiecewisePolynomial& f, double x) {
   const auto column = std::upper_bound(f.x.begin(), f.x.end(), x) - f.x.begin();
   const double u = x - f.x[static_cast<std::size_t>(std::max<std::ptrdiff_t>(0, column - 1))];
   FunctionValue v;
@@ -268,7 +268,8 @@ PiecewisePolynomial make_septic_spline(const std::vector<double>& x, const std::
 }
 
 FunctionValue evaluate(const Function& function, double x) {
-  FunctionValue v = std::visit([x](const auto& form) { return value_of(form, x); }, function.form);
+  FunctionValue v =
+      std::visit([x](const auto& form) { return form_value(form, x); }, function.form);
   v.value *= function.scale;
   v.first *= function.scale;
   v.second *= function.scale;

@@ -6,11 +6,10 @@
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
+#include "myoid/core/index.h"
 
 namespace myoid::model {
 namespace {
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 bool rests(const std::array<TransformAxis, 3>& axes) {
   return std::all_of(axes.begin(), axes.end(), [](const TransformAxis& axis) {

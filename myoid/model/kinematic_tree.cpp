@@ -3,12 +3,11 @@
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
+#include "myoid/core/index.h"
 #include "myoid/model/bent_rod.h"
 
 namespace myoid::model {
 namespace {
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 void check_size(const BodyModel& model, Eigen::Index size, std::string_view what) {
   if (size != static_cast<Eigen::Index>(model.coordinates.size())) {

@@ -2,13 +2,12 @@
 
 #include <algorithm>
 
+#include "myoid/core/index.h"
 #include "myoid/model/path_exact.h"
 #include "myoid/model/path_opensim.h"
 
 namespace myoid::model {
 namespace {
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 bool is_active(const PathPoint& point, const BodyState& state) {
   constexpr double kSlack_rad = 1e-5;

@@ -69,9 +69,9 @@ Expression formula_of(const OsimReading& r,
 
 /// A bushing whose forces are functions or formulas of its deflections.
 Bushing read_shaped_bushing(OsimReading& r, pugi::xml_node node) {
-  constexpr const char* kFunctions[] = {"m_x_theta_x_function", "m_y_theta_y_function",
-                                        "m_z_theta_z_function", "f_x_delta_x_function",
-                                        "f_y_delta_y_function", "f_z_delta_z_function"};
+  constexpr const char* kComponents[] = {"m_x_theta_x_function", "m_y_theta_y_function",
+                                         "m_z_theta_z_function", "f_x_delta_x_function",
+                                         "f_y_delta_y_function", "f_z_delta_z_function"};
   constexpr const char* kFormulas[] = {"Mx_expression", "My_expression", "Mz_expression",
                                        "Fx_expression", "Fy_expression", "Fz_expression"};
   Bushing bushing = read_bushing(r, node);
@@ -82,7 +82,7 @@ Bushing read_shaped_bushing(OsimReading& r, pugi::xml_node node) {
           r, node, name, {"theta_x", "theta_y", "theta_z", "delta_x", "delta_y", "delta_z"}));
     return bushing;
   }
-  for (const char* name : kFunctions)
+  for (const char* name : kComponents)
     bushing.functions.push_back(function_property(r, node, name).value_or(Function(Constant{0.0})));
   if (r.compat.opensim_paths &&
       (!bushing.rotational_damping.isZero(0.0) || !bushing.translational_damping.isZero(0.0))) {

@@ -99,7 +99,7 @@ double worst_marker_error(const std::string& folder, const std::string& motion) 
 }
 
 /// The built-in arm with a piece of its text replaced.
-std::string arm_with(const std::string& old, const std::string& piece) {
+std::string arm_replacing(const std::string& old, const std::string& piece) {
   std::string text = arm4_osim();
   const auto at = text.find(old);
   EXPECT_NE(at, std::string::npos) << old;
@@ -146,14 +146,15 @@ TEST(ParseOsim, MarkersMayStandInAFileOfTheirOwn) {
 TEST(ParseOsim, CouplersByPolynomialsAndSplinesOfOneVariable) {
   const auto coupled = [](const std::string& function) {
     const BodyModel m = parse_osim(
-        arm_with("</Model>",
-                 "<ConstraintSet><objects><CoordinateCouplerConstraint name=\"c\">"
-                 "<coupled_coordinates_function>" +
-                     function +
-                     "</coupled_coordinates_function><independent_coordinate_names>elbow_flexion"
-                     "</independent_coordinate_names><dependent_coordinate_name>shoulder_rotation"
-                     "</dependent_coordinate_name><scale_factor>2</scale_factor>"
-                     "</CoordinateCouplerConstraint></objects></ConstraintSet></Model>"),
+        arm_replacing(
+            "</Model>",
+            "<ConstraintSet><objects><CoordinateCouplerConstraint name=\"c\">"
+            "<coupled_coordinates_function>" +
+                function +
+                "</coupled_coordinates_function><independent_coordinate_names>elbow_flexion"
+                "</independent_coordinate_names><dependent_coordinate_name>shoulder_rotation"
+                "</dependent_coordinate_name><scale_factor>2</scale_factor>"
+                "</CoordinateCouplerConstraint></objects></ConstraintSet></Model>"),
         "arm.osim");
     EXPECT_EQ(m.couplers.size(), 1U);
     return evaluate(m.couplers.at(0).function, 0.5).value;
@@ -285,7 +286,7 @@ TEST(ParseOsim, AConstantCurvatureJointBendsARod) {
 TEST(ParseOsim, ACouplerMayHaveSeveralIndependentCoordinates) {
   const auto coupled = [](const std::string& function) {
     return parse_osim(
-        arm_with(
+        arm_replacing(
             "</Model>",
             "<ConstraintSet><objects><CoordinateCouplerConstraint name=\"c\">"
             "<coupled_coordinates_function>" +

@@ -2,6 +2,7 @@
 
 #include <Eigen/LU>
 
+#include "myoid/core/index.h"
 #include "myoid/model/wrap_cylinder.h"
 #include "myoid/model/wrap_ellipsoid.h"
 #include "myoid/model/wrap_sphere.h"
@@ -11,8 +12,6 @@ namespace myoid::model {
 namespace {
 
 using Mat6 = Eigen::Matrix<double, 6, 6>;
-
-std::size_t at(Eigen::Index index) { return static_cast<std::size_t>(index); }
 
 template <typename T>
 std::optional<ContactOf<T>> contact_with(const WrapObject& object,

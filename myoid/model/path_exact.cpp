@@ -5,12 +5,11 @@
 #include <limits>
 #include <optional>
 
+#include "myoid/core/index.h"
 #include "myoid/model/path_contacts.h"
 
 namespace myoid::model {
 namespace {
-
-std::size_t at(Eigen::Index index) { return static_cast<std::size_t>(index); }
 
 /// Whether the way over the object is the shortest, so that the tangent points' own motion does not
 /// change the length.

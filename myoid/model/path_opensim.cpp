@@ -3,12 +3,11 @@
 #include <cmath>
 #include <limits>
 
+#include "myoid/core/index.h"
 #include "myoid/model/wrap_opensim.h"
 
 namespace myoid::model {
 namespace {
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 /// The wrapping of one path at one posture.
 class Wrapping {

@@ -4,12 +4,11 @@
 #include <cmath>
 #include <optional>
 
+#include "myoid/core/index.h"
 #include "myoid/model/wrap_torus.h"
 
 namespace myoid::model {
 namespace {
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 /// An arc and the straight pieces before and after it, in the frame of a wrap object.
 struct Arc {

@@ -35,12 +35,12 @@ NearestOfLines nearest_of_lines(const Vec3& p1, const Vec3& p2, const Vec3& p3, 
 }
 
 /// The tangent points on one circle, counterclockwise (a) and clockwise (b).
-struct Tangents {
+struct CylinderTangents {
   Vec3 a, b;
 };
 
 /// In the plane across z through p: feet of the tangents from p to the cylinder.
-Tangents tangents_from(const Vec3& p, double radius) {
+CylinderTangents tangents_from(const Vec3& p, double radius) {
   const Vec3 radial(p.x(), p.y(), 0.0);
   const double distance = radial.norm();
   const Vec3 v = distance > 0.0 ? Vec3(radial / distance) : Vec3::Zero();
@@ -134,8 +134,11 @@ struct ChosenTangents {
 };
 
 /// The pair of tangent points on the side that counts.
-ChosenTangents choose_on_side(
-    const Side& side, const Tangents& t1, const Tangents& t2, const Vec3& p, const Vec3& q) {
+ChosenTangents choose_on_side(const Side& side,
+                              const CylinderTangents& t1,
+                              const CylinderTangents& t2,
+                              const Vec3& p,
+                              const Vec3& q) {
   const Vec3 foot1(0.0, 0.0, p.z());
   const Vec3 foot2(0.0, 0.0, q.z());
   const auto angle = [&](const Vec3& r1, const Vec3& r2) {
@@ -171,8 +174,8 @@ ChosenTangents choose_on_side(
   return c;
 }
 
-ChosenTangents choose_nearest(const Tangents& t1,
-                              const Tangents& t2,
+ChosenTangents choose_nearest(const CylinderTangents& t1,
+                              const CylinderTangents& t2,
                               const Vec3& p,
                               const Vec3& q) {
   const Vec3 foot1(0.0, 0.0, p.z());
@@ -261,8 +264,8 @@ OpenSimContact opensim_cylinder_contact(const CylinderShape& cylinder,
       return result;
     }
   }
-  const Tangents t1 = tangents_from(p, radius);
-  const Tangents t2 = tangents_from(q, radius);
+  const CylinderTangents t1 = tangents_from(p, radius);
+  const CylinderTangents t2 = tangents_from(q, radius);
   ChosenTangents chosen =
       side.sign != 0 ? choose_on_side(side, t1, t2, p, q) : choose_nearest(t1, t2, p, q);
   slide_to_plane(p, q, radius, chosen);

@@ -8,7 +8,7 @@ namespace myoid::model {
 namespace {
 
 /// The tangent points on one circle, counterclockwise (a) and clockwise (b).
-struct Tangents {
+struct SphereTangents {
   Vec3 a, b;
 };
 
@@ -49,11 +49,11 @@ OpenSimContact opensim_sphere_contact(const SphereShape& sphere,
     const Vec3 aside = n.cross(inward);
     const double tilt = std::asin(radius / distance);
     const double reach = distance * std::cos(tilt);
-    return Tangents{end + reach * (std::cos(tilt) * inward + std::sin(tilt) * aside),
-                    end + reach * (std::cos(tilt) * inward - std::sin(tilt) * aside)};
+    return SphereTangents{end + reach * (std::cos(tilt) * inward + std::sin(tilt) * aside),
+                          end + reach * (std::cos(tilt) * inward - std::sin(tilt) * aside)};
   };
-  const Tangents t1 = tangents(p);
-  const Tangents t2 = tangents(q);
+  const SphereTangents t1 = tangents(p);
+  const SphereTangents t2 = tangents(q);
   const Vec3 a1 = t1.a.normalized();
   const Vec3 b1 = t1.b.normalized();
   const Vec3 a2 = t2.a.normalized();

@@ -9,12 +9,12 @@
 namespace myoid::muscle {
 namespace {
 
-using State = FatigueState<double>;
+using FatigueNow = FatigueState<double>;
 
 TEST(Fatigue, RatesAreThePublishedOnesInEveryCase) {
   const FatigueRates<double> r{.rest_recovery_factor = 15.0};
   // Below the target with reserve: C = LD (0.5 - 0.2) = 3.
-  State d = fatigue_rate<double>(r, 0.5, {0.2, 0.7, 0.1});
+  FatigueNow d = fatigue_rate<double>(r, 0.5, {0.2, 0.7, 0.1});
   EXPECT_NEAR(d.active, 3.0 - 0.00912 * 0.2, 1e-15);
   EXPECT_NEAR(d.resting, -3.0 + 0.00094 * 0.1, 1e-15);
   EXPECT_NEAR(d.fatigued, 0.00912 * 0.2 - 0.00094 * 0.1, 1e-15);
@@ -30,7 +30,7 @@ TEST(Fatigue, RatesAreThePublishedOnesInEveryCase) {
 }
 
 TEST(Fatigue, CompartmentsAlwaysAddUpToOne) {
-  State s;
+  FatigueNow s;
   const FatigueRates<double> r;
   for (const double target : {0.8, 0.0, 1.0, 0.3, 0.9}) {
     s = step_fatigue(r, target, s, 47.3);
@@ -41,7 +41,7 @@ TEST(Fatigue, CompartmentsAlwaysAddUpToOne) {
 
 TEST(Fatigue, MaximalEffortSettlesWhereFatigueAndRecoveryBalance) {
   const FatigueRates<double> r;
-  const State s = step_fatigue(r, 1.0, {}, 3000.0);  // 30 times 1 / (F + R) = 99 s
+  const FatigueNow s = step_fatigue(r, 1.0, {}, 3000.0);  // 30 times 1 / (F + R) = 99 s
   EXPECT_NEAR(s.active, sustainable_load(r), 1e-9);
   EXPECT_NEAR(r.fatigue_per_s * s.active, r.recovery_per_s * s.fatigued, 1e-11);
 }
@@ -49,22 +49,22 @@ TEST(Fatigue, MaximalEffortSettlesWhereFatigueAndRecoveryBalance) {
 TEST(Fatigue, AHeldLoadBelowTheSustainableOneIsHeld) {
   const FatigueRates<double> r;
   const double load = 0.5 * sustainable_load(r);
-  const State s = step_fatigue(r, load, {}, 2000.0);
+  const FatigueNow s = step_fatigue(r, load, {}, 2000.0);
   // A little less than asked: C = LD (load - M_A) must replace F M_A.
   EXPECT_NEAR(s.active, load / (1.0 + r.fatigue_per_s / r.development_per_s), 1e-9);
 }
 
 TEST(Fatigue, RecoveryAtRestIsExponential) {
   const FatigueRates<double> r{.rest_recovery_factor = 15.0};
-  const State s = step_fatigue(r, 0.0, {0.0, 0.4, 0.6}, 60.0);
+  const FatigueNow s = step_fatigue(r, 0.0, {0.0, 0.4, 0.6}, 60.0);
   EXPECT_NEAR(s.fatigued, 0.6 * std::exp(-15.0 * 0.00094 * 60.0), 1e-12);
   EXPECT_NEAR(fatigue_capacity(s), 1.0 - s.fatigued, 0.0);
 }
 
 TEST(Fatigue, StepsDoNotDependOnHowTheIntervalIsCut) {
   const FatigueRates<double> r;
-  const State whole = step_fatigue(r, 0.7, {}, 1.0);
-  State cut;
+  const FatigueNow whole = step_fatigue(r, 0.7, {}, 1.0);
+  FatigueNow cut;
   for (int k = 0; k < 1000; ++k) cut = step_fatigue(r, 0.7, cut, 0.001);
   EXPECT_NEAR(whole.active, cut.active, 1e-8);  // (h LD)^5 / 120 = 3e-9 a step, and it decays
 }

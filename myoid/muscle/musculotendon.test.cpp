@@ -59,7 +59,7 @@ MusculotendonParameters<double> parameters_of(const Case& c) {
 }
 
 using Input = MusculotendonInput<double>;
-using State = MusculotendonState<double>;
+using UnitState = MusculotendonState<double>;
 
 TEST(Musculotendon, TendonAndFiberPullAlikeInTheSteadyState) {
   for (const Case& c : cases()) {
@@ -67,7 +67,7 @@ TEST(Musculotendon, TendonAndFiberPullAlikeInTheSteadyState) {
     for (const double a : {0.0, 0.02, 0.3, 1.0}) {
       for (const double length : {0.33, 0.37, 0.40, 0.44}) {
         const Input input{a, length, 0.0};
-        const State state = equilibrium_state(unit, input);
+        const UnitState state = equilibrium_state(unit, input);
         const MusculotendonOutput<double> o = musculotendon_output(unit, input, state);
         // Round-off: the tendon's length 0.3 m to half an ulp, 3e-17, times 2e5 N/m is 1e-11 N.
         if (o.slack) {
@@ -90,7 +90,7 @@ TEST(Musculotendon, AFiberThatPushesLiesBeyondTheSlackLength) {
   const Musculotendon<double> unit(published_defaults(kBicepsLong, de_groote_laws()),
                                    de_groote_laws());
   const Input input{0.0, 0.2723 + 0.15 * 0.1157, 0.0};
-  const State state = equilibrium_state(unit, input);
+  const UnitState state = equilibrium_state(unit, input);
   EXPECT_NEAR(state.fiber_length_m, 0.2 * 0.1157, 1e-12);
   EXPECT_TRUE(musculotendon_output(unit, input, state).slack);
 }
@@ -211,19 +211,19 @@ struct Drive {
 };
 
 template <typename Observe>
-State integrate(const Musculotendon<double>& unit,
-                const Drive& drive,
-                State state,
-                double duration_s,
-                int steps,
-                const Observe& observe) {
+UnitState integrate(const Musculotendon<double>& unit,
+                    const Drive& drive,
+                    UnitState state,
+                    double duration_s,
+                    int steps,
+                    const Observe& observe) {
   const double h = duration_s / steps;
-  const auto rate = [&](double t, const State& s) {
+  const auto rate = [&](double t, const UnitState& s) {
     return musculotendon_rate(unit, drive.at(t), s);
   };
-  const auto moved = [](const State& s, const MusculotendonRate<double>& r, double dt) {
-    return State{s.fiber_length_m + dt * r.fiber_length_rate_mps,
-                 s.fiber_velocity_mps + dt * r.fiber_velocity_rate_mps2};
+  const auto moved = [](const UnitState& s, const MusculotendonRate<double>& r, double dt) {
+    return UnitState{s.fiber_length_m + dt * r.fiber_length_rate_mps,
+                     s.fiber_velocity_mps + dt * r.fiber_velocity_rate_mps2};
   };
   observe(0.0, state);
   for (int k = 0; k < steps; ++k) {
@@ -253,8 +253,8 @@ TEST(Musculotendon, MassOnItsTendonRingsAtTheRootOfStiffnessOverMass) {
   const Drive drive{.middle_m = 0.3900, .activation = 0.0};
   const double start = 0.3900 - 0.2723 - 0.003;
   const double quarter = 0.5 * kPi / omega;
-  const State end =
-      integrate(unit, drive, {start, 0.0}, quarter, 2000, [](double, const State&) {});
+  const UnitState end =
+      integrate(unit, drive, {start, 0.0}, quarter, 2000, [](double, const UnitState&) {});
   EXPECT_NEAR(end.fiber_length_m, 0.3900 - 0.2723, 1e-9);  // RK4: (pi/4000)^4 of 3 mm
   EXPECT_NEAR(end.fiber_velocity_mps, 0.003 * omega, 1e-7);
 }
@@ -272,7 +272,7 @@ TEST(Musculotendon, WorkOfAllElementsClosesWithTheStoredEnergies) {
     const double duration = 1.5;
     const double h = duration / steps;
     integrate(unit, drive, equilibrium_state(unit, drive.at(0.0)), duration, steps,
-              [&](double t, const State& s) {
+              [&](double t, const UnitState& s) {
                 const auto o = musculotendon_output(unit, drive.at(t), s);
                 stored = o.passive_energy_j + o.tendon_energy_j + o.kinetic_energy_j;
                 if (t == 0.0) {
@@ -302,8 +302,8 @@ TEST(Musculotendon, ThreeTendonModesAgreeInSlowMovement) {
     MusculotendonParameters<double> p = published_defaults(hill, paper_laws(mode));
     p.tendon_strain = 0.01;
     const Musculotendon<double> unit(p, paper_laws(mode));
-    const State end = integrate(unit, drive, equilibrium_state(unit, drive.at(0.0)), 1.0, 20000,
-                                [](double, const State&) {});
+    const UnitState end = integrate(unit, drive, equilibrium_state(unit, drive.at(0.0)), 1.0, 20000,
+                                    [](double, const UnitState&) {});
     force[static_cast<int>(mode)] = musculotendon_output(unit, drive.at(1.0), end).tendon_force_n;
   }
   EXPECT_NEAR(force[1] / force[0], 1.0, 0.01);
@@ -321,15 +321,15 @@ TEST(Musculotendon, OptimalLengthGrowsAsTheActivationFalls) {
     const Musculotendon<double> shifted(p, laws);
     for (const double l : {0.8, 1.0, 1.2}) {
       const double fiber = l * 0.1157;
-      EXPECT_NEAR(
-          musculotendon_output(shifted, Input{0.2, 0.4, 0.0}, State{1.12 * fiber, 0.0})
-              .length_multiplier,
-          musculotendon_output(plain, Input{0.2, 0.4, 0.0}, State{fiber, 0.0}).length_multiplier,
-          1e-14);
+      EXPECT_NEAR(musculotendon_output(shifted, Input{0.2, 0.4, 0.0}, UnitState{1.12 * fiber, 0.0})
+                      .length_multiplier,
+                  musculotendon_output(plain, Input{0.2, 0.4, 0.0}, UnitState{fiber, 0.0})
+                      .length_multiplier,
+                  1e-14);
     }
     EXPECT_EQ(
-        musculotendon_output(shifted, Input{1.0, 0.4, 0.0}, State{0.1, 0.0}).length_multiplier,
-        musculotendon_output(plain, Input{1.0, 0.4, 0.0}, State{0.1, 0.0}).length_multiplier);
+        musculotendon_output(shifted, Input{1.0, 0.4, 0.0}, UnitState{0.1, 0.0}).length_multiplier,
+        musculotendon_output(plain, Input{1.0, 0.4, 0.0}, UnitState{0.1, 0.0}).length_multiplier);
   }
 }
 
@@ -340,7 +340,7 @@ TEST(Musculotendon, ARigidTendonDoesNotPushAndLosesNoEnergyWhenItGoesSlack) {
   const Musculotendon<double> unit(published_defaults(kBicepsLong, laws), laws);
   const double length = 0.2723 + 1.1 * 0.1157, velocity = -1.1, h = 1e-7;
   const auto at = [&](double path) {
-    return musculotendon_output(unit, Input{0.01, path, velocity}, State{});
+    return musculotendon_output(unit, Input{0.01, path, velocity}, UnitState{});
   };
   const auto o = at(length);
   EXPECT_TRUE(o.slack);
@@ -363,7 +363,7 @@ TEST(Musculotendon, TendonTakesWhatTheFiberGivesAlsoBelowTheShortestLength) {
   const double h = 1e-7;
   for (const double l : {0.031, 0.0343, 0.04, 0.12}) {
     const auto tendon = [&](double fiber) {
-      return musculotendon_output(unit, Input{0.5, 0.4, 0.0}, State{fiber, 0.0});
+      return musculotendon_output(unit, Input{0.5, 0.4, 0.0}, UnitState{fiber, 0.0});
     };
     const double slope = (tendon(l + h).tendon_length_m - tendon(l - h).tendon_length_m) / (2 * h);
     // Truncation h^2 / 6 times 1 / (l cos^5) at most 1e8 / m^2; rounding 1e-17 / h.
@@ -371,7 +371,7 @@ TEST(Musculotendon, TendonTakesWhatTheFiberGivesAlsoBelowTheShortestLength) {
     EXPECT_EQ(tendon(l).at_shortest, l < 0.0344);
   }
   // Pressed below, it pushes back.
-  EXPECT_LT(musculotendon_output(unit, Input{0.0, 0.4, 0.0}, State{0.030, 0.0}).passive_force_n,
+  EXPECT_LT(musculotendon_output(unit, Input{0.0, 0.4, 0.0}, UnitState{0.030, 0.0}).passive_force_n,
             0.0);
 }
 

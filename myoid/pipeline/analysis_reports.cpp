@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
+#include "myoid/core/index.h"
 #include "myoid/forces/muscle_analysis.h"
 #include "myoid/model/constraints.h"
 #include "myoid/model/kinematic_tree.h"
@@ -29,8 +30,6 @@ constexpr const char* kUnits =
     "Units are S.I. units (second, meters, Newtons, ...)\nIf the header above contains a line with "
     "'inDegrees', this indicates whether rotational values are in degrees (yes) or radians "
     "(no).\n\n";
-
-std::size_t at(Eigen::Index index) { return static_cast<std::size_t>(index); }
 
 /// Positions in `names` of the wanted objects; "all" is every one. What is unknown is noted.
 std::vector<int> chosen(const AnalysisRun& run,

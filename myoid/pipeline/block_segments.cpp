@@ -3,13 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "myoid/core/numbers.h"
 #include "myoid/math/change_points.h"
 #include "myoid/math/statistics.h"
 
 namespace myoid::pipeline {
 namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 /// Spread of one block about its neighbors: robust, and never below a percent, which no recording
 /// of a person keeps.

@@ -1,9 +1,10 @@
 #include "myoid/pipeline/block_segments.h"
 
 #include <cmath>
-#include <limits>
 
 #include <gtest/gtest.h>
+
+#include "myoid/core/numbers.h"
 
 #include "tests/support/gain_blocks.h"
 
@@ -11,8 +12,6 @@ namespace myoid::pipeline {
 namespace {
 
 using test::gain_blocks;
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 TEST(FindChanges, TellsSegmentsWithTheirMeans) {
   const BlockChanges found = find_changes(gain_blocks({{12, 100, 100}, {10, 80, 90}}));

@@ -71,9 +71,9 @@ std::vector<Finding> once(std::vector<Finding> findings) {
   return kept;
 }
 
-class Check {
+class StudyCheck {
  public:
-  explicit Check(const Study& study) : study_(study) {}
+  explicit StudyCheck(const Study& study) : study_(study) {}
 
   std::vector<Finding> findings() {
     check_model();
@@ -330,6 +330,6 @@ std::vector<Finding> check_recording(const std::filesystem::path& path, const Ve
   return findings;
 }
 
-std::vector<Finding> check_study(const Study& study) { return Check(study).findings(); }
+std::vector<Finding> check_study(const Study& study) { return StudyCheck(study).findings(); }
 
 }  // namespace myoid::pipeline

@@ -17,7 +17,7 @@ std::string half_width_text(const ParameterEstimate& e) {
                      e.parameter == "emg_delay" ? "ms" : "%");
 }
 
-Badge badge(Verdict verdict) {
+Badge plan_badge(Verdict verdict) {
   return verdict == Verdict::identified ? Badge::good
          : verdict == Verdict::weak     ? Badge::weak
                                         : Badge::info;
@@ -69,7 +69,7 @@ report::Table targets_table(const DesignStudyResult& design) {
          {then[t].parameter},
          {half_width_text(design.beforehand[t])},
          {half_width_text(then[t])},
-         {std::string(identification::name(then[t].verdict)), badge(then[t].verdict)}});
+         {std::string(identification::name(then[t].verdict)), plan_badge(then[t].verdict)}});
   }
   return table;
 }

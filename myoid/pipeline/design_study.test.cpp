@@ -18,7 +18,7 @@ namespace {
 
 using testing::HasSubstr;
 
-Study arm_study() {
+Study planned_study() {
   Study study;
   study.model.builtin = "arm4";
   for (const char* name : {"BIC", "BRA", "BRD", "TRI"})
@@ -33,7 +33,7 @@ MovementPerson typical(const std::vector<identification::MuscleSetup>& setups) {
 }
 
 TEST(Movement, TheMusclesOfAPerformanceExertTheTorqueThatTheMotionRequires) {
-  const Study study = arm_study();
+  const Study study = planned_study();
   const auto setups = muscle_setups(study, load_model(study));
   const MovementPerson person = typical(setups);
   for (const bool horizontal : {false, true}) {
@@ -65,7 +65,7 @@ TEST(Movement, TheMusclesOfAPerformanceExertTheTorqueThatTheMotionRequires) {
 }
 
 TEST(Movement, WhatIsTooHeavyCannotBePerformed) {
-  const Study study = arm_study();
+  const Study study = planned_study();
   const auto setups = muscle_setups(study, load_model(study));
   const MovementCourse course = movement_course(
       study, movement_models(study),
@@ -74,7 +74,7 @@ TEST(Movement, WhatIsTooHeavyCannotBePerformed) {
 }
 
 TEST(Movement, AnIsokineticMovementKeepsItsSpeedOverMostOfTheRange) {
-  const MovementCourse course = movement_course(arm_study(), movement_models(arm_study()),
+  const MovementCourse course = movement_course(planned_study(), movement_models(planned_study()),
                                                 {.kind = MovementKind::isokinetic,
                                                  .lowest_rad = 0.3,
                                                  .highest_rad = 2.1,
@@ -96,7 +96,7 @@ TEST(DesignStudy, ItsExpectedSpreadIsTheSpreadThatIdentificationHas) {
   // with the noise that the plan assumed; the errors of all estimates, in expected standard
   // deviations, must have a root mean square of about one. The prior takes part in the estimate
   // but not in this person (it is exactly the prior's mean), which shrinks the errors: below 1.
-  const Study study = arm_study();
+  const Study study = planned_study();
   DesignStudyOptions options;
   options.persons = 1;
   options.choice.movements = 5;
@@ -162,7 +162,7 @@ TEST(DesignStudy, MoreMovementsTellMoreAndFatigueStaysInItsBudget) {
   options.persons = 3;
   options.choice.movements = 6;
   options.targets = {"max_isometric_force", "TRI.optimal_fiber_length"};
-  const DesignStudyResult result = design_study(arm_study(), options);
+  const DesignStudyResult result = design_study(planned_study(), options);
   ASSERT_EQ(result.beforehand.size(), 5U);
   ASSERT_EQ(result.plan.size(), 6U);
   std::vector<double> sd;
@@ -181,7 +181,7 @@ TEST(DesignStudy, WhatARunLeftUndeterminedIsAsUnknownAsBefore) {
   options.persons = 2;
   options.choice.movements = 1;
   options.targets = {"max_isometric_force"};
-  const DesignStudyResult unknown = design_study(arm_study(), options);
+  const DesignStudyResult unknown = design_study(planned_study(), options);
   // A covariance over the determined directions alone: F_max of BIC and BRA only by their ratio.
   EarlierRun earlier;
   earlier.parameters = {"BIC.max_isometric_force", "BRA.max_isometric_force"};
@@ -190,7 +190,7 @@ TEST(DesignStudy, WhatARunLeftUndeterminedIsAsUnknownAsBefore) {
   earlier.torque_sd_nm = 0.3;
   earlier.emg_cv = 0.087;
   options.earlier = earlier;
-  const DesignStudyResult known = design_study(arm_study(), options);
+  const DesignStudyResult known = design_study(planned_study(), options);
   for (std::size_t t = 0; t < 2; ++t) {
     EXPECT_GT(*known.beforehand[t].std_error / known.beforehand[t].estimate,
               0.6 * *unknown.beforehand[t].std_error / unknown.beforehand[t].estimate);
@@ -198,7 +198,7 @@ TEST(DesignStudy, WhatARunLeftUndeterminedIsAsUnknownAsBefore) {
 }
 
 TEST(DesignStudy, MusclesOfOneElectrodeAreNotPromisedToBeIdentified) {
-  Study study = arm_study();
+  Study study = planned_study();
   study.muscles[1].emg = study.muscles[0].emg;
   DesignStudyOptions options;
   options.persons = 2;
@@ -221,7 +221,7 @@ TEST(DesignStudy, RefusesATargetThatIsNoneAndNamesThoseThereAre) {
   options.targets = {"BIC.max_isometric_froce"};
   options.persons = 1;
   try {
-    (void)design_study(arm_study(), options);
+    (void)design_study(planned_study(), options);
     FAIL();
   } catch (const InvalidInput& error) {
     EXPECT_THAT(error.what(), HasSubstr("BIC.max_isometric_froce"));

@@ -17,7 +17,7 @@
 namespace myoid::pipeline {
 namespace {
 
-constexpr double kAgainst = -0.5, kCertain = -0.8;
+constexpr double kReversed = -0.5, kCertainlyReversed = -0.8;
 constexpr double kStrong = 0.1;   ///< Of what the muscles can hold.
 constexpr double kWeights = 4.0;  ///< Of the limb's, so that its half is twice the weight.
 constexpr double kActive = 0.1;   ///< Of a channel's largest.
@@ -148,9 +148,10 @@ std::vector<Finding> dynamometer_signs(const Study& study,
       if (!sums) continue;
       ++told;
       all.add(*sums);
-      if (sums->cosine() < kAgainst) against.emplace_back(&trial, sums->cosine());
+      if (sums->cosine() < kReversed) against.emplace_back(&trial, sums->cosine());
     }
-    const bool certain = !against.empty() && against.size() == told && all.cosine() < kCertain;
+    const bool certain =
+        !against.empty() && against.size() == told && all.cosine() < kCertainlyReversed;
     for (const auto& [trial, cosine] : against) {
       found.push_back(
           {certain ? Finding::Level::error : Finding::Level::warning,

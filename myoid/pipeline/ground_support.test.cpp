@@ -10,7 +10,7 @@ namespace myoid::pipeline {
 namespace {
 
 /// A pelvis on a free vertical translation, with a leg of two segments below and an arm beside.
-model::BodyModel person(double trunk_kg) {
+model::BodyModel standing_person(double trunk_kg) {
   model::BodyModel model;
   model.bodies = {{.name = "ground"},
                   {.name = "pelvis", .mass_kg = trunk_kg},
@@ -44,7 +44,7 @@ TimeSeries forces(double vertical_n) {
 }
 
 TEST(UnsupportedWeight, IsWhatTheTrunkWouldHaveToBear) {
-  const model::BodyModel model = person(60.0);
+  const model::BodyModel model = standing_person(60.0);
   const double weight = 75.0 * kStandardGravity;
   const auto found = unsupported_weight(model, forces(1.02 * weight));
   ASSERT_TRUE(found);
@@ -57,17 +57,17 @@ TEST(UnsupportedWeight, IsWhatTheTrunkWouldHaveToBear) {
 }
 
 TEST(UnsupportedWeight, IsNoneWhereTheModelIsFixedOrThereIsNoGravity) {
-  model::BodyModel held = person(60.0);
+  model::BodyModel held = standing_person(60.0);
   held.coordinates[0].locked = true;
   EXPECT_FALSE(unsupported_weight(held));
-  model::BodyModel weightless = person(60.0);
+  model::BodyModel weightless = standing_person(60.0);
   weightless.gravity_G.setZero();
   EXPECT_FALSE(unsupported_weight(weightless));
-  EXPECT_TRUE(unsupported_weight(person(60.0)));
+  EXPECT_TRUE(unsupported_weight(standing_person(60.0)));
 }
 
 TEST(UncarriedTime, IsThatInWhichAFootIsBesideThePlates) {
-  const model::BodyModel model = person(60.0);
+  const model::BodyModel model = standing_person(60.0);
   const double weight = 75.0 * kStandardGravity;
   const Eigen::VectorXd time = Eigen::VectorXd::LinSpaced(201, 0.0, 2.0);
   const auto residual = [&](double from_s, double to_s, double share) {
@@ -91,17 +91,17 @@ TEST(UncarriedTime, IsThatInWhichAFootIsBesideThePlates) {
 }
 
 TEST(BearsTheBody, TheLegThatStandsAndNotTheArm) {
-  const model::BodyModel model = person(60.0);
+  const model::BodyModel model = standing_person(60.0);
   EXPECT_TRUE(bears_the_body(model, "knee_angle", model.default_q(), 75.0));
   EXPECT_TRUE(bears_the_body(model, "hip_flexion", model.default_q(), 0.0));
   EXPECT_FALSE(bears_the_body(model, "arm_flex", model.default_q(), 75.0));
 }
 
 TEST(BearsTheBody, NothingOfAModelThatIsNoWholePerson) {
-  const model::BodyModel model = person(30.0);
+  const model::BodyModel model = standing_person(30.0);
   EXPECT_FALSE(bears_the_body(model, "knee_angle", model.default_q(), 75.0));
-  EXPECT_FALSE(stands(person(15.0), model.default_q()));
-  EXPECT_TRUE(stands(person(60.0), model.default_q()));
+  EXPECT_FALSE(stands(standing_person(15.0), model.default_q()));
+  EXPECT_TRUE(stands(standing_person(60.0), model.default_q()));
 }
 
 }  // namespace

@@ -19,7 +19,7 @@ namespace {
 using identification::StudyData;
 using identification::TrialData;
 
-constexpr double kShortest_m = 0.01, kLongest_m = 1.0;
+constexpr double kShortestPath_m = 0.01, kLongestPath_m = 1.0;
 constexpr double kCertainlyShort_m = 0.002, kCertainlyLong_m = 3.0;
 constexpr double kShortestFiber = 0.1, kLongestFiber = 3.0;  ///< In optimal lengths.
 constexpr double kLargestArm_m = 0.2, kCertainlyLargeArm_m = 0.5;
@@ -43,9 +43,9 @@ double correlation(const Eigen::VectorXd& x, const Eigen::VectorXd& y) {
 }
 
 /// Checks of one trial; remarks collect.
-class Check {
+class TrialCheck {
  public:
-  Check(const StudyData& data, const TrialData& trial, const IdentifyFiles& files)
+  TrialCheck(const StudyData& data, const TrialData& trial, const IdentifyFiles& files)
       : data_(data), trial_(trial), files_(files) {}
 
   std::vector<std::string> run() {
@@ -85,7 +85,7 @@ class Check {
                                  typical > 300.0 * usual ? "mm" : "cm"));
       if (typical < kCertainlyShort_m)
         fail(files_.lengths, found + ", expected 0.01 to 1 m; write it in m");
-      if (typical > kLongest_m || typical < kShortest_m)
+      if (typical > kLongestPath_m || typical < kShortestPath_m)
         remark(files_.lengths, found + ", expected 0.01 to 1 m");
       const double fiber = typical - start.tendon_slack_length_m;
       if (fiber <= 0.0)
@@ -342,7 +342,7 @@ class Check {
 std::vector<std::string> check_identify_trial(const StudyData& data,
                                               const TrialData& trial,
                                               const IdentifyFiles& files) {
-  return Check(data, trial, files).run();
+  return TrialCheck(data, trial, files).run();
 }
 
 }  // namespace myoid::pipeline

@@ -7,15 +7,15 @@
 #include "myoid/model/arm4.h"
 #include "myoid/model/osim_reader.h"
 
+#include "tests/support/built_in_arm.h"
+
 namespace myoid::pipeline {
 namespace {
-
-model::BodyModel arm() { return model::parse_osim(model::arm4_osim(), "arm4.osim"); }
 
 TEST(JointCapacity, OfTheElbowIsAboutWhatMenCanDo) {
   // Published maximal contractions of men, science of the elbow: flexion about 70 N m, extension
   // about 45 N m; generic models are stronger than the average by up to 2.
-  const JointCapacity elbow = joint_capacity(arm(), "elbow_flexion");
+  const JointCapacity elbow = joint_capacity(test::built_in_arm(), "elbow_flexion");
   EXPECT_GT(elbow.positive_nm, 60.0);
   EXPECT_LT(elbow.positive_nm, 140.0);
   EXPECT_GT(elbow.negative_nm, 30.0);
@@ -27,7 +27,7 @@ TEST(JointCapacity, OfTheElbowIsAboutWhatMenCanDo) {
 TEST(JointCapacity, IsWhatTheMusclesDoWhereTheyDoMost) {
   // Pigeon's arms peak at 4.7 cm (BIC), 3 cm (BRA), 7 to 8 cm (BRD): with 1060, 987 and 261 N no
   // more than 50 + 30 + 21 N m, and no less than at 90 degrees 50 + 27 + 14.
-  const JointCapacity elbow = joint_capacity(arm(), "elbow_flexion");
+  const JointCapacity elbow = joint_capacity(test::built_in_arm(), "elbow_flexion");
   EXPECT_NEAR(elbow.positive_nm, 97.0, 10.0);
 }
 
@@ -38,11 +38,11 @@ TEST(JointCapacity, NobodyMakesMoreThanMusclesInLengtheningAndTheirOwnWeight) {
 }
 
 TEST(JointCapacity, RefusesACoordinateThatTheModelLacks) {
-  EXPECT_THROW((void)joint_capacity(arm(), "knee"), ModelError);
+  EXPECT_THROW((void)joint_capacity(test::built_in_arm(), "knee"), ModelError);
 }
 
 TEST(MovedBodies, AreThoseBeyondTheJoint) {
-  const model::BodyModel model = arm();
+  const model::BodyModel model = test::built_in_arm();
   const int elbow =
       model.coordinates[static_cast<std::size_t>(model.coordinate_index("elbow_flexion"))].joint;
   const std::vector<bool> moved = moved_bodies(model, elbow);

@@ -11,16 +11,17 @@ ordered_json number_or_null(const std::optional<double>& value) {
 }
 
 ordered_json provenance_json(const Provenance& provenance) {
-  ordered_json json;
-  json["program"] = provenance.program;
-  json["version"] = provenance.version;
-  json["command"] = provenance.command;
-  json["inputs"] = ordered_json::array();
+  ordered_json object;
+  object["program"] = provenance.program;
+  object["version"] = provenance.version;
+  object["command"] = provenance.command;
+  object["inputs"] = ordered_json::array();
   for (const InputFile& file : provenance.inputs)
-    json["inputs"].push_back({{"path", file.path}, {"sha256", file.sha256}});
-  json["options"] = provenance.options_json.empty() ? ordered_json::object()
-                                                    : ordered_json::parse(provenance.options_json);
-  return json;
+    object["inputs"].push_back({{"path", file.path}, {"sha256", file.sha256}});
+  object["options"] = provenance.options_json.empty()
+                          ? ordered_json::object()
+                          : ordered_json::parse(provenance.options_json);
+  return object;
 }
 
 }  // namespace myoid::pipeline

@@ -9,6 +9,7 @@
 #include <fmt/ranges.h>
 
 #include "myoid/core/error.h"
+#include "myoid/core/index.h"
 #include "myoid/core/units.h"
 #include "myoid/kinematics/inverse_kinematics.h"
 #include "myoid/model/kinematic_tree.h"
@@ -22,8 +23,6 @@ namespace myoid::pipeline {
 namespace {
 
 using model::OsimXml;
-
-std::size_t at(Eigen::Index index) { return static_cast<std::size_t>(index); }
 
 /// One frame: every marker at its mean over the range.
 recording::MarkerSeries averaged(const recording::MarkerSeries& markers,

@@ -11,6 +11,7 @@
 #include <fmt/ranges.h>
 
 #include "myoid/core/error.h"
+#include "myoid/core/index.h"
 #include "myoid/core/parallel.h"
 #include "myoid/model/kinematic_tree.h"
 #include "myoid/model/muscle_path.h"
@@ -21,8 +22,6 @@ namespace myoid::pipeline {
 namespace {
 
 constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
-
-std::size_t at(Eigen::Index index) { return static_cast<std::size_t>(index); }
 
 /// Rows of the clock that are at least 1 / rate apart, at most `most_frames`.
 std::vector<Eigen::Index> chosen_frames(const Eigen::VectorXd& time_s,

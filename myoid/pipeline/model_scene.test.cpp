@@ -11,6 +11,7 @@
 #include "myoid/model/muscle_path.h"
 #include "myoid/model/osim_reader.h"
 
+#include "tests/support/built_in_arm.h"
 #include "tests/support/data_folder.h"
 
 namespace myoid::pipeline {
@@ -19,8 +20,6 @@ namespace {
 using testing::Contains;
 using testing::HasSubstr;
 using testing::IsEmpty;
-
-model::BodyModel arm() { return model::parse_osim(model::arm4_osim(), "arm4.osim"); }
 
 /// All coordinates of a model swinging, `count` samples at `rate_hz`.
 TimeSeries swing(const model::BodyModel& m, Eigen::Index count, double rate_hz) {
@@ -67,7 +66,7 @@ void expect_lengths(const model::BodyModel& m, const report::Scene& scene, const
 }
 
 TEST(ModelScene, WithoutAMotionIsTheDefaultPosture) {
-  const model::BodyModel m = arm();
+  const model::BodyModel m = test::built_in_arm();
   const report::Scene scene = model_scene(m, {.name = "still"});
   EXPECT_NO_THROW(report::validate(scene));
   ASSERT_EQ(scene.poses.size(), 1U);
@@ -78,7 +77,7 @@ TEST(ModelScene, WithoutAMotionIsTheDefaultPosture) {
 }
 
 TEST(ModelScene, DrawsEveryMuscleAsLongAsItIs) {
-  const model::BodyModel m = arm();
+  const model::BodyModel m = test::built_in_arm();
   const TimeSeries q = swing(m, 60, 100.0);
   const report::Scene scene = model_scene(m, {.name = "swing", .q = q});
   EXPECT_NO_THROW(report::validate(scene));
@@ -99,7 +98,7 @@ TEST(ModelScene, DrawsWrappedConditionalAndMovingPathsAsLongAsTheyAre) {
 }
 
 TEST(ModelScene, LeavesFramesOutEvenlyAndSaysSo) {
-  const model::BodyModel m = arm();
+  const model::BodyModel m = test::built_in_arm();
   const report::Scene at_50 = model_scene(m, {.name = "fast", .q = swing(m, 401, 200.0)});
   ASSERT_EQ(at_50.time_s.size(), 101);
   for (Eigen::Index f = 1; f < at_50.time_s.size(); ++f)
@@ -113,7 +112,7 @@ TEST(ModelScene, LeavesFramesOutEvenlyAndSaysSo) {
 }
 
 TEST(ModelScene, TakesColorsByNameAtTheFramesTimesAndNotBeyond) {
-  const model::BodyModel m = arm();
+  const model::BodyModel m = test::built_in_arm();
   const TimeSeries q = swing(m, 5, 10.0);  // 0 .. 0.4 s
   Eigen::MatrixXd values(3, 3);
   values << 0.0, 1.0, 2.0, 10.0, 11.0, 12.0, 20.0, 21.0, 1234.0;
@@ -138,12 +137,13 @@ TEST(ModelScene, TakesColorsByNameAtTheFramesTimesAndNotBeyond) {
 TEST(ModelScene, RefusesColorsOfAnotherModel) {
   const TimeSeries other(Eigen::Vector2d(0.0, 1.0), {{"soleus_r", Unit::newton}},
                          Eigen::Vector2d(1.0, 2.0));
-  EXPECT_THROW((void)model_scene(arm(), {.name = "x", .colorings = {{"force", "N", other}}}),
-               InvalidInput);
+  EXPECT_THROW(
+      (void)model_scene(test::built_in_arm(), {.name = "x", .colorings = {{"force", "N", other}}}),
+      InvalidInput);
 }
 
 TEST(ModelScene, ShowsMeasuredMarkersWhereTheyWereSeen) {
-  const model::BodyModel m = arm();
+  const model::BodyModel m = test::built_in_arm();
   recording::MarkerSeries markers;
   markers.time_s = Eigen::Vector3d(0.0, 0.1, 0.2);
   markers.names = {m.markers[0].name, "unknown"};
@@ -160,7 +160,7 @@ TEST(ModelScene, ShowsMeasuredMarkersWhereTheyWereSeen) {
 }
 
 TEST(ModelScene, StandsUpAgainstGravity) {
-  model::BodyModel m = arm();
+  model::BodyModel m = test::built_in_arm();
   m.gravity_G = {0.0, 0.0, -9.81};
   EXPECT_EQ(model_scene(m, {.name = "z"}).up, Vec3::UnitZ());
 }

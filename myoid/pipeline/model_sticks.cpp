@@ -2,12 +2,11 @@
 
 #include <algorithm>
 
+#include "myoid/core/index.h"
 #include "myoid/model/kinematic_tree.h"
 
 namespace myoid::pipeline {
 namespace {
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 /// A child's joint, in the parent.
 struct ChildJoint {

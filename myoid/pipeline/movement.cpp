@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
+#include "myoid/core/units.h"
 #include "myoid/dynamics/held_mass.h"
 #include "myoid/dynamics/inverse_dynamics.h"
 #include "myoid/model/arm4.h"
@@ -18,7 +19,6 @@ namespace {
 
 constexpr double kRate_hz = 50.0;
 constexpr double kLead_s = 0.4;  ///< Before the trial: more than the longest delay.
-constexpr double kPi = std::numbers::pi;
 
 double degrees(double rad) { return rad * 180.0 / kPi; }
 

@@ -3,12 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "myoid/core/numbers.h"
 #include "myoid/math/statistics.h"
 
 namespace myoid::pipeline {
 namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 double mean_interval(const Eigen::VectorXd& time_s) {
   return (time_s[time_s.size() - 1] - time_s[0]) / static_cast<double>(time_s.size() - 1);

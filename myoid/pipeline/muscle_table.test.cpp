@@ -10,14 +10,14 @@ namespace myoid::pipeline {
 namespace {
 
 template <typename Read>
-std::string message_of(const std::string& text, Read read) {
+std::string table_message(const std::string& text, Read read) {
   const toml::table root = recording::parse_toml(text, "dir/study.toml");
   return test::message_of(
       [&] { (void)read(recording::TomlTable(root, "dir/study.toml", "[[table]]")); });
 }
 
 TEST(MuscleTable, AStartThatNoMuscleHasIsRefusedWithTheRange) {
-  const std::string message = message_of(
+  const std::string message = table_message(
       "name = \"B\"\nemg = \"b\"\nstart = { optimal_fiber_length = 173 }\n", read_muscle);
   EXPECT_NE(message.find("study.toml:3"), std::string::npos) << message;
   EXPECT_NE(message.find("found 173 m, expected 0.01 to 0.6 m"), std::string::npos) << message;
@@ -25,7 +25,7 @@ TEST(MuscleTable, AStartThatNoMuscleHasIsRefusedWithTheRange) {
 
 TEST(MuscleTable, AnUnknownParameterIsRefusedAtItsLine) {
   const std::string message =
-      message_of("name = \"B\"\nemg = \"b\"\nfixed = [\"eccentric_plato\"]\n", read_muscle);
+      table_message("name = \"B\"\nemg = \"b\"\nfixed = [\"eccentric_plato\"]\n", read_muscle);
   EXPECT_NE(message.find("study.toml:3"), std::string::npos) << message;
   EXPECT_NE(message.find("did you mean 'eccentric_plateau'"), std::string::npos) << message;
 }
@@ -36,11 +36,11 @@ TEST(MuscleTable, WithoutOsimTheModelsMuscleHasTheSameName) {
 }
 
 TEST(ParameterRuleTable, ARuleForAnUnknownParameterAndBoundsInTheWrongOrderAreRefused) {
-  EXPECT_NE(message_of("name = \"F_mx\"\n", read_rule).find("study.toml:1"), std::string::npos);
-  EXPECT_NE(message_of("name = \"optimal_fiber_length\"\nlower = 0.3\nupper = 0.2\n", read_rule)
+  EXPECT_NE(table_message("name = \"F_mx\"\n", read_rule).find("study.toml:1"), std::string::npos);
+  EXPECT_NE(table_message("name = \"optimal_fiber_length\"\nlower = 0.3\nupper = 0.2\n", read_rule)
                 .find("found 0.3, not below upper = 0.2"),
             std::string::npos);
-  EXPECT_NE(message_of("name = \"optimal_fiber_length\"\nprior_sd = 0\n", read_rule)
+  EXPECT_NE(table_message("name = \"optimal_fiber_length\"\nprior_sd = 0\n", read_rule)
                 .find("expected a positive number"),
             std::string::npos);
 }

@@ -23,7 +23,7 @@ MuscleTable table_of(const std::string& text, bool within_bounds = true) {
   return read_muscles_csv(folder / "muscles.csv", within_bounds);
 }
 
-std::string message_of(const std::string& text) {
+std::string csv_message(const std::string& text) {
   return test::message_of([&] { (void)table_of(text); });
 }
 
@@ -50,16 +50,16 @@ TEST(MusclesCsv, SemicolonsAndDecimalCommasAreRead) {
 }
 
 TEST(MusclesCsv, WhatCannotBeMeantIsRefusedAtItsLine) {
-  EXPECT_NE(message_of("name\nBIC\n").find("no column 'muscle'"), std::string::npos);
-  EXPECT_NE(message_of(kHeader + ",colour\n" + kBiceps + ",red\n").find("unknown column 'colour'"),
+  EXPECT_NE(csv_message("name\nBIC\n").find("no column 'muscle'"), std::string::npos);
+  EXPECT_NE(csv_message(kHeader + ",colour\n" + kBiceps + ",red\n").find("unknown column 'colour'"),
             std::string::npos);
-  EXPECT_NE(message_of(kHeader + "\n" + kBiceps + "\n" + kBiceps + "\n")
+  EXPECT_NE(csv_message(kHeader + "\n" + kBiceps + "\n" + kBiceps + "\n")
                 .find("muscles.csv:3: muscle 'BIC' is listed twice"),
             std::string::npos);
-  EXPECT_NE(message_of(kHeader + "\nBIC,strong,0.12,0.2,0.055,1.2,0.28,0.2,1.4\n")
+  EXPECT_NE(csv_message(kHeader + "\nBIC,strong,0.12,0.2,0.055,1.2,0.28,0.2,1.4\n")
                 .find("muscles.csv:2: max_isometric_force: expected a number, found 'strong'"),
             std::string::npos);
-  EXPECT_NE(message_of(kHeader + "\nBIC,,0.12,0.2,0.055,1.2,0.28,0.2,1.4\n")
+  EXPECT_NE(csv_message(kHeader + "\nBIC,,0.12,0.2,0.055,1.2,0.28,0.2,1.4\n")
                 .find("'BIC' has no max_isometric_force"),
             std::string::npos);
 }
@@ -81,16 +81,16 @@ TEST(MusclesCsv, TheSlopesRatioAloneStandsForTheProduct) {
   ASSERT_EQ(held.rules.size(), 1U);
   EXPECT_EQ(held.rules[0].free, false);
   EXPECT_EQ(held.rules[0].value, 1.6);
-  EXPECT_NE(message_of(header + "\nBIC,1000,0.12,0.055,1.2,0.28,1.4,-1\n").find("positive number"),
+  EXPECT_NE(csv_message(header + "\nBIC,1000,0.12,0.055,1.2,0.28,1.4,-1\n").find("positive number"),
             std::string::npos);
   EXPECT_NE(
-      message_of(header + "\nBIC,1000,0.12,0.055,1.2,0.28,,1.6\n").find("no eccentric_plateau"),
+      csv_message(header + "\nBIC,1000,0.12,0.055,1.2,0.28,,1.6\n").find("no eccentric_plateau"),
       std::string::npos);
 }
 
 TEST(MusclesCsv, AStartOutsideItsBoundsIsRefusedOnlyWhereTheMethodKeepsToThem) {
   const std::string millimeters = kHeader + "\nBIC,1000,120,200,55,1200,0.28,0.2,1.4\n";
-  EXPECT_NE(message_of(millimeters).find("optimal_fiber_length"), std::string::npos);
+  EXPECT_NE(csv_message(millimeters).find("optimal_fiber_length"), std::string::npos);
   EXPECT_EQ(table_of(millimeters, false).muscles.at(0).start.optimal_fiber_length_m, 120.0);
 }
 

@@ -28,49 +28,49 @@ std::string quoted(const std::string& text) {
 }
 
 ordered_json estimate_json(const ParameterEstimate& e) {
-  ordered_json json = {{"muscle", e.muscle},
-                       {"parameter", e.parameter},
-                       {"unit", std::string(symbol(e.unit))},
-                       {"method", e.method},
-                       {"case", e.fit_case},
-                       {"initial", number_or_null(e.initial)},
-                       {"estimate", number_or_null(e.estimate)},
-                       {"std_error", number_or_null(e.std_error)},
-                       {"ci_low", number_or_null(e.ci_low)},
-                       {"ci_high", number_or_null(e.ci_high)},
-                       {"prior_mean", number_or_null(e.prior_mean)},
-                       {"prior_sd", number_or_null(e.prior_sd)},
-                       {"prior_distance", number_or_null(e.prior_distance)},
-                       {"shrinkage", number_or_null(e.shrinkage)},
-                       {"at_bound", e.at_bound},
-                       {"verdict", std::string(identification::name(e.verdict))},
-                       {"reason", e.reason},
-                       {"routes_disagree", e.routes_disagree}};
-  if (!e.tied_to.empty()) json["tied_to"] = e.tied_to;
+  ordered_json object = {{"muscle", e.muscle},
+                         {"parameter", e.parameter},
+                         {"unit", std::string(symbol(e.unit))},
+                         {"method", e.method},
+                         {"case", e.fit_case},
+                         {"initial", number_or_null(e.initial)},
+                         {"estimate", number_or_null(e.estimate)},
+                         {"std_error", number_or_null(e.std_error)},
+                         {"ci_low", number_or_null(e.ci_low)},
+                         {"ci_high", number_or_null(e.ci_high)},
+                         {"prior_mean", number_or_null(e.prior_mean)},
+                         {"prior_sd", number_or_null(e.prior_sd)},
+                         {"prior_distance", number_or_null(e.prior_distance)},
+                         {"shrinkage", number_or_null(e.shrinkage)},
+                         {"at_bound", e.at_bound},
+                         {"verdict", std::string(identification::name(e.verdict))},
+                         {"reason", e.reason},
+                         {"routes_disagree", e.routes_disagree}};
+  if (!e.tied_to.empty()) object["tied_to"] = e.tied_to;
   ordered_json routes = ordered_json::array();
   for (const identification::RouteInterval& r : e.routes) {
     routes.push_back({{"route", r.route},
                       {"ci_low", number_or_null(r.low)},
                       {"ci_high", number_or_null(r.high)}});
   }
-  json["intervals"] = routes;
-  return json;
+  object["intervals"] = routes;
+  return object;
 }
 
 ordered_json basins_json(const identification::BasinTable& table) {
-  ordered_json json = {{"fit", table.fit},
-                       {"starts", table.starts},
-                       {"starts_without_a_minimum", table.failed},
-                       {"basins", ordered_json::array()}};
+  ordered_json object = {{"fit", table.fit},
+                         {"starts", table.starts},
+                         {"starts_without_a_minimum", table.failed},
+                         {"basins", ordered_json::array()}};
   for (const identification::BasinRow& basin : table.basins) {
-    json["basins"].push_back({{"cost", number_or_null(basin.cost)},
-                              {"starts", basin.starts},
-                              {"converged", basin.converged},
-                              {"distance", number_or_null(basin.distance)},
-                              {"as_good_as_the_best", basin.rival},
-                              {"of_the_given_start", basin.given}});
+    object["basins"].push_back({{"cost", number_or_null(basin.cost)},
+                                {"starts", basin.starts},
+                                {"converged", basin.converged},
+                                {"distance", number_or_null(basin.distance)},
+                                {"as_good_as_the_best", basin.rival},
+                                {"of_the_given_start", basin.given}});
   }
-  return json;
+  return object;
 }
 
 ordered_json method_json(const IdentificationResult& method) {
@@ -188,34 +188,35 @@ std::string parameters_json(const std::vector<IdentificationResult>& methods,
                             const std::vector<identification::Fold>& folds,
                             const Provenance& provenance,
                             const ParameterContext& context) {
-  ordered_json json;
-  json["provenance"] = provenance_json(provenance);
-  json["methods"] = ordered_json::array();
-  for (const IdentificationResult& method : methods) json["methods"].push_back(method_json(method));
-  json["segments"] = ordered_json::array();
+  ordered_json object;
+  object["provenance"] = provenance_json(provenance);
+  object["methods"] = ordered_json::array();
+  for (const IdentificationResult& method : methods)
+    object["methods"].push_back(method_json(method));
+  object["segments"] = ordered_json::array();
   for (const TrialPhases& trial : context.phases) {
     for (const Phase& phase : trial.phases) {
-      json["segments"].push_back({{"trial", trial.trial},
-                                  {"phase", std::string(name(phase.kind))},
-                                  {"begin_s", phase.begin_s},
-                                  {"end_s", phase.end_s},
-                                  {"torque_per_emg", number_or_null(phase.gain)},
-                                  {"median_frequency", number_or_null(phase.frequency)},
-                                  {"fitted", !phase.excluded},
-                                  {"reason", phase.reason}});
+      object["segments"].push_back({{"trial", trial.trial},
+                                    {"phase", std::string(name(phase.kind))},
+                                    {"begin_s", phase.begin_s},
+                                    {"end_s", phase.end_s},
+                                    {"torque_per_emg", number_or_null(phase.gain)},
+                                    {"median_frequency", number_or_null(phase.frequency)},
+                                    {"fitted", !phase.excluded},
+                                    {"reason", phase.reason}});
     }
   }
   if (context.force_loop != nullptr) {
     const identification::ForceLoop& loop = *context.force_loop;
-    json["force_loop"] = {{"end", std::string(identification::name(loop.end))},
-                          {"message", loop.message},
-                          {"rounds", loop.rounds.size()}};
+    object["force_loop"] = {{"end", std::string(identification::name(loop.end))},
+                            {"message", loop.message},
+                            {"rounds", loop.rounds.size()}};
   }
-  json["left_out"] = context.left_out;
-  json["resting_torque"] = ordered_json::array();
+  object["left_out"] = context.left_out;
+  object["resting_torque"] = ordered_json::array();
   for (const identification::RestingJoint& joint : context.resting) {
     const Eigen::VectorXd& c = joint.torque.coefficient_nm;
-    json["resting_torque"].push_back(
+    object["resting_torque"].push_back(
         {{"joint", joint.joint},
          {"trials", joint.trials},
          {"lowest_rad", joint.torque.lowest_rad},
@@ -224,9 +225,9 @@ std::string parameters_json(const std::vector<IdentificationResult>& methods,
          {"viscosity_nms", joint.torque.viscosity_nms},
          {"residual_nm", joint.torque.residual_nm}});
   }
-  json["leave_one_trial_out"] = ordered_json::array();
+  object["leave_one_trial_out"] = ordered_json::array();
   for (const identification::Fold& f : folds) {
-    json["leave_one_trial_out"].push_back(
+    object["leave_one_trial_out"].push_back(
         {{"trial", f.trial},
          {"joint", f.joint},
          {"identified", score_json(f.identified)},
@@ -238,7 +239,7 @@ std::string parameters_json(const std::vector<IdentificationResult>& methods,
          {"paper", f.paper ? score_json(*f.paper) : ordered_json(nullptr)},
          {"lag_s", number_or_null(f.lag_s)}});
   }
-  return json.dump(2) + "\n";
+  return object.dump(2) + "\n";
 }
 
 ParameterContext parameter_context(const StudyResult& result) {

@@ -9,6 +9,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "myoid/report/typeset.h"
+
 namespace myoid::pipeline {
 namespace {
 
@@ -37,12 +39,6 @@ Badge badge(Verdict verdict) {
   return Badge::none;
 }
 
-std::string spelled(std::string_view text) {
-  std::string words(text);
-  std::replace(words.begin(), words.end(), '_', ' ');
-  return words;
-}
-
 /// Rounded as the ends of its interval are, so that all three can be compared.
 std::string value_of(const ParameterEstimate& e, double value) {
   if (!std::isfinite(value)) return "-";
@@ -67,7 +63,7 @@ std::string prior(const ParameterEstimate& e) {
 }
 
 Cell verdict_cell(const ParameterEstimate& e) {
-  return {spelled(identification::name(e.verdict)), badge(e.verdict), {}};
+  return {report::spelled(identification::name(e.verdict)), badge(e.verdict), {}};
 }
 
 std::optional<double> truth_of(const StudyResult& result, const ParameterEstimate& e) {
@@ -174,9 +170,14 @@ std::vector<Table> estimate_tables(const StudyResult& result, const Identificati
   others.columns.front() = "of";
   for (const EstimateLine& line : estimate_lines(method, result.data.muscles.size())) {
     const ParameterEstimate& e = *line.estimate;
-    std::vector<Cell> row{
-        {line.owners}, {spelled(e.parameter)}, {unit(e)}, {prior(e)}, {value_of(e, e.estimate)},
-        {interval(e)}, verdict_cell(e),        {e.reason}};
+    std::vector<Cell> row{{line.owners},
+                          {report::spelled(e.parameter)},
+                          {unit(e)},
+                          {prior(e)},
+                          {value_of(e, e.estimate)},
+                          {interval(e)},
+                          verdict_cell(e),
+                          {e.reason}};
     if (known) row.insert(row.begin() + 6, truth_cell(result, e));
     (identification::is_nuisance(e) ? others : muscles).rows.push_back(std::move(row));
   }
@@ -200,7 +201,7 @@ std::vector<Table> paper_tables(const IdentificationResult& method) {
       empty("table_2_lengthening", "Table II: parameters from lengthening (method paper)")};
   for (const ParameterEstimate& e : method.estimates) {
     tables[e.fit_case == "shortening" ? 0 : 1].rows.push_back({{e.muscle},
-                                                               {spelled(e.parameter)},
+                                                               {report::spelled(e.parameter)},
                                                                {unit(e)},
                                                                {format_value(e.initial)},
                                                                {value_of(e, e.estimate)},

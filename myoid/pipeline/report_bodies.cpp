@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
+#include "myoid/core/index.h"
 #include "myoid/model/constraints.h"
 #include "myoid/model/kinematic_tree.h"
 #include "myoid/pipeline/analysis_reports.h"
@@ -15,8 +16,6 @@ namespace myoid::pipeline {
 namespace {
 
 constexpr const char* kWholeBody = "center_of_mass";
-
-std::size_t at(Eigen::Index index) { return static_cast<std::size_t>(index); }
 
 /// Body-fixed X-Y-Z angles.
 Vec3 angles_of(const Mat3& R) {

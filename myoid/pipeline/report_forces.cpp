@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "myoid/core/index.h"
 #include "myoid/dynamics/passive_forces.h"
 #include "myoid/forces/actuator_columns.h"
 #include "myoid/forces/muscle_analysis.h"
@@ -13,9 +14,7 @@
 namespace myoid::pipeline {
 namespace {
 
-std::size_t at(Eigen::Index index) { return static_cast<std::size_t>(index); }
-
-struct Table {
+struct ForceColumns {
   std::vector<Channel> channels;
   std::vector<Eigen::VectorXd> columns;
   void add(std::string name, Eigen::VectorXd values) {
@@ -31,7 +30,7 @@ TimeSeries force_table(const AnalysisRun& run,
                        const model::BodyModel& model,
                        const TimeSeries& forces) {
   std::vector<std::string>& notes = run.result.notes;
-  Table table;
+  ForceColumns table;
   const Eigen::VectorXd& times = run.motion.q.time_s();
   for (const std::string& name : model.force_order) {
     if (const auto column = forces.find(name)) {

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
+#include "myoid/core/index.h"
 #include "myoid/forces/actuator_columns.h"
 #include "myoid/forces/joint_reaction.h"
 #include "myoid/pipeline/analysis_reports.h"
@@ -13,8 +14,6 @@
 
 namespace myoid::pipeline {
 namespace {
-
-std::size_t at(Eigen::Index index) { return static_cast<std::size_t>(index); }
 
 /// One joint that is asked for.
 struct Asked {

@@ -13,7 +13,7 @@ namespace {
 
 constexpr Eigen::Index kStretch = 32;
 constexpr std::uint64_t kOneIn = 4;
-constexpr std::size_t kFewest = 8;  ///< Stretches that tell anything.
+constexpr std::size_t kFewestStretches = 8;  ///< Stretches that tell anything.
 /// Windows of one file that meet may share their edges.
 constexpr double kEdges = 0.1;
 
@@ -66,7 +66,7 @@ Stretches stretches_of(const TimeSeries& series) {
 
 double common_share(const Stretches& a, const Stretches& b) {
   const std::size_t fewer = std::min(a.size(), b.size());
-  if (fewer < kFewest) return 0.0;
+  if (fewer < kFewestStretches) return 0.0;
   Stretches both;
   std::set_intersection(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(both));
   return static_cast<double>(both.size()) / static_cast<double>(fewer);

@@ -82,7 +82,7 @@ std::string leg_osim() {
 
 constexpr double kLength_s = 12.0;
 
-TimeSeries motion(double phase) {
+TimeSeries leg_motion(double phase) {
   const Eigen::VectorXd t = Eigen::VectorXd::LinSpaced(1201, 0.0, kLength_s);
   Eigen::MatrixXd q(t.size(), 2);
   q.col(0) = 0.5 + 0.45 * (2.1 * t.array() + phase).sin();
@@ -160,7 +160,7 @@ StudyInputs exact_inputs(const Study& study) {
   StudyInputs inputs;
   for (const double phase : {0.3, 1.9}) {
     TrialInput input;
-    input.motion = motion(phase);
+    input.motion = leg_motion(phase);
     input.emg = activation(phase);
     const kinematics::JointMotion moved = kinematics::joint_motion(leg, *input.motion, {}).motion;
     const kinematics::MuscleKinematics muscles = kinematics::muscle_kinematics(leg, moved);

@@ -22,7 +22,7 @@ markers = "a/t1.trc"
 emg = "t1.sto"
 )";
 
-std::string message_of(const std::string& text) {
+std::string study_message(const std::string& text) {
   try {
     (void)parse_study(text, "dir/study.toml");
   } catch (const ReadError& error) {
@@ -40,7 +40,7 @@ TEST(ParseStudy, WithoutAnMvcTrialItKnowsThatTheNormalisationIsOverTheStudy) {
 }
 
 TEST(ParseStudy, ATieToAMuscleThatIsNotThereIsRefused) {
-  const std::string message = message_of(
+  const std::string message = study_message(
       "[[muscle]]\nname = \"BRA\"\nemg = { same_as = \"BICC\" }\n[[trial]]\nname = \"t\"\nmotion = "
       "\"a.mot\"\nemg = \"e.sto\"\n");
   EXPECT_NE(message.find("BICC"), std::string::npos) << message;
@@ -48,18 +48,18 @@ TEST(ParseStudy, ATieToAMuscleThatIsNotThereIsRefused) {
 
 TEST(ParseStudy, TwoTrialsOfOneNameAreRefused) {
   const std::string message =
-      message_of(kMinimal + "[[trial]]\nname = \"t1\"\nmotion = \"b.mot\"\nemg = \"b.sto\"\n");
+      study_message(kMinimal + "[[trial]]\nname = \"t1\"\nmotion = \"b.mot\"\nemg = \"b.sto\"\n");
   EXPECT_NE(message.find("two [[trial]] are named 't1'"), std::string::npos) << message;
 }
 
 TEST(ParseStudy, WithoutATrialToLearnFromItIsRefused) {
-  EXPECT_NE(message_of(kMinimal + "use = \"validation\"\n").find("no [[trial]] has use"),
+  EXPECT_NE(study_message(kMinimal + "use = \"validation\"\n").find("no [[trial]] has use"),
             std::string::npos);
 }
 
 TEST(ParseStudy, LagsOfTheActivationWithoutDynamicsAreRefusedWithTheRemedy) {
   const std::string lag = "\n[[parameter]]\nname = \"activation_time\"\nfree = true\n";
-  EXPECT_NE(message_of(kMinimal + lag)
+  EXPECT_NE(study_message(kMinimal + lag)
                 .find("activation_time: the lags of the activation act only with "
                       "dynamics = true"),
             std::string::npos);
@@ -67,9 +67,9 @@ TEST(ParseStudy, LagsOfTheActivationWithoutDynamicsAreRefusedWithTheRemedy) {
 
 TEST(ParseStudy, AnEmgIsFollowedInOneWayOnly) {
   const std::string both = "\n[identify]\nlag = \"shared\"\ndynamics = true\n";
-  EXPECT_NE(message_of(kMinimal + both).find("lag: it stands beside dynamics = true"),
+  EXPECT_NE(study_message(kMinimal + both).find("lag: it stands beside dynamics = true"),
             std::string::npos)
-      << message_of(kMinimal + both);
+      << study_message(kMinimal + both);
 }
 
 }  // namespace

@@ -12,11 +12,11 @@ namespace {
 using namespace test_trials;
 
 /// A study on disk, of one trial.
-struct WrittenStudy {
+struct StudyWithTruth {
   WrittenTrial trial{0.01, 8.0, 3.0};
   Study study;
 
-  explicit WrittenStudy(const std::string& truth) {
+  explicit StudyWithTruth(const std::string& truth) {
     const auto file = trial.folder / "study.toml";
     recording::write_file(file, "\n");
     recording::write_file(trial.folder / "truth.csv", truth);
@@ -28,7 +28,7 @@ struct WrittenStudy {
 };
 
 TEST(ReadInputs, ATrialThatPausesIsReplacedByItsPartsInTheStudyToo) {
-  WrittenStudy written("muscle,parameter,value\nBIC,optimal_fiber_length,0.14\n");
+  StudyWithTruth written("muscle,parameter,value\nBIC,optimal_fiber_length,0.14\n");
   const StudyInputs inputs = read_inputs(written.study);
   ASSERT_EQ(written.study.trials.size(), 2U);
   ASSERT_EQ(inputs.trials.size(), 2U);
@@ -42,7 +42,7 @@ TEST(ReadInputs, ATrialThatPausesIsReplacedByItsPartsInTheStudyToo) {
 }
 
 TEST(ReadInputs, ATrueValueThatIsNoNumberIsRefusedAtItsLine) {
-  WrittenStudy written("muscle,parameter,value\nBIC,optimal_fiber_length,long\n");
+  StudyWithTruth written("muscle,parameter,value\nBIC,optimal_fiber_length,long\n");
   const std::string message = message_of([&] { (void)read_inputs(written.study); });
   EXPECT_NE(message.find("truth.csv:2: expected a number, found 'long'"), std::string::npos)
       << message;

@@ -15,7 +15,7 @@ namespace myoid::pipeline {
 namespace {
 
 constexpr double kTired_s = 36.0;
-constexpr double kRate_hz = 1000.0;
+constexpr double kEmgRate_hz = 1000.0;
 
 /// A minute of an elbow that swings; from 36 s on the muscles make three quarters of their force,
 /// and the EMG's frequencies are a fifth lower.
@@ -40,8 +40,8 @@ struct Tiring {
     const TimeSeries& activation = trial().activation;
     const double begin_s = activation.time_s()[0];
     const auto n = static_cast<Eigen::Index>(
-        std::lround((activation.time_s().tail(1)[0] - begin_s) * kRate_hz));
-    const auto fresh = static_cast<Eigen::Index>(std::lround((kTired_s - begin_s) * kRate_hz));
+        std::lround((activation.time_s().tail(1)[0] - begin_s) * kEmgRate_hz));
+    const auto fresh = static_cast<Eigen::Index>(std::lround((kTired_s - begin_s) * kEmgRate_hz));
     math::Random random(11, 0);
     Eigen::MatrixXd volts(n, 4);
     for (Eigen::Index k = 0; k < 4; ++k) {
@@ -49,7 +49,7 @@ struct Tiring {
       for (double& v : noise) v = 1e-4 * random.normal();
       const auto below = [&](double hz) {
         return math::zero_phase(
-            math::design_butterworth(math::FilterBand::low_pass, 4, hz, kRate_hz), noise);
+            math::design_butterworth(math::FilterBand::low_pass, 4, hz, kEmgRate_hz), noise);
       };
       volts.col(k) << below(150.0).head(fresh), below(120.0).tail(n - fresh);
     }
@@ -85,7 +85,8 @@ struct Tiring {
 
  private:
   static Eigen::VectorXd clock(double begin_s, Eigen::Index n) {
-    return Eigen::VectorXd::LinSpaced(n, begin_s, begin_s + static_cast<double>(n - 1) / kRate_hz);
+    return Eigen::VectorXd::LinSpaced(n, begin_s,
+                                      begin_s + static_cast<double>(n - 1) / kEmgRate_hz);
   }
   [[nodiscard]] std::vector<Channel> channels() {
     std::vector<Channel> volts = trial().activation.channels();

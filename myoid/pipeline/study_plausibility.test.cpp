@@ -22,7 +22,7 @@ TimeSeries emg(std::uint64_t seed) {
   return {Eigen::VectorXd::LinSpaced(2000, 0.0, 1.999), {{"BIC", Unit::volt}}, values};
 }
 
-TimeSeries motion(double to_deg) {
+TimeSeries elbow_motion(double to_deg) {
   const Eigen::VectorXd time = Eigen::VectorXd::LinSpaced(200, 0.0, 1.99);
   return {time,
           {{"elbow_flexion", Unit::radian}},
@@ -39,7 +39,7 @@ struct TwoTrials {
     study.trials.resize(2);
     for (std::size_t i = 0; i < 2; ++i) {
       study.trials[i].name = i == 0 ? "first" : "second";
-      inputs[i].motion = motion(70.0 + 10.0 * static_cast<double>(i));
+      inputs[i].motion = elbow_motion(70.0 + 10.0 * static_cast<double>(i));
       inputs[i].emg = emg(1 + i);
     }
   }

@@ -17,6 +17,7 @@
 #include "myoid/pipeline/study_figures.h"
 #include "myoid/pipeline/study_scene.h"
 #include "myoid/pipeline/torque_report.h"
+#include "myoid/report/typeset.h"
 
 namespace myoid::pipeline {
 namespace {
@@ -33,11 +34,6 @@ const IdentificationResult* method_of(const StudyResult& result, std::string_vie
     if (m.method == name) return &m;
   }
   return nullptr;
-}
-
-std::string spelled(std::string text) {
-  std::replace(text.begin(), text.end(), '_', ' ');
-  return text;
 }
 
 std::vector<std::string> assumptions(const StudyResult& result) {
@@ -117,7 +113,8 @@ std::string headline(const StudyResult& result) {
   for (const ParameterEstimate& e : best->estimates) {
     if (identification::is_nuisance(e) || !e.tied_to.empty()) continue;
     ++total;
-    if (e.verdict == Verdict::identified) sure.push_back(e.muscle + " " + spelled(e.parameter));
+    if (e.verdict == Verdict::identified)
+      sure.push_back(e.muscle + " " + report::spelled(e.parameter));
   }
   std::string text =
       sure.empty()
@@ -146,7 +143,7 @@ report::Report study_report(const StudyResult& result, const Provenance& provena
   report.title = fmt::format("Muscle parameters of {}", result.study.subject.name);
   std::vector<std::string> joints;
   for (const std::string& name : study_coordinates(result.study.model))
-    joints.push_back(spelled(name));
+    joints.push_back(report::spelled(name));
   report.subtitle = fmt::format("{} trial{}; joint coordinate{} {}; model {}", result.trials.size(),
                                 result.trials.size() == 1 ? "" : "s", joints.size() > 1 ? "s" : "",
                                 fmt::join(joints, ", "), result.model.name);

@@ -18,7 +18,7 @@ Study settings_of(const std::string& text) {
   return study;
 }
 
-std::string message_of(const std::string& text) {
+std::string settings_message(const std::string& text) {
   return test::message_of([&] { (void)settings_of(text); });
 }
 
@@ -30,33 +30,36 @@ TEST(StudySettings, WithoutAModelTheBuiltInArmIsUsed) {
 }
 
 TEST(StudySettings, AMisspeltKeyIsRefusedWithTheNearestKnownOne) {
-  const std::string message = message_of("[emg]\nlowpas_hz = 6\n");
+  const std::string message = settings_message("[emg]\nlowpas_hz = 6\n");
   EXPECT_NE(message.find("did you mean 'lowpass_hz'"), std::string::npos) << message;
 }
 
 TEST(StudySettings, ARateThatNoMachineCanHoldIsRefusedWithTheRange) {
-  EXPECT_NE(message_of("[motion]\nrate_hz = 1e9\n").find("expected 10 to 2000 Hz"),
+  EXPECT_NE(settings_message("[motion]\nrate_hz = 1e9\n").find("expected 10 to 2000 Hz"),
             std::string::npos);
 }
 
 TEST(StudySettings, AnUnknownBuiltInModelIsRefusedWithTheOneThereIs) {
-  EXPECT_NE(message_of("[model]\nbuiltin = \"arm26\"\n").find("expected arm4"), std::string::npos);
+  EXPECT_NE(settings_message("[model]\nbuiltin = \"arm26\"\n").find("expected arm4"),
+            std::string::npos);
 }
 
 TEST(StudySettings, ALengthInCentimetersOrMillimetersIsRefusedByItsKey) {
-  EXPECT_NE(message_of("[model]\nforearm_length_m = 25\n").find("forearm_length_m"),
+  EXPECT_NE(settings_message("[model]\nforearm_length_m = 25\n").find("forearm_length_m"),
             std::string::npos);
-  EXPECT_NE(message_of("[model]\nforearm_length_m = 25\n").find("is it in cm?"), std::string::npos);
-  EXPECT_NE(message_of("[model]\nupper_arm_length_m = 300\n").find("is it in mm?"),
+  EXPECT_NE(settings_message("[model]\nforearm_length_m = 25\n").find("is it in cm?"),
+            std::string::npos);
+  EXPECT_NE(settings_message("[model]\nupper_arm_length_m = 300\n").find("is it in mm?"),
             std::string::npos);
   EXPECT_EQ(settings_of("[model]\nforearm_length_m = 0.25\n").model.forearm_length_m, 0.25);
-  EXPECT_NE(message_of("[model]\nheld_mass = { body = \"hand\", at_m = [0, -32, 0] }\n")
+  EXPECT_NE(settings_message("[model]\nheld_mass = { body = \"hand\", at_m = [0, -32, 0] }\n")
                 .find("32 m from the body's origin"),
             std::string::npos);
 }
 
 TEST(StudySettings, ADelayInMillisecondsIsRefused) {
-  EXPECT_NE(message_of("[emg]\ndelay_s = 60\n").find("expected 0 to 0.3 s"), std::string::npos);
+  EXPECT_NE(settings_message("[emg]\ndelay_s = 60\n").find("expected 0 to 0.3 s"),
+            std::string::npos);
   EXPECT_EQ(settings_of("[emg]\ndelay_s = 0.06\n").emg.delay_s, 0.06);
   EXPECT_EQ(settings_of("[emg]\ndelay_s = \"estimate\"\n").emg.delay_s, std::nullopt);
 }
@@ -68,9 +71,9 @@ TEST(StudySettings, AngularErrorsAreGivenInDegrees) {
 }
 
 TEST(StudySettings, AJointNamedTwiceIsRefused) {
-  EXPECT_NE(
-      message_of("[model]\ncoordinate = [\"knee\", \"knee\"]\n").find("'knee' is named twice"),
-      std::string::npos);
+  EXPECT_NE(settings_message("[model]\ncoordinate = [\"knee\", \"knee\"]\n")
+                .find("'knee' is named twice"),
+            std::string::npos);
 }
 
 }  // namespace

@@ -19,17 +19,17 @@ using nlohmann::ordered_json;
 constexpr std::string_view kKind = "myoid path surrogates";
 constexpr int kVersion = 1;
 
-ordered_json numbers(const Eigen::VectorXd& values) {
+ordered_json json_numbers(const Eigen::VectorXd& values) {
   return std::vector<double>(values.begin(), values.end());
 }
 
 /// JSON knows no infinity: null.
-double number_of(const ordered_json& json) {
-  return json.is_null() ? std::numeric_limits<double>::infinity() : json.get<double>();
+double number_of(const ordered_json& value) {
+  return value.is_null() ? std::numeric_limits<double>::infinity() : value.get<double>();
 }
 
-Eigen::VectorXd vector_of(const ordered_json& json) {
-  const auto values = json.get<std::vector<double>>();
+Eigen::VectorXd vector_of(const ordered_json& value) {
+  const auto values = value.get<std::vector<double>>();
   return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
 }
 
@@ -46,21 +46,21 @@ std::vector<int> indices(const model::BodyModel& model, const ordered_json& list
   return result;
 }
 
-kinematics::PathSurrogate surrogate_of(const model::BodyModel& model, const ordered_json& json) {
+kinematics::PathSurrogate surrogate_of(const model::BodyModel& model, const ordered_json& object) {
   kinematics::PathSurrogate s;
-  s.muscle = json.at("muscle").get<std::string>();
-  s.coordinates = indices(model, json.at("coordinates"));
-  s.lower = vector_of(json.at("lower"));
-  s.upper = vector_of(json.at("upper"));
-  s.held = indices(model, json.at("held"));
-  s.held_at = vector_of(json.at("held_at"));
-  s.degree = json.at("degree").get<int>();
-  s.coefficient_m = vector_of(json.at("coefficient_m"));
-  s.length_error_m = number_of(json.at("length_error_m"));
-  s.length_rms_m = number_of(json.at("length_rms_m"));
-  s.arm_error_m = number_of(json.at("arm_error_m"));
-  s.arm_rms_m = number_of(json.at("arm_rms_m"));
-  s.within_tolerance = json.at("within_tolerance").get<bool>();
+  s.muscle = object.at("muscle").get<std::string>();
+  s.coordinates = indices(model, object.at("coordinates"));
+  s.lower = vector_of(object.at("lower"));
+  s.upper = vector_of(object.at("upper"));
+  s.held = indices(model, object.at("held"));
+  s.held_at = vector_of(object.at("held_at"));
+  s.degree = object.at("degree").get<int>();
+  s.coefficient_m = vector_of(object.at("coefficient_m"));
+  s.length_error_m = number_of(object.at("length_error_m"));
+  s.length_rms_m = number_of(object.at("length_rms_m"));
+  s.arm_error_m = number_of(object.at("arm_error_m"));
+  s.arm_rms_m = number_of(object.at("arm_rms_m"));
+  s.within_tolerance = object.at("within_tolerance").get<bool>();
   return s;
 }
 
@@ -97,24 +97,24 @@ void write_surrogates(const std::filesystem::path& path,
                       const model::BodyModel& model,
                       const std::string& key,
                       const std::vector<kinematics::PathSurrogate>& surrogates) {
-  ordered_json json{{"kind", kKind}, {"version", kVersion}, {"key", key}};
-  json["muscles"] = ordered_json::array();
+  ordered_json object{{"kind", kKind}, {"version", kVersion}, {"key", key}};
+  object["muscles"] = ordered_json::array();
   for (const kinematics::PathSurrogate& s : surrogates) {
-    json["muscles"].push_back({{"muscle", s.muscle},
-                               {"coordinates", names(model, s.coordinates)},
-                               {"lower", numbers(s.lower)},
-                               {"upper", numbers(s.upper)},
-                               {"held", names(model, s.held)},
-                               {"held_at", numbers(s.held_at)},
-                               {"degree", s.degree},
-                               {"length_error_m", s.length_error_m},
-                               {"length_rms_m", s.length_rms_m},
-                               {"arm_error_m", s.arm_error_m},
-                               {"arm_rms_m", s.arm_rms_m},
-                               {"within_tolerance", s.within_tolerance},
-                               {"coefficient_m", numbers(s.coefficient_m)}});
+    object["muscles"].push_back({{"muscle", s.muscle},
+                                 {"coordinates", names(model, s.coordinates)},
+                                 {"lower", json_numbers(s.lower)},
+                                 {"upper", json_numbers(s.upper)},
+                                 {"held", names(model, s.held)},
+                                 {"held_at", json_numbers(s.held_at)},
+                                 {"degree", s.degree},
+                                 {"length_error_m", s.length_error_m},
+                                 {"length_rms_m", s.length_rms_m},
+                                 {"arm_error_m", s.arm_error_m},
+                                 {"arm_rms_m", s.arm_rms_m},
+                                 {"within_tolerance", s.within_tolerance},
+                                 {"coefficient_m", json_numbers(s.coefficient_m)}});
   }
-  recording::write_file(path, json.dump(1) + "\n");
+  recording::write_file(path, object.dump(1) + "\n");
 }
 
 std::optional<std::vector<kinematics::PathSurrogate>> read_surrogates(
@@ -122,14 +122,15 @@ std::optional<std::vector<kinematics::PathSurrogate>> read_surrogates(
   std::error_code ignored;
   if (!std::filesystem::exists(path, ignored)) return std::nullopt;
   try {
-    const ordered_json json = ordered_json::parse(recording::read_text_file(path));
-    if (json.value("kind", "") != kKind) {
+    const ordered_json object = ordered_json::parse(recording::read_text_file(path));
+    if (object.value("kind", "") != kKind) {
       throw ReadError(path, 0,
                       "this is no file of path surrogates; it is left as it is, give another name");
     }
-    if (json.value("version", 0) != kVersion || json.value("key", "") != key) return std::nullopt;
+    if (object.value("version", 0) != kVersion || object.value("key", "") != key)
+      return std::nullopt;
     std::vector<kinematics::PathSurrogate> all;
-    for (const ordered_json& entry : json.at("muscles")) {
+    for (const ordered_json& entry : object.at("muscles")) {
       all.push_back(surrogate_of(model, entry));
       if (all.size() > model.muscles.size()) break;
       check(all.back(), model.muscles[all.size() - 1].name, path);
@@ -137,7 +138,7 @@ std::optional<std::vector<kinematics::PathSurrogate>> read_surrogates(
     if (all.size() != model.muscles.size())
       throw ReadError(path, 0,
                       fmt::format("expected {} muscles, found {}", model.muscles.size(),
-                                  json.at("muscles").size()));
+                                  object.at("muscles").size()));
     return all;
   } catch (const nlohmann::json::exception& error) {
     throw ReadError(path, 0,

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
+#include "myoid/core/index.h"
 #include "myoid/model/constraints.h"
 #include "myoid/model/kinematic_tree.h"
 #include "myoid/model/muscle_path.h"
@@ -21,8 +22,6 @@ namespace myoid::pipeline {
 namespace {
 
 using model::OsimXml;
-
-std::size_t at(Eigen::Index index) { return static_cast<std::size_t>(index); }
 
 model::BodyState default_state(const model::BodyModel& model) {
   model::BodyState state = model::make_state(model);

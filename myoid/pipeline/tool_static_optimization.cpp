@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
+#include "myoid/core/index.h"
 #include "myoid/forces/static_optimization.h"
 #include "myoid/pipeline/analysis_reports.h"
 #include "myoid/pipeline/opensim_files.h"
@@ -12,8 +13,6 @@
 
 namespace myoid::pipeline {
 namespace {
-
-std::size_t at(Eigen::Index index) { return static_cast<std::size_t>(index); }
 
 /// Instead of the muscles an actuator of unit strength on every free coordinate, named like it.
 model::BodyModel with_coordinate_actuators(model::BodyModel model) {

@@ -17,7 +17,7 @@ using Level = Finding::Level;
 /// Joints go some degrees beyond what a model's author wrote down, and zero postures differ.
 constexpr double kBeyond_rad = 10.0 * kDegree;
 
-std::string degrees(double angle_rad) { return fmt::format("{:.0f}", angle_rad / kDegree); }
+std::string whole_degrees(double angle_rad) { return fmt::format("{:.0f}", angle_rad / kDegree); }
 
 void check_angles(const Study& study,
                   const model::BodyModel& model,
@@ -47,9 +47,9 @@ void check_angles(const Study& study,
          fmt::format("{} goes from {} to {} deg, but the model's range is {} to {} deg{}: {:.0f} % "
                      "of the samples lie outside, by up to {} deg, where its muscle paths mean "
                      "nothing; {}",
-                     name, degrees(q.minCoeff()), degrees(q.maxCoeff()), degrees(c.lower),
-                     degrees(c.upper), c.clamped ? "" : " (not clamped)", 100.0 * share,
-                     degrees(far),
+                     name, whole_degrees(q.minCoeff()), whole_degrees(q.maxCoeff()),
+                     whole_degrees(c.lower), whole_degrees(c.upper),
+                     c.clamped ? "" : " (not clamped)", 100.0 * share, whole_degrees(far),
                      negated ? "is its sign the opposite of the model's? Negate the column"
                              : "is its zero or sign another than the model's?"),
          {},

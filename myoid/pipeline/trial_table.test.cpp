@@ -14,7 +14,7 @@ TrialSpec trial_of(const std::string& text) {
   return read_trial({root, "dir/study.toml", "[[trial]]"}, "dir");
 }
 
-std::string message_of(const std::string& text) {
+std::string trial_message(const std::string& text) {
   return test::message_of([&] { (void)trial_of(text); });
 }
 
@@ -26,37 +26,37 @@ TEST(TrialTable, PathsAreResolvedAgainstTheFolder) {
 }
 
 TEST(TrialTable, ATrialWithoutEmgIsRefusedWithTheRemedy) {
-  const std::string message = message_of("name = \"t1\"\nmarkers = \"a.trc\"\n");
+  const std::string message = trial_message("name = \"t1\"\nmarkers = \"a.trc\"\n");
   EXPECT_NE(message.find("dir/study.toml:1"), std::string::npos) << message;
   EXPECT_NE(message.find("'t1' has no 'emg'"), std::string::npos) << message;
-  EXPECT_EQ(message_of("name = \"t1\"\nmarkers = \"a.trc\"\nuse = \"static\"\n"), "(no error)");
+  EXPECT_EQ(trial_message("name = \"t1\"\nmarkers = \"a.trc\"\nuse = \"static\"\n"), "(no error)");
 }
 
 TEST(TrialTable, AnEndBeforeTheStartIsRefused) {
-  EXPECT_NE(message_of(kTrial + "start_s = 10\nend_s = 5\n").find("after start_s = 10 s"),
+  EXPECT_NE(trial_message(kTrial + "start_s = 10\nend_s = 5\n").find("after start_s = 10 s"),
             std::string::npos);
 }
 
 TEST(TrialTable, ANameThatWouldLeaveTheResultsFolderIsRefused) {
   for (const std::string name : {"../t", "a/b", ".", "", "figures"}) {
     const std::string message =
-        message_of("name = \"" + name + "\"\nmotion = \"a.mot\"\nemg = \"e.sto\"\n");
+        trial_message("name = \"" + name + "\"\nmotion = \"a.mot\"\nemg = \"e.sto\"\n");
     EXPECT_NE(message.find("a trial's name becomes a folder"), std::string::npos) << name;
   }
 }
 
 TEST(TrialTable, OneFileHasOneClock) {
   const std::string text = "name = \"t\"\nmotion = \"a.sto\"\nemg = \"a.sto\"\n[sync]\n";
-  EXPECT_NE(message_of(text + "offset_s = 0.1\n").find("in one file"), std::string::npos);
-  EXPECT_EQ(message_of(text + "loads_offset_s = 0.1\n"), "(no error)");
+  EXPECT_NE(trial_message(text + "offset_s = 0.1\n").find("in one file"), std::string::npos);
+  EXPECT_EQ(trial_message(text + "loads_offset_s = 0.1\n"), "(no error)");
 }
 
 TEST(TrialTable, ClocksAreJoinedByTriggersOrByANumber) {
   const std::string triggers = "[sync]\nemg_trigger = \"T\"\nmotion_trigger = \"start\"\n";
   EXPECT_EQ(trial_of(kTrial + triggers).sync->emg_trigger, "T");
-  EXPECT_NE(message_of(kTrial + triggers + "offset_s = 0.1\n").find("give one or the other"),
+  EXPECT_NE(trial_message(kTrial + triggers + "offset_s = 0.1\n").find("give one or the other"),
             std::string::npos);
-  EXPECT_NE(message_of(kTrial + "[sync]\nemg_trigger = \"T\"\n").find("give both"),
+  EXPECT_NE(trial_message(kTrial + "[sync]\nemg_trigger = \"T\"\n").find("give both"),
             std::string::npos);
 }
 

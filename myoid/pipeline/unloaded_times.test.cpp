@@ -31,7 +31,7 @@ model::BodyModel trunk(const Vec3& up) {
 
 /// Two seconds over a plate that bears `before` of the weight, and `in_gap` of it from 0.8 s on for
 /// `gap_s`, in which the body falls freely or not.
-struct Walk {
+struct WalkWithGap {
   double before = 1.0;
   double in_gap = 0.0;
   double gap_s = 0.4;
@@ -90,38 +90,38 @@ struct Walk {
 TEST(UnloadedTimes, AreThoseInWhichNobodyFliesAndNoPlateBears) {
   for (const bool markers : {false, true}) {
     SCOPED_TRACE(markers);
-    const std::vector<Finding> found = Walk{.markers = markers}.findings();
+    const std::vector<Finding> found = WalkWithGap{.markers = markers}.findings();
     ASSERT_EQ(found.size(), 1U);
     EXPECT_EQ(found[0].level, Finding::Level::warning);
     // 79 samples strictly inside 0.8 to 1.2 s, from the first to the last: 0.39 of 2 s.
     EXPECT_THAT(found[0].message, testing::HasSubstr("in 20 % of the trial (0.805 to 1.195 s)"));
-    EXPECT_TRUE((Walk{.falls = true, .markers = markers}.findings().empty()));
+    EXPECT_TRUE((WalkWithGap{.falls = true, .markers = markers}.findings().empty()));
   }
 }
 
 TEST(UnloadedTimes, OfAModelWhoseThirdAxisPointsUpAreTheSame) {
   for (const bool markers : {false, true}) {
-    EXPECT_EQ((Walk{.markers = markers, .up = 2}.findings().size()), 1U);
-    EXPECT_TRUE((Walk{.falls = true, .markers = markers, .up = 2}.findings().empty()));
+    EXPECT_EQ((WalkWithGap{.markers = markers, .up = 2}.findings().size()), 1U);
+    EXPECT_TRUE((WalkWithGap{.falls = true, .markers = markers, .up = 2}.findings().empty()));
   }
 }
 
 TEST(UnloadedTimes, AreToldOnTheMotionsClock) {
-  const std::vector<Finding> found = Walk{.clock_s = 60.0}.findings();
+  const std::vector<Finding> found = WalkWithGap{.clock_s = 60.0}.findings();
   ASSERT_EQ(found.size(), 1U);
   EXPECT_THAT(found[0].message, testing::HasSubstr("0.805 to 1.195 s"));
 }
 
 TEST(UnloadedTimes, ABriefGapAndALightStepAreNone) {
-  EXPECT_TRUE(Walk{.gap_s = 0.09}.findings().empty());
-  EXPECT_EQ(Walk{.gap_s = 0.12}.findings().size(), 1U);
-  EXPECT_TRUE(Walk{.in_gap = 0.08}.findings().empty());
-  EXPECT_EQ(Walk{.in_gap = 0.03}.findings().size(), 1U);
+  EXPECT_TRUE(WalkWithGap{.gap_s = 0.09}.findings().empty());
+  EXPECT_EQ(WalkWithGap{.gap_s = 0.12}.findings().size(), 1U);
+  EXPECT_TRUE(WalkWithGap{.in_gap = 0.08}.findings().empty());
+  EXPECT_EQ(WalkWithGap{.in_gap = 0.03}.findings().size(), 1U);
 }
 
 TEST(UnloadedTimes, APlateThatNeverBearsThePersonIsNotStoodUpon) {
-  EXPECT_TRUE(Walk{.before = 0.4}.findings().empty());
-  EXPECT_EQ(Walk{.before = 0.6}.findings().size(), 1U);
+  EXPECT_TRUE(WalkWithGap{.before = 0.4}.findings().empty());
+  EXPECT_EQ(WalkWithGap{.before = 0.6}.findings().size(), 1U);
 }
 
 }  // namespace

@@ -12,7 +12,7 @@
 namespace myoid::pipeline {
 namespace {
 
-constexpr Eigen::Index kFewest = 24;
+constexpr Eigen::Index kFewestWarmUpBlocks = 24;
 constexpr Eigen::Index kMostOrder = 8;
 /// The autoregression is estimated from the same blocks, which the t does not know.
 constexpr double kCaution = 1.25;
@@ -70,7 +70,7 @@ Eigen::MatrixXd filtered(const Eigen::MatrixXd& x, const Eigen::VectorXd& phi) {
 std::optional<WarmUp> find_warm_up(const Eigen::VectorXd& x, double least, double false_alarm) {
   if (!x.allFinite()) throw InvalidInput("warm-up: values must be finite");
   const Eigen::Index n = x.size();
-  if (n < kFewest) return std::nullopt;
+  if (n < kFewestWarmUpBlocks) return std::nullopt;
   const Eigen::VectorXd phi = autoregression(x.tail(n - n / 4));
   const Eigen::VectorXd y = filtered(x, phi);
   Eigen::MatrixXd regressors(n, 5);

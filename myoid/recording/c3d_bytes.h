@@ -10,6 +10,9 @@
 
 namespace myoid::recording {
 
+inline constexpr std::size_t kC3dBlock =
+    512;  ///< Bytes; header, parameters and data begin with one.
+
 /// Numbers of a C3D file in the byte order and the kind of real of its processor.
 ///
 /// A DEC (VAX F) real has the sign, 8 bits of exponent with bias 128 and the fraction 0.1f, its two

@@ -9,11 +9,10 @@
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
+#include "myoid/recording/c3d_bytes.h"
 
 namespace myoid::recording {
 namespace {
-
-constexpr std::uint64_t kBlock = 512;
 
 bool is_rate(double rate) { return std::isfinite(rate) && rate > 1e-3 && rate < 1e7; }
 
@@ -157,7 +156,7 @@ std::optional<C3dProcessor> guess_processor(std::span<const std::byte> head,
     const C3dHeader h = read_c3d_header(head, {p});
     const double scale = std::abs(static_cast<double>(h.scale));
     if (is_rate(static_cast<double>(h.rate_hz)) && h.rate_hz >= 1.0F && scale > 1e-6 &&
-        scale < 1e4 && h.data_block >= 2 && (h.data_block - 1) * kBlock < file_size &&
+        scale < 1e4 && h.data_block >= 2 && (h.data_block - 1) * kC3dBlock < file_size &&
         h.points + h.analog_total > 0 && h.points < 10000)
       return p;
   }
@@ -174,7 +173,7 @@ C3dLayout find_c3d_layout(const C3dHeader& header,
   // Where the data begin.
   const auto data_start = count_in(file.find("POINT", "DATA_START"));
   std::size_t block = header.data_block;
-  const auto inside = [&](std::size_t b) { return b >= 2 && (b - 1) * kBlock < file_size; };
+  const auto inside = [&](std::size_t b) { return b >= 2 && (b - 1) * kC3dBlock < file_size; };
   if (!inside(block)) {
     if (!data_start || !inside(*data_start)) {
       throw ReadError(path, 0,
@@ -191,14 +190,14 @@ C3dLayout find_c3d_layout(const C3dHeader& header,
                                       "header is taken",
                                       *data_start, block)});
   }
-  layout.data_offset = (block - 1) * kBlock;
+  layout.data_offset = (block - 1) * kC3dBlock;
   std::uint64_t available = file_size - layout.data_offset;
   const auto rotations = count_in(file.find("ROTATION", "USED"));
   if (rotations.value_or(0) > 0) {
     repairs.push_back(
         {0, fmt::format("a ROTATION group with {} rotations is left out", *rotations)});
     const auto at = count_in(file.find("ROTATION", "DATA_START"));
-    if (at && inside(*at) && *at > block) available = (*at - block) * kBlock;
+    if (at && inside(*at) && *at > block) available = (*at - block) * kC3dBlock;
   }
 
   // Integers or reals.
@@ -242,7 +241,7 @@ C3dLayout find_c3d_layout(const C3dHeader& header,
     found = true;
   };
   // Up to a whole block behind the data first: what needs more of it is less likely.
-  for (const std::uint64_t padding : {kBlock, 2 * kBlock}) {
+  for (const std::uint64_t padding : {kC3dBlock, 2 * kC3dBlock}) {
     for (const bool kind : kinds) {
       for (const Shape& s : shapes) {
         for (const std::size_t p : points) {

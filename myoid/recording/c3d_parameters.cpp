@@ -9,11 +9,10 @@
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
+#include "myoid/recording/c3d_bytes.h"
 
 namespace myoid::recording {
 namespace {
-
-constexpr std::size_t kBlock = 512;
 
 std::string chars(std::span<const std::byte> bytes) {
   std::string text(bytes.size(), '\0');
@@ -263,8 +262,8 @@ std::vector<std::byte> format_c3d_parameters(const std::vector<C3dGroup>& groups
       close_record(out, distance_at, p.name, number);
     }
   }
-  out.resize((out.size() + 2 + kBlock - 1) / kBlock * kBlock);  // ends with a zero length
-  const std::size_t blocks = out.size() / kBlock;
+  out.resize((out.size() + 2 + kC3dBlock - 1) / kC3dBlock * kC3dBlock);  // ends with a zero length
+  const std::size_t blocks = out.size() / kC3dBlock;
   if (blocks > 32000)
     throw InvalidInput("the C3D parameters are too many: at most 16 million bytes");
   // One byte for the number of blocks: readers go by the records where it does not suffice.

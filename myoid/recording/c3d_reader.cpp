@@ -17,8 +17,6 @@
 namespace myoid::recording {
 namespace {
 
-constexpr std::size_t kBlock = 512;
-
 /// The texts of NAME, NAME2, NAME3, ... one after the other.
 std::vector<std::string> all_texts(const C3dFile& file, std::string_view group, std::string name) {
   std::vector<std::string> list;
@@ -223,12 +221,12 @@ void read_rates(C3dFile& file,
 }  // namespace
 
 C3dHead read_c3d_head(ByteSource& source, const std::filesystem::path& path) {
-  if (source.size() < kBlock)
+  if (source.size() < kC3dBlock)
     throw ReadError(path, 0,
                     fmt::format("the file has {} bytes; a C3D file begins with a header of 512: it "
                                 "is cut off or none",
                                 source.size()));
-  const auto first = source.view(0, kBlock);
+  const auto first = source.view(0, kC3dBlock);
   const std::vector<std::byte> head(first.begin(), first.end());
   if (head[1] != std::byte{0x50}) {
     throw ReadError(path, 0,
@@ -240,10 +238,10 @@ C3dHead read_c3d_head(ByteSource& source, const std::filesystem::path& path) {
 
   // The parameter section, wherever it is.
   const auto block = static_cast<std::size_t>(head[0]);
-  std::size_t begin = block == 0 ? 0 : (block - 1) * kBlock;
+  std::size_t begin = block == 0 ? 0 : (block - 1) * kC3dBlock;
   bool known = false;
-  for (const std::size_t candidate : {begin, kBlock}) {
-    if (known || candidate < kBlock || candidate + 4 > source.size()) continue;
+  for (const std::size_t candidate : {begin, kC3dBlock}) {
+    if (known || candidate < kC3dBlock || candidate + 4 > source.size()) continue;
     const auto code = static_cast<std::uint8_t>(source.view(candidate, 4)[3]);
     if (code < 84 || code > 86) continue;
     known = true;
@@ -275,7 +273,7 @@ C3dHead read_c3d_head(ByteSource& source, const std::filesystem::path& path) {
   if (known) {
     constexpr std::uint64_t kMost = std::uint64_t{1} << 25U;
     const std::uint64_t data =
-        header.data_block == 0 ? 0 : (header.data_block - 1) * std::uint64_t{kBlock};
+        header.data_block == 0 ? 0 : (header.data_block - 1) * std::uint64_t{kC3dBlock};
     const std::uint64_t limit =
         std::min(data > begin ? std::min(data, source.size()) : source.size(), begin + kMost);
     file.groups = parse_c3d_parameters(source.view(0, static_cast<std::size_t>(limit)), begin + 4,
@@ -308,7 +306,7 @@ C3dHead read_c3d_head(ByteSource& source, const std::filesystem::path& path) {
 
 namespace {
 
-C3dFile read(ByteSource& source, const std::filesystem::path& path) {
+C3dFile read_c3d_source(ByteSource& source, const std::filesystem::path& path) {
   C3dHead head = read_c3d_head(source, path);
   C3dFile& file = head.file;
   const C3dLayout& layout = head.layout;
@@ -330,12 +328,12 @@ C3dFile read(ByteSource& source, const std::filesystem::path& path) {
 
 C3dFile read_c3d(const std::filesystem::path& path) {
   ByteSource source(path);
-  return read(source, path);
+  return read_c3d_source(source, path);
 }
 
 C3dFile parse_c3d(std::span<const std::byte> bytes, const std::filesystem::path& path) {
   ByteSource source(bytes, path);
-  return read(source, path);
+  return read_c3d_source(source, path);
 }
 
 }  // namespace myoid::recording

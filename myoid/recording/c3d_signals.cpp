@@ -14,7 +14,8 @@
 namespace myoid::recording {
 namespace {
 
-constexpr Eigen::Index kBlock = 64;  ///< Rows turned into columns at a time, to stay in the cache.
+constexpr Eigen::Index kBlockRows =
+    64;  ///< Rows turned into columns at a time, to stay in the cache.
 
 /// Where the name without its subject's prefix begins; 0 if it has none.
 std::size_t bare_begin(const std::string& name) {
@@ -84,8 +85,8 @@ C3dMarkerBuilder::C3dMarkerBuilder(const C3dFile& file, Eigen::Index frames)
 void C3dMarkerBuilder::add(Eigen::Index first, Eigen::Index count, const float* rows) {
   constexpr double kGap = std::numeric_limits<double>::quiet_NaN();
   const auto width = static_cast<Eigen::Index>(4 * points_);
-  for (Eigen::Index begin = 0; begin < count; begin += kBlock) {
-    const Eigen::Index end = std::min(count, begin + kBlock);
+  for (Eigen::Index begin = 0; begin < count; begin += kBlockRows) {
+    const Eigen::Index end = std::min(count, begin + kBlockRows);
     for (std::size_t m = 0; m < columns_.size(); ++m) {
       const float* p = rows + begin * width + 4 * columns_[m];
       const auto to = static_cast<Eigen::Index>(3 * m);
@@ -148,8 +149,8 @@ TimeSeries c3d_analog(const C3dFile& file, const std::vector<Eigen::Index>& colu
   for (const Eigen::Index c : chosen)
     channels.push_back(units.channels[static_cast<std::size_t>(c)]);
   Eigen::MatrixXd values(samples, static_cast<Eigen::Index>(chosen.size()));
-  for (Eigen::Index begin = 0; begin < samples; begin += kBlock) {
-    const Eigen::Index end = std::min(samples, begin + kBlock);
+  for (Eigen::Index begin = 0; begin < samples; begin += kBlockRows) {
+    const Eigen::Index end = std::min(samples, begin + kBlockRows);
     for (std::size_t k = 0; k < chosen.size(); ++k) {
       const CountScale& scale = units.scales[static_cast<std::size_t>(chosen[k])];
       for (Eigen::Index i = begin; i < end; ++i) {

@@ -16,8 +16,6 @@
 namespace myoid::recording {
 namespace {
 
-constexpr std::size_t kBlock = 512;
-
 std::int16_t whole(double value, bool is_unsigned, const std::string& what) {
   const double low = is_unsigned ? 0.0 : -32768.0;
   const double high = is_unsigned ? 65535.0 : 32767.0;
@@ -99,14 +97,14 @@ std::vector<std::byte> format_c3d(const C3dFile& file, const C3dFormat& format) 
   // Parameters: once to know their length, then with the block at which the data begin.
   std::vector<C3dGroup> groups = c3d_description(file, scale);
   std::vector<std::byte> section = format_c3d_parameters(groups, number);
-  const std::size_t data_block = 2 + section.size() / kBlock;
+  const std::size_t data_block = 2 + section.size() / kC3dBlock;
   set_data_start(groups, data_block);
   section = format_c3d_parameters(groups, number);
 
-  const std::size_t data = (data_block - 1) * kBlock;
+  const std::size_t data = (data_block - 1) * kC3dBlock;
   const std::size_t frame_bytes = (4 * points + analog) * (format.integer ? 2 : 4);
   const std::size_t size = data + frames * frame_bytes;
-  std::vector<std::byte> out((size + kBlock - 1) / kBlock * kBlock);
+  std::vector<std::byte> out((size + kC3dBlock - 1) / kC3dBlock * kC3dBlock);
 
   // Header.
   const auto word = [&](std::size_t n, std::size_t value) {
@@ -129,7 +127,7 @@ std::vector<std::byte> format_c3d(const C3dFile& file, const C3dFormat& format) 
   word(10, static_cast<std::size_t>(file.channels.empty() ? 1 : file.analog_per_frame));
   real(11, file.point_rate_hz);
   word(150, 12345);
-  std::copy(section.begin(), section.end(), out.begin() + kBlock);
+  std::copy(section.begin(), section.end(), out.begin() + kC3dBlock);
 
   // Samples.
   bool is_unsigned = false;

@@ -13,7 +13,7 @@
 namespace myoid::recording {
 namespace {
 
-std::vector<std::string> cells_of(std::string_view line, char separator) {
+std::vector<std::string> csv_cells(std::string_view line, char separator) {
   std::vector<std::string> cells;
   std::string cell;
   bool quoted = false;
@@ -105,11 +105,11 @@ CsvTable parse_csv_table(std::string_view text, const std::filesystem::path& pat
   table.separator = count(';') > 0 && count(';') >= count(',') ? ';'
                     : count('\t') > count(',')                 ? '\t'
                                                                : ',';
-  table.names = cells_of(head, table.separator);
+  table.names = csv_cells(head, table.separator);
   while (!table.names.empty() && table.names.back().empty()) table.names.pop_back();
   for (++n; n < lines.size(); ++n) {
     if (trim(lines[n]).empty() || trim(lines[n]).starts_with('#')) continue;
-    std::vector<std::string> cells = cells_of(lines[n], table.separator);
+    std::vector<std::string> cells = csv_cells(lines[n], table.separator);
     while (cells.size() > table.names.size() && cells.back().empty()) cells.pop_back();
     if (cells.size() != table.names.size()) {
       throw ReadError(path, n + 1,

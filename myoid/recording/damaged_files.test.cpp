@@ -23,6 +23,8 @@
 #include "myoid/recording/storage_reader.h"
 #include "myoid/recording/trc_reader.h"
 
+#include "tests/support/repair_lines.h"
+
 namespace myoid::recording {
 namespace {
 
@@ -38,12 +40,6 @@ Content of(const TimeSeries& series, std::vector<Repair> repairs) {
 
 Content of(const MarkerSeries& markers, std::vector<Repair> repairs) {
   return {markers.time_s, markers.positions_m, std::move(repairs)};
-}
-
-std::string all(const std::vector<Repair>& repairs) {
-  std::string text;
-  for (const Repair& r : repairs) text += fmt::format("{}: {}; ", r.line, r.message);
-  return text;
 }
 
 /// A kind of file: a good one and its reader.
@@ -88,10 +84,10 @@ void examine(const Kind& kind, const std::string& bytes, const std::string& what
         less = less || !std::isnan(written);
       } else {
         if (i + 1 == found.time_s.size() &&
-            all(found.repairs).find(kLastRowKept) != std::string::npos)
+            test::repair_lines(found.repairs).find(kLastRowKept) != std::string::npos)
           continue;  // the only row there is, and said to be doubtful
         ASSERT_NEAR(value, written, 1e-12 * std::abs(written))
-            << "row " << i << ", column " << c << "; said: " << all(found.repairs);
+            << "row " << i << ", column " << c << "; said: " << test::repair_lines(found.repairs);
       }
     }
   }

@@ -209,7 +209,7 @@ std::vector<std::size_t> choose(const Header& header, std::vector<Repair>& repai
   return by_rate[best];
 }
 
-EdfFile read(ByteSource& source, const std::filesystem::path& path) {
+EdfFile read_edf_source(ByteSource& source, const std::filesystem::path& path) {
   EdfFile file;
   const Header header = read_header(source, path, file.repairs);
   const std::uint64_t available = source.size() - header.bytes;
@@ -322,12 +322,12 @@ EdfFile read(ByteSource& source, const std::filesystem::path& path) {
 
 EdfFile read_edf(const std::filesystem::path& path) {
   ByteSource source(path);
-  return read(source, path);
+  return read_edf_source(source, path);
 }
 
 EdfFile parse_edf(std::span<const std::byte> bytes, const std::filesystem::path& path) {
   ByteSource source(bytes, path);
-  return read(source, path);
+  return read_edf_source(source, path);
 }
 
 }  // namespace myoid::recording

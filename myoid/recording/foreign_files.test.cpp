@@ -16,6 +16,7 @@
 #include "myoid/recording/recording.h"
 #include "myoid/recording/trc_reader.h"
 
+#include "tests/support/repair_lines.h"
 #include "tests/support/temporary_folder.h"
 
 namespace myoid::recording {
@@ -45,12 +46,6 @@ std::vector<std::byte> changed(std::vector<std::byte> bytes,
   bytes[2 * (word - 1)] = static_cast<std::byte>(value & 0xFFU);
   bytes[2 * (word - 1) + 1] = static_cast<std::byte>(value >> 8U);
   return bytes;
-}
-
-std::string all(const std::vector<Repair>& repairs) {
-  std::string text;
-  for (const Repair& r : repairs) text += to_string(r) + "\n";
-  return text;
 }
 
 /// The parameter of this name gets another first value, or another name.
@@ -85,7 +80,7 @@ TEST(ForeignC3d, OnlyAnalogChannelsWithoutARateOfPoints) {
   bytes = with_parameter(changed(changed(bytes, 11, 0), 12, 0), "RATE", "NONE");
   const C3dFile rated = parse_c3d(bytes, "f.c3d");
   EXPECT_DOUBLE_EQ(rated.analog_rate_hz(), 100.0);
-  EXPECT_THAT(all(rated.repairs), HasSubstr("ANALOG:RATE"));
+  EXPECT_THAT(test::repair_lines(rated.repairs), HasSubstr("ANALOG:RATE"));
 }
 
 TEST(ForeignC3d, MoreThan65535FramesWhateverTheHeaderSays) {
@@ -94,7 +89,7 @@ TEST(ForeignC3d, MoreThan65535FramesWhateverTheHeaderSays) {
   // Programs write the last frame as 65535, wrapped at 16 bits, or 0.
   for (const int last : {65535, 70000 - 65536, 0}) {
     const C3dFile file = parse_c3d(changed(bytes, 5, static_cast<std::uint16_t>(last)), "f.c3d");
-    EXPECT_EQ(file.frame_count(), 70000) << last << all(file.repairs);
+    EXPECT_EQ(file.frame_count(), 70000) << last << test::repair_lines(file.repairs);
   }
 }
 
@@ -113,7 +108,7 @@ TEST(ForeignC3d, WithoutAScaleInTheHeaderTheParameterDecides) {
       changed(changed(format_c3d(c3d_of(10, 2, 1), {C3dProcessor::intel, true}), 7, 0), 8, 0);
   const C3dFile file = parse_c3d(bytes, "f.c3d");
   EXPECT_FLOAT_EQ(file.points(3, 4), 8.0F);
-  EXPECT_THAT(all(file.repairs), HasSubstr("POINT:SCALE"));
+  EXPECT_THAT(test::repair_lines(file.repairs), HasSubstr("POINT:SCALE"));
 }
 
 TEST(ForeignC3d, TheEventGroupCountsBeforeTheHeadersEvents) {

@@ -20,6 +20,7 @@
 #include "myoid/recording/trc_reader.h"
 
 #include "tests/support/data_folder.h"
+#include "tests/support/repair_lines.h"
 #include "tests/support/temporary_folder.h"
 
 namespace myoid::recording {
@@ -80,12 +81,6 @@ std::string refusal(Action&& action) {
     return error.what();
   }
   return "(no error)";
-}
-
-std::string all(const std::vector<Repair>& repairs) {
-  std::string text;
-  for (const Repair& r : repairs) text += std::to_string(r.line) + ": " + r.message + "\n";
-  return text;
 }
 
 std::string with(std::string text, const std::string& old, const std::string& replacement) {
@@ -193,7 +188,7 @@ TEST(ParseStorage, AnEmptyCellNeverShiftsTheOthers) {
               (void)parse_storage(head + "0\t\t2\t3\t4\n", "f.sto");
             }).find("f.sto:4: a cell is empty"),
             std::string::npos);
-  EXPECT_EQ(all(parse_storage(head + "0\t\t2\t3\n", "f.sto").repairs),
+  EXPECT_EQ(test::repair_lines(parse_storage(head + "0\t\t2\t3\n", "f.sto").repairs),
             "4: two tabs in a row taken as one, since the numbers are as many as the columns\n");
 }
 
@@ -225,25 +220,25 @@ TEST(ParseTrc, CommaDecimalsAreReadAndSaid) {
   const TrcFile file = parse_trc(with(with(kTrc, "1.5\t2.5", "1,5\t2,5"), "0.01", "0,01"), "f.trc");
   EXPECT_DOUBLE_EQ(file.markers.positions_m(1, 0), 1.5e-3);
   EXPECT_EQ(file.markers.time_s[1], 0.01);
-  EXPECT_EQ(all(file.repairs), "8: comma decimals read as decimal points\n");
+  EXPECT_EQ(test::repair_lines(file.repairs), "8: comma decimals read as decimal points\n");
 }
 
 TEST(ParseTrc, WithoutTheLineOfAxesTheFirstFrameIsNotLost) {
   const TrcFile file = parse_trc(with(kTrc, "\t\tX1\tY1\tZ1\tX2\tY2\tZ2\n\n", ""), "f.trc");
   EXPECT_EQ(file.markers.frame_count(), 3);
-  EXPECT_EQ(all(file.repairs), "5: the line X1 Y1 Z1 ... is missing\n");
+  EXPECT_EQ(test::repair_lines(file.repairs), "5: the line X1 Y1 Z1 ... is missing\n");
 }
 
 TEST(ParseTrc, ARowThatEndsEarlyIsSaidAndTheLastOneOfACutFileLeftOut) {
   const TrcFile inside =
       parse_trc(with(kTrc, "1\t0\t1\t2\t3\t4\t5\t6\n", "1\t0\t1\t2\t3\n"), "f.trc");
   EXPECT_TRUE(inside.markers.missing(0, 1));
-  EXPECT_EQ(all(inside.repairs),
+  EXPECT_EQ(test::repair_lines(inside.repairs),
             "7: a row ends early; the markers behind its end are taken as missing\n");
   const TrcFile cut =
       parse_trc(kTrc.substr(0, kTrc.size() - 4), "f.trc");  // "... 4 5" and the 6 is gone
   EXPECT_EQ(cut.markers.frame_count(), 2);
-  EXPECT_EQ(all(cut.repairs),
+  EXPECT_EQ(test::repair_lines(cut.repairs),
             "9: the last row has no line end and may be cut off; left out\n3: the header says 3 "
             "frames, there are 2\n");
 }
@@ -260,8 +255,9 @@ TEST(ParseTrc, RefusesATimeThatIsNoTimeAndASecondColumnThatIsNone) {
 }
 
 TEST(ParseTrc, NumbersWithoutAMarkerAreSaid) {
-  EXPECT_EQ(all(parse_trc(with(kTrc, "4\t5\t6\n2", "4\t5\t6\t7\n2"), "f.trc").repairs),
-            "7: a row has more numbers than there are markers; the surplus is ignored\n");
+  EXPECT_EQ(
+      test::repair_lines(parse_trc(with(kTrc, "4\t5\t6\n2", "4\t5\t6\t7\n2"), "f.trc").repairs),
+      "7: a row has more numbers than there are markers; the surplus is ignored\n");
 }
 
 TEST(CsvSeries, TakesUnitsFromARowBelowTheHeader) {
@@ -376,7 +372,7 @@ TEST(ParseTrc, HeaderValuesTwoTabsApartAreReadInTheirOrder) {
   const auto path = test::data_folder() / "gait-emg/markers_walk.trc";
   MYOID_REQUIRE_DATA(path);
   const TrcFile file = read_trc(path);
-  EXPECT_TRUE(file.repairs.empty()) << all(file.repairs);
+  EXPECT_TRUE(file.repairs.empty()) << test::repair_lines(file.repairs);
   EXPECT_DOUBLE_EQ(file.markers.positions_m(0, 0), -0.652630);
 }
 

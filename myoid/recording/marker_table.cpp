@@ -19,7 +19,7 @@ namespace {
 
 using Lines = std::vector<std::string_view>;
 
-std::vector<std::string> cells_of(std::string_view line, char separator) {
+std::vector<std::string> unquoted_cells(std::string_view line, char separator) {
   std::vector<std::string> cells;
   for (const std::string_view part : split(line, separator)) {
     std::string_view cell = trim(part);
@@ -31,7 +31,7 @@ std::vector<std::string> cells_of(std::string_view line, char separator) {
 }
 
 /// Where the numbers of a table stand and what they are.
-struct Layout {
+struct MarkerLayout {
   char separator = ',';
   std::vector<std::string> names;
   std::size_t first_column = 0;             ///< Of the first marker.
@@ -66,7 +66,7 @@ std::string text_behind(const Lines& lines,
                         std::string_view word,
                         char separator) {
   for (std::size_t n = 0; n < std::min(most, lines.size()); ++n) {
-    const auto cells = cells_of(lines[n], separator);
+    const auto cells = unquoted_cells(lines[n], separator);
     for (std::size_t c = 0; c + 1 < cells.size(); ++c) {
       std::string_view cell = cells[c];
       if (cell.ends_with(':')) cell.remove_suffix(1);
@@ -87,7 +87,7 @@ std::optional<std::string> name_before_axis(const std::string& cell, char axis) 
 }
 
 /// Columns NAME x, NAME y, NAME z after up to two columns of frames and times.
-bool take_triples(const std::vector<std::string>& header, Layout& layout) {
+bool take_triples(const std::vector<std::string>& header, MarkerLayout& layout) {
   std::size_t c = 0;
   for (; c < header.size() && c < 3; ++c) {
     if (name_before_axis(header[c], 'x')) break;
@@ -106,19 +106,19 @@ bool take_triples(const std::vector<std::string>& header, Layout& layout) {
   return !layout.names.empty();
 }
 
-std::optional<Layout> vicon(const Lines& lines) {
-  Layout layout;
+std::optional<MarkerLayout> vicon_layout(const Lines& lines) {
+  MarkerLayout layout;
   std::size_t at = 0;
   while (at < lines.size() && trim(lines[at]).substr(0, 12) != "Trajectories") ++at;
   if (at + 5 >= lines.size()) return std::nullopt;
   const std::string_view title = trim(lines[at]).substr(12);
   if (title.find_first_not_of(",\t;") != std::string_view::npos) return std::nullopt;
   layout.separator = lines[at + 3].find('\t') != std::string_view::npos ? '\t' : ',';
-  const auto rate = cells_of(lines[at + 1], layout.separator);
+  const auto rate = unquoted_cells(lines[at + 1], layout.separator);
   layout.rate_hz = rate.empty() ? 0.0 : parse_number(rate[0]).value_or(0.0);
-  const auto names = cells_of(lines[at + 2], layout.separator);
-  const auto axes = cells_of(lines[at + 3], layout.separator);
-  const auto units = cells_of(lines[at + 4], layout.separator);
+  const auto names = unquoted_cells(lines[at + 2], layout.separator);
+  const auto axes = unquoted_cells(lines[at + 3], layout.separator);
+  const auto units = unquoted_cells(lines[at + 4], layout.separator);
   if (axes.empty() || !equal_ignoring_case(axes[0], "Frame")) return std::nullopt;
   layout.frame_column = 0;
   layout.first_column = 2;
@@ -134,17 +134,17 @@ std::optional<Layout> vicon(const Lines& lines) {
   return layout;
 }
 
-std::optional<Layout> qualisys(const Lines& lines) {
+std::optional<MarkerLayout> qualisys_layout(const Lines& lines) {
   if (lines.empty() || !trim(lines[0]).starts_with("NO_OF_FRAMES")) return std::nullopt;
   if (text_behind(lines, 20, "DATA_INCLUDED", '\t') != "3D") return std::nullopt;
-  Layout layout;
+  MarkerLayout layout;
   layout.separator = '\t';
   layout.unit = "mm";
   layout.zero_is_missing = true;
   layout.rate_hz = number_behind(lines, 20, "FREQUENCY").value_or(0.0);
   std::size_t n = 0;
   for (; n < std::min<std::size_t>(lines.size(), 40); ++n) {
-    auto cells = cells_of(lines[n], '\t');
+    auto cells = unquoted_cells(lines[n], '\t');
     if (cells.empty()) continue;
     if (cells[0] == "MARKER_NAMES") {
       while (!cells.empty() && cells.back().empty()) cells.pop_back();
@@ -169,14 +169,14 @@ std::optional<Layout> qualisys(const Lines& lines) {
   return layout;
 }
 
-std::optional<Layout> bts(const Lines& lines) {
+std::optional<MarkerLayout> bts_layout(const Lines& lines) {
   if (lines.empty() || !trim(lines[0]).starts_with("BTS ASCII")) return std::nullopt;
-  Layout layout;
+  MarkerLayout layout;
   layout.separator = '\t';
   layout.unit = text_behind(lines, 20, "Measure unit", '\t');
   layout.rate_hz = number_behind(lines, 20, "Frequency").value_or(0.0);
   for (std::size_t n = 0; n < std::min<std::size_t>(lines.size(), 40); ++n) {
-    const auto cells = cells_of(lines[n], '\t');
+    const auto cells = unquoted_cells(lines[n], '\t');
     if (cells.empty() || !equal_ignoring_case(cells[0], "Frame")) continue;
     if (!take_triples(cells, layout)) return std::nullopt;
     layout.first_row = n + 1;
@@ -186,12 +186,12 @@ std::optional<Layout> bts(const Lines& lines) {
   return std::nullopt;
 }
 
-std::optional<Layout> first_principles(const Lines& lines) {
+std::optional<MarkerLayout> first_principles(const Lines& lines) {
   for (std::size_t n = 0; n < std::min<std::size_t>(lines.size(), 20); ++n) {
     for (const char separator : {',', '\t', ';'}) {
-      Layout layout;
+      MarkerLayout layout;
       layout.separator = separator;
-      const auto cells = cells_of(lines[n], separator);
+      const auto cells = unquoted_cells(lines[n], separator);
       if (cells.size() < 4 || !equal_ignoring_case(cells[0], "Frame") ||
           !take_triples(cells, layout))
         continue;
@@ -211,12 +211,12 @@ std::optional<Layout> first_principles(const Lines& lines) {
 }
 
 /// Motive: type, name, number and quantity of each column in rows of their own above "Frame".
-std::optional<Layout> optitrack(const Lines& lines) {
+std::optional<MarkerLayout> optitrack(const Lines& lines) {
   if (lines.empty() || !trim(lines[0]).starts_with("Format Version")) return std::nullopt;
-  Layout layout;
+  MarkerLayout layout;
   std::vector<std::string> types, names, kinds;
   for (std::size_t n = 1; n < std::min<std::size_t>(lines.size(), 12); ++n) {
-    auto cells = cells_of(lines[n], ',');
+    auto cells = unquoted_cells(lines[n], ',');
     if (cells.size() < 5) continue;
     const auto has = [&](std::string_view word) {
       return std::find(cells.begin(), cells.end(), word) != cells.end();
@@ -257,10 +257,10 @@ std::optional<Layout> optitrack(const Lines& lines) {
   return layout;
 }
 
-std::optional<Layout> find_layout(const Lines& lines) {
-  if (auto layout = qualisys(lines)) return layout;
-  if (auto layout = bts(lines)) return layout;
-  if (auto layout = vicon(lines)) return layout;
+std::optional<MarkerLayout> find_layout(const Lines& lines) {
+  if (auto layout = qualisys_layout(lines)) return layout;
+  if (auto layout = bts_layout(lines)) return layout;
+  if (auto layout = vicon_layout(lines)) return layout;
   if (auto layout = optitrack(lines)) return layout;
   return first_principles(lines);
 }
@@ -271,13 +271,13 @@ bool is_marker_table(std::string_view text) { return find_layout(split_lines(tex
 
 MarkerFile parse_marker_table(std::string_view text, const std::filesystem::path& path) {
   const Lines lines = split_lines(text);
-  const std::optional<Layout> found = find_layout(lines);
+  const std::optional<MarkerLayout> found = find_layout(lines);
   if (!found) {
     throw ReadError(path, 0,
                     "this is no table of markers that is known (Vicon Trajectories, Qualisys 3D, "
                     "BTS Point 3D tracks, NDI, OptiTrack); export .c3d or .trc");
   }
-  const Layout& layout = *found;
+  const MarkerLayout& layout = *found;
   MarkerFile file;
   file.unit = layout.unit;
   if (file.unit.empty()) {
@@ -309,7 +309,7 @@ MarkerFile parse_marker_table(std::string_view text, const std::filesystem::path
     // A row of nothing but separators is a frame in which nothing was seen.
     if (trim(lines[n]).empty() && lines[n].find(layout.separator) == std::string_view::npos)
       continue;
-    auto cells = cells_of(lines[n], layout.separator);
+    auto cells = unquoted_cells(lines[n], layout.separator);
     // Gaps at the end of a row may be cut off with their separators, by a spreadsheet.
     if (cells.size() <= layout.first_column) {
       throw ReadError(path, n + 1, fmt::format("{} cells, expected {}", cells.size(), width));

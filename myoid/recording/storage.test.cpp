@@ -15,7 +15,7 @@ const std::string kPlain =
     "Coordinates\nversion=1\nnRows=3\nnColumns=3\ninDegrees="
     "yes\n\nendheader\ntime\tq1\ttx\n0\t90\t1\n0.1\t180\t2\n0.2\t-45\t3\n";
 
-std::string message_of(const std::string& text) {
+std::string storage_message(const std::string& text) {
   try {
     (void)parse_storage(text, "f.sto");
   } catch (const ReadError& error) {
@@ -81,18 +81,19 @@ TEST(ParseStorage, ReadsCommaDecimals) {
 }
 
 TEST(ParseStorage, TellsTheLineOfWhatItRefuses) {
-  EXPECT_NE(
-      message_of("x\nendheader\ntime\tq\n0\t1\n1\n").find("f.sto:5: expected 2 numbers, found 1"),
-      std::string::npos);
-  EXPECT_NE(message_of("x\nendheader\ntime\tq\n0\tabc\n")
+  EXPECT_NE(storage_message("x\nendheader\ntime\tq\n0\t1\n1\n")
+                .find("f.sto:5: expected 2 numbers, found 1"),
+            std::string::npos);
+  EXPECT_NE(storage_message("x\nendheader\ntime\tq\n0\tabc\n")
                 .find("f.sto:4: expected a number in column 2 ('q'), found 'abc'"),
             std::string::npos);
-  EXPECT_NE(message_of("x\nendheader\ntime\tq\n1\t1\n0\t1\n").find("f.sto:5: time goes backwards"),
+  EXPECT_NE(
+      storage_message("x\nendheader\ntime\tq\n1\t1\n0\t1\n").find("f.sto:5: time goes backwards"),
+      std::string::npos);
+  EXPECT_NE(storage_message("x\nno header end\n").find("no line 'endheader'"), std::string::npos);
+  EXPECT_NE(storage_message("x\nendheader\nt\tq\n").find("first column to be 'time'"),
             std::string::npos);
-  EXPECT_NE(message_of("x\nno header end\n").find("no line 'endheader'"), std::string::npos);
-  EXPECT_NE(message_of("x\nendheader\nt\tq\n").find("first column to be 'time'"),
-            std::string::npos);
-  EXPECT_NE(message_of("x\nendheader\ntime\tq\n").find("no rows"), std::string::npos);
+  EXPECT_NE(storage_message("x\nendheader\ntime\tq\n").find("no rows"), std::string::npos);
 }
 
 TEST(ParseStorage, AFileCutOffAnywhereGivesDataOrAnErrorButNeverACrash) {

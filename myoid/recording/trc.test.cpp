@@ -20,7 +20,7 @@ MarkerSeries two_markers() {
   return m;
 }
 
-std::string message_of(const std::string& text) {
+std::string trc_message(const std::string& text) {
   try {
     (void)parse_trc(text, "f.trc");
   } catch (const ReadError& error) {
@@ -71,13 +71,13 @@ TEST(Trc, TellsWhatItRefusesAndWhere) {
   const std::string good = format_trc(two_markers(), "f.trc");
   std::string bad = good;
   bad.replace(bad.find("\tmm\t"), 4, "\tinch\t");
-  EXPECT_NE(message_of(bad).find("f.trc:3: Units: found 'inch'"), std::string::npos);
+  EXPECT_NE(trc_message(bad).find("f.trc:3: Units: found 'inch'"), std::string::npos);
   bad = good;
   bad.replace(bad.find("300"), 3, "3x0");
-  EXPECT_NE(message_of(bad).find("f.trc:7: expected a number for Z of marker 'a', found '3x0'"),
+  EXPECT_NE(trc_message(bad).find("f.trc:7: expected a number for Z of marker 'a', found '3x0'"),
             std::string::npos)
-      << message_of(bad);
-  EXPECT_NE(message_of("name,x\n1,2\n").find("expected 'PathFileType'"), std::string::npos);
+      << trc_message(bad);
+  EXPECT_NE(trc_message("name,x\n1,2\n").find("expected 'PathFileType'"), std::string::npos);
 }
 
 TEST(Trc, CutOffAnywhereItGivesDataOrAnErrorButNeverACrash) {

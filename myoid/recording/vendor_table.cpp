@@ -17,7 +17,7 @@ std::string joined(const std::vector<std::string>& lines) {
   return text;
 }
 
-std::vector<std::string> cells_of(std::string_view line, char separator) {
+std::vector<std::string> trimmed_cells(std::string_view line, char separator) {
   std::vector<std::string> cells;
   for (const std::string_view cell : split(line, separator)) cells.emplace_back(trim(cell));
   return cells;
@@ -37,17 +37,17 @@ std::string with_unit(const std::string& name, const std::string& unit) {
 }
 
 /// Nexus: "Devices", rate, devices, channels, units, rows, an empty line.
-PlainTable vicon(const Lines& lines) {
+PlainTable vicon_rows(const Lines& lines) {
   std::size_t at = 0;
   while (at < lines.size() && !trim(lines[at]).starts_with("Devices")) ++at;
   if (at + 5 >= lines.size() ||
       trim(lines[at]).substr(7).find_first_not_of(",\t;") != std::string_view::npos)
     return {};
   const char separator = lines[at + 3].find('\t') != std::string_view::npos ? '\t' : ',';
-  const auto rate = cells_of(lines[at + 1], separator);
-  const auto devices = cells_of(lines[at + 2], separator);
-  auto names = cells_of(lines[at + 3], separator);
-  const auto units = cells_of(lines[at + 4], separator);
+  const auto rate = trimmed_cells(lines[at + 1], separator);
+  const auto devices = trimmed_cells(lines[at + 2], separator);
+  auto names = trimmed_cells(lines[at + 3], separator);
+  const auto units = trimmed_cells(lines[at + 4], separator);
   if (rate.empty() || !parse_number(rate[0]) || names.empty() ||
       !equal_ignoring_case(names[0], "Frame"))
     return {};
@@ -73,12 +73,12 @@ PlainTable vicon(const Lines& lines) {
 }
 
 /// Qualisys: CHANNEL_NAMES and no header row, or "SAMPLE" and "TIME" before the names.
-PlainTable qualisys(const Lines& lines) {
+PlainTable qualisys_rows(const Lines& lines) {
   if (lines.empty() || !trim(lines[0]).starts_with("NO_OF_SAMPLES")) return {};
   std::vector<std::string> out(lines.begin(), lines.end());
   std::vector<std::string> names;
   for (std::size_t n = 0; n < std::min<std::size_t>(lines.size(), 40); ++n) {
-    const auto cells = cells_of(lines[n], '\t');
+    const auto cells = trimmed_cells(lines[n], '\t');
     if (cells.empty()) continue;
     if (cells[0] == "CHANNEL_NAMES") {
       names.assign(cells.begin() + 1, cells.end());
@@ -98,7 +98,7 @@ PlainTable qualisys(const Lines& lines) {
 }
 
 /// BIOPAC: file, "0.5 msec/sample", "2 channels", name and unit of each, "CH1 CH2", counts, rows.
-PlainTable biopac(const Lines& lines) {
+PlainTable biopac_rows(const Lines& lines) {
   if (lines.size() < 8) return {};
   const auto interval = split_words(lines[1]);
   const auto channels = split_words(lines[2]);
@@ -117,7 +117,7 @@ PlainTable biopac(const Lines& lines) {
   const std::size_t header = 3 + 2 * n_channels;
   if (header + 1 >= lines.size()) return {};
   const char separator = lines[header].find('\t') != std::string_view::npos ? '\t' : ',';
-  auto names = cells_of(lines[header], separator);
+  auto names = trimmed_cells(lines[header], separator);
   while (!names.empty() && names.back().empty()) names.pop_back();
   // A column of times before the channels, in any unit: the interval says the same more exactly.
   const std::size_t before = names.size() - std::min(names.size(), n_channels);
@@ -139,12 +139,12 @@ PlainTable biopac(const Lines& lines) {
 }
 
 /// BTS: "Measure unit:" for all tracks.
-PlainTable bts(const Lines& lines) {
+PlainTable bts_rows(const Lines& lines) {
   if (lines.empty() || !trim(lines[0]).starts_with("BTS ASCII")) return {};
   std::vector<std::string> out(lines.begin(), lines.end());
   std::string unit;
   for (std::size_t n = 1; n < std::min<std::size_t>(lines.size(), 40); ++n) {
-    auto cells = cells_of(lines[n], '\t');
+    auto cells = trimmed_cells(lines[n], '\t');
     if (cells.size() > 1 && cells[0] == "Measure unit:") unit = cells[1];
     if (cells.empty() || !equal_ignoring_case(cells[0], "Frame")) continue;
     for (std::size_t c = 1; c < cells.size(); ++c) {
@@ -162,7 +162,7 @@ PlainTable bts(const Lines& lines) {
 
 PlainTable plain_vendor_table(std::string_view text) {
   const Lines lines = split_lines(text);
-  for (const auto& known : {vicon, qualisys, biopac, bts}) {
+  for (const auto& known : {vicon_rows, qualisys_rows, biopac_rows, bts_rows}) {
     PlainTable table = known(lines);
     if (table.text.empty()) continue;
     // A last row that is cut off stays recognizable.

@@ -1,15 +1,14 @@
 #include "myoid/report/packing.h"
 
 #include <cmath>
-#include <limits>
 #include <random>
 
 #include <gtest/gtest.h>
 
+#include "myoid/core/numbers.h"
+
 namespace myoid::report {
 namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 std::string base64_of(std::string_view text) {
   const std::vector<std::uint8_t> bytes(text.begin(), text.end());

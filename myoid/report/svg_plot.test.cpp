@@ -1,10 +1,11 @@
 #include "myoid/report/svg_plot.h"
 
 #include <cmath>
-#include <limits>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include "myoid/core/numbers.h"
 
 namespace myoid::report {
 namespace {
@@ -13,8 +14,6 @@ using ::testing::DoubleNear;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::Not;
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 TEST(Ticks, AreRoundAndInside) {
   EXPECT_THAT(ticks(0.0, 10.0, 5), ElementsAre(0.0, 2.0, 4.0, 6.0, 8.0, 10.0));

@@ -1,5 +1,7 @@
 #include "myoid/report/typeset.h"
 
+#include <algorithm>
+
 #include "myoid/report/svg_plot.h"
 
 namespace myoid::report {
@@ -40,6 +42,12 @@ std::string typeset(std::string_view text) {
     result += "<code>" + escape_xml(text.substr(open + 1, close - open - 1)) + "</code>";
     text.remove_prefix(close + 1);
   }
+}
+
+std::string spelled(std::string_view name) {
+  std::string words(name);
+  std::replace(words.begin(), words.end(), '_', ' ');
+  return words;
 }
 
 }  // namespace myoid::report

@@ -13,4 +13,7 @@ namespace myoid::report {
 /// partner stays.
 [[nodiscard]] std::string typeset(std::string_view text);
 
+/// A name of the files as words: "max_isometric_force" becomes "max isometric force".
+[[nodiscard]] std::string spelled(std::string_view name);
+
 }  // namespace myoid::report

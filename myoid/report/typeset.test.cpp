@@ -19,5 +19,10 @@ TEST(Typeset, EscapesAndShowsCode) {
   EXPECT_EQ(typeset("<script>"), "&lt;script&gt;");
 }
 
+TEST(Spelled, MakesWordsOfAName) {
+  EXPECT_EQ(spelled("max_isometric_force"), "max isometric force");
+  EXPECT_EQ(spelled("elbow"), "elbow");
+}
+
 }  // namespace
 }  // namespace myoid::report

@@ -17,7 +17,7 @@ namespace {
 using math::FilterBand;
 
 constexpr double kEmgFrom_hz = 20.0;
-constexpr double kWindow_s = 0.25;
+constexpr double kEmgWindow_s = 0.25;
 
 double rms(const Eigen::Ref<const Eigen::VectorXd>& x) {
   return x.size() > 0 ? std::sqrt(x.squaredNorm() / static_cast<double>(x.size())) : 0.0;
@@ -197,7 +197,7 @@ class ChannelCheck {
   void artifact(std::vector<Fault>& faults) const {
     const Eigen::VectorXd slow = filtered(filtered(x_, FilterBand::high_pass, 1.0, rate_hz_),
                                           FilterBand::low_pass, 15.0, rate_hz_);
-    const auto width = static_cast<Eigen::Index>(kWindow_s * rate_hz_);
+    const auto width = static_cast<Eigen::Index>(kEmgWindow_s * rate_hz_);
     double loudest = 0.0;
     for (Eigen::Index i = 0; i + width <= x_.size(); i += width)
       loudest = std::max(loudest, rms(emg_.segment(i, width)));
@@ -232,12 +232,12 @@ class ChannelCheck {
 
 /// The largest correlation within 10 ms either way, over at most 20 one-second blocks.
 double common_share(const Eigen::VectorXd& a, const Eigen::VectorXd& b, double rate_hz) {
-  constexpr Eigen::Index kBlocks = 20;
+  constexpr Eigen::Index kMostBlocks = 20;
   const auto lags = static_cast<Eigen::Index>(0.01 * rate_hz);
   const auto width = static_cast<Eigen::Index>(rate_hz);
   const Eigen::Index room = a.size() - 2 * lags - width;
   if (room < 0) return 0.0;
-  const Eigen::Index blocks = std::clamp<Eigen::Index>(room / width + 1, 1, kBlocks);
+  const Eigen::Index blocks = std::clamp<Eigen::Index>(room / width + 1, 1, kMostBlocks);
   double best = 0.0;
   for (Eigen::Index lag = -lags; lag <= lags; ++lag) {
     double ab = 0.0;

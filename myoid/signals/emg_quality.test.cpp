@@ -12,7 +12,7 @@
 namespace myoid::signals {
 namespace {
 
-constexpr double kRate_hz = 2000.0;
+constexpr double kEmgRate_hz = 2000.0;
 constexpr Eigen::Index kSamples = 24000;
 
 /// Band-limited noise (difference of a moving average's ends) that rests and works in turn, up to
@@ -22,7 +22,7 @@ Eigen::VectorXd muscle(std::uint64_t seed) {
   Eigen::VectorXd x(kSamples);
   double slow = 0.0;
   for (Eigen::Index i = 0; i < kSamples; ++i) {
-    const double t = static_cast<double>(i) / kRate_hz;
+    const double t = static_cast<double>(i) / kEmgRate_hz;
     const double effort = std::max(0.0, std::sin(1.3 * t + static_cast<double>(seed)));
     const double white = random.normal();
     const double emg = white - slow;
@@ -39,11 +39,12 @@ TimeSeries recording(const std::vector<Eigen::VectorXd>& columns) {
     values.col(static_cast<Eigen::Index>(c)) = columns[c];
     channels.push_back({std::string(1, static_cast<char>('a' + c)), Unit::volt});
   }
-  return {Eigen::VectorXd::LinSpaced(kSamples, 0.0, (kSamples - 1) / kRate_hz), channels, values};
+  return {Eigen::VectorXd::LinSpaced(kSamples, 0.0, (kSamples - 1) / kEmgRate_hz), channels,
+          values};
 }
 
 Eigen::ArrayXd seconds() {
-  return Eigen::ArrayXd::LinSpaced(kSamples, 0.0, (kSamples - 1) / kRate_hz);
+  return Eigen::ArrayXd::LinSpaced(kSamples, 0.0, (kSamples - 1) / kEmgRate_hz);
 }
 
 /// The kinds found in one channel with this fault.

@@ -6,19 +6,9 @@
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
+#include "myoid/math/statistics.h"
 
 namespace myoid::signals {
-namespace {
-
-double median(Eigen::VectorXd values) {
-  const auto middle = values.begin() + values.size() / 2;
-  std::nth_element(values.begin(), middle, values.end());
-  if (values.size() % 2 == 1) return *middle;
-  return 0.5 * (*middle + *std::max_element(values.begin(), middle));
-}
-
-}  // namespace
-
 TimeSeries load_cell_wrench(const TimeSeries& recorded, const LoadCell& cell) {
   if (cell.channels.size() != 6) {
     throw InvalidInput(
@@ -38,7 +28,10 @@ TimeSeries load_cell_wrench(const TimeSeries& recorded, const LoadCell& cell) {
                     rest.sample_count(), cell.zero_start_s, cell.zero_end_s));
   }
   Eigen::RowVectorXd zero(6);
-  for (Eigen::Index c = 0; c < 6; ++c) zero[c] = median(rest.values().col(c));
+  for (Eigen::Index c = 0; c < 6; ++c) {
+    const Eigen::VectorXd values = rest.values().col(c);
+    zero[c] = math::median({values.begin(), values.end()});
+  }
   Eigen::MatrixXd wrench =
       cell.sign * (channels.values().rowwise() - zero) * cell.calibration.transpose();
   return {channels.time_s(),

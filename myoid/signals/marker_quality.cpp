@@ -7,18 +7,13 @@
 #include <fmt/format.h>
 
 #include "myoid/core/units.h"
+#include "myoid/math/statistics.h"
 #include "myoid/signals/marker_swaps.h"
 
 namespace myoid::signals {
 namespace {
 
 using recording::MarkerSeries;
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 /// Frames whose distance is worth measuring: some hundred, evenly spread.
 Eigen::Index stride_of(const MarkerSeries& markers) {
@@ -42,12 +37,12 @@ std::optional<double> size_ratio(const MarkerSeries& markers,
                                .norm();
           if (std::isfinite(d)) seen.push_back(d);
         }
-        if (model_m > 1e-3 && !seen.empty()) ratios.push_back(median(seen) / model_m);
+        if (model_m > 1e-3 && !seen.empty()) ratios.push_back(math::upper_median(seen) / model_m);
       }
     }
   }
   if (ratios.empty()) return std::nullopt;
-  return median(ratios);
+  return math::upper_median(ratios);
 }
 
 /// Median over frames of the largest distance between two markers.
@@ -64,7 +59,7 @@ std::optional<double> extent_m(const MarkerSeries& markers) {
     if (largest > 0.0) extents.push_back(largest);
   }
   if (extents.empty()) return std::nullopt;
-  return median(extents);
+  return math::upper_median(extents);
 }
 
 std::string probable_unit(double too_large) {
@@ -159,7 +154,7 @@ std::vector<Fault> check_marker_jumps(const MarkerSeries& markers, const Quality
       at.push_back(f);
     }
     if (away.empty()) continue;
-    const double limit = std::max({limits.jump_m, fast_m, 10.0 * median(away)});
+    const double limit = std::max({limits.jump_m, fast_m, 10.0 * math::upper_median(away)});
     const auto worst = std::max_element(away.begin(), away.end());
     if (*worst <= limit) continue;
     // Neighbors of a jump are off their path too: separate jumps are five frames apart.

@@ -10,7 +10,7 @@
 namespace myoid::signals {
 namespace {
 
-TimeSeries sine(double frequency_hz, double interval_s, Eigen::Index count) {
+TimeSeries sine_series(double frequency_hz, double interval_s, Eigen::Index count) {
   Eigen::VectorXd t(count);
   Eigen::MatrixXd x(count, 1);
   for (Eigen::Index i = 0; i < count; ++i) {
@@ -21,7 +21,7 @@ TimeSeries sine(double frequency_hz, double interval_s, Eigen::Index count) {
 }
 
 TEST(OpensimLowpass, PassesHalfOfTheAmplitudeAtTheCutoff) {
-  const TimeSeries filtered = opensim_lowpass(sine(6.0, 0.01, 1001), 6.0);
+  const TimeSeries filtered = opensim_lowpass(sine_series(6.0, 0.01, 1001), 6.0);
   // Far from the ends, over whole periods.
   const Eigen::Index middle = filtered.sample_count() / 2;
   const double largest = filtered.values().col(0).segment(middle - 200, 400).cwiseAbs().maxCoeff();
@@ -50,8 +50,8 @@ TEST(OpensimLowpass, SamplesAtTheSmallestInterval) {
 }
 
 TEST(OpensimLowpass, RefusesWhatItCannotFilter) {
-  EXPECT_THROW((void)opensim_lowpass(sine(1.0, 0.01, 50), 0.0), InvalidInput);
-  EXPECT_THROW((void)opensim_lowpass(sine(1.0, 0.01, 3), 6.0), InvalidInput);
+  EXPECT_THROW((void)opensim_lowpass(sine_series(1.0, 0.01, 50), 0.0), InvalidInput);
+  EXPECT_THROW((void)opensim_lowpass(sine_series(1.0, 0.01, 3), 6.0), InvalidInput);
   Eigen::VectorXd t(5);
   t << 0.0, 1e-9, 1.0, 2.0, 3.0;
   EXPECT_THROW((void)opensim_lowpass(TimeSeries(t, {{"q", Unit::radian}}, Eigen::MatrixXd(t)), 6.0),

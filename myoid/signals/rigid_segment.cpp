@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
+#include "myoid/math/statistics.h"
 
 namespace myoid::signals {
 namespace {
@@ -22,12 +23,6 @@ Eigen::Matrix3Xd seen(const MarkerSeries& markers, const RigidSegment& segment, 
   for (Eigen::Index k = 0; k < points.cols(); ++k)
     points.col(k) = markers.position(f, segment.markers[static_cast<std::size_t>(k)]);
   return points;
-}
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 /// Two markers of one segment and the frames in which their distance is not theirs.
@@ -48,7 +43,7 @@ Pair compare(const MarkerSeries& markers, Eigen::Index a, Eigen::Index b, const 
     distances.push_back((markers.position(f, a) - markers.position(f, b)).norm());
   }
   if (distances.empty()) return pair;
-  pair.median_m = median(distances);
+  pair.median_m = math::upper_median(distances);
   const double limit = std::max(l.rigid_m, l.rigid_share * pair.median_m);
   for (std::size_t i = 0; i < frames.size(); ++i) {
     const double change = std::abs(distances[i] - pair.median_m);

@@ -11,11 +11,10 @@
 #include <unsupported/Eigen/FFT>
 
 #include "myoid/core/error.h"
+#include "myoid/core/numbers.h"
 
 namespace myoid::signals {
 namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 /// Next number at or above n without prime factors above 5, and even: quick to transform.
 Eigen::Index quick_length(Eigen::Index n) {

@@ -14,10 +14,10 @@
 namespace myoid::signals {
 namespace {
 
-constexpr double kSegment_s = 0.25;
+constexpr double kShortSegment_s = 0.25;
 constexpr double kQuiet_s = 1.0;
-constexpr double kQuiet = 1.5;      ///< Power of a segment over that of the quietest second ...
-constexpr double kStandsOut = 3.0;  ///< ... and over the mean of the quiet ones.
+constexpr double kQuiet = 1.5;  ///< Power of a segment over that of the quietest second ...
+constexpr double kLoud = 3.0;   ///< ... and over the mean of the quiet ones.
 constexpr std::size_t kFewestSegments = 20;
 constexpr double kSmooth_hz = 10.0;   ///< Half width of the smoothing of a spectrum.
 constexpr double kMostGain = 1000.0;  ///< Of the power; 30 dB.
@@ -39,12 +39,12 @@ Segments segments_of(std::span<const TimeSeries* const> trials, const std::strin
   for (const TimeSeries* trial : trials) {
     const double rate_hz = trial->mean_rate_hz();
     const Eigen::VectorXd x = trial->column(channel);
-    const auto length = static_cast<Eigen::Index>(std::lround(kSegment_s * rate_hz));
-    const auto per_quiet = static_cast<std::size_t>(std::lround(kQuiet_s / kSegment_s));
+    const auto length = static_cast<Eigen::Index>(std::lround(kShortSegment_s * rate_hz));
+    const auto per_quiet = static_cast<std::size_t>(std::lround(kQuiet_s / kShortSegment_s));
     std::vector<Eigen::VectorXd> density;
     std::vector<double> power;
     for (Eigen::Index first = 0; first + length <= x.size(); first += length) {
-      PowerSpectrum spectrum = power_spectrum(x.segment(first, length), rate_hz, kSegment_s);
+      PowerSpectrum spectrum = power_spectrum(x.segment(first, length), rate_hz, kShortSegment_s);
       result.frequency_hz = spectrum.frequency_hz;
       power.push_back(spectrum.density.sum() * spectrum.frequency_hz[1]);
       density.push_back(std::move(spectrum.density));
@@ -163,7 +163,7 @@ WhiteningFilter design_one(std::span<const TimeSeries* const> trials,
     shape = Eigen::VectorXd::Zero(segments.frequency_hz.size());
     for (std::size_t i = 0; i < segments.power.size(); ++i) {
       const double above = segments.power[i] - segments.quiet_power;
-      if (!(segments.power[i] > kStandsOut * segments.quiet_power)) continue;
+      if (!(segments.power[i] > kLoud * segments.quiet_power)) continue;
       active.push_back(above);
       shape += (segments.density[i] - segments.quiet) / above;
     }

@@ -12,9 +12,9 @@
 namespace myoid::signals {
 namespace {
 
-constexpr double kRate_hz = 1000.0;
+constexpr double kWhitenedRate_hz = 1000.0;
 
-TimeSeries series(const Eigen::MatrixXd& x, double rate_hz = kRate_hz) {
+TimeSeries volts(const Eigen::MatrixXd& x, double rate_hz = kWhitenedRate_hz) {
   std::vector<Channel> channels;
   for (Eigen::Index c = 0; c < x.cols(); ++c)
     channels.push_back({"m" + std::to_string(c + 1), Unit::volt});
@@ -59,19 +59,19 @@ double relative_spread(const Eigen::VectorXd& envelope) {
 }
 
 TEST(Whitening, HasTheGainOfTheInverseSpectrumWhereTheMuscleStandsOut) {
-  const TimeSeries x = series(effort(1.0, 0.002, 1));
+  const TimeSeries x = volts(effort(1.0, 0.002, 1));
   const TimeSeries* one = &x;
   const WhiteningFilter f = design_whitening(std::span(&one, 1), 10.0).front();
   ASSERT_TRUE(f.reason.empty()) << f.reason;
   const auto gain = [&](double hz) {
     double sum = f.half[0];
     for (Eigen::Index m = 1; m < f.half.size(); ++m)
-      sum += 2.0 * f.half[m] * std::cos(2.0 * kPi * hz * static_cast<double>(m) / kRate_hz);
+      sum += 2.0 * f.half[m] * std::cos(2.0 * kPi * hz * static_cast<double>(m) / kWhitenedRate_hz);
     return std::abs(sum);
   };
   // |1 - 1.2 z^-1 + 0.5 z^-2| undoes the recursion.
   const auto inverse = [](double hz) {
-    const double w = 2.0 * kPi * hz / kRate_hz;
+    const double w = 2.0 * kPi * hz / kWhitenedRate_hz;
     return std::hypot(1.0 - 1.2 * std::cos(w) + 0.5 * std::cos(2.0 * w),
                       1.2 * std::sin(w) - 0.5 * std::sin(2.0 * w));
   };
@@ -84,7 +84,7 @@ TEST(Whitening, HasTheGainOfTheInverseSpectrumWhereTheMuscleStandsOut) {
 }
 
 TEST(Whitening, TheEnvelopeSpreadsByTheRootOfTheBandwidthLess) {
-  const TimeSeries x = series(effort(1.0, 0.01, 2));
+  const TimeSeries x = volts(effort(1.0, 0.01, 2));
   const EmgStages plain = process_emg(x, {.whitening = false});
   const EmgStages even = process_emg(x);
   const TimeSeries* one = &x;
@@ -104,7 +104,7 @@ TEST(Whitening, TheEnvelopeSpreadsByTheRootOfTheBandwidthLess) {
 TEST(Whitening, DoesNotRaiseNoiseAboveTheMuscle) {
   // Ten times fainter than the noise above 250 Hz: a filter without regard to the noise would let
   // it through there.
-  const TimeSeries x = series(effort(1.0, 0.7, 3));
+  const TimeSeries x = volts(effort(1.0, 0.7, 3));
   const TimeSeries* one = &x;
   const WhiteningFilter f = design_whitening(std::span(&one, 1), 20.0).front();
   const EmgStages plain = process_emg(x, {.whitening = false});
@@ -122,8 +122,8 @@ TEST(Whitening, AnEffortOfATenthReadsATenth) {
   // 1.5 % of the maximum, and 50 Hz, which the notch takes out.
   Eigen::VectorXd low = effort(0.1, 0.015, 4), high = effort(1.0, 0.015, 5);
   for (Eigen::Index k = 0; k < low.size(); ++k)
-    low[k] += 3e-6 * std::sin(2.0 * kPi * 50.0 * static_cast<double>(k) / kRate_hz);
-  const TimeSeries a = series(low), b = series(high);
+    low[k] += 3e-6 * std::sin(2.0 * kPi * 50.0 * static_cast<double>(k) / kWhitenedRate_hz);
+  const TimeSeries a = volts(low), b = volts(high);
   const TimeSeries* both[] = {&a, &b};
   const std::vector<EmgStages> stages = process_emg(both);
   const std::vector<TrialEnvelope> trials{{"a", false, &stages[0].envelope},
@@ -137,10 +137,10 @@ TEST(Whitening, AnEffortOfATenthReadsATenth) {
 TEST(Whitening, LeavesAloneWhatIsWhiteOrNeverRises) {
   Eigen::VectorXd flat = white(60000, 6);
   flat.head(10000) *= 0.01;
-  const TimeSeries level = series(1e-4 * flat);
+  const TimeSeries level = volts(1e-4 * flat);
   const TimeSeries* one = &level;
   EXPECT_FALSE(design_whitening(std::span(&one, 1), 20.0).front().reason.empty());
-  const TimeSeries constant = series(1e-4 * colored(60000, 7));
+  const TimeSeries constant = volts(1e-4 * colored(60000, 7));
   one = &constant;
   const WhiteningFilter f = design_whitening(std::span(&one, 1), 20.0).front();
   EXPECT_FALSE(f.reason.empty());
@@ -150,8 +150,8 @@ TEST(Whitening, LeavesAloneWhatIsWhiteOrNeverRises) {
 
 TEST(Whitening, ShortSlowAndSilentRecordingsStayAsTheyAre) {
   for (const TimeSeries& x :
-       {series(effort(1.0, 0.01, 8).head(30)), series(effort(1.0, 0.01, 8), 200.0),
-        series(Eigen::VectorXd::Zero(20000))}) {
+       {volts(effort(1.0, 0.01, 8).head(30)), volts(effort(1.0, 0.01, 8), 200.0),
+        volts(Eigen::VectorXd::Zero(20000))}) {
     const TimeSeries* one = &x;
     const auto filters = design_whitening(std::span(&one, 1), 20.0);
     EXPECT_FALSE(filters.front().reason.empty());
@@ -161,19 +161,19 @@ TEST(Whitening, ShortSlowAndSilentRecordingsStayAsTheyAre) {
 }
 
 TEST(Whitening, DelaysNothing) {
-  const TimeSeries x = series(effort(1.0, 0.01, 9));
+  const TimeSeries x = volts(effort(1.0, 0.01, 9));
   const TimeSeries* one = &x;
   const auto filters = design_whitening(std::span(&one, 1), 20.0);
   Eigen::VectorXd pulse = Eigen::VectorXd::Zero(1001);
   pulse[500] = 1.0;
-  const Eigen::VectorXd y = whiten(series(pulse), filters).values().col(0);
+  const Eigen::VectorXd y = whiten(volts(pulse), filters).values().col(0);
   EXPECT_LT((y - y.reverse()).cwiseAbs().maxCoeff(), 1e-15);
   EXPECT_GT(y.cwiseAbs().maxCoeff(), 0.1);
 }
 
 TEST(Whitening, EveryTrialMustHaveTheChannelsOfTheFirst) {
-  const TimeSeries a = series(Eigen::MatrixXd::Zero(60000, 2));
-  const TimeSeries b = series(effort(1.0, 0.01, 10));
+  const TimeSeries a = volts(Eigen::MatrixXd::Zero(60000, 2));
+  const TimeSeries b = volts(effort(1.0, 0.01, 10));
   const TimeSeries* both[] = {&a, &b};
   EXPECT_THROW((void)design_whitening(both, 20.0), InvalidInput);
 }

@@ -11,13 +11,8 @@ namespace {
 
 using Hill = muscle::HillParameters<double>;
 
-constexpr double kSharedStrengthSd = 0.2;
-constexpr double kStrengthSd = 0.15;
-constexpr double kWholeStrengthSd = 0.25;  // of both together
-constexpr double kFiberLengthSd = 0.10;
 constexpr double kWidthSd = 0.12;  // of l_sh / l_0
 constexpr double kConcentricCurvatureSd = 0.3;
-constexpr double kSpeedSd = 0.2;
 constexpr double kPlateauSd = 0.15;
 constexpr double kSlopeRatioSd = 0.5;
 constexpr double kTendonSd = 0.03;

@@ -6,6 +6,13 @@
 
 namespace myoid::simulation {
 
+// Standard deviations between persons, of draw_muscles and draw_true_arm.
+inline constexpr double kSharedStrengthSd = 0.2;  ///< Of ln F_max, the whole person's.
+inline constexpr double kStrengthSd = 0.15;       ///< Of ln F_max, per muscle.
+inline constexpr double kWholeStrengthSd = 0.25;  ///< Of both together.
+inline constexpr double kFiberLengthSd = 0.10;    ///< Of l_0 over its mean.
+inline constexpr double kSpeedSd = 0.2;           ///< Of ln v_max.
+
 /// Muscle parameters of a virtual person, drawn about `literature` with `spec.spread` times these
 /// standard deviations: ln F_max 0.2 for the whole person and 0.15 per muscle, l_0 10 %, l_sh
 /// 0.12 l_0, ln V_sh 0.3, ln v_max 0.2, V_ml 0.15, ln S 0.5 (slope of f_v in lengthening over that

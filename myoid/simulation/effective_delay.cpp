@@ -11,8 +11,8 @@ namespace myoid::simulation {
 namespace {
 
 constexpr double kLongest_s = 0.25;
-constexpr double kStep_s = 0.005;
-constexpr auto kCount = static_cast<std::size_t>(kLongest_s / kStep_s + 0.5) + 1;
+constexpr double kDelayStep_s = 0.005;
+constexpr auto kCount = static_cast<std::size_t>(kLongest_s / kDelayStep_s + 0.5) + 1;
 constexpr double kRate_hz = 25.0;
 /// What makes a sample count less in a fit: noise of the torque, and of the EMG relative to it.
 constexpr double kTorqueSd_nm = 0.3, kEmgSd = 0.14;
@@ -102,7 +102,7 @@ double effective_delay_s(const TrueArm& person,
             1.0 / (kTorqueSd_nm * kTorqueSd_nm + kEmgSd * kEmgSd * beyond_rest[m] * beyond_rest[m]);
       }
       for (std::size_t k = 0; k < kCount; ++k) {
-        const PerMuscle u = performance->drive(t - static_cast<double>(k) * kStep_s);
+        const PerMuscle u = performance->drive(t - static_cast<double>(k) * kDelayStep_s);
         for (std::size_t m = 0; m < 4; ++m) {
           const double x = u[m] * per_activation[m];
           const double y = beyond_rest[m];
@@ -118,11 +118,11 @@ double effective_delay_s(const TrueArm& person,
   }
   const auto best =
       static_cast<std::size_t>(std::min_element(left.begin(), left.end()) - left.begin());
-  if (best == 0 || best + 1 == kCount) return static_cast<double>(best) * kStep_s;
+  if (best == 0 || best + 1 == kCount) return static_cast<double>(best) * kDelayStep_s;
   // The bottom of the parabola through the three lowest.
   const double fall = left[best - 1] - left[best];
   const double rise = left[best + 1] - left[best];
-  return (static_cast<double>(best) + 0.5 * (fall - rise) / (fall + rise)) * kStep_s;
+  return (static_cast<double>(best) + 0.5 * (fall - rise) / (fall + rise)) * kDelayStep_s;
 }
 
 }  // namespace myoid::simulation

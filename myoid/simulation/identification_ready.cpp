@@ -14,8 +14,8 @@
 namespace myoid::simulation {
 namespace {
 
-constexpr double kMotionRate_hz = 100.0;    ///< The study's default.
-constexpr double kEnvelopeRate_hz = 250.0;  ///< It holds nothing above some 15 Hz.
+constexpr double kMotionRate_hz = 100.0;        ///< The study's default.
+constexpr double kKeptEnvelopeRate_hz = 250.0;  ///< It holds nothing above some 15 Hz.
 
 /// Every so-manieth sample, down to about the rate.
 TimeSeries thinned(const TimeSeries& series, double rate_hz) {
@@ -50,7 +50,7 @@ void process_emg(const VirtualRecording& recording, ReadyPerson& person) {
       signals::find_normalisation(views, {.window_s = recording.protocol.mvc_window_s});
   for (std::size_t i = 0; i < envelopes.size(); ++i) {
     person.trials[i].activation =
-        thinned(signals::normalise(envelopes[i], person.normalisation), kEnvelopeRate_hz);
+        thinned(signals::normalise(envelopes[i], person.normalisation), kKeptEnvelopeRate_hz);
   }
 }
 

@@ -15,6 +15,8 @@
 
 namespace myoid::simulation {
 
+inline constexpr double kGreatestActivation = 0.95;  ///< More cannot be asked of a person.
+
 /// What happens at one instant of a trial.
 struct Instant {
   Moment q;                         ///< Elbow flexion.

@@ -4,7 +4,6 @@
 #include <array>
 #include <cctype>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <set>
 #include <utility>
@@ -13,6 +12,7 @@
 #include <fmt/ranges.h>
 
 #include "myoid/core/error.h"
+#include "myoid/core/numbers.h"
 #include "myoid/core/units.h"
 #include "myoid/muscle/hill_parameters.h"
 #include "myoid/recording/text_file.h"
@@ -25,8 +25,6 @@ using recording::TomlTable;
 
 constexpr std::array<std::pair<std::string_view, Level>, 3> kLevels = {
     {{"L0", Level::noise_free}, {"L1", Level::noisy}, {"L2", Level::different}}};
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 constexpr std::array<std::pair<std::string_view, TrialKind>, 6> kKinds = {
     {{"flexion", TrialKind::flexion},

@@ -16,7 +16,8 @@ namespace {
 
 using muscle::TendonMode;
 
-constexpr TendonMode kModes[] = {TendonMode::rigid, TendonMode::equilibrium, TendonMode::mass};
+constexpr TendonMode kTendonModes[] = {TendonMode::rigid, TendonMode::equilibrium,
+                                       TendonMode::mass};
 
 /// Everything matters here: passive forces, pennation, shifted optimum, a load, gravity.
 Arm<double> whole_arm(TendonMode mode) {
@@ -47,7 +48,7 @@ SimulationOptions within(double tolerance) {
 // Central differences of the simulation itself, by every parameter of one flexor, of joint, arm and
 // start, and by the extensor's strength.
 TEST(Sensitivities, AgreeWithDifferences) {
-  for (const TendonMode mode : kModes) {
+  for (const TendonMode mode : kTendonModes) {
     const Arm<double> arm = whole_arm(mode);
     std::vector<std::string> names;
     for (const std::string& name : arm_parameter_names(arm)) {
@@ -130,7 +131,7 @@ TEST(Sensitivities, OfAHeldTorqueToTheStrengthsAddUpToTheTorque) {
 TEST(Sensitivities, LeadBackToTheParametersOfAMovement) {
   const std::vector<std::string> names = {"BIC.max_isometric_force", "BIC.optimal_fiber_length",
                                           "TRI.max_isometric_force", "arm_inertia"};
-  for (const TendonMode mode : kModes) {
+  for (const TendonMode mode : kTendonModes) {
     const Arm<double> truth = whole_arm(mode);
     SimulationOptions options = within(1e-10);
     options.output_times_s = {0.05, 0.1, 0.15, 0.2, 0.25, 0.3};

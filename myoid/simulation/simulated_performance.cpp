@@ -17,7 +17,6 @@ constexpr int kSamplesPerFatigue = 10;
 constexpr double kBefore_s = 1.0;  ///< The arm comes to rest, held, before the trial begins.
 constexpr double kAfter_s = 0.2;
 constexpr double kMotorNoiseCutoff_hz = 3.0;
-constexpr double kGreatestActivation = 0.95;
 constexpr double kLost_rad = 0.6;        ///< So far from what was wanted, the movement has failed.
 constexpr double kFeedback_radps = 6.0;  ///< Natural frequency of the correction ...
 constexpr double kDamping = 0.8;         ///< ... its damping ratio ...

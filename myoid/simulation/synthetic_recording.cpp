@@ -18,7 +18,6 @@
 namespace myoid::simulation {
 namespace {
 
-constexpr double kGreatestActivation = 0.95;  ///< More cannot be asked of a person.
 constexpr int kMostDraws = 500;
 
 std::vector<Channel> per_muscle(Unit unit) {

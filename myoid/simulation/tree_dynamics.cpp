@@ -1,13 +1,10 @@
 #include "myoid/simulation/tree_dynamics.h"
 
 #include "myoid/core/error.h"
+#include "myoid/core/index.h"
 
 namespace myoid::simulation {
-namespace {
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
-
-}  // namespace
+namespace {}  // namespace
 
 TreeDynamics::TreeDynamics(const model::BodyModel& model)
     : model_(&model), state_(model::make_state(model)) {

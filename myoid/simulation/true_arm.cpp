@@ -6,19 +6,15 @@
 #include "myoid/core/units.h"
 #include "myoid/model/arm7.h"
 #include "myoid/model/arm_osim.h"
+#include "myoid/simulation/draw_truth.h"
 #include "myoid/simulation/virtual_arm.h"
 
 namespace myoid::simulation {
 namespace {
 
-constexpr double kSharedStrengthSd = 0.2;
-constexpr double kStrengthSd = 0.15;
 constexpr double kHeadStrengthSd = 0.05;
-constexpr double kWholeStrengthSd = 0.25;  // of all together
-constexpr double kFiberLengthSd = 0.10;
 constexpr double kHeadFiberLengthSd = 0.03;
 constexpr double kReachSd = 0.03;  // of l_0 + l_ts
-constexpr double kSpeedSd = 0.2;
 constexpr double kHeldSd = 0.02;
 constexpr double kExcitationTimeSd = 0.2;
 constexpr double kActivationTimeSd = 0.25;

@@ -1,8 +1,6 @@
 // Documentation that leads nowhere, or leaves a command out, is noticed.
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <regex>
 #include <set>
 #include <string>
@@ -10,16 +8,10 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/architecture/source_tree.h"
+
+namespace myoid::architecture {
 namespace {
-
-namespace fs = std::filesystem;
-
-const fs::path kRoot = MYOID_SOURCE_DIR;
-
-std::string content(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
 
 std::vector<fs::path> pages() {
   std::vector<fs::path> result{kRoot / "README.md", kRoot / "CHANGELOG.md"};
@@ -97,3 +89,4 @@ TEST(Documentation, EveryKeyOfAStudyIsInItsPage) {
 }
 
 }  // namespace
+}  // namespace myoid::architecture

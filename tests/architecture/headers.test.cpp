@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <map>
 #include <set>
 #include <string>
@@ -9,11 +10,10 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/architecture/source_tree.h"
+
+namespace myoid::architecture {
 namespace {
-
-namespace fs = std::filesystem;
-
-const fs::path kRoot = MYOID_SOURCE_DIR;
 
 /// No test includes these; each with the reason. A missing test is a visible hole: this is the list
 /// of the holes, and it may only become shorter.
@@ -129,3 +129,4 @@ TEST(Headers, EveryHeaderIsGuarded) {
 }
 
 }  // namespace
+}  // namespace myoid::architecture

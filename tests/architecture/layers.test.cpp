@@ -2,7 +2,6 @@
 // list in cmake/layers.cmake.
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <regex>
 #include <set>
@@ -12,18 +11,10 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/architecture/source_tree.h"
+
+namespace myoid::architecture {
 namespace {
-
-namespace fs = std::filesystem;
-
-const fs::path kRoot = MYOID_SOURCE_DIR;
-
-std::string content(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  return text.str();
-}
 
 std::vector<std::string> words(const std::string& text) {
   std::istringstream stream(text);
@@ -144,3 +135,4 @@ TEST(Architecture, EveryHeaderIsListedForItsTarget) {
 }
 
 }  // namespace
+}  // namespace myoid::architecture

@@ -19,6 +19,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "myoid/core/index.h"
 #include "myoid/model/kinematic_tree.h"
 #include "myoid/model/osim_reader.h"
 #include "myoid/model/osim_writer.h"
@@ -37,8 +38,6 @@ namespace {
 using namespace myoid;
 using namespace myoid::opensim_table;
 namespace fs = std::filesystem;
-
-std::size_t at(Eigen::Index i) { return static_cast<std::size_t>(i); }
 
 /// J of inverse kinematics at the postures of a motion, frame by frame.
 Eigen::VectorXd objective(const fs::path& setup_file, const fs::path& motion) {

@@ -3,6 +3,7 @@
 // deviations are certified to 11 digits, found by NIST in 128-bit arithmetic from two starts each.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <numbers>
@@ -31,6 +32,11 @@ struct NistProblem {
   std::vector<long double> response;
   std::vector<std::vector<long double>> predictors;  ///< Per observation.
 };
+
+/// Correct digits: -log10 of the relative error, at most 11.
+inline double correct_digits(double found, double certified) {
+  return std::min(11.0, -std::log10(std::abs(found - certified) / std::abs(certified) + 1e-300));
+}
 
 inline NistProblem read_nist(const std::string& name) {
   std::ifstream file(std::string(MYOID_SOURCE_DIR) + "/tests/reference/nist/" + name + ".csv");

@@ -1,0 +1,13 @@
+#pragma once
+
+#include "myoid/model/arm4.h"
+#include "myoid/model/osim_reader.h"
+
+namespace myoid::test {
+
+/// The model of the built-in arm, from its file.
+inline model::BodyModel built_in_arm() {
+  return model::parse_osim(model::arm4_osim(), "arm4.osim");
+}
+
+}  // namespace myoid::test
