@@ -8,6 +8,78 @@
 #include <Eigen/Cholesky>
 
 namespace myoid::identification {
+namespace {
+
+/// A size that an error may have, and how probable that is beforehand.
+struct PossibleSize {
+  double size = 0.0, probability = 1.0;
+};
+
+/// 0 in one case of two, else half normal 0.1, on a grid even in the logarithm; 0 for certain where
+/// there is no error to have a size.
+std::vector<PossibleSize> possible_sizes(bool any_errors) {
+  constexpr double kPriorSize = 0.1;
+  std::vector<PossibleSize> sizes{{0.0, 1.0}};
+  if (!any_errors) return sizes;
+  double sum = 0.0;
+  for (double size = 0.003; size < 0.5; size *= 1.25) {
+    sizes.push_back({size, size * std::exp(-0.5 * std::pow(size / kPriorSize, 2))});
+    sum += sizes.back().probability;
+  }
+  for (std::size_t k = 1; k < sizes.size(); ++k) sizes[k].probability *= 0.5 / sum;
+  sizes.front().probability = 0.5;
+  return sizes;
+}
+
+/// Of every shape, whether a muscle's or a joint's.
+Eigen::VectorXd sizes_of(const std::vector<bool>& of_muscle, double muscle, double joint) {
+  Eigen::VectorXd e(static_cast<Eigen::Index>(of_muscle.size()));
+  for (std::size_t b = 0; b < of_muscle.size(); ++b)
+    e[static_cast<Eigen::Index>(b)] = of_muscle[b] ? muscle : joint;
+  return e;
+}
+
+/// -2 log likelihood of h ~ N(0, C + C E^2 C), up to a constant, with sizes e on the diagonal of E:
+/// log |I + E C E| - h'E (I + E C E)^-1 E h.
+double misfit(const Eigen::MatrixXd& c, const Eigen::VectorXd& h, const Eigen::VectorXd& e) {
+  Eigen::MatrixXd m = e.asDiagonal() * c * e.asDiagonal();
+  m.diagonal().array() += 1.0;
+  const Eigen::LLT<Eigen::MatrixXd> factor(m);
+  if (factor.info() != Eigen::Success) return std::numeric_limits<double>::infinity();
+  const Eigen::VectorXd eh = e.cwiseProduct(h);
+  return 2.0 * factor.matrixLLT().diagonal().array().log().sum() - eh.dot(factor.solve(eh));
+}
+
+/// Pairs of sizes by their posterior probability, those below 1e-4 left out.
+std::vector<Discrepancy::Sizes> posterior_sizes(const Eigen::MatrixXd& c,
+                                                const Eigen::VectorXd& h,
+                                                const std::vector<bool>& of_muscle) {
+  const auto any = [&](bool muscle) {
+    return std::find(of_muscle.begin(), of_muscle.end(), muscle) != of_muscle.end();
+  };
+  std::vector<Discrepancy::Sizes> all;
+  double least = std::numeric_limits<double>::infinity();
+  std::vector<double> misfits;
+  for (const PossibleSize& muscle : possible_sizes(any(true))) {
+    for (const PossibleSize& joint : possible_sizes(any(false))) {
+      all.push_back({muscle.size, joint.size, muscle.probability * joint.probability});
+      misfits.push_back(misfit(c, h, sizes_of(of_muscle, muscle.size, joint.size)));
+      least = std::min(least, misfits.back());
+    }
+  }
+  double sum = 0.0;
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    all[k].probability *= std::exp(-0.5 * (misfits[k] - least));
+    sum += all[k].probability;
+  }
+  for (Discrepancy::Sizes& of : all) of.probability /= sum;
+  all.erase(std::remove_if(all.begin(), all.end(),
+                           [](const Discrepancy::Sizes& of) { return !(of.probability > 1e-4); }),
+            all.end());
+  return all;
+}
+
+}  // namespace
 
 double Discrepancy::reach(Eigen::Index j, double variance, double probability) const {
   std::vector<double> sd;
@@ -34,7 +106,6 @@ double Discrepancy::reach(Eigen::Index j, double variance, double probability) c
 Discrepancy discrepancy(const Estimator& estimator,
                         const Estimator::Solution& solution,
                         const Eigen::MatrixXd& model_based) {
-  constexpr double kPriorSize = 0.1;
   const ResidualModel& model = estimator.model();
   const Eigen::VectorXd& z = solution.search.x;
   const Weighting& weighting = solution.weighting;
@@ -43,8 +114,7 @@ Discrepancy discrepancy(const Estimator& estimator,
   const ErrorShapes shapes = model.error_shapes(z);
   const Eigen::VectorXd root = std::sqrt(weighting.share) * weighting.sd_nm.cwiseInverse();
   const Eigen::VectorXd residual = (model.measured() - at.predicted).cwiseProduct(root);
-  const Eigen::MatrixXd s =
-      shapes.weight.asDiagonal() * shapes.shapes_nm * root.asDiagonal();  // D S W^1/2
+  const Eigen::MatrixXd every = shapes.shapes_nm * root.asDiagonal();  // S W^1/2
   // A parameter on its bound has not followed the data: what it would take out is in the residual.
   Eigen::MatrixXd gradient = at.gradient;
   Eigen::MatrixXd response = model_based;  // given those on their bound
@@ -62,8 +132,32 @@ Discrepancy discrepancy(const Estimator& estimator,
       response.col(j).setZero();
     }
   }
+  Eigen::VectorXd along = every * residual;
+  if (weighting.emg_variance.size() > 0) {
+    // The noise of the EMG is in the shapes and in the residual alike: that product has a mean.
+    const Eigen::MatrixXd noisy = shapes.by_emg * shapes.unfiltered * root.asDiagonal();
+    for (Eigen::Index b = 0; b < along.size(); ++b) {
+      const int channel = shapes.channel[static_cast<std::size_t>(b)];
+      if (channel < 0) continue;
+      along[b] += estimator.channel_variance()[channel] *
+                  (noisy.row(b)
+                       .transpose()
+                       .cwiseProduct(root)
+                       .cwiseProduct(weighting.emg_variance)
+                       .cwiseProduct(model.noise_gain().row(channel).transpose()))
+                      .dot(at.channel_torque.row(channel).transpose());
+    }
+  }
+  // Those that are errors, in directions of unit weight: from here S stands for D S.
+  const Eigen::MatrixXd errors = shapes.weight.asDiagonal() * shapes.contrast;
+  std::vector<Eigen::Index> kept;
+  for (Eigen::Index b = 0; b < errors.rows(); ++b) {
+    if (errors.row(b).norm() > 1e-9) kept.push_back(b);
+  }
+  const Eigen::MatrixXd s = errors(kept, Eigen::all) * every;
+  const Eigen::VectorXd h = errors(kept, Eigen::all) * along;
   const Eigen::MatrixXd sj = s * root.asDiagonal() * gradient.transpose();
-  // D C D and D h: directions of unit weight. Of the data as they are, A has nothing taken out.
+  // Of the data as they are, A has nothing taken out.
   const Eigen::MatrixXd jacobian = gradient * root.asDiagonal();
   Eigen::MatrixXd a = jacobian * jacobian.transpose();
   for (Eigen::Index j = 0; j < z.size(); ++j) {
@@ -72,86 +166,22 @@ Discrepancy discrepancy(const Estimator& estimator,
     a(j, j) = a(j, j) > 0.0 ? a(j, j) * (1.0 + 1e-12) : 1.0;
   }
   const Eigen::MatrixXd left = s * s.transpose() - sj * a.ldlt().solve(sj.transpose());
-  Eigen::VectorXd h = s * residual;
-  if (weighting.emg_variance.size() > 0) {
-    // The noise of the EMG is in the shapes and in the residual alike: that product has a mean.
-    const Eigen::MatrixXd noisy =
-        shapes.weight.asDiagonal() * shapes.by_emg * shapes.unfiltered * root.asDiagonal();
-    for (Eigen::Index b = 0; b < h.size(); ++b) {
-      const int channel = shapes.channel[static_cast<std::size_t>(b)];
-      if (channel < 0) continue;
-      h[b] += estimator.channel_variance()[channel] *
-              (noisy.row(b)
-                   .transpose()
-                   .cwiseProduct(root)
-                   .cwiseProduct(weighting.emg_variance)
-                   .cwiseProduct(model.noise_gain().row(channel).transpose()))
-                  .dot(at.channel_torque.row(channel).transpose());
-    }
-  }
-  // -2 log likelihood of h, up to a constant, with sizes e on the diagonal of E:
-  //   log |I + E C E| - h'E (I + E C E)^-1 E h.
-  const Eigen::Index count = h.size();
-  const auto sizes = [&](double muscle, double joint) {
-    Eigen::VectorXd e(count);
-    for (Eigen::Index b = 0; b < count; ++b)
-      e[b] = shapes.channel[static_cast<std::size_t>(b)] >= 0 ? muscle : joint;
-    return e;
-  };
-  const auto misfit = [&](double muscle, double joint) {
-    const Eigen::VectorXd e = sizes(muscle, joint);
-    Eigen::MatrixXd m = e.asDiagonal() * left * e.asDiagonal();
-    m.diagonal().array() += 1.0;
-    const Eigen::LLT<Eigen::MatrixXd> factor(m);
-    if (factor.info() != Eigen::Success) return std::numeric_limits<double>::infinity();
-    const Eigen::VectorXd eh = e.cwiseProduct(h);
-    return 2.0 * factor.matrixLLT().diagonal().array().log().sum() - eh.dot(factor.solve(eh));
-  };
-  // A size is 0 in one case of two, else half normal: on a grid even in its logarithm.
-  std::vector<double> grid{0.0}, prior{1.0};
-  double others = 0.0;
-  for (double size = 0.003; size < 0.5; size *= 1.25) {
-    grid.push_back(size);
-    prior.push_back(size * std::exp(-0.5 * std::pow(size / kPriorSize, 2)));
-    others += prior.back();
-  }
-  for (std::size_t k = 1; k < prior.size(); ++k) prior[k] /= others;
-  // Mean square of the sizes over their posterior.
-  const auto points = static_cast<Eigen::Index>(grid.size());
-  Eigen::MatrixXd values(points, points);
-  for (Eigen::Index m = 0; m < points; ++m) {
-    for (Eigen::Index j = 0; j < points; ++j)
-      values(m, j) = misfit(grid[static_cast<std::size_t>(m)], grid[static_cast<std::size_t>(j)]);
-  }
-  const double least = values.minCoeff();
-  double sum = 0.0, muscle_sum = 0.0, joint_sum = 0.0;
-  for (Eigen::Index m = 0; m < points; ++m) {
-    for (Eigen::Index j = 0; j < points; ++j) {
-      const double muscle = grid[static_cast<std::size_t>(m)];
-      const double joint = grid[static_cast<std::size_t>(j)];
-      const double weight = prior[static_cast<std::size_t>(m)] *
-                            prior[static_cast<std::size_t>(j)] *
-                            std::exp(-0.5 * (values(m, j) - least));
-      sum += weight;
-      muscle_sum += weight * muscle * muscle;
-      joint_sum += weight * joint * joint;
-    }
-  }
+  std::vector<bool> of_muscle;
+  for (const Eigen::Index b : kept)
+    of_muscle.push_back(shapes.channel[static_cast<std::size_t>(b)] >= 0);
   Discrepancy result;
-  result.relative_size = std::sqrt(muscle_sum / sum);
-  result.joint_size = std::sqrt(joint_sum / sum);
-  for (Eigen::Index m = 0; m < points; ++m) {
-    for (Eigen::Index j = 0; j < points; ++j) {
-      const auto at_m = static_cast<std::size_t>(m), at_j = static_cast<std::size_t>(j);
-      const double share =
-          prior[at_m] * prior[at_j] * std::exp(-0.5 * (values(m, j) - least)) / sum;
-      if (share > 1e-4) result.posterior.push_back({grid[at_m], grid[at_j], share});
-    }
+  result.posterior = posterior_sizes(left, h, of_muscle);
+  for (const Discrepancy::Sizes& of : result.posterior) {
+    result.relative_size += of.probability * of.muscle * of.muscle;
+    result.joint_size += of.probability * of.joint * of.joint;
   }
+  result.relative_size = std::sqrt(result.relative_size);
+  result.joint_size = std::sqrt(result.joint_size);
   const Eigen::MatrixXd unit = response * sj.transpose();
-  result.by_muscle = (unit * sizes(1.0, 0.0).asDiagonal()).rowwise().squaredNorm();
-  result.by_joint = (unit * sizes(0.0, 1.0).asDiagonal()).rowwise().squaredNorm();
-  const Eigen::MatrixXd moved = unit * sizes(result.relative_size, result.joint_size).asDiagonal();
+  result.by_muscle = (unit * sizes_of(of_muscle, 1.0, 0.0).asDiagonal()).rowwise().squaredNorm();
+  result.by_joint = (unit * sizes_of(of_muscle, 0.0, 1.0).asDiagonal()).rowwise().squaredNorm();
+  const Eigen::MatrixXd moved =
+      unit * sizes_of(of_muscle, result.relative_size, result.joint_size).asDiagonal();
   result.covariance = moved * moved.transpose();
   return result;
 }

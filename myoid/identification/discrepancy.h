@@ -29,15 +29,14 @@ struct Discrepancy {
 /// No muscle is as its model. The residuals then hold, beside noise, something that depends
 /// smoothly on posture, activation and speed (ErrorShapes), that no amount of data averages out,
 /// and that bends the estimates: a wrong moment arm becomes a wrong force-length curve. With shapes
-/// S (k x n), weights D and W = nu / s^2,
+/// S (k x n; what ErrorShapes::contrast leaves of them), weights D and W = nu / s^2,
 ///
 ///   r = noise + S'x,   x ~ N(0, size^2 D^2),
 ///   h = S W r ~ N(0, C + size^2 C D^2 C),   C = S W S' - S W J' A^-1 J W S'
 ///
 /// is what of it the fit leaves. There are two sizes, of muscles and of joints, each 0 with
-/// a probability of one half, else half normal 0.1; taken is the root of its mean square over
-/// the posterior. The estimates
-/// then err by A^-1 J W S'x, with covariance
+/// a probability of one half, else half normal 0.1 (0 where nothing has it); taken is the root of
+/// its mean square over the posterior. The estimates then err by A^-1 J W S'x, with covariance
 ///
 ///   size^2 (A^-1 J W S') D^2 (A^-1 J W S')'.
 ///

@@ -12,6 +12,7 @@ namespace myoid::identification {
 namespace {
 
 constexpr Eigen::Index kPerMuscle = 7;
+constexpr Eigen::Index kOwnLag = 6;
 constexpr Eigen::Index kPerJoint = 2;  // the first two of a muscle's, without its force
 
 /// Whether an unknown is this number of this owner.
@@ -45,8 +46,27 @@ std::array<bool, kPerMuscle> found_of_muscle(const ParameterMap& map,
   const bool strength = measured_is_force && is_found(map, Scope::muscle, kMaxForce, muscle);
   found[0] = own(kGain) || strength;
   found[4] = own(kExponent) || own(kShape);
-  found[6] = own(kDelay);
+  found[kOwnLag] = own(kDelay);
   return found;
+}
+
+/// The lags of muscles that follow their EMG by one pure delay, which the fit finds, as differences
+/// from their mean. Not where they follow by lags: their mean is another in another movement, where
+/// more rises or falls and where tendons are stretched.
+void center_lags(const ParameterMap& map, Eigen::MatrixXd& contrast) {
+  for (const FreeParameter& delay : map.free()) {
+    if (delay.field->scope != Scope::channel || delay.field->field != kDelay) continue;
+    std::vector<Eigen::Index> rows;
+    for (std::size_t k = 0; k < map.held().muscles.size(); ++k) {
+      const int channel = map.channel_of_muscle(k);
+      if (std::any_of(delay.targets.begin(), delay.targets.end(),
+                      [&](const auto& target) { return target.owner == channel; }))
+        rows.push_back(kPerMuscle * static_cast<Eigen::Index>(k) + kOwnLag);
+    }
+    for (const Eigen::Index i : rows) {
+      for (const Eigen::Index j : rows) contrast(i, j) -= 1.0 / static_cast<double>(rows.size());
+    }
+  }
 }
 
 }  // namespace
@@ -77,6 +97,8 @@ ErrorShapes ResidualModel::error_shapes(const Eigen::VectorXd& z) const {
   result.weight.resize(result.shapes_nm.rows());
   result.channel.assign(static_cast<std::size_t>(result.shapes_nm.rows()), -1);
   result.by_emg.setZero(result.weight.size(), result.weight.size());
+  result.contrast.setIdentity(result.weight.size(), result.weight.size());
+  if (lag_ == EmgLag::delay) center_lags(map_, result.contrast);
   for (Eigen::Index k = 0; k < muscles; ++k) {
     // Every shape is proportional to the activation, and the logarithm grows with it.
     const double exponent = values.channels[static_cast<std::size_t>(

@@ -40,6 +40,29 @@ TEST(ErrorShapes, WhatTheFitFindsOfAnElectrodeIsNoErrorOfTheModelBesides) {
   EXPECT_EQ(exponent[kPerMuscle + kEffort], 1.0);
 }
 
+TEST(ErrorShapes, OfLagsBesideAPureDelayOfAllOnlyTheDifferencesAreErrors) {
+  const StudyData data = test::elbow_study({.trials = 1, .seconds = 5.0, .with_priors = true}).data;
+  const auto contrast = [&](const EstimatorOptions& options) {
+    const ResidualModel model(data, options);
+    return model.error_shapes(model.parameters().start()).contrast;
+  };
+  const Eigen::MatrixXd one = contrast({});
+  Eigen::VectorXd lag = Eigen::VectorXd::Zero(one.rows()), other = lag;
+  for (Eigen::Index k = 0; k < 4; ++k) {
+    lag[kPerMuscle * k + kLag] = 1.0;
+    other[kPerMuscle * k + kEffort] = 1.0;
+  }
+  EXPECT_LT((one * lag).norm(), 1e-15);  // all alike: that is the delay
+  EXPECT_EQ(one * other, other);
+  Eigen::VectorXd apart = Eigen::VectorXd::Zero(one.rows());
+  apart[kLag] = 1.0;
+  apart[kPerMuscle + kLag] = -1.0;
+  EXPECT_LT((one * apart - apart).norm(), 1e-15);
+  // A delay that is held may be wrong; that of lags depends on the movement.
+  EXPECT_TRUE(contrast({.delay_s = 0.05}).isIdentity(0.0));
+  EXPECT_TRUE(contrast({.lag = EmgLag::shared}).isIdentity(0.0));
+}
+
 TEST(ErrorShapes, AnElectrodeThatDrivesTwoMusclesLeavesEachAnErrorOfItsOwn) {
   StudyData data = test::elbow_study({.trials = 1, .seconds = 5.0, .with_priors = true}).data;
   data.muscles[1].emg_channel = data.muscles[0].emg_channel;
