@@ -191,10 +191,11 @@ Estimator::Scores Estimator::scores(const Solution& solution) const {
   Scores result;
   result.scores.resize(p, sd.size());
   result.attenuation.setZero(p);
+  result.residual = (at.predicted - model_->measured()).cwiseQuotient(sd);
   Eigen::MatrixXd weighted(p, sd.size());
   const Eigen::VectorXd exponent = exponents(solution.search.x);
   for (Eigen::Index i = 0; i < sd.size(); ++i) {
-    const double u = (at.predicted[i] - model_->measured()[i]) / sd[i];
+    const double u = result.residual[i];
     const double weight = loss(options_.loss, u).weight;
     weighted.col(i) = at.gradient.col(i) * (std::sqrt(weight) / sd[i]);
     result.scores.col(i) = at.gradient.col(i) * (weight * u / sd[i]);

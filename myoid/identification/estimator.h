@@ -96,6 +96,7 @@ class Estimator {
     Eigen::MatrixXd scores;
     Eigen::MatrixXd information;
     Eigen::MatrixXd rows;         ///< p x n: (nu W)^1/2 J', nothing taken out.
+    Eigen::VectorXd residual;     ///< n: predicted less measured, over the standard deviation.
     Eigen::VectorXd attenuation;  ///< What the correction took out of the sum of the scores.
   };
   [[nodiscard]] Scores scores(const Solution& solution) const;

@@ -138,10 +138,21 @@ Sandwich sandwich(const Estimator& estimator, const Estimator::Solution& solutio
       0.5 * std::sqrt(4.0 / 3.0 * static_cast<double>(std::max<Eigen::Index>(1, lag)) /
                       static_cast<double>(model.sample_count()));
   if (estimator.options().weights) {
-    // Few effective samples make B itself unsure: never below the model-based covariance.
+    // Few effective samples make B itself unsure, and its lags are short: never below what the
+    // residuals' own autocorrelation, of all samples together, makes of these gradients.
+    const auto stride = static_cast<Eigen::Index>(std::max(1.0, model.rate_hz() / 50.0));
+    Eigen::MatrixXd expected =
+        solution.weighting.share *
+        math::covariance_of_sum(
+            by_sample.rows,
+            math::positive_autocorrelation(by_sample.residual, model.piece_lengths()),
+            model.piece_lengths(), stride);
+    expected.diagonal() += precision;
+    const Eigen::VectorXd least =
+        (result.model_based * expected).cwiseProduct(result.model_based).rowwise().sum();
     for (Eigen::Index j = 0; j < a.rows(); ++j) {
-      const double factor = std::sqrt(
-          std::max(1.0, result.model_based(j, j) / std::max(result.newey_west(j, j), 1e-300)));
+      const double factor =
+          std::sqrt(std::max(1.0, least[j] / std::max(result.newey_west(j, j), 1e-300)));
       if (factor > 1.0) {
         result.newey_west.row(j) *= factor;
         result.newey_west.col(j) *= factor;

@@ -13,7 +13,8 @@ namespace myoid::identification {
 /// What the curvature at the minimum says; all in the solver's scale.
 struct Sandwich {
   Eigen::MatrixXd newey_west;  ///< A^-1 B A^-1, B from autocovariances within trials up to 0.4 s;
-                               ///< never below A^-1 where weights are used; without them B from
+                               ///< where weights are used never below what the autocorrelation
+                               ///< of all residuals makes of the gradients; without them B from
                                ///< blocks of 2 s as below over trials, with Student's quantile.
   std::optional<Eigen::MatrixXd> cluster;  ///< B from the sums of scores over trials, each as it
                                            ///< would be spread outside the fit (Bell & McCaffrey

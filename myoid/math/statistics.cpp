@@ -41,15 +41,12 @@ double upper_median(std::vector<double> values) {
   return *middle;
 }
 
-double effective_sample_size(const Eigen::Ref<const Eigen::VectorXd>& x,
-                             const std::vector<Eigen::Index>& pieces) {
-  const Eigen::Index n = x.size();
-  if (n < 2) return static_cast<double>(n);
+Eigen::VectorXd positive_autocorrelation(const Eigen::Ref<const Eigen::VectorXd>& x,
+                                         const std::vector<Eigen::Index>& pieces) {
+  std::vector<double> rho{1.0};
   const Eigen::VectorXd centered = x.array() - x.mean();
   const double variance = centered.squaredNorm();
-  if (!(variance > 0.0)) return static_cast<double>(n);
-  double sum = 0.0;
-  for (Eigen::Index lag = 1; lag < n; ++lag) {
+  for (Eigen::Index lag = 1; variance > 0.0 && lag < x.size(); ++lag) {
     double product = 0.0;
     Eigen::Index begin = 0;
     for (const Eigen::Index length : pieces) {
@@ -59,9 +56,42 @@ double effective_sample_size(const Eigen::Ref<const Eigen::VectorXd>& x,
       begin += length;
     }
     if (product <= 0.0) break;
-    sum += product / variance;
+    rho.push_back(product / variance);
   }
-  return std::max(1.0, static_cast<double>(n) / (1.0 + 2.0 * sum));
+  return Eigen::Map<const Eigen::VectorXd>(rho.data(), static_cast<Eigen::Index>(rho.size()));
+}
+
+double effective_sample_size(const Eigen::Ref<const Eigen::VectorXd>& x,
+                             const std::vector<Eigen::Index>& pieces) {
+  const auto n = static_cast<double>(x.size());
+  if (n < 2) return n;
+  return std::max(1.0, n / (2.0 * positive_autocorrelation(x, pieces).sum() - 1.0));
+}
+
+Eigen::MatrixXd covariance_of_sum(const Eigen::MatrixXd& weights,
+                                  const Eigen::VectorXd& autocorrelation,
+                                  const std::vector<Eigen::Index>& pieces,
+                                  Eigen::Index stride) {
+  const Eigen::Index p = weights.rows();
+  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(p, p);
+  Eigen::Index begin = 0;
+  for (const Eigen::Index length : pieces) {
+    const auto g = weights.middleCols(begin, length);
+    const Eigen::Index count = (length + stride - 1) / stride;
+    Eigen::MatrixXd here(p, count), filtered(p, count);
+    for (Eigen::Index i = 0; i < count; ++i) {
+      const Eigen::Index t = i * stride;
+      here.col(i) = g.col(t);
+      filtered.col(i) = autocorrelation[0] * g.col(t);
+      for (Eigen::Index lag = 1; lag < autocorrelation.size(); ++lag) {
+        if (t >= lag) filtered.col(i) += autocorrelation[lag] * g.col(t - lag);
+        if (t + lag < length) filtered.col(i) += autocorrelation[lag] * g.col(t + lag);
+      }
+    }
+    sum += static_cast<double>(length) / static_cast<double>(count) * filtered * here.transpose();
+    begin += length;
+  }
+  return 0.5 * (sum + sum.transpose());
 }
 
 Eigen::MatrixXd newey_west(const Eigen::MatrixXd& scores,

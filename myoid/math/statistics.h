@@ -16,11 +16,24 @@ namespace myoid::math {
 /// The middle value, or the larger of the two middle ones: always one of them. NaN of none.
 [[nodiscard]] double upper_median(std::vector<double> values);
 
-/// Independent samples that n correlated ones are worth: n / (1 + 2 sum_k rho_k), the sum over lags
-/// up to the first autocorrelation that is not positive. Sums run within `pieces` (lengths of
-/// consecutive stretches), never across. At least 1.
+/// Autocorrelation rho_0 = 1, rho_1, ... of x about its mean, up to the last lag before the first
+/// that is not positive. Sums run within `pieces` (lengths of consecutive stretches), never across.
+[[nodiscard]] Eigen::VectorXd positive_autocorrelation(const Eigen::Ref<const Eigen::VectorXd>& x,
+                                                       const std::vector<Eigen::Index>& pieces);
+
+/// Independent samples that n correlated ones are worth: n / (1 + 2 sum_k rho_k), with rho as
+/// `positive_autocorrelation` gives it. At least 1.
 [[nodiscard]] double effective_sample_size(const Eigen::Ref<const Eigen::VectorXd>& x,
                                            const std::vector<Eigen::Index>& pieces);
+
+/// Covariance of sum_t g_t e_t, with weights g_t (the columns, p x n) that are known and e of unit
+/// variance with this autocorrelation: sum_t sum_s g_t rho(t - s) g_s', within `pieces`. Every
+/// `stride`-th t stands for those about it: exact for 1, else for weights that change little
+/// meanwhile.
+[[nodiscard]] Eigen::MatrixXd covariance_of_sum(const Eigen::MatrixXd& weights,
+                                                const Eigen::VectorXd& autocorrelation,
+                                                const std::vector<Eigen::Index>& pieces,
+                                                Eigen::Index stride = 1);
 
 /// Long-run covariance of a sum of scores (n x p), Newey and West (1987): G_0 + sum_l (1 - l/(L+1))
 /// (G_l + G_l'), with G_l = sum_t g_t g_{t-l}', lags within `pieces` only. Positive semidefinite.

@@ -54,6 +54,71 @@ TEST(EffectiveSampleSize, OfAnAutoregressiveSeriesIsTheClosedForm) {
               0.2 / 1.8, 0.01);
 }
 
+TEST(PositiveAutocorrelation, OfAnAutoregressiveSequenceFallsByItsFactor) {
+  // rho_k = 0.8^k; each is known to some 1 / sqrt(n / 9).
+  const Eigen::Index n = 200000;
+  const Eigen::VectorXd rho = positive_autocorrelation(autoregressive(n, 0.8), {n});
+  ASSERT_GT(rho.size(), 6);
+  for (Eigen::Index k = 0; k < 6; ++k)
+    EXPECT_NEAR(rho[k], std::pow(0.8, static_cast<double>(k)), 0.02);
+  EXPECT_GT(rho.minCoeff(), 0.0);
+  EXPECT_EQ(positive_autocorrelation(Eigen::VectorXd::Ones(5), {5}), Eigen::VectorXd::Ones(1));
+}
+
+TEST(CovarianceOfSum, IsTheDoubleSumOverEachPiece) {
+  const std::vector<Eigen::Index> pieces{7, 2, 5};
+  const Eigen::Vector4d rho(1.0, 0.6, 0.3, 0.1);
+  Eigen::MatrixXd g(2, 14);
+  for (Eigen::Index t = 0; t < 14; ++t) {
+    g(0, t) = std::sin(1.3 * static_cast<double>(t));
+    g(1, t) = 1.0 + 0.2 * std::cos(0.4 * static_cast<double>(t));
+  }
+  Eigen::Matrix2d expected = Eigen::Matrix2d::Zero();
+  Eigen::Index begin = 0;
+  for (const Eigen::Index length : pieces) {
+    for (Eigen::Index t = begin; t < begin + length; ++t) {
+      for (Eigen::Index s = begin; s < begin + length; ++s) {
+        if (std::abs(t - s) < 4) expected += rho[std::abs(t - s)] * g.col(t) * g.col(s).transpose();
+      }
+    }
+    begin += length;
+  }
+  EXPECT_LT((covariance_of_sum(g, rho, pieces) - expected).norm(), 1e-13);
+}
+
+TEST(CovarianceOfSum, OfFewSamplesOfSmoothWeightsIsThatOfAll) {
+  const Eigen::Index n = 4000;
+  Eigen::MatrixXd g(1, n);
+  for (Eigen::Index t = 0; t < n; ++t) g(0, t) = std::sin(0.05 * static_cast<double>(t));
+  Eigen::VectorXd rho(40);
+  for (Eigen::Index k = 0; k < 40; ++k) rho[k] = std::exp(-0.1 * static_cast<double>(k));
+  const double all = covariance_of_sum(g, rho, {n})(0, 0);
+  // What a stride leaves out of a sine is at its ends: a share of 4 / 4000.
+  EXPECT_NEAR(covariance_of_sum(g, rho, {n}, 4)(0, 0) / all, 1.0, 2e-3);
+}
+
+TEST(CovarianceOfSum, OfWeightsThatChangeSignIsLessThanOfConstantOnes) {
+  // e of an autoregression, 4 000 times 50 samples: the sums' own variance.
+  const Eigen::Index n = 50, draws = 4000;
+  const Eigen::VectorXd e = autoregressive(n * draws, 0.8);
+  const double variance = e.squaredNorm() / static_cast<double>(e.size());
+  Eigen::MatrixXd g(2, n);
+  Eigen::VectorXd rho(n);
+  for (Eigen::Index t = 0; t < n; ++t) {
+    g.col(t) << 1.0, std::cos(0.8 * static_cast<double>(t));
+    rho[t] = std::pow(0.8, static_cast<double>(t));
+  }
+  Eigen::Matrix2d seen = Eigen::Matrix2d::Zero();
+  for (Eigen::Index k = 0; k < draws; ++k) {
+    const Eigen::Vector2d sum = g * e.segment(k * n, n);
+    seen += sum * sum.transpose() / (variance * static_cast<double>(draws));
+  }
+  const Eigen::MatrixXd expected = covariance_of_sum(g, rho, {n});
+  for (Eigen::Index j = 0; j < 2; ++j)  // sqrt(2 / 4000) = 2.2 %, four of them
+    EXPECT_NEAR(seen(j, j) / expected(j, j), 1.0, 0.09);
+  EXPECT_LT(expected(1, 1), 0.2 * expected(0, 0));
+}
+
 TEST(NeweyWest, OfAnAutoregressiveScoreTendsToItsLongRunVariance) {
   // Variance of the sum per sample: sigma^2 / (1 - rho)^2 = 4 for rho = 0.5.
   const Eigen::Index n = 200000;
