@@ -10,10 +10,9 @@
 namespace myoid::identification {
 namespace {
 
-/// sqrt of the 95 % quantile of chi-squared with one degree of freedom.
-constexpr double kGoal = 1.959963984540054;
-/// A step of the others that promises to lower C by less is not tried.
-constexpr double kSmallFall = 0.02;
+/// A step of the others that promises to lower C by less than this share of its rise to the goal is
+/// not tried.
+constexpr double kSmallFall = 0.01;
 constexpr int kMostSteps = 20;
 /// The root is taken from the parabola once v is as near as this share of the goal.
 constexpr double kNear = 0.12;
@@ -28,8 +27,11 @@ struct Point {
 /// C(x) of a problem with variable `held` where it is and the others free within their bounds.
 class Constrained {
  public:
-  Constrained(const ProfileProblem& problem, Eigen::Index held)
-      : problem_(problem), held_(held), curvature_(problem.curvature) {}
+  Constrained(const ProfileProblem& problem, Eigen::Index held, double goal)
+      : problem_(problem),
+        held_(held),
+        small_fall_(kSmallFall * 0.5 * goal * goal),
+        curvature_(problem.curvature) {}
 
   [[nodiscard]] Point at(Eigen::VectorXd x) const {
     Point point{std::move(x), {}, 0.0};
@@ -82,7 +84,7 @@ class Constrained {
     for (int count = 0;; ++count) {
       const Eigen::VectorXd step = shorter * step_from(best);
       const double promised = fall_of(best, step);
-      if (count == kMostSteps || !(promised > kSmallFall)) {
+      if (count == kMostSteps || !(promised > small_fall_)) {
         best.x += step;
         best.cost -= std::max(promised, 0.0);
         best.gradient += curvature_ * step;
@@ -113,28 +115,32 @@ class Constrained {
  private:
   const ProfileProblem& problem_;
   Eigen::Index held_;
+  double small_fall_;
   Eigen::MatrixXd curvature_;
 };
 
 /// Root of v = goal of the parabola through (0, 0) and (t, v) with slope `slope` there.
-double parabola_root(double t, double v, double slope) {
+double parabola_root(double t, double v, double slope, double goal) {
   if (!(v > 0.0)) return 4.0 * t;
   const double a = 2.0 * v / t - slope;
   const double b = (slope - v / t) / t;
-  const double square = a * a + 4.0 * b * kGoal;
+  const double square = a * a + 4.0 * b * goal;
   const double root = a + std::sqrt(std::max(square, 0.0));
-  if (square >= 0.0 && root > 0.0) return 2.0 * kGoal / root;
-  return slope > 0.0 ? t + (kGoal - v) / slope : 4.0 * t;
+  if (square >= 0.0 && root > 0.0) return 2.0 * goal / root;
+  return slope > 0.0 ? t + (goal - v) / slope : 4.0 * t;
 }
 
 }  // namespace
 
-std::optional<double> profile_distance(const ProfileProblem& problem, Eigen::Index j, bool above) {
+std::optional<double> profile_distance(const ProfileProblem& problem,
+                                       Eigen::Index j,
+                                       bool above,
+                                       double goal) {
   const double side = above ? 1.0 : -1.0;
   const Eigen::VectorXd& minimum = problem.minimum;
   const double reach = std::abs((above ? problem.upper[j] : problem.lower[j]) - minimum[j]);
   if (!(reach > 0.0)) return std::nullopt;
-  Constrained others(problem, j);
+  Constrained others(problem, j, goal);
   // What the others do when this one moves, to first order; those on a bound that holds them stay.
   std::vector<Eigen::Index> following;
   for (Eigen::Index k = 0; k < minimum.size(); ++k) {
@@ -150,17 +156,17 @@ std::optional<double> profile_distance(const ProfileProblem& problem, Eigen::Ind
   Eigen::VectorXd bend = Eigen::VectorXd::Zero(minimum.size());
   double near = 0.0, beyond = reach;
   bool bracketed = false;
-  double t = stiffness > 0.0 ? std::min(kGoal / std::sqrt(stiffness), reach) : reach;
+  double t = stiffness > 0.0 ? std::min(goal / std::sqrt(stiffness), reach) : reach;
   for (int count = 0; count < kMostDistances; ++count) {
     Eigen::VectorXd start = minimum + (side * t) * along + (t * t) * bend;
     start[j] = minimum[j] + side * t;
     start = start.cwiseMax(problem.lower).cwiseMin(problem.upper);
     const Point found = others.minimize(others.at(std::move(start)));
     const double v = std::sqrt(std::max(0.0, 2.0 * (found.cost - problem.least)));
-    const double root = parabola_root(t, v, side * found.gradient[j] / std::max(v, 1e-300));
-    const bool same = std::abs(v - kGoal) < kNear * kGoal && std::abs(root - t) < 2.0 * kNear * t;
+    const double root = parabola_root(t, v, side * found.gradient[j] / std::max(v, 1e-300), goal);
+    const bool same = std::abs(v - goal) < kNear * goal && std::abs(root - t) < 2.0 * kNear * t;
     if (same && root <= reach) return root;
-    if (v < kGoal) {
+    if (v < goal) {
       if (t >= reach * (1.0 - 1e-12)) return std::nullopt;
       near = t;
     } else {
@@ -175,7 +181,9 @@ std::optional<double> profile_distance(const ProfileProblem& problem, Eigen::Ind
   return bracketed ? std::optional<double>(0.5 * (near + beyond)) : std::nullopt;
 }
 
-std::vector<Interval> profile(const Estimator& estimator, const Estimator::Solution& solution) {
+std::vector<Interval> profile(const Estimator& estimator,
+                              const Estimator::Solution& solution,
+                              const Eigen::VectorXd& relative_variance) {
   const Eigen::Index p = solution.search.x.size();
   const NormalEquations there =
       estimator.normal_equations(solution.search.x, solution.weighting, Derivatives::curvature);
@@ -198,7 +206,8 @@ std::vector<Interval> profile(const Estimator& estimator, const Estimator::Solut
   oneapi::tbb::parallel_for(Eigen::Index{0}, 2 * p, [&](Eigen::Index task) {
     const Eigen::Index j = task / 2;
     const bool above = task % 2 == 1;
-    if (const auto distance = profile_distance(problem, j, above)) {
+    const double goal = kProfileGoal * std::sqrt(relative_variance[j]);
+    if (const auto distance = profile_distance(problem, j, above, goal)) {
       Interval& interval = intervals[static_cast<std::size_t>(j)];
       (above ? interval.high : interval.low) =
           problem.minimum[j] + (above ? *distance : -*distance);

@@ -22,21 +22,32 @@ struct ProfileProblem {
   Eigen::MatrixXd curvature;  ///< ... and its curvature, about: J'J will do.
 };
 
-/// Distance from the minimum of variable j to the side where 2 (C - C_min) reaches 3.84 when all
-/// other variables adapt, to about 1 %; empty where a bound of j comes first: the profile is open.
+/// sqrt of the 95 % quantile of chi-squared with one degree of freedom.
+inline constexpr double kProfileGoal = 1.959963984540054;
+
+/// Distance from the minimum of variable j to the side where sqrt(2 (C - C_min)) reaches `goal`
+/// when all other variables adapt, to about 1 %; empty where a bound of j comes first: the profile
+/// is open.
 ///
 /// The others are brought to their constrained minimum by quasi-Newton steps (BFGS, bounds by
-/// projection) that begin with `curvature` and end when the next would lower C by less than 0.02;
-/// that fall is taken as if it had been made. The root is sought on v(t) = sqrt(2 (C - C_min)),
-/// which is nearly proportional to t: its slope is dC/dz_j / v, because the others are at their
-/// minimum, and the parabola through the origin, v and v' leads to the root in one or two steps.
+/// projection) that begin with `curvature` and end when the next would lower C by less than a
+/// hundredth of its rise to the goal; that fall is taken as if it had been made. The root is sought
+/// on v(t) = sqrt(2 (C - C_min)), which is nearly proportional to t: its slope is dC/dz_j / v,
+/// because the others are at their minimum, and the parabola through the origin, v and v' leads to
+/// the root in one or two steps.
 [[nodiscard]] std::optional<double> profile_distance(const ProfileProblem& problem,
                                                      Eigen::Index j,
-                                                     bool above);
+                                                     bool above,
+                                                     double goal = kProfileGoal);
 
 /// The 95 % intervals of all variables by profile likelihood, in parallel; weights are those of the
 /// solution.
+///
+/// Residuals are correlated, so that C is no likelihood but a composite one: 2 (C - C_min) of a
+/// parameter is as chi-squared times `relative_variance`, the ratio of the variance that the
+/// sandwich gives it to the one of A^-1 (Rotnitzky & Jewell 1990; Pace, Salvan & Sartori 2011).
 [[nodiscard]] std::vector<Interval> profile(const Estimator& estimator,
-                                            const Estimator::Solution& solution);
+                                            const Estimator::Solution& solution,
+                                            const Eigen::VectorXd& relative_variance);
 
 }  // namespace myoid::identification

@@ -9,8 +9,6 @@
 namespace myoid::identification {
 namespace {
 
-constexpr double kGoal = 1.959963984540054;
-
 /// C = 1/2 x'Hx about (1, 2, 3).
 ProfileProblem quadratic(const Eigen::Matrix3d& h) {
   const Eigen::Vector3d minimum(1.0, 2.0, 3.0);
@@ -36,7 +34,7 @@ TEST(ProfileLikelihood, OfAQuadraticReachesAsFarAsTheInverseOfItsCurvatureSays) 
   const Eigen::Matrix3d covariance = curvature().inverse();
   ProfileProblem problem = quadratic(curvature());
   for (Eigen::Index j = 0; j < 3; ++j) {
-    const double expected = kGoal * std::sqrt(covariance(j, j));
+    const double expected = kProfileGoal * std::sqrt(covariance(j, j));
     EXPECT_NEAR(profile_distance(problem, j, false).value(), expected, 1e-9 * expected);
     EXPECT_NEAR(profile_distance(problem, j, true).value(), expected, 1e-9 * expected);
   }
@@ -46,9 +44,19 @@ TEST(ProfileLikelihood, OfAQuadraticReachesAsFarAsTheInverseOfItsCurvatureSays) 
        {Eigen::Matrix3d(0.4 * curvature()), Eigen::Matrix3d(3.0 * curvature()), apart}) {
     problem.curvature = wrong;
     for (Eigen::Index j = 0; j < 3; ++j) {
-      const double expected = kGoal * std::sqrt(covariance(j, j));
+      const double expected = kProfileGoal * std::sqrt(covariance(j, j));
       EXPECT_NEAR(profile_distance(problem, j, true).value(), expected, 0.01 * expected);
     }
+  }
+}
+
+TEST(ProfileLikelihood, ReachesAsManyStandardErrorsAsItsGoalIs) {
+  const Eigen::Matrix3d covariance = curvature().inverse();
+  ProfileProblem problem = quadratic(curvature());
+  problem.curvature = curvature().diagonal().asDiagonal();  // so that there is something to search
+  for (const double goal : {0.2, 1.0, 3.0, 12.0}) {
+    const double expected = goal * std::sqrt(covariance(1, 1));
+    EXPECT_NEAR(profile_distance(problem, 1, true, goal).value(), expected, 0.01 * expected);
   }
 }
 
@@ -60,7 +68,7 @@ TEST(ProfileLikelihood, EndsWhereABoundIsAndNotedWhereTheOthersMeetTheirs) {
   problem.lower[2] = 3.0;  // z_2 cannot follow: then z_0 and z_1 alone say where
   problem.upper[2] = 3.0;
   const Eigen::Matrix2d left = curvature().topLeftCorner<2, 2>().inverse();
-  const double expected = kGoal * std::sqrt(left(1, 1));
+  const double expected = kProfileGoal * std::sqrt(left(1, 1));
   EXPECT_NEAR(profile_distance(problem, 1, true).value(), expected, 0.005 * expected);
 }
 
@@ -79,7 +87,7 @@ TEST(ProfileLikelihood, WhereOneMeetsItsBoundTheRestAnswersToThat) {
   for (int i = 0; i < 60; ++i) {
     const double t = 0.5 * (low + high);
     const Eigen::Vector3d d((5.0 * t + 99.0 * 0.05) / 100.0, t, 0.05);
-    (std::sqrt(d.dot(h * d)) < kGoal ? low : high) = t;
+    (std::sqrt(d.dot(h * d)) < kProfileGoal ? low : high) = t;
   }
   EXPECT_NEAR(profile_distance(problem, 1, true).value(), low, 0.005 * low);
 }
@@ -107,7 +115,8 @@ TEST(ProfileLikelihood, FollowsACurvedValley) {
                                .gradient = Eigen::Vector2d::Zero(),
                                .curvature = h};
   for (const bool above : {false, true})
-    EXPECT_NEAR(profile_distance(problem, 0, above).value(), kGoal * 0.3, 0.01 * kGoal * 0.3);
+    EXPECT_NEAR(profile_distance(problem, 0, above).value(), kProfileGoal * 0.3,
+                0.01 * kProfileGoal * 0.3);
   const auto profiled = [&](double y) {
     double least = 1e300;
     for (int i = -2000; i <= 2000; ++i) least = std::min(least, cost(std::sqrt(y) + 1e-5 * i, y));
@@ -117,13 +126,13 @@ TEST(ProfileLikelihood, FollowsACurvedValley) {
     double low = 0.0, high = above ? 4.0 : 0.99;
     for (int i = 0; i < 40; ++i) {
       const double middle = 0.5 * (low + high);
-      (profiled(1.0 + (above ? middle : -middle)) < kGoal ? low : high) = middle;
+      (profiled(1.0 + (above ? middle : -middle)) < kProfileGoal ? low : high) = middle;
     }
     EXPECT_NEAR(profile_distance(problem, 1, above).value(), low, 0.01 * low) << above;
   }
 }
 
-TEST(ProfileLikelihood, OfARecordingIsWhereFitsWithThatParameterHeldAreWorseBy1p92) {
+TEST(ProfileLikelihood, OfARecordingIsWhereFitsWithThatParameterHeldAreWorseByWhatIsAskedFor) {
   const test::ElbowStudy study = test::elbow_study({.trials = 5,
                                                     .seconds = 8.0,
                                                     .emg_cv = 0.06,
@@ -132,7 +141,9 @@ TEST(ProfileLikelihood, OfARecordingIsWhereFitsWithThatParameterHeldAreWorseBy1p
                                                     .with_priors = true});
   const Estimator estimator(study.data, {.starts = 1});
   const Estimator::Solution solution = estimator.solve(estimator.model().parameters().start());
-  const std::vector<Interval> intervals = profile(estimator, solution);
+  const Eigen::VectorXd variance =
+      Eigen::VectorXd::LinSpaced(solution.search.x.size(), 0.4, 2.0);  // against A^-1
+  const std::vector<Interval> intervals = profile(estimator, solution, variance);
   int checked = 0;
   for (std::size_t j = 0; j < intervals.size(); j += 3) {
     for (const std::optional<double>& end : {intervals[j].low, intervals[j].high}) {
@@ -144,7 +155,8 @@ TEST(ProfileLikelihood, OfARecordingIsWhereFitsWithThatParameterHeldAreWorseBy1p
       // Levenberg-Marquardt, of which the profile uses nothing. v to 2 %.
       const NormalSearchResult fit =
           estimator.search(start, solution.weighting, 1e-9, 1e-11, 200, {}, held);
-      EXPECT_NEAR(std::sqrt(2.0 * (fit.cost - solution.search.cost)), kGoal, 0.02 * kGoal)
+      const double goal = kProfileGoal * std::sqrt(variance[static_cast<Eigen::Index>(j)]);
+      EXPECT_NEAR(std::sqrt(2.0 * (fit.cost - solution.search.cost)), goal, 0.02 * goal)
           << estimator.free()[j].label << " " << *end;
       ++checked;
     }
