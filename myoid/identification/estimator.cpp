@@ -71,67 +71,106 @@ Estimator::ChannelSlope Estimator::channel_slope(Eigen::Index j,
   return {channel, exponent[channel], field.scope == Scope::channel && field.field == kExponent};
 }
 
+Estimator::RowSums Estimator::weigh(const Weighting& weighting,
+                                    const Variant& variant,
+                                    Eigen::Index first,
+                                    const Eigen::Ref<const Eigen::VectorXd>& predicted,
+                                    Eigen::Ref<Eigen::MatrixXd> channel_torque,
+                                    Eigen::Ref<Eigen::VectorXd> by_predicted,
+                                    Eigen::Ref<Eigen::VectorXd> scale) const {
+  RowSums sums{.loss = 0.0, .by_noise = Eigen::VectorXd::Zero(channel_variance_.size())};
+  const bool corrected = weighting.emg_variance.size() > 0;
+  for (Eigen::Index k = 0; k < predicted.size(); ++k) {
+    const Eigen::Index i = first + k;
+    const double u = (predicted[k] - model_->measured()[i]) / weighting.sd_nm[i];
+    const double count = variant.multiplicity.size() > 0 ? variant.multiplicity[i] : 1.0;
+    const LossValue value = loss(options_.loss, u);
+    sums.loss += count * value.rho;
+    const double root = std::sqrt(weighting.share * count * value.weight);
+    scale[k] = root / weighting.sd_nm[i];
+    by_predicted[k] = scale[k] * root * u;
+    if (!corrected) continue;
+    auto torque = channel_torque.col(k);
+    const double squared = scale[k] * scale[k] * weighting.emg_variance[i];
+    sums.by_noise += squared * torque.cwiseAbs2().cwiseProduct(channel_variance_);
+    torque =
+        squared * torque.cwiseProduct(channel_variance_).cwiseProduct(model_->noise_gain().col(i));
+  }
+  return sums;
+}
+
 NormalEquations Estimator::normal_equations(const Eigen::VectorXd& z,
                                             const Weighting& weighting,
                                             Derivatives derivatives,
                                             const Variant& variant) const {
+  const Eigen::Index n = model_->sample_count();
+  const Eigen::VectorXd& mean = variant.prior_mean.size() > 0 ? variant.prior_mean : prior_mean_;
+  const Eigen::VectorXd off = z - mean;
+  const Eigen::VectorXd of_prior = prior_precision_.cwiseProduct(off);
+  NormalEquations result;
+  const auto set_cost = [&](const RowSums& sums) {
+    const double of_data = weighting.share * (weighting.offset + sums.loss) - sums.by_noise.sum();
+    result.cost = 0.5 * of_data + 0.5 * off.dot(of_prior);
+  };
+  const auto set_gradient = [&](const RowSums& sums, const Eigen::VectorXd& by_prediction,
+                                const Eigen::VectorXd& by_channel) {
+    result.gradient = by_prediction + of_prior;
+    if (weighting.emg_variance.size() == 0) return;
+    const Eigen::VectorXd exponent = exponents(z);
+    for (Eigen::Index j = 0; j < z.size(); ++j) {
+      const ChannelSlope s = channel_slope(j, exponent);
+      if (s.channel < 0) continue;
+      result.gradient[j] -= s.slope * by_channel[j];
+      if (s.adds) result.gradient[j] -= sums.by_noise[s.channel];
+    }
+  };
+  if (derivatives == Derivatives::gradient) {
+    std::vector<RowSums> of_piece(model_->pieces().size());
+    Eigen::VectorXd by_prediction, by_channel;
+    model_->pull_back(
+        z,
+        [&](std::size_t piece, PullBack& rows) {
+          const auto [trial, joint, first, count] = model_->pieces()[piece];
+          Eigen::VectorXd scale(count);
+          of_piece[piece] = weigh(weighting, variant, first, rows.predicted.segment(first, count),
+                                  rows.channel_torque.middleCols(first, count),
+                                  rows.by_predicted.segment(first, count), scale);
+        },
+        by_prediction, by_channel);
+    RowSums sums = of_piece.front();
+    for (std::size_t piece = 1; piece < of_piece.size(); ++piece) {
+      sums.loss += of_piece[piece].loss;
+      sums.by_noise += of_piece[piece].by_noise;
+    }
+    set_cost(sums);
+    set_gradient(sums, by_prediction, by_channel);
+    return result;
+  }
   // Workspace of this thread: the gradient matrix is large, and allocating it anew costs more than
   // a pass over it.
   thread_local Evaluation at;
   Evaluation local;
   std::swap(local, at);  // a task that this thread takes on meanwhile finds the shared one empty
-  const bool sloped = derivatives != Derivatives::none;
   const bool curved = derivatives == Derivatives::curvature;
-  model_->evaluate(z, sloped ? ResidualModel::Depth::gradient : ResidualModel::Depth::value, local);
-  NormalEquations result;
-  const Eigen::Index n = model_->sample_count();
-  const bool corrected = weighting.emg_variance.size() > 0;
-  Eigen::VectorXd by_residual(n);  ///< d (cost of the data) / d predicted
-  Eigen::VectorXd scale(n);
-  Eigen::VectorXd by_noise = Eigen::VectorXd::Zero(channel_variance_.size());
-  double sum = weighting.offset;
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const double u = (local.predicted[i] - model_->measured()[i]) / weighting.sd_nm[i];
-    const double count = variant.multiplicity.size() > 0 ? variant.multiplicity[i] : 1.0;
-    const LossValue value = loss(options_.loss, u);
-    sum += count * value.rho;
-    const double root = std::sqrt(weighting.share * count * value.weight);
-    scale[i] = root / weighting.sd_nm[i];
-    by_residual[i] = scale[i] * root * u;
-    if (corrected) {
-      auto torque = local.channel_torque.col(i);
-      const double squared = scale[i] * scale[i] * weighting.emg_variance[i];
-      by_noise += squared * torque.cwiseAbs2().cwiseProduct(channel_variance_);
-      if (sloped)
-        torque = squared *
-                 torque.cwiseProduct(channel_variance_).cwiseProduct(model_->noise_gain().col(i));
-    }
-  }
-  sum -= by_noise.sum() / weighting.share;
-  const Eigen::VectorXd& mean = variant.prior_mean.size() > 0 ? variant.prior_mean : prior_mean_;
-  const Eigen::VectorXd off = z - mean;
-  result.cost = 0.5 * weighting.share * sum + 0.5 * off.dot(prior_precision_.cwiseProduct(off));
-  if (sloped) {
-    const Eigen::Index p = z.size();
-    result.gradient = local.gradient * by_residual + prior_precision_.cwiseProduct(off);
-    if (corrected) {
-      const Eigen::VectorXd exponent = exponents(z);
-      const Eigen::MatrixXd by_channel = local.unfiltered * local.channel_torque.transpose();
-      for (Eigen::Index j = 0; j < p; ++j) {
-        const ChannelSlope s = channel_slope(j, exponent);
-        if (s.channel < 0) continue;
-        result.gradient[j] -= s.slope * by_channel(j, s.channel);
-        if (s.adds) result.gradient[j] -= by_noise[s.channel];
-      }
-    }
-  }
+  model_->evaluate(z, curved ? ResidualModel::Depth::gradient : ResidualModel::Depth::value, local);
+  Eigen::VectorXd by_predicted(n), scale(n);
+  const RowSums sums =
+      weigh(weighting, variant, 0, local.predicted, local.channel_torque, by_predicted, scale);
+  set_cost(sums);
   if (curved) {
     const Eigen::Index p = z.size();
+    const Eigen::MatrixXd by_all_channels = local.unfiltered * local.channel_torque.transpose();
+    Eigen::VectorXd by_channel = Eigen::VectorXd::Zero(p);
+    for (Eigen::Index j = 0; j < p; ++j) {
+      if (const int c = model_->channel_of_variable(j); c >= 0)
+        by_channel[j] = by_all_channels(j, c);
+    }
+    set_gradient(sums, local.gradient * by_predicted, by_channel);
     for (Eigen::Index i = 0; i < n; ++i) local.gradient.col(i) *= scale[i];
     result.curvature.setZero(p, p);
     result.curvature.selfadjointView<Eigen::Lower>().rankUpdate(local.gradient);
     result.curvature.triangularView<Eigen::StrictlyUpper>() = result.curvature.transpose();
-    if (corrected) correct_curvature(weighting, result.curvature);
+    if (weighting.emg_variance.size() > 0) correct_curvature(weighting, result.curvature);
     result.curvature.diagonal() += prior_precision_;
   }
   std::swap(local, at);

@@ -107,6 +107,22 @@ class Estimator {
   /// Share of the variance of an envelope's noise that the low-pass of the residuals leaves.
   [[nodiscard]] double kept_by_residual_filter() const;
   void find_noise(const Eigen::VectorXd& z, const Evaluation& at, Weighting& weighting) const;
+  /// Of the rows of a piece, or of all: sum of the loss, and what the noise of each channel makes
+  /// of it.
+  struct RowSums {
+    double loss = 0.0;
+    Eigen::VectorXd by_noise;
+  };
+  /// From predicted torques and torques of the channels of the rows from `first` on: d (cost of the
+  /// data) / d predicted, the weights' roots, and in the torques' place what d (cost taken out by
+  /// the correction) / dz is of theirs.
+  RowSums weigh(const Weighting& weighting,
+                const Variant& variant,
+                Eigen::Index first,
+                const Eigen::Ref<const Eigen::VectorXd>& predicted,
+                Eigen::Ref<Eigen::MatrixXd> channel_torque,
+                Eigen::Ref<Eigen::VectorXd> by_predicted,
+                Eigen::Ref<Eigen::VectorXd> scale) const;
   /// What an EMG channel's torque, T_ch = p T of an activation g u^p, changes by with a variable:
   /// `slope` times the change of T, plus T_ch if `adds`.
   struct ChannelSlope {

@@ -4,19 +4,11 @@
 #include <cmath>
 
 #include <fmt/format.h>
-#include <oneapi/tbb/parallel_for.h>
 
 #include "myoid/core/error.h"
 #include "myoid/identification/row_filter.h"
 
 namespace myoid::identification {
-namespace {
-
-/// Samples times muscles below which handing blocks to other threads costs more than it saves.
-constexpr Eigen::Index kWorthSharing = 8000;
-
-}  // namespace
-
 double envelope_spread(const EstimatorOptions& options, const std::string& channel) {
   constexpr double kUsualBandwidth_hz = 150.0;
   const auto known = options.emg_bandwidth_hz.find(channel);
@@ -133,6 +125,7 @@ void ResidualModel::add_block(const StudyData& data,
     Block::Joint joint;
     joint.joint = static_cast<int>(std::find(map_.joints().begin(), map_.joints().end(), name) -
                                    map_.joints().begin());
+    joint.piece = pieces_.size();
     joint.first = measured_.size();
     joint.arm_m = arm(rows, Eigen::all);
     if (q.size() == all && qdot.size() == all && qddot.size() == all) {
@@ -173,132 +166,6 @@ std::vector<Eigen::Index> ResidualModel::piece_lengths() const {
   std::vector<Eigen::Index> lengths;
   for (const Piece& piece : pieces_) lengths.push_back(piece.count);
   return lengths;
-}
-
-void ResidualModel::evaluate(const Eigen::VectorXd& z, Depth depth, Evaluation& out) const {
-  std::vector<ParameterMap::Chain> chains;
-  const bool gradient = depth != Depth::value;
-  const ModelValues values = map_.values(z, gradient ? &chains : nullptr);
-  out.predicted.setZero(measured_.size());
-  if (gradient) {
-    out.gradient.setZero(map_.size(), measured_.size());
-    out.unfiltered.resize(map_.size(), measured_.size());
-  }
-  out.channel_torque.setZero(static_cast<Eigen::Index>(map_.channels().size()), measured_.size());
-  if (depth == Depth::noise) out.motion_variance.setZero(measured_.size());
-  // Every block writes rows of its own: the result does not depend on the number of threads.
-  const auto one = [&](std::size_t b) { evaluate_block(blocks_[b], values, chains, depth, out); };
-  if (measured_.size() * static_cast<Eigen::Index>(values.muscles.size()) < kWorthSharing) {
-    for (std::size_t b = 0; b < blocks_.size(); ++b) one(b);
-  } else {
-    oneapi::tbb::parallel_for(std::size_t{0}, blocks_.size(), one);
-  }
-}
-
-void ResidualModel::evaluate_block(const Block& block,
-                                   const ModelValues& values,
-                                   const std::vector<ParameterMap::Chain>& chains,
-                                   Depth depth,
-                                   Evaluation& out) const {
-  const Eigen::Index n = block.time_s.size();
-  const bool with_gradient = depth != Depth::value;
-  const bool with_noise = depth == Depth::noise;
-  std::vector<std::vector<ParameterMap::Chain>> of_muscle(values.muscles.size());
-  std::vector<std::vector<ParameterMap::Chain>> of_channel(block.envelopes.size());
-  std::vector<ParameterMap::Chain> of_joint;
-  for (const ParameterMap::Chain& chain : chains) {
-    const auto owner = static_cast<std::size_t>(chain.owner);
-    if (chain.scope == Scope::muscle) of_muscle[owner].push_back(chain);
-    if (chain.scope == Scope::channel) of_channel[owner].push_back(chain);
-    if (chain.scope == Scope::joint) of_joint.push_back(chain);
-  }
-  std::vector<std::vector<Activation>> activations;
-  for (std::size_t c = 0; c < block.envelopes.size(); ++c) {
-    const bool with_exponent =
-        std::any_of(of_channel[c].begin(), of_channel[c].end(),
-                    [](const ParameterMap::Chain& chain) { return chain.field == kExponent; });
-    activations.push_back(
-        activation(block.envelopes[c], block.time_s, values.channels[c], lag_, with_exponent));
-  }
-  for (std::size_t k = 0; k < values.muscles.size(); ++k) {
-    const auto column = static_cast<Eigen::Index>(k);
-    const auto c = static_cast<std::size_t>(map_.channel_of_muscle(k));
-    const bool plain =
-        is_plain(values.muscles[k]) &&
-        std::all_of(of_muscle[k].begin(), of_muscle[k].end(),
-                    [](const ParameterMap::Chain& chain) { return is_plain_field(chain.field); });
-    Tension t;
-    for (Eigen::Index i = 0; i < n; ++i) {
-      const Activation& a = activations[c][static_cast<std::size_t>(i)];
-      const double length_m = block.length_m(i, column);
-      const double velocity_mps = block.velocity_mps(i, column);
-      if (plain) {
-        plain_tension(a.value, length_m, velocity_mps, values.muscles[k], t);
-      } else {
-        t = tension(a.value, length_m, velocity_mps, values.muscles[k]);
-      }
-      for (std::size_t j = 0; j < block.joints.size(); ++j) {
-        const Block::Joint& joint = block.joints[j];
-        const double arm = joint.arm_m(i, column);
-        const Eigen::Index row = joint.first + i;
-        out.predicted[row] += arm * t.force_n;
-        // What a relative error of the envelope does to the torque; for a force proportional to the
-        // activation that is the torque itself.
-        out.channel_torque(static_cast<Eigen::Index>(c), row) +=
-            arm * t.by_activation * a.by_log_envelope *
-            block.noise_gain[static_cast<Eigen::Index>(c)];
-        if (with_gradient) {
-          double* gradient = out.gradient.data() + row * out.gradient.rows();
-          for (const ParameterMap::Chain& chain : of_muscle[k])
-            gradient[chain.variable] +=
-                arm * t.by_field[static_cast<std::size_t>(chain.field)] * chain.slope;
-          for (const ParameterMap::Chain& chain : of_channel[c])
-            gradient[chain.variable] += arm * t.by_activation *
-                                        a.by_field[static_cast<std::size_t>(chain.field)] *
-                                        chain.slope;
-        }
-        if (with_noise) {
-          // dq moves every length by -r dq.
-          const double by_angle = -arm * arm * t.by_length;
-          const double by_rate = -arm * arm * t.by_velocity;
-          out.motion_variance[row] +=
-              std::pow(by_angle * angle_sd_rad_, 2) + std::pow(by_rate * angle_rate_sd_radps_, 2);
-        }
-      }
-    }
-  }
-  for (std::size_t j = 0; j < block.joints.size(); ++j) {
-    const Block::Joint& joint = block.joints[j];
-    const auto which = static_cast<std::size_t>(joint.joint);
-    const JointValues& p = values.joints[which];
-    if (joint.motion.size() > 0) {
-      out.predicted.segment(joint.first, n) -= p[kViscosity] * joint.motion.col(1) +
-                                               p[kInertia] * joint.motion.col(2) +
-                                               p[kStiffness] * joint.motion.col(0);
-    }
-    out.predicted.segment(joint.first, n).array() += p[kOffset];
-    if (joint.resting_nm.size() > 0) out.predicted.segment(joint.first, n) += joint.resting_nm;
-    for (const ParameterMap::Chain& chain : of_joint) {
-      if (chain.owner != joint.joint) continue;
-      auto row = out.gradient.row(chain.variable).segment(joint.first, n);
-      if (chain.field == kOffset) row.array() += chain.slope;
-      if (joint.motion.size() == 0) continue;
-      if (chain.field == kViscosity) row -= chain.slope * joint.motion.col(1).transpose();
-      if (chain.field == kInertia) row -= chain.slope * joint.motion.col(2).transpose();
-      if (chain.field == kStiffness) row -= chain.slope * joint.motion.col(0).transpose();
-    }
-    if (with_gradient)
-      out.unfiltered.middleCols(joint.first, n) = out.gradient.middleCols(joint.first, n);
-    if (!block.filter.empty()) {
-      std::vector<SignalRow> rows{{out.predicted.data() + joint.first, 1}};
-      const auto add = [&](Eigen::MatrixXd& signals) {
-        for (Eigen::Index r = 0; r < signals.rows(); ++r)
-          rows.push_back({signals.data() + joint.first * signals.rows() + r, signals.rows()});
-      };
-      if (with_gradient) add(out.gradient);
-      filter_rows(block.filter, rows, n);
-    }
-  }
 }
 
 }  // namespace myoid::identification

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -7,6 +8,7 @@
 
 #include "myoid/identification/envelope.h"
 #include "myoid/identification/error_shapes.h"
+#include "myoid/identification/muscle_rows.h"
 #include "myoid/identification/parameters.h"
 #include "myoid/math/butterworth.h"
 
@@ -36,6 +38,13 @@ struct Evaluation {
   Eigen::VectorXd motion_variance;  ///< n: from the errors of angle and rate.
 };
 
+/// A cost of what the model says, on its way back to the parameters; rows as in the pieces.
+struct PullBack {
+  Eigen::VectorXd predicted;       ///< As Evaluation::predicted.
+  Eigen::MatrixXd channel_torque;  ///< As Evaluation::channel_torque; in its place come weights.
+  Eigen::VectorXd by_predicted;    ///< d cost / d predicted.
+};
+
 /// The one residual of all estimators: predicted minus measured torque (or force: one muscle with a
 /// moment arm of 1) over the samples of the calibration trials, thinned and low-passed.
 class ResidualModel {
@@ -62,6 +71,17 @@ class ResidualModel {
   enum class Depth { value, gradient, noise };
   void evaluate(const Eigen::VectorXd& z, Depth depth, Evaluation& out) const;
 
+  /// What Evaluation's matrices would be multiplied by, without them, in half of the time:
+  /// `by_prediction` = gradient * by_predicted and, for a variable j with a channel c of its own,
+  /// `by_channel`[j] = the sum over i of unfiltered(j, i) * channel_torque(c, i), else 0; p each.
+  /// `weigh(piece, rows)` is called once for each of `pieces()`, from several threads: it reads
+  /// `predicted` and `channel_torque` of the piece's rows, sets their `by_predicted` and puts the
+  /// weights in the place of the torques.
+  void pull_back(const Eigen::VectorXd& z,
+                 const std::function<void(std::size_t piece, PullBack& rows)>& weigh,
+                 Eigen::VectorXd& by_prediction,
+                 Eigen::VectorXd& by_channel) const;
+
   /// For each muscle its torque times 1, the Legendre polynomials P1 to P3 of its length over the
   /// recorded range, ln(activation) / 2.3 + 1 (a non-linear EMG), its speed over the greatest, and
   /// its change within 0.15 s (a delay of its own);
@@ -83,10 +103,12 @@ class ResidualModel {
     Eigen::VectorXd noise_gain;              ///< Per channel.
     struct Joint {
       int joint = 0;
+      std::size_t piece = 0;  ///< In `pieces()`.
       Eigen::Index first = 0;
       Eigen::MatrixXd arm_m;
       Eigen::MatrixXd motion;      ///< n x 3: angle, rate, acceleration; empty if not known.
       Eigen::VectorXd resting_nm;  ///< n, or empty: none.
+      [[nodiscard]] Eigen::VectorXd by_field(int field, Eigen::Index n) const;
     };
     std::vector<Joint> joints;
     std::vector<math::SecondOrderSection> filter;
@@ -96,11 +118,24 @@ class ResidualModel {
                  int trial,
                  const std::vector<Eigen::Index>& rows,
                  const EstimatorOptions& options);
-  void evaluate_block(const Block& block,
-                      const ModelValues& values,
-                      const std::vector<ParameterMap::Chain>& chains,
-                      Depth depth,
-                      Evaluation& out) const;
+  struct Chains;
+  [[nodiscard]] Chains chains_by_owner(const std::vector<ParameterMap::Chain>& chains) const;
+  [[nodiscard]] const std::vector<MuscleRows>& evaluate_muscles(const Block& block,
+                                                                const ModelValues& values,
+                                                                const Chains& chains) const;
+  void add_torques(const Block& block,
+                   const ModelValues& values,
+                   const std::vector<MuscleRows>& muscles,
+                   Eigen::VectorXd& predicted,
+                   Eigen::MatrixXd& channel_torque) const;
+  void add_gradient(const Block& block,
+                    const std::vector<MuscleRows>& muscles,
+                    const Chains& chains,
+                    Evaluation& out) const;
+  void add_motion_variance(const Block& block,
+                           const std::vector<MuscleRows>& muscles,
+                           Evaluation& out) const;
+  void for_each_block(const std::function<void(std::size_t)>& one) const;
 
   ParameterMap map_;
   std::vector<Block> blocks_;

@@ -22,16 +22,26 @@ Eigen::Index memory_of(const std::vector<math::SecondOrderSection>& sections) {
       std::ceil(std::log(1e-4) / std::log(std::clamp(radius, 1e-3, 1.0 - 1e-9))));
 }
 
-/// One section over the columns of y, from `begin` in steps of `step`; begins in the steady state
-/// of the first sample.
+/// State of a section that has always been given 1.
+struct SteadyState {
+  explicit SteadyState(const math::SecondOrderSection& s) {
+    const double gain = (s.b0 + s.b1 + s.b2) / (1.0 + s.a1 + s.a2);
+    z2 = s.b2 - s.a2 * gain;
+    z1 = s.b1 - s.a1 * gain + z2;
+  }
+  double z1 = 0.0, z2 = 0.0;
+};
+
+/// One section over the columns of y, from one end to the other; begins in the steady state of the
+/// first sample.
 void run(const math::SecondOrderSection& s,
          Eigen::Matrix<double, kTogether, Eigen::Dynamic>& y,
          bool forwards) {
   const Eigen::Index begin = forwards ? 0 : y.cols() - 1;
   const Eigen::Index step = forwards ? 1 : -1;
-  const double steady = (s.b0 + s.b1 + s.b2) / (1.0 + s.a1 + s.a2);
-  Lane z2 = (s.b2 - s.a2 * steady) * y.col(begin).array();
-  Lane z1 = (s.b1 - s.a1 * steady) * y.col(begin).array() + z2;
+  const SteadyState steady(s);
+  Lane z1 = steady.z1 * y.col(begin).array();
+  Lane z2 = steady.z2 * y.col(begin).array();
   for (Eigen::Index i = begin; i >= 0 && i < y.cols(); i += step) {
     const Lane in = y.col(i).array();
     const Lane out = s.b0 * in + z1;
@@ -39,6 +49,22 @@ void run(const math::SecondOrderSection& s,
     z2 = s.b2 * in - s.a2 * out;
     y.col(i) = out.matrix();
   }
+}
+
+/// The transpose of `run` for one signal: the recursion's derivatives, last step first.
+void run_transposed(const math::SecondOrderSection& s, Eigen::VectorXd& y, bool forwards) {
+  const Eigen::Index begin = forwards ? 0 : y.size() - 1;
+  const Eigen::Index step = forwards ? 1 : -1;
+  double by_z1 = 0.0, by_z2 = 0.0;
+  for (Eigen::Index k = y.size() - 1; k >= 0; --k) {
+    double& at = y[begin + step * k];
+    const double by_out = at - s.a1 * by_z1 - s.a2 * by_z2;
+    at = s.b0 * by_out + s.b1 * by_z1 + s.b2 * by_z2;
+    by_z2 = by_z1;
+    by_z1 = by_out;
+  }
+  const SteadyState steady(s);
+  y[begin] += steady.z1 * by_z1 + steady.z2 * by_z2;
 }
 
 }  // namespace
@@ -70,6 +96,27 @@ void filter_rows(const std::vector<math::SecondOrderSection>& sections,
       for (Eigen::Index i = 0; i < count; ++i) row.data[i * row.stride] = y(r, pad + i);
     }
   }
+}
+
+Eigen::VectorXd transposed_filter(const std::vector<math::SecondOrderSection>& sections,
+                                  const Eigen::VectorXd& y) {
+  const Eigen::Index count = y.size();
+  if (sections.empty() || count == 0) return y;
+  const Eigen::Index pad = std::min(count - 1, memory_of(sections));
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(count + 2 * pad);
+  x.segment(pad, count) = y;
+  for (auto section = sections.rbegin(); section != sections.rend(); ++section) {
+    run_transposed(*section, x, false);
+    run_transposed(*section, x, true);
+  }
+  const Eigen::Index last = pad + count - 1;
+  for (Eigen::Index i = 1; i <= pad; ++i) {
+    x[pad] += 2.0 * x[pad - i];
+    x[pad + i] -= x[pad - i];
+    x[last] += 2.0 * x[last + i];
+    x[last - i] -= x[last + i];
+  }
+  return x.segment(pad, count);
 }
 
 void filter_rows(const std::vector<math::SecondOrderSection>& sections,

@@ -21,6 +21,11 @@ void filter_rows(const std::vector<math::SecondOrderSection>& sections,
                  const std::vector<SignalRow>& rows,
                  Eigen::Index count);
 
+/// The transpose of that: <filter_rows(x), y> = <x, transposed(y)> for every signal x. Its way back
+/// takes a gradient by the filtered signal to one by the signal itself.
+[[nodiscard]] Eigen::VectorXd transposed_filter(
+    const std::vector<math::SecondOrderSection>& sections, const Eigen::VectorXd& y);
+
 /// The rows of a matrix.
 void filter_rows(const std::vector<math::SecondOrderSection>& sections,
                  Eigen::Ref<Eigen::MatrixXd> x);

@@ -47,5 +47,18 @@ TEST(RowFilter, LeavesAConstantAndWhatLiesBetweenTheRowsAsItIs) {
   }
 }
 
+TEST(RowFilter, ItsTransposeIsTheOneOfTheMatrixThatItIs) {
+  const auto sections = math::design_butterworth(math::FilterBand::low_pass, 4, 3.0, 50.0);
+  ASSERT_EQ(sections.size(), 2);
+  for (const Eigen::Index n : {1, 2, 7, 90}) {  // shorter than the reflected ends, and longer
+    Eigen::MatrixXd matrix = Eigen::MatrixXd::Identity(n, n);
+    filter_rows(sections, matrix);  // row r is what a 1 at sample r becomes
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const Eigen::VectorXd back = transposed_filter(sections, Eigen::VectorXd::Unit(n, i));
+      EXPECT_LT((back - matrix.col(i)).cwiseAbs().maxCoeff(), 1e-13) << n << " " << i;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace myoid::identification

@@ -38,6 +38,36 @@ const ParameterEstimate& find(const IdentificationResult& result,
   throw InvalidInput("no estimate " + muscle + "." + parameter);
 }
 
+/// What a cost pulls back is what the matrices of `at` say, for any weights of the rows.
+void expect_pull_back(const ResidualModel& model, const Eigen::VectorXd& z, const Evaluation& at) {
+  const Eigen::Index n = model.sample_count();
+  const Eigen::VectorXd weights = Eigen::VectorXd::LinSpaced(n, 0.3, 40.0).array().sin();
+  Eigen::VectorXd by_prediction, by_channel;
+  model.pull_back(
+      z,
+      [&](std::size_t piece, PullBack& rows) {
+        const auto [trial, joint, first, count] = model.pieces()[piece];
+        for (Eigen::Index i = first; i < first + count; ++i) {
+          EXPECT_NEAR(rows.predicted[i], at.predicted[i], 1e-11);
+          rows.by_predicted[i] = weights[i];
+          for (Eigen::Index c = 0; c < rows.channel_torque.rows(); ++c) {
+            EXPECT_NEAR(rows.channel_torque(c, i), at.channel_torque(c, i), 1e-11);
+            rows.channel_torque(c, i) = weights[i] + static_cast<double>(c);
+          }
+        }
+      },
+      by_prediction, by_channel);
+  for (Eigen::Index j = 0; j < z.size(); ++j) {
+    SCOPED_TRACE(model.parameters().free()[static_cast<std::size_t>(j)].label);
+    EXPECT_NEAR(by_prediction[j], at.gradient.row(j).dot(weights),
+                1e-12 * at.gradient.row(j).cwiseAbs().sum());
+    const int c = model.channel_of_variable(j);
+    const double of_channel =
+        c < 0 ? 0.0 : at.unfiltered.row(j).dot(weights) + c * at.unfiltered.row(j).sum();
+    EXPECT_NEAR(by_channel[j], of_channel, 1e-11 * at.unfiltered.row(j).cwiseAbs().sum());
+  }
+}
+
 /// Derivatives of everything that can be freed against central differences.
 void expect_derivatives(const StudyData& data, const TorqueOptions& options, Eigen::Index count) {
   const ResidualModel model(data, options);
@@ -60,6 +90,7 @@ void expect_derivatives(const StudyData& data, const TorqueOptions& options, Eig
               1e-6 * std::max(1.0, derivative.cwiseAbs().maxCoeff()));
     EXPECT_GT(derivative.norm(), 0.0);
   }
+  expect_pull_back(model, z, at);
 }
 
 TEST(ResidualModel, DerivativesAreThoseOfTheTorque) {
