@@ -60,7 +60,7 @@ struct EstimatorOptions {
   /// small envelope u larger than in proportion to u, by 1 + (rest / u)^2.
   std::map<std::string, double> emg_rest;
   double envelope_cutoff_hz = 6.0;  ///< Of the smoothing of the rectified EMG.
-  double max_rate_hz = 50.0;  ///< Samples are thinned to at most this; torque and EMG hold 6 Hz.
+  double max_rate_hz = 25.0;  ///< Samples are thinned to at most this; EMG and motion hold 6 Hz.
   /// Both sides of the residual are low-passed here (two passes, -3 dB). T^ is linear in the
   /// envelope, whose noise reaches further up than what tells muscles apart: what is cut off would
   /// only pull F_max towards zero (errors in the regressors). Empty: not at all.

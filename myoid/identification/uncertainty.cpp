@@ -140,7 +140,9 @@ Sandwich sandwich(const Estimator& estimator, const Estimator::Solution& solutio
   if (estimator.options().weights) {
     // Few effective samples make B itself unsure, and its lags are short: never below what the
     // residuals' own autocorrelation, of all samples together, makes of these gradients.
-    const auto stride = static_cast<Eigen::Index>(std::max(1.0, model.rate_hz() / 50.0));
+    const double told_apart_hz = 8.0 * estimator.options().residual_cutoff_hz.value_or(6.25);
+    const auto stride =
+        static_cast<Eigen::Index>(std::max(1.0, std::floor(model.rate_hz() / told_apart_hz)));
     Eigen::MatrixXd expected =
         solution.weighting.share *
         math::covariance_of_sum(

@@ -73,22 +73,22 @@ Eigen::MatrixXd covariance_of_sum(const Eigen::MatrixXd& weights,
                                   const std::vector<Eigen::Index>& pieces,
                                   Eigen::Index stride) {
   const Eigen::Index p = weights.rows();
+  const Eigen::Index reach = autocorrelation.size() - 1;
+  Eigen::VectorXd kernel(2 * reach + 1);
+  kernel << autocorrelation.reverse(), autocorrelation.tail(reach);
   Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(p, p);
   Eigen::Index begin = 0;
   for (const Eigen::Index length : pieces) {
-    const auto g = weights.middleCols(begin, length);
+    Eigen::MatrixXd padded = Eigen::MatrixXd::Zero(length + 2 * reach, p);
+    padded.middleRows(reach, length) = weights.middleCols(begin, length).transpose();
     const Eigen::Index count = (length + stride - 1) / stride;
-    Eigen::MatrixXd here(p, count), filtered(p, count);
+    Eigen::MatrixXd here(count, p), filtered(count, p);
     for (Eigen::Index i = 0; i < count; ++i) {
       const Eigen::Index t = i * stride;
-      here.col(i) = g.col(t);
-      filtered.col(i) = autocorrelation[0] * g.col(t);
-      for (Eigen::Index lag = 1; lag < autocorrelation.size(); ++lag) {
-        if (t >= lag) filtered.col(i) += autocorrelation[lag] * g.col(t - lag);
-        if (t + lag < length) filtered.col(i) += autocorrelation[lag] * g.col(t + lag);
-      }
+      here.row(i) = padded.row(reach + t);
+      filtered.row(i).noalias() = kernel.transpose() * padded.middleRows(t, kernel.size());
     }
-    sum += static_cast<double>(length) / static_cast<double>(count) * filtered * here.transpose();
+    sum += static_cast<double>(length) / static_cast<double>(count) * filtered.transpose() * here;
     begin += length;
   }
   return 0.5 * (sum + sum.transpose());

@@ -188,8 +188,7 @@ struct IdentifySpec {
   bool delay_per_channel = false;
   double angle_sd_rad = 0.0;  ///< Error of the joint angle and of its rate, propagated.
   double angle_rate_sd_radps = 0.0;
-  double max_rate_hz =
-      25.0;  ///< Torque and prediction are compared below 2 Hz: more samples add nothing.
+  double max_rate_hz = identification::EstimatorOptions{}.max_rate_hz;
 };
 
 /// What to do, as read from a study.toml. Paths are absolute or relative to the working directory,
