@@ -7,6 +7,10 @@
 
 #include <Eigen/Cholesky>
 
+#include "myoid/core/numbers.h"
+#include "myoid/core/units.h"
+#include "myoid/math/statistics.h"
+
 namespace myoid::identification {
 namespace {
 
@@ -90,17 +94,24 @@ double Discrepancy::reach(Eigen::Index j, double variance, double probability) c
     most = std::max(most, sd.back());
     all += s.probability;
   }
-  // What was left out is shared among the rest; beyond ten of the largest sd there is nothing.
-  double low = 0.0, high = 10.0 * most;
-  for (int step = 0; step < 60 && high > low; ++step) {
-    const double middle = 0.5 * (low + high);
-    double inside = 0.0;
-    for (std::size_t k = 0; k < sd.size(); ++k)
-      inside += posterior[k].probability / all *
-                (sd[k] > 0.0 ? std::erf(middle / (std::sqrt(2.0) * sd[k])) : 1.0);
-    (inside < probability ? low : high) = middle;
+  if (!(most > 0.0) || !std::isfinite(most)) return most;
+  // What was left out is shared among the rest. The probability within x is concave in x: Newton's
+  // steps from below come to the root from below.
+  double x =
+      math::normal_quantile(0.5 + 0.5 * probability) * *std::min_element(sd.begin(), sd.end());
+  for (int count = 0; count < 60; ++count) {
+    double inside = 0.0, density = 0.0;
+    for (std::size_t k = 0; k < sd.size(); ++k) {
+      const double share = posterior[k].probability / all;
+      const double u = sd[k] > 0.0 ? x / (std::sqrt(2.0) * sd[k]) : kInfinity;
+      inside += share * std::erf(u);
+      if (sd[k] > 0.0) density += share * std::sqrt(2.0 / kPi) / sd[k] * std::exp(-u * u);
+    }
+    const double step = (probability - inside) / density;
+    if (!(step > 1e-13 * x)) break;
+    x += step;
   }
-  return high;
+  return x;
 }
 
 Discrepancy discrepancy(const Estimator& estimator,
