@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "myoid/core/geometry.h"
+#include "myoid/identification/options.h"
 #include "myoid/identification/study_data.h"
 
 namespace myoid::pipeline {
