@@ -89,9 +89,8 @@ void report_estimates(const Estimator& estimator,
     result.bootstrap_replicates = static_cast<int>(intervals.bootstrap->replicates.rows());
     result.bootstrap_failed = intervals.bootstrap->failed;
   }
-  if (options.intervals.profile) {
-    intervals.profiles = profile(estimator, solution, intervals.sandwich.relative_variance());
-  }
+  if (options.intervals.profile)
+    intervals.profiles = profile(estimator, solution, intervals.sandwich.newey_west.diagonal());
 
   const double quantile = math::normal_quantile(0.5 + 0.5 * kReportedProbability);
   const auto muscles = data.muscles.size();

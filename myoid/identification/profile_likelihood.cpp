@@ -7,6 +7,8 @@
 #include <Eigen/Cholesky>
 #include <oneapi/tbb/parallel_for.h>
 
+#include "myoid/identification/score_blocks.h"
+
 namespace myoid::identification {
 namespace {
 
@@ -183,7 +185,7 @@ std::optional<double> profile_distance(const ProfileProblem& problem,
 
 std::vector<Interval> profile(const Estimator& estimator,
                               const Estimator::Solution& solution,
-                              const Eigen::VectorXd& relative_variance) {
+                              const Eigen::VectorXd& variance) {
   const Eigen::Index p = solution.search.x.size();
   const NormalEquations there =
       estimator.normal_equations(solution.search.x, solution.weighting, Derivatives::curvature);
@@ -201,12 +203,15 @@ std::vector<Interval> profile(const Estimator& estimator,
                                .least = there.cost,
                                .gradient = there.gradient,
                                .curvature = there.curvature};
+  const Eigen::ArrayXd ratio =
+      variance.array() / inverse_of(there.curvature).diagonal().array().max(1e-300);
+  const Eigen::ArrayXd rise = (ratio.isFinite() && ratio > 0.0).select(ratio, 1.0);
   std::vector<Interval> intervals(static_cast<std::size_t>(p));
   std::atomic<int> done = 0;
   oneapi::tbb::parallel_for(Eigen::Index{0}, 2 * p, [&](Eigen::Index task) {
     const Eigen::Index j = task / 2;
     const bool above = task % 2 == 1;
-    const double goal = kProfileGoal * std::sqrt(relative_variance[j]);
+    const double goal = kProfileGoal * std::sqrt(rise[j]);
     if (const auto distance = profile_distance(problem, j, above, goal)) {
       Interval& interval = intervals[static_cast<std::size_t>(j)];
       (above ? interval.high : interval.low) =

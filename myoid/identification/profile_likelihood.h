@@ -44,10 +44,11 @@ inline constexpr double kProfileGoal = 1.959963984540054;
 /// solution.
 ///
 /// Residuals are correlated, so that C is no likelihood but a composite one: 2 (C - C_min) of a
-/// parameter is as chi-squared times `relative_variance`, the ratio of the variance that the
-/// sandwich gives it to the one of A^-1 (Rotnitzky & Jewell 1990; Pace, Salvan & Sartori 2011).
+/// parameter is as chi-squared times the ratio of its `variance`, which the sandwich knows, to the
+/// one that the curvature of C would give it (Rotnitzky & Jewell 1990; Pace, Salvan & Sartori
+/// 2011). Where either is not to be had the ratio is 1.
 [[nodiscard]] std::vector<Interval> profile(const Estimator& estimator,
                                             const Estimator::Solution& solution,
-                                            const Eigen::VectorXd& relative_variance);
+                                            const Eigen::VectorXd& variance);
 
 }  // namespace myoid::identification

@@ -141,8 +141,9 @@ TEST(ProfileLikelihood, OfARecordingIsWhereFitsWithThatParameterHeldAreWorseByWh
                                                     .with_priors = true});
   const Estimator estimator(study.data, {.starts = 1});
   const Estimator::Solution solution = estimator.solve(estimator.model().parameters().start());
+  const Eigen::VectorXd rise = Eigen::VectorXd::LinSpaced(solution.search.x.size(), 0.4, 2.0);
   const Eigen::VectorXd variance =
-      Eigen::VectorXd::LinSpaced(solution.search.x.size(), 0.4, 2.0);  // against A^-1
+      rise.cwiseProduct(sandwich(estimator, solution).model_based.diagonal());
   const std::vector<Interval> intervals = profile(estimator, solution, variance);
   int checked = 0;
   for (std::size_t j = 0; j < intervals.size(); j += 3) {
@@ -155,7 +156,7 @@ TEST(ProfileLikelihood, OfARecordingIsWhereFitsWithThatParameterHeldAreWorseByWh
       // Levenberg-Marquardt, of which the profile uses nothing. v to 2 %.
       const NormalSearchResult fit =
           estimator.search(start, solution.weighting, 1e-9, 1e-11, 200, {}, held);
-      const double goal = kProfileGoal * std::sqrt(variance[static_cast<Eigen::Index>(j)]);
+      const double goal = kProfileGoal * std::sqrt(rise[static_cast<Eigen::Index>(j)]);
       EXPECT_NEAR(std::sqrt(2.0 * (fit.cost - solution.search.cost)), goal, 0.02 * goal)
           << estimator.free()[j].label << " " << *end;
       ++checked;

@@ -215,12 +215,6 @@ Sandwich sandwich(const Estimator& estimator, const Estimator::Solution& solutio
   return result;
 }
 
-Eigen::VectorXd Sandwich::relative_variance() const {
-  const Eigen::ArrayXd ratio =
-      newey_west.diagonal().array() / model_based.diagonal().array().max(1e-300);
-  return (ratio.isFinite() && ratio > 0.0).select(ratio, 1.0);
-}
-
 BootstrapResult bootstrap(const Estimator& estimator, const Estimator::Solution& solution) {
   const ResidualModel& model = estimator.model();
   const IntervalOptions& options = estimator.options().intervals;

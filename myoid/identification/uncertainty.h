@@ -31,8 +31,6 @@ struct Sandwich {
   Eigen::VectorXd trial_spread;
   double sample_spread = 0.0;   ///< ... and of Newey and West's, with its triangle of lags.
   Eigen::MatrixXd model_based;  ///< A^-1
-  /// Of Newey and West's variance to that of A^-1, by parameter; 1 where either is not to be had.
-  [[nodiscard]] Eigen::VectorXd relative_variance() const;
   Eigen::MatrixXd information;  ///< Of the data alone, nu J'WJ.
   /// By how much the estimates move where the variance of the EMG's noise is larger by its own
   /// spread (NoiseLevel::log_variance_sd): the more, the less the data tell muscles from what is

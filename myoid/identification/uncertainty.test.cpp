@@ -42,6 +42,28 @@ TEST(Uncertainty, RoutesAgreeOnAWellBehavedRecording) {
   }
 }
 
+TEST(Uncertainty, AProfileHasTheScaleOfTheSandwichWhateverTheCostsIs) {
+  // Plain least squares: the cost counts every sample in N m squared, as if each stood alone.
+  const ElbowStudy study = elbow_study({.trials = 8,
+                                        .seconds = 10.0,
+                                        .torque_sd_nm = 0.05,
+                                        .truth_from_prior = true,
+                                        .with_priors = true});
+  EstimatorOptions options{.priors = false, .weights = false, .starts = 1};
+  options.intervals = {.profile = true};
+  int checked = 0;
+  for (const ParameterEstimate& e : identify_torque(study.data, options).estimates) {
+    if (e.parameter != "max_isometric_force" && e.parameter != "emg_delay") continue;
+    const RouteInterval& by_sandwich = e.routes.front();
+    const RouteInterval& by_profile = e.routes.back();
+    ASSERT_EQ(by_profile.route, "profile");
+    const double width = *by_sandwich.high - *by_sandwich.low;
+    EXPECT_NEAR((*by_profile.high - *by_profile.low) / width, 1.0, 0.1) << e.muscle << e.parameter;
+    ++checked;
+  }
+  EXPECT_EQ(checked, 5);
+}
+
 TEST(Sandwich, WhatATrialMovesIsWhatTheFitWithoutItSays) {
   ElbowStudy study = elbow_study({.trials = 5,
                                   .seconds = 12.0,
