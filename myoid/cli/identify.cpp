@@ -120,8 +120,11 @@ identification::EstimatorOptions estimator_options(const IdentifyOptions& o,
 }
 
 void print_result(const identification::IdentificationResult& result, bool freed_speeds) {
+  fmt::print("{:<10} {:<36} {:<12} {:>14} {:>26}  {}\n", "muscle", "parameter", "branch",
+             "estimate", "95 % interval", "verdict");
   for (const auto& e : result.estimates) {
-    fmt::print("{:<10} {:<28} {:<12} {:>14} {:>26}  {}: {}\n", e.muscle, e.parameter, e.fit_case,
+    const std::string parameter = fmt::format("{} [{}]", e.parameter, symbol(e.unit));
+    fmt::print("{:<10} {:<36} {:<12} {:>14} {:>26}  {}: {}\n", e.muscle, parameter, e.fit_case,
                std::isfinite(e.estimate) ? report::format_value(e.estimate, 6) : "-",
                e.ci_low && e.ci_high ? fmt::format("[{}, {}]", report::format_value(*e.ci_low, 4),
                                                    report::format_value(*e.ci_high, 4))
@@ -174,8 +177,7 @@ void print_fit(const identification::IdentificationResult& result,
       row(t.trial + ", " + data.muscles[k].name, s.rmse_nm, s.r2);
     }
   }
-  fmt::print("{:<34}{:>12}{:>8.3f}\n",
-             torque ? "all, below the fit's cut-off, least" : "all, the least", "", result.r2);
+  fmt::print("{:<34}{:>12}{:>8.3f}\n", "all, below the fit's cut-off, least", "", result.r2);
 }
 
 void print_folds(const std::vector<identification::Fold>& folds, const IdentifyOptions& o) {
@@ -384,13 +386,15 @@ void add_identify(CLI::App& app, Context& context) {
         provenance.inputs.push_back({path, sha256(recording::read_text_file(path))});
     }
     const std::vector<identification::IdentificationResult> results{result};
+    pipeline::ParameterContext told;
+    told.left_out = folds.empty() ? "none" : o->folds;
     const std::filesystem::path folder(o->out);
     recording::write_file(folder / "parameters.json",
-                          pipeline::parameters_json(results, folds, provenance));
+                          pipeline::parameters_json(results, folds, provenance, told));
     recording::write_file(folder / "parameters.csv", pipeline::parameters_csv(results));
     if (!contests.empty()) recording::write_file(folder / "solvers.csv", solvers_csv(contests));
     if (context.json) {
-      fmt::print("{}", pipeline::parameters_json(results, folds, provenance));
+      fmt::print("{}", pipeline::parameters_json(results, folds, provenance, told));
     } else {
       print_result(result,
                    o->method != "paper" && !result.exact && !table.speed_may_be_free.empty());

@@ -278,9 +278,19 @@ void judge_alone(ParameterEstimate& e, const VerdictContext& context, const Verd
 
 void judge(ParameterEstimate& e, const VerdictContext& context, const VerdictRules& rules) {
   judge_alone(e, context, rules);
-  if (e.verdict == Verdict::weak && !rules.possible(context.curve_width) &&
-      e.reason.find("no muscle has") == std::string::npos)
+  const bool no_muscle = !rules.possible(context.curve_width);
+  const bool told = e.verdict == Verdict::weak || e.verdict == Verdict::identified;
+  if (no_muscle && told && e.parameter == "optimal_fiber_length") {
+    // Where the peak of a curve lies that is none says nothing, however narrow it is.
+    e.verdict = Verdict::not_identifiable;
+    e.reason = fmt::format(
+        "the place of the peak of a force-length curve that no muscle has (its width is {:.2g} of "
+        "the optimal length)",
+        context.curve_width);
+  } else if (no_muscle && e.verdict == Verdict::weak &&
+             e.reason.find("no muscle has") == std::string::npos) {
     e.reason += "; by a force-length curve that no muscle has";
+  }
   const bool said = e.reason.find("standard deviations") != std::string::npos;
   if (context.prior_distance > rules.prior_conflict && std::isfinite(e.estimate) && !said)
     e.reason += fmt::format("; {} away from {}", deviations(context.prior_distance, context),

@@ -84,11 +84,22 @@ TEST(Judge, ACurveThatNoMuscleHasIsNonPhysicalHoweverSharp) {
 }
 
 TEST(Judge, NumbersBesideACurveThatNoMuscleHasAreNotIdentified) {
-  EXPECT_EQ(verdict_of(estimate(0.05), {.curve_width = 0.45}), Verdict::identified);
-  EXPECT_EQ(verdict_of(estimate(0.05), {.curve_width = 0.1}), Verdict::weak);
-  ParameterEstimate e = estimate(0.3);
+  const auto narrow = estimate(0.05, "concentric_curvature");
+  EXPECT_EQ(verdict_of(narrow, {.curve_width = 0.45}), Verdict::identified);
+  EXPECT_EQ(verdict_of(narrow, {.curve_width = 0.1}), Verdict::weak);
+  ParameterEstimate e = estimate(0.3, "concentric_curvature");
   judge(e, {.curve_width = 0.1});
   EXPECT_NE(e.reason.find("curve that no muscle has"), std::string::npos) << e.reason;
+}
+
+TEST(Judge, ThePlaceOfThePeakOfACurveThatNoMuscleHasSaysNothing) {
+  ParameterEstimate e = estimate(0.03, "optimal_fiber_length");
+  EXPECT_EQ(verdict_of(e, {.curve_width = 0.45}), Verdict::identified);
+  judge(e, {.curve_width = 0.05});
+  EXPECT_EQ(e.verdict, Verdict::not_identifiable);
+  EXPECT_NE(e.reason.find("0.05 of the optimal length"), std::string::npos) << e.reason;
+  // The data alone and exactly: whoever made them knows why.
+  EXPECT_EQ(verdict_of(e, {.curve_width = 0.0}), Verdict::identified);
 }
 
 TEST(EquivalentDeviations, AreThoseOfTheChiSquareDistribution) {

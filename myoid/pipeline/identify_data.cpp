@@ -11,6 +11,7 @@
 #include "myoid/core/error.h"
 #include "myoid/core/units.h"
 #include "myoid/math/spline.h"
+#include "myoid/math/statistics.h"
 #include "myoid/pipeline/identify_input.h"
 #include "myoid/pipeline/same_recording.h"
 #include "myoid/recording/recording.h"
@@ -99,6 +100,20 @@ std::vector<Channel> torque_columns(const std::vector<std::string>& coordinates,
   return columns;
 }
 
+/// Where a clock has no samples for more than 0.1 s and five of its usual intervals.
+std::vector<identification::Stretch> gaps_of(const Eigen::VectorXd& time_s) {
+  constexpr double kShortest_s = 0.1, kUsual = 5.0;
+  std::vector<identification::Stretch> gaps;
+  if (time_s.size() < 3) return gaps;
+  const Eigen::VectorXd steps = time_s.tail(time_s.size() - 1) - time_s.head(time_s.size() - 1);
+  const double usual_s = math::median({steps.begin(), steps.end()});
+  for (Eigen::Index i = 0; i < steps.size(); ++i) {
+    if (steps[i] > std::max(kShortest_s, kUsual * usual_s))
+      gaps.push_back({time_s[i], time_s[i + 1]});
+  }
+  return gaps;
+}
+
 /// The names of one trial's files.
 IdentifyFiles files_of(const IdentifySources& s, std::size_t trial) {
   const auto of_trial = [&](const std::vector<std::string>& list) {
@@ -149,6 +164,7 @@ class TrialReader {
     if (!forces.empty()) trial.force_n = columns_of(forces, trial.time_s);
     if (sources_.torque) add_torques(files, trial);
     if (!motion.empty()) add_motion(motion, trial);
+    leave_out_gaps(files, {forces, motion}, trial);
     return trial;
   }
 
@@ -212,6 +228,37 @@ class TrialReader {
       }
     }
     return lengths.time_s();
+  }
+
+  /// Files that a trial is made of, each once.
+  static std::vector<std::string> all_of(const IdentifyFiles& files,
+                                         const std::vector<std::string>& more) {
+    std::vector<std::string> all{files.lengths, files.activations, files.velocities, files.torques};
+    all.insert(all.end(), more.begin(), more.end());
+    all.insert(all.end(), files.moment_arms.begin(), files.moment_arms.end());
+    std::sort(all.begin(), all.end());
+    all.erase(std::unique(all.begin(), all.end()), all.end());
+    all.erase(std::remove(all.begin(), all.end(), ""), all.end());
+    return all;
+  }
+
+  /// What lies where a file has no samples is made up by its neighbors: it is not fitted.
+  void leave_out_gaps(const IdentifyFiles& files,
+                      const std::vector<std::string>& more,
+                      TrialData& trial) {
+    constexpr double kSplines_s = 0.1;  // reach of a spline's ends
+    constexpr double kBehind_s = 0.3;   // and by how much torque may follow the EMG
+    const double begin_s = trial.time_s[0], end_s = trial.time_s[trial.time_s.size() - 1];
+    for (const std::string& file : all_of(files, more)) {
+      for (const identification::Stretch& gap : gaps_of(series(file).time_s())) {
+        if (gap.end_s <= begin_s || gap.begin_s >= end_s) continue;
+        const double after_s = file == files.activations ? kBehind_s : kSplines_s;
+        trial.excluded.push_back({gap.begin_s - kSplines_s, gap.end_s + after_s});
+        remark_(fmt::format(
+            "{}: no samples from {:.3f} to {:.3f} s: {:.3f} to {:.3f} s are not fitted", file,
+            gap.begin_s, gap.end_s, trial.excluded.back().begin_s, trial.excluded.back().end_s));
+      }
+    }
   }
 
   void add_torques(const IdentifyFiles& files, TrialData& trial) {
@@ -316,6 +363,65 @@ void compare_trials(const StudyData& data,
   }
 }
 
+/// What all trials together cannot be: a joint without torque, muscles without force.
+void require_something_to_fit(const StudyData& data, const IdentifySources& sources) {
+  const auto nothing = [](const auto& values) { return !(values.cwiseAbs().maxCoeff() > 0.0); };
+  const std::string_view remedy =
+      "there is nothing to fit; is it the right file and column, or was the channel off?";
+  if (!sources.torque) {
+    if (std::all_of(data.trials.begin(), data.trials.end(),
+                    [&](const TrialData& trial) { return nothing(trial.force_n); }))
+      throw InvalidInput(
+          fmt::format("{}: every force is 0 in all trials: {}", sources.forces.front(), remedy));
+    return;
+  }
+  for (std::size_t j = 0; j < identification::joint_count(data.trials.front()); ++j) {
+    if (std::all_of(data.trials.begin(), data.trials.end(), [&](const TrialData& trial) {
+          return nothing(identification::of_joint(trial, j).torque_nm);
+        }))
+      throw InvalidInput(fmt::format(
+          "{}: the torque{} is 0 in all trials: {}", sources.torques.front(),
+          sources.coordinates.empty() ? "" : fmt::format(" '{}'", sources.coordinates[j]), remedy));
+  }
+}
+
+/// An electrode that says nothing, or the same as another, gives its muscle's work to the others.
+void compare_activations(const StudyData& data,
+                         const IdentifySources& sources,
+                         const std::function<void(const std::string&)>& remark) {
+  std::vector<std::string> channels;
+  for (const MuscleSetup& muscle : data.muscles) {
+    if (std::find(channels.begin(), channels.end(), muscle.emg_channel) == channels.end())
+      channels.push_back(muscle.emg_channel);
+  }
+  const auto in_all = [&](const auto& holds) {
+    return std::all_of(data.trials.begin(), data.trials.end(), holds);
+  };
+  const std::string& file = sources.activations.front();
+  for (std::size_t c = 0; c < channels.size(); ++c) {
+    if (in_all([&](const TrialData& trial) {
+          const Eigen::VectorXd a = trial.activation.column(channels[c]);
+          return !(a.maxCoeff() > a.minCoeff());
+        })) {
+      remark(fmt::format(
+          "{}: activation '{}' never changes in any trial: was the electrode connected? What its "
+          "muscles did is given to the others; leave them out of muscles.csv only if they were "
+          "at rest",
+          file, channels[c]));
+      continue;
+    }
+    for (std::size_t other = 0; other < c; ++other) {
+      if (in_all([&](const TrialData& trial) {
+            return trial.activation.column(channels[c]) == trial.activation.column(channels[other]);
+          }))
+        remark(fmt::format(
+            "{}: activations '{}' and '{}' are the same in all trials: was a column copied? If one "
+            "electrode stands for both, name it in the column emg_channel of muscles.csv",
+            file, channels[other], channels[c]));
+    }
+  }
+}
+
 }  // namespace
 
 StudyData read_identify_data(const IdentifySources& sources,
@@ -332,6 +438,8 @@ StudyData read_identify_data(const IdentifySources& sources,
       remark(text);
     data.trials.push_back(std::move(trial));
   }
+  require_something_to_fit(data, sources);
+  compare_activations(data, sources, remark);
   compare_trials(data, sources, remark);
   return data;
 }

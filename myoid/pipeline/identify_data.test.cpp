@@ -1,5 +1,7 @@
 #include "myoid/pipeline/identify_data.h"
 
+#include <algorithm>
+#include <cmath>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -110,6 +112,77 @@ TEST(IdentifyData, ACutOffFileIsSaidOnceWithWhatWasLeftOut) {
                 ? 1
                 : 0;
   EXPECT_EQ(said, 1);
+}
+
+TEST(IdentifyData, WhereAFileHasNoSamplesNothingIsFittedAndThatIsSaid) {
+  const auto without_a_second = [](const TimeSeries& series) {
+    std::vector<Eigen::Index> rows;
+    for (Eigen::Index i = 0; i < series.sample_count(); ++i) {
+      if (series.time_s()[i] <= 2.0 || series.time_s()[i] >= 3.0) rows.push_back(i);
+    }
+    return TimeSeries(series.time_s()(rows), series.channels(), series.values()(rows, Eigen::all));
+  };
+  for (const std::string name : {"a.sto", "l.sto", "v.sto", "r.sto", "id.sto"}) {
+    SCOPED_TRACE(name);
+    Written files;
+    recording::write_series(files.folder / name,
+                            without_a_second(recording::read_series(files.path(name)).data), name);
+    const identification::TrialData trial = files.read();
+    ASSERT_EQ(trial.excluded.size(), 1U);
+    EXPECT_NEAR(trial.excluded[0].begin_s, 1.9, 0.02);
+    EXPECT_NEAR(trial.excluded[0].end_s, name == "a.sto" ? 3.3 : 3.1, 0.02);
+    ASSERT_EQ(files.remarks.size(), 1U);
+    EXPECT_NE(files.remarks[0].find(name), std::string::npos) << files.remarks[0];
+    EXPECT_NE(files.remarks[0].find("no samples from 2.0"), std::string::npos) << files.remarks[0];
+    // Noise-free data give F_max back but for what splines do beside the gap; with what they make
+    // up within it they do not.
+    const auto worst_error = [&](const identification::TrialData& fitted) {
+      identification::StudyData data = files.study.data;
+      data.trials[0] = fitted;
+      double worst = 0.0;
+      std::size_t muscle = 0;
+      for (const identification::ParameterEstimate& e :
+           identification::identify_torque(data, {.priors = false, .weights = false}).estimates) {
+        if (e.parameter != "max_isometric_force") continue;
+        const double truth = files.study.truth[muscle++].max_isometric_force_n;
+        worst = std::max(worst, std::abs(e.estimate / truth - 1.0));
+      }
+      return worst;
+    };
+    identification::TrialData whole = trial;
+    whole.excluded.clear();
+    EXPECT_LT(worst_error(trial), 0.015);
+    // Without rows of its own a gap of the lengths makes nothing up.
+    if (name != "l.sto") {
+      EXPECT_GT(worst_error(whole), 2.0 * worst_error(trial));
+    }
+  }
+}
+
+TEST(IdentifyData, ATorqueOfNothingIsRefused) {
+  Written files;
+  const Eigen::VectorXd& time_s = files.study.data.trials[0].time_s;
+  recording::write_series(files.folder / "id.sto",
+                          TimeSeries(time_s, {{"elbow_moment", Unit::newton_meter}},
+                                     Eigen::MatrixXd::Zero(time_s.size(), 1)),
+                          "torque");
+  EXPECT_NE(files.message().find("id.sto: the torque is 0 in all trials"), std::string::npos)
+      << files.message();
+}
+
+TEST(IdentifyData, AnElectrodeThatSaysNothingOrTheSameAsAnotherIsRemarkedOf) {
+  Written files;
+  const TimeSeries& activation = files.study.data.trials[0].activation;
+  Eigen::MatrixXd values = activation.values();
+  values.col(1).setZero();
+  values.col(3) = values.col(0);
+  recording::write_series(files.folder / "a.sto",
+                          TimeSeries(activation.time_s(), activation.channels(), values), "a");
+  (void)files.read();
+  ASSERT_EQ(files.remarks.size(), 2U);
+  EXPECT_NE(files.remarks[0].find("'BRA' never changes"), std::string::npos) << files.remarks[0];
+  EXPECT_NE(files.remarks[1].find("'BIC' and 'TRI' are the same"), std::string::npos)
+      << files.remarks[1];
 }
 
 TEST(IdentifyData, ActivationsThatAreNamedTwiceAreRemarkedOf) {

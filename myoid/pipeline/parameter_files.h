@@ -23,7 +23,7 @@ namespace myoid::pipeline {
 struct ParameterContext {
   std::vector<TrialPhases> phases;
   std::vector<identification::RestingJoint> resting;
-  std::string left_out = "trial";  ///< What a fold is: trial, condition or block.
+  std::string left_out = "trial";  ///< What a fold is: trial, condition, block, or none.
   const identification::ForceLoop* force_loop = nullptr;  ///< Null: none was asked for.
 };
 

@@ -214,9 +214,11 @@ std::vector<ChannelNormalisation> find_normalisation(std::span<const TrialEnvelo
         near = here;
       }
     }
-    // Expected maximum of m normal numbers (Blom 1958).
-    n.relative_bias = n.relative_sd * math::normal_quantile((windows - 0.375) / (windows + 0.25));
-    n.relative_bias = std::max(0.0, n.relative_bias);
+    // Expected maximum of m normal numbers (Blom 1958); a channel that is 0 throughout has none.
+    if (windows >= 1.0) {
+      n.relative_bias = n.relative_sd * math::normal_quantile((windows - 0.375) / (windows + 0.25));
+      n.relative_bias = std::max(0.0, n.relative_bias);
+    }
     n.reference_v =
         std::sqrt(std::max(0.0, largest * largest - n.resting_level_v * n.resting_level_v));
     if (!(n.reference_v > 0.0) || n.reference_v < 1e-3 * largest) {

@@ -210,9 +210,17 @@ TEST(Normalisation, TheLargestOfManyNoisyMeansIsTooLargeByItsBias) {
 }
 
 TEST(Normalisation, RefusesAChannelThatNeverMoves) {
-  const TimeSeries flat = steps({1e-6, 1e-6});
-  const std::vector<TrialEnvelope> trials{{"a", false, &flat}};
-  EXPECT_THROW((void)find_normalisation(trials), InvalidInput);
+  for (const double level : {1e-6, 0.0}) {
+    const TimeSeries flat = steps({level, level});
+    const std::vector<TrialEnvelope> trials{{"a", false, &flat}};
+    try {
+      (void)find_normalisation(trials);
+      FAIL() << level;
+    } catch (const InvalidInput& error) {
+      EXPECT_NE(std::string(error.what()).find("was the electrode connected?"), std::string::npos)
+          << error.what();
+    }
+  }
 }
 
 }  // namespace
