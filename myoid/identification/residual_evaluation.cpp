@@ -43,7 +43,6 @@ void ResidualModel::for_each_block(const std::function<void(std::size_t)>& one) 
   }
 }
 
-/// Of this thread, until its next call.
 const std::vector<MuscleRows>& ResidualModel::evaluate_muscles(const Block& block,
                                                                const ModelValues& values,
                                                                const Chains& chains) const {
@@ -94,7 +93,6 @@ void ResidualModel::add_torques(const Block& block,
   }
 }
 
-/// What the joint's own torque changes by with `field`, over the slope of its chain; n.
 Eigen::VectorXd ResidualModel::Block::Joint::by_field(int field, Eigen::Index n) const {
   if (field == kOffset) return Eigen::VectorXd::Ones(n);
   if (motion.size() == 0) return Eigen::VectorXd::Zero(n);

@@ -108,6 +108,7 @@ class ResidualModel {
       Eigen::MatrixXd arm_m;
       Eigen::MatrixXd motion;      ///< n x 3: angle, rate, acceleration; empty if not known.
       Eigen::VectorXd resting_nm;  ///< n, or empty: none.
+      /// What the joint's own torque changes by with a field, over the slope of its chain; n.
       [[nodiscard]] Eigen::VectorXd by_field(int field, Eigen::Index n) const;
     };
     std::vector<Joint> joints;
@@ -120,6 +121,7 @@ class ResidualModel {
                  const EstimatorOptions& options);
   struct Chains;
   [[nodiscard]] Chains chains_by_owner(const std::vector<ParameterMap::Chain>& chains) const;
+  /// Workspace of the calling thread: good until its next call.
   [[nodiscard]] const std::vector<MuscleRows>& evaluate_muscles(const Block& block,
                                                                 const ModelValues& values,
                                                                 const Chains& chains) const;
