@@ -172,12 +172,15 @@ void print_fit(const identification::IdentificationResult& result,
                                     [&](const TrialData& d) { return d.name == t.trial; });
     for (std::size_t k = 0; trial != data.trials.end() && k < data.muscles.size(); ++k) {
       const auto column = static_cast<Eigen::Index>(k);
+      const std::vector<Eigen::Index> rows = identification::included_rows(*trial);
       const identification::Score s =
-          identification::score(trial->force_n.col(column), t.force_fit_n.col(column));
+          identification::score(trial->force_n.col(column)(rows), t.force_fit_n.col(column)(rows));
       row(t.trial + ", " + data.muscles[k].name, s.rmse_nm, s.r2);
     }
   }
-  fmt::print("{:<34}{:>12}{:>8.3f}\n", "all, below the fit's cut-off, least", "", result.r2);
+  fmt::print("{:<34}{:>12}{:>8.3f}\n",
+             result.method == "paper" ? "all, the least" : "all, below the fit's cut-off, least",
+             "", result.r2);
 }
 
 void print_folds(const std::vector<identification::Fold>& folds, const IdentifyOptions& o) {

@@ -416,7 +416,7 @@ void compare_activations(const StudyData& data,
           }))
         remark(fmt::format(
             "{}: activations '{}' and '{}' are the same in all trials: was a column copied? If one "
-            "electrode stands for both, name it in the column emg_channel of muscles.csv",
+            "electrode stands for both, name it for both in the column emg of muscles.csv",
             file, channels[other], channels[c]));
     }
   }
