@@ -36,7 +36,8 @@ LabelFit fit_of_labels(const StudyData& data,
                        double delay_s,
                        const std::string& first,
                        const std::string& second) {
-  StudyData named = data;
+  StudyData named;  // without the trials: they stay as they are
+  named.muscles = data.muscles;
   std::vector<muscle::HillParameters<double>> literature;
   for (MuscleSetup& setup : named.muscles) {
     literature.push_back(setup.start);
@@ -48,7 +49,7 @@ LabelFit fit_of_labels(const StudyData& data,
   }
   std::vector<std::vector<Sides>> trials;
   double product = 0.0, square = 0.0, sum = 0.0, count = 0.0;
-  for (const TrialData& whole : named.trials) {
+  for (const TrialData& whole : data.trials) {
     if (!whole.calibration) continue;
     trials.emplace_back();
     for (std::size_t j = 0; j < identification::joint_count(whole); ++j) {

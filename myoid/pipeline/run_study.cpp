@@ -90,10 +90,7 @@ StudyResult begun(const Study& study, const std::vector<TrialInput>& inputs) {
 void find_faults(const Study& study, const std::vector<TrialInput>& inputs, StudyResult& result) {
   oneapi::tbb::parallel_for(std::size_t{0}, inputs.size(), [&](std::size_t i) {
     TrialResult& trial = result.trials[i];
-    const TimeSeries envelope = trial.emg       ? trial.emg->envelope
-                                : inputs[i].emg ? *inputs[i].emg
-                                                : TimeSeries();
-    trial.faults = trial_faults(study, inputs[i], envelope);
+    trial.faults = trial_faults(study, inputs[i], trial.activation);
   });
 }
 
@@ -203,12 +200,15 @@ void identify_parameters(const Study& study, const Progress& progress, StudyResu
 void inform_forces(StudyResult& result) {
   for (const identification::IdentificationResult& method : result.methods) {
     if (method.method != "torque") continue;
-    for (const identification::TrialData& trial : result.data.trials) {
+    const std::size_t before = result.informed.size();
+    const std::vector<identification::TrialData>& trials = result.data.trials;
+    result.informed.resize(before + trials.size());
+    oneapi::tbb::parallel_for(std::size_t{0}, trials.size(), [&](std::size_t i) {
       const identification::Prediction p =
-          identification::predict(result.data, trial, method.values, method.lag);
-      result.informed.push_back(
-          identification::informed_forces(trial, p.activation, method.values.muscles));
-    }
+          identification::predict(result.data, trials[i], method.values, method.lag);
+      result.informed[before + i] =
+          identification::informed_forces(trials[i], p.activation, method.values.muscles);
+    });
   }
 }
 
@@ -258,7 +258,7 @@ StudyResult analyse(const Study& study, StudyInputs given, const RunOptions& opt
   stages.run("quality", 0.25, [&] { find_faults(study, inputs, result); });
   stages.run("motion and forces", 0.3, [&] { compute_trials(study, inputs, options, result); });
   stages.run("identification", 0.7, [&] { identify_parameters(study, options.progress, result); });
-  inform_forces(result);
+  if (options.inform_forces) inform_forces(result);
   if (study.identify.force_loop) {
     stages.run("forces and parameters", 0.8, [&] {
       identification::EstimatorOptions estimator = torque_options(result, options.progress);

@@ -16,6 +16,7 @@ struct RunOptions {
   /// Forces of static optimization, which methods `paper` and `force` need; the torque method does
   /// not.
   bool share_forces = true;
+  bool inform_forces = true;  ///< Forces with the identified muscles, informed by the EMG.
   /// Where inverse kinematics is kept between runs; empty: nowhere.
   std::optional<std::filesystem::path> store;
 };

@@ -81,6 +81,7 @@ OnePerson one_person(const simulation::Protocol& protocol,
     const auto truth = truth_of(recording);
     RunOptions run;
     run.progress.stop = options.progress.stop;
+    run.inform_forces = false;
     run.share_forces = std::any_of(options.methods.begin(), options.methods.end(),
                                    [](const std::string& method) { return method != "torque"; });
     const StudyResult result = analyse(study, inputs_of(recording), run);

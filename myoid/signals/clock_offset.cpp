@@ -7,7 +7,6 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
-#include <Eigen/SVD>
 #include <fmt/format.h>
 
 #include "myoid/core/units.h"
@@ -26,6 +25,9 @@ constexpr double kLeastLength_s = 3.0;
 constexpr double kLeastCorrelation = 0.6;
 constexpr double kMostSd_s = 0.1;
 constexpr int kBlocks = 8;
+constexpr Eigen::Index kMostEmg = 4;     ///< Principal components of the envelopes ...
+constexpr Eigen::Index kMostMotion = 2;  ///< ... and of the motion, each with its acceleration.
+constexpr int kMostRows = 1 + kMostEmg + 2 * kMostMotion;
 constexpr double kLeastSpeed_hz = 0.5;  ///< Slower, posture holds at any delay and misleads.
 constexpr double kLeastMotion = 0.03;   ///< rad or m, standard deviation: less is not a movement.
 
@@ -55,7 +57,7 @@ Eigen::MatrixXd principal(Eigen::MatrixXd x, Eigen::Index most, bool standardize
 Eigen::MatrixXd demand(const Eigen::MatrixXd& motion) {
   const auto sections =
       math::design_butterworth(math::FilterBand::low_pass, 2, kMotionBelow_hz, kRate_hz);
-  const Eigen::MatrixXd position = principal(motion, 2, false);
+  const Eigen::MatrixXd position = principal(motion, kMostMotion, false);
   Eigen::MatrixXd result(motion.rows(), 2 * position.cols());
   for (Eigen::Index c = 0; c < position.cols(); ++c) {
     const Eigen::VectorXd q = math::zero_phase(sections, position.col(c));
@@ -85,22 +87,60 @@ std::optional<double> quickness_hz(const Eigen::MatrixXd& motion) {
 }
 
 /// Sums of products of [1, x(t - d), y(t)] over one block.
-using Moments = Eigen::MatrixXd;
+using Moments = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostRows, kMostRows>;
+
+/// By lag -reach..reach, by block of the `usable` samples after the first `reach`.
+std::vector<std::vector<Moments>> moments_by_lag(const Eigen::MatrixXd& x,
+                                                 const Eigen::MatrixXd& y,
+                                                 Eigen::Index reach,
+                                                 Eigen::Index usable) {
+  const Eigen::Index nx = 1 + x.cols(), ny = y.cols();
+  const auto first_of = [&](int block) { return reach + block * usable / kBlocks; };
+  // Of [1, x]: a sum over any block is the difference of two running ones.
+  Eigen::MatrixXd running = Eigen::MatrixXd::Zero(nx * nx, x.rows() + 1);
+  Eigen::VectorXd row(nx);
+  for (Eigen::Index i = 0; i < x.rows(); ++i) {
+    row << 1.0, x.row(i).transpose();
+    running.col(i + 1) = running.col(i) + (row * row.transpose()).reshaped();
+  }
+  std::vector<Moments> of_y;  // no lag moves these
+  for (int k = 0; k < kBlocks; ++k) {
+    const auto rows = y.middleRows(first_of(k), first_of(k + 1) - first_of(k));
+    Moments& m = of_y.emplace_back(Moments::Zero(nx + ny, nx + ny));
+    m.topRightCorner(1, ny) = rows.colwise().sum();
+    m.bottomRightCorner(ny, ny) = rows.transpose() * rows;
+  }
+  std::vector<std::vector<Moments>> result;
+  for (Eigen::Index lag = -reach; lag <= reach; ++lag) {
+    std::vector<Moments>& blocks = result.emplace_back(of_y);
+    for (int k = 0; k < kBlocks; ++k) {
+      const Eigen::Index first = first_of(k), count = first_of(k + 1) - first;
+      Moments& m = blocks[static_cast<std::size_t>(k)];
+      m.topLeftCorner(nx, nx) =
+          (running.col(first - lag + count) - running.col(first - lag)).reshaped(nx, nx);
+      m.block(1, nx, nx - 1, ny) =
+          x.middleRows(first - lag, count).transpose() * y.middleRows(first, count);
+      m.bottomLeftCorner(ny, nx) = m.topRightCorner(nx, ny).transpose();
+    }
+  }
+  return result;
+}
 
 double canonical_correlation(const Moments& m, Eigen::Index nx) {
   const Eigen::Index ny = m.rows() - 1 - nx;
   const double n = m(0, 0);
-  const Eigen::VectorXd mean = m.col(0).tail(nx + ny) / n;
-  Eigen::MatrixXd c = m.bottomRightCorner(nx + ny, nx + ny) / n - mean * mean.transpose();
+  const Moments mean = m.col(0).tail(nx + ny) / n;
+  Moments c = m.bottomRightCorner(nx + ny, nx + ny) / n - mean * mean.transpose();
   c.topLeftCorner(nx, nx).diagonal().array() *= 1.0 + 1e-9;
   c.bottomRightCorner(ny, ny).diagonal().array() *= 1.0 + 1e-9;
-  const Eigen::LLT<Eigen::MatrixXd> xx(c.topLeftCorner(nx, nx));
-  const Eigen::LLT<Eigen::MatrixXd> yy(c.bottomRightCorner(ny, ny));
+  const Eigen::LLT<Moments> xx(c.topLeftCorner(nx, nx));
+  const Eigen::LLT<Moments> yy(c.bottomRightCorner(ny, ny));
   if (xx.info() != Eigen::Success || yy.info() != Eigen::Success) return 0.0;
-  const Eigen::MatrixXd left = xx.matrixL().solve(c.topRightCorner(nx, ny));
-  const Eigen::MatrixXd both = yy.matrixL().solve(left.transpose());
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(both);
-  return svd.singularValues()[0];
+  const Moments left = xx.matrixL().solve(c.topRightCorner(nx, ny));
+  const Moments both = yy.matrixL().solve(left.transpose());
+  const Eigen::SelfAdjointEigenSolver<Moments> squared(both * both.transpose(),
+                                                       Eigen::EigenvaluesOnly);
+  return std::sqrt(std::max(0.0, squared.eigenvalues()[ny - 1]));
 }
 
 struct Peak {
@@ -151,7 +191,7 @@ std::optional<ClockOffset> estimate_clock_offset(const TimeSeries& envelopes,
   if (end_s - begin_s < kLeastLength_s || motion.mean_rate_hz() < 2.5 * kMotionBelow_hz)
     return std::nullopt;
   const Eigen::VectorXd clock = even_clock(begin_s, end_s, kRate_hz);
-  const Eigen::MatrixXd x = principal(resample(envelopes, clock).values(), 4, true);
+  const Eigen::MatrixXd x = principal(resample(envelopes, clock).values(), kMostEmg, true);
   const Eigen::MatrixXd path = resample(motion, clock).values();
   const std::optional<double> frequency_hz = quickness_hz(path);
   if (!frequency_hz) return std::nullopt;
@@ -161,22 +201,11 @@ std::optional<ClockOffset> estimate_clock_offset(const TimeSeries& envelopes,
   const auto reach = static_cast<Eigen::Index>(std::lround(reach_s * kRate_hz));
   const Eigen::Index usable = clock.size() - 2 * reach;
   if (usable < 8 * kBlocks) return std::nullopt;
-  std::vector<std::vector<Moments>> sums;  // by lag, by block
+  const std::vector<std::vector<Moments>> sums = moments_by_lag(x, y, reach, usable);
   std::vector<Moments> whole;
-  for (Eigen::Index lag = -reach; lag <= reach; ++lag) {
-    std::vector<Moments> blocks;
-    Moments total = Moments::Zero(1 + x.cols() + y.cols(), 1 + x.cols() + y.cols());
-    for (int k = 0; k < kBlocks; ++k) {
-      const Eigen::Index first = reach + k * usable / kBlocks;
-      const Eigen::Index count = reach + (k + 1) * usable / kBlocks - first;
-      Eigen::MatrixXd rows(count, total.cols());
-      rows << Eigen::VectorXd::Ones(count), x.middleRows(first - lag, count),
-          y.middleRows(first, count);
-      blocks.emplace_back(rows.transpose() * rows);
-      total += blocks.back();
-    }
-    sums.push_back(std::move(blocks));
-    whole.push_back(std::move(total));
+  for (const std::vector<Moments>& blocks : sums) {
+    whole.push_back(blocks.front());
+    for (std::size_t k = 1; k < blocks.size(); ++k) whole.back() += blocks[k];
   }
   const Peak peak = peak_of(whole, x.cols(), reach_s);
   if (!peak.inside || peak.correlation < kLeastCorrelation) return std::nullopt;

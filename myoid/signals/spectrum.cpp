@@ -57,7 +57,9 @@ PowerSpectrum power_spectrum(const Eigen::VectorXd& x, double rate_hz, double se
   }
   const Eigen::Index bins = padded / 2 + 1;
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(bins);
-  Eigen::FFT<double> fft;
+  // Keeps the roots of unity of the lengths that this thread has met.
+  thread_local Eigen::FFT<double> fft(Eigen::FFT<double>::impl_type(),
+                                      Eigen::FFT<double>::HalfSpectrum);
   std::vector<double> segment(static_cast<std::size_t>(padded), 0.0);
   std::vector<std::complex<double>> transform;
   int count = 0;
