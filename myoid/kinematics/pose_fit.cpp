@@ -18,6 +18,8 @@ namespace {
 constexpr double kLongestTurn_rad = 0.5;  ///< Of any coordinate in one step.
 /// The strongest barrier, in units of J [m^2]: that of markers 0.4 m off.
 constexpr double kFirstBarrier = 0.1;
+constexpr double kSame = 1e-9;        ///< rad or m: a step that changes nothing ...
+constexpr double kLastNewton = 1e-6;  ///< ... and one after which the next would not.
 
 bool turns(const model::Joint& joint, int coordinate) {
   return std::any_of(joint.rotation.begin(), joint.rotation.end(),
@@ -326,7 +328,9 @@ PoseFit::Pose PoseFit::solve(Eigen::VectorXd start) {
       const double distance = (q - pose.q).cwiseAbs().maxCoeff();
       const double cost = cost_at(q);
       if (cost <= pose.cost) {
-        pose.converged = distance <= 1e-9;
+        // A full Newton step leaves an error of the order of its square.
+        const bool newton = second_order && damping == 0.0 && N.size() == 0 && !barrier_.acts();
+        pose.converged = distance <= (newton ? kLastNewton : kSame);
         pose.q = std::move(q);
         pose.cost = cost;
         damping = damping < 1e-9 ? 0.0 : 0.1 * damping;
