@@ -204,8 +204,10 @@ Eigen::MatrixXd rates(const Eigen::VectorXd& time_s, const Eigen::VectorXd& y, b
 
 }  // namespace
 
-Envelope::Envelope(const Eigen::VectorXd& time_s, const Eigen::VectorXd& values)
-    : time_s_(time_s), samples_(values) {
+Envelope::Envelope(const Eigen::VectorXd& time_s, const Eigen::VectorXd& values, Eigen::Index apart)
+    : time_s_(time_s),
+      samples_(values),
+      apart_(static_cast<std::uint32_t>(std::clamp<Eigen::Index>(apart, 1, time_s.size()))) {
   const Eigen::Index n = time_s.size();
   const double step = (time_s[n - 1] - time_s[0]) / static_cast<double>(n - 1);
   bool even = true;
@@ -213,7 +215,8 @@ Envelope::Envelope(const Eigen::VectorXd& time_s, const Eigen::VectorXd& values)
     even = std::abs(time_s[i] - time_s[0] - step * static_cast<double>(i)) < 1e-4 * step;
   rate_hz_ = even ? 1.0 / step : 0.0;
   const Eigen::MatrixXd rate = rates(time_s, values, even);
-  table_.resize(6, std::max<Eigen::Index>(n - 1, 1));
+  row_ = (static_cast<std::size_t>(n) + apart_ - 1) / apart_;
+  pieces_.resize(row_ * apart_);
   for (Eigen::Index i = 0; i + 1 < n; ++i) {
     // The quintic with these values, slopes and curvatures at both ends.
     const double h = time_s[i + 1] - time_s[i];
@@ -227,31 +230,35 @@ Envelope::Envelope(const Eigen::VectorXd& time_s, const Eigen::VectorXd& values)
     const double b4 = -15.0 * dy + 7.0 * dd - 2.0 * dc;
     const double b5 = 6.0 * dy - 3.0 * dd + dc;
     const double r = 1.0 / h;
-    double* c = table_.col(i).data();
-    c[0] = y0;
-    c[1] = d0 * r;
-    c[2] = c0 * r * r;
-    c[3] = b3 * r * r * r;
-    c[4] = b4 * r * r * r * r;
-    c[5] = b5 * r * r * r * r * r;
+    pieces_[place(i)] = {.power = {y0, d0 * r, c0 * r * r, b3 * r * r * r, b4 * r * r * r * r,
+                                   b5 * r * r * r * r * r},
+                         .left_s = time_s[i],
+                         .right_s = time_s[i + 1]};
   }
+}
+
+const Envelope::Piece& Envelope::piece_at(double time_s) const {
+  const Eigen::Index n = time_s_.size();
+  if (!(rate_hz_ > 0.0)) {
+    const double* after = std::upper_bound(time_s_.data(), time_s_.data() + n, time_s);
+    return pieces_[place(after - time_s_.data() - 1)];
+  }
+  const auto i = std::clamp<Eigen::Index>(
+      static_cast<Eigen::Index>((time_s - time_s_[0]) * rate_hz_), 0, n - 2);
+  // Round-off and a clock that is even to a ten-thousandth may put it into the next one.
+  const Piece& piece = pieces_[place(i)];
+  if (time_s < piece.left_s && i > 0) return pieces_[place(i - 1)];
+  if (time_s >= piece.right_s && i + 2 < n) return pieces_[place(i + 1)];
+  return piece;
 }
 
 Envelope::Value Envelope::at(double time_s) const {
   const Eigen::Index n = time_s_.size();
   if (time_s <= time_s_[0]) return {std::max(0.0, samples_[0]), 0.0};
   if (time_s >= time_s_[n - 1]) return {std::max(0.0, samples_[n - 1]), 0.0};
-  Eigen::Index i = 0;
-  if (rate_hz_ > 0.0) {
-    i = std::clamp<Eigen::Index>(static_cast<Eigen::Index>((time_s - time_s_[0]) * rate_hz_), 0,
-                                 n - 2);
-    if (time_s < time_s_[i]) --i;
-    if (i + 1 < n - 1 && time_s >= time_s_[i + 1]) ++i;
-  } else {
-    i = std::upper_bound(time_s_.data(), time_s_.data() + n, time_s) - time_s_.data() - 1;
-  }
-  const double x = time_s - time_s_[i];
-  const double* c = table_.col(i).data();
+  const Piece& piece = piece_at(time_s);
+  const double x = time_s - piece.left_s;
+  const std::array<double, 6>& c = piece.power;
   const double value = c[0] + x * (c[1] + x * (c[2] + x * (c[3] + x * (c[4] + x * c[5]))));
   if (value < 0.0) return {};
   return {value, c[1] + x * (2.0 * c[2] + x * (3.0 * c[3] + x * (4.0 * c[4] + x * 5.0 * c[5])))};

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include <Eigen/Core>
@@ -15,7 +17,9 @@ namespace myoid::identification {
 /// envelope below 6 Hz at 100 Hz or more the error is below 1e-7 of its amplitude.
 class Envelope {
  public:
-  Envelope(const Eigen::VectorXd& time_s, const Eigen::VectorXd& values);
+  /// `apart`: samples between the instants that it will be read at one after the other. What is
+  /// read together then lies together, which is what reading takes time for.
+  Envelope(const Eigen::VectorXd& time_s, const Eigen::VectorXd& values, Eigen::Index apart = 1);
 
   struct Value {
     double value = 0.0;
@@ -30,9 +34,22 @@ class Envelope {
   [[nodiscard]] const Eigen::VectorXd& samples() const { return samples_; }
 
  private:
+  /// One interval between samples: the polynomial in powers of (t - left_s).
+  struct Piece {
+    std::array<double, 6> power{};
+    double left_s = 0.0, right_s = 0.0;
+  };
+  [[nodiscard]] std::size_t place(Eigen::Index interval) const {
+    const auto i = static_cast<std::uint32_t>(interval);
+    return std::size_t{i % apart_} * row_ + i / apart_;
+  }
+  [[nodiscard]] const Piece& piece_at(double time_s) const;
+
   Eigen::VectorXd time_s_, samples_;
-  Eigen::MatrixXd table_;  ///< 6 x intervals: powers of (t - left).
-  double rate_hz_ = 0.0;   ///< Of an even clock; 0: uneven.
+  std::uint32_t apart_ = 1;
+  std::size_t row_ = 0;        ///< Intervals that are `apart` from the next.
+  std::vector<Piece> pieces_;  ///< Row by row.
+  double rate_hz_ = 0.0;       ///< Of an even clock; 0: uneven.
 };
 
 /// What multiplies the relative spread of rectified EMG, `spread`, in the envelope from which the

@@ -32,6 +32,27 @@ TEST(NoiseGain, IsWhatTheSubtractedNoiseOfTheElectrodeMakesOfTheSpread) {
   }
 }
 
+TEST(Envelope, ReadsTheSameHoweverItsPiecesLie) {
+  Eigen::VectorXd t = Eigen::VectorXd::LinSpaced(200, -1.0, 0.99);
+  const auto u = [](double at) { return 1.0 + std::sin(9.0 * at) + 0.3 * std::cos(23.0 * at); };
+  for (const double uneven_s : {0.0, 0.004}) {
+    for (Eigen::Index i = 1; i < t.size(); i += 2) t[i] += uneven_s;
+    const Eigen::VectorXd values = t.unaryExpr(u);
+    const Envelope in_order(t, values);
+    for (const Eigen::Index apart : {1, 4, 7, 199, 5000}) {
+      const Envelope envelope(t, values, apart);
+      for (double at = -1.01; at < 1.01; at += 0.0037) {
+        EXPECT_EQ(envelope.at(at).value, in_order.at(at).value) << apart << " at " << at;
+        EXPECT_EQ(envelope.at(at).slope, in_order.at(at).slope) << apart << " at " << at;
+        const double inside = std::clamp(at, t[0], t[t.size() - 1]);
+        EXPECT_NEAR(envelope.at(at).value, std::max(0.0, u(inside)), 5e-4) << apart << " at " << at;
+      }
+      for (Eigen::Index i = 0; i < t.size(); ++i)
+        EXPECT_NEAR(envelope.at(t[i]).value, std::max(0.0, values[i]), 1e-13) << apart << " " << i;
+    }
+  }
+}
+
 /// A channel with this delay, else proportional.
 ChannelValues with_delay(double delay_s) {
   ChannelValues c{};

@@ -103,8 +103,11 @@ void ResidualModel::add_block(const StudyData& data,
         math::two_pass_cutoff_hz(math::FilterBand::low_pass, 2, *options.residual_cutoff_hz, rate),
         rate);
   }
+  const double emg_rate =
+      static_cast<double>(clock.size() - 1) / (clock[clock.size() - 1] - clock[0]);
+  const auto apart = static_cast<Eigen::Index>(std::lround(n > 1 ? emg_rate / rate : 1.0));
   for (const std::string& channel : map_.channels())
-    block.envelopes.emplace_back(clock, trial.activation.column(channel));
+    block.envelopes.emplace_back(clock, trial.activation.column(channel), apart);
   block.noise_gain.resize(static_cast<Eigen::Index>(map_.channels().size()));
   for (std::size_t c = 0; c < map_.channels().size(); ++c) {
     const auto rest = options.emg_rest.find(map_.channels()[c]);

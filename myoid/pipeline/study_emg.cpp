@@ -66,7 +66,7 @@ void process_emg_of_trials(const Study& study,
     const TimeSeries& envelope =
         study.emg.kind == EmgKind::raw ? result.trials[i].emg->envelope : *inputs[i].emg;
     result.trials[i].activation =
-        thinned(signals::normalise(envelope, result.normalisation), 250.0);
+        thinned(signals::normalise(envelope, result.normalisation), 200.0);
   }
 }
 

@@ -32,7 +32,7 @@ TEST(ProcessEmgOfTrials, AnEnvelopeIsDividedByTheGreatestOfAllTrialsAndThinned) 
   ASSERT_EQ(result.normalisation.size(), 1U);
   EXPECT_NEAR(result.normalisation[0].reference_v, 4e-4, 1e-9);
   const TimeSeries& weak = result.trials[1].activation;
-  EXPECT_NEAR(weak.mean_rate_hz(), 250.0, 1e-6);
+  EXPECT_NEAR(weak.mean_rate_hz(), 200.0, 1e-6);
   EXPECT_NEAR(weak.values()(weak.sample_count() - 100, 0), 0.25, 1e-6);
   EXPECT_GE(weak.values().minCoeff(), 0.0);
 }
