@@ -60,7 +60,9 @@ struct EstimatorOptions {
   /// small envelope u larger than in proportion to u, by 1 + (rest / u)^2.
   std::map<std::string, double> emg_rest;
   double envelope_cutoff_hz = 6.0;  ///< Of the smoothing of the rectified EMG.
-  double max_rate_hz = 25.0;  ///< Samples are thinned to at most this; EMG and motion hold 6 Hz.
+  /// Samples are thinned to at most this. EMG and motion hold 6 Hz, but a power of the envelope
+  /// reaches further, and at 12 Hz folds to where lags and delay are told apart.
+  double max_rate_hz = 20.0;
   /// Both sides of the residual are low-passed here (two passes, -3 dB). T^ is linear in the
   /// envelope, whose noise reaches further up than what tells muscles apart: what is cut off would
   /// only pull F_max towards zero (errors in the regressors). Empty: not at all.

@@ -14,7 +14,7 @@ namespace {
 
 /// A step of the others that promises to lower C by less than this share of its rise to the goal is
 /// not tried.
-constexpr double kSmallFall = 0.01;
+constexpr double kSmallFall = 0.05;
 constexpr int kMostSteps = 20;
 /// The root is taken from the parabola once v is as near as this share of the goal.
 constexpr double kNear = 0.12;

@@ -31,7 +31,8 @@ inline constexpr double kProfileGoal = 1.959963984540054;
 ///
 /// The others are brought to their constrained minimum by quasi-Newton steps (BFGS, bounds by
 /// projection) that begin with `curvature` and end when the next would lower C by less than a
-/// hundredth of its rise to the goal; that fall is taken as if it had been made. The root is sought
+/// twentieth of its rise to the goal; that fall, which the model knows to a third or better, is
+/// taken as if it had been made. The root is sought
 /// on v(t) = sqrt(2 (C - C_min)), which is nearly proportional to t: its slope is dC/dz_j / v,
 /// because the others are at their minimum, and the parabola through the origin, v and v' leads to
 /// the root in one or two steps.

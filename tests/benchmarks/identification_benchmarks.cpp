@@ -37,7 +37,7 @@ void identify_one_muscle(benchmark::State& state) {
   for (auto _ : state) benchmark::DoNotOptimize(identification::identify_torque(data, options));
 }
 BENCHMARK(identify_one_muscle)
-    ->Arg(25)
+    ->Arg(20)
     ->Arg(200)
     ->Unit(benchmark::kMillisecond)
     ->MeasureProcessCPUTime()
@@ -55,9 +55,9 @@ void identify_arm(benchmark::State& state) {
     benchmark::DoNotOptimize(identification::identify_torque(arm_study(), options));
 }
 BENCHMARK(identify_arm)
-    ->Args({25, 0})
+    ->Args({20, 0})
     ->Args({200, 0})
-    ->Args({25, 1000})
+    ->Args({20, 1000})
     ->Unit(benchmark::kMillisecond)
     ->MeasureProcessCPUTime()
     ->UseRealTime();
