@@ -114,12 +114,23 @@ void report_estimates(const Estimator& estimator,
   RouteRemarks routes;
   const bool exact = result.r2 > 1.0 - 1e-10;
   const std::vector<ActiveMotion> motion = active_motion(data, result.delay_s);
-  const auto is_free = [&](int field, int muscle) {
-    return std::any_of(free.begin(), free.end(), [&](const FreeParameter& p) {
+  const auto unknown = [&](int field, int muscle) {
+    return std::find_if(free.begin(), free.end(), [&](const FreeParameter& p) {
       return p.field->scope == Scope::muscle && p.field->field == field &&
              std::any_of(p.targets.begin(), p.targets.end(),
                          [&](const auto& target) { return target.owner == muscle; });
     });
+  };
+  const auto is_free = [&](int field, int muscle) { return unknown(field, muscle) != free.end(); };
+  // On a bound that is nobody's but physiology's.
+  const auto width_leans = [&](int muscle) {
+    const auto width = unknown(kWidth, muscle);
+    if (width == free.end() || exact) return false;
+    const auto at = static_cast<std::size_t>(width - free.begin());
+    const double z_at = z[static_cast<Eigen::Index>(at)];
+    return solution.search.at_bound[at] &&
+           !(z_at - width->lower <= width->upper - z_at ? width->lower_is_given
+                                                        : width->upper_is_given);
   };
   const auto judged = [&](ParameterEstimate e, const FreeParameter& p, bool determined, int owner,
                           const std::string& rests_on) {
@@ -136,6 +147,7 @@ void report_estimates(const Estimator& estimator,
         v.relative_width = width;
       } else if (p.targets.size() == 1) {
         v.curve_width = width;
+        v.width_leans = width_leans(owner);
       }
       for (std::size_t other = 0; other < muscles; ++other) {
         if (other != k && data.muscles[other].emg_channel == data.muscles[k].emg_channel)

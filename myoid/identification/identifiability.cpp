@@ -122,6 +122,12 @@ void judge_alone(ParameterEstimate& e, const VerdictContext& context, const Verd
                            context.relative_width, rules.relative_width.lower,
                            rules.relative_width.upper, diagnosis(e)));
   }
+  if (e.parameter == "force_length_width" && e.at_bound && !context.given_bound) {
+    return set(Verdict::non_physical,
+               fmt::format("the recording pulls beyond what muscles have, {} to {} of the optimal "
+                           "length: {}",
+                           rules.relative_width.lower, rules.relative_width.upper, diagnosis(e)));
+  }
   if (!context.bad_company.empty()) {
     return set(
         Verdict::not_identifiable,
@@ -249,6 +255,8 @@ void judge_alone(ParameterEstimate& e, const VerdictContext& context, const Verd
                      known, 100.0 * context.model_error));
   unless(!rules.possible(context.curve_width),
          known + ", but by a force-length curve that no muscle has");
+  unless(context.width_leans,
+         known + ", but by a force-length curve that leans on the bound of what muscles have");
   unless(context.muscle_distance > rules.prior_conflict,
          fmt::format(
              "{}, but this muscle's numbers together are {:.1f} standard deviations of "

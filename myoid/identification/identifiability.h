@@ -3,6 +3,7 @@
 #include <string>
 
 #include "myoid/identification/result.h"
+#include "myoid/muscle/literature.h"
 
 namespace myoid::identification {
 
@@ -21,11 +22,7 @@ struct VerdictRules {
   double prior_conflict = 3.0;  ///< Spreads of the prior away from its mean: at most `weak`.
   double prior_stays = 1.0;     ///< So near, a value that is not narrowed is the literature's.
   double flat_plateau = 1.02;   ///< V_ml whose interval reaches below says nothing about P.
-  /// l_sh over l0 that a muscle can have. A sarcomere makes half of its greatest force between
-  /// about 0.65 and 1.3 of its optimal length (Gordon, Huxley and Julian 1966), which is a Gaussian
-  /// of 0.35 to 0.4, and fibers of unequal length only widen their sum; half of it is no muscle's.
-  /// Models in use go up to 0.71 (Thelen's gamma of 0.5).
-  muscle::Range relative_width{0.2, 1.0};
+  muscle::Range relative_width = muscle::kRelativeWidths;  ///< l_sh over l0 that a muscle can have.
   [[nodiscard]] bool possible(double width) const {
     return width == 0.0 || (width >= relative_width.lower && width <= relative_width.upper);
   }
@@ -54,6 +51,7 @@ struct VerdictContext {
   double muscle_distance = 0.0;  ///< PriorDistance::distance of the muscle.
   double relative_width = 0.0;   ///< Of l_sh: over l0 of the same fit; 0: of something else.
   double curve_width = 0.0;      ///< The same of the muscle that another number belongs to.
+  bool width_leans = false;      ///< l_sh of that muscle leans on the bound of what muscles have.
   std::string
       shares_electrode_with;  ///< Another muscle that acts as the same EMG says; empty: none.
   double model_error = 0.0;   ///< IdentificationResult::model_error.

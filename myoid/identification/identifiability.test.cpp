@@ -83,6 +83,22 @@ TEST(Judge, ACurveThatNoMuscleHasIsNonPhysicalHoweverSharp) {
   EXPECT_NE(e.reason.find("0.09 of the optimal length"), std::string::npos) << e.reason;
 }
 
+TEST(Judge, AWidthOnTheBoundOfWhatMusclesHaveIsNonPhysical) {
+  ParameterEstimate e = estimate(0.01, "force_length_width");
+  e.at_bound = true;
+  // The bound is of the start's optimal length, the ratio of the fitted one's.
+  for (const double ratio : {0.18, 0.22}) {
+    judge(e, {.relative_width = ratio});
+    EXPECT_EQ(e.verdict, Verdict::non_physical) << ratio;
+  }
+  EXPECT_NE(e.reason.find("beyond what muscles have, 0.2 to 1"), std::string::npos) << e.reason;
+  // A bound of the study's own says nothing about muscles.
+  EXPECT_EQ(verdict_of(e, {.given_bound = true, .relative_width = 0.3}), Verdict::not_identifiable);
+  const auto beside = estimate(0.05, "optimal_fiber_length");
+  EXPECT_EQ(verdict_of(beside, {.curve_width = 0.22}), Verdict::identified);
+  EXPECT_EQ(verdict_of(beside, {.curve_width = 0.22, .width_leans = true}), Verdict::weak);
+}
+
 TEST(Judge, NumbersBesideACurveThatNoMuscleHasAreNotIdentified) {
   const auto narrow = estimate(0.05, "concentric_curvature");
   EXPECT_EQ(verdict_of(narrow, {.curve_width = 0.45}), Verdict::identified);

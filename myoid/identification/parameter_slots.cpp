@@ -8,10 +8,42 @@
 
 #include "myoid/core/error.h"
 #include "myoid/muscle/force_velocity.h"
+#include "myoid/muscle/literature.h"
 
 namespace myoid::identification {
 
 using enum Scope;
+
+namespace {
+
+bool holds(const muscle::Range& range, double value) {
+  return value >= range.lower && value <= range.upper;
+}
+
+/// Bounds of l_sh: with priors those of a muscle, of its optimal fiber length at the start. A
+/// recording that hardly tells draws curves together to a narrow peak at the few lengths it has,
+/// and l0 with them, where intervals no longer hold. A start that is no muscle's has its reasons.
+muscle::Range width_bounds(const muscle::HillParameters<double>& start,
+                           const muscle::Range& otherwise) {
+  const double l0_m = start.optimal_fiber_length_m;
+  const muscle::Range of_muscles{muscle::kRelativeWidths.lower * l0_m,
+                                 muscle::kRelativeWidths.upper * l0_m};
+  return holds(of_muscles, start.force_length_width_m) ? of_muscles : otherwise;
+}
+
+void bound(ParameterSlot& slot, const muscle::Range& given) {
+  slot.bounds = given;
+  slot.bounds_are_given = true;
+}
+
+/// A value that the study states may lie where the usual bounds do not reach.
+void make_room(ParameterSlot& slot, double stated) {
+  if (holds(slot.usual, stated)) return;
+  slot.usual = slot.field->bounds;
+  if (!slot.bounds_are_given) slot.bounds = slot.usual;
+}
+
+}  // namespace
 
 const std::vector<std::string>& OwnerNames::of(Scope scope) const {
   return scope == muscle ? muscles : scope == channel ? channels : joints;
@@ -41,7 +73,10 @@ ParameterSlots default_slots(const StudyData& data,
       ParameterSlot slot;
       slot.field = &field;
       slot.owner = static_cast<int>(k);
-      slot.bounds = field.bounds;
+      slot.usual = field.field == kWidth && field.scope == muscle && options.priors
+                       ? width_bounds(data.muscles[k].start, field.bounds)
+                       : field.bounds;
+      slot.bounds = slot.usual;
       const auto f = static_cast<std::size_t>(field.field);
       if (field.scope == muscle) {
         const MuscleSetup& setup = data.muscles[k];
@@ -62,8 +97,7 @@ ParameterSlots default_slots(const StudyData& data,
              (field.field == kSlopeRatio && by_ratio && options.eccentric != Eccentric::smooth));
         if (field.field == kSlopeRatio && product_is_held && options.eccentric != Eccentric::smooth)
           slope_ratio[k] = 0.0;
-        if (const auto b = setup.bounds.find(name); b != setup.bounds.end())
-          slot.bounds = b->second;
+        if (const auto b = setup.bounds.find(name); b != setup.bounds.end()) bound(slot, b->second);
         if (const auto p = setup.priors.find(name); p != setup.priors.end()) slot.prior = p->second;
         slot.prior_is_given = std::find(setup.given_priors.begin(), setup.given_priors.end(),
                                         name) != setup.given_priors.end();
@@ -126,6 +160,9 @@ void apply_rules(const std::vector<ParameterRule>& rules,
           std::find(owners.begin(), owners.end(), slot.owner) == owners.end())
         continue;
       if (rule.value) slot.value = *rule.value;
+      for (const std::optional<double>& believed : {rule.value, rule.prior_mean}) {
+        if (believed) make_room(slot, *believed);
+      }
       slot.start_is_given = slot.start_is_given || rule.value;
       if (field.field == kSlopeRatio && field.scope == muscle && (rule.free || rule.value)) {
         if (!(slot.value > 0.0)) slot.value = 1.0;
@@ -137,8 +174,9 @@ void apply_rules(const std::vector<ParameterRule>& rules,
         }
       }
       if (rule.free) slot.free = *rule.free;
-      if (rule.lower) slot.bounds.lower = *rule.lower;
-      if (rule.upper) slot.bounds.upper = *rule.upper;
+      if (rule.lower || rule.upper)
+        bound(slot,
+              {rule.lower.value_or(slot.bounds.lower), rule.upper.value_or(slot.bounds.upper)});
       if (rule.prior_sd || rule.prior_mean) {
         const double mean = rule.prior_mean.value_or(slot.prior ? slot.prior->mean : slot.value);
         const double usual = field.logarithmic ? field.prior_sd * std::abs(mean) : field.prior_sd;

@@ -17,7 +17,9 @@ struct ParameterSlot {
   bool free = false;
   double value = 0.0;
   bool start_is_given = false;  ///< By a rule; else an unknown begins at its prior's mean.
+  muscle::Range usual;          ///< Bounds unless the study gives others.
   muscle::Range bounds;
+  bool bounds_are_given = false;  ///< By the study.
   std::optional<Prior> prior;
   bool prior_is_given = false;  ///< By the study: not the literature's.
   std::vector<int> tied;        ///< Owners that go with it; empty: none.

@@ -58,6 +58,51 @@ TEST(ParameterSlots, TheSixNumbersOfTheSourcePaperAreFreeAndOneDelayForAll) {
   EXPECT_TRUE(TwoMuscles::slot(found, "emg_delay", 1).follows);
 }
 
+/// Bounds of the width of a muscle whose optimal fiber length is 0.1 m.
+struct WidthBounds {
+  double start_m = 0.045;
+  bool priors = true;
+  std::optional<muscle::Range> of_muscle;
+  std::vector<ParameterRule> rules;
+
+  ParameterSlot found() const {
+    TwoMuscles two;
+    two.data.muscles[0].start.optimal_fiber_length_m = 0.1;
+    two.data.muscles[0].start.force_length_width_m = start_m;
+    if (of_muscle) two.data.muscles[0].bounds["force_length_width"] = *of_muscle;
+    ParameterSlots slots = default_slots(two.data, {.priors = priors}, two.values, two.names);
+    apply_rules(rules, two.names, slots);
+    return TwoMuscles::slot(slots, "force_length_width", 0);
+  }
+};
+
+void expect_bounds(const WidthBounds& of, double lower, double upper) {
+  EXPECT_NEAR(of.found().bounds.lower, lower, 1e-12);
+  EXPECT_NEAR(of.found().bounds.upper, upper, 1e-12);
+}
+
+TEST(ParameterSlots, AWidthStaysWithinWhatMusclesHave) {
+  expect_bounds({}, 0.02, 0.1);
+  const muscle::Range any = parameter_field("force_length_width").bounds;
+  expect_bounds({.priors = false}, any.lower, any.upper);
+  expect_bounds({.start_m = 0.008}, any.lower, any.upper);
+}
+
+TEST(ParameterSlots, WhatTheStudySaysOfAWidthWins) {
+  const muscle::Range any = parameter_field("force_length_width").bounds;
+  const muscle::Range given{0.010, 0.030};
+  const ParameterRule stated{
+      .parameter = "force_length_width", .owners = {"BIC"}, .value = 0.012, .prior_sd = 0.002};
+  const ParameterRule believed{
+      .parameter = "force_length_width", .owners = {"BIC"}, .prior_mean = 0.012};
+  expect_bounds({.of_muscle = given}, 0.010, 0.030);
+  expect_bounds({.rules = {stated}}, any.lower, any.upper);
+  expect_bounds({.rules = {believed}}, any.lower, any.upper);
+  expect_bounds({.of_muscle = given, .rules = {stated}}, 0.010, 0.030);
+  expect_bounds({.rules = {{.parameter = "force_length_width", .owners = {}, .lower = 0.015}}},
+                0.015, 0.1);
+}
+
 TEST(ParameterSlots, AMuscleMayHoldWhatOthersFree) {
   TwoMuscles two;
   two.data.muscles[0].fixed = {"concentric_curvature"};

@@ -43,8 +43,8 @@ FreeParameter make_free(const ParameterSlot& slot, const std::string& owner, boo
     throw InvalidInput(fmt::format("{}: lower bound {} above upper bound {}", p.label,
                                    slot.bounds.lower, slot.bounds.upper));
   }
-  p.lower_is_given = slot.bounds.lower > field.bounds.lower;
-  p.upper_is_given = slot.bounds.upper < field.bounds.upper;
+  p.lower_is_given = slot.bounds.lower > slot.usual.lower;
+  p.upper_is_given = slot.bounds.upper < slot.usual.upper;
   p.prior_is_given = slot.prior_is_given;
   p.start = std::clamp(scaled(field, slot.value), p.lower, p.upper);
   if (priors && slot.prior) {

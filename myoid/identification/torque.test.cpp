@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "myoid/core/error.h"
+#include "myoid/identification/identifiability.h"
 
 #include "tests/support/elbow_study.h"
 
@@ -292,6 +293,28 @@ TEST(IdentifyTorque, HowFarAMuscleLeftTheLiteratureIsSaidOfItAlone) {
   EXPECT_TRUE(std::any_of(far.warnings.begin(), far.warnings.end(), [](const std::string& w) {
     return w.find("BIC has left what is known") == 0;
   }));
+}
+
+TEST(IdentifyTorque, AWidthThatNoMuscleHasIsSoughtOnlyWithoutPriors) {
+  // The biceps' curve is a tenth of its optimal length wide, and the start is the literature's.
+  ElbowStudy study = elbow_study({.with_priors = true});
+  const double l0_m = study.truth[0].optimal_fiber_length_m;
+  study.truth[0].force_length_width_m = 0.1 * l0_m;
+  for (TrialData& trial : study.data.trials)
+    trial.torque_nm = predict(study.data, trial, study.truth, study.delay_s).torque_nm;
+  const IdentificationResult usual = identify_torque(study.data, {.starts = 1});
+  const ParameterEstimate& width = find(usual, "BIC", "force_length_width");
+  EXPECT_EQ(width.estimate, 0.2 * study.data.muscles[0].start.optimal_fiber_length_m);
+  EXPECT_TRUE(width.at_bound);
+  EXPECT_EQ(width.verdict, Verdict::non_physical) << width.reason;
+  const ParameterEstimate& strength = find(usual, "BIC", "max_isometric_force");
+  EXPECT_GT(severity(strength.verdict), severity(Verdict::identified)) << strength.reason;
+  const IdentificationResult free =
+      identify_torque(study.data, {.priors = false, .weights = false});
+  EXPECT_NEAR(find(free, "BIC", "force_length_width").estimate, 0.1 * l0_m, 1e-6 * l0_m);
+  // Data without noise are asked without priors first: the values come back whatever they are.
+  const IdentificationResult exact = identify_torque_or_exact(study.data, {}, {});
+  EXPECT_NEAR(find(exact, "BIC", "force_length_width").estimate, 0.1 * l0_m, 1e-6 * l0_m);
 }
 
 TEST(IdentifyTorque, HeldParametersStayAndOthersTakeTheirBounds) {

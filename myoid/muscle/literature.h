@@ -35,6 +35,12 @@ inline constexpr double kLiteratureSlopeRatio =
     1.5;  ///< S: slopes of f_v at rest, eccentric over concentric
 inline constexpr double kLiteratureSpeed = 10.0;  ///< v_max / l0 [1/s]
 
+/// l_sh over l0 that a muscle can have. A sarcomere makes half of its greatest force between about
+/// 0.65 and 1.3 of its optimal length (Gordon, Huxley and Julian 1966), which is a Gaussian of 0.35
+/// to 0.4, and fibers of unequal length only widen their sum; half of it is no muscle's. Models in
+/// use go up to 0.71 (Thelen's gamma of 0.5).
+inline constexpr Range kRelativeWidths{0.2, 1.0};
+
 /// The numbers above for one muscle: l_sh = 0.45 l0, V_sh = 0.28, V_ml = 1.4, S = 1.5, v_max = 10
 /// l0/s.
 [[nodiscard]] HillParameters<double> literature_parameters(const LiteratureMuscle& muscle);
