@@ -98,6 +98,24 @@ void refuse_what_cannot_be(const IdentifyOptions& o, const pipeline::MuscleTable
   }
 }
 
+/// What was given and changes nothing.
+std::vector<std::string> without_effect(const IdentifyOptions& o) {
+  std::vector<std::string> found;
+  const auto tell = [&](bool given, std::string_view option, std::string_view why) {
+    if (given) found.push_back(fmt::format("{} has no effect: {}", option, why));
+  };
+  const bool paper = o.method == "paper", torque = o.method == "torque";
+  tell(paper && o.no_priors, "--no-priors", "the published method has no priors");
+  tell(paper && o.residual_hz != IdentifyOptions{}.residual_hz, "--residual-cutoff",
+       "the published method fits the forces as they are");
+  constexpr std::string_view kForces = "methods paper and force fit muscle forces (--forces)";
+  tell(!torque && !o.files.torques.empty(), "--torques", kForces);
+  tell(!torque && !o.files.moment_arms.empty(), "--moment-arms", kForces);
+  tell(torque && !o.files.forces.empty(), "--forces",
+       "method torque fits joint torques (--torques)");
+  return found;
+}
+
 identification::EstimatorOptions estimator_options(const IdentifyOptions& o,
                                                    const Context& context) {
   identification::EstimatorOptions options;
@@ -145,7 +163,6 @@ void print_result(const identification::IdentificationResult& result, bool freed
   for (const std::string& text : result.diagnoses) fmt::print("signature: {}\n", text);
   for (const std::string& text : result.undetermined)
     fmt::print("left open by the data: {}\n", text);
-  for (const std::string& text : result.warnings) fmt::print("warning: {}\n", text);
   for (const identification::BranchTest& test : result.branch_tests) {
     fmt::print(
         "{}: l0 and l_sh of the two branches differ by {:+.4f} and {:+.4f} m (Wald {:.1f}, p = "
@@ -322,6 +339,7 @@ void add_identify(CLI::App& app, Context& context) {
     const pipeline::MuscleTable table =
         pipeline::read_muscles_csv(o->muscles, o->method != "paper");
     refuse_what_cannot_be(*o, table);
+    for (const std::string& text : without_effect(*o)) context.warn(text);
     o->files.torque = o->method == "torque";
     if (o->motion_cutoff_hz > 0.0) o->files.motion_cutoff_hz = o->motion_cutoff_hz;
     o->files.start_s = context.start_s;
@@ -379,6 +397,7 @@ void add_identify(CLI::App& app, Context& context) {
                                   .progress = context.progress()});
     }
     context.end_progress();
+    for (const std::string& text : result.warnings) context.warn(text);
     Provenance provenance;
     provenance.command = context.command_line;
     provenance.inputs.push_back({o->muscles, sha256(recording::read_text_file(o->muscles))});

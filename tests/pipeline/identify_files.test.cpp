@@ -341,6 +341,27 @@ TEST(IdentifyFromFiles, WhatTheMethodCannotGiveIsRefusedByName) {
   }
 }
 
+TEST(IdentifyFromFiles, WhatHasNoEffectIsNamedAndWarningsAreNoResult) {
+  const TemporaryFolder folder;
+  const std::vector<Muscle> muscles = random_muscles(10);
+  write_trial(folder, muscles, 1, {.seconds = 4.0});
+  write_muscles(folder, muscles, true);
+  const auto with = [&](const std::string& method, const std::vector<std::string>& more) {
+    std::vector<std::string> arguments = command(folder, method, 1);
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    arguments.emplace_back("--overwrite");
+    return myoid(arguments);
+  };
+  const Finished paper = with("paper", {"--no-priors", "--torques", folder / "t1.sto"});
+  EXPECT_EQ(paper.exit_code, 0) << paper.err;
+  EXPECT_THAT(paper.err, HasSubstr("--no-priors has no effect"));
+  EXPECT_THAT(paper.err, HasSubstr("--torques has no effect"));
+  EXPECT_THAT(paper.out, testing::Not(HasSubstr("warning")));
+  const Finished torque = with("torque", {"--forces", folder / "f1.sto"});
+  EXPECT_THAT(torque.err, HasSubstr("--forces has no effect"));
+  EXPECT_THAT(torque.err, testing::Not(HasSubstr("--torques has no effect")));
+}
+
 TEST(IdentifyFromFiles, TheLagIsChosenByTheDataOrAsItIsTold) {
   const TemporaryFolder folder;
   const std::vector<Muscle> muscles = random_muscles(13);
