@@ -181,15 +181,21 @@ void add_run(CLI::App& app, Context& context) {
           fmt::format("inverse kinematics of {} trials reused: same input as before", reused));
     for (const std::string& line : pipeline::fault_summary(pipeline::all_faults(result)))
       context.warn(line);
+    std::size_t remarks = 0;
     for (const pipeline::TrialResult& trial : result.trials) {
       if (!trial.failure.empty())
         context.warn(fmt::format("trial {}: {}", trial.spec.name, trial.failure));
       for (const std::string& warning : trial.warnings)
         context.warn(fmt::format("trial {}: {}", trial.spec.name, warning));
+      remarks += trial.notes.size();
       for (const std::string& note : trial.notes) {
         if (context.verbose) context.log(fmt::format("{}: {}", trial.spec.name, note));
       }
     }
+    if (remarks > 0 && !context.verbose)
+      context.log(fmt::format(
+          "{} remarks on how files were read and repaired: in run.json, or with --verbose",
+          remarks));
     if (context.json) {
       fmt::print("{}", pipeline::parameters_json(result.methods, result.folds, provenance,
                                                  pipeline::parameter_context(result)));

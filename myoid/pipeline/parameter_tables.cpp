@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "myoid/identification/parameter_fields.h"
 #include "myoid/report/typeset.h"
 
 namespace myoid::pipeline {
@@ -102,7 +103,11 @@ std::string measured_at_rest(const StudyResult& result) {
 
 bool is_undetermined(const ParameterEstimate& e) {
   constexpr double kMeaningless = 1e3;
-  const double size = std::max({std::abs(e.initial), std::abs(e.estimate), 1e-12});
+  // What most have none of may well be 0: it is measured by how much some have.
+  const double usual = identification::zero_by_nature(e.parameter)
+                           ? identification::parameter_field(e.parameter).prior_sd
+                           : 1e-12;
+  const double size = std::max({std::abs(e.initial), std::abs(e.estimate), usual});
   return e.ci_low && e.ci_high && *e.ci_high - *e.ci_low > kMeaningless * size;
 }
 

@@ -21,8 +21,9 @@ struct EstimateLine {
 [[nodiscard]] std::vector<EstimateLine> estimate_lines(
     const identification::IdentificationResult& method, std::size_t muscle_count);
 
-/// Whether the 95 % interval is a thousand times as wide as the number is large: the fit does not
-/// hold it at all, and the interval is printed as "not determined".
+/// Whether the 95 % interval is a thousand times as wide as the number is large (or, of what most
+/// have none of, as it is in some): the fit does not hold it at all, and the interval is printed as
+/// "not determined".
 [[nodiscard]] bool is_undetermined(const identification::ParameterEstimate& e);
 
 /// What the recording tells by method torque or force: first the muscles' and the person's

@@ -92,6 +92,16 @@ TEST(PaperTables, AnIntervalBeyondAllMeaningIsSaidToBeNone) {
   EXPECT_EQ(tables[0].rows[0][5].text, "not determined");
 }
 
+TEST(EstimateTables, ANumberThatIsZeroHasItsInterval) {
+  ParameterEstimate e;
+  e.parameter = "joint_viscosity";
+  e.ci_low = 0.0;
+  e.ci_high = 0.3;
+  EXPECT_FALSE(is_undetermined(e));
+  e.ci_high = 1e4;
+  EXPECT_TRUE(is_undetermined(e));
+}
+
 TEST(EstimateTables, AreCalledByTheirMethod) {
   IdentificationResult method = two_muscles();
   method.method = "force";
