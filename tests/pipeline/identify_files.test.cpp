@@ -316,16 +316,24 @@ TEST(IdentifyFromFiles, SeveralTrialsOfForcesPredictEachOther) {
   EXPECT_THAT(run.out, HasSubstr("3 (l3), B"));
 }
 
-TEST(IdentifyFromFiles, WhatTheMethodCannotGiveIsRefusedByName) {
-  const TemporaryFolder folder;
-  const std::vector<Muscle> muscles = random_muscles(10);
-  write_trial(folder, muscles, 1, {.seconds = 4.0});
-  write_muscles(folder, muscles, true);
-  const auto with = [&](const std::string& method, const std::vector<std::string>& more) {
+/// One trial of 4 s of two muscles, on which options are tried.
+struct OneShortTrial {
+  OneShortTrial() {
+    const std::vector<Muscle> muscles = random_muscles(10);
+    write_trial(folder, muscles, 1, {.seconds = 4.0});
+    write_muscles(folder, muscles, true);
+  }
+  Finished identified(const std::string& method, const std::vector<std::string>& more) const {
     std::vector<std::string> arguments = command(folder, method, 1);
     arguments.insert(arguments.end(), more.begin(), more.end());
+    arguments.emplace_back("--overwrite");
     return myoid(arguments);
-  };
+  }
+  TemporaryFolder folder;
+};
+
+TEST(IdentifyFromFiles, WhatTheMethodCannotGiveIsRefusedByName) {
+  const OneShortTrial trial;
   for (const auto& [method, more, said] :
        std::vector<std::tuple<std::string, std::vector<std::string>, std::string>>{
            {"paper", {"--free", "emg_shape"}, "--free emg_shape: the published method has none"},
@@ -335,29 +343,21 @@ TEST(IdentifyFromFiles, WhatTheMethodCannotGiveIsRefusedByName) {
            {"torque", {"--lag", "shared", "--free", "activation_time"}, "leave one of both out"},
            {"force", {"--free", "joint_viscosity"}, "use --method torque"},
            {"torque", {"--free", "joint_viscosity"}, "give its angles with --motion"}}) {
-    const Finished run = with(method, more);
+    const Finished run = trial.identified(method, more);
     EXPECT_EQ(run.exit_code, 3) << run.out;
     EXPECT_THAT(run.err, HasSubstr(said));
   }
 }
 
 TEST(IdentifyFromFiles, WhatHasNoEffectIsNamedAndWarningsAreNoResult) {
-  const TemporaryFolder folder;
-  const std::vector<Muscle> muscles = random_muscles(10);
-  write_trial(folder, muscles, 1, {.seconds = 4.0});
-  write_muscles(folder, muscles, true);
-  const auto with = [&](const std::string& method, const std::vector<std::string>& more) {
-    std::vector<std::string> arguments = command(folder, method, 1);
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    arguments.emplace_back("--overwrite");
-    return myoid(arguments);
-  };
-  const Finished paper = with("paper", {"--no-priors", "--torques", folder / "t1.sto"});
+  const OneShortTrial trial;
+  const Finished paper =
+      trial.identified("paper", {"--no-priors", "--torques", trial.folder / "t1.sto"});
   EXPECT_EQ(paper.exit_code, 0) << paper.err;
   EXPECT_THAT(paper.err, HasSubstr("--no-priors has no effect"));
   EXPECT_THAT(paper.err, HasSubstr("--torques has no effect"));
   EXPECT_THAT(paper.out, testing::Not(HasSubstr("warning")));
-  const Finished torque = with("torque", {"--forces", folder / "f1.sto"});
+  const Finished torque = trial.identified("torque", {"--forces", trial.folder / "f1.sto"});
   EXPECT_THAT(torque.err, HasSubstr("--forces has no effect"));
   EXPECT_THAT(torque.err, testing::Not(HasSubstr("--torques has no effect")));
 }
