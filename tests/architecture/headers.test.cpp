@@ -24,35 +24,20 @@ const std::map<std::string, std::string> kWithoutTest = {
     {"myoid/cli/stage_input.h", "the program's options, exercised by running the program"},
     {"myoid/forces/actuator_columns.h",
      "the columns that actuator_sharing, static_optimization and joint_reaction share"},
-    {"myoid/identification/envelope.h", "exercised by paper.test and torque.test"},
     {"myoid/identification/estimates.h", "exercised by torque.test"},
-    {"myoid/identification/estimator.h", "exercised by torque.test"},
-    {"myoid/identification/force.h", "exercised by torque.test, whose residuals it shares"},
-    {"myoid/identification/normal_search.h", "exercised by torque.test"},
     {"myoid/identification/options.h", "plain values, exercised by the estimators"},
-    {"myoid/identification/parameters.h", "exercised by torque.test"},
-    {"myoid/identification/paper_case.h", "exercised by paper.test and solver_contest.test"},
-    {"myoid/identification/uncertainty.h", "exercised by torque.test"},
     {"myoid/identification/muscle_sample.h", "a plain value, exercised by the estimators"},
     {"myoid/identification/result.h", "a plain value, exercised by the estimators"},
-    {"myoid/identification/study_data.h", "a plain value, exercised by the estimators"},
     {"myoid/model/compat.h", "switches, exercised by muscle_path.test and the OpenSim table"},
-    {"myoid/model/constraints.h", "exercised by the OpenSim table: coupled and closed models"},
-    {"myoid/model/osim_forces.h", "a part of the reader, tested as part of osim_reader"},
     {"myoid/model/osim_frames.h", "a part of the reader, tested as part of osim_reader"},
     {"myoid/model/osim_joints.h", "a part of the reader, tested as part of osim_reader"},
     {"myoid/model/osim_muscles.h", "a part of the reader, tested as part of osim_reader"},
     {"myoid/model/osim_paths.h", "a part of the reader, tested as part of osim_reader"},
     {"myoid/model/osim_xml.h", "a part of the reader, tested as part of osim_reader"},
-    {"myoid/model/path_exact.h", "a part of the paths, tested as part of muscle_path"},
     {"myoid/model/path_opensim.h", "a part of the paths, tested by the OpenSim table"},
-    {"myoid/muscle/force_velocity.h", "tested as part of hill_muscle"},
-    {"myoid/muscle/hill_parameters.h", "tested as part of hill_muscle"},
     {"myoid/pipeline/lumped_muscles.h", "exercised by design_study.test"},
     {"myoid/pipeline/movement.h", "exercised by design_study.test"},
     {"myoid/pipeline/phases_report.h", "words and drawings, seen by running the program"},
-    {"myoid/recording/marker_series.h", "tested as part of trc"},
-    {"myoid/simulation/draw_truth.h", "tested as part of synthetic_recording"},
 };
 
 std::vector<fs::path> files_below(const fs::path& folder, const std::string& ending) {
@@ -107,6 +92,37 @@ TEST(Headers, EveryHeaderIsIncludedByATestOrTheReasonIsGiven) {
     EXPECT_TRUE(tested.contains(quoted(header)) || kWithoutTest.contains(header.generic_string()))
         << header << " is included by no test: write "
         << fs::path(header).replace_extension(".test.cpp");
+  }
+}
+
+TEST(Headers, EveryReasonForAMissingTestIsStillNeeded) {
+  std::set<std::string> tested;
+  for (const char* folder : {"myoid", "tests"}) {
+    for (const fs::path& test : files_below(folder, ".test.cpp")) {
+      for (const std::string& include : includes(test)) tested.insert(include);
+    }
+  }
+  for (const auto& [header, reason] : kWithoutTest) {
+    EXPECT_TRUE(fs::exists(kRoot / header)) << header << " does not exist: strike it from the list";
+    EXPECT_FALSE(tested.contains('"' + header + '"'))
+        << header << " has a test: strike it from the list";
+  }
+}
+
+/// Code that only its own tests call costs every reader and serves no user.
+TEST(Headers, EveryHeaderHasAReaderInTheProgram) {
+  std::map<std::string, std::set<std::string>> readers;
+  for (const char* ending : {".h", ".cpp"}) {
+    for (const fs::path& file : files_below("myoid", ending)) {
+      if (file.filename().string().ends_with(".test.cpp")) continue;
+      for (const std::string& include : includes(file))
+        readers[include].insert(file.generic_string());
+    }
+  }
+  for (const fs::path& header : files_below("myoid", ".h")) {
+    std::set<std::string> others = readers[quoted(header)];
+    others.erase(fs::path(header).replace_extension(".cpp").generic_string());
+    EXPECT_FALSE(others.empty()) << header << " is included by no other file of the program";
   }
 }
 

@@ -100,6 +100,61 @@ TEST(Architecture, TheLayersHaveNoCircle) {
   }
 }
 
+/// Units (a header and its source) by the units that they include.
+std::map<std::string, std::set<std::string>> units() {
+  const std::regex include(R"re(#include "(myoid/[^"]*)")re");
+  const auto unit = [](const std::string& file) {
+    return std::regex_replace(file, std::regex(R"((_inl)?\.(h|cpp)$)"), "");
+  };
+  std::map<std::string, std::set<std::string>> result;
+  for (const SourceFile& source : sources()) {
+    const std::string from = unit(source.path.generic_string());
+    for (std::sregex_iterator it(source.text.begin(), source.text.end(), include), end; it != end;
+         ++it) {
+      const std::string to = unit((*it)[1]);
+      if (to != from) result[from].insert(to);
+    }
+  }
+  return result;
+}
+
+std::set<std::string> reached_from(const std::string& start,
+                                   const std::map<std::string, std::set<std::string>>& uses) {
+  std::set<std::string> reached;
+  std::vector<std::string> open{start};
+  while (!open.empty()) {
+    const std::string unit = open.back();
+    open.pop_back();
+    const auto used = uses.find(unit);
+    if (used == uses.end()) continue;
+    for (const std::string& next : used->second) {
+      if (reached.insert(next).second) open.push_back(next);
+    }
+  }
+  return reached;
+}
+
+/// Units that all reach each other can only be understood together. The bound may only become
+/// smaller; the goal is 3.
+TEST(Architecture, NoKnotOfUnitsIsLarge) {
+  constexpr std::size_t kLargest = 30;
+  const auto uses = units();
+  std::map<std::string, std::set<std::string>> reach;
+  for (const auto& [unit, used] : uses) reach[unit] = reached_from(unit, uses);
+  std::size_t largest = 0;
+  for (const auto& [unit, reached] : reach) {
+    std::vector<std::string> knot;
+    for (const std::string& other : reached) {
+      if (reach.contains(other) && reach.at(other).contains(unit)) knot.push_back(other);
+    }
+    largest = std::max(largest, knot.size());
+    std::string names;
+    for (const std::string& name : knot) names += ' ' + name;
+    EXPECT_LE(knot.size(), kLargest) << "these include each other in a circle:" << names;
+  }
+  EXPECT_EQ(largest, kLargest) << "the largest knot became smaller: lower the bound";
+}
+
 TEST(Architecture, OnlyTheProgramPrints) {
   const std::regex printing(R"(std::cout|std::cerr|std::clog|\bprintf\(|fmt::print\()");
   for (const SourceFile& source : sources()) {
