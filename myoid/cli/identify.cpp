@@ -11,6 +11,7 @@
 #include "myoid/identification/cross_validation.h"
 #include "myoid/identification/estimate_remarks.h"
 #include "myoid/identification/force.h"
+#include "myoid/identification/noise_free.h"
 #include "myoid/identification/paper.h"
 #include "myoid/identification/parameters.h"
 #include "myoid/identification/score.h"
@@ -42,6 +43,7 @@ struct IdentifyOptions {
   std::string lag;  ///< Empty: not given.
   int starts = 0;   ///< 0: not given.
   double residual_hz = identification::EstimatorOptions{}.residual_cutoff_hz.value_or(0.0);
+  double max_rate_hz = identification::EstimatorOptions{}.max_rate_hz;
   std::vector<std::string> free_more;
   double motion_cutoff_hz = 0.0;
 };
@@ -83,6 +85,12 @@ void refuse_what_cannot_be(const IdentifyOptions& o, const pipeline::MuscleTable
         "give "
         "--lag delay or shared, or use --method torque");
   }
+  // Samples hold what lies well below half of their rate.
+  if (o.method != "paper" && o.residual_hz >= 0.45 * o.max_rate_hz)
+    throw InvalidInput(fmt::format(
+        "--residual-cutoff {0}: samples are thinned to {1} Hz, which holds less than {2:.3g} Hz; "
+        "give --max-rate {3:.0f}, or --residual-cutoff 0 for no low-pass",
+        o.residual_hz, o.max_rate_hz, 0.45 * o.max_rate_hz, std::ceil(o.residual_hz / 0.4)));
   if (o.motion_cutoff_hz > 0.0 && o.files.motions.empty())
     throw InvalidInput("--lowpass smooths the angles of --motion, which is not given");
   for (const std::string& name : o.free_more) {
@@ -108,6 +116,8 @@ std::vector<std::string> without_effect(const IdentifyOptions& o) {
   tell(paper && o.no_priors, "--no-priors", "the published method has no priors");
   tell(paper && o.residual_hz != IdentifyOptions{}.residual_hz, "--residual-cutoff",
        "the published method fits the forces as they are");
+  tell(paper && o.max_rate_hz != IdentifyOptions{}.max_rate_hz, "--max-rate",
+       "the published method fits every sample");
   constexpr std::string_view kForces = "methods paper and force fit muscle forces (--forces)";
   tell(!torque && !o.files.torques.empty(), "--torques", kForces);
   tell(!torque && !o.files.moment_arms.empty(), "--moment-arms", kForces);
@@ -124,7 +134,7 @@ identification::EstimatorOptions estimator_options(const IdentifyOptions& o,
   options.choose_lag =
       o.method == "torque" && !o.no_priors && (o.lag.empty() || o.lag == "automatic");
   if (o.lag == "shared") options.lag = identification::EmgLag::shared;
-  options.max_rate_hz = 200.0;
+  options.max_rate_hz = o.max_rate_hz;
   options.delay_s = o.delay_s;
   options.residual_cutoff_hz.reset();
   if (o.residual_hz > 0.0) options.residual_cutoff_hz = o.residual_hz;
@@ -169,6 +179,21 @@ void print_result(const identification::IdentificationResult& result, bool freed
         "{:.3f})\n",
         test.muscle, test.length_difference_m, test.width_difference_m, test.wald, test.p_value);
   }
+}
+
+/// How many samples the fit took.
+void print_samples(const identification::IdentificationResult& result,
+                   const StudyData& data,
+                   const IdentifyOptions& o) {
+  if (o.method == "paper") return;
+  Eigen::Index all = 0;
+  for (const TrialData& trial : data.trials) all += trial.time_s.size();
+  all *= static_cast<Eigen::Index>(o.method == "force" ? data.muscles.size()
+                                                       : joint_count(data.trials.front()));
+  const double rate_hz =
+      result.exact ? std::max(o.max_rate_hz, identification::kNoiseFreeRate_hz) : o.max_rate_hz;
+  fmt::print("{} of {} samples are fitted: at most {:g} a second, without the ends of trials{}.\n",
+             result.samples_used, all, rate_hz, result.exact ? "" : " (--max-rate)");
 }
 
 /// How the fit meets what it was fitted to: torque by trial and joint, or force by trial and
@@ -314,6 +339,12 @@ void add_identify(CLI::App& app, Context& context) {
                   "0: not at all")
       ->check(CLI::Range(0.0, 1000.0))
       ->capture_default_str();
+  command
+      .add_option("--max-rate", o->max_rate_hz,
+                  "Samples are thinned to at most this [Hz], methods force and torque, as by "
+                  "max_rate_hz of a study; data without noise to 200 Hz")
+      ->check(CLI::Range(5.0, 2000.0))
+      ->capture_default_str();
   command.add_option("--loss", o->loss, "square, huber or cauchy (default square)")
       ->check(CLI::IsMember({"square", "huber", "cauchy"}));
   command.add_option("--bootstrap", o->bootstrap, "Bootstrap replicates (default 0: none)")
@@ -409,6 +440,7 @@ void add_identify(CLI::App& app, Context& context) {
     }
     const std::vector<identification::IdentificationResult> results{result};
     pipeline::ParameterContext told;
+    if (o->method != "paper") told.max_rate_hz = o->max_rate_hz;
     told.left_out = folds.empty() ? "none" : o->folds;
     const std::filesystem::path folder(o->out);
     recording::write_file(folder / "parameters.json",
@@ -420,6 +452,7 @@ void add_identify(CLI::App& app, Context& context) {
     } else {
       print_result(result,
                    o->method != "paper" && !result.exact && !table.speed_may_be_free.empty());
+      print_samples(result, data, *o);
       print_fit(result, data, o->method == "torque");
       print_folds(folds, *o);
       for (const identification::BasinTable& searches : result.basins) {

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
 #include "myoid/identification/envelope.h"
+#include "myoid/identification/trial_rows.h"
 #include "myoid/muscle/force_velocity.h"
 #include "myoid/muscle/literature.h"
 
@@ -88,30 +90,9 @@ TrialData of_joint(const TrialData& trial, std::size_t joint) {
 }
 
 TrialData part(const TrialData& trial, Eigen::Index first, Eigen::Index count) {
-  TrialData t = trial;
-  t.time_s = trial.time_s.segment(first, count);
-  t.length_m = trial.length_m.middleRows(first, count);
-  t.velocity_mps = trial.velocity_mps.middleRows(first, count);
-  t.moment_arm_m = trial.moment_arm_m.middleRows(first, count);
-  t.torque_nm = trial.torque_nm.segment(first, count);
-  if (trial.force_n.rows() == trial.time_s.size())
-    t.force_n = trial.force_n.middleRows(first, count);
-  const auto cut = [&](Eigen::VectorXd& x) {
-    if (x.size() == trial.time_s.size()) x = x.segment(first, count).eval();
-  };
-  cut(t.angle_rad);
-  cut(t.velocity_radps);
-  cut(t.acceleration_radps2);
-  cut(t.resting_nm);
-  for (JointData& joint : t.more_joints) {
-    cut(joint.torque_nm);
-    cut(joint.angle_rad);
-    cut(joint.velocity_radps);
-    cut(joint.acceleration_radps2);
-    cut(joint.resting_nm);
-    joint.moment_arm_m = joint.moment_arm_m.middleRows(first, count).eval();
-  }
-  return t;
+  std::vector<Eigen::Index> rows(static_cast<std::size_t>(count));
+  std::iota(rows.begin(), rows.end(), first);
+  return at_rows(trial, rows);
 }
 
 Eigen::VectorXd resting_torque_nm(const TrialData& trial) {

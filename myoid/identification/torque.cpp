@@ -7,6 +7,7 @@
 #include "myoid/identification/basins.h"
 #include "myoid/identification/estimates.h"
 #include "myoid/identification/estimator.h"
+#include "myoid/identification/noise_free.h"
 #include "myoid/muscle/hill_muscle.h"
 
 namespace myoid::identification {
@@ -289,42 +290,19 @@ IdentificationResult identify_torque_or_exact(const StudyData& data,
   plain.weights = false;
   plain.residual_cutoff_hz.reset();
   plain.gain_prior_sd.clear();
+  plain.max_rate_hz = std::max(options.max_rate_hz, kNoiseFreeRate_hz);
   StudyData freed = data;
   free_speeds(freed, speed_may_be_free);
   for (const StudyData* study : {&data, static_cast<const StudyData*>(&freed)}) {
     if (study == &freed && speed_may_be_free.empty()) break;
     const Estimator estimator(*study, plain);
-    const double size = estimator.model().measured().squaredNorm();
-    const auto exact = [&](const Estimator::Solution& s) {
-      return 2.0 * s.search.cost <= 1e-12 * size;
-    };
-    // A search that settles with a hundredth of the data unexplained is at no exact minimum.
-    constexpr double kNear = 1e-4;
-    Weighting as_they_are;
-    as_they_are.sd_nm = Eigen::VectorXd::Ones(estimator.model().sample_count());
-    as_they_are.noise.resize(static_cast<std::size_t>(estimator.model().joint_count()));
-    const Eigen::VectorXd start = estimator.model().parameters().start();
-    std::optional<Estimator::Solution> found;
-    for (int s = 0; s < 12 && !found; ++s) {
-      Eigen::VectorXd x = s == 0 ? start : estimator.moved_start(start, s);
-      for (std::size_t j = 0; j < estimator.free().size(); ++j) {
-        // A delay has minima of its own: begin at several.
-        const FreeParameter& f = estimator.free()[j];
-        if (f.field->scope == Scope::channel && f.field->field == kDelay)
-          x[static_cast<Eigen::Index>(j)] = f.lower + (f.upper - f.lower) * 0.2 * (s % 4);
-      }
-      const NormalSearchResult look = estimator.search(x, as_they_are, 1e-6, 1e-6);
-      if (2.0 * look.cost > kNear * size) continue;
-      Estimator::Solution attempt = estimator.solve(look.x);
-      if (exact(attempt)) found = std::move(attempt);
-    }
-    if (found) {
-      IdentificationResult result = finish(estimator, *found, *study, begin);
-      result.exact = true;
-      if (options.multistart > 1)
-        result.basins.push_back(find_basins(estimator, found->weighting, options.multistart));
-      return result;
-    }
+    const std::optional<Estimator::Solution> found = noise_free_solution(*study, estimator);
+    if (!found) continue;
+    IdentificationResult result = finish(estimator, *found, *study, begin);
+    result.exact = true;
+    if (options.multistart > 1)
+      result.basins.push_back(find_basins(estimator, found->weighting, options.multistart));
+    return result;
   }
   return identify_torque(freed, options);
 }

@@ -36,11 +36,11 @@ using TorqueOptions = EstimatorOptions;
 [[nodiscard]] IdentificationResult identify_torque(const StudyData& data,
                                                    const TorqueOptions& options = {});
 
-/// The same estimator for data that may be free of noise: first without priors, weights and
-/// low-pass, from several starts. If that leaves less than 1e-6 of the data's size, it is the
-/// answer
-/// (`exact`). Where `speed_may_be_free` names muscles, their v_max is freed unless the data are met
-/// exactly without (free_speeds). Else `identify_torque`.
+/// The same estimator for data that may be free of noise. A fit without priors, weights and
+/// low-pass, from several starts (noise_free_solution), comes first; if it leaves less than 1e-6 of
+/// the data's size, it is the answer (`exact`), of all samples up to kNoiseFreeRate_hz. Where
+/// `speed_may_be_free` names muscles, their v_max is freed unless the data are met exactly without
+/// (free_speeds). Else `identify_torque`.
 [[nodiscard]] IdentificationResult identify_torque_or_exact(
     const StudyData& data,
     const TorqueOptions& options = {},

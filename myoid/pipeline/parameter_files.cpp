@@ -213,6 +213,7 @@ std::string parameters_json(const std::vector<IdentificationResult>& methods,
                             {"rounds", loop.rounds.size()}};
   }
   object["left_out"] = context.left_out;
+  object["max_rate_hz"] = context.max_rate_hz ? ordered_json(*context.max_rate_hz) : nullptr;
   object["resting_torque"] = ordered_json::array();
   for (const identification::RestingJoint& joint : context.resting) {
     const Eigen::VectorXd& c = joint.torque.coefficient_nm;
@@ -246,6 +247,7 @@ ParameterContext parameter_context(const StudyResult& result) {
   return {.phases = result.phases,
           .resting = result.resting,
           .left_out = result.study.identify.folds,
+          .max_rate_hz = result.study.identify.max_rate_hz,
           .force_loop = result.force_loop ? &*result.force_loop : nullptr};
 }
 

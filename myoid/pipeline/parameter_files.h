@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,7 +24,8 @@ namespace myoid::pipeline {
 struct ParameterContext {
   std::vector<TrialPhases> phases;
   std::vector<identification::RestingJoint> resting;
-  std::string left_out = "trial";  ///< What a fold is: trial, condition, block, or none.
+  std::string left_out = "trial";     ///< What a fold is: trial, condition, block, or none.
+  std::optional<double> max_rate_hz;  ///< Samples were thinned to at most this; empty: not told.
   const identification::ForceLoop* force_loop = nullptr;  ///< Null: none was asked for.
 };
 

@@ -341,6 +341,9 @@ TEST(IdentifyFromFiles, WhatTheMethodCannotGiveIsRefusedByName) {
            {"paper", {"--lag", "shared"}, "--lag shared: the published method has none"},
            {"force", {"--lag", "automatic"}, "give --lag delay or shared"},
            {"torque", {"--lag", "shared", "--free", "activation_time"}, "leave one of both out"},
+           {"torque",
+            {"--residual-cutoff", "12"},
+            "--residual-cutoff 12: samples are thinned to 20"},
            {"force", {"--free", "joint_viscosity"}, "use --method torque"},
            {"torque", {"--free", "joint_viscosity"}, "give its angles with --motion"}}) {
     const Finished run = trial.identified(method, more);
@@ -392,6 +395,32 @@ TEST(IdentifyFromFiles, TheLagIsChosenByTheDataOrAsItIsTold) {
     EXPECT_THAT(json, HasSubstr("\"emg_lag\": \"" + lag + "\""));
     EXPECT_THAT(json, HasSubstr("\"shared_lag_gain\": null"));
   }
+}
+
+TEST(IdentifyFromFiles, SamplesAreThinnedAsARunThinsThemAndItIsSaid) {
+  const TemporaryFolder folder;
+  write_trial(folder, random_muscles(14), 1, {.seconds = 10.0});
+  std::string torques = "time,elbow\n";
+  for (int i = 0; i <= 1000; ++i) torques += fmt::format("{},{}\n", 0.01 * i, 10 + i % 7);
+  write_text(folder / "t1.csv", torques);
+  write_muscles(folder, random_muscles(14), true);
+  std::vector<std::string> arguments = command(folder, "torque", 1);
+  for (std::string& argument : arguments) {
+    if (argument == folder / "t1.sto") argument = folder / "t1.csv";
+  }
+  const auto with = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> all = arguments;
+    all.insert(all.end(), more.begin(), more.end());
+    all.insert(all.end(), {"--overwrite", "--folds", "none"});
+    return myoid(all);
+  };
+  // 10 s less 0.1 s on either end and the 0.15 s that EMG must reach back: at 20 Hz 0.15 s to 9.9
+  // s.
+  const Finished usual = with({});
+  EXPECT_THAT(usual.out, HasSubstr("196 of 2001 samples are fitted: at most 20 a second"));
+  const std::string json = myoid::test::read_text(folder / "out/parameters.json");
+  EXPECT_THAT(json, HasSubstr("\"max_rate_hz\": 20.0"));
+  EXPECT_THAT(with({"--max-rate", "200"}).out, HasSubstr("at most 200 a second"));
 }
 
 TEST(IdentifyFromFiles, MethodPaperHoldsWhatIsFixedAndComparesItsOwnProblem) {
