@@ -39,115 +39,125 @@ ForceVelocity force_velocity(double v, const MuscleValues& p) {
 constexpr double kTendonScale = 0.2;               // De Groote's exponential tendon ...
 constexpr double kTendonRise = 1.791759469228055;  // ... ln(1 / 0.2 + 1): tension 1 at strain e0
 
-/// Fiber force over F_max, and its derivatives.
-struct Fiber {
+using Fields = std::array<double, kMuscleFieldCount>;
+
+/// Force over F_max and its derivatives.
+struct Pull {
   double force = 0.0;
   double by_activation = 0.0, by_length = 0.0, by_velocity = 0.0;
-  std::array<double, kMuscleFieldCount> by_field{};
 };
 
-Fiber fiber(double a, double l, double v, const MuscleValues& p) {
-  Fiber f;
-  const double l0 = p[kFiberLength];
-  const double gamma = p[kLengthActivation];
-  const double stretch = 1.0 + gamma * (1.0 - a);
-  const double w = p[kWidth];
-  const double z = (l - l0 * stretch) / w;
-  const double fl = std::exp(-z * z);
-  const double fl_l = -2.0 * z / w * fl;
-
-  const auto [fv, fv_v, fv_vm, fv_sh, fv_p, fv_ml] = force_velocity(v, p);
-  f.force = a * fl * fv;
-  f.by_activation = fl * fv - a * fl_l * fv * (-l0 * gamma);
-  f.by_length = a * fl_l * fv;
-  f.by_velocity = a * fl * fv_v;
-  f.by_field[kFiberLength] = -a * fl_l * fv * stretch;
-  f.by_field[kWidth] = a * fv * 2.0 * z * z / w * fl;
-  f.by_field[kCurvature] = a * fl * fv_sh;
-  f.by_field[kProduct] = a * fl * fv_p;
-  f.by_field[kPlateau] = a * fl * fv_ml;
-  f.by_field[kSpeed] = a * fl * fv_vm;
-  f.by_field[kLengthActivation] = -a * fl_l * fv * l0 * (1.0 - a);
-
-  if (p[kPassiveForce] > 0.0 && l > l0) {
-    const double k = p[kPassiveShape];
-    const double e = p[kPassiveStrain];
-    const double top = std::expm1(k);
-    const double x = (l / l0 - 1.0) / e;
-    const double rise = std::exp(k * x);
-    const double c = p[kPassiveForce];
-    f.force += c * (rise - 1.0) / top;
-    const double by_x = c * k * rise / top;
-    f.by_length += by_x / (l0 * e);
-    f.by_field[kFiberLength] -= by_x * l / (l0 * l0 * e);
-    f.by_field[kPassiveForce] = (rise - 1.0) / top;
-    f.by_field[kPassiveStrain] = -by_x * x / e;
-    f.by_field[kPassiveShape] = c * (x * rise * top - (rise - 1.0) * (top + 1.0)) / (top * top);
-  } else if (l > l0) {
-    // The derivative by the amount exists although there is none yet.
-    f.by_field[kPassiveForce] = std::expm1(p[kPassiveShape] * (l / l0 - 1.0) / p[kPassiveStrain]) /
-                                std::expm1(p[kPassiveShape]);
+/// A muscle without its tendon at one activation and rate.
+class Contraction {
+ public:
+  Contraction(double a, double v_mt, const MuscleValues& p)
+      : p_(p),
+        a_(a),
+        v_mt_(v_mt),
+        stretch_(1.0 + p[kLengthActivation] * (1.0 - a)),
+        sine_(p[kPennation] == 0.0 ? 0.0 : std::sin(p[kPennation])),
+        passive_top_(std::exp(p[kPassiveShape]) - 1.0) {
+    if (p[kPennation] == 0.0) of_velocity_ = force_velocity(v_mt, p);
   }
-  return f;
-}
 
-/// Tension over F_max of a pennate muscle whose projected length is `along` = l cos(alpha).
-struct Projected {
-  double force = 0.0;
-  double by_activation = 0.0, by_along = 0.0, by_velocity = 0.0;
-  std::array<double, kMuscleFieldCount> by_field{};
-};
-
-Projected projected(double a, double along, double v_mt, const MuscleValues& p) {
-  Projected r;
-  if (p[kPennation] == 0.0) {
-    const Fiber f = fiber(a, along, v_mt, p);
-    r.force = f.force;
-    r.by_activation = f.by_activation;
-    r.by_along = f.by_length;
-    r.by_velocity = f.by_velocity;
-    r.by_field = f.by_field;
+  /// Along the tendon, by the projected length l cos(alpha); the derivatives by field go to
+  /// `by_field`, if it is not null.
+  Pull at(double along, Fields* by_field) const {
+    if (by_field != nullptr) by_field->fill(0.0);
+    if (p_[kPennation] == 0.0) return fiber(along, of_velocity_, by_field);
+    if (along <= 0.0) return {};
+    const double h = p_[kFiberLength] * sine_;
+    const double l = std::sqrt(h * h + along * along);
+    const double c = along / l;
+    const double c_along = h * h / (l * l * l);
+    const double c_h = -along * h / (l * l * l);
+    const Pull f = fiber(l, force_velocity(v_mt_ * c, p_), by_field);
+    Pull r;
+    r.force = f.force * c;
+    r.by_activation = f.by_activation * c;
+    r.by_velocity = f.by_velocity * c * c;
+    r.by_length = (f.by_length * c + f.by_velocity * v_mt_ * c_along) * c + f.force * c_along;
+    if (by_field == nullptr) return r;
+    const double by_h = (f.by_length * h / l + f.by_velocity * v_mt_ * c_h) * c + f.force * c_h;
+    for (double& d : *by_field) d *= c;
+    (*by_field)[kFiberLength] += by_h * sine_;
+    (*by_field)[kPennation] = by_h * p_[kFiberLength] * std::cos(p_[kPennation]);
     return r;
   }
-  if (along <= 0.0) return r;
-  const double sine = std::sin(p[kPennation]);
-  const double h = p[kFiberLength] * sine;
-  const double l = std::hypot(h, along);
-  const double c = along / l;
-  const double c_along = h * h / (l * l * l);
-  const double c_h = -along * h / (l * l * l);
-  const Fiber f = fiber(a, l, v_mt * c, p);
-  r.force = f.force * c;
-  r.by_activation = f.by_activation * c;
-  r.by_velocity = f.by_velocity * c * c;
-  r.by_along = (f.by_length * c + f.by_velocity * v_mt * c_along) * c + f.force * c_along;
-  const double by_h = (f.by_length * h / l + f.by_velocity * v_mt * c_h) * c + f.force * c_h;
-  for (std::size_t i = 0; i < r.by_field.size(); ++i) r.by_field[i] = f.by_field[i] * c;
-  r.by_field[kFiberLength] += by_h * sine;
-  r.by_field[kPennation] = by_h * p[kFiberLength] * std::cos(p[kPennation]);
-  return r;
-}
 
-/// Strain at which the tendon pulls as the muscle does.
-double tendon_strain(double a, double l_mt, double v_mt, const MuscleValues& p, double rise) {
-  const double slack = p[kSlack];
-  const auto excess = [&](double strain, double* slope) {
-    const Projected m = projected(a, l_mt - slack * (1.0 + strain), v_mt, p);
-    const double pull = kTendonScale * std::exp(rise * strain);
-    if (slope != nullptr) *slope = -m.by_along * slack - rise * pull;
-    return m.force - (pull - kTendonScale);
-  };
-  double low = 0.0;
-  double high = std::log1p(projected(a, l_mt - slack, v_mt, p).force / kTendonScale + 1e-3) / rise;
-  while (excess(high, nullptr) > 0.0 && high < 10.0) high *= 2.0;
-  double strain = 0.5 * high;
-  for (int i = 0; i < 100; ++i) {
-    double slope = 0.0;
-    const double value = excess(strain, &slope);
-    (value > 0.0 ? low : high) = strain;
-    double next = slope < 0.0 ? strain - value / slope : 0.5 * (low + high);
-    if (!(next > low && next < high)) next = 0.5 * (low + high);
-    if (std::abs(next - strain) <= 1e-15 * (1.0 + strain)) return next;
+ private:
+  Pull fiber(double l, const ForceVelocity& of_velocity, Fields* by_field) const {
+    const double l0 = p_[kFiberLength], w = p_[kWidth];
+    const double z = (l - l0 * stretch_) / w;
+    const double fl = std::exp(-z * z);
+    const double fl_l = -2.0 * z / w * fl;
+    const double fv = of_velocity.value;
+    Pull f;
+    f.force = a_ * fl * fv;
+    f.by_activation = fl * fv + a_ * fl_l * fv * l0 * p_[kLengthActivation];
+    f.by_length = a_ * fl_l * fv;
+    f.by_velocity = a_ * fl * of_velocity.by_velocity;
+    if (by_field != nullptr) {
+      Fields& by = *by_field;
+      by[kFiberLength] = -a_ * fl_l * fv * stretch_;
+      by[kWidth] = a_ * fv * 2.0 * z * z / w * fl;
+      by[kCurvature] = a_ * fl * of_velocity.by_curvature;
+      by[kProduct] = a_ * fl * of_velocity.by_product;
+      by[kPlateau] = a_ * fl * of_velocity.by_plateau;
+      by[kSpeed] = a_ * fl * of_velocity.by_speed;
+      by[kLengthActivation] = -a_ * fl_l * fv * l0 * (1.0 - a_);
+    }
+    if (l > l0) add_passive(l, f, by_field);
+    return f;
+  }
+
+  void add_passive(double l, Pull& f, Fields* by_field) const {
+    const double c = p_[kPassiveForce];
+    if (c == 0.0 && by_field == nullptr) return;
+    const double l0 = p_[kFiberLength], k = p_[kPassiveShape], e = p_[kPassiveStrain];
+    const double x = (l / l0 - 1.0) / e;
+    const double grown = std::exp(k * x) - 1.0;
+    const double by_x = c * k * (grown + 1.0) / passive_top_;
+    f.force += c * grown / passive_top_;
+    f.by_length += by_x / (l0 * e);
+    if (by_field == nullptr) return;
+    Fields& by = *by_field;
+    by[kPassiveForce] = grown / passive_top_;  // of an amount of 0, too
+    if (c == 0.0) return;
+    by[kFiberLength] -= by_x * l / (l0 * l0 * e);
+    by[kPassiveStrain] = -by_x * x / e;
+    by[kPassiveShape] = c * (x * (grown + 1.0) * passive_top_ - grown * (passive_top_ + 1.0)) /
+                        (passive_top_ * passive_top_);
+  }
+
+  const MuscleValues& p_;
+  double a_, v_mt_, stretch_, sine_, passive_top_;
+  ForceVelocity of_velocity_;  ///< Without pennation: the same at every length.
+};
+
+/// Strain at which the tendon pulls as the muscle does: the root of
+///
+///   u(s) = ln(1 + m(s) / 0.2) / rise - s
+///
+/// for the muscle's pull m, by Newton's steps within a bracket. u is nearly a line: the tendon's
+/// exponential is gone, and what is left of m's slope is small beside 1. A step of 3e-9 leaves an
+/// error below 1e-16.
+double tendon_strain(const Contraction& muscle, double a, double l_mt, double slack, double rise) {
+  constexpr double kLastStep = 3e-9, kLongest = 10.0;
+  double low = -1.0, high = kLongest;  // the tendon does not push: low is 0 once 0 was tried
+  double strain = std::min(0.6 * std::log(1.0 + std::max(a, 0.0) / kTendonScale) / rise, kLongest);
+  for (int i = 0; i < 200; ++i) {
+    const Pull m = muscle.at(l_mt - slack * (1.0 + strain), nullptr);
+    if (strain == 0.0 && m.force <= 0.0) return 0.0;
+    const double u = std::log(1.0 + m.force / kTendonScale) / rise - strain;
+    const double slope = -m.by_length * slack / (rise * (kTendonScale + m.force)) - 1.0;
+    (u > 0.0 ? low : high) = strain;
+    double next = slope < 0.0 ? std::max(strain - u / slope, 0.0) : high;
+    if (std::abs(next - strain) <= kLastStep) return next;
+    if (!(next > low && next < high)) {
+      const double from = std::max(low, 0.0);
+      next = 0.5 * (from + std::min(high, 2.0 * from + 0.1));
+    }
     strain = next;
   }
   return strain;
@@ -189,36 +199,29 @@ MuscleExtras muscle_extras(const MuscleValues& values) {
 Tension tension(double activation, double length_m, double velocity_mps, const MuscleValues& p) {
   const double a = p[kShare] * activation;
   const double greatest = p[kMaxForce];
+  const double slack = p[kSlack];
+  const Contraction muscle(a, velocity_mps, p);
+  const bool elastic = p[kTendonStrain] > 0.0 && slack > 0.0;
+  const double rise = elastic ? kTendonRise / p[kTendonStrain] : 0.0;
+  const double strain = elastic ? tendon_strain(muscle, a, length_m, slack, rise) : 0.0;
   Tension t;
-  if (p[kTendonStrain] > 0.0 && p[kSlack] > 0.0) {
-    const double rise = kTendonRise / p[kTendonStrain];
-    const double strain = tendon_strain(a, length_m, velocity_mps, p, rise);
-    const Projected m = projected(a, length_m - p[kSlack] * (1.0 + strain), velocity_mps, p);
-    const double grown = kTendonScale * std::exp(rise * strain);
-    const double pull = grown - kTendonScale;
-    const double pull_slope = rise * grown;
-    // G = muscle - tendon = 0 gives d strain / d x = G_x / (m_along l_ts + pull').
-    const double stiff = pull_slope / (m.by_along * p[kSlack] + pull_slope);
-    t.force_n = greatest * pull;
-    for (std::size_t i = 0; i < t.by_field.size(); ++i)
-      t.by_field[i] = greatest * stiff * m.by_field[i];
-    t.by_field[kSlack] = -greatest * stiff * m.by_along * (1.0 + strain);
+  Pull m = muscle.at(length_m - slack * (1.0 + strain), &t.by_field);
+  if (elastic) m.force = std::max(m.force, 0.0);  // no tendon pushes
+  // G = muscle - tendon = 0 gives d strain / d x = G_x / (m_length l_ts + pull').
+  const double grown = kTendonScale + m.force;
+  const double stiff = elastic ? rise * grown / (m.by_length * slack + rise * grown) : 1.0;
+  const double scale = greatest * stiff;
+  for (double& d : t.by_field) d *= scale;
+  t.force_n = greatest * m.force;
+  t.by_field[kMaxForce] = m.force;
+  t.by_field[kSlack] = -scale * m.by_length * (1.0 + strain);
+  if (elastic) {
     const double by_e0 = -grown * strain * rise / p[kTendonStrain];
     t.by_field[kTendonStrain] = greatest * by_e0 * (1.0 - stiff);
-    t.by_field[kMaxForce] = pull;
-    t.by_length = greatest * stiff * m.by_along;
-    t.by_velocity = greatest * stiff * m.by_velocity;
-    t.by_activation = greatest * stiff * m.by_activation;
-  } else {
-    const Projected m = projected(a, length_m - p[kSlack], velocity_mps, p);
-    t.force_n = greatest * m.force;
-    for (std::size_t i = 0; i < t.by_field.size(); ++i) t.by_field[i] = greatest * m.by_field[i];
-    t.by_field[kSlack] = -greatest * m.by_along;
-    t.by_field[kMaxForce] = m.force;
-    t.by_length = greatest * m.by_along;
-    t.by_velocity = greatest * m.by_velocity;
-    t.by_activation = greatest * m.by_activation;
   }
+  t.by_length = scale * m.by_length;
+  t.by_velocity = scale * m.by_velocity;
+  t.by_activation = scale * m.by_activation;
   t.by_field[kShare] = t.by_activation * activation;
   t.by_activation *= p[kShare];
   return t;

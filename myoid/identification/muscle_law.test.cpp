@@ -80,6 +80,64 @@ TEST(Tension, OfAnElasticTendonIsThatOfTheMuscleBehindIt) {
   EXPECT_NEAR(force, p[kMaxForce] * (active + passive) * along / l, 1e-9 * force);
 }
 
+/// Pull of the muscle over F_max at a strain of its tendon, written once more.
+double pull(double a, double strain, double l_mt, double v_mt, const MuscleValues& p) {
+  const double along = l_mt - p[kSlack] * (1.0 + strain);
+  const double h = p[kFiberLength] * std::sin(p[kPennation]);
+  const double l = h > 0.0 ? std::sqrt(along * along + h * h) : along;
+  const double cosine = h > 0.0 ? along / l : 1.0;
+  if (h > 0.0 && along <= 0.0) return 0.0;
+  const double v = v_mt * cosine;
+  const double vm = p[kSpeed];
+  const double f_v = v <= -vm   ? 0.0
+                     : v <= 0.0 ? p[kCurvature] * (vm + v) / (p[kCurvature] * vm - v)
+                                : (p[kProduct] * vm + p[kPlateau] * v) / (p[kProduct] * vm + v);
+  const double l0 = p[kFiberLength] * (1.0 + p[kLengthActivation] * (1.0 - a));
+  const double stretch = l / p[kFiberLength] - 1.0;
+  const double passive = stretch > 0.0
+                             ? p[kPassiveForce] *
+                                   std::expm1(p[kPassiveShape] * stretch / p[kPassiveStrain]) /
+                                   std::expm1(p[kPassiveShape])
+                             : 0.0;
+  return (a * std::exp(-std::pow((l - l0) / p[kWidth], 2)) * f_v + passive) * cosine;
+}
+
+TEST(Tension, OfAnElasticTendonIsWhereBisectionEnds) {
+  // From slack to far beyond the optimal length, at rest and at full effort, fast and slow, soft
+  // tendons and hard ones. Bisection of pull - tendon halves to the last digit.
+  for (const bool everything : {false, true}) {
+    MuscleValues p = everything_on();
+    if (!everything) p[kPennation] = p[kPassiveForce] = p[kLengthActivation] = 0.0;
+    for (const double e0 : {0.01, 0.033, 0.1}) {
+      p[kTendonStrain] = e0;
+      for (const double reach : {-0.2, 0.2, 0.5, 0.8, 1.0, 1.3, 1.7}) {
+        for (const double activation : {0.0, 1e-9, 0.02, 0.3, 1.0}) {
+          for (const double v : {-3.0, -0.5, 0.0, 0.4, 2.0}) {
+            const double l_mt = p[kSlack] + reach * p[kFiberLength];
+            const double a = p[kShare] * activation;
+            const auto tendon = [&](double s) { return 0.2 * std::expm1(std::log(6.0) * s / e0); };
+            double low = 0.0, high = 5.0 * e0;
+            for (int i = 0; i < 200; ++i) {
+              const double middle = 0.5 * (low + high);
+              (pull(a, middle, l_mt, v, p) > tendon(middle) ? low : high) = middle;
+            }
+            // The tendon's stiffness makes 1e-16 of strain some 1e-14 of F_max.
+            EXPECT_NEAR(tension(activation, l_mt, v, p).force_n / p[kMaxForce], tendon(low), 1e-12)
+                << everything << " " << e0 << " " << reach << " " << activation << " " << v;
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST(Tension, OfAnActivationBelowNothingIsNoPush) {
+  MuscleValues p = everything_on();
+  p[kPassiveForce] = 0.0;
+  const double l_mt = p[kSlack] + p[kFiberLength];
+  EXPECT_EQ(tension(-0.01, l_mt, 0.0, p).force_n, 0.0);
+}
+
 TEST(Tension, OfAVeryStiffTendonIsThatOfARigidOne) {
   MuscleValues rigid = everything_on();
   rigid[kTendonStrain] = 0.0;
