@@ -2,17 +2,10 @@
 
 #include <vector>
 
-#include "myoid/core/progress.h"
-#include "myoid/dynamics/external_loads.h"
-#include "myoid/kinematics/joint_motion.h"
+#include "myoid/forces/driven_frame.h"
 #include "myoid/model/kinematic_tree.h"
 
 namespace myoid::forces {
-
-struct JointReactionOptions {
-  const dynamics::ExternalLoads* loads = nullptr;  ///< Not owned.
-  Progress progress{};
-};
 
 /// What joints carry at one instant.
 struct JointLoads {
@@ -21,15 +14,15 @@ struct JointLoads {
 };
 
 /// What each joint's parent exerts on its child, muscles pulling as they are told: the posture and
-/// speeds are the motion's, the accelerations those that the forces make (forward dynamics,
-/// couplers and locks kept), as in OpenSim's JointReaction. `forces` has a column for every
-/// actuator of `actuators_of`, by name [N, N m], at the motion's times; an actuator without one
-/// does nothing. What acts along a joint's own coordinates is part of what it carries. Throws
-/// ModelError for a model with closed loops (constraints other than couplers), InvalidInput if the
-/// times differ. Parallel over frames.
+/// speeds are the motion's, the accelerations those that the forces make (DrivenFrame), as in
+/// OpenSim's JointReaction. `forces` has a column for every actuator of `actuators_of`, by name [N,
+/// N m], at the motion's times; an actuator without one does nothing. Forces along a joint's own
+/// coordinates, those of couplers and locks too, are part of what it carries; the constraints that
+/// close a loop carry their part of the load themselves. Parallel over frames. Throws as
+/// driven_accelerations.
 [[nodiscard]] std::vector<JointLoads> joint_reactions(const model::BodyModel& model,
                                                       const kinematics::JointMotion& motion,
                                                       const TimeSeries& forces,
-                                                      const JointReactionOptions& options = {});
+                                                      const DrivenOptions& options = {});
 
 }  // namespace myoid::forces

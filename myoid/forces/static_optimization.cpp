@@ -15,6 +15,7 @@
 #include "myoid/forces/opensim_muscle.h"
 #include "myoid/model/constraints.h"
 #include "myoid/model/kinematic_tree.h"
+#include "myoid/model/motion_constraints.h"
 
 namespace myoid::forces {
 namespace {
@@ -44,7 +45,7 @@ class SharedFrame {
                           double time_s,
                           Eigen::VectorXd& strength) {
     if (!model_.constraints.empty() || !model_.couplers.empty()) q = model::assemble(model_, q).q;
-    const Eigen::MatrixXd T = constrain(q, u, udot);
+    const Eigen::MatrixXd T = constrain(q, u, time_s, udot);
     model::compute_poses(model_, q, state_);
     model::compute_velocities(model_, u, state_);
     wrenches_.clear();
@@ -75,6 +76,7 @@ class SharedFrame {
   /// Basis of the speeds that the constraints allow; makes udot obey them.
   Eigen::MatrixXd constrain(const Eigen::VectorXd& q,
                             const Eigen::VectorXd& u,
+                            double time_s,
                             Eigen::VectorXd& udot) {
     const Eigen::Index nq = q.size();
     for (Eigen::Index c = 0; c < nq; ++c)
@@ -94,28 +96,11 @@ class SharedFrame {
       }
       return T;
     }
-    // A udot = -dA/dt u, the other accelerations as near to their targets as that allows.
-    const auto rows_at = [&](const Eigen::VectorXd& posture) {
-      model::compute_poses(model_, posture, state_);
-      const Eigen::MatrixXd A = model::constraint_jacobian(model_, state_);
-      std::vector<Eigen::Index> fixed;
-      for (Eigen::Index c = 0; c < nq; ++c) {
-        const model::Coordinate& k = model_.coordinates[at(c)];
-        if (k.locked || k.prescribed) fixed.push_back(c);
-      }
-      Eigen::MatrixXd all =
-          Eigen::MatrixXd::Zero(A.rows() + static_cast<Eigen::Index>(fixed.size()), nq);
-      all.topRows(A.rows()) = A;
-      for (std::size_t k = 0; k < fixed.size(); ++k)
-        all(A.rows() + static_cast<Eigen::Index>(k), fixed[k]) = 1.0;
-      return all;
-    };
-    const double h = 1e-6;
-    const Eigen::VectorXd curve = (rows_at(q + h * u) - rows_at(q - h * u)) * u / (2.0 * h);
-    const Eigen::MatrixXd A = rows_at(q);
-    Eigen::VectorXd b = -curve;
-    for (Eigen::Index k = 0; k < b.size(); ++k) b[k] -= A.row(k).dot(udot);
-    udot += A.completeOrthogonalDecomposition().solve(b);
+    // A udot = b, the other accelerations as near to their targets as that allows.
+    model::compute_poses(model_, q, state_);
+    model::compute_velocities(model_, u, state_);
+    const auto [A, b] = model::acceleration_constraints(model_, state_, time_s);
+    udot += A.completeOrthogonalDecomposition().solve(Eigen::VectorXd(b - A * udot));
     Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(A.transpose());
     qr.setThreshold(1e-9);
     const Eigen::MatrixXd basis = qr.householderQ();

@@ -8,6 +8,7 @@
 
 #include "myoid/core/error.h"
 #include "myoid/core/index.h"
+#include "myoid/model/motion_constraints.h"
 
 namespace myoid::model {
 namespace {
@@ -41,14 +42,6 @@ MultiPolynomialValue function_value(const FunctionConstraint& f, const Eigen::Ve
   for (std::size_t k = 0; k < f.independent.size(); ++k)
     x[static_cast<Eigen::Index>(k)] = q[f.independent[k]];
   return evaluate(f.function, x);
-}
-
-/// Two directions across a unit vector.
-std::array<Vec3, 2> across(const Vec3& u) {
-  Eigen::Index least = 0;
-  u.cwiseAbs().minCoeff(&least);
-  const Vec3 v = u.cross(Vec3::Unit(least)).normalized();
-  return {v, u.cross(v)};
 }
 
 /// Errors and, if asked, their Jacobian.
@@ -104,7 +97,7 @@ void evaluate_loops(const BodyModel& model,
       const Vec3 p_G = state.X_GB[at(line.body2)] * line.p_B2;
       // The follower as a point of body 1, which moves with it.
       const Vec3 p_B1 = X_GB1.inverse() * p_G;
-      const auto directions = across(line.direction);
+      const auto directions = directions_across(line.direction);
       for (int k = 0; k < 2; ++k) {
         const Vec3 u_G = X_GB1.R * directions[static_cast<std::size_t>(k)];
         errors[row + k] = directions[static_cast<std::size_t>(k)].dot(p_B1 - line.p_B1);

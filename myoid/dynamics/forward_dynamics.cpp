@@ -1,0 +1,80 @@
+#include "myoid/dynamics/forward_dynamics.h"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/QR>
+#include <fmt/format.h>
+
+#include "myoid/core/error.h"
+#include "myoid/core/index.h"
+
+namespace myoid::dynamics {
+namespace {
+
+/// The coordinate that moves most in the motion with the least mass.
+const std::string& massless_coordinate(const model::BodyModel& model,
+                                       const Eigen::MatrixXd& allowed,
+                                       const Eigen::MatrixXd& reduced) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(reduced);
+  Eigen::Index most = 0;
+  (allowed * modes.eigenvectors().col(0)).cwiseAbs().maxCoeff(&most);
+  return model.coordinates[at(most)].name;
+}
+
+}  // namespace
+
+void ForwardDynamics::set(const Eigen::VectorXd& q, const Eigen::VectorXd& qdot, double time_s) {
+  const Eigen::Index n = q.size();
+  const Eigen::VectorXd rest = Eigen::VectorXd::Zero(n);
+  const Eigen::VectorXd weight = model::inverse_dynamics(*model_, q, rest, rest, {}, state_);
+  mass_.resize(n, n);
+  for (Eigen::Index k = 0; k < n; ++k) {
+    mass_.col(k) =
+        model::inverse_dynamics(*model_, q, rest, Eigen::VectorXd::Unit(n, k), {}, state_) - weight;
+  }
+  model::compute_velocities(*model_, qdot, state_);
+  constraints_ = model::acceleration_constraints(*model_, state_, time_s);
+  allowed_ = Eigen::MatrixXd::Identity(n, n);
+  particular_ = rest;
+  if (constraints_.A.rows() > 0) {
+    Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(constraints_.A.transpose());
+    qr.setThreshold(1e-9);
+    const Eigen::MatrixXd basis = qr.householderQ();
+    allowed_ = basis.rightCols(n - qr.rank());
+    Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> rows;
+    rows.setThreshold(1e-9);
+    particular_ = rows.compute(constraints_.A).solve(constraints_.b);
+  }
+  const Eigen::MatrixXd reduced = allowed_.transpose() * mass_ * allowed_;
+  if (reduced.size() == 0) return;
+  factor_.compute(reduced);
+  if (factor_.info() != Eigen::Success || !(factor_.rcond() > 1e-15)) {
+    throw ModelError(
+        fmt::format("forward dynamics: coordinate '{}' moves bodies without mass, so that its "
+                    "acceleration is not known; give them a mass, or lock it",
+                    massless_coordinate(*model_, allowed_, reduced)));
+  }
+}
+
+ForwardDynamics::Solution ForwardDynamics::solve(const Eigen::VectorXd& tau,
+                                                 const std::vector<model::BodyWrench>& wrenches) {
+  const Eigen::VectorXd q = state_.q, qdot = state_.qdot;
+  const Eigen::VectorXd driving =
+      tau -
+      model::inverse_dynamics(*model_, q, qdot, Eigen::VectorXd::Zero(q.size()), wrenches, state_);
+  Solution solution;
+  solution.qddot = particular_;
+  if (allowed_.cols() > 0) {
+    solution.qddot +=
+        allowed_ * factor_.solve(allowed_.transpose() * (driving - mass_ * particular_));
+  }
+  solution.multipliers.resize(constraints_.A.rows());
+  if (solution.multipliers.size() > 0) {
+    Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> columns;
+    columns.setThreshold(1e-9);
+    solution.multipliers =
+        columns.compute(constraints_.A.transpose()).solve(mass_ * solution.qddot - driving);
+  }
+  return solution;
+}
+
+}  // namespace myoid::dynamics

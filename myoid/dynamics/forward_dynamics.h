@@ -1,0 +1,48 @@
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+
+#include "myoid/model/motion_constraints.h"
+
+namespace myoid::dynamics {
+
+/// Accelerations of a model with all its constraints at one state, by multipliers:
+///
+///   M qddot + C - gravity = tau + external + A' lambda,   A qddot = b
+///
+/// A and b as in model::acceleration_constraints: couplers, closed loops, locks, prescribed
+/// coordinates. Where constraints say the same twice, lambda is the shortest that will do, as in
+/// Simbody. One per thread.
+class ForwardDynamics {
+ public:
+  explicit ForwardDynamics(const model::BodyModel& model)
+      : model_(&model), state_(model::make_state(model)) {}
+
+  /// Everything below is for this state; q must meet the constraints. Throws ModelError, naming a
+  /// coordinate, if a motion that the constraints allow moves no mass.
+  void set(const Eigen::VectorXd& q, const Eigen::VectorXd& qdot, double time_s);
+
+  [[nodiscard]] const model::BodyState& state() const { return state_; }
+
+  struct Solution {
+    Eigen::VectorXd qddot;
+    Eigen::VectorXd multipliers;  ///< lambda, in the rows' order.
+  };
+  /// `tau`: forces along coordinates [N m, N]; `wrenches`: forces on bodies besides gravity.
+  [[nodiscard]] Solution solve(const Eigen::VectorXd& tau,
+                               const std::vector<model::BodyWrench>& wrenches);
+
+ private:
+  const model::BodyModel* model_;
+  model::BodyState state_;
+  model::AccelerationConstraints constraints_;
+  Eigen::MatrixXd mass_;
+  Eigen::MatrixXd allowed_;     ///< Basis of the rates with A qdot = 0.
+  Eigen::VectorXd particular_;  ///< The shortest qddot with A qddot = b.
+  Eigen::LLT<Eigen::MatrixXd> factor_;
+};
+
+}  // namespace myoid::dynamics

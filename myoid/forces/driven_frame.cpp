@@ -1,0 +1,76 @@
+#include "myoid/forces/driven_frame.h"
+
+#include <fmt/format.h>
+
+#include "myoid/core/error.h"
+#include "myoid/core/index.h"
+#include "myoid/core/parallel.h"
+#include "myoid/dynamics/passive_forces.h"
+#include "myoid/model/constraints.h"
+
+namespace myoid::forces {
+
+DrivenState DrivenFrame::at_state(const Eigen::VectorXd& q,
+                                  const Eigen::VectorXd& qdot,
+                                  const Eigen::VectorXd& force,
+                                  double time_s) {
+  DrivenState result;
+  result.q = model::assemble(model_, q).q;
+  dynamics_.set(result.q, qdot, time_s);
+  const model::BodyState& state = dynamics_.state();
+  Eigen::VectorXd tau = Eigen::VectorXd::Zero(q.size());
+  if (loads_ != nullptr) loads_->append_wrenches(state, time_s, result.wrenches);
+  dynamics::append_passive_forces(model_, state, tau, result.wrenches, time_s);
+  // Actuators accelerate by their moment arms, and press joints by their wrenches: OpenSim's paths
+  // have the two not quite the same.
+  const std::vector<model::BodyWrench> others = result.wrenches;
+  for (std::size_t k = 0; k < actuators_.size(); ++k) {
+    const double f = force[static_cast<Eigen::Index>(k)];
+    if (f == 0.0) continue;
+    tau += f * columns_.of_unit_force(actuators_[k], state);
+    columns_.append_wrenches(actuators_[k], f, state, result.wrenches);
+  }
+  const dynamics::ForwardDynamics::Solution solution = dynamics_.solve(tau, others);
+  result.qddot = solution.qddot;
+  model::append_constraint_wrenches(model_, state, solution.multipliers, result.wrenches);
+  return result;
+}
+
+Eigen::MatrixXd force_rows(const std::vector<Actuator>& actuators,
+                           const kinematics::JointMotion& motion,
+                           const TimeSeries& forces) {
+  const Eigen::Index frames = motion.sample_count();
+  if (forces.sample_count() != frames) {
+    throw InvalidInput(
+        fmt::format("forces of {} frames for {} frames of motion", forces.sample_count(), frames));
+  }
+  Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(frames, static_cast<Eigen::Index>(actuators.size()));
+  for (std::size_t k = 0; k < actuators.size(); ++k) {
+    if (const auto column = forces.find(actuators[k].name))
+      rows.col(static_cast<Eigen::Index>(k)) = forces.values().col(*column);
+  }
+  return rows;
+}
+
+Eigen::MatrixXd driven_accelerations(const model::BodyModel& model,
+                                     const kinematics::JointMotion& motion,
+                                     const TimeSeries& forces,
+                                     const DrivenOptions& options) {
+  const std::vector<Actuator> actuators = actuators_of(model);
+  const Eigen::MatrixXd force = force_rows(actuators, motion, forces);
+  Eigen::MatrixXd qddot(motion.sample_count(), static_cast<Eigen::Index>(model.coordinates.size()));
+  parallel_ranges<Eigen::Index>(motion.sample_count(), 8, [&](const auto& range) {
+    DrivenFrame frame(model, actuators, options.loads);
+    for (Eigen::Index i = range.begin(); i != range.end(); ++i) {
+      options.progress.check();
+      qddot.row(i) = frame
+                         .at_state(motion.q.values().row(i).transpose(),
+                                   motion.qdot.values().row(i).transpose(),
+                                   force.row(i).transpose(), motion.q.time_s()[i])
+                         .qddot.transpose();
+    }
+  });
+  return qddot;
+}
+
+}  // namespace myoid::forces

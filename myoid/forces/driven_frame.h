@@ -1,0 +1,64 @@
+#pragma once
+
+#include <vector>
+
+#include "myoid/core/progress.h"
+#include "myoid/dynamics/external_loads.h"
+#include "myoid/dynamics/forward_dynamics.h"
+#include "myoid/forces/actuator_columns.h"
+#include "myoid/kinematics/joint_motion.h"
+
+namespace myoid::forces {
+
+/// What acts on a model and how it accelerates, at one instant.
+struct DrivenState {
+  Eigen::VectorXd q;      ///< Meets the constraints.
+  Eigen::VectorXd qddot;  ///< By forward dynamics, the constraints kept.
+  /// All wrenches on bodies besides gravity and what joints transmit: external loads, passive
+  /// forces, actuators, and constraints that close loops.
+  std::vector<model::BodyWrench> wrenches;
+};
+
+/// Accelerates a model by the forces of its actuators, its passive forces, `loads` and gravity, one
+/// frame after the other; one per thread. The arguments must live as long.
+class DrivenFrame {
+ public:
+  DrivenFrame(const model::BodyModel& model,
+              const std::vector<Actuator>& actuators,
+              const dynamics::ExternalLoads* loads)
+      : model_(model), actuators_(actuators), loads_(loads), dynamics_(model), columns_(model) {}
+
+  /// `force`: of each actuator [N, N m]. Throws ModelError as dynamics::ForwardDynamics.
+  [[nodiscard]] DrivenState at_state(const Eigen::VectorXd& q,
+                                     const Eigen::VectorXd& qdot,
+                                     const Eigen::VectorXd& force,
+                                     double time_s);
+
+ private:
+  const model::BodyModel& model_;
+  const std::vector<Actuator>& actuators_;
+  const dynamics::ExternalLoads* loads_;
+  dynamics::ForwardDynamics dynamics_;
+  ActuatorColumns columns_;
+};
+
+struct DrivenOptions {
+  const dynamics::ExternalLoads* loads = nullptr;  ///< Not owned.
+  Progress progress{};
+};
+
+/// Forces of all actuators of `actuators_of` at the motion's frames, by name: frames x actuators,
+/// 0 for one without a column. Throws InvalidInput if the number of frames differs.
+[[nodiscard]] Eigen::MatrixXd force_rows(const std::vector<Actuator>& actuators,
+                                         const kinematics::JointMotion& motion,
+                                         const TimeSeries& forces);
+
+/// Accelerations that these forces make at the motion's postures and speeds [rad/s^2, m/s^2], a
+/// column for every coordinate: forward dynamics, whatever accelerations the motion has. Parallel
+/// over frames; the same for every number of threads. Throws as DrivenFrame and force_rows.
+[[nodiscard]] Eigen::MatrixXd driven_accelerations(const model::BodyModel& model,
+                                                   const kinematics::JointMotion& motion,
+                                                   const TimeSeries& forces,
+                                                   const DrivenOptions& options = {});
+
+}  // namespace myoid::forces
