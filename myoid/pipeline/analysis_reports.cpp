@@ -22,9 +22,10 @@
 namespace myoid::pipeline {
 namespace {
 
-constexpr std::array kKnown{"BodyKinematics",  "ForceReporter",     "JointReaction",
-                            "Kinematics",      "MuscleAnalysis",    "OutputReporter",
-                            "PointKinematics", "StaticOptimization"};
+struct KnownAnalysis {
+  std::string_view class_name;
+  void (*run)(AnalysisRun&, pugi::xml_node);
+};
 
 constexpr const char* kUnits =
     "Units are S.I. units (second, meters, Newtons, ...)\nIf the header above contains a line with "
@@ -52,11 +53,6 @@ std::vector<int> chosen(const AnalysisRun& run,
     }
   }
   return indices;
-}
-
-std::string analysis_name(pugi::xml_node node) {
-  const std::string name = model::OsimXml::name_of(node);
-  return name.empty() ? node.name() : name;
 }
 
 /// Postures that obey the constraints.
@@ -92,9 +88,8 @@ void report_kinematics(AnalysisRun& run, pugi::xml_node node) {
   };
   write("_q.sto", "Coordinates", assembled(model, run.motion.q.values()));
   write("_u.sto", "Speeds", run.motion.qdot.values());
-  run.result.notes.push_back(fmt::format(
-      "{}: accelerations (_dudt) are those of OpenSim's forward dynamics and are not written",
-      analysis_name(node)));
+  if (const Eigen::MatrixXd* qddot = accelerations_of(run))
+    write("_dudt.sto", "Accelerations", *qddot);
   run.result.frames = static_cast<int>(run.motion.sample_count());
 }
 
@@ -244,37 +239,42 @@ void report_outputs(AnalysisRun& run, pugi::xml_node node) {
   }
 }
 
-}  // namespace
+constexpr std::array kKnown{KnownAnalysis{"Actuation", report_actuation},
+                            KnownAnalysis{"BodyKinematics", report_bodies},
+                            KnownAnalysis{"ForceReporter", report_forces},
+                            KnownAnalysis{"InverseDynamics", report_inverse_dynamics},
+                            KnownAnalysis{"JointReaction", report_reactions},
+                            KnownAnalysis{"Kinematics", report_kinematics},
+                            KnownAnalysis{"MuscleAnalysis", report_muscles},
+                            KnownAnalysis{"OutputReporter", report_outputs},
+                            KnownAnalysis{"PointKinematics", report_point},
+                            KnownAnalysis{"StaticOptimization", run_static_optimization}};
 
-bool is_known_analysis(std::string_view class_name) {
-  return std::find(kKnown.begin(), kKnown.end(), class_name) != kKnown.end();
+const KnownAnalysis* find_analysis(std::string_view class_name) {
+  const auto known = std::find_if(kKnown.begin(), kKnown.end(), [&](const KnownAnalysis& k) {
+    return k.class_name == class_name;
+  });
+  return known == kKnown.end() ? nullptr : &*known;
 }
 
+}  // namespace
+
+std::string analysis_name(pugi::xml_node node) {
+  const std::string name = model::OsimXml::name_of(node);
+  return name.empty() ? node.name() : name;
+}
+
+bool is_known_analysis(std::string_view class_name) { return find_analysis(class_name) != nullptr; }
+
 std::string known_analyses() {
-  return "BodyKinematics, ForceReporter, JointReaction, Kinematics, MuscleAnalysis, "
-         "OutputReporter, "
-         "PointKinematics, StaticOptimization";
+  std::string names;
+  for (const KnownAnalysis& known : kKnown)
+    names += (names.empty() ? "" : ", ") + std::string(known.class_name);
+  return names;
 }
 
 void run_analysis(AnalysisRun& run, pugi::xml_node node) {
-  const std::string_view kind = node.name();
-  if (kind == "Kinematics") {
-    report_kinematics(run, node);
-  } else if (kind == "BodyKinematics") {
-    report_bodies(run, node);
-  } else if (kind == "ForceReporter") {
-    report_forces(run, node);
-  } else if (kind == "JointReaction") {
-    report_reactions(run, node);
-  } else if (kind == "PointKinematics") {
-    report_point(run, node);
-  } else if (kind == "MuscleAnalysis") {
-    report_muscles(run, node);
-  } else if (kind == "OutputReporter") {
-    report_outputs(run, node);
-  } else {
-    run_static_optimization(run, node);
-  }
+  find_analysis(node.name())->run(run, node);
 }
 
 std::filesystem::path claim_result(AnalysisRun& run, const std::string& name) {

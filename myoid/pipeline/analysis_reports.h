@@ -24,7 +24,13 @@ struct AnalysisRun {
   bool equilibrium = false;
   /// From a states file, all rows x muscles; empty where it has none.
   Eigen::MatrixXd activation{}, fiber_length_m{};
+  /// What analyses of the same rows share (forces_of_states, accelerations_of).
+  std::optional<TimeSeries> state_forces{};
+  std::optional<Eigen::MatrixXd> accelerations{};
 };
+
+/// The analysis's name in the set-up, else its class.
+[[nodiscard]] std::string analysis_name(pugi::xml_node node);
 
 /// Whether an analysis of this class can be run.
 [[nodiscard]] bool is_known_analysis(std::string_view class_name);
@@ -33,18 +39,31 @@ struct AnalysisRun {
 /// Runs one and writes its files: <results>/<tool>_<analysis>_<quantity>.sto.
 void run_analysis(AnalysisRun& run, pugi::xml_node node);
 void run_static_optimization(AnalysisRun& run, pugi::xml_node node);
+/// The model with, instead of its muscles, an actuator of unit strength on every coordinate that
+/// takes a value of its own, named like it.
+[[nodiscard]] model::BodyModel with_coordinate_actuators(model::BodyModel model);
+/// Actuation: forces, speeds and powers of muscles (by their states) and actuators.
+void report_actuation(AnalysisRun& run, pugi::xml_node node);
+/// InverseDynamics: the forces of least sum of squares, each relative to its strength, that make
+/// the motion's accelerations: of muscles and actuators, without bounds, or of an actuator on every
+/// coordinate.
+void report_inverse_dynamics(AnalysisRun& run, pugi::xml_node node);
 /// ForceReporter: muscles by their states, passive forces and external loads.
 void report_forces(AnalysisRun& run, pugi::xml_node node);
 /// JointReaction: what joints carry.
 void report_reactions(AnalysisRun& run, pugi::xml_node node);
-/// BodyKinematics: centers of mass, orientations and their velocities.
+/// BodyKinematics: centers of mass, orientations, their velocities and accelerations.
 void report_bodies(AnalysisRun& run, pugi::xml_node node);
-/// PointKinematics: place and velocity of a point of a body, in the axes of another.
+/// PointKinematics: place, velocity and acceleration of a point of a body, in the axes of another.
 void report_point(AnalysisRun& run, pugi::xml_node node);
 
 /// The forces of all actuators at the motion's rows: tendons' of muscles by their states, 0 of
-/// others.
-[[nodiscard]] TimeSeries forces_of_states(AnalysisRun& run);
+/// others. Computed once for the rows.
+[[nodiscard]] const TimeSeries& forces_of_states(AnalysisRun& run);
+/// Accelerations of all coordinates that these forces, passive forces, gravity and external loads
+/// make at the motion's rows, as OpenSim's analyses report them: rows x coordinates [rad/s^2,
+/// m/s^2]. Null, with a note, where a body without mass keeps them unknown.
+[[nodiscard]] const Eigen::MatrixXd* accelerations_of(AnalysisRun& run);
 /// Writes what OpenSim's force reporter records: these forces of actuators and the passive ones, in
 /// the order of the force set, and the external loads.
 void write_forces(AnalysisRun& run,

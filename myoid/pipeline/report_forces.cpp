@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include "myoid/core/error.h"
 #include "myoid/core/index.h"
 #include "myoid/dynamics/passive_forces.h"
 #include "myoid/forces/actuator_columns.h"
+#include "myoid/forces/driven_frame.h"
 #include "myoid/forces/muscle_analysis.h"
 #include "myoid/model/constraints.h"
 #include "myoid/model/kinematic_tree.h"
@@ -93,7 +95,8 @@ TimeSeries force_table(const AnalysisRun& run,
 
 }  // namespace
 
-TimeSeries forces_of_states(AnalysisRun& run) {
+const TimeSeries& forces_of_states(AnalysisRun& run) {
+  if (run.state_forces) return *run.state_forces;
   const std::vector<forces::Actuator> actuators = forces::actuators_of(run.model);
   Eigen::MatrixXd values =
       Eigen::MatrixXd::Zero(run.motion.sample_count(), static_cast<Eigen::Index>(actuators.size()));
@@ -118,7 +121,26 @@ TimeSeries forces_of_states(AnalysisRun& run) {
       }
     }
   }
-  return {run.motion.q.time_s(), std::move(channels), std::move(values)};
+  run.state_forces.emplace(run.motion.q.time_s(), std::move(channels), std::move(values));
+  return *run.state_forces;
+}
+
+const Eigen::MatrixXd* accelerations_of(AnalysisRun& run) {
+  if (!run.accelerations) {
+    std::vector<std::string>& notes = run.result.notes;
+    try {
+      run.accelerations = forces::driven_accelerations(
+          run.model, run.motion, forces_of_states(run),
+          {.loads = run.loads ? &*run.loads : nullptr, .progress = run.options.progress});
+      notes.emplace_back(
+          "accelerations are those that the forces make, as in OpenSim: muscles pull by their "
+          "states, other actuators do nothing; they are not the motion's second derivatives");
+    } catch (const ModelError& error) {
+      run.accelerations.emplace();
+      notes.push_back(fmt::format("accelerations are not written: {}", error.what()));
+    }
+  }
+  return run.accelerations->size() > 0 ? &*run.accelerations : nullptr;
 }
 
 void write_forces(AnalysisRun& run,
@@ -141,8 +163,7 @@ void write_forces(AnalysisRun& run,
 }
 
 void report_forces(AnalysisRun& run, pugi::xml_node node) {
-  std::string name = model::OsimXml::name_of(node);
-  if (name.empty()) name = node.name();
+  const std::string name = analysis_name(node);
   if (run.setup.xml().flag(node, "include_constraint_forces", false)) {
     run.result.notes.push_back(
         fmt::format("{}: forces of constraints are not known here and not written", name));

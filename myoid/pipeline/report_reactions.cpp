@@ -140,16 +140,7 @@ TimeSeries actuator_forces(AnalysisRun& run, pugi::xml_node node) {
 
 void report_reactions(AnalysisRun& run, pugi::xml_node node) {
   const std::vector<Asked> asked = asked_joints(run, node);
-  std::string name = model::OsimXml::name_of(node);
-  if (name.empty()) name = node.name();
-  if (!run.model.constraints.empty()) {
-    run.result.notes.push_back(
-        fmt::format("{}: the joints form closed loops (constraint '{}'), in which the forces of "
-                    "the constraints "
-                    "are not known one by one; its file is not written",
-                    name, run.model.constraints[0].name));
-    return;
-  }
+  const std::string name = analysis_name(node);
   const auto path = claim_result(run, name + "_ReactionLoads.sto");
   const auto loads = forces::joint_reactions(
       run.model, run.motion, actuator_forces(run, node),

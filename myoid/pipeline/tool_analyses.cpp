@@ -143,7 +143,8 @@ void run_analyses(const OpensimSetup& setup, const ToolOptions& options, ToolRes
   }
   read_loads(run, setup);
   const bool accelerates = std::any_of(analyses.begin(), analyses.end(), [](pugi::xml_node node) {
-    return std::string_view(node.name()) == "StaticOptimization";
+    const std::string_view name = node.name();
+    return name == "StaticOptimization" || name == "InverseDynamics";
   });
   const double start_s = xml.number(tool, "initial_time", 0.0);
   const double end_s = xml.number(tool, "final_time", 1.0);
@@ -163,9 +164,13 @@ void run_analyses(const OpensimSetup& setup, const ToolOptions& options, ToolRes
     if (!is_known_analysis(node.name())) continue;
     const auto rows =
         recorded_rows(first, last, static_cast<int>(xml.number(node, "step_interval", 1.0)));
-    run.motion = {chosen_rows(all.q, rows), chosen_rows(all.qdot, rows),
-                  chosen_rows(all.qddot, rows)};
-    run.rows = rows;
+    if (rows != run.rows) {
+      run.motion = {chosen_rows(all.q, rows), chosen_rows(all.qdot, rows),
+                    chosen_rows(all.qddot, rows)};
+      run.rows = rows;
+      run.state_forces.reset();
+      run.accelerations.reset();
+    }
     run_analysis(run, node);
   }
 }

@@ -14,24 +14,6 @@
 namespace myoid::pipeline {
 namespace {
 
-/// Instead of the muscles an actuator of unit strength on every free coordinate, named like it.
-model::BodyModel with_coordinate_actuators(model::BodyModel model) {
-  model.muscles.clear();
-  std::vector<model::CoordinateActuator> own;
-  std::vector<std::string> order;
-  for (std::size_t c = 0; c < model.coordinates.size(); ++c) {
-    if (model.is_constrained(static_cast<int>(c))) continue;
-    model::CoordinateActuator actuator;
-    actuator.name = model.coordinates[c].name;
-    actuator.coordinate = static_cast<int>(c);
-    order.push_back(actuator.name);
-    own.push_back(std::move(actuator));
-  }
-  model.actuators.insert(model.actuators.begin(), own.begin(), own.end());
-  model.force_order.insert(model.force_order.begin(), order.begin(), order.end());
-  return model;
-}
-
 /// The controls as piecewise linear functions of time, as forward simulations read them.
 std::string controls_text(const TimeSeries& controls) {
   std::string text =
@@ -62,11 +44,27 @@ std::string controls_text(const TimeSeries& controls) {
 
 }  // namespace
 
+model::BodyModel with_coordinate_actuators(model::BodyModel model) {
+  model.muscles.clear();
+  std::vector<model::CoordinateActuator> own;
+  std::vector<std::string> order;
+  for (std::size_t c = 0; c < model.coordinates.size(); ++c) {
+    if (model.is_constrained(static_cast<int>(c))) continue;
+    model::CoordinateActuator actuator;
+    actuator.name = model.coordinates[c].name;
+    actuator.coordinate = static_cast<int>(c);
+    order.push_back(actuator.name);
+    own.push_back(std::move(actuator));
+  }
+  model.actuators.insert(model.actuators.begin(), own.begin(), own.end());
+  model.force_order.insert(model.force_order.begin(), order.begin(), order.end());
+  return model;
+}
+
 void run_static_optimization(AnalysisRun& run, pugi::xml_node node) {
   const auto& xml = run.setup.xml();
   auto& notes = run.result.notes;
-  std::string name = model::OsimXml::name_of(node);
-  if (name.empty()) name = node.name();
+  const std::string name = analysis_name(node);
   const auto activation_file = claim_result(run, name + "_activation.sto");
   const auto force_file = claim_result(run, name + "_force.sto");
   const auto controls_file = claim_result(run, name + "_controls.xml");
