@@ -107,5 +107,6 @@ void add_run_tool(CLI::App& app, Context& context);
 void add_so(CLI::App& app, Context& context);
 void add_twin(CLI::App& app, Context& context);
 void add_twin_study(CLI::App& app, Context& context);
+void add_update_file(CLI::App& app, Context& context);
 
 }  // namespace myoid::cli

@@ -70,6 +70,7 @@ constexpr Command kCommands[] = {
     {"design", myoid::cli::add_design},
     {"report", myoid::cli::add_report},
     {"run-tool", myoid::cli::add_run_tool},
+    {"update-file", myoid::cli::add_update_file},
 };
 
 const Command* find_command(std::string_view name) {

@@ -28,7 +28,7 @@ const std::string kProtocols = MYOID_SOURCE_DIR "/examples/protocols/";
 constexpr const char* kCommands[] = {"run",    "check",    "info",       "emg",      "ik",
                                      "id",     "muscle",   "paths",      "so",       "identify",
                                      "twin",   "report",   "convert",    "simulate", "compare",
-                                     "design", "run-tool", "twin-study", "init"};
+                                     "design", "run-tool", "twin-study", "init",     "update-file"};
 
 /// One second of elbow flexion from 0 to 90 degrees, written in degrees under this header value.
 std::string ramp_motion(const std::string& in_degrees) {
