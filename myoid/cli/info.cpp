@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <utility>
 
 #include <fmt/format.h>
@@ -10,6 +9,8 @@
 #include "myoid/core/error.h"
 #include "myoid/model/arm4.h"
 #include "myoid/model/osim_reader.h"
+#include "myoid/pipeline/contents_text.h"
+#include "myoid/pipeline/json_values.h"
 #include "myoid/pipeline/model_contents.h"
 #include "myoid/pipeline/recording_contents.h"
 #include "myoid/pipeline/study.h"
@@ -62,45 +63,6 @@ ordered_json file_json(const std::filesystem::path& path,
           extension));
 }
 
-void print(const ordered_json& j, int indent) {
-  const std::string space(static_cast<std::size_t>(indent), ' ');
-  for (const auto& [key, value] : j.items()) {
-    std::string label = key;
-    std::replace(label.begin(), label.end(), '_', ' ');
-    if (value.is_array()) {
-      if (value.empty()) continue;
-      const bool vector = value[0].is_number();
-      if (vector) {
-        fmt::print("{}{}: {}\n", space, label, value.dump());
-        continue;
-      }
-      fmt::print("{}{} ({}):\n", space, label, value.size());
-      for (const auto& item : value) {
-        if (item.is_string()) {
-          fmt::print("{}  {}\n", space, item.get<std::string>());
-        } else {
-          std::string line;
-          for (const auto& [k, v] : item.items()) {
-            line += line.empty() ? "" : k == "unit" ? " [" : "  ";
-            line += k == "name" ? v.get<std::string>()
-                    : k == "unit"
-                        ? v.get<std::string>() + "]"
-                        : fmt::format("{} {}", k,
-                                      v.is_number_float() ? fmt::format("{:.5g}", v.get<double>())
-                                                          : v.dump());
-          }
-          fmt::print("{}  {}\n", space, line);
-        }
-      }
-    } else {
-      fmt::print("{}{}: {}\n", space, label,
-                 value.is_string()         ? value.get<std::string>()
-                 : value.is_number_float() ? fmt::format("{:.6g}", value.get<double>())
-                                           : value.dump());
-    }
-  }
-}
-
 }  // namespace
 
 void add_info(CLI::App& app, Context& context) {
@@ -134,7 +96,7 @@ void add_info(CLI::App& app, Context& context) {
         throw InvalidInput("--html shows one model: give one .osim, or arm4");
       const std::string done = write_model_page(files->front(), *page, context);
       if (context.json) {
-        fmt::print("{}\n", ordered_json{{"html", page->html}}.dump(2));
+        fmt::print("{}\n", pipeline::json_text(ordered_json{{"html", page->html}}));
       } else {
         fmt::print("{}\n", done);
       }
@@ -148,12 +110,11 @@ void add_info(CLI::App& app, Context& context) {
       ordered_json j{{"file", file}};
       j.update(file_json(file, *ask, context));
       if (!context.json) {
-        print(j, 0);
-        if (files->size() > 1) fmt::print("\n");
+        fmt::print("{}{}", pipeline::contents_text(j), files->size() > 1 ? "\n" : "");
       }
       all.push_back(std::move(j));
     }
-    if (context.json) fmt::print("{}\n", all.dump(2));
+    if (context.json) fmt::print("{}\n", pipeline::json_text(all));
   });
 }
 

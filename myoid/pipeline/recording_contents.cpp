@@ -2,11 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
+#include "myoid/core/clock_facts.h"
 #include "myoid/core/error.h"
 #include "myoid/recording/c3d_signals.h"
 #include "myoid/recording/c3d_survey.h"
@@ -28,20 +32,25 @@ ordered_json repairs_json(const std::vector<recording::Repair>& repairs) {
   return list;
 }
 
-ordered_json series_json(const TimeSeries& series) {
+/// Start, duration and rate as far as there are any; `of` precedes the keys of a second clock.
+ordered_json clock_json(const ClockFacts& facts, std::string_view of = "") {
   ordered_json j;
-  j["samples"] = series.sample_count();
-  j["start_s"] = series.time_s()[0];
-  j["duration_s"] = series.time_s()[series.sample_count() - 1] - series.time_s()[0];
-  j["rate_hz"] = series.mean_rate_hz();
-  j["evenly_sampled"] = series.is_uniform();
-  j["channels"] = ordered_json::array();
+  const auto add = [&](const char* key, const std::optional<double>& value) {
+    if (value) j[fmt::format("{}{}", of, key)] = *value;
+  };
+  add("start_s", facts.start_s);
+  add("duration_s", facts.duration_s);
+  add("rate_hz", facts.rate_hz);
+  return j;
+}
+
+ordered_json channels_json(const TimeSeries& series) {
+  ordered_json list = ordered_json::array();
   for (std::size_t c = 0; c < series.channels().size(); ++c) {
-    const Eigen::VectorXd x = series.values().col(static_cast<Eigen::Index>(c));
     double low = INFINITY;
     double high = -INFINITY;
-    int gaps = 0;
-    for (const double v : x) {
+    Eigen::Index gaps = 0;
+    for (const double v : series.values().col(static_cast<Eigen::Index>(c))) {
       if (std::isfinite(v)) {
         low = std::min(low, v);
         high = std::max(high, v);
@@ -57,28 +66,40 @@ ordered_json series_json(const TimeSeries& series) {
       channel["highest"] = high;
     }
     if (gaps > 0) channel["gaps"] = gaps;
-    j["channels"].push_back(channel);
+    list.push_back(std::move(channel));
+  }
+  return list;
+}
+
+/// A series whose clock is the file's own.
+ordered_json series_json(const TimeSeries& series) {
+  const ClockFacts facts = clock_facts(series.time_s());
+  ordered_json j{{"samples", facts.samples}};
+  j.update(clock_json(facts));
+  if (facts.rate_hz) j["evenly_sampled"] = facts.even;
+  j["channels"] = channels_json(series);
+  return j;
+}
+
+ordered_json markers_json(const recording::MarkerSeries& markers) {
+  ordered_json j{{"frames", markers.frame_count()}};
+  j.update(clock_json(clock_facts(markers.time_s)));
+  j["markers"] = ordered_json::array();
+  for (Eigen::Index m = 0; m < markers.marker_count(); ++m) {
+    Eigen::Index missing = 0;
+    for (Eigen::Index f = 0; f < markers.frame_count(); ++f)
+      missing += markers.missing(f, m) ? 1 : 0;
+    ordered_json marker{{"name", markers.names[static_cast<std::size_t>(m)]}};
+    if (missing > 0) marker["missing_frames"] = missing;
+    j["markers"].push_back(std::move(marker));
   }
   return j;
 }
 
 ordered_json trc_json(const std::filesystem::path& path) {
   const recording::TrcFile file = recording::read_trc(path);
-  ordered_json j{
-      {"kind", "markers (.trc)"}, {"unit", file.unit}, {"frames", file.markers.frame_count()}};
-  const auto& t = file.markers.time_s;
-  j["start_s"] = t[0];
-  j["duration_s"] = t[t.size() - 1] - t[0];
-  j["rate_hz"] = t.size() > 1 ? static_cast<double>(t.size() - 1) / (t[t.size() - 1] - t[0]) : 0.0;
-  j["markers"] = ordered_json::array();
-  for (Eigen::Index m = 0; m < file.markers.marker_count(); ++m) {
-    Eigen::Index missing = 0;
-    for (Eigen::Index f = 0; f < file.markers.frame_count(); ++f)
-      missing += file.markers.missing(f, m) ? 1 : 0;
-    ordered_json marker{{"name", file.markers.names[static_cast<std::size_t>(m)]}};
-    if (missing > 0) marker["missing_frames"] = missing;
-    j["markers"].push_back(marker);
-  }
+  ordered_json j{{"kind", "markers (.trc)"}, {"unit", file.unit}};
+  j.update(markers_json(file.markers));
   j["repairs"] = repairs_json(file.repairs);
   return j;
 }
@@ -127,8 +148,12 @@ ordered_json c3d_json(const std::filesystem::path& path) {
   for (std::size_t c = 0; c < file.channels.size(); ++c) {
     ordered_json entry{{"name", file.channels[c].name}};
     if (!file.channels[c].unit_text.empty()) entry["unit"] = file.channels[c].unit_text;
-    entry["lowest"] = survey.lowest[static_cast<Eigen::Index>(c)];
-    entry["highest"] = survey.highest[static_cast<Eigen::Index>(c)];
+    const double low = survey.lowest[static_cast<Eigen::Index>(c)];
+    const double high = survey.highest[static_cast<Eigen::Index>(c)];
+    if (std::isfinite(low) && std::isfinite(high)) {
+      entry["lowest"] = low;
+      entry["highest"] = high;
+    }
     j["channels"].push_back(entry);
   }
   j["force_plates"] = ordered_json::array();
@@ -142,11 +167,27 @@ ordered_json c3d_json(const std::filesystem::path& path) {
   return j;
 }
 
-/// EDF, BDF, ANC: channels in SI.
-ordered_json recording_json(const std::filesystem::path& path, const char* kind) {
+/// Markers, channels in SI, or both: each with its own clock. `series` names a file of channels
+/// alone.
+ordered_json recording_json(const std::filesystem::path& path, const char* series) {
   const recording::Recording file = recording::read_recording(path);
-  ordered_json j{{"kind", kind}};
-  j.update(series_json(file.analog.series()));
+  const bool has_markers = file.markers.marker_count() > 0;
+  const bool has_channels = file.analog.channel_count() > 0;
+  ordered_json j;
+  if (has_markers) {
+    j["kind"] = fmt::format("markers{} ({})", has_channels ? " and channels" : "",
+                            recording::extension_of(path));
+    j.update(markers_json(file.markers));
+    if (has_channels) {
+      const TimeSeries analog = file.analog.series();
+      j["analog_samples"] = analog.sample_count();
+      j.update(clock_json(clock_facts(analog.time_s()), "analog_"));
+      j["channels"] = channels_json(analog);
+    }
+  } else {
+    j["kind"] = series;
+    j.update(series_json(file.analog.series()));
+  }
   j["events"] = events_json(file.events);
   j["repairs"] = repairs_json(file.repairs);
   return j;

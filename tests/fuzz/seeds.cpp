@@ -1,9 +1,15 @@
 // Small files of our own to begin from: fuzz_seeds FOLDER writes one folder for each target.
 #include <filesystem>
 #include <string>
+#include <string_view>
+
+#include <fmt/format.h>
 
 #include "myoid/recording/atomic_file.h"
+#include "myoid/recording/byte_source.h"
 #include "myoid/recording/c3d_writer.h"
+
+#include "info_kinds.h"
 
 namespace {
 
@@ -59,6 +65,21 @@ std::string small_edf() {
     out += record;
   }
   return out;
+}
+
+/// The seeds of the readers, each with the letter of its ending before it.
+void write_info_seeds(const fs::path& root) {
+  for (std::size_t k = 0; k < myoid::fuzz::kInfoKinds.size(); ++k) {
+    const std::string_view kind = myoid::fuzz::kInfoKinds[k].substr(1);
+    const bool table = kind == "tsv" || kind == "txt" || kind == "emt";
+    const fs::path folder = root / (table           ? "markers"
+                                    : kind == "mot" ? "sto"
+                                    : kind == "bdf" ? "edf"
+                                                    : std::string(kind));
+    for (const auto& entry : fs::directory_iterator(folder))
+      write_file(root / "info" / fmt::format("{}_{}", kind, entry.path().filename().string()),
+                 static_cast<char>('a' + k) + read_bytes(entry.path()));
+  }
 }
 
 void write(const fs::path& folder, const std::string& name, const std::string& content) {
@@ -197,5 +218,6 @@ int main(int argc, char** argv) {
       root / "markers", "ndi",
       "Number of frames:,2,Collection frequency:,100,Units:,cm\nFrame,M_1 x,M_1 y,M_1 z\n1,1,2,3\n"
       "2,,,\n");
+  write_info_seeds(root);
   return 0;
 }
