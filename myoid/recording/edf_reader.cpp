@@ -261,7 +261,7 @@ EdfFile read_edf_source(ByteSource& source, const std::filesystem::path& path) {
   Eigen::VectorXd time(records * per_record);
   Eigen::MatrixXd values(time.size(), static_cast<Eigen::Index>(chosen.size()));
   std::optional<double> previous;
-  std::optional<double> first_onset;
+  std::optional<double> zero_s;  // On the clock of the stamps: the begin of the first record.
   bool stamps_agree = true;
   for (std::int64_t r = 0; r < records; ++r) {
     const auto record =
@@ -276,21 +276,21 @@ EdfFile read_edf_source(ByteSource& source, const std::filesystem::path& path) {
       if (!onset) onset = time_of_record;
     }
     double begin = static_cast<double>(r) * header.record_s;
-    if (!first_onset) first_onset = onset;
+    if (onset && !zero_s) zero_s = header.gaps ? *onset : *onset - begin;
     if (!header.gaps && onset && stamps_agree &&
-        std::abs(*onset - *first_onset - begin) > 0.5 * dt + 1e-6) {
+        std::abs(*onset - *zero_s - begin) > 0.5 * dt + 1e-6) {
       stamps_agree = false;
       file.repairs.push_back(
           {0, fmt::format("record {} says it begins {:.6g} s after the first, by the header's {} s "
                           "for a record it is {:.6g} s, which is taken: compare the length of the "
                           "recording",
-                          r + 1, *onset - *first_onset, header.record_s, begin)});
+                          r + 1, *onset - *zero_s, header.record_s, begin)});
     }
     if (header.gaps) {
       if (!onset)
         throw ReadError(path, 0,
                         fmt::format("record {} does not say its time, as EDF+D must", r + 1));
-      begin = *onset;
+      begin = *onset - *zero_s;
       if (previous && begin < *previous - 0.5 * dt)
         throw ReadError(
             path, 0,
@@ -309,6 +309,13 @@ EdfFile read_edf_source(ByteSource& source, const std::filesystem::path& path) {
             base[c] + gain[c] * static_cast<double>(sample(p, header.bdf));
       }
     }
+  }
+  if (zero_s.value_or(0.0) != 0.0) {
+    for (C3dEvent& event : file.events) event.time_s -= *zero_s;
+    file.repairs.push_back(
+        {0, fmt::format("the first record begins {:.6g} s after the header's start of the "
+                        "recording; here its first sample is at 0 s, and so count the events",
+                        *zero_s)});
   }
   try {
     file.data = TimeSeries(std::move(time), std::move(channels), std::move(values));

@@ -117,6 +117,29 @@ TEST(Edf, AnnotationsAreEventsAndRecordsWithGapsSayTheirTime) {
   EXPECT_NE(file.repairs[0].message.find("pauses"), std::string::npos);
 }
 
+TEST(Edf, EventsAreOnTheClockOfTheSamplesWhereTheFirstRecordBeginsLater) {
+  auto signals = kTwo;
+  signals.pop_back();
+  signals.push_back({"EDF Annotations", "", -1, 1, -32768, 32767, 20});
+  using namespace std::string_literals;
+  // "Lift" is marked at the begin of the second record: sample 4 of a record of 4, at 0.5 s.
+  for (const char* kind : {"EDF+C", "EDF+D"}) {
+    const std::vector<std::string> notes{"+0.390625\x14\x14\0"s,
+                                         "+0.890625\x14\x14\0+0.890625\x14Lift\x14\0"s};
+    const EdfFile file = parse(make_edf(false, kind, signals, 2, 2, ramp, notes));
+    ASSERT_EQ(file.events.size(), 1U) << kind;
+    EXPECT_EQ(file.events[0].time_s, file.data.time_s()[4]) << kind;
+    EXPECT_EQ(file.data.time_s()[0], 0.0) << kind;
+    ASSERT_EQ(file.repairs.size(), 1U) << kind;
+    EXPECT_NE(file.repairs[0].message.find("0.390625 s after"), std::string::npos) << kind;
+  }
+  // Only the second record has a stamp: the first one begins a record earlier.
+  const std::vector<std::string> late{""s, "+0.890625\x14\x14\0+0.890625\x14Lift\x14\0"s};
+  const EdfFile file = parse(make_edf(false, "EDF+C", signals, 2, 2, ramp, late));
+  ASSERT_EQ(file.events.size(), 1U);
+  EXPECT_EQ(file.events[0].time_s, 0.5);
+}
+
 TEST(Edf, CountsThatDisagreeAndAFileCutOffAreMended) {
   for (const int said : {-1, 99, 2}) {
     const EdfFile file = parse(make_edf(false, "", kTwo, 3, said, ramp));
