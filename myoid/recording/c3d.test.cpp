@@ -310,7 +310,7 @@ TEST(C3d, TheHeaderAloneTellsTheProcessor) {
   }
 }
 
-TEST(C3d, ParametersComeBackAndDamagedOnesEndTheList) {
+TEST(C3d, ParametersComeBackAndDamageCostsNoneThatCanBeRead) {
   C3dGroup group{.id = 5, .name = "MANUFACTURER", .description = "who made it", .locked = true};
   group.parameters = {
       {.name = "COMPANY",
@@ -326,20 +326,94 @@ TEST(C3d, ParametersComeBackAndDamagedOnesEndTheList) {
       {.name = "YEAR", .type = C3dType::integer, .numbers = {-7}},
       {.name = "FLAGS", .type = C3dType::byte, .dimensions = {3}, .numbers = {0, 128, 255}}};
   for (const auto processor : {C3dProcessor::intel, C3dProcessor::dec, C3dProcessor::sgi}) {
-    auto bytes = format_c3d_parameters({group}, {processor});
+    const auto bytes = format_c3d_parameters({group}, {processor});
     std::vector<Repair> repairs;
     EXPECT_EQ(parse_c3d_parameters(bytes, 4, bytes.size(), {processor}, repairs),
               std::vector{group});
     EXPECT_TRUE(repairs.empty());
-    // A distance that leads out of the section.
     std::size_t year = 0;
     while (static_cast<char>(bytes[year]) != 'Y' || static_cast<char>(bytes[year + 1]) != 'E')
       ++year;
-    bytes[year + 4] = bytes[year + 5] = std::byte{0xFF};
-    const auto rest = parse_c3d_parameters(bytes, 4, bytes.size(), {processor}, repairs);
-    ASSERT_EQ(rest.size(), 1U);
-    EXPECT_EQ(rest[0].parameters.size(), 2U);
-    EXPECT_TRUE(noted(repairs, "damaged at byte"));
+    // The distance behind YEAR swapped, leading out of the section, into a value, to the begin of
+    // its own values; 0 says that YEAR is the last record.
+    for (const unsigned distance : {0x0700U, 0xFFFFU, 0x20U, 2U, 0U}) {
+      auto changed = bytes;
+      C3dBytes{processor}.put_u16(&changed[year + 4], static_cast<std::uint16_t>(distance));
+      repairs.clear();
+      EXPECT_EQ(parse_c3d_parameters(changed, 4, changed.size(), {processor}, repairs),
+                std::vector{group})
+          << distance;
+      EXPECT_TRUE(noted(repairs, "damaged at byte")) << distance;
+    }
+    // A name that is no text: YEAR alone is lost.
+    auto changed = bytes;
+    changed[year] = std::byte{1};
+    repairs.clear();
+    C3dGroup rest = group;
+    rest.parameters.erase(rest.parameters.begin() + 2);
+    EXPECT_EQ(parse_c3d_parameters(changed, 4, changed.size(), {processor}, repairs),
+              std::vector{rest});
+    EXPECT_TRUE(noted(repairs, "left out, up to the next record"));
+  }
+}
+
+TEST(C3d, AUnitThatItsFieldCutsShortIsCompleted) {
+  for (const auto& [text, to_m] :
+       {std::pair{"mete", 1.0}, {"MET", 1.0}, {"millim", 1e-3}, {"mil", 1e-3}, {"centim", 1e-2}}) {
+    C3dFile file = small_file();
+    file.point_unit = text;
+    const C3dFile back = parse_c3d(format_c3d(file), "cut.c3d");
+    EXPECT_TRUE(noted(back.repairs, "cut short")) << text;
+    std::vector<Repair> repairs;
+    EXPECT_DOUBLE_EQ(c3d_markers(back, repairs).positions_m(0, 0),
+                     to_m * static_cast<double>(file.points(0, 0)))
+        << text;
+  }
+  C3dFile file = small_file();
+  file.point_unit = "furlong";
+  EXPECT_EQ(parse_c3d(format_c3d(file), "unit.c3d").point_unit, "furlong");
+}
+
+TEST(C3d, MIsReadAsMillimetersOnlyWhereNoLaboratoryIsLongEnough) {
+  C3dFile file = small_file();
+  file.point_unit = "m";
+  // Its points lie 5 apart: a room of 5 m.
+  const C3dFile room = parse_c3d(format_c3d(file), "m.c3d");
+  EXPECT_EQ(room.point_unit, "m");
+  EXPECT_TRUE(room.repairs.empty());
+  for (Eigen::Index c = 0; c < 12; c += 4) file.points.middleCols(c, 3) *= 40.0F;
+  const C3dFile cut = parse_c3d(format_c3d(file), "m.c3d");
+  EXPECT_EQ(cut.point_unit, "mm");
+  EXPECT_TRUE(noted(cut.repairs, "compare a known distance"));
+}
+
+C3dParameter of_texts(const char* name, std::uint8_t width, const std::vector<std::string>& list) {
+  C3dParameter p{.name = name,
+                 .type = C3dType::text,
+                 .dimensions = {width, static_cast<std::uint8_t>(list.size())}};
+  for (std::string text : list) p.text += text.append(width - text.size(), ' ');
+  return p;
+}
+
+TEST(C3d, PosesOfSegmentsAloneAreToldByNameWithTheRemedy) {
+  C3dFile file = small_file();
+  C3dGroup rotation{.id = 40, .name = "ROTATION"};
+  rotation.parameters = {{.name = "USED", .type = C3dType::integer, .numbers = {2}},
+                         of_texts("LABELS", 10, {"pelvis_4X4", "r_arm_4X4"})};
+  file.groups.push_back(rotation);
+  const C3dFile beside = parse_c3d(format_c3d(file), "both.c3d");
+  EXPECT_EQ(beside.points, file.points);
+  EXPECT_TRUE(noted(beside.repairs, "2 segments (group ROTATION: pelvis_4X4, r_arm_4X4)"));
+  // Without points and channels there is nothing else to read.
+  C3dFile poses;
+  poses.groups = {rotation};
+  const C3dHeader header{.first_frame = 1, .last_frame = 4, .data_block = 3, .rate_hz = 100.0F};
+  try {
+    static_cast<void>(find_c3d_layout(header, poses, 4096, "theia.c3d", poses.repairs));
+    FAIL() << "no error";
+  } catch (const ReadError& error) {
+    EXPECT_NE(std::string(error.what()).find("theia.c3d"), std::string::npos);
+    EXPECT_NE(std::string(error.what()).find("make landmarks"), std::string::npos);
   }
 }
 

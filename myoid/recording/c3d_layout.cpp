@@ -134,6 +134,22 @@ void say_other_frame_counts(const C3dHeader& header,
   }
 }
 
+/// Poses of segments, which Theia3D, Visual3D and others write as 4 x 4 matrices, and the remedy.
+std::string rotations_text(const C3dFile& file, std::size_t count) {
+  constexpr std::size_t kMost = 6;
+  std::string names;
+  if (const C3dParameter* labels = file.find("ROTATION", "LABELS")) {
+    const auto list = texts(*labels);
+    for (std::size_t i = 0; i < std::min(list.size(), kMost); ++i)
+      names += (i == 0 ? ": " : ", ") + list[i];
+    if (list.size() > kMost) names += ", ...";
+  }
+  return fmt::format(
+      "the poses of {} segments (group ROTATION{}), as Theia3D and Visual3D write "
+      "them, are not read",
+      count, names);
+}
+
 }  // namespace
 
 C3dHeader read_c3d_header(std::span<const std::byte> head, const C3dBytes& number) {
@@ -169,6 +185,16 @@ C3dLayout find_c3d_layout(const C3dHeader& header,
                           const std::filesystem::path& path,
                           std::vector<Repair>& repairs) {
   C3dLayout layout;
+  const std::size_t rotations = count_in(file.find("ROTATION", "USED")).value_or(0);
+  const bool nothing_else = header.points == 0 && header.analog_total == 0 &&
+                            count_in(file.find("POINT", "USED")).value_or(0) == 0 &&
+                            count_in(file.find("ANALOG", "USED")).value_or(0) == 0;
+  if (rotations > 0 && nothing_else)
+    throw ReadError(path, 0,
+                    fmt::format("{}, and the file holds neither markers nor analog channels. In "
+                                "Visual3D make landmarks of the segments and export them as .trc "
+                                "or C3D, or export the joint angles as .mot or .csv",
+                                rotations_text(file, rotations)));
 
   // Where the data begin.
   const auto data_start = count_in(file.find("POINT", "DATA_START"));
@@ -192,10 +218,9 @@ C3dLayout find_c3d_layout(const C3dHeader& header,
   }
   layout.data_offset = (block - 1) * kC3dBlock;
   std::uint64_t available = file_size - layout.data_offset;
-  const auto rotations = count_in(file.find("ROTATION", "USED"));
-  if (rotations.value_or(0) > 0) {
+  if (rotations > 0) {
     repairs.push_back(
-        {0, fmt::format("a ROTATION group with {} rotations is left out", *rotations)});
+        {0, rotations_text(file, rotations) + "; export landmarks of them to use them as markers"});
     const auto at = count_in(file.find("ROTATION", "DATA_START"));
     if (at && inside(*at) && *at > block) available = (*at - block) * kC3dBlock;
   }
@@ -323,7 +348,7 @@ C3dLayout find_c3d_layout(const C3dHeader& header,
                                       "and taken",
                                       file_size, whole, layout.frames)});
     layout.frames = whole;
-  } else if (!found && rotations.value_or(0) == 0) {
+  } else if (!found && rotations == 0) {
     repairs.push_back(
         {0, fmt::format(
                 "{} bytes behind the last frame are not understood and left out",

@@ -1,8 +1,10 @@
 #include "myoid/recording/c3d_parameters.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -37,20 +39,32 @@ std::size_t size_of(C3dType type) {
   return type == C3dType::real ? 4 : type == C3dType::integer ? 2 : 1;
 }
 
-/// Kind, dimensions, values and description of a parameter; false if they do not fit into `body`.
-bool read_value(std::span<const std::byte> body, const C3dBytes& number, C3dParameter& parameter) {
-  if (body.size() < 2) return false;
+/// A length and so many bytes of text; the bytes taken.
+std::size_t read_description(std::span<const std::byte> body, std::string& description) {
+  if (body.empty()) return 0;
+  const std::size_t length = std::min(static_cast<std::size_t>(body[0]), body.size() - 1);
+  description = to_utf8(chars(body.subspan(1, length)));
+  return 1 + length;
+}
+
+/// Kind, dimensions, values and description of a parameter, and the bytes they take; 0 if they do
+/// not fit into `body`. A description that does not fit is cut.
+std::size_t read_value(std::span<const std::byte> body,
+                       const C3dBytes& number,
+                       C3dParameter& parameter) {
+  const std::size_t whole = body.size();
+  if (body.size() < 2) return 0;
   const auto code = static_cast<std::int8_t>(body[0]);
-  if (code != -1 && code != 1 && code != 2 && code != 4) return false;
+  if (code != -1 && code != 1 && code != 2 && code != 4) return 0;
   parameter.type = static_cast<C3dType>(code);
   const auto rank = static_cast<std::size_t>(body[1]);
-  if (rank > 7 || body.size() < 2 + rank) return false;
+  if (rank > 7 || body.size() < 2 + rank) return 0;
   for (std::size_t d = 0; d < rank; ++d)
     parameter.dimensions.push_back(static_cast<std::uint8_t>(body[2 + d]));
   const std::size_t count = element_count(parameter.dimensions);
   const std::size_t width = size_of(parameter.type);
   body = body.subspan(2 + rank);
-  if (count > body.size() / width) return false;
+  if (count > body.size() / width) return 0;
   const std::byte* p = body.data();
   if (parameter.type == C3dType::text) {
     parameter.text = chars(body.first(count));
@@ -64,12 +78,8 @@ bool read_value(std::span<const std::byte> body, const C3dBytes& number, C3dPara
                                       : static_cast<double>(static_cast<std::uint8_t>(*p)));
     }
   }
-  body = body.subspan(count * width);
-  if (!body.empty()) {
-    const std::size_t length = std::min(static_cast<std::size_t>(body[0]), body.size() - 1);
-    parameter.description = to_utf8(chars(body.subspan(1, length)));
-  }
-  return true;
+  return whole - body.size() + count * width +
+         read_description(body.subspan(count * width), parameter.description);
 }
 
 void put_text(std::vector<std::byte>& out, std::string_view text) {
@@ -110,6 +120,197 @@ void close_record(std::vector<std::byte>& out,
   number.put_u16(&out[distance_at], static_cast<std::uint16_t>(distance));
 }
 
+/// The head of a record: name, group, and the distance to the next record.
+struct RecordHead {
+  std::string name;
+  int id = 0;  ///< Below 0 for a group.
+  bool locked = false;
+  std::size_t body = 0;  ///< Byte where kind and values begin, or a group's description.
+  std::size_t next = 0;  ///< Byte where the next record begins, as the distance says; 0: the last.
+};
+
+/// Reads records, and finds the next one where a distance or a head is damaged.
+class ParameterReader {
+ public:
+  ParameterReader(std::span<const std::byte> bytes,
+                  std::size_t limit,
+                  const C3dBytes& number,
+                  std::vector<Repair>& repairs)
+      : bytes_(bytes), limit_(std::min(limit, bytes.size())), number_(number), repairs_(repairs) {}
+
+  std::vector<C3dGroup> read(std::size_t begin) {
+    for (std::size_t at = begin; at + 2 <= limit_ && bytes_[at] != std::byte{0};) {
+      std::string reason;
+      const auto head = head_at(at, reason);
+      at = head ? take(at, *head) : behind_damage(at, reason);
+    }
+    return named_groups();
+  }
+
+ private:
+  /// Empty, and the reason, if no record can begin here.
+  std::optional<RecordHead> head_at(std::size_t at, std::string& reason) const {
+    const int length = static_cast<std::int8_t>(bytes_[at]);
+    const auto size = static_cast<std::size_t>(std::abs(length));
+    RecordHead head{.id = static_cast<std::int8_t>(bytes_[at + 1]), .locked = length < 0};
+    if (size > 127 || head.id == 0 || at + 4 + size > limit_) {
+      reason = head.id == 0 ? "a record of no group" : "a record reaches behind its end";
+      return std::nullopt;
+    }
+    const std::string raw_name = chars(bytes_.subspan(at + 2, size));
+    head.name = to_utf8(raw_name);
+    if (!printable(raw_name) || head.name.empty()) {
+      reason = "a name that is no text";
+      return std::nullopt;
+    }
+    const std::size_t distance_at = at + 2 + size;
+    head.body = distance_at + 2;
+    const std::size_t distance = number_.u16(&bytes_[distance_at]);
+    head.next = distance == 0 ? 0 : distance_at + distance;
+    return head;
+  }
+
+  /// The byte behind the record as its own values tell, wherever its distance leads; 0 if they
+  /// cannot be values.
+  std::size_t own_end(const RecordHead& head) const {
+    const auto body = bytes_.subspan(head.body, limit_ - head.body);
+    std::string description;
+    if (head.id < 0) return head.body + read_description(body, description);
+    C3dParameter parameter;
+    const std::size_t taken = read_value(body, number_, parameter);
+    return taken == 0 ? 0 : head.body + taken;
+  }
+
+  /// True for a record beyond doubt: a name of letters and digits, and a distance that is the
+  /// length of its values.
+  bool surely_begins(std::size_t at) const {
+    if (at + 4 > limit_) return false;
+    const auto size = static_cast<std::size_t>(std::abs(static_cast<std::int8_t>(bytes_[at])));
+    if (size < 2 || at + 4 + size > limit_) return false;
+    const auto name = bytes_.subspan(at + 2, size);
+    const bool plain = std::all_of(name.begin(), name.end(), [](std::byte b) {
+      const auto c = static_cast<unsigned char>(b);
+      return std::isalnum(c) != 0 || c == '_' || c == ' ';
+    });
+    std::string reason;
+    const auto head = plain ? head_at(at, reason) : std::nullopt;
+    return head && head->next != 0 && head->next <= limit_ && own_end(*head) == head->next;
+  }
+
+  /// True for the end of the list, and for every head that can be read.
+  bool may_begin(std::size_t at) const {
+    std::string reason;
+    return at + 2 > limit_ || bytes_[at] == std::byte{0} || head_at(at, reason).has_value();
+  }
+
+  /// Keeps a record, and returns where the next one begins.
+  std::size_t take(std::size_t at, const RecordHead& head) {
+    const std::size_t own = own_end(head);
+    std::size_t next = head.next == 0 ? limit_ : head.next;
+    const bool inside = next >= head.body && next <= limit_;
+    if (!inside && own == 0)
+      return behind_damage(at, fmt::format("the record '{}' reaches behind its end", head.name));
+    const bool own_is_better =
+        own != 0 && own != next &&
+        (!inside ||
+         (surely_begins(own) ? !surely_begins(next) : may_begin(own) && !may_begin(next)));
+    if (own_is_better) {
+      repairs_.push_back({0, fmt::format("the parameter section is damaged at byte {}: '{}' says "
+                                         "that the next record begins at byte {}; by its own "
+                                         "length, which is taken, at byte {}",
+                                         at, head.name, next, own)});
+      next = own;
+    }
+    const auto body = bytes_.subspan(head.body, next - head.body);
+    if (head.id < 0) {
+      take_group(at, head, body);
+    } else {
+      take_parameter(at, head, body);
+    }
+    return next;
+  }
+
+  /// The next byte behind `at` where surely a record begins, or the limit, with a note.
+  std::size_t behind_damage(std::size_t at, const std::string& reason) {
+    std::size_t next = at + 1;
+    while (next < limit_ && !surely_begins(next)) ++next;
+    repairs_.push_back(
+        {0, next < limit_
+                ? fmt::format("the parameter section is damaged at byte {} ({}); {} bytes of it "
+                              "are left out, up to the next record that can be read",
+                              at, reason, next - at)
+                : fmt::format("the parameter section is damaged at byte {} ({}); what follows in "
+                              "it is left out",
+                              at, reason)});
+    return next;
+  }
+
+  C3dGroup& group_of(int id) {
+    const auto [it, added] = groups_.try_emplace(id);
+    if (added) {
+      it->second.id = id;
+      order_.push_back(id);
+    }
+    return it->second;
+  }
+
+  void take_group(std::size_t at, const RecordHead& head, std::span<const std::byte> body) {
+    C3dGroup& group = group_of(head.id == -128 ? 128 : -head.id);
+    if (!group.name.empty())
+      repairs_.push_back(
+          {0, fmt::format("two groups have the number {}: '{}' and '{}' (byte {}); read as one",
+                          -head.id, group.name, head.name, at)});
+    if (group.name.empty()) group.name = head.name;
+    group.locked = head.locked;
+    read_description(body, group.description);
+  }
+
+  void take_parameter(std::size_t at, const RecordHead& head, std::span<const std::byte> body) {
+    C3dParameter parameter;
+    parameter.name = head.name;
+    parameter.locked = head.locked;
+    if (read_value(body, number_, parameter) == 0) {
+      repairs_.push_back({0, fmt::format("parameter '{}' at byte {}: its size or kind cannot be "
+                                         "right; left out",
+                                         head.name, at)});
+      return;
+    }
+    C3dGroup& group = group_of(head.id);
+    const bool twice = std::any_of(
+        group.parameters.begin(), group.parameters.end(),
+        [&](const C3dParameter& p) { return equal_ignoring_case(p.name, parameter.name); });
+    if (twice) {
+      repairs_.push_back({0, fmt::format("parameter '{}:{}' stands twice (byte {}); the first is "
+                                         "taken",
+                                         group.name, head.name, at)});
+    } else {
+      group.parameters.push_back(std::move(parameter));
+    }
+  }
+
+  /// The groups in the order of the file.
+  std::vector<C3dGroup> named_groups() {
+    std::vector<C3dGroup> list;
+    for (const int id : order_) {
+      C3dGroup& group = groups_[id];
+      if (group.name.empty()) {
+        group.name = fmt::format("GROUP_{}", id);
+        repairs_.push_back({0, fmt::format("{} parameters belong to group {}, which has no name",
+                                           group.parameters.size(), id)});
+      }
+      list.push_back(std::move(group));
+    }
+    return list;
+  }
+
+  std::span<const std::byte> bytes_;
+  std::size_t limit_;
+  C3dBytes number_;
+  std::vector<Repair>& repairs_;
+  std::map<int, C3dGroup> groups_;
+  std::vector<int> order_;
+};
+
 }  // namespace
 
 std::vector<C3dGroup> parse_c3d_parameters(std::span<const std::byte> bytes,
@@ -117,94 +318,7 @@ std::vector<C3dGroup> parse_c3d_parameters(std::span<const std::byte> bytes,
                                            std::size_t limit,
                                            const C3dBytes& number,
                                            std::vector<Repair>& repairs) {
-  std::map<int, C3dGroup> groups;
-  std::vector<int> order;
-  const auto group_of = [&](int id) -> C3dGroup& {
-    const auto [it, added] = groups.try_emplace(id);
-    if (added) {
-      it->second.id = id;
-      order.push_back(id);
-    }
-    return it->second;
-  };
-  limit = std::min(limit, bytes.size());
-  const auto damaged = [&](std::size_t at, std::string_view what) {
-    repairs.push_back({0, fmt::format("the parameter section is damaged at byte {} ({}); what "
-                                      "follows in it is left out",
-                                      at, what)});
-  };
-  for (std::size_t at = begin; at + 2 <= limit;) {
-    const int length = static_cast<std::int8_t>(bytes[at]);
-    const int id = static_cast<std::int8_t>(bytes[at + 1]);
-    if (length == 0) break;  // the end as it should be
-    const auto size = static_cast<std::size_t>(std::abs(length));
-    if (size > 127 || id == 0 || at + 4 + size > limit) {
-      damaged(at, id == 0 ? "a record of no group" : "a record reaches behind its end");
-      break;
-    }
-    const std::string raw_name = chars(bytes.subspan(at + 2, size));
-    const std::string name = to_utf8(raw_name);
-    if (!printable(raw_name) || name.empty()) {
-      damaged(at, "a name that is no text");
-      break;
-    }
-    const std::size_t distance_at = at + 2 + size;
-    const std::size_t distance = number.u16(&bytes[distance_at]);
-    const bool last = distance == 0;
-    const std::size_t next = last ? limit : distance_at + distance;
-    if (next > limit || (!last && distance < 2)) {
-      damaged(at, fmt::format("the record '{}' reaches behind its end", name));
-      break;
-    }
-    const auto body = bytes.subspan(distance_at + 2, next - distance_at - 2);
-    if (id < 0) {
-      C3dGroup& group = group_of(id == -128 ? 128 : -id);
-      if (!group.name.empty())
-        repairs.push_back(
-            {0, fmt::format("two groups have the number {}: '{}' and '{}' (byte {}); read as one",
-                            -id, group.name, name, at)});
-      if (group.name.empty()) group.name = name;
-      group.locked = length < 0;
-      if (!body.empty()) {
-        const std::size_t text = std::min(static_cast<std::size_t>(body[0]), body.size() - 1);
-        group.description = to_utf8(chars(body.subspan(1, text)));
-      }
-    } else {
-      C3dParameter parameter;
-      parameter.name = name;
-      parameter.locked = length < 0;
-      if (!read_value(body, number, parameter)) {
-        repairs.push_back({0, fmt::format("parameter '{}' at byte {}: its size or kind cannot be "
-                                          "right; left out",
-                                          name, at)});
-      } else {
-        C3dGroup& group = group_of(id);
-        const bool twice = std::any_of(
-            group.parameters.begin(), group.parameters.end(),
-            [&](const C3dParameter& p) { return equal_ignoring_case(p.name, parameter.name); });
-        if (twice) {
-          repairs.push_back({0, fmt::format("parameter '{}:{}' stands twice (byte {}); the first "
-                                            "is taken",
-                                            group.name, name, at)});
-        } else {
-          group.parameters.push_back(std::move(parameter));
-        }
-      }
-    }
-    if (last) break;
-    at = next;
-  }
-  std::vector<C3dGroup> list;
-  for (const int id : order) {
-    C3dGroup& group = groups[id];
-    if (group.name.empty()) {
-      group.name = fmt::format("GROUP_{}", id);
-      repairs.push_back({0, fmt::format("{} parameters belong to group {}, which has no name",
-                                        group.parameters.size(), id)});
-    }
-    list.push_back(std::move(group));
-  }
-  return list;
+  return ParameterReader(bytes, limit, number, repairs).read(begin);
 }
 
 std::vector<std::byte> format_c3d_parameters(const std::vector<C3dGroup>& groups,

@@ -9,10 +9,11 @@
 
 namespace myoid::recording {
 
-/// The groups and parameters whose first record begins at byte `begin`, none reaching `limit` or
-/// beyond. Records are linked by the distance to the next; a record that cannot be one (a name with
-/// control characters, an end behind the limit) ends the list with a note that names the byte, and
-/// what was read before it stays. Never throws on any bytes.
+/// Reads the groups and parameters whose first record begins at byte `begin`, none reaching beyond
+/// `limit`. Records are linked by the distance to the next. Where the distance leads to no record
+/// and the record's own length does, the length holds; bytes that are no record (a name with
+/// control characters, an end behind the limit) are skipped up to the next record beyond doubt.
+/// Both are noted with the byte, and every other parameter is kept. Never throws on any bytes.
 [[nodiscard]] std::vector<C3dGroup> parse_c3d_parameters(std::span<const std::byte> bytes,
                                                          std::size_t begin,
                                                          std::size_t limit,

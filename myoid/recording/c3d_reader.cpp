@@ -1,6 +1,7 @@
 #include "myoid/recording/c3d_reader.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <set>
 #include <string>
@@ -12,6 +13,8 @@
 #include "myoid/core/error.h"
 #include "myoid/recording/byte_source.h"
 #include "myoid/recording/c3d_bytes.h"
+#include "myoid/recording/c3d_events.h"
+#include "myoid/recording/c3d_frames.h"
 #include "myoid/recording/c3d_parameters.h"
 
 namespace myoid::recording {
@@ -133,50 +136,79 @@ void read_channels(C3dFile& file, const C3dLayout& layout) {
   }
 }
 
-/// Events of the EVENT group: minutes and seconds.
-void read_group_events(C3dFile& file) {
-  const double used = number_at(file.find("EVENT", "USED"), 0).value_or(0.0);
-  const auto times = all_numbers(file, "EVENT", "TIMES");
-  const std::size_t count =
-      std::min(used > 0.0 && used < 65536.0 ? static_cast<std::size_t>(used) : 0, times.size());
-  if (count == 0) return;
-  const bool pairs = times.size() >= 2 * count;
-  if (!pairs)
-    file.repairs.push_back({0, fmt::format("EVENT:TIMES has {} numbers for {} events instead of "
-                                           "two for each; taken as seconds",
-                                           times.size(), count)});
-  const auto labels = all_texts(file, "EVENT", "LABELS");
-  const auto contexts = all_texts(file, "EVENT", "CONTEXTS");
-  const auto subjects = all_texts(file, "EVENT", "SUBJECTS");
-  const auto text = [](const std::vector<std::string>& list, std::size_t i) {
-    return i < list.size() ? list[i] : std::string();
-  };
-  for (std::size_t i = 0; i < count; ++i) {
-    const double time_s = pairs ? 60.0 * times[2 * i] + times[2 * i + 1] : times[i];
-    if (!std::isfinite(time_s) || std::abs(time_s) > 1e7) {
-      file.repairs.push_back(
-          {0, fmt::format("EVENT:TIMES: the time of event {} is {} s; left out", i + 1, time_s)});
-      continue;
+/// How far the points of a frame lie apart along an axis, in the file's unit: the median of some
+/// frames over the whole file. 0 where no frame has two points.
+double usual_extent(const C3dFrames& frames, const C3dLayout& layout, ByteSource& source) {
+  constexpr std::int64_t kFrames = 25;
+  const std::int64_t count = std::min(kFrames, layout.frames);
+  std::vector<float> points(4 * layout.points);
+  std::vector<double> extents;
+  for (std::int64_t k = 0; k < count; ++k) {
+    const std::int64_t frame = k * layout.frames / count;
+    const auto bytes =
+        source.view(layout.data_offset + static_cast<std::uint64_t>(frame) * layout.frame_bytes(),
+                    layout.frame_bytes());
+    frames.points(bytes.data(), points.data());
+    double extent = 0.0;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      float low = INFINITY, high = -INFINITY;
+      for (std::size_t m = 0; m < layout.points; ++m) {
+        const float x = points[4 * m + axis];
+        if (!(points[4 * m + 3] >= 0.0F) || !std::isfinite(x) || x == 0.0F) continue;
+        low = std::min(low, x);
+        high = std::max(high, x);
+      }
+      if (low < high) extent = std::max(extent, static_cast<double>(high - low));
     }
-    file.events.push_back({time_s, text(labels, i), text(contexts, i), text(subjects, i)});
+    extents.push_back(extent);
   }
+  std::sort(extents.begin(), extents.end());
+  return extents.empty() ? 0.0 : extents[extents.size() / 2];
 }
 
-/// Events of the header: up to 18 times with labels of four characters.
-void read_header_events(C3dFile& file, std::span<const std::byte> head, const C3dBytes& number) {
-  const auto at = [&](std::size_t word) { return &head[2 * (word - 1)]; };
-  if (number.u16(at(150)) != 12345) return;
-  const std::size_t count = std::min<std::size_t>(number.u16(at(151)), 18);
-  for (std::size_t i = 0; i < count; ++i) {
-    const auto time_s = static_cast<double>(number.real(at(153) + 4 * i));
-    std::string label;
-    for (std::size_t k = 0; k < 4; ++k) label += static_cast<char>(*(at(199) + 4 * i + k));
-    if (!std::isfinite(time_s) || std::abs(time_s) > 1e7) {
-      file.repairs.push_back(
-          {0, fmt::format("the time of event {} in the header is {} s; left out", i + 1, time_s)});
-      continue;
-    }
-    file.events.push_back({time_s, to_utf8(label), "", ""});
+/// The unit of length whose English word begins with this text of at least two letters, which is
+/// all that a short field holds of it ("millim", "mete"). Empty if there is none.
+std::optional<std::string> length_unit_of_prefix(std::string_view text) {
+  constexpr std::array<std::pair<std::string_view, const char*>, 6> kWords{{{"millimeters", "mm"},
+                                                                            {"millimetres", "mm"},
+                                                                            {"centimeters", "cm"},
+                                                                            {"centimetres", "cm"},
+                                                                            {"meters", "m"},
+                                                                            {"metres", "m"}}};
+  const std::string clean = to_utf8(text.substr(0, text.find('\0')));
+  if (clean.size() < 2) return std::nullopt;
+  for (const auto& [word, unit] : kWords) {
+    if (equal_ignoring_case(word.substr(0, clean.size()), clean)) return unit;
+  }
+  return std::nullopt;
+}
+
+/// POINT:UNITS; a word that its field cuts short is completed. "m" may be all that is left of "mm":
+/// then the points of a frame seem to be farther apart than any laboratory is long.
+void read_point_unit(C3dFile& file,
+                     const C3dFrames& frames,
+                     const C3dLayout& layout,
+                     ByteSource& source) {
+  constexpr double kLongest_m = 50.0;
+  if (const C3dParameter* unit = file.find("POINT", "UNITS");
+      unit != nullptr && !texts(*unit).empty())
+    file.point_unit = texts(*unit)[0];
+  const auto take = [&](const std::string& unit, const std::string& note) {
+    file.point_unit = unit;
+    if (layout.points > 0) file.repairs.push_back({0, note});
+  };
+  if (file.point_unit.empty()) {
+    take("mm", "POINT:UNITS is missing; mm is assumed: compare a known distance");
+  } else if (!parse_c3d_unit(file.point_unit)) {
+    if (const auto whole = length_unit_of_prefix(file.point_unit))
+      take(*whole, fmt::format("POINT:UNITS '{}' is a word cut short; read as {}", file.point_unit,
+                               *whole));
+  } else if (equal_ignoring_case(file.point_unit, "m")) {
+    const double extent = usual_extent(frames, layout, source);
+    if (extent > kLongest_m)
+      take("mm", fmt::format("POINT:UNITS says m, and the points of a frame would lie {:.4g} m "
+                             "apart; read as mm, cut short: compare a known distance",
+                             extent));
   }
 }
 
@@ -288,19 +320,10 @@ C3dHead read_c3d_head(ByteSource& source, const std::filesystem::path& path) {
   read_rates(file, header, layout, path);
   file.point_labels = unique_names(all_texts(file, "POINT", "LABELS"), layout.points,
                                    "POINT:LABELS", "point", file.repairs);
-  if (const C3dParameter* unit = file.find("POINT", "UNITS");
-      unit != nullptr && !texts(*unit).empty())
-    file.point_unit = texts(*unit)[0];
-  if (file.point_unit.empty()) {
-    file.point_unit = "mm";
-    if (layout.points > 0)
-      file.repairs.push_back(
-          {0, "POINT:UNITS is missing; mm is assumed: compare a known distance"});
-  }
-  read_channels(file, layout);
-  read_group_events(file);
-  if (file.events.empty()) read_header_events(file, head, number);
   const bool no_sign = is_unsigned(file);
+  read_point_unit(file, C3dFrames(layout, file.processor, no_sign), layout, source);
+  read_channels(file, layout);
+  read_c3d_events(file, source, head, number);
   return {std::move(file), layout, no_sign};
 }
 
