@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "myoid/core/error.h"
@@ -10,6 +11,8 @@
 
 namespace myoid::recording {
 namespace {
+
+using testing::HasSubstr;
 
 MarkerSeries two_markers() {
   MarkerSeries m;
@@ -65,6 +68,33 @@ TEST(Trc, MendsCarriageReturnsAMissingBlankLineAndWrongCounts) {
   EXPECT_EQ(file.markers.names.size(), 2U);
   EXPECT_TRUE(file.markers.missing(1, 0));
   EXPECT_EQ(file.repairs.size(), 5U);  // 3 markers, Times, X0, a lone NaN, 7 frames
+}
+
+TEST(Trc, MarkersWithoutNamesAreNamedByTheirPlace) {
+  const std::string head =
+      "PathFileType\t4\t(X/Y/Z)\tf.trc\nDataRate\tCameraRate\tNumFrames\tNumMarkers\tUnits\n";
+  const std::string rows = "1\t0\t1\t2\t3\t4\t5\t6\t7\t8\t9\n2\t0.01\t1\t2\t3\t4\t5\t6\t7\t8\t9\n";
+  const std::string axes = "\t\tX1\tY1\tZ1\tX2\tY2\tZ2\tX3\tY3\tZ3\n\n";
+  struct Case {
+    const char *count, *labels;
+    std::vector<std::string> names;
+  };
+  for (const Case& one : {
+           Case{"0", "Frame#\tTime\t\n", {"marker_1", "marker_2", "marker_3"}},
+           Case{"3", "\n", {"marker_1", "marker_2", "marker_3"}},
+           Case{"3", "Frame#\tTime\ta\t\t\t\t\t\tc\t\t\n", {"a", "marker_2", "c"}},
+           Case{"3", "Frame#\tTime\ta\t\t\tb\t\t\t\t\t\n", {"a", "b", "marker_3"}},
+       }) {
+    for (const std::string& line : {axes, std::string()}) {
+      const TrcFile file = parse_trc(
+          head + "100\t100\t2\t" + one.count + "\tmm\n" + one.labels + line + rows, "f.trc");
+      EXPECT_EQ(file.markers.names, one.names) << one.labels;
+      ASSERT_EQ(file.markers.frame_count(), 2) << one.labels;
+      EXPECT_DOUBLE_EQ(file.markers.positions_m(1, 8), 0.009) << one.labels;
+      EXPECT_THAT(file.repairs,
+                  testing::Contains(testing::Field(&Repair::message, HasSubstr("no name"))));
+    }
+  }
 }
 
 TEST(Trc, TellsWhatItRefusesAndWhere) {

@@ -37,14 +37,41 @@ std::map<std::string, std::string> read_header(std::string_view keys,
   return header;
 }
 
-/// Marker names of the label line: every word after Frame# and Time, wherever the tabs stand.
-std::vector<std::string> read_names(std::string_view line,
-                                    char separator,
-                                    const std::filesystem::path& path,
-                                    std::size_t number,
-                                    std::vector<Repair>& repairs) {
+/// How many markers stand in the columns behind Frame# and Time: by the line X1 Y1 Z1 ..., else by
+/// the filled cells of the first row.
+std::size_t markers_in_columns(const std::vector<std::string_view>& lines, char separator) {
+  const auto axes = split_words(lines[4]);
+  if (!axes.empty() && axes.front().starts_with('X') && axes.size() % 3 == 0)
+    return axes.size() / 3;
+  for (std::size_t n = 4; n < lines.size(); ++n) {
+    auto cells = split(lines[n], separator);
+    while (!cells.empty() && trim(cells.back()).empty()) cells.pop_back();
+    if (cells.size() >= 2 && parse_number(cells[0])) return cells.size() / 3;  // (cells - 2) / 3, rounded up
+  }
+  return 0;
+}
+
+/// The names of the label line, each over the first of its marker's three columns, where fewer than
+/// `count` stand there: an empty one for every marker without a name. Empty if they stand
+/// elsewhere.
+std::vector<std::string> names_over_columns(const std::vector<std::string_view>& cells,
+                                            std::size_t count) {
+  std::vector<std::string> names(count);
+  for (std::size_t c = 2; c < cells.size(); ++c) {
+    if (trim(cells[c]).empty()) continue;
+    if ((c - 2) % 3 != 0 || (c - 2) / 3 >= count) return {};
+    names[(c - 2) / 3] = trim(cells[c]);
+  }
+  return names;
+}
+
+/// The label line without Frame# and Time. Throws ReadError if its second word is no time.
+std::vector<std::string> label_words(std::string_view line,
+                                     char separator,
+                                     const std::filesystem::path& path,
+                                     std::size_t number,
+                                     std::vector<Repair>& repairs) {
   std::vector<std::string> names;
-  std::set<std::string> seen;
   std::size_t word = 0;
   for (const std::string_view cell : split(line, separator)) {
     const std::string_view name = trim(cell);
@@ -58,16 +85,43 @@ std::vector<std::string> read_names(std::string_view line,
         repairs.push_back({number, fmt::format("column '{}' read as 'Time'", name)});
       continue;
     }
-    std::string unique(name);
-    for (int k = 2; !seen.insert(unique).second; ++k) {
-      const std::string other = fmt::format("{}_{}", name, k);
-      repairs.push_back(
-          {number,
-           fmt::format("two markers are named '{}'; the later one is '{}' here", name, other)});
-      unique = other;
-    }
-    names.push_back(unique);
+    names.emplace_back(name);
   }
+  return names;
+}
+
+/// Marker names, one for each three columns: every word of the label line wherever the tabs stand,
+/// and made-up ones for markers that have none.
+std::vector<std::string> read_names(const std::vector<std::string_view>& lines,
+                                    char separator,
+                                    const std::filesystem::path& path,
+                                    std::vector<Repair>& repairs) {
+  constexpr std::size_t kNumber = 4;
+  auto names = label_words(lines[kNumber - 1], separator, path, kNumber, repairs);
+  const std::size_t count = markers_in_columns(lines, separator);
+  if (names.size() < count) {
+    auto placed = names_over_columns(split(lines[kNumber - 1], separator), count);
+    if (!placed.empty()) names = std::move(placed);
+  }
+  std::size_t made_up = 0;
+  std::set<std::string> seen;
+  for (std::size_t m = 0; m < names.size(); ++m) {
+    if (names[m].empty()) {
+      names[m] = fmt::format("marker_{}", m + 1);
+      ++made_up;
+    }
+    const std::string name = names[m];
+    for (int k = 2; !seen.insert(names[m]).second; ++k) {
+      names[m] = fmt::format("{}_{}", name, k);
+      repairs.push_back(
+          {kNumber,
+           fmt::format("two markers are named '{}'; the later one is '{}' here", name, names[m])});
+    }
+  }
+  if (made_up > 0)
+    repairs.push_back({kNumber, fmt::format("{} of {} markers have no name; called 'marker_N' by "
+                                            "their place, marker 1 in the columns behind Time",
+                                            made_up, names.size())});
   return names;
 }
 
@@ -103,13 +157,12 @@ TrcFile parse_trc(std::string_view text, const std::filesystem::path& path) {
   }
   file.rate_hz = parse_number(field("DataRate")).value_or(0.0);
   MarkerSeries& markers = file.markers;
-  markers.names = read_names(lines[3], separator, path, 4, file.repairs);
-  if (markers.names.empty())
-    throw ReadError(path, 4, "there are no marker names after Frame# and Time");
+  markers.names = read_names(lines, separator, path, file.repairs);
+  if (markers.names.empty()) throw ReadError(path, 4, "there are no markers after Frame# and Time");
   if (const auto said = parse_number(field("NumMarkers"));
       said && *said != static_cast<double>(markers.names.size())) {
-    file.repairs.push_back({3, fmt::format("the header says {} markers, there are {} names", *said,
-                                           markers.names.size())});
+    file.repairs.push_back(
+        {3, fmt::format("the header says {} markers, there are {}", *said, markers.names.size())});
   }
   if (trim(lines[4]).starts_with("X0")) file.repairs.push_back({5, "coordinates numbered from 0"});
 
