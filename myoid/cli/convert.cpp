@@ -13,6 +13,7 @@
 #include "myoid/recording/bids_derivative.h"
 #include "myoid/recording/c3d_reader.h"
 #include "myoid/recording/c3d_writer.h"
+#include "myoid/recording/channel_choice.h"
 #include "myoid/recording/channel_writer.h"
 #include "myoid/recording/emg_channels.h"
 #include "myoid/recording/emg_reader.h"
@@ -147,7 +148,8 @@ class Converter {
 
   /// Voltages of a file, in --unit where it does not say.
   [[nodiscard]] TimeSeries voltages(const std::string& path) const {
-    recording::EmgFile file = recording::read_emg(path, o_.unit, false);
+    recording::EmgFile file = recording::read_emg(
+        path, o_.unit, false, path == o_.in ? o_.channels : std::vector<std::string>());
     report(path, file.repairs);
     if (!file.unit_conflict.empty()) context_.warn(fmt::format("{}: {}", path, file.unit_conflict));
     return std::move(file.data);
@@ -175,10 +177,16 @@ class Converter {
     report(file.repairs);
   }
 
-  /// The chosen channels of what was read in SI.
-  void write_read(const fs::path& out, const recording::AnalogChannels& channels) {
-    const TimeSeries series = chosen(channels);
+  /// Writes channels that were read in SI.
+  void write_read(const fs::path& out, const TimeSeries& series) const {
+    require_channels(series);
     recording::write_channels(out, series, recording::statement_of(series, o_.in));
+  }
+
+  void require_channels(const TimeSeries& series) const {
+    if (series.channel_count() == 0)
+      throw ReadError(o_.in, 0,
+                      "every channel has samples that are no numbers; a .csv file holds them");
   }
 
   void storage_channels(const fs::path& out) {
@@ -186,15 +194,24 @@ class Converter {
     report(file.repairs);
     const recording::ChannelStatement all = recording::statement_of(file);
     recording::ChannelStatement said{all.title, all.in_degrees, {}};
-    const TimeSeries series = chosen(file.data);
+    const TimeSeries series = chosen(file.data, out, o_.in);
+    require_channels(series);
     for (const Channel& c : series.channels())
       said.units.push_back(all.units[static_cast<std::size_t>(*file.data.find(c.name))]);
     recording::write_channels(out, series, said);
   }
 
-  [[nodiscard]] TimeSeries chosen(const recording::AnalogChannels& channels) const {
-    return at_rate(
-        cut(o_.channels.empty() ? channels.series() : channels.select(o_.channels), context_));
+  /// The channels asked for, in the time and at the rate asked for. Neither a storage file nor a
+  /// low-pass can hold a gap: a channel with one is left out, with a warning.
+  [[nodiscard]] TimeSeries chosen(const recording::AnalogChannels& channels,
+                                  const fs::path& out,
+                                  const std::string& from) const {
+    TimeSeries series = cut(recording::choose_channels({&channels}, o_.channels, from), context_);
+    if (!is_storage(out.string()) && o_.rate_hz <= 0.0) return series;
+    std::vector<recording::Repair> gaps;
+    series = recording::without_gaps(series, gaps);
+    report(from, gaps);
+    return at_rate(series);
   }
 
   /// With --rate on an even clock of that rate, low-passed where it is slower.
@@ -219,7 +236,7 @@ class Converter {
   void channels(const fs::path& out) {
     context_.prepare_file(out, {o_.in, o_.analog});
     if (o_.what == "emg" || !o_.unit.empty()) {
-      write_read(out, voltages(o_.in));
+      write_read(out, chosen(voltages(o_.in), out, o_.in));
     } else if (is_storage(o_.in)) {
       storage_channels(out);
     } else {
@@ -228,7 +245,7 @@ class Converter {
       if (file.analog.empty())
         throw ReadError(o_.in, 0,
                         "there are no analog channels to write; markers go to a .trc file");
-      write_read(out, file.analog);
+      write_read(out, chosen(file.analog, out, o_.in));
     }
     wrote(out);
   }
@@ -274,23 +291,27 @@ class Converter {
       report(file.repairs);
       file.repairs.clear();
     }
-    if (!file.analog.empty()) {
-      const fs::path out = folder / (stem + "_analog.sto");
-      context_.prepare_file(out, {o_.in, o_.analog});
-      write_read(out, file.analog);
-      wrote(out);
-      const std::vector<std::string> volts =
-          recording::emg_channels(file.analog.channels(), file.plates);
-      if (o_.channels.empty() && !volts.empty() &&
-          volts.size() < static_cast<std::size_t>(file.analog.channel_count())) {
-        const fs::path emg = folder / (stem + "_emg.sto");
-        context_.prepare_file(emg, {o_.in});
-        const TimeSeries series = at_rate(cut(file.analog.select(volts), context_));
-        recording::write_channels(emg, series, recording::statement_of(series, o_.in));
-        wrote(emg);
-      }
-    }
+    if (!file.analog.empty()) write_all_channels(folder, stem, file);
     if (!file.plates.empty()) plates(folder / (stem + "_grf.mot"), std::move(file));
+  }
+
+  /// All channels, and beside them a file of the voltages that may be EMG.
+  void write_all_channels(const fs::path& folder,
+                          const std::string& stem,
+                          const recording::Recording& file) {
+    const auto write = [&](const fs::path& out, const TimeSeries& series) {
+      if (series.channel_count() == 0) return;
+      context_.prepare_file(out, {o_.in, o_.analog});
+      write_read(out, series);
+      wrote(out);
+    };
+    const fs::path all = folder / (stem + "_analog.sto");
+    const TimeSeries series = chosen(file.analog, all, o_.in);
+    write(all, series);
+    std::vector<std::string> volts = recording::emg_channels(file.analog.channels(), file.plates);
+    if (!o_.channels.empty() || volts.size() == file.analog.channels().size()) return;
+    std::erase_if(volts, [&](const std::string& name) { return !series.find(name); });
+    write(folder / (stem + "_emg.sto"), series.select(volts));
   }
 
   void to_c3d(const fs::path& out, const std::string& from) {
@@ -321,8 +342,10 @@ class Converter {
     recording::MarkerSeries markers = file.markers;
     if (markers.frame_count() > 0)
       markers = recording::rotated(at_rate(cut_markers(std::move(markers), context_)), R_);
+    const std::string& channels_from = o_.analog.empty() ? o_.in : o_.analog;
     recording::write_c3d(
-        out, recording::make_c3d(markers, analog.empty() ? TimeSeries() : chosen(analog)));
+        out, recording::make_c3d(
+                 markers, analog.empty() ? TimeSeries() : chosen(analog, out, channels_from)));
     wrote(out);
   }
 

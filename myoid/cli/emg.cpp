@@ -7,6 +7,7 @@
 #include "myoid/cli/context.h"
 #include "myoid/cli/stage_input.h"
 #include "myoid/core/error.h"
+#include "myoid/recording/channel_choice.h"
 #include "myoid/recording/emg_reader.h"
 #include "myoid/recording/recording.h"
 #include "myoid/recording/series_file.h"
@@ -17,22 +18,67 @@
 namespace myoid::cli {
 namespace {
 
-/// What can be filtered and normalized at all.
-void require_emg(const std::string& path, const TimeSeries& emg) {
+/// Why a channel can be neither filtered nor normalized; empty for one that can.
+std::string defect_of(const TimeSeries& emg, Eigen::Index column) {
+  if (std::string gaps = recording::gaps_of(emg, column); !gaps.empty()) return gaps;
+  const auto x = emg.values().col(column);
+  return x.maxCoeff() > x.minCoeff() ? "" : "has the same value throughout: nothing was connected";
+}
+
+/// The channels that can be filtered and normalized. Another one is left out with a warning; one
+/// that was asked for, or the last one, is an error.
+TimeSeries usable_channels(const std::string& path,
+                           const TimeSeries& emg,
+                           bool asked_for,
+                           const Context& context) {
   constexpr Eigen::Index kFewest = 10;
   if (emg.sample_count() < kFewest)
     throw ReadError(path, 0,
                     fmt::format("only {} {}; at least {} are needed", emg.sample_count(),
                                 emg.sample_count() == 1 ? "sample" : "samples", kFewest));
+  std::vector<std::string> usable;
+  std::vector<std::string> defects;
   for (Eigen::Index c = 0; c < emg.channel_count(); ++c) {
-    const auto x = emg.values().col(c);
-    if (x.maxCoeff() > x.minCoeff()) continue;
+    const std::string& name = emg.channels()[static_cast<std::size_t>(c)].name;
+    const std::string defect = defect_of(emg, c);
+    if (defect.empty()) {
+      usable.push_back(name);
+    } else {
+      defects.push_back(fmt::format("channel '{}' {}", name, defect));
+    }
+  }
+  if (!defects.empty() && (asked_for || usable.empty()))
     throw ReadError(
         path, 0,
-        fmt::format("channel '{}' has the same value throughout: nothing was connected; "
-                    "leave the column out",
-                    emg.channels()[static_cast<std::size_t>(c)].name));
+        fmt::format("{}; {}", fmt::join(defects, "; "),
+                    asked_for ? "ask for others with --channel" : "no other channel is there"));
+  for (const std::string& defect : defects)
+    context.warn(fmt::format("{}: {}; it is left out", path, defect));
+  return emg.select(usable);
+}
+
+/// The channels that all files have: activation is relative to the largest effort of all.
+void keep_common_channels(const std::vector<std::string>& paths,
+                          std::vector<TimeSeries>& files,
+                          const Context& context) {
+  std::vector<std::string> common;
+  for (const Channel& channel : files.front().channels()) {
+    const auto lacks = std::find_if(files.begin(), files.end(), [&](const TimeSeries& file) {
+      return !file.find(channel.name);
+    });
+    if (lacks == files.end()) {
+      common.push_back(channel.name);
+    } else {
+      context.warn(fmt::format(
+          "{}: channel '{}' is left out, since {} does not have it (there are "
+          "{}) or it cannot be used there",
+          paths.front(), channel.name, paths[static_cast<std::size_t>(lacks - files.begin())],
+          channel_names(*lacks)));
+    }
   }
+  if (common.empty())
+    throw InvalidInput(fmt::format("no channel is in all files: {}", fmt::join(paths, ", ")));
+  for (TimeSeries& file : files) file = file.select(common);
 }
 
 /// Says what is wrong with raw EMG. Throws ReadError if none of it is raw.
@@ -74,7 +120,7 @@ void add_emg(CLI::App& app, Context& context) {
                           "Example: myoid emg flex.sto --mvc mvc.sto --out activation.sto");
   struct Options {
     std::string in, out, unit, envelope;
-    std::vector<std::string> mvc;
+    std::vector<std::string> mvc, channels;
     bool no_notch = false;
     bool no_whitening = false;
     signals::EnvelopeOptions chain;
@@ -86,6 +132,8 @@ void add_emg(CLI::App& app, Context& context) {
   command.add_option("--mvc", o->mvc,
                      "Maximal contractions to normalize by, repeated (default: the largest effort "
                      "in the file itself)");
+  command.add_option("--channel", o->channels,
+                     "Only this channel, repeated (default: all of the file's first clock)");
   command.add_option("--unit", o->unit,
                      "Unit of the numbers where the file does not say: V, mV, uV");
   command.add_option("--highpass", o->chain.highpass_hz, "High-pass [Hz] (default 20)")
@@ -114,22 +162,26 @@ void add_emg(CLI::App& app, Context& context) {
       if (o->envelope == o->out)
         throw InvalidInput(fmt::format("--out and --envelope both name {}", o->out));
     }
-    const auto clean = [&](const std::string& path) {
-      recording::EmgFile file = recording::read_emg(path, o->unit, false);
+    const auto read = [&](const std::string& path) {
+      recording::EmgFile file = recording::read_emg(path, o->unit, false, o->channels);
       for (const recording::Repair& repair : file.repairs)
         context.warn(fmt::format("{}: {}", path, recording::to_string(repair)));
       if (!file.unit_conflict.empty())
         context.warn(fmt::format("{}: {}", path, file.unit_conflict));
-      require_emg(path, file.data);
-      o->chain.notch = !o->no_notch;
-      o->chain.whitening = !o->no_whitening;
-      warn_of_faults(path, file.data, !o->chain.as_published, context);
-      return signals::clean_emg(file.data, o->chain);
+      return usable_channels(path, file.data, !o->channels.empty(), context);
     };
     std::vector<std::string> paths{o->in};
     paths.insert(paths.end(), o->mvc.begin(), o->mvc.end());
+    std::vector<TimeSeries> raw;
+    for (const std::string& path : paths) raw.push_back(read(path));
+    keep_common_channels(paths, raw, context);
+    o->chain.notch = !o->no_notch;
+    o->chain.whitening = !o->no_whitening;
     std::vector<signals::EmgStages> stages;
-    for (const std::string& path : paths) stages.push_back(clean(path));
+    for (std::size_t i = 0; i < paths.size(); ++i) {
+      warn_of_faults(paths[i], raw[i], !o->chain.as_published, context);
+      stages.push_back(signals::clean_emg(raw[i], o->chain));
+    }
     std::vector<const signals::EmgStages*> views;
     for (const signals::EmgStages& one : stages) views.push_back(&one);
     const auto whitening = signals::find_whitening(views, o->chain);

@@ -11,6 +11,7 @@
 #include "myoid/recording/anc_reader.h"
 #include "myoid/recording/bids.h"
 #include "myoid/recording/c3d_recording.h"
+#include "myoid/recording/channel_choice.h"
 #include "myoid/recording/csv_reader.h"
 #include "myoid/recording/edf_reader.h"
 #include "myoid/recording/emg_channels.h"
@@ -200,6 +201,20 @@ void apply_bids(const std::filesystem::path& path, CsvSeries& series, EmgFile& f
   series.has_unit = std::move(has_unit);
 }
 
+/// The channels asked for, with what is known of their units.
+void restrict_to(const std::vector<std::string>& wanted,
+                 const std::filesystem::path& path,
+                 CsvSeries& series) {
+  if (wanted.empty()) return;
+  const AnalogChannels all(series.data);
+  TimeSeries chosen = choose_channels({&all}, wanted, path);
+  std::vector<bool> has_unit;
+  for (const Channel& channel : chosen.channels())
+    has_unit.push_back(series.has_unit[static_cast<std::size_t>(*series.data.find(channel.name))]);
+  series.data = std::move(chosen);
+  series.has_unit = std::move(has_unit);
+}
+
 }  // namespace
 
 std::optional<double> stated_voltage(const Storage& storage) {
@@ -218,7 +233,10 @@ std::string voltage_name(double to_volt) {
                            : fmt::format("{} V", to_volt);
 }
 
-EmgFile read_emg(const std::filesystem::path& path, const std::string& unit, bool dimensionless) {
+EmgFile read_emg(const std::filesystem::path& path,
+                 const std::string& unit,
+                 bool dimensionless,
+                 const std::vector<std::string>& wanted) {
   std::optional<double> to_volt;
   if (!unit.empty()) {
     const auto parsed = parse_unit(unit);
@@ -231,12 +249,17 @@ EmgFile read_emg(const std::filesystem::path& path, const std::string& unit, boo
   std::optional<TimeSeries> series;
   if (std::optional<CsvSeries> table = read_channels(path, !dimensionless)) {
     apply_bids(path, *table, file);
+    restrict_to(wanted, path, *table);
     file.repairs = std::move(table->repairs);
     series = dimensionless ? with_unit(table->data, Unit::dimensionless, 1.0)
                            : volts_of(*table, to_volt, file.repairs);
   } else {
     Storage storage = read_storage(path);
     file.repairs = std::move(storage.repairs);
+    if (!wanted.empty()) {
+      const AnalogChannels all(std::move(storage.data));
+      storage.data = choose_channels({&all}, wanted, path);
+    }
     const std::optional<double> stated = stated_voltage(storage);
     if (stated && to_volt && *stated != *to_volt && !dimensionless) {
       file.unit_conflict = fmt::format(

@@ -30,9 +30,11 @@ struct EmgFile {
 /// else `unit` if given ("uV"); where there is none, ReadError says how to give it. Channels in
 /// newtons or the like, those of force plates (FORCE_PLATFORM:CHANNEL) and those called like
 /// another instrument's (`named_as_no_emg`) are left out, with a note. With `dimensionless`
-/// (envelopes, activations) no unit is looked for.
+/// (envelopes, activations) no unit is looked for. With `wanted`, only those channels are looked
+/// at, as `choose_channels` finds them: the others need no unit.
 [[nodiscard]] EmgFile read_emg(const std::filesystem::path& path,
                                const std::string& unit,
-                               bool dimensionless);
+                               bool dimensionless,
+                               const std::vector<std::string>& wanted = {});
 
 }  // namespace myoid::recording
