@@ -46,7 +46,8 @@ std::size_t markers_in_columns(const std::vector<std::string_view>& lines, char 
   for (std::size_t n = 4; n < lines.size(); ++n) {
     auto cells = split(lines[n], separator);
     while (!cells.empty() && trim(cells.back()).empty()) cells.pop_back();
-    if (cells.size() >= 2 && parse_number(cells[0])) return cells.size() / 3;  // (cells - 2) / 3, rounded up
+    if (cells.size() >= 2 && parse_number(cells[0]))
+      return cells.size() / 3;  // (cells - 2) / 3, rounded up
   }
   return 0;
 }

@@ -22,8 +22,8 @@ struct TrcFile {
 /// header keys, numbering from X0, no line X1 Y1 Z1, comma separation, comma decimals, counts that
 /// disagree with the rows, rows that end early, a last row that is cut off, a repeated time,
 /// markers of one name, markers without
-/// a name (`marker_3` by its place). Throws ReadError with the line for an unknown unit, a cell that is no
-/// number, time that goes backwards, no marker, no row.
+/// a name (`marker_3` by its place). Throws ReadError with the line for an unknown unit, a cell
+/// that is no number, time that goes backwards, no marker, no row.
 [[nodiscard]] TrcFile read_trc(const std::filesystem::path& path);
 [[nodiscard]] TrcFile parse_trc(std::string_view text, const std::filesystem::path& path);
 
