@@ -8,9 +8,12 @@
 #include <mutex>
 
 #include <fmt/format.h>
+#include <oneapi/tbb/info.h>
 #include <unistd.h>
 
+#include "myoid/cli/granted_threads.h"
 #include "myoid/core/error.h"
+#include "myoid/recording/atomic_file.h"
 #include "myoid/recording/text_file.h"
 
 namespace myoid::cli {
@@ -43,6 +46,31 @@ struct ProgressBar {
 }  // namespace
 
 namespace {
+
+/// "run" of "myoid run study.toml --out results".
+std::string_view command_word(std::string_view command_line) {
+  const std::size_t first = command_line.find(' ');
+  if (first == std::string_view::npos) return {};
+  return command_line.substr(first + 1, command_line.find(' ', first + 1) - first - 1);
+}
+
+/// As many threads as --threads and the cores say, or as many fewer as the system grants: the
+/// scheduler ends the program where it cannot make one.
+void limit_threads(Context& context) {
+  const int wanted =
+      context.threads > 0 ? context.threads : oneapi::tbb::info::default_concurrency();
+  const int granted = wanted > 1 ? std::max(1, granted_threads(wanted)) : wanted;
+  if (granted < wanted) {
+    context.warn(fmt::format(
+        "the system grants fewer threads than the {} that are wanted; going on with {}: "
+        "more needs higher limits on processes and memory (ulimit -u, ulimit -v)",
+        wanted, granted));
+  }
+  if (context.threads > 0 || granted < wanted) {
+    context.thread_limit = std::make_shared<oneapi::tbb::global_control>(
+        oneapi::tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(granted));
+  }
+}
 
 CLI::Validator number_check(const char* name, bool zero_too) {
   return CLI::Validator(
@@ -146,28 +174,40 @@ void Context::protect_inputs(const std::filesystem::path& folder,
   }
 }
 
+recording::FolderLock& Context::lock_folder(const std::filesystem::path& folder) const {
+  return *locks.emplace_back(std::make_unique<recording::FolderLock>(folder));
+}
+
 void Context::prepare_folder(const std::filesystem::path& folder,
                              std::string_view unless_only) const {
   namespace fs = std::filesystem;
   if (folder.empty()) throw InvalidInput("--out is empty; name the folder for the results");
-  const auto counts = [&](const fs::directory_entry& entry) {
-    return entry.path().filename() != unless_only;
-  };
   std::error_code error;
   const fs::file_status status = fs::status(folder, error);
   if (fs::exists(status) && !fs::is_directory(status)) {
     throw InvalidInput(fmt::format("{} is a file; --out must name a folder", folder.string()));
   }
-  if (!overwrite && fs::exists(status) &&
-      std::any_of(fs::directory_iterator(folder), fs::directory_iterator(), counts)) {
-    throw InvalidInput(fmt::format(
-        "the folder {} is not empty; give --overwrite to write into it, or another --out",
-        folder.string()));
-  }
   fs::create_directories(folder, error);
   if (error)
     throw InvalidInput(
         fmt::format("cannot create the folder {}: {}", folder.string(), error.message()));
+  recording::FolderLock& lock = lock_folder(folder);
+  const std::optional<recording::FolderOwner>& dead = lock.left_behind();
+  const bool empty = !recording::holds_content(folder, unless_only);
+  const bool unfinished =
+      dead && dead->from_empty && command_word(dead->command) == command_word(command_line);
+  if (!overwrite && !empty && !unfinished) {
+    throw InvalidInput(fmt::format(
+        "the folder {} is not empty; give --overwrite to write into it, or another --out",
+        folder.string()));
+  }
+  const std::size_t swept = recording::sweep_temporaries(folder);
+  if (dead) {
+    log(fmt::format("note: the folder {} is taken over from a command that did not finish ({}){}",
+                    folder.string(), dead->sentence(),
+                    swept > 0 ? fmt::format("; {} half-written files are removed", swept) : ""));
+  }
+  lock.sign(command_line, empty || unfinished);
 }
 
 void add_common_options(CLI::App& command, Context& context, const CommonOptions& used) {
@@ -193,7 +233,8 @@ void add_common_options(CLI::App& command, Context& context, const CommonOptions
   unless(used.range, command.add_option("--end", context.end_s, "Last time that is used [s]"));
   unless(used.overwrite,
          command.add_flag("--overwrite", context.overwrite, "Replace existing results"));
-  command.parse_complete_callback([&context, idle, name = command.get_name()] {
+  command.parse_complete_callback([&context, idle, uses_threads = used.threads,
+                                   name = command.get_name()] {
     if (context.start_s && context.end_s && !(*context.start_s < *context.end_s)) {
       throw CLI::ValidationError("--end", fmt::format("expected a time after --start {}, found {}",
                                                       *context.start_s, *context.end_s));
@@ -202,11 +243,7 @@ void add_common_options(CLI::App& command, Context& context, const CommonOptions
       if (option->count() > 0)
         context.warn(fmt::format("--{} has no effect on {}", option->get_lnames().front(), name));
     }
-    if (context.threads > 0) {
-      context.thread_limit = std::make_shared<oneapi::tbb::global_control>(
-          oneapi::tbb::global_control::max_allowed_parallelism,
-          static_cast<std::size_t>(context.threads));
-    }
+    if (uses_threads) limit_threads(context);
   });
 }
 

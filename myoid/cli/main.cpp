@@ -7,6 +7,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -23,19 +24,43 @@
 namespace {
 
 /// Waits for Ctrl-C (or a polite kill): the first asks the work to stop, the second ends at once.
+/// Without a thread for it the first ends the program at once.
 void stop_on_signals(std::stop_source stop) {
   sigset_t signals;
   sigemptyset(&signals);
   sigaddset(&signals, SIGINT);
   sigaddset(&signals, SIGTERM);
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
-  std::thread([signals, stop]() mutable {
-    int received = 0;
-    sigwait(&signals, &received);
-    stop.request_stop();
-    sigwait(&signals, &received);
-    _exit(myoid::cli::kInterrupted);
-  }).detach();
+  try {
+    std::thread([signals, stop]() mutable {
+      int received = 0;
+      sigwait(&signals, &received);
+      stop.request_stop();
+      sigwait(&signals, &received);
+      _exit(myoid::cli::kInterrupted);
+    }).detach();
+  } catch (const std::system_error&) {
+    pthread_sigmask(SIG_UNBLOCK, &signals, nullptr);
+  }
+}
+
+/// An error that no caller can catch: the scheduler of the threads throws where it cannot make one.
+[[noreturn]] void end_with_a_message() {
+  std::string what = "unknown";
+  if (const std::exception_ptr error = std::current_exception()) {
+    try {
+      std::rethrow_exception(error);
+    } catch (const std::exception& known) {
+      what = known.what();
+    } catch (...) {
+    }
+  }
+  fmt::print(
+      stderr,
+      "error: the program cannot go on: {}\nIf a thread could not be made, give --threads 1, "
+      "or raise the limits on processes and memory (ulimit -u, ulimit -v).\n",
+      what);
+  _exit(myoid::cli::kInternalError);
 }
 
 /// A result that did not arrive is not done.
@@ -156,6 +181,7 @@ int main(int argc, char** argv) {
   cli::Context context;
   for (int i = 0; i < argc; ++i)
     context.command_line += (i == 0 ? "" : " ") + std::string(i == 0 ? "myoid" : argv[i]);
+  std::set_terminate(end_with_a_message);
   stop_on_signals(context.stop);
   try {
     const int code = run(argc, argv, context);

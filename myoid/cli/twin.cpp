@@ -42,8 +42,9 @@ simulation::Protocol protocol_of(const TwinOptions& options) {
   return protocol;
 }
 
-simulation::WriteOptions write_options(const TwinOptions& options, const Context& context) {
-  return {.overwrite = context.overwrite,
+/// For a folder that `prepare_folder` has looked at.
+simulation::WriteOptions write_options(const TwinOptions& options) {
+  return {.overwrite = true,
           .format = options.format == "c3d" ? simulation::RecordingFormat::c3d
                                             : simulation::RecordingFormat::text};
 }
@@ -69,8 +70,7 @@ void make_many(const TwinOptions& options, Context& context) {
         options.truth_only ? simulation::make_virtual_person(protocol, seed)
                            : simulation::make_virtual_recording(protocol, seed);
     if (!options.truth_only)
-      simulation::write_virtual_recording(recording, folder_of(out, seed),
-                                          write_options(options, context));
+      simulation::write_virtual_recording(recording, folder_of(out, seed), write_options(options));
     lines[i] = simulation::truth_row(recording);
     progress.tell(static_cast<double>(++done) / static_cast<double>(count),
                   fmt::format("{} of {} persons", done.load(), count));
@@ -95,9 +95,11 @@ void make_many(const TwinOptions& options, Context& context) {
 }
 
 void make_one(const TwinOptions& options, Context& context) {
+  const simulation::Protocol protocol = protocol_of(options);
+  context.prepare_folder(options.out);
   const simulation::VirtualRecording recording =
-      simulation::make_virtual_recording(protocol_of(options), context.seed);
-  simulation::write_virtual_recording(recording, options.out, write_options(options, context));
+      simulation::make_virtual_recording(protocol, context.seed);
+  simulation::write_virtual_recording(recording, options.out, write_options(options));
   context.log(fmt::format("{} trials, level {}, seed {}", recording.trials.size(),
                           simulation::name(recording.protocol.level), context.seed));
   const std::string study = (fs::path(options.out) / "study.toml").string();

@@ -1,11 +1,14 @@
 #include "myoid/recording/atomic_file.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <string>
+#include <vector>
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -18,6 +21,32 @@ namespace {
   throw InvalidInput(
       fmt::format("{}: {}: {}{}", path.string(), what, std::strerror(cause),
                   cause == ENOSPC ? "; free some space or choose another folder" : ""));
+}
+
+constexpr std::string_view kMark = ".myoid-part.";
+constexpr std::string_view kRandom = "XXXXXX";  ///< For mkstemp.
+
+/// The pattern of the temporary file beside a target. A name that is as long as the system allows
+/// is cut, so that the pattern fits too.
+std::string temporary_pattern(const std::filesystem::path& target) {
+  constexpr std::size_t kLongest = 200;
+  const std::string name = "." + target.filename().string().substr(0, kLongest) +
+                           std::string(kMark) + std::string(kRandom);
+  return (target.parent_path() / name).string();
+}
+
+/// An open temporary file, locked so that no other process sweeps it away; -1 with errno.
+int open_temporary(const std::filesystem::path& target, std::string& name) {
+  for (;;) {
+    name = temporary_pattern(target);
+    const int descriptor = mkostemp(name.data(), O_CLOEXEC);
+    if (descriptor < 0) return -1;
+    struct stat status {};
+    const bool swept = (flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) ||
+                       (fstat(descriptor, &status) == 0 && status.st_nlink == 0);
+    if (!swept) return descriptor;
+    close(descriptor);
+  }
 }
 
 /// 0, or what went wrong.
@@ -64,8 +93,8 @@ void write_file(const std::filesystem::path& path, std::string_view content, Flu
   if (exists && !S_ISREG(existing.st_mode)) return write_through(path, content);
 
   const std::filesystem::path target = is_link ? behind_links(path) : path;
-  std::string temporary = target.string() + ".XXXXXX";
-  int descriptor = mkstemp(temporary.data());
+  std::string temporary;
+  int descriptor = open_temporary(target, temporary);
   if (descriptor < 0 && (errno == ENOENT || errno == ENOTDIR) && target.has_parent_path()) {
     std::error_code error;
     std::filesystem::create_directories(target.parent_path(), error);
@@ -73,8 +102,7 @@ void write_file(const std::filesystem::path& path, std::string_view content, Flu
       throw InvalidInput(fmt::format("{}: cannot create the folder {}: {}", path.string(),
                                      target.parent_path().string(), error.message()));
     }
-    temporary = target.string() + ".XXXXXX";
-    descriptor = mkstemp(temporary.data());
+    descriptor = open_temporary(target, temporary);
   }
   if (descriptor < 0) fail(path, "cannot be written", errno);
   int cause = write_all(descriptor, content);
@@ -82,13 +110,43 @@ void write_file(const std::filesystem::path& path, std::string_view content, Flu
   if (cause == 0 &&
       (fchmod(descriptor, permissions) != 0 || (flush == Flush::now && fsync(descriptor) != 0)))
     cause = errno;
-  if (close(descriptor) != 0 && cause == 0) cause = errno;
+  // A close tells of what the disk refused late; the lock stays with the other descriptor.
+  if (close(dup(descriptor)) != 0 && cause == 0) cause = errno;
   // Some file systems flush what replaces another file; what takes a free name, they do not.
   if (cause == 0 && exists && flush == Flush::later) unlink(target.c_str());
-  if (cause == 0 && rename(temporary.c_str(), target.c_str()) == 0) return;
-  if (cause == 0) cause = errno;
-  unlink(temporary.c_str());
-  fail(path, "writing failed", cause);
+  if (cause == 0 && rename(temporary.c_str(), target.c_str()) != 0) cause = errno;
+  if (cause != 0) unlink(temporary.c_str());
+  close(descriptor);
+  if (cause != 0) fail(path, "writing failed", cause);
+}
+
+bool is_temporary(const std::filesystem::path& name) {
+  const std::string file = name.filename().string();
+  return file.size() > 1 + kMark.size() + kRandom.size() && file[0] == '.' &&
+         file.compare(file.size() - kRandom.size() - kMark.size(), kMark.size(), kMark) == 0;
+}
+
+std::size_t sweep_temporaries(const std::filesystem::path& folder) {
+  namespace fs = std::filesystem;
+  constexpr int kDeepest = 3;  // person, trial, figures: results lie no deeper
+  std::error_code error;
+  std::vector<fs::path> found;
+  for (auto it = fs::recursive_directory_iterator(
+           folder, fs::directory_options::skip_permission_denied, error);
+       !error && it != fs::recursive_directory_iterator(); it.increment(error)) {
+    if (it.depth() >= kDeepest) it.disable_recursion_pending();
+    if (is_temporary(it->path()) && it->symlink_status(error).type() == fs::file_type::regular)
+      found.push_back(it->path());
+  }
+  return static_cast<std::size_t>(
+      std::count_if(found.begin(), found.end(), [](const fs::path& file) {
+        const int descriptor = open(file.c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW);
+        if (descriptor < 0) return false;
+        const bool dead = flock(descriptor, LOCK_EX | LOCK_NB) == 0;
+        const bool removed = dead && unlink(file.c_str()) == 0;
+        close(descriptor);
+        return removed;
+      }));
 }
 
 }  // namespace myoid::recording

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <string_view>
 
@@ -18,5 +19,12 @@ enum class Flush { now, later };
 void write_file(const std::filesystem::path& path,
                 std::string_view content,
                 Flush flush = Flush::now);
+
+/// Whether a file of this name is the temporary one of `write_file`: ".ik.mot.myoid-part.a1B2c3".
+[[nodiscard]] bool is_temporary(const std::filesystem::path& name);
+
+/// Removes the temporary files that a killed process left in the folder and below it, and returns
+/// their number. A file that a living process writes stays: the writer holds a lock on it.
+std::size_t sweep_temporaries(const std::filesystem::path& folder);
 
 }  // namespace myoid::recording

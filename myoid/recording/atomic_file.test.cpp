@@ -1,5 +1,7 @@
 #include "myoid/recording/atomic_file.h"
 
+#include <algorithm>
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -9,6 +11,8 @@
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include "myoid/core/error.h"
 #include "myoid/recording/text_file.h"
@@ -83,6 +87,57 @@ TEST(WriteFile, WritesIntoAPipe) {
   reader.join();
   EXPECT_EQ(read, "through");
   EXPECT_TRUE(std::filesystem::is_fifo(pipe));
+}
+
+std::size_t temporaries_in(const std::filesystem::path& folder) {
+  return static_cast<std::size_t>(std::count_if(
+      std::filesystem::directory_iterator(folder), std::filesystem::directory_iterator(),
+      [](const auto& entry) { return is_temporary(entry.path().filename()); }));
+}
+
+TEST(WriteFile, AKilledProcessLeavesOneTemporaryFileWhichIsSwept) {
+  const test::TemporaryFolder folder;
+  const std::string content(20'000'000, 'x');
+  // The kill may fall between two files; a few of them do not.
+  for (int attempt = 0; attempt < 50 && temporaries_in(folder.path()) == 0; ++attempt) {
+    const pid_t child = fork();
+    ASSERT_GE(child, 0);
+    if (child == 0) {
+      for (;;) write_file(folder / "ik.mot", content, Flush::later);
+    }
+    while (temporaries_in(folder.path()) == 0) usleep(200);
+    kill(child, SIGKILL);
+    waitpid(child, nullptr, 0);
+  }
+  EXPECT_EQ(temporaries_in(folder.path()), 1U);
+  EXPECT_EQ(sweep_temporaries(folder.path()), 1U);
+  EXPECT_EQ(temporaries_in(folder.path()), 0U);
+}
+
+TEST(SweepTemporaries, LeavesTheFileThatALivingProcessWrites) {
+  const test::TemporaryFolder folder;
+  const std::string content(1'000'000, 'x');
+  const pid_t child = fork();
+  ASSERT_GE(child, 0);
+  if (child == 0) {
+    try {
+      for (int i = 0; i < 300; ++i) write_file(folder / "sub/ik.mot", content, Flush::later);
+    } catch (const InvalidInput&) {
+      _exit(1);  // its file was taken away
+    }
+    _exit(0);
+  }
+  int status = 0;
+  while (waitpid(child, &status, WNOHANG) == 0) EXPECT_LE(sweep_temporaries(folder.path()), 1U);
+  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0);
+  EXPECT_EQ(read_text_file(folder / "sub/ik.mot"), content);
+}
+
+TEST(WriteFile, TakesTheLongestNamesOfTheSystem) {
+  const test::TemporaryFolder folder;
+  const std::string name(255, 'n');
+  write_file(folder / name, "one");
+  EXPECT_EQ(read_text_file(folder / name), "one");
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "program.h"
 
 #include <chrono>
+#include <cstdlib>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
@@ -15,38 +16,62 @@
 
 namespace myoid::test {
 
-Finished myoid(const std::vector<std::string>& arguments,
-               double interrupt_after_s,
-               const std::string& stdout_to) {
-  const TemporaryFolder folder;
-  const std::string out = stdout_to.empty() ? std::string(folder / "out") : stdout_to;
-  const std::string err = folder / "err";
+Running::Running(const std::vector<std::string>& arguments,
+                 const std::string& stdout_to,
+                 const std::vector<std::string>& environment)
+    : stdout_to_(stdout_to) {
+  const std::string out = stdout_to.empty() ? std::string(folder_ / "out") : stdout_to;
+  const std::string err = folder_ / "err";
   std::vector<std::string> words{MYOID_PROGRAM};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> argv;
   for (std::string& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);
-  const pid_t child = fork();
-  if (child < 0) throw std::runtime_error("fork failed");
-  if (child == 0) {
-    const auto to = [](const char* path, int flags, int target) {
-      dup2(open(path, flags, 0600), target);
-    };
-    to("/dev/null", O_RDONLY, STDIN_FILENO);
-    to(out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, STDOUT_FILENO);
-    to(err.c_str(), O_WRONLY | O_CREAT | O_TRUNC, STDERR_FILENO);
-    execv(argv[0], argv.data());
-    _exit(127);
-  }
+  std::vector<std::string> settings = environment;
+  child_ = fork();
+  if (child_ < 0) throw std::runtime_error("fork failed");
+  if (child_ > 0) return;
+  const auto to = [](const char* path, int flags, int target) {
+    dup2(open(path, flags, 0600), target);
+  };
+  to("/dev/null", O_RDONLY, STDIN_FILENO);
+  to(out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, STDOUT_FILENO);
+  to(err.c_str(), O_WRONLY | O_CREAT | O_TRUNC, STDERR_FILENO);
+  for (std::string& setting : settings) putenv(setting.data());
+  execv(argv[0], argv.data());
+  _exit(127);
+}
+
+Running::~Running() {
+  if (ended()) return;
+  send(SIGKILL);
+  waitpid(child_, &status_, 0);
+}
+
+void Running::send(int signal) const { kill(child_, signal); }
+
+bool Running::ended() {
+  if (!ended_) ended_ = waitpid(child_, &status_, WNOHANG) == child_;
+  return ended_;
+}
+
+Finished Running::wait() {
+  if (!ended_) waitpid(child_, &status_, 0);
+  ended_ = true;
+  return {.exit_code = WIFEXITED(status_) ? WEXITSTATUS(status_) : 128 + WTERMSIG(status_),
+          .out = stdout_to_.empty() ? read_text(folder_ / "out") : "",
+          .err = read_text(folder_ / "err")};
+}
+
+Finished myoid(const std::vector<std::string>& arguments,
+               double interrupt_after_s,
+               const std::string& stdout_to) {
+  Running running(arguments, stdout_to);
   if (interrupt_after_s > 0.0) {
     std::this_thread::sleep_for(std::chrono::duration<double>(interrupt_after_s));
-    kill(child, SIGINT);
+    running.send(SIGINT);
   }
-  int status = 0;
-  waitpid(child, &status, 0);
-  return {.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status),
-          .out = stdout_to.empty() ? read_text(out) : "",
-          .err = read_text(err)};
+  return running.wait();
 }
 
 std::string read_text(const std::filesystem::path& file) {

@@ -5,6 +5,10 @@
 #include <string>
 #include <vector>
 
+#include <sys/types.h>
+
+#include "tests/support/temporary_folder.h"
+
 namespace myoid::test {
 
 /// What a finished program left behind.
@@ -12,6 +16,29 @@ struct Finished {
   int exit_code = -1;  ///< 128 + signal if it was killed.
   std::string out;     ///< stdout
   std::string err;     ///< stderr
+};
+
+/// The built `myoid` with these arguments while it runs, stdin closed; killed with this object.
+class Running {
+ public:
+  /// `environment` holds "NAME=value". With `stdout_to`, stdout goes there and is not read back.
+  explicit Running(const std::vector<std::string>& arguments,
+                   const std::string& stdout_to = "",
+                   const std::vector<std::string>& environment = {});
+  ~Running();
+  Running(const Running&) = delete;
+  Running& operator=(const Running&) = delete;
+
+  void send(int signal) const;
+  [[nodiscard]] bool ended();
+  [[nodiscard]] Finished wait();
+
+ private:
+  TemporaryFolder folder_;
+  std::string stdout_to_;
+  pid_t child_ = 0;
+  int status_ = 0;
+  bool ended_ = false;
 };
 
 /// Runs the built `myoid` with these arguments, stdin closed. `interrupt_after_s` > 0 sends SIGINT

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace myoid::recording {
+
+/// The process that writes into a folder, as the lock in the folder names it.
+struct FolderOwner {
+  long process = 0;
+  std::string host;
+  std::string since;        ///< UTC, "2026-05-07 14:03:22".
+  std::string command;      ///< The command line.
+  bool from_empty = false;  ///< The folder held nothing when the command began.
+
+  /// "process 4711 on 'lab3' since 2026-05-07 14:03:22 UTC: myoid run study.toml --out results".
+  [[nodiscard]] std::string sentence() const;
+};
+
+/// Keeps a folder for one process: a second one that asks for the folder is refused. The lock is
+/// the kernel's (flock on a file in the folder), so it ends with the process however the process
+/// ends; the file names the owner. Where the file system knows no such locks, the owner's process
+/// number and host decide.
+class FolderLock {
+ public:
+  static constexpr std::string_view kFile = ".myoid.lock";
+
+  /// Takes the folder, which exists. Throws InvalidInput, naming the owner, while another process
+  /// holds it, and if the folder cannot be written.
+  explicit FolderLock(std::filesystem::path folder);
+  /// Gives the folder back and removes the file.
+  ~FolderLock();
+  FolderLock(const FolderLock&) = delete;
+  FolderLock& operator=(const FolderLock&) = delete;
+
+  [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
+  /// The owner that ended without giving the folder back, if there is one: killed, or power was
+  /// lost.
+  [[nodiscard]] const std::optional<FolderOwner>& left_behind() const { return left_behind_; }
+  /// Writes this process into the file as the owner.
+  void sign(std::string_view command, bool from_empty);
+
+ private:
+  std::filesystem::path folder_;
+  std::optional<FolderOwner> left_behind_;
+  int descriptor_ = -1;
+  bool signed_ = false;
+};
+
+/// Whether the folder holds anything but locks, what a killed process left half-written, and an
+/// entry named `unless_only`.
+[[nodiscard]] bool holds_content(const std::filesystem::path& folder,
+                                 std::string_view unless_only = "");
+
+}  // namespace myoid::recording
