@@ -12,6 +12,7 @@
 #include <unistd.h>
 
 #include "myoid/cli/granted_threads.h"
+#include "myoid/cli/held_folders.h"
 #include "myoid/core/error.h"
 #include "myoid/recording/atomic_file.h"
 #include "myoid/recording/text_file.h"
@@ -174,10 +175,6 @@ void Context::protect_inputs(const std::filesystem::path& folder,
   }
 }
 
-recording::FolderLock& Context::lock_folder(const std::filesystem::path& folder) const {
-  return *locks.emplace_back(std::make_unique<recording::FolderLock>(folder));
-}
-
 void Context::prepare_folder(const std::filesystem::path& folder,
                              std::string_view unless_only) const {
   namespace fs = std::filesystem;
@@ -191,7 +188,7 @@ void Context::prepare_folder(const std::filesystem::path& folder,
   if (error)
     throw InvalidInput(
         fmt::format("cannot create the folder {}: {}", folder.string(), error.message()));
-  recording::FolderLock& lock = lock_folder(folder);
+  recording::FolderLock& lock = hold_folder(folder);
   const std::optional<recording::FolderOwner>& dead = lock.left_behind();
   const bool empty = !recording::holds_content(folder, unless_only);
   const bool unfinished =

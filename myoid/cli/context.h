@@ -12,7 +12,6 @@
 #include <oneapi/tbb/global_control.h>
 
 #include "myoid/core/progress.h"
-#include "myoid/recording/folder_lock.h"
 
 namespace myoid::cli {
 
@@ -48,7 +47,6 @@ struct Context {
   int exit_code = kDone;
   mutable std::vector<std::filesystem::path> new_folders;  ///< Of prepare_file; not there before.
   std::shared_ptr<oneapi::tbb::global_control> thread_limit;  ///< While it lives, --threads holds.
-  mutable std::vector<std::unique_ptr<recording::FolderLock>> locks;  ///< Of `prepare_folder`.
 
   /// One line on stderr, unless --quiet.
   void log(std::string_view line) const;
@@ -67,12 +65,8 @@ struct Context {
                     const std::vector<std::string>& inputs) const;
   /// Says on stderr, once each, which folders were made for single files: a slip in --out is seen.
   void tell_new_folders() const;
-  /// Creates the folder for results and keeps it for this process until the program ends. One that
-  /// holds anything but `unless_only` needs --overwrite, unless the same command left it unfinished
-  /// there when it was killed. Throws InvalidInput also where another process has the folder.
+  /// Creates the folder for results; one that holds anything but `unless_only` needs --overwrite.
   void prepare_folder(const std::filesystem::path& folder, std::string_view unless_only = "") const;
-  /// Keeps a folder for this process until the program ends; throws as FolderLock does.
-  recording::FolderLock& lock_folder(const std::filesystem::path& folder) const;
   /// Throws InvalidInput if one of the `inputs` lies in `folder` under a name that begins like one
   /// of the results there: it would be replaced.
   void protect_inputs(const std::filesystem::path& folder,

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "myoid/cli/context.h"
+#include "myoid/cli/held_folders.h"
 #include "myoid/core/error.h"
 #include "myoid/pipeline/run_study.h"
 #include "myoid/pipeline/study_json.h"
@@ -57,7 +58,7 @@ void add_report(CLI::App& app, Context& context) {
     provenance.command = run.value("command", context.command_line);
     provenance.inputs = result.inputs;
     provenance.options_json = pipeline::study_json(result.study);
-    context.lock_folder(*folder).sign(context.command_line, false);
+    hold_folder(*folder).sign(context.command_line, false);
     pipeline::write_motion_page(result, *folder);
     report::write_report(pipeline::study_report(result, provenance), *folder);
     context.end_progress();
