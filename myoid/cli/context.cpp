@@ -67,10 +67,13 @@ void limit_threads(Context& context) {
         "more needs higher limits on processes and memory (ulimit -u, ulimit -v)",
         wanted, granted));
   }
-  if (context.threads > 0 || granted < wanted) {
-    context.thread_limit = std::make_shared<oneapi::tbb::global_control>(
-        oneapi::tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(granted));
-  }
+  if (context.threads == 0 && granted == wanted) return;
+  context.thread_limit = std::make_shared<oneapi::tbb::global_control>(
+      oneapi::tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(granted));
+  // A limit that is lifted at the end lets the scheduler ask for a thread once more.
+  static const auto* const kept =
+      new std::shared_ptr<oneapi::tbb::global_control>(context.thread_limit);
+  (void)kept;
 }
 
 CLI::Validator number_check(const char* name, bool zero_too) {

@@ -62,7 +62,7 @@ std::optional<FolderOwner> read_owner(int descriptor) {
   return parse_owner({text.data(), static_cast<std::size_t>(size)});
 }
 
-[[noreturn]] void refuse(const fs::path& folder, const std::optional<FolderOwner>& owner) {
+[[noreturn]] void refuse_folder(const fs::path& folder, const std::optional<FolderOwner>& owner) {
   throw InvalidInput(fmt::format(
       "another myoid is writing into the folder {}{}; wait until it ends, or give another --out",
       folder.string(), owner ? " (" + owner->sentence() + ")" : ""));
@@ -103,7 +103,7 @@ FolderLock::FolderLock(fs::path folder) : folder_(std::move(folder)) {
     const std::optional<FolderOwner> owner = read_owner(descriptor);
     if (cause == EWOULDBLOCK || (!locked && may_live(owner))) {
       close(descriptor);
-      refuse(folder_, owner);
+      refuse_folder(folder_, owner);
     }
     if (is_still(path, descriptor)) {
       descriptor_ = descriptor;
@@ -112,7 +112,7 @@ FolderLock::FolderLock(fs::path folder) : folder_(std::move(folder)) {
     }
     close(descriptor);
   }
-  refuse(folder_, std::nullopt);
+  refuse_folder(folder_, std::nullopt);
 }
 
 FolderLock::~FolderLock() {
