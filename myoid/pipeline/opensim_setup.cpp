@@ -14,8 +14,22 @@
 namespace myoid::pipeline {
 namespace {
 
-constexpr const char* kTools[] = {"InverseKinematicsTool", "IKTool", "InverseDynamicsTool",
-                                  "AnalyzeTool", "ScaleTool"};
+constexpr const char* kTools[] = {
+    "InverseKinematicsTool", "IKTool",    "InverseDynamicsTool",     "AnalyzeTool", "ScaleTool",
+    "ForwardTool",           "IMUPlacer", "IMUInverseKinematicsTool"};
+
+/// What answers the question of a tool that is not run.
+std::string in_place_of(std::string_view tool) {
+  if (tool == "CMCTool") {
+    return "; in place of computed muscle control: AnalyzeTool with StaticOptimization gives the "
+           "muscles' forces along a motion, with MuscleAnalysis their fibers";
+  }
+  if (tool == "RRATool") {
+    return "; in place of residual reduction: InverseDynamicsTool shows the residual forces of the "
+           "pelvis, and ScaleTool adjusts the model's mass";
+  }
+  return "";
+}
 
 template <typename Force>
 void drop(std::vector<Force>& forces, const auto& is_dropped) {
@@ -37,11 +51,14 @@ OpensimSetup::OpensimSetup(const std::filesystem::path& path)
   }
   if (!tool_) {
     const auto first = model::OsimXml::first_element(root, {"defaults"});
-    xml_.fail(first ? first : root,
-              fmt::format("found <{}>, expected a set-up of InverseKinematicsTool, "
-                          "InverseDynamicsTool, ScaleTool or AnalyzeTool (StaticOptimization, "
-                          "MuscleAnalysis, Kinematics); other tools are not run",
-                          first ? first.name() : "nothing"));
+    xml_.fail(
+        first ? first : root,
+        fmt::format(
+            "found <{}>, expected a set-up of InverseKinematicsTool, "
+            "InverseDynamicsTool, ForwardTool, ScaleTool, IMUPlacer, IMUInverseKinematicsTool or "
+            "AnalyzeTool (StaticOptimization, MuscleAnalysis, Kinematics, ...); other "
+            "tools are not run{}",
+            first ? first.name() : "nothing", first ? in_place_of(first.name()) : std::string()));
   }
   if (const auto defaults = root.child("defaults")) xml_.set_prototypes(defaults);
 }
@@ -67,9 +84,9 @@ std::filesystem::path OpensimSetup::required_file(pugi::xml_node object, const c
 
 std::vector<std::filesystem::path> OpensimSetup::inputs() const {
   std::vector<std::filesystem::path> files{path_};
-  for (const char* name :
-       {"model_file", "marker_file", "marker_set_file", "coordinates_file", "coordinate_file",
-        "states_file", "speeds_file", "external_loads_file"}) {
+  for (const char* name : {"model_file", "marker_file", "marker_set_file", "coordinates_file",
+                           "coordinate_file", "states_file", "speeds_file", "external_loads_file",
+                           "orientations_file", "orientation_file_for_calibration"}) {
     // In the tool itself or, when scaling, in one of its stages.
     if (const auto found = file(tool_, name)) files.push_back(*found);
     for (const auto stage : tool_.children()) {

@@ -1,5 +1,7 @@
 #include "myoid/pipeline/run_tool.h"
 
+#include "myoid/pipeline/tool_forward.h"
+#include "myoid/pipeline/tool_orientations.h"
 #include "myoid/pipeline/tool_stages.h"
 
 namespace myoid::pipeline {
@@ -15,6 +17,12 @@ ToolResult run_tool(const std::filesystem::path& path, const ToolOptions& option
     run_inverse_dynamics(setup, options, result);
   } else if (result.tool == "ScaleTool") {
     run_scale(setup, options, result);
+  } else if (result.tool == "ForwardTool") {
+    run_forward(setup, options, result);
+  } else if (result.tool == "IMUPlacer") {
+    run_imu_placer(setup, options, result);
+  } else if (result.tool == "IMUInverseKinematicsTool") {
+    run_imu_inverse_kinematics(setup, options, result);
   } else {
     run_analyses(setup, options, result);
   }

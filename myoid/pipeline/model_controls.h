@@ -1,0 +1,20 @@
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "myoid/pipeline/opensim_setup.h"
+#include "myoid/simulation/excitation.h"
+
+namespace myoid::pipeline {
+
+/// Controls over time by the names of muscles and actuators.
+using ModelControls = std::map<std::string, simulation::Signal>;
+
+/// The controls that the set-up's <ControllerSet> gives: of ControlSetControllers with a
+/// <controls_file>, a table (.sto) or a <ControlSet> (.xml) of ControlLinear and ControlConstant.
+/// "<name>.excitation" and ".../<name>" are the muscle's. Throws ReadError for another controller
+/// that is enabled, and for a file that is no controls.
+[[nodiscard]] ModelControls read_model_controls(const OpensimSetup& setup);
+
+}  // namespace myoid::pipeline
