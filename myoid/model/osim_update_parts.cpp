@@ -48,8 +48,10 @@ bool is_path_point(std::string_view kind) {
 void update_switch(pugi::xml_node object) {
   const auto old = object.child("isDisabled");
   if (!old) return;
-  const bool constraint = std::string_view(object.name()).ends_with("Constraint");
-  const char* name = constraint ? "isEnforced" : "appliesForce";
+  const std::string_view kind = object.name();
+  const char* name = kind.ends_with("Constraint")                   ? "isEnforced"
+                     : ends_with_any(kind, {"Controller", "Probe"}) ? "enabled"
+                                                                    : "appliesForce";
   const std::string text = child_text(object, "isDisabled");
   const bool disabled = recording::equal_ignoring_case(text, "true") || text == "1";
   if (!object.child(name))

@@ -21,11 +21,8 @@ namespace {
 /// A model of an old document while its bodies and joints are brought into the newest form.
 class ModelUpdate {
  public:
-  ModelUpdate(const OsimXml& source,
-              pugi::xml_node model,
-              const OsimUpdateOptions& options,
-              std::vector<std::string>& notes)
-      : source_(source), model_(model), options_(options), notes_(notes) {}
+  ModelUpdate(const OsimXml& source, pugi::xml_node model, const OsimUpdateOptions& options)
+      : source_(source), model_(model), options_(options) {}
 
   void run() {
     leave_engine();
@@ -306,7 +303,6 @@ class ModelUpdate {
   const OsimXml& source_;
   pugi::xml_node model_, joints_;
   const OsimUpdateOptions& options_;
-  std::vector<std::string>& notes_;
   std::set<std::string> has_joint_;
 };
 
@@ -371,7 +367,7 @@ UpdatedOsim updated_osim(std::string_view text,
   for (const auto node : root.children()) spread_defaults(node);
   update_parts(root, result.old_version);
   if (const auto model = root.child("Model")) {
-    ModelUpdate(source, model, options, result.notes).run();
+    ModelUpdate(source, model, options).run();
     for (const auto node : model.children()) {
       const std::string file = node.attribute("file").value();
       if (!file.empty() && file != "Unassigned") {

@@ -57,8 +57,8 @@ void report_bodies(AnalysisRun& run, pugi::xml_node node);
 /// PointKinematics: place, velocity and acceleration of a point of a body, in the axes of another.
 void report_point(AnalysisRun& run, pugi::xml_node node);
 
-/// The forces of all actuators at the motion's rows: tendons' of muscles by their states, 0 of
-/// others. Computed once for the rows.
+/// The forces of all actuators at the motion's rows: tendons' of muscles by their states, others'
+/// by the set-up's controls, else 0. Computed once for the rows.
 [[nodiscard]] const TimeSeries& forces_of_states(AnalysisRun& run);
 /// Accelerations of all coordinates that these forces, passive forces, gravity and external loads
 /// make at the motion's rows, as OpenSim's analyses report them: rows x coordinates [rad/s^2,

@@ -77,16 +77,20 @@ void read_control_set(const std::filesystem::path& path, ModelControls& controls
 
 }  // namespace
 
-ModelControls read_model_controls(const OpensimSetup& setup) {
+ModelControls read_model_controls(const OpensimSetup& setup, std::vector<std::string>* notes) {
   const auto& xml = setup.xml();
   ModelControls controls;
   for (const auto node : OsimXml::objects(xml.property(setup.tool(), "ControllerSet"))) {
     if (node.type() != pugi::node_element) continue;
     if (!xml.flag(node, "enabled", !xml.flag(node, "isDisabled", false))) continue;
     if (std::string_view(node.name()) != "ControlSetController") {
-      xml.fail(node, fmt::format("controller '{}' of kind {} is not run; give its controls as a "
-                                 "table to a ControlSetController (<controls_file>)",
-                                 OsimXml::name_of(node), node.name()));
+      const std::string message = fmt::format(
+          "controller '{}' of kind {} is not run; give its controls as a table to a "
+          "ControlSetController (<controls_file>)",
+          OsimXml::name_of(node), node.name());
+      if (notes == nullptr) xml.fail(node, message);
+      notes->push_back(message);
+      continue;
     }
     const auto path = setup.required_file(node, "controls_file");
     if (path.extension() == ".xml") {

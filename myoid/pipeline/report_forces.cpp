@@ -11,6 +11,7 @@
 #include "myoid/model/constraints.h"
 #include "myoid/model/kinematic_tree.h"
 #include "myoid/pipeline/analysis_reports.h"
+#include "myoid/pipeline/model_controls.h"
 #include "myoid/pipeline/opensim_files.h"
 
 namespace myoid::pipeline {
@@ -121,6 +122,16 @@ const TimeSeries& forces_of_states(AnalysisRun& run) {
       }
     }
   }
+  const ModelControls controls = read_model_controls(run.setup, &run.result.notes);
+  for (std::size_t k = 0; k < actuators.size(); ++k) {
+    const auto control = controls.find(actuators[k].name);
+    if (actuators[k].kind == forces::Actuator::Kind::muscle || control == controls.end()) continue;
+    const double strength = forces::actuator_strength(run.model, actuators[k]);
+    for (Eigen::Index i = 0; i < values.rows(); ++i) {
+      values(i, static_cast<Eigen::Index>(k)) =
+          strength * simulation::value_at(control->second, run.motion.q.time_s()[i]);
+    }
+  }
   run.state_forces.emplace(run.motion.q.time_s(), std::move(channels), std::move(values));
   return *run.state_forces;
 }
@@ -134,7 +145,8 @@ const Eigen::MatrixXd* accelerations_of(AnalysisRun& run) {
           {.loads = run.loads ? &*run.loads : nullptr, .progress = run.options.progress});
       notes.emplace_back(
           "accelerations are those that the forces make, as in OpenSim: muscles pull by their "
-          "states, other actuators do nothing; they are not the motion's second derivatives");
+          "states, other actuators by their controls; they are not the motion's second "
+          "derivatives");
     } catch (const ModelError& error) {
       run.accelerations.emplace();
       notes.push_back(fmt::format("accelerations are not written: {}", error.what()));

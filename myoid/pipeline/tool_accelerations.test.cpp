@@ -156,5 +156,28 @@ TEST_F(ToolAccelerations, ActuationHasForceSpeedAndPower) {
   EXPECT_EQ(read("a_act_power.sto").channel_count(), 2);
 }
 
+// Controls of a file drive the motors: 2 of a strength of 3 accelerate by 6 N m more, and do work
+// at the pendulum's speed.
+TEST_F(ToolAccelerations, CountTheControlsOfActuators) {
+  write("controls.sto",
+        "c\nversion=1\nnRows=2\nnColumns=2\ninDegrees=no\nendheader\ntime\t/forceset/strong\n"
+        "0\t2\n1\t2\n");
+  std::ignore = run(
+      "<AnalyzeTool name=\"a\"><model_file>pendulum.osim</model_file><initial_time>0</initial_time>"
+      "<final_time>0.59</final_time><coordinates_file>motion.mot</coordinates_file><ControllerSet>"
+      "<objects><ControlSetController><controls_file>controls.sto</controls_file>"
+      "</ControlSetController></objects></ControllerSet><AnalysisSet><objects>" +
+      std::string(kKinematics) + "<Actuation name=\"act\"/></objects></AnalysisSet></AnalyzeTool>");
+  const TimeSeries acceleration = read("a_k_dudt.sto"), power = read("a_act_power.sto");
+  const auto rows = swings();
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    const auto i = static_cast<Eigen::Index>(k);
+    EXPECT_NEAR(acceleration.values()(i, 0), rows[k].acceleration + 6.0 / kAbout_hinge_kgm2,
+                kDecimals);
+    EXPECT_NEAR(power.column("strong")[i], 6.0 * rows[k].u, kDecimals);
+    EXPECT_EQ(power.column("weak")[i], 0.0);
+  }
+}
+
 }  // namespace
 }  // namespace myoid::pipeline
