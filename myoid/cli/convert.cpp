@@ -22,6 +22,7 @@
 #include "myoid/recording/recording.h"
 #include "myoid/recording/storage_reader.h"
 #include "myoid/recording/storage_writer.h"
+#include "myoid/recording/text_rows.h"
 #include "myoid/recording/trc_writer.h"
 #include "myoid/signals/resample.h"
 
@@ -178,13 +179,13 @@ class Converter {
   }
 
   /// Writes channels that were read in SI.
-  void write_read(const fs::path& out, const TimeSeries& series) const {
-    require_channels(series);
-    recording::write_channels(out, series, recording::statement_of(series, o_.in));
+  void write_read(const fs::path& out, const recording::RowSource& rows) const {
+    require_channels(rows.channels);
+    recording::write_channels(out, rows, recording::statement_of(rows.channels, o_.in));
   }
 
-  void require_channels(const TimeSeries& series) const {
-    if (series.channel_count() == 0)
+  void require_channels(const std::vector<Channel>& channels) const {
+    if (channels.empty())
       throw ReadError(o_.in, 0,
                       "every channel has samples that are no numbers; a .csv file holds them");
   }
@@ -194,11 +195,21 @@ class Converter {
     report(file.repairs);
     const recording::ChannelStatement all = recording::statement_of(file);
     recording::ChannelStatement said{all.title, all.in_degrees, {}};
-    const TimeSeries series = chosen(file.data, out, o_.in);
-    require_channels(series);
-    for (const Channel& c : series.channels())
-      said.units.push_back(all.units[static_cast<std::size_t>(*file.data.find(c.name))]);
-    recording::write_channels(out, series, said);
+    const recording::AnalogChannels read = std::move(file.data);
+    const bool as_read = stays(read, out);
+    const recording::AnalogChannels changed =
+        as_read ? recording::AnalogChannels() : chosen(read, out, o_.in);
+    const recording::AnalogChannels& written = as_read ? read : changed;
+    require_channels(written.channels());
+    for (const Channel& c : written.channels())
+      said.units.push_back(all.units[static_cast<std::size_t>(*read.find(c.name))]);
+    recording::write_channels(out, recording::rows_of(written), said);
+  }
+
+  /// Whether all channels are written as they were read: then they stay as compact as they are.
+  [[nodiscard]] bool stays(const recording::AnalogChannels& channels, const fs::path& out) const {
+    return o_.channels.empty() && !context_.start_s && !context_.end_s && o_.rate_hz <= 0.0 &&
+           (!is_storage(out.string()) || channels.all_finite());
   }
 
   /// The channels asked for, in the time and at the rate asked for. Neither a storage file nor a
@@ -236,7 +247,7 @@ class Converter {
   void channels(const fs::path& out) {
     context_.prepare_file(out, {o_.in, o_.analog});
     if (o_.what == "emg" || !o_.unit.empty()) {
-      write_read(out, chosen(voltages(o_.in), out, o_.in));
+      write_read(out, recording::rows_of(chosen(voltages(o_.in), out, o_.in)));
     } else if (is_storage(o_.in)) {
       storage_channels(out);
     } else {
@@ -245,7 +256,11 @@ class Converter {
       if (file.analog.empty())
         throw ReadError(o_.in, 0,
                         "there are no analog channels to write; markers go to a .trc file");
-      write_read(out, chosen(file.analog, out, o_.in));
+      if (stays(file.analog, out)) {
+        write_read(out, recording::rows_of(file.analog));
+      } else {
+        write_read(out, recording::rows_of(chosen(file.analog, out, o_.in)));
+      }
     }
     wrote(out);
   }
@@ -299,19 +314,22 @@ class Converter {
   void write_all_channels(const fs::path& folder,
                           const std::string& stem,
                           const recording::Recording& file) {
-    const auto write = [&](const fs::path& out, const TimeSeries& series) {
-      if (series.channel_count() == 0) return;
+    const auto write = [&](const fs::path& out, const recording::RowSource& rows) {
+      if (rows.channels.empty()) return;
       context_.prepare_file(out, {o_.in, o_.analog});
-      write_read(out, series);
+      write_read(out, rows);
       wrote(out);
     };
     const fs::path all = folder / (stem + "_analog.sto");
-    const TimeSeries series = chosen(file.analog, all, o_.in);
-    write(all, series);
+    const bool as_read = stays(file.analog, all);
+    const recording::AnalogChannels changed =
+        as_read ? recording::AnalogChannels() : chosen(file.analog, all, o_.in);
+    const recording::AnalogChannels& series = as_read ? file.analog : changed;
+    write(all, recording::rows_of(series));
     std::vector<std::string> volts = recording::emg_channels(file.analog.channels(), file.plates);
     if (!o_.channels.empty() || volts.size() == file.analog.channels().size()) return;
     std::erase_if(volts, [&](const std::string& name) { return !series.find(name); });
-    write(folder / (stem + "_emg.sto"), series.select(volts));
+    write(folder / (stem + "_emg.sto"), recording::rows_of(series, volts));
   }
 
   void to_c3d(const fs::path& out, const std::string& from) {

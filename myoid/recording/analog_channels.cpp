@@ -1,6 +1,7 @@
 #include "myoid/recording/analog_channels.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <utility>
 
@@ -15,20 +16,42 @@ Eigen::Index rows_of(const AnalogCounts& counts) {
   return std::visit([](const auto& values) { return values.rows(); }, counts.values);
 }
 
-/// One column in the unit as written, times `factor`.
+/// Rows [first, first + count) of one column.
 template <typename Out>
-void convert(const AnalogCounts& counts, Eigen::Index column, bool to_si, Out&& out) {
+void convert(const AnalogCounts& counts,
+             Eigen::Index column,
+             Eigen::Index first,
+             Eigen::Index count,
+             bool to_si,
+             Out&& out) {
   const CountScale& scale = counts.scales[static_cast<std::size_t>(column)];
   std::visit(
       [&](const auto& values) {
-        const auto count = values.col(column).template cast<double>().array();
+        const auto stored =
+            values.col(column).segment(first, count).template cast<double>().array();
         if (to_si) {
-          out = ((count - scale.offset) * scale.scale * scale.to_si).matrix();
+          out = (scale.base + (stored - scale.offset) * scale.scale * scale.to_si).matrix();
         } else {
-          out = ((count - scale.offset) * scale.scale).matrix();
+          out = ((stored - scale.offset) * scale.scale).matrix();
         }
       },
       counts.values);
+}
+
+double time_of(const RecordClock& clock, Eigen::Index sample) {
+  return clock.begin_s[static_cast<std::size_t>(sample / clock.per_record)] +
+         static_cast<double>(sample % clock.per_record) * clock.interval_s;
+}
+
+void require_times(const RecordClock& clock, Eigen::Index samples) {
+  if (static_cast<Eigen::Index>(clock.begin_s.size()) * clock.per_record != samples)
+    throw InvalidInput(fmt::format("{} records of {} samples for {} samples", clock.begin_s.size(),
+                                   clock.per_record, samples));
+  for (Eigen::Index i = 1; i < samples; ++i) {
+    if (!(time_of(clock, i) > time_of(clock, i - 1)))
+      throw InvalidInput(fmt::format("time does not increase: {} s after {} s", time_of(clock, i),
+                                     time_of(clock, i - 1)));
+  }
 }
 
 }  // namespace
@@ -44,6 +67,7 @@ AnalogChannels::AnalogChannels(std::vector<Channel> channels, AnalogCounts count
     throw InvalidInput(fmt::format("{} columns of counts, {} channels, {} scales, {} Hz", columns,
                                    channels_.size(), counts_->scales.size(), counts_->rate_hz));
   }
+  if (counts_->records) require_times(*counts_->records, rows_of(*counts_));
   // The names must be as a TimeSeries has them.
   static_cast<void>(
       TimeSeries(Eigen::VectorXd::Zero(1), channels_,
@@ -66,22 +90,36 @@ std::optional<Eigen::Index> AnalogChannels::find(std::string_view name) const {
   return static_cast<Eigen::Index>(it - list.begin());
 }
 
-Eigen::VectorXd AnalogChannels::time_s() const {
-  if (!counts_) return series_.time_s();
-  Eigen::VectorXd time(sample_count());
-  for (Eigen::Index i = 0; i < time.size(); ++i)
-    time[i] = (counts_->first_sample + static_cast<double>(i)) / counts_->rate_hz;
+Eigen::VectorXd AnalogChannels::time_s(Eigen::Index first, Eigen::Index count) const {
+  if (!counts_) return series_.time_s().segment(first, count);
+  Eigen::VectorXd time(count);
+  for (Eigen::Index i = 0; i < count; ++i)
+    time[i] = counts_->records
+                  ? time_of(*counts_->records, first + i)
+                  : (counts_->first_sample + static_cast<double>(first + i)) / counts_->rate_hz;
   return time;
+}
+
+Eigen::MatrixXd AnalogChannels::rows(Eigen::Index first,
+                                     Eigen::Index count,
+                                     const std::vector<Eigen::Index>& columns) const {
+  Eigen::MatrixXd values(count, static_cast<Eigen::Index>(columns.size()));
+  for (std::size_t k = 0; k < columns.size(); ++k) {
+    auto out = values.col(static_cast<Eigen::Index>(k));
+    if (counts_) {
+      convert(*counts_, columns[k], first, count, true, out);
+    } else {
+      out = series_.values().col(columns[k]).segment(first, count);
+    }
+  }
+  return values;
 }
 
 TimeSeries AnalogChannels::converted(const std::vector<Eigen::Index>& columns) const {
   std::vector<Channel> chosen;
-  Eigen::MatrixXd values(sample_count(), static_cast<Eigen::Index>(columns.size()));
-  for (std::size_t k = 0; k < columns.size(); ++k) {
-    chosen.push_back(channels_[static_cast<std::size_t>(columns[k])]);
-    convert(*counts_, columns[k], true, values.col(static_cast<Eigen::Index>(k)));
-  }
-  return {time_s(), std::move(chosen), std::move(values)};
+  for (const Eigen::Index column : columns)
+    chosen.push_back(channels_[static_cast<std::size_t>(column)]);
+  return {time_s(), std::move(chosen), rows(0, sample_count(), columns)};
 }
 
 TimeSeries AnalogChannels::series() const {
@@ -92,19 +130,33 @@ TimeSeries AnalogChannels::series() const {
 }
 
 TimeSeries AnalogChannels::select(const std::vector<std::string>& names) const {
-  if (!counts_) return series_.select(names);
+  return counts_ ? converted(columns_of(names)) : series_.select(names);
+}
+
+std::vector<Eigen::Index> AnalogChannels::columns_of(const std::vector<std::string>& names) const {
   std::vector<Eigen::Index> columns;
   for (const std::string& name : names) {
     const auto column = find(name);
     if (!column) {
-      const TimeSeries list(Eigen::VectorXd::Zero(1), channels_,
+      const TimeSeries list(Eigen::VectorXd::Zero(1), channels(),
                             Eigen::MatrixXd::Zero(1, channel_count()));
       columns.push_back(list.index(name));  // throws, with the names there are
     } else {
       columns.push_back(*column);
     }
   }
-  return converted(columns);
+  return columns;
+}
+
+bool AnalogChannels::all_finite() const {
+  if (!counts_) return series_.values().allFinite();
+  const auto* reals = std::get_if<AnalogCounts::Columns<float>>(&counts_->values);
+  return (reals == nullptr || reals->allFinite()) &&
+         std::all_of(counts_->scales.begin(), counts_->scales.end(), [](const CountScale& scale) {
+           // Counts are below 1e39.
+           return std::isfinite(scale.base + scale.offset) &&
+                  std::abs(scale.scale) * std::max(1.0, std::abs(scale.to_si)) < 1e250;
+         });
 }
 
 Eigen::MatrixXd AnalogChannels::as_written(const std::vector<Eigen::Index>& columns) const {
@@ -112,7 +164,7 @@ Eigen::MatrixXd AnalogChannels::as_written(const std::vector<Eigen::Index>& colu
   for (std::size_t k = 0; k < columns.size(); ++k) {
     auto out = values.col(static_cast<Eigen::Index>(k));
     if (counts_) {
-      convert(*counts_, columns[k], false, out);
+      convert(*counts_, columns[k], 0, sample_count(), false, out);
     } else {
       out = series_.values().col(columns[k]);
     }

@@ -1,19 +1,33 @@
 #include "myoid/recording/channel_writer.h"
 
 #include <algorithm>
+#include <fstream>
+#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "myoid/recording/emg_reader.h"
 #include "myoid/recording/recording.h"
-#include "myoid/recording/storage_writer.h"
+#include "myoid/recording/table_writer.h"
 #include "myoid/recording/text_file.h"
 
 namespace myoid::recording {
 namespace {
 
 constexpr std::string_view kInDegrees = "inDegrees=yes";
+
+/// Whether a remark above a table says so; the table itself is not read.
+bool remarks_degrees(const std::filesystem::path& file) {
+  std::ifstream stream(file);
+  for (std::string line; std::getline(stream, line);) {
+    if (line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);
+    const std::string_view text = trim(line);
+    if (!text.empty() && !text.starts_with('#')) return false;
+    if (text.ends_with(kInDegrees)) return true;
+  }
+  return false;
+}
 
 }  // namespace
 
@@ -29,25 +43,19 @@ ChannelStatement statement_of(const Storage& file) {
   return said;
 }
 
-ChannelStatement statement_of(const TimeSeries& series, const std::filesystem::path& file) {
+ChannelStatement statement_of(const std::vector<Channel>& channels,
+                              const std::filesystem::path& file) {
   ChannelStatement said;
-  if (extension_of(file) == ".csv") {
-    const std::string text = read_text_file(file);
-    for (std::string_view line : split_lines(text)) {
-      line = trim(line);
-      if (!line.empty() && !line.starts_with('#')) break;
-      said.in_degrees = said.in_degrees || line.ends_with(kInDegrees);
-    }
-  }
-  for (const Channel& c : series.channels())
+  if (extension_of(file) == ".csv") said.in_degrees = remarks_degrees(file);
+  for (const Channel& c : channels)
     said.units.emplace_back(c.unit == Unit::dimensionless ? std::string_view() : symbol(c.unit));
   return said;
 }
 
 void write_channels(const std::filesystem::path& out,
-                    const TimeSeries& series,
+                    RowSource rows,
                     const ChannelStatement& said) {
-  std::vector<Channel> named = series.channels();
+  std::vector<Channel>& named = rows.channels;
   if (extension_of(out) == ".csv") {
     for (std::size_t c = 0; c < named.size(); ++c) {
       if (!said.units[c].empty()) named[c].name += " [" + said.units[c] + "]";
@@ -55,7 +63,7 @@ void write_channels(const std::filesystem::path& out,
     }
     std::vector<std::string> remarks;
     if (said.in_degrees) remarks.emplace_back(kInDegrees);
-    write_csv(out, TimeSeries(series.time_s(), std::move(named), series.values()), remarks);
+    write_csv(out, rows, remarks);
     return;
   }
   StorageFormat format;
@@ -82,7 +90,7 @@ void write_channels(const std::filesystem::path& out,
     std::replace(c.name.begin(), c.name.end(), '\t', ' ');
     c.unit = Unit::dimensionless;
   }
-  write_storage(out, TimeSeries(series.time_s(), std::move(named), series.values()), format);
+  write_storage(out, rows, format);
 }
 
 }  // namespace myoid::recording

@@ -6,6 +6,7 @@
 
 #include "myoid/core/time_series.h"
 #include "myoid/recording/storage_reader.h"
+#include "myoid/recording/text_rows.h"
 
 namespace myoid::recording {
 
@@ -23,7 +24,7 @@ struct ChannelStatement {
 
 /// Of channels that were read from a file in SI. A table may have the remark of write_channels on
 /// degrees.
-[[nodiscard]] ChannelStatement statement_of(const TimeSeries& series,
+[[nodiscard]] ChannelStatement statement_of(const std::vector<Channel>& channels,
                                             const std::filesystem::path& file);
 
 /// Writes channels with what was said of them, so that reading brings back the same: a .csv with
@@ -31,8 +32,6 @@ struct ChannelStatement {
 /// title, inDegrees and units: "unit=uV" where all columns have one voltage, else "channel NAME
 /// [unit]". It says that the units are S.I. only where all of them are. The numbers are written as
 /// they are.
-void write_channels(const std::filesystem::path& out,
-                    const TimeSeries& series,
-                    const ChannelStatement& said);
+void write_channels(const std::filesystem::path& out, RowSource rows, const ChannelStatement& said);
 
 }  // namespace myoid::recording

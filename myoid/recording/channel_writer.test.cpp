@@ -22,7 +22,7 @@ class ChannelWriter : public ::testing::Test {
   /// A storage text written to another file, and what stands there.
   std::string written(const std::string& text, const std::string& name) {
     const Storage storage = parse_storage(text, "in.sto");
-    write_channels(file(name), storage.data, statement_of(storage));
+    write_channels(file(name), rows_of(storage.data), statement_of(storage));
     return read_text_file(file(name));
   }
 
@@ -49,9 +49,9 @@ TEST_F(ChannelWriter, ATableHasTheUnitInItsHeaderCellsAndReadsBackInVolts) {
   EXPECT_TRUE(
       written(kMicrovolts, "b.csv").starts_with("time_s,BIC [uV],TRI [uV]\n0,-1.01,2.49\n"));
   const CsvSeries table = read_csv_series(file("b.csv"));
-  const ChannelStatement said = statement_of(table.data, file("b.csv"));
+  const ChannelStatement said = statement_of(table.data.channels(), file("b.csv"));
   EXPECT_THAT(said.units, ::testing::ElementsAre("V", "V"));
-  write_channels(file("c.sto"), table.data, said);
+  write_channels(file("c.sto"), rows_of(table.data), said);
   EXPECT_THAT(read_text_file(file("c.sto")), HasSubstr("\nunit=V\n"));
   EXPECT_DOUBLE_EQ(read_emg(file("c.sto"), "", false).data.values()(1, 1), 3.11e-6);
 }
@@ -62,7 +62,7 @@ TEST_F(ChannelWriter, DegreesAreSaidInBothKindsOfFile) {
   EXPECT_THAT(written(motion, "b.mot"), HasSubstr("\ninDegrees=yes\n"));
   EXPECT_TRUE(written(motion, "b.csv").starts_with("# inDegrees=yes\ntime_s,knee\n0,30.5\n"));
   const TimeSeries table = read_csv_series(file("b.csv")).data;
-  write_channels(file("c.mot"), table, statement_of(table, file("b.csv")));
+  write_channels(file("c.mot"), rows_of(table), statement_of(table.channels(), file("b.csv")));
   const Storage back = read_storage(file("c.mot"));
   EXPECT_TRUE(back.in_degrees);
   EXPECT_EQ(back.data.values()(0, 0), 30.5);
@@ -71,7 +71,7 @@ TEST_F(ChannelWriter, DegreesAreSaidInBothKindsOfFile) {
 TEST_F(ChannelWriter, UnitsOfTheirOwnStandBesideTheChannelsAndComeBack) {
   const TimeSeries series(Eigen::VectorXd::Zero(1), {{"BIC", Unit::volt}, {"grip", Unit::newton}},
                           Eigen::MatrixXd::Constant(1, 2, 0.5));
-  write_channels(file("b.sto"), series, statement_of(series, "in.c3d"));
+  write_channels(file("b.sto"), rows_of(series), statement_of(series.channels(), "in.c3d"));
   const Storage back = read_storage(file("b.sto"));
   EXPECT_EQ(back.units.at("BIC"), "V");
   EXPECT_EQ(back.units.at("grip"), "N");

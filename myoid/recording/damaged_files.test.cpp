@@ -211,7 +211,7 @@ std::vector<Kind> kinds() {
   list.push_back({"edf", edf,
                   [bytes](const std::string& t) {
                     EdfFile f = parse_edf(bytes(t), "f.edf");
-                    return of(f.data, f.repairs);
+                    return of(f.data.series(), f.repairs);
                   },
                   false});
   return list;

@@ -5,7 +5,9 @@
 #include <map>
 #include <set>
 #include <string>
+#include <type_traits>
 #include <utility>
+#include <variant>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -209,6 +211,35 @@ std::vector<std::size_t> choose(const Header& header, std::vector<Repair>& repai
   return by_rate[best];
 }
 
+/// 16 bits stay 16 bits; a real holds 24 bits.
+decltype(AnalogCounts::values) room_for(const Header& header,
+                                        Eigen::Index rows,
+                                        std::size_t signals) {
+  const auto columns = static_cast<Eigen::Index>(signals);
+  if (header.bdf) return AnalogCounts::Columns<float>(rows, columns);
+  return AnalogCounts::Columns<std::int16_t>(rows, columns);
+}
+
+/// The samples that a record holds of the chosen signals, from row `first` on.
+void take_samples(const Header& header,
+                  const std::vector<std::size_t>& chosen,
+                  std::span<const std::byte> record,
+                  Eigen::Index first,
+                  AnalogCounts& counts) {
+  std::visit(
+      [&](auto& values) {
+        using Count = typename std::decay_t<decltype(values)>::Scalar;
+        for (std::size_t c = 0; c < chosen.size(); ++c) {
+          const Signal& signal = header.signals[chosen[c]];
+          const std::byte* p = record.data() + signal.offset;
+          Count* out = &values(first, static_cast<Eigen::Index>(c));
+          for (std::size_t i = 0; i < signal.per_record; ++i, p += header.sample_bytes)
+            out[i] = static_cast<Count>(sample(p, header.bdf));
+        }
+      },
+      counts.values);
+}
+
 EdfFile read_edf_source(ByteSource& source, const std::filesystem::path& path) {
   EdfFile file;
   const Header header = read_header(source, path, file.repairs);
@@ -234,17 +265,17 @@ EdfFile read_edf_source(ByteSource& source, const std::filesystem::path& path) {
         fmt::format("byte 244: a record lasts {} s, so there is no rate", header.record_s));
 
   std::vector<Channel> channels;
-  std::vector<double> gain;
-  std::vector<double> base;
+  AnalogCounts counts;
   std::set<std::string> seen;
   for (const std::size_t s : chosen) {
     const Signal& signal = header.signals[s];
     const auto unit = parse_c3d_unit(signal.dimension);
     const double to_si = unit ? unit->to_si : 1.0;
     file.has_unit.push_back(unit.has_value());
-    gain.push_back(to_si * (signal.physical_max - signal.physical_min) /
-                   (signal.digital_max - signal.digital_min));
-    base.push_back(to_si * signal.physical_min - gain.back() * signal.digital_min);
+    const double gain = to_si * (signal.physical_max - signal.physical_min) /
+                        (signal.digital_max - signal.digital_min);
+    counts.scales.push_back(
+        {.scale = gain, .base = to_si * signal.physical_min - gain * signal.digital_min});
     const std::string stem = signal.label.empty() ? fmt::format("signal_{}", s + 1) : signal.label;
     std::string name = stem;
     for (int k = 2; !seen.insert(name).second; ++k) {
@@ -258,8 +289,8 @@ EdfFile read_edf_source(ByteSource& source, const std::filesystem::path& path) {
 
   const auto per_record = static_cast<Eigen::Index>(header.signals[chosen[0]].per_record);
   const double dt = header.record_s / static_cast<double>(per_record);
-  Eigen::VectorXd time(records * per_record);
-  Eigen::MatrixXd values(time.size(), static_cast<Eigen::Index>(chosen.size()));
+  counts.values = room_for(header, records * per_record, chosen.size());
+  counts.records = RecordClock{.per_record = per_record, .interval_s = dt};
   std::optional<double> previous;
   std::optional<double> zero_s;  // On the clock of the stamps: the begin of the first record.
   bool stamps_agree = true;
@@ -300,15 +331,8 @@ EdfFile read_edf_source(ByteSource& source, const std::filesystem::path& path) {
             {0, fmt::format("the recording pauses from {:.6g} s to {:.6g} s", *previous, begin)});
       previous = begin + header.record_s;
     }
-    for (Eigen::Index i = 0; i < per_record; ++i)
-      time[r * per_record + i] = begin + static_cast<double>(i) * dt;
-    for (std::size_t c = 0; c < chosen.size(); ++c) {
-      const std::byte* p = record.data() + header.signals[chosen[c]].offset;
-      for (Eigen::Index i = 0; i < per_record; ++i, p += header.sample_bytes) {
-        values(r * per_record + i, static_cast<Eigen::Index>(c)) =
-            base[c] + gain[c] * static_cast<double>(sample(p, header.bdf));
-      }
-    }
+    counts.records->begin_s.push_back(begin);
+    take_samples(header, chosen, record, r * per_record, counts);
   }
   if (zero_s.value_or(0.0) != 0.0) {
     for (C3dEvent& event : file.events) event.time_s -= *zero_s;
@@ -318,7 +342,7 @@ EdfFile read_edf_source(ByteSource& source, const std::filesystem::path& path) {
                         *zero_s)});
   }
   try {
-    file.data = TimeSeries(std::move(time), std::move(channels), std::move(values));
+    file.data = AnalogChannels(std::move(channels), std::move(counts));
   } catch (const InvalidInput& error) {
     throw ReadError(path, 0, error.what());
   }

@@ -5,14 +5,15 @@
 #include <span>
 #include <vector>
 
-#include "myoid/core/time_series.h"
+#include "myoid/recording/analog_channels.h"
 #include "myoid/recording/c3d_file.h"
 #include "myoid/recording/text_file.h"
 
 namespace myoid::recording {
 
 struct EdfFile {
-  TimeSeries data;  ///< The signals of the highest rate that has a voltage, else of the highest.
+  AnalogChannels
+      data;  ///< The signals of the highest rate that has a voltage, else of the highest.
   std::vector<bool> has_unit;    ///< Per channel: its dimension is known.
   std::vector<C3dEvent> events;  ///< Annotations of EDF+ and BDF+.
   std::vector<Repair> repairs;

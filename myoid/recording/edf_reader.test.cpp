@@ -83,8 +83,8 @@ TEST(Edf, SamplesBecomeVoltsAtTheirTimes) {
   EXPECT_EQ(file.data.channels()[0], (Channel{"EMG Biceps", Unit::volt}));
   EXPECT_DOUBLE_EQ(file.data.time_s()[5], 0.625);
   for (int i = 0; i < 12; ++i) {
-    EXPECT_NEAR(file.data.values()(i, 0), 0.5e-6 * (10 * i - 30), 1e-18);
-    EXPECT_NEAR(file.data.values()(i, 1), 0.05e-3 * i, 1e-18);
+    EXPECT_NEAR(file.data.series().values()(i, 0), 0.5e-6 * (10 * i - 30), 1e-18);
+    EXPECT_NEAR(file.data.series().values()(i, 1), 0.05e-3 * i, 1e-18);
   }
   EXPECT_EQ(file.repairs.size(), 1U);
 }
@@ -94,8 +94,8 @@ TEST(Edf, BdfHolds24Bits) {
   const EdfFile file = parse(make_edf(true, "24BIT", one, 2, 2, [](std::size_t, int i) {
     return i % 2 == 0 ? -8388608 : 8388607;
   }));
-  EXPECT_NEAR(file.data.values()(0, 0), -0.262144, 1e-12);
-  EXPECT_NEAR(file.data.values()(1, 0), 0.262143, 1e-12);
+  EXPECT_NEAR(file.data.series().values()(0, 0), -0.262144, 1e-12);
+  EXPECT_NEAR(file.data.series().values()(1, 0), 0.262143, 1e-12);
 }
 
 TEST(Edf, AnnotationsAreEventsAndRecordsWithGapsSayTheirTime) {

@@ -113,7 +113,7 @@ std::optional<CsvSeries> read_channels(const std::filesystem::path& path, bool v
   }
   if (is(".edf") || is(".bdf")) {
     EdfFile file = read_edf(path);
-    return CsvSeries{std::move(file.data), std::move(file.has_unit), std::move(file.repairs)};
+    return CsvSeries{file.data.series(), std::move(file.has_unit), std::move(file.repairs)};
   }
   if (is(".c3d")) {
     std::vector<bool> has_unit;

@@ -1,27 +1,33 @@
 #include "myoid/recording/trc_writer.h"
 
+#include <algorithm>
+#include <charconv>
+
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
-#include "myoid/recording/atomic_file.h"
-#include "myoid/recording/text_file.h"
+#include "myoid/recording/file_in_parts.h"
+#include "myoid/recording/text_rows.h"
 
 namespace myoid::recording {
 namespace {
 
 /// In millimeters, with the fewest digits that read back to the same meters: 15 where these do.
-std::string millimeters(double meters) {
-  const std::string text = fmt::format("{:.15g}", 1000.0 * meters);
-  const auto back = parse_number(text);
-  return back && *back * 1e-3 == meters ? format_number(*back) : format_number(1000.0 * meters);
+char* put_millimeters(char* at, double meters) {
+  const double exact = 1000.0 * meters;
+  char* const end = put_number(at, exact);
+  const auto digits = std::count_if(at, end, [](char c) { return c >= '0' && c <= '9'; });
+  if (digits <= 15) return end;  // 15 digits are these
+  char text[NumberText::kRoom];
+  const char* const stop =
+      std::to_chars(text, text + sizeof text, exact, std::chars_format::general, 15).ptr;
+  double back = 0.0;
+  std::from_chars(text, stop, back);
+  return back * 1e-3 == meters ? put_number(at, back) : end;
 }
 
-}  // namespace
-
-std::string format_trc(const MarkerSeries& markers, const std::string& file_name) {
+std::string trc_header(const MarkerSeries& markers, const std::string& file_name) {
   const Eigen::Index frames = markers.frame_count();
-  if (frames == 0 || markers.names.empty())
-    throw InvalidInput("a .trc file needs at least one frame and one marker");
   const double rate = frames > 1 ? static_cast<double>(frames - 1) /
                                        (markers.time_s[frames - 1] - markers.time_s[0])
                                  : 0.0;
@@ -44,22 +50,44 @@ std::string format_trc(const MarkerSeries& markers, const std::string& file_name
     axes += fmt::format("\tX{0}\tY{0}\tZ{0}", m + 1);
   }
   text += "\t\t\n" + axes + "\n\n";
-  for (Eigen::Index frame = 0; frame < frames; ++frame) {
-    text += fmt::format("{}\t{}", frame + 1, format_number(markers.time_s[frame]));
-    for (Eigen::Index m = 0; m < markers.marker_count(); ++m) {
-      for (Eigen::Index axis = 0; axis < 3; ++axis) {
-        text += '\t';
-        if (!markers.missing(frame, m))
-          text += millimeters(markers.positions_m(frame, 3 * m + axis));
+  return text;
+}
+
+void put_trc(const MarkerSeries& markers, const std::string& file_name, const TextSink& sink) {
+  if (markers.frame_count() == 0 || markers.names.empty())
+    throw InvalidInput("a .trc file needs at least one frame and one marker");
+  sink(trc_header(markers, file_name));
+  const RowText text = [&](Eigen::Index first, Eigen::Index count, NumberText&, char* at) {
+    for (Eigen::Index frame = first; frame < first + count; ++frame) {
+      at = std::to_chars(at, at + NumberText::kRoom, frame + 1).ptr;
+      *at++ = '\t';
+      at = put_number(at, markers.time_s[frame]);
+      for (Eigen::Index m = 0; m < markers.marker_count(); ++m) {
+        for (Eigen::Index axis = 0; axis < 3; ++axis) {
+          *at++ = '\t';
+          if (!markers.missing(frame, m))
+            at = put_millimeters(at, markers.positions_m(frame, 3 * m + axis));
+        }
       }
+      *at++ = '\n';
     }
-    text += '\n';
-  }
+    return at;
+  };
+  write_rows(markers.frame_count(), 2 + 3 * markers.marker_count(), text, sink);
+}
+
+}  // namespace
+
+std::string format_trc(const MarkerSeries& markers, const std::string& file_name) {
+  std::string text;
+  put_trc(markers, file_name, [&](std::string_view part) { text += part; });
   return text;
 }
 
 void write_trc(const std::filesystem::path& path, const MarkerSeries& markers) {
-  write_file(path, format_trc(markers, path.filename().string()));
+  FileInParts file(path);
+  put_trc(markers, path.filename().string(), [&](std::string_view part) { file.append(part); });
+  file.finish();
 }
 
 }  // namespace myoid::recording

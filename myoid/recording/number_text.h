@@ -1,0 +1,49 @@
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace myoid::recording {
+
+/// Writes the shortest text that reads back to the same double (format_number) at a place with
+/// NumberText::kRoom bytes; returns the place behind it.
+[[nodiscard]] char* put_number(char* at, double value);
+
+/// Shortest decimal texts that read back to the same double, as format_number gives them. Numbers
+/// of a recording repeat, because an A/D converter has 65,536 values or fewer: the texts of the
+/// latest numbers are kept and copied. Not for several threads at once.
+class NumberText {
+ public:
+  static constexpr std::size_t kRoom = 32;
+
+  /// For about `count` numbers: few are not worth keeping.
+  explicit NumberText(std::size_t count);
+
+  /// A number that is put soon: its text is fetched meanwhile, which takes longer than copying it.
+  void announce(double value) const {
+    if (unasked_ == 0 && !kept_.empty())
+      __builtin_prefetch(&kept_[index_of(std::bit_cast<std::uint64_t>(value))]);
+  }
+
+  /// Writes the number at a place with kRoom bytes; returns the place behind it.
+  [[nodiscard]] char* put(char* at, double value);
+
+ private:
+  static constexpr int kIndexBits = 16;
+  struct alignas(32) Kept {  // two to a line of the processor's cache
+    std::uint64_t bits = 0;  ///< Of the number; of an entry that is not used, those of 0.
+    std::array<char, 23> text{'0'};
+    std::uint8_t size = 1;
+  };
+  static std::size_t index_of(std::uint64_t bits) {
+    return (bits * 0x9E3779B97F4A7C15ULL) >> (64 - kIndexBits);
+  }
+  std::vector<Kept> kept_;
+  int asked_ = 0, found_ = 0;  ///< Within the current thousand.
+  int unasked_ = 0;            ///< Numbers to come for which asking is not worth it.
+};
+
+}  // namespace myoid::recording
