@@ -8,7 +8,8 @@
 //            TOML file is cut off at the end of a line: no reader can know; the rest is as written
 //   WRONG    another number or less than was written, in silence, or an error that is none of ours
 //
-// Ends with 1 if there is a WRONG one. --list prints every file.
+// Then the commands run on every file, each as a process (commands.h). Ends with 1 if there is a
+// WRONG file, a command that breaks its promise, or too few files. --list prints every file.
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -22,6 +23,7 @@
 #include "myoid/core/error.h"
 #include "myoid/recording/atomic_file.h"
 
+#include "tests/damage/commands.h"
 #include "tests/damage/damages.h"
 #include "tests/damage/kinds.h"
 #include "tests/pipeline/program.h"
@@ -178,6 +180,8 @@ Judgement judge(const Kind& kind, const Content& good, const Damaged& file, cons
                       d.added.size(), d.texts)};
 }
 
+constexpr int kFewest = 850;  ///< Damaged files; fewer are a fault of this test.
+
 const char* word(Verdict verdict) {
   constexpr const char* kWords[] = {"right", "stated", "doubtful", "refused", "itself", "WRONG"};
   return kWords[static_cast<std::size_t>(verdict)];
@@ -193,7 +197,9 @@ int main(int argc, char** argv) {
   std::vector<std::string> kinds;
   std::map<Verdict, int> sum;
   int wrong = 0;
-  for (const Kind& kind : good_files(folder.path())) {
+  std::vector<Variant> variants;
+  const std::vector<Kind> good_kinds = good_files(folder.path());
+  for (const Kind& kind : good_kinds) {
     kinds.push_back(kind.name);
     const fs::path path = folder / kind.file;
     myoid::recording::write_file(path, kind.bytes);
@@ -204,6 +210,7 @@ int main(int argc, char** argv) {
     }
     std::set<std::string> asked;
     for (const Damaged& file : damaged(kind)) {
+      variants.push_back({&kind, file});
       Judgement j = judge(kind, good, file, path);
       if (j.verdict == Verdict::refused && asked.insert(file.what).second) {
         std::vector<std::string> command = kind.command;
@@ -244,5 +251,9 @@ int main(int argc, char** argv) {
     all += count;
   }
   fmt::print("of {} damaged files\n", all);
-  return wrong > 0 || all < 200 ? 1 : 0;
+  const CommandRuns commands = run_commands(variants);
+  for (const std::string& failure : commands.failures) fmt::print("{}\n", failure);
+  fmt::print("{} runs of commands, {} broke their promise; at most {:.0f} MB\n", commands.runs,
+             commands.failures.size(), commands.most_memory_mb);
+  return wrong > 0 || all < kFewest || !commands.failures.empty() ? 1 : 0;
 }

@@ -9,6 +9,7 @@
 
 #include <fcntl.h>
 #include <signal.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -18,7 +19,8 @@ namespace myoid::test {
 
 Running::Running(const std::vector<std::string>& arguments,
                  const std::string& stdout_to,
-                 const std::vector<std::string>& environment)
+                 const std::vector<std::string>& environment,
+                 const Limits& limits)
     : stdout_to_(stdout_to) {
   const std::string out = stdout_to.empty() ? std::string(folder_ / "out") : stdout_to;
   const std::string err = folder_ / "err";
@@ -38,6 +40,11 @@ Running::Running(const std::vector<std::string>& arguments,
   to(out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, STDOUT_FILENO);
   to(err.c_str(), O_WRONLY | O_CREAT | O_TRUNC, STDERR_FILENO);
   for (std::string& setting : settings) putenv(setting.data());
+  if (limits.memory_bytes > 0) {
+    const rlimit memory{limits.memory_bytes, limits.memory_bytes};
+    setrlimit(RLIMIT_DATA, &memory);
+  }
+  alarm(limits.time_s);  // Outlives execv; 0 is none.
   execv(argv[0], argv.data());
   _exit(127);
 }
@@ -51,22 +58,31 @@ Running::~Running() {
 void Running::send(int signal) const { kill(child_, signal); }
 
 bool Running::ended() {
-  if (!ended_) ended_ = waitpid(child_, &status_, WNOHANG) == child_;
+  if (ended_) return true;
+  rusage used{};
+  ended_ = wait4(child_, &status_, WNOHANG, &used) == child_;
+  if (ended_) most_memory_bytes_ = static_cast<std::uint64_t>(used.ru_maxrss) * 1024;
   return ended_;
 }
 
 Finished Running::wait() {
-  if (!ended_) waitpid(child_, &status_, 0);
-  ended_ = true;
+  if (!ended_) {
+    rusage used{};
+    wait4(child_, &status_, 0, &used);
+    most_memory_bytes_ = static_cast<std::uint64_t>(used.ru_maxrss) * 1024;
+    ended_ = true;
+  }
   return {.exit_code = WIFEXITED(status_) ? WEXITSTATUS(status_) : 128 + WTERMSIG(status_),
           .out = stdout_to_.empty() ? read_text(folder_ / "out") : "",
-          .err = read_text(folder_ / "err")};
+          .err = read_text(folder_ / "err"),
+          .most_memory_bytes = most_memory_bytes_};
 }
 
 Finished myoid(const std::vector<std::string>& arguments,
                double interrupt_after_s,
-               const std::string& stdout_to) {
-  Running running(arguments, stdout_to);
+               const std::string& stdout_to,
+               const Limits& limits) {
+  Running running(arguments, stdout_to, {}, limits);
   if (interrupt_after_s > 0.0) {
     std::this_thread::sleep_for(std::chrono::duration<double>(interrupt_after_s));
     running.send(SIGINT);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <string>
@@ -13,9 +14,17 @@ namespace myoid::test {
 
 /// What a finished program left behind.
 struct Finished {
-  int exit_code = -1;  ///< 128 + signal if it was killed.
-  std::string out;     ///< stdout
-  std::string err;     ///< stderr
+  int exit_code = -1;                   ///< 128 + signal if it was killed.
+  std::string out;                      ///< stdout
+  std::string err;                      ///< stderr
+  std::uint64_t most_memory_bytes = 0;  ///< Resident at once.
+};
+
+/// What a program may take; 0 for no limit. Beyond the memory its allocations fail; beyond the time
+/// it is killed.
+struct Limits {
+  std::uint64_t memory_bytes = 0;
+  unsigned time_s = 0;
 };
 
 /// The built `myoid` with these arguments while it runs, stdin closed; killed with this object.
@@ -24,7 +33,8 @@ class Running {
   /// `environment` holds "NAME=value". With `stdout_to`, stdout goes there and is not read back.
   explicit Running(const std::vector<std::string>& arguments,
                    const std::string& stdout_to = "",
-                   const std::vector<std::string>& environment = {});
+                   const std::vector<std::string>& environment = {},
+                   const Limits& limits = {});
   ~Running();
   Running(const Running&) = delete;
   Running& operator=(const Running&) = delete;
@@ -38,6 +48,7 @@ class Running {
   std::string stdout_to_;
   pid_t child_ = 0;
   int status_ = 0;
+  std::uint64_t most_memory_bytes_ = 0;
   bool ended_ = false;
 };
 
@@ -45,7 +56,8 @@ class Running {
 /// then. With `stdout_to`, stdout goes there and is not read back.
 [[nodiscard]] Finished myoid(const std::vector<std::string>& arguments,
                              double interrupt_after_s = 0.0,
-                             const std::string& stdout_to = "");
+                             const std::string& stdout_to = "",
+                             const Limits& limits = {});
 
 [[nodiscard]] std::string read_text(const std::filesystem::path& file);
 void write_text(const std::filesystem::path& file, const std::string& text);
