@@ -17,11 +17,13 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::string name = "f" + std::string(fuzz::kInfoKinds[kind]);
   const auto path = fuzz::folder() / name;
   fuzz::write(name, fuzz::text(data + 1, size - 1));
-  fuzz::read([&] {
+  try {
     auto contents = pipeline::recording_contents(path);
     if (!contents) contents = pipeline::model_contents(myoid::model::read_osim(path));
     fuzz::require(!pipeline::contents_text(*contents).empty());
     fuzz::require(!pipeline::json_text(*contents).empty());
-  });
+  } catch (const myoid::ReadError&) {
+  } catch (const myoid::ModelError&) {
+  }
   return 0;
 }
