@@ -7,6 +7,7 @@
 
 #include "myoid/cli/context.h"
 #include "myoid/pipeline/check_study.h"
+#include "myoid/pipeline/json_values.h"
 #include "myoid/recording/recording.h"
 
 namespace myoid::cli {
@@ -66,7 +67,7 @@ void add_check(CLI::App& app, Context& context) {
         json.back()["end_s"] = f.fault->end_s;
         json.back()["value"] = f.fault->value;
       }
-      fmt::print("{}\n", json.dump(2));
+      fmt::print("{}\n", pipeline::json_text(json));
     } else {
       // What to do is said with the first of several faults that ask for the same.
       std::set<std::string> said;

@@ -9,6 +9,7 @@
 #include "myoid/cli/context.h"
 #include "myoid/cli/stage_input.h"
 #include "myoid/core/error.h"
+#include "myoid/pipeline/json_values.h"
 #include "myoid/recording/atomic_file.h"
 #include "myoid/recording/bids_derivative.h"
 #include "myoid/recording/c3d_reader.h"
@@ -135,7 +136,7 @@ class Converter {
  private:
   void print_written() const {
     if (context_.json) {
-      fmt::print("{}\n", nlohmann::ordered_json{{"files", written_}}.dump(2));
+      fmt::print("{}\n", pipeline::json_text(nlohmann::ordered_json{{"files", written_}}));
     } else {
       for (const std::string& file : written_) fmt::print("{}\n", file);
     }

@@ -7,6 +7,7 @@
 #include "myoid/cli/context.h"
 #include "myoid/cli/stage_input.h"
 #include "myoid/core/error.h"
+#include "myoid/pipeline/json_values.h"
 #include "myoid/recording/channel_choice.h"
 #include "myoid/recording/emg_reader.h"
 #include "myoid/recording/recording.h"
@@ -219,7 +220,7 @@ void add_emg(CLI::App& app, Context& context) {
                                     {"reference_time_s", n.source_time_s},
                                     {"from_mvc", n.from_mvc}});
       }
-      fmt::print("{}\n", json.dump(2));
+      fmt::print("{}\n", pipeline::json_text(json));
       return;
     }
     for (const auto& n : normalisation) {
