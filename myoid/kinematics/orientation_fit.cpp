@@ -1,12 +1,15 @@
 #include "myoid/kinematics/orientation_fit.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
+#include <Eigen/QR>
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
 #include "myoid/core/index.h"
+#include "myoid/model/constraints.h"
 #include "myoid/model/kinematic_tree.h"
 
 namespace myoid::kinematics {
@@ -69,6 +72,135 @@ recording::MarkerSeries axis_ends(const recording::OrientationSeries& series,
   return markers;
 }
 
+/// Steps of Gauss and Newton on the angles of the sensors, in the free coordinates.
+class AngleFit {
+ public:
+  AngleFit(const model::BodyModel& model,
+           const recording::OrientationSeries& series,
+           const std::vector<SensorOnBody>& sensors)
+      : model_(model), series_(series), sensors_(sensors), state_(model::make_state(model)) {
+    std::vector<bool> depends(model.coordinates.size(), false);
+    for (const model::CoordinateCoupler& c : model.couplers) depends[at(c.dependent)] = true;
+    for (const model::LoopConstraint& c : model.constraints)
+      depends[at(std::get<model::FunctionConstraint>(c.law).dependent)] = true;
+    for (std::size_t c = 0; c < depends.size(); ++c) {
+      const model::Coordinate& k = model.coordinates[c];
+      if (!k.locked && !k.prescribed && !depends[c]) free_.push_back(static_cast<Eigen::Index>(c));
+    }
+  }
+
+  /// The nearest minimum; false where the steps do not end.
+  [[nodiscard]] bool improve(Eigen::VectorXd& q, Eigen::Index frame) {
+    double cost = linearize(q, frame);
+    for (int iteration = 0; iteration < 50 && !free_.empty(); ++iteration) {
+      hold_at_ends(q);
+      Eigen::VectorXd step = hessian_.completeOrthogonalDecomposition().solve(pull_);
+      const double longest = step.cwiseAbs().maxCoeff();
+      if (longest < 1e-10) return true;
+      if (longest > kFar) step *= kFar / longest;
+      double share = 1.0;
+      for (; share > 1e-6; share *= 0.5) {
+        const Eigen::VectorXd next = moved(q, share * step);
+        const double then = linearize(next, frame);
+        if (!(then <= cost)) continue;
+        cost = then;
+        q = next;
+        break;
+      }
+      if (share > 1e-6) continue;
+      return longest < 1e-6;  // the cost is known to round-off
+    }
+    return free_.empty();
+  }
+
+ private:
+  static constexpr double kFar = 0.3;  ///< Longest step [rad].
+
+  /// How all coordinates move with the free ones.
+  [[nodiscard]] Eigen::MatrixXd rates(const Eigen::VectorXd& q) const {
+    Eigen::MatrixXd T = Eigen::MatrixXd::Zero(q.size(), static_cast<Eigen::Index>(free_.size()));
+    for (std::size_t k = 0; k < free_.size(); ++k) T(free_[k], static_cast<Eigen::Index>(k)) = 1.0;
+    const std::size_t rounds = model_.couplers.size() + model_.constraints.size();
+    for (std::size_t round = 0; round < rounds; ++round) {
+      for (const model::CoordinateCoupler& c : model_.couplers)
+        T.row(c.dependent) = evaluate(c.function, q[c.independent]).first * T.row(c.independent);
+      for (const model::LoopConstraint& c : model_.constraints) {
+        const auto& f = std::get<model::FunctionConstraint>(c.law);
+        const Eigen::VectorXd gradient =
+            evaluate(f.function, Eigen::VectorXd(q(f.independent))).gradient;
+        const Eigen::RowVectorXd rate = gradient.transpose() * T(f.independent, Eigen::all);
+        T.row(f.dependent) = rate;
+      }
+    }
+    return T;
+  }
+
+  [[nodiscard]] Eigen::Matrix3Xd turning_rates(model::BodyIndex body, Eigen::Index count) const {
+    Eigen::Matrix3Xd J = Eigen::Matrix3Xd::Zero(3, count);
+    for (model::BodyIndex b = body; b != 0;) {
+      const model::Joint& joint = model_.joints[at(model_.joint_of_body[at(b)])];
+      for (const int c : joint.coordinates) J.col(c) = state_.H_w_G[at(c)];
+      b = joint.parent;
+    }
+    return J;
+  }
+
+  /// The cost at q, and the pull of the sensors on the free coordinates.
+  double linearize(const Eigen::VectorXd& q, Eigen::Index frame) {
+    model::compute_poses(model_, q, state_);
+    const Eigen::MatrixXd T = rates(q);
+    hessian_ = Eigen::MatrixXd::Zero(T.cols(), T.cols());
+    pull_ = Eigen::VectorXd::Zero(T.cols());
+    double cost = 0.0;
+    for (const SensorOnBody& sensor : sensors_) {
+      const Mat3 measured = series_.rotation(frame, sensor.column);
+      if (!measured.allFinite()) continue;
+      const Mat3 R_GS = state_.X_GB[at(sensor.body)].R * sensor.R_BS;
+      const Eigen::AngleAxisd apart(Mat3(measured * R_GS.transpose()));
+      const Eigen::MatrixXd J = turning_rates(sensor.body, q.size()) * T;
+      cost += 0.5 * sensor.weight * apart.angle() * apart.angle();
+      hessian_ += sensor.weight * J.transpose() * J;
+      pull_ += sensor.weight * apart.angle() * J.transpose() * apart.axis();
+    }
+    return cost;
+  }
+
+  /// Clamped coordinates that are pulled out of their range stay.
+  void hold_at_ends(const Eigen::VectorXd& q) {
+    for (std::size_t k = 0; k < free_.size(); ++k) {
+      const model::Coordinate& c = model_.coordinates[at(free_[k])];
+      const auto i = static_cast<Eigen::Index>(k);
+      const bool out = (q[free_[k]] >= c.upper - 1e-9 && pull_[i] > 0.0) ||
+                       (q[free_[k]] <= c.lower + 1e-9 && pull_[i] < 0.0);
+      if (!c.clamped || !out) continue;
+      pull_[i] = 0.0;
+      hessian_.row(i).setZero();
+      hessian_.col(i).setZero();
+    }
+  }
+
+  [[nodiscard]] Eigen::VectorXd moved(Eigen::VectorXd q, const Eigen::VectorXd& step) const {
+    for (std::size_t k = 0; k < free_.size(); ++k) {
+      const model::Coordinate& c = model_.coordinates[at(free_[k])];
+      double& value = q[free_[k]];
+      const double before = value;
+      value += step[static_cast<Eigen::Index>(k)];
+      // One that begins outside its range by round-off may stay there.
+      if (c.clamped)
+        value = std::clamp(value, std::min(c.lower, before), std::max(c.upper, before));
+    }
+    return model::assemble(model_, q).q;
+  }
+
+  const model::BodyModel& model_;
+  const recording::OrientationSeries& series_;
+  const std::vector<SensorOnBody>& sensors_;
+  std::vector<Eigen::Index> free_;
+  model::BodyState state_;
+  Eigen::MatrixXd hessian_;
+  Eigen::VectorXd pull_;
+};
+
 Eigen::MatrixXd angles_between(const model::BodyModel& model,
                                const TimeSeries& q,
                                const recording::OrientationSeries& series,
@@ -104,11 +236,24 @@ OrientationFit fit_orientations(const model::BodyModel& model,
   }
   IkResult solved = inverse_kinematics(turning, axis_ends(series, sensors), options);
   OrientationFit fit;
-  fit.errors_rad = TimeSeries(series.time_s, std::move(channels),
-                              angles_between(turning, solved.q, series, sensors));
-  fit.q = std::move(solved.q);
   fit.status = std::move(solved.status);
-  fit.frames_not_converged = solved.frames_not_converged;
+  AngleFit angles(turning, series, sensors);
+  Eigen::MatrixXd postures = solved.q.values();
+  for (Eigen::Index i = 0; i < postures.rows(); ++i) {
+    progress.check();
+    FrameStatus& status = fit.status[at(i)];
+    if (status == FrameStatus::no_markers) {
+      if (i > 0) postures.row(i) = postures.row(i - 1).eval();
+      continue;
+    }
+    Eigen::VectorXd q = postures.row(i).transpose();
+    status = angles.improve(q, i) ? FrameStatus::converged : FrameStatus::not_converged;
+    if (status == FrameStatus::not_converged) ++fit.frames_not_converged;
+    postures.row(i) = q.transpose();
+  }
+  fit.q = TimeSeries(series.time_s, solved.q.channels(), std::move(postures));
+  fit.errors_rad = TimeSeries(series.time_s, std::move(channels),
+                              angles_between(turning, fit.q, series, sensors));
   fit.frames_without_sensors = solved.frames_without_markers;
   fit.undetermined = std::move(solved.undetermined);
   return fit;

@@ -50,7 +50,8 @@ class FittedOrientations : public ::testing::Test {
     double sum = 0.0;
     for (std::size_t s = 0; s < sensors_.size(); ++s) {
       const Mat3 apart = sensor_at(q, s).transpose() * series_.rotation(frame, s);
-      sum += sensors_[s].weight * (1.0 - std::cos(Eigen::AngleAxisd(apart).angle()));
+      const double angle = Eigen::AngleAxisd(apart).angle();
+      sum += 0.5 * sensors_[s].weight * angle * angle;
     }
     return sum;
   }
