@@ -25,14 +25,6 @@ pugi::xml_node element_named(pugi::xml_node node, const char* kind, const std::s
   });
 }
 
-void set_text(pugi::xml_node node, const char* name, const std::string& text) {
-  if (auto child = node.child(name)) {
-    child.text().set(text.c_str());
-  } else {
-    append_text(node, name, text);
-  }
-}
-
 void add_sensor(pugi::xml_node model, pugi::xml_node carrier, const SensorPlace& sensor) {
   auto components = carrier.child("components");
   if (!components) components = carrier.append_child("components");
@@ -77,8 +69,10 @@ std::string with_sensors(std::string_view text,
                              pugi::parse_default | pugi::parse_comments | pugi::parse_declaration);
   const auto model = document.child("OpenSimDocument").child("Model");
   for (const SensorPlace& sensor : sensors) {
-    if (const auto frame = element_named(model, "PhysicalOffsetFrame", sensor.name)) {
-      set_text(frame, "orientation", numbers(sensor.angles_rad));
+    if (auto frame = element_named(model, "PhysicalOffsetFrame", sensor.name)) {
+      auto orientation = frame.child("orientation");
+      if (!orientation) orientation = frame.append_child("orientation");
+      orientation.text().set(numbers(sensor.angles_rad).c_str());
       continue;
     }
     const std::string name = sensor.carrier.path.substr(sensor.carrier.path.find_last_of('/') + 1);
