@@ -31,9 +31,30 @@ double strength_nm(const StudyResult& result,
   return sum;
 }
 
+/// Why the torques of a passive trial are no relaxed joint's; empty: they are. The weight of limb
+/// and instrument is no resistance.
+std::string too_strong(const StudyResult& result, const TrialResult& trial) {
+  const std::vector<std::string> coordinates = study_coordinates(result.study.model);
+  for (std::size_t j = 0; j < coordinates.size(); ++j) {
+    const std::string& name = coordinates[j];
+    const Eigen::VectorXd torque = trial.muscle_torque.values().col(static_cast<Eigen::Index>(j));
+    const double largest = torque.cwiseAbs().maxCoeff();
+    const double beside =
+        identification::beside_weight(trial.motion.q.column(name), torque).cwiseAbs().maxCoeff();
+    const double strength = strength_nm(result, trial, name);
+    const double limit = kLargestShare * strength;
+    if (beside <= limit && largest <= limit + identification::kLargestWeight_nm) continue;
+    return fmt::format(
+        "{} reaches {:.1f} N m, {:.1f} N m beside a weight's: more than a quarter of what its "
+        "muscles could exert ({:.0f} N m) and {:g} N m of weight: no relaxed joint resists that "
+        "much; N mm, or the instrument's offset?",
+        name, largest, beside, strength, identification::kLargestWeight_nm);
+  }
+  return {};
+}
+
 /// Why a passive trial does not show a relaxed joint; empty: it does.
 std::string not_at_rest(const StudyResult& result, const TrialResult& trial) {
-  if (trial.activation.empty()) return "no EMG shows that the muscles were at rest; give it by emg";
   const bool mvc = result.study.emg.has_mvc;
   const double limit = mvc ? kRelaxed : kRelaxedWithoutMvc;
   for (const Channel& channel : trial.activation.channels()) {
@@ -46,21 +67,7 @@ std::string not_at_rest(const StudyResult& result, const TrialResult& trial) {
           mvc ? "the maximal contraction" : "its greatest value in the study", 100.0 * limit);
     }
   }
-  const std::vector<std::string> coordinates = study_coordinates(result.study.model);
-  for (std::size_t j = 0; j < coordinates.size(); ++j) {
-    const std::string& name = coordinates[j];
-    const double largest =
-        trial.muscle_torque.values().col(static_cast<Eigen::Index>(j)).cwiseAbs().maxCoeff();
-    const double strength = strength_nm(result, trial, name);
-    if (largest > kLargestShare * strength) {
-      return fmt::format(
-          "{} reaches {:.1f} N m, more than a quarter of what its muscles could exert ({:.0f} N "
-          "m): "
-          "no relaxed joint resists that much",
-          name, largest, strength);
-    }
-  }
-  return {};
+  return too_strong(result, trial);
 }
 
 Eigen::VectorXd joined(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
@@ -79,6 +86,9 @@ std::vector<RestingJoint> resting_joints(StudyResult& result) {
     const std::string why = not_at_rest(result, trial);
     if (why.empty()) {
       relaxed.push_back(&trial);
+      if (trial.activation.empty())
+        trial.notes.emplace_back(
+            "a relaxed joint by the study's word: no EMG shows that the muscles were at rest");
     } else {
       trial.warnings.push_back("what the joint does by itself is not taken from this trial: " +
                                why);

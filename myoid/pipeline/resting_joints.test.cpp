@@ -1,10 +1,13 @@
 #include "myoid/pipeline/resting_joints.h"
 
+#include <cmath>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "myoid/core/units.h"
 #include "myoid/pipeline/run_study.h"
+#include "myoid/signals/resample.h"
 #include "myoid/simulation/synthetic_recording.h"
 #include "myoid/simulation/write_recording.h"
 
@@ -102,20 +105,44 @@ TEST(RestingJoints, WithoutAMaximalContractionRestIsAgainstTheGreatestOfTheStudy
   }
 }
 
-TEST(RestingJoints, WithoutEmgNobodyKnowsWhetherTheMusclesWereAtRest) {
+TEST(RestingJoints, WithoutEmgTheStudyIsTakenAtItsWord) {
+  Recorded with = recorded();
+  const StudyResult known = analyse(with.study, std::move(with.inputs), {});
   Recorded r = recorded();
   r.inputs.trials[0].emg.reset();
   r.study.trials[0].emg.reset();
   const StudyResult result = analyse(r.study, std::move(r.inputs), {});
-  EXPECT_TRUE(result.resting.empty());
-  ASSERT_FALSE(result.trials[0].warnings.empty());
-  EXPECT_THAT(result.trials[0].warnings.back(), HasSubstr("no EMG shows that the muscles were at"));
+  ASSERT_EQ(result.resting.size(), 1U);
+  EXPECT_EQ(result.resting[0].torque.coefficient_nm, known.resting[0].torque.coefficient_nm);
+  EXPECT_THAT(result.trials[0].notes, ::testing::Contains(HasSubstr("by the study's word")));
+}
+
+TEST(RestingJoints, TheWeightOfTheInstrumentIsPartOfIt) {
+  // A lever of 1.5 kg at 1 m: 15 N m cos(q), and an offset, beside the joint's own torque.
+  Recorded plain = recorded();
+  const StudyResult without = analyse(plain.study, std::move(plain.inputs), {});
+  Recorded r = recorded();
+  TimeSeries& torque = *r.inputs.trials[0].external_torque;
+  const Eigen::VectorXd q = without.trials[0].motion.q.column("elbow_flexion");
+  const TimeSeries motion(without.trials[0].motion.q.time_s(), {{"q", Unit::radian}}, q);
+  const Eigen::VectorXd angle = signals::resample(motion, torque.time_s()).values().col(0);
+  Eigen::MatrixXd loaded = torque.values();
+  loaded.col(0).array() -= 15.0 * angle.array().cos() + 2.0;
+  torque = TimeSeries(torque.time_s(), torque.channels(), loaded);
+  const StudyResult result = analyse(r.study, std::move(r.inputs), {});
+  ASSERT_EQ(result.resting.size(), 1U);
+  for (const double angle_deg : {25.0, 50.0, 70.0, 90.0, 115.0}) {
+    const double at = angle_deg * kDegree;
+    EXPECT_NEAR(result.resting[0].torque.at(at),
+                without.resting[0].torque.at(at) + 15.0 * std::cos(at) + 2.0, 0.2)
+        << angle_deg;
+  }
 }
 
 TEST(RestingJoints, ATorqueThatNoRelaxedJointHasIsNotTaken) {
   Recorded r = recorded();
   TimeSeries& torque = *r.inputs.trials[0].external_torque;
-  torque = TimeSeries(torque.time_s(), torque.channels(), torque.values().array() + 60.0);
+  torque = TimeSeries(torque.time_s(), torque.channels(), torque.values().array() + 90.0);
   const StudyResult result = analyse(r.study, std::move(r.inputs), {});
   EXPECT_TRUE(result.resting.empty());
   ASSERT_FALSE(result.trials[0].warnings.empty());
