@@ -442,6 +442,7 @@ void add_identify(CLI::App& app, Context& context) {
     pipeline::ParameterContext told;
     if (o->method != "paper") told.max_rate_hz = o->max_rate_hz;
     told.left_out = folds.empty() ? "none" : o->folds;
+    told.starting_values = table.assumed;
     const std::filesystem::path folder(o->out);
     recording::write_file(folder / "parameters.json",
                           pipeline::parameters_json(results, folds, provenance, told));

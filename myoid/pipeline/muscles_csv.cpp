@@ -1,16 +1,20 @@
 #include "myoid/pipeline/muscles_csv.h"
 
 #include <algorithm>
+#include <map>
 #include <optional>
 #include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "myoid/core/error.h"
 #include "myoid/identification/parameters.h"
 #include "myoid/muscle/force_velocity.h"
 #include "myoid/muscle/hill_parameters.h"
+#include "myoid/muscle/literature.h"
+#include "myoid/pipeline/muscle_columns.h"
 #include "myoid/recording/csv_reader.h"
 #include "myoid/recording/text_file.h"
 
@@ -25,15 +29,6 @@ bool given_for_hill(std::string_view name) {
                      [&](const muscle::HillField& field) { return field.name == name; });
 }
 
-std::string known_parameters() {
-  std::string names;
-  for (const identification::ParameterField& field : identification::parameter_fields()) {
-    if (field.scope == identification::Scope::muscle)
-      names += (names.empty() ? "" : ", ") + std::string(field.name);
-  }
-  return names;
-}
-
 /// Column of a parameter in muscles.csv beyond the eight of the paper's law, in MuscleExtras.
 double* extra_field(identification::MuscleExtras& extras, std::string_view name) {
   if (name == "pennation_angle") return &extras.pennation_angle_rad;
@@ -46,40 +41,58 @@ double* extra_field(identification::MuscleExtras& extras, std::string_view name)
   return nullptr;
 }
 
+constexpr const char* kProduct = "eccentric_curvature_product";
+
+/// The literature's number for every one that is 0, from the others. The narrowest widths lie
+/// below the general bound in muscles of less than 11 mm: that muscle's bound is half of its width.
+void fill_in(double slope_ratio, MuscleSetup& setup) {
+  muscle::HillParameters<double>& start = setup.start;
+  const auto absent = [](double& value, double literature) {
+    if (value == 0.0) value = literature;
+  };
+  absent(start.force_length_width_m, muscle::kLiteratureWidth * start.optimal_fiber_length_m);
+  absent(start.concentric_curvature, muscle::kLiteratureCurvature);
+  absent(start.eccentric_plateau, muscle::kLiteraturePlateau);
+  absent(start.max_shortening_speed_mps, muscle::kLiteratureSpeed * start.optimal_fiber_length_m);
+  // Of a plateau of 1 the law in lengthening is level, whatever the product.
+  absent(start.eccentric_curvature_product,
+         std::max(muscle::hill_field(kProduct).bounds.lower,
+                  muscle::curvature_product_from_slope_ratio(
+                      slope_ratio, start.concentric_curvature, start.eccentric_plateau)));
+}
+
+/// What stands in for what the file does not say.
+std::string assumption(const std::filesystem::path& path,
+                       const std::map<std::string, std::vector<std::string>>& assumed,
+                       std::size_t muscles) {
+  std::string text;
+  for (const auto& [parameter, names] : assumed) {
+    const char* const value = parameter == "force_length_width"     ? "0.45 l_m0"
+                              : parameter == "concentric_curvature" ? "0.28"
+                              : parameter == "eccentric_plateau"    ? "1.4"
+                              : parameter == "max_shortening_speed"
+                                  ? "10 l_m0 per second"
+                                  : "by a slope in lengthening of 1.5 times that in shortening";
+    text += fmt::format("{}{} = {}", text.empty() ? "" : ", ", parameter, value);
+    if (names.size() < muscles) text += fmt::format(" ({})", fmt::join(names, ", "));
+  }
+  return fmt::format("{}: start from the literature's values: {}", path.string(), text);
+}
+
 }  // namespace
 
 MuscleTable read_muscles_csv(const std::filesystem::path& path, bool within_bounds) {
   const recording::CsvTable table = recording::read_csv_table(path);
-  const auto column = [&](const std::string& name) -> std::optional<std::size_t> {
-    const auto it = std::find(table.names.begin(), table.names.end(), name);
-    return it == table.names.end()
-               ? std::nullopt
-               : std::optional<std::size_t>(static_cast<std::size_t>(it - table.names.begin()));
-  };
-  if (!column("muscle"))
-    throw ReadError(
-        path, 1, "no column 'muscle'; write muscle,max_isometric_force,optimal_fiber_length,...");
-  std::vector<std::string> known{"muscle", "emg"};
-  for (const identification::ParameterField& field : identification::parameter_fields()) {
-    if (field.scope != identification::Scope::muscle) continue;
-    for (const char* suffix : {"", "_fixed", "_lower", "_upper", "_prior_sd"})
-      known.push_back(std::string(field.name) + suffix);
-  }
-  for (const std::string& name : table.names) {
-    if (std::find(known.begin(), known.end(), name) == known.end()) {
-      throw ReadError(
-          path, 1,
-          fmt::format("unknown column '{}'; parameters are {} (SI)", name, known_parameters()));
-    }
-  }
+  const std::map<std::string, MuscleColumn> columns = muscle_columns(table, path);
   MuscleTable result;
+  std::map<std::string, std::vector<std::string>> assumed;  // Muscles by parameter.
   for (std::size_t r = 0; r < table.rows.size(); ++r) {
     const auto fail = [&](const std::string& message) {
       throw ReadError(path, table.lines[r], message);
     };
     const auto cell = [&](const std::string& name) -> std::string {
-      const auto c = column(name);
-      return c ? table.rows[r][*c] : "";
+      const auto c = columns.find(name);
+      return c == columns.end() ? "" : table.rows[r][c->second.index];
     };
     const auto number = [&](const std::string& name) -> std::optional<double> {
       if (cell(name).empty()) return std::nullopt;
@@ -87,7 +100,7 @@ MuscleTable read_muscles_csv(const std::filesystem::path& path, bool within_boun
       // A cell holds a comma only where another sign stands between the columns.
       if (!value) value = recording::parse_comma_number(cell(name));
       if (!value) fail(fmt::format("{}: expected a number, found '{}'", name, cell(name)));
-      return value;
+      return *value * columns.at(name).to_si;
     };
     const auto flag = [&](const std::string& name) -> std::optional<bool> {
       const std::string text = cell(name);
@@ -110,25 +123,29 @@ MuscleTable read_muscles_csv(const std::filesystem::path& path, bool within_boun
     setup.emg_channel = cell("emg").empty() ? setup.name : cell("emg");
     // With the slopes' ratio alone, the product follows from it.
     const std::string ratio_name = "eccentric_slope_ratio";
-    const std::string product_name = "eccentric_curvature_product";
     const std::optional<double> ratio = number(ratio_name);
-    const bool by_ratio = ratio && cell(product_name).empty();
+    const bool by_ratio = ratio && cell("eccentric_curvature_product").empty();
     if (by_ratio && !(*ratio > 0.0))
       fail(fmt::format("{}: expected a positive number, found {}", ratio_name, *ratio));
     for (const muscle::HillField& field : muscle::kHillFields) {
       const std::string name(field.name);
-      auto start = number(name);
-      const auto curvature = number("concentric_curvature"), plateau = number("eccentric_plateau");
-      if (by_ratio && name == product_name && curvature && plateau)
-        start = muscle::curvature_product_from_slope_ratio(*ratio, *curvature, *plateau);
-      if (by_ratio && name == product_name && !start) continue;  // said of those it follows from
-      if (!start && name != "tendon_slack_length") {
+      const auto start = number(name);
+      if (start && *start == 0.0 && name != "tendon_slack_length")
         fail(
-            fmt::format("muscle '{}' has no {}; every parameter needs a starting value in SI units",
+            fmt::format("muscle '{}': {} = 0, expected a positive number, or an empty cell for "
+                        "the literature's",
                         setup.name, name));
-      }
-      setup.start.*field.member = start.value_or(0.0);
+      if (start) setup.start.*field.member = *start;
+      const bool needed = name == "max_isometric_force" || name == "optimal_fiber_length";
+      if (!start && needed)
+        fail(fmt::format("muscle '{}' has no {}; it needs a starting value in SI units", setup.name,
+                         name));
+      if (!start && name != "tendon_slack_length" && !(by_ratio && name == kProduct))
+        assumed[name].push_back(setup.name);
     }
+    if (number("max_shortening_speed") && columns.at("max_shortening_speed").in_fiber_lengths)
+      setup.start.max_shortening_speed_mps *= setup.start.optimal_fiber_length_m;
+    fill_in(ratio.value_or(muscle::kLiteratureSlopeRatio), setup);
     try {
       muscle::validate(setup.start);
     } catch (const InvalidInput& error) {
@@ -144,7 +161,8 @@ MuscleTable read_muscles_csv(const std::filesystem::path& path, bool within_boun
         start = *given;
         if (double* extra = extra_field(setup.extras, name)) *extra = start;
       }
-      if (given_for_hill(name)) start = setup.start.*muscle::hill_field(name).member;
+      const bool hill = given_for_hill(name);
+      if (hill) start = setup.start.*muscle::hill_field(name).member;
       const auto held = flag(name + "_fixed");
       const auto lower = number(name + "_lower");
       const auto upper = number(name + "_upper");
@@ -158,9 +176,12 @@ MuscleTable read_muscles_csv(const std::filesystem::path& path, bool within_boun
           fail(fmt::format("{}: lower bound {} is not below upper bound {}", name,
                            setup.bounds[name].lower, setup.bounds[name].upper));
       }
+      const bool literature = hill && cell(name).empty();
+      if (literature && start < field.bounds.lower && !lower && !upper && start > 0.0)
+        setup.bounds[name] = {0.5 * start, field.bounds.upper};
       const double least = lower.value_or(field.bounds.lower);
       const double most = upper.value_or(field.bounds.upper);
-      if (within_bounds && given_for_hill(name) && !held.value_or(false) &&
+      if (within_bounds && hill && !(literature && !lower && !upper) && !held.value_or(false) &&
           (start < least || start > most)) {
         fail(
             fmt::format("muscle '{}': {} = {}, expected {} to {} (SI units); columns {}_lower and "
@@ -173,7 +194,7 @@ MuscleTable read_muscles_csv(const std::filesystem::path& path, bool within_boun
       }
       const bool usual = field.field <= identification::kPlateau;
       // What the paper's law leaves out is held anyway.
-      if (held.value_or(false) && (usual || given_for_hill(name))) setup.fixed.push_back(name);
+      if (held.value_or(false) && (usual || hill)) setup.fixed.push_back(name);
       // Who asks something of the product itself has it as the unknown.
       if (name == "eccentric_curvature_product" && (held.value_or(false) || lower || upper || sd))
         setup.priors.erase("eccentric_slope_ratio");
@@ -204,6 +225,10 @@ MuscleTable read_muscles_csv(const std::filesystem::path& path, bool within_boun
   if (!table.last_row_has_end) {
     result.notes.push_back(
         fmt::format("{}:{}: {}", path.string(), table.lines.back(), recording::kLastRowKept));
+  }
+  if (!assumed.empty()) {
+    result.assumed = assumption(path, assumed, result.muscles.size());
+    result.notes.push_back(result.assumed);
   }
   if (result.muscles.empty()) throw ReadError(path, 0, "there are no muscles");
   return result;

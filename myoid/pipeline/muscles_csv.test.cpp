@@ -1,9 +1,12 @@
 #include "myoid/pipeline/muscles_csv.h"
 
+#include <array>
 #include <string>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "myoid/muscle/literature.h"
 #include "myoid/recording/atomic_file.h"
 
 #include "tests/support/message_of.h"
@@ -50,7 +53,7 @@ TEST(MusclesCsv, SemicolonsAndDecimalCommasAreRead) {
 }
 
 TEST(MusclesCsv, WhatCannotBeMeantIsRefusedAtItsLine) {
-  EXPECT_NE(csv_message("name\nBIC\n").find("no column 'muscle'"), std::string::npos);
+  EXPECT_NE(csv_message("emg\nBIC\n").find("no column 'muscle'"), std::string::npos);
   EXPECT_NE(csv_message(kHeader + ",colour\n" + kBiceps + ",red\n").find("unknown column 'colour'"),
             std::string::npos);
   EXPECT_NE(csv_message(kHeader + "\n" + kBiceps + "\n" + kBiceps + "\n")
@@ -62,6 +65,71 @@ TEST(MusclesCsv, WhatCannotBeMeantIsRefusedAtItsLine) {
   EXPECT_NE(csv_message(kHeader + "\nBIC,,0.12,0.2,0.055,1.2,0.28,0.2,1.4\n")
                 .find("'BIC' has no max_isometric_force"),
             std::string::npos);
+}
+
+TEST(MusclesCsv, NameForceAndLengthAreEnough) {
+  const MuscleTable table = table_of(
+      "Name,maxIsometricForce,optimalFiberLength [cm],tendonSlackLength\nTA,905,9.8,0.223\n");
+  const auto& start = table.muscles.at(0).start;
+  const auto literature =
+      muscle::literature_parameters({"TA", 905.0, 0.098, 0.223, 0.0});  // theory/muscle.md's table
+  for (const muscle::HillField& field : muscle::kHillFields)
+    EXPECT_NEAR(start.*field.member, literature.*field.member, 1e-15) << field.name;
+  EXPECT_NE(table.assumed.find("force_length_width = 0.45 l_m0"), std::string::npos)
+      << table.assumed;
+  EXPECT_EQ(table.notes.size(), 1U);
+  EXPECT_EQ(table_of(kHeader + "\n" + kBiceps + "\n").assumed, "");
+  // Of two muscles the one that lacks a number is named.
+  const MuscleTable two =
+      table_of("muscle,F_max,l0,concentric_curvature\nA,100,0.1,0.3\nB,100,0.1,\n");
+  EXPECT_EQ(two.muscles[0].start.concentric_curvature, 0.3);
+  EXPECT_NE(two.assumed.find("concentric_curvature = 0.28 (B)"), std::string::npos) << two.assumed;
+  // OpenSim's speed is in fiber lengths per second.
+  EXPECT_NEAR(table_of("name,Fmax,lMo,max_contraction_velocity\nA,100,0.1,8\n")
+                  .muscles[0]
+                  .start.max_shortening_speed_mps,
+              0.8, 1e-15);
+}
+
+TEST(MusclesCsv, ColumnsThatMayBeMeantAreNamed) {
+  EXPECT_NE(csv_message("muscle,max_isometric_forse,l0\nA,100,0.1\n")
+                .find("did you mean 'max_isometric_force'?"),
+            std::string::npos);
+  EXPECT_NE(csv_message("muscle,F_max,Fiso,l0\nA,100,100,0.1\n").find("two columns give"),
+            std::string::npos);
+  EXPECT_NE(csv_message("muscle,F_max [m],l0\nA,100,0.1\n").find("expected a unit of"),
+            std::string::npos);
+  EXPECT_NE(csv_message("muscle,F_max\nA,100\n").find("no column 'optimal_fiber_length'"),
+            std::string::npos);
+}
+
+TEST(MusclesCsv, EveryLegalCombinationOfExtremesStartsWithinItsBounds) {
+  // What is given lies on the bounds; what is absent follows from it.
+  const auto cells = [](const char* name) {
+    const muscle::Range bounds = muscle::hill_field(name).bounds;
+    return std::array<std::string, 3>{fmt::format("{}", bounds.lower),
+                                      fmt::format("{}", bounds.upper), ""};
+  };
+  const std::string header =
+      "muscle,max_isometric_force,optimal_fiber_length,concentric_curvature,eccentric_plateau\n";
+  for (const std::string force : {"5", "20000"}) {
+    for (const std::string length : {"0.01", "0.6"}) {
+      for (const std::string& curvature : cells("concentric_curvature")) {
+        for (const std::string& plateau : cells("eccentric_plateau")) {
+          const MuscleTable table = table_of(header + "A," + force + ',' + length + ',' +
+                                             curvature + ',' + plateau + '\n');
+          const auto& muscle = table.muscles.at(0);
+          for (const muscle::HillField& field : muscle::kHillFields) {
+            const double value = muscle.start.*field.member;
+            const auto own = muscle.bounds.find(std::string(field.name));
+            const muscle::Range bounds = own == muscle.bounds.end() ? field.bounds : own->second;
+            EXPECT_GE(value, bounds.lower) << field.name << header;
+            EXPECT_LE(value, bounds.upper) << field.name;
+          }
+        }
+      }
+    }
+  }
 }
 
 TEST(MusclesCsv, TheSlopesRatioAloneStandsForTheProduct) {

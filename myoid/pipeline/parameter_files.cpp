@@ -214,6 +214,7 @@ std::string parameters_json(const std::vector<IdentificationResult>& methods,
   }
   object["left_out"] = context.left_out;
   object["max_rate_hz"] = context.max_rate_hz ? ordered_json(*context.max_rate_hz) : nullptr;
+  if (!context.starting_values.empty()) object["starting_values"] = context.starting_values;
   object["resting_torque"] = ordered_json::array();
   for (const identification::RestingJoint& joint : context.resting) {
     const Eigen::VectorXd& c = joint.torque.coefficient_nm;
@@ -223,6 +224,8 @@ std::string parameters_json(const std::vector<IdentificationResult>& methods,
          {"lowest_rad", joint.torque.lowest_rad},
          {"highest_rad", joint.torque.highest_rad},
          {"legendre_nm", std::vector<double>(c.data(), c.data() + c.size())},
+         {"weight_sin_nm", joint.torque.weight_sin_nm},
+         {"weight_cos_nm", joint.torque.weight_cos_nm},
          {"viscosity_nms", joint.torque.viscosity_nms},
          {"residual_nm", joint.torque.residual_nm}});
   }

@@ -26,6 +26,7 @@ struct ParameterContext {
   std::vector<identification::RestingJoint> resting;
   std::string left_out = "trial";     ///< What a fold is: trial, condition, block, or none.
   std::optional<double> max_rate_hz;  ///< Samples were thinned to at most this; empty: not told.
+  std::string starting_values;  ///< Which of them are the literature's; empty: none is assumed.
   const identification::ForceLoop* force_loop = nullptr;  ///< Null: none was asked for.
 };
 
