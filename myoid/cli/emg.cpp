@@ -1,4 +1,10 @@
 #include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -12,6 +18,7 @@
 #include "myoid/recording/emg_reader.h"
 #include "myoid/recording/recording.h"
 #include "myoid/recording/series_file.h"
+#include "myoid/signals/emg_chain.h"
 #include "myoid/signals/emg_envelope.h"
 #include "myoid/signals/emg_levels.h"
 #include "myoid/signals/emg_quality.h"
@@ -111,28 +118,196 @@ void warn_of_faults(const std::string& path,
   }
 }
 
+struct EmgCommand {
+  std::vector<std::string> in, mvc, channels;
+  std::string out, unit, envelope;
+  bool no_notch = false;
+  std::optional<bool> whitening;
+  signals::EnvelopeOptions chain;
+  double window_s = 0.5;
+};
+
+/// What goes where: with one input `to` is the file, with several the folder of files of the
+/// inputs' names. Throws InvalidInput where two would be one.
+std::vector<std::string> outputs(const EmgCommand& o, const std::string& to, const char* option) {
+  if (to.empty()) return {};
+  if (o.in.size() == 1) return {to};
+  std::vector<std::string> files;
+  for (const std::string& path : o.in) {
+    const std::string name = std::filesystem::path(path).stem().string() + ".sto";
+    files.push_back((std::filesystem::path(to) / name).string());
+    if (std::count(files.begin(), files.end(), files.back()) > 1)
+      throw InvalidInput(
+          fmt::format("two inputs would be written to {}: rename one of them, or "
+                      "give them to two commands with every --mvc",
+                      files.back()));
+  }
+  const std::string ending = std::filesystem::path(to).extension().string();
+  if (!ending.empty() && !std::filesystem::is_directory(to))
+    throw InvalidInput(
+        fmt::format("{} {}: of {} inputs this is a folder, found a name that ends "
+                    "in '{}'",
+                    option, to, o.in.size(), ending));
+  return files;
+}
+
+/// Refuses output files that are there or are inputs, or each other.
+void prepare(const EmgCommand& o,
+             const std::vector<std::string>& activations,
+             const std::vector<std::string>& envelopes,
+             const Context& context) {
+  std::vector<std::string> inputs = o.mvc;
+  inputs.insert(inputs.end(), o.in.begin(), o.in.end());
+  for (const std::string& file : activations) context.prepare_file(file, inputs);
+  for (const std::string& file : envelopes) {
+    context.prepare_file(file, inputs);
+    if (std::find(activations.begin(), activations.end(), file) != activations.end())
+      throw InvalidInput(fmt::format("--out and --envelope both name {}", file));
+  }
+}
+
+/// All files of the command, cleaned, whitened by one decision and smoothed.
+struct EmgFiles {
+  std::vector<std::string> paths;  ///< The inputs, then the maximal contractions.
+  std::vector<signals::EmgStages> stages;
+  signals::Whitening whitening;
+
+  [[nodiscard]] std::vector<const signals::EmgStages*> views() const {
+    std::vector<const signals::EmgStages*> list;
+    for (const signals::EmgStages& one : stages) list.push_back(&one);
+    return list;
+  }
+};
+
+EmgFiles process(const EmgCommand& o, const Context& context) {
+  EmgFiles files;
+  files.paths = o.in;
+  files.paths.insert(files.paths.end(), o.mvc.begin(), o.mvc.end());
+  std::vector<TimeSeries> raw;
+  for (const std::string& path : files.paths) {
+    recording::EmgFile file = recording::read_emg(path, o.unit, false, o.channels);
+    for (const recording::Repair& repair : file.repairs)
+      context.warn(fmt::format("{}: {}", path, recording::to_string(repair)));
+    if (!file.unit_conflict.empty()) context.warn(fmt::format("{}: {}", path, file.unit_conflict));
+    raw.push_back(usable_channels(path, file.data, !o.channels.empty(), context));
+  }
+  keep_common_channels(files.paths, raw, context);
+  for (std::size_t i = 0; i < raw.size(); ++i) {
+    warn_of_faults(files.paths[i], raw[i], !o.chain.as_published, context);
+    files.stages.push_back(signals::clean_emg(raw[i], o.chain));
+  }
+  files.whitening = signals::find_whitening(files.views(), o.chain);
+  for (std::size_t i = 0; i < files.paths.size(); ++i) {
+    signals::add_envelope(files.stages[i], o.chain, files.whitening);
+    for (const std::string& finding : files.stages[i].findings)
+      context.log(fmt::format("{}: {}", files.paths[i], finding));
+  }
+  for (const signals::WhiteningFilter& filter : files.whitening.filters) {
+    if (filter.reason.empty())
+      context.log(fmt::format("channel '{}': statistical bandwidth {:.0f} Hz, whitened {:.0f} Hz",
+                              filter.channel, filter.bandwidth_before_hz,
+                              filter.bandwidth_after_hz));
+  }
+  return files;
+}
+
+nlohmann::ordered_json emg_json(const std::vector<std::string>& out,
+                                const EmgFiles& files,
+                                const std::vector<signals::ChannelNormalisation>& normalisation,
+                                const signals::EmgChain& chain) {
+  nlohmann::ordered_json json;
+  json["out"] = out.size() == 1 ? nlohmann::ordered_json(out[0]) : nlohmann::ordered_json(out);
+  json["whitening"] = {{"applied", files.whitening.applied}, {"reason", files.whitening.reason}};
+  json["steps"] = chain.steps;
+  json["methods"] = chain.methods;
+  json["channels"] = nlohmann::ordered_json::array();
+  for (const auto& n : normalisation) {
+    json["channels"].push_back({{"channel", n.channel},
+                                {"rests", n.rests},
+                                {"resting_level_v", n.resting_level_v},
+                                {"reference_v", n.reference_v},
+                                {"reference_from", n.source_trial},
+                                {"reference_time_s", n.source_time_s},
+                                {"from_mvc", n.from_mvc}});
+  }
+  return json;
+}
+
+void print_emg(const std::vector<std::string>& out,
+               const EmgFiles& files,
+               const std::vector<signals::ChannelNormalisation>& normalisation,
+               const signals::EmgChain& chain) {
+  for (const auto& n : normalisation) {
+    fmt::print("{:<24} rest {:>8} uV   1 = {:8.2f} uV  ({} at {:.2f} s{})\n", n.channel,
+               n.rests ? fmt::format("{:.2f}", 1e6 * n.resting_level_v) : std::string("unknown"),
+               1e6 * n.reference_v, n.source_trial, n.source_time_s,
+               n.from_mvc ? "" : "; no MVC: relative to the largest effort of these files");
+  }
+  fmt::print("{}: {}\n", files.whitening.applied ? "whitened, all channels" : "not whitened",
+             files.whitening.reason);
+  fmt::print("For a methods section: {}\n", fmt::join(chain.methods, " "));
+  for (const std::string& file : out) fmt::print("{}\n", file);
+}
+
+void run_emg(EmgCommand o, const Context& context) {
+  const std::vector<std::string> activations = outputs(o, o.out, "--out");
+  const std::vector<std::string> envelopes = outputs(o, o.envelope, "--envelope");
+  prepare(o, activations, envelopes, context);
+  o.chain.notch = !o.no_notch;
+  o.chain.whitening = o.whitening;
+  const EmgFiles files = process(o, context);
+  std::vector<signals::TrialEnvelope> trials;
+  for (std::size_t i = 0; i < files.paths.size(); ++i) {
+    trials.push_back({files.paths[i], i >= o.in.size(), &files.stages[i].envelope,
+                      files.stages[i].bandwidth_hz});
+  }
+  const signals::NormalisationOptions window{.window_s = o.window_s};
+  const auto normalisation = signals::find_normalisation(trials, window);
+  for (const signals::Fault& fault : signals::check_emg_levels(trials)) {
+    if (fault.grave) context.warn(signals::sentence(fault));
+  }
+  signals::EmgChain chain = signals::envelope_chain(files.views(), o.chain, files.whitening);
+  const std::vector<std::string> of_envelope = signals::header_lines(chain);
+  signals::add_normalisation(normalisation, window, chain);
+  chain.steps.emplace_back("activation dynamics: none in this file");
+  const std::vector<std::string> of_activation = signals::header_lines(chain);
+  for (std::size_t i = 0; i < o.in.size(); ++i) {
+    const TimeSeries& envelope = files.stages[i].envelope;
+    recording::write_series(activations[i],
+                            cut(signals::normalise(envelope, normalisation), context), "Activation",
+                            of_activation);
+    if (!envelopes.empty())
+      recording::write_series(envelopes[i], cut(envelope, context), "EMG envelope volt",
+                              of_envelope);
+  }
+  if (context.json) {
+    fmt::print("{}\n", pipeline::json_text(emg_json(activations, files, normalisation, chain)));
+  } else {
+    print_emg(activations, files, normalisation, chain);
+  }
+}
+
 }  // namespace
 
 void add_emg(CLI::App& app, Context& context) {
   CLI::App& command =
       *app.add_subcommand("emg",
                           "Raw EMG to activation: high-pass, rectify, low-pass, resting level, "
-                          "normalized to the largest effort in the files given.\n"
+                          "normalized to the largest effort in all files given.\n"
                           "Example: myoid emg flex.sto --mvc mvc.sto --out activation.sto");
-  struct Options {
-    std::string in, out, unit, envelope;
-    std::vector<std::string> mvc, channels;
-    bool no_notch = false;
-    bool no_whitening = false;
-    signals::EnvelopeOptions chain;
-    double window_s = 0.5;
-  };
-  const auto o = std::make_shared<Options>();
-  command.add_option("in", o->in, "EMG (.c3d, .edf, .bdf, .anc, .csv, .sto, .mot)")->required();
-  command.add_option("--out", o->out, "Activation 0..1 (.sto, .mot or .csv)")->required();
+  const auto o = std::make_shared<EmgCommand>();
+  command
+      .add_option("in", o->in,
+                  "EMG (.c3d, .edf, .bdf, .anc, .csv, .sto, .mot); of several files each is "
+                  "normalized by the largest effort of all")
+      ->required();
+  command
+      .add_option("--out", o->out,
+                  "Activation 0..1 (.sto, .mot or .csv); of several inputs a folder, one .sto each")
+      ->required();
   command.add_option("--mvc", o->mvc,
                      "Maximal contractions to normalize by, repeated (default: the largest effort "
-                     "in the file itself)");
+                     "in the files themselves)");
   command.add_option("--channel", o->channels,
                      "Only this channel, repeated (default: all of the file's first clock)");
   command.add_option("--unit", o->unit,
@@ -144,92 +319,18 @@ void add_emg(CLI::App& app, Context& context) {
                   "Low-pass of the rectified EMG, -3 dB of both passes [Hz] (default 6)")
       ->check(above_zero());
   command.add_flag("--no-notch", o->no_notch, "Leave mains hum in, where it is found");
-  command.add_flag("--no-whitening", o->no_whitening,
-                   "Rectify what is high-passed, without evening out its spectrum first");
+  command.add_flag("--whitening,!--no-whitening", o->whitening,
+                   "Even out the spectrum of all channels before they are rectified, or of none "
+                   "(default: all, if the files allow it for every channel)");
   command.add_flag("--as-published", o->chain.as_published,
                    "As the source paper: no high-pass, low-pass designed for one pass");
   command
       .add_option("--window", o->window_s, "Window of the mean that counts as 1 [s] (default 0.5)")
       ->check(above_zero());
   command.add_option("--envelope", o->envelope,
-                     "Also write the envelope [V] here (.sto, .mot or .csv)");
+                     "Also write the envelope [V] here (.sto, .mot or .csv; or a folder)");
   add_common_options(command, context, {.threads = false, .seed = false});
-  command.callback([&context, o] {
-    std::vector<std::string> inputs = o->mvc;
-    inputs.push_back(o->in);
-    context.prepare_file(o->out, inputs);
-    if (!o->envelope.empty()) {
-      context.prepare_file(o->envelope, inputs);
-      if (o->envelope == o->out)
-        throw InvalidInput(fmt::format("--out and --envelope both name {}", o->out));
-    }
-    const auto read = [&](const std::string& path) {
-      recording::EmgFile file = recording::read_emg(path, o->unit, false, o->channels);
-      for (const recording::Repair& repair : file.repairs)
-        context.warn(fmt::format("{}: {}", path, recording::to_string(repair)));
-      if (!file.unit_conflict.empty())
-        context.warn(fmt::format("{}: {}", path, file.unit_conflict));
-      return usable_channels(path, file.data, !o->channels.empty(), context);
-    };
-    std::vector<std::string> paths{o->in};
-    paths.insert(paths.end(), o->mvc.begin(), o->mvc.end());
-    std::vector<TimeSeries> raw;
-    for (const std::string& path : paths) raw.push_back(read(path));
-    keep_common_channels(paths, raw, context);
-    o->chain.notch = !o->no_notch;
-    o->chain.whitening = !o->no_whitening;
-    std::vector<signals::EmgStages> stages;
-    for (std::size_t i = 0; i < paths.size(); ++i) {
-      warn_of_faults(paths[i], raw[i], !o->chain.as_published, context);
-      stages.push_back(signals::clean_emg(raw[i], o->chain));
-    }
-    std::vector<const signals::EmgStages*> views;
-    for (const signals::EmgStages& one : stages) views.push_back(&one);
-    const auto whitening = signals::find_whitening(views, o->chain);
-    std::vector<signals::TrialEnvelope> trials;
-    for (std::size_t i = 0; i < paths.size(); ++i) {
-      signals::add_envelope(stages[i], o->chain, whitening);
-      for (const std::string& finding : stages[i].findings)
-        context.log(fmt::format("{}: {}", paths[i], finding));
-      trials.push_back({paths[i], i > 0, &stages[i].envelope, stages[i].bandwidth_hz});
-    }
-    for (const signals::WhiteningFilter& filter : whitening) {
-      context.log(
-          filter.reason.empty()
-              ? fmt::format("channel '{}': whitened, statistical bandwidth {:.0f} -> {:.0f} Hz",
-                            filter.channel, filter.bandwidth_before_hz, filter.bandwidth_after_hz)
-              : fmt::format("channel '{}' is not whitened: {}", filter.channel, filter.reason));
-    }
-    const TimeSeries& envelope = stages.front().envelope;
-    const auto normalisation = signals::find_normalisation(trials, {.window_s = o->window_s});
-    for (const signals::Fault& fault : signals::check_emg_levels(trials)) {
-      if (fault.grave) context.warn(signals::sentence(fault));
-    }
-    recording::write_series(o->out, cut(signals::normalise(envelope, normalisation), context),
-                            "Activation");
-    if (!o->envelope.empty())
-      recording::write_series(o->envelope, cut(envelope, context), "EMG envelope volt");
-    if (context.json) {
-      nlohmann::ordered_json json{{"out", o->out}};
-      json["channels"] = nlohmann::ordered_json::array();
-      for (const auto& n : normalisation) {
-        json["channels"].push_back({{"channel", n.channel},
-                                    {"resting_level_v", n.resting_level_v},
-                                    {"reference_v", n.reference_v},
-                                    {"reference_from", n.source_trial},
-                                    {"reference_time_s", n.source_time_s},
-                                    {"from_mvc", n.from_mvc}});
-      }
-      fmt::print("{}\n", pipeline::json_text(json));
-      return;
-    }
-    for (const auto& n : normalisation) {
-      fmt::print("{:<24} rest {:8.2f} uV   1 = {:8.2f} uV  ({} at {:.2f} s{})\n", n.channel,
-                 1e6 * n.resting_level_v, 1e6 * n.reference_v, n.source_trial, n.source_time_s,
-                 n.from_mvc ? "" : "; no MVC: relative to this file's largest effort");
-    }
-    fmt::print("{}\n", o->out);
-  });
+  command.callback([&context, o] { run_emg(*o, context); });
 }
 
 }  // namespace myoid::cli

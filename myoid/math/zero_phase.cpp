@@ -10,6 +10,8 @@
 namespace myoid::math {
 namespace {
 
+constexpr Eigen::Index kLongestExtension = 100'000;  ///< Samples; for absurdly low cut-offs.
+
 /// Samples until the slowest pole has decayed to 1e-8.
 Eigen::Index impulse_length(const std::vector<SecondOrderSection>& sections) {
   double radius = 0.0;
@@ -40,10 +42,33 @@ void run(const std::vector<SecondOrderSection>& sections, std::vector<double>& x
   }
 }
 
+/// x with `pad` samples more on either side.
+std::vector<double> extended(const Eigen::Ref<const Eigen::VectorXd>& x,
+                             Eigen::Index pad,
+                             Ends ends) {
+  const Eigen::Index n = x.size();
+  // Sample i of the signal that goes to and fro between its ends.
+  const auto mirrored = [&](Eigen::Index i) {
+    const Eigen::Index period = 2 * (n - 1);
+    const Eigen::Index k = ((i % period) + period) % period;
+    return x[k < n ? k : period - k];
+  };
+  const auto beyond = [&](Eigen::Index end, Eigen::Index i) {
+    return ends == Ends::even ? mirrored(i) : 2.0 * x[end] - mirrored(i);
+  };
+  std::vector<double> y;
+  y.reserve(static_cast<std::size_t>(n + 2 * pad));
+  for (Eigen::Index i = -pad; i < 0; ++i) y.push_back(beyond(0, i));
+  y.insert(y.end(), x.data(), x.data() + n);
+  for (Eigen::Index i = n; i < n + pad; ++i) y.push_back(beyond(n - 1, i));
+  return y;
+}
+
 }  // namespace
 
 Eigen::VectorXd zero_phase(const std::vector<SecondOrderSection>& sections,
-                           const Eigen::Ref<const Eigen::VectorXd>& x) {
+                           const Eigen::Ref<const Eigen::VectorXd>& x,
+                           Ends ends) {
   const Eigen::Index n = x.size();
   if (n < 4)
     throw InvalidInput(
@@ -54,12 +79,10 @@ Eigen::VectorXd zero_phase(const std::vector<SecondOrderSection>& sections,
           fmt::format("zero-phase filter: sample {} is not a number; fill the gaps first", i + 1));
     }
   }
-  const Eigen::Index pad = std::min<Eigen::Index>(n - 1, 3 * impulse_length(sections));
-  std::vector<double> y;
-  y.reserve(static_cast<std::size_t>(n + 2 * pad));
-  for (Eigen::Index i = pad; i > 0; --i) y.push_back(2.0 * x[0] - x[i]);
-  y.insert(y.end(), x.data(), x.data() + n);
-  for (Eigen::Index i = 1; i <= pad; ++i) y.push_back(2.0 * x[n - 1] - x[n - 1 - i]);
+  const Eigen::Index response = 3 * impulse_length(sections);
+  const Eigen::Index most = ends == Ends::even ? std::max(n - 1, kLongestExtension) : n - 1;
+  const Eigen::Index pad = std::min(most, response);
+  std::vector<double> y = extended(x, pad, ends);
   run(sections, y);
   std::reverse(y.begin(), y.end());
   run(sections, y);

@@ -113,7 +113,7 @@ identification::TorqueOptions torque_options(const StudyResult& result, const Pr
       const double effort = known ? study.emg.mvc_effort : 1.0;
       const double spread = known ? study.emg.mvc_effort_sd / effort : 0.0;
       options.gain_prior_sd[n.channel] = std::hypot(n.relative_sd, spread);
-      options.gain_prior_mean[n.channel] = effort * (1.0 + n.relative_bias);
+      options.gain_prior_mean[n.channel] = effort;
     }
   }
   options.envelope_cutoff_hz = study.emg.lowpass_hz;

@@ -18,7 +18,6 @@ StudyResult with_one_channel() {
   signals::ChannelNormalisation channel;
   channel.channel = "BIC";
   channel.relative_sd = 0.03;
-  channel.relative_bias = 0.02;
   result.normalisation = {channel};
   return result;
 }
@@ -29,12 +28,12 @@ TEST(TorqueOptions, AGainsPriorIsTheShareOfTheMaximumThatTheMvcTrialsReach) {
   result.study.emg.mvc_effort_sd = 0.032;
   result.study.emg.has_mvc = true;
   const identification::TorqueOptions known = torque_options(result, {});
-  EXPECT_NEAR(known.gain_prior_mean.at("BIC"), 0.8 * 1.02, 1e-12);
+  EXPECT_NEAR(known.gain_prior_mean.at("BIC"), 0.8, 1e-12);
   EXPECT_NEAR(known.gain_prior_sd.at("BIC"), 0.05, 1e-12);  // 3 % and 4 %, independent
   // Without MVC the greatest effort of the study is no known share of anything.
   result.study.emg.has_mvc = false;
   const identification::TorqueOptions unknown = torque_options(result, {});
-  EXPECT_NEAR(unknown.gain_prior_mean.at("BIC"), 1.02, 1e-12);
+  EXPECT_NEAR(unknown.gain_prior_mean.at("BIC"), 1.0, 1e-12);
   EXPECT_NEAR(unknown.gain_prior_sd.at("BIC"), 0.03, 1e-12);
   EXPECT_FALSE(unknown.from_mvc);
 }

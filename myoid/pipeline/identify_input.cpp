@@ -12,6 +12,7 @@
 #include "myoid/math/statistics.h"
 #include "myoid/pipeline/joint_capacity.h"
 #include "myoid/pipeline/trial_plausibility.h"
+#include "myoid/signals/emg_levels.h"
 
 namespace myoid::pipeline {
 namespace {
@@ -25,6 +26,7 @@ constexpr double kShortestFiber = 0.1, kLongestFiber = 3.0;  ///< In optimal len
 constexpr double kLargestArm_m = 0.2, kCertainlyLargeArm_m = 0.5;
 constexpr double kHighestActivation = 1.05, kCertainlyHigh = 2.0;
 constexpr double kLowestActivation = -0.01, kCertainlyLow = -0.1;
+constexpr double kSpike_s = 0.1;  ///< What is above kCertainlyHigh for less is an artefact.
 constexpr double kWindow_s = 0.1;
 constexpr double kMoves_m = 5e-4;  ///< Change of length within a window that is one.
 constexpr double kTogether = 0.9, kAgainst = -0.8, kDoubtful = 0.5, kClearly = 0.3,
@@ -124,7 +126,15 @@ class TrialCheck {
       largest = std::max(largest, high);
       const std::string found =
           fmt::format("activation '{}' from {:.3g} to {:.3g}", setup.emg_channel, low, high);
-      if (high > kCertainlyHigh)
+      const double rate_hz = trial_.activation.mean_rate_hz();
+      const bool spike =
+          high > kCertainlyHigh && signals::time_above_s(a, rate_hz, kCertainlyHigh) < kSpike_s;
+      if (spike)
+        remark(files_.activations,
+               fmt::format("{}, above {:g} for less than {:g} s: an artefact? Leave that time out "
+                           "(--start, --end) or mend the EMG",
+                           found, kCertainlyHigh, kSpike_s));
+      if (high > kCertainlyHigh && !spike)
         fail(files_.activations,
              fmt::format("{}, expected 0 to 1 (1: the greatest effort); {}", found,
                          high <= 200.0 ? "in percent? Divide by 100"

@@ -14,6 +14,7 @@
 #include "myoid/pipeline/parameter_files.h"
 #include "myoid/pipeline/quality_gates.h"
 #include "myoid/pipeline/stage_files.h"
+#include "myoid/pipeline/study_emg.h"
 #include "myoid/pipeline/study_model.h"
 #include "myoid/recording/atomic_file.h"
 #include "myoid/recording/storage_writer.h"
@@ -139,6 +140,8 @@ ordered_json run_json(const StudyResult& result, const Provenance& provenance) {
       if (emg->clock.drift_sd_ppm) clock["drift_sd_ppm"] = *emg->clock.drift_sd_ppm;
     }
   }
+  const signals::EmgChain emg = emg_chain(result, nullptr);
+  run["emg"] = {{"steps", emg.steps}, {"methods", emg.methods}};
   run["faults"] = faults_json(result.level_faults);
   return run;
 }
@@ -181,11 +184,18 @@ void write_results(const StudyResult& result,
                    const Provenance& provenance,
                    const std::filesystem::path& folder) {
   const std::vector<std::string> comments{fmt::format("Made by myoid {}.", provenance.version)};
+  const auto with_emg = [&](const IdentificationResult* method) {
+    std::vector<std::string> lines = comments;
+    for (std::string& line : signals::header_lines(emg_chain(result, method)))
+      lines.push_back(std::move(line));
+    return lines;
+  };
+  const std::vector<std::string> of_activation = with_emg(nullptr);
   for (const TrialResult& trial : result.trials) {
     const std::filesystem::path place = folder / trial.spec.name;
     if (!trial.activation.empty())
       recording::write_storage(place / "activation.sto", trial.activation,
-                               {.title = "Activation", .comments = comments});
+                               {.title = "Activation", .comments = of_activation});
     if (!trial.has_motion()) continue;
     write_motion(trial.model, trial.motion.q, place / "ik.mot", comments);
     if (trial.ik) write_marker_errors(*trial.ik, place / "ik_marker_errors.sto");
@@ -200,11 +210,14 @@ void write_results(const StudyResult& result,
     for (const identification::TrialData& data : result.data.trials) {
       recording::write_storage(folder / data.name / "identified_forces.sto",
                                identified_forces(result, data, method),
-                               {.title = "Forces", .comments = comments});
+                               {.title = "Forces", .comments = with_emg(&method)});
     }
   }
+  const auto torque = std::find_if(result.methods.begin(), result.methods.end(),
+                                   [](const auto& method) { return method.method == "torque"; });
   for (const identification::InformedForces& forces : result.informed)
-    write_informed_forces(result, forces, folder / forces.trial, comments);
+    write_informed_forces(result, forces, folder / forces.trial,
+                          with_emg(torque == result.methods.end() ? nullptr : &*torque));
   write_identified_model(result, folder);
   recording::write_file(
       folder / "parameters.json",

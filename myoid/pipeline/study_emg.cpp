@@ -1,5 +1,10 @@
 #include "myoid/pipeline/study_emg.h"
 
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <oneapi/tbb/parallel_for.h>
 
 #include "myoid/pipeline/trial_emg.h"
@@ -8,6 +13,8 @@
 
 namespace myoid::pipeline {
 namespace {
+
+constexpr double kActivationRate_hz = 200.0;
 
 /// The envelope at no more than `rate_hz`, low-passed for it: splines through it are quicker.
 /// Negative values of the filter's undershoot are set to 0.
@@ -18,7 +25,49 @@ TimeSeries thinned(const TimeSeries& series, double rate_hz) {
   return {slow.time_s(), slow.channels(), slow.values().cwiseMax(0.0)};
 }
 
+/// How a method's muscles follow their EMG: "delay 43 ms".
+std::string delays(const identification::IdentificationResult& method) {
+  std::vector<std::string> found;
+  for (const identification::ParameterEstimate& e : method.estimates) {
+    if (e.parameter == "emg_delay")
+      found.push_back(fmt::format("{} {:.1f} ms", e.muscle, 1e3 * e.estimate));
+  }
+  return found.empty() ? std::string("held by the study")
+                       : fmt::format("{}", fmt::join(found, ", "));
+}
+
 }  // namespace
+
+signals::EmgChain emg_chain(const StudyResult& result,
+                            const identification::IdentificationResult* method) {
+  const EmgSpec& emg = result.study.emg;
+  signals::EmgChain chain;
+  std::vector<const signals::EmgStages*> trials;
+  bool any = false;
+  for (const TrialResult& trial : result.trials) {
+    any = any || !trial.activation.empty();
+    if (trial.emg) trials.push_back(&*trial.emg);
+  }
+  if (!any) return chain;
+  if (emg.kind == EmgKind::raw) {
+    chain = signals::envelope_chain(trials, envelope_options(result.study), result.whitening);
+  } else {
+    const char* const kind = emg.kind == EmgKind::envelope ? "EMG envelopes" : "activations";
+    chain.steps.push_back(fmt::format(
+        "{} as the files hold them; how they were made is not known to this program", kind));
+    chain.methods.push_back(fmt::format("The input was {} that were processed beforehand.", kind));
+  }
+  if (emg.kind != EmgKind::activation) {
+    signals::add_normalisation(result.normalisation, {.window_s = emg.normalise_window_s}, chain);
+    chain.steps.push_back(fmt::format("resampled to {:g} Hz where it has twice that rate or more",
+                                      kActivationRate_hz));
+  }
+  chain.steps.push_back(method == nullptr ? std::string("activation dynamics: none in this file")
+                                          : fmt::format("activation dynamics: {}, {} (method {})",
+                                                        identification::name(method->lag),
+                                                        delays(*method), method->method));
+  return chain;
+}
 
 void process_emg_of_trials(const Study& study,
                            const std::vector<TrialInput>& inputs,
@@ -66,7 +115,7 @@ void process_emg_of_trials(const Study& study,
     const TimeSeries& envelope =
         study.emg.kind == EmgKind::raw ? result.trials[i].emg->envelope : *inputs[i].emg;
     result.trials[i].activation =
-        thinned(signals::normalise(envelope, result.normalisation), 200.0);
+        thinned(signals::normalise(envelope, result.normalisation), kActivationRate_hz);
   }
 }
 

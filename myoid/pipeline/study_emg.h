@@ -4,6 +4,7 @@
 
 #include "myoid/pipeline/study_result.h"
 #include "myoid/pipeline/trial_input.h"
+#include "myoid/signals/emg_chain.h"
 
 namespace myoid::pipeline {
 
@@ -14,5 +15,10 @@ namespace myoid::pipeline {
 void process_emg_of_trials(const Study& study,
                            const std::vector<TrialInput>& inputs,
                            StudyResult& result);
+
+/// How the activations of a study came about, for the headers of files; without steps where there
+/// is no EMG. `method`: of its forces, with the delay that it found; null: before any delay.
+[[nodiscard]] signals::EmgChain emg_chain(const StudyResult& result,
+                                          const identification::IdentificationResult* method);
 
 }  // namespace myoid::pipeline

@@ -57,7 +57,7 @@ identification::StudyData plain_data(const StudyResult& result) {
     held.free = false;
     data.rules.push_back(std::move(held));
   }
-  if (result.whitening.empty()) return data;
+  if (!result.whitening.applied) return data;
 
   const signals::EnvelopeOptions options = envelope_options(result.study);
   std::vector<const TrialResult*> trials;

@@ -129,7 +129,7 @@ TEST(StudyPhases, AreFoundWithoutTheWhiteningThatHidesFatigue) {
   tiring.trial().activation = TimeSeries(tiring.trial().activation.time_s(),
                                          tiring.trial().activation.channels(), whitened);
   EXPECT_EQ(tiring.found(PhaseKind::fatigued), nullptr);
-  tiring.result.whitening.resize(4);
+  tiring.result.whitening.applied = true;
   const Phase* tired = tiring.found(PhaseKind::fatigued);
   ASSERT_NE(tired, nullptr);
   EXPECT_NEAR(tired->begin_s, kTired_s, 3.0);

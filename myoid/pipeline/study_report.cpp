@@ -14,6 +14,7 @@
 #include "myoid/pipeline/parameter_tables.h"
 #include "myoid/pipeline/phases_report.h"
 #include "myoid/pipeline/quality_gates.h"
+#include "myoid/pipeline/study_emg.h"
 #include "myoid/pipeline/study_figures.h"
 #include "myoid/pipeline/study_scene.h"
 #include "myoid/pipeline/torque_report.h"
@@ -68,25 +69,17 @@ std::vector<std::string> assumptions(const StudyResult& result) {
   }
   if (!result.study.subject.mass_kg && !result.study.model.file)
     list.push_back("Body mass is not given: 73 kg is assumed for the built-in arm's inertia.");
-  std::string white;
-  for (const signals::WhiteningFilter& filter : result.whitening) {
-    white += filter.reason.empty()
-                 ? fmt::format("{} {:.0f} to {:.0f} Hz, ", filter.channel,
-                               filter.bandwidth_before_hz, filter.bandwidth_after_hz)
-                 : fmt::format("{} not, for {}, ", filter.channel, filter.reason);
+  for (const signals::WhiteningFilter& filter : result.whitening.filters) {
+    if (filter.reason.empty())
+      list.push_back(fmt::format("EMG channel {}: statistical bandwidth {:.0f} Hz, {} {:.0f} Hz.",
+                                 filter.channel, filter.bandwidth_before_hz,
+                                 result.whitening.applied ? "whitened" : "whitened it would be",
+                                 filter.bandwidth_after_hz));
   }
-  if (!white.empty()) {
-    white.resize(white.size() - 2);
-    list.push_back(
-        fmt::format("EMG whitened before it is rectified; statistical bandwidth: {}.", white));
-  }
-  list.push_back(
-      fmt::format("EMG: high-pass {} Hz, rectified, low-pass {} Hz{}; largest {} s mean over the "
-                  "study counts as 1.",
-                  result.study.emg.highpass_hz, result.study.emg.lowpass_hz,
-                  result.study.emg.as_published ? " designed for one pass, as published"
-                                                : " (-3 dB of both passes)",
-                  result.study.emg.normalise_window_s));
+  const signals::EmgChain chain = emg_chain(result, nullptr);
+  if (!chain.steps.empty()) list.push_back(fmt::format("EMG: {}.", fmt::join(chain.steps, "; ")));
+  if (!chain.methods.empty())
+    list.push_back(fmt::format("For a methods section: {}", fmt::join(chain.methods, " ")));
   if (result.study.emg.has_mvc) {
     const EmgSpec& emg = result.study.emg;
     list.push_back(

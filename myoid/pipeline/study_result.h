@@ -57,12 +57,12 @@ struct StageTime {
 /// Everything that was found in a study, whole: what the writers of files and reports take.
 struct StudyResult {
   Study study;
-  std::optional<double> start_s, end_s;             ///< As RunOptions had them.
-  model::BodyModel model;                           ///< The study's model, without held mass.
-  std::string model_text;                           ///< As read or made.
-  std::vector<TrialResult> trials;                  ///< In the study's order.
-  std::vector<signals::Fault> level_faults;         ///< Of EMG channels, over all trials.
-  std::vector<signals::WhiteningFilter> whitening;  ///< Of raw EMG; empty if not whitened.
+  std::optional<double> start_s, end_s;      ///< As RunOptions had them.
+  model::BodyModel model;                    ///< The study's model, without held mass.
+  std::string model_text;                    ///< As read or made.
+  std::vector<TrialResult> trials;           ///< In the study's order.
+  std::vector<signals::Fault> level_faults;  ///< Of EMG channels, over all trials.
+  signals::Whitening whitening;              ///< Of raw EMG: one answer for all of it.
   std::vector<signals::ChannelNormalisation> normalisation;  ///< Empty if EMG came as activations.
   std::vector<identification::RestingJoint> resting;  ///< Joints whose passive torque was measured.
   identification::StudyData data;                     ///< What the estimators saw.

@@ -16,6 +16,7 @@
 #include "myoid/recording/emg_reader.h"
 #include "myoid/recording/text_file.h"
 #include "myoid/recording/toml_table.h"
+#include "myoid/signals/emg_levels.h"
 #include "myoid/signals/emg_quality.h"
 
 namespace myoid::pipeline {
@@ -89,10 +90,14 @@ void require_raw(const Study& study, const std::filesystem::path& path, const Ti
 
 /// What the study calls an envelope or an activation has to be one: raw EMG, which swings about
 /// zero, and signals in other units would give muscle forces a hundred times too large, in silence.
-void require_kind(const Study& study, const std::filesystem::path& path, const TimeSeries& emg) {
+void require_kind(const Study& study,
+                  const std::filesystem::path& path,
+                  const TimeSeries& emg,
+                  TrialInput& input) {
   if (study.emg.kind == EmgKind::raw) return require_raw(study, path, emg);
   constexpr double kRinging = 0.2;  // of the maximum, that a filter may swing below zero
   constexpr double kLargestActivation = 2.0;
+  constexpr double kSpike_s = 0.1;
   const bool activation = study.emg.kind == EmgKind::activation;
   const char* const kind = activation ? "activation" : "envelope";
   for (const MuscleSpec& muscle : study.muscles) {
@@ -114,7 +119,14 @@ void require_kind(const Study& study, const std::filesystem::path& path, const T
                                   "\"{}\" is never below zero; is it raw EMG? Then set kind = "
                                   "\"raw\"",
                                   muscle.emg, low, high, unit, kind));
-    if (activation && high > kLargestActivation)
+    const bool lasting = signals::time_above_s(emg.values().col(*column), emg.mean_rate_hz(),
+                                               kLargestActivation) >= kSpike_s;
+    if (activation && high > kLargestActivation && !lasting)
+      warn(input,
+           fmt::format("{}: channel '{}' reaches {:.3g}, above {:g} for less than {:g} s: an "
+                       "artefact?",
+                       path.filename().string(), muscle.emg, high, kLargestActivation, kSpike_s));
+    if (activation && lasting)
       throw ReadError(
           path, 0,
           fmt::format("channel '{}' reaches {:.3g}, but an activation goes from 0 to 1; "
@@ -149,7 +161,7 @@ signals::EnvelopeOptions envelope_options(const Study& study) {
           .lowpass_hz = study.emg.lowpass_hz,
           .rectify = study.emg.rectify,
           .notch = study.emg.notch,
-          .whitening = study.emg.whitening,
+          .whitening = study.emg.whitening ? std::nullopt : std::optional(false),
           .as_published = study.emg.as_published};
 }
 
@@ -166,7 +178,7 @@ TimeSeries read_trial_emg(const Study& study,
     warn(input, fmt::format("{}: {}", trial.emg->filename().string(), file.unit_conflict));
   name_by_target_muscle(study, *trial.emg, file, input.notes);
   require_channels(study, *trial.emg, file.data);
-  require_kind(study, *trial.emg, file.data);
+  require_kind(study, *trial.emg, file.data, input);
   std::vector<std::string> wanted;
   for (const MuscleSpec& muscle : study.muscles) {
     if (std::find(wanted.begin(), wanted.end(), muscle.emg) == wanted.end())

@@ -17,6 +17,23 @@
 namespace myoid::pipeline {
 namespace {
 
+/// Throws ReadError that names the trial and its key for a file that is not there.
+void require_files(const Study& study, const TrialSpec& trial) {
+  using Key = std::pair<const char*, const std::optional<std::filesystem::path>*>;
+  for (const auto& [key, path] :
+       {Key{"markers", &trial.markers}, Key{"motion", &trial.motion}, Key{"emg", &trial.emg},
+        Key{"external_torque", &trial.external_torque},
+        Key{"external_loads", &trial.external_loads}, Key{"load_cell", &trial.load_cell}}) {
+    std::error_code ignored;
+    if (!*path || std::filesystem::exists(**path, ignored)) continue;
+    throw ReadError(
+        study.file, 0,
+        fmt::format("trial '{}': {} = \"{}\": there is no such file; a path counts from "
+                    "the folder of the study",
+                    trial.name, key, (*path)->string()));
+  }
+}
+
 TimeSeries read_motion(const std::filesystem::path& path,
                        const model::BodyModel& model,
                        TrialInput& input) {
@@ -142,6 +159,7 @@ TrialInput read_trial_input(const Study& study,
                             const TrialSpec& trial,
                             const model::BodyModel& model) {
   TrialInput input;
+  require_files(study, trial);
   const auto remember = [&](const std::filesystem::path& path) {
     input.files.push_back({path.string(), sha256(recording::read_bytes(path))});
   };

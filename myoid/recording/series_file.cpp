@@ -23,15 +23,16 @@ SeriesFile read_series(const std::filesystem::path& path) {
 
 void write_series(const std::filesystem::path& path,
                   const TimeSeries& series,
-                  const std::string& title) {
+                  const std::string& title,
+                  const std::vector<std::string>& remarks) {
   const std::string extension = path.extension().string();
   std::error_code ignored;
   const auto status = std::filesystem::status(path, ignored);
   if (equal_ignoring_case(extension, ".csv")) {
-    write_csv(path, series);
+    write_csv(path, series, remarks);
   } else if (equal_ignoring_case(extension, ".sto") || equal_ignoring_case(extension, ".mot") ||
              (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))) {
-    write_storage(path, series, {.title = title});
+    write_storage(path, series, {.title = title, .comments = remarks});
   } else {
     throw InvalidInput(
         fmt::format("{}: expected a name that ends in .sto, .mot or .csv, found '{}'",

@@ -20,9 +20,11 @@ struct SeriesFile {
 [[nodiscard]] SeriesFile read_series(const std::filesystem::path& path);
 
 /// Writes a series in the format that the file's name asks for: .csv a table ("name [V]" in the
-/// header row), .sto or .mot a storage file of this title. Throws InvalidInput for other names.
+/// header row, the remarks before it as lines "# ..."), .sto or .mot a storage file of this title
+/// with the remarks in its header. Throws InvalidInput for other names.
 void write_series(const std::filesystem::path& path,
                   const TimeSeries& series,
-                  const std::string& title);
+                  const std::string& title,
+                  const std::vector<std::string>& remarks = {});
 
 }  // namespace myoid::recording

@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
-#include "myoid/math/statistics.h"
 #include "myoid/signals/filter.h"
 #include "myoid/signals/mains_hum.h"
 #include "myoid/signals/quality_limits.h"
@@ -19,6 +18,9 @@ namespace {
 constexpr double kSpectrumSegment_s = 0.25;
 constexpr double kUsualBandwidth_hz = 150.0;  ///< Of surface EMG where the raw signal is not known.
 constexpr double kRest_s = 1.0;
+/// Greatest level over the quietest second, at the least, for that second to be rest. Efforts that
+/// are held spread by less; EMG that rises no higher above noise is none to work with.
+constexpr double kRises = 1.5;
 constexpr double kRectifiedSpread = 0.7555;  ///< sqrt(pi/2 - 1): of rectified Gaussian noise.
 
 /// Means over a window that slides sample by sample: entry i covers samples i .. i + width - 1.
@@ -35,21 +37,86 @@ Eigen::Index window_samples(const TimeSeries& series, double window_s) {
   return std::clamp<Eigen::Index>(wanted, 1, series.sample_count());
 }
 
-/// Mean of the windows that rest: those at most two spreads of a mean above it, found from the
-/// lowest one upward. Of equally quiet windows the lowest lies far below their mean, the farther
-/// the more there are; windows in which something happens come in as far as chance could make them.
-double resting_level(std::vector<double> means, double relative_sd) {
-  std::sort(means.begin(), means.end());
-  double level = means.front();
-  double sum = 0.0;
+/// Mean of the windows at one extreme, and how many they are.
+struct Extreme {
+  double level = 0.0;
   std::size_t count = 0;
-  while (count < means.size() && means[count] <= level * (1.0 + 2.0 * relative_sd)) {
-    do {
-      sum += means[count++];
-    } while (count < means.size() && means[count] <= level * (1.0 + 2.0 * relative_sd));
-    level = sum / static_cast<double>(count);
+};
+
+/// The lowest windows (`side` +1) or the greatest (-1): those at most `margin` of their mean away
+/// from it, found from the extreme one on. Of equally strong windows the extreme one lies far from
+/// their mean, the farther the more there are.
+Extreme extreme_level(std::vector<double> means, double margin, double side) {
+  std::sort(means.begin(), means.end(), [&](double a, double b) { return side * a < side * b; });
+  Extreme e{.level = means.front(), .count = 0};
+  double sum = 0.0;
+  const auto alike = [&] {
+    return e.count < means.size() &&
+           side * means[e.count] <= side * e.level * (1.0 + side * margin);
+  };
+  while (alike()) {
+    do sum += means[e.count++];
+    while (alike());
+    e.level = sum / static_cast<double>(e.count);
   }
-  return level;
+  return e;
+}
+
+/// Bandwidth of a channel's raw EMG; 0: not known.
+double bandwidth_of(const TrialEnvelope& trial, const std::string& channel) {
+  const auto c = trial.envelope->find(channel);
+  return c && *c < trial.bandwidth_hz.size() ? trial.bandwidth_hz[*c] : 0.0;
+}
+
+/// Moving means of one channel over all trials.
+struct Means {
+  std::vector<double> of_a_second;  ///< Where it may rest.
+  std::vector<double> of_a_window;  ///< Where it may be at its greatest.
+  double samples_per_window = 0.0;
+};
+
+/// The means, and in `n` the place of the greatest. Throws InvalidInput if no trial is as long as
+/// the window.
+Means moving_means(std::span<const TrialEnvelope> trials,
+                   double window_s,
+                   ChannelNormalisation& n) {
+  Means result;
+  double largest = -1.0, longest_s = 0.0;
+  for (const TrialEnvelope& trial : trials) {
+    const Eigen::VectorXd x = trial.envelope->column(n.channel);
+    const Eigen::VectorXd second = moving_mean(x, window_samples(*trial.envelope, kRest_s));
+    result.of_a_second.insert(result.of_a_second.end(), second.begin(), second.end());
+    const Eigen::VectorXd& clock = trial.envelope->time_s();
+    const double length_s = clock[clock.size() - 1] - clock[0] + trial.envelope->mean_interval_s();
+    longest_s = std::max(longest_s, length_s);
+    if (window_s > (1.0 + 1e-9) * length_s) continue;
+    const Eigen::Index width = window_samples(*trial.envelope, window_s);
+    const Eigen::VectorXd means = moving_mean(x, width);
+    result.of_a_window.insert(result.of_a_window.end(), means.begin(), means.end());
+    Eigen::Index at = 0;
+    if (const double top = means.maxCoeff(&at); top > largest) {
+      largest = top;
+      n.source_trial = trial.trial;
+      n.source_time_s = clock[at + width / 2];
+      n.from_mvc = trial.is_mvc;
+      n.bandwidth_hz = bandwidth_of(trial, n.channel);
+      result.samples_per_window = static_cast<double>(width);
+    }
+  }
+  if (largest < 0.0) {
+    throw InvalidInput(
+        fmt::format("EMG normalisation: the window of {} s is longer than every recording (the "
+                    "longest has {:.4g} s); give a shorter one",
+                    window_s, longest_s));
+  }
+  return result;
+}
+
+/// To round-off the same throughout, which no noise of an electrode is.
+bool is_flat(const Means& means) {
+  const double least = *std::min_element(means.of_a_second.begin(), means.of_a_second.end());
+  const double most = *std::max_element(means.of_a_window.begin(), means.of_a_window.end());
+  return !(most > least * (1.0 + 1e-6));
 }
 
 /// Hum is said; with `notch` it is gone afterwards.
@@ -66,7 +133,10 @@ void take_out_hum(bool notch, EmgStages& stages) {
         "channel '{}': {:.0f} % of its power is hum, in lines at {} Hz; {}",
         stages.filtered.channels()[static_cast<std::size_t>(c)].name, 100.0 * hum->share, lines,
         notch ? "taken out by notches" : "check the reference electrode"));
-    if (notch) values.col(c) = without_hum(values.col(c), rate_hz, *hum);
+    if (!notch) continue;
+    values.col(c) = without_hum(values.col(c), rate_hz, *hum);
+    stages.notches.push_back(
+        {stages.filtered.channels()[static_cast<std::size_t>(c)].name, hum->lines_hz});
   }
   stages.filtered =
       TimeSeries(stages.filtered.time_s(), stages.filtered.channels(), std::move(values));
@@ -87,25 +157,25 @@ EmgStages clean_emg(const TimeSeries& raw, const EnvelopeOptions& options) {
                     "cannot be mended",
                     rate));
   }
-  stages.filtered = options.as_published
-                        ? stages.raw
-                        : zero_phase_filter(stages.raw, math::FilterBand::high_pass,
-                                            options.highpass_hz, {.order = 2, .corrected = true});
+  stages.filtered =
+      options.as_published
+          ? stages.raw
+          : zero_phase_filter(stages.raw, math::FilterBand::high_pass, options.highpass_hz,
+                              {.order = 2, .ends = math::Ends::even});
   take_out_hum(options.notch && !options.as_published, stages);
   return stages;
 }
 
-std::vector<WhiteningFilter> find_whitening(std::span<const EmgStages* const> trials,
-                                            const EnvelopeOptions& options) {
-  if (!options.whitening || options.as_published || !options.rectify) return {};
+Whitening find_whitening(std::span<const EmgStages* const> trials, const EnvelopeOptions& options) {
+  if (options.as_published)
+    return {.applied = false, .reason = "as in the source paper", .filters = {}};
+  if (!options.rectify) return {.applied = false, .reason = "not rectified either", .filters = {}};
   std::vector<const TimeSeries*> filtered;
   for (const EmgStages* trial : trials) filtered.push_back(&trial->filtered);
-  return design_whitening(filtered, options.highpass_hz);
+  return decide_whitening(filtered, options.highpass_hz, options.whitening);
 }
 
-void add_envelope(EmgStages& stages,
-                  const EnvelopeOptions& options,
-                  std::span<const WhiteningFilter> whitening) {
+void add_envelope(EmgStages& stages, const EnvelopeOptions& options, const Whitening& whitening) {
   const TimeSeries& raw = stages.raw;
   const double rate = raw.mean_rate_hz();
   const TimeSeries white = whiten(stages.filtered, whitening);
@@ -120,7 +190,7 @@ void add_envelope(EmgStages& stages,
                  options.rectify ? Eigen::MatrixXd(white.values().cwiseAbs()) : white.values());
   const TimeSeries smooth =
       zero_phase_filter(stages.rectified, math::FilterBand::low_pass, options.lowpass_hz,
-                        {.order = 2, .corrected = !options.as_published});
+                        {.order = 2, .corrected = !options.as_published, .ends = math::Ends::even});
   for (Eigen::Index c = 0; c < raw.channel_count(); ++c) {
     const double share = (smooth.values().col(c).array() < 0.0).cast<double>().mean();
     if (share > 0.01) {
@@ -139,7 +209,7 @@ std::vector<EmgStages> process_emg(std::span<const TimeSeries* const> raw,
   for (const TimeSeries* trial : raw) trials.push_back(clean_emg(*trial, options));
   std::vector<const EmgStages*> views;
   for (const EmgStages& trial : trials) views.push_back(&trial);
-  const std::vector<WhiteningFilter> whitening = find_whitening(views, options);
+  const Whitening whitening = find_whitening(views, options);
   for (EmgStages& trial : trials) add_envelope(trial, options, whitening);
   return trials;
 }
@@ -156,76 +226,28 @@ std::vector<ChannelNormalisation> find_normalisation(std::span<const TrialEnvelo
   for (const Channel& channel : trials.front().envelope->channels()) {
     ChannelNormalisation n;
     n.channel = channel.name;
-    std::vector<double> seconds;
-    double largest = -1.0;
-    double longest_s = 0.0;
-    for (const TrialEnvelope& trial : trials) {
-      const Eigen::VectorXd x = trial.envelope->column(channel.name);
-      const Eigen::VectorXd second = moving_mean(x, window_samples(*trial.envelope, kRest_s));
-      seconds.insert(seconds.end(), second.begin(), second.end());
-      const Eigen::VectorXd& clock = trial.envelope->time_s();
-      const double length_s =
-          clock[clock.size() - 1] - clock[0] + trial.envelope->mean_interval_s();
-      longest_s = std::max(longest_s, length_s);
-      if (options.window_s > (1.0 + 1e-9) * length_s) continue;
-      const Eigen::Index width = window_samples(*trial.envelope, options.window_s);
-      const Eigen::VectorXd means = moving_mean(x, width);
-      Eigen::Index at = 0;
-      const double top = means.maxCoeff(&at);
-      if (top > largest) {
-        largest = top;
-        n.source_trial = trial.trial;
-        n.source_time_s = trial.envelope->time_s()[at + width / 2];
-        n.from_mvc = trial.is_mvc;
-        n.bandwidth_hz = 0.0;
-        for (Eigen::Index c = 0; c < trial.bandwidth_hz.size(); ++c) {
-          if (trial.envelope->channels()[static_cast<std::size_t>(c)].name == channel.name)
-            n.bandwidth_hz = trial.bandwidth_hz[c];
-        }
-      }
-    }
-    if (largest < 0.0) {
-      throw InvalidInput(
-          fmt::format("EMG normalisation: the window of {} s is longer than every recording (the "
-                      "longest has {:.4g} s); give a shorter one",
-                      options.window_s, longest_s));
+    Means means = moving_means(trials, options.window_s, n);
+    if (is_flat(means)) {
+      throw InvalidInput(fmt::format(
+          "EMG channel '{}' never rises above its resting level: was the electrode connected?",
+          channel.name));
     }
     // Rectified Gaussian noise of bandwidth B averaged over the window: CV = 0.7555 / sqrt(2 B T).
     const double bandwidth_hz = n.bandwidth_hz > 0.0 ? n.bandwidth_hz : kUsualBandwidth_hz;
     const auto spread_over = [&](double window_s) {
       return kRectifiedSpread / std::sqrt(2.0 * bandwidth_hz * window_s);
     };
-    n.relative_sd = spread_over(options.window_s);
-    n.resting_level_v = resting_level(std::move(seconds), spread_over(kRest_s));
-    // Windows whose mean may well be the same: by how long they last in all.
-    double windows = 0.0;
-    for (const TrialEnvelope& trial : trials) {
-      const Eigen::VectorXd& clock = trial.envelope->time_s();
-      if (options.window_s >
-          clock[clock.size() - 1] - clock[0] + 2.0 * trial.envelope->mean_interval_s())
-        continue;
-      const Eigen::Index width = window_samples(*trial.envelope, options.window_s);
-      const Eigen::VectorXd means = moving_mean(trial.envelope->column(channel.name), width);
-      bool near = false;
-      for (Eigen::Index i = 0; i < means.size(); ++i) {
-        const bool here = means[i] > largest * (1.0 - 2.0 * n.relative_sd);
-        if (here && !near) windows += 1.0;
-        if (here) windows += 1.0 / static_cast<double>(width);
-        near = here;
-      }
-    }
-    // Expected maximum of m normal numbers (Blom 1958); a channel that is 0 throughout has none.
-    if (windows >= 1.0) {
-      n.relative_bias = n.relative_sd * math::normal_quantile((windows - 0.375) / (windows + 0.25));
-      n.relative_bias = std::max(0.0, n.relative_bias);
-    }
+    const double spread = spread_over(options.window_s);
+    const double quiet =
+        extreme_level(std::move(means.of_a_second), 2.0 * spread_over(kRest_s), 1.0).level;
+    const Extreme greatest = extreme_level(std::move(means.of_a_window), 1.5 * spread, -1.0);
+    n.relative_sd =
+        spread /
+        std::sqrt(std::max(1.0, static_cast<double>(greatest.count) / means.samples_per_window));
+    n.rests = greatest.level > kRises * quiet;
+    n.resting_level_v = n.rests ? quiet : 0.0;
     n.reference_v =
-        std::sqrt(std::max(0.0, largest * largest - n.resting_level_v * n.resting_level_v));
-    if (!(n.reference_v > 0.0) || n.reference_v < 1e-3 * largest) {
-      throw InvalidInput(fmt::format(
-          "EMG channel '{}' never rises above its resting level: was the electrode connected?",
-          channel.name));
-    }
+        std::sqrt(greatest.level * greatest.level - n.resting_level_v * n.resting_level_v);
     result.push_back(std::move(n));
   }
   return result;

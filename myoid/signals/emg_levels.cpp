@@ -49,6 +49,13 @@ Levels levels(const TimeSeries& envelope, Eigen::Index c) {
 
 }  // namespace
 
+double time_above_s(const Eigen::Ref<const Eigen::VectorXd>& samples,
+                    double rate_hz,
+                    double level) {
+  const auto count = (samples.array() > level).count();
+  return rate_hz > 0.0 ? static_cast<double>(count) / rate_hz : 0.0;
+}
+
 std::vector<Fault> check_emg_levels(std::span<const TrialEnvelope> trials,
                                     const QualityLimits& limits) {
   std::vector<Fault> faults;

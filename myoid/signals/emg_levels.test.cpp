@@ -59,5 +59,14 @@ TEST(EmgLevels, AMovementAboveTheMaximalContractionIsNamedWithTrialAndTime) {
   EXPECT_NE(faults[0].text.find("(mvc) in move at "), std::string::npos) << faults[0].text;
 }
 
+TEST(EmgLevels, ASpikeIsShortAndPercentAreNot) {
+  Eigen::VectorXd a = Eigen::VectorXd::Constant(1000, 0.4);
+  a[500] = 50.0;
+  EXPECT_EQ(time_above_s(a, 100.0, 2.0), 0.01);
+  EXPECT_EQ(time_above_s(100.0 * a, 100.0, 2.0), 10.0);
+  EXPECT_EQ(time_above_s(a, 100.0, 60.0), 0.0);
+  EXPECT_EQ(time_above_s(Eigen::VectorXd(), 100.0, 0.0), 0.0);
+}
+
 }  // namespace
 }  // namespace myoid::signals

@@ -24,7 +24,7 @@ double rms(const Eigen::Ref<const Eigen::VectorXd>& x) {
 }
 
 Eigen::VectorXd filtered(const Eigen::VectorXd& x, FilterBand band, double cutoff_hz, double rate) {
-  return math::zero_phase(math::design_butterworth(band, 2, cutoff_hz, rate), x);
+  return math::zero_phase(math::design_butterworth(band, 2, cutoff_hz, rate), x, math::Ends::even);
 }
 
 /// Samples i .. i + length - 1 all have the same value.

@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
-#include "myoid/math/zero_phase.h"
 
 namespace myoid::signals {
 
@@ -24,7 +23,7 @@ TimeSeries zero_phase_filter(const TimeSeries& series,
   const auto sections = math::design_butterworth(band, options.order, design, rate);
   Eigen::MatrixXd values(series.sample_count(), series.channel_count());
   for (Eigen::Index c = 0; c < series.channel_count(); ++c)
-    values.col(c) = math::zero_phase(sections, series.values().col(c));
+    values.col(c) = math::zero_phase(sections, series.values().col(c), options.ends);
   return {series.time_s(), series.channels(), std::move(values)};
 }
 

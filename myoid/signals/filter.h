@@ -2,6 +2,7 @@
 
 #include "myoid/core/time_series.h"
 #include "myoid/math/butterworth.h"
+#include "myoid/math/zero_phase.h"
 
 namespace myoid::signals {
 
@@ -9,6 +10,7 @@ struct FilterOptions {
   int order = 2;          ///< Of one pass.
   bool corrected = true;  ///< -3 dB of the two passes together at the cut-off; false: of one pass,
                           ///< as the source paper.
+  math::Ends ends = math::Ends::odd;  ///< `even` for EMG, raw or rectified.
 };
 
 /// Every channel filtered forwards and backwards by a Butterworth filter: no delay. The clock must

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include <Eigen/QR>
+
 #include "myoid/core/units.h"
 #include "myoid/math/zero_phase.h"
 #include "myoid/signals/spectrum.h"
@@ -15,6 +17,8 @@ constexpr double kSegment_s = 2.0;
 constexpr double kStandsOut = 8.0;
 constexpr double kHighestLine_hz = 450.0;
 constexpr double kNotchWidth_hz = 4.0;
+constexpr double kExtension_s = 1.0;  ///< The notch rings for 1 / (pi 4 Hz) = 0.08 s.
+constexpr double kHumFit_s = 0.5;     ///< The mains drift by less than a tenth of a turn.
 
 /// Power of a line above its neighbors; 0 where it does not stand out.
 double line_power(const PowerSpectrum& s, double line_hz) {
@@ -32,6 +36,35 @@ double line_power(const PowerSpectrum& s, double line_hz) {
   constexpr double kHalfWidth_hz = 1.5;  // the window's main lobe
   return std::max(0.0, band_power(s, line_hz - kHalfWidth_hz, line_hz + kHalfWidth_hz) -
                            2.0 * kHalfWidth_hz * *middle);
+}
+
+/// `count` samples after the last one: the lines go on as sines (least squares over the last half
+/// second), the rest is mirrored. Mirrored lines would turn their phase, and a notch lets that
+/// turn pass for a tenth of a second.
+Eigen::VectorXd beyond_the_end(const Eigen::VectorXd& x,
+                               double rate_hz,
+                               const Hum& hum,
+                               Eigen::Index count) {
+  const Eigen::Index n = x.size();
+  const auto lines = static_cast<Eigen::Index>(hum.lines_hz.size());
+  // Columns of sines at `rows` samples from `first` on.
+  const auto sines = [&](Eigen::Index first, Eigen::Index rows) {
+    Eigen::MatrixXd columns(rows, 2 * lines);
+    for (Eigen::Index k = 0; k < lines; ++k) {
+      const Eigen::ArrayXd phase = 2.0 * kPi * hum.lines_hz[static_cast<std::size_t>(k)] / rate_hz *
+                                   Eigen::ArrayXd::LinSpaced(rows, static_cast<double>(first),
+                                                             static_cast<double>(first + rows - 1));
+      columns.col(2 * k) = phase.cos();
+      columns.col(2 * k + 1) = phase.sin();
+    }
+    return columns;
+  };
+  const Eigen::Index fitted =
+      std::min(n, static_cast<Eigen::Index>(std::lround(kHumFit_s * rate_hz)));
+  const Eigen::VectorXd weight =
+      sines(n - fitted, fitted).colPivHouseholderQr().solve(x.tail(fitted));
+  const Eigen::VectorXd rest = x.tail(count + 1) - sines(n - 1 - count, count + 1) * weight;
+  return rest.head(count).reverse() + sines(n, count) * weight;
 }
 
 }  // namespace
@@ -72,7 +105,13 @@ Eigen::VectorXd without_hum(const Eigen::Ref<const Eigen::VectorXd>& x,
                        .a2 = (1.0 - half_width) / a0});
   }
   if (notches.empty()) return x;
-  return math::zero_phase(notches, x);
+  const Eigen::Index n = x.size();
+  const auto wanted = static_cast<Eigen::Index>(std::lround(kExtension_s * rate_hz));
+  const Eigen::Index pad = std::min(n - 1, wanted);
+  Eigen::VectorXd longer(n + 2 * pad);
+  longer << beyond_the_end(x.reverse(), rate_hz, hum, pad).reverse(), x,
+      beyond_the_end(x, rate_hz, hum, pad);
+  return math::zero_phase(notches, longer, math::Ends::even).segment(pad, n);
 }
 
 }  // namespace myoid::signals

@@ -22,7 +22,8 @@ struct Hum {
                                           double rate_hz);
 
 /// Without the lines: second-order notches of 4 Hz (-3 dB of one pass), forwards and backwards, so
-/// that nothing is delayed. Throws as `math::zero_phase`.
+/// that nothing is delayed. Beyond the ends the lines go on as sines and the rest is mirrored.
+/// Throws as `math::zero_phase`.
 [[nodiscard]] Eigen::VectorXd without_hum(const Eigen::Ref<const Eigen::VectorXd>& x,
                                           double rate_hz,
                                           const Hum& hum);

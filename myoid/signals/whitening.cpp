@@ -4,10 +4,12 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "myoid/core/error.h"
 #include "myoid/math/statistics.h"
 #include "myoid/signals/spectrum.h"
 
@@ -22,8 +24,9 @@ constexpr std::size_t kFewestSegments = 20;
 constexpr double kSmooth_hz = 10.0;   ///< Half width of the smoothing of a spectrum.
 constexpr double kMostGain = 1000.0;  ///< Of the power; 30 dB.
 constexpr double kHalfLength_s = 0.016;
-constexpr double kWorthIt = 1.1;
+constexpr double kWorthIt = 1.1;  ///< Growth of the bandwidth, geometric mean of the channels.
 constexpr double kSlowest_hz = 500.0;
+constexpr double kFaintNoise = 0.01;  ///< Of the power density in the band, where nothing rests.
 
 /// Periodograms of all segments of one channel, one column each.
 struct Segments {
@@ -139,73 +142,117 @@ Eigen::VectorXd gain_of(const Eigen::VectorXd& half,
   return gain;
 }
 
+/// Bins between which a spectrum is trusted: above the high-pass, below the converter's filter.
+struct Band {
+  Eigen::Index low = 0, high = 0;
+};
+
+/// Power densities of the contracting muscle at a small effort and of the noise.
+struct Spectra {
+  Eigen::VectorXd signal, noise;
+};
+
+/// What stands out less than three times its standard error counts as noise: a periodogram's bin
+/// spreads by its own size, and smoothing averages some bins.
+Eigen::VectorXd significant(const Eigen::VectorXd& signal,
+                            const Eigen::VectorXd& noise,
+                            double segments) {
+  const Eigen::VectorXd least = 3.0 / std::sqrt(segments) * (noise + signal.cwiseMax(0.0));
+  return (signal.array() > least.array()).select(signal, 0.0);
+}
+
+/// Muscle and noise where the segments differ: those that stand out, and the quiet ones. Absent if
+/// fewer than 20 stand out.
+std::optional<Spectra> from_rest(const Segments& segments, double bin_hz) {
+  std::vector<double> active;
+  Eigen::VectorXd shape = Eigen::VectorXd::Zero(segments.frequency_hz.size());
+  for (std::size_t i = 0; i < segments.power.size(); ++i) {
+    const double above = segments.power[i] - segments.quiet_power;
+    if (!(segments.power[i] > kLoud * segments.quiet_power)) continue;
+    active.push_back(above);
+    shape += (segments.density[i] - segments.quiet) / above;
+  }
+  if (active.size() < kFewestSegments) return std::nullopt;
+  const auto count = static_cast<double>(active.size());
+  std::sort(active.begin(), active.end());
+  const double power = active[active.size() / 4];
+  const Eigen::VectorXd noise = smoothed(segments.quiet, bin_hz);
+  return Spectra{significant(power * smoothed(shape / count, bin_hz), noise, count), noise};
+}
+
+/// Muscle and noise where no segment stands out and none is quiet, such as an effort held from the
+/// first sample to the last: the noise is taken for white, of the least density in the band, but at
+/// most a hundredth of the mean one, since else EMG of a level spectrum would all be noise. Absent
+/// if some segment stands out or there are fewer than 20.
+std::optional<Spectra> without_rest(const Segments& segments, const Band& band, double bin_hz) {
+  if (segments.power.size() < kFewestSegments) return std::nullopt;
+  Eigen::VectorXd mean = Eigen::VectorXd::Zero(segments.frequency_hz.size());
+  for (std::size_t i = 0; i < segments.power.size(); ++i) {
+    if (segments.power[i] > kLoud * segments.quiet_power) return std::nullopt;
+    mean += segments.density[i];
+  }
+  const auto count = static_cast<double>(segments.power.size());
+  const Eigen::VectorXd total = smoothed(mean / count, bin_hz);
+  const auto in_band = total.segment(band.low, band.high - band.low + 1);
+  const double least = std::min(in_band.minCoeff(), kFaintNoise * in_band.mean());
+  const Eigen::VectorXd noise = Eigen::VectorXd::Constant(total.size(), least);
+  return Spectra{significant(total - noise, noise, count), noise};
+}
+
+/// Why no channel of these trials can be whitened; empty: nothing speaks against it.
+std::string unfit(std::span<const TimeSeries* const> trials) {
+  const double rate_hz = trials.front()->mean_rate_hz();
+  if (rate_hz < kSlowest_hz) return fmt::format("sampled at {:.0f} Hz", rate_hz);
+  for (const TimeSeries* trial : trials) {
+    if (std::abs(trial->mean_rate_hz() - rate_hz) > 1e-3 * rate_hz)
+      return "sampled at different rates";
+  }
+  return {};
+}
+
+/// Filter of these spectra, with the bandwidths before and after.
+void set_filter(const Spectra& spectra, const Band& band, double bin_hz, WhiteningFilter& filter) {
+  const Eigen::VectorXd& signal = spectra.signal;
+  const Eigen::VectorXd& noise = spectra.noise;
+  const Eigen::Index bins = signal.size();
+  Eigen::VectorXd gain = signal.cwiseQuotient(
+      (signal + noise).cwiseAbs2().cwiseMax(std::numeric_limits<double>::min()));
+  gain.head(band.low).setConstant(gain[band.low]);
+  gain.tail(bins - band.high).setConstant(gain[band.high]);
+  // Least where muscle prevails: relative to there, no more than the limit.
+  Eigen::Index top = 0;
+  signal.maxCoeff(&top);
+  gain = gain.cwiseMin(kMostGain * gain[top]);
+  const Eigen::VectorXd half = taps_of(gain, bin_hz, filter.rate_hz);
+  const Eigen::VectorXd real = gain_of(half, bins, bin_hz, filter.rate_hz);
+  const Eigen::VectorXd as_is = Eigen::VectorXd::Ones(bins);
+  filter.bandwidth_before_hz = bandwidth_hz(as_is, signal, noise, bin_hz);
+  filter.bandwidth_after_hz = bandwidth_hz(real, signal, noise, bin_hz);
+  filter.half = half * std::sqrt(signal.sum() / real.dot(signal));
+}
+
 WhiteningFilter design_one(std::span<const TimeSeries* const> trials,
                            const std::string& channel,
                            double highpass_hz) {
   WhiteningFilter filter;
   filter.channel = channel;
   filter.rate_hz = trials.front()->mean_rate_hz();
-  const double rate_hz = filter.rate_hz;
-  if (rate_hz < kSlowest_hz) {
-    filter.reason = fmt::format("sampled at {:.0f} Hz", rate_hz);
-    return filter;
-  }
-  for (const TimeSeries* trial : trials) {
-    if (std::abs(trial->mean_rate_hz() - rate_hz) > 1e-3 * rate_hz) {
-      filter.reason = "sampled at different rates";
-      return filter;
-    }
-  }
+  filter.reason = unfit(trials);
+  if (!filter.reason.empty()) return filter;
+  filter.reason = "it hardly stands out from its rest";
   const Segments segments = segments_of(trials, channel);
-  std::vector<double> active;
-  Eigen::VectorXd shape;
-  if (std::isfinite(segments.quiet_power)) {
-    shape = Eigen::VectorXd::Zero(segments.frequency_hz.size());
-    for (std::size_t i = 0; i < segments.power.size(); ++i) {
-      const double above = segments.power[i] - segments.quiet_power;
-      if (!(segments.power[i] > kLoud * segments.quiet_power)) continue;
-      active.push_back(above);
-      shape += (segments.density[i] - segments.quiet) / above;
-    }
-  }
-  if (active.size() < kFewestSegments) {
-    filter.reason = "it hardly stands out from its rest";
-    return filter;
-  }
+  if (!std::isfinite(segments.quiet_power)) return filter;
   const double bin_hz = segments.frequency_hz[1];
-  shape = smoothed(shape / static_cast<double>(active.size()), bin_hz);
-  std::sort(active.begin(), active.end());
-  const double power = active[active.size() / 4];
-  const Eigen::VectorXd noise = smoothed(segments.quiet, bin_hz);
-  // A periodogram's bin spreads by its own size; smoothing averages some bins.
-  const double relative = 3.0 / std::sqrt(static_cast<double>(active.size()));
-  const Eigen::VectorXd least = relative * (noise / power + shape.cwiseMax(0.0));
-  const Eigen::VectorXd signal = power * (shape.array() > least.array()).select(shape, 0.0).eval();
-  const Eigen::Index bins = signal.size();
-  const auto low = static_cast<Eigen::Index>(std::ceil(1.25 * highpass_hz / bin_hz));
-  const auto high = static_cast<Eigen::Index>(std::floor(0.45 * rate_hz / bin_hz));
-  if (low >= high || !(signal.segment(low, high - low + 1).maxCoeff() > 0.0)) {
-    filter.reason = "it hardly stands out from its rest";
-    return filter;
-  }
-  Eigen::VectorXd gain = signal.cwiseQuotient(
-      (signal + noise).cwiseAbs2().cwiseMax(std::numeric_limits<double>::min()));
-  gain.head(low).setConstant(gain[low]);
-  gain.tail(bins - high).setConstant(gain[high]);
-  // Least where muscle prevails: relative to there, no more than the limit.
-  Eigen::Index top = 0;
-  signal.maxCoeff(&top);
-  gain = gain.cwiseMin(kMostGain * gain[top]);
-  Eigen::VectorXd half = taps_of(gain, bin_hz, rate_hz);
-  const Eigen::VectorXd real = gain_of(half, bins, bin_hz, rate_hz);
-  const Eigen::VectorXd as_is = Eigen::VectorXd::Ones(bins);
-  filter.bandwidth_before_hz = bandwidth_hz(as_is, signal, noise, bin_hz);
-  filter.bandwidth_after_hz = bandwidth_hz(real, signal, noise, bin_hz);
-  if (!(filter.bandwidth_after_hz > kWorthIt * filter.bandwidth_before_hz)) {
-    filter.reason = "its spectrum is level already";
-    return filter;
-  }
-  filter.half = half * std::sqrt(signal.sum() / real.dot(signal));
+  const Band band{static_cast<Eigen::Index>(std::ceil(1.25 * highpass_hz / bin_hz)),
+                  static_cast<Eigen::Index>(std::floor(0.45 * filter.rate_hz / bin_hz))};
+  if (band.low >= band.high) return filter;
+  std::optional<Spectra> spectra = from_rest(segments, bin_hz);
+  if (!spectra) spectra = without_rest(segments, band, bin_hz);
+  if (!spectra) return filter;
+  const auto in_band = spectra->signal.segment(band.low, band.high - band.low + 1);
+  if (!(in_band.maxCoeff() > 0.0)) return filter;
+  filter.reason.clear();
+  set_filter(*spectra, band, bin_hz, filter);
   return filter;
 }
 
@@ -220,23 +267,51 @@ std::vector<WhiteningFilter> design_whitening(std::span<const TimeSeries* const>
   return filters;
 }
 
-TimeSeries whiten(const TimeSeries& emg, std::span<const WhiteningFilter> filters) {
+Whitening decide_whitening(std::span<const TimeSeries* const> trials,
+                           double highpass_hz,
+                           std::optional<bool> wanted) {
+  if (!wanted.value_or(true)) return {.applied = false, .reason = "not asked for", .filters = {}};
+  Whitening result{.applied = false,
+                   .reason = "there is no EMG",
+                   .filters = design_whitening(trials, highpass_hz)};
+  if (result.filters.empty()) return result;
+  double log_gain = 0.0;
+  for (const WhiteningFilter& filter : result.filters) {
+    if (!filter.reason.empty()) {
+      result.reason = fmt::format("channel '{}': {}", filter.channel, filter.reason);
+      if (!wanted) return result;
+      throw InvalidInput(
+          fmt::format("whitening is asked for and cannot be done: channel '{}': {}; leave the "
+                      "channel out, or let the recording decide",
+                      filter.channel, filter.reason));
+    }
+    log_gain += std::log(filter.bandwidth_after_hz / filter.bandwidth_before_hz) /
+                static_cast<double>(result.filters.size());
+  }
+  const double gain = std::exp(log_gain);
+  result.applied = wanted.value_or(gain > kWorthIt);
+  result.reason = wanted ? "asked for"
+                         : fmt::format("the statistical bandwidth of {} would grow {:.2f}-fold{}",
+                                       result.filters.size() == 1 ? "the channel" : "the channels",
+                                       gain, result.applied ? "" : ", which is not worth it");
+  return result;
+}
+
+TimeSeries whiten(const TimeSeries& emg, const Whitening& whitening) {
+  if (!whitening.applied) return emg;
   Eigen::MatrixXd values = emg.values();
   const Eigen::Index n = values.rows();
-  for (const WhiteningFilter& filter : filters) {
+  for (const WhiteningFilter& filter : whitening.filters) {
     const auto column = emg.find(filter.channel);
     const Eigen::Index reach = filter.half.size() - 1;
-    if (!column || reach < 0 || n <= reach) continue;
-    Eigen::VectorXd padded(n + 2 * reach);
-    padded.segment(reach, n) = emg.values().col(*column);
-    for (Eigen::Index i = 0; i < reach; ++i) {
-      padded[reach - 1 - i] = padded[reach + 1 + i];
-      padded[reach + n + i] = padded[reach + n - 2 - i];
-    }
-    auto result = values.col(*column);
-    result = filter.half[0] * padded.segment(reach, n);
+    const Eigen::Index known = n - 2 * reach;
+    if (!column || reach < 0 || known < reach) continue;
+    const auto x = emg.values().col(*column);
+    auto white = values.col(*column);
+    auto inside = white.segment(reach, known);
+    inside = filter.half[0] * x.segment(reach, known);
     for (Eigen::Index m = 1; m <= reach; ++m)
-      result += filter.half[m] * (padded.segment(reach - m, n) + padded.segment(reach + m, n));
+      inside += filter.half[m] * (x.segment(reach - m, known) + x.segment(reach + m, known));
   }
   return {emg.time_s(), emg.channels(), std::move(values)};
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -14,11 +15,11 @@ namespace myoid::signals {
 struct WhiteningFilter {
   std::string channel;
   double rate_hz = 0.0;
-  Eigen::VectorXd half;  ///< Taps 0, 1, ... to one side; the other side is the same. Empty: as is.
+  Eigen::VectorXd half;  ///< Taps 0, 1, ... to one side; the other side is the same. Empty: none.
   /// Statistical bandwidth of the contracting muscle's EMG at a small effort, noise reckoned in:
   /// before and after. The relative spread of an envelope goes with the inverse root.
   double bandwidth_before_hz = 0.0, bandwidth_after_hz = 0.0;
-  std::string reason;  ///< Why the channel stays as it is; empty if it does not.
+  std::string reason;  ///< Why there is no filter; empty if there is.
 };
 
 /// The amplitude s of EMG of power s^2 S(f) in noise N(f) has one best quadratic estimate: the mean
@@ -36,14 +37,38 @@ struct WhiteningFilter {
 /// the least and the greatest. The power of the contraction stays as it was, so that the envelope
 /// stays in volts.
 ///
+/// Where no segment stands out and none is quiet, such as an effort held from the first sample to
+/// the last, N is taken for white, of the least density between those limits or a hundredth of the
+/// mean one.
+///
 /// The trials are EMG of one person and one placement of the electrodes, high-passed, hum taken
-/// out. A channel stays as it is if its rate is below 500 Hz or differs between the trials, if
-/// fewer than 20 segments stand out, or if its bandwidth would grow by less than a tenth. Throws
-/// InvalidInput unless all trials have the channels of the first.
+/// out. A channel has no filter if its rate is below 500 Hz or differs between the trials, or if
+/// some segments stand out but fewer than 20. Throws InvalidInput unless all trials have the
+/// channels of the first.
 [[nodiscard]] std::vector<WhiteningFilter> design_whitening(
     std::span<const TimeSeries* const> trials, double highpass_hz);
 
-/// Every channel through its filter; beyond the ends the signal is mirrored.
-[[nodiscard]] TimeSeries whiten(const TimeSeries& emg, std::span<const WhiteningFilter> filters);
+/// Whether EMG is whitened: one answer for all channels and trials, because a whitened amplitude
+/// and one that is not differ in noise and in how fatigue changes them, so that
+/// left and right could not be compared.
+struct Whitening {
+  bool applied = false;
+  std::string reason;                    ///< Of the answer, as a clause.
+  std::vector<WhiteningFilter> filters;  ///< One for each channel; empty: nobody asked for it.
+};
+
+/// Decides for the trials of `design_whitening`. `wanted` absent: yes, if every channel has a
+/// filter and the statistical bandwidth grows by more than a tenth, in the geometric mean of the
+/// channels. Throws InvalidInput as `design_whitening`, and where `wanted` is true and a channel
+/// has no filter.
+[[nodiscard]] Whitening decide_whitening(std::span<const TimeSeries* const> trials,
+                                         double highpass_hz,
+                                         std::optional<bool> wanted = std::nullopt);
+
+/// Every channel through its filter, if whitening is applied. Within the filter's reach of an end
+/// (16 ms) the samples that it needs are not there, and no continuation will do: the filter raises
+/// frequencies at which EMG has hardly any power, and every kink has some there. The signal stays
+/// as it is in these samples, of the same power. So does a signal of less than three reaches.
+[[nodiscard]] TimeSeries whiten(const TimeSeries& emg, const Whitening& whitening);
 
 }  // namespace myoid::signals

@@ -134,18 +134,55 @@ TEST(Whitening, AnEffortOfATenthReadsATenth) {
   EXPECT_NEAR(activation.segment(12000, 46000).mean(), 0.1, 0.003);
 }
 
-TEST(Whitening, LeavesAloneWhatIsWhiteOrNeverRises) {
+TEST(Whitening, LeavesAloneWhatIsWhite) {
   Eigen::VectorXd flat = white(60000, 6);
   flat.head(10000) *= 0.01;
   const TimeSeries level = volts(1e-4 * flat);
   const TimeSeries* one = &level;
-  EXPECT_FALSE(design_whitening(std::span(&one, 1), 20.0).front().reason.empty());
-  const TimeSeries constant = volts(1e-4 * colored(60000, 7));
-  one = &constant;
+  const Whitening decision = decide_whitening(std::span(&one, 1), 20.0);
+  EXPECT_FALSE(decision.applied);
+  EXPECT_NE(decision.reason.find("not worth it"), std::string::npos) << decision.reason;
+  EXPECT_EQ((whiten(level, decision).values() - level.values()).cwiseAbs().maxCoeff(), 0.0);
+  EXPECT_TRUE(decide_whitening(std::span(&one, 1), 20.0, true).applied);
+}
+
+TEST(Whitening, AnEffortThatNeverRestsHasTheInverseSpectrumToo) {
+  // Amplifier noise of 5 % is white, as the filter takes it; the recursion's spectrum at 400 Hz is
+  // 1/13 of that at 100 Hz.
+  const TimeSeries x = volts(1e-4 * (colored(60000, 7) + 0.05 * white(60000, 70)));
+  const TimeSeries* one = &x;
   const WhiteningFilter f = design_whitening(std::span(&one, 1), 20.0).front();
-  EXPECT_FALSE(f.reason.empty());
-  const TimeSeries same = whiten(constant, std::span(&f, 1));
-  EXPECT_EQ((same.values() - constant.values()).cwiseAbs().maxCoeff(), 0.0);
+  ASSERT_TRUE(f.reason.empty()) << f.reason;
+  // Smoothed over 20 Hz the hump is lower, and part of the tail counts as noise.
+  EXPECT_NEAR(f.bandwidth_before_hz, 196.0, 30.0);
+  EXPECT_GT(f.bandwidth_after_hz, 380.0);
+}
+
+TEST(Whitening, IsOneAnswerForAllChannels) {
+  // The second channel stands out for 3 s alone: no spectrum to go by. Neither is whitened.
+  Eigen::MatrixXd both(60000, 2);
+  both.col(0) = effort(1.0, 0.01, 11);
+  both.col(1) = effort(1.0, 0.01, 12);
+  both.col(1).tail(47000) *= 0.01;
+  const TimeSeries x = volts(both);
+  const TimeSeries* one = &x;
+  const Whitening decision = decide_whitening(std::span(&one, 1), 20.0);
+  EXPECT_FALSE(decision.applied);
+  EXPECT_NE(decision.reason.find("m2"), std::string::npos) << decision.reason;
+  EXPECT_EQ((whiten(x, decision).values() - x.values()).cwiseAbs().maxCoeff(), 0.0);
+  // Asked for, it is refused with the channel's name rather than done for one of them.
+  EXPECT_THROW((void)decide_whitening(std::span(&one, 1), 20.0, true), InvalidInput);
+  // Not asked for, nothing is designed.
+  EXPECT_TRUE(decide_whitening(std::span(&one, 1), 20.0, false).filters.empty());
+  // Both strong: both are whitened, each by its own filter.
+  both.col(1) = effort(0.5, 0.01, 12);
+  const TimeSeries strong = volts(both);
+  one = &strong;
+  const Whitening yes = decide_whitening(std::span(&one, 1), 20.0);
+  EXPECT_TRUE(yes.applied);
+  const TimeSeries even = whiten(strong, yes);
+  for (const Eigen::Index c : {0, 1})
+    EXPECT_GT((even.values() - strong.values()).col(c).cwiseAbs().maxCoeff(), 0.0);
 }
 
 TEST(Whitening, ShortSlowAndSilentRecordingsStayAsTheyAre) {
@@ -163,7 +200,8 @@ TEST(Whitening, ShortSlowAndSilentRecordingsStayAsTheyAre) {
 TEST(Whitening, DelaysNothing) {
   const TimeSeries x = volts(effort(1.0, 0.01, 9));
   const TimeSeries* one = &x;
-  const auto filters = design_whitening(std::span(&one, 1), 20.0);
+  const Whitening filters = decide_whitening(std::span(&one, 1), 20.0);
+  ASSERT_TRUE(filters.applied);
   Eigen::VectorXd pulse = Eigen::VectorXd::Zero(1001);
   pulse[500] = 1.0;
   const Eigen::VectorXd y = whiten(volts(pulse), filters).values().col(0);
