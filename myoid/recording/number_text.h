@@ -4,6 +4,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <vector>
 
 namespace myoid::recording {
@@ -29,10 +30,21 @@ class NumberText {
   }
 
   /// Writes the number at a place with kRoom bytes; returns the place behind it.
-  [[nodiscard]] char* put(char* at, double value);
+  [[nodiscard]] char* put(char* at, double value) {
+    if (unasked_ > 0 || kept_.empty()) return put_unasked(at, value);
+    if (asked_ == kWindow) judge();
+    ++asked_;
+    const auto bits = std::bit_cast<std::uint64_t>(value);
+    Kept& kept = kept_[index_of(bits)];
+    if (kept.bits != bits) return put_and_keep(at, value, kept);
+    ++found_;
+    std::memcpy(at, kept.text.data(), kept.text.size());
+    return at + kept.size;
+  }
 
  private:
-  static constexpr int kIndexBits = 16;
+  static constexpr int kIndexBits = 17;  // 65,536 numbers seldom meet in one place
+  static constexpr int kWindow = 1000;
   struct alignas(32) Kept {  // two to a line of the processor's cache
     std::uint64_t bits = 0;  ///< Of the number; of an entry that is not used, those of 0.
     std::array<char, 23> text{'0'};
@@ -41,8 +53,13 @@ class NumberText {
   static std::size_t index_of(std::uint64_t bits) {
     return (bits * 0x9E3779B97F4A7C15ULL) >> (64 - kIndexBits);
   }
+  [[nodiscard]] char* put_unasked(char* at, double value);
+  [[nodiscard]] static char* put_and_keep(char* at, double value, Kept& kept);
+  /// Of a window of numbers some must have been there; else the next ones are not looked up.
+  void judge();
+
   std::vector<Kept> kept_;
-  int asked_ = 0, found_ = 0;  ///< Within the current thousand.
+  int asked_ = 0, found_ = 0;  ///< Within the current window.
   int unasked_ = 0;            ///< Numbers to come for which asking is not worth it.
 };
 
