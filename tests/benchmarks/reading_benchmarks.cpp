@@ -1,5 +1,5 @@
-// Reading of large files, made in the temporary folder: bytes a second of processor time, and the
-// most memory that reading takes, as a multiple of the file's size. Figures: docs/performance.md.
+// Reading and conversion of large files, made in the temporary folder: bytes of input a second, and
+// the most memory that it takes, as a multiple of the file's size. Figures: docs/performance.md.
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -15,6 +15,7 @@
 #include "myoid/recording/atomic_file.h"
 #include "myoid/recording/c3d_reader.h"
 #include "myoid/recording/c3d_writer.h"
+#include "myoid/recording/channel_writer.h"
 #include "myoid/recording/recording.h"
 #include "myoid/recording/storage_reader.h"
 
@@ -95,6 +96,67 @@ const fs::path& large_storage() {
   return path;
 }
 
+/// Numbers that spread as EMG does, as many as 16 bits hold: the sum of four uniform ones.
+class Counts {
+ public:
+  int next() {
+    int sum = 0;
+    for (int k = 0; k < 4; ++k) {
+      state_ = state_ * 1664525U + 1013904223U;
+      sum += static_cast<int>(state_ >> 18U) - 8192;
+    }
+    return sum / 4;
+  }
+
+ private:
+  unsigned state_ = 1;
+};
+
+/// 100 MB of EDF: 16 channels at 2 kHz, records of a second.
+const fs::path& large_edf() {
+  static const fs::path path = [] {
+    constexpr int kSignals = 16, kRate = 2000, kRecords = 1530;
+    const auto all = [](const std::string& text, std::size_t width) {
+      std::string cells;
+      for (int s = 0; s < kSignals; ++s) cells += fmt::format("{:<{}}", text, width);
+      return cells;
+    };
+    std::string text =
+        fmt::format("{:<8}{:<80}{:<80}01.01.2520.00.00{:<8}{:<44}{:<8}{:<8}{:<4}", 0, "X",
+                    "Startdate X", 256 * (kSignals + 1), "", kRecords, 1, kSignals);
+    for (int s = 0; s < kSignals; ++s) text += fmt::format("EMG {:<12}", s);
+    text += all("", 80) + all("uV", 8) + all("-3276.8", 8) + all("3276.7", 8) + all("-32768", 8) +
+            all("32767", 8) + all("", 80) + all(std::to_string(kRate), 8) + all("", 32);
+    Counts counts;
+    for (int i = 0; i < kRecords * kSignals * kRate; ++i) {
+      const int count = counts.next();
+      text += static_cast<char>(count & 0xFF);
+      text += static_cast<char>((count >> 8) & 0xFF);
+    }
+    recording::write_file(folder() / "large.edf", text);
+    return folder() / "large.edf";
+  }();
+  return path;
+}
+
+/// 100 MB of a table: 16 columns in millivolts as EMG programs write them.
+const fs::path& large_csv() {
+  static const fs::path path = [] {
+    std::string text = "time";
+    for (int c = 1; c <= 16; ++c) text += fmt::format(",channel_{} [mV]", c);
+    text += '\n';
+    Counts counts;
+    for (int i = 0; text.size() < 100'000'000; ++i) {
+      text += recording::format_number(i / 2000.0);
+      for (int c = 0; c < 16; ++c) text += fmt::format(",{:.5f}", 1e-4 * counts.next());
+      text += '\n';
+    }
+    recording::write_file(folder() / "large.csv", text);
+    return folder() / "large.csv";
+  }();
+  return path;
+}
+
 /// The most memory this process had since `forget_peak` [bytes].
 double peak_bytes() {
   std::ifstream status("/proc/self/status");
@@ -120,6 +182,27 @@ void measure(benchmark::State& state, const fs::path& path, Read&& read) {
   state.counters["MB/s"] =
       benchmark::Counter(size / kMegabyte, benchmark::Counter::kIsIterationInvariantRate);
 }
+
+/// Channels into a storage file, as `myoid convert` writes them.
+void to_storage(benchmark::State& state, const fs::path& path) {
+  measure(state, path, [](const fs::path& in) {
+    const recording::Recording recording = recording::read_recording(in);
+    recording::write_channels(folder() / "out.sto", rows_of(recording.analog),
+                              recording::statement_of(recording.analog.channels(), in));
+    return recording.analog.sample_count();
+  });
+  state.counters["output/size"] = static_cast<double>(fs::file_size(folder() / "out.sto")) /
+                                  static_cast<double>(fs::file_size(path));
+}
+void c3d_to_storage(benchmark::State& state, bool integer) {
+  to_storage(state, large_c3d(recording::C3dProcessor::intel, integer));
+}
+void edf_to_storage(benchmark::State& state) { to_storage(state, large_edf()); }
+void csv_to_storage(benchmark::State& state) { to_storage(state, large_csv()); }
+BENCHMARK_CAPTURE(c3d_to_storage, real, false)->MeasureProcessCPUTime();
+BENCHMARK_CAPTURE(c3d_to_storage, integer, true)->MeasureProcessCPUTime();
+BENCHMARK(edf_to_storage)->MeasureProcessCPUTime();
+BENCHMARK(csv_to_storage)->MeasureProcessCPUTime();
 
 void c3d_file(benchmark::State& state, recording::C3dProcessor processor, bool integer) {
   measure(state, large_c3d(processor, integer), recording::read_c3d);
