@@ -148,5 +148,21 @@ TEST(ReadStorage, EveryResultFileOfTheSharedDataReads) {
   EXPECT_GT(count, 50);
 }
 
+TEST(ParseStorage, CommasBetweenCellsAreSeparatorsAndInsideThemDecimals) {
+  const std::string head = "x\nversion=1\nendheader\n";
+  for (const std::string labels : {"time,a,b\n", "time, a, b\n", "time\ta\tb\n"}) {
+    const Storage commas = parse_storage(head + labels + "0,1.5,2\n0.5,3,4.25\n", "f.sto");
+    EXPECT_EQ(channel_names(commas.data), "a, b") << labels;
+    EXPECT_EQ(commas.data.values()(1, 1), 4.25) << labels;
+    EXPECT_EQ(commas.data.time_s()[1], 0.5) << labels;
+    EXPECT_EQ(commas.repairs.size(), 1U) << labels;
+  }
+  const Storage decimals = parse_storage(head + "time\ta\tb\n0\t1,5\t2\n0,5\t3\t4,25\n", "f.sto");
+  EXPECT_EQ(decimals.data.values()(1, 1), 4.25);
+  EXPECT_EQ(parse_storage(head + "time a b\n0 1,5 2,5\n", "f.sto").data.values()(0, 1), 2.5);
+  // Both at once cannot be told apart.
+  EXPECT_THROW((void)parse_storage(head + "time,a,b\n0,0,1,5,2,5\n", "f.sto"), ReadError);
+}
+
 }  // namespace
 }  // namespace myoid::recording

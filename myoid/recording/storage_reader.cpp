@@ -110,6 +110,21 @@ bool looks_like_comma_decimals(std::string_view line) {
   return line.find(',') != std::string_view::npos && line.find('.') == std::string_view::npos;
 }
 
+/// Labels as other programs write them, with commas between: no tab, and more cells than words.
+bool are_comma_labels(std::string_view line) {
+  return line.find('\t') == std::string_view::npos &&
+         split(line, ',').size() >= std::max<std::size_t>(2, split_words(line).size());
+}
+
+/// A row of `width` numbers with commas between them.
+bool is_comma_row(std::string_view line, std::size_t width) {
+  if (line.find('\t') != std::string_view::npos) return false;
+  const auto cells = split(line, ',');
+  return width > 1 && cells.size() == width &&
+         std::all_of(cells.begin(), cells.end(),
+                     [](std::string_view cell) { return parse_number(cell).has_value(); });
+}
+
 }  // namespace
 
 Storage parse_storage(std::string_view text, const std::filesystem::path& path) {
@@ -171,8 +186,10 @@ Storage parse_storage(std::string_view text, const std::filesystem::path& path) 
   std::vector<std::string> names;
   const std::size_t label_line = line + 1;
   const bool tabbed = lines[line].find('\t') != std::string_view::npos;
-  for (const std::string_view label :
-       tabbed ? split(trim(lines[line]), '\t') : split_words(lines[line])) {
+  bool comma_cells = elements == 1 && are_comma_labels(lines[line]);
+  for (const std::string_view label : tabbed        ? split(trim(lines[line]), '\t')
+                                      : comma_cells ? split(trim(lines[line]), ',')
+                                                    : split_words(lines[line])) {
     names.emplace_back(trim(label));
   }
   while (!names.empty() && names.back().empty()) names.pop_back();
@@ -222,6 +239,10 @@ Storage parse_storage(std::string_view text, const std::filesystem::path& path) 
   std::size_t doubled_line = 0;
   std::string mended;
   const auto rows_said = count_of(storage.header, {"nRows", "datarows"});
+  while (line + 1 < lines.size() && trim(lines[line + 1]).empty()) ++line;
+  if (elements == 1 && line + 1 < lines.size() && is_comma_row(lines[line + 1], width))
+    comma_cells = true;
+  if (comma_cells) storage.repairs.push_back({label_line, "separated by commas instead of tabs"});
   for (++line; line < lines.size(); ++line) {
     std::string_view content = lines[line];
     if (trim(content).empty()) continue;
@@ -235,11 +256,11 @@ Storage parse_storage(std::string_view text, const std::filesystem::path& path) 
       }
       storage.repairs.push_back({line + 1, std::string(kLastRowKept)});
     }
-    if (elements == 1 && looks_like_comma_decimals(content)) {
+    if (comma_cells || (elements == 1 && looks_like_comma_decimals(content))) {
       mended.assign(content);
-      std::replace(mended.begin(), mended.end(), ',', '.');
+      std::replace(mended.begin(), mended.end(), ',', comma_cells ? '\t' : '.');
       content = mended;
-      if (comma_line == 0) comma_line = line + 1;
+      if (!comma_cells && comma_line == 0) comma_line = line + 1;
     }
     const char* at = content.data();
     const char* const end = at + content.size();
@@ -271,6 +292,11 @@ Storage parse_storage(std::string_view text, const std::filesystem::path& path) 
         std::string_view::npos;
     if (doubled && doubled_line == 0) doubled_line = line + 1;
     if (!trim({at, static_cast<std::size_t>(end - at)}).empty()) {
+      if (comma_cells)
+        throw ReadError(path, line + 1,
+                        fmt::format("more than {} numbers; decimal commas in a file separated by "
+                                    "commas?",
+                                    width));
       if (doubled) {
         throw ReadError(path, line + 1,
                         fmt::format("a cell is empty and there are more than {} numbers: which "
