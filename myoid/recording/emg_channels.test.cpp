@@ -9,12 +9,30 @@ namespace {
 using ::testing::ElementsAre;
 
 TEST(NamedAsNoEmg, ForcesMomentsAndOtherInstrumentsAreAndMusclesAreNot) {
-  for (const char* name :
-       {"F1X", "f3z", "M2Y", "Fx1", "FZ", "Force.Fx1", "Moment.Mz2", "COPx", "Plate 1.Fy", "FP2Fz",
-        "Fx12", "Fy23", "fz4", "1Fx", "Sync", "Trigger 1", "Footswitch L"})
+  for (const char* name : {"F1X",
+                           "f3z",
+                           "M2Y",
+                           "Fx1",
+                           "FZ",
+                           "Force.Fx1",
+                           "Moment.Mz2",
+                           "COPx",
+                           "Plate 1.Fy",
+                           "FP2Fz",
+                           "Fx12",
+                           "Fy23",
+                           "fz4",
+                           "1Fx",
+                           "Sync",
+                           "Trigger 1",
+                           "Footswitch L",
+                           "Sensor 1: ACC.X 1",
+                           "EMG 01 (5471) GYRO Y",
+                           "FSR adapter 9: FSR.A 9"})
     EXPECT_TRUE(named_as_no_emg(name)) << name;
-  for (const char* name : {"SOL", "TA", "BIC", "Flexor carpi", "MG", "M1", "F8", "Max", "FDS", "PL",
-                           "Voltage.1", "Soleus_R", "Mylohyoid", "EMG 3", "Temporalis", ""})
+  for (const char* name :
+       {"SOL", "TA", "BIC", "Flexor carpi", "MG", "M1", "F8", "Max", "FDS", "PL", "Voltage.1",
+        "Soleus_R", "Mylohyoid", "EMG 3", "Temporalis", "Acc. flexor", ""})
     EXPECT_FALSE(named_as_no_emg(name)) << name;
 }
 
