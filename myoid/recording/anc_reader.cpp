@@ -9,6 +9,7 @@
 
 #include "myoid/core/error.h"
 #include "myoid/recording/c3d_file.h"
+#include "myoid/recording/table_clock.h"
 
 namespace myoid::recording {
 namespace {
@@ -34,10 +35,26 @@ std::vector<std::string_view> values_of(std::string_view line) {
   return cells;
 }
 
+/// Below Name, Rate and Range: the time and a count for each channel.
+TableLayout anc_layout(const TableText& table,
+                       std::size_t names_line,
+                       const std::vector<Channel>& channels) {
+  TableLayout layout;
+  layout.separator = '\t';
+  layout.names_line = names_line;
+  layout.first_row = names_line + 3;
+  layout.end_row = table.lines.size();
+  layout.columns = {{TableColumn::Kind::time, "time"}};
+  for (const Channel& channel : channels)
+    layout.columns.push_back({TableColumn::Kind::channel, channel.name});
+  return layout;
+}
+
 }  // namespace
 
 AncFile parse_anc(std::string_view text, const std::filesystem::path& path) {
-  const auto lines = split_lines(text);
+  const TableText table(text);
+  const auto& lines = table.lines;
   std::size_t names_at = 0;
   const auto begins_with = [&](std::size_t n, std::string_view word) {
     return equal_ignoring_case(trim(split(lines[n], '\t')[0]), word);
@@ -88,47 +105,15 @@ AncFile parse_anc(std::string_view text, const std::filesystem::path& path) {
                                   channels[c].name));
     to_volt.push_back(2e-3 * *range / (std::exp2(*bits) - 1.0));
   }
-  std::vector<double> time;
-  const std::size_t first = names_at + 3;
-  Eigen::MatrixXd values(static_cast<Eigen::Index>(lines.size() - first),
-                         static_cast<Eigen::Index>(width));
-  for (std::size_t n = first; n < lines.size(); ++n) {
-    if (trim(lines[n]).empty()) continue;
-    const auto cells = values_of(lines[n]);
-    if (n + 1 == lines.size() && !ends_with_line(text) && !time.empty()) {
-      file.repairs.push_back({n + 1, std::string(kLastRowLeftOut)});
-      break;
-    }
-    if (cells.size() < width && n + 1 == lines.size()) {
-      file.repairs.push_back({n + 1, fmt::format("the last row has {} of {} values and is left out",
-                                                 cells.size(), width)});
-      break;
-    }
-    const auto now = parse_number(split(lines[n], '\t')[0]);
-    if (!now || !std::isfinite(*now))
-      throw ReadError(
-          path, n + 1,
-          fmt::format("expected the time as a number, found '{}'", trim(split(lines[n], '\t')[0])));
-    if (!time.empty() && *now <= time.back())
-      throw ReadError(path, n + 1,
-                      fmt::format("time does not increase: {} s after {} s", *now, time.back()));
-    if (cells.size() != width)
-      throw ReadError(path, n + 1,
-                      fmt::format("expected {} values, found {}", width, cells.size()));
-    const auto row = static_cast<Eigen::Index>(time.size());
-    for (std::size_t c = 0; c < width; ++c) {
-      const auto count = parse_number(cells[c]);
-      if (!count)
-        throw ReadError(path, n + 1,
-                        fmt::format("channel '{}': expected a number, found '{}'", channels[c].name,
-                                    trim(cells[c])));
-      values(row, static_cast<Eigen::Index>(c)) = to_volt[c] * *count;
-    }
-    time.push_back(*now);
-  }
-  if (time.size() < 2) throw ReadError(path, 0, "there are fewer than two rows of numbers");
-  const auto count = static_cast<Eigen::Index>(time.size());
-  const double rate = static_cast<double>(count - 1) / (time.back() - time.front());
+  const TableLayout layout = anc_layout(table, names_at, channels);
+  TableNumbers numbers = read_rows(table, rows_of(layout), path);
+  file.repairs.insert(file.repairs.end(), numbers.repairs.begin(), numbers.repairs.end());
+  const Eigen::VectorXd time = row_times(layout, numbers, path, file.repairs);
+  const Eigen::Index count = time.size();
+  if (count < 2) throw ReadError(path, 0, "there are fewer than two rows of numbers");
+  for (std::size_t c = 0; c < width; ++c)
+    numbers.values.col(static_cast<Eigen::Index>(c)) *= to_volt[c];
+  const double rate = static_cast<double>(count - 1) / (time[count - 1] - time[0]);
   if (const auto said = header_number(lines, names_at, "PreciseRate:");
       said && std::abs(*said - rate) > 1e-3 * rate) {
     file.repairs.push_back(
@@ -141,11 +126,9 @@ AncFile parse_anc(std::string_view text, const std::filesystem::path& path) {
         {0, fmt::format("the header says {} s, the rows cover {:.6g} s: the file may be cut off",
                         *said, static_cast<double>(count) / rate)});
   }
-  values.conservativeResize(count, Eigen::NoChange);
   file.repairs.push_back(
       {0, "volts at the board's input: the amplifier's gain is not in the file"});
-  file.data = TimeSeries(Eigen::Map<const Eigen::VectorXd>(time.data(), count), std::move(channels),
-                         std::move(values));
+  file.data = TimeSeries(time, std::move(channels), std::move(numbers.values));
   return file;
 }
 

@@ -11,6 +11,7 @@
 
 #include "myoid/core/error.h"
 #include "myoid/recording/c3d_file.h"
+#include "myoid/recording/text_table.h"
 
 namespace myoid::recording {
 namespace {
@@ -61,6 +62,22 @@ std::vector<BidsChannel> read_channels(const std::filesystem::path& path) {
   return channels;
 }
 
+/// The rows of a `_motion.tsv`: no header, a column for each channel.
+TableNumbers motion_rows(const std::filesystem::path& path,
+                         const std::vector<BidsChannel>& channels) {
+  const std::string text = read_text_file(path);
+  TableRows rows;
+  rows.separator = '\t';
+  rows.empty_row_is_gap = true;
+  for (std::size_t c = 0; c < channels.size(); ++c) {
+    rows.names.push_back(channels[c].name);
+    rows.values.push_back(c);
+  }
+  const TableText table(text);
+  rows.end = table.lines.size();
+  return read_rows(table, rows, path);
+}
+
 /// SamplingFrequency of a sidecar.
 double rate_of(const std::filesystem::path& path) {
   const auto json = nlohmann::json::parse(read_text_file(path), nullptr, false);
@@ -96,36 +113,12 @@ BidsMotion read_bids_motion(const std::filesystem::path& path) {
                                 stem_without_suffix(path)));
   }
   const double rate = rate_of(std::filesystem::path(path).replace_extension(".json"));
-  const std::string text = read_text_file(path);
-  const auto lines = split_lines(text);
-  Eigen::MatrixXd values(static_cast<Eigen::Index>(lines.size()),
-                         static_cast<Eigen::Index>(channels->size()));
-  Eigen::Index rows = 0;
-  for (std::size_t n = 0; n < lines.size(); ++n) {
-    if (trim(lines[n]).empty()) continue;
-    const auto cells = split(lines[n], '\t');
-    if (cells.size() != channels->size())
-      throw ReadError(
-          path, n + 1,
-          fmt::format("{} columns for {} channels; a _motion.tsv has no header row and a "
-                      "column for each row of its _channels.tsv",
-                      cells.size(), channels->size()));
-    for (std::size_t c = 0; c < cells.size(); ++c) {
-      const std::string_view cell = trim(cells[c]);
-      const auto number = cell == "n/a" || cell.empty()
-                              ? std::optional(std::numeric_limits<double>::quiet_NaN())
-                              : parse_number(cell);
-      if (!number)
-        throw ReadError(
-            path, n + 1,
-            fmt::format("channel '{}': expected a number, found '{}'", (*channels)[c].name, cell));
-      values(rows, static_cast<Eigen::Index>(c)) = *number;
-    }
-    ++rows;
-  }
-  if (rows == 0) throw ReadError(path, 0, "there are no rows of numbers");
+  TableNumbers numbers = motion_rows(path, *channels);
+  const Eigen::MatrixXd& values = numbers.values;
+  const Eigen::Index rows = values.rows();
 
   BidsMotion motion;
+  motion.repairs = std::move(numbers.repairs);
   Eigen::VectorXd time(rows);
   for (Eigen::Index i = 0; i < rows; ++i) time[i] = static_cast<double>(i) / rate;
   const auto unit_of = [&](const BidsChannel& channel, Unit expected) {

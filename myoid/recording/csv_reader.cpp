@@ -1,71 +1,32 @@
 #include "myoid/recording/csv_reader.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
+#include <string>
 #include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "myoid/core/error.h"
+#include "myoid/recording/channel_labels.h"
 
 namespace myoid::recording {
 namespace {
 
-std::vector<std::string> csv_cells(std::string_view line, char separator) {
-  std::vector<std::string> cells;
-  std::string cell;
-  bool quoted = false;
-  for (std::size_t i = 0; i < line.size(); ++i) {
-    const char c = line[i];
-    if (quoted) {
-      if (c == '"' && i + 1 < line.size() && line[i + 1] == '"') {
-        cell += line[++i];
-      } else if (c == '"') {
-        quoted = false;
-      } else {
-        cell += c;
-      }
-    } else if (c == '"') {
-      quoted = true;
-    } else if (c == separator) {
-      cells.emplace_back(trim(cell));
-      cell.clear();
-    } else {
-      cell += c;
-    }
-  }
-  cells.emplace_back(trim(cell));
-  return cells;
+using Kind = TableColumn::Kind;
+
+/// The first line that is neither blank nor a remark, from `n` on.
+std::size_t next_line(const TableText& text, std::size_t n) {
+  while (n < text.lines.size() &&
+         (trim(text.lines[n]).empty() || trim(text.lines[n]).starts_with('#')))
+    ++n;
+  return n;
 }
 
-/// "name [unit]" or "name (unit)" taken apart.
-struct NamedUnit {
-  std::string name;
-  std::optional<ScaledUnit> unit;
-};
-
-/// "[mV]" and "(mV)" without their brackets.
-std::string_view trim_brackets(std::string_view cell) {
-  if (cell.size() > 2 && ((cell.front() == '[' && cell.back() == ']') ||
-                          (cell.front() == '(' && cell.back() == ')'))) {
-    cell.remove_prefix(1);
-    cell.remove_suffix(1);
-  }
-  return cell;
-}
-
-NamedUnit take_apart(const std::string& label) {
-  for (const auto& [open, close] : {std::pair{'[', ']'}, std::pair{'(', ')'}}) {
-    const std::size_t begin = label.rfind(open);
-    const std::size_t end = label.rfind(close);
-    if (begin == std::string::npos || end == std::string::npos || end < begin) continue;
-    if (auto unit = parse_unit(std::string_view(label).substr(begin + 1, end - begin - 1))) {
-      return {std::string(trim(std::string_view(label).substr(0, begin))), unit};
-    }
-  }
-  return {label, std::nullopt};
+/// What separates the cells of a header row.
+char separator_of(std::string_view head) {
+  const auto count = [&](char c) { return std::count(head.begin(), head.end(), c); };
+  return count(';') > 0 && count(';') >= count(',') ? ';' : count('\t') > count(',') ? '\t' : ',';
 }
 
 bool is_time(std::string_view name) {
@@ -74,42 +35,78 @@ bool is_time(std::string_view name) {
          equal_ignoring_case(name, "time_ms");
 }
 
-/// If the first row holds units instead of numbers ("s", "mV", ...), gives them to the labels that
+/// "name [unit]" or "name (unit)" taken apart.
+TableColumn take_apart(const std::string& label) {
+  for (const auto& [open, close] : {std::pair{'[', ']'}, std::pair{'(', ')'}}) {
+    const std::size_t begin = label.rfind(open);
+    const std::size_t end = label.rfind(close);
+    if (begin == std::string::npos || end == std::string::npos || end < begin) continue;
+    if (auto unit = parse_unit(std::string_view(label).substr(begin + 1, end - begin - 1)))
+      return {Kind::channel, std::string(trim(std::string_view(label).substr(0, begin))), unit};
+  }
+  return {Kind::channel, label};
+}
+
+/// The units of a row that holds them instead of numbers ("s", "mV", ...), for the columns that
 /// have none.
-bool take_units_row(const CsvTable& table, std::vector<NamedUnit>& labels) {
-  if (table.rows.empty()) return false;
+bool take_units_row(const std::vector<std::string>& cells, std::vector<TableColumn>& columns) {
   bool any = false;
-  for (const std::string& cell : table.rows[0]) {
+  for (const std::string& cell : cells) {
     if (cell.empty()) continue;
-    if (parse_number(cell) || !parse_unit(trim_brackets(cell))) return false;
+    if (parse_number(cell) || !unit_in_cell(cell)) return false;
     any = true;
   }
-  for (std::size_t c = 0; any && c < labels.size(); ++c) {
-    if (!labels[c].unit && !table.rows[0][c].empty())
-      labels[c].unit = parse_unit(trim_brackets(table.rows[0][c]));
+  for (std::size_t c = 0; any && c < std::min(columns.size(), cells.size()); ++c) {
+    if (!columns[c].unit && !cells[c].empty()) columns[c].unit = unit_in_cell(cells[c]);
   }
   return any;
+}
+
+/// The layout of a header row with a time column and rows of numbers below.
+TableLayout plain_layout(const TableText& text, const std::filesystem::path& path) {
+  TableLayout layout;
+  layout.plain = true;
+  const std::size_t head = next_line(text, 0);
+  if (head == text.lines.size()) throw ReadError(path, 0, "there is no header row");
+  layout.separator = separator_of(text.lines[head]);
+  layout.names_line = head;
+  std::vector<std::string> names = cells_of(text.lines[head], layout.separator);
+  while (!names.empty() && names.back().empty()) names.pop_back();
+  for (const std::string& name : names) layout.columns.push_back(take_apart(name));
+  layout.first_row = next_line(text, head + 1);
+  layout.end_row = text.lines.size();
+  if (layout.first_row < text.lines.size() &&
+      take_units_row(cells_of(text.lines[layout.first_row], layout.separator), layout.columns))
+    ++layout.first_row;
+  const auto time = std::find_if(layout.columns.begin(), layout.columns.end(),
+                                 [](const TableColumn& c) { return is_time(c.name); });
+  if (time == layout.columns.end()) {
+    throw ReadError(path, head + 1,
+                    fmt::format("no time column; expected one named time (in s) among {}",
+                                fmt::join(names, ", ")));
+  }
+  if (time->unit && time->unit->unit != Unit::second)
+    throw ReadError(path, head + 1,
+                    fmt::format("column '{}': time is in s or ms",
+                                names[static_cast<std::size_t>(time - layout.columns.begin())]));
+  if (!time->unit && equal_ignoring_case(time->name, "time_ms")) time->unit = parse_unit("ms");
+  time->kind = Kind::time;
+  return layout;
 }
 
 }  // namespace
 
 CsvTable parse_csv_table(std::string_view text, const std::filesystem::path& path) {
-  const std::vector<std::string_view> lines = split_lines(text);
+  const TableText whole(text);
   CsvTable table;
-  std::size_t n = 0;
-  while (n < lines.size() && (trim(lines[n]).empty() || trim(lines[n]).starts_with('#'))) ++n;
-  if (n == lines.size()) throw ReadError(path, 0, "there is no header row");
-  const std::string_view head = lines[n];
+  std::size_t n = next_line(whole, 0);
+  if (n == whole.lines.size()) throw ReadError(path, 0, "there is no header row");
   table.header_line = n + 1;
-  const auto count = [&](char c) { return std::count(head.begin(), head.end(), c); };
-  table.separator = count(';') > 0 && count(';') >= count(',') ? ';'
-                    : count('\t') > count(',')                 ? '\t'
-                                                               : ',';
-  table.names = csv_cells(head, table.separator);
+  table.separator = separator_of(whole.lines[n]);
+  table.names = cells_of(whole.lines[n], table.separator);
   while (!table.names.empty() && table.names.back().empty()) table.names.pop_back();
-  for (++n; n < lines.size(); ++n) {
-    if (trim(lines[n]).empty() || trim(lines[n]).starts_with('#')) continue;
-    std::vector<std::string> cells = csv_cells(lines[n], table.separator);
+  while ((n = next_line(whole, n + 1)) < whole.lines.size()) {
+    std::vector<std::string> cells = cells_of(whole.lines[n], table.separator);
     while (cells.size() > table.names.size() && cells.back().empty()) cells.pop_back();
     if (cells.size() != table.names.size()) {
       throw ReadError(path, n + 1,
@@ -120,7 +117,7 @@ CsvTable parse_csv_table(std::string_view text, const std::filesystem::path& pat
     table.lines.push_back(n + 1);
   }
   table.last_row_has_end =
-      table.rows.empty() || table.lines.back() < lines.size() || ends_with_line(text);
+      table.rows.empty() || table.lines.back() < whole.lines.size() || whole.ends_with_line;
   return table;
 }
 
@@ -129,98 +126,8 @@ CsvTable read_csv_table(const std::filesystem::path& path) {
 }
 
 CsvSeries parse_csv_series(std::string_view text, const std::filesystem::path& path) {
-  CsvTable table = parse_csv_table(text, path);
-  CsvSeries series;
-  if (!table.last_row_has_end && table.rows.size() == 1) {
-    series.repairs.push_back({table.lines.back(), std::string(kLastRowKept)});
-  } else if (!table.last_row_has_end) {
-    series.repairs.push_back({table.lines.back(), std::string(kLastRowLeftOut)});
-    table.rows.pop_back();
-    table.lines.pop_back();
-  }
-  std::optional<std::size_t> time_column;
-  double time_to_s = 1.0;
-  std::vector<Channel> channels;
-  std::vector<double> factor;
-  std::vector<std::size_t> columns;
-  std::vector<NamedUnit> labels;
-  for (const std::string& name : table.names) labels.push_back(take_apart(name));
-  const std::size_t first = take_units_row(table, labels) ? 1 : 0;
-  for (std::size_t c = 0; c < labels.size(); ++c) {
-    const NamedUnit& label = labels[c];
-    if (!time_column && is_time(label.name)) {
-      if (label.unit && label.unit->unit != Unit::second) {
-        throw ReadError(path, table.header_line,
-                        fmt::format("column '{}': time is in s or ms", table.names[c]));
-      }
-      time_column = c;
-      time_to_s = label.unit                                   ? label.unit->to_si
-                  : equal_ignoring_case(label.name, "time_ms") ? 1e-3
-                                                               : 1.0;
-      continue;
-    }
-    channels.push_back({label.name, label.unit ? label.unit->unit : Unit::dimensionless});
-    factor.push_back(label.unit ? label.unit->to_si : 1.0);
-    series.has_unit.push_back(label.unit.has_value());
-    columns.push_back(c);
-  }
-  for (std::size_t c = 0; c < channels.size(); ++c) {
-    if (channels[c].name.empty())
-      throw ReadError(path, table.header_line,
-                      fmt::format("column {} has no name", columns[c] + 1));
-    for (std::size_t d = 0; d < c; ++d) {
-      if (channels[c].name == channels[d].name) {
-        throw ReadError(path, table.header_line,
-                        fmt::format("two columns are named '{}'; rename one", channels[c].name));
-      }
-    }
-  }
-  if (!time_column) {
-    throw ReadError(path, table.header_line,
-                    fmt::format("no time column; expected one named time (in s) among {}",
-                                fmt::join(table.names, ", ")));
-  }
-  if (table.rows.size() == first)
-    throw ReadError(path, 0, "there are no rows of numbers after the header");
-  Eigen::VectorXd time(static_cast<Eigen::Index>(table.rows.size() - first));
-  Eigen::MatrixXd values(time.size(), static_cast<Eigen::Index>(columns.size()));
-  std::size_t comma_line = 0;
-  std::size_t gap_line = 0;
-  const auto number = [&](const std::string& cell, std::size_t line, const std::string& name) {
-    const auto value =
-        cell.empty() ? std::optional(std::numeric_limits<double>::quiet_NaN()) : parse_number(cell);
-    if (value && !std::isfinite(*value) && gap_line == 0) gap_line = line;
-    if (value) return *value;
-    if (table.separator != ',') {
-      if (const auto mended = parse_comma_number(cell)) {
-        if (comma_line == 0) comma_line = line;
-        return *mended;
-      }
-    }
-    throw ReadError(path, line,
-                    fmt::format("column '{}': expected a number, found '{}'", name, cell));
-  };
-  for (std::size_t r = first; r < table.rows.size(); ++r) {
-    const auto row = static_cast<Eigen::Index>(r - first);
-    time[row] =
-        time_to_s * number(table.rows[r][*time_column], table.lines[r], table.names[*time_column]);
-    if (!std::isfinite(time[row])) throw ReadError(path, table.lines[r], "the time is missing");
-    if (row > 0 && time[row] <= time[row - 1]) {
-      throw ReadError(
-          path, table.lines[r],
-          fmt::format("time does not increase: {} s after {} s", time[row], time[row - 1]));
-    }
-    for (std::size_t k = 0; k < columns.size(); ++k) {
-      values(row, static_cast<Eigen::Index>(k)) =
-          factor[k] * number(table.rows[r][columns[k]], table.lines[r], table.names[columns[k]]);
-    }
-  }
-  if (comma_line > 0)
-    series.repairs.push_back({comma_line, "comma decimals read as decimal points"});
-  if (gap_line > 0)
-    series.repairs.push_back({gap_line, "a value is missing or no number; kept as a gap"});
-  series.data = TimeSeries(std::move(time), std::move(channels), std::move(values));
-  return series;
+  const TableText table(text);
+  return channels_of_table(table, plain_layout(table, path), path);
 }
 
 CsvSeries read_csv_series(const std::filesystem::path& path) {

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "myoid/core/time_series.h"
+#include "myoid/recording/table_series.h"
 #include "myoid/recording/text_file.h"
 
 namespace myoid::recording {
@@ -24,13 +24,6 @@ struct CsvTable {
 /// around cells dropped. Throws ReadError if a row has another number of cells than the header.
 [[nodiscard]] CsvTable read_csv_table(const std::filesystem::path& path);
 [[nodiscard]] CsvTable parse_csv_table(std::string_view text, const std::filesystem::path& path);
-
-struct CsvSeries {
-  TimeSeries data;  ///< In SI where a unit is written ("name [mV]", "name (mm)", or in a row of
-                    ///< units below the header), else dimensionless.
-  std::vector<bool> has_unit;  ///< Per channel.
-  std::vector<Repair> repairs;
-};
 
 /// A table with a time column (`time`, `Time [s]`, `t`, `time (ms)`, ...) as a series. Comma
 /// decimals are read where ; or tab separates; an empty cell is a gap. Throws ReadError when there

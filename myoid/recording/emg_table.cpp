@@ -3,275 +3,314 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "myoid/core/error.h"
-#include "myoid/recording/emg_table_layout.h"
-#include "myoid/recording/vendor_table.h"
+#include "myoid/recording/c3d_file.h"
+#include "myoid/recording/channel_labels.h"
+#include "myoid/recording/channel_layouts.h"
 
 namespace myoid::recording {
 namespace {
 
-using emg_table::cells_of;
-using emg_table::Label;
-using emg_table::Layout;
-using emg_table::lower;
-using Lines = std::vector<std::string_view>;
+using Kind = TableColumn::Kind;
+using Cells = std::vector<std::string>;
 
-struct Column {
-  std::size_t index = 0;
-  Label label;
-  std::optional<std::size_t> clock;  ///< The column of its times; none: by the stated rate.
-  std::vector<double> time, values;
-};
-
-/// Same clock: as many samples, give or take some at the end, at the same times.
-bool same_clock(const Column& a, const Column& b) {
-  const std::size_t n = std::min(a.time.size(), b.time.size());
-  if (n < 2) return false;
-  const double dt = (a.time[n - 1] - a.time[0]) / static_cast<double>(n - 1);
-  return std::abs(a.time[0] - b.time[0]) < 0.1 * dt &&
-         std::abs(a.time[n - 1] - b.time[n - 1]) < 0.1 * dt;
+std::optional<double> cell_number(const std::string& cell, char separator) {
+  if (const auto value = parse_number(cell)) return value;
+  return separator == ',' ? std::nullopt : parse_comma_number(cell);
 }
 
-/// The channel whose clock counts: the first in volts, else the first called EMG, else the first.
-const Column& leader_of(const std::vector<Column>& columns) {
-  const auto in_volts = [](const Column& c) {
-    return c.label.unit && c.label.unit->unit == Unit::volt;
-  };
-  const auto called_emg = [](const Column& c) {
-    return lower(c.label.name).find("emg") != std::string::npos;
-  };
-  auto leader = std::find_if(columns.begin(), columns.end(), in_volts);
-  if (leader == columns.end()) leader = std::find_if(columns.begin(), columns.end(), called_emg);
-  return leader == columns.end() ? columns.front() : *leader;
+/// A row of nothing but numbers and empty cells, at least one of the former.
+bool is_numbers(const Cells& cells, char separator) {
+  std::size_t numbers = 0;
+  for (const std::string& cell : cells) {
+    if (cell.empty()) continue;
+    if (!cell_number(cell, separator)) return false;
+    ++numbers;
+  }
+  return numbers > 0;
 }
 
-/// A table with its layout, column by column, then as channels of one clock.
-class TableReader {
+std::size_t filled(const Cells& cells) {
+  std::size_t n = cells.size();
+  while (n > 0 && cells[n - 1].empty()) --n;
+  return n;
+}
+
+/// "Label: EMG 1 Sampling frequency: 1925.926 Unit: V Domain: Time": name and unit.
+std::optional<TableColumn> label_line(std::string_view line) {
+  const std::string text = lower(line);
+  const std::size_t begin = text.find("label:");
+  const std::size_t unit = text.find("unit:");
+  if (begin == std::string::npos || unit == std::string::npos) return std::nullopt;
+  const std::size_t end = std::min(text.find("sampling", begin), unit);
+  if (end < begin + 6) return std::nullopt;
+  TableColumn column;
+  column.name = to_utf8(trim(line.substr(begin + 6, end - begin - 6)));
+  const auto words = split_words(line.substr(unit + 5));
+  if (!words.empty()) column.unit = parse_c3d_unit(words[0]);
+  return column;
+}
+
+/// Looks for a table whose cells one separator parts.
+class TableFinder {
  public:
-  TableReader(const Lines& lines, const Layout& layout, const std::filesystem::path& path)
-      : lines_(lines), layout_(layout), path_(path) {}
+  TableFinder(const TableText& text, char separator) : text_(text) {
+    layout_.separator = separator;
+  }
 
-  CsvSeries read(std::string_view text, std::size_t widest) {
-    sort_columns();
-    read_rows(text, widest);
-    join();
-    return std::move(series_);
+  std::optional<TableLayout> find() {
+    if (!find_first_row()) return std::nullopt;
+    above_ = layout_.first_row;
+    if (!previous()) return std::nullopt;
+    Cells names = row(above_);
+    const Cells rates =
+        take_row(names, [](const std::string& cell) { return rate_in_cell(cell).has_value(); });
+    const Cells units = take_row(names, [](const std::string& cell) {
+      const TableColumn label = take_label_apart(cell);
+      return unit_in_cell(cell) || (label.name.empty() && label.unit);
+    });
+    layout_.names_line = above_;
+    layout_.end_row = text_.lines.size();
+    names.resize(std::max(filled(names), width_));
+    make_columns(names, units, rates);
+    read_head();
+    return std::move(layout_);
   }
 
  private:
-  void note(std::size_t line, std::string message) {
-    series_.repairs.push_back({line, std::move(message)});
+  [[nodiscard]] Cells row(std::size_t n) const {
+    return cells_of(text_.lines[n], layout_.separator);
+  }
+  [[nodiscard]] bool blank(std::size_t n) const { return trim(text_.lines[n]).empty(); }
+  [[nodiscard]] bool numbers(const Cells& cells) const {
+    return is_numbers(cells, layout_.separator);
   }
 
-  /// What each column is.
-  void sort_columns() {
-    std::vector<std::size_t> times;
-    std::vector<std::string> counters;
-    const std::vector<bool> is_time = emg_table::time_columns_of(layout_.labels);
-    for (std::size_t c = 0; c < layout_.labels.size(); ++c) {
-      const Label& label = layout_.labels[c];
-      if (is_time[c]) {
-        times.push_back(c);
-      } else if (emg_table::is_counter(label.name)) {
-        counters.push_back(label.name);
-      } else {
-        Column column{c, label, times.empty() ? std::nullopt : std::optional(times.back()), {}, {}};
-        if (label.name.empty()) {
-          column.label.name = fmt::format("column_{}", c + 1);
-          ++unnamed_;
-        }
-        columns_.push_back(std::move(column));
+  bool find_first_row() {
+    constexpr std::size_t kMost = 1000;
+    const std::size_t most = std::min(text_.lines.size(), kMost);
+    for (std::size_t n = 1; n < most; ++n) {
+      if (text_.lines[n].find(layout_.separator) == std::string_view::npos) continue;
+      const Cells cells = row(n);
+      if (!numbers(cells)) continue;
+      // Numbers below each other: the next row that is not empty is as wide and of numbers too.
+      std::size_t next = n + 1;
+      while (next < text_.lines.size() && blank(next)) ++next;
+      width_ = filled(cells);
+      if (next < text_.lines.size()) {
+        const Cells below = row(next);
+        if (below.size() + 1 < cells.size() || !(numbers(below) || has_remark(below))) continue;
+        width_ = filled(below);
       }
+      layout_.first_row = n;
+      take_rows_with_remarks();
+      return true;
     }
-    if (!counters.empty())
-      note(layout_.names_row + 1,
+    return false;
+  }
+
+  /// A row that begins with a number and has text in one cell.
+  [[nodiscard]] bool has_remark(const Cells& cells) const {
+    const auto texts = std::count_if(cells.begin(), cells.end(), [&](const std::string& cell) {
+      return !cell.empty() && !cell_number(cell, layout_.separator);
+    });
+    return texts == 1 && cell_number(cells[0], layout_.separator);
+  }
+
+  /// Rows of numbers with a remark in one cell, above the first row that has none.
+  void take_rows_with_remarks() {
+    for (std::size_t n = layout_.first_row; n-- > 1;) {
+      const Cells cells = row(n);
+      if (cells.size() < width_ || !has_remark(cells)) return;
+      layout_.first_row = n;
+    }
+  }
+
+  bool previous() {
+    while (above_ > 0 && blank(above_ - 1)) --above_;
+    if (above_ == 0) return false;
+    --above_;
+    return true;
+  }
+
+  /// The row at hand, if all its cells are of one kind: then `names` is the row above it.
+  template <typename Is>
+  Cells take_row(Cells& names, const Is& is) {
+    std::size_t count = 0;
+    for (const std::string& cell : names) {
+      if (cell.empty()) continue;
+      if (!is(cell)) return {};
+      ++count;
+    }
+    const std::size_t here = above_;
+    if (count == 0 || !previous()) {
+      above_ = here;
+      return {};
+    }
+    return std::exchange(names, row(above_));
+  }
+
+  void make_columns(const Cells& names, const Cells& units, const Cells& rates) {
+    std::set<double> rounded;
+    for (std::size_t c = 0; c < names.size(); ++c) {
+      TableColumn column = take_label_apart(names[c]);
+      if (column.rate_hz != std::floor(column.rate_hz)) rounded.insert(column.rate_hz);
+      if (!column.unit && c < units.size()) column.unit = unit_in_cell(units[c]);
+      if (c < rates.size()) column.rate_hz = rate_in_cell(rates[c]).value_or(column.rate_hz);
+      layout_.columns.push_back(std::move(column));
+    }
+    set_kinds(layout_.columns);
+    if (!rounded.empty())
+      layout_.repairs.push_back(
+          {layout_.names_line + 1,
+           fmt::format("rates in whole Hz are those of packets of 27 ms: {:.7g} Hz",
+                       fmt::join(rounded, ", "))});
+    const auto times = std::count_if(layout_.columns.begin(), layout_.columns.end(),
+                                     [](const TableColumn& c) { return c.kind == Kind::time; });
+    const bool rated = std::any_of(layout_.columns.begin(), layout_.columns.end(),
+                                   [](const TableColumn& c) { return c.rate_hz > 0.0; });
+    if (times > 1 || (times == 0 && rated)) layout_.short_row = ShortRow::ended;
+    leave_out_counters(times > 1 || (times == 0 && rated));
+    if (const auto devices = device_row()) put_devices_before_names(layout_, *devices);
+  }
+
+  /// Numbers of frames that do not count the rows are no clock.
+  void leave_out_counters(bool several_clocks) {
+    const Cells first = row(layout_.first_row);
+    const std::size_t next = layout_.first_row + 1;
+    const Cells second = next < text_.lines.size() ? row(next) : Cells();
+    const bool with_sub_frames =
+        std::any_of(layout_.columns.begin(), layout_.columns.end(),
+                    [](const TableColumn& c) { return c.kind == Kind::sub_frame; });
+    std::vector<std::string> left_out;
+    bool taken = false;
+    for (std::size_t c = 0; c < layout_.columns.size(); ++c) {
+      TableColumn& column = layout_.columns[c];
+      if (column.kind != Kind::frame && column.kind != Kind::sub_frame) continue;
+      const auto number = [&](const Cells& cells) {
+        constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+        return c < cells.size() ? parse_number(cells[c]).value_or(kNone) : kNone;
+      };
+      const double begin = number(first);
+      const bool counts = number(second) == begin + 1.0 && column.kind == Kind::frame;
+      if (!several_clocks && !with_sub_frames && counts && !taken) {
+        taken = true;
+        layout_.first_frame = begin == 0.0 ? 0.0 : 1.0;
+        continue;
+      }
+      column.kind = Kind::left_out;
+      left_out.push_back(column.name);
+    }
+    if (!left_out.empty())
+      layout_.repairs.push_back(
+          {layout_.names_line + 1,
            fmt::format("columns of numbers of frames or samples are left out: {}",
-                       fmt::join(counters, ", ")));
-    if (times.empty() && !layout_.rate_hz) {
-      throw ReadError(
-          path_, layout_.names_row + 1,
-          "neither a time column nor a sampling rate is in the file; add a column "
-          "named 'time' in seconds, or a line 'Sampling rate: 2000 Hz' above the names");
-    }
-    if (times.empty())
-      note(0, fmt::format("no time column; the rate of {} Hz stated in the header is taken",
-                          *layout_.rate_hz));
-    for (Column& column : columns_) {
-      if (!times.empty() && (times.size() == 1 || !column.clock)) column.clock = times[0];
-    }
-    time_columns_ = times.size();
+                       fmt::join(left_out, ", "))});
   }
 
-  double number(const std::string& cell, std::size_t line) {
-    if (cell.empty()) return std::numeric_limits<double>::quiet_NaN();
-    if (const auto value = parse_number(cell)) return *value;
-    const auto value = emg_table::cell_number(cell, layout_.separator);
-    if (!value)
-      throw ReadError(path_, line + 1, fmt::format("expected a number, found '{}'", cell));
-    if (comma_line_ == 0) comma_line_ = line + 1;
-    return *value;
+  /// The row of sensors: the one above their modes.
+  [[nodiscard]] std::optional<Cells> device_row() const {
+    for (std::size_t n = 1; n < layout_.names_line; ++n) {
+      if (lower(trim(text_.lines[n])).starts_with("sensor mode")) return row(n - 1);
+    }
+    return std::nullopt;
   }
 
-  /// Seconds for each number of a column's clock.
-  [[nodiscard]] double to_seconds(const Column& column) const {
-    if (!column.clock) return 1.0;
-    const Label& label = layout_.labels[*column.clock];
-    if (label.unit) return label.unit->to_si;
-    return lower(label.name) == "time_ms" ? 1e-3 : 1.0;
+  /// What the lines above the names say of the channels and of the table.
+  void read_head() {
+    std::map<std::string, std::optional<ScaledUnit>> known;
+    std::optional<double> rate;
+    for (std::size_t n = 0; n < layout_.names_line; ++n) {
+      if (const auto label = label_line(text_.lines[n])) {
+        known[label->name] = label->unit;
+      } else if (!rate) {
+        rate = rate_in_line(text_.lines[n]);
+      }
+    }
+    const std::size_t end = layout_.names_line;
+    const char separator = layout_.separator;
+    const auto unit = unit_in_cell(stated_text(text_, end, separator, "measure unit"));
+    for (TableColumn& column : layout_.columns) {
+      if (column.kind != Kind::channel || column.unit) continue;
+      const auto it = known.find(column.name);
+      column.unit = it != known.end() ? it->second : unit;
+    }
+    if (!rate) rate = stated_number(text_, end, separator, {"frequency", "sampling rate"});
+    layout_.rate_hz = rate && *rate > 0.0 && *rate <= 1e6 ? *rate : 0.0;
+    layout_.rows_said = stated_number(text_, end, separator, {"count", "number of samples"});
+    layout_.length_s = stated_number(text_, end, separator, {"collection length (seconds)"});
+    const bool timed = std::any_of(layout_.columns.begin(), layout_.columns.end(),
+                                   [](const TableColumn& c) { return c.kind == Kind::time; });
+    if (!timed && layout_.rate_hz > 0.0)
+      layout_.repairs.push_back(
+          {0, fmt::format("no time column; the rate of {} Hz stated in the header is taken",
+                          layout_.rate_hz)});
   }
 
-  void read_rows(std::string_view text, std::size_t widest) {
-    std::size_t row = 0;
-    std::vector<double> numbers;
-    for (std::size_t n = layout_.first_row; n < lines_.size(); ++n) {
-      if (trim(lines_[n]).empty()) continue;
-      const auto cells = cells_of(lines_[n], layout_.separator);
-      const bool last = n + 1 == lines_.size();
-      if (last && !ends_with_line(text) && row > 0) {
-        note(n + 1, std::string(kLastRowLeftOut));
-        break;
-      }
-      if (last && cells.size() < widest) {
-        note(n + 1,
-             fmt::format("the last row has {} of {} cells and is left out", cells.size(), widest));
-        break;
-      }
-      numbers.assign(layout_.labels.size(), std::numeric_limits<double>::quiet_NaN());
-      for (std::size_t c = 0; c < std::min(cells.size(), numbers.size()); ++c) {
-        if (!emg_table::is_counter(layout_.labels[c].name)) numbers[c] = number(cells[c], n);
-      }
-      for (Column& column : columns_) {
-        const double time = column.clock ? to_seconds(column) * numbers[*column.clock]
-                                         : static_cast<double>(row) / *layout_.rate_hz;
-        if (!std::isfinite(time)) continue;  // this channel has ended
-        if (!column.time.empty() && time <= column.time.back())
-          throw ReadError(path_, n + 1,
-                          fmt::format("the time of '{}' does not increase: {} s after {} s",
-                                      column.label.name, time, column.time.back()));
-        column.time.push_back(time);
-        column.values.push_back(numbers[column.index]);
-      }
-      ++row;
-    }
-    for (Column& column : columns_) {
-      while (!column.values.empty() && !std::isfinite(column.values.back())) {
-        column.values.pop_back();
-        column.time.pop_back();
-      }
-    }
-    if (comma_line_ > 0) note(comma_line_, "comma decimals read as decimal points");
-    std::erase_if(columns_, [](const Column& c) { return c.values.size() < 2; });
-    if (columns_.empty())
-      throw ReadError(path_, 0, "there are no columns of numbers beside the time");
-  }
-
-  /// The channels of one clock; those of another are left out.
-  [[nodiscard]] std::vector<const Column*> one_clock(const Column& leader) {
-    std::vector<std::string> others;
-    std::vector<const Column*> kept;
-    for (const Column& column : columns_) {
-      if (same_clock(column, leader)) {
-        kept.push_back(&column);
-      } else {
-        others.push_back(column.label.name);
-      }
-    }
-    if (!others.empty()) {
-      const std::size_t all = others.size();
-      others.resize(std::min<std::size_t>(all, 8));
-      note(0, fmt::format("{} channels with another clock than '{}' are left out: {}{}", all,
-                          leader.label.name, fmt::join(others, ", "), all > 8 ? ", ..." : ""));
-    }
-    if (time_columns_ > 1)
-      note(layout_.names_row + 1,
-           fmt::format("{} time columns; the {} channels of one clock are joined", time_columns_,
-                       kept.size()));
-    return kept;
-  }
-
-  void join() {
-    const Column& leader = leader_of(columns_);
-    const std::vector<const Column*> kept = one_clock(leader);
-    std::size_t samples = leader.time.size();
-    std::size_t longest = samples;
-    for (const Column* column : kept) {
-      samples = std::min(samples, column->time.size());
-      longest = std::max(longest, column->time.size());
-    }
-    if (longest > samples)
-      note(0, fmt::format("the channels differ in length; all are cut to {} samples", samples));
-    if (unnamed_ > 0) note(layout_.names_row + 1, fmt::format("{} columns have no name", unnamed_));
-
-    std::vector<Channel> channels;
-    std::set<std::string> seen;
-    const auto count = static_cast<Eigen::Index>(samples);
-    Eigen::MatrixXd values(count, static_cast<Eigen::Index>(kept.size()));
-    for (std::size_t k = 0; k < kept.size(); ++k) {
-      const Label& label = kept[k]->label;
-      std::string name = label.name;
-      for (int i = 2; !seen.insert(name).second; ++i) {
-        const std::string other = fmt::format("{}_{}", label.name, i);
-        note(layout_.names_row + 1,
-             fmt::format("two columns are named '{}'; the later one is '{}' here", label.name,
-                         other));
-        name = other;
-      }
-      channels.push_back({name, label.unit ? label.unit->unit : Unit::dimensionless});
-      series_.has_unit.push_back(label.unit.has_value());
-      values.col(static_cast<Eigen::Index>(k)) =
-          (label.unit ? label.unit->to_si : 1.0) *
-          Eigen::Map<const Eigen::VectorXd>(kept[k]->values.data(), count);
-    }
-    series_.data = TimeSeries(Eigen::Map<const Eigen::VectorXd>(leader.time.data(), count),
-                              std::move(channels), std::move(values));
-  }
-
-  const Lines& lines_;
-  const Layout& layout_;
-  const std::filesystem::path& path_;
-  CsvSeries series_;
-  std::vector<Column> columns_;
-  std::size_t time_columns_ = 0;
-  std::size_t unnamed_ = 0;
-  std::size_t comma_line_ = 0;
+  const TableText& text_;
+  TableLayout layout_;
+  std::size_t width_ = 0;
+  std::size_t above_ = 0;
 };
+
+/// The first line that is no remark is the header, with one time column and no other line of text
+/// below.
+bool is_plain(const TableText& text, const TableLayout& layout) {
+  std::size_t n = 0;
+  while (n < text.lines.size() &&
+         (trim(text.lines[n]).empty() || trim(text.lines[n]).starts_with('#')))
+    ++n;
+  if (n != layout.names_line) return false;
+  std::size_t times = 0;
+  for (const TableColumn& column : layout.columns) {
+    if (column.kind != Kind::time && column.kind != Kind::channel) return false;
+    if (column.name.find(',') != std::string::npos) return false;
+    const std::string name = lower(column.name);
+    if (column.kind == Kind::channel) continue;
+    if (name != "time" && name != "t" && name != "times" && name != "time_s" && name != "time_ms")
+      return false;
+    ++times;
+  }
+  return times == 1;
+}
+
+/// The widest table that a separator gives.
+std::optional<TableLayout> find_table(const TableText& text) {
+  std::optional<TableLayout> layout;
+  for (const char separator : {'\t', ';', ','}) {
+    auto found = TableFinder(text, separator).find();
+    if (found && found->columns.size() > (layout ? layout->columns.size() : 1))
+      layout = std::move(found);
+  }
+  return layout;
+}
 
 }  // namespace
 
 CsvSeries parse_emg_table(std::string_view text, const std::filesystem::path& path) {
-  if (const PlainTable plain = plain_vendor_table(text); !plain.text.empty()) {
-    CsvSeries series = parse_emg_table(plain.text, path);
-    series.repairs.insert(series.repairs.begin(), plain.repairs.begin(), plain.repairs.end());
-    return series;
-  }
-  const Lines lines = split_lines(text);
-  std::optional<Layout> layout;
-  std::size_t widest = 1;
-  for (const char separator : {'\t', ';', ','}) {
-    auto found = emg_table::find_table(lines, separator);
-    if (!found) continue;
-    const std::size_t width = cells_of(lines[found->first_row], separator).size();
-    if (width > widest) {
-      widest = width;
-      layout = std::move(found);
-    }
-  }
-  if (layout && emg_table::is_numbers(cells_of(lines[layout->names_row], layout->separator),
-                                      layout->separator)) {
+  const TableText table(text);
+  if (const auto layout = makers_layout(table, path))
+    return channels_of_table(table, *layout, path);
+  const auto layout = find_table(table);
+  if (layout &&
+      is_numbers(cells_of(table.lines[layout->names_line], layout->separator), layout->separator)) {
     throw ReadError(
-        path, layout->names_row + 1,
+        path, layout->names_line + 1,
         "the table begins with numbers; expected a row of names above them, and a column "
         "'time' or a line 'Sampling rate: 2000 Hz'");
   }
-  if (!layout || emg_table::is_plain(lines, *layout)) return parse_csv_series(text, path);
-  return TableReader(lines, *layout, path).read(text, widest);
+  if (!layout || is_plain(table, *layout)) return parse_csv_series(text, path);
+  return channels_of_table(table, *layout, path);
 }
 
 CsvSeries read_emg_table(const std::filesystem::path& path) {

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include "myoid/core/error.h"
-#include "myoid/recording/emg_table_layout.h"
 
 namespace myoid::recording {
 namespace {
@@ -15,7 +14,7 @@ TEST(EmgTable, APlainTableIsReadAsEver) {
   EXPECT_EQ(s.has_unit, (std::vector<bool>{true, false}));
 }
 
-TEST(EmgTable, ATimeColumnForEachChannelGivesOneClock) {
+TEST(EmgTable, ATimeColumnForEachChannelGivesAClockForEachRate) {
   // As wireless systems export: EMG and acceleration in pairs of columns of different length.
   const CsvSeries s = parse_emg_table(
       "Label: Biceps: EMG 1 Sampling frequency: 2000 Unit: mV Domain: Time\n"
@@ -27,7 +26,58 @@ TEST(EmgTable, ATimeColumnForEachChannelGivesOneClock) {
   ASSERT_EQ(s.data.sample_count(), 3);
   EXPECT_DOUBLE_EQ(s.data.time_s()[2], 0.001);
   EXPECT_DOUBLE_EQ(s.data.values()(2, 1), 6e-3);
-  EXPECT_EQ(s.repairs.size(), 3U);  // other clock, joined, cut to the shortest
+  ASSERT_EQ(s.other_clocks.size(), 1U);
+  const TimeSeries& acceleration = s.other_clocks[0].data;
+  EXPECT_EQ(acceleration.channels()[0].name, "Biceps: ACC.X 1");
+  EXPECT_EQ(acceleration.time_s(), Eigen::Vector3d(0.0, 0.0067, 0.0135));
+  EXPECT_NEAR(acceleration.values()(2, 0), 0.7 * kStandardGravity, 1e-12);
+  EXPECT_EQ(s.repairs.size(), 2U);  // two clocks, cut to the shortest
+}
+
+TEST(EmgTable, ATimeThatIsMissingBeforeOthersIsNoEndOfItsChannel) {
+  const auto read = [](const std::string& row) {
+    return parse_emg_table("X [s],A [V],X [s],B [V]\n0,1,0,2\n" + row + "0.2,1,0.2,2\n", "a.csv");
+  };
+  EXPECT_EQ(read("0.1,1,0.1,2\n").data.sample_count(), 3);
+  EXPECT_THROW((void)read("0.1,1,,2\n"), ReadError);
+  EXPECT_THROW((void)read("0.1,1,2\n"), ReadError);
+}
+
+TEST(EmgTable, RatesInTheNamesOrInARowBelowThemAreTheClocks) {
+  for (const bool row : {false, true}) {
+    const std::string names =
+        row ? "EMG 1 (mV), ACC X (G), EMG 1 (mV)\n 74.0741 Hz, 37.037037037037038 Hz, 74.0741 Hz\n"
+            : "EMG 1 (74Hz), ACC X (37Hz), EMG 1 (74Hz), \n";
+    const CsvSeries s = parse_emg_table(
+        "Application:, Trigno Discover (1.4.2)\nCollection Length (seconds):, 0.06\n"
+        "EMG 01 (5471), , EMG 02 (5524), \nsensor mode: 55, , sensor mode: 55, \n" +
+            names + "1, 7, 4\n2, 8, 5\n3, , 6\n",
+        "a.csv");
+    ASSERT_EQ(s.data.channel_count(), 2) << row;
+    EXPECT_EQ(s.data.channels()[0].name, "EMG 01 (5471) EMG 1");
+    EXPECT_EQ(s.data.channels()[1].name, "EMG 02 (5524) EMG 1");
+    EXPECT_EQ(s.has_unit[0], row);
+    EXPECT_DOUBLE_EQ(s.data.values()(2, 1), row ? 6e-3 : 6.0);
+    EXPECT_NEAR(s.data.time_s()[2], 2 * 0.0135, 1e-6);  // 74 Hz is 2 samples in 27 ms
+    ASSERT_EQ(s.other_clocks.size(), 1U);
+    EXPECT_EQ(s.other_clocks[0].data.sample_count(), 2);
+    EXPECT_NEAR(s.other_clocks[0].data.time_s()[1], 0.027, 1e-12);
+  }
+}
+
+TEST(EmgTable, ARemarkInAColumnOfTextIsAnEventAndNoName) {
+  const CsvSeries s = parse_emg_table(
+      "\"type\";\"begin_time\";\"frequency\";\"count\"\n\"record\";\"0,00\";\"2000\";\"3\"\n\n"
+      "\"time\";\"Activity\";\"Marker\";\"BIC LT (uV)\"\n0,0000;\"Rest\";;0\n0,0005;;;7,25\n"
+      "0,0010;;\"here\";14,5\n",
+      "a.csv");
+  ASSERT_EQ(s.data.sample_count(), 3);
+  EXPECT_EQ(s.data.channels(), (std::vector<Channel>{{"BIC LT", Unit::volt}}));
+  EXPECT_DOUBLE_EQ(s.data.values()(1, 0), 7.25e-6);
+  ASSERT_EQ(s.events.size(), 2U);
+  EXPECT_EQ(s.events[0].label, "Rest");
+  EXPECT_EQ(s.events[0].context, "Activity");
+  EXPECT_DOUBLE_EQ(s.events[1].time_s, 0.001);
 }
 
 TEST(EmgTable, MetadataAndARowOfUnitsAreUnderstood) {
@@ -88,18 +138,13 @@ TEST(EmgTable, AChannelBeforeTheFirstOfTwoTimeColumnsHasItsClock) {
   EXPECT_DOUBLE_EQ(s.data.time_s()[1], 0.1);
 }
 
-TEST(EmgTableLayout, NamesStandAboveTheFirstRowsOfNumbersAndUnitsBetween) {
-  const std::vector<std::string_view> lines{
-      "Some lab", "Sampling rate: 1000 Hz", "", "Frame,E1,E2", ",mV,uV", "1,0.5,7", "2,0.25,8"};
-  const auto layout = emg_table::find_table(lines, ',');
-  ASSERT_TRUE(layout);
-  EXPECT_EQ(layout->names_row, 3U);
-  EXPECT_EQ(layout->first_row, 5U);
-  EXPECT_EQ(layout->rate_hz, 1000.0);
-  ASSERT_EQ(layout->labels.size(), 3U);
-  EXPECT_EQ(layout->labels[2].unit->to_si, 1e-6);
-  EXPECT_FALSE(emg_table::is_plain(lines, *layout));
-  EXPECT_FALSE(emg_table::find_table(lines, ';'));
+TEST(EmgTable, NamesStandAboveTheFirstRowsOfNumbersAndUnitsBetween) {
+  const CsvSeries s = parse_emg_table(
+      "Some lab\nSampling rate: 1000 Hz\n\nFrame,E1,E2\n,mV,uV\n1,0.5,7\n2,0.25,8\n", "a.csv");
+  ASSERT_EQ(s.data.channel_count(), 2);
+  EXPECT_DOUBLE_EQ(s.data.values()(1, 0), 0.25e-3);
+  EXPECT_DOUBLE_EQ(s.data.values()(1, 1), 8e-6);
+  EXPECT_DOUBLE_EQ(s.data.time_s()[1], 0.001);
 }
 
 }  // namespace

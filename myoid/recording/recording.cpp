@@ -11,9 +11,9 @@
 #include "myoid/recording/edf_reader.h"
 #include "myoid/recording/emg_table.h"
 #include "myoid/recording/marker_table.h"
+#include "myoid/recording/nexus_section.h"
 #include "myoid/recording/storage_reader.h"
 #include "myoid/recording/trc_reader.h"
-#include "myoid/recording/vendor_table.h"
 
 namespace myoid::recording {
 
@@ -116,9 +116,12 @@ Recording read_recording(const std::filesystem::path& path) {
       recording.repairs = std::move(file.repairs);
     }
     // Nexus writes its devices and the markers into one file.
-    if (!markers || (extension == ".csv" && !plain_vendor_table(text).text.empty())) {
+    if (!markers || nexus_section(TableText(text), "Devices", path)) {
       CsvSeries file = parse_emg_table(text, path);
       recording.analog = std::move(file.data);
+      for (ClockedChannels& group : file.other_clocks)
+        recording.other_clocks.emplace_back(std::move(group.data));
+      recording.events = std::move(file.events);
       recording.repairs.insert(recording.repairs.end(), file.repairs.begin(), file.repairs.end());
     }
   } else if (extension == ".sto" || extension == ".mot") {

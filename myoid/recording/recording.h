@@ -28,6 +28,7 @@ struct MarkerFile {
 struct Recording {
   MarkerSeries markers;
   AnalogChannels analog;  ///< EMG and all others; one without a known unit is dimensionless.
+  std::vector<AnalogChannels> other_clocks;  ///< Channels that have a clock of their own.
   std::vector<PlateSetup> plates;
   std::vector<C3dEvent> events;
   std::vector<Repair> repairs;
