@@ -146,15 +146,16 @@ class Damager {
     for (std::size_t h = 0; h < first; ++h) {
       for (const std::string count : {"40", "3", "2", "4"}) {
         for (const std::string cell : {"17", "-1", "0", "x"}) {
-          Lines cells = cells_of(replaced(lines[h], "=", "\t"), '\t');
+          const char between = kind_.columns ? separator : '\t';
+          Lines cells = cells_of(replaced(lines[h], "=", "\t"), between);
           const auto it = std::find(cells.begin(), cells.end(), count);
-          if (it == cells.end() || h == 0) continue;
+          if (it == cells.end() || (h == 0 && !kind_.columns)) continue;
           Lines changed = lines;
           if (lines[h].find('=') != std::string::npos) {
             changed[h] = lines[h].substr(0, lines[h].find('=') + 1) + cell;
           } else {
             *it = cell;
-            changed[h] = of_cells(cells, '\t');
+            changed[h] = of_cells(cells, between);
           }
           add("wrong counts", fmt::format("{} of line {} is {}", count, h + 1, cell),
               joined(changed));
@@ -189,25 +190,82 @@ class Damager {
     }
     // Columns.
     columns(lines, first, separator);
-    // Time.
+    rows(lines, first);
+    add("rows", "a cell too many", with_row(n, lines[n] + separator + "7.5"));
+    add("rows", "its first cell lost", with_row(n, lines[n].substr(lines[n].find(separator) + 1)));
+    add("rows", "an empty line", with_row(n, lines[n] + "\n"));
+    Lines cells = cells_of(lines[n], separator);
+    const auto middle = cells.begin() + static_cast<std::ptrdiff_t>(cells.size() / 2);
+    Lines more = cells;
+    more.insert(more.begin() + (middle - cells.begin()), "7.5");
+    add("rows", "a cell too many in the middle", with_row(n, of_cells(more, separator)));
+    cells.erase(middle);
+    add("rows", "a cell lost in the middle", with_row(n, of_cells(cells, separator)));
+  }
+
+  /// Rows in another order, twice or lost, where something in the file can say so.
+  void rows(const Lines& lines, std::size_t first) {
     Lines changed = lines;
-    std::swap(changed[first + 3], changed[first + 9]);
-    add("time decreases", "two rows exchanged", joined(changed));
-    changed = lines;
-    std::reverse(changed.begin() + static_cast<std::ptrdiff_t>(first), changed.end());
-    add("time decreases", "all rows from the end", joined(changed));
+    if (kind_.ordered) {
+      std::swap(changed[first + 3], changed[first + 9]);
+      add("time decreases", "two rows exchanged", joined(changed));
+      changed = lines;
+      std::reverse(changed.begin() + static_cast<std::ptrdiff_t>(first), changed.end());
+      add("time decreases", "all rows from the end", joined(changed));
+    }
+    if (!kind_.ordered && !kind_.says_its_rows) return;
     changed = lines;
     changed.insert(changed.begin() + static_cast<std::ptrdiff_t>(first + 5), lines[first + 5]);
     add("rows", "one twice", joined(changed));
     changed = lines;
     changed.erase(changed.begin() + static_cast<std::ptrdiff_t>(first + 7));
     add("rows", "one lost", joined(changed));
-    add("rows", "a cell too many", with_row(n, lines[n] + separator + "7.5"));
-    add("rows", "its first cell lost", with_row(n, lines[n].substr(lines[n].find(separator) + 1)));
-    add("rows", "an empty line", with_row(n, lines[n] + "\n"));
+  }
+
+  /// Columns whose place is known: exchanged with and without their names, names twice or lost.
+  void known_columns(const Lines& lines, std::size_t first, char separator) {
+    const Columns& columns = *kind_.columns;
+    const std::size_t width = cells_of(lines[first], separator).size();
+    const std::size_t last = width - columns.block;
+    const std::size_t before = last - columns.block;
+    const auto exchanged = [&](std::size_t from, std::size_t a, std::size_t b, std::size_t count) {
+      Lines changed = lines;
+      for (std::size_t i = from; i < lines.size(); ++i) {
+        Lines cells = cells_of(lines[i], separator);
+        cells.resize(std::max(cells.size(), width));
+        for (std::size_t k = 0; k < count; ++k) std::swap(cells[a + k], cells[b + k]);
+        changed[i] = of_cells(cells, separator);
+      }
+      return joined(changed);
+    };
+    add("swapped columns", "with their names",
+        exchanged(columns.head_line, before, last, columns.block));
+    for (const std::size_t clock : columns.clock) {
+      add("swapped columns", fmt::format("column {} and another, without their names", clock + 1),
+          exchanged(first, clock, last, 1));
+    }
+    Lines head = cells_of(lines[columns.names_line], separator);
+    head.resize(std::max(head.size(), width));
+    const auto with_head = [&](const Lines& cells) {
+      Lines changed = lines;
+      changed[columns.names_line] = of_cells(cells, separator);
+      return joined(changed);
+    };
+    Lines twice = head, empty = head;
+    for (std::size_t k = 0; k < columns.block; ++k) {
+      twice[last + k] = head[before + k];
+      empty[before + k] = "";
+    }
+    add("duplicate labels", "the last is the one before", with_head(twice));
+    add("duplicate labels", "one is empty", with_head(empty));
+    Lines fewer = head;
+    fewer.erase(fewer.begin() + static_cast<std::ptrdiff_t>(before));
+    add("duplicate labels", "a cell of the names is lost", with_head(fewer));
   }
 
   void columns(const Lines& lines, std::size_t first, char separator) {
+    if (kind_.columns) return known_columns(lines, first, separator);
+    if (first == 0) return;
     // The line of the names: the last one of the header with the cell of a name in it.
     std::size_t names = first;
     for (std::size_t h = 0; h < first; ++h) {

@@ -22,6 +22,8 @@
 #include "myoid/recording/recording.h"
 #include "myoid/recording/storage_reader.h"
 
+#include "tests/damage/table_kinds.h"
+
 namespace myoid::damage {
 namespace {
 
@@ -339,6 +341,7 @@ std::vector<Kind> good_files(const fs::path& folder) {
         "Trial_Name:\tt\tTrial#:\t1\tDuration(Sec.):\t0.040\t#Channels:\t2\nBitDepth:\t12\t"
         "PreciseRate:\t1000.000000\n\n\nName\ta\tb\nRate\t1000\t1000\nRange\t1000\t1000\n",
         make.counts(), read_channels);
+  for (Kind& kind : good_tables(folder)) list.push_back(std::move(kind));
   Kind edf{"EDF+", "f.edf", make.edf(), Shape::binary, read_channels, info};
   edf.data_bytes = {1024, edf.bytes.size()};
   list.push_back(edf);

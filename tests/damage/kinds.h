@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,14 @@ struct Content {
 
 enum class Shape { table, binary, xml, toml };
 
+/// Where the columns of a table have their names.
+struct Columns {
+  std::size_t head_line = 0;   ///< From here on the header's lines have a cell for each column.
+  std::size_t names_line = 0;  ///< Counted from 0, as `head_line`.
+  std::size_t block = 1;       ///< Columns of one marker, or of one channel.
+  std::vector<std::size_t> clock;
+};
+
 struct Kind {
   std::string name;
   std::string file;   ///< Its name in a folder of its own.
@@ -28,6 +37,8 @@ struct Kind {
   std::vector<std::string> command;  ///< Of the program; the file's path is added.
   bool says_its_rows = true;         ///< Otherwise rows lost at the end cannot be known.
   std::size_t first_row = 0;         ///< Of a table: the line of its first row of numbers, from 0.
+  bool ordered = true;               ///< Otherwise nothing in a row says which one it is.
+  std::optional<Columns> columns{};  ///< Of a table whose names the damager does not find.
   std::vector<std::size_t> data_bytes{};  ///< Of a binary file: where the samples begin and end.
 };
 
