@@ -13,6 +13,8 @@
 #include "myoid/recording/atomic_file.h"
 #include "myoid/recording/csv_reader.h"
 #include "myoid/recording/emg_reader.h"
+#include "myoid/recording/emg_table.h"
+#include "myoid/recording/marker_table.h"
 #include "myoid/recording/recording.h"
 #include "myoid/recording/storage_reader.h"
 #include "myoid/recording/text_file.h"
@@ -45,6 +47,26 @@ const std::string kVectors =
     "8,9\t1,1,1\n";
 const std::string kTable = "Time (ms);biceps [mV];\"a;b\"\n0;1,5;2\n10;;3\n";
 
+const std::string kNexus =
+    "Devices\n1000\n,,EMG - V,\nFrame,Sub Frame,A,B\n,,V,mV\n7,0,0.1,0.2\n7,1,0.3,0.4\n8,0,1,2\n\n"
+    "Trajectories\n500\n,,P:A,,\nFrame,Sub Frame,X,Y,Z\n,,mm,mm,mm\n7,0,1,2,3\n8,0,,,\n";
+const std::string kQualisys =
+    "NO_OF_FRAMES\t2\nNO_OF_MARKERS\t2\nFREQUENCY\t200\nDATA_INCLUDED\t3D\nMARKER_NAMES\tA\tB\n"
+    "1.5\t2\t3\t4\t5\t6\n1\t2\t3\t0\t0\t0\n";
+const std::string kMotive =
+    "Format Version,1.23,Export Frame Rate,100,Total Exported Frames,2,Length Units,Meters\n\n"
+    ",,Rigid Body,Marker,Marker,Marker\n,,Hand,A,A,A\n,,1,2,2,2\n,,Rotation,Position,Position,"
+    "Position\nFrame,Time,X,X,Y,Z\n0,0,9,1,2,3\n1,0.01,9,1,2,3\n";
+const std::string kDiscover =
+    "Application:, Trigno Discover (1.7.0)\nCollection Length (seconds):, 0.05\nS 1, , S 2\n"
+    "sensor mode: 5, , sensor mode: 5\nEMG 1 (mV), ACC X (G), EMG 1 (mV)\n74 Hz, 37 Hz, 74 Hz\n"
+    "1, 2, 3\n4, 5, 6\n7, , 8\n";
+const std::string kNoraxon =
+    "\"type\";\"frequency\";\"count\"\n\"record\";\"1000\";\"3\"\n\n\"time\";\"Activity\";\"E "
+    "(uV)\"\n"
+    "0,000;\"Rest\";1,5\n0,001;;2,5\n0,002;\"x\";3,5\n";
+const std::string kPairs = "X[s],\"E 1 [V]\",X[s],\"ACC 1\"\n0,1,0,2\n0.5,3,1,4\n1,5,,\n1.5,6,,\n";
+
 struct Format {
   std::string name;
   std::string text;
@@ -52,12 +74,20 @@ struct Format {
 };
 
 std::vector<Format> formats() {
-  return {{"trc", kTrc, [](std::string_view t) { (void)parse_trc(t, "f.trc"); }},
-          {"storage 1", kVersionOne, [](std::string_view t) { (void)parse_storage(t, "f.mot"); }},
-          {"storage 3", kVectors, [](std::string_view t) { (void)parse_storage(t, "f.sto"); }},
-          {"table", kTable, [](std::string_view t) { (void)parse_csv_series(t, "f.csv"); }},
-          {"toml", "a = 1\n[emg]\nunit = \"uV\"\nlist = [1, 2.5]\n",
-           [](std::string_view t) { (void)parse_toml(t, "f.toml"); }}};
+  return {
+      {"trc", kTrc, [](std::string_view t) { (void)parse_trc(t, "f.trc"); }},
+      {"storage 1", kVersionOne, [](std::string_view t) { (void)parse_storage(t, "f.mot"); }},
+      {"storage 3", kVectors, [](std::string_view t) { (void)parse_storage(t, "f.sto"); }},
+      {"table", kTable, [](std::string_view t) { (void)parse_csv_series(t, "f.csv"); }},
+      {"devices", kNexus, [](std::string_view t) { (void)parse_emg_table(t, "f.csv"); }},
+      {"trajectories", kNexus, [](std::string_view t) { (void)parse_marker_table(t, "f.csv"); }},
+      {"Qualisys", kQualisys, [](std::string_view t) { (void)parse_marker_table(t, "f.tsv"); }},
+      {"Motive", kMotive, [](std::string_view t) { (void)parse_marker_table(t, "f.csv"); }},
+      {"Discover", kDiscover, [](std::string_view t) { (void)parse_emg_table(t, "f.csv"); }},
+      {"Noraxon", kNoraxon, [](std::string_view t) { (void)parse_emg_table(t, "f.csv"); }},
+      {"pairs", kPairs, [](std::string_view t) { (void)parse_emg_table(t, "f.csv"); }},
+      {"toml", "a = 1\n[emg]\nunit = \"uV\"\nlist = [1, 2.5]\n",
+       [](std::string_view t) { (void)parse_toml(t, "f.toml"); }}};
 }
 
 /// Reading gives data or a ReadError that begins with the path; anything else fails the test (or
