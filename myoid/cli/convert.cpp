@@ -218,7 +218,12 @@ class Converter {
   [[nodiscard]] TimeSeries chosen(const recording::AnalogChannels& channels,
                                   const fs::path& out,
                                   const std::string& from) const {
-    TimeSeries series = cut(recording::choose_channels({&channels}, o_.channels, from), context_);
+    return chosen(std::vector{&channels}, out, from);
+  }
+  [[nodiscard]] TimeSeries chosen(const std::vector<const recording::AnalogChannels*>& clocks,
+                                  const fs::path& out,
+                                  const std::string& from) const {
+    TimeSeries series = cut(recording::choose_channels(clocks, o_.channels, from), context_);
     if (!is_storage(out.string()) && o_.rate_hz <= 0.0) return series;
     std::vector<recording::Repair> gaps;
     series = recording::without_gaps(series, gaps);
@@ -257,10 +262,15 @@ class Converter {
       if (file.analog.empty())
         throw ReadError(o_.in, 0,
                         "there are no analog channels to write; markers go to a .trc file");
+      if (!file.other_clocks.empty() && o_.channels.empty())
+        context_.warn(fmt::format(
+            "{}: only the channels of the first clock are written; name others with --channel, or "
+            "give a folder as OUT",
+            o_.in));
       if (stays(file.analog, out)) {
         write_read(out, recording::rows_of(file.analog));
       } else {
-        write_read(out, recording::rows_of(chosen(file.analog, out, o_.in)));
+        write_read(out, recording::rows_of(chosen(file.clocks(), out, o_.in)));
       }
     }
     wrote(out);
@@ -324,9 +334,17 @@ class Converter {
     const fs::path all = folder / (stem + "_analog.sto");
     const bool as_read = stays(file.analog, all);
     const recording::AnalogChannels changed =
-        as_read ? recording::AnalogChannels() : chosen(file.analog, all, o_.in);
+        as_read ? recording::AnalogChannels() : chosen(file.clocks(), all, o_.in);
     const recording::AnalogChannels& series = as_read ? file.analog : changed;
     write(all, recording::rows_of(series));
+    if (o_.channels.empty()) {
+      for (const recording::AnalogChannels& other : file.other_clocks) {
+        const double rate_hz = other.series().mean_rate_hz();
+        const fs::path name = folder / fmt::format("{}_analog_{:.0f}Hz.sto", stem, rate_hz);
+        const TimeSeries own = chosen(other, name, o_.in);
+        write(name, recording::rows_of(own));
+      }
+    }
     std::vector<std::string> volts = recording::emg_channels(file.analog.channels(), file.plates);
     if (!o_.channels.empty() || volts.size() == file.analog.channels().size()) return;
     std::erase_if(volts, [&](const std::string& name) { return !series.find(name); });

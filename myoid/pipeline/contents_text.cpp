@@ -21,11 +21,17 @@ std::string number_or_text(const ordered_json& value, int digits) {
   return compact(value);
 }
 
-/// "BIC [V]  lowest -0.003  highest 0.002" of an object; a list's other members as they are.
+bool is_list_of_members(const ordered_json& value) {
+  return value.is_array() && !value.empty() && value[0].is_object();
+}
+
+/// "BIC [V]  lowest -0.003  highest 0.002" of an object, without its lists; a list's other members
+/// as they are.
 std::string member_text(const ordered_json& item) {
   if (!item.is_object()) return number_or_text(item, 6);
   std::string line;
   for (const auto& [key, value] : item.items()) {
+    if (is_list_of_members(value)) continue;
     const std::string text = number_or_text(value, 5);
     if (key == "unit") {
       line += fmt::format("{}[{}]", line.empty() ? "" : " ", text);
@@ -35,6 +41,17 @@ std::string member_text(const ordered_json& item) {
     }
   }
   return line;
+}
+
+/// A member of a list, and below it the members of its own lists.
+std::string lines_of(const ordered_json& item) {
+  std::string text = fmt::format("  {}\n", member_text(item));
+  if (!item.is_object()) return text;
+  for (const auto& [key, value] : item.items()) {
+    if (!is_list_of_members(value)) continue;
+    for (const auto& member : value) text += fmt::format("    {}\n", member_text(member));
+  }
+  return text;
 }
 
 }  // namespace
@@ -50,7 +67,7 @@ std::string contents_text(const ordered_json& contents) {
       text += fmt::format("{}: {}\n", label, compact(value));
     } else if (!value.empty()) {
       text += fmt::format("{} ({}):\n", label, value.size());
-      for (const auto& item : value) text += fmt::format("  {}\n", member_text(item));
+      for (const auto& item : value) text += lines_of(item);
     }
   }
   return text;

@@ -25,5 +25,12 @@ TEST(ContentsText, NothingAListOfListsAndBytesThatAreNoUtf8AreRendered) {
   EXPECT_EQ(contents_text(list), "a (3):\n  [1,2]\n  null\n  [V]\n");
 }
 
+TEST(ContentsText, ListsWithinAListStandBelowTheirMember) {
+  const nlohmann::ordered_json clocks{
+      {"other_clocks",
+       {{{"rate_hz", 148.0}, {"channels", {{{"name", "ACC X"}}, {{"name", "ACC Y"}}}}}}}};
+  EXPECT_EQ(contents_text(clocks), "other clocks (1):\n  rate_hz 148\n    ACC X\n    ACC Y\n");
+}
+
 }  // namespace
 }  // namespace myoid::pipeline

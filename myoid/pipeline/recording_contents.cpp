@@ -188,6 +188,8 @@ ordered_json recording_json(const std::filesystem::path& path, const char* serie
     j["kind"] = series;
     j.update(series_json(file.analog.series()));
   }
+  for (const recording::AnalogChannels& other : file.other_clocks)
+    j["other_clocks"].push_back(series_json(other.series()));
   j["events"] = events_json(file.events);
   j["repairs"] = repairs_json(file.repairs);
   return j;

@@ -206,11 +206,20 @@ void restrict_to(const std::vector<std::string>& wanted,
                  const std::filesystem::path& path,
                  CsvSeries& series) {
   if (wanted.empty()) return;
-  const AnalogChannels all(series.data);
-  TimeSeries chosen = choose_channels({&all}, wanted, path);
+  std::vector<const ClockedChannels*> groups{&series};
+  for (const ClockedChannels& group : series.other_clocks) groups.push_back(&group);
+  std::vector<AnalogChannels> clocks;
+  for (const ClockedChannels* group : groups) clocks.emplace_back(group->data);
+  std::vector<const AnalogChannels*> views;
+  for (const AnalogChannels& clock : clocks) views.push_back(&clock);
+  TimeSeries chosen = choose_channels(views, wanted, path);
   std::vector<bool> has_unit;
-  for (const Channel& channel : chosen.channels())
-    has_unit.push_back(series.has_unit[static_cast<std::size_t>(*series.data.find(channel.name))]);
+  for (const Channel& channel : chosen.channels()) {
+    for (const ClockedChannels* group : groups) {
+      if (const auto column = group->data.find(channel.name))
+        has_unit.push_back(group->has_unit[static_cast<std::size_t>(*column)]);
+    }
+  }
   series.data = std::move(chosen);
   series.has_unit = std::move(has_unit);
 }

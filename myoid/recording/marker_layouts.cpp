@@ -82,8 +82,11 @@ std::optional<MarkerLayout> nexus_trajectories(const TableText& text,
   if (!section) return std::nullopt;
   MarkerLayout layout;
   layout.table = layout_of(*section);
-  layout.table.columns.resize(2);
   const std::size_t line = section->labels_line + 1;
+  if (layout.table.columns.size() < 2 || layout.table.columns[1].kind != Kind::sub_frame)
+    throw ReadError(path, line,
+                    "expected 'Sub Frame' in column 2 of the row that begins with Frame");
+  layout.table.columns.resize(2);
   if (section->groups.empty())
     throw ReadError(path, line, "the row of marker names above 'Frame, Sub Frame' is missing");
   for (std::size_t c = 2; c < section->labels.size(); c += 3) {
@@ -122,9 +125,12 @@ std::optional<MarkerLayout> nexus_trajectories(const TableText& text,
 std::optional<MarkerLayout> qualisys_markers(const TableText& text,
                                              const std::filesystem::path& path) {
   const std::size_t head = std::min(text.lines.size(), kHeader);
-  if (text.lines.empty() || !trim(text.lines[0]).starts_with("NO_OF_") ||
-      stated_text(text, head, '\t', "DATA_INCLUDED") != "3D")
-    return std::nullopt;
+  if (text.lines.empty() || !trim(text.lines[0]).starts_with("NO_OF_")) return std::nullopt;
+  const std::string included = stated_text(text, head, '\t', "DATA_INCLUDED");
+  const bool has_names =
+      std::any_of(text.lines.begin(), text.lines.begin() + static_cast<std::ptrdiff_t>(head),
+                  [](std::string_view line) { return line.starts_with("MARKER_NAMES"); });
+  if (included != "3D" && !(included.empty() && has_names)) return std::nullopt;
   MarkerLayout layout;
   TableLayout& table = layout.table;
   table.separator = '\t';

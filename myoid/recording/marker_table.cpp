@@ -1,6 +1,7 @@
 #include "myoid/recording/marker_table.h"
 
 #include <algorithm>
+#include <cassert>
 #include <limits>
 #include <optional>
 #include <set>
@@ -102,6 +103,7 @@ MarkerFile parse_marker_table(std::string_view text, const std::filesystem::path
   TableNumbers numbers = read_rows(table, rows_of(layout->table), path);
   file.repairs.insert(file.repairs.end(), numbers.repairs.begin(), numbers.repairs.end());
   file.markers.time_s = row_times(layout->table, numbers, path, file.repairs);
+  assert(numbers.values.cols() == static_cast<Eigen::Index>(3 * layout->names.size()));
   file.markers.positions_m = to_m * numbers.values;
   make_gaps(numbers, layout->zero_is_missing, file);
   return file;

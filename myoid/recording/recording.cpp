@@ -68,6 +68,12 @@ MarkerFile read_markers(const std::filesystem::path& path) {
   return result;
 }
 
+std::vector<const AnalogChannels*> Recording::clocks() const {
+  std::vector<const AnalogChannels*> list{&analog};
+  for (const AnalogChannels& other : other_clocks) list.push_back(&other);
+  return list;
+}
+
 ForcePlate Recording::force_plate(const PlateSetup& plate) const {
   return recording::force_plate(plate, analog.time_s(), analog.as_written(plate.channels));
 }

@@ -33,6 +33,9 @@ struct Recording {
   std::vector<C3dEvent> events;
   std::vector<Repair> repairs;
 
+  /// `analog` and each of `other_clocks`.
+  [[nodiscard]] std::vector<const AnalogChannels*> clocks() const;
+
   /// A plate over time: 13 doubles a sample, so one after the other where the file is large.
   [[nodiscard]] ForcePlate force_plate(const PlateSetup& plate) const;
   [[nodiscard]] std::vector<ForcePlate> force_plates() const;

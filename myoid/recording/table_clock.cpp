@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
 #include <string>
 
@@ -85,9 +86,18 @@ class RowClock {
     return false;
   }
 
-  /// Rows of a frame.
+  /// Rows of a frame: the number behind which most frames end.
   [[nodiscard]] double per_frame() const {
-    return sub_frame_ ? numbers_.clock.col(*sub_frame_).maxCoeff() + 1.0 : 1.0;
+    if (!sub_frame_) return 1.0;
+    const auto sub = numbers_.clock.col(*sub_frame_);
+    std::map<double, int> ends;
+    for (Eigen::Index i = 1; i < rows(); ++i) {
+      if (numbers_.clock(i, *frame_) != numbers_.clock(i - 1, *frame_)) ++ends[sub[i - 1]];
+    }
+    const auto usual = std::max_element(ends.begin(), ends.end(), [](const auto& a, const auto& b) {
+      return a.second <= b.second;
+    });
+    return 1.0 + (usual == ends.end() ? sub.maxCoeff() : usual->first);
   }
 
   /// A row's place in a recording without holes.
@@ -103,12 +113,18 @@ class RowClock {
   }
 
   void check_order() {
-    const double n = per_frame();
     if (sub_frame_ && numbers_.clock.col(*sub_frame_).minCoeff() < 0.0)
       throw ReadError(path_, line(0), "the number of a sub-frame is below 0");
-    const bool uneven = layout_.frame_rate_hz > 0.0 && layout_.rate_hz > 0.0 &&
-                        std::abs(layout_.rate_hz / layout_.frame_rate_hz - n) > 1e-6 * n &&
-                        std::abs(layout_.rate_hz / layout_.frame_rate_hz - n) < 1.0;
+    // Where the rates have no whole ratio, frames have one sub-frame more or less in turn.
+    const double ratio =
+        layout_.frame_rate_hz > 0.0 ? layout_.rate_hz / layout_.frame_rate_hz : 0.0;
+    const bool uneven = ratio > 0.0 && std::abs(ratio - std::round(ratio)) > 1e-6 * ratio;
+    const double n = uneven ? std::ceil(ratio) : per_frame();
+    for (Eigen::Index i = 0; sub_frame_ && i < rows(); ++i) {
+      if (numbers_.clock(i, *sub_frame_) >= n)
+        throw ReadError(path_, line(i),
+                        fmt::format("{}, where frames have {} sub-frames", name_of(i), n));
+    }
     double missing = 0.0;
     Eigen::Index first_hole = -1;
     for (Eigen::Index i = 1; i < rows(); ++i) {
@@ -157,8 +173,8 @@ class RowClock {
     const double frame_rate = !sub_frame_                   ? layout_.rate_hz
                               : layout_.frame_rate_hz > 0.0 ? layout_.frame_rate_hz
                                                             : layout_.rate_hz / n;
-    if (sub_frame_ && std::abs(layout_.rate_hz / frame_rate - n) >= 1.0 &&
-        static_cast<double>(rows()) > n)
+    const double ratio = layout_.rate_hz / frame_rate;
+    if (sub_frame_ && (n >= ratio + 1.0 || (n <= ratio - 1.0 && shows_a_whole_frame())))
       throw ReadError(path_, layout_.names_line + 1,
                       fmt::format("the frames have {} sub-frames, but the rates are {} and {} Hz; "
                                   "correct the rate",

@@ -66,6 +66,8 @@ TEST(RowTimes, LostSubFramesAreAGapAndDoubledOrReversedOnesAreRefused) {
               HasSubstr("f.csv:6: frame 12, sub-frame 0"));
   EXPECT_THAT(refusal(rows(5, 12) + rows(0, 5), 500.0), HasSubstr("do not increase"));
   EXPECT_THAT(refusal(rows(0, 12), 250.0), HasSubstr("correct the rate"));
+  EXPECT_THAT(refusal(rows(0, 4) + "12,9,1\n" + rows(5, 12), 500.0), HasSubstr("frames have 4"));
+  EXPECT_THAT(refusal(rows(0, 3), 0.0), HasSubstr("no frame ends in the table"));
   EXPECT_THAT(refusal("11,0,1\n11.5,1,2\n", 500.0), HasSubstr("expected the number of a frame"));
 }
 

@@ -56,8 +56,10 @@ Content read_channels(const fs::path& path) {
   return content;
 }
 
+/// Markers by the door of `info` and `check`; a table that is taken for one of channels gives
+/// these.
 Content read_markers(const fs::path& path) {
-  const recording::MarkerFile file = recording::read_markers(path);
+  const recording::Recording file = recording::read_recording(path);
   Content content;
   content.time_s = {file.markers.time_s.begin(), file.markers.time_s.end()};
   for (std::size_t m = 0; m < file.markers.names.size(); ++m) {
@@ -66,6 +68,7 @@ Content read_markers(const fs::path& path) {
       content.numbers[file.markers.names[m] + "." + "xyz"[axis]] = {column.begin(), column.end()};
     }
   }
+  if (content.numbers.empty()) add_channels(file, content);
   add_notes(file.repairs, content);
   return content;
 }
@@ -105,13 +108,15 @@ Lead frame_and_time(char separator, int first, double interval_s) {
   };
 }
 
-/// A kind of table: `head` ends where its rows begin.
+/// A kind of table: `head` ends where its rows begin. `info` describes a table of text, too, so
+/// that `check` is asked.
 Kind table(std::string name,
            std::string file,
            const std::string& head,
            const std::string& rows,
            std::function<Content(const fs::path&)> read) {
-  Kind kind{std::move(name), std::move(file), head + rows, Shape::table, std::move(read), {"info"}};
+  Kind kind{std::move(name), std::move(file), head + rows,
+            Shape::table,    std::move(read), {"check"}};
   kind.first_row = static_cast<std::size_t>(std::count(head.begin(), head.end(), '\n'));
   return kind;
 }
