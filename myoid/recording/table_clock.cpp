@@ -243,7 +243,7 @@ void state_uneven_step(const Eigen::VectorXd& time_s,
   const Eigen::ArrayXd off = (step - usual).abs();
   double most = std::max(10.0 * quantile(off, 0.8), 1e-6 * usual);
   // Steps that often differ by the last decimal are rounded; a digit that is wrong makes two.
-  constexpr Eigen::Index kOften = 5;
+  constexpr Eigen::Index kOften = 3;
   const double rounding = 1.01 * last_decimal(time_s);
   if ((off > most && off <= rounding).count() >= kOften) most = std::max(most, rounding);
   const Eigen::Index odd = (off > most).count();
