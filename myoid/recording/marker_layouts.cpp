@@ -17,7 +17,7 @@ namespace {
 using Kind = TableColumn::Kind;
 using Cells = std::vector<std::string>;
 
-constexpr std::size_t kHeader = 40;  // lines that a header has at most
+constexpr std::size_t kHeaderLines = 40;  // lines that a header has at most
 
 Cells filled_cells(std::string_view line, char separator) {
   Cells cells = cells_of(line, separator);
@@ -124,7 +124,7 @@ std::optional<MarkerLayout> nexus_trajectories(const TableText& text,
 
 std::optional<MarkerLayout> qualisys_markers(const TableText& text,
                                              const std::filesystem::path& path) {
-  const std::size_t head = std::min(text.lines.size(), kHeader);
+  const std::size_t head = std::min(text.lines.size(), kHeaderLines);
   if (text.lines.empty() || !trim(text.lines[0]).starts_with("NO_OF_")) return std::nullopt;
   const std::string included = stated_text(text, head, '\t', "DATA_INCLUDED");
   const bool has_names =
@@ -187,7 +187,7 @@ std::optional<MarkerLayout> qualisys_markers(const TableText& text,
 
 std::optional<MarkerLayout> bts_points(const TableText& text, const std::filesystem::path& path) {
   if (text.lines.empty() || !trim(text.lines[0]).starts_with("BTS ASCII")) return std::nullopt;
-  const std::size_t head = std::min(text.lines.size(), kHeader);
+  const std::size_t head = std::min(text.lines.size(), kHeaderLines);
   const bool points =
       lower(stated_text(text, head, '\t', "type")).find("point") != std::string::npos;
   for (std::size_t n = 0; n < head; ++n) {

@@ -52,7 +52,7 @@ void require_unique(const std::vector<std::string>& names,
 
 /// A marker without one of its coordinates, or at 0 0 0 where that means so, is not seen.
 void make_gaps(const TableNumbers& numbers, bool zero_is_missing, MarkerFile& file) {
-  constexpr double kGap = std::numeric_limits<double>::quiet_NaN();
+  constexpr double kUnseen = std::numeric_limits<double>::quiet_NaN();
   Eigen::MatrixXd& positions = file.markers.positions_m;
   Eigen::Index zeros = 0, partial = 0;
   std::size_t partial_line = 0;
@@ -63,7 +63,7 @@ void make_gaps(const TableNumbers& numbers, bool zero_is_missing, MarkerFile& fi
       if (zero) ++zeros;
       if (!p.allFinite() && !p.array().isNaN().all() && ++partial == 1)
         partial_line = numbers.lines[at(row)];
-      if (zero || !p.allFinite()) p.setConstant(kGap);
+      if (zero || !p.allFinite()) p.setConstant(kUnseen);
     }
   }
   if (zeros > 0)

@@ -16,7 +16,7 @@
 namespace myoid::recording {
 namespace {
 
-constexpr double kGap = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
 
 /// One cell as it stands in its line, from `at` on; moves `at` to the separator behind it, or to
 /// the end.
@@ -49,7 +49,7 @@ enum class CellKind : std::uint8_t { number, comma_number, gap, wrong };
 CellKind read_cell(std::string_view cell, char separator, double& value) {
   if (cell.size() >= 2 && cell.front() == '"' && cell.back() == '"')
     cell = trim(cell.substr(1, cell.size() - 2));
-  value = kGap;
+  value = kNoNumber;
   if (cell.empty() || cell == "-" || equal_ignoring_case(cell, "n/a") ||
       equal_ignoring_case(cell, "nan"))
     return CellKind::gap;
@@ -153,7 +153,7 @@ class RowReader {
     const char* const end = at + line.size();
     for (std::size_t c = 0;; ++c) {
       const ColumnUse use = c < uses_.size() ? uses_[c] : ColumnUse{};
-      double value = kGap;
+      double value = kNoNumber;
       const bool number = use.kind == ColumnUse::Kind::clock || use.kind == ColumnUse::Kind::value;
       bool empty = false;
       if (!number || !plain_number(at, end, value)) {
@@ -175,7 +175,7 @@ class RowReader {
       ++at;
     }
     row.blank = row.filled == 0;
-    for (std::size_t c = row.cells; c < uses_.size(); ++c) put(uses_[c], index, kGap);
+    for (std::size_t c = row.cells; c < uses_.size(); ++c) put(uses_[c], index, kNoNumber);
   }
 
   /// Decides row by row what is kept, and moves the kept rows together.
