@@ -8,6 +8,7 @@
 
 #include "myoid/core/error.h"
 #include "myoid/recording/atomic_file.h"
+#include "myoid/recording/marker_layouts.h"
 
 #include "tests/support/temporary_folder.h"
 
@@ -81,6 +82,17 @@ TEST(MarkerTable, PointsOfBtsAndNdiAreReadInTheirUnits) {
   EXPECT_DOUBLE_EQ(m.position(2, 1).z(), 0.06);
   EXPECT_DOUBLE_EQ(m.time_s[2], 0.02);
   EXPECT_TRUE(m.missing(1, 1));
+}
+
+TEST(MarkerLayout, SaysWhereTheRowsAreAndWhatTheHeaderCounts) {
+  const auto layout = marker_layout(TableText(kBts), "a.emt");
+  ASSERT_TRUE(layout);
+  EXPECT_THAT(layout->names, ElementsAre("A"));
+  EXPECT_EQ(layout->table.first_row, 11U);
+  EXPECT_EQ(layout->table.rows_said, 2.0);
+  EXPECT_EQ(layout->table.channels_said, 1.0);
+  EXPECT_EQ(layout->table.rate_hz, 100.0);
+  EXPECT_FALSE(marker_layout(TableText("time,a\n0,1\n"), "a.csv"));
 }
 
 TEST(MarkerTable, OtherTablesAreNone) {

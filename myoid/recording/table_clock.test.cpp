@@ -8,6 +8,7 @@
 #include "myoid/core/error.h"
 #include "myoid/recording/channel_labels.h"
 #include "myoid/recording/nexus_section.h"
+#include "myoid/recording/table_layout.h"
 #include "myoid/recording/table_series.h"
 
 #include "tests/support/repair_lines.h"
@@ -114,6 +115,21 @@ TEST(NexusSection, ATableOfDevicesSharesTheFrameNumbersOfItsTrajectories) {
   EXPECT_EQ(section->end_row - section->first_row, 2U);
   EXPECT_THAT(test::repair_lines(section->repairs), HasSubstr("not read: Joints"));
   EXPECT_FALSE(nexus_section(table, "Model Outputs", "f.csv"));
+}
+
+TEST(TableLayout, ANumberStandsBehindItsWordInItsCellOrBelowIt) {
+  const TableText text("NO_OF_FRAMES\t40\nRate: 100 Hz\ntype\tcount\tsex\nrecord\t7\tmale\n");
+  EXPECT_EQ(stated_number(text, 4, '\t', {"no_of_frames"}), 40.0);
+  EXPECT_EQ(stated_number(text, 4, '\t', {"rate"}), 100.0);
+  EXPECT_EQ(stated_number(text, 4, '\t', {"count"}), 7.0);
+  EXPECT_FALSE(stated_number(text, 3, '\t', {"count"}));
+  EXPECT_EQ(stated_text(text, 4, '\t', "record"), "7");
+}
+
+TEST(TableLayout, ABlankLineEndsABlockUnlessRowsOfNumbersFollow) {
+  EXPECT_EQ(end_of_block(TableText("1,2\n2,3\n\nJoints\n100\n"), 0, ','), 2U);
+  EXPECT_EQ(end_of_block(TableText("1,2\n\n2,3\n"), 0, ','), 3U);
+  EXPECT_EQ(end_of_block(TableText("1,2\n,\n2,3\n,,\n"), 0, ','), 3U);
 }
 
 TEST(ChannelsOfTable, EveryChannelHasANameOfItsOwn) {
