@@ -305,8 +305,10 @@ Storage parse_storage(std::string_view text, const std::filesystem::path& path) 
       }
       if (extra_line == 0) extra_line = line + 1;
     }
-    if (!time.empty() && row[0] <= time.back()) {
-      if (row[0] < time.back()) {
+    // Times that differ by their rounding alone are one.
+    constexpr double kSameTime_s = 1e-10;
+    if (!time.empty() && row[0] <= time.back() + kSameTime_s) {
+      if (row[0] < time.back() - kSameTime_s) {
         throw ReadError(
             path, line + 1,
             fmt::format("time goes backwards: {} s after {} s; sort the rows or split the file",
