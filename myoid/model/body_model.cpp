@@ -88,7 +88,23 @@ std::optional<int> BodyModel::find_body(std::string_view n) const {
   return find_by_name(bodies, n);
 }
 std::optional<int> BodyModel::find_coordinate(std::string_view n) const {
-  return find_by_name(coordinates, n);
+  if (const auto found = find_by_name(coordinates, n)) return found;
+  const std::size_t slash = n.rfind('/');
+  if (slash == std::string_view::npos) return std::nullopt;
+  // A path: the joint stands before the coordinate.
+  const std::string_view last = n.substr(slash + 1);
+  std::string_view owner = n.substr(0, slash);
+  if (const std::size_t s = owner.rfind('/'); s != std::string_view::npos)
+    owner.remove_prefix(s + 1);
+  const std::string own_name = fmt::format("{}_{}", owner, last);
+  for (const Joint& joint : joints) {
+    if (joint.name != owner) continue;
+    for (const int c : joint.coordinates) {
+      const std::string& there = coordinates[static_cast<std::size_t>(c)].name;
+      if (there == last || there == own_name) return c;
+    }
+  }
+  return find_by_name(coordinates, last);
 }
 std::optional<int> BodyModel::find_marker(std::string_view n) const {
   return find_by_name(markers, n);
@@ -244,20 +260,6 @@ void check_tree(const BodyModel& model, const std::vector<Joint>& ordered) {
       throw ModelError(
           fmt::format("body '{}' is not connected to ground by joints", model.bodies[b].name));
     }
-  }
-  // What hangs on a joint that moves must have a mass somewhere.
-  std::vector<bool> has_mass(model.bodies.size(), false);
-  for (std::size_t j = ordered.size(); j-- > 0;) {
-    const auto child = static_cast<std::size_t>(ordered[j].child);
-    if (model.bodies[child].mass_kg > 0.0) has_mass[child] = true;
-    if (!has_mass[child] && !ordered[j].coordinates.empty()) {
-      throw ModelError(
-          fmt::format("body '{}' and all that hangs on it have no mass, but joint '{}' lets it "
-                      "move; expected a "
-                      "mass above 0 kg, or a WeldJoint",
-                      model.bodies[child].name, ordered[j].name));
-    }
-    if (has_mass[child]) has_mass[static_cast<std::size_t>(ordered[j].parent)] = true;
   }
 }
 

@@ -79,10 +79,7 @@ OsimEditor::OsimEditor(std::string text, std::filesystem::path path)
   model_ = xml_.root().child("Model");
   if (!model_) xml_.fail(xml_.root(), "the document has no <Model>");
   xml_.set_prototypes(model_.child("defaults"));
-  skeleton_ = model_;
-  if (const auto engine = OsimXml::first_element(model_.child("DynamicsEngine"));
-      engine && !model_.child("BodySet"))
-    skeleton_ = engine;
+  skeleton_ = skeleton_of(model_);
   reading_.reset(new OsimReading{xml_, {}, {}, {}});
   read_bodies(*reading_, skeleton_);
 }
@@ -263,9 +260,7 @@ void OsimEditor::scale_geometry(const Factors& factors) {
   const auto forces =
       model_.child("ForceSet") ? model_.child("ForceSet") : model_.child("ActuatorSet");
   for (const auto force : OsimXml::objects(forces)) scale_points(force, factors);
-  for (const auto joint : OsimXml::objects(skeleton_.child("JointSet"))) {
-    if (joint.type() != pugi::node_element) continue;
-    const std::string owner = "/jointset/" + OsimXml::name_of(joint);
+  for (const auto& [joint, owner] : components_of(skeleton_, "JointSet", "Joint")) {
     scale_joint(joint, factor_of(factors, frame_of(*reading_, joint, "parent_frame", owner).body),
                 factor_of(factors, frame_of(*reading_, joint, "child_frame", owner).body));
   }
@@ -281,8 +276,7 @@ void OsimEditor::scale_geometry(const Factors& factors) {
     scale_meshes(xml_, node, factor);
   }
   scale_wraps(model_.child("Ground"), {}, factor_of(factors, 0));
-  for (const auto node : OsimXml::objects(skeleton_.child("BodySet"))) {
-    if (node.type() != pugi::node_element) continue;
+  for (const auto& [node, path] : components_of(skeleton_, "BodySet", "Body")) {
     const auto body = reading_->find_body(OsimXml::name_of(node)).value_or(0);
     const Vec3 factor = factor_of(factors, body);
     multiply(xml_, node, "mass_center", factor);
@@ -349,8 +343,7 @@ void OsimEditor::scale_masses(const Factors& factors, bool keep_masses, double t
     inertias.push_back(inertia);
   }
   const double share = total_kg > 0.0 && total > 0.0 ? total_kg / total : 1.0;
-  for (const auto node : OsimXml::objects(skeleton_.child("BodySet"))) {
-    if (node.type() != pugi::node_element) continue;
+  for (const auto& [node, path] : components_of(skeleton_, "BodySet", "Body")) {
     const auto body = reading_->find_body(OsimXml::name_of(node));
     if (!body || *body == 0) continue;
     const auto b = static_cast<std::size_t>(*body);

@@ -135,7 +135,7 @@ Function default_ligament_curve() {
       {0.0, 0.0, 0.0, 0.0, 0.035, 0.12, 0.26, 0.55, 1.17, 2.0, 2.0, 2.0, 2.0});
 }
 
-void read_force(OsimReading& r, pugi::xml_node node) {
+void read_law(OsimReading& r, pugi::xml_node node) {
   const std::string kind = node.name();
   const std::string name = OsimXml::name_of(node);
   const auto passive = [&](auto law) {
@@ -238,33 +238,27 @@ void read_force(OsimReading& r, pugi::xml_node node) {
 
 }  // namespace
 
-namespace {
-
-void read_into_order(OsimReading& r, pugi::xml_node node) {
+void read_force(OsimReading& r, pugi::xml_node node) {
   const auto count = [&] {
     return r.model.muscles.size() + r.model.actuators.size() + r.model.point_actuators.size() +
            r.model.torque_actuators.size() + r.model.path_actuators.size() +
            r.model.passive_forces.size();
   };
   const std::size_t before = count();
-  read_force(r, node);
+  read_law(r, node);
   if (count() > before) r.model.force_order.push_back(OsimXml::name_of(node));
 }
 
-}  // namespace
-
 void read_forces(OsimReading& r, pugi::xml_node set) {
   for (const auto node : OsimXml::objects(set))
-    if (node.type() == pugi::node_element) read_into_order(r, node);
+    if (node.type() == pugi::node_element) read_force(r, node);
 }
 
-void read_component_forces(OsimReading& r, pugi::xml_node components) {
-  for (const auto node : components.children()) {
-    const std::string_view kind = node.name();
-    if (kind.ends_with("Force") || kind.ends_with("Actuator") || kind.ends_with("Spring") ||
-        kind == "Ligament" || is_muscle(node))
-      read_into_order(r, node);
-  }
+void read_component_force(OsimReading& r, pugi::xml_node node) {
+  const std::string_view kind = node.name();
+  if (kind.ends_with("Force") || kind.ends_with("Actuator") || kind.ends_with("Spring") ||
+      kind == "Ligament" || is_muscle(node))
+    read_force(r, node);
 }
 
 }  // namespace myoid::model

@@ -8,7 +8,11 @@ namespace myoid::model {
 /// partly understood, is listed in `unsupported`.
 void read_forces(OsimReading& reading, pugi::xml_node set);
 
-/// The same for forces that stand among the components of a model instead of in its force set.
-void read_component_forces(OsimReading& reading, pugi::xml_node components);
+/// Reads one force of a force set.
+void read_force(OsimReading& reading, pugi::xml_node node);
+
+/// Reads a force that stands among the components of a model instead of in its force set; leaves
+/// components of other kinds alone.
+void read_component_force(OsimReading& reading, pugi::xml_node node);
 
 }  // namespace myoid::model

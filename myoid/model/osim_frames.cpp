@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
+#include "myoid/recording/text_file.h"
 
 namespace myoid::model {
 namespace {
@@ -127,8 +128,10 @@ FixedFrame resolve(const OsimReading& r,
   if (depth > 32) r.xml.fail(where, fmt::format("frame '{}' refers to itself", name));
   const auto found = [&](const std::string& path) -> std::optional<FixedFrame> {
     if (path == "/ground") return FixedFrame{};
-    if (path.starts_with("/bodyset/")) {
-      if (const auto body = r.find_body(std::string_view(path).substr(9)))
+    // Bodies stand in their set or among the components; their names are unique.
+    for (const std::string_view set : {"/bodyset/", "/componentset/", "/"}) {
+      if (!path.starts_with(set)) continue;
+      if (const auto body = r.find_body(std::string_view(path).substr(set.size())))
         return FixedFrame{*body, {}};
     }
     const auto it = r.frames.find(path);
@@ -160,7 +163,7 @@ FixedFrame resolve(const OsimReading& r,
       if (base.empty()) break;
       base.erase(base.find_last_of('/'));
     }
-    if (const auto frame = found("/bodyset/" + name)) return *frame;
+    if (const auto frame = found("/frameset/" + name)) return *frame;
   }
   r.xml.fail(where, fmt::format("there is no frame '{}'", name));
 }
@@ -170,6 +173,13 @@ FixedFrame resolve(const OsimReading& r,
 namespace {
 
 using Places = std::map<std::string, int, std::less<>>;
+
+/// "/bodyset" of "BodySet".
+std::string path_of_set(std::string_view name) {
+  std::string path = "/";
+  for (const char c : name) path += c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c;
+  return path;
+}
 
 std::optional<int> place_of(const Places& places, std::string_view name) {
   const auto it = places.find(name);
@@ -207,19 +217,40 @@ std::optional<int> OsimReading::find_body(std::string_view name) const {
   return place_of(body_places, name);
 }
 std::optional<int> OsimReading::find_coordinate(std::string_view name) const {
-  return place_of(coordinate_places, name);
+  if (const auto place = place_of(coordinate_places, name)) return place;
+  return name.find('/') == std::string_view::npos ? std::nullopt : model.find_coordinate(name);
+}
+
+pugi::xml_node skeleton_of(pugi::xml_node model) {
+  const auto engine = OsimXml::first_element(model.child("DynamicsEngine"));
+  return engine && !model.child("BodySet") ? engine : model;
+}
+
+std::vector<ModelComponent> components_of(pugi::xml_node model,
+                                          const char* set,
+                                          std::string_view kind) {
+  std::vector<ModelComponent> found;
+  for (const auto node : OsimXml::objects(model.child(set))) {
+    if (node.type() == pugi::node_element)
+      found.push_back({node, path_of_set(set) + "/" + OsimXml::name_of(node)});
+  }
+  const auto add = [&](pugi::xml_node holder, const std::string& owner) {
+    for (const auto node : holder.children())
+      if (std::string_view(node.name()).ends_with(kind))
+        found.push_back({node, owner + "/" + OsimXml::name_of(node)});
+  };
+  add(model.child("components"), "");
+  add(model.child("ComponentSet").child("objects"), "/componentset");
+  return found;
 }
 
 void read_bodies(OsimReading& r, pugi::xml_node model) {
   r.add(Body{.name = "ground"});
   collect_frames(r, model.child("Ground").child("components"), "/ground");
   collect_frames(r, model.child("components"), "");
-  for (const auto node : OsimXml::objects(model.child("ComponentSet"))) {
-    if (is_frame(node))
-      r.frames["/componentset/" + OsimXml::name_of(node)] = {node, "/componentset"};
-  }
-  for (const auto node : OsimXml::objects(model.child("BodySet"))) {
-    if (node.type() != pugi::node_element) continue;
+  for (const auto set : {model.child("ComponentSet"), model.child("FrameSet")})
+    collect_frames(r, set.child("objects"), path_of_set(set.name()));
+  for (const auto& [node, path] : components_of(model, "BodySet", "Body")) {
     Body body;
     body.name = OsimXml::name_of(node);
     if (body.name.empty()) r.xml.fail(node, "a body has no name");
@@ -244,11 +275,11 @@ void read_bodies(OsimReading& r, pugi::xml_node model) {
             body.name, "xyz"[k], body.I_BBcm_B(k, k)));
       }
     }
-    collect_frames(r, node.child("components"), "/bodyset/" + body.name);
+    collect_frames(r, node.child("components"), path);
     r.add(std::move(body));
   }
-  for (const auto node : OsimXml::objects(model.child("JointSet")))
-    collect_frames(r, node.child("frames"), "/jointset/" + OsimXml::name_of(node));
+  for (const auto& [node, path] : components_of(model, "JointSet", "Joint"))
+    collect_frames(r, node.child("frames"), path);
 }
 
 std::string socket(const OsimReading& r,
@@ -260,7 +291,9 @@ std::string socket(const OsimReading& r,
   key += "_connectee_name";
   if (const auto child = r.xml.property(node, key.c_str())) return OsimXml::text_of(child);
   for (const auto child : node.child("connectors").children()) {
-    if (OsimXml::name_of(child) == name) return OsimXml::text_of(child.child("connectee_name"));
+    const std::string own = OsimXml::name_of(child);
+    if (own == name || (old_name != nullptr && own == old_name))
+      return OsimXml::text_of(child.child("connectee_name"));
   }
   return old_name == nullptr ? std::string() : r.xml.word(node, old_name);
 }
@@ -301,11 +334,14 @@ Pose pose_of(const OsimReading& r,
 }
 
 int coordinate_named(const OsimReading& r, pugi::xml_node where, std::string_view text) {
-  const std::size_t slash = text.find_last_of('/');
-  const auto index =
-      r.find_coordinate(slash == std::string_view::npos ? text : text.substr(slash + 1));
-  if (!index) r.xml.fail(where, fmt::format("there is no coordinate '{}'", text));
-  return *index;
+  if (const auto index = r.find_coordinate(text)) return *index;
+  // Of several with that name the first joint's, as in OpenSim.
+  if (r.shared_coordinate_names.contains(text)) {
+    for (const Joint& joint : r.model.joints)
+      if (const auto index = r.find_coordinate(fmt::format("{}/{}", joint.name, text)))
+        return *index;
+  }
+  r.xml.fail(where, fmt::format("there is no coordinate '{}'", text));
 }
 
 bool is_enabled(const OsimReading& r, pugi::xml_node node, const char* positive) {
@@ -332,6 +368,32 @@ Vec3 direction_of(const OsimReading& r,
     r.xml.fail(node, fmt::format("{} '{}': <{}> is no direction", node.name(),
                                  OsimXml::name_of(node), name));
   return v.normalized();
+}
+
+std::optional<FixedFrame> find_frame(const BodyModel& model,
+                                     const std::filesystem::path& path,
+                                     const std::string& name) {
+  const std::string text = recording::read_text_file(path);
+  const OsimXml xml(text, path);
+  OsimReading r{xml, model.compat};
+  read_bodies(r, skeleton_of(xml.root().child("Model")));
+  try {
+    return resolve_frame(r, xml.root(), name, "/jointset");
+  } catch (const ReadError&) {
+    // The joints of old documents have their frames by name alone.
+  }
+  const std::size_t slash = name.find_last_of('/');
+  if (slash == std::string::npos) return std::nullopt;
+  const std::string frame = name.substr(slash + 1);
+  for (const Joint& joint : model.joints) {
+    if (!("/" + name.substr(0, slash)).ends_with("/" + joint.name)) continue;
+    const auto offset = [&](BodyIndex body) {
+      return model.bodies[static_cast<std::size_t>(body)].name + "_offset";
+    };
+    if (frame == offset(joint.child)) return FixedFrame{joint.child, joint.X_BM};
+    if (frame == offset(joint.parent)) return FixedFrame{joint.parent, joint.X_PF};
+  }
+  return std::nullopt;
 }
 
 std::pair<FixedFrame, FixedFrame> two_frames(const OsimReading& r, pugi::xml_node node) {

@@ -1,10 +1,13 @@
 #pragma once
 
+#include <filesystem>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "myoid/model/body_model.h"
 #include "myoid/model/osim_xml.h"
@@ -33,6 +36,8 @@ struct OsimReading {
 
   /// Places in the model by name; of one name twice the first.
   std::map<std::string, int, std::less<>> body_places, coordinate_places;
+  /// Names that coordinates of several joints share; each is told apart by its joint.
+  std::set<std::string, std::less<>> shared_coordinate_names;
 
   /// With what is known of the model already.
   explicit OsimReading(const OsimXml& document,
@@ -42,19 +47,36 @@ struct OsimReading {
   int add(Body body);
   int add(Coordinate coordinate);
   [[nodiscard]] std::optional<int> find_body(std::string_view name) const;
+  /// By name, or by a path that ends in joint/coordinate.
   [[nodiscard]] std::optional<int> find_coordinate(std::string_view name) const;
 
   /// Documents before this have joints inside bodies and name bodies instead of sockets.
   [[nodiscard]] bool is_old() const { return xml.version() < 30500; }
 };
 
+/// A component of a model and its path in it.
+struct ModelComponent {
+  pugi::xml_node node;
+  std::string path;
+};
+
+/// The objects of a set ("/bodyset/x"), then those that stand outside of it: among the model's
+/// <components> ("/x") or in its <ComponentSet>, of a class whose name ends in `kind`.
+[[nodiscard]] std::vector<ModelComponent> components_of(pugi::xml_node model,
+                                                        const char* set,
+                                                        std::string_view kind);
+
+/// The element that holds bodies and joints: the model or, before 10700, an engine in it.
+[[nodiscard]] pugi::xml_node skeleton_of(pugi::xml_node model);
+
 /// Reads the bodies (with the inertia of old documents) and collects the offset frames of ground,
 /// bodies, joints and the model. Throws ReadError for a body without a name, with the name of
 /// another or without a mass.
 void read_bodies(OsimReading& reading, pugi::xml_node model);
 
-/// The target of a socket in any of its three spellings (<socket_x>, <socket_x_connectee_name>,
-/// <connectors>), or the text of <old_name>; empty if there is none.
+/// The target of a socket in any of its spellings (<socket_x>, <socket_x_connectee_name>,
+/// <connectors>, where betas of version 4 use the old name), or the text of <old_name>; empty if
+/// there is none.
 [[nodiscard]] std::string socket(const OsimReading& reading,
                                  pugi::xml_node node,
                                  std::string_view name,
@@ -74,6 +96,13 @@ void read_bodies(OsimReading& reading, pugi::xml_node model);
                                   const std::string& owner,
                                   const char* old_name = "body");
 
+/// The frame of that path or name in a model file: a body, an offset frame of the model, of a body
+/// or of a joint, also those that OpenSim gives to the joints of old documents
+/// ("/jointset/knee_r/tibia_r_offset"). Empty if there is none.
+[[nodiscard]] std::optional<FixedFrame> find_frame(const BodyModel& model,
+                                                   const std::filesystem::path& path,
+                                                   const std::string& name);
+
 /// The pose that two properties of an element give: location (translation) and body-fixed X-Y-Z
 /// angles. With `rounded` as OpenSim converts old documents, to six digits.
 [[nodiscard]] Pose pose_of(const OsimReading& reading,
@@ -82,7 +111,8 @@ void read_bodies(OsimReading& reading, pugi::xml_node model);
                            const char* orientation,
                            bool rounded = false);
 
-/// The coordinate that a socket or a text names, by its last part; throws ReadError if unknown.
+/// The coordinate that a socket or a text names; throws ReadError if there is none, or if several
+/// joints have one of that name and the text does not say which joint.
 [[nodiscard]] int coordinate_named(const OsimReading& reading,
                                    pugi::xml_node where,
                                    std::string_view text);

@@ -18,10 +18,22 @@ namespace {
 constexpr const char* kSlots[6] = {"rotation1",    "rotation2",    "rotation3",
                                    "translation1", "translation2", "translation3"};
 
-void read_coordinate(OsimReading& r, pugi::xml_node node) {
+/// The coordinate elements of a joint, of any version.
+auto coordinates_of(pugi::xml_node joint) {
+  auto coordinates = joint.child("coordinates");
+  if (!coordinates) coordinates = joint.child("CoordinateSet").child("objects");
+  return coordinates.children("Coordinate");
+}
+
+/// A coordinate's name in the model: with its joint's where several joints have one of that name.
+std::string model_name(const OsimReading& r, const std::string& joint, const std::string& name) {
+  return r.shared_coordinate_names.contains(name) ? fmt::format("{}_{}", joint, name) : name;
+}
+
+void read_coordinate(OsimReading& r, pugi::xml_node node, const std::string& joint) {
   const OsimXml& xml = r.xml;
   Coordinate c;
-  c.name = OsimXml::name_of(node);
+  c.name = model_name(r, joint, OsimXml::name_of(node));
   if (c.name.empty()) xml.fail(node, "a coordinate has no name");
   if (r.find_coordinate(c.name))
     xml.fail(node, fmt::format("two coordinates are named '{}'", c.name));
@@ -83,7 +95,9 @@ void set_custom_axes(OsimReading& r, pugi::xml_node node, Joint& joint) {
                              joint.name, names.size()));
     }
     if (!names.empty()) {
-      const auto index = r.find_coordinate(names[0]);
+      // In some files by its path.
+      const std::string own = names[0].substr(names[0].find_last_of('/') + 1);
+      const auto index = r.find_coordinate(model_name(r, joint.name, own));
       if (!index || std::find(joint.coordinates.begin(), joint.coordinates.end(), *index) ==
                         joint.coordinates.end()) {
         r.xml.fail(slot, fmt::format("<coordinates>: joint '{}' has no coordinate '{}'", joint.name,
@@ -203,10 +217,11 @@ bool set_axes(OsimReading& r, pugi::xml_node node, Joint& joint) {
     return false;
   }
   if (kind == "BallJoint" || kind == "FreeJoint" || kind == "EllipsoidJoint") {
-    r.model.notes.push_back(fmt::format(
-        "joint '{}' ({}): its speeds are the rates of its coordinates here; OpenSim's inverse "
-        "dynamics takes them as angular velocities and differs there",
-        joint.name, kind));
+    r.model.notes.push_back(
+        fmt::format("joint '{}' ({}): its speeds are the rates of its coordinates; OpenSim's tools "
+                    "take them for "
+                    "angular velocities, which --compat opensim reproduces",
+                    joint.name, kind));
   }
   return true;
 }
@@ -266,18 +281,19 @@ void add_scapulothoracic(OsimReading& r, pugi::xml_node node, Joint joint) {
     r.model.coordinates[static_cast<std::size_t>(c)].motion = MotionType::rotational;
   r.model.notes.push_back(fmt::format(
       "joint '{}' (ScapulothoracicJoint) is an ellipsoid joint and a hinge with the massless body "
-      "'{}_winging_base' between; its speeds are the rates of its coordinates",
+      "'{}_winging_base' between; its speeds are the rates of its coordinates; OpenSim's tools "
+      "take "
+      "them for angular velocities, which --compat opensim reproduces",
       joint.name, joint.name));
   r.model.joints.push_back(std::move(ellipsoid));
   r.model.joints.push_back(std::move(hinge));
 }
 
 /// Reads one joint; `enclosing` is the body that holds it in old documents, -1 elsewhere.
-void read_joint(OsimReading& r, pugi::xml_node node, BodyIndex enclosing) {
+void read_joint(OsimReading& r, pugi::xml_node node, const std::string& path, BodyIndex enclosing) {
   Joint joint;
   joint.name = OsimXml::name_of(node);
   joint.class_name = node.name();
-  const std::string path = "/jointset/" + joint.name;
   if (enclosing >= 0) {
     const bool rounded = r.compat.six_digit_offsets;
     const std::string parent = r.xml.word(node, "parent_body");
@@ -312,11 +328,9 @@ void read_joint(OsimReading& r, pugi::xml_node node, BodyIndex enclosing) {
     r.xml.fail(node, fmt::format("joint '{}' connects body '{}' with itself", joint.name,
                                  r.model.bodies[static_cast<std::size_t>(joint.parent)].name));
   }
-  auto coordinates = node.child("coordinates");
-  if (!coordinates) coordinates = node.child("CoordinateSet").child("objects");
-  for (const auto element : coordinates.children("Coordinate")) {
+  for (const auto element : coordinates_of(node)) {
     joint.coordinates.push_back(static_cast<int>(r.model.coordinates.size()));
-    read_coordinate(r, element);
+    read_coordinate(r, element, joint.name);
   }
   if (joint.class_name == "ScapulothoracicJoint") {
     add_scapulothoracic(r, node, std::move(joint));
@@ -352,19 +366,43 @@ void add_free_joint(OsimReading& r, BodyIndex body) {
   r.model.joints.push_back(std::move(joint));
 }
 
+/// The names that coordinates of several joints share; OpenSim tells them apart by their paths.
+void find_shared_names(OsimReading& r, pugi::xml_node model) {
+  std::map<std::string, std::vector<std::string>> joints_of;
+  const auto add = [&](pugi::xml_node joint) {
+    for (const auto node : coordinates_of(joint)) {
+      auto& joints = joints_of[OsimXml::name_of(node)];
+      const std::string name = OsimXml::name_of(joint);
+      if (joints.empty() || joints.back() != name) joints.push_back(name);
+    }
+  };
+  for (const auto& [node, path] : components_of(model, "JointSet", "Joint")) add(node);
+  for (const auto body : OsimXml::objects(model.child("BodySet")))
+    if (const auto joint = OsimXml::first_element(body.child("Joint"))) add(joint);
+  for (const auto& [name, joints] : joints_of) {
+    if (joints.size() < 2) continue;
+    r.shared_coordinate_names.insert(name);
+    r.model.notes.push_back(fmt::format(
+        "{} joints have a coordinate '{}'; here their names are {}_{} to {}_{} (columns "
+        "of files may also name them /jointset/{}/{}); where the model names no joint, the first "
+        "is meant, as in OpenSim",
+        joints.size(), name, joints.front(), name, joints.back(), name, joints.front(), name));
+  }
+}
+
 }  // namespace
 
 void read_joints(OsimReading& r, pugi::xml_node model) {
-  for (const auto node : OsimXml::objects(model.child("JointSet"))) {
-    if (node.type() == pugi::node_element) read_joint(r, node, -1);
-  }
+  find_shared_names(r, model);
+  for (const auto& [node, path] : components_of(model, "JointSet", "Joint"))
+    read_joint(r, node, path, -1);
   const std::size_t bodies = r.model.bodies.size();
   std::vector<bool> has_joint(bodies, false);
   for (const auto body : OsimXml::objects(model.child("BodySet"))) {
     if (const auto node = OsimXml::first_element(body.child("Joint"))) {
       const auto index = r.find_body(OsimXml::name_of(body));
       if (!index || *index == 0) continue;
-      read_joint(r, node, *index);
+      read_joint(r, node, {}, *index);
       has_joint[static_cast<std::size_t>(*index)] = true;  // a reversed one has it as the parent
     }
   }

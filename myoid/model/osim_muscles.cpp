@@ -105,7 +105,8 @@ void note_classes(BodyModel& model) {
 }
 
 bool is_muscle(pugi::xml_node node) {
-  return std::string_view(node.name()).find("Muscle") != std::string_view::npos;
+  const std::string_view kind = node.name();
+  return kind.ends_with("Muscle") || kind.ends_with("Muscle_Deprecated");
 }
 
 Muscle read_muscle(OsimReading& r, pugi::xml_node node) {
@@ -153,7 +154,8 @@ Muscle read_muscle(OsimReading& r, pugi::xml_node node) {
   set("deactivation_time_constant", p.deactivation_time_s);
   set("minimum_activation", p.minimum_activation);
   set("default_activation", p.default_activation);
-  p.default_fiber_length_m = p.optimal_fiber_length_m;
+  // OpenSim takes its classes' own 0.1 m for every muscle.
+  if (r.compat != kOpenSim452) p.default_fiber_length_m = p.optimal_fiber_length_m;
   set("default_fiber_length", p.default_fiber_length_m);
   set("min_control", p.min_control);
   set("max_control", p.max_control);

@@ -185,7 +185,7 @@ void read_wrap_objects(OsimReading& r, pugi::xml_node model) {
   read_wraps_of(r, model.child("Ground"), {});
   // A path finds the first object of a name over the bodies in tree order.
   std::vector<pugi::xml_node> nodes(r.model.bodies.size());
-  for (const auto node : OsimXml::objects(model.child("BodySet"))) {
+  for (const auto& [node, path] : components_of(model, "BodySet", "Body")) {
     if (const auto body = r.find_body(OsimXml::name_of(node)))
       nodes[static_cast<std::size_t>(*body)] = node;
   }

@@ -13,23 +13,36 @@
 #include "myoid/model/osim_joints.h"
 #include "myoid/model/osim_muscles.h"
 #include "myoid/model/osim_paths.h"
+#include "myoid/recording/named_file.h"
 #include "myoid/recording/text_file.h"
 
 namespace myoid::model {
 namespace {
 
+void read_marker(OsimReading& r, pugi::xml_node node, const std::string& path) {
+  Marker marker;
+  marker.name = OsimXml::name_of(node);
+  const FixedFrame frame = frame_of(r, node, "parent_frame", path);
+  marker.body = frame.body;
+  marker.p_BM = frame.X_BF * r.xml.vec3(node, "location", Vec3::Zero());
+  if (!marker.p_BM.allFinite())
+    r.xml.fail(node, fmt::format("marker '{}': its location is not finite", marker.name));
+  r.model.markers.push_back(std::move(marker));
+}
+
 void read_markers(OsimReading& r, pugi::xml_node set) {
   for (const auto node : OsimXml::objects(set)) {
-    if (std::string_view(node.name()) != "Marker") continue;
-    Marker marker;
-    marker.name = OsimXml::name_of(node);
-    const FixedFrame frame = frame_of(r, node, "parent_frame", "/markerset/" + marker.name);
-    marker.body = frame.body;
-    marker.p_BM = frame.X_BF * r.xml.vec3(node, "location", Vec3::Zero());
-    if (!marker.p_BM.allFinite())
-      r.xml.fail(node, fmt::format("marker '{}': its location is not finite", marker.name));
-    r.model.markers.push_back(std::move(marker));
+    if (std::string_view(node.name()) == "Marker")
+      read_marker(r, node, "/markerset/" + OsimXml::name_of(node));
   }
+}
+
+/// Markers, constraints and forces that stand outside of their sets.
+void read_loose_components(OsimReading& r, pugi::xml_node model) {
+  for (const auto& [node, path] : components_of(model, "", "Marker")) read_marker(r, node, path);
+  for (const auto& [node, path] : components_of(model, "", "Constraint"))
+    read_constraint(r, node, path);
+  for (const auto& [node, path] : components_of(model, "", "")) read_component_force(r, node);
 }
 
 /// The name of the file in which a set stands instead of in the model; empty if it does not.
@@ -44,7 +57,9 @@ template <typename Read>
 void read_set(OsimReading& r, pugi::xml_node set, const Read& read) {
   const std::string file = file_of(set);
   if (file.empty()) return read(r, set);
-  const std::filesystem::path path = r.xml.path().parent_path() / file;
+  const auto named = recording::find_named_file(r.xml.path().parent_path(), file);
+  if (!named.note.empty()) r.model.notes.push_back(fmt::format("<{}>: {}", set.name(), named.note));
+  const std::filesystem::path& path = named.path;
   const std::string text = recording::read_text_file(path);
   const OsimXml xml(text, path, OsimXml::Root::any);
   const auto other = xml.root().child(set.name());
@@ -90,12 +105,9 @@ BodyModel parse_osim(std::string_view text,
   r.model.name = OsimXml::name_of(model);
   r.model.gravity_G = xml.vec3(model, "gravity", r.model.gravity_G);
   list_external_sets(r, model);
-  // Before 10700 the bodies stood in an engine.
-  auto skeleton = model;
-  if (const auto engine = OsimXml::first_element(model.child("DynamicsEngine"));
-      engine && !model.child("BodySet"))
-    skeleton = engine;
-  if (!skeleton.child("BodySet")) xml.fail(model, "the model has no <BodySet>");
+  const auto skeleton = skeleton_of(model);
+  if (components_of(skeleton, "BodySet", "Body").empty() && !skeleton.child("BodySet"))
+    xml.fail(model, "the model has no <BodySet>, and no <Body> among its components");
   read_bodies(r, skeleton);
   read_joints(r, skeleton);
   read_set(r, skeleton.child("MarkerSet") ? skeleton.child("MarkerSet") : model.child("MarkerSet"),
@@ -105,7 +117,7 @@ BodyModel parse_osim(std::string_view text,
            read_forces);
   read_constraints(r, skeleton.child("ConstraintSet") ? skeleton.child("ConstraintSet")
                                                       : model.child("ConstraintSet"));
-  read_component_forces(r, model.child("components"));
+  read_loose_components(r, model);
   note_classes(r.model);
   try {
     return finalize(std::move(r.model));
@@ -125,7 +137,23 @@ BodyModel with_force_set(BodyModel model, const std::filesystem::path& path) {
   const auto set = xml.root().child("ForceSet");
   if (!set) xml.fail(xml.root(), "expected a <ForceSet> in <OpenSimDocument>");
   OsimReading r{xml, model.compat, std::move(model), {}};
-  read_forces(r, set);
+  std::string repeated;
+  for (const auto node : OsimXml::objects(set)) {
+    if (node.type() != pugi::node_element) continue;
+    const std::string name = OsimXml::name_of(node);
+    const auto& names = r.model.force_order;
+    if (std::find(names.begin(), names.end(), name) == names.end()) {
+      read_force(r, node);
+    } else {
+      repeated += fmt::format("{}'{}'", repeated.empty() ? "" : ", ", name);
+    }
+  }
+  if (!repeated.empty()) {
+    r.model.notes.push_back(
+        fmt::format("{}: the model has forces of these names already; as in OpenSim the model's "
+                    "own act and the file's are left out: {}",
+                    path.string(), repeated));
+  }
   return finalize(std::move(r.model));
 }
 

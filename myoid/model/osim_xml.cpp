@@ -20,6 +20,12 @@ using recording::trim;
 
 namespace {
 
+/// Neither text nor elements inside, and no other file that holds them.
+bool is_empty(pugi::xml_node node) {
+  return trim(node.text().get()).empty() && !OsimXml::first_element(node) &&
+         !node.attribute("file");
+}
+
 std::size_t line_at(std::string_view text, std::ptrdiff_t offset) {
   const auto end = std::clamp<std::ptrdiff_t>(offset, 0, static_cast<std::ptrdiff_t>(text.size()));
   return static_cast<std::size_t>(1 + std::count(text.begin(), text.begin() + end, '\n'));
@@ -59,7 +65,7 @@ void OsimXml::set_prototypes(pugi::xml_node defaults) {
 }
 
 pugi::xml_node OsimXml::property(pugi::xml_node object, const char* name) const {
-  if (const auto child = object.child(name)) return child;
+  if (const auto child = object.child(name); child && !is_empty(child)) return child;
   if (prototypes_.empty()) return {};
   const auto it = prototypes_.find(std::string_view(object.name()));
   return it == prototypes_.end() ? pugi::xml_node() : it->second.child(name);
@@ -99,9 +105,6 @@ double OsimXml::number(pugi::xml_node object, const char* name, double otherwise
   const auto node = property(object, name);
   if (!node) return otherwise;
   const std::string_view text = trim(node.text().get());
-  if (text.empty())
-    fail(node, fmt::format("<{}> is empty: write a number, or remove the element for {}", name,
-                           otherwise));
   if (const auto value = parse_number(text); value && !std::isnan(*value)) return *value;
   const auto values = numbers(node);
   if (values.size() != 1)

@@ -34,7 +34,7 @@ class OsimXml {
 
   /// Prototypes of classes: the children of a <defaults> element.
   void set_prototypes(pugi::xml_node defaults);
-  /// The child of this name, or the prototype's.
+  /// The child of this name, or the prototype's; one without content counts as absent.
   [[nodiscard]] pugi::xml_node property(pugi::xml_node object, const char* name) const;
 
   /// Text of an element without blanks around it; an empty string if there is no such element.

@@ -109,14 +109,11 @@ std::vector<MeshUse> list_meshes(std::string_view osim, const fs::path& path) {
   const auto node = xml.root().child("Model");
   if (!node) xml.fail(xml.root(), "the document has no <Model>");
   OsimReading r{xml, {}, {}, {}};
-  auto skeleton = node;
-  if (const auto engine = OsimXml::first_element(node.child("DynamicsEngine"));
-      engine && !node.child("BodySet"))
-    skeleton = engine;
+  const auto skeleton = model::skeleton_of(node);
   model::read_bodies(r, skeleton);
   std::vector<MeshUse> uses;
   add_attached(r, skeleton.child("Ground"), {}, uses);
-  for (const auto body : OsimXml::objects(skeleton.child("BodySet"))) {
+  for (const auto& [body, place] : model::components_of(skeleton, "BodySet", "Body")) {
     const auto index = r.model.find_body(OsimXml::name_of(body));
     if (!index) continue;
     add_attached(r, body, {*index, {}}, uses);

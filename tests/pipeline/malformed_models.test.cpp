@@ -99,7 +99,6 @@ std::vector<Broken> broken_models() {
             "</Body></objects></BodySet>"),
        "'alone' is not connected"},
       {"two bodies of one name", with("name=\"lower\"", "name=\"upper\""), "two bodies"},
-      {"zero mass", with("<mass>1<", "<mass>0<"), "have no mass"},
       {"negative mass", with("<mass>1<", "<mass>-1<"), "0 or more"},
       {"mass that is no number", with("<mass>1<", "<mass>heavy<"), "'heavy'"},
       {"vector of two numbers", with("0 -0.1 0<", "0 -0.1<"), "three numbers"},
