@@ -5,13 +5,16 @@
 
 #include "myoid/core/parallel.h"
 #include "myoid/dynamics/passive_forces.h"
+#include "myoid/kinematics/angular_speeds.h"
 #include "myoid/model/kinematic_tree.h"
 
 namespace myoid::dynamics {
 
 TimeSeries inverse_dynamics(const model::BodyModel& model,
-                            const kinematics::JointMotion& motion,
+                            const kinematics::JointMotion& asked,
                             const InverseDynamicsOptions& options) {
+  const bool by_speeds = kinematics::takes_rates_for_speeds(model);
+  const kinematics::JointMotion motion = kinematics::moved_by_speeds(model, asked);
   const Eigen::Index frames = motion.sample_count();
   const auto count = static_cast<Eigen::Index>(model.coordinates.size());
   Eigen::MatrixXd tau(frames, count);
@@ -33,11 +36,10 @@ TimeSeries inverse_dynamics(const model::BodyModel& model,
         options.loads->append_wrenches(state, motion.q.time_s()[frame], wrenches);
       if (passive)
         append_passive_forces(model, state, generalized, wrenches, motion.q.time_s()[frame]);
-      tau.row(frame) =
-          (model::inverse_dynamics(model, q, qdot, motion.qddot.values().row(frame).transpose(),
-                                   wrenches, state) -
-           generalized)
-              .transpose();
+      Eigen::VectorXd moments = model::inverse_dynamics(
+          model, q, qdot, motion.qddot.values().row(frame).transpose(), wrenches, state);
+      if (by_speeds) moments = kinematics::rates_of_speeds(model, q).transpose() * moments;
+      tau.row(frame) = (moments - generalized).transpose();
     }
   });
   std::vector<Channel> channels;

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "myoid/core/index.h"
+#include "myoid/kinematics/angular_speeds.h"
 
 namespace myoid::forces {
 namespace {
@@ -97,6 +98,7 @@ const Eigen::VectorXd& ActuatorColumns::of_unit_force(const Actuator& a,
       break;
     case Actuator::Kind::coordinate:
       column_[model.actuators[a.index].coordinate] = 1.0;
+      column_ = kinematics::on_rates(model, state.q, std::move(column_));
       break;
     case Actuator::Kind::point: {
       const model::PointActuator& p = model.point_actuators[a.index];

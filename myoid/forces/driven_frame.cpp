@@ -1,11 +1,14 @@
 #include "myoid/forces/driven_frame.h"
 
+#include <utility>
+
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
 #include "myoid/core/index.h"
 #include "myoid/core/parallel.h"
 #include "myoid/dynamics/passive_forces.h"
+#include "myoid/kinematics/angular_speeds.h"
 #include "myoid/model/constraints.h"
 
 namespace myoid::forces {
@@ -21,6 +24,7 @@ DrivenState DrivenFrame::at_state(const Eigen::VectorXd& q,
   Eigen::VectorXd tau = Eigen::VectorXd::Zero(q.size());
   if (loads_ != nullptr) loads_->append_wrenches(state, time_s, result.wrenches);
   dynamics::append_passive_forces(model_, state, tau, result.wrenches, time_s);
+  tau = kinematics::on_rates(model_, result.q, std::move(tau));
   // Actuators accelerate by their moment arms, and press joints by their wrenches: OpenSim's paths
   // have the two not quite the same.
   const std::vector<model::BodyWrench> others = result.wrenches;

@@ -11,6 +11,7 @@
 #include "myoid/core/index.h"
 #include "myoid/core/parallel.h"
 #include "myoid/forces/opensim_muscle.h"
+#include "myoid/kinematics/angular_speeds.h"
 #include "myoid/model/constraints.h"
 #include "myoid/model/kinematic_tree.h"
 #include "myoid/model/muscle_path.h"
@@ -73,8 +74,9 @@ std::array<double, kQuantities.size()> quantities(const OpensimMuscle& muscle,
 }  // namespace
 
 MuscleAnalysis muscle_analysis(const model::BodyModel& model,
-                               const kinematics::JointMotion& motion,
+                               const kinematics::JointMotion& asked,
                                const MuscleAnalysisOptions& options) {
+  const kinematics::JointMotion motion = kinematics::moved_by_speeds(model, asked);
   MuscleAnalysis result;
   std::vector<int> chosen = options.muscles;
   if (chosen.empty()) {
@@ -106,7 +108,8 @@ MuscleAnalysis muscle_analysis(const model::BodyModel& model,
   const std::size_t arms = options.coordinates.size();
   std::vector<Eigen::MatrixXd> tables(2 * arms + kQuantities.size(),
                                       Eigen::MatrixXd(frames, count));
-  std::vector<std::atomic<int>> unbalanced(chosen.size());
+  std::vector<std::atomic<int>> unbalanced(chosen.size()), pathless(chosen.size());
+  const bool by_speeds = kinematics::takes_rates_for_speeds(model);
   const bool is_coupled = !model.couplers.empty() || !model.constraints.empty();
   parallel_ranges<Eigen::Index>(frames, 16, [&](const auto& range) {
     options.progress.check();
@@ -120,9 +123,18 @@ MuscleAnalysis muscle_analysis(const model::BodyModel& model,
       model::compute_poses(model, q, state);
       model::compute_velocities(model, motion.qdot.values().row(frame).transpose(), state);
       if (is_coupled && arms > 0) coupling = model::coupling_matrix(model, state);
+      if (by_speeds && arms > 0) {
+        const Eigen::MatrixXd N = kinematics::rates_of_speeds(model, q);
+        coupling = is_coupled ? Eigen::MatrixXd(coupling * N) : N;
+      }
       for (Eigen::Index k = 0; k < count; ++k) {
         const OpensimMuscle& muscle = muscles[at(k)];
         model::compute_path(model, model.muscles[at(chosen[at(k)])].path, state, workspace, path);
+        if (!std::isfinite(path.length_m)) {
+          ++pathless[at(k)];
+          for (Eigen::MatrixXd& table : tables) table(frame, k) = std::nan("");
+          continue;
+        }
         const model::MuscleProperties& p = muscle.properties();
         const double activation = options.activation.size() > 0
                                       ? options.activation(frame, chosen[at(k)])
@@ -135,7 +147,7 @@ MuscleAnalysis muscle_analysis(const model::BodyModel& model,
                 ? muscle.equilibrium(activation, path.length_m, path.speed_mps)
                 : muscle.at_fiber_length(activation, length_m, path.length_m, path.speed_mps);
         if (!s.converged) ++unbalanced[at(k)];
-        if (is_coupled && arms > 0)
+        if (coupling.size() > 0)
           path.moment_arm_m = (coupling.transpose() * path.moment_arm_m).eval();
         for (std::size_t c = 0; c < arms; ++c) {
           const double arm = path.moment_arm_m[options.coordinates[c]];
@@ -148,6 +160,11 @@ MuscleAnalysis muscle_analysis(const model::BodyModel& model,
     }
   });
   for (std::size_t k = 0; k < chosen.size(); ++k) {
+    if (pathless[k] > 0) {
+      result.notes.push_back(
+          fmt::format("muscle '{}': its path has no length in {} of {} frames (NaN stands there)",
+                      model.muscles[at(chosen[k])].name, pathless[k].load(), frames));
+    }
     if (unbalanced[k] > 0) {
       result.notes.push_back(
           fmt::format("muscle '{}': fiber and tendon could not be balanced in {} of {} frames",

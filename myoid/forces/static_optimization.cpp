@@ -13,6 +13,7 @@
 #include "myoid/forces/actuator_columns.h"
 #include "myoid/forces/actuator_sharing.h"
 #include "myoid/forces/opensim_muscle.h"
+#include "myoid/kinematics/angular_speeds.h"
 #include "myoid/model/constraints.h"
 #include "myoid/model/kinematic_tree.h"
 #include "myoid/model/motion_constraints.h"
@@ -54,7 +55,8 @@ class SharedFrame {
     if (!model_.passive_forces.empty())
       dynamics::append_passive_forces(model_, state_, passive, wrenches_, time_s);
     const Eigen::VectorXd required =
-        model::inverse_dynamics(model_, q, u, udot, wrenches_, state_) - passive;
+        model::inverse_dynamics(model_, q, u, udot, wrenches_, state_) -
+        kinematics::on_rates(model_, q, passive);
     const auto n = static_cast<Eigen::Index>(actuators_.size());
     Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(q.size(), n);
     strength.resize(n);
@@ -116,7 +118,9 @@ class SharedFrame {
       force = muscles_[a.index].optimal_force(path.length_m, path.speed_mps);
     }
     columns.col(i) *= force;
-    return force;
+    if (std::isfinite(force) && columns.col(i).allFinite()) return force;
+    columns.col(i).setZero();  // what has no path does not pull
+    return 0.0;
   }
 
   const model::BodyModel& model_;
@@ -132,8 +136,9 @@ class SharedFrame {
 }  // namespace
 
 StaticOptimizationResult static_optimization(const model::BodyModel& model,
-                                             const kinematics::JointMotion& motion,
+                                             const kinematics::JointMotion& asked,
                                              const StaticOptimizationOptions& options) {
+  const kinematics::JointMotion motion = kinematics::moved_by_speeds(model, asked);
   const std::vector<Actuator> actuators = actuators_of(model);
   if (actuators.empty())
     throw ModelError("static optimization: the model has neither muscles nor actuators");

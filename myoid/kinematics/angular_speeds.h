@@ -1,0 +1,41 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "myoid/kinematics/joint_motion.h"
+#include "myoid/model/body_model.h"
+
+namespace myoid::kinematics {
+
+/// OpenSim moves Ball-, Free-, Ellipsoid- and ScapulothoracicJoints by speeds u, the angular
+/// velocity of M in F, expressed in F, and its tools set u to the rates of the coordinates. So the
+/// bodies move by qdot = N(q) u, where N^-1 has the axes of the three rotations as its columns, and
+/// generalized forces and moment arms belong to u: N^T times those that belong to the rates.
+///
+/// The joints of that kind that are not turned round; empty in a model without.
+[[nodiscard]] std::vector<int> angular_speed_joints(const model::BodyModel& model);
+
+/// N(q) over all coordinates; the unit matrix but for those joints. Not finite where the second
+/// rotation is a right angle.
+[[nodiscard]] Eigen::MatrixXd rates_of_speeds(const model::BodyModel& model,
+                                              const Eigen::Ref<const Eigen::VectorXd>& q);
+
+/// Generalized forces that belong to the coordinates' rates, of forces that belong to the speeds
+/// (of actuators and springs on a coordinate): N^-T times those if takes_rates_for_speeds, else
+/// unchanged.
+[[nodiscard]] Eigen::VectorXd on_rates(const model::BodyModel& model,
+                                       const Eigen::Ref<const Eigen::VectorXd>& q,
+                                       Eigen::VectorXd on_speeds);
+
+/// Whether the model is to behave as OpenSim's (Compat) and has such joints.
+[[nodiscard]] bool takes_rates_for_speeds(const model::BodyModel& model);
+
+/// The motion in which the bodies of OpenSim's model move when its speeds and their derivatives are
+/// set to the rates of `motion`: the same q, qdot = N u, qddot = N du/dt + dN/dt u. The motion
+/// itself unless takes_rates_for_speeds.
+[[nodiscard]] JointMotion moved_by_speeds(const model::BodyModel& model, const JointMotion& motion);
+
+}  // namespace myoid::kinematics
