@@ -14,9 +14,18 @@ void add_run_tool(CLI::App& app, Context& context) {
       "Example: myoid run-tool subject01_Setup_IK.xml");
   struct Options {
     std::string setup, compat = "opensim";
+    pipeline::SetupFiles files;
   };
   const auto o = std::make_shared<Options>();
   command.add_option("setup", o->setup, "Set-up file (.xml)")->required();
+  command.add_option("--model", o->files.model, "Model (.osim), instead of the set-up's");
+  command.add_option(
+      "--motion", o->files.motion,
+      "Coordinates or states (.mot, .sto), for inverse kinematics and scaling markers "
+      "(.trc), instead of the set-up's");
+  command.add_option("--external-loads", o->files.external_loads,
+                     "External loads (.xml), instead of the set-up's");
+  command.add_option("--out", o->files.out, "Folder of the results, instead of the set-up's");
   command
       .add_option("--compat", o->compat,
                   "opensim: paths of muscles as OpenSim 4.5.2 computes them; exact: as their "
@@ -24,8 +33,10 @@ void add_run_tool(CLI::App& app, Context& context) {
       ->check(CLI::IsMember({"opensim", "exact"}));
   add_common_options(command, context, {.seed = false, .range = false, .overwrite = false});
   command.callback([&context, o] {
-    const pipeline::ToolResult result = pipeline::run_tool(
-        o->setup, {.compat = model::parse_compat(o->compat), .progress = context.progress()});
+    const pipeline::ToolResult result =
+        pipeline::run_tool(o->setup, {.compat = model::parse_compat(o->compat),
+                                      .files = o->files,
+                                      .progress = context.progress()});
     context.end_progress();
     for (const std::string& note : result.notes) context.warn(note);
     if (result.replaced > 0)

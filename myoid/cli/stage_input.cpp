@@ -6,6 +6,7 @@
 #include "myoid/model/arm4.h"
 #include "myoid/model/osim_reader.h"
 #include "myoid/model/path_survey.h"
+#include "myoid/pipeline/angle_unit.h"
 #include "myoid/recording/recording.h"
 #include "myoid/recording/storage_reader.h"
 #include "myoid/signals/clock_gaps.h"
@@ -124,16 +125,9 @@ kinematics::JointMotion load_motion(const model::BodyModel& model,
     return c &&
            model.coordinates[static_cast<std::size_t>(*c)].motion == model::MotionType::rotational;
   });
-  for (Eigen::Index c = 0; c < q.channel_count(); ++c) {
-    if (q.channels()[static_cast<std::size_t>(c)].unit == Unit::radian &&
-        q.values().col(c).cwiseAbs().maxCoeff() > 4.0 * kPi) {
-      throw ReadError(path, 0,
-                      fmt::format("column '{}' reaches {:.4g} rad: these are degrees; write "
-                                  "inDegrees=yes into the header",
-                                  q.channels()[static_cast<std::size_t>(c)].name,
-                                  q.values().col(c).cwiseAbs().maxCoeff()));
-    }
-  }
+  if (const std::string doubt = pipeline::check_angle_unit(path, file.in_degrees, q);
+      !doubt.empty())
+    context.warn(doubt);
   if (const signals::ClockGaps gaps = signals::find_clock_gaps(q.time_s()); gaps.count > 0)
     context.warn(
         fmt::format("{}: {}; a spline bridges what was not recorded, and its derivatives "

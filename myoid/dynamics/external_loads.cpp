@@ -7,6 +7,7 @@
 
 #include "myoid/core/error.h"
 #include "myoid/model/osim_xml.h"
+#include "myoid/recording/named_file.h"
 #include "myoid/recording/recording.h"
 #include "myoid/recording/storage_reader.h"
 #include "myoid/recording/text_file.h"
@@ -28,19 +29,46 @@ std::vector<Eigen::Index> columns_of(const TimeSeries& data, const std::string& 
   return columns;
 }
 
+/// What the columns of a force, point or torque begin with. A <PrescribedForce>, the form of
+/// documents before 20301, names them by its functions: the column of x, or "#" and its number.
+std::string identifier_of(const OsimXml& xml,
+                          pugi::xml_node node,
+                          const std::string& quantity,
+                          const TimeSeries& data) {
+  if (std::string_view(node.name()) == "ExternalForce")
+    return xml.word(node, (quantity + "_identifier").c_str());
+  const std::string set_name = quantity + "Functions";
+  auto set = node.child(set_name.c_str());
+  if (!set) set = node.find_child_by_attribute("name", set_name.c_str());
+  if (const auto inner = set.child("FunctionSet")) set = inner;
+  const auto function = OsimXml::first_element(set.child("objects"));
+  std::string name = OsimXml::name_of(function);
+  if (name.starts_with('#')) {
+    const auto column = recording::parse_number(name.substr(1));
+    const auto count = static_cast<double>(data.channel_count());
+    if (!column || !(*column >= 1.0 && *column <= count)) {
+      xml.fail(function, fmt::format("PrescribedForce '{}': function '{}', expected #1 to #{}",
+                                     OsimXml::name_of(node), name, count));
+    }
+    name = data.channels()[static_cast<std::size_t>(*column) - 1].name;
+  }
+  if (!name.empty()) name.pop_back();
+  return name;
+}
+
 Eigen::MatrixX3d values_of(const OsimXml& xml,
                            pugi::xml_node node,
-                           const char* property,
+                           const std::string& quantity,
                            const TimeSeries& data,
                            const std::filesystem::path& file) {
-  const std::string identifier = xml.word(node, property);
+  const std::string identifier = identifier_of(xml, node, quantity, data);
   if (identifier.empty() || identifier == "Unassigned") return {};
   const auto columns = columns_of(data, identifier);
   if (columns.size() != 3) {
     xml.fail(node,
-             fmt::format("ExternalForce '{}': <{}> '{}' begins {} columns of {}, expected 3; its "
+             fmt::format("{} '{}': the {} identifier '{}' begins {} columns of {}, expected 3; its "
                          "columns are {}",
-                         OsimXml::name_of(node), property, identifier, columns.size(),
+                         node.name(), OsimXml::name_of(node), quantity, identifier, columns.size(),
                          file.string(), channel_names(data)));
   }
   Eigen::MatrixX3d values(data.sample_count(), 3);
@@ -127,15 +155,18 @@ ExternalForce read_force(const OsimXml& xml,
                          std::vector<std::string>& notes) {
   ExternalForce force;
   force.name = OsimXml::name_of(node);
-  force.body = body_named(xml, node, "applied_to_body", model);
-  force.force_frame = body_named(xml, node, "force_expressed_in_body", model);
-  force.point_frame = body_named(xml, node, "point_expressed_in_body", model);
-  const Eigen::MatrixX3d f = values_of(xml, node, "force_identifier", data, file);
-  Eigen::MatrixX3d p = values_of(xml, node, "point_identifier", data, file);
-  const Eigen::MatrixX3d t = values_of(xml, node, "torque_identifier", data, file);
+  const bool is_old = std::string_view(node.name()) == "PrescribedForce";
+  force.body = body_named(xml, node, is_old ? "body" : "applied_to_body", model);
+  if (!is_old) {
+    force.force_frame = body_named(xml, node, "force_expressed_in_body", model);
+    force.point_frame = body_named(xml, node, "point_expressed_in_body", model);
+  }
+  const Eigen::MatrixX3d f = values_of(xml, node, "force", data, file);
+  Eigen::MatrixX3d p = values_of(xml, node, "point", data, file);
+  const Eigen::MatrixX3d t = values_of(xml, node, "torque", data, file);
   if (f.rows() == 0 && t.rows() == 0) {
-    xml.fail(node, fmt::format("ExternalForce '{}' has neither a force nor a torque identifier",
-                               force.name));
+    xml.fail(node, fmt::format("{} '{}' names neither columns of a force nor of a torque",
+                               node.name(), force.name));
   }
   check_finite(f, data, "force of '" + force.name + "'", file);
   check_finite(t, data, "torque of '" + force.name + "'", file);
@@ -221,16 +252,24 @@ ExternalLoads read_external_loads(const model::BodyModel& model,
         "expected <ExternalLoads>; this is another kind of file (give the .xml, not the data)");
   }
   xml.set_prototypes(set.child("defaults"));
-  std::string name = xml.word(set, "datafile");
+  const std::string name = xml.word(set, "datafile");
   if (name.empty() || name == "Unassigned") {
     xml.fail(set, "expected <datafile> with the measured loads (.mot, .sto)");
   }
-  std::replace(name.begin(), name.end(), '\\', '/');
-  const std::filesystem::path file = path.parent_path() / name;
+  const recording::NamedFile named = recording::find_named_file(path.parent_path(), name);
+  if (!named.exists) {
+    xml.fail(set.child("datafile"),
+             fmt::format("<datafile> names '{}', and there is no such file; a file of that name "
+                         "beside this one or one folder up would be taken",
+                         name));
+  }
+  const std::filesystem::path& file = named.path;
   const recording::Storage table = recording::read_storage(file);
   const TimeSeries& data = table.data;
   if (data.empty()) throw InvalidInput(fmt::format("{}: there are no rows", file.string()));
   ExternalLoads loads;
+  if (!named.note.empty())
+    loads.notes.push_back(fmt::format("{}: <datafile>: {}", path.string(), named.note));
   for (const recording::Repair& repair : table.repairs)
     loads.notes.push_back(recording::to_string(file, repair));
   loads.start_s = data.time_s()[0];
@@ -239,13 +278,21 @@ ExternalLoads read_external_loads(const model::BodyModel& model,
   if (data.sample_count() > 1) clock.emplace(data.time_s(), data.sample_count() >= 4 ? 3 : 1);
   for (const auto node : OsimXml::objects(set)) {
     if (node.type() != pugi::node_element) continue;
-    if (std::string_view(node.name()) != "ExternalForce") {
-      xml.fail(node, fmt::format("expected <ExternalForce>, found <{}>", node.name()));
-    }
+    const std::string_view kind = node.name();
+    const bool is_old = kind == "PrescribedForce";
+    if (kind != "ExternalForce" && !is_old)
+      xml.fail(node, fmt::format("expected <ExternalForce>, found <{}>", kind));
     if (xml.flag(node, "isDisabled", false) || !xml.flag(node, "appliesForce", true)) {
       loads.notes.push_back(
           fmt::format("{}: '{}' is switched off", path.string(), OsimXml::name_of(node)));
       continue;
+    }
+    constexpr int kFirstOfExternalForces = 20301;
+    if (is_old && xml.version() >= kFirstOfExternalForces) {
+      loads.notes.push_back(fmt::format(
+          "{}: '{}' is a PrescribedForce, as in documents before {}, and acts as there; OpenSim "
+          "converts it only where the document's version ({}) is before that",
+          path.string(), OsimXml::name_of(node), kFirstOfExternalForces, xml.version()));
     }
     loads.forces.push_back(read_force(xml, node, model, data, clock, file, loads.notes));
   }

@@ -9,6 +9,7 @@
 #include "myoid/core/error.h"
 #include "myoid/core/index.h"
 #include "myoid/forces/muscle_analysis.h"
+#include "myoid/kinematics/angular_speeds.h"
 #include "myoid/model/constraints.h"
 #include "myoid/model/kinematic_tree.h"
 #include "myoid/model/muscle_path.h"
@@ -112,10 +113,13 @@ void report_muscles(AnalysisRun& run, pugi::xml_node node) {
   if (run.fiber_length_m.size() > 0)
     options.fiber_length_m = run.fiber_length_m(run.rows, Eigen::all);
   if (!run.equilibrium && run.fiber_length_m.size() == 0) {
-    run.result.notes.push_back(
-        "<solve_for_equilibrium_for_auxiliary_states> is false: fibers have their default lengths, "
-        "so that their velocities and forces mean little (as in OpenSim); lengths of muscles and "
-        "moment arms do not depend on it");
+    run.result.notes.push_back(fmt::format(
+        "<solve_for_equilibrium_for_auxiliary_states> is false: fibers have their "
+        "default lengths ({}), so that their velocities and forces mean little; lengths "
+        "of muscles and moment arms do not depend on it",
+        run.options.compat == model::kOpenSim452
+            ? "0.1 m where the model gives none, as in OpenSim"
+            : "optimal ones where the model gives none; OpenSim takes 0.1 m"));
   }
   const forces::MuscleAnalysis analysis = forces::muscle_analysis(model, run.motion, options);
   run.result.notes.insert(run.result.notes.end(), analysis.notes.begin(), analysis.notes.end());
@@ -134,7 +138,7 @@ void report_muscles(AnalysisRun& run, pugi::xml_node node) {
 /// One output of the model that a report asks for.
 struct Output {
   enum class Kind { length, speed, marker, body } kind = Kind::length;
-  int index = 0;
+  int index = 0;  ///< Of the marker, of the body, or in paths_of.
   std::string path;
 };
 
@@ -153,8 +157,14 @@ std::optional<Output> output_named(const model::BodyModel& model, const std::str
     if (!index) return {};
     return Output{kind, *index, path};
   };
-  if (what == "length") return make(Output::Kind::length, model.find_muscle(component));
-  if (what == "lengthening_speed") return make(Output::Kind::speed, model.find_muscle(component));
+  const auto path_index = [&]() -> std::optional<int> {
+    const auto paths = paths_of(model);
+    for (std::size_t i = 0; i < paths.size(); ++i)
+      if (paths[i].first == component) return static_cast<int>(i);
+    return {};
+  };
+  if (what == "length") return make(Output::Kind::length, path_index());
+  if (what == "lengthening_speed") return make(Output::Kind::speed, path_index());
   if (what == "location") return make(Output::Kind::marker, model.find_marker(component));
   if (what == "position") return make(Output::Kind::body, model.find_body(component));
   return {};
@@ -196,7 +206,7 @@ void report_outputs(AnalysisRun& run, pugi::xml_node node) {
   }
   if (!missing.empty()) {
     run.result.notes.push_back(fmt::format(
-        "{}: lengths and lengthening speeds of muscles, locations of markers and positions of "
+        "{}: lengths and lengthening speeds of paths, locations of markers and positions of "
         "bodies are reported; not so {}",
         analysis_name(node), missing));
   }
@@ -207,11 +217,12 @@ void report_outputs(AnalysisRun& run, pugi::xml_node node) {
   model::BodyState state = model::make_state(model);
   model::PathWorkspace workspace;
   model::PathResult path;
+  const auto paths = paths_of(model);
   const Eigen::MatrixXd q = assembled(model, run.motion.q.values());
   for (Eigen::Index i = 0; i < frames; ++i) {
     model::compute_poses(model, q.row(i).transpose(), state);
     model::compute_velocities(model, run.motion.qdot.values().row(i).transpose(), state);
-    int computed = -1;  // the muscle whose path that is: two outputs of one stand together
+    int computed = -1;  // whose path that is: two outputs of one stand together
     for (const int k : {0, 1}) {
       for (const Output& output : wanted[k]) {
         Vec3 value = Vec3::Zero();
@@ -222,8 +233,7 @@ void report_outputs(AnalysisRun& run, pugi::xml_node node) {
           value = state.X_GB[at(output.index)].p;
         } else {
           if (output.index != computed)
-            model::compute_path(model, model.muscles[at(output.index)].path, state, workspace,
-                                path);
+            model::compute_path(model, *paths[at(output.index)].second, state, workspace, path);
           computed = output.index;
           value[0] = output.kind == Output::Kind::length ? path.length_m : path.speed_mps;
         }
@@ -274,7 +284,12 @@ std::string known_analyses() {
 }
 
 void run_analysis(AnalysisRun& run, pugi::xml_node node) {
-  find_analysis(node.name())->run(run, node);
+  const std::string_view kind = node.name();
+  // Their velocities are those of the bodies.
+  for (const char* moving :
+       {"BodyKinematics", "JointReaction", "OutputReporter", "PointKinematics"})
+    if (kind == moving) run.motion = kinematics::moved_by_speeds(run.model, run.motion);
+  find_analysis(kind)->run(run, node);
 }
 
 std::filesystem::path claim_result(AnalysisRun& run, const std::string& name) {
@@ -301,7 +316,6 @@ std::optional<TimeSeries> read_speeds(const model::BodyModel& model,
     std::string name = file.data.channels()[column].name;
     if (name.ends_with("/speed")) {
       name.resize(name.size() - 6);
-      if (const auto slash = name.rfind('/'); slash != std::string::npos) name.erase(0, slash + 1);
     } else if (name.ends_with("_u") && !model.find_coordinate(name)) {
       name.resize(name.size() - 2);
     } else if (!only_speeds) {

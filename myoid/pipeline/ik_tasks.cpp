@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <map>
 #include <memory>
 #include <set>
 #include <utility>
@@ -9,6 +10,7 @@
 #include "myoid/math/spline.h"
 #include "myoid/pipeline/opensim_files.h"
 #include "myoid/pipeline/tool_stages.h"
+#include "myoid/recording/label_match.h"
 #include "myoid/recording/text_file.h"
 
 namespace myoid::pipeline {
@@ -26,13 +28,12 @@ struct TaskFile {
 TaskFile task_file(const OpensimSetup& setup, pugi::xml_node owner) {
   TaskFile file;
   const auto inside = owner.child("IKTaskSet");
-  std::string name = inside.attribute("file").value();
-  std::replace(name.begin(), name.end(), '\\', '/');
+  const std::string name = inside.attribute("file").value();
   if (name.empty() || recording::equal_ignoring_case(name, "Unassigned")) {
     file.set = inside;
     return file;
   }
-  const auto path = setup.xml().path().parent_path() / name;
+  const auto path = setup.file_named(inside, name);
   file.text = recording::read_text_file(path);
   file.xml = std::make_unique<OsimXml>(file.text, path, OsimXml::Root::any);
   file.set = file.xml->root().child("IKTaskSet");
@@ -77,6 +78,29 @@ void add_coordinate_task(const OpensimSetup& setup,
   ik.tasks.push_back(std::move(task));
 }
 
+/// Names the markers that tasks weigh and the recording lacks, and what they may be called there.
+void note_unseen_markers(const kinematics::IkOptions& ik,
+                         const recording::MarkerSeries& markers,
+                         std::vector<std::string>& notes) {
+  std::vector<std::string> wanted;
+  for (const auto& [name, weight] : ik.marker_weights) wanted.push_back(name);
+  const recording::LabelMatch match = recording::match_labels(markers.names, wanted);
+  std::map<std::string, std::string> called;
+  for (const auto* names : {&match.similar, &match.same})
+    for (const auto& [found, name] : *names) called[name] = found;
+  std::string unseen;
+  for (const std::string& name : wanted) {
+    if (std::find(markers.names.begin(), markers.names.end(), name) != markers.names.end())
+      continue;
+    const auto other = called.find(name);
+    unseen += fmt::format(
+        "{}'{}'{}", unseen.empty() ? "" : ", ", name,
+        other == called.end() ? "" : fmt::format(" (is it '{}' there?)", other->second));
+  }
+  if (!unseen.empty())
+    notes.push_back(fmt::format("tasks of markers that the recording does not have: {}", unseen));
+}
+
 }  // namespace
 
 kinematics::IkOptions read_ik_tasks(const OpensimSetup& setup,
@@ -118,6 +142,7 @@ kinematics::IkOptions read_ik_tasks(const OpensimSetup& setup,
   });
   if (!unknown.empty())
     notes.push_back(fmt::format("tasks of markers that the model does not have: {}", unknown));
+  note_unseen_markers(ik, markers, notes);
   return ik;
 }
 

@@ -225,10 +225,10 @@ void place_markers(const Scaling& scaling, pugi::xml_node placer, model::OsimEdi
     editor.move_marker(marker.name, state.X_GB[at(marker.body)].inverse() * pose.position(0, m));
     ++moved;
   }
-  if (const auto out = scaling.setup.file(placer, "output_motion_file")) {
+  if (const auto out = scaling.setup.output_file(placer, "output_motion_file")) {
     write_opensim_storage(*out, states_of(model, q, pose.time_s[0]), {.title = "static pose"});
   }
-  if (const auto out = scaling.setup.file(placer, "output_marker_file"))
+  if (const auto out = scaling.setup.output_file(placer, "output_marker_file"))
     recording::write_file(*out, editor.marker_set_text());
   scaling.result.summary +=
       fmt::format("; static pose: marker error {:.1f} mm rms, {:.1f} mm at most; {} markers placed",

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
+#include "myoid/pipeline/angle_unit.h"
 #include "myoid/recording/atomic_file.h"
 #include "myoid/recording/recording.h"
 #include "myoid/recording/storage_reader.h"
@@ -20,11 +21,13 @@ namespace {
 
 /// The coordinate that a column of a motion or states file holds, or -1.
 int coordinate_of(const model::BodyModel& model, const std::string& column) {
-  if (const auto c = model.find_coordinate(column)) return *c;
-  std::string path = column;
-  if (!path.ends_with("/value")) return -1;
-  path.resize(path.size() - 6);
-  if (const auto slash = path.rfind('/'); slash != std::string::npos) path.erase(0, slash + 1);
+  constexpr std::string_view kValue = "/value";
+  std::string_view path = column;
+  if (path.ends_with(kValue)) {
+    path.remove_suffix(kValue.size());
+  } else if (path.find('/') != std::string_view::npos && !path.starts_with("/jointset/")) {
+    return -1;  // another state
+  }
   return model.find_coordinate(path).value_or(-1);
 }
 
@@ -72,6 +75,8 @@ TimeSeries read_coordinates(const model::BodyModel& model,
   }
   TimeSeries result(file.data.time_s(), std::move(channels), std::move(q));
   require_finite(result, path.string());
+  if (std::string doubt = check_angle_unit(path, file.in_degrees, result); !doubt.empty())
+    notes.push_back(std::move(doubt));
   return result;
 }
 

@@ -3,19 +3,22 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "myoid/model/body_model.h"
 #include "myoid/model/osim_xml.h"
+#include "myoid/pipeline/setup_files.h"
 
 namespace myoid::pipeline {
 
-/// A set-up file of one of OpenSim's tools. Names of files in it are relative to its own folder.
+/// A set-up file of one of OpenSim's tools. Names of files in it are relative to its own folder;
+/// names from another computer are looked for beside it and one folder up (find_named_file).
 class OpensimSetup {
  public:
   /// Throws ReadError (with line and remedy) if the file is missing, cut off, no XML, or holds no
-  /// tool that is known.
-  explicit OpensimSetup(const std::filesystem::path& path);
+  /// tool that is known; InvalidInput if the tool reads no file of a kind that `instead` gives.
+  explicit OpensimSetup(const std::filesystem::path& path, SetupFiles instead = {});
   OpensimSetup(const OpensimSetup&) = delete;
   OpensimSetup& operator=(const OpensimSetup&) = delete;
 
@@ -28,15 +31,28 @@ class OpensimSetup {
   }
   [[nodiscard]] std::string name() const { return model::OsimXml::name_of(tool_); }
 
-  /// The file that an element names; empty where it is absent, empty or "Unassigned".
+  /// Whether an element names a file.
+  [[nodiscard]] bool names_file(pugi::xml_node object, const char* name) const;
+  /// The file that an element names, to be read; empty where it is absent, empty or "Unassigned".
+  /// Throws ReadError, naming the element, if there is no such file.
   [[nodiscard]] std::optional<std::filesystem::path> file(pugi::xml_node object,
                                                           const char* name) const;
-  /// The same; throws ReadError if there is none.
+  /// The same; throws ReadError if the element names none.
   [[nodiscard]] std::filesystem::path required_file(pugi::xml_node object, const char* name) const;
-  /// The files that the set-up reads, as far as it names them.
+  /// The file of that name, read on behalf of `node`. Throws ReadError if there is none.
+  [[nodiscard]] std::filesystem::path file_named(pugi::xml_node node, std::string_view name) const;
+  /// Files that a list in an element names.
+  [[nodiscard]] std::vector<std::filesystem::path> files(pugi::xml_node object,
+                                                         const char* name) const;
+  /// The file that an element names, to be written; empty as for `file`.
+  [[nodiscard]] std::optional<std::filesystem::path> output_file(pugi::xml_node object,
+                                                                 const char* name) const;
+  /// The files that the set-up reads, as far as it names them and they exist.
   [[nodiscard]] std::vector<std::filesystem::path> inputs() const;
-  /// Folder of the results; the set-up's own if none is given.
+  /// Folder of the results; the set-up's own if none is given, or one of another computer.
   [[nodiscard]] std::filesystem::path results_folder() const;
+  /// A sentence for each file that is read or written elsewhere than the set-up says.
+  [[nodiscard]] std::vector<std::string> notes() const;
   /// Two numbers; (-inf, inf) where absent. Throws ReadError unless they increase.
   [[nodiscard]] std::pair<double, double> time_range(pugi::xml_node object, const char* name) const;
   /// Throws ReadError where the times asked for have nothing in common with those recorded in
@@ -47,10 +63,18 @@ class OpensimSetup {
                    std::vector<std::string>& notes) const;
 
  private:
+  /// What stands in for the file of an element; empty where nothing does.
+  [[nodiscard]] std::filesystem::path replacement(std::string_view name) const;
+  /// The text of an element that names a file; empty for "Unassigned".
+  [[nodiscard]] std::string named_in(pugi::xml_node object, const char* name) const;
+  /// Elements that name a file to be read, in the tool or, when scaling, in one of its stages.
+  [[nodiscard]] std::vector<std::pair<pugi::xml_node, const char*>> input_elements() const;
+
   std::filesystem::path path_;
   std::string text_;
   model::OsimXml xml_;
   pugi::xml_node tool_;
+  SetupFiles instead_;
 };
 
 /// The model that a set-up names, with the actuators of its <force_set_files>; without the forces

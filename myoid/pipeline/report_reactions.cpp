@@ -7,6 +7,7 @@
 #include "myoid/core/index.h"
 #include "myoid/forces/actuator_columns.h"
 #include "myoid/forces/joint_reaction.h"
+#include "myoid/model/osim_frames.h"
 #include "myoid/pipeline/analysis_reports.h"
 #include "myoid/pipeline/opensim_files.h"
 #include "myoid/recording/storage_reader.h"
@@ -19,9 +20,32 @@ namespace {
 struct Asked {
   std::size_t joint = 0;
   bool on_child = true;
-  model::BodyIndex expressed_in = 0;
+  model::FixedFrame expressed_in;
   std::string label;
 };
+
+/// The frame that <express_in_frame> names: ground, the joint's child or parent body, any body, or
+/// an offset frame by its path.
+std::pair<model::FixedFrame, std::string> frame_named(const AnalysisRun& run,
+                                                      pugi::xml_node node,
+                                                      const model::Joint& joint,
+                                                      const std::string& name) {
+  const model::BodyModel& model = run.model;
+  const auto body = [&](model::BodyIndex index) {
+    return std::pair(model::FixedFrame{index, {}}, model.bodies[at(index)].name);
+  };
+  if (const auto index = model.find_body(name)) return body(*index);
+  if (recording::equal_ignoring_case(name, "ground")) return body(0);
+  if (recording::equal_ignoring_case(name, "child")) return body(joint.child);
+  if (recording::equal_ignoring_case(name, "parent")) return body(joint.parent);
+  const std::string last = name.substr(name.find_last_of('/') + 1);
+  const auto file = run.setup.required_file(run.setup.tool(), "model_file");
+  if (const auto frame = model::find_frame(model, file, name)) return {*frame, last};
+  run.setup.xml().fail(node, fmt::format("<express_in_frame>: the model has no frame '{}'; "
+                                         "expected ground, child, parent, a body or the path of a "
+                                         "frame, as /jointset/knee_r/tibia_r_offset",
+                                         name));
+}
 
 std::string lower(std::string text) {
   for (char& c : text) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c;
@@ -70,25 +94,11 @@ std::vector<Asked> asked_joints(AnalysisRun& run, pugi::xml_node node) {
     Asked a;
     a.joint = static_cast<std::size_t>(joint - model.joints.begin());
     a.on_child = lower(entry(on, k, "child")) == "child";
-    std::string frame = entry(in, k, "ground");
-    if (lower(frame) == "child") {
-      a.expressed_in = joint->child;
-    } else if (lower(frame) == "parent") {
-      a.expressed_in = joint->parent;
-    } else {
-      if (const auto slash = frame.rfind('/'); slash != std::string::npos)
-        frame.erase(0, slash + 1);
-      const auto body = model.find_body(frame);
-      if (!body) {
-        xml.fail(node, fmt::format("<express_in_frame>: the model has no body '{}'; expected "
-                                   "ground, child, parent or a body",
-                                   frame));
-      }
-      a.expressed_in = *body;
-    }
-    a.label = fmt::format("{}_on_{}_in_{}", joint->name,
-                          model.bodies[at(a.on_child ? joint->child : joint->parent)].name,
-                          model.bodies[at(a.expressed_in)].name);
+    auto [frame, frame_name] = frame_named(run, node, *joint, entry(in, k, "ground"));
+    a.expressed_in = std::move(frame);
+    a.label =
+        fmt::format("{}_on_{}_in_{}", joint->name,
+                    model.bodies[at(a.on_child ? joint->child : joint->parent)].name, frame_name);
     asked.push_back(std::move(a));
   }
   if (asked.empty()) xml.fail(node, "JointReaction: no joint of the list is in the model");
@@ -177,7 +187,7 @@ void report_reactions(AnalysisRun& run, pugi::xml_node node) {
         moment = -(moment + (child_G - parent_G).cross(force));
         force = -force;
       }
-      const Pose& X_GE = frame.X_GB[at(asked[k].expressed_in)];
+      const Pose X_GE = frame.X_GB[at(asked[k].expressed_in.body)] * asked[k].expressed_in.X_BF;
       const auto column = static_cast<Eigen::Index>(9 * k);
       values.row(i).segment<3>(column) = (X_GE.R.transpose() * force).transpose();
       values.row(i).segment<3>(column + 3) = (X_GE.R.transpose() * moment).transpose();

@@ -7,9 +7,10 @@
 namespace myoid::pipeline {
 
 ToolResult run_tool(const std::filesystem::path& path, const ToolOptions& options) {
-  const OpensimSetup setup(path);
+  const OpensimSetup setup(path, options.files);
   ToolResult result;
   result.inputs = setup.inputs();
+  result.notes = setup.notes();
   result.tool = setup.kind();
   if (result.tool == "InverseKinematicsTool") {
     run_inverse_kinematics(setup, options, result);

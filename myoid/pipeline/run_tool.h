@@ -8,11 +8,13 @@
 #include "myoid/core/progress.h"
 #include "myoid/forces/static_optimization.h"
 #include "myoid/model/compat.h"
+#include "myoid/pipeline/setup_files.h"
 
 namespace myoid::pipeline {
 
 struct ToolOptions {
   model::Compat compat = model::kOpenSim452;
+  SetupFiles files{};  ///< Instead of those that the set-up names.
   Progress progress{};
   /// Called with each file before it is computed; throws to refuse it.
   std::function<void(const std::filesystem::path&)> claim{};

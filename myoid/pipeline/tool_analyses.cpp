@@ -3,6 +3,7 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "myoid/core/error.h"
 #include "myoid/math/spline.h"
@@ -11,6 +12,7 @@
 #include "myoid/pipeline/tool_stages.h"
 #include "myoid/recording/storage_reader.h"
 #include "myoid/recording/text_file.h"
+#include "myoid/recording/toml_table.h"
 #include "myoid/signals/opensim_lowpass.h"
 
 namespace myoid::pipeline {
@@ -62,7 +64,7 @@ kinematics::JointMotion read_motion(AnalysisRun& run,
   auto& notes = run.result.notes;
   if (const auto states = setup.file(tool, "states_file")) {
     for (const char* other : {"coordinates_file", "speeds_file"}) {
-      if (setup.file(tool, other))
+      if (setup.names_file(tool, other))
         notes.push_back(fmt::format("<{}> is not read: there is a <states_file>", other));
     }
     TimeSeries q = read_coordinates(run.model, *states, MissingCoordinate::default_value, notes);
@@ -116,6 +118,23 @@ void read_loads(AnalysisRun& run, const OpensimSetup& setup) {
   notes.insert(notes.end(), run.loads->notes.begin(), run.loads->notes.end());
 }
 
+/// Throws ReadError for a class that no analysis of OpenSim has: a misspelt one would leave its
+/// files out unseen.
+void require_opensim_analysis(const OsimXml& xml, pugi::xml_node node) {
+  static const std::vector<std::string> kOfOpensim{
+      "Actuation",       "BodyKinematics",       "ForceReporter",
+      "IMUDataReporter", "InducedAccelerations", "InverseDynamics",
+      "JointReaction",   "Kinematics",           "MomentArmAnalysis",
+      "MuscleAnalysis",  "OutputReporter",       "PointKinematics",
+      "ProbeReporter",   "StatesReporter",       "StaticOptimization"};
+  const std::string kind = node.name();
+  if (std::find(kOfOpensim.begin(), kOfOpensim.end(), kind) != kOfOpensim.end()) return;
+  const auto near = recording::nearest_word(kind, kOfOpensim);
+  xml.fail(node, fmt::format("OpenSim has no analysis <{}>{}; there are {}", kind,
+                             near ? fmt::format(" (did you mean {}?)", *near) : "",
+                             fmt::join(kOfOpensim, ", ")));
+}
+
 }  // namespace
 
 void run_analyses(const OpensimSetup& setup, const ToolOptions& options, ToolResult& result) {
@@ -136,6 +155,7 @@ void run_analyses(const OpensimSetup& setup, const ToolOptions& options, ToolRes
   if (analyses.empty()) xml.fail(tool, "no analysis is on: there is nothing to do");
   for (const auto node : analyses) {
     if (!is_known_analysis(node.name())) {
+      require_opensim_analysis(xml, node);
       result.notes.push_back(
           fmt::format("analysis {} is not supported: its files are not written; {} are",
                       node.name(), known_analyses()));

@@ -6,8 +6,10 @@
 #include "myoid/core/error.h"
 #include "myoid/dynamics/inverse_dynamics.h"
 #include "myoid/forces/muscle_analysis.h"
+#include "myoid/kinematics/angular_speeds.h"
 #include "myoid/pipeline/opensim_files.h"
 #include "myoid/pipeline/tool_stages.h"
+#include "myoid/recording/named_file.h"
 #include "myoid/signals/opensim_lowpass.h"
 
 namespace myoid::pipeline {
@@ -37,6 +39,51 @@ TimeSeries without_muscles(const model::BodyModel& model,
   return {tau.time_s(), tau.channels(), std::move(values)};
 }
 
+/// Says how far OpenSim's moments are from right ones where it takes rates of angles for angular
+/// velocities.
+void note_angular_speeds(const model::BodyModel& model,
+                         const kinematics::JointMotion& motion,
+                         const dynamics::InverseDynamicsOptions& options,
+                         const TimeSeries& tau,
+                         std::vector<std::string>& notes) {
+  const std::vector<int> joints = kinematics::angular_speed_joints(model);
+  if (joints.empty()) return;
+  const bool as_opensim = kinematics::takes_rates_for_speeds(model);
+  model::BodyModel other = model;
+  other.compat = as_opensim ? model::Compat{} : model::kOpenSim452;
+  const TimeSeries others = dynamics::inverse_dynamics(other, motion, options);
+  const Eigen::MatrixXd difference = (tau.values() - others.values()).cwiseAbs();
+  Eigen::Index row = 0, column = 0;
+  const double largest = difference.maxCoeff(&row, &column);
+  std::string names;
+  for (const int j : joints) {
+    const model::Joint& joint = model.joints[static_cast<std::size_t>(j)];
+    names += fmt::format("{}'{}' ({})", names.empty() ? "" : ", ", joint.name, joint.class_name);
+  }
+  notes.push_back(fmt::format(
+      "joints {}: OpenSim takes the rates of their angles for angular velocities; {}; the largest "
+      "difference is {:.3g} {}, {} at {:.4g} s",
+      names, as_opensim ? "so does this result, --compat exact does not" : "this result does not",
+      largest, tau.channels()[static_cast<std::size_t>(column)].unit == Unit::newton ? "N" : "N m",
+      tau.channels()[static_cast<std::size_t>(column)].name, tau.time_s()[row]));
+}
+
+/// Where the result goes: a folder in its name does not count, and without an extension it is .sto,
+/// as in OpenSim.
+std::filesystem::path force_file(const OpensimSetup& setup, std::vector<std::string>& notes) {
+  const std::string text = setup.xml().word(setup.tool(), "output_gen_force_file");
+  std::filesystem::path name = recording::last_part(text.empty() ? "inverse_dynamics" : text);
+  if (name.extension().empty()) name += ".sto";
+  const auto path = setup.results_folder() / name;
+  if (text.find_first_of("/\\") != std::string::npos) {
+    notes.push_back(
+        fmt::format("<output_gen_force_file> '{}': only the name of the file counts, as "
+                    "in OpenSim; it is {}",
+                    text, path.string()));
+  }
+  return path;
+}
+
 }  // namespace
 
 void run_inverse_dynamics(const OpensimSetup& setup,
@@ -44,16 +91,18 @@ void run_inverse_dynamics(const OpensimSetup& setup,
                           ToolResult& result) {
   const auto& xml = setup.xml();
   const auto tool = setup.tool();
-  const std::string file_name = xml.word(tool, "output_gen_force_file");
-  const auto out =
-      setup.results_folder() / (file_name.empty() ? "inverse_dynamics.sto" : file_name);
+  const auto out = force_file(setup, result.notes);
   claim_file(options, out, result);
   const auto excluded = xml.words(tool, "forces_to_exclude");
   const model::BodyModel model = setup_model(setup, options.compat, excluded, result.notes);
   if (!model.muscles.empty()) {
     result.notes.push_back(
-        "forces_to_exclude does not name the muscles: as in OpenSim they pull with their default "
-        "activations and fiber lengths");
+        options.compat == model::kOpenSim452
+            ? "forces_to_exclude does not name the muscles: as in OpenSim they pull with their "
+              "default activations and fiber lengths (0.1 m where the model gives none)"
+            : "forces_to_exclude does not name the muscles: they pull with their default "
+              "activations and fiber lengths (optimal ones where the model gives none; OpenSim "
+              "takes 0.1 m)");
   }
   if (!xml.words(tool, "joints_to_report_body_forces").empty())
     result.notes.push_back("joints_to_report_body_forces: body forces at joints are not written");
@@ -78,6 +127,7 @@ void run_inverse_dynamics(const OpensimSetup& setup,
     note_missing_loads(loads, *file, motion.q.time_s(), result.notes);
   }
   TimeSeries tau = dynamics::inverse_dynamics(model, motion, dynamics_options);
+  note_angular_speeds(model, motion, dynamics_options, tau, result.notes);
   if (!model.muscles.empty()) tau = without_muscles(model, motion, tau, options.progress);
   // OpenSim's columns are in the order of the tree.
   std::vector<std::string> columns;

@@ -56,7 +56,7 @@ void run_inverse_kinematics(const OpensimSetup& setup,
   const auto& xml = setup.xml();
   const auto tool = setup.tool();
   const auto trial = trial_of(setup, result.notes);
-  const auto out = setup.file(trial, "output_motion_file");
+  const auto out = setup.output_file(trial, "output_motion_file");
   const bool report_errors = xml.flag(tool, "report_errors", true);
   const bool report_locations = xml.flag(tool, "report_marker_locations", false);
   const auto errors_file = setup.results_folder() / (setup.name() + "_ik_marker_errors.sto");
@@ -80,10 +80,9 @@ void run_inverse_kinematics(const OpensimSetup& setup,
   kinematics::IkOptions ik = read_ik_tasks(setup, tool, model, markers, result.notes);
   ik.progress = options.progress;
   const kinematics::IkResult solved = kinematics::inverse_kinematics(model, markers, ik);
-  for (const std::string& note : solved.notes) {
-    // What no task asks for need not be said.
-    if (!ik.only_named_markers) result.notes.push_back(note);
-  }
+  // What no task asks for need not be said.
+  if (!ik.only_named_markers)
+    result.notes.insert(result.notes.end(), solved.notes.begin(), solved.notes.end());
   if (out) {
     write_opensim_storage(
         *out, with_file_units(model, solved.q),

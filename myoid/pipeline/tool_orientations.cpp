@@ -167,9 +167,10 @@ Sensors sensors_of(const OpensimSetup& setup,
 /// results folder (or in the folder that it names).
 std::filesystem::path motion_file(const OpensimSetup& setup,
                                   const std::filesystem::path& orientations) {
-  const auto wanted = setup.file(setup.tool(), "output_motion_file");
+  const auto wanted = setup.output_file(setup.tool(), "output_motion_file");
   std::filesystem::path folder = setup.results_folder();
-  if (!setup.file(setup.tool(), "results_directory") && wanted) folder = wanted->parent_path();
+  if (!setup.output_file(setup.tool(), "results_directory") && wanted)
+    folder = wanted->parent_path();
   const std::string name =
       wanted ? wanted->filename().string() : "ik_" + orientations.stem().string();
   return folder / (name.find('.') == std::string::npos ? name + ".mot" : name);
@@ -191,7 +192,10 @@ void note_fit(const kinematics::OrientationFit& fit, std::vector<std::string>& n
 void run_imu_placer(const OpensimSetup& setup, const ToolOptions& options, ToolResult& result) {
   const auto tool = setup.tool();
   const auto model_path = setup.required_file(tool, "model_file");
-  const auto out = setup.required_file(tool, "output_model_file");
+  const auto named = setup.output_file(tool, "output_model_file");
+  if (!named)
+    setup.xml().fail(tool, "<output_model_file> expected: a file's name, relative to this set-up");
+  const std::filesystem::path& out = *named;
   claim_file(options, out, result);
   const std::string old_text = recording::read_text_file(model_path);
   const model::UpdatedOsim updated =
@@ -226,7 +230,7 @@ void run_imu_inverse_kinematics(const OpensimSetup& setup,
   const auto path = setup.required_file(tool, "orientations_file");
   const auto motion_path = motion_file(setup, path);
   auto errors_path = motion_path;
-  const auto wanted = setup.file(tool, "output_motion_file");
+  const auto wanted = setup.output_file(tool, "output_motion_file");
   errors_path.replace_filename(
       (wanted ? wanted->filename().string() : motion_path.stem().string()) +
       "_orientationErrors.sto");

@@ -136,21 +136,6 @@ model::OsimEditor::Factors factors_of(const Scaling& scaling,
   return factors;
 }
 
-/// Every path of the model and what it is called.
-std::vector<std::pair<std::string, const model::MusclePath*>> paths_of(
-    const model::BodyModel& model) {
-  std::vector<std::pair<std::string, const model::MusclePath*>> paths;
-  for (const model::Muscle& m : model.muscles) paths.emplace_back(m.name, &m.path);
-  for (const model::PathActuator& a : model.path_actuators) paths.emplace_back(a.name, &a.path);
-  for (const model::PassiveForce& f : model.passive_forces) {
-    if (const auto* spring = std::get_if<model::PathSpring>(&f.law))
-      paths.emplace_back(f.name, &spring->path);
-    if (const auto* ligament = std::get_if<model::Ligament>(&f.law))
-      paths.emplace_back(f.name, &ligament->path);
-  }
-  return paths;
-}
-
 void scale(const Scaling& scaling,
            pugi::xml_node scaler,
            model::OsimEditor& editor,
@@ -189,6 +174,32 @@ std::string scale_set_text(const model::OsimEditor::Factors& factors,
   return text + "\t\t</objects>\n\t\t<groups />\n\t</ScaleSet>\n</OpenSimDocument>\n";
 }
 
+/// As in OpenSim a result may take the place of the model that is scaled; the model is kept beside
+/// it. A second run would scale what is scaled already: it is refused.
+void keep_model(const std::filesystem::path& file,
+                const std::filesystem::path& model_file,
+                ToolResult& result) {
+  std::error_code ignored;
+  if (!std::filesystem::equivalent(file, model_file, ignored)) return;
+  auto kept = model_file;
+  kept.replace_filename(model_file.stem().string() + "_unscaled" + model_file.extension().string());
+  if (std::filesystem::exists(kept, ignored)) {
+    throw InvalidInput(fmt::format(
+        "{} is the result of an earlier run of this set-up, which kept the model as {}; name that "
+        "as <model_file>, or give --model {}",
+        model_file.string(), kept.string(), kept.string()));
+  }
+  recording::write_file(kept, recording::read_text_file(model_file));
+  result.notes.push_back(
+      fmt::format("{} is read by this set-up and replaced by its result, as in "
+                  "OpenSim; the model that was read is kept as {}",
+                  model_file.string(), kept.string()));
+  std::erase_if(result.inputs, [&](const std::filesystem::path& input) {
+    return std::filesystem::equivalent(input, model_file, ignored);
+  });
+  result.inputs.push_back(kept);
+}
+
 }  // namespace
 
 void run_scale(const OpensimSetup& setup, const ToolOptions& options, ToolResult& result) {
@@ -201,8 +212,10 @@ void run_scale(const OpensimSetup& setup, const ToolOptions& options, ToolResult
   const bool scales = scaler && xml.flag(scaler, "apply", true);
   const bool places = placer && xml.flag(placer, "apply", true);
   if (!scales && !places) xml.fail(tool, "neither <ModelScaler> nor <MarkerPlacer> applies");
+  const auto model_file = setup.required_file(maker, "model_file");
   const auto claim = [&](bool on, pugi::xml_node stage, const char* name) {
-    const auto file = on ? setup.file(stage, name) : std::nullopt;
+    const auto file = on ? setup.output_file(stage, name) : std::nullopt;
+    if (file) keep_model(*file, model_file, result);
     if (file) claim_file(options, *file, result);
     return file;
   };
@@ -212,7 +225,6 @@ void run_scale(const OpensimSetup& setup, const ToolOptions& options, ToolResult
   (void)claim(places, placer, "output_motion_file");
   (void)claim(places, placer, "output_marker_file");
 
-  const auto model_file = setup.required_file(maker, "model_file");
   model::OsimEditor editor(recording::read_text_file(model_file), model_file);
   if (!setup.name().empty()) editor.set_name(setup.name());
   if (const auto markers = setup.file(maker, "marker_set_file")) editor.add_markers(*markers);

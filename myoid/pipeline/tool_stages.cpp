@@ -18,6 +18,20 @@ void note_missing_loads(const dynamics::ExternalLoads& loads,
       file.string(), loads.start_s, loads.end_s, first_s, last_s));
 }
 
+std::vector<std::pair<std::string, const model::MusclePath*>> paths_of(
+    const model::BodyModel& model) {
+  std::vector<std::pair<std::string, const model::MusclePath*>> paths;
+  for (const model::Muscle& m : model.muscles) paths.emplace_back(m.name, &m.path);
+  for (const model::PathActuator& a : model.path_actuators) paths.emplace_back(a.name, &a.path);
+  for (const model::PassiveForce& f : model.passive_forces) {
+    if (const auto* spring = std::get_if<model::PathSpring>(&f.law))
+      paths.emplace_back(f.name, &spring->path);
+    if (const auto* ligament = std::get_if<model::Ligament>(&f.law))
+      paths.emplace_back(f.name, &ligament->path);
+  }
+  return paths;
+}
+
 void claim_file(const ToolOptions& options, const std::filesystem::path& path, ToolResult& result) {
   std::error_code ignored;
   const bool exists = std::filesystem::exists(path, ignored);

@@ -32,6 +32,11 @@ void note_missing_loads(const dynamics::ExternalLoads& loads,
                         const Eigen::VectorXd& times_s,
                         std::vector<std::string>& notes);
 
+/// Every path of the model with the name of its owner: of muscles, path actuators, path springs and
+/// ligaments.
+[[nodiscard]] std::vector<std::pair<std::string, const model::MusclePath*>> paths_of(
+    const model::BodyModel& model);
+
 /// Asks `claim` and remembers the file.
 void claim_file(const ToolOptions& options, const std::filesystem::path& path, ToolResult& result);
 

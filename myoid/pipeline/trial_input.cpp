@@ -7,6 +7,7 @@
 
 #include "myoid/core/error.h"
 #include "myoid/core/provenance.h"
+#include "myoid/pipeline/angle_unit.h"
 #include "myoid/pipeline/trial_emg.h"
 #include "myoid/pipeline/trial_loads.h"
 #include "myoid/pipeline/trial_markers.h"
@@ -46,36 +47,10 @@ TimeSeries read_motion(const std::filesystem::path& path,
   };
   TimeSeries motion = recording::to_si(file, is_angle);
   bool any = false;
-  double largest_rad = 0.0, widest_rad = 0.0;
-  std::string largest_name;
-  for (Eigen::Index c = 0; c < motion.channel_count(); ++c) {
-    const Channel& channel = motion.channels()[static_cast<std::size_t>(c)];
-    if (!model.find_coordinate(channel.name)) continue;
-    any = true;
-    if (channel.unit != Unit::radian) continue;
-    const double largest = motion.values().col(c).cwiseAbs().maxCoeff();
-    if (largest > 4.0 * kPi) {
-      throw ReadError(
-          path, 0,
-          fmt::format("column '{}' reaches {:.4g} although the header says inDegrees={}: these are "
-                      "degrees, not radians; write inDegrees=yes "
-                      "into the header",
-                      channel.name, file.in_degrees ? largest / kDegree : largest,
-                      file.in_degrees ? "yes" : "no"));
-    }
-    const double range = motion.values().col(c).maxCoeff() - motion.values().col(c).minCoeff();
-    if (largest > largest_rad) {
-      largest_rad = largest;
-      largest_name = channel.name;
-    }
-    widest_rad = std::max(widest_rad, range);
-  }
-  // A small joint may move little; one that moves of a whole motion turns by more.
-  if (file.in_degrees && largest_rad < 3.5 * kDegree && widest_rad > 0.2 * kDegree) {
-    warn(input, fmt::format("{}: no angle reaches 3.5 degrees (the largest is '{}') although the "
-                            "header says inDegrees=yes; if these are radians, write inDegrees=no",
-                            path.filename().string(), largest_name));
-  }
+  for (const Channel& channel : motion.channels())
+    any |= model.find_coordinate(channel.name).has_value();
+  if (const std::string doubt = check_angle_unit(path, file.in_degrees, motion); !doubt.empty())
+    warn(input, doubt);
   if (!any) {
     std::string names;
     for (const model::Coordinate& c : model.coordinates)
