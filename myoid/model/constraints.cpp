@@ -184,6 +184,85 @@ Eigen::MatrixXd coupling_matrix(const BodyModel& model, const BodyState& state) 
   return C;
 }
 
+namespace {
+
+/// The coordinates that assembly may move, each with the inverse root of its weight.
+struct Movable {
+  std::vector<Eigen::Index> coordinate;
+  Eigen::VectorXd loose;
+};
+
+Movable movable(const BodyModel& model) {
+  Movable free;
+  for (std::size_t c = 0; c < model.coordinates.size(); ++c) {
+    const Coordinate& k = model.coordinates[c];
+    if (k.locked || k.prescribed) continue;
+    const auto depends = [&](const CoordinateCoupler& o) {
+      return o.dependent == static_cast<int>(c);
+    };
+    if (std::any_of(model.couplers.begin(), model.couplers.end(), depends)) continue;
+    free.coordinate.push_back(static_cast<Eigen::Index>(c));
+    free.loose.conservativeResize(free.loose.size() + 1);
+    free.loose[free.loose.size() - 1] = k.is_free_to_satisfy_constraints ? 1e3 : 1.0;
+  }
+  return free;
+}
+
+/// From q to the wished posture, in scaled coordinates.
+Eigen::VectorXd way_to(const Movable& free,
+                       const Eigen::VectorXd& wished,
+                       const Eigen::VectorXd& q) {
+  Eigen::VectorXd way(free.loose.size());
+  for (Eigen::Index k = 0; k < way.size(); ++k) {
+    const Eigen::Index c = free.coordinate[static_cast<std::size_t>(k)];
+    way[k] = (wished[c] - q[c]) / free.loose[k];
+  }
+  return way;
+}
+
+/// A posture that meets the constraints and is nearest to the wished one among its neighbors.
+AssemblyResult approach(const BodyModel& model,
+                        const Movable& free,
+                        const Eigen::VectorXd& wished,
+                        const Eigen::VectorXd& start,
+                        double accuracy) {
+  const Eigen::Index n = free.loose.size();
+  AssemblyResult result{start, 0.0, false};
+  BodyState state = make_state(model);
+  for (int iteration = 0; iteration < 100; ++iteration) {
+    compute_poses(model, result.q, state);
+    Eigen::VectorXd errors;
+    Eigen::MatrixXd J;
+    evaluate_loops(model, state, errors, &J);
+    result.error = errors.cwiseAbs().maxCoeff();
+    if (n == 0) break;
+    // Dependent coordinates follow: dq = T dq_free.
+    Eigen::MatrixXd T = Eigen::MatrixXd::Zero(result.q.size(), n);
+    for (Eigen::Index k = 0; k < n; ++k)
+      T(free.coordinate[static_cast<std::size_t>(k)], k) = free.loose[k];
+    for (std::size_t round = 0; round < model.couplers.size(); ++round) {
+      for (const CoordinateCoupler& c : model.couplers)
+        T.row(c.dependent) =
+            evaluate(c.function, result.q[c.independent]).first * T.row(c.independent);
+    }
+    const Eigen::MatrixXd A = J * T;
+    const Eigen::VectorXd back = way_to(free, wished, result.q);
+    // Nearest point to the wish on the linearized constraints.
+    const Eigen::VectorXd step =
+        back - A.completeOrthogonalDecomposition().solve(Eigen::VectorXd(A * back + errors));
+    const double longest = step.cwiseAbs().maxCoeff();
+    if (result.error < accuracy && longest < 1e-10) break;
+    const double share = longest > 0.5 ? 0.5 / longest : 1.0;
+    for (Eigen::Index k = 0; k < n; ++k)
+      result.q[free.coordinate[static_cast<std::size_t>(k)]] += share * free.loose[k] * step[k];
+    apply_couplers(model, result.q);
+  }
+  result.converged = result.error < accuracy;
+  return result;
+}
+
+}  // namespace
+
 AssemblyResult assemble(const BodyModel& model,
                         const Eigen::Ref<const Eigen::VectorXd>& q,
                         double accuracy) {
@@ -199,58 +278,22 @@ AssemblyResult assemble(const BodyModel& model,
   }
   apply_couplers(model, result.q);
   const Eigen::VectorXd wished = result.q;
-  BodyState state = make_state(model);
-  std::vector<Eigen::Index> free;
-  Eigen::VectorXd loose;  // inverse root of the weight of each free coordinate
+  const Movable free = movable(model);
+  if (free.coordinate.empty()) return approach(model, free, wished, wished, accuracy);
+  result = approach(model, free, wished, wished, accuracy);
+  // A far one may be nearest among its neighbors only: from the default posture another is found.
+  constexpr double kFar = 0.1;
+  const double distance = way_to(free, wished, result.q).norm();
+  if (result.converged && distance < kFar) return result;
+  Eigen::VectorXd start = model.default_q();
   for (std::size_t c = 0; c < model.coordinates.size(); ++c) {
-    const Coordinate& k = model.coordinates[c];
-    if (k.locked || k.prescribed) continue;
-    const auto depends = [&](const CoordinateCoupler& o) {
-      return o.dependent == static_cast<int>(c);
-    };
-    if (std::any_of(model.couplers.begin(), model.couplers.end(), depends)) continue;
-    free.push_back(static_cast<Eigen::Index>(c));
-    loose.conservativeResize(loose.size() + 1);
-    loose[loose.size() - 1] = k.is_free_to_satisfy_constraints ? 1e3 : 1.0;
+    if (model.coordinates[c].locked || model.coordinates[c].prescribed)
+      start[static_cast<Eigen::Index>(c)] = wished[static_cast<Eigen::Index>(c)];
   }
-  const auto n = static_cast<Eigen::Index>(free.size());
-  result.converged = false;
-  for (int iteration = 0; iteration < 100; ++iteration) {
-    compute_poses(model, result.q, state);
-    Eigen::VectorXd errors;
-    Eigen::MatrixXd J;
-    evaluate_loops(model, state, errors, &J);
-    result.error = errors.cwiseAbs().maxCoeff();
-    // Dependent coordinates follow: dq = T dq_free.
-    Eigen::MatrixXd T =
-        Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(model.coordinates.size()), n);
-    for (Eigen::Index k = 0; k < n; ++k) T(free[static_cast<std::size_t>(k)], k) = loose[k];
-    for (std::size_t round = 0; round < model.couplers.size(); ++round) {
-      for (const CoordinateCoupler& c : model.couplers)
-        T.row(c.dependent) =
-            evaluate(c.function, result.q[c.independent]).first * T.row(c.independent);
-    }
-    const Eigen::MatrixXd A = J * T;
-    Eigen::VectorXd back(n);  // towards the wish, in scaled coordinates
-    for (Eigen::Index k = 0; k < n; ++k) {
-      const Eigen::Index c = free[static_cast<std::size_t>(k)];
-      back[k] = (wished[c] - result.q[c]) / loose[k];
-    }
-    // Nearest point to the wish on the linearized constraints.
-    const Eigen::VectorXd step =
-        back - A.completeOrthogonalDecomposition().solve(Eigen::VectorXd(A * back + errors));
-    if (result.error < accuracy && step.cwiseAbs().maxCoeff() < 1e-10) {
-      result.converged = true;
-      break;
-    }
-    const double longest = step.cwiseAbs().maxCoeff();
-    const double share = longest > 0.5 ? 0.5 / longest : 1.0;
-    for (Eigen::Index k = 0; k < n; ++k)
-      result.q[free[static_cast<std::size_t>(k)]] += share * loose[k] * step[k];
-    apply_couplers(model, result.q);
-  }
-  result.converged = result.error < accuracy;
-  return result;
+  apply_couplers(model, start);
+  AssemblyResult other = approach(model, free, wished, start, accuracy);
+  const bool nearer = way_to(free, wished, other.q).norm() < distance;
+  return other.converged && (nearer || !result.converged) ? other : result;
 }
 
 }  // namespace myoid::model
