@@ -117,6 +117,14 @@ class ModelUpdate {
     body.remove_child(holder);
   }
 
+  /// The body that a connector of version 4's betas names.
+  [[nodiscard]] static std::string connected(pugi::xml_node joint, const char* connector) {
+    const auto node = joint.child("connectors").find_child_by_attribute("name", connector);
+    std::string name = child_text(node, "connectee_name");
+    while (name.starts_with("../")) name.erase(0, 3);
+    return name;
+  }
+
   /// `child`: the body that held the joint.
   void update_joint(pugi::xml_node joint, std::string child) {
     const std::string name = OsimXml::name_of(joint);
@@ -127,8 +135,11 @@ class ModelUpdate {
     };
     std::string parent = take("parent_body");
     if (parent.empty()) parent = take("socket_parent_frame");
+    if (parent.empty()) parent = connected(joint, "parent_body");
     if (child.empty()) child = take("child_body");
     if (child.empty()) child = take("socket_child_frame");
+    if (child.empty()) child = connected(joint, "child_body");
+    joint.remove_child("connectors");
     if (parent.empty() || child.empty())
       source_.fail(joint, fmt::format("joint '{}' does not name its parent and child", name));
     std::string place_in_parent = digits(take("location_in_parent"));

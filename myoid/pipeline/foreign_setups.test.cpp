@@ -1,4 +1,3 @@
-// Set-ups as MATLAB and Python write them on another computer: no model, absolute paths of Windows.
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -8,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "myoid/core/error.h"
+#include "myoid/pipeline/setup_files.h"
 
 #include "tests/support/tool_folder.h"
 
@@ -18,8 +18,9 @@ using ::testing::Contains;
 using ::testing::HasSubstr;
 namespace fs = std::filesystem;
 
-/// study/model.osim, study/ik.mot ... and the set-ups in study/setups, which MATLAB wrote for
-/// C:\Users\jane\study; native ones beside them, with names that hold here.
+/// Set-ups as MATLAB and Python write them on another computer: no model, absolute paths of
+/// Windows. study/model.osim, study/ik.mot ... and the set-ups in study/setups, which MATLAB wrote
+/// for C:\Users\jane\study; native ones beside them, with names that hold here.
 class ForeignSetups : public test::ToolFolder {
  protected:
   void SetUp() override {

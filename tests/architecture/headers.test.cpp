@@ -30,7 +30,6 @@ const std::map<std::string, std::string> kWithoutTest = {
     {"myoid/identification/result.h", "a plain value, exercised by the estimators"},
     {"myoid/model/compat.h", "switches, exercised by muscle_path.test and the OpenSim table"},
     {"myoid/model/joint_posture.h", "exercised by kinematic_tree.test and body_accelerations.test"},
-    {"myoid/model/osim_frames.h", "a part of the reader, tested as part of osim_reader"},
     {"myoid/model/osim_joints.h", "a part of the reader, tested as part of osim_reader"},
     {"myoid/model/osim_muscles.h", "a part of the reader, tested as part of osim_reader"},
     {"myoid/model/osim_paths.h", "a part of the reader, tested as part of osim_reader"},
