@@ -342,6 +342,18 @@ void spread_defaults(pugi::xml_node holder) {
   holder.remove_child(defaults);
 }
 
+/// Paths like /bodyset/femur begin with the names of the model's sets, which old files leave open.
+void name_sets(pugi::xml_node model, int old_version) {
+  for (auto set : model.children()) {
+    std::string name = set.name();
+    if (!name.ends_with("Set")) continue;
+    for (char& c : name) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c;
+    if (old_version >= 40000 && !OsimXml::name_of(set).empty()) continue;
+    if (!set.attribute("name")) set.append_attribute("name");
+    set.attribute("name").set_value(name.c_str());
+  }
+}
+
 void drop_visible(pugi::xml_node node, int& count) {
   std::vector<pugi::xml_node> waiting{node};
   while (!waiting.empty()) {
@@ -379,6 +391,7 @@ UpdatedOsim updated_osim(std::string_view text,
   update_parts(root, result.old_version);
   if (const auto model = root.child("Model")) {
     ModelUpdate(source, model, options).run();
+    name_sets(model, result.old_version);
     for (const auto node : model.children()) {
       const std::string file = node.attribute("file").value();
       if (!file.empty() && file != "Unassigned") {

@@ -155,8 +155,9 @@ TEST(UpdatedOsim, HoldsTheSameModelInTheNewestForm) {
                            "NaturalCubicSpline", "<Joint>", "motion_type", "<body>"})
     EXPECT_EQ(updated.text.find(gone), std::string::npos) << gone;
   for (const char* there :
-       {"<Ground name=\"ground\">", "<mesh_file>rod.vtp</mesh_file>",
-        "<scale_factors>3 2 2</scale_factors>", "<isEnforced>false</isEnforced>",
+       {"<Ground name=\"ground\">", "<BodySet name=\"bodyset\">", "<ForceSet name=\"forceset\">",
+        "<mesh_file>rod.vtp</mesh_file>", "<scale_factors>3 2 2</scale_factors>",
+        "<isEnforced>false</isEnforced>",
         "<socket_parent_frame>/bodyset/tip</socket_parent_frame>"})
     EXPECT_NE(updated.text.find(there), std::string::npos) << there;
 }
