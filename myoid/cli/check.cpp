@@ -8,6 +8,7 @@
 #include "myoid/cli/context.h"
 #include "myoid/pipeline/check_study.h"
 #include "myoid/pipeline/json_values.h"
+#include "myoid/recording/laboratory_up.h"
 #include "myoid/recording/recording.h"
 
 namespace myoid::cli {
@@ -27,7 +28,7 @@ void add_check(CLI::App& app, Context& context) {
                                           "Example: myoid check study.toml");
   struct Options {
     std::string input;
-    std::string up = "z";
+    std::string up;
   };
   const auto o = std::make_shared<Options>();
   command
@@ -35,9 +36,11 @@ void add_check(CLI::App& app, Context& context) {
                   "study.toml, or a single recording: .c3d, .trc, .edf, .bdf, .anc, .csv, .tsv")
       ->required();
   command
-      .add_option("--up", o->up,
-                  "Vertical of a single recording's laboratory, for its force plates (default z)")
-      ->check(CLI::IsMember({"x", "y", "z"}));
+      .add_option(
+          "--up", o->up,
+          "Vertical of a single recording's laboratory, for its force plates: x, y, z, -x, -y "
+          "or -z (default: as the file says)")
+      ->check(CLI::IsMember({"x", "y", "z", "-x", "-y", "-z"}));
   add_common_options(command, context, {.threads = false, .seed = false, .overwrite = false});
   command.callback([&context, o] {
     std::vector<pipeline::Finding> findings;
@@ -49,7 +52,7 @@ void add_check(CLI::App& app, Context& context) {
       what = fmt::format("{}, {}", counted(static_cast<long>(study.trials.size()), "trial"),
                          counted(static_cast<long>(study.muscles.size()), "muscle"));
     } else {
-      findings = pipeline::check_recording(o->input, Vec3::Unit(o->up[0] - 'x'));
+      findings = pipeline::check_recording(o->input, recording::axis_vector(o->up));
       what = o->input;
     }
     const auto errors = std::count_if(findings.begin(), findings.end(), [](const auto& f) {

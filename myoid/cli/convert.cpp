@@ -20,6 +20,7 @@
 #include "myoid/recording/emg_reader.h"
 #include "myoid/recording/ground_reaction.h"
 #include "myoid/recording/make_c3d.h"
+#include "myoid/recording/plate_standing.h"
 #include "myoid/recording/recording.h"
 #include "myoid/recording/storage_reader.h"
 #include "myoid/recording/storage_writer.h"
@@ -33,15 +34,16 @@ namespace {
 namespace fs = std::filesystem;
 
 struct ConvertOptions {
-  std::string in, out, what, up = "y", unit, analog, subject = "01";
+  std::string in, out, what, up, unit, analog, subject = "01";
   std::vector<std::string> turns, bodies, channels;
   double least_force_n = 10.0;
   double rate_hz = 0.0;  ///< 0: as recorded.
 };
 
-/// "x:-90" after "z:90": turns about the laboratory's axes, one after the other.
-Mat3 rotation_of(const ConvertOptions& o) {
-  Mat3 R = recording::rotation_to_y_up(o.up[0]);
+/// From the laboratory, whose vertical is up_L, to y up; then "x:-90" after "z:90": turns about the
+/// axes, one after the other.
+Mat3 rotation_of(const ConvertOptions& o, const Vec3& up_L) {
+  Mat3 R = recording::rotation_to_y_up(up_L);
   for (const std::string& turn : o.turns) {
     const auto degrees = turn.size() > 2 && turn[1] == ':'
                              ? recording::parse_number(std::string_view(turn).substr(2))
@@ -92,7 +94,9 @@ bool is_storage(const std::string& file) {
 class Converter {
  public:
   Converter(const ConvertOptions& options, const Context& context)
-      : o_(options), context_(context), R_(rotation_of(options)) {}
+      : o_(options),
+        context_(context),
+        R_(rotation_of(options, recording::axis_vector(options.up).value_or(Vec3::UnitY()))) {}
 
   void run() {
     const fs::path out = o_.out;
@@ -126,7 +130,9 @@ class Converter {
       if (to != ".trc") throw InvalidInput("markers are written as .trc or .c3d");
       markers(out);
     } else if (o_.what == "plates") {
-      plates(out, recording::read_recording(o_.in));
+      recording::Recording file = recording::read_recording(o_.in);
+      stand(file);
+      plates(out, std::move(file));
     } else {
       channels(out);
     }
@@ -175,6 +181,7 @@ class Converter {
 
   void markers(const fs::path& out) {
     recording::MarkerFile file = recording::read_markers(o_.in);
+    if (file.screen_up_L) tell_vertical(*file.screen_up_L);
     write_markers(out, std::move(file.markers), file.repairs);
     report(file.repairs);
   }
@@ -276,12 +283,39 @@ class Converter {
     wrote(out);
   }
 
+  /// Plates become loads on a person in ground, whose y is up: everything that goes with them is
+  /// turned as --up says, else as the file does.
+  void stand(recording::Recording& file) {
+    try {
+      const recording::LaboratoryUp up =
+          recording::stand_plates(file, recording::axis_vector(o_.up), o_.least_force_n);
+      if (!up.up_L) return;
+      R_ = rotation_of(o_, *up.up_L);
+      if (o_.up.empty())
+        context_.log(fmt::format("note: {}: up is {} ({}); everything is turned to y up", o_.in,
+                                 recording::axis_name(*up.up_L), up.because));
+    } catch (const InvalidInput& error) {
+      throw ReadError(o_.in, 0, error.what());
+    }
+  }
+
+  /// Without plates everything stays as recorded unless --up says otherwise.
+  void tell_vertical(const Vec3& up_L) const {
+    if (!o_.up.empty() || !o_.turns.empty()) return;
+    const std::string up = recording::axis_name(up_L);
+    if (up != "y")
+      context_.log(fmt::format(
+          "note: {}: up is {} in this file; the markers are written as recorded; --up {} turns "
+          "them to y up, as models stand",
+          o_.in, up, up));
+  }
+
   void plates(const fs::path& out, recording::Recording file) {
     context_.prepare_file(out, {o_.in, o_.analog});
-    report(file.repairs);
-    std::vector<recording::Repair> notes;
     if (file.plates.empty())
       throw ReadError(o_.in, 0, "there are no force plates that are understood");
+    report(file.repairs);
+    std::vector<recording::Repair> notes;
     const TimeSeries loads = recording::ground_reaction(
         file.force_plates(), {.R_YG = R_, .least_force_n = o_.least_force_n}, notes);
     report(notes);
@@ -310,6 +344,11 @@ class Converter {
   void everything(const fs::path& folder) {
     recording::Recording file = recording::read_recording(o_.in);
     const std::string stem = fs::path(o_.in).stem().string();
+    if (!file.plates.empty()) {
+      stand(file);
+    } else if (file.screen_up_L && file.markers.frame_count() > 0) {
+      tell_vertical(*file.screen_up_L);
+    }
     report(file.repairs);
     file.repairs.clear();
     if (file.markers.frame_count() > 0) {
@@ -398,7 +437,7 @@ void add_convert(CLI::App& app, Context& context) {
   CLI::App& command = *app.add_subcommand(
       "convert",
       "Writes a recording in another format: C3D, TRC, STO/MOT, CSV; EDF, BDF and ANC are read.\n"
-      "Example: myoid convert walk.c3d walk/ --up z --body calcn_r --body calcn_l");
+      "Example: myoid convert walk.c3d walk/ --body calcn_r --body calcn_l");
   const auto o = std::make_shared<ConvertOptions>();
   command
       .add_option(
@@ -414,8 +453,12 @@ void add_convert(CLI::App& app, Context& context) {
                   "markers, channels, emg (voltages only) or plates; by default markers for .trc, "
                   "plates for .mot from .c3d, else channels")
       ->check(CLI::IsMember({"markers", "channels", "emg", "plates"}));
-  command.add_option("--up", o->up, "Vertical axis of the laboratory, turned to y: x, y or z")
-      ->check(CLI::IsMember({"x", "y", "z"}));
+  command
+      .add_option(
+          "--up", o->up,
+          "Vertical axis of the laboratory, turned to y: x, y, z, -x, -y or -z (default: with "
+          "force plates as the file says, else nothing is turned)")
+      ->check(CLI::IsMember({"x", "y", "z", "-x", "-y", "-z"}));
   command.add_option("--rotate", o->turns,
                      "AXIS:DEGREES, repeated: further turns, one after another");
   command.add_option("--unit", o->unit, "Unit of EMG where the file does not say: V, mV, uV");

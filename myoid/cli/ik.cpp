@@ -8,6 +8,7 @@
 #include "myoid/kinematics/inverse_kinematics.h"
 #include "myoid/pipeline/marker_misfit.h"
 #include "myoid/pipeline/stage_files.h"
+#include "myoid/recording/plate_standing.h"
 #include "myoid/recording/recording.h"
 
 namespace myoid::cli {
@@ -35,13 +36,28 @@ std::vector<std::string> not_converged(const kinematics::IkResult& result) {
 
 }  // namespace
 
+namespace {
+
+/// The rotation of a marker file's laboratory to y up: with `up` ("z", "-y"), or where it is empty
+/// as the file says, which is logged; a file that does not say is y up.
+Mat3 to_y_up(const std::string& markers, const std::string& up, const Context& context) {
+  if (const auto told = recording::axis_vector(up)) return recording::rotation_to_y_up(*told);
+  const recording::LaboratoryUp own = recording::read_laboratory_up(markers);
+  if (!own.up_L || *own.up_L == Vec3::UnitY()) return Mat3::Identity();
+  context.log(fmt::format("note: {}: up is {} ({}); turned to y up", markers,
+                          recording::axis_name(*own.up_L), own.because));
+  return recording::rotation_to_y_up(*own.up_L);
+}
+
+}  // namespace
+
 void add_ik(CLI::App& app, Context& context) {
   CLI::App& command =
       *app.add_subcommand("ik",
                           "Inverse kinematics: markers to joint angles.\n"
                           "Example: myoid ik --model arm.osim --markers flex.trc --out ik.mot");
   struct Options {
-    std::string model, markers, out, up = "y";
+    std::string model, markers, out, up;
     std::vector<std::string> weights, lock, unlock;
   };
   const auto o = std::make_shared<Options>();
@@ -49,8 +65,11 @@ void add_ik(CLI::App& app, Context& context) {
   command.add_option("--markers", o->markers, "Markers (.trc, .c3d)")->required();
   command.add_option("--out", o->out, "Joint angles (.mot); the marker errors go beside it")
       ->required();
-  command.add_option("--up", o->up, "Vertical axis of the laboratory: x, y or z (default y)")
-      ->check(CLI::IsMember({"x", "y", "z"}));
+  command
+      .add_option("--up", o->up,
+                  "Vertical axis of the laboratory: x, y, z, -x, -y or -z "
+                  "(default: as a .c3d file says, else y)")
+      ->check(CLI::IsMember({"x", "y", "z", "-x", "-y", "-z"}));
   command.add_option("--weight", o->weights, "MARKER=WEIGHT, repeated; 1 where not given");
   command.add_option("--lock", o->lock, "Coordinate held at its default value, repeated");
   command.add_option("--unlock", o->unlock,
@@ -71,7 +90,7 @@ void add_ik(CLI::App& app, Context& context) {
     for (const recording::Repair& repair : file.repairs)
       context.warn(recording::to_string(o->markers, repair));
     recording::MarkerSeries markers =
-        recording::rotated(std::move(file.markers), recording::rotation_to_y_up(o->up[0]));
+        recording::rotated(std::move(file.markers), to_y_up(o->markers, o->up, context));
     if (context.start_s || context.end_s) {
       Eigen::Index first = 0;
       while (first < markers.frame_count() &&

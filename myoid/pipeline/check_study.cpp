@@ -21,6 +21,7 @@
 #include "myoid/recording/emg_channels.h"
 #include "myoid/recording/emg_reader.h"
 #include "myoid/recording/label_match.h"
+#include "myoid/recording/plate_standing.h"
 #include "myoid/recording/recording.h"
 #include "myoid/recording/storage_reader.h"
 #include "myoid/recording/text_file.h"
@@ -297,10 +298,22 @@ std::vector<Fault> levels_alone(const TimeSeries& emg, bool raw, const std::stri
 
 }  // namespace
 
-std::vector<Finding> check_recording(const std::filesystem::path& path, const Vec3& up_G) {
-  const recording::Recording file = recording::read_recording(path);
+std::vector<Finding> check_recording(const std::filesystem::path& path,
+                                     const std::optional<Vec3>& stated_up_L) {
+  recording::Recording file = recording::read_recording(path);
   const std::string where = path.filename().string();
   std::vector<Finding> findings;
+  bool standing = true;
+  try {
+    const recording::LaboratoryUp up = recording::stand_plates(file, stated_up_L);
+    if (up.up_L)
+      findings.push_back({Level::note, where,
+                          fmt::format("{} is up ({})", recording::axis_name(*up.up_L), up.because),
+                          std::nullopt});
+  } catch (const InvalidInput& error) {
+    findings.push_back({Level::error, where, error.what(), std::nullopt});
+    standing = false;
+  }
   for (const recording::Repair& repair : file.repairs)
     findings.push_back({Level::note, where, recording::to_string(repair), std::nullopt});
   const auto add = [&](std::vector<Fault> faults) {
@@ -323,8 +336,9 @@ std::vector<Finding> check_recording(const std::filesystem::path& path, const Ve
     add(levels_alone(*emg, raw, where));
     if (auto uneven = signals::check_clock_evenness(emg->time_s(), "EMG")) add({*uneven});
   }
-  for (const recording::PlateSetup& plate : file.plates)
-    add(signals::check_force_plate(file.force_plate(plate), up_G));
+  for (const recording::PlateSetup& plate : file.plates) {
+    if (standing) add(signals::check_force_plate(file.force_plate(plate)));
+  }
   std::stable_sort(findings.begin(), findings.end(),
                    [](const Finding& a, const Finding& b) { return a.level < b.level; });
   return findings;

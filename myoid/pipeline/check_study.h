@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <vector>
 
 #include "myoid/core/geometry.h"
@@ -9,10 +10,10 @@
 
 namespace myoid::pipeline {
 
-/// What a single recording shows (`read_recording`): markers, EMG in volts, force plates under this
-/// vertical. Throws ReadError.
+/// What a single recording shows (`read_recording`): markers, EMG in volts, force plates, with up
+/// as stated, else as the file says (`recording::stand_plates`). Throws ReadError.
 [[nodiscard]] std::vector<Finding> check_recording(const std::filesystem::path& path,
-                                                   const Vec3& up_G);
+                                                   const std::optional<Vec3>& stated_up_L = {});
 
 /// Reads every input of the study, looks at the quality of every channel, checks units, rates,
 /// names, gaps, overlap of EMG and motion, and the level that EMG is measured against; worst first.

@@ -201,7 +201,7 @@ TEST(CheckRecording, LooksAtASingleFile) {
                         1e-4 * effort * ((i * 104729) % 4001) / 4001.0 + 1e-4 * hum);
   }
   recording::write_file(folder / "emg.csv", text);
-  const std::vector<Finding> findings = check_recording(folder / "emg.csv", Vec3::UnitZ());
+  const std::vector<Finding> findings = check_recording(folder / "emg.csv");
   ASSERT_EQ(std::count_if(findings.begin(), findings.end(),
                           [](const Finding& f) { return f.level == Finding::Level::warning; }),
             1);
@@ -210,7 +210,7 @@ TEST(CheckRecording, LooksAtASingleFile) {
 }
 
 std::vector<Finding> warnings_of(const std::filesystem::path& file) {
-  std::vector<Finding> findings = check_recording(file, Vec3::UnitZ());
+  std::vector<Finding> findings = check_recording(file);
   std::erase_if(findings, [](const Finding& f) { return f.level != Finding::Level::warning; });
   return findings;
 }
@@ -231,7 +231,7 @@ TEST(CheckRecording, OneSampleIsNoRecording) {
   const test::TemporaryFolder folder;
   recording::write_file(folder / "emg.csv", "time,a [mV]\n0,1\n");
   try {
-    (void)check_recording(folder / "emg.csv", Vec3::UnitZ());
+    (void)check_recording(folder / "emg.csv");
     FAIL() << "not refused";
   } catch (const ReadError& error) {
     EXPECT_NE(std::string(error.what()).find("only 1 sample"), std::string::npos) << error.what();

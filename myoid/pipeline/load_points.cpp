@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "myoid/math/statistics.h"
-#include "myoid/model/kinematic_tree.h"
+#include "myoid/pipeline/body_points.h"
 
 namespace myoid::pipeline {
 namespace {
@@ -18,80 +18,6 @@ constexpr double kNearer = 0.5;
 constexpr double kLoaded = 0.2;  ///< Of the largest force.
 constexpr int kFrames = 200;
 constexpr double kNone = std::numeric_limits<double>::infinity();
-
-/// A body's points at one frame; a body has those of its neighbors across a joint, too: a foot may
-/// have its markers on the toes, and a marker of the ankle may be the shank's.
-class BodyPoints {
- public:
-  BodyPoints(const model::BodyModel& model, const TrialInput& input)
-      : model_(&model), input_(&input), state_(model::make_state(model)) {
-    if (!input.markers) return;
-    for (const std::string& name : input.markers->names) {
-      const auto known = model.find_marker(name);
-      marker_body_.push_back(known ? model.markers[static_cast<std::size_t>(*known)].body : -1);
-    }
-  }
-
-  [[nodiscard]] Eigen::Index frame_count() const {
-    return input_->markers ? input_->markers->frame_count() : input_->motion->sample_count();
-  }
-  [[nodiscard]] double time_s(Eigen::Index frame) const {
-    return input_->markers ? input_->markers->time_s[frame] : input_->motion->time_s()[frame];
-  }
-
-  void pose(Eigen::Index frame) {
-    points_.assign(model_->bodies.size(), {});
-    if (input_->markers) {
-      for (std::size_t m = 0; m < marker_body_.size(); ++m) {
-        const auto column = static_cast<Eigen::Index>(m);
-        if (marker_body_[m] < 0 || input_->markers->missing(frame, column)) continue;
-        points_[static_cast<std::size_t>(marker_body_[m])].push_back(
-            input_->markers->position(frame, column));
-      }
-      return;
-    }
-    Eigen::VectorXd q = model_->default_q();
-    const TimeSeries& motion = *input_->motion;
-    for (Eigen::Index c = 0; c < motion.channel_count(); ++c) {
-      const auto index =
-          model_->find_coordinate(motion.channels()[static_cast<std::size_t>(c)].name);
-      if (index) q[*index] = motion.values()(frame, c);
-    }
-    model::compute_poses(*model_, q, state_);
-    for (std::size_t b = 1; b < model_->bodies.size(); ++b) {
-      points_[b].push_back(state_.X_GB[b].p);
-      points_[b].push_back(state_.X_GB[b] * model_->bodies[b].p_BBcm_B);
-    }
-    for (const model::Marker& marker : model_->markers) {
-      const auto b = static_cast<std::size_t>(marker.body);
-      points_[b].push_back(state_.X_GB[b] * marker.p_BM);
-    }
-  }
-
-  /// From the nearest point of the body or its neighbors; infinite if it has none.
-  [[nodiscard]] double distance(const Vec3& p_G, model::BodyIndex body) const {
-    double least = of_one(p_G, body);
-    for (const model::Joint& joint : model_->joints) {
-      if (joint.parent == body) least = std::min(least, of_one(p_G, joint.child));
-      if (joint.child == body && joint.parent != 0)
-        least = std::min(least, of_one(p_G, joint.parent));
-    }
-    return least;
-  }
-  [[nodiscard]] double of_one(const Vec3& p_G, model::BodyIndex body) const {
-    double least = kNone;
-    for (const Vec3& point : points_[static_cast<std::size_t>(body)])
-      least = std::min(least, (point - p_G).norm());
-    return least;
-  }
-
- private:
-  const model::BodyModel* model_;
-  const TrialInput* input_;
-  model::BodyState state_;
-  std::vector<model::BodyIndex> marker_body_;
-  std::vector<std::vector<Vec3>> points_;
-};
 
 /// A force on a body through a center of pressure that moves over the ground.
 bool is_under_a_foot(const dynamics::ExternalForce& force) {
@@ -158,7 +84,8 @@ std::vector<Finding> misplaced_loads(const model::BodyModel& model,
   using Level = Finding::Level;
   std::vector<Finding> found;
   if (!input.loads || (!input.markers && !input.motion)) return found;
-  BodyPoints points(model, input);
+  BodyPoints points(model, input.markers ? &*input.markers : nullptr,
+                    input.motion ? &*input.motion : nullptr);
   const std::vector<Load> loads = distances(model, *input.loads, points);
   const auto file =
       trial.external_loads ? trial.external_loads->filename().string() : std::string("the loads");

@@ -30,10 +30,7 @@ struct Contact {
   Eigen::Index first = 0, end = 0;  ///< Samples.
 };
 
-Wrench wrench_of(const recording::ForcePlate& plate,
-                 const Mat3& R,
-                 double turn,
-                 double least_force_n) {
+Wrench wrench_of(const recording::ForcePlate& plate, const Mat3& R, double least_force_n) {
   const Eigen::Index n = plate.time_s.size();
   Wrench w;
   w.force_n = Eigen::MatrixX3d::Zero(n, 3);
@@ -41,13 +38,12 @@ Wrench wrench_of(const recording::ForcePlate& plate,
   w.point_m = Eigen::MatrixX3d::Constant(n, 3, std::numeric_limits<double>::quiet_NaN());
   w.loaded.assign(static_cast<std::size_t>(n), false);
   for (Eigen::Index i = 0; i < n; ++i) {
-    const Vec3 force = turn * (R * plate.force_n.row(i).transpose());
-    const Vec3 moment = turn * (R * plate.moment_nm.row(i).transpose());
-    if (!force.allFinite() || !moment.allFinite() || !(force.y() >= least_force_n)) continue;
+    const auto action = recording::action_on_person(plate, i, least_force_n);
+    if (!action) continue;
     w.loaded[static_cast<std::size_t>(i)] = true;
-    w.force_n.row(i) = force.transpose();
-    w.moment_nm.row(i) = moment.transpose();
-    w.point_m.row(i) = (R * plate.pressure_center_m.row(i).transpose()).transpose();
+    w.force_n.row(i) = (R * action->force_n).transpose();
+    w.moment_nm.row(i) = (R * plate.moment_nm.row(i).transpose()).transpose();
+    w.point_m.row(i) = (R * action->point_m).transpose();
   }
   return w;
 }
@@ -180,16 +176,11 @@ dynamics::ExternalLoads plate_loads(const std::vector<recording::ForcePlate>& pl
         "force_plates: which body stands on a plate is told from markers, and the trial has none; "
         "name the bodies");
   dynamics::ExternalLoads loads;
-  const Vec3 up_G = R_YG.transpose() * Vec3::UnitY();
   for (std::size_t k = 0; k < plates.size(); ++k) {
     const recording::ForcePlate& plate = plates[k];
     if (plate.time_s.size() < 4) throw InvalidInput("force_plates: fewer than 4 samples");
     if (!bodies.empty() && (k >= bodies.size() || bodies[k].empty())) continue;
-    const int sign = recording::force_sign(plate, up_G, least_force_n);
-    if (sign < 0)
-      loads.notes.push_back(fmt::format(
-          "force plate {} pulls down: turned round to act on the person", plate.number));
-    const Wrench w = wrench_of(plate, R_YG, sign < 0 ? -1.0 : 1.0, least_force_n);
+    const Wrench w = wrench_of(plate, R_YG, least_force_n);
     const std::vector<Contact> contacts = contacts_of(w, plate.time_s);
     if (contacts.empty()) {
       loads.notes.push_back(
@@ -213,8 +204,9 @@ dynamics::ExternalLoads plate_loads(const std::vector<recording::ForcePlate>& pl
               "force plate {} bears up to {:.0f} N from {:.3g} to {:.3g} s, but no marker of the "
               "model is within {} m of its center of pressure; name the bodies: force_plates = {{ "
               "bodies = [...] }}",
-              plate.number, w.force_n.middleRows(c.first, c.end - c.first).col(1).maxCoeff(),
-              begin_s, end_s, kFarFromPlate_m));
+              plate.number,
+              w.force_n.middleRows(c.first, c.end - c.first).rowwise().norm().maxCoeff(), begin_s,
+              end_s, kFarFromPlate_m));
         }
         loads.notes.push_back(fmt::format(
             "force plate {} from {:.3g} to {:.3g} s is given to '{}', whose markers are {:.0f} mm "

@@ -19,9 +19,9 @@ inline constexpr double kFarFromPlate_m = 0.3;
 /// What force plates do to the bodies that stand on them, in the model's ground (R_YG from the
 /// laboratory). Each plate acts with its force and its moment about the middle of its surface,
 /// which is the same as force, center of pressure and free moment, and has no pole where nobody
-/// stands on it. Below `least_force_n` upward it is 0; then everything is low-passed forwards and
-/// backwards at `cutoff_hz`, if given. A plate that holds the force on itself is turned round, with
-/// a note.
+/// stands on it. Where a plate does not bear the person (`recording::action_on_person`) it is 0;
+/// then everything is low-passed forwards and backwards at `cutoff_hz`, if given. The plates' sides
+/// are those that `recording::stand_plates` found.
 ///
 /// `bodies[k]` stands on plate k ("" on none); with an empty list each contact goes to the body
 /// whose marker is nearest to its center of pressure, with a note. Throws InvalidInput: a body that

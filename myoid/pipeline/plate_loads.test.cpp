@@ -10,9 +10,9 @@
 #include "myoid/model/kinematic_tree.h"
 #include "myoid/model/osim_reader.h"
 #include "myoid/pipeline/trial_loads.h"
-#include "myoid/recording/c3d_reader.h"
-#include "myoid/recording/c3d_signals.h"
+#include "myoid/pipeline/trial_up.h"
 #include "myoid/recording/c3d_writer.h"
+#include "myoid/recording/plate_standing.h"
 
 #include "tests/support/temporary_folder.h"
 
@@ -94,12 +94,13 @@ class PlateLoads : public ::testing::Test {
                                 const std::vector<std::string>& bodies,
                                 const std::vector<std::pair<std::string, Vec3>>& markers = {},
                                 std::optional<double> cutoff_hz = {}) {
-    const C3dFile file = recording_of(sign, markers);
-    std::vector<recording::Repair> repairs;
+    const test::TemporaryFolder folder;
+    recording::write_c3d(folder / "f.c3d", recording_of(sign, markers));
+    recording::Recording file = recording::read_recording(folder / "f.c3d");
+    recording::stand_plates(file, std::nullopt);
     std::optional<recording::MarkerSeries> seen;
-    if (!markers.empty()) seen = recording::rotated(recording::c3d_markers(file, repairs), R);
-    return plate_loads(recording::force_plates(file, repairs), R, arm, bodies, seen, 10.0,
-                       cutoff_hz);
+    if (!markers.empty()) seen = recording::rotated(file.markers, R);
+    return plate_loads(file.force_plates(), R, arm, bodies, seen, 10.0, cutoff_hz);
   }
 
   /// Force and moment about the body's origin must be those of the load, turned to y up.
@@ -128,10 +129,7 @@ TEST_F(PlateLoads, AreTheForceThePointAndTheFreeMomentOnTheBody) {
 }
 
 TEST_F(PlateLoads, OfAPlateThatHoldsTheForceOnItselfAreTurnedRound) {
-  const dynamics::ExternalLoads turned = loads(-1.0, {"forearm_hand"});
-  expect_the_load(turned, 1.0, 1e-3);
-  ASSERT_FALSE(turned.notes.empty());
-  EXPECT_THAT(turned.notes[0], HasSubstr("turned round"));
+  expect_the_load(loads(-1.0, {"forearm_hand"}), 1.0, 1e-3);
 }
 
 TEST_F(PlateLoads, AreNothingWhereNobodyStands) {
@@ -175,18 +173,31 @@ TEST_F(PlateLoads, RefuseABodyThatIsNotThere) {
 TEST_F(PlateLoads, ComeFromTheFileThatTheTrialNames) {
   const test::TemporaryFolder folder;
   recording::write_c3d(folder / "walk.c3d", recording_of(1.0, {}));
-  const Study study = parse_study(
-      "[markers]\nup = \"z\"\n[motion]\nsmoothing = \"none\"\n[[muscle]]\nname = \"BIC\"\n"
-      "emg = \"b\"\n[[trial]]\nname = \"t\"\nmotion = \"m.mot\"\nemg = \"e.sto\"\n"
-      "force_plates = { file = \"walk.c3d\", bodies = [\"forearm_hand\"] }\n",
-      folder / "study.toml");
-  std::vector<std::string> notes;
-  int files = 0;
-  const auto given = read_trial_loads(
-      study, study.trials[0], arm, std::nullopt, [&](const auto&) { ++files; }, notes);
-  ASSERT_TRUE(given);
-  expect_the_load(*given, 1.0, 1e-3);
-  EXPECT_EQ(files, 1);
+  for (const std::string markers : {"[markers]\nup = \"z\"\n", ""}) {
+    const Study study =
+        parse_study(markers +
+                        "[motion]\nsmoothing = \"none\"\n[[muscle]]\nname = \"BIC\"\nemg = \"b\"\n"
+                        "[[trial]]\nname = \"t\"\nmotion = \"m.mot\"\nemg = \"e.sto\"\n"
+                        "force_plates = { file = \"walk.c3d\", bodies = [\"forearm_hand\"] }\n",
+                    folder / "study.toml");
+    std::vector<std::string> notes;
+    int files = 0;
+    const auto given = read_trial_loads(
+        study, study.trials[0], arm, std::nullopt, [&](const auto&) { ++files; }, notes);
+    ASSERT_TRUE(given);
+    expect_the_load(*given, 1.0, 1e-3);
+    EXPECT_EQ(files, 1);
+  }
+}
+
+TEST_F(PlateLoads, UpOfAFileIsAsToldElseAsTheFileSaysElseY) {
+  const test::TemporaryFolder folder;
+  recording::write_c3d(folder / "walk.c3d", recording_of(1.0, {}));
+  EXPECT_EQ(*trial_up('x', folder / "walk.c3d").up_L, Vec3::UnitX());
+  EXPECT_EQ(*trial_up(kUpOfTheFile, folder / "walk.c3d").up_L, Vec3::UnitZ());
+  EXPECT_EQ(*trial_up(kUpOfTheFile, folder / "walk.trc").up_L, Vec3::UnitY());
+  EXPECT_THAT(up_note(trial_up(kUpOfTheFile, folder / "walk.c3d")),
+              HasSubstr("turned from z up to y up (plate 1 faces it and bears"));
 }
 
 }  // namespace

@@ -66,9 +66,9 @@ struct MotionSpec {
 struct MarkerSpec {
   std::map<std::string, std::string> rename;  ///< From the file's name to the model's.
   std::map<std::string, double> weight;       ///< By the model's name; 1 where absent.
-  char up = 'y';                              ///< Vertical axis of the laboratory: 'x', 'y' or 'z'.
-  bool undo_swaps = true;                     ///< Labels that were exchanged are exchanged back.
-  bool fill_gaps = true;                      ///< By splines, and from the segment's other markers.
+  char up = 'y';           ///< Vertical axis: 'x', 'y', 'z'; 'a': as each file says.
+  bool undo_swaps = true;  ///< Labels that were exchanged are exchanged back.
+  bool fill_gaps = true;   ///< By splines, and from the segment's other markers.
 };
 
 /// Coordinates that are measured once, in a posture that is known, and then held.

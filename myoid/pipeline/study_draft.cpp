@@ -19,6 +19,7 @@
 #include "myoid/pipeline/draft_trials.h"
 #include "myoid/recording/bids.h"
 #include "myoid/recording/label_match.h"
+#include "myoid/recording/plate_standing.h"
 #include "myoid/recording/recording.h"
 #include "myoid/recording/text_file.h"
 
@@ -113,6 +114,7 @@ class Draft {
       const std::string extension = recording::extension_of(path);
       recording::Recording file = recording::read_recording(path);
       f.plates = static_cast<int>(file.plates.size());
+      note_up(path, file);
       f.markers = std::move(file.markers);
       for (const Channel& c : file.analog.channels()) {
         if ((extension == ".mot" || extension == ".sto") && model_.find_coordinate(c.name))
@@ -151,6 +153,18 @@ class Draft {
       if (known >= 4 && up_ == ' ') find_up(f.markers);
     }
     found_.push_back(std::move(f));
+  }
+
+  /// Up as the first file says that does.
+  void note_up(const fs::path& path, recording::Recording& file) {
+    try {
+      const recording::LaboratoryUp up = recording::stand_plates(file, std::nullopt);
+      if (!up.up_L || !file_up_.empty()) return;
+      file_up_ = recording::axis_name(*up.up_L);
+      file_up_because_ = fmt::format("{}: {}", path.filename().string(), up.because);
+    } catch (const InvalidInput& error) {
+      draft_.notes.push_back(fmt::format("{}: {}", path.filename().string(), error.what()));
+    }
   }
 
   void find_up(const recording::MarkerSeries& markers) {
@@ -199,7 +213,9 @@ class Draft {
     });
     if (!any_markers) return;
     line("[markers]");
-    if (up_ == ' ') {
+    if (up_ == ' ' && file_up_.size() == 1) {
+      line(fmt::format("up = \"{}\"   # {}", file_up_, file_up_because_));
+    } else if (up_ == ' ') {
       todo("the vertical axis of the laboratory: x, y or z");
       line("up = \"y\"");
     } else {
@@ -208,6 +224,9 @@ class Draft {
           "({:.0f} degrees off)",
           up_, std::acos(std::clamp(up_cosine_, -1.0, 1.0)) / kDegree));
       if (up_cosine_ < 0.7) todo("that is not upright; is it the right axis?");
+      if (!file_up_.empty() && file_up_ != std::string(1, up_))
+        todo(fmt::format("by its own words a file has {} up ({}); which is right?", file_up_,
+                         file_up_because_));
     }
     if (most_known_ < 3 && !model_.markers.empty()) {
       std::vector<std::string> names;
@@ -356,6 +375,7 @@ class Draft {
   std::map<std::string, std::string> similar_;
   Eigen::Index most_known_ = 0;
   char up_ = ' ';
+  std::string file_up_, file_up_because_;  ///< "z", as the first file says that does.
   double up_cosine_ = 0.0;
   DraftText out_;
   StudyDraft draft_;

@@ -2,6 +2,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "myoid/pipeline/trial_up.h"
+
 namespace myoid::pipeline {
 namespace {
 
@@ -113,11 +115,12 @@ std::string study_json(const Study& study) {
   j["motion"] = {{"smoothing", smoothing[static_cast<int>(study.motion.smoothing)]},
                  {"cutoff_hz", study.motion.cutoff_hz},
                  {"rate_hz", study.motion.rate_hz}};
-  j["markers"] = {{"rename", study.markers.rename},
-                  {"weight", study.markers.weight},
-                  {"up", std::string(1, study.markers.up)},
-                  {"undo_swaps", study.markers.undo_swaps},
-                  {"fill_gaps", study.markers.fill_gaps}};
+  j["markers"] = {
+      {"rename", study.markers.rename},
+      {"weight", study.markers.weight},
+      {"up", study.markers.up == kUpOfTheFile ? "auto" : std::string(1, study.markers.up)},
+      {"undo_swaps", study.markers.undo_swaps},
+      {"fill_gaps", study.markers.fill_gaps}};
   j["ik"] = ik_json(study.ik);
   j["emg"] = emg_json(study.emg);
   j["sync"] = sync_json(study.sync);

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
+#include "myoid/pipeline/foreign_contacts.h"
 #include "myoid/pipeline/ground_support.h"
 #include "myoid/pipeline/identify_input.h"
 #include "myoid/pipeline/load_points.h"
@@ -63,6 +64,10 @@ void StudyPlausibility::look_at(const TrialSpec& trial, const TrialInput& input)
                    : std::nullopt;
   // Exchanged labels put every force under the other foot.
   found = sides ? std::vector<Finding>{*sides} : misplaced_loads(*model_, trial, input);
+  if (found.empty() && input.loads && (input.markers || input.motion))
+    found = foreign_contacts(*model_, trial.name, *input.loads,
+                             {*model_, input.markers ? &*input.markers : nullptr,
+                              input.motion ? &*input.motion : nullptr});
   std::move(found.begin(), found.end(), std::back_inserter(of_trials_));
   if (auto support = check_support(*study_, *model_, trial, input))
     of_trials_.push_back(std::move(*support));

@@ -6,6 +6,7 @@
 
 #include "myoid/core/units.h"
 #include "myoid/pipeline/trial_table.h"
+#include "myoid/pipeline/trial_up.h"
 
 namespace myoid::pipeline {
 namespace {
@@ -103,7 +104,7 @@ MotionSpec read_motion(TomlTable table) {
 
 MarkerSpec read_markers(TomlTable table) {
   MarkerSpec markers;
-  markers.up = table.choice("up", "y", {"x", "y", "z"})[0];
+  markers.up = table.choice("up", "auto", {"auto", "x", "y", "z"})[0];
   if (auto rename = table.table("rename")) {
     for (const std::string& key : rename->keys()) markers.rename[key] = *rename->text(key);
   }
@@ -288,6 +289,7 @@ void read_settings(TomlTable& table, const std::filesystem::path& folder, Study&
     study.model.builtin = "arm4";
   }
   if (auto t = table.table("motion")) study.motion = read_motion(*t);
+  study.markers.up = kUpOfTheFile;
   if (auto t = table.table("markers")) study.markers = read_markers(*t);
   if (auto t = table.table("ik")) study.ik = read_ik(*t);
   if (auto t = table.table("emg")) study.emg = read_emg(*t);

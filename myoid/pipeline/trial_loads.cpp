@@ -13,6 +13,8 @@
 #include "myoid/pipeline/plate_loads.h"
 #include "myoid/pipeline/trial_clock.h"
 #include "myoid/pipeline/trial_input.h"
+#include "myoid/pipeline/trial_up.h"
+#include "myoid/recording/plate_standing.h"
 #include "myoid/recording/recording.h"
 #include "myoid/recording/text_file.h"
 #include "myoid/signals/filter.h"
@@ -133,8 +135,15 @@ dynamics::ExternalLoads read_plates(
   const PlateSpec& spec = *trial.plates;
   const auto name = spec.file.filename().string();
   if (!trial.markers || *trial.markers != spec.file) remember(spec.file);
-  const recording::Recording file = recording::read_recording(spec.file);
+  recording::Recording file = recording::read_recording(spec.file);
+  recording::LaboratoryUp up;
+  try {
+    up = recording::stand_plates(file, stated_up(study.markers.up), spec.least_force_n);
+  } catch (const InvalidInput& error) {
+    throw ReadError(spec.file, 0, error.what());
+  }
   add_repairs(spec.file, file.repairs, notes);
+  notes.push_back(fmt::format("{}: {}", name, up_note(up)));
   std::vector<recording::ForcePlate> plates = file.force_plates();
   if (const auto clock = loads_clock(study, trial, spec.file)) {
     for (recording::ForcePlate& plate : plates) {
@@ -143,8 +152,8 @@ dynamics::ExternalLoads read_plates(
   }
   try {
     dynamics::ExternalLoads loads = plate_loads(
-        plates, recording::rotation_to_y_up(study.markers.up), model, spec.bodies, markers,
-        spec.least_force_n, spec.lowpass_hz ? spec.lowpass_hz : motion_cutoff_hz(study));
+        plates, recording::rotation_to_y_up(up.up_L.value_or(Vec3::UnitY())), model, spec.bodies,
+        markers, spec.least_force_n, spec.lowpass_hz ? spec.lowpass_hz : motion_cutoff_hz(study));
     for (const std::string& note : loads.notes) notes.push_back(fmt::format("{}: {}", name, note));
     if (markers && markers->frame_count() > 0 &&
         (markers->time_s[0] < loads.start_s - 0.05 ||
@@ -178,7 +187,7 @@ std::optional<dynamics::ExternalLoads> read_trial_loads(
     notes.insert(notes.end(), loads.notes.begin(), loads.notes.end());
     if (const auto clock = loads_clock(study, trial, *trial.external_loads))
       loads.set_clock(clock->offset_s, clock->drift_ppm);
-    if (study.markers.up != 'y')
+    if (study.markers.up != 'y' && study.markers.up != kUpOfTheFile)
       notes.push_back(fmt::format("{}: taken as y up, as OpenSim has it; only markers are turned",
                                   trial.external_loads->filename().string()));
   }

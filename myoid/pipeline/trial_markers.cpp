@@ -10,6 +10,7 @@
 #include "myoid/core/error.h"
 #include "myoid/pipeline/clock_check.h"
 #include "myoid/pipeline/marker_segments.h"
+#include "myoid/pipeline/trial_up.h"
 #include "myoid/recording/label_match.h"
 #include "myoid/recording/recording.h"
 #include "myoid/signals/marker_quality.h"
@@ -54,11 +55,11 @@ recording::MarkerSeries read_markers(const Study& study,
       name = it->second;
   }
   match_labels(model, path, file.markers.names, input);
-  if (study.markers.up != 'y') {
-    notes.push_back(fmt::format("{}: laboratory turned from {} up to y up",
-                                path.filename().string(), study.markers.up));
+  const recording::LaboratoryUp up = trial_up(study.markers.up, path);
+  if (*up.up_L != Vec3::UnitY()) {
+    notes.push_back(fmt::format("{}: {}", path.filename().string(), up_note(up)));
     file.markers =
-        recording::rotated(std::move(file.markers), recording::rotation_to_y_up(study.markers.up));
+        recording::rotated(std::move(file.markers), recording::rotation_to_y_up(*up.up_L));
   }
   return std::move(file.markers);
 }

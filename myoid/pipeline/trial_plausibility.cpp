@@ -8,6 +8,7 @@
 #include "myoid/core/units.h"
 #include "myoid/model/kinematic_tree.h"
 #include "myoid/pipeline/draft_recordings.h"
+#include "myoid/pipeline/trial_up.h"
 
 namespace myoid::pipeline {
 namespace {
@@ -142,22 +143,25 @@ void check_vertical(const Study& study,
       trunk.positions_m.rightCols(3) = input.markers->positions_m.middleCols(3 * m, 3);
     }
   }
-  const Mat3 back = recording::rotation_to_y_up(study.markers.up).transpose();
+  // The markers are turned already; a file that told its own vertical stands as
+  // if recorded so.
+  const char told = study.markers.up == kUpOfTheFile ? 'y' : study.markers.up;
+  const Mat3 back = recording::rotation_to_y_up(told).transpose();
   const recording::MarkerSeries laboratory = recording::rotated(trunk, back);
-  const double now = upright(model, laboratory, study.markers.up);
+  const double now = upright(model, laboratory, told);
   constexpr double kAcross = 0.5;   // 60 degrees
   constexpr double kUpright = 0.8;  // 37 degrees
   if (now < -1.5 || now > kAcross) return;
   for (const char up : {'x', 'y', 'z'}) {
     const double other = upright(model, laboratory, up);
-    if (up == study.markers.up || other < kUpright) continue;
+    if (up == told || other < kUpright) continue;
     findings.push_back(
         {Level::warning,
          where,
          fmt::format("[markers] up = \"{}\", but the trunk's markers lie {:.0f} degrees from "
                      "upright by it, and {:.0f} with up = \"{}\": unless the person lies, gravity "
                      "pulls across the body; correct [markers] up",
-                     study.markers.up, std::acos(std::clamp(now, -1.0, 1.0)) / kDegree,
+                     told, std::acos(std::clamp(now, -1.0, 1.0)) / kDegree,
                      std::acos(std::clamp(other, -1.0, 1.0)) / kDegree, up),
          {},
          "vertical"});

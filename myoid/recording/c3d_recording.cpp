@@ -8,6 +8,7 @@
 #include "myoid/core/error.h"
 #include "myoid/recording/c3d_reader.h"
 #include "myoid/recording/c3d_signals.h"
+#include "myoid/recording/laboratory_up.h"
 
 namespace myoid::recording {
 namespace {
@@ -22,6 +23,7 @@ Recording read(const std::filesystem::path& path,
   Recording recording;
   recording.repairs = std::move(head.file.repairs);
   recording.events = std::move(head.file.events);
+  recording.screen_up_L = screen_up(head.file);
   const C3dFrames frames = head.frames();
   with_analog = with_analog && !head.file.channels.empty();
   std::optional<C3dMarkerBuilder> markers;

@@ -24,7 +24,8 @@ double largest_force_n(const PlateSetup& plate,
         channel.scale *
         (counts.col(plate.channels[c]).head(rows).cast<double>().array() - channel.offset);
   }
-  const double largest = force_sizes(plate, std::move(values)).maxCoeff<Eigen::PropagateNumbers>();
+  const double largest =
+      channel_forces(plate, std::move(values)).rowwise().norm().maxCoeff<Eigen::PropagateNumbers>();
   return std::isfinite(largest) ? largest : 0.0;
 }
 

@@ -66,18 +66,6 @@ std::optional<PlateSetup> describe(const C3dFile& file,
                           plate + 1)});
       d.origin_m.head<2>() = d.origin_m.head<2>().cwiseAbs().eval();
     }
-    if (d.origin_m[2] > 0.0) {
-      repairs.push_back({0, fmt::format("force plate {}: a_z0 in FORCE_PLATFORM:ORIGIN is above 0; "
-                                        "its sign is turned",
-                                        plate + 1)});
-      d.origin_m[2] = -d.origin_m[2];
-    }
-  } else if (d.origin_m[2] > 0.0) {
-    repairs.push_back(
-        {0, fmt::format("force plate {}: FORCE_PLATFORM:ORIGIN points from the surface "
-                        "to the transducer instead of the other way; turned round",
-                        plate + 1)});
-    d.origin_m = -d.origin_m;
   }
 
   const C3dParameter* channel = file.find("FORCE_PLATFORM", "CHANNEL");
@@ -183,10 +171,27 @@ std::vector<PlateSetup> plate_setups(const C3dFile& file, std::vector<Repair>& r
     d->R_GP.col(0) = x;
     d->R_GP.col(1) = z.cross(x);
     d->R_GP.col(2) = z;
+    d->side.out_L = -z;
     find_factors(file, *d, repairs);
     plates.push_back(*std::move(d));
   }
   return plates;
+}
+
+void turn_origin(PlateSetup& setup, std::vector<Repair>& repairs) {
+  const double out = setup.R_GP.col(2).dot(setup.side.out_L) * setup.origin_m.z();
+  if (setup.type == 1 || !(out < 0.0)) return;
+  if (setup.type == 3) {
+    repairs.push_back({0, fmt::format("force plate {}: a_z0 in FORCE_PLATFORM:ORIGIN places the "
+                                      "sensors above the surface; its sign is turned",
+                                      setup.number)});
+    setup.origin_m.z() = -setup.origin_m.z();
+    return;
+  }
+  repairs.push_back({0, fmt::format("force plate {}: FORCE_PLATFORM:ORIGIN points from the surface "
+                                    "to the transducer instead of the other way; turned round",
+                                    setup.number)});
+  setup.origin_m = -setup.origin_m;
 }
 
 ForcePlate force_plate(const PlateSetup& setup,
@@ -198,12 +203,13 @@ ForcePlate force_plate(const PlateSetup& setup,
   ForcePlate plate;
   plate.number = setup.number;
   plate.type = setup.type;
+  plate.side = setup.side;
   plate.corners_m = setup.corners_m;
   plate.channels = setup.channels;
   plate.p_GP_m = setup.p_GP_m;
   plate.R_GP = setup.R_GP;
   plate.time_s = std::move(time_s);
-  const Wrench w = surface_wrench(setup, channel_values);
+  const Wrench w = setup.side.turn * surface_wrench(setup, channel_values);
   const Eigen::Index samples = w.rows();
   plate.force_n = w.leftCols<3>() * plate.R_GP.transpose();
   plate.moment_nm = w.rightCols<3>() * plate.R_GP.transpose();
@@ -245,7 +251,7 @@ ForcePlate force_plate(const PlateSetup& setup,
   return force_plate(setup, std::move(time_s), std::move(values), least_force_n);
 }
 
-Eigen::VectorXd force_sizes(const PlateSetup& setup, Eigen::MatrixXd channel_values) {
+Eigen::MatrixX3d channel_forces(const PlateSetup& setup, Eigen::MatrixXd channel_values) {
   Eigen::MatrixXd& v = channel_values;
   for (std::size_t c = 0; c < setup.factors.size(); ++c)
     v.col(static_cast<Eigen::Index>(c)) *= setup.factors[c];
@@ -255,25 +261,38 @@ Eigen::VectorXd force_sizes(const PlateSetup& setup, Eigen::MatrixXd channel_val
     v.col(1) = v.col(2) + v.col(3);
     v.col(2) = v.col(4) + v.col(5) + v.col(6) + v.col(7);
   }
-  return v.leftCols<3>().rowwise().norm();
+  return v.leftCols<3>() * setup.R_GP.transpose();
 }
 
 std::vector<ForcePlate> force_plates(const C3dFile& file,
                                      std::vector<Repair>& repairs,
                                      double least_force_n) {
   std::vector<ForcePlate> plates;
-  for (const PlateSetup& setup : plate_setups(file, repairs))
+  for (PlateSetup& setup : plate_setups(file, repairs)) {
+    turn_origin(setup, repairs);
     plates.push_back(force_plate(setup, file, 0, file.analog.rows(), least_force_n));
+  }
   return plates;
 }
 
-int force_sign(const ForcePlate& plate, const Vec3& up_G, double least_force_n) {
-  const Eigen::VectorXd up = plate.force_n * up_G.normalized();
-  double most = 0.0;
-  for (const double f : up) {
-    if (std::isfinite(f) && std::abs(f) > std::abs(most)) most = f;
+std::optional<PlateAction> action_on_person(const ForcePlate& plate,
+                                            Eigen::Index sample,
+                                            double least_force_n) {
+  const Vec3 force = plate.force_n.row(sample).transpose();
+  const Vec3 moment = plate.moment_nm.row(sample).transpose();
+  const Vec3 point = plate.pressure_center_m.row(sample).transpose();
+  const Vec3 free = plate.free_moment_nm.row(sample).transpose();
+  if (!force.allFinite() || !moment.allFinite()) return std::nullopt;
+  const double push_n = force.dot(plate.side.out_L);
+  if (plate.side.is_floor) {
+    if (!(push_n >= least_force_n) || !point.allFinite()) return std::nullopt;
+    return PlateAction{force, point, free};
   }
-  return std::abs(most) < least_force_n ? 0 : most > 0.0 ? 1 : -1;
+  if (!(force.norm() >= least_force_n)) return std::nullopt;
+  const double reach_m = (plate.corners_m.colwise() - plate.p_GP_m).colwise().norm().maxCoeff();
+  if (push_n >= least_force_n && point.allFinite() && (point - plate.p_GP_m).norm() <= reach_m)
+    return PlateAction{force, point, free};
+  return PlateAction{force, plate.p_GP_m, moment};
 }
 
 }  // namespace myoid::recording

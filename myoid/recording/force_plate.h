@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include <Eigen/Core>
@@ -9,15 +10,23 @@
 
 namespace myoid::recording {
 
+/// How a plate faces the person, as `stand_plates` finds it. Before that: as the C3D guide has it,
+/// z of the plate pointing away from the person, and the force being that on the person.
+struct PlateSide {
+  Vec3 out_L = Vec3::UnitZ();  ///< Normal of the surface towards the person.
+  bool is_floor = true;        ///< Within 60 degrees of horizontal; else a wall or a handle.
+  double turn = 1.0;           ///< -1 where the channels hold the force on the plate.
+};
+
 /// One force plate over time, in the laboratory's frame, at the rate of the analog channels. Force
-/// and moment have the sign of the recording: nearly always the plate's action on the person, which
-/// points up while somebody stands on it (`force_sign` finds out).
+/// and moment are the plate's action on the person: the channels times `side.turn`.
 ///
 /// The plate's own frame P has its origin in the middle of the surface (mean of the corners), x
 /// from corner 2 to 1, z = x × (corner 1 − corner 4), which points down in most laboratories.
 struct ForcePlate {
   int number = 0;  ///< Counts from 1, as in the file.
   int type = 0;
+  PlateSide side;
   Eigen::Matrix<double, 3, 4> corners_m;
   Mat3 R_GP = Mat3::Identity();
   Vec3 p_GP_m = Vec3::Zero();  ///< Middle of the surface.
@@ -35,6 +44,7 @@ struct ForcePlate {
 struct PlateSetup {
   int number = 0;
   int type = 0;
+  PlateSide side;
   Eigen::Matrix<double, 3, 4> corners_m;
   Mat3 R_GP = Mat3::Identity();
   Vec3 p_GP_m = Vec3::Zero();
@@ -54,12 +64,20 @@ inline constexpr double kLeastForce_n = 10.0;  ///< Below it there is no center 
 /// - 3: F_x12 F_x34 F_y14 F_y23 F_z1..F_z4: eight sensors; ORIGIN = a, b, a_z0.
 /// - 4: as 2 after F = CAL_MATRIX V.
 ///
-/// Other types and plates whose corners or channels make no sense are left out with a note; an
-/// ORIGIN below the surface (z > 0) is turned round with a note, and so is a and b below 0. Forces
-/// in volts or without a unit are taken as N and moments as N times POINT:UNITS, with a note.
-/// Source: the C3D user guide, force plate types.
+/// Other types and plates whose corners or channels make no sense are left out with a note; a and b
+/// below 0 are taken as positive with a note. Forces in volts or without a unit are taken as N and
+/// moments as N times POINT:UNITS, with a note. Source: the C3D user guide, force plate types.
 [[nodiscard]] std::vector<PlateSetup> plate_setups(const C3dFile& file,
                                                    std::vector<Repair>& repairs);
+
+/// Turns an ORIGIN round, with a note, that does not point from the transducer to the person's side
+/// of the surface.
+void turn_origin(PlateSetup& setup, std::vector<Repair>& repairs);
+
+/// The force [N] of each row of channels in the unit as written, in the laboratory, with the sign
+/// of the channels.
+[[nodiscard]] Eigen::MatrixX3d channel_forces(const PlateSetup& setup,
+                                              Eigen::MatrixXd channel_values);
 
 /// The plate over time, from its channels in the unit as written (samples x channels).
 /// `least_force_n` is the threshold of the center of pressure.
@@ -74,18 +92,23 @@ inline constexpr double kLeastForce_n = 10.0;  ///< Below it there is no center 
                                      Eigen::Index count,
                                      double least_force_n = kLeastForce_n);
 
-/// Only the size of the force [N] of each row of channels in the unit as written.
-[[nodiscard]] Eigen::VectorXd force_sizes(const PlateSetup& setup, Eigen::MatrixXd channel_values);
-
-/// All plates of a file over all of its time.
+/// All plates of a file over all of its time, each facing the person as the C3D guide has it.
 [[nodiscard]] std::vector<ForcePlate> force_plates(const C3dFile& file,
                                                    std::vector<Repair>& repairs,
                                                    double least_force_n = kLeastForce_n);
 
-/// +1 if the plate's largest force points along `up_G`, as a person on it is pushed; −1 if the file
-/// holds the force on the plate; 0 if no force reaches `least_force_n`.
-[[nodiscard]] int force_sign(const ForcePlate& plate,
-                             const Vec3& up_G,
-                             double least_force_n = 10.0);
+/// A plate's action on the person in one sample: force, a point on its line, and the moment about
+/// the point.
+struct PlateAction {
+  Vec3 force_n, point_m, moment_nm;
+};
+
+/// Empty where the plate does not bear the person or a channel is no number. A floor bears where
+/// the force along the normal reaches the threshold; it acts at the center of pressure. A wall or a
+/// handle bears where the force as a whole does; where it does not press inside the corners, it
+/// acts at the middle of the surface.
+[[nodiscard]] std::optional<PlateAction> action_on_person(const ForcePlate& plate,
+                                                          Eigen::Index sample,
+                                                          double least_force_n);
 
 }  // namespace myoid::recording

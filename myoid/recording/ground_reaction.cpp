@@ -71,47 +71,35 @@ TimeSeries ground_reaction(const std::vector<ForcePlate>& plates,
     for (int a = 0; a < 3; ++a)
       channels.push_back(
           {fmt::format("ground_torque_{}_{}", plate.number, axes[a]), Unit::newton_meter});
-    const Vec3 up_G = R.transpose() * Vec3::UnitY();
-    const int sign = force_sign(plate, up_G, options.least_force_n);
-    if (sign < 0)
-      repairs.push_back(
-          {0, fmt::format("force plate {} pulls down: the file holds the force on the "
-                          "plate; turned round to act on the person",
-                          plate.number)});
-    if (sign == 0)
-      repairs.push_back({0, fmt::format("force plate {} is never loaded with {} N", plate.number,
-                                        options.least_force_n)});
     auto block = values.middleCols(static_cast<Eigen::Index>(9 * k), 9);
-    const double turn = sign < 0 ? -1.0 : 1.0;
     Eigen::Index unloaded = 0;
     Eigen::Index broken = 0;
-    Eigen::Index pulling = 0;
     for (Eigen::Index i = 0; i < samples; ++i) {
-      const Vec3 force = plate.force_n.row(i).transpose();
-      const Vec3 point = plate.pressure_center_m.row(i).transpose();
-      if (!force.allFinite()) ++broken;
-      const double push = turn * force.dot(up_G);
-      const bool loaded = point.allFinite() && push >= options.least_force_n;
-      if (push <= -options.least_force_n) ++pulling;
-      if (!loaded) ++unloaded;
-      block.block<1, 3>(i, 0) = loaded ? (turn * (R * force)).transpose().eval()
-                                       : Eigen::RowVector3d(Eigen::RowVector3d::Zero());
-      block.block<1, 3>(i, 3) =
-          loaded ? (R * point).transpose().eval()
-                 : Eigen::RowVector3d(Eigen::RowVector3d::Constant(std::nan("")));
-      block.block<1, 3>(i, 6) =
-          loaded ? (turn * (R * Vec3(plate.free_moment_nm.row(i).transpose()))).transpose().eval()
-                 : Eigen::RowVector3d(Eigen::RowVector3d::Zero());
+      if (!plate.force_n.row(i).allFinite()) ++broken;
+      block.row(i).setZero();
+      const auto action = action_on_person(plate, i, options.least_force_n);
+      if (!action) {
+        ++unloaded;
+        block.block<1, 3>(i, 3).setConstant(std::nan(""));
+        continue;
+      }
+      block.block<1, 3>(i, 0) = (R * action->force_n).transpose();
+      block.block<1, 3>(i, 3) = (R * action->point_m).transpose();
+      block.block<1, 3>(i, 6) = (R * action->moment_nm).transpose();
     }
     bridge(block.middleCols(3, 3), R * plate.p_GP_m);
     if (broken > 0)
       repairs.push_back({0, fmt::format("force plate {}: {} samples are no numbers; taken as 0",
                                         plate.number, broken)});
-    if (sign != 0 && unloaded > 0)
+    if (unloaded == samples) {
+      repairs.push_back({0, fmt::format("force plate {} is never loaded with {} N", plate.number,
+                                        options.least_force_n)});
+    } else if (unloaded > 0) {
       repairs.push_back(
           {0, fmt::format("force plate {}: {} of {} samples are below {} N and set to "
                           "0",
                           plate.number, unloaded, samples, options.least_force_n)});
+    }
   }
   return {plates[0].time_s, std::move(channels), std::move(values)};
 }

@@ -11,18 +11,18 @@
 namespace myoid::recording {
 
 struct GroundReactionOptions {
-  Mat3 R_YG = Mat3::Identity();  ///< From the laboratory to the model's ground, whose y points up.
-  double least_force_n = 10.0;   ///< Below it force and torque are 0.
+  Mat3 R_YG = Mat3::Identity();          ///< From the laboratory to the model's ground,
+                                         ///< whose y points up.
+  double least_force_n = kLeastForce_n;  ///< Below it force and torque are 0.
 };
 
 /// Force plates as OpenSim's external loads want them, on the analog clock: for plate k the columns
 ///
 ///   ground_force_k_vx vy vz [N]   ground_force_k_px py pz [m]   ground_torque_k_x y z [N m]
 ///
-/// What acts on the person, hence upward: a plate that was recorded the other way is turned round,
-/// with a note. Where the upward force is below the threshold all is 0, and the point goes straight
-/// from the last one before to the first one after, so that no value is missing. Throws
-/// InvalidInput without plates.
+/// The plates' action on the person, whose sides `stand_plates` has found. Where a plate does not
+/// bear the person all is 0, and the point goes straight from the last one before to the first one
+/// after, so that no value is missing. Throws InvalidInput without plates.
 [[nodiscard]] TimeSeries ground_reaction(const std::vector<ForcePlate>& plates,
                                          const GroundReactionOptions& options,
                                          std::vector<Repair>& repairs);

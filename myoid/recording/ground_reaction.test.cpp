@@ -42,16 +42,24 @@ TEST(GroundReaction, IsTurnedToYUpWithoutGaps) {
   EXPECT_LT((s.values() - expected).cwiseAbs().maxCoeff(), 1e-15);
 }
 
-TEST(GroundReaction, AForceOnThePlateIsTurnedRoundWithANote) {
-  ForcePlate other = plate();
-  other.force_n = -other.force_n;
-  other.free_moment_nm = -other.free_moment_nm;
+TEST(GroundReaction, WithoutPlatesIsRefused) {
   std::vector<Repair> repairs;
-  const GroundReactionOptions options{.R_YG = rotation_to_y_up('z')};
-  const TimeSeries s = ground_reaction({other}, options, repairs);
-  EXPECT_EQ(s.values(), ground_reaction({plate()}, options, repairs).values());
-  EXPECT_NE(repairs[0].message.find("turned round"), std::string::npos);
-  EXPECT_THROW(static_cast<void>(ground_reaction({}, options, repairs)), InvalidInput);
+  EXPECT_THROW(static_cast<void>(ground_reaction({}, {}, repairs)), InvalidInput);
+}
+
+TEST(GroundReaction, AHandleThatIsPulledAlongItsSurfaceActsAtItsMiddle) {
+  ForcePlate handle = plate();
+  handle.side.is_floor = false;
+  handle.corners_m << 0.25, 0.15, 0.15, 0.25,  //
+      0.35, 0.35, 0.25, 0.25,                  //
+      0.0, 0.0, 0.0, 0.0;
+  handle.force_n.row(1) << 200.0, 0.0, -3.0;
+  handle.moment_nm.row(1) << 1.0, 2.0, 3.0;
+  std::vector<Repair> repairs;
+  const TimeSeries s = ground_reaction({handle}, {}, repairs);
+  Eigen::RowVectorXd expected(9);
+  expected << 200, 0, -3, 0.2, 0.3, 0, 1, 2, 3;
+  EXPECT_EQ(s.values().row(1), expected);
 }
 
 TEST(GroundReaction, TheLoadsFileNamesTheColumns) {

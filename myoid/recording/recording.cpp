@@ -44,13 +44,13 @@ MarkerFile read_markers(const std::filesystem::path& path) {
   const std::string extension = extension_of(path);
   if (extension == ".trc") {
     TrcFile file = read_trc(path);
-    return {std::move(file.markers), std::move(file.unit), std::move(file.repairs)};
+    return {std::move(file.markers), std::move(file.unit), std::move(file.repairs), {}};
   }
   if (is_bids_motion(path)) {
     BidsMotion motion = read_bids_motion(path);
     if (motion.markers.frame_count() == 0)
       throw ReadError(path, 0, "there are no positions (POS) among the channels, so no markers");
-    return {std::move(motion.markers), "m", std::move(motion.repairs)};
+    return {std::move(motion.markers), "m", std::move(motion.repairs), {}};
   }
   if (is_table(extension)) return parse_marker_table(read_text_file(path), path);
   if (extension != ".c3d") {
@@ -65,6 +65,7 @@ MarkerFile read_markers(const std::filesystem::path& path) {
   if (file.markers.frame_count() == 0) throw ReadError(path, 0, "the C3D file holds no markers");
   result.markers = std::move(file.markers);
   result.repairs = std::move(file.repairs);
+  result.screen_up_L = file.screen_up_L;
   return result;
 }
 

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "myoid/core/geometry.h"
 #include "myoid/recording/analog_channels.h"
 #include "myoid/recording/c3d_file.h"
 #include "myoid/recording/force_plate.h"
@@ -17,6 +19,7 @@ struct MarkerFile {
   MarkerSeries markers;
   std::string unit;  ///< As written.
   std::vector<Repair> repairs;
+  std::optional<Vec3> screen_up_L;  ///< As in `Recording`.
 };
 
 /// Markers from .trc, .c3d or a Motion-BIDS `_motion.tsv`, by the ending of the name. Throws
@@ -30,6 +33,7 @@ struct Recording {
   AnalogChannels analog;  ///< EMG and all others; one without a known unit is dimensionless.
   std::vector<AnalogChannels> other_clocks;  ///< Channels that have a clock of their own.
   std::vector<PlateSetup> plates;
+  std::optional<Vec3> screen_up_L;  ///< Which way is up by POINT:Y_SCREEN of a .c3d file.
   std::vector<C3dEvent> events;
   std::vector<Repair> repairs;
 

@@ -17,7 +17,7 @@ double rate_of(const ForcePlate& plate) {
 }
 
 void check_offset(const ForcePlate& plate,
-                  const Eigen::VectorXd& vertical_n,
+                  const Eigen::VectorXd& normal_n,
                   const std::string& channel,
                   const QualityLimits& limits,
                   std::vector<Fault>& faults) {
@@ -29,9 +29,9 @@ void check_offset(const ForcePlate& plate,
   double least_n = kPerson_n;
   double offset_n = 0.0;
   Eigen::Index at = -1;
-  for (Eigen::Index i = 0; i + width <= vertical_n.size();
+  for (Eigen::Index i = 0; i + width <= normal_n.size();
        i += std::max<Eigen::Index>(1, width / 4)) {
-    const auto part = vertical_n.segment(i, width);
+    const auto part = normal_n.segment(i, width);
     const double mean = part.mean();
     if (!(std::abs(mean) < least_n)) continue;
     if (std::sqrt((part.array() - mean).square().mean()) > kSteady_n) continue;
@@ -52,7 +52,7 @@ void check_offset(const ForcePlate& plate,
 }
 
 void check_pressure(const ForcePlate& plate,
-                    const Eigen::VectorXd& vertical_n,
+                    const Eigen::VectorXd& normal_n,
                     const std::string& channel,
                     const QualityLimits& limits,
                     std::vector<Fault>& faults) {
@@ -64,8 +64,8 @@ void check_pressure(const ForcePlate& plate,
   Eigen::Index outside = 0;
   Eigen::Index worst = -1;
   double furthest_m = 0.0;
-  for (Eigen::Index i = 0; i < vertical_n.size(); ++i) {
-    if (!(std::abs(vertical_n[i]) > limits.plate_loaded_n)) continue;
+  for (Eigen::Index i = 0; i < normal_n.size(); ++i) {
+    if (!(std::abs(normal_n[i]) > limits.plate_loaded_n)) continue;
     const Vec3 p =
         plate.R_GP.transpose() * (plate.pressure_center_m.row(i).transpose() - plate.p_GP_m);
     if (!p.allFinite()) continue;
@@ -97,30 +97,28 @@ void check_pressure(const ForcePlate& plate,
 
 }  // namespace
 
-std::vector<Fault> check_force_plate(const ForcePlate& plate,
-                                     const Vec3& up_G,
-                                     const QualityLimits& limits) {
+std::vector<Fault> check_force_plate(const ForcePlate& plate, const QualityLimits& limits) {
   std::vector<Fault> faults;
   if (plate.time_s.size() < 2) return faults;
   const std::string channel = fmt::format("plate {}", plate.number);
-  const Eigen::VectorXd vertical_n = plate.force_n * up_G;
-  check_offset(plate, vertical_n, channel, limits, faults);
-  if (recording::force_sign(plate, up_G, limits.plate_loaded_n) < 0) {
+  const Eigen::VectorXd normal_n = plate.force_n * plate.side.out_L;
+  check_offset(plate, normal_n, channel, limits, faults);
+  if (plate.side.turn < 0.0) {
     Eigen::Index at = 0;
-    vertical_n.minCoeff(&at);
-    faults.push_back(
-        {.kind = FaultKind::plate_sign,
-         .grave = true,
-         .channel = channel,
-         .begin_s = plate.time_s[at],
-         .end_s = plate.time_s[at],
-         .value = vertical_n[at],
-         .text = fmt::format("{} pulls the person down, with {:.0f} N at {:.6g} s", channel,
-                             -vertical_n[at], plate.time_s[at]),
-         .remedy = "the file holds the force on the plate, or its corners are in the wrong order; "
-                   "`convert` turns it round"});
+    normal_n.maxCoeff(&at);
+    faults.push_back({.kind = FaultKind::plate_sign,
+                      .grave = false,
+                      .channel = channel,
+                      .begin_s = plate.time_s[at],
+                      .end_s = plate.time_s[at],
+                      .value = -normal_n[at],
+                      .text = fmt::format(
+                          "{} pulls the person down, with {:.0f} N at {:.6g} s: the file holds the "
+                          "force on the plate",
+                          channel, normal_n[at], plate.time_s[at]),
+                      .remedy = "`convert` and `run` turn it round"});
   }
-  check_pressure(plate, vertical_n, channel, limits, faults);
+  check_pressure(plate, normal_n, channel, limits, faults);
   return faults;
 }
 

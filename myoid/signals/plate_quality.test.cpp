@@ -30,13 +30,13 @@ recording::ForcePlate plate() {
 }
 
 TEST(ForcePlateQuality, OfACleanPlateNothingIsSaid) {
-  EXPECT_TRUE(check_force_plate(plate(), Vec3::UnitZ()).empty());
+  EXPECT_TRUE(check_force_plate(plate()).empty());
 }
 
 TEST(ForcePlateQuality, AnOffsetWhileEmptyIsSaid) {
   recording::ForcePlate p = plate();
   p.force_n.col(2).array() -= 23.0;
-  const auto faults = check_force_plate(p, Vec3::UnitZ());
+  const auto faults = check_force_plate(p);
   ASSERT_EQ(faults.size(), 1U);
   EXPECT_EQ(faults[0].kind, FaultKind::plate_offset);
   EXPECT_NEAR(faults[0].value, -23.0, 1e-9);
@@ -45,22 +45,23 @@ TEST(ForcePlateQuality, AnOffsetWhileEmptyIsSaid) {
 TEST(ForcePlateQuality, SomebodyWhoStandsOnItAllTheTimeIsNoOffset) {
   recording::ForcePlate p = plate();
   p.force_n.col(2).setConstant(700.0);
-  EXPECT_TRUE(check_force_plate(p, Vec3::UnitZ()).empty());
+  EXPECT_TRUE(check_force_plate(p).empty());
 }
 
-TEST(ForcePlateQuality, TheForceOnThePlateIsTheWrongSign) {
+TEST(ForcePlateQuality, AFileThatHoldsTheForceOnThePlateIsARemark) {
   recording::ForcePlate p = plate();
-  p.force_n *= -1.0;
-  const auto faults = check_force_plate(p, Vec3::UnitZ());
+  p.side.turn = -1.0;
+  const auto faults = check_force_plate(p);
   ASSERT_EQ(faults.size(), 1U);
   EXPECT_EQ(faults[0].kind, FaultKind::plate_sign);
+  EXPECT_FALSE(faults[0].grave);
   EXPECT_NEAR(faults[0].begin_s, 1.5, 0.01);
 }
 
 TEST(ForcePlateQuality, PressureBesideThePlateIsSaidWithItsDistance) {
   recording::ForcePlate p = plate();
   p.pressure_center_m.col(1).array() += 0.25;  // up to 0.15 m beyond the edge at 0.4 m
-  const auto faults = check_force_plate(p, Vec3::UnitZ());
+  const auto faults = check_force_plate(p);
   ASSERT_EQ(faults.size(), 1U);
   EXPECT_EQ(faults[0].kind, FaultKind::plate_pressure_outside);
   EXPECT_NE(faults[0].text.find("mm"), std::string::npos);

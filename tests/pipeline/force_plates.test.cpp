@@ -21,6 +21,7 @@ using myoid::test::myoid;
 using myoid::test::PlateLoad;
 using myoid::test::TemporaryFolder;
 using myoid::test::write_text;
+using testing::AllOf;
 using testing::HasSubstr;
 
 /// Laboratory z up to model y up.
@@ -73,16 +74,17 @@ double moment_nm(double t) {
   return kMass_kg * kGravity * std::sin(kAngle_rad) - moment.z();
 }
 
-class ForcePlates : public testing::TestWithParam<int> {};
+class PlatesOfType : public testing::TestWithParam<int> {};
 
-TEST_P(ForcePlates, ConvertedTheyLoadTheJointAsTheClosedFormSays) {
+TEST_P(PlatesOfType, ConvertedTheyLoadTheJointAsTheClosedFormSays) {
   const TemporaryFolder folder;
   const auto at = [&](const char* name) { return (folder / name).string(); };
   ::myoid::recording::write_c3d(at("f.c3d"), ::myoid::test::plate_recording(GetParam()));
   write_text(at("rod.osim"), kRod);
   write_text(at("q.mot"), still_motion());
-  const Finished made = myoid({"convert", at("f.c3d"), at("out"), "--up", "z", "--body", "rod"});
+  const Finished made = myoid({"convert", at("f.c3d"), at("out"), "--body", "rod"});
   ASSERT_EQ(made.exit_code, 0) << made.err;
+  EXPECT_THAT(made.err, HasSubstr("up is z"));
   const TimeSeries load = ::myoid::recording::read_storage(at("out/f_grf.mot")).data;
   ASSERT_EQ(load.sample_count(), 1010);
   for (Eigen::Index i = 0; i < load.sample_count(); i += 101) {
@@ -106,7 +108,7 @@ TEST_P(ForcePlates, ConvertedTheyLoadTheJointAsTheClosedFormSays) {
     EXPECT_NEAR(torque.column("q_moment")[i], moment_nm(torque.time_s()[i]), 2e-3);
 }
 
-TEST_P(ForcePlates, InAStudyTheyGiveTheSameMoment) {
+TEST_P(PlatesOfType, InAStudyTheyGiveTheSameMoment) {
   const TemporaryFolder folder;
   const auto at = [&](const char* name) { return (folder / name).string(); };
   ::myoid::recording::write_c3d(at("f.c3d"), ::myoid::test::plate_recording(GetParam()));
@@ -123,7 +125,7 @@ TEST_P(ForcePlates, InAStudyTheyGiveTheSameMoment) {
   write_text(
       at("study.toml"),
       "[subject]\nname = \"P\"\n[model]\nfile = \"rod.osim\"\ncoordinate = \"q\"\n"
-      "[motion]\ncutoff_hz = 6\n[markers]\nup = \"z\"\n"
+      "[motion]\ncutoff_hz = 6\n"
       "[[muscle]]\nname = \"FLX\"\nemg = \"FLX\"\n[[muscle]]\nname = \"EXT\"\nemg = \"EXT\"\n"
       "[[trial]]\nname = \"hold\"\nmotion = \"q.mot\"\nemg = \"emg.csv\"\n"
       "force_plates = { file = \"f.c3d\", bodies = [\"rod\"], lowpass_hz = 200 }\n");
@@ -139,6 +141,25 @@ TEST_P(ForcePlates, InAStudyTheyGiveTheSameMoment) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(OfEveryType, ForcePlates, testing::Values(1, 2, 3, 4));
+TEST(ForcePlates, ConvertCheckAndRunRefuseTheSameContradictionAndTakeWhatIsTold) {
+  const TemporaryFolder folder;
+  const auto at = [&](const char* name) { return (folder / name).string(); };
+  ::myoid::test::PlateCase contradicts;
+  contradicts.screen = "+Y";
+  ::myoid::recording::write_c3d(at("f.c3d"), ::myoid::test::plate_recording(contradicts));
+  const auto why = AllOf(HasSubstr("f.c3d"), HasSubstr("POINT:Y_SCREEN says that y points up"),
+                         HasSubstr("the surface of plate 1 faces z"));
+  const Finished converted = myoid({"convert", at("f.c3d"), at("f.mot")});
+  EXPECT_EQ(converted.exit_code, 3);
+  EXPECT_THAT(converted.err, why);
+  const Finished checked = myoid({"check", at("f.c3d")});
+  EXPECT_EQ(checked.exit_code, 3);
+  EXPECT_THAT(checked.out, why);
+  EXPECT_EQ(myoid({"convert", at("f.c3d"), at("f.mot"), "--up", "z"}).exit_code, 0);
+  const Finished told = myoid({"check", at("f.c3d"), "--up", "z"});
+  EXPECT_EQ(told.exit_code, 0) << told.out;
+}
+
+INSTANTIATE_TEST_SUITE_P(OfEveryType, PlatesOfType, testing::Values(1, 2, 3, 4));
 
 }  // namespace

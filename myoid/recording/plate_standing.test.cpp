@@ -1,0 +1,279 @@
+#include "myoid/recording/plate_standing.h"
+
+#include <cmath>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "myoid/core/error.h"
+#include "myoid/core/units.h"
+#include "myoid/recording/c3d_writer.h"
+#include "myoid/recording/ground_reaction.h"
+#include "myoid/recording/laboratory_up.h"
+
+#include "tests/support/data_folder.h"
+#include "tests/support/message_of.h"
+#include "tests/support/plate_recording.h"
+#include "tests/support/temporary_folder.h"
+
+namespace myoid::recording {
+namespace {
+
+using test::PlateCase;
+using test::PlateLoad;
+using testing::AllOf;
+using testing::HasSubstr;
+
+/// As it comes back from the disk.
+Recording from_disk(const C3dFile& file) {
+  const test::TemporaryFolder folder;
+  write_c3d(folder / "plate.c3d", file);
+  return read_recording(folder / "plate.c3d");
+}
+Recording from_disk(const PlateCase& plate) { return from_disk(test::plate_recording(plate)); }
+
+std::string notes_of(const Recording& recording) {
+  std::string all;
+  for (const Repair& repair : recording.repairs) all += repair.message + "\n";
+  return all;
+}
+
+/// The columns of the ground reaction against the load, turned from z up to y up by R_YZ.
+void expect_the_load(const TimeSeries& grf, const Mat3& R_YZ) {
+  for (Eigen::Index i = 0; i < grf.sample_count(); i += 37) {
+    const double t = grf.time_s()[i];
+    const Vec3 force = grf.values().block<1, 3>(i, 0).transpose();
+    const Vec3 point = grf.values().block<1, 3>(i, 3).transpose();
+    const Vec3 torque = grf.values().block<1, 3>(i, 6).transpose();
+    ASSERT_GT(force.y(), 500.0);
+    // Channels are reals of 24 bits: 4e-5 of 700 N; 0.015 N mm of 300 000 over 540 N.
+    ASSERT_LT((force - R_YZ * PlateLoad::force_n(t)).norm(), 1e-4) << t;
+    ASSERT_LT((point - R_YZ * PlateLoad::point_m(t)).norm(), 1e-6) << t;
+    ASSERT_LT((torque - R_YZ * Vec3(0, 0, PlateLoad::free_nm(t))).norm(), 3e-4) << t;
+  }
+}
+
+std::string words(const PlateCase& c, char up) {
+  return "type " + std::to_string(c.type) + ", up " + up + ", first corner " +
+         std::to_string(c.first_corner) + (c.reversed ? ", reversed" : "") +
+         (c.on_plate ? ", on the plate" : "") + ", screen '" + c.screen + "'";
+}
+
+TEST(StandPlates, GiveTheForceOnThePersonInEveryLaboratoryTypeAndOrderOfCorners) {
+  int cases = 0;
+  for (const char up : {'x', 'y', 'z'}) {
+    for (int variant = 0; variant < 4 * 4 * 2 * 2 * 2; ++variant) {
+      PlateCase c;
+      c.type = 1 + variant % 4;
+      c.first_corner = variant / 4 % 4;
+      c.reversed = variant / 16 % 2 == 1;
+      c.on_plate = variant / 32 % 2 == 1;
+      c.screen = variant / 64 % 2 == 1 ? std::string("+") + static_cast<char>(up - 32) : "";
+      c.R_LZ = test::laboratory_with_up(up);
+      Recording recording = from_disk(c);
+      const LaboratoryUp found = stand_plates(recording, std::nullopt);
+      ASSERT_TRUE(found.up_L) << words(c, up);
+      ASSERT_EQ(axis_name(*found.up_L), std::string(1, up)) << words(c, up);
+      const Mat3 R_YL = rotation_to_y_up(*found.up_L);
+      std::vector<Repair> notes;
+      const TimeSeries grf = ground_reaction(recording.force_plates(), {.R_YG = R_YL}, notes);
+      expect_the_load(grf, R_YL * c.R_LZ);
+      if (testing::Test::HasFatalFailure()) FAIL() << words(c, up);
+      ++cases;
+    }
+  }
+  EXPECT_EQ(cases, 384);
+}
+
+TEST(StandPlates, AnUpThatPointsAgainstAnAxisComesFromTheScreenOrTheMarkers) {
+  PlateCase c;
+  c.R_LZ.diagonal() << 1, -1, -1;  // z of the file points down
+  c.marker_Z_m = {0.4, 1.2, 1.0};
+  c.markers = 8;
+  for (const char* screen : {"-Z", ""}) {
+    c.screen = screen;
+    Recording recording = from_disk(c);
+    const LaboratoryUp found = stand_plates(recording, std::nullopt);
+    ASSERT_EQ(axis_name(*found.up_L), "-z") << screen;
+    std::vector<Repair> notes;
+    const Mat3 R_YL = rotation_to_y_up(*found.up_L);
+    expect_the_load(ground_reaction(recording.force_plates(), {.R_YG = R_YL}, notes),
+                    R_YL * c.R_LZ);
+  }
+}
+
+TEST(StandPlates, RefusesAFileThatContradictsItselfAndNamesBoth) {
+  const auto refusal = [](const PlateCase& c) {
+    Recording recording = from_disk(c);
+    return test::message_of([&] { stand_plates(recording, std::nullopt); });
+  };
+  PlateCase other_screen;
+  other_screen.screen = "+Y";
+  EXPECT_THAT(refusal(other_screen),
+              AllOf(HasSubstr("POINT:Y_SCREEN says that y points up"),
+                    HasSubstr("by FORCE_PLATFORM:CORNERS the surface of plate 1 faces z"),
+                    HasSubstr("--up")));
+  PlateCase below;
+  below.screen = "-Z";
+  below.marker_Z_m = {0.4, 1.2, 1.0};
+  below.markers = 8;
+  EXPECT_THAT(refusal(below), AllOf(HasSubstr("POINT:Y_SCREEN says that -z points up"),
+                                    HasSubstr("the markers are on the other side of plate 1")));
+  for (const char* screen : {"+Z", ""}) {
+    PlateCase exchanged;
+    exchanged.screen = screen;
+    exchanged.channel_order = {3, 2, 1};
+    EXPECT_THAT(refusal(exchanged),
+                AllOf(HasSubstr("the surface of plate 1 faces z"),
+                      HasSubstr("its mean force runs along"), HasSubstr("degrees from the normal")))
+        << screen;
+  }
+}
+
+TEST(StandPlates, WhatIsToldOverridesTheFile) {
+  PlateCase c;
+  c.screen = "+Y";
+  Recording recording = from_disk(c);
+  const LaboratoryUp found = stand_plates(recording, Vec3::UnitZ().eval());
+  EXPECT_EQ(axis_name(*found.up_L), "z");
+  std::vector<Repair> notes;
+  const Mat3 R_YL = rotation_to_y_up(*found.up_L);
+  expect_the_load(ground_reaction(recording.force_plates(), {.R_YG = R_YL}, notes), R_YL);
+  c.screen = "+Z";
+  Recording another = from_disk(c);
+  stand_plates(another, Vec3::UnitY().eval());
+  EXPECT_THAT(notes_of(another), HasSubstr("up is taken as y, as told; by the file it is z"));
+}
+
+TEST(StandPlates, AFloorInclinedBy25DegreesIsStillAFloor) {
+  PlateCase c;
+  c.R_LZ = Eigen::AngleAxisd(25.0 * kDegree, Vec3(1.0, 0.3, 0.0).normalized()).toRotationMatrix();
+  Recording recording = from_disk(c);
+  const LaboratoryUp found = stand_plates(recording, std::nullopt);
+  EXPECT_EQ(axis_name(*found.up_L), "z");
+  const ForcePlate plate = recording.force_plate(recording.plates[0]);
+  EXPECT_TRUE(plate.side.is_floor);
+  for (Eigen::Index i = 0; i < 1010; i += 101)
+    EXPECT_LT((plate.force_n.row(i).transpose() -
+               c.R_LZ * PlateLoad::force_n(0.001 * static_cast<double>(i)))
+                  .norm(),
+              1e-4);
+}
+
+TEST(StandPlates, APlateThatIsNeverLoadedSaysUpByItsCornersAndGivesNothing) {
+  PlateCase c;
+  c.R_LZ = test::laboratory_with_up('y');
+  c.loaded = false;
+  Recording recording = from_disk(c);
+  EXPECT_EQ(axis_name(*stand_plates(recording, std::nullopt).up_L), "y");
+  std::vector<Repair> notes;
+  const TimeSeries grf = ground_reaction(recording.force_plates(), {}, notes);
+  EXPECT_EQ(grf.values().leftCols(3).cwiseAbs().maxCoeff(), 0.0);
+  EXPECT_THAT(notes[0].message, HasSubstr("never loaded"));
+}
+
+/// A floor under `PlateLoad` and beside it a second plate, of type 2, with its own frame and force
+/// on the person in the laboratory of `PlateLoad`.
+Recording floor_and(const Mat3& R_LP, const Vec3& middle_m, const Vec3& force_n, bool on_plate) {
+  PlateCase c;
+  c.on_plate = on_plate;
+  C3dFile file = test::plate_recording(c);
+  const Eigen::Index n = file.analog.rows();
+  file.analog.conservativeResize(n, 12);
+  const Vec3 f = (on_plate ? -1.0 : 1.0) * (R_LP.transpose() * force_n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    file.analog.row(i).tail<6>().setZero();
+    if (i >= 300 && i < 700) file.analog.block<1, 3>(i, 6) = f.cast<float>().transpose();
+  }
+  for (const char* name : {"Fx2", "Fy2", "Fz2"}) file.channels.push_back({name, "N"});
+  for (const char* name : {"Mx2", "My2", "Mz2"}) file.channels.push_back({name, "Nmm"});
+  std::vector<double> corners = file.groups[0].parameters[2].numbers;
+  for (const auto& [x, y] : {std::pair{1, 1}, {-1, 1}, {-1, -1}, {1, -1}}) {
+    const Vec3 corner = middle_m + R_LP * Vec3(0.3 * x, 0.2 * y, 0.0);
+    for (const double v : corner) corners.push_back(1000.0 * v);
+  }
+  std::vector<double> origin = file.groups[0].parameters[3].numbers;
+  origin.insert(origin.end(), {0, 0, 0});
+  file.groups[0].parameters = {test::c3d_numbers("USED", C3dType::integer, {}, {2}),
+                               test::c3d_numbers("TYPE", C3dType::integer, {2}, {2, 2}),
+                               test::c3d_numbers("CORNERS", C3dType::real, {3, 4, 2}, corners),
+                               test::c3d_numbers("ORIGIN", C3dType::real, {3, 2}, origin),
+                               test::c3d_numbers("CHANNEL", C3dType::integer, {6, 2},
+                                                 {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12})};
+  return from_disk(file);
+}
+
+TEST(StandPlates, AWallHasTheSignOfTheFloorWhetherItPushesOrPulls) {
+  // z of the wall points along x, away from a person who is on its side of -x.
+  const Mat3 R_LP = (Mat3() << 0, 0, 1, 0, 1, 0, -1, 0, 0).finished();
+  for (const bool on_plate : {false, true}) {
+    for (const Vec3& force : {Vec3(-120, 10, 30), Vec3(120, 10, 30), Vec3(4, 90, 0)}) {
+      Recording recording = floor_and(R_LP, {1.0, 1.2, 1.0}, force, on_plate);
+      EXPECT_EQ(axis_name(*stand_plates(recording, std::nullopt).up_L), "z");
+      std::vector<Repair> notes;
+      const TimeSeries grf = ground_reaction(recording.force_plates(), {}, notes);
+      EXPECT_LT((grf.values().block<1, 3>(500, 9).transpose() - force).norm(), 1e-4);
+      // Without a moment about the middle the force acts there, wherever it points.
+      EXPECT_LT((grf.values().block<1, 3>(500, 12).transpose() - Vec3(1.0, 1.2, 1.0)).norm(), 1e-6);
+      EXPECT_EQ(grf.values().block(100, 9, 1, 3).norm(), 0.0);
+      EXPECT_THAT(notes_of(recording),
+                  HasSubstr("force plate 2 is a wall or a handle, 90 degrees"));
+    }
+  }
+}
+
+TEST(StandPlates, TwoLoadedPlatesThatFaceDifferentAxesAreRefusedWithoutAScreen) {
+  const Mat3 R_LP = (Mat3() << 0, 0, 1, 0, 1, 0, -1, 0, 0).finished();
+  Recording recording = floor_and(R_LP, {1.0, 1.2, 1.0}, {-900, 10, 30}, false);
+  EXPECT_THAT(test::message_of([&] { stand_plates(recording, std::nullopt); }),
+              AllOf(HasSubstr("plate 1 faces z"), HasSubstr("plate 2 faces x")));
+}
+
+TEST(ScreenUp, ReadsTheWaysItIsWritten) {
+  const auto up = [](const char* name, const char* text, const char* right = "") {
+    C3dFile file;
+    file.groups = {{.id = 1, .name = "POINT"}};
+    file.groups[0].parameters = {test::c3d_text(name, text), test::c3d_text("X_SCREEN", right)};
+    const auto found = screen_up(file);
+    return found ? axis_name(*found) : std::string("none");
+  };
+  EXPECT_EQ(up("Y_SCREEN", "+Z"), "z");
+  EXPECT_EQ(up("Y_SCREEN", "Y   "), "y");
+  EXPECT_EQ(up("Y_SCREEN", "z-"), "-z");
+  EXPECT_EQ(up("Y_SCREEN", "-X", "+Y"), "-x");
+  EXPECT_EQ(up("Y_SCREEN", "+Z", "-Z"), "none");
+  EXPECT_EQ(up("Y_SCREEN", "up"), "none");
+  EXPECT_EQ(up("SCREEN", "+X+Z"), "z");
+  EXPECT_EQ(up("SCREEN", "+X"), "none");
+}
+
+TEST(RotationToYUp, BringsEitherDirectionOfEachAxisToY) {
+  for (const char* name : {"x", "y", "z", "-x", "-y", "-z"}) {
+    const Mat3 R = rotation_to_y_up(*axis_vector(name));
+    EXPECT_EQ(R * *axis_vector(name), Vec3::UnitY()) << name;
+    EXPECT_EQ(R * R.transpose(), Mat3::Identity()) << name;
+    EXPECT_EQ(R.determinant(), 1.0) << name;
+  }
+}
+
+TEST(StandPlates, OfPublicRecordingsPushThePersonUpWithTheWeightOfAPerson) {
+  const auto folder = test::data_folder() / "c3d";
+  MYOID_REQUIRE_DATA(folder);
+  for (const char* name :
+       {"sample01/Eb015pi.c3d", "sample01/Eb015vr.c3d", "sample09/PlugInC3D.c3d",
+        "others/FunctionalWalk.c3d", "others/Gait.c3d", "others/parameterOverflow.c3d"}) {
+    Recording recording = read_recording(folder / name);
+    const LaboratoryUp up = stand_plates(recording, std::nullopt);
+    ASSERT_TRUE(up.up_L) << name;
+    EXPECT_EQ(axis_name(*up.up_L), "z") << name;
+    for (const ForcePlate& plate : recording.force_plates()) {
+      const Eigen::VectorXd vertical = plate.force_n.col(2);
+      EXPECT_TRUE(plate.side.is_floor) << name;
+      EXPECT_GT(vertical.maxCoeff(), -3.0 * vertical.minCoeff()) << name << plate.number;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace myoid::recording
