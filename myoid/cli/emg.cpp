@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -122,7 +121,7 @@ struct EmgCommand {
   std::vector<std::string> in, mvc, channels;
   std::string out, unit, envelope;
   bool no_notch = false;
-  std::optional<bool> whitening;
+  bool whitening = false, no_whitening = false;
   signals::EnvelopeOptions chain;
   double window_s = 0.5;
 };
@@ -254,7 +253,7 @@ void run_emg(EmgCommand o, const Context& context) {
   const std::vector<std::string> envelopes = outputs(o, o.envelope, "--envelope");
   prepare(o, activations, envelopes, context);
   o.chain.notch = !o.no_notch;
-  o.chain.whitening = o.whitening;
+  if (o.whitening || o.no_whitening) o.chain.whitening = o.whitening;
   const EmgFiles files = process(o, context);
   std::vector<signals::TrialEnvelope> trials;
   for (std::size_t i = 0; i < files.paths.size(); ++i) {
@@ -319,9 +318,11 @@ void add_emg(CLI::App& app, Context& context) {
                   "Low-pass of the rectified EMG, -3 dB of both passes [Hz] (default 6)")
       ->check(above_zero());
   command.add_flag("--no-notch", o->no_notch, "Leave mains hum in, where it is found");
-  command.add_flag("--whitening,!--no-whitening", o->whitening,
-                   "Even out the spectrum of all channels before they are rectified, or of none "
-                   "(default: all, if the files allow it for every channel)");
+  CLI::Option* on = command.add_flag(
+      "--whitening", o->whitening,
+      "Even out the spectrum of all channels before they are rectified (default: if the files "
+      "allow it for every channel)");
+  command.add_flag("--no-whitening", o->no_whitening, "Even it out in no channel")->excludes(on);
   command.add_flag("--as-published", o->chain.as_published,
                    "As the source paper: no high-pass, low-pass designed for one pass");
   command
