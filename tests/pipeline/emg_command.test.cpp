@@ -126,11 +126,11 @@ TEST(EmgCommand, WhatCannotBeWrittenIsRefusedBeforehand) {
   write_text(folder / "c.csv", raw_emg(2, 4000, 16000, 1.0));
   const Finished same =
       myoid({"emg", folder / "a.csv", folder / "b" / "a.csv", "--out", folder / "out"});
-  EXPECT_EQ(same.exit_code, 2);
+  EXPECT_EQ(same.exit_code, 3);
   EXPECT_THAT(same.err, HasSubstr("two inputs would be written to"));
   const Finished file =
       myoid({"emg", folder / "a.csv", folder / "c.csv", "--out", folder / "x.sto"});
-  EXPECT_EQ(file.exit_code, 2);
+  EXPECT_EQ(file.exit_code, 3);
   EXPECT_THAT(file.err, HasSubstr("this is a folder"));
   EXPECT_FALSE(std::filesystem::exists(folder / "out"));
 }
