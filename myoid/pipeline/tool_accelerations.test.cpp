@@ -179,5 +179,21 @@ TEST_F(ToolAccelerations, CountTheControlsOfActuators) {
   }
 }
 
+TEST_F(ToolAccelerations, AreLeftOutWithWordsWhereNothingHasMass) {
+  write("pendulum.osim",
+        "<OpenSimDocument Version=\"40000\"><Model name=\"m\"><BodySet><objects><Body name=\"b\">"
+        "<mass>0</mass><mass_center>0 0 0</mass_center><inertia>0 0 0 0 0 0</inertia></Body>"
+        "</objects></BodySet><JointSet><objects><PinJoint name=\"hinge\"><socket_parent_frame>"
+        "/ground</socket_parent_frame><socket_child_frame>/bodyset/b</socket_child_frame>"
+        "<coordinates><Coordinate name=\"swing\"/></coordinates></PinJoint></objects></JointSet>"
+        "</Model></OpenSimDocument>");
+  const ToolResult result = analyze(kKinematics);
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "a_k_q.sto"));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "a_k_dudt.sto"));
+  EXPECT_THAT(result.notes, ::testing::Contains(::testing::AllOf(
+                                ::testing::HasSubstr("'swing'"),
+                                ::testing::HasSubstr("accelerations are not written"))));
+}
+
 }  // namespace
 }  // namespace myoid::pipeline
