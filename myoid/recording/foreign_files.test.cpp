@@ -16,6 +16,7 @@
 #include "myoid/recording/recording.h"
 #include "myoid/recording/trc_reader.h"
 
+#include "tests/support/data_folder.h"
 #include "tests/support/repair_lines.h"
 #include "tests/support/temporary_folder.h"
 
@@ -226,6 +227,51 @@ TEST(ForeignEmg, DelsysColumnsWithTheirOwnClocksAreOne) {
   ASSERT_EQ(file.data.sample_count(), 3);
   EXPECT_DOUBLE_EQ(file.data.values()(2, 1), 0.006);
   EXPECT_NEAR(file.data.mean_rate_hz(), 2000.0, 1e-6);
+}
+
+/// The clock that holds a channel, and its second sample.
+void expect_channel(const Recording& file, const std::string& name, double rate_hz, double second) {
+  for (const AnalogChannels* clock : file.clocks()) {
+    if (!clock->find(name)) continue;
+    const TimeSeries series = clock->select({name});
+    EXPECT_NEAR(series.mean_rate_hz(), rate_hz, 1e-6 * rate_hz) << name;
+    EXPECT_NEAR(series.values()(1, 0), second, 1e-12) << name;
+    return;
+  }
+  ADD_FAILURE() << "no channel " << name;
+}
+
+TEST(ForeignTables, OfDelsysKeepEveryChannelOnItsOwnClock) {
+  const auto folder = test::data_folder() / "tables";
+  MYOID_REQUIRE_DATA(folder / "discover142.csv");
+  const Recording old = read_recording(folder / "discover142.csv");
+  EXPECT_EQ(old.clocks().size(), 3U);
+  expect_channel(old, "EMG 02 04284 (55240) EMG 1", 34.0 / 0.027, 0.0063275);
+  expect_channel(old, "EMG 01 04498 (54717) ACC X", 4.0 / 0.027, 0.0069406);
+  expect_channel(old, "Analog I", 120.0 / 0.027, 0.0108283);
+  const Recording recent = read_recording(folder / "discover170.csv");
+  EXPECT_EQ(recent.clocks().size(), 4U);
+  expect_channel(recent, "EMG 01 03558 (88016) EMG 1", 1259.2593, 0.0014532e-3);
+  expect_channel(recent, "Quattro 19 01639 (79082) EMG 1", 2222.2222, 0.0563194e-3);
+  const Recording works = read_recording(folder / "emgworks.csv");
+  EXPECT_EQ(works.clocks().size(), 5U);
+  expect_channel(works, "Avanti sensor 1: EMG 1", 3850 / 1.999039, 1.3067e-06);
+  expect_channel(works, "Avanti sensor 2: EMG 2", 2517 / 1.998794, 3.9417e-06);
+}
+
+TEST(ForeignTables, OfNexusAndNoraxonOpen) {
+  const auto folder = test::data_folder() / "tables";
+  MYOID_REQUIRE_DATA(folder / "nexus_devices.csv");
+  const Recording devices = read_recording(folder / "nexus_devices.csv");
+  EXPECT_EQ(devices.analog.channel_count(), 38);
+  expect_channel(devices, "EMG1", 2000.0, -2.54e-05);
+  const Recording markers = read_recording(folder / "nexus_trajectories.csv");
+  EXPECT_EQ(markers.markers.marker_count(), 51);
+  EXPECT_NEAR(markers.markers.position(1, 0).x(), 0.0441667, 1e-12);
+  const Recording noraxon = read_recording(folder / "noraxon_mr4_activity.csv");
+  expect_channel(noraxon, "FLEX.CARP.R LT", 8279.0 / 4.13867, 7.470950902e-6);
+  ASSERT_EQ(noraxon.events.size(), 1U);
+  EXPECT_EQ(noraxon.events[0].label, "Activity");
 }
 
 }  // namespace
