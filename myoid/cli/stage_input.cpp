@@ -10,6 +10,7 @@
 #include "myoid/recording/recording.h"
 #include "myoid/recording/storage_reader.h"
 #include "myoid/signals/clock_gaps.h"
+#include "myoid/signals/motion_jumps.h"
 
 namespace myoid::cli {
 
@@ -128,6 +129,8 @@ kinematics::JointMotion load_motion(const model::BodyModel& model,
   if (const std::string doubt = pipeline::check_angle_unit(path, file.in_degrees, q);
       !doubt.empty())
     context.warn(doubt);
+  for (const signals::MotionJump& jump : signals::find_motion_jumps(q))
+    context.warn(fmt::format("{}: {}", path.string(), jump.sentence()));
   if (const signals::ClockGaps gaps = signals::find_clock_gaps(q.time_s()); gaps.count > 0)
     context.warn(
         fmt::format("{}: {}; a spline bridges what was not recorded, and its derivatives "

@@ -17,6 +17,7 @@
 #include "myoid/recording/recording.h"
 #include "myoid/recording/series_file.h"
 #include "myoid/recording/storage_reader.h"
+#include "myoid/signals/motion_jumps.h"
 #include "myoid/signals/resample.h"
 
 namespace myoid::pipeline {
@@ -148,6 +149,7 @@ class TrialReader {
     if (sources_.lengths.size() > 1) trial.name = fmt::format("{} ({})", number + 1, trial.name);
     trial.time_s = clock(files, {forces, motion});
     trial.length_m = columns_of(files.lengths, trial.time_s);
+    say_jumps(files.lengths, muscle_series(files.lengths), Unit::meter);
     trial.velocity_mps = files.velocities.empty()
                              ? rates_of(muscle_series(files.lengths), trial.time_s)
                              : columns_of(files.velocities, trial.time_s);
@@ -178,6 +180,15 @@ class TrialReader {
     for (const recording::Repair& repair : file.repairs)
       remark_(recording::to_string(path, repair));
     return read_.emplace(path, std::move(file.data)).first->second;
+  }
+
+  /// Moments that are too fast and too short to be a movement.
+  void say_jumps(const std::string& path, const TimeSeries& series, Unit unit) {
+    std::vector<Channel> channels = series.channels();
+    for (Channel& channel : channels) channel.unit = unit;
+    for (const signals::MotionJump& jump :
+         signals::find_motion_jumps({series.time_s(), std::move(channels), series.values()}))
+      remark_(fmt::format("{}: {}", path, jump.sentence()));
   }
 
   /// The columns of the muscles, by name.
@@ -284,6 +295,7 @@ class TrialReader {
   /// Angle, speed and acceleration of every joint, of the whole file's quintic spline.
   void add_motion(const std::string& path, TrialData& trial) {
     const TimeSeries& angles = series(path);
+    say_jumps(path, angles, Unit::radian);
     const auto column = [&](const std::string& joint) {
       const auto found = angles.find(joint);
       if (!found && !(sources_.coordinates.empty() && angles.channel_count() == 1)) {

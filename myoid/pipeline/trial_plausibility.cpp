@@ -9,6 +9,7 @@
 #include "myoid/model/kinematic_tree.h"
 #include "myoid/pipeline/draft_recordings.h"
 #include "myoid/pipeline/trial_up.h"
+#include "myoid/signals/motion_jumps.h"
 
 namespace myoid::pipeline {
 namespace {
@@ -225,6 +226,10 @@ std::vector<Finding> implausible(const Study& study,
     }
   }
   if (input.motion) check_angles(study, model, *input.motion, trial.name, findings);
+  if (input.motion) {
+    for (const signals::MotionJump& jump : signals::find_motion_jumps(*input.motion))
+      findings.push_back({Level::warning, trial.name, jump.sentence()});
+  }
   check_held_mass(study, model, capacities, trial, findings);
   check_vertical(study, model, input, trial.name, findings);
   return findings;
