@@ -203,6 +203,37 @@ void check_order(const muscle::IsolatedModel& start,
   }
 }
 
+/// Widens each standard error to what leaving out one recording after the other shows (jackknife),
+/// and says which numbers hang on one recording.
+void compare_left_out(muscle::IsolatedFit& all,
+                      const std::vector<muscle::IsolatedFit>& without,
+                      const std::vector<muscle::IsolatedRecording>& recordings,
+                      const Context& context) {
+  constexpr double kFar = 2.0;  // standard errors of the fit alone
+  const auto count = static_cast<double>(without.size());
+  if (without.size() < 2) return;
+  for (std::size_t p = 0; p < all.estimates.size(); ++p) {
+    muscle::IsolatedEstimate& e = all.estimates[p];
+    double mean = 0.0, squares = 0.0, farthest = 0.0;
+    std::size_t which = 0;
+    for (const muscle::IsolatedFit& fit : without) mean += fit.estimates[p].value / count;
+    for (std::size_t i = 0; i < without.size(); ++i) {
+      const double value = without[i].estimates[p].value;
+      squares += (value - mean) * (value - mean);
+      if (std::abs(value - e.value) <= farthest) continue;
+      farthest = std::abs(value - e.value);
+      which = i;
+    }
+    if (farthest > kFar * e.std_error)
+      context.warn(fmt::format(
+          "{} is {:.4g} {} without {}, {:.1f} of the fit's standard errors from {:.4g}: it hangs "
+          "on that recording; its standard error is widened to what the recordings show",
+          e.parameter, without[which].estimates[p].value, symbol(e.unit), recordings[which].name,
+          farthest / std::max(e.std_error, 1e-300), e.value));
+    e.std_error = std::max(e.std_error, std::sqrt((count - 1.0) / count * squares));
+  }
+}
+
 /// --fit: the parameters from all recordings, and how well those from the others predict each.
 void fit(const MuscleOptions& o, Context& context, const pipeline::MuscleFile& file) {
   const muscle::IsolatedModel start{file.parameters, file.laws, file.millard};
@@ -220,14 +251,14 @@ void fit(const MuscleOptions& o, Context& context, const pipeline::MuscleFile& f
   options.parameters = o.fit;
   options.relative_tolerance = std::max(o.tolerance, 1e-8);
   options.progress = context.progress();
-  const muscle::IsolatedFit all = fit_isolated_muscle(start, recordings, options);
+  muscle::IsolatedFit all = fit_isolated_muscle(start, recordings, options);
+  std::vector<muscle::IsolatedFit> without_one;
   std::string csv = "left_out,parameter,unit,start,estimate,std_error,at_bound\n";
   const auto add_rows = [&](const std::string& left_out, const muscle::IsolatedFit& result) {
     for (const muscle::IsolatedEstimate& e : result.estimates)
       csv += fmt::format("{},{},{},{},{},{},{}\n", left_out, e.parameter, symbol(e.unit), e.start,
                          e.value, e.std_error, e.at_bound);
   };
-  add_rows("", all);
   std::string errors;
   nlohmann::json json_errors = nlohmann::json::array();
   bool converged = all.termination == math::Termination::converged;
@@ -239,10 +270,10 @@ void fit(const MuscleOptions& o, Context& context, const pipeline::MuscleFile& f
     if (recordings.size() > 1) {
       std::vector<muscle::IsolatedRecording> others = recordings;
       others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
-      const muscle::IsolatedFit without = fit_isolated_muscle(start, others, options);
+      const muscle::IsolatedFit& without =
+          without_one.emplace_back(fit_isolated_muscle(start, others, options));
       converged = converged && without.termination == math::Termination::converged;
       predicted = share_of_error(without.model, recordings[i], over, options.relative_tolerance);
-      add_rows(std::to_string(i + 1), without);
     }
     errors += fmt::format("{:<34}{:>12.2f}{:>12.2f}{:>12.2f}\n", recordings[i].name, 100.0 * before,
                           100.0 * fitted, 100.0 * predicted);
@@ -252,6 +283,9 @@ void fit(const MuscleOptions& o, Context& context, const pipeline::MuscleFile& f
                            {"predicted_from_the_others", predicted}});
   }
   context.end_progress();
+  compare_left_out(all, without_one, recordings, context);
+  add_rows("", all);
+  for (std::size_t i = 0; i < without_one.size(); ++i) add_rows(std::to_string(i + 1), without_one[i]);
   if (!o.out.empty()) recording::write_file(o.out, csv);
   if (!converged) context.exit_code = kQualityGateFailed;
   // Whoever guesses half of the maximum misses no force between none and it by more than half.
