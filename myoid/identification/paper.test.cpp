@@ -141,6 +141,16 @@ TEST(IdentifyPaper, TheTwoBranchesAreTestedAgainstEachOther) {
             std::string::npos);
 }
 
+TEST(IdentifyPaper, RoundingRefutesNoMuscle) {
+  // Forces without noise, of six digits as files have them.
+  ElbowStudy study = study_for_paper();
+  for (TrialData& trial : study.data.trials)
+    trial.force_n = (trial.force_n * 1e3).array().round() * 1e-3;
+  const IdentificationResult result = identify_paper(study.data);
+  ASSERT_FALSE(result.branch_tests.empty());
+  for (const BranchTest& test : result.branch_tests) EXPECT_GT(test.p_value, 0.5) << test.muscle;
+}
+
 TEST(IdentifyPaper, ABranchTestThatRejectsDemotesExactNumbersToo) {
   ElbowStudy study = study_for_paper();
   for (TrialData& trial : study.data.trials) {
