@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -82,10 +84,32 @@ void RouteRemarks::add_to(std::vector<std::string>& warnings, std::size_t count)
       open_.size() > named ? ", ..." : ""));
 }
 
+namespace {
+
+/// Lengths [m], each with the time [s] that it lasts.
+using LengthsInTime = std::vector<std::pair<double, double>>;
+
+/// From the shortest to the longest, without this much time at either end.
+double span_but_for(double time_s, LengthsInTime lengths) {
+  if (lengths.empty()) return 0.0;
+  std::sort(lengths.begin(), lengths.end());
+  const auto end_of = [&](auto from, auto to) {
+    double passed_s = 0.0;
+    auto at = from;
+    while (std::next(at) != to && passed_s + at->second < time_s) passed_s += (at++)->second;
+    return at->first;
+  };
+  return std::max(
+      0.0, end_of(lengths.rbegin(), lengths.rend()) - end_of(lengths.begin(), lengths.end()));
+}
+
+}  // namespace
+
 std::vector<ActiveMotion> active_motion(const StudyData& data, double delay_s) {
   constexpr double kActive = 0.02, kShareOfSpeed = 0.01, kLeast_s = 0.1;
   const std::size_t muscles = data.muscles.size();
   std::vector<double> shortening_s(muscles, 0.0), lengthening_s(muscles, 0.0);
+  std::vector<LengthsInTime> lengths(muscles);
   for (const TrialData& trial : data.trials) {
     const Eigen::Index n = trial.time_s.size();
     if (!trial.calibration || n < 2) continue;
@@ -97,6 +121,7 @@ std::vector<ActiveMotion> active_motion(const StudyData& data, double delay_s) {
         const double least = kShareOfSpeed * data.muscles[k].start.max_shortening_speed_mps;
         const double v = trial.velocity_mps(i, column);
         if (!(activation(i, column) > kActive)) continue;
+        lengths[k].emplace_back(trial.length_m(i, column), step_s);
         if (v > least) lengthening_s[k] += step_s;
         if (v < -least) shortening_s[k] += step_s;
       }
@@ -105,7 +130,8 @@ std::vector<ActiveMotion> active_motion(const StudyData& data, double delay_s) {
   std::vector<ActiveMotion> result(muscles);
   for (std::size_t k = 0; k < muscles; ++k)
     result[k] = {.shortened = shortening_s[k] >= kLeast_s,
-                 .lengthened = lengthening_s[k] >= kLeast_s};
+                 .lengthened = lengthening_s[k] >= kLeast_s,
+                 .length_span_m = span_but_for(kLeast_s, std::move(lengths[k]))};
   return result;
 }
 

@@ -36,6 +36,8 @@ class RouteRemarks {
 /// all, faster than a hundredth of v_max, where f_v differs from 1 by a few percent.
 struct ActiveMotion {
   bool shortened = false, lengthened = false;
+  /// From the shortest to the longest musculotendon length, each but for a tenth of a second [m].
+  double length_span_m = 0.0;
 };
 /// Of every muscle over the calibration trials, the activation `delay_s` late.
 [[nodiscard]] std::vector<ActiveMotion> active_motion(const StudyData& data, double delay_s);

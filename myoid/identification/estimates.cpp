@@ -8,6 +8,7 @@
 
 #include "myoid/identification/discrepancy.h"
 #include "myoid/identification/estimate_remarks.h"
+#include "myoid/identification/held_tendon.h"
 #include "myoid/identification/identifiability.h"
 #include "myoid/identification/product_estimate.h"
 #include "myoid/identification/profile_likelihood.h"
@@ -83,6 +84,8 @@ void report_estimates(const Estimator& estimator,
     result.covariance += intervals.model_error->covariance;
     result.model_error = intervals.model_error->relative_size;
   }
+  intervals.tendon_shift = held_tendon_shift(estimator, solution, data);
+  result.covariance += intervals.tendon_shift * intervals.tendon_shift.transpose();
   result.condition = intervals.sandwich.condition;
   if (options.intervals.bootstrap > 0) {
     intervals.bootstrap = bootstrap(estimator, solution);
@@ -133,9 +136,10 @@ void report_estimates(const Estimator& estimator,
                                                         : width->upper_is_given);
   };
   const auto judged = [&](ParameterEstimate e, const FreeParameter& p, bool determined, int owner,
-                          const std::string& rests_on) {
+                          const std::string& rests_on, double tendon_share) {
     VerdictContext v;
     v.rests_on = rests_on;
+    v.tendon_share = tendon_share;
     if (p.field->scope == Scope::muscle) {
       const auto k = static_cast<std::size_t>(owner);
       for (const PriorDistance& of : result.prior_distances) {
@@ -143,6 +147,8 @@ void report_estimates(const Estimator& estimator,
       }
       const MuscleValues& values = result.values.muscles[k];
       const double width = exact ? 0.0 : values[kWidth] / values[kFiberLength];
+      if (!exact && (p.field->field == kFiberLength || p.field->field == kWidth))
+        v.length_span = motion[k].length_span_m / data.muscles[k].start.optimal_fiber_length_m;
       if (p.field->field == kWidth) {
         v.relative_width = width;
       } else if (p.targets.size() == 1) {
@@ -231,7 +237,8 @@ void report_estimates(const Estimator& estimator,
                                      intervals.sandwich.trials[static_cast<std::size_t>(trial)])]
                          .name;
       }
-      judged(std::move(e), p, determined, target.owner, rests_on);
+      judged(std::move(e), p, determined, target.owner, rests_on,
+             intervals.tendon_shift.row(at).squaredNorm() / std::max(sd * sd, 1e-300));
     }
     agree_on_tied(result.estimates, p.targets.size());
     // Where the slope ratio is the unknown, the product follows.
@@ -253,7 +260,7 @@ void report_estimates(const Estimator& estimator,
       e.estimate = inside;
       add_product_interval(e, where, free, z, result.covariance,
                            intervals.bootstrap ? &*intervals.bootstrap : nullptr);
-      judged(std::move(e), p, determined, target.owner, "");
+      judged(std::move(e), p, determined, target.owner, "", 0.0);
     }
   }
 

@@ -110,6 +110,14 @@ void judge_alone(ParameterEstimate& e, const VerdictContext& context, const Verd
                context.failure.empty() ? "the fit gave no number" : context.failure);
   if (!context.converged && !context.outside_physical)
     return set(Verdict::not_identifiable, "the fit did not converge: " + context.failure);
+  if (context.length_span && *context.length_span < rules.least_length_span) {
+    return set(
+        e.shrinkage ? Verdict::prior_dominated : Verdict::not_identifiable,
+        fmt::format("while active the muscle's length changed by {:.1f} % of the optimal one: "
+                    "at one length F_max and the force-length curve are one number; record "
+                    "other joint angles",
+                    100.0 * *context.length_span));
+  }
   if (context.outside_physical) {
     return set(Verdict::non_physical,
                context.converged ? diagnosis(e)
@@ -303,6 +311,12 @@ void judge(ParameterEstimate& e, const VerdictContext& context, const VerdictRul
   if (context.prior_distance > rules.prior_conflict && std::isfinite(e.estimate) && !said)
     e.reason += fmt::format("; {} away from {}", deviations(context.prior_distance, context),
                             context.beforehand);
+  constexpr double kMostly = 0.5;
+  if (context.tendon_share > kMostly && e.verdict != Verdict::identified &&
+      std::isfinite(e.estimate))
+    e.reason +=
+        "; most of its uncertainty is that of the tendon slack length, which is no measurement: "
+        "with a rigid tendon the recording tells the sum of both";
   if (e.parameter == "concentric_curvature" && context.speed_is_free &&
       e.verdict != Verdict::identified && e.verdict != Verdict::non_physical)
     e.reason += "; v_max is not known, and another v_max asks for another V_sh";

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "myoid/identification/result.h"
@@ -21,7 +22,10 @@ struct VerdictRules {
       0.20;  ///< Systematic error of the model above which nothing is `identified`.
   double prior_conflict = 3.0;  ///< Spreads of the prior away from its mean: at most `weak`.
   double prior_stays = 1.0;     ///< So near, a value that is not narrowed is the literature's.
-  double flat_plateau = 1.02;   ///< V_ml whose interval reaches below says nothing about P.
+  /// Of the optimal fiber length: where a muscle's active lengths span less, F_max f_l(l) is one
+  /// number, and nothing is told of l0 and l_sh.
+  double least_length_span = 0.05;
+  double flat_plateau = 1.02;  ///< V_ml whose interval reaches below says nothing about P.
   muscle::Range relative_width = muscle::kRelativeWidths;  ///< l_sh over l0 that a muscle can have.
   [[nodiscard]] bool possible(double width) const {
     return width == 0.0 || (width >= relative_width.lower && width <= relative_width.upper);
@@ -48,6 +52,11 @@ struct VerdictContext {
   /// "lengthened" or "shortened": what the muscle never did while active, of a number that only
   /// acts then; empty: it did.
   std::string never;
+  /// Active lengths of the muscle over its optimal fiber length, of l0 and l_sh; empty: of another
+  /// number, or the data are met exactly.
+  std::optional<double> length_span;
+  /// Share of the variance that is that of a tendon slack length which nobody measured.
+  double tendon_share = 0.0;
   double muscle_distance = 0.0;  ///< PriorDistance::distance of the muscle.
   double relative_width = 0.0;   ///< Of l_sh: over l0 of the same fit; 0: of something else.
   double curve_width = 0.0;      ///< The same of the muscle that another number belongs to.

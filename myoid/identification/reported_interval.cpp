@@ -63,7 +63,10 @@ void add_routes(ParameterEstimate& e,
   if (!std::isfinite(below) || !std::isfinite(above)) return;
   const auto whole = [&](double half) {
     const double noise = half / quantile;
-    const double variance = noise * noise + std::pow(intervals.sandwich.by_noise[at], 2);
+    const double of_tendons =
+        intervals.tendon_shift.cols() > 0 ? intervals.tendon_shift.row(at).squaredNorm() : 0.0;
+    const double variance =
+        noise * noise + std::pow(intervals.sandwich.by_noise[at], 2) + of_tendons;
     return std::max(least, intervals.model_error
                                ? intervals.model_error->reach(at, variance, kReportedProbability)
                                : quantile * std::sqrt(variance));

@@ -17,6 +17,7 @@ inline constexpr double kReportedProbability = 0.95;  ///< Of every interval.
 struct Intervals {
   Sandwich sandwich;
   std::optional<Discrepancy> model_error;
+  Eigen::MatrixXd tendon_shift;  ///< `held_tendon_shift`, or empty.
   std::optional<BootstrapResult> bootstrap;
   std::optional<std::vector<Interval>> profiles;
 };

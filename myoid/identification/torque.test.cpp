@@ -374,5 +374,40 @@ TEST(IdentifyTorqueOrExact, FreesTheSpeedOnlyIfTheDataAreMetOnlyThen) {
                 1e-6 * study.truth[k].max_shortening_speed_mps);
 }
 
+/// The study at one joint angle: muscles that do not move.
+ElbowStudy at_one_angle(ElbowStudy study) {
+  test::StudyNoise noise(8);
+  for (TrialData& trial : study.data.trials) {
+    const Eigen::Index n = trial.time_s.size();
+    trial.length_m = study.data.trials[0].length_m.row(0).replicate(n, 1).eval();
+    trial.moment_arm_m = study.data.trials[0].moment_arm_m.row(0).replicate(n, 1).eval();
+    trial.velocity_mps.setZero();
+    trial.torque_nm = predict(study.data, trial, study.truth, study.delay_s).torque_nm +
+                      0.5 * noise.band(n, 6.0, 100.0);
+  }
+  return study;
+}
+
+TEST(IdentifyTorque, OneJointAngleTellsNothingOfTheForceLengthCurve) {
+  int judged = 0;
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    const ElbowStudy study = at_one_angle(
+        elbow_study({.seconds = 10.0, .emg_cv = 0.05, .with_priors = true, .seed = seed}));
+    for (const bool priors : {true, false}) {
+      const IdentificationResult result =
+          identify_torque(study.data, {.priors = priors, .starts = 1});
+      for (const ParameterEstimate& e : result.estimates) {
+        if (e.parameter != "optimal_fiber_length" && e.parameter != "force_length_width") continue;
+        ++judged;
+        const bool silent = e.verdict == Verdict::not_identifiable ||
+                            (priors && e.verdict == Verdict::prior_dominated);
+        EXPECT_TRUE(silent) << e.muscle << " " << e.parameter << ": " << name(e.verdict) << ", "
+                            << e.reason;
+      }
+    }
+  }
+  EXPECT_EQ(judged, 4 * 2 * 8);
+}
+
 }  // namespace
 }  // namespace myoid::identification

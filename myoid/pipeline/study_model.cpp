@@ -206,6 +206,8 @@ std::vector<identification::MuscleSetup> muscle_setups(const Study& study,
       setup.start.*muscle::hill_field(name).member = value;
     setup.fixed = spec.fixed;
     setup.priors = identification::literature_priors(setup.start);
+    // A length that the study states is a measured one.
+    if (spec.start.contains("tendon_slack_length")) setup.priors.erase("tendon_slack_length");
     muscle::validate(setup.start);
     setups.push_back(std::move(setup));
   }

@@ -127,7 +127,10 @@ std::string study_toml(const VirtualRecording& recording, RecordingFormat format
     text += i == kBrachialis && !own_brachialis
                 ? "emg = { same_as = \"BIC\" }         # deep: no electrode on it\n"
                 : fmt::format("emg = \"{}\"\n", muscle);
-    if (speed_is_known) text += "fixed = [\"max_shortening_speed\"]    # v_max is known\n";
+    text +=
+        speed_is_known
+            ? "fixed = [\"max_shortening_speed\", \"tendon_slack_length\"]    # both are known\n"
+            : "fixed = [\"tendon_slack_length\"]    # the tendon is the model's\n";
   }
   for (const VirtualTrial& trial : recording.trials) add_trial(trial, format, text);
   text +=
