@@ -8,6 +8,7 @@
 #include "myoid/cli/context.h"
 #include "myoid/cli/solver_contests.h"
 #include "myoid/core/error.h"
+#include "myoid/identification/basins.h"
 #include "myoid/identification/cross_validation.h"
 #include "myoid/identification/estimate_remarks.h"
 #include "myoid/identification/force.h"
@@ -225,17 +226,21 @@ void print_fit(const identification::IdentificationResult& result,
              "", result.r2);
 }
 
-void print_folds(const std::vector<identification::Fold>& folds, const IdentifyOptions& o) {
+void print_folds(const std::vector<identification::Fold>& folds,
+                 const std::string& why_not,
+                 const IdentifyOptions& o) {
+  if (!why_not.empty())
+    fmt::print("\nNothing was left out of the fit to be predicted: {}.\n", why_not);
   if (folds.empty()) return;
   const bool several = o.method == "force" || o.files.coordinates.size() > 1;
-  fmt::print("\n{:<34}{:>12}{:>14}{:>8}   {}\n", "left out of the fit, then predicted",
-             o.method == "force" ? "RMSE [N]" : "RMSE [N m]", "of range [%]", "R2",
+  fmt::print("\n{:<34}{:>12}{:>14}{:>8}{:>10}   {}\n", "left out of the fit, then predicted",
+             o.method == "force" ? "RMSE [N]" : "RMSE [N m]", "of range [%]", "R2", "smoothed",
              "starting values, one gain: R2");
   for (const identification::Fold& fold : folds) {
-    fmt::print("{:<34}{:>12.4g}{:>14.1f}{:>8.3f}   {:.3f}\n",
+    fmt::print("{:<34}{:>12.4g}{:>14.1f}{:>8.3f}{:>10.3f}   {:.3f}\n",
                several ? fmt::format("{}, {}", fold.trial, fold.joint) : fold.trial,
                fold.identified.rmse_nm, 100.0 * fold.identified.nrmse_range, fold.identified.r2,
-               fold.literature.r2);
+               fold.smooth.r2, fold.literature.r2);
   }
 }
 
@@ -249,24 +254,35 @@ void free_what_is_free(const identification::IdentificationResult& result,
   if (found) identification::free_speeds(data, table.speed_may_be_free);
 }
 
-/// Trials or blocks predicted from the others.
+/// Trials or blocks predicted by the reported fit of the others, `data` being as it was read.
 std::vector<identification::Fold> held_out(const IdentifyOptions& o,
                                            const StudyData& data,
                                            const identification::EstimatorOptions& options,
-                                           const identification::IdentificationResult& result) {
+                                           const std::vector<std::string>& speed_may_be_free,
+                                           std::string& why_not) {
   const identification::CrossValidationOptions how{.kind = o.folds == "block"
                                                                ? identification::FoldKind::block
                                                                : identification::FoldKind::trial};
-  identification::EstimatorOptions from_here = options;
+  const identification::EstimatorOptions once = identification::of_a_fold(options);
+  (void)identification::splits(data, how, &why_not);
   if (o.method == "torque") {
-    from_here.warm_start = result.solution;
-    return identification::cross_validate(data, from_here, how);
+    return identification::cross_validate(
+        data,
+        [&](StudyData& of_fold) {
+          return identification::identify_torque_or_exact(of_fold, once, speed_may_be_free);
+        },
+        options, how);
   }
+  const identification::ForceOptions of_force{
+      .estimator = once, .detect_exact = true, .speed_may_be_free = speed_may_be_free};
   std::vector<identification::Fold> folds;
   for (std::size_t k = 0; k < data.muscles.size(); ++k) {
-    from_here.warm_start = result.solutions[k];
-    const auto more =
-        identification::cross_validate(identification::force_study(data, k), from_here, how);
+    const auto more = identification::cross_validate(
+        identification::force_study(data, k),
+        [&](StudyData& of_fold) {
+          return identification::identify_muscle_force(of_fold, of_force);
+        },
+        options, how);
     folds.insert(folds.end(), more.begin(), more.end());
   }
   return folds;
@@ -385,7 +401,7 @@ void add_identify(CLI::App& app, Context& context) {
       data.rules.push_back(rule);
     }
     context.prepare_folder(o->out);
-    context.protect_inputs(o->out, {"parameters.", "solvers."}, {o->muscles});
+    context.protect_inputs(o->out, {"parameters.", "fold_parameters.", "solvers."}, {o->muscles});
     identification::EstimatorOptions options = estimator_options(*o, context);
     if (!o->files.motions.empty() && !is_free(data, is_about_motion))
       context.warn(
@@ -405,6 +421,9 @@ void add_identify(CLI::App& app, Context& context) {
     }
     identification::IdentificationResult result;
     std::vector<identification::Fold> folds;
+    std::string why_not;
+    const StudyData as_read = data;
+    const identification::EstimatorOptions as_asked = options;
     if (o->method == "paper") {
       result = identification::identify_paper(data, {.multistart = o->starts});
     } else if (o->method == "force") {
@@ -415,11 +434,14 @@ void add_identify(CLI::App& app, Context& context) {
     } else {
       result = identification::identify_torque_or_exact(data, options, table.speed_may_be_free);
       free_what_is_free(result, table, data);
+      identification::look_around(data, options, result);
     }
     options.lag = result.lag;
     options.choose_lag = false;
     if (o->method != "paper" && o->folds != "none" && !result.exact)
-      folds = held_out(*o, data, options, result);
+      folds = held_out(*o, as_read, as_asked, table.speed_may_be_free, why_not);
+    if (const std::string text = identification::generalises_badly(folds); !text.empty())
+      result.warnings.push_back(text);
     std::vector<NamedContest> contests;
     if (o->compare) {
       contests = solver_contests(data, o->method, options,
@@ -447,6 +469,10 @@ void add_identify(CLI::App& app, Context& context) {
     recording::write_file(folder / "parameters.json",
                           pipeline::parameters_json(results, folds, provenance, told));
     recording::write_file(folder / "parameters.csv", pipeline::parameters_csv(results));
+    std::error_code ignored;
+    std::filesystem::remove(folder / "fold_parameters.csv", ignored);  // of an earlier run
+    if (!folds.empty())
+      recording::write_file(folder / "fold_parameters.csv", pipeline::fold_parameters_csv(folds));
     if (!contests.empty()) recording::write_file(folder / "solvers.csv", solvers_csv(contests));
     if (context.json) {
       fmt::print("{}", pipeline::parameters_json(results, folds, provenance, told));
@@ -455,7 +481,7 @@ void add_identify(CLI::App& app, Context& context) {
                    o->method != "paper" && !result.exact && !table.speed_may_be_free.empty());
       print_samples(result, data, *o);
       print_fit(result, data, o->method == "torque");
-      print_folds(folds, *o);
+      print_folds(folds, why_not, *o);
       for (const identification::BasinTable& searches : result.basins) {
         fmt::print("\nSearches, {}:\n", searches.fit);
         print_basins(searches);

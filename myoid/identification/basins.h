@@ -23,6 +23,24 @@ namespace myoid::identification {
                                      const Weighting& weighting,
                                      int starts);
 
+/// Starts from which a fit that is reported looks around for other minima.
+inline constexpr int kUsualLook = 24;
+
+/// `report_other_minima` of a fit of method torque with these options: of its table where several
+/// starts were asked for, else of searches from `starts` points at the weights of its minimum.
+void look_around(const StudyData& data,
+                 EstimatorOptions options,
+                 IdentificationResult& result,
+                 int starts = kUsualLook);
+
+/// Says which numbers other minima of the table, lower than `cost` or at most a chi-square of 4
+/// above it, put outside of the intervals that are reported; what of them is `identified` becomes
+/// `weak`.
+void report_other_minima(const BasinTable& table,
+                         const std::vector<FreeParameter>& free,
+                         double cost,
+                         IdentificationResult& result);
+
 /// Of the source paper's plain Gauss-Newton steps on one muscle in one branch; no basins where all
 /// is held or it is not fitted (PaperCase::obstacle).
 [[nodiscard]] BasinTable find_paper_basins(const StudyData& data,

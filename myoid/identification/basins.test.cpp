@@ -54,6 +54,38 @@ TEST(Basins, TellHowManyStartsEndedWhereAndHowFarFromTheBest) {
   EXPECT_EQ(best.starts + other.starts + table.failed, 65);
 }
 
+TEST(Basins, AMinimumAsGoodOutsideOfAnIntervalIsSaid) {
+  std::vector<FreeParameter> free(1);
+  free[0].field = &parameter_field("optimal_fiber_length");
+  free[0].owner = "BRA";
+  const auto reported = [&](double other_m, double other_cost, int converged) {
+    IdentificationResult result;
+    result.estimates.push_back({.muscle = "BRA",
+                                .parameter = "optimal_fiber_length",
+                                .estimate = 0.07,
+                                .ci_low = 0.06,
+                                .ci_high = 0.08,
+                                .verdict = Verdict::identified});
+    BasinTable table;
+    table.starts = 24;
+    table.basins.push_back({.x = Eigen::VectorXd::Constant(1, other_m),
+                            .cost = other_cost,
+                            .starts = 5,
+                            .converged = converged});
+    report_other_minima(table, free, 100.0, result);
+    return result;
+  };
+  const IdentificationResult lower = reported(0.096, 90.0, 5);
+  ASSERT_EQ(lower.warnings.size(), 1U);
+  EXPECT_NE(lower.warnings[0].find("5 of 24 other starts"), std::string::npos);
+  EXPECT_NE(lower.warnings[0].find("chi-square less by 20.0"), std::string::npos);
+  EXPECT_EQ(lower.estimates[0].verdict, Verdict::weak);
+  EXPECT_EQ(reported(0.096, 101.9, 5).warnings.size(), 1U);
+  EXPECT_TRUE(reported(0.096, 102.1, 5).warnings.empty());  // a chi-square of 4.2 worse
+  EXPECT_TRUE(reported(0.075, 90.0, 5).warnings.empty());   // within the interval
+  EXPECT_TRUE(reported(0.096, 90.0, 0).warnings.empty());   // no minimum
+}
+
 TEST(Basins, ARivalIsWithinAChiSquareOfFourOfTheBest) {
   const auto rival = [](double higher, Eigen::Index plain_samples) {
     return find_basins([&](const Eigen::VectorXd& x, Eigen::Index) { return descend(x, higher); },

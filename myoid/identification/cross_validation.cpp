@@ -14,56 +14,86 @@
 namespace myoid::identification {
 namespace {
 
-/// What a fold is fitted on, and what it predicts.
-struct Split {
-  std::string name;
-  std::vector<TrialData> training, held;
-};
+double duration_s(const TrialData& trial) {
+  return trial.time_s[trial.time_s.size() - 1] - trial.time_s[0];
+}
 
-std::vector<Split> make_splits(const StudyData& data, const CrossValidationOptions& options) {
-  std::vector<Split> splits;
-  std::vector<const TrialData*> trials;
-  for (const TrialData& trial : data.trials) {
-    if (trial.calibration) trials.push_back(&trial);
+/// Duration from which a trial is cut into blocks: beside a block and its gaps half of it is left.
+double least_for_blocks_s(const CrossValidationOptions& how) {
+  return 2.0 * how.gap_s / (0.5 - 1.0 / how.blocks);
+}
+
+TrialData used(TrialData trial, bool calibration) {
+  trial.calibration = calibration;
+  return trial;
+}
+
+/// Adds block `b` of a trial to be predicted, and what is fitted on either side of it.
+void cut(const TrialData& trial, int b, const CrossValidationOptions& how, Split& split) {
+  const Eigen::Index n = trial.time_s.size();
+  const Eigen::Index begin = n * b / how.blocks;
+  const Eigen::Index end = n * (b + 1) / how.blocks;
+  const auto gap = static_cast<Eigen::Index>(
+      std::ceil(how.gap_s * static_cast<double>(n - 1) / duration_s(trial)));
+  std::vector<TrialData>& to = split.data.trials;
+  to.push_back(used(part(trial, begin, end - begin), false));
+  if (begin > 2 * gap) to.push_back(used(part(trial, 0, begin - gap), true));
+  if (n - end > 2 * gap) to.push_back(used(part(trial, end + gap, n - end - gap), true));
+}
+
+std::vector<Split> block_splits(const StudyData& data,
+                                const std::vector<const TrialData*>& trials,
+                                const CrossValidationOptions& how,
+                                std::string& why_not) {
+  const double least_s = least_for_blocks_s(how);
+  double longest_s = 0.0;
+  for (const TrialData* trial : trials) longest_s = std::max(longest_s, duration_s(*trial));
+  if (longest_s < least_s) {
+    why_not = fmt::format(
+        "blocks need trials of {:.2g} s or more ({:g} s on either side of a block serve neither "
+        "side, and half of a trial must be left to fit); the longest has {:.2g} s; leave out "
+        "whole trials",
+        least_s, how.gap_s, longest_s);
+    return {};
   }
-  if (options.kind == FoldKind::block) {
-    for (int b = 0; b < options.blocks; ++b) {
-      Split split;
-      split.name = fmt::format("block {} of {}", b + 1, options.blocks);
-      for (const TrialData* trial : trials) {
-        const Eigen::Index n = trial->time_s.size();
-        const Eigen::Index begin = n * b / options.blocks;
-        const Eigen::Index end = n * (b + 1) / options.blocks;
-        const double rate = static_cast<double>(n - 1) / (trial->time_s[n - 1] - trial->time_s[0]);
-        const auto gap = static_cast<Eigen::Index>(std::ceil(options.gap_s * rate));
-        if (end - begin < 4) continue;
-        split.held.push_back(part(*trial, begin, end - begin));
-        if (begin - gap > 10) split.training.push_back(part(*trial, 0, begin - gap));
-        if (n - end - gap > 10) split.training.push_back(part(*trial, end + gap, n - end - gap));
-      }
-      splits.push_back(std::move(split));
-    }
-  } else {
-    std::vector<std::string> names;
-    const auto name_of = [&](const TrialData& trial) {
-      return options.kind == FoldKind::condition && !trial.condition.empty() ? trial.condition
-                                                                             : trial.name;
-    };
+  std::vector<Split> result;
+  for (int b = 0; b < how.blocks; ++b) {
+    Split split{fmt::format("block {} of {}", b + 1, how.blocks),
+                {.muscles = data.muscles, .trials = {}, .rules = data.rules}};
     for (const TrialData* trial : trials) {
-      const std::string name = name_of(*trial);
-      if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+      if (duration_s(*trial) < least_s) {
+        split.data.trials.push_back(*trial);
+      } else {
+        cut(*trial, b, how, split);
+      }
     }
-    for (const std::string& name : names) {
-      Split split;
-      split.name = name;
-      for (const TrialData* trial : trials)
-        (name_of(*trial) == name ? split.held : split.training).push_back(*trial);
-      splits.push_back(std::move(split));
-    }
+    result.push_back(std::move(split));
   }
-  std::erase_if(splits, [](const Split& s) { return s.held.empty() || s.training.empty(); });
-  if (splits.size() < 2) splits.clear();
-  return splits;
+  return result;
+}
+
+std::vector<Split> named_splits(const StudyData& data,
+                                const std::vector<const TrialData*>& trials,
+                                const CrossValidationOptions& how,
+                                std::string& why_not) {
+  const auto name_of = [&](const TrialData& trial) {
+    return how.kind == FoldKind::condition && !trial.condition.empty() ? trial.condition
+                                                                       : trial.name;
+  };
+  std::vector<Split> result;
+  for (const TrialData* trial : trials) {
+    const std::string name = name_of(*trial);
+    if (std::any_of(result.begin(), result.end(), [&](const Split& s) { return s.name == name; }))
+      continue;
+    Split split{name, {.muscles = data.muscles, .trials = {}, .rules = data.rules}};
+    for (const TrialData* other : trials)
+      split.data.trials.push_back(used(*other, name_of(*other) != name));
+    result.push_back(std::move(split));
+  }
+  if (result.size() >= 2) return result;
+  why_not = fmt::format("there is only one {} to fit; leave out blocks of it",
+                        how.kind == FoldKind::condition ? "condition" : "trial");
+  return {};
 }
 
 /// Regressors of baseline (ii): activation times moment arm, per muscle.
@@ -106,11 +136,14 @@ struct Predictors {
   bool paper = false;
 };
 
-Fold score_joint(const std::string& name,
-                 const std::vector<TrialData>& training,
-                 const std::vector<TrialData>& held,
-                 const Predictors& by) {
-  // Baselines from the training trials.
+/// What the trials that were fitted say to the baselines.
+struct Baselines {
+  double gain = 0.0;       ///< Of the literature's muscles.
+  Eigen::VectorXd slopes;  ///< Of torque on the regressors.
+  double mean_nm = 0.0;
+};
+
+Baselines baselines(const std::vector<TrialData>& training, const Predictors& by) {
   double product = 0.0, square = 0.0, sum = 0.0, count = 0.0;
   const auto m = static_cast<Eigen::Index>(by.data.muscles.size());
   Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(m, m);
@@ -129,55 +162,126 @@ Fold score_joint(const std::string& name,
     normal += x.transpose() * x;
     right += x.transpose() * active;
   }
-  const Eigen::VectorXd slopes = normal.completeOrthogonalDecomposition().solve(right);
+  return {.gain = square > 0.0 ? product / square : 0.0,
+          .slopes = normal.completeOrthogonalDecomposition().solve(right),
+          .mean_nm = sum / count};
+}
+
+Eigen::VectorXd by_paper(const TrialData& t, const Predictors& by) {
+  const Eigen::MatrixXd slow = predict(by.data, t, by.shortening, 0.0).force_n;
+  const Eigen::MatrixXd fast = predict(by.data, t, by.lengthening, 0.0).force_n;
+  const Eigen::MatrixXd force = (t.velocity_mps.array() <= 0.0).select(slow, fast);
+  return resting_torque_nm(t) + t.moment_arm_m.cwiseProduct(force).rowwise().sum();
+}
+
+/// Pairs of curves, trial after trial.
+struct Curves {
+  std::vector<Eigen::VectorXd> measured, predicted;
+  void add(const Eigen::VectorXd& m, const Eigen::VectorXd& p) {
+    measured.push_back(m);
+    predicted.push_back(p);
+  }
+  [[nodiscard]] Score scored() const { return score(joined(measured), joined(predicted)); }
+};
+
+Fold score_joint(const std::string& name,
+                 const std::vector<TrialData>& training,
+                 const std::vector<TrialData>& held,
+                 const Predictors& by) {
+  const Baselines from = baselines(training, by);
   Fold fold;
   fold.trial = name;
-  fold.gain = square > 0.0 ? product / square : 0.0;
-  std::vector<Eigen::VectorXd> time, measured, predicted, by_literature, by_regression, by_paper;
-  std::vector<Eigen::VectorXd> slow_measured, slow_predicted;
+  fold.gain = from.gain;
+  std::vector<Eigen::VectorXd> time;
+  Curves identified, smooth, band, literature, regression, paper;
   for (const TrialData& t : held) {
     const std::vector<Eigen::Index> rows = included_rows(t);
-    const SmoothPrediction found = predict(by.data, t, by.fit, by.envelope_cutoff_hz).smooth;
-    const Eigen::VectorXd& whole = found.torque_nm;
-    // The others carry the same noise, and have the same smoothing.
-    const auto smooth = [&](const Eigen::VectorXd& torque) {
-      return below(t.time_s, torque, found.cutoff_hz);
-    };
+    const FittedPrediction found = predict(by.data, t, by.fit, by.envelope_cutoff_hz);
+    const Eigen::VectorXd& torque = found.of.torque_nm;
+    if (time.empty()) fold.smooth_hz = found.smooth.cutoff_hz;
     const Eigen::VectorXd resting = resting_torque_nm(t);
     const Eigen::VectorXd muscles =
         predict(by.data, t, by.literature, by.literature_delay_s, by.fit.lag).torque_nm - resting;
-    const Eigen::VectorXd before = resting + fold.gain * smooth(muscles);
-    const Eigen::VectorXd regressed =
-        resting + smooth(regressors(by.data, t, by.fit.delay_s) * slopes);
+    const Eigen::VectorXd regressed = regressors(by.data, t, by.fit.delay_s) * from.slopes;
+    const Eigen::VectorXd measured = t.torque_nm(rows);
     time.emplace_back(t.time_s(rows));
-    measured.emplace_back(t.torque_nm(rows));
-    predicted.emplace_back(whole(rows));
-    slow_measured.emplace_back(below(t.time_s, t.torque_nm, by.cutoff_hz)(rows));
-    slow_predicted.emplace_back(below(t.time_s, whole, by.cutoff_hz)(rows));
-    by_literature.emplace_back(before(rows));
-    by_regression.emplace_back(regressed(rows));
-    if (by.paper) {
-      const Eigen::MatrixXd slow = predict(by.data, t, by.shortening, 0.0).force_n;
-      const Eigen::MatrixXd fast = predict(by.data, t, by.lengthening, 0.0).force_n;
-      const Eigen::MatrixXd force = (t.velocity_mps.array() <= 0.0).select(slow, fast);
-      const Eigen::VectorXd paper =
-          resting + smooth(t.moment_arm_m.cwiseProduct(force).rowwise().sum());
-      by_paper.emplace_back(paper(rows));
-    }
-    fold.lag_s += best_lag_s(t.time_s, t.torque_nm, whole) / static_cast<double>(held.size());
+    identified.add(measured, torque(rows));
+    smooth.add(measured, found.smooth.torque_nm(rows));
+    band.add(below(t.time_s, t.torque_nm, by.cutoff_hz)(rows),
+             below(t.time_s, torque, by.cutoff_hz)(rows));
+    literature.add(measured, (resting + from.gain * muscles)(rows));
+    regression.add(measured, (resting + regressed)(rows));
+    if (by.paper) paper.add(measured, by_paper(t, by)(rows));
+    fold.lag_s += best_lag_s(t.time_s, t.torque_nm, torque) / static_cast<double>(held.size());
   }
+  Curves seen;
+  for (const TrialData& t : training) {
+    const std::vector<Eigen::Index> rows = included_rows(t);
+    const Eigen::VectorXd torque = predict(by.data, t, by.fit.values, by.fit.lag).torque_nm;
+    seen.add(t.torque_nm(rows), torque(rows));
+  }
+  fold.fitted = seen.scored();
   fold.time_s = joined(time);
-  fold.measured_nm = joined(measured);
-  fold.predicted_nm = joined(predicted);
-  fold.literature_nm = joined(by_literature);
-  fold.identified = score(fold.measured_nm, fold.predicted_nm);
-  fold.band = score(joined(slow_measured), joined(slow_predicted));
-  fold.literature = score(fold.measured_nm, fold.literature_nm);
-  fold.regression = score(fold.measured_nm, joined(by_regression));
+  fold.measured_nm = joined(identified.measured);
+  fold.predicted_nm = joined(identified.predicted);
+  fold.literature_nm = joined(literature.predicted);
+  fold.identified = identified.scored();
+  fold.smooth = smooth.scored();
+  fold.band = band.scored();
+  fold.literature = literature.scored();
+  fold.regression = regression.scored();
   fold.constant =
-      score(fold.measured_nm, Eigen::VectorXd::Constant(fold.measured_nm.size(), sum / count));
-  if (by.paper) fold.paper = score(fold.measured_nm, joined(by_paper));
+      score(fold.measured_nm, Eigen::VectorXd::Constant(fold.measured_nm.size(), from.mean_nm));
+  if (by.paper) fold.paper = paper.scored();
   return fold;
+}
+
+/// The curves that method `paper` finds from the calibration trials.
+void add_paper(const StudyData& data, const std::vector<std::string>& muscles, Predictors& by) {
+  for (const ParameterEstimate& e : identify_paper(data, {.muscles = muscles}).estimates) {
+    if (!std::isfinite(e.estimate)) continue;
+    for (std::size_t k = 0; k < data.muscles.size(); ++k) {
+      if (data.muscles[k].name == e.muscle)
+        (e.fit_case == "shortening" ? by.shortening : by.lengthening)[k].*
+            muscle::hill_field(e.parameter).member = e.estimate;
+    }
+  }
+}
+
+/// Fits one split and scores what it left out, joint by joint.
+std::vector<Fold> score_split(Split split,
+                              const SplitFit& fit_to,
+                              const EstimatorOptions& options,
+                              bool with_paper) {
+  const IdentificationResult fit = fit_to(split.data);
+  std::vector<muscle::HillParameters<double>> literature;
+  for (const MuscleSetup& setup : split.data.muscles) literature.push_back(setup.start);
+  Predictors by{.data = split.data,
+                .fit = fit,
+                .literature = literature,
+                .shortening = literature,
+                .lengthening = literature,
+                .literature_delay_s = options.delay_s.value_or(options.delay_prior_mean_s),
+                .cutoff_hz = options.residual_cutoff_hz.value_or(0.0),
+                .envelope_cutoff_hz = options.envelope_cutoff_hz};
+  std::vector<TrialData> training, held;
+  for (const TrialData& t : split.data.trials) (t.calibration ? training : held).push_back(t);
+  by.paper = with_paper && std::all_of(training.begin(), training.end(), [](const TrialData& t) {
+               return t.force_n.rows() == t.time_s.size();
+             });
+  if (by.paper) add_paper(split.data, options.muscles, by);
+  std::vector<Fold> folds;
+  for (const std::string& joint : joint_names(split.data)) {
+    const std::vector<TrialData> of_joint = joint_views(held, joint);
+    if (of_joint.empty()) continue;
+    Fold fold = score_joint(split.name, joint_views(training, joint), of_joint, by);
+    fold.joint = joint;
+    fold.parameters = fit.estimates;
+    fold.lag = fit.lag;
+    fold.converged = fit.termination == math::Termination::converged;
+    folds.push_back(std::move(fold));
+  }
+  return folds;
 }
 
 }  // namespace
@@ -208,59 +312,76 @@ double best_lag_s(const Eigen::VectorXd& time_s,
   return static_cast<double>(at) * step;
 }
 
+std::vector<Split> splits(const StudyData& data,
+                          const CrossValidationOptions& how,
+                          std::string* why_not) {
+  std::vector<const TrialData*> trials;
+  for (const TrialData& trial : data.trials) {
+    if (trial.calibration && trial.time_s.size() > 1) trials.push_back(&trial);
+  }
+  std::string reason;
+  std::vector<Split> result = how.kind == FoldKind::block ? block_splits(data, trials, how, reason)
+                                                          : named_splits(data, trials, how, reason);
+  if (why_not != nullptr) *why_not = std::move(reason);
+  return result;
+}
+
+std::string generalises_badly(const std::vector<Fold>& folds) {
+  constexpr double kWorse = 2.0;     // times the error of what was fitted
+  constexpr double kExplains = 0.5;  // of the squares: better is good enough
+  double seen = 0.0, unseen = 0.0, spread = 0.0, worst = 0.0, count = 0.0;
+  std::string where;
+  for (const Fold& f : folds) {
+    const auto n = static_cast<double>(f.measured_nm.size());
+    if (!(f.fitted.rmse_nm > 0.0) || !std::isfinite(f.identified.rmse_nm) || n < 2.0) continue;
+    seen += n * std::pow(f.fitted.rmse_nm, 2);
+    unseen += n * std::pow(f.identified.rmse_nm, 2);
+    spread += (f.measured_nm.array() - f.measured_nm.mean()).square().sum();
+    count += n;
+    if (f.identified.rmse_nm / f.fitted.rmse_nm <= worst) continue;
+    worst = f.identified.rmse_nm / f.fitted.rmse_nm;
+    where = f.trial;
+  }
+  const bool bad =
+      count > 0.0 && unseen > kWorse * kWorse * seen && unseen > (1.0 - kExplains) * spread;
+  if (!bad) return "";
+  return fmt::format(
+      "what a fit does not see it predicts {:.1f} times worse than what it sees ({:.3g} N m rms "
+      "instead of {:.3g}; most in '{}'): the samples of one movement share the model's error, and "
+      "the more there are of them the farther the numbers follow it, away from what is known "
+      "beforehand. Record other movements (angles, speeds, loads) rather than more of the same, "
+      "and trust neither numbers nor predictions beyond the movements that were fitted",
+      std::sqrt(unseen / seen), std::sqrt(unseen / count), std::sqrt(seen / count), where);
+}
+
+EstimatorOptions of_a_fold(EstimatorOptions options) {
+  options.predictions = false;
+  options.intervals = {};
+  options.progress.report = nullptr;
+  return options;
+}
+
 std::vector<Fold> cross_validate(const StudyData& data,
-                                 const TorqueOptions& options,
+                                 const SplitFit& fit,
+                                 const EstimatorOptions& options,
                                  const CrossValidationOptions& how) {
-  const std::vector<Split> splits = make_splits(data, how);
-  std::vector<muscle::HillParameters<double>> literature;
-  for (const MuscleSetup& setup : data.muscles) literature.push_back(setup.start);
-  const std::vector<std::string> joints = joint_names(data);
-  std::vector<std::vector<Fold>> of_split(splits.size());
-  oneapi::tbb::parallel_for(std::size_t{0}, splits.size(), [&](std::size_t f) {
-    const Split& split = splits[f];
-    StudyData training = data;
-    training.trials = split.training;
-    TorqueOptions once = options;
-    once.starts = 1;
-    once.multistart = 0;
-    once.passes =
-        once.warm_start.size() > 0 ? 2 : once.passes;  // the noise hardly changes with one trial
-    once.predictions = false;
-    once.intervals = {};
-    once.progress.report = nullptr;
-    const IdentificationResult fit = identify_torque(training, once);
-    Predictors by{.data = data,
-                  .fit = fit,
-                  .literature = literature,
-                  .shortening = literature,
-                  .lengthening = literature,
-                  .literature_delay_s = options.delay_s.value_or(options.delay_prior_mean_s),
-                  .cutoff_hz = options.residual_cutoff_hz.value_or(0.0),
-                  .envelope_cutoff_hz = options.envelope_cutoff_hz};
-    by.paper = std::all_of(split.training.begin(), split.training.end(),
-                           [](const TrialData& t) { return t.force_n.rows() == t.time_s.size(); });
-    if (by.paper) {
-      for (const ParameterEstimate& e :
-           identify_paper(training, {.muscles = options.muscles}).estimates) {
-        if (!std::isfinite(e.estimate)) continue;
-        for (std::size_t k = 0; k < data.muscles.size(); ++k) {
-          if (data.muscles[k].name == e.muscle)
-            (e.fit_case == "shortening" ? by.shortening : by.lengthening)[k].*
-                muscle::hill_field(e.parameter).member = e.estimate;
-        }
-      }
-    }
-    for (const std::string& joint : joints) {
-      const std::vector<TrialData> held = joint_views(split.held, joint);
-      if (held.empty()) continue;
-      of_split[f].push_back(score_joint(split.name, joint_views(split.training, joint), held, by));
-      of_split[f].back().joint = joint;
-    }
+  std::vector<Split> all = splits(data, how);
+  std::vector<std::vector<Fold>> of_split(all.size());
+  oneapi::tbb::parallel_for(std::size_t{0}, all.size(), [&](std::size_t f) {
+    of_split[f] = score_split(std::move(all[f]), fit, options, how.paper);
   });
   std::vector<Fold> folds;
   for (std::vector<Fold>& of_one : of_split)
     std::move(of_one.begin(), of_one.end(), std::back_inserter(folds));
   return folds;
+}
+
+std::vector<Fold> cross_validate(const StudyData& data,
+                                 const TorqueOptions& options,
+                                 const CrossValidationOptions& how) {
+  const TorqueOptions once = of_a_fold(options);
+  return cross_validate(
+      data, [&](StudyData& of_fold) { return identify_torque(of_fold, once); }, options, how);
 }
 
 }  // namespace myoid::identification

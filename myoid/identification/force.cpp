@@ -50,6 +50,20 @@ StudyData force_study(const StudyData& data, std::size_t muscle) {
   return one;
 }
 
+IdentificationResult identify_muscle_force(const StudyData& one, const ForceOptions& options) {
+  EstimatorOptions once = options.estimator;
+  once.muscles.clear();
+  once.measured_is_force = !options.shared_forces;
+  once.choose_lag = false;  // muscles of one person follow their EMG alike
+  once.progress.report = nullptr;
+  std::vector<std::string> speed;
+  for (const std::string& name : options.speed_may_be_free) {
+    if (name == one.muscles.front().name) speed.push_back(name);
+  }
+  return options.detect_exact ? identify_torque_or_exact(one, once, speed)
+                              : identify_torque(one, once);
+}
+
 IdentificationResult identify_force(const StudyData& data, const ForceOptions& options) {
   validate(data);
   const auto begin = std::chrono::steady_clock::now();
@@ -72,24 +86,13 @@ IdentificationResult identify_force(const StudyData& data, const ForceOptions& o
   }
   for (std::size_t k = 0; k < data.muscles.size(); ++k) {
     const StudyData one = force_study(data, k);
-    EstimatorOptions once = options.estimator;
-    once.muscles.clear();
-    once.measured_is_force = !options.shared_forces;
-    once.warm_start = {};
-    once.choose_lag = false;  // muscles of one person follow their EMG alike
-    once.progress.report = nullptr;
     const auto column = static_cast<Eigen::Index>(k);
     all.muscles.push_back(data.muscles[k].start);
     const bool named = wanted.empty() || std::find(wanted.begin(), wanted.end(),
                                                    data.muscles[k].name) != wanted.end();
     ModelValues values;
     if (named) {
-      std::vector<std::string> speed;
-      for (const std::string& name : options.speed_may_be_free) {
-        if (name == data.muscles[k].name) speed.push_back(name);
-      }
-      IdentificationResult fit = options.detect_exact ? identify_torque_or_exact(one, once, speed)
-                                                      : identify_torque(one, once);
+      IdentificationResult fit = identify_muscle_force(one, options);
       values = fit.values;
       all.solutions.push_back(fit.solution);
       all.muscles.back() = fit.muscles.front();
@@ -137,8 +140,9 @@ IdentificationResult identify_force(const StudyData& data, const ForceOptions& o
     } else {
       all.solutions.emplace_back();
       for (std::size_t t = 0; t < data.trials.size(); ++t) {
+        const EstimatorOptions& common = options.estimator;
         const Prediction p = predict(one, one.trials[t], {data.muscles[k].start},
-                                     once.delay_s.value_or(once.delay_prior_mean_s));
+                                     common.delay_s.value_or(common.delay_prior_mean_s));
         all.trials[t].literature_force_n.col(column) = p.force_n.col(0);
         all.trials[t].force_fit_n.col(column) = p.force_n.col(0);
       }

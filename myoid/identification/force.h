@@ -21,6 +21,10 @@ struct ForceOptions {
 [[nodiscard]] IdentificationResult identify_force(const StudyData& data,
                                                   const ForceOptions& options = {});
 
+/// Its fit of one muscle, of the study that `force_study` makes.
+[[nodiscard]] IdentificationResult identify_muscle_force(const StudyData& one_muscle,
+                                                         const ForceOptions& options = {});
+
 /// The study of one muscle that `identify_force` fits.
 [[nodiscard]] StudyData force_study(const StudyData& data, std::size_t muscle);
 

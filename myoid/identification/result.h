@@ -65,9 +65,9 @@ struct TrialFit {
   Eigen::VectorXd time_s;
   Eigen::VectorXd torque_nm;             ///< From inverse dynamics.
   Eigen::VectorXd literature_torque_nm;  ///< Starting parameters.
-  /// Identified parameters; method `torque`: below `smooth_hz`, where that is above 0.
+  /// The law with the identified parameters, as it is.
   Eigen::VectorXd torque_fit_nm;
-  double smooth_hz = 0.0;              ///< See smooth_prediction.h.
+  double smooth_hz = 0.0;              ///< Where its noise does least harm (smooth_prediction.h).
   Eigen::MatrixXd literature_force_n;  ///< n x m
   Eigen::MatrixXd force_fit_n;         ///< n x m
   double rmse_nm = 0.0;

@@ -36,7 +36,6 @@ void add_predictions(const StudyData& data,
       fit.torque_nm = trial.torque_nm;
       Prediction before = predict(data, trial, literature, options.lag);
       auto [after, smooth] = predict(data, trial, result, options.envelope_cutoff_hz);
-      after.torque_nm = std::move(smooth.torque_nm);
       fit.smooth_hz = smooth.cutoff_hz;
       if (after.torque_nm.size() == trial.torque_nm.size()) {
         const std::vector<Eigen::Index> rows = included_rows(trial);

@@ -17,11 +17,13 @@ namespace {
 
 identification::TrialData trial_data(const Study& study,
                                      const TrialResult& trial,
+                                     Use use,
+                                     const TimeSeries& activation,
                                      const std::vector<MuscleGroup>& groups,
                                      const std::vector<identification::RestingJoint>& resting) {
   identification::TrialData data;
   data.name = trial.spec.name;
-  data.calibration = trial.spec.use == Use::calibration || trial.spec.use == Use::isometric;
+  data.calibration = use == Use::calibration || use == Use::isometric;
   data.time_s = trial.motion.q.time_s();
   LumpedMuscles lumped = lumped_muscles(trial.muscles, groups, study.model.coordinate);
   data.length_m = std::move(lumped.length_m);
@@ -52,27 +54,33 @@ identification::TrialData trial_data(const Study& study,
          .acceleration_radps2 = trial.motion.qddot.column(name),
          .resting_nm = resting_torque_nm(resting, name, trial.motion.q.column(name))});
   }
-  data.activation = trial.activation;
+  data.activation = activation;
   if (trial.uncarried) data.excluded = trial.uncarried->stretches;
   // Where there is no EMG there is nothing to fit.
-  const Rows rows = rows_with_emg(trial.motion.q.time_s(), trial.activation.time_s());
+  const Rows rows = rows_with_emg(trial.motion.q.time_s(), activation.time_s());
   return identification::part(data, rows.first, rows.count());
 }
 
 }  // namespace
 
 identification::StudyData estimator_data(const StudyResult& result) {
-  const Study& study = result.study;
+  return estimator_data(result, result.study, activations_of(result));
+}
+
+identification::StudyData estimator_data(const StudyResult& result,
+                                         const Study& study,
+                                         const StudyActivations& emg) {
   const std::vector<MuscleGroup> groups = muscle_groups(study, result.model);
   identification::StudyData data;
   data.muscles = muscle_setups(study, result.model);
   if (!from_maximal_effort(study.emg)) expect_any_effort(data.muscles);
-  for (const TrialResult& trial : result.trials) {
-    if (!trial.has_motion() || trial.activation.empty()) continue;
-    if (trial.spec.use == Use::mvc || trial.spec.use == Use::static_pose ||
-        trial.spec.use == Use::passive)
-      continue;
-    data.trials.push_back(trial_data(study, trial, groups, result.resting));
+  for (std::size_t i = 0; i < result.trials.size(); ++i) {
+    const TrialResult& trial = result.trials[i];
+    const TimeSeries& activation = emg.of_trial[i];
+    const Use use = i < study.trials.size() ? study.trials[i].use : trial.spec.use;
+    if (!trial.has_motion() || activation.empty()) continue;
+    if (use == Use::mvc || use == Use::static_pose || use == Use::passive) continue;
+    data.trials.push_back(trial_data(study, trial, use, activation, groups, result.resting));
   }
   if (study.identify.priors) data.rules = nuisance_rules(study.emg, data);
   data.rules.insert(data.rules.end(), study.parameters.begin(), study.parameters.end());
@@ -81,7 +89,13 @@ identification::StudyData estimator_data(const StudyResult& result) {
 }
 
 identification::TorqueOptions torque_options(const StudyResult& result, const Progress& progress) {
-  const Study& study = result.study;
+  return torque_options(result.study, result.normalisation, progress);
+}
+
+identification::TorqueOptions torque_options(
+    const Study& study,
+    const std::vector<signals::ChannelNormalisation>& normalisation,
+    const Progress& progress) {
   identification::TorqueOptions options;
   options.muscles = study.identify.muscles;
   options.priors = study.identify.priors;
@@ -107,7 +121,7 @@ identification::TorqueOptions torque_options(const StudyResult& result, const Pr
   options.from_mvc = from_maximal_effort(study.emg);
   options.progress.stop = progress.stop;
   if (study.identify.gain) {
-    for (const signals::ChannelNormalisation& n : result.normalisation) {
+    for (const signals::ChannelNormalisation& n : normalisation) {
       // Activation 1 is the greatest effort of the MVC trials: a share of what the muscle can do.
       const bool known = study.emg.has_mvc;
       const double effort = known ? study.emg.mvc_effort : 1.0;
@@ -117,7 +131,7 @@ identification::TorqueOptions torque_options(const StudyResult& result, const Pr
     }
   }
   options.envelope_cutoff_hz = study.emg.lowpass_hz;
-  for (const signals::ChannelNormalisation& n : result.normalisation) {
+  for (const signals::ChannelNormalisation& n : normalisation) {
     options.emg_bandwidth_hz[n.channel] = n.bandwidth_hz;
     options.emg_rest[n.channel] = n.resting_level_v / n.reference_v;
   }

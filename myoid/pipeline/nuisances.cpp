@@ -25,7 +25,8 @@ ParameterRule rule(const char* parameter, double mean, double sd) {
   return r;
 }
 
-/// A joint's largest moment arm of every muscle, and whether every trial knows its motion.
+/// A joint's largest moment arm of every muscle, and whether every trial that is fitted knows its
+/// motion.
 struct JointReach {
   Eigen::VectorXd arm_m;
   bool motion = true;
@@ -73,6 +74,7 @@ std::vector<ParameterRule> nuisance_rules(const EmgSpec& emg,
   }
   std::map<std::string, JointReach> joints;
   for (const TrialData& trial : data.trials) {
+    if (!trial.calibration) continue;
     const Eigen::Index n = trial.time_s.size();
     widen(trial.moment_arm_m, trial.angle_rad, trial.velocity_radps, trial.acceleration_radps2, n,
           joints[trial.joint]);

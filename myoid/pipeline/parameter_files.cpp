@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <set>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "myoid/pipeline/json_values.h"
+#include "myoid/pipeline/prediction_gates.h"
 #include "myoid/recording/text_file.h"
 
 namespace myoid::pipeline {
@@ -139,11 +141,23 @@ ordered_json method_json(const IdentificationResult& method) {
                            {"rmse_nm", unless_paper(t.rmse_nm)},
                            {"nrmse_range", unless_paper(t.nrmse_range)},
                            {"r2", unless_paper(t.r2)},
+                           {"smoothed_r2", unless_paper(smoothed_score(t).r2)},
+                           {"smoothed_below_hz", unless_paper(t.smooth_hz)},
                            {"band_rmse_nm", unless_paper(t.band.rmse_nm)},
                            {"band_nrmse_range", unless_paper(t.band.nrmse_range)},
                            {"band_r2", unless_paper(t.band.r2)}});
   }
   return m;
+}
+
+/// What a fold's prediction was made with.
+ordered_json fold_values(const identification::Fold& fold) {
+  ordered_json values = ordered_json::array();
+  for (const ParameterEstimate& e : fold.parameters)
+    values.push_back({{"muscle", e.muscle},
+                      {"parameter", e.parameter},
+                      {"estimate", number_or_null(e.estimate)}});
+  return values;
 }
 
 ordered_json score_json(const identification::Score& s) {
@@ -179,6 +193,21 @@ std::string parameters_csv(const std::vector<IdentificationResult>& methods) {
                     : fmt::format(",{},{}", number_or_empty(it->low), number_or_empty(it->high));
       }
       text += e.routes_disagree ? ",true\n" : ",false\n";
+    }
+  }
+  return text;
+}
+
+std::string fold_parameters_csv(const std::vector<identification::Fold>& folds) {
+  std::string text = "left_out,muscle,parameter,unit,estimate,emg_lag\n";
+  std::set<std::string> written;
+  for (const identification::Fold& fold : folds) {
+    for (const ParameterEstimate& e : fold.parameters) {
+      // The joints of one trial are predicted by one fit.
+      const std::string row = fmt::format("{},{},{}", quoted(fold.trial), e.muscle, e.parameter);
+      if (!written.insert(row).second) continue;
+      text += fmt::format("{},{},{},{}\n", row, symbol(e.unit), number_or_empty(e.estimate),
+                          identification::name(fold.lag));
     }
   }
   return text;
@@ -235,13 +264,18 @@ std::string parameters_json(const std::vector<IdentificationResult>& methods,
         {{"trial", f.trial},
          {"joint", f.joint},
          {"identified", score_json(f.identified)},
+         {"identified_smoothed", score_json(f.smooth)},
+         {"smoothed_below_hz", number_or_null(f.smooth_hz)},
          {"identified_below_cutoff", score_json(f.band)},
          {"literature_with_gain", score_json(f.literature)},
          {"gain", number_or_null(f.gain)},
          {"regression_on_emg", score_json(f.regression)},
          {"constant", score_json(f.constant)},
          {"paper", f.paper ? score_json(*f.paper) : ordered_json(nullptr)},
-         {"lag_s", number_or_null(f.lag_s)}});
+         {"lag_s", number_or_null(f.lag_s)},
+         {"converged", f.converged},
+         {"emg_lag", identification::name(f.lag)},
+         {"parameters", fold_values(f)}});
   }
   return object.dump(2) + "\n";
 }

@@ -20,6 +20,11 @@ namespace myoid::pipeline {
 [[nodiscard]] std::string parameters_csv(
     const std::vector<identification::IdentificationResult>& methods);
 
+/// The parameters by which every fold's prediction was made, one row per thing left out and
+/// parameter: of fits that did not see it. With muscles.csv or the model for what was held, the
+/// lag, and nothing else, the left-out R2 can be computed anew (docs/theory/identification.md).
+[[nodiscard]] std::string fold_parameters_csv(const std::vector<identification::Fold>& folds);
+
 /// What parameters.json tells beside the estimates and the folds.
 struct ParameterContext {
   std::vector<TrialPhases> phases;

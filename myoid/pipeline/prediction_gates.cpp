@@ -18,6 +18,9 @@ using identification::IdentificationResult;
 using report::Gate;
 using report::GateStatus;
 
+/// Of the torque's squares, the least share that a prediction explains which is called good.
+constexpr double kExplains = 0.5;
+
 /// Sums by joint, of trials each with its mean, its squares about that, and its errors.
 class Sums {
  public:
@@ -93,6 +96,13 @@ std::string Explained::text() const {
                      r2(), rms_nm, spread_nm);
 }
 
+identification::Score smoothed_score(const identification::TrialFit& fit) {
+  const Eigen::VectorXd smooth =
+      fit.smooth_hz > 0.0 ? identification::below(fit.time_s, fit.torque_fit_nm, fit.smooth_hz)
+                          : fit.torque_fit_nm;
+  return identification::score(fit.torque_nm, smooth);
+}
+
 Explained explained(const IdentificationResult& fit, bool calibration) {
   Sums sums;
   for (const identification::TrialFit& t : fit.trials) {
@@ -157,9 +167,9 @@ std::vector<Gate> fit_gates(const IdentificationResult& fit) {
   std::vector<Gate> gates;
   if (const Explained own = explained(fit, true); own.samples > 0) {
     gates.push_back({"Describes the torque it was fitted to",
-                     own.is_wrong()   ? GateStatus::fail
-                     : own.r2() > 0.5 ? GateStatus::pass
-                                      : GateStatus::warn,
+                     own.is_wrong()         ? GateStatus::fail
+                     : own.r2() > kExplains ? GateStatus::pass
+                                            : GateStatus::warn,
                      own.text(),
                      "R2 above 0.5; fails where no torque at all would be nearer, or one that has "
                      "nothing to do with it (R2 below -1)",
@@ -167,10 +177,10 @@ std::vector<Gate> fit_gates(const IdentificationResult& fit) {
   }
   if (const Explained held = explained(fit, false); held.samples > 0) {
     gates.push_back({"Predicts the trials held back",
-                     held.is_wrong()   ? GateStatus::fail
-                     : held.r2() > 0.0 ? GateStatus::pass
-                                       : GateStatus::warn,
-                     held.text(), "R2 above 0; fails below -1",
+                     held.is_wrong()         ? GateStatus::fail
+                     : held.r2() > kExplains ? GateStatus::pass
+                                             : GateStatus::warn,
+                     held.text(), "R2 above 0.5; fails below -1",
                      "Below 0 their mean torque predicts them better, below -1 an unrelated torque "
                      "of the same size."});
   }
@@ -195,13 +205,14 @@ std::vector<Gate> fold_gates(const std::vector<Fold>& folds) {
   const bool beats = identified < literature && 2 * better > static_cast<int>(folds.size());
   gates.push_back(
       {"Predicts torque it has not seen",
-       all.is_wrong()            ? GateStatus::fail
-       : beats && all.r2() > 0.0 ? GateStatus::pass
-                                 : GateStatus::warn,
+       all.is_wrong()                  ? GateStatus::fail
+       : beats && all.r2() > kExplains ? GateStatus::pass
+                                       : GateStatus::warn,
        fmt::format("{}; unfiltered {:.2f} N m, the literature with its best gain {:.2f} N m",
                    all.text(), std::sqrt(identified / std::max(count, 1.0)),
                    std::sqrt(literature / std::max(count, 1.0))),
-       "R2 above 0 and better than the literature's parameters, over all and in most trials; fails "
+       "R2 above 0.5 and better than the literature's parameters, over all and in most trials; "
+       "fails "
        "below -1",
        fmt::format("Better in {} of the {} left out.", better, folds.size())});
   const std::vector<OutlyingFold> outlying = outlying_folds(folds);

@@ -31,6 +31,9 @@ struct Explained {
   [[nodiscard]] std::string text() const;
 };
 
+/// The score of a trial's prediction below its `smooth_hz`.
+[[nodiscard]] identification::Score smoothed_score(const identification::TrialFit& fit);
+
 /// Of the trials that were fitted, or of those held back.
 [[nodiscard]] Explained explained(const identification::IdentificationResult& fit,
                                   bool calibration);

@@ -125,6 +125,9 @@ TEST(FoldGates, FailWhereTrialsLeftOutArePredictedWorseThanByAnUnrelatedTorque) 
             GateStatus::pass);
   EXPECT_EQ(status_of(fold_gates({fold("a", 3.0, 2.5), fold("b", 3.0, 2.6)}), name),
             GateStatus::warn);
+  // Better than the literature, and yet a third of the torque only.
+  EXPECT_EQ(status_of(fold_gates({fold("a", 3.0, 1.75), fold("b", 3.0, 1.75)}), name),
+            GateStatus::warn);
   EXPECT_EQ(status_of(fold_gates({fold("a", 1.0, 1.8), fold("b", 1.0, 1.8)}), name),
             GateStatus::fail);
 }

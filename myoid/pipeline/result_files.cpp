@@ -223,6 +223,10 @@ void write_results(const StudyResult& result,
       folder / "parameters.json",
       parameters_json(result.methods, result.folds, provenance, parameter_context(result)));
   recording::write_file(folder / "parameters.csv", parameters_csv(result.methods));
+  std::error_code ignored;
+  std::filesystem::remove(folder / "fold_parameters.csv", ignored);  // of an earlier run
+  if (!result.folds.empty())
+    recording::write_file(folder / "fold_parameters.csv", fold_parameters_csv(result.folds));
   recording::write_file(folder / "run.json", run_json(result, provenance).dump(2) + "\n");
 }
 

@@ -11,6 +11,7 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include "myoid/core/error.h"
+#include "myoid/identification/basins.h"
 #include "myoid/identification/force.h"
 #include "myoid/pipeline/dynamometer_sign.h"
 #include "myoid/pipeline/estimator_input.h"
@@ -163,13 +164,34 @@ void compute_trials(const Study& study,
     throw InvalidInput(result.trials.front().failure);
 }
 
+/// What a fit of the study begins with.
+struct FitInput {
+  identification::StudyData data;  ///< Without the phases that the study excludes.
+  identification::TorqueOptions options;
+  std::vector<TrialPhases> phases;
+};
+
+/// Of the trials of `result` with the uses of `study` and these activations.
+FitInput fit_input(const StudyResult& result,
+                   const Study& study,
+                   const StudyActivations& emg,
+                   const Progress& progress) {
+  FitInput input{.data = estimator_data(result, study, emg),
+                 .options = torque_options(study, emg.normalisation, progress),
+                 .phases = {}};
+  input.options.multistart = study.identify.starts;
+  if (study.phases.search && !input.data.trials.empty()) {
+    input.phases = study_phases(result, study, emg, input.data, input.options);
+    exclude_phases(study.phases.exclude, input.phases, input.data);
+  }
+  return input;
+}
+
 /// The parameters by every method that the study names, without the phases that it excludes.
 void identify_parameters(const Study& study, const Progress& progress, StudyResult& result) {
-  result.data = estimator_data(result);
-  if (study.phases.search && !result.data.trials.empty()) {
-    result.phases = study_phases(result, torque_options(result, progress));
-    exclude_phases(study.phases.exclude, result.phases, result.data);
-  }
+  FitInput input = fit_input(result, study, activations_of(result), progress);
+  result.data = std::move(input.data);
+  result.phases = std::move(input.phases);
   const bool torque = std::find(study.identify.methods.begin(), study.identify.methods.end(),
                                 "torque") != study.identify.methods.end();
   if (torque) {
@@ -190,9 +212,8 @@ void identify_parameters(const Study& study, const Progress& progress, StudyResu
       result.methods.push_back(identification::identify_force(
           result.data, {.estimator = std::move(estimator), .shared_forces = true}));
     } else {
-      identification::TorqueOptions estimator = torque_options(result, progress);
-      estimator.multistart = study.identify.starts;
-      result.methods.push_back(identification::identify_torque(result.data, estimator));
+      result.methods.push_back(identification::identify_torque(result.data, input.options));
+      identification::look_around(result.data, input.options, result.methods.back());
     }
   }
 }
@@ -212,20 +233,57 @@ void inform_forces(StudyResult& result) {
   }
 }
 
-std::vector<identification::Fold> folds(const StudyResult& result, const Progress& progress) {
-  identification::TorqueOptions options = torque_options(result, progress);
-  for (const identification::IdentificationResult& method : result.methods) {
-    if (method.method != "torque") continue;
-    options.warm_start = method.solution;
-    options.lag = method.lag;
-    options.choose_lag = false;  // chosen by all trials
+identification::FoldKind fold_kind(const std::string& left_out) {
+  return left_out == "condition" ? identification::FoldKind::condition
+         : left_out == "block"   ? identification::FoldKind::block
+                                 : identification::FoldKind::trial;
+}
+
+/// The study's data as if the trials that a split leaves out had been held back for validation:
+/// from the EMG on nothing rests on them.
+FitInput without_left_out(const StudyResult& result,
+                          const std::vector<TrialInput>& inputs,
+                          const identification::StudyData& split,
+                          const Progress& progress) {
+  Study study = result.study;
+  for (TrialSpec& trial : study.trials) {
+    for (const identification::TrialData& data : split.trials) {
+      if (data.name == trial.name && !data.calibration) trial.use = Use::validation;
+    }
   }
-  const std::string& left_out = result.study.identify.folds;
-  const identification::FoldKind kind = left_out == "condition"
-                                            ? identification::FoldKind::condition
-                                        : left_out == "block" ? identification::FoldKind::block
-                                                              : identification::FoldKind::trial;
-  return identification::cross_validate(result.data, options, {.kind = kind});
+  FitInput input =
+      fit_input(result, study, activations_without_validation(study, inputs, result), progress);
+  std::erase_if(input.data.trials, [&](const identification::TrialData& trial) {
+    return std::none_of(split.trials.begin(), split.trials.end(),
+                        [&](const auto& of_split) { return of_split.name == trial.name; });
+  });
+  return input;
+}
+
+/// Leaves trials, conditions or blocks out, with a fit that is the reported one on the others.
+void leave_out(const std::vector<TrialInput>& inputs,
+               const Progress& progress,
+               StudyResult& result) {
+  const identification::CrossValidationOptions how{.kind = fold_kind(result.study.identify.folds)};
+  identification::TorqueOptions options = torque_options(result, progress);
+  options.multistart = result.study.identify.starts;
+  const auto fit = [&](identification::StudyData& data) {
+    if (how.kind == identification::FoldKind::block)
+      return identification::identify_torque(data, identification::of_a_fold(options));
+    FitInput input = without_left_out(result, inputs, data, progress);
+    data = std::move(input.data);
+    return identification::identify_torque(data, identification::of_a_fold(input.options));
+  };
+  result.folds = identification::cross_validate(result.data, fit, options, how);
+  std::string why_not;
+  (void)identification::splits(result.data, how, &why_not);
+  const std::string bad = identification::generalises_badly(result.folds);
+  for (identification::IdentificationResult& method : result.methods) {
+    if (method.method != "torque") continue;
+    if (!why_not.empty())
+      method.warnings.push_back("nothing was left out of the fit to be predicted: " + why_not);
+    if (!bad.empty()) method.warnings.push_back(bad);
+  }
 }
 
 }  // namespace
@@ -271,7 +329,7 @@ StudyResult analyse(const Study& study, StudyInputs given, const RunOptions& opt
   const bool torque = std::find(study.identify.methods.begin(), study.identify.methods.end(),
                                 "torque") != study.identify.methods.end();
   if (study.identify.cross_validate && torque) {
-    stages.run("cross-validation", 0.85, [&] { result.folds = folds(result, options.progress); });
+    stages.run("cross-validation", 0.85, [&] { leave_out(inputs, options.progress, result); });
   }
   if (study.identify.next_movements > 0 && torque) {
     stages.run("next recording", 0.95, [&] { result.next = next_recording(result, options); });

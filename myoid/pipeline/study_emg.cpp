@@ -1,6 +1,8 @@
 #include "myoid/pipeline/study_emg.h"
 
+#include <algorithm>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -36,6 +38,56 @@ std::string delays(const identification::IdentificationResult& method) {
                        : fmt::format("{}", fmt::join(found, ", "));
 }
 
+/// Whether filters and levels of the EMG may rest on each trial: all but those held back for
+/// validation, unless that is all of them.
+std::vector<bool> seen_trials(const Study& study) {
+  std::vector<bool> seen;
+  for (const TrialSpec& trial : study.trials) seen.push_back(trial.use != Use::validation);
+  if (std::find(seen.begin(), seen.end(), true) == seen.end()) seen.assign(seen.size(), true);
+  return seen;
+}
+
+/// From clean EMG of each trial on, whose later stages are filled; null: not raw.
+StudyActivations activations(const Study& study,
+                             const std::vector<TrialInput>& inputs,
+                             const std::vector<signals::EmgStages*>& stages) {
+  StudyActivations found;
+  found.of_trial.resize(inputs.size());
+  if (study.emg.kind == EmgKind::activation) {
+    for (std::size_t i = 0; i < inputs.size(); ++i) {
+      if (inputs[i].emg) found.of_trial[i] = *inputs[i].emg;
+    }
+    return found;
+  }
+  const std::vector<bool> seen = seen_trials(study);
+  const signals::EnvelopeOptions options = envelope_options(study);
+  std::vector<const signals::EmgStages*> clean;
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    if (stages[i] != nullptr && seen[i]) clean.push_back(stages[i]);
+  }
+  if (!clean.empty()) found.whitening = signals::find_whitening(clean, options);
+  oneapi::tbb::parallel_for(std::size_t{0}, inputs.size(), [&](std::size_t i) {
+    if (stages[i] != nullptr) signals::add_envelope(*stages[i], options, found.whitening);
+  });
+  const auto envelope = [&](std::size_t i) -> const TimeSeries& {
+    return stages[i] != nullptr ? stages[i]->envelope : *inputs[i].emg;
+  };
+  std::vector<signals::TrialEnvelope> envelopes;
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    if (inputs[i].emg && seen[i])
+      envelopes.push_back({study.trials[i].name, study.trials[i].use == Use::mvc, &envelope(i),
+                           stages[i] != nullptr ? stages[i]->bandwidth_hz : Eigen::VectorXd()});
+  }
+  found.normalisation =
+      signals::find_normalisation(envelopes, {.window_s = study.emg.normalise_window_s});
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    if (inputs[i].emg)
+      found.of_trial[i] =
+          thinned(signals::normalise(envelope(i), found.normalisation), kActivationRate_hz);
+  }
+  return found;
+}
+
 }  // namespace
 
 signals::EmgChain emg_chain(const StudyResult& result,
@@ -69,54 +121,44 @@ signals::EmgChain emg_chain(const StudyResult& result,
   return chain;
 }
 
+StudyActivations activations_without_validation(const Study& study,
+                                                const std::vector<TrialInput>& inputs,
+                                                const StudyResult& result) {
+  std::vector<signals::EmgStages> copies(inputs.size());
+  std::vector<signals::EmgStages*> stages(inputs.size(), nullptr);
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    if (!result.trials[i].emg) continue;
+    copies[i] = *result.trials[i].emg;
+    stages[i] = &copies[i];
+  }
+  return activations(study, inputs, stages);
+}
+
 void process_emg_of_trials(const Study& study,
                            const std::vector<TrialInput>& inputs,
                            StudyResult& result) {
-  const auto with_emg = [&](std::size_t i) { return inputs[i].emg.has_value(); };
-  if (study.emg.kind == EmgKind::raw) {
-    const signals::EnvelopeOptions options = envelope_options(study);
-    oneapi::tbb::parallel_for(std::size_t{0}, inputs.size(), [&](std::size_t i) {
-      if (with_emg(i)) result.trials[i].emg = signals::clean_emg(*inputs[i].emg, options);
-    });
-    std::vector<const signals::EmgStages*> clean;
-    for (const TrialResult& trial : result.trials) {
-      if (trial.emg) clean.push_back(&*trial.emg);
-    }
-    result.whitening = signals::find_whitening(clean, options);
-    oneapi::tbb::parallel_for(std::size_t{0}, inputs.size(), [&](std::size_t i) {
-      if (with_emg(i)) signals::add_envelope(*result.trials[i].emg, options, result.whitening);
-    });
-    for (TrialResult& trial : result.trials) {
-      if (trial.emg)
-        trial.notes.insert(trial.notes.end(), trial.emg->findings.begin(),
-                           trial.emg->findings.end());
-    }
-  }
-  if (study.emg.kind == EmgKind::activation) {
-    for (std::size_t i = 0; i < inputs.size(); ++i) {
-      if (with_emg(i)) result.trials[i].activation = *inputs[i].emg;
-    }
-    return;
-  }
+  const signals::EnvelopeOptions options = envelope_options(study);
+  std::vector<signals::EmgStages*> stages(inputs.size(), nullptr);
+  oneapi::tbb::parallel_for(std::size_t{0}, inputs.size(), [&](std::size_t i) {
+    if (study.emg.kind != EmgKind::raw || !inputs[i].emg) return;
+    stages[i] = &result.trials[i].emg.emplace(signals::clean_emg(*inputs[i].emg, options));
+  });
+  StudyActivations found = activations(study, inputs, stages);
   std::vector<signals::TrialEnvelope> envelopes;
   for (std::size_t i = 0; i < inputs.size(); ++i) {
-    if (!with_emg(i)) continue;
-    const TimeSeries& envelope =
-        study.emg.kind == EmgKind::raw ? result.trials[i].emg->envelope : *inputs[i].emg;
-    envelopes.push_back(
-        {study.trials[i].name, study.trials[i].use == Use::mvc, &envelope,
-         result.trials[i].emg ? result.trials[i].emg->bandwidth_hz : Eigen::VectorXd()});
+    TrialResult& trial = result.trials[i];
+    trial.activation = std::move(found.of_trial[i]);
+    if (trial.emg)
+      trial.notes.insert(trial.notes.end(), trial.emg->findings.begin(), trial.emg->findings.end());
+    if (inputs[i].emg)
+      envelopes.push_back({study.trials[i].name, study.trials[i].use == Use::mvc,
+                           trial.emg ? &trial.emg->envelope : &*inputs[i].emg,
+                           trial.emg ? trial.emg->bandwidth_hz : Eigen::VectorXd()});
   }
-  result.level_faults = signals::check_emg_levels(envelopes);
-  result.normalisation =
-      signals::find_normalisation(envelopes, {.window_s = study.emg.normalise_window_s});
-  for (std::size_t i = 0; i < inputs.size(); ++i) {
-    if (!with_emg(i)) continue;
-    const TimeSeries& envelope =
-        study.emg.kind == EmgKind::raw ? result.trials[i].emg->envelope : *inputs[i].emg;
-    result.trials[i].activation =
-        thinned(signals::normalise(envelope, result.normalisation), kActivationRate_hz);
-  }
+  if (study.emg.kind != EmgKind::activation)
+    result.level_faults = signals::check_emg_levels(envelopes);
+  result.whitening = std::move(found.whitening);
+  result.normalisation = std::move(found.normalisation);
 }
 
 }  // namespace myoid::pipeline

@@ -8,10 +8,19 @@
 
 namespace myoid::pipeline {
 
+/// The activations of all trials of `result` if the uses of its trials were those of `study`: EMG
+/// is whitened, and compared with the greatest effort, as trials show that are not held back for
+/// validation. A prediction of a trial that is held back rests on nothing of that trial but its own
+/// envelopes.
+[[nodiscard]] StudyActivations activations_without_validation(const Study& study,
+                                                              const std::vector<TrialInput>& inputs,
+                                                              const StudyResult& result);
+
 /// Turns the EMG of all trials into activations, in `result`: raw EMG is cleaned, whitened by one
 /// filter for the study and rectified; envelopes are normalised by the study's greatest effort
-/// (of its MVC trials, if any) and thinned to 250 Hz; activations stay as they came. The trials of
-/// `result` stand in the order of `inputs`.
+/// and thinned to 250 Hz; activations stay as they came. Trials that are held back for validation
+/// have no part in filter and greatest effort. The trials of `result` stand in the order of
+/// `inputs`.
 void process_emg_of_trials(const Study& study,
                            const std::vector<TrialInput>& inputs,
                            StudyResult& result);

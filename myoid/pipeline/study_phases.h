@@ -14,6 +14,12 @@ namespace myoid::pipeline {
 /// short to search get one phase; the fit is spared when all are.
 [[nodiscard]] std::vector<TrialPhases> study_phases(const StudyResult& result,
                                                     identification::EstimatorOptions options);
+/// The same of other data of the same trials, with other uses (those of `study`) and activations.
+[[nodiscard]] std::vector<TrialPhases> study_phases(const StudyResult& result,
+                                                    const Study& study,
+                                                    const StudyActivations& emg,
+                                                    const identification::StudyData& of_study,
+                                                    identification::EstimatorOptions options);
 
 /// Marks the phases of the kinds that `rule` names and takes their time out of the data. A phase of
 /// fatigue that only the torque shows (no raw EMG) stays: it may be the law that is wrong.

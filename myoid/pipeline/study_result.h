@@ -82,4 +82,18 @@ struct StudyResult {
   int failed_trials = 0;
 };
 
+/// The activations of a study's trials and what they are measured against.
+struct StudyActivations {
+  std::vector<TimeSeries> of_trial;  ///< In the study's order; empty: no EMG.
+  signals::Whitening whitening;
+  std::vector<signals::ChannelNormalisation> normalisation;
+};
+
+/// The activations that stand in a result.
+[[nodiscard]] inline StudyActivations activations_of(const StudyResult& result) {
+  StudyActivations found{{}, result.whitening, result.normalisation};
+  for (const TrialResult& trial : result.trials) found.of_trial.push_back(trial.activation);
+  return found;
+}
+
 }  // namespace myoid::pipeline

@@ -15,6 +15,7 @@
 #include "myoid/core/error.h"
 #include "myoid/math/statistics.h"
 #include "myoid/muscle/hill_parameters.h"
+#include "myoid/pipeline/prediction_gates.h"
 #include "myoid/pipeline/run_study.h"
 #include "myoid/recording/atomic_file.h"
 #include "myoid/simulation/synthetic_recording.h"
@@ -97,7 +98,9 @@ OnePerson one_person(const simulation::Protocol& protocol,
       if (method.method != "torque") continue;
       for (const identification::TrialFit& t : method.trials) {
         if (t.calibration) continue;
-        person.predictions.push_back({seed, t.trial, t.rmse_nm, t.nrmse_range, t.r2, t.band});
+        const identification::Score smooth = smoothed_score(t);
+        person.predictions.push_back(
+            {seed, t.trial, smooth.rmse_nm, smooth.nrmse_range, smooth.r2, t.band});
       }
     }
   } catch (const InvalidInput& error) {

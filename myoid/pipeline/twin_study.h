@@ -30,7 +30,7 @@ struct TwinRow {
   [[nodiscard]] bool covered() const;  ///< The 95 % interval holds the truth.
 };
 
-/// Prediction of one trial that was held back.
+/// Prediction of one trial that was held back, smoothed (smooth_prediction.h).
 struct TwinPrediction {
   std::uint64_t seed = 0;
   std::string trial;
