@@ -285,7 +285,8 @@ void fit(const MuscleOptions& o, Context& context, const pipeline::MuscleFile& f
   context.end_progress();
   compare_left_out(all, without_one, recordings, context);
   add_rows("", all);
-  for (std::size_t i = 0; i < without_one.size(); ++i) add_rows(std::to_string(i + 1), without_one[i]);
+  for (std::size_t i = 0; i < without_one.size(); ++i)
+    add_rows(std::to_string(i + 1), without_one[i]);
   if (!o.out.empty()) recording::write_file(o.out, csv);
   if (!converged) context.exit_code = kQualityGateFailed;
   // Whoever guesses half of the maximum misses no force between none and it by more than half.
