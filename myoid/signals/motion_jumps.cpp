@@ -70,9 +70,9 @@ std::string MotionJump::sentence() const {
 
 std::vector<MotionJump> find_motion_jumps(const TimeSeries& motion,
                                           const MotionJumpLimits& limits) {
-  constexpr Eigen::Index kFewest = 20;
+  constexpr Eigen::Index kLeastSamples = 20;
   std::vector<MotionJump> jumps;
-  if (motion.sample_count() < kFewest) return jumps;
+  if (motion.sample_count() < kLeastSamples) return jumps;
   const Eigen::VectorXd& t = motion.time_s();
   for (Eigen::Index c = 0; c < motion.channel_count(); ++c) {
     const Channel& channel = motion.channels()[static_cast<std::size_t>(c)];
