@@ -14,7 +14,8 @@ namespace myoid::test {
 
 /// The law of the muscles once more, from science.md alone (equations 1 to 4, 5.4, 5.5), and files
 /// read by nothing of this project: numbers that the program prints are computed anew from what it
-/// wrote. Linear interpolation, equation (1) by exact steps of a tenth of a millisecond.
+/// wrote. Envelopes between samples by cubics, the rest by lines, equation (1) by exact steps of a
+/// tenth of a millisecond.
 
 /// A storage file (.sto, .mot).
 struct Table {
@@ -55,6 +56,19 @@ inline double between(const std::vector<double>& t, const std::vector<double>& x
   return x[after - 1] + share * (x[after] - x[after - 1]);
 }
 
+/// The cubic through four neighbors of an even clock (Catmull and Rom): an envelope of 6 Hz at 100
+/// samples a second loses half a percent between them by straight lines.
+inline double curve(const std::vector<double>& t, const std::vector<double>& x, double at) {
+  const auto k = static_cast<std::size_t>(std::upper_bound(t.begin(), t.end(), at) - t.begin());
+  if (k < 2 || k + 1 >= t.size()) return between(t, x, at);
+  const double s = (at - t[k - 1]) / (t[k] - t[k - 1]);
+  const double before = x[k - 2], left = x[k - 1], right = x[k], after = x[k + 1];
+  return left + 0.5 * s *
+                    (right - before +
+                     s * (2.0 * before - 5.0 * left + 4.0 * right - after +
+                          s * (3.0 * (left - right) + after - before)));
+}
+
 /// Parameters by their names in parameters.csv, with what stands for those that are absent.
 struct Numbers {
   std::map<std::string, double> value;
@@ -73,8 +87,7 @@ inline std::vector<double> follow(const std::vector<double>& clock,
                                   bool shared) {
   std::vector<double> result;
   if (!shared) {
-    for (const double t : at)
-      result.push_back(std::max(0.0, between(clock, envelope, t - delay_s)));
+    for (const double t : at) result.push_back(std::max(0.0, curve(clock, envelope, t - delay_s)));
     return result;
   }
   const double unit = delay_s / 82.5;
@@ -82,7 +95,7 @@ inline std::vector<double> follow(const std::vector<double>& clock,
   std::vector<double> times, values;
   double e = std::max(0.0, envelope.front()), a = e;
   for (double t = clock.front(); t <= clock.back() + 1e-9; t += kStep_s) {
-    const double u = std::max(0.0, between(clock, envelope, t));
+    const double u = std::max(0.0, curve(clock, envelope, t));
     e += (1.0 - std::exp(-kStep_s / (40.0 * unit))) * (u - e);
     a += (1.0 - std::exp(-kStep_s / ((e >= a ? 15.0 : 50.0) * unit))) * (e - a);
     times.push_back(t);
