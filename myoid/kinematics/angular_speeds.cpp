@@ -82,7 +82,7 @@ Eigen::VectorXd on_rates(const model::BodyModel& model,
 }
 
 bool takes_rates_for_speeds(const model::BodyModel& model) {
-  return model.compat == model::kOpenSim452 && !angular_speed_joints(model).empty();
+  return model.compat.rates_for_angular_velocities && !angular_speed_joints(model).empty();
 }
 
 JointMotion moved_by_speeds(const model::BodyModel& model, const JointMotion& motion) {

@@ -35,6 +35,11 @@ struct Compat {
   /// third by all but the third coordinate, whichever axes those turn. Differs where axes share a
   /// coordinate; seen in inverse dynamics and static optimization.
   bool axes_carried_by_coordinates = false;
+  /// Ball-, Free-, Ellipsoid- and ScapulothoracicJoints move by angular velocities, and the tools
+  /// set these to the rates of the coordinates (kinematics/angular_speeds.h).
+  bool rates_for_angular_velocities = false;
+  /// A muscle without <default_fiber_length> has 0.1 m, else its optimal fiber length.
+  bool class_fiber_length = false;
   /// Static optimization: Millard's cos(pennation) at the normalized fiber length.
   bool normalized_pennation = false;
   /// Scale: the static pose is that of an interior-point search which stops while its barrier still
@@ -54,6 +59,8 @@ inline constexpr Compat kOpenSim452{.opensim_paths = true,
                                     .unseen_moving_points = true,
                                     .six_digit_offsets = true,
                                     .axes_carried_by_coordinates = true,
+                                    .rates_for_angular_velocities = true,
+                                    .class_fiber_length = true,
                                     .normalized_pennation = true,
                                     .static_pose_inside_ranges = true};
 

@@ -111,8 +111,8 @@ void read_bodies(OsimReading& reading, pugi::xml_node model);
                            const char* orientation,
                            bool rounded = false);
 
-/// The coordinate that a socket or a text names; throws ReadError if there is none, or if several
-/// joints have one of that name and the text does not say which joint.
+/// The coordinate that a socket or a text names, of several with one name the first joint's; throws
+/// ReadError if there is none.
 [[nodiscard]] int coordinate_named(const OsimReading& reading,
                                    pugi::xml_node where,
                                    std::string_view text);

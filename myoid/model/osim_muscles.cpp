@@ -155,7 +155,7 @@ Muscle read_muscle(OsimReading& r, pugi::xml_node node) {
   set("minimum_activation", p.minimum_activation);
   set("default_activation", p.default_activation);
   // OpenSim takes its classes' own 0.1 m for every muscle.
-  if (r.compat != kOpenSim452) p.default_fiber_length_m = p.optimal_fiber_length_m;
+  if (!r.compat.class_fiber_length) p.default_fiber_length_m = p.optimal_fiber_length_m;
   set("default_fiber_length", p.default_fiber_length_m);
   set("min_control", p.min_control);
   set("max_control", p.max_control);

@@ -15,9 +15,9 @@ struct OsimOptions {
 ///
 /// Joints: Weld, Pin, Slider, Universal, Gimbal, Ball, Free, Planar, Ellipsoid, Scapulothoracic,
 /// Custom. (Where OpenSim's speeds are angular velocities they are the rates of the coordinates
-/// here, so that inverse dynamics is right.) A loop of joints is cut as OpenSim does. Functions:
-/// Constant, Linear, Polynomial, PiecewiseLinear, SimmSpline and NaturalCubicSpline, cubic
-/// GCVSpline, Multiplier. Path points: fixed, conditional, moving. Wrap objects: cylinder,
+/// here; kinematics/angular_speeds.h has OpenSim's.) A loop of joints is cut as OpenSim does.
+/// Functions: Constant, Linear, Polynomial, PiecewiseLinear, SimmSpline and NaturalCubicSpline,
+/// cubic GCVSpline, Multiplier. Path points: fixed, conditional, moving. Wrap objects: cylinder,
 /// ellipsoid, sphere, torus. Muscles of every class with the curves of Thelen, Millard, Schutte and
 /// DeGrooteFregly. Actuators: Coordinate-, Point-, Torque-. Passive forces: limit forces, bushings,
 /// springs, ligaments. Constraints: couplers of one coordinate, weld, point, distance, point on
@@ -34,7 +34,7 @@ struct OsimOptions {
                                    const OsimOptions& options = {});
 
 /// Reads the force set of a file whose root holds a <ForceSet> (reserve actuators) into a copy of
-/// the model.
+/// the model. Of two forces with one name the model keeps its own, as OpenSim does, with a note.
 [[nodiscard]] BodyModel with_force_set(BodyModel model, const std::filesystem::path& path);
 
 }  // namespace myoid::model

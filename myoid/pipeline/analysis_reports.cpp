@@ -117,7 +117,7 @@ void report_muscles(AnalysisRun& run, pugi::xml_node node) {
         "<solve_for_equilibrium_for_auxiliary_states> is false: fibers have their "
         "default lengths ({}), so that their velocities and forces mean little; lengths "
         "of muscles and moment arms do not depend on it",
-        run.options.compat == model::kOpenSim452
+        run.options.compat.class_fiber_length
             ? "0.1 m where the model gives none, as in OpenSim"
             : "optimal ones where the model gives none; OpenSim takes 0.1 m"));
   }

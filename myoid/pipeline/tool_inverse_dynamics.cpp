@@ -97,7 +97,7 @@ void run_inverse_dynamics(const OpensimSetup& setup,
   const model::BodyModel model = setup_model(setup, options.compat, excluded, result.notes);
   if (!model.muscles.empty()) {
     result.notes.push_back(
-        options.compat == model::kOpenSim452
+        options.compat.class_fiber_length
             ? "forces_to_exclude does not name the muscles: as in OpenSim they pull with their "
               "default activations and fiber lengths (0.1 m where the model gives none)"
             : "forces_to_exclude does not name the muscles: they pull with their default "
