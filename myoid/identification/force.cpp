@@ -94,7 +94,6 @@ IdentificationResult identify_force(const StudyData& data, const ForceOptions& o
     if (named) {
       IdentificationResult fit = identify_muscle_force(one, options);
       values = fit.values;
-      all.solutions.push_back(fit.solution);
       all.muscles.back() = fit.muscles.front();
       all.exact = all.exact && fit.exact;
       all.r2 = std::min(all.r2, fit.r2);
@@ -138,7 +137,6 @@ IdentificationResult identify_force(const StudyData& data, const ForceOptions& o
         all.trials[t].force_fit_n.col(column) = fit.trials[t].force_fit_n.col(0);
       }
     } else {
-      all.solutions.emplace_back();
       for (std::size_t t = 0; t < data.trials.size(); ++t) {
         const EstimatorOptions& common = options.estimator;
         const Prediction p = predict(one, one.trials[t], {data.muscles[k].start},

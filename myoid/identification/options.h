@@ -86,10 +86,8 @@ struct EstimatorOptions {
   int starts = 3;                  ///< The given start and moved ones; the best is kept.
   int multistart = 0;              ///< Above 1: instead of these, the given start and Sobol points
                                    ///< (start_box.h), and IdentificationResult::basins.
-  Eigen::VectorXd warm_start;  ///< IdentificationResult::solution of a kindred fit, to begin there;
-                               ///< empty: the muscles' start.
-  bool from_mvc = true;        ///< For the verdicts.
-  bool predictions = true;     ///< Fill IdentificationResult::trials.
+  bool from_mvc = true;            ///< For the verdicts.
+  bool predictions = true;         ///< Fill IdentificationResult::trials.
   IntervalOptions intervals;
   Progress progress;
 };

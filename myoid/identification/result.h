@@ -141,9 +141,8 @@ struct IdentificationResult {
   /// By how much the data prefer `shared` to `delay`, as a difference of chi-squares, where it was
   /// chosen by that.
   std::optional<double> shared_lag_gain;
-  double delay_s = 0.0;                    ///< Of the first channel.
-  Eigen::VectorXd solution;                ///< In the solver's scale (torque).
-  std::vector<Eigen::VectorXd> solutions;  ///< The same of each muscle's fit (force); empty: held.
+  double delay_s = 0.0;      ///< Of the first channel.
+  Eigen::VectorXd solution;  ///< In the solver's scale (torque).
   Eigen::MatrixXd
       covariance;  ///< Of the free parameters in solver's scale (logarithms where logarithmic).
   std::vector<std::string> free_parameters;  ///< Its rows.

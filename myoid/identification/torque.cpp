@@ -251,8 +251,7 @@ IdentificationResult identify_torque(const StudyData& data, const TorqueOptions&
   validate(data);
   const auto begin = std::chrono::steady_clock::now();
   const Estimator estimator(data, options);
-  Eigen::VectorXd start = estimator.model().parameters().start();
-  if (options.warm_start.size() == start.size()) start = options.warm_start;
+  const Eigen::VectorXd start = estimator.model().parameters().start();
   std::vector<BasinTable> tables;
   const Estimator::Solution by_delay = best_solution(estimator, start, tables);
   const double delay_s =
