@@ -62,6 +62,10 @@ bool is_about_motion(const identification::ParameterRule& rule) {
   return field.scope == identification::Scope::joint && field.field != identification::kOffset;
 }
 
+bool is_about_lags(const identification::ParameterRule& rule) {
+  return identification::is_lag(rule.parameter);
+}
+
 /// What is asked for and the method or the files cannot give.
 void refuse_what_cannot_be(const IdentifyOptions& o, const pipeline::MuscleTable& table) {
   std::vector<std::string> asked;
@@ -407,7 +411,7 @@ void add_identify(CLI::App& app, Context& context) {
       context.warn(
           "--motion has no effect: no joint_viscosity, joint_inertia or joint_stiffness is to be "
           "identified (--free)");
-    if (is_free(data, pipeline::is_about_lags)) {
+    if (is_free(data, is_about_lags)) {
       if (!o->lag.empty()) {
         throw InvalidInput(
             fmt::format("--lag {}: the lags of equation (1) are to be identified, which is a third "

@@ -190,6 +190,14 @@ bool zero_by_nature(std::string_view parameter) {
   });
 }
 
+bool is_lag(std::string_view parameter) {
+  return std::any_of(kFields.begin(), kFields.end(), [&](const ParameterField& field) {
+    return field.scope == Scope::channel && field.name == parameter &&
+           (field.field == kExcitationTime || field.field == kActivationTime ||
+            field.field == kDeactivationTime);
+  });
+}
+
 const ParameterField& parameter_field(std::string_view name) {
   std::string names;
   for (const ParameterField& field : kFields) {

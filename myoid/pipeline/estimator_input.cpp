@@ -144,9 +144,4 @@ void use_dynamics(identification::EstimatorOptions& options) {
   options.delay_prior_sd_s = 0.010;
 }
 
-bool is_about_lags(const identification::ParameterRule& rule) {
-  return rule.parameter == "excitation_time" || rule.parameter == "activation_time" ||
-         rule.parameter == "deactivation_time";
-}
-
 }  // namespace myoid::pipeline

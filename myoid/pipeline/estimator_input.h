@@ -30,7 +30,4 @@ namespace myoid::pipeline {
 /// hold both (tau_ne + tau_ac are some 55 ms of them).
 void use_dynamics(identification::EstimatorOptions& options);
 
-/// Whether a rule is about a lag of equation (1), which acts only with `dynamics`.
-[[nodiscard]] bool is_about_lags(const identification::ParameterRule& rule);
-
 }  // namespace myoid::pipeline

@@ -8,7 +8,6 @@
 
 #include "myoid/core/error.h"
 #include "myoid/identification/parameters.h"
-#include "myoid/pipeline/estimator_input.h"
 #include "myoid/pipeline/muscle_table.h"
 #include "myoid/pipeline/study_settings.h"
 #include "myoid/pipeline/trial_table.h"
@@ -49,7 +48,7 @@ void check_references(const Study& study) {
     }
   }
   for (const identification::ParameterRule& rule : study.parameters) {
-    if (is_about_lags(rule) && !study.identify.dynamics) {
+    if (identification::is_lag(rule.parameter) && !study.identify.dynamics) {
       refuse(
           fmt::format("[[parameter]] {}: the lags of the activation act only with dynamics = "
                       "true in [identify]; add that, or leave the table out",
