@@ -16,7 +16,7 @@ namespace {
 using test::elbow_study;
 using test::ElbowStudy;
 
-const std::string kSlack = "tendon_slack_length";
+const std::string kSlackLength = "tendon_slack_length";
 
 ElbowStudy noisy() {
   return elbow_study({.emg_cv = 0.04, .torque_sd_nm = 0.3, .with_priors = true, .seed = 4});
@@ -32,7 +32,7 @@ const ParameterEstimate& length_of(const IdentificationResult& result, const std
 TEST(HeldTendon, TheShiftIsThatOfAFitWithALongerTendon) {
   ElbowStudy study = noisy();
   constexpr double kSd_m = 0.002;
-  study.data.muscles[0].priors[kSlack] = {.mean = 0.0, .sd = kSd_m};
+  study.data.muscles[0].priors[kSlackLength] = {.mean = 0.0, .sd = kSd_m};
   const EstimatorOptions options{.starts = 1};
   const Estimator estimator(study.data, options);
   const Estimator::Solution solution = estimator.solve(estimator.model().parameters().start());
@@ -61,7 +61,7 @@ TEST(HeldTendon, WhatNobodyMeasuredWidensTheIntervalOfTheOptimalLength) {
   ElbowStudy study = noisy();
   const IdentificationResult known = identify_torque(study.data, {.starts = 1});
   for (MuscleSetup& m : study.data.muscles)
-    m.priors[kSlack] = literature_priors(m.start).at(kSlack);
+    m.priors[kSlackLength] = literature_priors(m.start).at(kSlackLength);
   const IdentificationResult generic = identify_torque(study.data, {.starts = 1});
   const double slack_m = study.data.muscles[0].start.tendon_slack_length_m;
   const ParameterEstimate& narrow = length_of(known, "BIC");
@@ -81,11 +81,11 @@ TEST(HeldTendon, WhatNobodyMeasuredWidensTheIntervalOfTheOptimalLength) {
 TEST(HeldTendon, IsKnownWhereTheStudySaysSo) {
   ElbowStudy study = noisy();
   MuscleSetup& biceps = study.data.muscles[0];
-  biceps.priors[kSlack] = {.mean = 0.2, .sd = 0.02};
+  biceps.priors[kSlackLength] = {.mean = 0.2, .sd = 0.02};
   EXPECT_EQ(held_slack_sd_m(study.data, 0), 0.02);
   EXPECT_EQ(held_slack_sd_m(study.data, 1), 0.0);
   ParameterRule rule;
-  rule.parameter = kSlack;
+  rule.parameter = kSlackLength;
   rule.owners = {"BIC"};
   rule.prior_sd = 0.004;
   study.data.rules = {rule};
@@ -95,7 +95,7 @@ TEST(HeldTendon, IsKnownWhereTheStudySaysSo) {
   study.data.rules = {rule};
   EXPECT_EQ(held_slack_sd_m(study.data, 0), 0.0);
   study.data.rules.clear();
-  biceps.fixed = {kSlack};
+  biceps.fixed = {kSlackLength};
   EXPECT_EQ(held_slack_sd_m(study.data, 0), 0.0);
 }
 
