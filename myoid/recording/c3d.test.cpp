@@ -15,6 +15,7 @@
 #include "myoid/recording/c3d_writer.h"
 #include "myoid/recording/make_c3d.h"
 
+#include "tests/support/c3d_texts.h"
 #include "tests/support/data_folder.h"
 #include "tests/support/temporary_folder.h"
 
@@ -387,19 +388,11 @@ TEST(C3d, MIsReadAsMillimetersOnlyWhereNoLaboratoryIsLongEnough) {
   EXPECT_TRUE(noted(cut.repairs, "compare a known distance"));
 }
 
-C3dParameter of_texts(const char* name, std::uint8_t width, const std::vector<std::string>& list) {
-  C3dParameter p{.name = name,
-                 .type = C3dType::text,
-                 .dimensions = {width, static_cast<std::uint8_t>(list.size())}};
-  for (std::string text : list) p.text += text.append(width - text.size(), ' ');
-  return p;
-}
-
 TEST(C3d, PosesOfSegmentsAloneAreToldByNameWithTheRemedy) {
   C3dFile file = small_file();
   C3dGroup rotation{.id = 40, .name = "ROTATION"};
   rotation.parameters = {{.name = "USED", .type = C3dType::integer, .numbers = {2}},
-                         of_texts("LABELS", 10, {"pelvis_4X4", "r_arm_4X4"})};
+                         test::c3d_texts("LABELS", 10, {"pelvis_4X4", "r_arm_4X4"})};
   file.groups.push_back(rotation);
   const C3dFile beside = parse_c3d(format_c3d(file), "both.c3d");
   EXPECT_EQ(beside.points, file.points);

@@ -9,6 +9,8 @@
 #include "myoid/recording/c3d_reader.h"
 #include "myoid/recording/c3d_writer.h"
 
+#include "tests/support/c3d_texts.h"
+
 namespace myoid::recording {
 namespace {
 
@@ -21,21 +23,13 @@ C3dFile one_point() {
   return file;
 }
 
-C3dParameter of_texts(const char* name, std::uint8_t width, const std::vector<std::string>& list) {
-  C3dParameter p{.name = name,
-                 .type = C3dType::text,
-                 .dimensions = {width, static_cast<std::uint8_t>(list.size())}};
-  for (std::string text : list) p.text += text.append(width - text.size(), ' ');
-  return p;
-}
-
 TEST(C3dEvents, EventsOfEveryPlaceAreReadOnce) {
   // KINARM: a group EVENTS, whose first number of a pair is not used.
   C3dFile file = one_point();
   C3dGroup events{.id = 41, .name = "EVENTS"};
   events.parameters = {
       {.name = "USED", .type = C3dType::integer, .numbers = {2}},
-      of_texts("LABELS", 9, {"TARGET_ON", "GO"}),
+      test::c3d_texts("LABELS", 9, {"TARGET_ON", "GO"}),
       {.name = "TIMES", .type = C3dType::real, .dimensions = {2, 2}, .numbers = {7, 0.25, 7, 1.5}}};
   file.groups.push_back(events);
   const std::vector<C3dEvent> kinarm{{0.25, "TARGET_ON", "", ""}, {1.5, "GO", "", ""}};
