@@ -34,7 +34,7 @@ std::string emg_table() {
 }
 
 /// The cells of one column of a storage file.
-std::string column(const std::string& text, const std::string& name) {
+std::string cells_of(const std::string& text, const std::string& name) {
   const auto cells = [](const std::string& line) {
     std::vector<std::string> list(1);
     for (const char c : line) {
@@ -85,7 +85,7 @@ TEST(Channels, ThoseAskedForComeInTheirOrderAsIfThereWereNoOthers) {
   EXPECT_THAT(read_text(two), HasSubstr("\ntime\tTRI\tBIC\n"));
   ASSERT_EQ(myoid({"emg", in, "--out", all, "--no-whitening"}).exit_code, 0);
   for (const char* name : {"BIC", "TRI"})
-    EXPECT_EQ(column(read_text(two), name), column(read_text(all), name)) << name;
+    EXPECT_EQ(cells_of(read_text(two), name), cells_of(read_text(all), name)) << name;
 }
 
 TEST(Channels, OneThatIsNotThereOrBrokenAndAskedForIsAnError) {
