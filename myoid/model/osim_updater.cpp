@@ -117,14 +117,6 @@ class ModelUpdate {
     body.remove_child(holder);
   }
 
-  /// The body that a connector of version 4's betas names.
-  [[nodiscard]] static std::string connected(pugi::xml_node joint, const char* connector) {
-    const auto node = joint.child("connectors").find_child_by_attribute("name", connector);
-    std::string name = child_text(node, "connectee_name");
-    while (name.starts_with("../")) name.erase(0, 3);
-    return name;
-  }
-
   /// `child`: the body that held the joint.
   void update_joint(pugi::xml_node joint, std::string child) {
     const std::string name = OsimXml::name_of(joint);
@@ -133,13 +125,18 @@ class ModelUpdate {
       joint.remove_child(property);
       return text;
     };
+    // Version 4's betas name bodies by their path from the joint: "../rod".
+    const auto body_of = [&](const char* property) {
+      std::string path = take(property);
+      while (path.starts_with("../")) path.erase(0, 3);
+      return path;
+    };
     std::string parent = take("parent_body");
+    if (parent.empty()) parent = body_of("socket_parent_body");
     if (parent.empty()) parent = take("socket_parent_frame");
-    if (parent.empty()) parent = connected(joint, "parent_body");
     if (child.empty()) child = take("child_body");
+    if (child.empty()) child = body_of("socket_child_body");
     if (child.empty()) child = take("socket_child_frame");
-    if (child.empty()) child = connected(joint, "child_body");
-    joint.remove_child("connectors");
     if (parent.empty() || child.empty())
       source_.fail(joint, fmt::format("joint '{}' does not name its parent and child", name));
     std::string place_in_parent = digits(take("location_in_parent"));
