@@ -30,12 +30,6 @@ namespace {
 namespace fs = std::filesystem;
 using recording::Repair;
 
-constexpr int kRows = 40;
-
-void add_notes(const std::vector<Repair>& repairs, Content& content) {
-  for (const Repair& r : repairs) content.notes.push_back(recording::to_string(r));
-}
-
 void add_columns(const TimeSeries& series, Content& content) {
   for (Eigen::Index c = 0; c < series.channel_count(); ++c) {
     const auto column = series.values().col(c);

@@ -18,12 +18,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kRows = 40;
-
-void add_notes(const std::vector<recording::Repair>& repairs, Content& content) {
-  for (const recording::Repair& r : repairs) content.notes.push_back(recording::to_string(r));
-}
-
 /// Channels of all clocks over the instants of all of them: no number where a clock has no sample.
 void add_channels(const recording::Recording& file, Content& content) {
   std::vector<TimeSeries> clocks{file.analog.series()};
@@ -46,7 +40,7 @@ void add_channels(const recording::Recording& file, Content& content) {
   }
 }
 
-Content read_channels(const fs::path& path) {
+Content read_table_channels(const fs::path& path) {
   const recording::Recording file = recording::read_recording(path);
   Content content;
   add_channels(file, content);
@@ -58,7 +52,7 @@ Content read_channels(const fs::path& path) {
 
 /// Markers by the door of `info` and `check`; a table that is taken for one of channels gives
 /// these.
-Content read_markers(const fs::path& path) {
+Content read_table_markers(const fs::path& path) {
   const recording::Recording file = recording::read_recording(path);
   Content content;
   content.time_s = {file.markers.time_s.begin(), file.markers.time_s.end()};
@@ -137,7 +131,7 @@ void nexus_markers(TableMaker& make, std::vector<Kind>& list) {
   Kind kind = table("Nexus trajectories", "f.csv",
                     "Trajectories\n100\n,,P:A,,,P:B,,,P:C,,\nFrame,Sub Frame,X,Y,Z,X,Y,Z,X,Y,Z\n"
                     ",,mm,mm,mm,mm,mm,mm,mm,mm,mm\n",
-                    make.rows(9, ',', frame), read_markers);
+                    make.rows(9, ',', frame), read_table_markers);
   kind.says_its_rows = false;
   list.push_back(with_columns(std::move(kind), 2, 2, 3, {0}));
 }
@@ -149,10 +143,10 @@ void qualisys_markers(TableMaker& make, std::vector<Kind>& list) {
   list.push_back(
       with_columns(table("Qualisys 3D", "f.tsv",
                          head + "Frame\tTime\tA X\tA Y\tA Z\tB X\tB Y\tB Z\tC X\tC Y\tC Z\n",
-                         make.rows(9, '\t', frame_and_time('\t', 1, 0.005)), read_markers),
+                         make.rows(9, '\t', frame_and_time('\t', 1, 0.005)), read_table_markers),
                    9, 9, 3, {0, 1}));
   Kind bare = table("Qualisys 3D, no clock", "f.tsv", head,
-                    make.rows(9, '\t', [](int) { return std::string(); }), read_markers);
+                    make.rows(9, '\t', [](int) { return std::string(); }), read_table_markers);
   bare.ordered = false;
   list.push_back(std::move(bare));
 }
@@ -167,7 +161,7 @@ void motive_markers(TableMaker& make, std::vector<Kind>& list) {
           ",,A,A,A,B,B,B,C,C,C\n,,101,101,101,102,102,102,103,103,103\n"
           ",,Position,Position,Position,Position,Position,Position,Position,Position,Position\n"
           "Frame,Time (Seconds),X,Y,Z,X,Y,Z,X,Y,Z\n",
-          make.rows(9, ',', frame_and_time(',', 0, 0.01)), read_markers),
+          make.rows(9, ',', frame_and_time(',', 0, 0.01)), read_table_markers),
       2, 3, 3, {0, 1}));
 }
 
@@ -177,12 +171,12 @@ void other_markers(TableMaker& make, std::vector<Kind>& list) {
             "BTS ASCII format\n\nType:\tPoint 3D tracks\nMeasure unit:\tm\n\nTracks:\t3\n"
             "Frequency:\t100 Hz\nFrames:\t40\nStart time:\t0.000\n\n"
             "Frame\tTime\tA.X\tA.Y\tA.Z\tB.X\tB.Y\tB.Z\tC.X\tC.Y\tC.Z\n",
-            make.rows(9, '\t', frame_and_time('\t', 1, 0.01)), read_markers),
+            make.rows(9, '\t', frame_and_time('\t', 1, 0.01)), read_table_markers),
       10, 10, 3, {0, 1}));
   list.push_back(with_columns(table("NDI", "f.csv",
                                     "Number of frames:,40,Collection frequency:,100,Units:,mm\n"
                                     "Frame,A x,A y,A z,B x,B y,B z,C x,C y,C z\n",
-                                    make.rows(9, ',', frame_of(',')), read_markers),
+                                    make.rows(9, ',', frame_of(',')), read_table_markers),
                               1, 1, 3, {0}));
 }
 
@@ -193,7 +187,7 @@ void bids_motion(TableMaker& make, const fs::path& folder, std::vector<Kind>& li
                         "B_y\ty\tPOS\tB\tmm\nB_z\tz\tPOS\tB\tmm\n");
   recording::write_file(folder / "f_motion.json", "{\"SamplingFrequency\": 100}");
   Kind kind = table("Motion-BIDS", "f_motion.tsv", "",
-                    make.rows(6, '\t', [](int) { return std::string(); }), read_markers);
+                    make.rows(6, '\t', [](int) { return std::string(); }), read_table_markers);
   kind.says_its_rows = false;
   kind.ordered = false;
   list.push_back(std::move(kind));
@@ -206,7 +200,7 @@ void nexus_devices(TableMaker& make, std::vector<Kind>& list) {
   Kind kind =
       table("Nexus devices", "f.csv",
             "Devices\n1000\n,,EMG - Voltage,,Load,\nFrame,Sub Frame,BIC,TRI,Fz\n,,mV,mV,N\n",
-            make.rows(3, ',', frames), read_channels);
+            make.rows(3, ',', frames), read_table_channels);
   kind.says_its_rows = false;
   list.push_back(with_columns(std::move(kind), 2, 3, 1, {0, 1}));
 }
@@ -216,7 +210,7 @@ void qualisys_channels(TableMaker& make, std::vector<Kind>& list) {
       table("Qualisys analog", "f.tsv",
             "NO_OF_SAMPLES\t40\nTOTAL_NO_OF_CHANNELS\t3\nFREQUENCY\t2000\nDESCRIPTION\t--\n"
             "DATA_INCLUDED\tANALOG\nCHANNEL_NAMES\tBIC\tTRI\tBRA\nSAMPLE\tTIME\tBIC\tTRI\tBRA\n",
-            make.rows(3, '\t', frame_and_time('\t', 1, 0.0005)), read_channels),
+            make.rows(3, '\t', frame_and_time('\t', 1, 0.0005)), read_table_channels),
       6, 6, 1, {0, 1}));
 }
 
@@ -225,19 +219,19 @@ void other_channels(TableMaker& make, std::vector<Kind>& list) {
       with_columns(table("BTS EMG", "f.emt",
                          "BTS ASCII format\n\nType:\tEmg tracks\nMeasure unit:\tmV\n\nTracks:\t3\n"
                          "Frequency:\t1000 Hz\nFrames:\t40\n\nFrame\tTime\tBIC\tTRI\tBRA\n",
-                         make.rows(3, '\t', frame_and_time('\t', 1, 0.001)), read_channels),
+                         make.rows(3, '\t', frame_and_time('\t', 1, 0.001)), read_table_channels),
                    9, 9, 1, {0, 1}));
   Kind biopac = table("BIOPAC", "f.txt",
                       "c:\\trial.acq\n0.5 msec/sample\n3 channels\nBIC\nmV\nTRI\nmV\nBRA\nmV\n"
                       "CH1\tCH2\tCH3\n40\t40\t40\n",
-                      make.rows(3, '\t', [](int) { return std::string(); }), read_channels);
+                      make.rows(3, '\t', [](int) { return std::string(); }), read_table_channels);
   biopac.ordered = false;
   list.push_back(std::move(biopac));
   Kind noraxon = table("Noraxon MR4", "f.csv",
                        "\"type\";\"begin_time\";\"frequency\";\"count\";\"sex\"\n"
                        "\"record\";\"0,00000\";\"2000\";\"40\";\"male\"\n\n"
                        "\"time\";\"Activity\";\"Marker\";\"BIC LT (uV)\";\"TRI LT (uV)\"\n",
-                       "", read_channels);
+                       "", read_table_channels);
   std::string rows = make.rows(2, ';', [](int i) {
     return fmt::format("{:.5f};{};;", 0.0005 * i, i == 0 ? "\"Activity\"" : "");
   });
@@ -271,12 +265,12 @@ void delsys(TableMaker& make, std::vector<Kind>& list) {
   Kind old = table("Discover 1.4", "f.csv",
                    "Application:, Trigno Discover (1.4.2)\n" + sensors +
                        "EMG 1 (74Hz), ACC X (37Hz), EMG 2 (74Hz), ACC Y (37Hz), \n",
-                   packets(make, ", ", false), read_channels);
+                   packets(make, ", ", false), read_table_channels);
   Kind recent = table("Discover 1.7", "f.csv",
                       "Application:, Trigno Discover (1.7.0)\n" + sensors +
                           "EMG 1 (mV), ACC X (G), EMG 2 (mV), ACC Y (G)\n"
                           "74.0741 Hz, 37.0370 Hz, 74.0741 Hz, 37.0370 Hz\n",
-                      packets(make, ", ", false), read_channels);
+                      packets(make, ", ", false), read_table_channels);
   for (Kind* kind : {&old, &recent}) {
     kind->says_its_rows = false;
     kind->ordered = false;
@@ -285,12 +279,16 @@ void delsys(TableMaker& make, std::vector<Kind>& list) {
   Kind works = table("EMGworks", "f.csv",
                      "X[s],\"Sensor 1: EMG 1\",X[s],\"Sensor 1: ACC.X 1\",X[s],\"Sensor 2: EMG 2\","
                      "X[s],\"Sensor 2: ACC.Y 2\"\n",
-                     packets(make, ",", true), read_channels);
+                     packets(make, ",", true), read_table_channels);
   works.says_its_rows = false;
   list.push_back(with_columns(std::move(works), 0, 0, 2, {0}));
 }
 
 }  // namespace
+
+void add_notes(const std::vector<recording::Repair>& repairs, Content& content) {
+  for (const recording::Repair& r : repairs) content.notes.push_back(recording::to_string(r));
+}
 
 std::vector<Kind> good_tables(const fs::path& folder) {
   TableMaker make;

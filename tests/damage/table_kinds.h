@@ -3,9 +3,17 @@
 #include <filesystem>
 #include <vector>
 
+#include "myoid/recording/text_file.h"
+
 #include "tests/damage/kinds.h"
 
 namespace myoid::damage {
+
+/// Rows of every table that is made.
+inline constexpr int kRows = 40;
+
+/// Adds the sentences of what a reader repaired.
+void add_notes(const std::vector<recording::Repair>& repairs, Content& content);
 
 /// One good table of markers or channels of every maker's layout that the readers know, with what
 /// must stand beside it in `folder`.
