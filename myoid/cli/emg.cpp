@@ -249,6 +249,7 @@ void print_emg(const std::vector<std::string>& out,
 }
 
 void run_emg(EmgCommand o, const Context& context) {
+  if (o.out.empty()) throw InvalidInput("--out: a name is expected, found none");
   const std::vector<std::string> activations = outputs(o, o.out, "--out");
   const std::vector<std::string> envelopes = outputs(o, o.envelope, "--envelope");
   prepare(o, activations, envelopes, context);

@@ -85,7 +85,6 @@ void report_estimates(const Estimator& estimator,
     result.model_error = intervals.model_error->relative_size;
   }
   intervals.tendon_shift = held_tendon_shift(estimator, solution, data);
-  result.covariance += intervals.tendon_shift * intervals.tendon_shift.transpose();
   result.condition = intervals.sandwich.condition;
   if (options.intervals.bootstrap > 0) {
     intervals.bootstrap = bootstrap(estimator, solution);
@@ -199,7 +198,8 @@ void report_estimates(const Estimator& estimator,
     const FreeParameter& p = free[j];
     const auto at = static_cast<Eigen::Index>(j);
     result.free_parameters.push_back(p.label);
-    const double sd = std::sqrt(std::max(0.0, result.covariance(at, at)));
+    const double sd = std::sqrt(std::max(0.0, result.covariance(at, at)) +
+                                intervals.tendon_shift.row(at).squaredNorm());
     const bool determined = intervals.sandwich.determined[j] || p.prior_sd > 0.0;
     for (const FreeParameter::Target& target : p.targets) {
       if (p.owner == "subject" && &target != &p.targets.front()) break;

@@ -143,8 +143,10 @@ struct IdentificationResult {
   std::optional<double> shared_lag_gain;
   double delay_s = 0.0;      ///< Of the first channel.
   Eigen::VectorXd solution;  ///< In the solver's scale (torque).
-  Eigen::MatrixXd
-      covariance;  ///< Of the free parameters in solver's scale (logarithms where logarithmic).
+  /// Of the free parameters in the solver's scale (logarithms where logarithmic), given the slack
+  /// lengths of the tendons. Standard errors and intervals add what is not known of these
+  /// (`held_tendon_shift`).
+  Eigen::MatrixXd covariance;
   std::vector<std::string> free_parameters;  ///< Its rows.
   std::vector<std::string> collinear;     ///< Sets that the data hardly tell apart, as sentences.
   std::vector<std::string> undetermined;  ///< Combinations that the data leave open, as sentences.

@@ -67,6 +67,8 @@ void read_set(OsimReading& r, pugi::xml_node set, const Read& read) {
   OsimReading inner{xml, r.compat, std::move(r.model), r.frames};
   read(inner, other);
   r.model = std::move(inner.model);
+  for (const std::string& sentence : xml.defaulted())
+    r.model.notes.push_back(fmt::format("{}: {}", path.string(), sentence));
 }
 
 /// Other sets that a model may refer to in a file of its own; leaving them out would be silent.
@@ -119,6 +121,7 @@ BodyModel parse_osim(std::string_view text,
                                                       : model.child("ConstraintSet"));
   read_loose_components(r, model);
   note_classes(r.model);
+  for (const std::string& sentence : xml.defaulted()) r.model.notes.push_back(sentence);
   try {
     return finalize(std::move(r.model));
   } catch (const ModelError& error) {

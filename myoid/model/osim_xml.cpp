@@ -53,11 +53,15 @@ OsimXml::OsimXml(std::string_view text, std::filesystem::path path, Root root)
   version_ = root_.attribute("Version").as_int();
 }
 
-void OsimXml::fail(pugi::xml_node where, const std::string& message) const {
+std::size_t OsimXml::line_of(pugi::xml_node where) const {
   // Elements made while upgrading an old document have no place in the text: their parents have.
   std::ptrdiff_t offset = where.offset_debug();
   for (pugi::xml_node n = where; offset < 0 && n; n = n.parent()) offset = n.offset_debug();
-  throw ReadError(path_, line_at(text_, offset), message);
+  return line_at(text_, offset);
+}
+
+void OsimXml::fail(pugi::xml_node where, const std::string& message) const {
+  throw ReadError(path_, line_of(where), message);
 }
 
 void OsimXml::set_prototypes(pugi::xml_node defaults) {
@@ -69,6 +73,16 @@ pugi::xml_node OsimXml::property(pugi::xml_node object, const char* name) const 
   if (prototypes_.empty()) return {};
   const auto it = prototypes_.find(std::string_view(object.name()));
   return it == prototypes_.end() ? pugi::xml_node() : it->second.child(name);
+}
+
+pugi::xml_node OsimXml::value_of(pugi::xml_node object, const char* name) const {
+  if (const auto own = object.child(name); own && is_empty(own)) {
+    std::string sentence =
+        fmt::format("line {}: <{}> is empty; its default holds", line_of(own), name);
+    if (std::find(defaulted_.begin(), defaulted_.end(), sentence) == defaulted_.end())
+      defaulted_.push_back(std::move(sentence));
+  }
+  return property(object, name);
 }
 
 std::string OsimXml::text_of(pugi::xml_node node) {
@@ -102,7 +116,7 @@ std::vector<double> OsimXml::numbers(pugi::xml_node node) const {
 }
 
 double OsimXml::number(pugi::xml_node object, const char* name, double otherwise) const {
-  const auto node = property(object, name);
+  const auto node = value_of(object, name);
   if (!node) return otherwise;
   const std::string_view text = trim(node.text().get());
   if (const auto value = parse_number(text); value && !std::isnan(*value)) return *value;
@@ -113,7 +127,7 @@ double OsimXml::number(pugi::xml_node object, const char* name, double otherwise
 }
 
 Vec3 OsimXml::vec3(pugi::xml_node object, const char* name, const Vec3& otherwise) const {
-  const auto node = property(object, name);
+  const auto node = value_of(object, name);
   if (!node) return otherwise;
   const auto values = numbers(node);
   if (values.size() != 3)
@@ -122,7 +136,7 @@ Vec3 OsimXml::vec3(pugi::xml_node object, const char* name, const Vec3& otherwis
 }
 
 bool OsimXml::flag(pugi::xml_node object, const char* name, bool otherwise) const {
-  const auto node = property(object, name);
+  const auto node = value_of(object, name);
   if (!node) return otherwise;
   const std::string text = text_of(node);
   if (text.empty()) return otherwise;

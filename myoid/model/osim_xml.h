@@ -48,6 +48,9 @@ class OsimXml {
   [[nodiscard]] double number(pugi::xml_node object, const char* name, double otherwise) const;
   [[nodiscard]] Vec3 vec3(pugi::xml_node object, const char* name, const Vec3& otherwise) const;
   [[nodiscard]] bool flag(pugi::xml_node object, const char* name, bool otherwise) const;
+  /// A sentence for each element that `number`, `vec3` or `flag` found empty, so that its default
+  /// holds.
+  [[nodiscard]] const std::vector<std::string>& defaulted() const { return defaulted_; }
 
   /// The objects of a set: <XSet><objects>...</objects></XSet>.
   [[nodiscard]] static pugi::xml_object_range<pugi::xml_node_iterator> objects(pugi::xml_node set) {
@@ -58,12 +61,17 @@ class OsimXml {
                                                     std::initializer_list<const char*> except = {});
 
  private:
+  [[nodiscard]] std::size_t line_of(pugi::xml_node where) const;
+  /// As `property`; an element that is there and empty is told by `defaulted`.
+  [[nodiscard]] pugi::xml_node value_of(pugi::xml_node object, const char* name) const;
+
   std::string_view text_;
   std::filesystem::path path_;
   pugi::xml_document document_;
   pugi::xml_node root_;
   int version_ = 0;
   std::map<std::string, pugi::xml_node, std::less<>> prototypes_;
+  mutable std::vector<std::string> defaulted_;
 };
 
 }  // namespace myoid::model

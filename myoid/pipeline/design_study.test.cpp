@@ -105,6 +105,9 @@ TEST(DesignStudy, ItsExpectedSpreadIsTheSpreadThatIdentificationHas) {
   identification::StudyData data;
   data.muscles = muscle_setups(study, load_model(study));
   identification::free_speeds(data, identification::unstated_speeds(data));
+  // The plan is about muscles whose tendons are known.
+  for (identification::MuscleSetup& muscle : data.muscles)
+    muscle.fixed.emplace_back("tendon_slack_length");
   const MovementPerson person = typical(data.muscles);
   constexpr double kRate_hz = 50.0;
   const double above_2_hz = std::sqrt(2.0 * 2.0 / kRate_hz);  // of white noise stays below

@@ -143,6 +143,10 @@ kinematics::IkOptions read_ik_tasks(const OpensimSetup& setup,
   if (!unknown.empty())
     notes.push_back(fmt::format("tasks of markers that the model does not have: {}", unknown));
   note_unseen_markers(ik, markers, notes);
+  if (tasks.xml) {
+    const std::vector<std::string>& defaulted = xml.defaulted();
+    notes.insert(notes.end(), defaulted.begin(), defaulted.end());
+  }
   return ik;
 }
 

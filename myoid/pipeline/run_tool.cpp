@@ -27,6 +27,8 @@ ToolResult run_tool(const std::filesystem::path& path, const ToolOptions& option
   } else {
     run_analyses(setup, options, result);
   }
+  const std::vector<std::string>& defaulted = setup.xml().defaulted();
+  result.notes.insert(result.notes.end(), defaulted.begin(), defaulted.end());
   return result;
 }
 

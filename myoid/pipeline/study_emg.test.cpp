@@ -30,10 +30,11 @@ StudyResult processed(Study study, const std::vector<TrialInput>& inputs) {
 TEST(ProcessEmgOfTrials, AnEnvelopeIsDividedByTheGreatestOfAllTrialsAndThinned) {
   const StudyResult result = processed(arm_study(), {step_of(4e-4), step_of(1e-4)});
   ASSERT_EQ(result.normalisation.size(), 1U);
-  EXPECT_NEAR(result.normalisation[0].reference_v, 4e-4, 1e-9);
+  // Windows beside the step count as long as chance could have made them: less than 0.1 %.
+  EXPECT_NEAR(result.normalisation[0].reference_v, 4e-4, 1e-3 * 4e-4);
   const TimeSeries& weak = result.trials[1].activation;
   EXPECT_NEAR(weak.mean_rate_hz(), 200.0, 1e-6);
-  EXPECT_NEAR(weak.values()(weak.sample_count() - 100, 0), 0.25, 1e-6);
+  EXPECT_NEAR(weak.values()(weak.sample_count() - 100, 0), 0.25, 1e-3 * 0.25);
   EXPECT_GE(weak.values().minCoeff(), 0.0);
 }
 
