@@ -8,6 +8,7 @@
 #include "myoid/kinematics/inverse_kinematics.h"
 #include "myoid/pipeline/marker_misfit.h"
 #include "myoid/pipeline/stage_files.h"
+#include "myoid/pipeline/trial_up.h"
 #include "myoid/recording/plate_standing.h"
 #include "myoid/recording/recording.h"
 
@@ -38,15 +39,17 @@ std::vector<std::string> not_converged(const kinematics::IkResult& result) {
 
 namespace {
 
-/// The rotation of a marker file's laboratory to y up: with `up` ("z", "-y"), or where it is empty
-/// as the file says, which is logged; a file that does not say is y up.
-Mat3 to_y_up(const std::string& markers, const std::string& up, const Context& context) {
-  if (const auto told = recording::axis_vector(up)) return recording::rotation_to_y_up(*told);
-  const recording::LaboratoryUp own = recording::read_laboratory_up(markers);
-  if (!own.up_L || *own.up_L == Vec3::UnitY()) return Mat3::Identity();
-  context.log(fmt::format("note: {}: up is {} ({}); turned to y up", markers,
-                          recording::axis_name(*own.up_L), own.because));
-  return recording::rotation_to_y_up(*own.up_L);
+/// The rotation of a marker file's laboratory onto the model's: with `up` ("z", "-y"), or where it
+/// is empty as the file says, which is logged; a file that does not say stands as the model.
+Mat3 onto_model(const model::BodyModel& model,
+                const std::string& markers,
+                const std::string& up,
+                const Context& context) {
+  if (const auto told = recording::axis_vector(up)) return pipeline::rotation_onto(model, *told);
+  const recording::LaboratoryUp own = pipeline::trial_up(pipeline::kUpOfTheFile, markers, model);
+  if (*own.up_L != pipeline::model_up(model))
+    context.log(fmt::format("note: {}: {}", markers, pipeline::up_note(own, model)));
+  return pipeline::rotation_onto(model, *own.up_L);
 }
 
 }  // namespace
@@ -68,7 +71,7 @@ void add_ik(CLI::App& app, Context& context) {
   command
       .add_option("--up", o->up,
                   "Vertical axis of the laboratory: x, y, z, -x, -y or -z "
-                  "(default: as a .c3d file says, else y)")
+                  "(default: as a .c3d file says, else as the model)")
       ->check(CLI::IsMember({"x", "y", "z", "-x", "-y", "-z"}));
   command.add_option("--weight", o->weights, "MARKER=WEIGHT, repeated; 1 where not given");
   command.add_option("--lock", o->lock, "Coordinate held at its default value, repeated");
@@ -90,7 +93,7 @@ void add_ik(CLI::App& app, Context& context) {
     for (const recording::Repair& repair : file.repairs)
       context.warn(recording::to_string(o->markers, repair));
     recording::MarkerSeries markers =
-        recording::rotated(std::move(file.markers), to_y_up(o->markers, o->up, context));
+        recording::rotated(std::move(file.markers), onto_model(model, o->markers, o->up, context));
     if (context.start_s || context.end_s) {
       Eigen::Index first = 0;
       while (first < markers.frame_count() &&

@@ -31,6 +31,7 @@ void stop_on_signals(std::stop_source stop) {
   sigaddset(&signals, SIGINT);
   sigaddset(&signals, SIGTERM);
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+  std::signal(SIGXFSZ, SIG_IGN);  // a file over the limit of sizes is an error of its write
   try {
     std::thread([signals, stop]() mutable {
       int received = 0;

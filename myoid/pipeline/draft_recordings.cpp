@@ -10,6 +10,7 @@
 #include <pugixml.hpp>
 
 #include "myoid/model/kinematic_tree.h"
+#include "myoid/pipeline/trial_up.h"
 #include "myoid/recording/bids.h"
 #include "myoid/recording/emg_channels.h"
 #include "myoid/recording/emg_reader.h"
@@ -137,9 +138,10 @@ std::vector<fs::path> recordings_in(const std::vector<fs::path>& from, FoundBesi
   return files;
 }
 
-double upright(const model::BodyModel& model, const recording::MarkerSeries& markers, char up) {
-  const recording::MarkerSeries turned =
-      recording::rotated(markers, recording::rotation_to_y_up(up));
+double upright(const model::BodyModel& model,
+               const recording::MarkerSeries& markers,
+               const Vec3& up_L) {
+  const recording::MarkerSeries turned = recording::rotated(markers, rotation_onto(model, up_L));
   model::BodyState state = model::make_state(model);
   model::compute_poses(model, model.default_q(), state);
   for (Eigen::Index f = 0; f < std::min<Eigen::Index>(turned.frame_count(), 200); ++f) {

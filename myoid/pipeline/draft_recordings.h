@@ -59,6 +59,6 @@ void find_emg(const std::filesystem::path& path,
 /// markers are known.
 [[nodiscard]] double upright(const model::BodyModel& model,
                              const recording::MarkerSeries& markers,
-                             char up);
+                             const Vec3& up_L);
 
 }  // namespace myoid::pipeline

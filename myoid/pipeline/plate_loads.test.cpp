@@ -193,10 +193,10 @@ TEST_F(PlateLoads, ComeFromTheFileThatTheTrialNames) {
 TEST_F(PlateLoads, UpOfAFileIsAsToldElseAsTheFileSaysElseY) {
   const test::TemporaryFolder folder;
   recording::write_c3d(folder / "walk.c3d", recording_of(1.0, {}));
-  EXPECT_EQ(*trial_up('x', folder / "walk.c3d").up_L, Vec3::UnitX());
-  EXPECT_EQ(*trial_up(kUpOfTheFile, folder / "walk.c3d").up_L, Vec3::UnitZ());
-  EXPECT_EQ(*trial_up(kUpOfTheFile, folder / "walk.trc").up_L, Vec3::UnitY());
-  EXPECT_THAT(up_note(trial_up(kUpOfTheFile, folder / "walk.c3d")),
+  EXPECT_EQ(*trial_up('x', folder / "walk.c3d", arm).up_L, Vec3::UnitX());
+  EXPECT_EQ(*trial_up(kUpOfTheFile, folder / "walk.c3d", arm).up_L, Vec3::UnitZ());
+  EXPECT_EQ(*trial_up(kUpOfTheFile, folder / "walk.trc", arm).up_L, Vec3::UnitY());
+  EXPECT_THAT(up_note(trial_up(kUpOfTheFile, folder / "walk.c3d", arm), arm),
               HasSubstr("turned from z up to y up (plate 1 faces it and bears"));
 }
 

@@ -170,7 +170,7 @@ class Draft {
   void find_up(const recording::MarkerSeries& markers) {
     double best = -2.0;
     for (const char up : {'y', 'z', 'x'}) {
-      const double score = upright(model_, markers, up);
+      const double score = upright(model_, markers, Vec3::Unit(up - 'x'));
       if (score > best + 1e-9) {
         best = score;
         up_ = up;

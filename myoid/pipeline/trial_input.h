@@ -21,10 +21,11 @@ namespace myoid::pipeline {
 /// Parts of a trial between such pauses that are shorter are left out.
 inline constexpr double kShortestPart_s = 1.0;
 
-/// The files of one trial as values: SI, laboratory turned to y up, markers renamed to the model's
-/// and mended.
+/// The files of one trial as values: SI, laboratory turned onto the model's up, markers renamed to
+/// the model's and mended.
 struct TrialInput {
   std::optional<recording::MarkerSeries> markers;
+  Vec3 up_L = Vec3::UnitY();         ///< Up in the laboratory of the markers, as recorded.
   std::optional<TimeSeries> motion;  ///< Coordinates [rad | m].
   std::optional<TimeSeries> emg;     ///< [V], or dimensionless for envelopes and activations.
   std::optional<TimeSeries> external_torque;  ///< [N m]

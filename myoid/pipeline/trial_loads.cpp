@@ -143,7 +143,7 @@ dynamics::ExternalLoads read_plates(
     throw ReadError(spec.file, 0, error.what());
   }
   add_repairs(spec.file, file.repairs, notes);
-  notes.push_back(fmt::format("{}: {}", name, up_note(up)));
+  notes.push_back(fmt::format("{}: {}", name, up_note(up, model)));
   std::vector<recording::ForcePlate> plates = file.force_plates();
   if (const auto clock = loads_clock(study, trial, spec.file)) {
     for (recording::ForcePlate& plate : plates) {
@@ -152,7 +152,7 @@ dynamics::ExternalLoads read_plates(
   }
   try {
     dynamics::ExternalLoads loads = plate_loads(
-        plates, recording::rotation_to_y_up(up.up_L.value_or(Vec3::UnitY())), model, spec.bodies,
+        plates, rotation_onto(model, up.up_L.value_or(model_up(model))), model, spec.bodies,
         markers, spec.least_force_n, spec.lowpass_hz ? spec.lowpass_hz : motion_cutoff_hz(study));
     for (const std::string& note : loads.notes) notes.push_back(fmt::format("{}: {}", name, note));
     if (markers && markers->frame_count() > 0 &&

@@ -55,11 +55,11 @@ recording::MarkerSeries read_markers(const Study& study,
       name = it->second;
   }
   match_labels(model, path, file.markers.names, input);
-  const recording::LaboratoryUp up = trial_up(study.markers.up, path);
-  if (*up.up_L != Vec3::UnitY()) {
-    notes.push_back(fmt::format("{}: {}", path.filename().string(), up_note(up)));
-    file.markers =
-        recording::rotated(std::move(file.markers), recording::rotation_to_y_up(*up.up_L));
+  const recording::LaboratoryUp up = trial_up(study.markers.up, path, model);
+  input.up_L = *up.up_L;
+  if (*up.up_L != model_up(model)) {
+    notes.push_back(fmt::format("{}: {}", path.filename().string(), up_note(up, model)));
+    file.markers = recording::rotated(std::move(file.markers), rotation_onto(model, *up.up_L));
   }
   return std::move(file.markers);
 }

@@ -144,26 +144,26 @@ void check_vertical(const Study& study,
       trunk.positions_m.rightCols(3) = input.markers->positions_m.middleCols(3 * m, 3);
     }
   }
-  // The markers are turned already; a file that told its own vertical stands as
-  // if recorded so.
-  const char told = study.markers.up == kUpOfTheFile ? 'y' : study.markers.up;
-  const Mat3 back = recording::rotation_to_y_up(told).transpose();
+  const Mat3 back = rotation_onto(model, input.up_L).transpose();  // the markers are turned already
+  const std::string told = recording::axis_name(input.up_L);
   const recording::MarkerSeries laboratory = recording::rotated(trunk, back);
-  const double now = upright(model, laboratory, told);
+  const double now = upright(model, laboratory, input.up_L);
   constexpr double kAcross = 0.5;   // 60 degrees
   constexpr double kUpright = 0.8;  // 37 degrees
   if (now < -1.5 || now > kAcross) return;
-  for (const char up : {'x', 'y', 'z'}) {
-    const double other = upright(model, laboratory, up);
+  for (const char* up : {"x", "y", "z"}) {
+    const double other = upright(model, laboratory, *recording::axis_vector(up));
     if (up == told || other < kUpright) continue;
     findings.push_back(
         {Level::warning,
          where,
-         fmt::format("[markers] up = \"{}\", but the trunk's markers lie {:.0f} degrees from "
-                     "upright by it, and {:.0f} with up = \"{}\": unless the person lies, gravity "
-                     "pulls across the body; correct [markers] up",
-                     told, std::acos(std::clamp(now, -1.0, 1.0)) / kDegree,
-                     std::acos(std::clamp(other, -1.0, 1.0)) / kDegree, up),
+         fmt::format(
+             "{} is up ({}), but the trunk's markers lie {:.0f} degrees from upright by it, "
+             "and {:.0f} with [markers] up = \"{}\": unless the person lies, gravity pulls "
+             "across the body; correct [markers] up",
+             told, study.markers.up == kUpOfTheFile ? "as the file says" : "[markers] up",
+             std::acos(std::clamp(now, -1.0, 1.0)) / kDegree,
+             std::acos(std::clamp(other, -1.0, 1.0)) / kDegree, up),
          {},
          "vertical"});
     return;

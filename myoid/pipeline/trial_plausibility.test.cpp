@@ -186,6 +186,7 @@ TEST(Implausible, AVerticalThatLiesAcrossTheTrunkIsAWarning) {
   elbow.study.model.builtin.clear();
   for (const char up : {'z', 'x', 'y'}) {
     elbow.study.markers.up = up;
+    elbow.input.up_L = Vec3::Unit(up - 'x');
     elbow.input.markers = recording::rotated(markers, recording::rotation_to_y_up(up));
     const std::vector<Finding> found = elbow.findings();
     ASSERT_EQ(found.size(), up == 'z' ? 0U : 1U) << up;

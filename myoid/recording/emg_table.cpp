@@ -295,6 +295,23 @@ std::optional<TableLayout> find_table(const TableText& text) {
   return layout;
 }
 
+/// Throws ReadError where a comma stands between cells and inside numbers: "-88,9,15,4" below two
+/// names has twice their cells, and every second one is digits alone.
+void refuse_two_commas(const TableText& text,
+                       const TableLayout& layout,
+                       const std::filesystem::path& path) {
+  const std::size_t names = filled(cells_of(text.lines[layout.names_line], layout.separator));
+  const Cells first = cells_of(text.lines[layout.first_row], layout.separator);
+  if (layout.separator != ',' || names == 0 || filled(first) != 2 * names) return;
+  for (std::size_t i = 1; i < first.size(); i += 2) {
+    if (first[i].empty() || first[i].find_first_not_of("0123456789") != std::string::npos) return;
+  }
+  throw ReadError(path, layout.first_row + 1,
+                  fmt::format("{} cells below {} names: commas stand between cells and inside "
+                              "numbers; export with semicolons or tabs, or with decimal points",
+                              2 * names, names));
+}
+
 }  // namespace
 
 CsvSeries parse_emg_table(std::string_view text, const std::filesystem::path& path) {
@@ -302,6 +319,7 @@ CsvSeries parse_emg_table(std::string_view text, const std::filesystem::path& pa
   if (const auto layout = makers_layout(table, path))
     return channels_of_table(table, *layout, path);
   const auto layout = find_table(table);
+  if (layout) refuse_two_commas(table, *layout, path);
   if (layout &&
       is_numbers(cells_of(table.lines[layout->names_line], layout->separator), layout->separator)) {
     throw ReadError(

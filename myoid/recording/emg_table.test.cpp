@@ -129,6 +129,12 @@ TEST(EmgTable, WhatIsWrongIsSaidWithItsLine) {
   EXPECT_THROW(static_cast<void>(parse_emg_table("X [s],a\n0,1\n0,2\n0,3\n", "a.csv")), ReadError);
 }
 
+TEST(EmgTable, CommasBetweenCellsAndInsideNumbersAreRefused) {
+  const std::string head = "Sampling rate: 2000 Hz\nVL [uV],BF [uV]\n";
+  EXPECT_THROW((void)parse_emg_table(head + "-88,9,15,4\n-87,1,14,2\n", "a.csv"), ReadError);
+  EXPECT_EQ(parse_emg_table(head + "-88,15\n-87,14\n", "a.csv").data.channel_count(), 2);
+}
+
 TEST(EmgTable, AChannelBeforeTheFirstOfTwoTimeColumnsHasItsClock) {
   // Found by fuzzing: it had none, and no rate either.
   const CsvSeries s = parse_emg_table(

@@ -268,6 +268,12 @@ std::optional<Vec3> screen_up(const C3dFile& file) {
 PlateLoad plate_load(const Recording& recording, const PlateSetup& setup, double least_force_n) {
   PlateLoad load{.normal_L = setup.R_GP.col(2)};
   const Eigen::MatrixX3d force = channel_forces(setup, recording.analog.as_written(setup.channels));
+  constexpr Eigen::Index kMany = 10;
+  if (force.rows() > kMany && force.row(0).norm() >= least_force_n &&
+      (force.rowwise() - force.row(0)).cwiseAbs().maxCoeff() == 0.0) {
+    load.constant_n = force.row(0).dot(load.normal_L.transpose());
+    return load;
+  }
   double weight = 0.0;
   double square = 0.0;
   for (Eigen::Index i = 0; i < force.rows(); ++i) {

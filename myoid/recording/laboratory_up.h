@@ -43,6 +43,9 @@ struct PlateLoad {
   double along_n = 0.0;           ///< Its part along the normal.
   double rms_n = 0.0;             ///< Of the normal force, over all samples; 0 below the threshold.
   double largest_n = 0.0;         ///< Of the force as a whole.
+  /// The normal force [N] where the force is the same in every sample: unplugged, or never set to
+  /// zero. Such a plate tells nothing, and the other sizes are 0.
+  std::optional<double> constant_n;
   [[nodiscard]] bool loaded() const { return rms_n > 0.0; }
 };
 [[nodiscard]] PlateLoad plate_load(const Recording& recording,

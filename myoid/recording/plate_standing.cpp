@@ -105,6 +105,14 @@ LaboratoryUp stand_plates(Recording& recording,
   std::vector<PlateLoad> loads;
   for (const PlateSetup& setup : recording.plates)
     loads.push_back(plate_load(recording, setup, least_force_n));
+  for (std::size_t k = 0; k < loads.size(); ++k) {
+    if (loads[k].constant_n)
+      add_note(
+          recording,
+          fmt::format("force plate {} reads {:.0f} N in every sample: unplugged, or never set to "
+                      "zero; leave it out, nothing is concluded from it",
+                      recording.plates[k].number, *loads[k].constant_n));
+  }
   LaboratoryUp up =
       stated_up_L ? as_told(recording, loads, *stated_up_L) : laboratory_up(recording, loads);
   if (up.up_L) {

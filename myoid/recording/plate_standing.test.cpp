@@ -204,6 +204,17 @@ Recording floor_and(const Mat3& R_LP, const Vec3& middle_m, const Vec3& force_n,
   return from_disk(file);
 }
 
+TEST(StandPlates, APlateThatNeverChangesTellsNothing) {
+  C3dFile file = test::plate_recording(2);
+  file.analog.rowwise() = Eigen::RowVectorXf(file.analog.row(file.analog.rows() / 2));
+  Recording recording = from_disk(file);
+  ASSERT_EQ(recording.plates.size(), 1U);
+  (void)stand_plates(recording, std::nullopt);
+  EXPECT_EQ(recording.plates[0].side.turn, 1.0);
+  EXPECT_THAT(notes_of(recording), HasSubstr("N in every sample: unplugged"));
+  EXPECT_THAT(notes_of(recording), testing::Not(HasSubstr("turned round")));
+}
+
 TEST(StandPlates, AWallHasTheSignOfTheFloorWhetherItPushesOrPulls) {
   // z of the wall points along x, away from a person who is on its side of -x.
   const Mat3 R_LP = (Mat3() << 0, 0, 1, 0, 1, 0, -1, 0, 0).finished();
