@@ -15,7 +15,8 @@ namespace myoid::recording {
 struct PlateSide {
   Vec3 out_L = Vec3::UnitZ();  ///< Normal of the surface towards the person.
   bool is_floor = true;        ///< Within 60 degrees of horizontal; else a wall or a handle.
-  double turn = 1.0;           ///< -1 where the channels hold the force on the plate.
+  double turn = 1.0;           ///< -1 where the channels hold the force on the plate; 0 where they
+                               ///< never change, so that nothing is taken from the plate.
 };
 
 /// One force plate over time, in the laboratory's frame, at the rate of the analog channels. Force

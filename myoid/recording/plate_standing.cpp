@@ -82,6 +82,19 @@ void stand_walls(Recording& recording,
   }
 }
 
+/// Nothing is taken from a plate whose force never changes.
+void leave_out_dead(Recording& recording, const std::vector<PlateLoad>& loads) {
+  for (std::size_t k = 0; k < loads.size(); ++k) {
+    if (!loads[k].constant_n) continue;
+    recording.plates[k].side.turn = 0.0;
+    add_note(
+        recording,
+        fmt::format("force plate {} reads {:.0f} N in every sample: unplugged, or never set to "
+                    "zero; its force is left out",
+                    recording.plates[k].number, *loads[k].constant_n));
+  }
+}
+
 /// Up as told, with a note where the file says otherwise.
 LaboratoryUp as_told(Recording& recording,
                      const std::vector<PlateLoad>& loads,
@@ -105,20 +118,13 @@ LaboratoryUp stand_plates(Recording& recording,
   std::vector<PlateLoad> loads;
   for (const PlateSetup& setup : recording.plates)
     loads.push_back(plate_load(recording, setup, least_force_n));
-  for (std::size_t k = 0; k < loads.size(); ++k) {
-    if (loads[k].constant_n)
-      add_note(
-          recording,
-          fmt::format("force plate {} reads {:.0f} N in every sample: unplugged, or never set to "
-                      "zero; leave it out, nothing is concluded from it",
-                      recording.plates[k].number, *loads[k].constant_n));
-  }
   LaboratoryUp up =
       stated_up_L ? as_told(recording, loads, *stated_up_L) : laboratory_up(recording, loads);
   if (up.up_L) {
     stand_floor(recording, loads, *up.up_L);
     stand_walls(recording, loads, *up.up_L, least_force_n);
   }
+  leave_out_dead(recording, loads);
   for (PlateSetup& setup : recording.plates) turn_origin(setup, recording.repairs);
   return up;
 }

@@ -210,7 +210,7 @@ TEST(StandPlates, APlateThatNeverChangesTellsNothing) {
   Recording recording = from_disk(file);
   ASSERT_EQ(recording.plates.size(), 1U);
   (void)stand_plates(recording, std::nullopt);
-  EXPECT_EQ(recording.plates[0].side.turn, 1.0);
+  EXPECT_EQ(recording.force_plates()[0].force_n.norm(), 0.0);
   EXPECT_THAT(notes_of(recording), HasSubstr("N in every sample: unplugged"));
   EXPECT_THAT(notes_of(recording), testing::Not(HasSubstr("turned round")));
 }
@@ -279,6 +279,11 @@ TEST(StandPlates, OfPublicRecordingsPushThePersonUpWithTheWeightOfAPerson) {
     ASSERT_TRUE(up.up_L) << name;
     EXPECT_EQ(axis_name(*up.up_L), "z") << name;
     for (const ForcePlate& plate : recording.force_plates()) {
+      if (plate.force_n.isZero(0.0)) {  // 1448 N in every sample
+        EXPECT_EQ(std::string(name) + std::to_string(plate.number),
+                  "others/parameterOverflow.c3d3");
+        continue;
+      }
       const Eigen::VectorXd vertical = plate.force_n.col(2);
       EXPECT_TRUE(plate.side.is_floor) << name;
       EXPECT_GT(vertical.maxCoeff(), -3.0 * vertical.minCoeff()) << name << plate.number;
