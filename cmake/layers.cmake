@@ -47,11 +47,17 @@ function(myoid_layer name)
   endif()
 endfunction()
 
+# The folder of the checkout is known to this object alone: the objects of two checkouts are equal otherwise, and
+# the compiler cache serves both.
+if(MYOID_TESTS OR MYOID_BENCHMARKS)
+  add_library(myoid_places STATIC EXCLUDE_FROM_ALL ${PROJECT_SOURCE_DIR}/tests/support/places.cpp)
+  target_include_directories(myoid_places PUBLIC ${PROJECT_SOURCE_DIR})
+  target_compile_definitions(myoid_places PRIVATE MYOID_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+  target_link_libraries(myoid_places PRIVATE myoid_warnings)
+endif()
 # Test helpers that no single folder owns.
 if(MYOID_TESTS)
   add_library(myoid_test_support INTERFACE)
   target_include_directories(myoid_test_support INTERFACE ${PROJECT_SOURCE_DIR})
-  target_link_libraries(myoid_test_support INTERFACE GTest::gtest GTest::gmock GTest::gtest_main)
-  target_compile_definitions(myoid_test_support INTERFACE
-    MYOID_SOURCE_DIR="${PROJECT_SOURCE_DIR}" MYOID_BINARY_DIR="${PROJECT_BINARY_DIR}")
+  target_link_libraries(myoid_test_support INTERFACE myoid_places GTest::gtest GTest::gmock GTest::gtest_main)
 endif()

@@ -13,6 +13,8 @@
 #include "myoid/core/error.h"
 #include "myoid/core/units.h"
 
+#include "tests/support/places.h"
+
 namespace myoid::muscle {
 namespace {
 
@@ -138,9 +140,7 @@ TEST(IsolatedMuscle, ReproducesTheForcesOfARatSoleusWithinThePublishedErrors) {
   // by 3.3 to 8.9 % of the measured isometric force, 1.17 N. Published parameters and curves,
   // nothing fitted. Two readings of "maximally activated": activated from the start, while the
   // measured force still rises from zero; or excited then, from rest.
-  const char* given = std::getenv("MYOID_DATA");
-  const fs::path folder =
-      (given ? fs::path(given) : fs::path(MYOID_SOURCE_DIR) / "../shared/data") / "rat-soleus";
+  const fs::path folder = test::data_folder() / "rat-soleus";
   if (!fs::exists(folder)) GTEST_SKIP() << folder << " is not there";
   std::vector<double> t, displacement;
   read_columns(folder / "displacement.dat", t, displacement);

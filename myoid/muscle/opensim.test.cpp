@@ -15,15 +15,12 @@
 
 #include "myoid/muscle/musculotendon.h"
 
+#include "tests/support/places.h"
+
 namespace myoid::muscle {
 namespace {
 
 namespace fs = std::filesystem;
-
-fs::path data_folder() {
-  if (const char* given = std::getenv("MYOID_DATA")) return given;
-  return fs::path(MYOID_SOURCE_DIR) / "../shared/data";
-}
 
 std::string text_of(const fs::path& file) {
   std::ifstream stream(file);
@@ -209,7 +206,7 @@ void expect_agreement(const Differences& d, int at_least) {
 }
 
 TEST(OpenSimMuscles, MillardCurvesPennationAndDampedEquilibriumAreThoseOfRajagopalsModel) {
-  const fs::path folder = data_folder() / "opensim/rajagopal2016";
+  const fs::path folder = test::data_folder() / "opensim/rajagopal2016";
   if (!fs::exists(folder)) GTEST_SKIP() << folder << " is not there";
   const Differences d = compare(folder, "Millard2012EquilibriumMuscle", false);
   expect_agreement(d, 4000);
@@ -218,7 +215,7 @@ TEST(OpenSimMuscles, MillardCurvesPennationAndDampedEquilibriumAreThoseOfRajagop
 
 TEST(OpenSimMuscles, ThelenCurvesAndUndampedEquilibriumAreThoseOfArm26AndGait2354) {
   for (const char* model : {"arm26", "gait2354"}) {
-    const fs::path folder = data_folder() / "opensim" / model;
+    const fs::path folder = test::data_folder() / "opensim" / model;
     if (!fs::exists(folder)) GTEST_SKIP() << folder << " is not there";
     const Differences d = compare(folder, "Thelen2003Muscle", true);
     expect_agreement(d, 600);

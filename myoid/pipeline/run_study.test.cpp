@@ -18,6 +18,7 @@
 #include "myoid/recording/storage_reader.h"
 #include "myoid/simulation/write_recording.h"
 
+#include "tests/support/places.h"
 #include "tests/support/temporary_folder.h"
 
 namespace myoid::pipeline {
@@ -29,8 +30,8 @@ struct ExactRun {
   StudyResult result;
 
   ExactRun() {
-    const auto protocol = simulation::read_protocol(std::string(MYOID_SOURCE_DIR) +
-                                                    "/examples/protocols/noise_free.toml");
+    const auto protocol =
+        simulation::read_protocol(test::source_dir() / "examples/protocols/noise_free.toml");
     simulation::write_virtual_recording(simulation::make_virtual_recording(protocol, 3),
                                         folder / "recording");
     Study study = read_study(folder / "recording/study.toml");

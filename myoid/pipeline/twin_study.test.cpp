@@ -7,6 +7,7 @@
 
 #include "myoid/recording/text_file.h"
 
+#include "tests/support/places.h"
 #include "tests/support/temporary_folder.h"
 
 namespace myoid::pipeline {
@@ -68,8 +69,8 @@ TEST(TwinSummary, TheDelayIsCountedInTensOfMilliseconds) {
 }
 
 TEST(TwinStudy, ExactRecordingsGiveTheTruth) {
-  simulation::Protocol protocol = simulation::read_protocol(std::string(MYOID_SOURCE_DIR) +
-                                                            "/examples/protocols/noise_free.toml");
+  simulation::Protocol protocol =
+      simulation::read_protocol(test::source_dir() / "examples/protocols/noise_free.toml");
   TwinStudyOptions options;
   options.subjects = 1;
   options.first_seed = 3;
@@ -81,8 +82,8 @@ TEST(TwinStudy, ExactRecordingsGiveTheTruth) {
 }
 
 TEST(TwinStudy, StoppedItSaysSoAndHasOnlyWhoIsFinished) {
-  const simulation::Protocol protocol = simulation::read_protocol(
-      std::string(MYOID_SOURCE_DIR) + "/examples/protocols/noise_free.toml");
+  const simulation::Protocol protocol =
+      simulation::read_protocol(test::source_dir() / "examples/protocols/noise_free.toml");
   std::stop_source stop;
   stop.request_stop();
   TwinStudyOptions options;

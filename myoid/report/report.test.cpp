@@ -13,6 +13,8 @@
 #include "myoid/report/json.h"
 #include "myoid/report/tables.h"
 
+#include "tests/support/temporary_folder.h"
+
 namespace myoid::report {
 namespace {
 
@@ -93,14 +95,13 @@ TEST(Report, FigureNumbersAreAllThere) {
 
 TEST(Report, WritesEveryFileOfTheFolder) {
   namespace fs = std::filesystem;
-  const fs::path directory = fs::path(MYOID_BINARY_DIR) / "report_test";
-  fs::remove_all(directory);
+  const test::TemporaryFolder folder;
+  const fs::path directory = folder / "report_test";
   write_report(small_report(), directory);
   for (const char* file :
        {"report.html", "report.json", "figures/f1.svg", "figures/f1.csv", "tables/t1.csv"}) {
     EXPECT_TRUE(fs::exists(directory / file)) << file;
   }
-  fs::remove_all(directory);
 }
 
 TEST(Report, RefusesWhatCannotBeDrawn) {

@@ -8,11 +8,13 @@
 
 #include "myoid/signals/fault.h"
 
+#include "tests/support/places.h"
+
 namespace myoid::signals {
 namespace {
 
 TEST(QualityLimits, AreTheOnesThatTheDocumentationLists) {
-  std::ifstream stream(MYOID_SOURCE_DIR "/docs/guide/check.md");
+  std::ifstream stream(test::source_dir() / "docs/guide/check.md");
   std::stringstream text;
   text << stream.rdbuf();
   const std::vector<LimitRow> rows = limit_rows();

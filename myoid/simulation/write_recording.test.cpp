@@ -15,6 +15,8 @@
 #include "myoid/recording/toml_table.h"
 #include "myoid/recording/trc_reader.h"
 
+#include "tests/support/temporary_folder.h"
+
 namespace myoid::simulation {
 namespace {
 
@@ -22,13 +24,6 @@ namespace fs = std::filesystem;
 
 class WriteRecording : public ::testing::Test {
  protected:
-  void SetUp() override {
-    const std::string test = ::testing::UnitTest::GetInstance()->current_test_info()->name();
-    directory_ = fs::path(MYOID_BINARY_DIR) / "write_recording_test" / test;
-    fs::remove_all(directory_);
-  }
-  void TearDown() override { fs::remove_all(directory_); }
-
   static VirtualRecording recording(std::uint64_t seed, Level level) {
     Protocol protocol = parse_protocol(R"(
 name = "a \"quoted\" name"
@@ -60,7 +55,8 @@ kind = "isometric_ramp"
     return text.str();
   }
 
-  fs::path directory_;
+  test::TemporaryFolder folder_;
+  fs::path directory_ = folder_ / "recording";
 };
 
 TEST_F(WriteRecording, FilesReadBackToTheBit) {

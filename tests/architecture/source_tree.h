@@ -5,11 +5,13 @@
 #include <iterator>
 #include <string>
 
+#include "tests/support/places.h"
+
 namespace myoid::architecture {
 
 namespace fs = std::filesystem;
 
-inline const fs::path kRoot = MYOID_SOURCE_DIR;
+inline const fs::path kRoot = test::source_dir();
 
 inline std::string content(const fs::path& file) {
   std::ifstream stream(file, std::ios::binary);

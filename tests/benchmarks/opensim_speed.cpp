@@ -30,6 +30,8 @@
 #include "myoid/model/osim_reader.h"
 #include "myoid/model/path_survey.h"
 
+#include "tests/support/places.h"
+
 extern char** environ;
 
 namespace {
@@ -190,8 +192,7 @@ struct Options {
 
 Options read_options(int argc, char** argv) {
   Options o;
-  const char* data = std::getenv("MYOID_DATA");
-  o.folder = fs::path(data != nullptr ? data : MYOID_SOURCE_DIR "/../shared/data") / "opensim";
+  o.folder = myoid::test::data_folder() / "opensim";
   o.program = fs::path(argv[0]).parent_path() / "myoid";
   for (int i = 1; i < argc; ++i) {
     const std::string word = argv[i];

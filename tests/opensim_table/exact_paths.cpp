@@ -28,6 +28,8 @@
 #include "myoid/model/osim_reader.h"
 #include "myoid/model/path_survey.h"
 
+#include "tests/support/places.h"
+
 namespace {
 
 using namespace myoid;
@@ -216,10 +218,7 @@ int main(int argc, char** argv) {
     }
   }
   if (files.empty()) {
-    const char* data = std::getenv("MYOID_DATA");
-    const std::filesystem::path folder =
-        std::filesystem::path(data != nullptr ? data : MYOID_SOURCE_DIR "/../shared/data") /
-        "opensim";
+    const std::filesystem::path folder = myoid::test::data_folder() / "opensim";
     if (std::filesystem::exists(folder)) {
       for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
         if (entry.path().extension() == ".osim") files.push_back(entry.path());

@@ -32,6 +32,7 @@
 #include "scaled_model.h"
 #include "shared_frames.h"
 #include "table_rows.h"
+#include "tests/support/places.h"
 
 namespace {
 
@@ -262,9 +263,7 @@ void compare_rewritten(const fs::path& file) {
 
 int main(int argc, char** argv) {
   Options options;
-  const char* folder = std::getenv("MYOID_DATA");
-  options.folder =
-      fs::path(folder != nullptr ? folder : MYOID_SOURCE_DIR "/../shared/data") / "opensim";
+  options.folder = myoid::test::data_folder() / "opensim";
   for (int i = 1; i < argc; ++i) {
     const std::string argument = argv[i];
     if (argument == "--case" && i + 1 < argc) {

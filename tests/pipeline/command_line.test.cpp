@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "program.h"
+#include "tests/support/places.h"
 #include "tests/support/temporary_folder.h"
 
 namespace {
@@ -23,7 +24,7 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
-const std::string kProtocols = MYOID_SOURCE_DIR "/examples/protocols/";
+const std::string kProtocols = myoid::test::source_dir() / "examples/protocols/";
 
 constexpr const char* kCommands[] = {"run",    "check",    "info",       "emg",      "ik",
                                      "id",     "muscle",   "paths",      "so",       "identify",
@@ -400,10 +401,11 @@ TEST(CommandLine, InterruptedItEndsWithHundredAndThirty) {
 TEST(Twin, SameSeedGivesTheSameBytesAndAnotherSeedOthers) {
   const TemporaryFolder folder;
   for (const auto& [name, seed] : {std::pair{"a", "7"}, {"b", "7"}, {"c", "8"}}) {
-    ASSERT_EQ(myoid({"twin", "--protocol", MYOID_SOURCE_DIR "/examples/demo/protocol.toml",
-                     "--seed", seed, "--out", folder / name})
-                  .exit_code,
-              0);
+    ASSERT_EQ(
+        myoid({"twin", "--protocol", myoid::test::source_dir() / "examples/demo/protocol.toml",
+               "--seed", seed, "--out", folder / name})
+            .exit_code,
+        0);
   }
   int files = 0, differing = 0;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder / "a")) {

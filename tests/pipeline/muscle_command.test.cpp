@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "program.h"
+#include "tests/support/places.h"
 #include "tests/support/temporary_folder.h"
 
 namespace {
@@ -19,7 +20,7 @@ using myoid::test::write_text;
 using testing::AllOf;
 using testing::HasSubstr;
 
-const std::string kSoleus = MYOID_SOURCE_DIR "/examples/rat_soleus/muscle.toml";
+const std::string kSoleus = myoid::test::source_dir() / "examples/rat_soleus/muscle.toml";
 
 /// Half a second of a sine, in millimeters about the middle.
 std::string displacement() {

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "program.h"
+#include "tests/support/places.h"
 #include "tests/support/temporary_folder.h"
 
 namespace {
@@ -98,8 +99,7 @@ TEST(Viewer, ShowsAndPlaysTheModelInABrowser) {
       "for (const kind of ['error', 'warn'])"
       "  console[kind] = (...words) => probeErrors.push(words.join(' '));</script>";
   page.replace(page.find("<head>"), 6, listener);
-  const std::string probe =
-      read_text(std::string(MYOID_SOURCE_DIR) + "/tests/pipeline/viewer_probe.js");
+  const std::string probe = read_text(myoid::test::source_dir() / "tests/pipeline/viewer_probe.js");
   page.insert(page.rfind("</body>"), "<script>" + probe + "</script>");
   write_text(folder / "arm.html", page);
   const std::string document = opened(folder, folder / "arm.html", 3000);

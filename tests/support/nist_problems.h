@@ -17,6 +17,8 @@
 
 #include "myoid/math/least_squares.h"
 
+#include "tests/support/places.h"
+
 namespace myoid::test {
 
 constexpr int kMostNistParameters = 9;
@@ -39,7 +41,7 @@ inline double correct_digits(double found, double certified) {
 }
 
 inline NistProblem read_nist(const std::string& name) {
-  std::ifstream file(std::string(MYOID_SOURCE_DIR) + "/tests/reference/nist/" + name + ".csv");
+  std::ifstream file(source_dir() / "tests/reference/nist" / (name + ".csv"));
   if (!file) throw std::runtime_error("no reference data of " + name);
   NistProblem problem;
   problem.name = name;
