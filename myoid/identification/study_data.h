@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 
+#include "myoid/core/stretch.h"
 #include "myoid/core/parameter_set.h"
 #include "myoid/core/time_series.h"
 #include "myoid/identification/muscle_law.h"
@@ -48,11 +49,6 @@ struct JointData {
   Eigen::MatrixXd moment_arm_m;                                    ///< n x m
   Eigen::VectorXd angle_rad, velocity_radps, acceleration_radps2;  ///< Empty, or n.
   Eigen::VectorXd resting_nm;                                      ///< As TrialData's.
-};
-
-/// A stretch of time, ends included.
-struct Stretch {
-  double begin_s = 0.0, end_s = 0.0;
 };
 
 /// One trial on the clock of the motion: n samples, m muscles.

@@ -138,35 +138,6 @@ std::vector<fs::path> recordings_in(const std::vector<fs::path>& from, FoundBesi
   return files;
 }
 
-double upright(const model::BodyModel& model,
-               const recording::MarkerSeries& markers,
-               const Vec3& up_L) {
-  const recording::MarkerSeries turned = recording::rotated(markers, rotation_onto(model, up_L));
-  model::BodyState state = model::make_state(model);
-  model::compute_poses(model, model.default_q(), state);
-  for (Eigen::Index f = 0; f < std::min<Eigen::Index>(turned.frame_count(), 200); ++f) {
-    Eigen::Matrix3Xd a(3, 0), b(3, 0);
-    for (Eigen::Index m = 0; m < turned.marker_count(); ++m) {
-      const auto known = model.find_marker(turned.names[static_cast<std::size_t>(m)]);
-      if (!known || turned.missing(f, m)) continue;
-      const model::Marker& marker = model.markers[static_cast<std::size_t>(*known)];
-      a.conservativeResize(Eigen::NoChange, a.cols() + 1);
-      b.conservativeResize(Eigen::NoChange, b.cols() + 1);
-      a.col(a.cols() - 1) = state.X_GB[static_cast<std::size_t>(marker.body)] * marker.p_BM;
-      b.col(b.cols() - 1) = turned.position(f, m);
-    }
-    if (a.cols() < 4) continue;
-    const Vec3 mean_a = a.rowwise().mean(), mean_b = b.rowwise().mean();
-    const Mat3 h = (b.colwise() - mean_b) * (a.colwise() - mean_a).transpose();
-    const Eigen::JacobiSVD<Mat3> svd(h, Eigen::ComputeFullU | Eigen::ComputeFullV);
-    const double turn = (svd.matrixU() * svd.matrixV().transpose()).determinant();
-    const Mat3 R = svd.matrixU() * Vec3(1, 1, turn).asDiagonal() * svd.matrixV().transpose();
-    const Vec3 down = model.gravity_G.norm() > 0.0 ? model.gravity_G.normalized() : Vec3(0, -1, 0);
-    return (R * down).dot(down);
-  }
-  return -2.0;
-}
-
 std::string guessed_use(const std::string& stem) {
   for (const std::string& word : words_of(stem)) {
     if (word.starts_with("mvc") || word.starts_with("mvic") || word == "max") return "mvc";

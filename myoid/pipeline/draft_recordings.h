@@ -54,11 +54,4 @@ void find_emg(const std::filesystem::path& path,
               const std::vector<recording::PlateSetup>& plates,
               FoundRecording& found);
 
-/// How well the model's markers, at its default pose, lie on the first complete frame when `up`
-/// points up: cosine of the angle between its vertical and the laboratory's; -2 if fewer than four
-/// markers are known.
-[[nodiscard]] double upright(const model::BodyModel& model,
-                             const recording::MarkerSeries& markers,
-                             const Vec3& up_L);
-
 }  // namespace myoid::pipeline

@@ -76,7 +76,7 @@ std::optional<UnsupportedWeight> unsupported_weight(const model::BodyModel& mode
 
 std::string UncarriedTime::sentence() const {
   std::vector<std::string> times;
-  for (const identification::Stretch& s : stretches)
+  for (const Stretch& s : stretches)
     times.push_back(fmt::format("{:.4g} to {:.4g} s", s.begin_s, s.end_s));
   return fmt::format(
       "no measured force carries the body in {:.0f} % of the trial ({}): {} has to bear up to "

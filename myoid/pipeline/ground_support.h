@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "myoid/core/time_series.h"
-#include "myoid/identification/study_data.h"
+#include "myoid/core/stretch.h"
 #include "myoid/model/body_model.h"
 
 namespace myoid::pipeline {
@@ -32,7 +32,7 @@ struct UnsupportedWeight {
 /// Parts of a trial in which something that was not measured carries the body, while elsewhere the
 /// measured forces do: a foot beside the plates.
 struct UncarriedTime {
-  std::vector<identification::Stretch> stretches;
+  std::vector<Stretch> stretches;
   double share = 0.0;      ///< Of the trial's time.
   std::string coordinate;  ///< The translation along gravity of the joint to the ground.
   double force_n = 0.0;    ///< The largest that it has to bear in them.

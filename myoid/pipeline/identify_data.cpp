@@ -102,9 +102,9 @@ std::vector<Channel> torque_columns(const std::vector<std::string>& coordinates,
 }
 
 /// Where a clock has no samples for more than 0.1 s and five of its usual intervals.
-std::vector<identification::Stretch> gaps_of(const Eigen::VectorXd& time_s) {
+std::vector<Stretch> gaps_of(const Eigen::VectorXd& time_s) {
   constexpr double kShortest_s = 0.1, kUsual = 5.0;
-  std::vector<identification::Stretch> gaps;
+  std::vector<Stretch> gaps;
   if (time_s.size() < 3) return gaps;
   const Eigen::VectorXd steps = time_s.tail(time_s.size() - 1) - time_s.head(time_s.size() - 1);
   const double usual_s = math::median({steps.begin(), steps.end()});
@@ -261,7 +261,7 @@ class TrialReader {
     constexpr double kBehind_s = 0.3;   // and by how much torque may follow the EMG
     const double begin_s = trial.time_s[0], end_s = trial.time_s[trial.time_s.size() - 1];
     for (const std::string& file : all_of(files, more)) {
-      for (const identification::Stretch& gap : gaps_of(series(file).time_s())) {
+      for (const Stretch& gap : gaps_of(series(file).time_s())) {
         if (gap.end_s <= begin_s || gap.begin_s >= end_s) continue;
         const double after_s = file == files.activations ? kBehind_s : kSplines_s;
         trial.excluded.push_back({gap.begin_s - kSplines_s, gap.end_s + after_s});

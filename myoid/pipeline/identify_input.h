@@ -7,9 +7,6 @@
 
 namespace myoid::pipeline {
 
-/// Activations of which none is above it are none.
-inline constexpr double kFlatActivation = 0.02;
-
 /// Where the numbers of one trial of `myoid identify` came from.
 struct IdentifyFiles {
   std::string activations, lengths;

@@ -6,15 +6,20 @@
 #include <Eigen/Core>
 
 #include "myoid/kinematics/muscle_kinematics.h"
-#include "myoid/pipeline/study_model.h"
 
 namespace myoid::pipeline {
 
-/// The study's muscles along a motion, heads lumped by their weights: n x m each.
+/// Columns of a model's muscles that count as one muscle, and their weights (summing to 1).
+struct MuscleGroup {
+  std::vector<int> members;
+  std::vector<double> weights;
+};
+
+/// Lumped muscles along a motion: the weighted means over their heads, n x m each.
 struct LumpedMuscles {
   Eigen::MatrixXd length_m;      ///< Musculotendon length.
   Eigen::MatrixXd velocity_mps;  ///< Of it, lengthening positive.
-  Eigen::MatrixXd moment_arm_m;  ///< By the study's coordinate, r = -dl/dq.
+  Eigen::MatrixXd moment_arm_m;  ///< By one coordinate, r = -dl/dq.
 };
 
 /// Moment arms r = -dl/dq by one coordinate, n x m [m].

@@ -104,9 +104,9 @@ ordered_json trc_json(const std::filesystem::path& path) {
   return j;
 }
 
-ordered_json events_json(const std::vector<recording::C3dEvent>& events) {
+ordered_json events_json(const std::vector<recording::Event>& events) {
   ordered_json list = ordered_json::array();
-  for (const recording::C3dEvent& e : events) {
+  for (const recording::Event& e : events) {
     ordered_json j{{"name", e.label.empty() ? "event" : e.label}, {"time_s", e.time_s}};
     if (!e.context.empty()) j["context"] = e.context;
     list.push_back(j);

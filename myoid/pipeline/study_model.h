@@ -7,6 +7,7 @@
 #include "myoid/identification/study_data.h"
 #include "myoid/model/body_model.h"
 #include "myoid/muscle/thelen.h"
+#include "myoid/pipeline/lumped_muscles.h"
 #include "myoid/pipeline/study.h"
 #include "myoid/recording/marker_series.h"
 
@@ -28,12 +29,7 @@ namespace myoid::pipeline {
 [[nodiscard]] std::vector<identification::MuscleSetup> muscle_setups(const Study& study,
                                                                      const model::BodyModel& model);
 
-/// Columns of the model's muscles that make up each [[muscle]], and their weights (F_max, summing
-/// to 1).
-struct MuscleGroup {
-  std::vector<int> members;
-  std::vector<double> weights;
-};
+/// The model's muscles that make up each [[muscle]], weighted by their F_max.
 [[nodiscard]] std::vector<MuscleGroup> muscle_groups(const Study& study,
                                                      const model::BodyModel& model);
 

@@ -9,7 +9,6 @@
 #include "myoid/core/error.h"
 #include "myoid/pipeline/foreign_contacts.h"
 #include "myoid/pipeline/ground_support.h"
-#include "myoid/pipeline/identify_input.h"
 #include "myoid/pipeline/load_points.h"
 #include "myoid/pipeline/marker_sides.h"
 #include "myoid/pipeline/shared_muscles.h"

@@ -49,7 +49,7 @@ double interval_s(const Recording& file) {
                                  const std::string& name) {
   std::vector<std::string> names;
   for (const Channel& c : file.analog.channels()) names.push_back(c.name);
-  for (const recording::C3dEvent& e : file.events) {
+  for (const recording::Event& e : file.events) {
     if (std::find(names.begin(), names.end(), e.label) == names.end()) names.push_back(e.label);
   }
   const auto near = recording::nearest_word(name, names);
@@ -86,7 +86,7 @@ Instants instants_of(const std::filesystem::path& path,
     return edges;
   }
   Instants events;
-  for (const recording::C3dEvent& event : file.events) {
+  for (const recording::Event& event : file.events) {
     if (event.label == name) events.time_s.push_back(event.time_s);
   }
   if (events.time_s.empty()) no_such_signal(path, file, name);

@@ -26,6 +26,9 @@ using Capacities = std::map<std::string, JointCapacity>;
                                                const TrialSpec& trial,
                                                const TrialInput& input);
 
+/// The activation that a trial must exceed somewhere to count as one with active muscles.
+inline constexpr double kFlatActivation = 0.02;
+
 /// The share of samples by whose size a torque is judged: what one in a hundred exceeds, so that a
 /// spike does not.
 [[nodiscard]] double usual_peak(const Eigen::Ref<const Eigen::VectorXd>& values);

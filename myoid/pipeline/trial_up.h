@@ -7,6 +7,7 @@
 #include "myoid/core/geometry.h"
 #include "myoid/model/body_model.h"
 #include "myoid/recording/laboratory_up.h"
+#include "myoid/recording/marker_series.h"
 
 namespace myoid::pipeline {
 
@@ -23,6 +24,13 @@ inline constexpr char kUpOfTheFile = 'a';
 
 /// The rotation that brings `up_L`, along an axis and either way, onto `model_up`.
 [[nodiscard]] Mat3 rotation_onto(const model::BodyModel& model, const Vec3& up_L);
+
+/// How well the model's markers, at its default pose, lie on the first complete frame when `up`
+/// points up: cosine of the angle between its vertical and the laboratory's; -2 if fewer than four
+/// markers are known.
+[[nodiscard]] double upright(const model::BodyModel& model,
+                             const recording::MarkerSeries& markers,
+                             const Vec3& up_L);
 
 /// Up in the laboratory of a file of the study: [markers] up, else as the file says, else
 /// `model_up`. Throws ReadError where the file contradicts itself.

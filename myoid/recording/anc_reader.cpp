@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
-#include "myoid/recording/c3d_file.h"
+#include "myoid/recording/file_words.h"
 #include "myoid/recording/table_clock.h"
 
 namespace myoid::recording {

@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "myoid/core/error.h"
-#include "myoid/recording/c3d_file.h"
+#include "myoid/recording/file_words.h"
 #include "myoid/recording/text_table.h"
 
 namespace myoid::recording {
@@ -122,7 +122,7 @@ BidsMotion read_bids_motion(const std::filesystem::path& path) {
   Eigen::VectorXd time(rows);
   for (Eigen::Index i = 0; i < rows; ++i) time[i] = static_cast<double>(i) / rate;
   const auto unit_of = [&](const BidsChannel& channel, Unit expected) {
-    const auto unit = parse_c3d_unit(channel.unit);
+    const auto unit = parse_file_unit(channel.unit);
     if (!unit || unit->unit != expected)
       throw ReadError(path, 0,
                       fmt::format("channel '{}' of type {}: its unit '{}' is not one of [{}]",

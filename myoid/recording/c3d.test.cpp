@@ -14,6 +14,7 @@
 #include "myoid/recording/c3d_signals.h"
 #include "myoid/recording/c3d_writer.h"
 #include "myoid/recording/make_c3d.h"
+#include "myoid/recording/file_words.h"
 
 #include "tests/support/c3d_texts.h"
 #include "tests/support/data_folder.h"
@@ -416,9 +417,9 @@ TEST(C3d, TextOfUnknownOriginBecomesUtf8) {
   EXPECT_EQ(to_utf8("a\x01"
                     "b"),
             "a b");
-  EXPECT_EQ(parse_c3d_unit("\xB5V")->to_si, 1e-6);
-  EXPECT_EQ(parse_c3d_unit("ntmm")->unit, Unit::newton_meter);
-  EXPECT_FALSE(parse_c3d_unit("d.u."));
+  EXPECT_EQ(parse_file_unit("\xB5V")->to_si, 1e-6);
+  EXPECT_EQ(parse_file_unit("ntmm")->unit, Unit::newton_meter);
+  EXPECT_FALSE(parse_file_unit("d.u."));
 }
 
 TEST(C3d, TheReaderOfFilesAndTheReaderOfMemoryAgree) {

@@ -191,7 +191,7 @@ void describe_events(std::vector<C3dGroup>& groups, const C3dFile& file) {
   std::vector<std::string> contexts;
   std::vector<std::string> subjects;
   std::vector<double> times;
-  for (const C3dEvent& event : file.events) {
+  for (const Event& event : file.events) {
     labels.push_back(event.label);
     contexts.push_back(event.context);
     subjects.push_back(event.subject);

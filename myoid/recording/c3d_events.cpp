@@ -1,5 +1,7 @@
 #include "myoid/recording/c3d_events.h"
 
+#include "myoid/recording/file_words.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -46,7 +48,7 @@ class EventList {
  public:
   EventList(C3dFile& file, std::string place) : file_(file), place_(std::move(place)) {}
 
-  void add(C3dEvent event) {
+  void add(Event event) {
     ++count_;
     if (std::isfinite(event.time_s) && std::abs(event.time_s) <= 1e7) {
       events_.push_back(std::move(event));
@@ -60,8 +62,8 @@ class EventList {
   void merge() {
     constexpr double kSame_s = 1e-4;
     const auto earlier = static_cast<std::ptrdiff_t>(file_.events.size());
-    for (C3dEvent& event : events_) {
-      const auto same = [&](const C3dEvent& other) {
+    for (Event& event : events_) {
+      const auto same = [&](const Event& other) {
         return other.label == event.label && std::abs(other.time_s - event.time_s) < kSame_s;
       };
       if (std::none_of(file_.events.begin(), file_.events.begin() + earlier, same))
@@ -72,7 +74,7 @@ class EventList {
  private:
   C3dFile& file_;
   std::string place_;
-  std::vector<C3dEvent> events_;
+  std::vector<Event> events_;
   std::size_t count_ = 0;
 };
 

@@ -32,7 +32,7 @@ TEST(C3dEvents, EventsOfEveryPlaceAreReadOnce) {
       test::c3d_texts("LABELS", 9, {"TARGET_ON", "GO"}),
       {.name = "TIMES", .type = C3dType::real, .dimensions = {2, 2}, .numbers = {7, 0.25, 7, 1.5}}};
   file.groups.push_back(events);
-  const std::vector<C3dEvent> kinarm{{0.25, "TARGET_ON", "", ""}, {1.5, "GO", "", ""}};
+  const std::vector<Event> kinarm{{0.25, "TARGET_ON", "", ""}, {1.5, "GO", "", ""}};
   const C3dFile alone = parse_c3d(format_c3d(file), "kinarm.c3d");
   EXPECT_EQ(alone.events, kinarm);
   // Written, they stand in EVENT too, and are not doubled by reading them again.
@@ -63,7 +63,7 @@ TEST(C3dEvents, TheSectionBehindTheDataIsRead) {
     ASSERT_TRUE(number.put_real(record + 4, i == 0 ? 0.5F : 0.75F));
   }
   const C3dFile back = parse_c3d(bytes, "section.c3d");
-  EXPECT_EQ(back.events, (std::vector<C3dEvent>{{0.5, "GO", "", ""}, {0.75, "STOP", "", ""}}));
+  EXPECT_EQ(back.events, (std::vector<Event>{{0.5, "GO", "", ""}, {0.75, "STOP", "", ""}}));
   number.put_u16(&bytes[at + 3], 999);
   const auto repairs = parse_c3d(bytes, "section.c3d").repairs;
   EXPECT_TRUE(std::any_of(repairs.begin(), repairs.end(), [](const Repair& r) {

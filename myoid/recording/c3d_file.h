@@ -9,6 +9,7 @@
 #include <Eigen/Core>
 
 #include "myoid/core/time_series.h"
+#include "myoid/recording/event.h"
 #include "myoid/recording/marker_series.h"
 #include "myoid/recording/text_file.h"
 
@@ -43,16 +44,6 @@ struct C3dGroup {
   friend bool operator==(const C3dGroup&, const C3dGroup&) = default;
 };
 
-/// An instant that somebody marked.
-struct C3dEvent {
-  double time_s = 0.0;  ///< On the clock of the file, whose frame 1 is at 0 s.
-  std::string label;
-  std::string context;  ///< "Left", "Right", "General"; empty where there is none.
-  std::string subject;
-
-  friend bool operator==(const C3dEvent&, const C3dEvent&) = default;
-};
-
 /// An analog channel. A sample is (count - offset) * scale, in `unit_text`.
 struct C3dChannel {
   std::string name;       ///< Unique, UTF-8; as written but for blanks at its end.
@@ -84,7 +75,7 @@ struct C3dFile {
   std::vector<C3dChannel> channels;
   Rows analog;  ///< (frames * analog_per_frame) x channels: counts as stored.
 
-  std::vector<C3dEvent> events;
+  std::vector<Event> events;
   std::vector<Repair> repairs;
 
   [[nodiscard]] Eigen::Index frame_count() const { return points.rows(); }
@@ -103,13 +94,5 @@ struct C3dFile {
 
 /// The number at `index`, if the parameter is there, has it and it is finite.
 [[nodiscard]] std::optional<double> number_at(const C3dParameter* parameter, std::size_t index);
-
-/// Bytes of unknown origin as UTF-8: kept if they are valid UTF-8, else read as Latin-1. Control
-/// characters become blanks.
-[[nodiscard]] std::string to_utf8(std::string_view bytes);
-
-/// A unit as C3D files write it: besides `parse_unit`'s words "nt", "ntmm", "N-M", "Nmm", "g" (here
-/// an acceleration), "Volts"... Empty if it is none ("d.u.", "ADC").
-[[nodiscard]] std::optional<ScaledUnit> parse_c3d_unit(std::string_view text);
 
 }  // namespace myoid::recording

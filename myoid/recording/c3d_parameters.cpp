@@ -12,6 +12,7 @@
 
 #include "myoid/core/error.h"
 #include "myoid/recording/c3d_bytes.h"
+#include "myoid/recording/file_words.h"
 
 namespace myoid::recording {
 namespace {

@@ -16,6 +16,7 @@
 #include "myoid/recording/c3d_events.h"
 #include "myoid/recording/c3d_frames.h"
 #include "myoid/recording/c3d_parameters.h"
+#include "myoid/recording/file_words.h"
 
 namespace myoid::recording {
 namespace {
@@ -199,7 +200,7 @@ void read_point_unit(C3dFile& file,
   };
   if (file.point_unit.empty()) {
     take("mm", "POINT:UNITS is missing; mm is assumed: compare a known distance");
-  } else if (!parse_c3d_unit(file.point_unit)) {
+  } else if (!parse_file_unit(file.point_unit)) {
     if (const auto whole = length_unit_of_prefix(file.point_unit))
       take(*whole, fmt::format("POINT:UNITS '{}' is a word cut short; read as {}", file.point_unit,
                                *whole));

@@ -9,6 +9,7 @@
 #include "myoid/recording/c3d_reader.h"
 #include "myoid/recording/c3d_signals.h"
 #include "myoid/recording/laboratory_up.h"
+#include "myoid/recording/file_words.h"
 
 namespace myoid::recording {
 namespace {
@@ -80,7 +81,7 @@ Recording read_c3d_channels(const std::filesystem::path& path, std::vector<bool>
   C3dHead head;
   Recording recording = read(path, false, true, head);
   for (const C3dChannel& channel : head.file.channels)
-    has_unit.push_back(parse_c3d_unit(channel.unit_text).has_value());
+    has_unit.push_back(parse_file_unit(channel.unit_text).has_value());
   return recording;
 }
 

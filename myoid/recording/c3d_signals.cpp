@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
+#include "myoid/recording/file_words.h"
 
 namespace myoid::recording {
 namespace {
@@ -47,7 +48,7 @@ C3dMarkerBuilder::C3dMarkerBuilder(const C3dFile& file, Eigen::Index frames)
       points_(file.point_labels.size()),
       first_frame_(file.first_frame) {
   if (columns_.empty() || frames == 0) throw InvalidInput("the C3D file holds no markers");
-  const std::optional<ScaledUnit> unit = parse_c3d_unit(file.point_unit);
+  const std::optional<ScaledUnit> unit = parse_file_unit(file.point_unit);
   if (!unit || unit->unit != Unit::meter) {
     throw InvalidInput(
         fmt::format("POINT:UNITS: found '{}', expected mm, cm or m; correct the file's parameter",
@@ -125,7 +126,7 @@ MarkerSeries c3d_markers(const C3dFile& file, std::vector<Repair>& repairs) {
 C3dChannelUnits c3d_channel_units(const C3dFile& file) {
   C3dChannelUnits units;
   for (const C3dChannel& channel : file.channels) {
-    const auto unit = parse_c3d_unit(channel.unit_text);
+    const auto unit = parse_file_unit(channel.unit_text);
     units.channels.push_back({channel.name, unit ? unit->unit : Unit::dimensionless});
     units.scales.push_back({channel.offset, channel.scale, unit ? unit->to_si : 1.0});
   }

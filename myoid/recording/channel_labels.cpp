@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "myoid/recording/c3d_file.h"
+#include "myoid/recording/file_words.h"
 
 namespace myoid::recording {
 namespace {
@@ -18,7 +18,7 @@ using Kind = TableColumn::Kind;
 std::optional<ScaledUnit> unit_of(std::string_view word) {
   word = trim(word);
   if (lower(word) == "sec" || lower(word) == "seconds") return parse_unit("s");
-  if (const auto unit = parse_c3d_unit(word)) return unit;
+  if (const auto unit = parse_file_unit(word)) return unit;
   return parse_unit(word);
 }
 

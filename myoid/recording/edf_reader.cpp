@@ -14,6 +14,8 @@
 
 #include "myoid/core/error.h"
 #include "myoid/recording/byte_source.h"
+#include "myoid/recording/file_words.h"
+#include "myoid/recording/event.h"
 
 namespace myoid::recording {
 namespace {
@@ -148,7 +150,7 @@ std::int32_t sample(const std::byte* p, bool bdf) {
 
 /// Time-stamped annotation lists: "+onset[\x15duration]\x14text\x14...\x14\0". The first list of a
 /// record without a text is the record's own time.
-std::optional<double> read_annotations(std::string_view bytes, std::vector<C3dEvent>& events) {
+std::optional<double> read_annotations(std::string_view bytes, std::vector<Event>& events) {
   std::optional<double> record_time;
   bool first = true;
   while (!bytes.empty()) {
@@ -188,7 +190,7 @@ std::vector<std::size_t> choose(const Header& header, std::vector<Repair>& repai
       continue;
     }
     by_rate[signal.per_record].push_back(s);
-    const auto unit = parse_c3d_unit(signal.dimension);
+    const auto unit = parse_file_unit(signal.dimension);
     const bool volts = unit && unit->unit == Unit::volt;
     if ((volts && !best_in_volts) || (volts == best_in_volts && signal.per_record > best)) {
       best = signal.per_record;
@@ -269,7 +271,7 @@ EdfFile read_edf_source(ByteSource& source, const std::filesystem::path& path) {
   std::set<std::string> seen;
   for (const std::size_t s : chosen) {
     const Signal& signal = header.signals[s];
-    const auto unit = parse_c3d_unit(signal.dimension);
+    const auto unit = parse_file_unit(signal.dimension);
     const double to_si = unit ? unit->to_si : 1.0;
     file.has_unit.push_back(unit.has_value());
     const double gain = to_si * (signal.physical_max - signal.physical_min) /
@@ -335,7 +337,7 @@ EdfFile read_edf_source(ByteSource& source, const std::filesystem::path& path) {
     take_samples(header, chosen, record, r * per_record, counts);
   }
   if (zero_s.value_or(0.0) != 0.0) {
-    for (C3dEvent& event : file.events) event.time_s -= *zero_s;
+    for (Event& event : file.events) event.time_s -= *zero_s;
     file.repairs.push_back(
         {0, fmt::format("the first record begins {:.6g} s after the header's start of the "
                         "recording; here its first sample is at 0 s, and so count the events",

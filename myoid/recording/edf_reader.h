@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "myoid/recording/analog_channels.h"
-#include "myoid/recording/c3d_file.h"
+#include "myoid/recording/event.h"
 #include "myoid/recording/text_file.h"
 
 namespace myoid::recording {
@@ -15,7 +15,7 @@ struct EdfFile {
   AnalogChannels
       data;  ///< The signals of the highest rate that has a voltage, else of the highest.
   std::vector<bool> has_unit;    ///< Per channel: its dimension is known.
-  std::vector<C3dEvent> events;  ///< Annotations of EDF+ and BDF+.
+  std::vector<Event> events;  ///< Annotations of EDF+ and BDF+.
   std::vector<Repair> repairs;
 };
 

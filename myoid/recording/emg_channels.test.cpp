@@ -1,4 +1,5 @@
 #include "myoid/recording/emg_channels.h"
+#include "myoid/recording/instrument_names.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -14,9 +14,10 @@
 #include "myoid/recording/channel_choice.h"
 #include "myoid/recording/csv_reader.h"
 #include "myoid/recording/edf_reader.h"
-#include "myoid/recording/emg_channels.h"
+#include "myoid/recording/instrument_names.h"
 #include "myoid/recording/emg_table.h"
 #include "myoid/recording/storage_reader.h"
+#include "myoid/recording/file_words.h"
 
 namespace myoid::recording {
 namespace {
@@ -179,7 +180,7 @@ void apply_bids(const std::filesystem::path& path, CsvSeries& series, EmgFile& f
       continue;
     }
     const auto c = static_cast<std::size_t>(*column);
-    const auto unit = parse_c3d_unit(channel.unit);
+    const auto unit = parse_file_unit(channel.unit);
     const bool take = !series.has_unit[c] && unit;
     kept.push_back(channel.name);
     has_unit.push_back(series.has_unit[c] || take);

@@ -14,7 +14,7 @@
 #include <fmt/ranges.h>
 
 #include "myoid/core/error.h"
-#include "myoid/recording/c3d_file.h"
+#include "myoid/recording/file_words.h"
 #include "myoid/recording/channel_labels.h"
 #include "myoid/recording/channel_layouts.h"
 
@@ -57,7 +57,7 @@ std::optional<TableColumn> label_line(std::string_view line) {
   TableColumn column;
   column.name = to_utf8(trim(line.substr(begin + 6, end - begin - 6)));
   const auto words = split_words(line.substr(unit + 5));
-  if (!words.empty()) column.unit = parse_c3d_unit(words[0]);
+  if (!words.empty()) column.unit = parse_file_unit(words[0]);
   return column;
 }
 

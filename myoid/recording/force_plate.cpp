@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
+#include "myoid/recording/file_words.h"
 
 namespace myoid::recording {
 namespace {
@@ -102,7 +103,7 @@ void find_factors(const C3dFile& file, PlateSetup& d, std::vector<Repair>& repai
     const bool length = d.type == 1 && (c == 3 || c == 4);
     const bool moment = (d.type == 2 && c >= 3) || (d.type == 1 && c == 5);
     const Unit expected = length ? Unit::meter : moment ? Unit::newton_meter : Unit::newton;
-    const auto unit = parse_c3d_unit(channel.unit_text);
+    const auto unit = parse_file_unit(channel.unit_text);
     if (unit && unit->unit == expected) {
       d.factors.back() = unit->to_si;
     } else {
@@ -160,7 +161,7 @@ std::vector<PlateSetup> plate_setups(const C3dFile& file, std::vector<Repair>& r
       number_at(file.find("FORCE_PLATFORM", "USED"), 0)
           .value_or(types == nullptr ? 0.0 : static_cast<double>(types->numbers.size()));
   if (!(used >= 1.0) || file.channels.empty()) return plates;
-  const auto length = parse_c3d_unit(file.point_unit);
+  const auto length = parse_file_unit(file.point_unit);
   const double to_m = length && length->unit == Unit::meter ? length->to_si : 1e-3;
   for (std::size_t n = 0; n < static_cast<std::size_t>(std::min(used, 255.0)); ++n) {
     auto d = describe(file, n, to_m, repairs);

@@ -12,7 +12,7 @@
 
 #include "myoid/core/error.h"
 #include "myoid/core/index.h"
-#include "myoid/recording/c3d_file.h"
+#include "myoid/recording/file_words.h"
 #include "myoid/recording/marker_layouts.h"
 #include "myoid/recording/table_clock.h"
 
@@ -26,7 +26,7 @@ double to_meters(const std::string& stated, const std::filesystem::path& path, M
     file.unit = "mm";
     file.repairs.push_back({0, "no unit is stated; mm is assumed: compare a known distance"});
   }
-  const auto unit = parse_c3d_unit(file.unit);
+  const auto unit = parse_file_unit(file.unit);
   if (!unit || unit->unit != Unit::meter)
     throw ReadError(path, 0, fmt::format("the unit is '{}', expected mm, cm or m", file.unit));
   return unit->to_si;

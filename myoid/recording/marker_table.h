@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <string_view>
 
-#include "myoid/recording/recording.h"
+#include "myoid/recording/marker_file.h"
 
 namespace myoid::recording {
 

@@ -7,20 +7,13 @@
 
 #include "myoid/core/geometry.h"
 #include "myoid/recording/analog_channels.h"
-#include "myoid/recording/c3d_file.h"
+#include "myoid/recording/event.h"
 #include "myoid/recording/force_plate.h"
+#include "myoid/recording/marker_file.h"
 #include "myoid/recording/marker_series.h"
 #include "myoid/recording/text_file.h"
 
 namespace myoid::recording {
-
-/// Markers of a file, in meters.
-struct MarkerFile {
-  MarkerSeries markers;
-  std::string unit;  ///< As written.
-  std::vector<Repair> repairs;
-  std::optional<Vec3> screen_up_L;  ///< As in `Recording`.
-};
 
 /// Markers from .trc, .c3d or a Motion-BIDS `_motion.tsv`, by the ending of the name. Throws
 /// ReadError, also where a .c3d file holds none.
@@ -34,7 +27,7 @@ struct Recording {
   std::vector<AnalogChannels> other_clocks;  ///< Channels that have a clock of their own.
   std::vector<PlateSetup> plates;
   std::optional<Vec3> screen_up_L;  ///< Which way is up by POINT:Y_SCREEN of a .c3d file.
-  std::vector<C3dEvent> events;
+  std::vector<Event> events;
   std::vector<Repair> repairs;
 
   /// `analog` and each of `other_clocks`.

@@ -12,7 +12,7 @@
 
 #include "myoid/core/error.h"
 #include "myoid/core/index.h"
-#include "myoid/recording/emg_channels.h"
+#include "myoid/recording/instrument_names.h"
 #include "myoid/recording/table_clock.h"
 
 namespace myoid::recording {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "myoid/core/time_series.h"
-#include "myoid/recording/c3d_file.h"
+#include "myoid/recording/event.h"
 #include "myoid/recording/table_layout.h"
 
 namespace myoid::recording {
@@ -21,7 +21,7 @@ struct ClockedChannels {
 struct CsvSeries : ClockedChannels {
   std::vector<Repair> repairs;
   std::vector<ClockedChannels> other_clocks;
-  std::vector<C3dEvent> events;  ///< What columns of remarks hold, with the column's name.
+  std::vector<Event> events;  ///< What columns of remarks hold, with the column's name.
 };
 
 /// The channels of a table whose layout is known: on the clock of its rows (`row_times`); or, where

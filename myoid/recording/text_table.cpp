@@ -11,7 +11,7 @@
 #include "myoid/core/error.h"
 #include "myoid/core/index.h"
 #include "myoid/core/parallel.h"
-#include "myoid/recording/c3d_file.h"
+#include "myoid/recording/file_words.h"
 
 namespace myoid::recording {
 namespace {

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string_view>
+
+namespace myoid::recording {
+
+/// True for what the channels of force plates, triggers, switches and the like are usually called:
+/// a force, moment or center of pressure with its axis and number ("F1X", "Force.Fz2", "Mx1",
+/// "COPy", "Fz3" and "Fx12" of piezoelectric plates), "Sync", "Trigger", "Footswitch", ...
+/// and the motion that wireless electrodes record too ("Sensor 1: ACC.X 1", "GYRO Y", "FSR.A").
+[[nodiscard]] bool named_as_no_emg(std::string_view name);
+
+}  // namespace myoid::recording
