@@ -7,7 +7,6 @@
 
 #include "myoid/core/units.h"
 #include "myoid/model/kinematic_tree.h"
-#include "myoid/pipeline/draft_recordings.h"
 #include "myoid/pipeline/trial_up.h"
 #include "myoid/signals/motion_jumps.h"
 
