@@ -1,22 +1,49 @@
 # The layers, lowest first, and which lower layers each may use: written here once. The targets link
 # exactly these; tests/architecture compares every #include with this list.
-set(MYOID_LAYERS core math muscle recording signals model kinematics dynamics forces identification
-                 simulation report pipeline cli)
+set(MYOID_LAYERS core math files muscle tables c3d recording signals model osim arm kinematics
+    dynamics forces simulation identification intervals methods report phases study intake checks
+    design run scene results draft contents identify_files opensim_tools twin cli)
 set(MYOID_LAYER_core)
 set(MYOID_LAYER_math core)
-set(MYOID_LAYER_muscle core math)
-set(MYOID_LAYER_recording core math)
-set(MYOID_LAYER_signals core math muscle recording)
-set(MYOID_LAYER_model core math muscle recording)
-set(MYOID_LAYER_kinematics core math muscle recording signals model)
-set(MYOID_LAYER_dynamics core math recording signals model kinematics)
-set(MYOID_LAYER_forces core math muscle recording signals model kinematics dynamics)
-set(MYOID_LAYER_identification core math muscle recording signals model kinematics dynamics forces)
-set(MYOID_LAYER_simulation core math muscle recording signals model kinematics dynamics forces)
-set(MYOID_LAYER_report core math muscle recording)
-set(MYOID_LAYER_pipeline core math muscle recording signals model kinematics dynamics forces
-                         identification simulation report)
-set(MYOID_LAYER_cli ${MYOID_LAYER_pipeline} pipeline)
+set(MYOID_LAYER_files core)
+set(MYOID_LAYER_muscle core math files)
+set(MYOID_LAYER_tables core files)
+set(MYOID_LAYER_c3d core files)
+set(MYOID_LAYER_recording core math files tables c3d)
+set(MYOID_LAYER_signals core math files recording)
+set(MYOID_LAYER_model core math files)
+set(MYOID_LAYER_osim core files muscle model)
+set(MYOID_LAYER_arm core muscle)
+set(MYOID_LAYER_kinematics core math files tables signals model)
+set(MYOID_LAYER_dynamics core math files tables recording signals model osim kinematics)
+set(MYOID_LAYER_forces core muscle model osim kinematics dynamics)
+set(MYOID_LAYER_simulation core math files muscle model osim arm kinematics dynamics forces)
+set(MYOID_LAYER_identification core math muscle)
+set(MYOID_LAYER_intervals core math muscle signals identification)
+set(MYOID_LAYER_methods core math muscle forces identification intervals)
+set(MYOID_LAYER_report core files)
+set(MYOID_LAYER_phases core math)
+set(MYOID_LAYER_study core files muscle recording model osim arm kinematics identification)
+set(MYOID_LAYER_intake core files tables recording signals model osim kinematics dynamics study)
+set(MYOID_LAYER_checks core math files tables recording signals model kinematics dynamics study
+    intake)
+set(MYOID_LAYER_design core muscle arm kinematics dynamics simulation identification intervals
+    methods report study)
+set(MYOID_LAYER_run core math files tables signals osim arm kinematics dynamics forces
+    identification intervals methods report phases study intake checks design)
+set(MYOID_LAYER_scene core files recording model osim report)
+set(MYOID_LAYER_results core math files muscle tables model kinematics forces simulation
+    identification intervals methods report phases study design run scene)
+set(MYOID_LAYER_draft core files tables recording model osim arm kinematics study)
+set(MYOID_LAYER_contents core tables c3d recording model)
+set(MYOID_LAYER_identify_files core math files muscle tables recording signals dynamics
+    identification methods checks)
+set(MYOID_LAYER_opensim_tools core math files tables recording signals model osim kinematics
+    dynamics forces simulation)
+set(MYOID_LAYER_twin core math files muscle tables c3d model osim arm simulation intervals run)
+set(MYOID_LAYER_cli core math files muscle tables c3d recording signals model osim arm kinematics
+    dynamics forces simulation identification intervals methods report study checks design run scene
+    results draft contents identify_files opensim_tools twin)
 
 # myoid_layer(NAME [HEADERS ...] [SOURCES ...] [TESTS ...] [EXTERNAL targets...])
 # A folder is a target; its tests are one executable. Everything is listed by name.

@@ -18,13 +18,13 @@
 
 #include "myoid/core/error.h"
 #include "myoid/core/units.h"
-#include "myoid/recording/atomic_file.h"
+#include "myoid/files/atomic_file.h"
 #include "myoid/recording/emg_reader.h"
-#include "myoid/recording/storage_reader.h"
 #include "myoid/report/report.h"
 #include "myoid/report/svg_plot.h"
 #include "myoid/signals/emg_envelope.h"
 #include "myoid/signals/spectrum.h"
+#include "myoid/tables/storage_reader.h"
 
 namespace {
 

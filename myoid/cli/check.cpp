@@ -5,11 +5,11 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "myoid/checks/check_study.h"
 #include "myoid/cli/context.h"
-#include "myoid/pipeline/check_study.h"
-#include "myoid/pipeline/json_values.h"
 #include "myoid/recording/laboratory_up.h"
 #include "myoid/recording/recording.h"
+#include "myoid/report/json_values.h"
 
 namespace myoid::cli {
 namespace {
@@ -43,20 +43,20 @@ void add_check(CLI::App& app, Context& context) {
       ->check(CLI::IsMember({"x", "y", "z", "-x", "-y", "-z"}));
   add_common_options(command, context, {.threads = false, .seed = false, .overwrite = false});
   command.callback([&context, o] {
-    std::vector<pipeline::Finding> findings;
+    std::vector<Finding> findings;
     std::string what;
     if (recording::extension_of(o->input) == ".toml") {
-      pipeline::Study study = pipeline::read_study(o->input);
-      pipeline::restrict_trials(study, context.start_s, context.end_s);
-      findings = pipeline::check_study(study);
+      Study study = read_study(o->input);
+      restrict_trials(study, context.start_s, context.end_s);
+      findings = check_study(study);
       what = fmt::format("{}, {}", counted(static_cast<long>(study.trials.size()), "trial"),
                          counted(static_cast<long>(study.muscles.size()), "muscle"));
     } else {
-      findings = pipeline::check_recording(o->input, recording::axis_vector(o->up));
+      findings = check_recording(o->input, recording::axis_vector(o->up));
       what = o->input;
     }
     const auto errors = std::count_if(findings.begin(), findings.end(), [](const auto& f) {
-      return f.level == pipeline::Finding::Level::error;
+      return f.level == Finding::Level::error;
     });
     if (context.json) {
       nlohmann::ordered_json json = nlohmann::ordered_json::array();
@@ -64,13 +64,13 @@ void add_check(CLI::App& app, Context& context) {
         json.push_back(
             {{"level", std::string(name(f.level))}, {"where", f.where}, {"message", f.message}});
         if (!f.fault) continue;
-        json.back()["fault"] = std::string(signals::name(f.fault->kind));
+        json.back()["fault"] = std::string(name(f.fault->kind));
         json.back()["channel"] = f.fault->channel;
         json.back()["begin_s"] = f.fault->begin_s;
         json.back()["end_s"] = f.fault->end_s;
         json.back()["value"] = f.fault->value;
       }
-      fmt::print("{}\n", pipeline::json_text(json));
+      fmt::print("{}\n", report::json_text(json));
     } else {
       // What to do is said with the first of several faults that ask for the same.
       std::set<std::string> said;

@@ -5,18 +5,18 @@
 
 #include "myoid/cli/context.h"
 #include "myoid/core/error.h"
-#include "myoid/pipeline/compare_runs.h"
+#include "myoid/results/compare_runs.h"
 
 namespace myoid::cli {
 namespace {
 
-using pipeline::ComparedParameter;
+using ComparedParameter;
 
 nlohmann::ordered_json optional_number(const std::optional<double>& x) {
   return x ? nlohmann::ordered_json(*x) : nlohmann::ordered_json(nullptr);
 }
 
-nlohmann::ordered_json to_json(const pipeline::RunComparison& comparison) {
+nlohmann::ordered_json to_json(const RunComparison& comparison) {
   nlohmann::ordered_json rows = nlohmann::ordered_json::array();
   for (const ComparedParameter& p : comparison.parameters) {
     rows.push_back({{"muscle", p.muscle},
@@ -29,7 +29,7 @@ nlohmann::ordered_json to_json(const pipeline::RunComparison& comparison) {
                     {"difference", p.difference},
                     {"smallest_detectable", optional_number(p.smallest_detectable)},
                     {"p_value", optional_number(p.p_value)},
-                    {"change", std::string(pipeline::name(p.change))}});
+                    {"change", std::string(name(p.change))}});
   }
   return {{"first", comparison.first.string()},
           {"second", comparison.second.string()},
@@ -38,7 +38,7 @@ nlohmann::ordered_json to_json(const pipeline::RunComparison& comparison) {
           {"remarks", comparison.remarks}};
 }
 
-void print(const pipeline::RunComparison& comparison) {
+void print(const RunComparison& comparison) {
   fmt::print("{:<10} {:<30} {:>10} {:>10} {:>11} {:>9}  {}\n", "muscle", "parameter [unit]",
              "first", "second", "difference", "p", "verdict");
   for (const ComparedParameter& p : comparison.parameters) {
@@ -46,7 +46,7 @@ void print(const pipeline::RunComparison& comparison) {
     fmt::print("{:<10} {:<30} {:>10} {:>10} {:>11} {:>9}  {}\n", p.muscle,
                fmt::format("{} [{}]", p.parameter, p.unit), report::format_value(p.first.estimate),
                report::format_value(p.second.estimate), report::format_value(p.difference),
-               p.p_value ? fmt::format("{:.2g}", *p.p_value) : "-", pipeline::name(p.change));
+               p.p_value ? fmt::format("{:.2g}", *p.p_value) : "-", name(p.change));
   }
   for (const std::string& remark : comparison.remarks) fmt::print("{}\n", remark);
 }
@@ -73,13 +73,12 @@ void add_compare(CLI::App& app, Context& context) {
       throw InvalidInput(
           fmt::format("{} and {} are one folder; name two runs", options->first, options->second));
     }
-    const pipeline::RunComparison comparison =
-        pipeline::compare_runs(options->first, options->second);
+    const RunComparison comparison = compare_runs(options->first, options->second);
     for (const std::string& text : comparison.unlike)
       context.warn(fmt::format("{} and {}: {}", options->first, options->second, text));
     if (!options->out.empty()) {
       context.prepare_folder(options->out);
-      report::write_report(pipeline::comparison_report(comparison), options->out);
+      report::write_report(comparison_report(comparison), options->out);
     }
     if (context.json) {
       fmt::print("{}\n", to_json(comparison).dump(2));

@@ -14,8 +14,8 @@
 #include "myoid/cli/granted_threads.h"
 #include "myoid/cli/held_folders.h"
 #include "myoid/core/error.h"
-#include "myoid/recording/atomic_file.h"
-#include "myoid/recording/text_file.h"
+#include "myoid/files/atomic_file.h"
+#include "myoid/files/text_file.h"
 
 namespace myoid::cli {
 namespace {

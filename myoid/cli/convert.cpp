@@ -6,27 +6,27 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
+#include "myoid/c3d/c3d_reader.h"
+#include "myoid/c3d/c3d_writer.h"
+#include "myoid/c3d/make_c3d.h"
 #include "myoid/cli/context.h"
 #include "myoid/cli/stage_input.h"
 #include "myoid/core/error.h"
-#include "myoid/pipeline/json_values.h"
-#include "myoid/recording/atomic_file.h"
+#include "myoid/files/atomic_file.h"
 #include "myoid/recording/bids_derivative.h"
-#include "myoid/recording/c3d_reader.h"
-#include "myoid/recording/c3d_writer.h"
 #include "myoid/recording/channel_choice.h"
 #include "myoid/recording/channel_writer.h"
 #include "myoid/recording/emg_channels.h"
 #include "myoid/recording/emg_reader.h"
 #include "myoid/recording/ground_reaction.h"
-#include "myoid/recording/make_c3d.h"
 #include "myoid/recording/plate_standing.h"
 #include "myoid/recording/recording.h"
-#include "myoid/recording/storage_reader.h"
-#include "myoid/recording/storage_writer.h"
-#include "myoid/recording/text_rows.h"
-#include "myoid/recording/trc_writer.h"
+#include "myoid/report/json_values.h"
 #include "myoid/signals/resample.h"
+#include "myoid/tables/storage_reader.h"
+#include "myoid/tables/storage_writer.h"
+#include "myoid/tables/text_rows.h"
+#include "myoid/tables/trc_writer.h"
 
 namespace myoid::cli {
 namespace {
@@ -142,7 +142,7 @@ class Converter {
  private:
   void print_written() const {
     if (context_.json) {
-      fmt::print("{}\n", pipeline::json_text(nlohmann::ordered_json{{"files", written_}}));
+      fmt::print("{}\n", report::json_text(nlohmann::ordered_json{{"files", written_}}));
     } else {
       for (const std::string& file : written_) fmt::print("{}\n", file);
     }

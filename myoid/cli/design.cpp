@@ -7,9 +7,9 @@
 
 #include "myoid/cli/context.h"
 #include "myoid/core/error.h"
-#include "myoid/pipeline/design_study.h"
-#include "myoid/pipeline/run_identity.h"
+#include "myoid/design/design_study.h"
 #include "myoid/report/report.h"
+#include "myoid/study/run_identity.h"
 
 namespace myoid::cli {
 namespace {
@@ -18,11 +18,11 @@ using identification::ParameterEstimate;
 
 /// The elbow of the source paper: surface electrodes on three muscles, the brachialis taken to act
 /// as the biceps does.
-pipeline::Study arm4_study(bool wire) {
-  pipeline::Study study;
+Study arm4_study(bool wire) {
+  Study study;
   study.model.builtin = "arm4";
   for (const char* name : {"BIC", "BRA", "BRD", "TRI"}) {
-    pipeline::MuscleSpec muscle;
+    MuscleSpec muscle;
     muscle.name = name;
     muscle.osim = {name};
     muscle.emg = muscle.name == "BRA" && !wire ? "BIC" : name;
@@ -31,19 +31,18 @@ pipeline::Study arm4_study(bool wire) {
   return study;
 }
 
-void print_plan(const pipeline::DesignStudyResult& result) {
+void print_plan(const DesignStudyResult& result) {
   fmt::print("{:>2}  {:<58} {:>6} {:>6} {:>11} {:>15}\n", "", "movement", "time", "rest",
              "median 95 %", "identified");
   fmt::print("{:>2}  {:<58} {:>6} {:>6} {:>11} {:>15}\n", "", "", "[s]", "[s]", "[+- %]",
              fmt::format("of {}", result.beforehand.size()));
   fmt::print("{:>2}  {:<58} {:>6} {:>6} {:>11.0f} {:>15}\n", 0, "what is known beforehand", "", "",
-             pipeline::median_half_width(result.beforehand),
-             pipeline::identified_count(result.beforehand));
+             median_half_width(result.beforehand), identified_count(result.beforehand));
   for (std::size_t i = 0; i < result.plan.size(); ++i) {
-    const pipeline::PlannedMovement& m = result.plan[i];
+    const PlannedMovement& m = result.plan[i];
     fmt::print("{:>2}  {:<58} {:>6.0f} {:>6.0f} {:>11.1f} {:>15}\n", i + 1,
                m.movement.description(), m.movement.duration_s, m.rest_before_s,
-               pipeline::median_half_width(m.expected), pipeline::identified_count(m.expected));
+               median_half_width(m.expected), identified_count(m.expected));
   }
   if (result.plan.empty()) return;
   fmt::print("\nexpected 95 % interval, as +- % of the value (the delay: +- ms)\n{:<38} {:>11}",
@@ -53,9 +52,9 @@ void print_plan(const pipeline::DesignStudyResult& result) {
   for (std::size_t t = 0; t < result.beforehand.size(); ++t) {
     const ParameterEstimate& before = result.beforehand[t];
     fmt::print("{:<38} {:>11.1f}", before.muscle + "." + before.parameter,
-               pipeline::relative_half_width(before));
-    for (const pipeline::PlannedMovement& m : result.plan)
-      fmt::print(" {:>7.1f}", pipeline::relative_half_width(m.expected[t]));
+               relative_half_width(before));
+    for (const PlannedMovement& m : result.plan)
+      fmt::print(" {:>7.1f}", relative_half_width(m.expected[t]));
     fmt::print("  {}\n", identification::name(result.plan.back().expected[t].verdict));
   }
 }
@@ -74,12 +73,12 @@ nlohmann::ordered_json estimates_json(const std::vector<ParameterEstimate>& esti
   return list;
 }
 
-void print_json(const pipeline::DesignStudyResult& result) {
+void print_json(const DesignStudyResult& result) {
   nlohmann::ordered_json json;
   json["catalogue_size"] = result.catalogue_size;
   json["beforehand"] = estimates_json(result.beforehand);
   json["plan"] = nlohmann::ordered_json::array();
-  for (const pipeline::PlannedMovement& m : result.plan) {
+  for (const PlannedMovement& m : result.plan) {
     json["plan"].push_back({{"movement", m.movement.description()},
                             {"duration_s", m.movement.duration_s},
                             {"rest_before_s", m.rest_before_s},
@@ -99,10 +98,10 @@ void add_design(CLI::App& app, Context& context) {
   struct Options {
     std::string study, model, after, criterion = "D";
     bool wire = false, no_dynamometer = false;
-    pipeline::DesignStudyOptions design;
+    DesignStudyOptions design;
   };
   const auto options = std::make_shared<Options>();
-  pipeline::DesignStudyOptions& design = options->design;
+  DesignStudyOptions& design = options->design;
   command.add_option("study", options->study,
                      "study.toml: model, muscles and electrodes as they are (or --model arm4)");
   command.add_option("--model", options->model, "The built-in arm: arm4");
@@ -150,15 +149,15 @@ void add_design(CLI::App& app, Context& context) {
       ->capture_default_str();
   add_common_options(command, context, {.range = false, .overwrite = false});
   command.callback([&context, options] {
-    pipeline::DesignStudyOptions& choice = options->design;
+    DesignStudyOptions& choice = options->design;
     if (options->study.empty() == options->model.empty())
       throw InvalidInput("design: give either a study.toml or --model arm4");
     if (!options->model.empty() && options->model != "arm4")
       throw InvalidInput(fmt::format(
           "--model {}: only arm4 is built in; for another model write a study.toml that names it",
           options->model));
-    const pipeline::Study study =
-        options->study.empty() ? arm4_study(options->wire) : pipeline::read_study(options->study);
+    const Study study =
+        options->study.empty() ? arm4_study(options->wire) : read_study(options->study);
     choice.choice.criterion = options->criterion == "A"
                                   ? identification::DesignCriterion::a_optimal
                                   : identification::DesignCriterion::d_optimal;
@@ -166,9 +165,9 @@ void add_design(CLI::App& app, Context& context) {
     choice.seed = context.seed;
     choice.progress = context.progress();
     if (!options->after.empty()) {
-      choice.earlier = pipeline::read_earlier_run(options->after);
-      const pipeline::IdentityDifferences unlike = pipeline::differences(
-          pipeline::identity_of(study), pipeline::read_run_identity(options->after));
+      choice.earlier = read_earlier_run(options->after);
+      const IdentityDifferences unlike =
+          differences(identity_of(study), read_run_identity(options->after));
       if (!unlike.grave.empty())
         throw InvalidInput(fmt::format(
             "--after {}: {}; its numbers mean something else; give the result of a run of this "
@@ -177,7 +176,7 @@ void add_design(CLI::App& app, Context& context) {
       for (const std::string& text : unlike.other)
         context.warn(fmt::format("--after {}: {}", options->after, text));
     }
-    const pipeline::DesignStudyResult result = pipeline::design_study(study, choice);
+    const DesignStudyResult result = design_study(study, choice);
     context.end_progress();
     if (result.too_hard == result.catalogue_size)
       throw InvalidInput("design: no movement of the catalogue is within the muscles' strength");

@@ -12,15 +12,15 @@
 #include "myoid/cli/context.h"
 #include "myoid/cli/stage_input.h"
 #include "myoid/core/error.h"
-#include "myoid/pipeline/json_values.h"
 #include "myoid/recording/channel_choice.h"
 #include "myoid/recording/emg_reader.h"
 #include "myoid/recording/recording.h"
-#include "myoid/recording/series_file.h"
+#include "myoid/report/json_values.h"
 #include "myoid/signals/emg_chain.h"
 #include "myoid/signals/emg_envelope.h"
 #include "myoid/signals/emg_levels.h"
 #include "myoid/signals/emg_quality.h"
+#include "myoid/tables/series_file.h"
 
 namespace myoid::cli {
 namespace {
@@ -94,9 +94,9 @@ void warn_of_faults(const std::string& path,
                     bool highpass,
                     const Context& context) {
   std::vector<std::string> envelopes;
-  const std::vector<signals::Fault> faults = signals::check_emg(emg, highpass);
-  for (const signals::Fault& fault : faults) {
-    if (fault.kind == signals::FaultKind::emg_envelope) envelopes.push_back(fault.channel);
+  const std::vector<Fault> faults = signals::check_emg(emg, highpass);
+  for (const Fault& fault : faults) {
+    if (fault.kind == FaultKind::emg_envelope) envelopes.push_back(fault.channel);
   }
   const std::string what = fmt::format(
       "{} never negative and slow: rectified and smoothed already, an envelope, of which this "
@@ -109,11 +109,10 @@ void warn_of_faults(const std::string& path,
                         "; give the raw EMG, or divide by the largest effort yourself (a study "
                         "does it with [emg] kind = \"envelope\")");
   if (!envelopes.empty()) context.warn(fmt::format("{}: {}; leave them out", path, what));
-  for (const signals::Fault& fault : faults) {
+  for (const Fault& fault : faults) {
     const bool envelope =
         std::find(envelopes.begin(), envelopes.end(), fault.channel) != envelopes.end();
-    if (fault.grave && !envelope)
-      context.warn(fmt::format("{}: {}", path, signals::sentence(fault)));
+    if (fault.grave && !envelope) context.warn(fmt::format("{}: {}", path, sentence(fault)));
   }
 }
 
@@ -263,8 +262,8 @@ void run_emg(EmgCommand o, const Context& context) {
   }
   const signals::NormalisationOptions window{.window_s = o.window_s};
   const auto normalisation = signals::find_normalisation(trials, window);
-  for (const signals::Fault& fault : signals::check_emg_levels(trials)) {
-    if (fault.grave) context.warn(signals::sentence(fault));
+  for (const Fault& fault : signals::check_emg_levels(trials)) {
+    if (fault.grave) context.warn(sentence(fault));
   }
   signals::EmgChain chain = signals::envelope_chain(files.views(), o.chain, files.whitening);
   const std::vector<std::string> of_envelope = signals::header_lines(chain);
@@ -281,7 +280,7 @@ void run_emg(EmgCommand o, const Context& context) {
                               of_envelope);
   }
   if (context.json) {
-    fmt::print("{}\n", pipeline::json_text(emg_json(activations, files, normalisation, chain)));
+    fmt::print("{}\n", report::json_text(emg_json(activations, files, normalisation, chain)));
   } else {
     print_emg(activations, files, normalisation, chain);
   }

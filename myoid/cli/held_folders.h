@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "myoid/recording/folder_lock.h"
+#include "myoid/files/folder_lock.h"
 
 namespace myoid::cli {
 

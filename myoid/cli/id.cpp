@@ -4,15 +4,15 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
+#include "myoid/arm/arm4.h"
 #include "myoid/cli/context.h"
 #include "myoid/cli/stage_input.h"
 #include "myoid/core/error.h"
 #include "myoid/dynamics/external_loads.h"
+#include "myoid/dynamics/ground_support.h"
 #include "myoid/dynamics/held_mass.h"
 #include "myoid/dynamics/inverse_dynamics.h"
-#include "myoid/model/arm4.h"
-#include "myoid/pipeline/ground_support.h"
-#include "myoid/recording/series_file.h"
+#include "myoid/tables/series_file.h"
 
 namespace myoid::cli {
 
@@ -78,8 +78,8 @@ void add_id(CLI::App& app, Context& context) {
     if (!o->loads.empty()) loads = load_external_loads(model, o->loads, motion, context);
     const TimeSeries forces =
         dynamics::inverse_dynamics(model, motion, {.loads = loads ? &*loads : nullptr});
-    if (const auto weight = pipeline::unsupported_weight(model, forces);
-        weight && pipeline::stands(model, motion.q.values().row(0).transpose()))
+    if (const auto weight = dynamics::unsupported_weight(model, forces);
+        weight && dynamics::stands(model, motion.q.values().row(0).transpose()))
       context.warn(weight->sentence("--loads"));
     recording::write_series(o->out, forces, "Inverse Dynamics Generalized Forces");
     if (context.json) {

@@ -8,22 +8,22 @@
 #include "myoid/cli/context.h"
 #include "myoid/cli/solver_contests.h"
 #include "myoid/core/error.h"
-#include "myoid/identification/basins.h"
-#include "myoid/identification/cross_validation.h"
-#include "myoid/identification/estimate_remarks.h"
-#include "myoid/identification/force.h"
-#include "myoid/identification/noise_free.h"
-#include "myoid/identification/paper.h"
+#include "myoid/files/atomic_file.h"
+#include "myoid/files/text_file.h"
 #include "myoid/identification/parameters.h"
-#include "myoid/identification/score.h"
-#include "myoid/identification/torque.h"
-#include "myoid/pipeline/estimator_input.h"
-#include "myoid/pipeline/identify_data.h"
-#include "myoid/pipeline/muscles_csv.h"
-#include "myoid/pipeline/parameter_files.h"
-#include "myoid/recording/atomic_file.h"
-#include "myoid/recording/text_file.h"
+#include "myoid/identify_files/identify_data.h"
+#include "myoid/identify_files/muscles_csv.h"
+#include "myoid/intervals/estimate_remarks.h"
+#include "myoid/intervals/score.h"
+#include "myoid/methods/basins.h"
+#include "myoid/methods/cross_validation.h"
+#include "myoid/methods/force.h"
+#include "myoid/methods/noise_free.h"
+#include "myoid/methods/paper.h"
+#include "myoid/methods/torque.h"
 #include "myoid/report/report.h"
+#include "myoid/results/parameter_files.h"
+#include "myoid/run/estimator_input.h"
 
 namespace myoid::cli {
 namespace {
@@ -33,7 +33,7 @@ using identification::TrialData;
 
 struct IdentifyOptions {
   std::string muscles, out, method = "torque";
-  pipeline::IdentifySources files;
+  IdentifySources files;
   std::optional<double> delay_s;
   bool no_priors = false;
   bool compare = false;
@@ -67,7 +67,7 @@ bool is_about_lags(const identification::ParameterRule& rule) {
 }
 
 /// What is asked for and the method or the files cannot give.
-void refuse_what_cannot_be(const IdentifyOptions& o, const pipeline::MuscleTable& table) {
+void refuse_what_cannot_be(const IdentifyOptions& o, const MuscleTable& table) {
   std::vector<std::string> asked;
   if (o.delay_s) asked.emplace_back("--delay");
   if (o.loss != "square") asked.emplace_back("--loss");
@@ -250,7 +250,7 @@ void print_folds(const std::vector<identification::Fold>& folds,
 
 /// The data for all that follows the fit, with the v_max free that the fit had free.
 void free_what_is_free(const identification::IdentificationResult& result,
-                       const pipeline::MuscleTable& table,
+                       const MuscleTable& table,
                        StudyData& data) {
   const bool found =
       std::any_of(result.estimates.begin(), result.estimates.end(),
@@ -387,16 +387,15 @@ void add_identify(CLI::App& app, Context& context) {
   command.add_flag("--strict", context.strict, "Exit with 4 if a parameter is not identifiable");
   add_common_options(command, context);
   command.callback([&context, o] {
-    const pipeline::MuscleTable table =
-        pipeline::read_muscles_csv(o->muscles, o->method != "paper");
+    const MuscleTable table = read_muscles_csv(o->muscles, o->method != "paper");
     refuse_what_cannot_be(*o, table);
     for (const std::string& text : without_effect(*o)) context.warn(text);
     o->files.torque = o->method == "torque";
     if (o->motion_cutoff_hz > 0.0) o->files.motion_cutoff_hz = o->motion_cutoff_hz;
     o->files.start_s = context.start_s;
     o->files.end_s = context.end_s;
-    StudyData data = pipeline::read_identify_data(
-        o->files, table, [&](const std::string& text) { context.warn(text); });
+    StudyData data =
+        read_identify_data(o->files, table, [&](const std::string& text) { context.warn(text); });
     for (const std::string& name : o->free_more) {
       (void)identification::parameter_field(name);
       identification::ParameterRule rule;
@@ -418,7 +417,7 @@ void add_identify(CLI::App& app, Context& context) {
                         "way to follow the EMG; leave one of both out",
                         o->lag));
       }
-      pipeline::use_dynamics(options);
+      use_dynamics(options);
       context.warn(
           "the lags of equation (1) are to be identified: the activations given are taken for "
           "excitations that pass them, and the delay is what is left beside them");
@@ -465,21 +464,21 @@ void add_identify(CLI::App& app, Context& context) {
         provenance.inputs.push_back({path, sha256(recording::read_text_file(path))});
     }
     const std::vector<identification::IdentificationResult> results{result};
-    pipeline::ParameterContext told;
+    ParameterContext told;
     if (o->method != "paper") told.max_rate_hz = o->max_rate_hz;
     told.left_out = folds.empty() ? "none" : o->folds;
     told.starting_values = table.assumed;
     const std::filesystem::path folder(o->out);
     recording::write_file(folder / "parameters.json",
-                          pipeline::parameters_json(results, folds, provenance, told));
-    recording::write_file(folder / "parameters.csv", pipeline::parameters_csv(results));
+                          parameters_json(results, folds, provenance, told));
+    recording::write_file(folder / "parameters.csv", parameters_csv(results));
     std::error_code ignored;
     std::filesystem::remove(folder / "fold_parameters.csv", ignored);  // of an earlier run
     if (!folds.empty())
-      recording::write_file(folder / "fold_parameters.csv", pipeline::fold_parameters_csv(folds));
+      recording::write_file(folder / "fold_parameters.csv", fold_parameters_csv(folds));
     if (!contests.empty()) recording::write_file(folder / "solvers.csv", solvers_csv(contests));
     if (context.json) {
-      fmt::print("{}", pipeline::parameters_json(results, folds, provenance, told));
+      fmt::print("{}", parameters_json(results, folds, provenance, told));
     } else {
       print_result(result,
                    o->method != "paper" && !result.exact && !table.speed_may_be_free.empty());

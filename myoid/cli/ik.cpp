@@ -6,11 +6,11 @@
 #include "myoid/cli/stage_input.h"
 #include "myoid/core/error.h"
 #include "myoid/kinematics/inverse_kinematics.h"
-#include "myoid/pipeline/marker_misfit.h"
-#include "myoid/pipeline/stage_files.h"
-#include "myoid/pipeline/trial_up.h"
+#include "myoid/kinematics/marker_misfit.h"
 #include "myoid/recording/plate_standing.h"
 #include "myoid/recording/recording.h"
+#include "myoid/results/stage_files.h"
+#include "myoid/study/trial_up.h"
 
 namespace myoid::cli {
 namespace {
@@ -45,11 +45,11 @@ Mat3 onto_model(const model::BodyModel& model,
                 const std::string& markers,
                 const std::string& up,
                 const Context& context) {
-  if (const auto told = recording::axis_vector(up)) return pipeline::rotation_onto(model, *told);
-  const recording::LaboratoryUp own = pipeline::trial_up(pipeline::kUpOfTheFile, markers, model);
-  if (*own.up_L != pipeline::model_up(model))
-    context.log(fmt::format("note: {}: {}", markers, pipeline::up_note(own, model)));
-  return pipeline::rotation_onto(model, *own.up_L);
+  if (const auto told = recording::axis_vector(up)) return rotation_onto(model, *told);
+  const recording::LaboratoryUp own = trial_up(kUpOfTheFile, markers, model);
+  if (*own.up_L != model_up(model))
+    context.log(fmt::format("note: {}: {}", markers, up_note(own, model)));
+  return rotation_onto(model, *own.up_L);
 }
 
 }  // namespace
@@ -117,9 +117,9 @@ void add_ik(CLI::App& app, Context& context) {
     const kinematics::IkResult result = kinematics::inverse_kinematics(model, markers, options);
     context.end_progress();
     for (const std::string& note : result.notes) context.warn(note);
-    pipeline::write_motion(model, result.q, o->out, {});
-    pipeline::write_marker_errors(result, errors);
-    const pipeline::MarkerMisfit misfit = pipeline::marker_misfit(model, markers, result);
+    write_motion(model, result.q, o->out, {});
+    write_marker_errors(result, errors);
+    const kinematics::MarkerMisfit misfit = kinematics::marker_misfit(model, markers, result);
     if (!misfit.warning.empty()) context.warn(misfit.warning);
     if (misfit.wrong_unit) context.exit_code = kQualityGateFailed;
     const double worst_mm = 1000.0 * misfit.rms_m;

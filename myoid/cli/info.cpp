@@ -3,19 +3,19 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "myoid/arm/arm4.h"
 #include "myoid/cli/context.h"
 #include "myoid/cli/model_page.h"
 #include "myoid/cli/stage_input.h"
+#include "myoid/contents/contents_text.h"
+#include "myoid/contents/model_contents.h"
+#include "myoid/contents/recording_contents.h"
 #include "myoid/core/error.h"
-#include "myoid/model/arm4.h"
-#include "myoid/model/osim_reader.h"
-#include "myoid/pipeline/contents_text.h"
-#include "myoid/pipeline/json_values.h"
-#include "myoid/pipeline/model_contents.h"
-#include "myoid/pipeline/recording_contents.h"
-#include "myoid/pipeline/study.h"
+#include "myoid/files/text_file.h"
+#include "myoid/osim/osim_reader.h"
 #include "myoid/recording/recording.h"
-#include "myoid/recording/text_file.h"
+#include "myoid/report/json_values.h"
+#include "myoid/study/study.h"
 
 namespace myoid::cli {
 namespace {
@@ -29,7 +29,7 @@ bool is_model(const std::filesystem::path& path) {
 }
 
 ordered_json study_file_json(const std::filesystem::path& path) {
-  const pipeline::Study study = pipeline::read_study(path);
+  const Study study = read_study(path);
   ordered_json j{{"kind", "study"},
                  {"subject", study.subject.name},
                  {"coordinate", study.model.coordinate},
@@ -42,15 +42,15 @@ ordered_json study_file_json(const std::filesystem::path& path) {
 }
 
 ordered_json file_json(const std::filesystem::path& path,
-                       const pipeline::ModelQuestions& ask,
+                       const ModelQuestions& ask,
                        const Context& context) {
-  if (auto contents = pipeline::recording_contents(path)) return *std::move(contents);
+  if (auto contents = recording_contents(path)) return *std::move(contents);
   if (is_model(path)) {
     const model::OsimOptions options{.compat = model::parse_compat(context.compat)};
-    return pipeline::model_contents(
-        path == "arm4" ? model::parse_osim(model::arm4_osim(), "arm4.osim", options)
-                       : model::read_osim(path, options),
-        ask);
+    return model_contents(path == "arm4"
+                              ? model::parse_osim(model::arm4_osim(), "arm4.osim", options)
+                              : model::read_osim(path, options),
+                          ask);
   }
   const std::string extension = recording::extension_of(path);
   if (extension == ".toml") return study_file_json(path);
@@ -72,7 +72,7 @@ void add_info(CLI::App& app, Context& context) {
                           "repairs; of a model also what is not supported.\n"
                           "Example: myoid info arm.osim flex.trc");
   const auto files = std::make_shared<std::vector<std::string>>();
-  const auto ask = std::make_shared<pipeline::ModelQuestions>();
+  const auto ask = std::make_shared<ModelQuestions>();
   const auto page = std::make_shared<ModelPageOptions>();
   command.add_flag("--compare-compat", ask->compare_compat,
                    "Of a model: for which muscles exact paths differ from OpenSim 4.5.2's, and by "
@@ -96,7 +96,7 @@ void add_info(CLI::App& app, Context& context) {
         throw InvalidInput("--html shows one model: give one .osim, or arm4");
       const std::string done = write_model_page(files->front(), *page, context);
       if (context.json) {
-        fmt::print("{}\n", pipeline::json_text(ordered_json{{"html", page->html}}));
+        fmt::print("{}\n", report::json_text(ordered_json{{"html", page->html}}));
       } else {
         fmt::print("{}\n", done);
       }
@@ -110,11 +110,11 @@ void add_info(CLI::App& app, Context& context) {
       ordered_json j{{"file", file}};
       j.update(file_json(file, *ask, context));
       if (!context.json) {
-        fmt::print("{}{}", pipeline::contents_text(j), files->size() > 1 ? "\n" : "");
+        fmt::print("{}{}", contents_text(j), files->size() > 1 ? "\n" : "");
       }
       all.push_back(std::move(j));
     }
-    if (context.json) fmt::print("{}\n", pipeline::json_text(all));
+    if (context.json) fmt::print("{}\n", report::json_text(all));
   });
 }
 

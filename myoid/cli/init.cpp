@@ -3,8 +3,8 @@
 
 #include "myoid/cli/context.h"
 #include "myoid/core/error.h"
-#include "myoid/pipeline/study_draft.h"
-#include "myoid/recording/atomic_file.h"
+#include "myoid/draft/study_draft.h"
+#include "myoid/files/atomic_file.h"
 
 namespace myoid::cli {
 
@@ -29,14 +29,14 @@ void add_init(CLI::App& app, Context& context) {
                      "The joint, by the model's coordinate (default: guessed)");
   add_common_options(command, context, {.threads = false, .seed = false, .range = false});
   command.callback([&context, o] {
-    pipeline::DraftOptions options;
+    DraftOptions options;
     for (const std::string& from : o->from) options.from.emplace_back(from);
     if (options.from.empty()) options.from.emplace_back(o->folder);
     if (!o->model.empty()) options.model = o->model;
     options.coordinate = o->coordinate;
     const std::filesystem::path file = std::filesystem::path(o->folder) / "study.toml";
     context.prepare_file(file, {});
-    const pipeline::StudyDraft draft = pipeline::draft_study(o->folder, options);
+    const StudyDraft draft = draft_study(o->folder, options);
     recording::write_file(file, draft.toml);
     for (const std::string& note : draft.notes) context.log(note);
     if (context.json) {

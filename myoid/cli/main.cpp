@@ -19,7 +19,7 @@
 #include "myoid/cli/context.h"
 #include "myoid/core/error.h"
 #include "myoid/core/provenance.h"
-#include "myoid/recording/toml_table.h"
+#include "myoid/files/toml_table.h"
 
 namespace {
 

@@ -7,21 +7,21 @@
 
 #include "myoid/cli/stage_input.h"
 #include "myoid/core/error.h"
-#include "myoid/pipeline/model_meshes.h"
-#include "myoid/pipeline/model_scene.h"
-#include "myoid/recording/atomic_file.h"
+#include "myoid/files/atomic_file.h"
+#include "myoid/files/text_file.h"
 #include "myoid/recording/recording.h"
-#include "myoid/recording/storage_reader.h"
-#include "myoid/recording/text_file.h"
 #include "myoid/report/scene_page.h"
+#include "myoid/scene/model_meshes.h"
+#include "myoid/scene/model_scene.h"
+#include "myoid/tables/storage_reader.h"
 
 namespace myoid::cli {
 namespace {
 
-pipeline::MuscleColoring coloring(const std::string& name,
-                                  const std::string& unit,
-                                  const std::string& path,
-                                  const Context& context) {
+MuscleColoring coloring(const std::string& name,
+                        const std::string& unit,
+                        const std::string& path,
+                        const Context& context) {
   recording::Storage file = recording::read_storage(path);
   for (const recording::Repair& repair : file.repairs)
     context.warn(recording::to_string(path, repair));
@@ -65,7 +65,7 @@ std::string write_model_page(const std::string& model_file,
   context.prepare_file(options.html, {model_file, options.motion, options.forces,
                                       options.activations, options.markers});
   const model::BodyModel model = load_model(model_file, context);
-  pipeline::SceneInput input;
+  SceneInput input;
   input.name = "default posture";
   report::ScenePage page{.title = model.name.empty() ? model_file : model.name};
   page.subtitle = std::filesystem::path(model_file).filename().string();
@@ -87,12 +87,11 @@ std::string write_model_page(const std::string& model_file,
         recording::rotated(std::move(file.markers), recording::rotation_to_y_up(options.up[0]));
     input.markers = &*markers;
   }
-  page.scenes.push_back(pipeline::model_scene(model, input));
+  page.scenes.push_back(model_scene(model, input));
   if (model_file != "arm4") {
-    pipeline::MeshOptions meshes;
+    MeshOptions meshes;
     meshes.folders.assign(options.mesh_folders.begin(), options.mesh_folders.end());
-    pipeline::add_meshes(
-        pipeline::load_meshes(recording::read_text_file(model_file), model_file, meshes), page);
+    add_meshes(load_meshes(recording::read_text_file(model_file), model_file, meshes), page);
   }
   const report::Scene& scene = page.scenes.front();
   for (const std::string& note : scene.notes)

@@ -10,14 +10,14 @@
 #include "myoid/cli/stage_input.h"
 #include "myoid/core/error.h"
 #include "myoid/core/provenance.h"
+#include "myoid/files/atomic_file.h"
+#include "myoid/files/text_file.h"
 #include "myoid/muscle/fit_isolated.h"
 #include "myoid/muscle/isolated_muscle.h"
-#include "myoid/pipeline/muscle_file.h"
-#include "myoid/recording/atomic_file.h"
+#include "myoid/muscle/muscle_file.h"
 #include "myoid/recording/recording.h"
-#include "myoid/recording/series_file.h"
-#include "myoid/recording/storage_writer.h"
-#include "myoid/recording/text_file.h"
+#include "myoid/tables/series_file.h"
+#include "myoid/tables/storage_writer.h"
 
 namespace myoid::cli {
 namespace {
@@ -106,7 +106,7 @@ struct Comparison {
 /// The experiment of one length file.
 muscle::IsolatedMuscleInput read_input(const MuscleOptions& o,
                                        std::size_t index,
-                                       const pipeline::MuscleFile& file,
+                                       const muscle::MuscleFile& file,
                                        const Context& context) {
   const std::string& path = o.lengths[index];
   Column length = read_column(path, o.column, context);
@@ -235,7 +235,7 @@ void compare_left_out(muscle::IsolatedFit& all,
 }
 
 /// --fit: the parameters from all recordings, and how well those from the others predict each.
-void fit(const MuscleOptions& o, Context& context, const pipeline::MuscleFile& file) {
+void fit(const MuscleOptions& o, Context& context, const muscle::MuscleFile& file) {
   const muscle::IsolatedModel start{file.parameters, file.laws, file.millard};
   std::vector<muscle::IsolatedRecording> recordings;
   for (std::size_t i = 0; i < o.lengths.size(); ++i) {
@@ -340,7 +340,7 @@ void run(const MuscleOptions& o, Context& context) {
                     "each",
                     o.scales.size(), o.lengths.size()));
   }
-  const pipeline::MuscleFile file = pipeline::read_muscle_file(o.muscle);
+  const muscle::MuscleFile file = muscle::read_muscle_file(o.muscle);
   if (!o.fit.empty()) {
     fit(o, context, file);
     return;

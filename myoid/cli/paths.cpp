@@ -4,14 +4,14 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
+#include "myoid/arm/arm4.h"
 #include "myoid/cli/context.h"
 #include "myoid/cli/stage_input.h"
+#include "myoid/files/text_file.h"
 #include "myoid/kinematics/muscle_kinematics.h"
-#include "myoid/model/arm4.h"
+#include "myoid/kinematics/surrogate_file.h"
 #include "myoid/model/path_survey.h"
-#include "myoid/pipeline/stage_files.h"
-#include "myoid/pipeline/surrogate_file.h"
-#include "myoid/recording/text_file.h"
+#include "myoid/results/stage_files.h"
 
 namespace myoid::cli {
 
@@ -33,12 +33,12 @@ std::vector<kinematics::PathSurrogate> load_surrogates(const std::filesystem::pa
                                        .progress = context.progress()};
   const std::string text =
       model_file == "arm4" ? model::arm4_osim() : recording::read_text_file(model_file);
-  const std::string key = pipeline::surrogate_key(text, model.compat, options);
-  auto surrogates = pipeline::read_surrogates(path, model, key);
+  const std::string key = kinematics::surrogate_key(text, model.compat, options);
+  auto surrogates = kinematics::read_surrogates(path, model, key);
   if (!surrogates) {
     surrogates = kinematics::fit_surrogates(model, options);
     context.end_progress();
-    pipeline::write_surrogates(path, model, key, *surrogates);
+    kinematics::write_surrogates(path, model, key, *surrogates);
   }
   double length_mm = 0.0;
   double arm_mm = 0.0;
@@ -114,7 +114,7 @@ void add_paths(CLI::App& app, Context& context) {
       context.log(fmt::format("{} of {} paths are from polynomials", muscles.from_surrogates,
                               motion.sample_count() * muscles.length.channel_count()));
     }
-    pipeline::write_muscle_kinematics(muscles, o->out);
+    write_muscle_kinematics(muscles, o->out);
     if (context.json) {
       nlohmann::ordered_json json{{"out", o->out}, {"samples", motion.sample_count()}};
       json["muscles"] = nlohmann::ordered_json::array();

@@ -6,11 +6,11 @@
 #include "myoid/cli/context.h"
 #include "myoid/cli/held_folders.h"
 #include "myoid/core/error.h"
-#include "myoid/pipeline/run_study.h"
-#include "myoid/pipeline/study_json.h"
-#include "myoid/pipeline/study_report.h"
-#include "myoid/pipeline/study_scene.h"
-#include "myoid/recording/text_file.h"
+#include "myoid/files/text_file.h"
+#include "myoid/results/study_report.h"
+#include "myoid/results/study_scene.h"
+#include "myoid/run/run_study.h"
+#include "myoid/study/study_json.h"
 
 namespace myoid::cli {
 
@@ -34,12 +34,12 @@ void add_report(CLI::App& app, Context& context) {
     }
     if (!run.contains("study"))
       throw ReadError(path, 0, "does not name its study; run the study again");
-    const pipeline::Study study = pipeline::read_study(run["study"].get<std::string>());
+    const Study study = read_study(run["study"].get<std::string>());
     const auto then = [&](const char* key) -> std::optional<double> {
       return run.contains(key) && run[key].is_number() ? std::optional<double>(run[key])
                                                        : std::nullopt;
     };
-    const pipeline::StudyResult result = pipeline::run_study(
+    const StudyResult result = run_study(
         study,
         {.start_s = then("start_s"), .end_s = then("end_s"), .progress = context.progress()});
     for (const InputFile& now : result.inputs) {
@@ -57,10 +57,10 @@ void add_report(CLI::App& app, Context& context) {
     Provenance provenance;
     provenance.command = run.value("command", context.command_line);
     provenance.inputs = result.inputs;
-    provenance.options_json = pipeline::study_json(result.study);
+    provenance.options_json = study_json(result.study);
     hold_folder(*folder).sign(context.command_line, false);
-    pipeline::write_motion_page(result, *folder);
-    report::write_report(pipeline::study_report(result, provenance), *folder);
+    write_motion_page(result, *folder);
+    report::write_report(study_report(result, provenance), *folder);
     context.end_progress();
     const std::string page = (std::filesystem::path(*folder) / "report.html").string();
     if (context.json) {

@@ -10,15 +10,15 @@
 
 #include "myoid/cli/context.h"
 #include "myoid/core/error.h"
-#include "myoid/pipeline/parameter_files.h"
-#include "myoid/pipeline/parameter_tables.h"
-#include "myoid/pipeline/quality_gates.h"
-#include "myoid/pipeline/result_files.h"
-#include "myoid/pipeline/run_study.h"
-#include "myoid/pipeline/study_json.h"
-#include "myoid/pipeline/study_report.h"
-#include "myoid/pipeline/study_scene.h"
 #include "myoid/report/report.h"
+#include "myoid/results/parameter_files.h"
+#include "myoid/results/parameter_tables.h"
+#include "myoid/results/result_files.h"
+#include "myoid/results/study_report.h"
+#include "myoid/results/study_scene.h"
+#include "myoid/run/quality_gates.h"
+#include "myoid/run/run_study.h"
+#include "myoid/study/study_json.h"
 
 namespace myoid::cli {
 namespace {
@@ -30,14 +30,14 @@ using identification::Verdict;
 constexpr const char* kStageFolder = ".stages";
 
 void print_method(const identification::IdentificationResult& method, std::size_t muscle_count) {
-  const std::vector<pipeline::EstimateLine> lines = pipeline::estimate_lines(method, muscle_count);
+  const std::vector<EstimateLine> lines = estimate_lines(method, muscle_count);
   std::size_t owner = 6;
   std::size_t parameter = 9;
   const auto labelled = [](const ParameterEstimate& e) {
     return e.unit == Unit::dimensionless ? e.parameter
                                          : fmt::format("{} [{}]", e.parameter, symbol(e.unit));
   };
-  for (const pipeline::EstimateLine& line : lines) {
+  for (const EstimateLine& line : lines) {
     owner = std::max(owner, line.owners.size());
     parameter = std::max(parameter, labelled(*line.estimate).size());
   }
@@ -45,28 +45,28 @@ void print_method(const identification::IdentificationResult& method, std::size_
   fmt::print("{:<{}}  {:<{}}  {:<11} {:>10} {:>10} {:>24}  {}\n", "muscle", owner, "parameter",
              parameter, "case", "initial", "estimate", "95 % interval", "verdict");
   bool nuisances = false;
-  for (const pipeline::EstimateLine& line : lines) {
+  for (const EstimateLine& line : lines) {
     const ParameterEstimate& e = *line.estimate;
     if (identification::is_nuisance(e) && !nuisances) {
       nuisances = true;
       fmt::print("of the electrodes and the joint, freed for the intervals' sake:\n");
     }
-    const bool interval = e.ci_low && e.ci_high && !pipeline::is_undetermined(e);
+    const bool interval = e.ci_low && e.ci_high && !is_undetermined(e);
     const std::string estimate = !std::isfinite(e.estimate) ? "-"
                                  : interval
                                      ? report::format_rounded(e.estimate, *e.ci_high - *e.ci_low)
                                      : report::format_value(e.estimate);
     const std::string ends =
         interval ? fmt::format("[{}]", report::format_interval(*e.ci_low, *e.ci_high, ", "))
-        : pipeline::is_undetermined(e) ? "not determined"
-                                       : "-";
+        : is_undetermined(e) ? "not determined"
+                             : "-";
     fmt::print("{:<{}}  {:<{}}  {:<11} {:>10} {:>10} {:>24}  {}\n", line.owners, owner, labelled(e),
                parameter, e.fit_case, report::format_value(e.initial), estimate, ends,
                identification::name(e.verdict));
   }
 }
 
-void print_predictions(const pipeline::StudyResult& result) {
+void print_predictions(const StudyResult& result) {
   if (!result.folds.empty()) {
     const std::string& left_out = result.study.identify.folds;
     fmt::print(
@@ -93,17 +93,17 @@ void print_predictions(const pipeline::StudyResult& result) {
   }
 }
 
-void print_next(const pipeline::StudyResult& result) {
+void print_next(const StudyResult& result) {
   if (!result.next || result.next->plan.empty()) return;
   fmt::print(
       "\nwhat to record next: {} of {} parameters identified now, median 95 % interval "
       "+-{:.0f} %\n",
-      pipeline::identified_count(result.next->beforehand), result.next->beforehand.size(),
-      pipeline::median_half_width(result.next->beforehand));
+      identified_count(result.next->beforehand), result.next->beforehand.size(),
+      median_half_width(result.next->beforehand));
   for (std::size_t i = 0; i < result.next->plan.size(); ++i) {
-    const pipeline::PlannedMovement& m = result.next->plan[i];
+    const PlannedMovement& m = result.next->plan[i];
     fmt::print("{}. {:<58} {:>3} identified, +-{:.0f} %\n", i + 1, m.movement.description(),
-               pipeline::identified_count(m.expected), pipeline::median_half_width(m.expected));
+               identified_count(m.expected), median_half_width(m.expected));
   }
 }
 
@@ -122,7 +122,7 @@ void print_gates(const std::vector<report::Gate>& gates) {
 
 /// The results on stdout: what was found by the method that knows how sure it is, how it predicts,
 /// then the source paper's, then whether to believe it.
-void print_results(const pipeline::StudyResult& result, const std::vector<report::Gate>& gates) {
+void print_results(const StudyResult& result, const std::vector<report::Gate>& gates) {
   for (const bool paper : {false, true}) {
     for (const identification::IdentificationResult& method : result.methods) {
       if ((method.method == "paper") == paper) print_method(method, result.data.muscles.size());
@@ -151,23 +151,23 @@ void add_run(CLI::App& app, Context& context) {
   add_common_options(command, context, {.seed = false});
   command.callback([&context, options] {
     const auto begin = std::chrono::steady_clock::now();
-    const pipeline::Study study = pipeline::read_study(options->study);
+    const Study study = read_study(options->study);
     context.prepare_folder(options->out, kStageFolder);
-    const pipeline::StudyResult result =
-        pipeline::run_study(study, {.start_s = context.start_s,
-                                    .end_s = context.end_s,
-                                    .progress = context.progress(),
-                                    .store = std::filesystem::path(options->out) / kStageFolder});
+    const StudyResult result =
+        run_study(study, {.start_s = context.start_s,
+                          .end_s = context.end_s,
+                          .progress = context.progress(),
+                          .store = std::filesystem::path(options->out) / kStageFolder});
     Provenance provenance;
     provenance.command = context.command_line;
     provenance.inputs = result.inputs;
-    provenance.options_json = pipeline::study_json(result.study);
-    pipeline::remove_results(options->out);
-    pipeline::write_results(result, provenance, options->out);
-    pipeline::write_motion_page(result, options->out);
-    report::write_report(pipeline::study_report(result, provenance), options->out);
+    provenance.options_json = study_json(result.study);
+    remove_results(options->out);
+    write_results(result, provenance, options->out);
+    write_motion_page(result, options->out);
+    report::write_report(study_report(result, provenance), options->out);
     context.end_progress();
-    const std::vector<report::Gate> gates = pipeline::quality_gates(result);
+    const std::vector<report::Gate> gates = quality_gates(result);
     if (context.json || context.quiet) {
       for (const report::Gate& g : gates) {
         if (g.status == report::GateStatus::fail)
@@ -179,10 +179,9 @@ void add_run(CLI::App& app, Context& context) {
     if (reused > 0)
       context.log(
           fmt::format("inverse kinematics of {} trials reused: same input as before", reused));
-    for (const std::string& line : pipeline::fault_summary(pipeline::all_faults(result)))
-      context.warn(line);
+    for (const std::string& line : fault_summary(all_faults(result))) context.warn(line);
     std::size_t remarks = 0;
-    for (const pipeline::TrialResult& trial : result.trials) {
+    for (const TrialResult& trial : result.trials) {
       if (!trial.failure.empty())
         context.warn(fmt::format("trial {}: {}", trial.spec.name, trial.failure));
       for (const std::string& warning : trial.warnings)
@@ -197,8 +196,8 @@ void add_run(CLI::App& app, Context& context) {
           "{} remarks on how files were read and repaired: in run.json, or with --verbose",
           remarks));
     if (context.json) {
-      fmt::print("{}", pipeline::parameters_json(result.methods, result.folds, provenance,
-                                                 pipeline::parameter_context(result)));
+      fmt::print("{}", parameters_json(result.methods, result.folds, provenance,
+                                       parameter_context(result)));
     } else {
       print_results(result, gates);
       const double seconds =

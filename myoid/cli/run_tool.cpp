@@ -1,4 +1,4 @@
-#include "myoid/pipeline/run_tool.h"
+#include "myoid/opensim_tools/run_tool.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -14,7 +14,7 @@ void add_run_tool(CLI::App& app, Context& context) {
       "Example: myoid run-tool subject01_Setup_IK.xml");
   struct Options {
     std::string setup, compat = "opensim";
-    pipeline::SetupFiles files;
+    SetupFiles files;
   };
   const auto o = std::make_shared<Options>();
   command.add_option("setup", o->setup, "Set-up file (.xml)")->required();
@@ -33,10 +33,9 @@ void add_run_tool(CLI::App& app, Context& context) {
       ->check(CLI::IsMember({"opensim", "exact"}));
   add_common_options(command, context, {.seed = false, .range = false, .overwrite = false});
   command.callback([&context, o] {
-    const pipeline::ToolResult result =
-        pipeline::run_tool(o->setup, {.compat = model::parse_compat(o->compat),
-                                      .files = o->files,
-                                      .progress = context.progress()});
+    const ToolResult result = run_tool(o->setup, {.compat = model::parse_compat(o->compat),
+                                                  .files = o->files,
+                                                  .progress = context.progress()});
     context.end_progress();
     for (const std::string& note : result.notes) context.warn(note);
     if (result.replaced > 0)

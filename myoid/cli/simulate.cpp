@@ -5,22 +5,22 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "myoid/arm/arm4.h"
 #include "myoid/cli/context.h"
 #include "myoid/cli/stage_input.h"
 #include "myoid/core/error.h"
 #include "myoid/core/units.h"
 #include "myoid/dynamics/held_mass.h"
-#include "myoid/model/arm4.h"
-#include "myoid/pipeline/excitation_text.h"
-#include "myoid/pipeline/sensitivity_files.h"
-#include "myoid/pipeline/simulation_files.h"
+#include "myoid/files/text_file.h"
 #include "myoid/recording/recording.h"
-#include "myoid/recording/storage_reader.h"
-#include "myoid/recording/text_file.h"
+#include "myoid/results/sensitivity_files.h"
+#include "myoid/results/simulation_files.h"
 #include "myoid/simulation/arm_parameters.h"
+#include "myoid/simulation/excitation_text.h"
 #include "myoid/simulation/forward_simulation.h"
 #include "myoid/simulation/sensitivity.h"
 #include "myoid/simulation/simulation_model.h"
+#include "myoid/tables/storage_reader.h"
 
 namespace myoid::cli {
 namespace {
@@ -94,7 +94,7 @@ std::vector<Signal> excitations(const SimulateOptions& o,
                                 const Context& context,
                                 double& start_s,
                                 std::optional<double>& end_s) {
-  if (o.excitations.empty()) return pipeline::described_excitations(o.excite, o.rest, muscles);
+  if (o.excitations.empty()) return simulation::described_excitations(o.excite, o.rest, muscles);
   const recording::Storage file = recording::read_storage(o.excitations);
   for (const recording::Repair& repair : file.repairs)
     context.warn(recording::to_string(o.excitations, repair));
@@ -171,7 +171,7 @@ struct Outcome {
   simulation::Simulation simulation;
   std::optional<simulation::Sensitivities> sensitivities;
   model::BodyModel body;
-  pipeline::HeldCoordinates held;
+  HeldCoordinates held;
   double start_s = 0.0, end_s = 0.0;
 };
 
@@ -288,8 +288,8 @@ Outcome simulate_file(SimulateOptions& o, const Context& context) {
 
 void draw_paper_figures(const SimulateOptions& o, const Context& context) {
   context.prepare_folder(o.out);
-  for (const report::Figure& figure : pipeline::paper_figures()) {
-    pipeline::write_figure(figure, o.out);
+  for (const report::Figure& figure : paper_figures()) {
+    write_figure(figure, o.out);
     fmt::print("{}/figures/{}.svg\n", o.out, figure.id);
   }
 }
@@ -318,17 +318,17 @@ void run(SimulateOptions& o, Context& context) {
     provenance.inputs.push_back({o.excitations, sha256(recording::read_text_file(o.excitations))});
   provenance.options_json = options_json(o, outcome.start_s, outcome.end_s);
   const simulation::Simulation& s = outcome.simulation;
-  pipeline::write_simulation(s, outcome.body, outcome.held, provenance, o.out);
+  write_simulation(s, outcome.body, outcome.held, provenance, o.out);
   if (outcome.sensitivities) {
     std::vector<std::string> muscles;
     for (const Channel& channel : s.activation.channels()) muscles.push_back(channel.name);
-    pipeline::write_sensitivities(*outcome.sensitivities, muscles, provenance, o.out);
+    write_sensitivities(*outcome.sensitivities, muscles, provenance, o.out);
     if (outcome.sensitivities->status != math::OdeStatus::done) {
       context.warn(fmt::format("sensitivities not to the end: {}", outcome.sensitivities->message));
       context.exit_code = kQualityGateFailed;
     }
   }
-  if (o.figures) pipeline::write_figure(pipeline::movement_figure(s), o.out);
+  if (o.figures) write_figure(movement_figure(s), o.out);
   if (s.jumps_passed > 0) {
     context.warn(fmt::format(
         "{} times the equations jumped, as where the path of a muscle does; each was passed by a "
@@ -340,7 +340,7 @@ void run(SimulateOptions& o, Context& context) {
     context.exit_code = kQualityGateFailed;
   }
   if (context.json) {
-    fmt::print("{}", pipeline::simulation_json(s, provenance));
+    fmt::print("{}", simulation_json(s, provenance));
   } else {
     fmt::print("{}\n", o.out);
   }

@@ -8,15 +8,15 @@
 #include "myoid/cli/stage_input.h"
 #include "myoid/core/error.h"
 #include "myoid/dynamics/external_loads.h"
+#include "myoid/dynamics/ground_support.h"
 #include "myoid/forces/force_sharing.h"
 #include "myoid/forces/sharing_input.h"
-#include "myoid/pipeline/ground_support.h"
-#include "myoid/pipeline/muscle_force_law.h"
-#include "myoid/pipeline/stage_files.h"
-#include "myoid/pipeline/study_model.h"
 #include "myoid/recording/recording.h"
-#include "myoid/recording/storage_reader.h"
+#include "myoid/results/stage_files.h"
 #include "myoid/signals/resample.h"
+#include "myoid/simulation/muscle_force_law.h"
+#include "myoid/study/study_model.h"
+#include "myoid/tables/storage_reader.h"
 
 namespace myoid::cli {
 
@@ -72,8 +72,8 @@ void add_so(CLI::App& app, Context& context) {
                            {o->model, o->motion, o->emg, o->loads});
     std::optional<dynamics::ExternalLoads> loads;
     if (!o->loads.empty()) loads = load_external_loads(model, o->loads, motion, context);
-    if (const auto weight = pipeline::unsupported_weight(model);
-        weight && !loads && pipeline::stands(model, motion.q.values().row(0).transpose()))
+    if (const auto weight = dynamics::unsupported_weight(model);
+        weight && !loads && dynamics::stands(model, motion.q.values().row(0).transpose()))
       context.warn(weight->sentence("--loads"));
     const forces::SharingInput input =
         forces::sharing_input(model, motion, o->coordinates, loads ? &*loads : nullptr);
@@ -92,13 +92,13 @@ void add_so(CLI::App& app, Context& context) {
     }
     const bool elastic = o->tendon == "elastic";
     if (elastic || o->passive) {
-      options.law = pipeline::muscle_force_law(
+      options.law = simulation::muscle_force_law(
           model, input.muscles, {.elastic_tendon = elastic, .passive_force = o->passive});
     }
     const forces::MuscleForces shared =
         forces::share(input.moment_arms, input.torques, input.optimal_force_n,
                       input.max_isometric_force_n, options);
-    pipeline::write_shared_forces(shared, o->out);
+    write_shared_forces(shared, o->out);
     if (context.json) {
       const nlohmann::ordered_json json{{"out", o->out},
                                         {"frames", shared.status.size()},

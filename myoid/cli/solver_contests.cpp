@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
-#include "myoid/identification/force.h"
-#include "myoid/recording/text_file.h"
+#include "myoid/files/text_file.h"
+#include "myoid/methods/force.h"
 
 namespace myoid::cli {
 namespace {

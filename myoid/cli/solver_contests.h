@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "myoid/identification/solver_contest.h"
+#include "myoid/methods/solver_contest.h"
 
 namespace myoid::cli {
 

@@ -2,15 +2,15 @@
 
 #include <fmt/format.h>
 
+#include "myoid/arm/arm4.h"
+#include "myoid/core/angle_unit.h"
 #include "myoid/core/error.h"
-#include "myoid/model/arm4.h"
-#include "myoid/model/osim_reader.h"
 #include "myoid/model/path_survey.h"
-#include "myoid/pipeline/angle_unit.h"
+#include "myoid/osim/osim_reader.h"
 #include "myoid/recording/recording.h"
-#include "myoid/recording/storage_reader.h"
 #include "myoid/signals/clock_gaps.h"
 #include "myoid/signals/motion_jumps.h"
+#include "myoid/tables/storage_reader.h"
 
 namespace myoid::cli {
 
@@ -126,8 +126,7 @@ kinematics::JointMotion load_motion(const model::BodyModel& model,
     return c &&
            model.coordinates[static_cast<std::size_t>(*c)].motion == model::MotionType::rotational;
   });
-  if (const std::string doubt = pipeline::check_angle_unit(path, file.in_degrees, q);
-      !doubt.empty())
+  if (const std::string doubt = check_angle_unit(path, file.in_degrees, q); !doubt.empty())
     context.warn(doubt);
   for (const signals::MotionJump& jump : signals::find_motion_jumps(q))
     context.warn(fmt::format("{}: {}", path.string(), jump.sentence()));

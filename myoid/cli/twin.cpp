@@ -6,9 +6,9 @@
 
 #include "myoid/cli/context.h"
 #include "myoid/core/error.h"
-#include "myoid/recording/atomic_file.h"
-#include "myoid/simulation/protocol.h"
-#include "myoid/simulation/write_recording.h"
+#include "myoid/files/atomic_file.h"
+#include "myoid/twin/protocol.h"
+#include "myoid/twin/write_recording.h"
 
 namespace myoid::cli {
 namespace {
@@ -25,15 +25,15 @@ struct TwinOptions {
   bool truth_only = false;
 };
 
-simulation::Protocol protocol_of(const TwinOptions& options) {
-  std::optional<simulation::Level> level;
-  for (const simulation::Level known :
-       {simulation::Level::noise_free, simulation::Level::noisy, simulation::Level::different}) {
+twin::Protocol protocol_of(const TwinOptions& options) {
+  std::optional<twin::Level> level;
+  for (const twin::Level known :
+       {twin::Level::noise_free, twin::Level::noisy, twin::Level::different}) {
     if (options.level == simulation::name(known)) level = known;
   }
-  simulation::Protocol protocol = simulation::read_protocol(options.protocol, level);
+  twin::Protocol protocol = twin::read_protocol(options.protocol, level);
   protocol.seven_heads = options.model == "arm7";
-  if (protocol.seven_heads && protocol.level != simulation::Level::different) {
+  if (protocol.seven_heads && protocol.level != twin::Level::different) {
     throw InvalidInput(
         fmt::format("--model arm7 with level {}: only a person at level L2 has seven heads; add "
                     "--level L2 or choose arm4",
@@ -43,10 +43,10 @@ simulation::Protocol protocol_of(const TwinOptions& options) {
 }
 
 /// For a folder that `prepare_folder` has looked at.
-simulation::WriteOptions write_options(const TwinOptions& options) {
-  return {.overwrite = true,
-          .format = options.format == "c3d" ? simulation::RecordingFormat::c3d
-                                            : simulation::RecordingFormat::text};
+twin::WriteOptions write_options(const TwinOptions& options) {
+  return {
+      .overwrite = true,
+      .format = options.format == "c3d" ? twin::RecordingFormat::c3d : twin::RecordingFormat::text};
 }
 
 /// One person's folder under the common one: seeds make the names.
@@ -56,7 +56,7 @@ fs::path folder_of(const fs::path& out, std::uint64_t seed) {
 
 /// Many persons, one seed after the other; the table holds a line each.
 void make_many(const TwinOptions& options, Context& context) {
-  const simulation::Protocol protocol = protocol_of(options);
+  const twin::Protocol protocol = protocol_of(options);
   const fs::path out = options.out;
   context.prepare_folder(out);
   const Progress progress = context.progress();
@@ -66,17 +66,17 @@ void make_many(const TwinOptions& options, Context& context) {
   oneapi::tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
     progress.check();
     const std::uint64_t seed = context.seed + i;
-    const simulation::VirtualRecording recording =
-        options.truth_only ? simulation::make_virtual_person(protocol, seed)
-                           : simulation::make_virtual_recording(protocol, seed);
+    const twin::VirtualRecording recording = options.truth_only
+                                                 ? twin::make_virtual_person(protocol, seed)
+                                                 : twin::make_virtual_recording(protocol, seed);
     if (!options.truth_only)
-      simulation::write_virtual_recording(recording, folder_of(out, seed), write_options(options));
-    lines[i] = simulation::truth_row(recording);
+      twin::write_virtual_recording(recording, folder_of(out, seed), write_options(options));
+    lines[i] = twin::truth_row(recording);
     progress.tell(static_cast<double>(++done) / static_cast<double>(count),
                   fmt::format("{} of {} persons", done.load(), count));
   });
   context.end_progress();
-  std::string table = simulation::truth_header() + "\n";
+  std::string table = twin::truth_header() + "\n";
   for (const std::string& line : lines) table += line + "\n";
   recording::write_file(out / "persons.csv", table);
   context.log(
@@ -95,11 +95,10 @@ void make_many(const TwinOptions& options, Context& context) {
 }
 
 void make_one(const TwinOptions& options, Context& context) {
-  const simulation::Protocol protocol = protocol_of(options);
+  const twin::Protocol protocol = protocol_of(options);
   context.prepare_folder(options.out);
-  const simulation::VirtualRecording recording =
-      simulation::make_virtual_recording(protocol, context.seed);
-  simulation::write_virtual_recording(recording, options.out, write_options(options));
+  const twin::VirtualRecording recording = twin::make_virtual_recording(protocol, context.seed);
+  twin::write_virtual_recording(recording, options.out, write_options(options));
   context.log(fmt::format("{} trials, level {}, seed {}", recording.trials.size(),
                           simulation::name(recording.protocol.level), context.seed));
   const std::string study = (fs::path(options.out) / "study.toml").string();
@@ -108,7 +107,7 @@ void make_one(const TwinOptions& options, Context& context) {
     json["study"] = study;
     json["level"] = simulation::name(recording.protocol.level);
     json["trials"] = nlohmann::ordered_json::array();
-    for (const simulation::VirtualTrial& trial : recording.trials)
+    for (const twin::VirtualTrial& trial : recording.trials)
       json["trials"].push_back(trial.protocol.name);
     fmt::print("{}\n", json.dump(2));
   } else {

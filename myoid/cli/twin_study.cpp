@@ -1,4 +1,4 @@
-#include "myoid/pipeline/twin_study.h"
+#include "myoid/twin/twin_study.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,13 +9,13 @@
 
 #include "myoid/cli/context.h"
 #include "myoid/core/error.h"
+#include "myoid/files/text_file.h"
 #include "myoid/math/statistics.h"
-#include "myoid/recording/text_file.h"
 
 namespace myoid::cli {
 namespace {
 
-using pipeline::TwinSummary;
+using TwinSummary;
 
 std::string percent(double share) {
   return std::isfinite(share) ? fmt::format("{:.1f}", 100.0 * share) : "-";
@@ -42,18 +42,18 @@ void print_summary(const std::vector<TwinSummary>& summaries, bool each_muscle) 
 }
 
 /// Medians over all trials, then trial by trial.
-void print_predictions(const pipeline::TwinStudyResult& result) {
+void print_predictions(const TwinStudyResult& result) {
   if (result.predictions.empty()) return;
   fmt::print("\ntrials held back, medians: NRMSE is RMSE over the range of the trial's torque\n");
   fmt::print("{:<28} {:>5} {:>10} {:>7} {:>19} {:>7}\n", "trial", "n", "NRMSE [%]", "R2",
              "below 1.5 Hz: NRMSE", "R2");
   std::vector<std::string> trials{"all"};
-  for (const pipeline::TwinPrediction& p : result.predictions) {
+  for (const TwinPrediction& p : result.predictions) {
     if (std::find(trials.begin(), trials.end(), p.trial) == trials.end()) trials.push_back(p.trial);
   }
   for (const std::string& trial : trials) {
     std::vector<double> nrmse, r2, band_nrmse, band_r2;
-    for (const pipeline::TwinPrediction& p : result.predictions) {
+    for (const TwinPrediction& p : result.predictions) {
       if (trial != "all" && trial != p.trial) continue;
       nrmse.push_back(p.nrmse_range);
       r2.push_back(p.r2);
@@ -66,8 +66,7 @@ void print_predictions(const pipeline::TwinStudyResult& result) {
   }
 }
 
-void print_verdicts(const pipeline::TwinStudyResult& result,
-                    const std::vector<TwinSummary>& summaries) {
+void print_verdicts(const TwinStudyResult& result, const std::vector<TwinSummary>& summaries) {
   for (const char* method : {"torque", "force", "paper"}) {
     int good = 0;
     int bad = 0;
@@ -104,7 +103,7 @@ void add_twin_study(CLI::App& app, Context& context) {
     std::string protocol, level, out;
     bool each_muscle = false;
     std::optional<double> offset;
-    pipeline::TwinStudyOptions study;
+    TwinStudyOptions study;
   };
   const auto options = std::make_shared<Options>();
   command.add_option("--protocol", options->protocol, "What is recorded, a .toml file")->required();
@@ -125,26 +124,26 @@ void add_twin_study(CLI::App& app, Context& context) {
       ->required();
   add_common_options(command, context, {.range = false});
   command.callback([&context, options] {
-    std::optional<simulation::Level> level;
-    for (const simulation::Level known :
-         {simulation::Level::noise_free, simulation::Level::noisy, simulation::Level::different}) {
+    std::optional<twin::Level> level;
+    for (const twin::Level known :
+         {twin::Level::noise_free, twin::Level::noisy, twin::Level::different}) {
       if (options->level == simulation::name(known)) level = known;
     }
-    simulation::Protocol protocol = simulation::read_protocol(options->protocol, level);
+    twin::Protocol protocol = twin::read_protocol(options->protocol, level);
     if (options->offset) protocol.truth.offset = *options->offset;
     context.prepare_folder(options->out);
     options->study.first_seed = context.seed;
     options->study.progress = context.progress();
-    const pipeline::TwinStudyResult result = pipeline::twin_study(protocol, options->study);
+    const TwinStudyResult result = twin_study(protocol, options->study);
     context.end_progress();
     Provenance provenance;
     provenance.command = context.command_line;
     provenance.inputs.push_back(
         {options->protocol, sha256(recording::read_text_file(options->protocol))});
-    pipeline::write_twin_study(result, provenance, options->out);
-    for (const pipeline::TwinFailure& f : result.failures)
+    write_twin_study(result, provenance, options->out);
+    for (const TwinFailure& f : result.failures)
       context.warn(fmt::format("seed {}: {}", f.seed, f.message));
-    const std::vector<TwinSummary> summaries = pipeline::summarize(result);
+    const std::vector<TwinSummary> summaries = summarize(result);
     const std::string persons = result.interrupted ? fmt::format("INTERRUPTED: only {} of {}",
                                                                  result.finished, result.subjects)
                                                    : fmt::format("{}", result.finished);

@@ -4,10 +4,10 @@
 #include <nlohmann/json.hpp>
 
 #include "myoid/cli/context.h"
-#include "myoid/model/compat.h"
-#include "myoid/model/osim_updater.h"
-#include "myoid/recording/atomic_file.h"
-#include "myoid/recording/text_file.h"
+#include "myoid/files/atomic_file.h"
+#include "myoid/files/text_file.h"
+#include "myoid/model/opensim_defects/compat.h"
+#include "myoid/osim/osim_updater.h"
 
 namespace myoid::cli {
 

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "myoid/model/osim_reader.h"
+#include "myoid/osim/osim_reader.h"
 
 namespace myoid::dynamics {
 namespace {

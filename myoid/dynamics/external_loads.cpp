@@ -6,11 +6,11 @@
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
-#include "myoid/model/osim_xml.h"
-#include "myoid/recording/named_file.h"
+#include "myoid/files/named_file.h"
+#include "myoid/files/text_file.h"
+#include "myoid/osim/osim_xml.h"
 #include "myoid/recording/recording.h"
-#include "myoid/recording/storage_reader.h"
-#include "myoid/recording/text_file.h"
+#include "myoid/tables/storage_reader.h"
 
 namespace myoid::dynamics {
 namespace {

@@ -7,10 +7,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "myoid/arm/arm4.h"
 #include "myoid/core/error.h"
 #include "myoid/dynamics/inverse_dynamics.h"
-#include "myoid/model/arm4.h"
-#include "myoid/model/osim_reader.h"
+#include "myoid/osim/osim_reader.h"
 
 namespace myoid::dynamics {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "myoid/model/arm4.h"
-#include "myoid/model/osim_reader.h"
+#include "myoid/arm/arm4.h"
+#include "myoid/osim/osim_reader.h"
 
 namespace myoid::dynamics {
 namespace {

@@ -6,10 +6,10 @@
 #include <gtest/gtest.h>
 #include <oneapi/tbb/global_control.h>
 
+#include "myoid/arm/arm4.h"
 #include "myoid/core/error.h"
 #include "myoid/kinematics/muscle_kinematics.h"
-#include "myoid/model/arm4.h"
-#include "myoid/model/osim_reader.h"
+#include "myoid/osim/osim_reader.h"
 
 namespace myoid::forces {
 namespace {

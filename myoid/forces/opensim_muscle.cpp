@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "myoid/model/thelen_properties.h"
 #include "myoid/muscle/de_groote.h"
 #include "myoid/muscle/thelen_curves.h"
+#include "myoid/osim/thelen_properties.h"
 
 namespace myoid::forces {
 namespace {

@@ -2,9 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include "myoid/arm/arm4.h"
 #include "myoid/core/error.h"
-#include "myoid/model/arm4.h"
-#include "myoid/model/osim_reader.h"
+#include "myoid/osim/osim_reader.h"
 
 namespace myoid::forces {
 namespace {

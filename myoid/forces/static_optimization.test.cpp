@@ -10,11 +10,11 @@
 #include "myoid/forces/force_sharing.h"
 #include "myoid/kinematics/joint_motion.h"
 #include "myoid/kinematics/muscle_kinematics.h"
-#include "myoid/model/osim_reader.h"
-#include "myoid/model/thelen_properties.h"
 #include "myoid/muscle/thelen.h"
-#include "myoid/recording/storage_reader.h"
+#include "myoid/osim/osim_reader.h"
+#include "myoid/osim/thelen_properties.h"
 #include "myoid/signals/opensim_lowpass.h"
+#include "myoid/tables/storage_reader.h"
 
 #include "tests/support/data_folder.h"
 

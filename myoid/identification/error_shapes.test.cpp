@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "myoid/identification/force.h"
 #include "myoid/identification/residual_model.h"
+#include "myoid/methods/force.h"
 
 #include "tests/support/elbow_study.h"
 

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "myoid/identification/torque.h"
+#include "myoid/methods/torque.h"
 
 #include "tests/support/elbow_study.h"
 

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "myoid/model/arm4.h"
+#include "myoid/arm/arm4.h"
 #include "myoid/muscle/hill_muscle.h"
 
 namespace myoid::identification {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "myoid/model/arm4.h"
+#include "myoid/arm/arm4.h"
 
 namespace myoid::identification {
 namespace {

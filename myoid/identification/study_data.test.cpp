@@ -5,11 +5,11 @@
 
 #include <gtest/gtest.h>
 
-#include "myoid/identification/cross_validation.h"
-#include "myoid/identification/force.h"
-#include "myoid/identification/paper.h"
 #include "myoid/identification/parameters.h"
-#include "myoid/identification/torque.h"
+#include "myoid/methods/cross_validation.h"
+#include "myoid/methods/force.h"
+#include "myoid/methods/paper.h"
+#include "myoid/methods/torque.h"
 
 #include "tests/support/elbow_study.h"
 

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "myoid/model/kinematic_tree.h"
-#include "myoid/model/osim_reader.h"
+#include "myoid/osim/osim_reader.h"
 
 namespace myoid::kinematics {
 namespace {

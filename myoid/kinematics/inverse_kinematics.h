@@ -8,8 +8,8 @@
 
 #include "myoid/core/progress.h"
 #include "myoid/core/time_series.h"
+#include "myoid/files/marker_series.h"
 #include "myoid/model/body_model.h"
-#include "myoid/recording/marker_series.h"
 
 namespace myoid::kinematics {
 

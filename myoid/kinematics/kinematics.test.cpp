@@ -3,14 +3,14 @@
 
 #include <gtest/gtest.h>
 
+#include "myoid/arm/arm4.h"
 #include "myoid/core/error.h"
 #include "myoid/kinematics/inverse_kinematics.h"
 #include "myoid/kinematics/joint_motion.h"
-#include "myoid/model/arm4.h"
 #include "myoid/model/kinematic_tree.h"
-#include "myoid/model/osim_reader.h"
-#include "myoid/recording/storage_reader.h"
-#include "myoid/recording/trc_reader.h"
+#include "myoid/osim/osim_reader.h"
+#include "myoid/tables/storage_reader.h"
+#include "myoid/tables/trc_reader.h"
 
 #include "tests/support/data_folder.h"
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "myoid/kinematics/inverse_kinematics.h"
-#include "myoid/recording/orientation_reader.h"
+#include "myoid/tables/orientation_reader.h"
 
 namespace myoid::kinematics {
 

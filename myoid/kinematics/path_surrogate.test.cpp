@@ -5,12 +5,12 @@
 #include <gtest/gtest.h>
 #include <oneapi/tbb/global_control.h>
 
+#include "myoid/arm/arm4.h"
+#include "myoid/arm/planar_elbow.h"
 #include "myoid/kinematics/muscle_kinematics.h"
-#include "myoid/model/arm4.h"
 #include "myoid/model/constraints.h"
-#include "myoid/model/osim_reader.h"
 #include "myoid/model/path_survey.h"
-#include "myoid/model/planar_elbow.h"
+#include "myoid/osim/osim_reader.h"
 
 #include "tests/support/data_folder.h"
 

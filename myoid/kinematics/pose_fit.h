@@ -4,10 +4,10 @@
 
 #include <Eigen/Core>
 
+#include "myoid/files/marker_series.h"
 #include "myoid/kinematics/inverse_kinematics.h"
 #include "myoid/kinematics/range_barrier.h"
 #include "myoid/model/kinematic_tree.h"
-#include "myoid/recording/marker_series.h"
 
 namespace myoid::kinematics {
 

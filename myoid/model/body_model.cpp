@@ -5,8 +5,8 @@
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
+#include "myoid/files/toml_table.h"
 #include "myoid/model/joint_orientation.h"
-#include "myoid/recording/toml_table.h"
 
 namespace myoid::model {
 namespace {

@@ -10,10 +10,10 @@
 
 #include "myoid/core/geometry.h"
 #include "myoid/core/units.h"
-#include "myoid/model/compat.h"
 #include "myoid/model/expression.h"
 #include "myoid/model/functions.h"
 #include "myoid/model/multi_polynomial.h"
+#include "myoid/model/opensim_defects/compat.h"
 
 namespace myoid::model {
 

@@ -4,7 +4,7 @@
 
 #include "myoid/core/error.h"
 #include "myoid/model/kinematic_tree.h"
-#include "myoid/model/osim_reader.h"
+#include "myoid/osim/osim_reader.h"
 
 namespace myoid::model {
 namespace {

@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "myoid/core/index.h"
+#include "myoid/model/opensim_defects/path_opensim.h"
 #include "myoid/model/path_exact.h"
-#include "myoid/model/path_opensim.h"
 
 namespace myoid::model {
 namespace {

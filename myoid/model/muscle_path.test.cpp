@@ -4,11 +4,11 @@
 
 #include <gtest/gtest.h>
 
-#include "myoid/model/arm4.h"
-#include "myoid/model/osim_reader.h"
-#include "myoid/model/planar_elbow.h"
+#include "myoid/arm/arm4.h"
+#include "myoid/arm/planar_elbow.h"
 #include "myoid/model/wrap_cylinder.h"
-#include "myoid/recording/storage_reader.h"
+#include "myoid/osim/osim_reader.h"
+#include "myoid/tables/storage_reader.h"
 
 #include "tests/support/data_folder.h"
 

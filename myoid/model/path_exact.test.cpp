@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
-#include "myoid/model/osim_reader.h"
 #include "myoid/model/path_survey.h"
+#include "myoid/osim/osim_reader.h"
 
 #include "tests/support/data_folder.h"
 

@@ -8,8 +8,8 @@
 #include "myoid/core/units.h"
 #include "myoid/model/kinematic_tree.h"
 #include "myoid/model/muscle_path.h"
-#include "myoid/model/osim_reader.h"
-#include "myoid/recording/storage_reader.h"
+#include "myoid/osim/osim_reader.h"
+#include "myoid/tables/storage_reader.h"
 
 #include "tests/support/data_folder.h"
 

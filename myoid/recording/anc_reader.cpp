@@ -8,8 +8,8 @@
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
-#include "myoid/recording/file_words.h"
-#include "myoid/recording/table_clock.h"
+#include "myoid/files/file_words.h"
+#include "myoid/tables/table_clock.h"
 
 namespace myoid::recording {
 namespace {

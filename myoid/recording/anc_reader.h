@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "myoid/core/time_series.h"
-#include "myoid/recording/text_file.h"
+#include "myoid/files/text_file.h"
 
 namespace myoid::recording {
 

@@ -10,8 +10,8 @@
 #include <nlohmann/json.hpp>
 
 #include "myoid/core/error.h"
-#include "myoid/recording/file_words.h"
-#include "myoid/recording/text_table.h"
+#include "myoid/files/file_words.h"
+#include "myoid/tables/text_table.h"
 
 namespace myoid::recording {
 namespace {

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "myoid/core/time_series.h"
-#include "myoid/recording/marker_series.h"
-#include "myoid/recording/text_file.h"
+#include "myoid/files/marker_series.h"
+#include "myoid/files/text_file.h"
 
 namespace myoid::recording {
 

@@ -8,9 +8,9 @@
 
 #include "myoid/core/error.h"
 #include "myoid/core/provenance.h"
-#include "myoid/recording/atomic_file.h"
-#include "myoid/recording/csv_reader.h"
-#include "myoid/recording/storage_reader.h"
+#include "myoid/files/atomic_file.h"
+#include "myoid/tables/csv_reader.h"
+#include "myoid/tables/storage_reader.h"
 
 namespace myoid::recording {
 namespace {

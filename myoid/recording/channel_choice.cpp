@@ -10,8 +10,8 @@
 
 #include "myoid/core/clock_facts.h"
 #include "myoid/core/error.h"
-#include "myoid/recording/label_match.h"
-#include "myoid/recording/toml_table.h"
+#include "myoid/files/label_match.h"
+#include "myoid/files/toml_table.h"
 
 namespace myoid::recording {
 namespace {

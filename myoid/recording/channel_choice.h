@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "myoid/recording/analog_channels.h"
-#include "myoid/recording/text_file.h"
+#include "myoid/files/analog_channels.h"
+#include "myoid/files/text_file.h"
 
 namespace myoid::recording {
 

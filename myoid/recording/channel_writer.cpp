@@ -7,10 +7,10 @@
 
 #include <fmt/format.h>
 
+#include "myoid/files/text_file.h"
 #include "myoid/recording/emg_reader.h"
 #include "myoid/recording/recording.h"
-#include "myoid/recording/table_writer.h"
-#include "myoid/recording/text_file.h"
+#include "myoid/tables/table_writer.h"
 
 namespace myoid::recording {
 namespace {

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "myoid/core/time_series.h"
-#include "myoid/recording/storage_reader.h"
-#include "myoid/recording/text_rows.h"
+#include "myoid/tables/storage_reader.h"
+#include "myoid/tables/text_rows.h"
 
 namespace myoid::recording {
 

@@ -13,9 +13,9 @@
 #include <fmt/ranges.h>
 
 #include "myoid/core/error.h"
-#include "myoid/recording/byte_source.h"
-#include "myoid/recording/file_words.h"
-#include "myoid/recording/event.h"
+#include "myoid/files/byte_source.h"
+#include "myoid/files/event.h"
+#include "myoid/files/file_words.h"
 
 namespace myoid::recording {
 namespace {

@@ -5,17 +5,17 @@
 #include <span>
 #include <vector>
 
-#include "myoid/recording/analog_channels.h"
-#include "myoid/recording/event.h"
-#include "myoid/recording/text_file.h"
+#include "myoid/files/analog_channels.h"
+#include "myoid/files/event.h"
+#include "myoid/files/text_file.h"
 
 namespace myoid::recording {
 
 struct EdfFile {
   AnalogChannels
       data;  ///< The signals of the highest rate that has a voltage, else of the highest.
-  std::vector<bool> has_unit;    ///< Per channel: its dimension is known.
-  std::vector<Event> events;  ///< Annotations of EDF+ and BDF+.
+  std::vector<bool> has_unit;  ///< Per channel: its dimension is known.
+  std::vector<Event> events;   ///< Annotations of EDF+ and BDF+.
   std::vector<Repair> repairs;
 };
 

@@ -1,6 +1,6 @@
 #include "myoid/recording/emg_channels.h"
 
-#include "myoid/recording/instrument_names.h"
+#include "myoid/tables/instrument_names.h"
 
 namespace myoid::recording {
 

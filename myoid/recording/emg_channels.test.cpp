@@ -1,8 +1,9 @@
 #include "myoid/recording/emg_channels.h"
-#include "myoid/recording/instrument_names.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include "myoid/tables/instrument_names.h"
 
 namespace myoid::recording {
 namespace {

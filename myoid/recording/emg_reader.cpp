@@ -8,16 +8,16 @@
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
+#include "myoid/files/file_words.h"
 #include "myoid/recording/anc_reader.h"
 #include "myoid/recording/bids.h"
 #include "myoid/recording/c3d_recording.h"
 #include "myoid/recording/channel_choice.h"
-#include "myoid/recording/csv_reader.h"
 #include "myoid/recording/edf_reader.h"
-#include "myoid/recording/instrument_names.h"
-#include "myoid/recording/emg_table.h"
-#include "myoid/recording/storage_reader.h"
-#include "myoid/recording/file_words.h"
+#include "myoid/tables/csv_reader.h"
+#include "myoid/tables/emg_table.h"
+#include "myoid/tables/instrument_names.h"
+#include "myoid/tables/storage_reader.h"
 
 namespace myoid::recording {
 namespace {

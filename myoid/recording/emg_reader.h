@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "myoid/core/time_series.h"
-#include "myoid/recording/storage_reader.h"
-#include "myoid/recording/text_file.h"
+#include "myoid/files/text_file.h"
+#include "myoid/tables/storage_reader.h"
 
 namespace myoid::recording {
 

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "myoid/core/error.h"
-#include "myoid/recording/atomic_file.h"
+#include "myoid/files/atomic_file.h"
 
 #include "tests/support/temporary_folder.h"
 

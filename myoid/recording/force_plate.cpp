@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
-#include "myoid/recording/file_words.h"
+#include "myoid/files/file_words.h"
 
 namespace myoid::recording {
 namespace {

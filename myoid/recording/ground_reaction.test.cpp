@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "myoid/core/error.h"
-#include "myoid/recording/marker_series.h"
+#include "myoid/files/marker_series.h"
 
 namespace myoid::recording {
 namespace {

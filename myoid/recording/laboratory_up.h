@@ -7,10 +7,10 @@
 
 #include <Eigen/Core>
 
+#include "myoid/c3d/c3d_file.h"
 #include "myoid/core/geometry.h"
-#include "myoid/recording/c3d_file.h"
+#include "myoid/files/marker_series.h"
 #include "myoid/recording/force_plate.h"
-#include "myoid/recording/marker_series.h"
 #include "myoid/recording/recording.h"
 
 namespace myoid::recording {

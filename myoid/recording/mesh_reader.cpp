@@ -11,8 +11,8 @@
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
-#include "myoid/recording/byte_source.h"
-#include "myoid/recording/text_file.h"
+#include "myoid/files/byte_source.h"
+#include "myoid/files/text_file.h"
 
 namespace myoid::recording {
 namespace {

@@ -9,11 +9,11 @@
 #include "myoid/recording/bids.h"
 #include "myoid/recording/c3d_recording.h"
 #include "myoid/recording/edf_reader.h"
-#include "myoid/recording/emg_table.h"
-#include "myoid/recording/marker_table.h"
-#include "myoid/recording/nexus_section.h"
-#include "myoid/recording/storage_reader.h"
-#include "myoid/recording/trc_reader.h"
+#include "myoid/tables/emg_table.h"
+#include "myoid/tables/marker_table.h"
+#include "myoid/tables/nexus_section.h"
+#include "myoid/tables/storage_reader.h"
+#include "myoid/tables/trc_reader.h"
 
 namespace myoid::recording {
 

@@ -6,12 +6,12 @@
 #include <vector>
 
 #include "myoid/core/geometry.h"
-#include "myoid/recording/analog_channels.h"
-#include "myoid/recording/event.h"
+#include "myoid/files/analog_channels.h"
+#include "myoid/files/event.h"
+#include "myoid/files/marker_series.h"
+#include "myoid/files/text_file.h"
 #include "myoid/recording/force_plate.h"
-#include "myoid/recording/marker_file.h"
-#include "myoid/recording/marker_series.h"
-#include "myoid/recording/text_file.h"
+#include "myoid/tables/marker_file.h"
 
 namespace myoid::recording {
 

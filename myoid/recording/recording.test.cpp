@@ -4,10 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include "myoid/c3d/c3d_writer.h"
+#include "myoid/c3d/make_c3d.h"
 #include "myoid/core/error.h"
-#include "myoid/recording/c3d_writer.h"
 #include "myoid/recording/emg_reader.h"
-#include "myoid/recording/make_c3d.h"
 
 #include "tests/support/data_folder.h"
 #include "tests/support/temporary_folder.h"

@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
-#include "myoid/recording/atomic_file.h"
+#include "myoid/files/atomic_file.h"
 #include "myoid/report/html.h"
 #include "myoid/report/json.h"
 #include "myoid/report/svg_plot.h"

@@ -3,8 +3,8 @@
 #include <span>
 #include <vector>
 
+#include "myoid/core/fault.h"
 #include "myoid/signals/emg_envelope.h"
-#include "myoid/signals/fault.h"
 #include "myoid/signals/quality_limits.h"
 
 namespace myoid::signals {

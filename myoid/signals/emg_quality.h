@@ -2,8 +2,8 @@
 
 #include <vector>
 
+#include "myoid/core/fault.h"
 #include "myoid/core/time_series.h"
-#include "myoid/signals/fault.h"
 #include "myoid/signals/quality_limits.h"
 
 namespace myoid::signals {

@@ -6,8 +6,8 @@
 
 #include <Eigen/Core>
 
-#include "myoid/recording/marker_series.h"
-#include "myoid/signals/fault.h"
+#include "myoid/core/fault.h"
+#include "myoid/files/marker_series.h"
 #include "myoid/signals/quality_limits.h"
 #include "myoid/signals/rigid_segment.h"
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "myoid/recording/marker_series.h"
+#include "myoid/files/marker_series.h"
 #include "myoid/signals/quality_limits.h"
 #include "myoid/signals/rigid_segment.h"
 

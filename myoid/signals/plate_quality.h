@@ -2,8 +2,8 @@
 
 #include <vector>
 
+#include "myoid/core/fault.h"
 #include "myoid/recording/force_plate.h"
-#include "myoid/signals/fault.h"
 #include "myoid/signals/quality_limits.h"
 
 namespace myoid::signals {

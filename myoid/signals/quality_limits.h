@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "myoid/signals/fault.h"
+#include "myoid/core/fault.h"
 
 namespace myoid::signals {
 

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "myoid/signals/fault.h"
+#include "myoid/core/fault.h"
 
 #include "tests/support/places.h"
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "myoid/core/time_series.h"
-#include "myoid/recording/marker_series.h"
+#include "myoid/files/marker_series.h"
 
 namespace myoid::signals {
 

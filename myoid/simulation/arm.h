@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "myoid/model/arm4.h"
-#include "myoid/model/planar_elbow.h"
+#include "myoid/arm/arm4.h"
+#include "myoid/arm/planar_elbow.h"
 #include "myoid/muscle/activation.h"
 #include "myoid/muscle/joint_passive.h"
 #include "myoid/muscle/musculotendon_parameters.h"

@@ -8,8 +8,8 @@
 #include "myoid/core/units.h"
 #include "myoid/dynamics/passive_forces.h"
 #include "myoid/model/muscle_path.h"
-#include "myoid/model/thelen_properties.h"
 #include "myoid/muscle/literature.h"
+#include "myoid/osim/thelen_properties.h"
 #include "myoid/simulation/simulation_run.h"
 #include "myoid/simulation/tree_dynamics.h"
 

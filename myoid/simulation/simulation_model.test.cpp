@@ -5,11 +5,11 @@
 
 #include <gtest/gtest.h>
 
+#include "myoid/arm/arm4.h"
 #include "myoid/core/error.h"
 #include "myoid/dynamics/passive_forces.h"
-#include "myoid/model/arm4.h"
 #include "myoid/model/kinematic_tree.h"
-#include "myoid/model/osim_reader.h"
+#include "myoid/osim/osim_reader.h"
 #include "myoid/simulation/forward_simulation.h"
 
 #include "tests/support/data_folder.h"

@@ -3,8 +3,8 @@
 
 #include <benchmark/benchmark.h>
 
-#include "myoid/identification/force.h"
-#include "myoid/identification/torque.h"
+#include "myoid/methods/force.h"
+#include "myoid/methods/torque.h"
 
 #include "tests/support/elbow_study.h"
 

@@ -6,18 +6,18 @@
 #include <Eigen/Core>
 #include <benchmark/benchmark.h>
 
+#include "myoid/arm/arm4.h"
 #include "myoid/core/time_series.h"
 #include "myoid/dynamics/inverse_dynamics.h"
 #include "myoid/forces/force_sharing.h"
-#include "myoid/identification/paper.h"
-#include "myoid/identification/torque.h"
 #include "myoid/kinematics/inverse_kinematics.h"
 #include "myoid/kinematics/joint_motion.h"
 #include "myoid/kinematics/muscle_kinematics.h"
-#include "myoid/model/arm4.h"
-#include "myoid/model/osim_reader.h"
+#include "myoid/methods/paper.h"
+#include "myoid/methods/torque.h"
 #include "myoid/muscle/hill_muscle.h"
-#include "myoid/simulation/virtual_arm.h"
+#include "myoid/osim/osim_reader.h"
+#include "myoid/twin/virtual_arm.h"
 
 #include "tests/support/elbow_study.h"
 
@@ -71,14 +71,13 @@ BENCHMARK(read_model)->Unit(benchmark::kMicrosecond);
 
 /// Items per second are frames per second, here and below.
 void inverse_kinematics(benchmark::State& state) {
-  const simulation::VirtualArm virtual_arm{simulation::VirtualSubject{}};
+  const twin::VirtualArm virtual_arm{twin::VirtualSubject{}};
   const model::BodyModel model = model::parse_osim(virtual_arm.osim(), "arm.osim");
   const TimeSeries motion = elbow_motion();
   const recording::MarkerSeries markers{
       .time_s = motion.time_s(),
       .names = virtual_arm.marker_names(),
-      .positions_m =
-          virtual_arm.markers_m(motion.column("elbow_flexion"), simulation::Plane::vertical)};
+      .positions_m = virtual_arm.markers_m(motion.column("elbow_flexion"), twin::Plane::vertical)};
   for (auto _ : state) benchmark::DoNotOptimize(kinematics::inverse_kinematics(model, markers));
   state.SetItemsProcessed(state.iterations() * kFrames);
 }

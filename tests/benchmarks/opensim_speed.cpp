@@ -27,8 +27,8 @@
 
 #include "myoid/model/kinematic_tree.h"
 #include "myoid/model/muscle_path.h"
-#include "myoid/model/osim_reader.h"
 #include "myoid/model/path_survey.h"
+#include "myoid/osim/osim_reader.h"
 
 #include "tests/support/places.h"
 

@@ -12,12 +12,12 @@
 #include <malloc.h>
 #include <unistd.h>
 
-#include "myoid/recording/atomic_file.h"
-#include "myoid/recording/c3d_reader.h"
-#include "myoid/recording/c3d_writer.h"
+#include "myoid/c3d/c3d_reader.h"
+#include "myoid/c3d/c3d_writer.h"
+#include "myoid/files/atomic_file.h"
 #include "myoid/recording/channel_writer.h"
 #include "myoid/recording/recording.h"
-#include "myoid/recording/storage_reader.h"
+#include "myoid/tables/storage_reader.h"
 
 namespace {
 

@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "myoid/recording/atomic_file.h"
+#include "myoid/files/atomic_file.h"
 
 #include "tests/pipeline/program.h"
 #include "tests/support/temporary_folder.h"

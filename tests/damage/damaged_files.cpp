@@ -21,7 +21,7 @@
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
-#include "myoid/recording/atomic_file.h"
+#include "myoid/files/atomic_file.h"
 
 #include "tests/damage/commands.h"
 #include "tests/damage/damages.h"

@@ -8,19 +8,19 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "myoid/arm/arm4.h"
+#include "myoid/c3d/c3d_writer.h"
 #include "myoid/core/error.h"
-#include "myoid/model/arm4.h"
+#include "myoid/files/atomic_file.h"
 #include "myoid/model/kinematic_tree.h"
 #include "myoid/model/muscle_path.h"
-#include "myoid/model/osim_reader.h"
-#include "myoid/pipeline/run_tool.h"
-#include "myoid/pipeline/study.h"
-#include "myoid/pipeline/study_json.h"
-#include "myoid/recording/atomic_file.h"
-#include "myoid/recording/c3d_writer.h"
+#include "myoid/opensim_tools/run_tool.h"
+#include "myoid/osim/osim_reader.h"
 #include "myoid/recording/emg_reader.h"
 #include "myoid/recording/recording.h"
-#include "myoid/recording/storage_reader.h"
+#include "myoid/study/study.h"
+#include "myoid/study/study_json.h"
+#include "myoid/tables/storage_reader.h"
 
 #include "tests/damage/table_kinds.h"
 
@@ -156,7 +156,7 @@ void flatten(const nlohmann::json& j, const std::string& name, Content& content)
 
 Content read_study(const fs::path& path) {
   Content content;
-  flatten(nlohmann::json::parse(pipeline::study_json(pipeline::read_study(path))), "", content);
+  flatten(nlohmann::json::parse(study_json(read_study(path))), "", content);
   return content;
 }
 
@@ -170,7 +170,7 @@ Content run_setup(const fs::path& path) {
     if (fs::weakly_canonical(file).parent_path() != fs::weakly_canonical(path.parent_path()))
       throw ReadError(path, 0, fmt::format("'{}' is outside of this test", file.string()));
   };
-  const pipeline::ToolResult result = pipeline::run_tool(path, {.claim = stays});
+  const ToolResult result = run_tool(path, {.claim = stays});
   Content content;
   content.notes = result.notes;
   for (const fs::path& file : result.files) {

@@ -10,7 +10,7 @@
 
 #include <fmt/format.h>
 
-#include "myoid/recording/atomic_file.h"
+#include "myoid/files/atomic_file.h"
 #include "myoid/recording/recording.h"
 
 namespace myoid::damage {

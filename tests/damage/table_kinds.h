@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "myoid/recording/text_file.h"
+#include "myoid/files/text_file.h"
 
 #include "tests/damage/kinds.h"
 

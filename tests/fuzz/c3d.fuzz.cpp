@@ -1,7 +1,7 @@
 // C3D: any bytes are a file or a ReadError; what was read can be used, and written and read again.
-#include "myoid/recording/c3d_reader.h"
-#include "myoid/recording/c3d_signals.h"
-#include "myoid/recording/c3d_writer.h"
+#include "myoid/c3d/c3d_reader.h"
+#include "myoid/c3d/c3d_signals.h"
+#include "myoid/c3d/c3d_writer.h"
 #include "myoid/recording/force_plate.h"
 
 #include "fuzz.h"

@@ -1,4 +1,4 @@
-#include "myoid/recording/emg_table.h"
+#include "myoid/tables/emg_table.h"
 
 #include "fuzz.h"
 

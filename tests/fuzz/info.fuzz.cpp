@@ -1,27 +1,27 @@
 // The description of a file of any kind, as `myoid info` prints it, in text and in JSON. The first
 // byte chooses the ending of the file's name.
-#include "myoid/model/osim_reader.h"
-#include "myoid/pipeline/contents_text.h"
-#include "myoid/pipeline/json_values.h"
-#include "myoid/pipeline/model_contents.h"
-#include "myoid/pipeline/recording_contents.h"
+#include "myoid/contents/contents_text.h"
+#include "myoid/contents/model_contents.h"
+#include "myoid/contents/recording_contents.h"
+#include "myoid/osim/osim_reader.h"
+#include "myoid/report/json_values.h"
 
 #include "fuzz.h"
 #include "info_kinds.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   namespace fuzz = myoid::fuzz;
-  namespace pipeline = myoid::pipeline;
+  namespace pipeline = myoid;
   if (size == 0) return 0;
   const std::size_t kind = (data[0] - std::size_t{'a'}) % fuzz::kInfoKinds.size();
   const std::string name = "f" + std::string(fuzz::kInfoKinds[kind]);
   const auto path = fuzz::folder() / name;
   fuzz::write(name, fuzz::text(data + 1, size - 1));
   try {
-    auto contents = pipeline::recording_contents(path);
-    if (!contents) contents = pipeline::model_contents(myoid::model::read_osim(path));
-    fuzz::require(!pipeline::contents_text(*contents).empty());
-    fuzz::require(!pipeline::json_text(*contents).empty());
+    auto contents = recording_contents(path);
+    if (!contents) contents = model_contents(myoid::model::read_osim(path));
+    fuzz::require(!contents_text(*contents).empty());
+    fuzz::require(!json_text(*contents).empty());
   } catch (const myoid::ReadError&) {
   } catch (const myoid::ModelError&) {
   }

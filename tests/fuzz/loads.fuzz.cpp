@@ -1,7 +1,7 @@
 // External loads: the set-up (.xml) and its data file in one input.
+#include "myoid/arm/arm4.h"
 #include "myoid/dynamics/external_loads.h"
-#include "myoid/model/arm4.h"
-#include "myoid/model/osim_reader.h"
+#include "myoid/osim/osim_reader.h"
 
 #include "fuzz.h"
 

@@ -1,5 +1,5 @@
 // Models: a model, a ReadError or a ModelError.
-#include "myoid/model/osim_reader.h"
+#include "myoid/osim/osim_reader.h"
 
 #include "fuzz.h"
 

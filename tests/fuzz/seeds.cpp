@@ -5,9 +5,9 @@
 
 #include <fmt/format.h>
 
-#include "myoid/recording/atomic_file.h"
-#include "myoid/recording/byte_source.h"
-#include "myoid/recording/c3d_writer.h"
+#include "myoid/c3d/c3d_writer.h"
+#include "myoid/files/atomic_file.h"
+#include "myoid/files/byte_source.h"
 
 #include "info_kinds.h"
 

@@ -1,4 +1,4 @@
-#include "myoid/recording/storage_reader.h"
+#include "myoid/tables/storage_reader.h"
 
 #include "fuzz.h"
 

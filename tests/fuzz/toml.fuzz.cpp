@@ -1,4 +1,4 @@
-#include "myoid/recording/toml_table.h"
+#include "myoid/files/toml_table.h"
 
 #include "fuzz.h"
 

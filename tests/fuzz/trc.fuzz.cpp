@@ -1,4 +1,4 @@
-#include "myoid/recording/trc_reader.h"
+#include "myoid/tables/trc_reader.h"
 
 #include "fuzz.h"
 

@@ -25,8 +25,8 @@
 
 #include "myoid/math/random.h"
 #include "myoid/model/muscle_path.h"
-#include "myoid/model/osim_reader.h"
 #include "myoid/model/path_survey.h"
+#include "myoid/osim/osim_reader.h"
 
 #include "tests/support/places.h"
 

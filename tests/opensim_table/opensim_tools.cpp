@@ -21,13 +21,13 @@
 
 #include "myoid/core/index.h"
 #include "myoid/model/kinematic_tree.h"
-#include "myoid/model/osim_reader.h"
-#include "myoid/model/osim_writer.h"
-#include "myoid/pipeline/opensim_files.h"
-#include "myoid/pipeline/run_tool.h"
-#include "myoid/pipeline/tool_stages.h"
+#include "myoid/opensim_tools/opensim_files.h"
+#include "myoid/opensim_tools/run_tool.h"
+#include "myoid/opensim_tools/tool_stages.h"
+#include "myoid/osim/osim_reader.h"
+#include "myoid/osim/osim_writer.h"
 #include "myoid/recording/recording.h"
-#include "myoid/recording/storage_reader.h"
+#include "myoid/tables/storage_reader.h"
 
 #include "scaled_model.h"
 #include "shared_frames.h"
@@ -42,15 +42,13 @@ namespace fs = std::filesystem;
 
 /// J of inverse kinematics at the postures of a motion, frame by frame.
 Eigen::VectorXd objective(const fs::path& setup_file, const fs::path& motion) {
-  const pipeline::OpensimSetup setup(setup_file);
+  const OpensimSetup setup(setup_file);
   std::vector<std::string> notes;
-  const model::BodyModel model = pipeline::setup_model(setup, model::kOpenSim452, {}, notes);
+  const model::BodyModel model = setup_model(setup, model::kOpenSim452, {}, notes);
   const recording::MarkerSeries markers =
       recording::read_markers(setup.required_file(setup.tool(), "marker_file")).markers;
-  const TimeSeries q =
-      pipeline::read_coordinates(model, motion, pipeline::MissingCoordinate::default_value, notes);
-  const kinematics::IkOptions ik =
-      pipeline::read_ik_tasks(setup, setup.tool(), model, markers, notes);
+  const TimeSeries q = read_coordinates(model, motion, MissingCoordinate::default_value, notes);
+  const kinematics::IkOptions ik = read_ik_tasks(setup, setup.tool(), model, markers, notes);
   model::BodyState state = model::make_state(model);
   Eigen::VectorXd result(q.sample_count());
   for (Eigen::Index i = 0; i < q.sample_count(); ++i) {
@@ -187,10 +185,10 @@ void compare_scaled(const fs::path& ours, const fs::path& theirs, const Rows& ro
 
 void run_setup(const fs::path& setup, const fs::path& reference, const Options& options) {
   const Rows rows{setup.stem().string(), options.columns};
-  pipeline::ToolResult result;
+  ToolResult result;
   SharedFrames shared;
   try {
-    result = pipeline::run_tool(setup, {.inspect = shared.keep()});
+    result = run_tool(setup, {.inspect = shared.keep()});
   } catch (const std::exception& error) {
     rows.add(fmt::format("FAILED: {}", error.what()), "", "");
     return;

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "myoid/model/arm4.h"
-#include "myoid/model/osim_reader.h"
+#include "myoid/arm/arm4.h"
+#include "myoid/osim/osim_reader.h"
 
 namespace myoid::test {
 

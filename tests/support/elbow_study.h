@@ -9,12 +9,12 @@
 
 #include <Eigen/Core>
 
+#include "myoid/arm/arm4.h"
+#include "myoid/arm/planar_elbow.h"
 #include "myoid/core/units.h"
 #include "myoid/identification/study_data.h"
 #include "myoid/math/butterworth.h"
 #include "myoid/math/zero_phase.h"
-#include "myoid/model/arm4.h"
-#include "myoid/model/planar_elbow.h"
 #include "myoid/muscle/hill_muscle.h"
 #include "myoid/muscle/literature.h"
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "myoid/math/random.h"
-#include "myoid/pipeline/movement_blocks.h"
+#include "myoid/phases/movement_blocks.h"
 
 namespace myoid::test {
 
@@ -15,12 +15,12 @@ struct GainPart {
   double slope = 0.0;  ///< Of the gain, per cent of it per block.
   double speed = 2.0;
 };
-inline std::vector<pipeline::Block> gain_blocks(const std::vector<GainPart>& parts) {
+inline std::vector<Block> gain_blocks(const std::vector<GainPart>& parts) {
   math::Random random(4, 0);
-  std::vector<pipeline::Block> result;
+  std::vector<Block> result;
   for (const GainPart& part : parts) {
     for (int i = 0; i < part.count; ++i) {
-      pipeline::Block block;
+      Block block;
       block.gain = std::log(part.gain / 100.0) + 0.01 * part.slope * i + 0.02 * random.normal();
       block.frequency = std::log(part.frequency / 100.0) + 0.01 * random.normal();
       block.speed = part.speed;

@@ -7,8 +7,8 @@
 #include <Eigen/Geometry>
 
 #include "myoid/core/geometry.h"
+#include "myoid/files/marker_series.h"
 #include "myoid/math/random.h"
-#include "myoid/recording/marker_series.h"
 #include "myoid/signals/rigid_segment.h"
 
 namespace myoid::test {

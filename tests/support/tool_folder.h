@@ -8,11 +8,11 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "myoid/model/arm4.h"
+#include "myoid/arm/arm4.h"
 #include "myoid/model/kinematic_tree.h"
-#include "myoid/model/osim_reader.h"
-#include "myoid/pipeline/run_tool.h"
-#include "myoid/recording/storage_reader.h"
+#include "myoid/opensim_tools/run_tool.h"
+#include "myoid/osim/osim_reader.h"
+#include "myoid/tables/storage_reader.h"
 
 #include "tests/support/temporary_folder.h"
 
@@ -28,9 +28,9 @@ class ToolFolder : public ::testing::Test {
   void write(const std::string& name, const std::string& text) const {
     std::ofstream(folder_ / name) << text;
   }
-  [[nodiscard]] pipeline::ToolResult run(const std::string& setup) const {
+  [[nodiscard]] ToolResult run(const std::string& setup) const {
     write("setup.xml", "<OpenSimDocument Version=\"40000\">" + setup + "</OpenSimDocument>");
-    return pipeline::run_tool(folder_ / "setup.xml");
+    return run_tool(folder_ / "setup.xml");
   }
   static double elbow(int frame) { return 1.2 + 0.5 * std::sin(0.1 * frame); }
 

@@ -5,16 +5,16 @@
 
 #include <fmt/format.h>
 
-#include "myoid/model/arm4.h"
-#include "myoid/model/osim_reader.h"
-#include "myoid/pipeline/study.h"
-#include "myoid/pipeline/trial_input.h"
-#include "myoid/recording/atomic_file.h"
+#include "myoid/arm/arm4.h"
+#include "myoid/files/atomic_file.h"
+#include "myoid/intake/trial_input.h"
+#include "myoid/osim/osim_reader.h"
+#include "myoid/study/study.h"
 
 #include "tests/support/message_of.h"
 #include "tests/support/temporary_folder.h"
 
-namespace myoid::pipeline::test_trials {
+namespace myoid::test_trials {
 
 using myoid::test::message_of;
 
@@ -57,4 +57,4 @@ struct WrittenTrial {
   }
 };
 
-}  // namespace myoid::pipeline::test_trials
+}  // namespace myoid::test_trials

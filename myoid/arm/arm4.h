@@ -1,0 +1,44 @@
+#pragma once
+
+#include <array>
+#include <string>
+
+#include "myoid/arm/planar_elbow.h"
+#include "myoid/core/geometry.h"
+#include "myoid/muscle/hill_parameters.h"
+
+namespace myoid::model {
+
+struct Arm4Options {
+  ArmOptions person;
+  /// Default posture: the upper arm raised forward and turned, so that the axis of the elbow is
+  /// vertical. (Raised to the side, two of the shoulder's three axes would coincide.)
+  bool horizontal = false;
+  /// For recordings whose landmarks all move with the forearm: the trunk gets the coordinates
+  /// base_heading, base_tx, base_ty and base_tz, and between the elbow and the forearm come
+  /// elbow_carrying and forearm_rotation; all of them locked by default. The muscles insert above
+  /// these (body "ulna"), so that their lengths depend on elbow_flexion only.
+  bool forearm_rotations = false;
+};
+
+/// The built-in right arm as an OpenSim model file (version 40000): bodies trunk, upper_arm and
+/// forearm_hand (frame at the elbow, long axis -y, x forward when the arm hangs, z to the right);
+/// coordinates shoulder_flexion (z), shoulder_adduction (x), shoulder_rotation (y), elbow_flexion;
+/// muscles BIC, BRA, BRD, TRI (Thelen2003Muscle) whose lengths are those of `planar_elbow` and
+/// whose numbers are `arm4_muscles`; markers. Numbers are written so that they are read back to the
+/// bit.
+[[nodiscard]] std::string arm4_osim(const Arm4Options& options = {});
+
+/// The literature's parameters for BIC, BRA, BRD and TRI (l_sh = 0.45 l0, V_sh 0.28, V_ml 1.4),
+/// their tendons so long that the fibers are optimal at 85, 75, 95 and 60 degrees of elbow flexion:
+/// the published slack lengths belong to other paths than these.
+[[nodiscard]] std::array<muscle::HillParameters<double>, 4> arm4_muscles(
+    const ArmOptions& options = {});
+
+/// Shoulder coordinates (flexion, adduction, rotation) [rad] of the two planes of movement.
+[[nodiscard]] Vec3 arm4_shoulder_rad(bool horizontal);
+
+/// Where a held mass acts, in the frame of forearm_hand [m].
+[[nodiscard]] Vec3 arm4_held_at_m(const ArmOptions& options = {});
+
+}  // namespace myoid::model

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <array>
+#include <string>
+#include <string_view>
+
+#include "myoid/arm/arm4.h"
+#include "myoid/arm/planar_elbow.h"
+#include "myoid/muscle/hill_parameters.h"
+
+namespace myoid::model {
+
+/// One head of a muscle across the elbow.
+struct ArmHead {
+  std::string_view name;
+  int lump = 0;       ///< Its muscle in the order of `planar_elbow`: BIC, BRA, BRD, TRI.
+  PlanarMuscle path;  ///< As its lump's about the elbow; its own constant part.
+  muscle::HillParameters<double> hill;
+  double pennation_at_optimal_rad = 0.0;
+};
+
+inline constexpr std::array<std::string_view, 7> kArm7Heads = {
+    "BIClong", "BICshort", "BRA", "BRD", "TRIlong", "TRIlat", "TRImed"};
+
+/// The seven heads: Holzbaur, Murray & Delp (2005) as OpenSim's models carry them, other numbers as
+/// `muscle::literature_parameters`. Slack lengths are the published ones; the paths' constant parts
+/// are such that with a rigid tendon every fiber is optimal at the angle of its lump (85, 75, 95
+/// and 60 degrees of elbow flexion).
+[[nodiscard]] std::array<ArmHead, 7> arm7_heads(const ArmOptions& options = {});
+
+/// `arm4_osim` with these seven muscles instead of the four.
+[[nodiscard]] std::string arm7_osim(const Arm4Options& options = {});
+
+}  // namespace myoid::model

@@ -1,0 +1,98 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "myoid/core/time_series.h"
+#include "myoid/files/event.h"
+#include "myoid/files/marker_series.h"
+#include "myoid/files/text_file.h"
+
+namespace myoid::recording {
+
+/// The machine a C3D file was written for: byte order and kind of real number.
+enum class C3dProcessor : std::uint8_t { intel = 84, dec = 85, sgi = 86 };
+
+/// The four kinds of parameter, with their code in the file; its size is the size of an element.
+enum class C3dType : std::int8_t { text = -1, byte = 1, integer = 2, real = 4 };
+
+/// A parameter as stored. `dimensions` is empty for a single value.
+struct C3dParameter {
+  std::string name;
+  std::string description;
+  bool locked = false;
+  C3dType type = C3dType::integer;
+  std::vector<std::uint8_t> dimensions;
+  std::string text;             ///< Of kind text: all bytes, the first dimension running fastest.
+  std::vector<double> numbers;  ///< Of the other kinds; a double holds each of them exactly.
+
+  friend bool operator==(const C3dParameter&, const C3dParameter&) = default;
+};
+
+struct C3dGroup {
+  int id = 0;  ///< 1 to 127.
+  std::string name;
+  std::string description;
+  bool locked = false;
+  std::vector<C3dParameter> parameters;
+
+  friend bool operator==(const C3dGroup&, const C3dGroup&) = default;
+};
+
+/// An analog channel. A sample is (count - offset) * scale, in `unit_text`.
+struct C3dChannel {
+  std::string name;       ///< Unique, UTF-8; as written but for blanks at its end.
+  std::string unit_text;  ///< As written: "V", "Nmm", "nt"; may be empty or no unit at all.
+  double offset = 0.0;
+  double scale = 1.0;  ///< SCALE * GEN_SCALE.
+
+  friend bool operator==(const C3dChannel&, const C3dChannel&) = default;
+};
+
+/// A C3D file as it is: numbers in the file's own 32 bits, every parameter kept. What a stage needs
+/// comes from `c3d_markers`, `c3d_analog` and `force_plates`, in SI.
+struct C3dFile {
+  using Rows = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+  C3dProcessor processor = C3dProcessor::intel;
+  bool integer = false;      ///< Samples were 16-bit integers; `points` are scaled already.
+  float point_scale = 0.1F;  ///< Of integer coordinates and of residuals [point_unit].
+  std::vector<C3dGroup> groups;
+
+  double point_rate_hz = 0.0;
+  std::int64_t first_frame = 1;           ///< Its time is (first_frame - 1) / point_rate_hz.
+  std::vector<std::string> point_labels;  ///< Unique, UTF-8.
+  std::string point_unit;                 ///< As written: "mm".
+  Rows points;  ///< Frames x (4 points): x, y, z [point_unit] and the fourth word: -1 is "not
+                ///< measured", else 256 * cameras + residual / scale. Rows also without points.
+
+  int analog_per_frame = 1;  ///< Analog samples in a frame.
+  std::vector<C3dChannel> channels;
+  Rows analog;  ///< (frames * analog_per_frame) x channels: counts as stored.
+
+  std::vector<Event> events;
+  std::vector<Repair> repairs;
+
+  [[nodiscard]] Eigen::Index frame_count() const { return points.rows(); }
+  [[nodiscard]] double start_s() const {
+    return static_cast<double>(first_frame - 1) / point_rate_hz;
+  }
+  [[nodiscard]] double analog_rate_hz() const { return point_rate_hz * analog_per_frame; }
+
+  /// The parameter of this group and name, without regard to case and with the misspellings that
+  /// old programs are known for (FORCE_PLATEFORM, OFFSETS); nullptr if there is none.
+  [[nodiscard]] const C3dParameter* find(std::string_view group, std::string_view name) const;
+};
+
+/// A text parameter as its single texts, blanks and zero bytes at their ends removed, as UTF-8.
+[[nodiscard]] std::vector<std::string> texts(const C3dParameter& parameter);
+
+/// The number at `index`, if the parameter is there, has it and it is finite.
+[[nodiscard]] std::optional<double> number_at(const C3dParameter* parameter, std::size_t index);
+
+}  // namespace myoid::recording

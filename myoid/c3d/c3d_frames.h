@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+
+#include "myoid/c3d/c3d_bytes.h"
+#include "myoid/c3d/c3d_layout.h"
+#include "myoid/files/analog_channels.h"
+#include "myoid/files/byte_source.h"
+
+namespace myoid::recording {
+
+/// The samples of a C3D file as numbers, part by part: some frames of bytes at a time, so that a
+/// large file never stands in memory beside what is made of it.
+class C3dFrames {
+ public:
+  C3dFrames(const C3dLayout& layout, C3dProcessor processor, bool is_unsigned)
+      : layout_(layout), number_{processor}, is_unsigned_(is_unsigned) {}
+
+  /// Calls `part(first, count, bytes)` for consecutive frames [first, first + count) of the data.
+  /// Throws ReadError if the file cannot be read any more.
+  void each_part(
+      ByteSource& source,
+      const std::function<void(std::int64_t, std::int64_t, const std::byte*)>& part) const;
+
+  /// The points of the frame that begins at `frame`: x, y, z [POINT:UNITS] and the fourth word, for
+  /// each. An integer times the scale is rounded to what a file of reals of the same data holds.
+  void points(const std::byte* frame, float* out) const;
+  /// Its analog samples as stored, channel by channel, then the next sample of all channels.
+  void analog(const std::byte* frame, float* out) const;
+
+  /// Columns for all samples, in the file's own kind of number.
+  [[nodiscard]] AnalogCounts empty_counts() const;
+  /// Writes the samples of `count` frames into those columns, from frame `first` of the data on.
+  void counts(const std::byte* bytes,
+              std::int64_t first,
+              std::int64_t count,
+              AnalogCounts& columns) const;
+
+ private:
+  void reals(const std::byte* p, float* out, std::size_t count) const;
+  template <typename T, typename Decode>
+  void transpose(const std::byte* bytes,
+                 std::int64_t first,
+                 std::int64_t count,
+                 AnalogCounts::Columns<T>& columns,
+                 Decode&& decode) const;
+  [[nodiscard]] std::size_t word_bytes() const { return layout_.integer ? 2 : 4; }
+
+  C3dLayout layout_;
+  C3dBytes number_;
+  bool is_unsigned_;
+};
+
+}  // namespace myoid::recording

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <span>
+
+#include "myoid/c3d/c3d_file.h"
+#include "myoid/c3d/c3d_frames.h"
+#include "myoid/c3d/c3d_layout.h"
+#include "myoid/files/byte_source.h"
+
+namespace myoid::recording {
+
+/// Everything of a C3D file but its samples, and where these are.
+struct C3dHead {
+  C3dFile file;  ///< Without `points` and `analog`.
+  C3dLayout layout;
+  bool is_unsigned = false;
+
+  [[nodiscard]] C3dFrames frames() const { return {layout, file.processor, is_unsigned}; }
+};
+
+/// Throws like `read_c3d`.
+[[nodiscard]] C3dHead read_c3d_head(ByteSource& source, const std::filesystem::path& path);
+
+/// Reads a .c3d file: Intel, DEC and SGI, integers and reals, parameters and data at any block,
+/// LABELS2 and so on, unsigned samples, more than 65535 frames (POINT:LONG_FRAMES,
+/// TRIAL:ACTUAL_START_FIELD). Header, parameters and size of the file must tell one story; where
+/// they do not, the one that the size confirms is taken. Mended with a note that names the
+/// parameter, byte or frame: counts, rates and scales that disagree, a damaged end of the parameter
+/// section, a missing one (Intel, DEC or SGI found from the header), labels that are missing or
+/// twice there, a last frame that is cut off. Data of a ROTATION group are left out, with a note.
+/// Throws ReadError if this is no C3D file, if the counts cannot be reconciled, if there is no rate
+/// or no whole frame. A frame of reals is copied as it is.
+[[nodiscard]] C3dFile read_c3d(const std::filesystem::path& path);
+
+/// The same from memory; `path` stands in the messages.
+[[nodiscard]] C3dFile parse_c3d(std::span<const std::byte> bytes,
+                                const std::filesystem::path& path);
+
+}  // namespace myoid::recording

@@ -1,0 +1,14 @@
+#pragma once
+
+#include "myoid/c3d/c3d_file.h"
+#include "myoid/core/time_series.h"
+#include "myoid/files/marker_series.h"
+
+namespace myoid::recording {
+
+/// Markers and analog channels as a C3D file in the units of laboratories: mm, and the channels'
+/// own units (N, N mm for moments, V). `analog` may be empty; its clock must be that of the markers
+/// or a whole multiple, over the same time. Throws InvalidInput if the clocks do not fit.
+[[nodiscard]] C3dFile make_c3d(const MarkerSeries& markers, const TimeSeries& analog);
+
+}  // namespace myoid::recording

@@ -1,0 +1,347 @@
+#include "myoid/checks/check_study.h"
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "myoid/checks/dynamometer_sign.h"
+#include "myoid/checks/load_points.h"
+#include "myoid/checks/study_plausibility.h"
+#include "myoid/checks/unloaded_times.h"
+#include "myoid/core/error.h"
+#include "myoid/files/label_match.h"
+#include "myoid/files/text_file.h"
+#include "myoid/intake/trial_emg.h"
+#include "myoid/intake/trial_input.h"
+#include "myoid/intake/trial_quality.h"
+#include "myoid/kinematics/inverse_kinematics.h"
+#include "myoid/recording/emg_channels.h"
+#include "myoid/recording/emg_reader.h"
+#include "myoid/recording/plate_standing.h"
+#include "myoid/recording/recording.h"
+#include "myoid/signals/clock_offset.h"
+#include "myoid/signals/emg_envelope.h"
+#include "myoid/signals/emg_levels.h"
+#include "myoid/signals/emg_quality.h"
+#include "myoid/signals/marker_quality.h"
+#include "myoid/signals/plate_quality.h"
+#include "myoid/study/study_model.h"
+#include "myoid/tables/csv_reader.h"
+#include "myoid/tables/storage_reader.h"
+
+namespace myoid {
+namespace {
+
+using Level = Finding::Level;
+
+/// What is said of several trials in the same words, files apart, is said of the first and the
+/// others are named.
+std::vector<Finding> once(std::vector<Finding> findings) {
+  const auto words = [](const Finding& f) {
+    const std::size_t colon = f.message.find(": ");
+    const bool file = colon != std::string::npos &&
+                      f.message.substr(0, colon).find_first_of("/.") != std::string::npos;
+    return file ? f.message.substr(colon) : f.message;
+  };
+  std::vector<Finding> kept;
+  std::vector<std::vector<std::string>> others;
+  for (Finding& f : findings) {
+    const auto same = std::find_if(kept.begin(), kept.end(), [&](const Finding& k) {
+      return k.level == f.level && !k.fault && !f.fault && k.where != f.where &&
+             words(k) == words(f);
+    });
+    if (same != kept.end() && f.level == Finding::Level::error) {
+      others[static_cast<std::size_t>(same - kept.begin())].push_back(f.where);
+    } else {
+      kept.push_back(std::move(f));
+      others.emplace_back();
+    }
+  }
+  for (std::size_t i = 0; i < kept.size(); ++i) {
+    if (others[i].empty()) continue;
+    const std::size_t shown = std::min<std::size_t>(others[i].size(), 4);
+    kept[i].message += fmt::format(
+        " (so too in {}{})",
+        fmt::join(others[i].begin(), others[i].begin() + static_cast<std::ptrdiff_t>(shown), ", "),
+        shown < others[i].size() ? fmt::format(" and {} more", others[i].size() - shown) : "");
+  }
+  return kept;
+}
+
+class StudyCheck {
+ public:
+  explicit StudyCheck(const Study& study) : study_(study) {}
+
+  std::vector<Finding> findings() {
+    check_model();
+    if (!study_.emg.has_mvc && study_.emg.kind != EmgKind::activation) {
+      add(Level::warning, "study",
+          "no trial is a maximal contraction (use = \"mvc\"): F_max will mean the force at the "
+          "study's largest EMG");
+    }
+    if (!study_.model.file && !study_.subject.mass_kg)
+      add(Level::warning, "study",
+          "[subject] mass_kg is not given: the built-in arm has the segments of a person of 73 kg");
+    check_todos();
+    if (study_.truth) {
+      attempt("truth", [&] { (void)recording::read_csv_table(*study_.truth); });
+    }
+    for (const TrialSpec& trial : study_.trials) {
+      if (model_) attempt(trial.name, [&] { check_trial(trial); });
+    }
+    if (together_) {
+      for (Finding& f : together_->findings()) findings_.push_back(std::move(f));
+    }
+    if (!envelopes_.empty()) attempt("EMG", [&] { check_reference(); });
+    if (model_ && all_read_) attempt("study", [&] { check_dynamometers(); });
+    std::stable_sort(findings_.begin(), findings_.end(),
+                     [](const Finding& a, const Finding& b) { return a.level < b.level; });
+    return once(std::move(findings_));
+  }
+
+ private:
+  void add(Level level, std::string where, std::string message) {
+    findings_.push_back({level, std::move(where), std::move(message), std::nullopt});
+  }
+
+  template <typename Work>
+  void attempt(const std::string& where, Work work) {
+    try {
+      work();
+    } catch (const InvalidInput& error) {
+      add(Level::error, where, error.what());
+      all_read_ = false;
+    }
+  }
+
+  /// What `init` left to be answered.
+  void check_todos() {
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(study_.file, error)) return;
+    const std::string text = recording::read_text_file(study_.file);
+    std::vector<std::string> asked;
+    const auto lines = recording::split_lines(text);
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      const auto at = lines[i].find("# TODO: ");
+      if (at == std::string_view::npos) continue;
+      std::string what(recording::trim(lines[i].substr(at + 8)));
+      constexpr std::size_t kMost = 60;
+      if (what.size() > kMost) what = what.substr(0, what.rfind(' ', kMost)) + " ...";
+      asked.push_back(fmt::format("line {}: {}", i + 1, what));
+    }
+    if (asked.empty()) return;
+    add(Level::warning, study_.file.filename().string(),
+        fmt::format("{} line{} still ask{} for an answer (TODO), or for being deleted: {}",
+                    asked.size(), asked.size() == 1 ? "" : "s", asked.size() == 1 ? "s" : "",
+                    fmt::join(asked, "; ")));
+  }
+
+  void check_model() {
+    attempt("model", [&] {
+      model::BodyModel model = load_model(study_);
+      for (const identification::MuscleSetup& setup : muscle_setups(study_, model)) {
+        for (const muscle::HillField& field : muscle::kHillFields) {
+          const double value = setup.start.*field.member;
+          if (value >= field.bounds.lower && value <= field.bounds.upper) continue;
+          add(Level::warning, "model",
+              fmt::format(
+                  "{}: the model's {} of {:.4g} {} lies outside {} to {}: the search begins "
+                  "at the nearest of these; [[muscle]] start sets another value",
+                  setup.name, field.name, value, symbol(field.unit), field.bounds.lower,
+                  field.bounds.upper));
+        }
+      }
+      for (const std::string& text : model.unsupported) add(Level::warning, "model", text);
+      for (const std::string& text : model.notes) add(Level::note, "model", text);
+      model_ = std::move(model);
+      together_.emplace(study_, *model_);
+    });
+  }
+
+  void check_trial(const TrialSpec& trial) {
+    if (trial.held_mass_kg > 0.0 && study_.model.file && !study_.model.held_mass) {
+      add(Level::error, trial.name,
+          "held_mass_kg is given, but [model] held_mass does not say where it acts");
+    }
+    for (const TrialPart& part : read_trial_parts(study_, trial, *model_))
+      check_part(part.spec, part.input);
+  }
+
+  void check_part(const TrialSpec& spec, const TrialInput& input) {
+    for (const std::string& note : input.notes) {
+      const bool warning =
+          std::find(input.warnings.begin(), input.warnings.end(), note) != input.warnings.end();
+      add(warning ? Level::warning : Level::note, spec.name, note);
+    }
+    together_->look_at(spec, input);
+    for (Finding& f : unloaded_times(*model_, spec, input)) findings_.push_back(std::move(f));
+    if (input.markers) check_markers(*input.markers);
+    const TimeSeries envelope = input.emg ? check_emg(spec, *input.emg) : TimeSeries();
+    for (Fault& fault : trial_faults(study_, input, envelope))
+      findings_.push_back(finding(spec.name, std::move(fault)));
+    if (input.emg) efforts_.push_back({spec, input.external_torque, envelope});
+  }
+
+  void check_markers(const recording::MarkerSeries& markers) {
+    if (study_.ik.calibrate) {
+      const std::vector<double>& window = study_.ik.calibrate->window_s;
+      const Eigen::Index inside =
+          (markers.time_s.array() >= window[0] && markers.time_s.array() <= window[1]).count();
+      if (inside < 2)
+        throw InvalidInput(
+            fmt::format("[ik] calibrate: no frames between {} and {} s", window[0], window[1]));
+    }
+    // Names and weights are compared as the real thing does it, on one frame and without a step.
+    recording::MarkerSeries first = markers;
+    first.time_s = markers.time_s.head(1);
+    first.positions_m = markers.positions_m.topRows(1);
+    (void)kinematics::inverse_kinematics(
+        *model_, first, {.marker_weights = study_.markers.weight, .max_iterations = 0});
+  }
+
+  /// The envelope of a trial, which is kept for the levels.
+  TimeSeries check_emg(const TrialSpec& spec, const TimeSeries& emg) {
+    if (study_.emg.kind == EmgKind::activation) return emg;
+    const bool mvc = spec.use == Use::mvc;
+    if (study_.emg.kind == EmgKind::envelope) {
+      envelopes_.push_back({spec.name, mvc, emg});
+      return emg;
+    }
+    if (emg.mean_rate_hz() < 800.0) {
+      add(Level::warning, spec.name,
+          fmt::format("EMG at {:.0f} Hz: 1000 Hz or more is needed for raw EMG",
+                      emg.mean_rate_hz()));
+    }
+    signals::EnvelopeOptions options = envelope_options(study_);
+    options.whitening = false;  // of all trials together, which `run` has at hand
+    signals::EmgStages stages = signals::process_emg(emg, options);
+    for (const std::string& text : stages.findings) add(Level::note, spec.name, text);
+    envelopes_.push_back({spec.name, mvc, stages.envelope});
+    return std::move(stages.envelope);
+  }
+
+  /// Channels that hardly rise, movements above the maximal contraction; what would be refused: a
+  /// channel that never rises, a window longer than every trial.
+  void check_reference() {
+    std::vector<signals::TrialEnvelope> trials;
+    for (const Envelope& e : envelopes_) trials.push_back({e.trial, e.is_mvc, &e.envelope});
+    for (Fault& fault : signals::check_emg_levels(trials))
+      findings_.push_back(finding("EMG", std::move(fault)));
+    if (all_read_)
+      (void)signals::find_normalisation(trials, {.window_s = study_.emg.normalise_window_s});
+  }
+
+  void check_dynamometers() {
+    std::vector<EffortTrial> trials;
+    for (const Effort& e : efforts_)
+      trials.push_back({&e.spec, e.torque ? &*e.torque : nullptr, e.envelope});
+    for (Finding& f : grouped(dynamometer_signs(study_, *model_, trials)))
+      findings_.push_back(std::move(f));
+  }
+
+  struct Effort {
+    TrialSpec spec;
+    std::optional<TimeSeries> torque;
+    TimeSeries envelope;
+  };
+  struct Envelope {
+    std::string trial;
+    bool is_mvc = false;
+    TimeSeries envelope;
+  };
+
+  const Study& study_;
+  std::optional<model::BodyModel> model_;
+  std::optional<StudyPlausibility> together_;
+  std::vector<Envelope> envelopes_;
+  std::vector<Effort> efforts_;
+  std::vector<Finding> findings_;
+  bool all_read_ = true;
+};
+
+}  // namespace
+
+namespace {
+
+/// The channels that may be EMG, of them those named so if there are such (others may be a load
+/// cell's); of a storage file, which has no units of its own, all of them if its title states one.
+std::optional<TimeSeries> voltages(const std::filesystem::path& path,
+                                   const recording::AnalogChannels& analog,
+                                   const std::vector<recording::PlateSetup>& plates) {
+  const std::vector<std::string> names = recording::emg_channels(analog.channels(), plates);
+  std::vector<std::string> named_emg;
+  for (const std::string& name : names) {
+    if (recording::plain_label(name).find("emg") != std::string::npos) named_emg.push_back(name);
+  }
+  if (!named_emg.empty()) return analog.select(named_emg);
+  if (!names.empty()) return analog.select(names);
+  const std::string extension = recording::extension_of(path);
+  if (extension != ".sto" && extension != ".mot") return std::nullopt;
+  if (!recording::stated_voltage(recording::read_storage(path))) return std::nullopt;
+  return recording::read_emg(path, "", false).data;
+}
+
+/// Whether the EMG of one recording rises from rest.
+std::vector<Fault> levels_alone(const TimeSeries& emg, bool raw, const std::string& where) {
+  constexpr double kSlowest_hz = 100.0;  // twice what the high-pass needs
+  if (raw && emg.mean_rate_hz() < kSlowest_hz) return {};
+  signals::EnvelopeOptions options;
+  options.whitening = false;
+  const TimeSeries envelope = raw ? signals::process_emg(emg, options).envelope : emg;
+  const std::vector<signals::TrialEnvelope> one{{where, false, &envelope, {}}};
+  return signals::check_emg_levels(one);
+}
+
+}  // namespace
+
+std::vector<Finding> check_recording(const std::filesystem::path& path,
+                                     const std::optional<Vec3>& stated_up_L) {
+  recording::Recording file = recording::read_recording(path);
+  const std::string where = path.filename().string();
+  std::vector<Finding> findings;
+  bool standing = true;
+  try {
+    const recording::LaboratoryUp up = recording::stand_plates(file, stated_up_L);
+    if (up.up_L)
+      findings.push_back({Level::note, where,
+                          fmt::format("{} is up ({})", recording::axis_name(*up.up_L), up.because),
+                          std::nullopt});
+  } catch (const InvalidInput& error) {
+    findings.push_back({Level::error, where, error.what(), std::nullopt});
+    standing = false;
+  }
+  for (const recording::Repair& repair : file.repairs)
+    findings.push_back({Level::note, where, recording::to_string(repair), std::nullopt});
+  const auto add = [&](std::vector<Fault> faults) {
+    for (Fault& fault : faults) findings.push_back(finding(where, std::move(fault)));
+  };
+  add(signals::check_markers(file.markers));
+  if (const auto emg = voltages(path, file.analog, file.plates)) {
+    require_finite(*emg, path.string());
+    constexpr Eigen::Index kFewest = 10;
+    if (emg->sample_count() < kFewest)
+      throw ReadError(
+          path, 0,
+          fmt::format("only {} sample{} of EMG; at least {} are needed", emg->sample_count(),
+                      emg->sample_count() == 1 ? "" : "s", kFewest));
+    std::vector<Fault> faults = signals::check_emg(*emg);
+    const bool raw = std::none_of(faults.begin(), faults.end(),
+                                  [](const Fault& f) { return f.kind == FaultKind::emg_envelope; });
+    add(std::move(faults));
+    add(levels_alone(*emg, raw, where));
+    if (auto uneven = signals::check_clock_evenness(emg->time_s(), "EMG")) add({*uneven});
+  }
+  for (const recording::PlateSetup& plate : file.plates) {
+    if (standing) add(signals::check_force_plate(file.force_plate(plate)));
+  }
+  std::stable_sort(findings.begin(), findings.end(),
+                   [](const Finding& a, const Finding& b) { return a.level < b.level; });
+  return findings;
+}
+
+std::vector<Finding> check_study(const Study& study) { return StudyCheck(study).findings(); }
+
+}  // namespace myoid

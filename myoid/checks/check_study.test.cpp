@@ -1,0 +1,279 @@
+#include "myoid/checks/check_study.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "myoid/arm/arm4.h"
+#include "myoid/core/error.h"
+#include "myoid/files/atomic_file.h"
+#include "myoid/files/text_file.h"
+
+#include "tests/support/data_folder.h"
+#include "tests/support/temporary_folder.h"
+
+namespace myoid {
+namespace {
+
+/// A study of one trial with markers and EMG of four channels that rise and fall.
+struct WrittenStudy {
+  test::TemporaryFolder folder;
+  std::string text =
+      "[emg]\nkind = \"envelope\"\n[[trial]]\nname = \"t\"\nmarkers = \"t.trc\"\nemg = "
+      "\"t.sto\"\n";
+
+  explicit WrittenStudy(const std::string& marker = "r_styloid_radial", bool flat = false) {
+    for (const std::string muscle : {"BIC", "BRA", "BRD", "TRI"})
+      text += fmt::format("[[muscle]]\nname = \"{0}\"\nemg = \"{0}\"\n", muscle);
+    std::string trc = fmt::format(
+        "PathFileType\t4\t(X/Y/Z)\tt.trc\n"
+        "DataRate\tCameraRate\tNumFrames\tNumMarkers\tUnits\tOrigDataRate\tOrigDataStartFrame\t"
+        "OrigNumFrames\n100\t100\t200\t1\tm\t100\t1\t200\nFrame#\tTime\t{}\t\t\n\t\tX1\tY1\t"
+        "Z1\n\n",
+        marker);
+    std::string emg = "EMG\nendheader\ntime\tBIC\tBRA\tBRD\tTRI\n";
+    for (int i = 0; i < 200; ++i) {
+      const double s = std::sin(0.05 * i);
+      trc += fmt::format("{}\t{:.2f}\t0.3\t{:.4f}\t0\n", i + 1, 0.01 * i, 0.1 * s);
+      emg += fmt::format("{:.2f}\t{:.4f}\t{:.4f}\t{:.4f}\t{:.4f}\n", 0.01 * i, s * s, s * s, s * s,
+                         flat ? 0.2 : s * s);
+    }
+    recording::write_file(folder / "t.trc", trc);
+    recording::write_file(folder / "t.sto", emg);
+  }
+  [[nodiscard]] std::vector<Finding> findings() const {
+    return check_study(parse_study(text, folder / "study.toml"));
+  }
+  /// Text of the first finding if it is an error.
+  [[nodiscard]] std::string error() const {
+    const std::vector<Finding> all = findings();
+    return all.empty() || all.front().level != Finding::Level::error
+               ? "(no error)"
+               : all.front().where + ": " + all.front().message;
+  }
+};
+
+TEST(CheckStudy, FindsNoErrorWhereThereIsNone) { EXPECT_EQ(WrittenStudy().error(), "(no error)"); }
+
+TEST(CheckStudy, NamesAMissingFileWithoutThrowing) {
+  WrittenStudy study;
+  study.text += "[[trial]]\nname = \"u\"\nmarkers = \"t.trc\"\nemg = \"nowhere.sto\"\n";
+  EXPECT_NE(study.error().find("nowhere.sto"), std::string::npos) << study.error();
+}
+
+TEST(CheckStudy, AMisspeltChannelOfEveryTrialIsToldOnceWithTheTrialsNamed) {
+  WrittenStudy study;
+  for (const char* name : {"u", "v"})
+    study.text +=
+        fmt::format("[[trial]]\nname = \"{}\"\nmarkers = \"t.trc\"\nemg = \"t.sto\"\n", name);
+  study.text.replace(study.text.find("emg = \"TRI\""), 11, "emg = \"TRJ\"");
+  const std::vector<Finding> findings = study.findings();
+  EXPECT_EQ(std::count_if(findings.begin(), findings.end(),
+                          [](const Finding& f) { return f.level == Finding::Level::error; }),
+            1);
+  EXPECT_NE(study.error().find("(so too in u, v)"), std::string::npos) << study.error();
+}
+
+TEST(CheckStudy, MarkersOfWhichTheModelHasNoneAreAnError) {
+  const WrittenStudy study("RWRA");
+  EXPECT_NE(study.error().find("t: no marker of the recording (RWRA) is in the model"),
+            std::string::npos)
+      << study.error();
+}
+
+TEST(CheckStudy, OneRecordingInTwoTrialsIsAnErrorThatNamesBoth) {
+  WrittenStudy study;
+  study.text += "[[trial]]\nname = \"u\"\nmarkers = \"t.trc\"\nemg = \"t.sto\"\n";
+  const std::string error = study.error();
+  EXPECT_EQ(error.find("u: 100 % of its EMG (t.sto) and of its motion are those of trial 't'"), 0U)
+      << error;
+}
+
+TEST(CheckStudy, TrialsThatAreWindowsOfOneRecordingAreTwo) {
+  WrittenStudy study;
+  study.text.replace(study.text.find("name = \"t\""), 10, "name = \"t\"\nend_s = 1.0");
+  study.text += "[[trial]]\nname = \"u\"\nmarkers = \"t.trc\"\nemg = \"t.sto\"\nstart_s = 1.0\n";
+  EXPECT_EQ(study.error(), "(no error)");
+}
+
+TEST(CheckStudy, ATrialOfLessThanHalfASecondIsNamedAsSuch) {
+  WrittenStudy study;
+  study.text.replace(study.text.find("name = \"t\""), 10,
+                     "name = \"t\"\nstart_s = 1.0\nend_s = 1.3");
+  EXPECT_NE(study.error().find("the trial lasts 0.3 s (1 to 1.3 s); at least 0.5 s"),
+            std::string::npos)
+      << study.error();
+}
+
+TEST(CheckStudy, AnEmgChannelThatNeverRisesIsAnError) {
+  const WrittenStudy study("r_styloid_radial", true);
+  EXPECT_NE(study.error().find("'TRI' never rises"), std::string::npos) << study.error();
+}
+
+TEST(CheckStudy, RawEmgCalledAnEnvelopeIsAnError) {
+  WrittenStudy study;
+  std::string emg = recording::read_text_file(study.folder / "t.sto");
+  for (std::size_t at = emg.find("\t0."); at != std::string::npos; at = emg.find("\t0.", at + 1))
+    if ((at / 7) % 2 == 0) emg.insert(at + 1, "-");
+  recording::write_file(study.folder / "t.sto", emg);
+  EXPECT_NE(study.error().find("is never below zero; is it raw EMG?"), std::string::npos)
+      << study.error();
+}
+
+TEST(CheckStudy, AnActivationInPercentIsAnError) {
+  WrittenStudy study;
+  study.text.replace(study.text.find("\"envelope\""), 10, "\"activation\"");
+  EXPECT_EQ(study.error(), "(no error)");
+  std::string emg = "EMG\nendheader\ntime\tBIC\tBRA\tBRD\tTRI\n";
+  for (int i = 0; i < 200; ++i) emg += fmt::format("{:.2f}\t{}\t5\t5\t5\n", 0.01 * i, i % 90);
+  recording::write_file(study.folder / "t.sto", emg);
+  EXPECT_NE(study.error().find("'BIC' reaches 89, but an activation"), std::string::npos)
+      << study.error();
+}
+
+TEST(CheckStudy, WhatInitLeftToBeAnsweredIsAWarningWithItsLine) {
+  WrittenStudy study;
+  const auto asked = [&] {
+    recording::write_file(study.folder / "study.toml", study.text);
+    for (const Finding& f : study.findings()) {
+      if (f.message.find("TODO") != std::string::npos) return f.message;
+    }
+    return std::string();
+  };
+  EXPECT_EQ(asked(), "");
+  study.text = "# Lines with TODO want an answer\n# TODO: the person's mass\n" + study.text;
+  EXPECT_NE(asked().find("1 line still asks for an answer (TODO), or for being deleted: line 2: "
+                         "the person's mass"),
+            std::string::npos)
+      << asked();
+}
+
+TEST(CheckStudy, EnvelopesWithoutAMaximalContractionAreSaidToBeSo) {
+  const std::vector<Finding> found = WrittenStudy().findings();
+  EXPECT_TRUE(std::any_of(found.begin(), found.end(), [](const Finding& f) {
+    return f.message.find("no trial is a maximal contraction") != std::string::npos;
+  }));
+}
+
+TEST(CheckStudy, AWeightOfAMarkerThatTheModelLacksIsAnError) {
+  WrittenStudy study;
+  study.text += "[markers.weight]\nacromion = 10\n";
+  EXPECT_NE(study.error().find("[markers.weight] acromion: the model has no such marker"),
+            std::string::npos)
+      << study.error();
+}
+
+TEST(CheckStudy, AWindowOfNormalisationLongerThanTheRecordingIsAnError) {
+  WrittenStudy study;
+  study.text.insert(study.text.find("[[trial]]"), "normalise_window_s = 30\n");
+  EXPECT_NE(study.error().find("longer than every recording"), std::string::npos) << study.error();
+}
+
+TEST(CheckStudy, TellsEveryFaultOfAChannelWithItsNameAndTime) {
+  const WrittenStudy study;
+  std::string trc = recording::read_text_file(study.folder / "t.trc");
+  const std::string frame = "101\t1.00\t0.3\t";
+  ASSERT_NE(trc.find(frame), std::string::npos);
+  trc.replace(trc.find(frame), frame.size(), "101\t1.00\t0.4\t");
+  recording::write_file(study.folder / "t.trc", trc);
+  bool jump = false;
+  for (const Finding& f : study.findings()) {
+    if (!f.fault || f.fault->kind != FaultKind::marker_jump) continue;
+    jump = true;
+    EXPECT_EQ(f.level, Finding::Level::warning);
+    EXPECT_EQ(f.fault->channel, "r_styloid_radial");
+    EXPECT_NEAR(f.fault->begin_s, 1.0, 0.021);
+  }
+  EXPECT_TRUE(jump);
+}
+
+TEST(CheckRecording, LooksAtASingleFile) {
+  const test::TemporaryFolder folder;
+  std::string text = "time,a [V],b [V]\n";
+  for (int i = 0; i < 4000; ++i) {
+    const double effort = i < 2000 ? 0.02 : 1.0;
+    const double noise = ((i * 7919) % 2003) / 2003.0 - 0.5;
+    const double hum = std::sin(2.0 * 3.14159265358979 * 50.0 * 0.001 * i);
+    text += fmt::format("{:.3f},{:.9f},{:.9f}\n", 0.001 * i, 1e-4 * effort * noise,
+                        1e-4 * effort * ((i * 104729) % 4001) / 4001.0 + 1e-4 * hum);
+  }
+  recording::write_file(folder / "emg.csv", text);
+  const std::vector<Finding> findings = check_recording(folder / "emg.csv");
+  ASSERT_EQ(std::count_if(findings.begin(), findings.end(),
+                          [](const Finding& f) { return f.level == Finding::Level::warning; }),
+            1);
+  EXPECT_EQ(findings[0].fault->kind, FaultKind::emg_hum);
+  EXPECT_EQ(findings[0].fault->channel, "b");
+}
+
+std::vector<Finding> warnings_of(const std::filesystem::path& file) {
+  std::vector<Finding> findings = check_recording(file);
+  std::erase_if(findings, [](const Finding& f) { return f.level != Finding::Level::warning; });
+  return findings;
+}
+
+TEST(CheckRecording, NoiseAloneIsNoEmg) {
+  const test::TemporaryFolder folder;
+  std::string text = "time,a [mV]\n";
+  for (int i = 0; i < 4000; ++i)
+    text += fmt::format("{:.3f},{:.9f}\n", 0.001 * i, ((i * 7919) % 2003) / 2003.0 - 0.5);
+  recording::write_file(folder / "emg.csv", text);
+  const std::vector<Finding> found = warnings_of(folder / "emg.csv");
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].fault->kind, FaultKind::emg_low_signal);
+  EXPECT_LT(found[0].fault->value, 2.0);
+}
+
+TEST(CheckRecording, OneSampleIsNoRecording) {
+  const test::TemporaryFolder folder;
+  recording::write_file(folder / "emg.csv", "time,a [mV]\n0,1\n");
+  try {
+    (void)check_recording(folder / "emg.csv");
+    FAIL() << "not refused";
+  } catch (const ReadError& error) {
+    EXPECT_NE(std::string(error.what()).find("only 1 sample"), std::string::npos) << error.what();
+  }
+}
+
+/// Recordings of three laboratories. What may be said of them is known: markers that were hidden
+/// for long, electrodes that were not worn.
+TEST(CheckRecording, OfRealRecordingsOnlyWhatIsTrueIsSaid) {
+  const std::filesystem::path data = test::data_folder();
+  MYOID_REQUIRE_DATA(data / "elbow-emg" / "load5p5_T1_emg_raw_uV.sto");
+  for (const std::string trial :
+       {"load2p75_T1", "load2p75_T2", "load2p75_T3", "load5p5_T1", "load5p5_T2", "load5p5_T3"}) {
+    EXPECT_TRUE(warnings_of(data / "elbow-emg" / (trial + "_emg_raw_uV.sto")).empty()) << trial;
+    EXPECT_TRUE(warnings_of(data / "elbow-emg" / (trial + "_imu_landmarks.trc")).empty()) << trial;
+  }
+  for (const std::string trial : {"abd", "abd_cocon", "flex", "flex_cocon", "mvt_random"}) {
+    const std::string file = "subject_1_" + trial + ".trc";
+    EXPECT_TRUE(warnings_of(data / "upper-limb-optical" / file).empty()) << trial;
+  }
+  for (const Finding& f : warnings_of(data / "box-lift" / "markers_analogs.c3d")) {
+    ASSERT_TRUE(f.fault) << f.message;
+    const bool hidden = f.fault->kind == FaultKind::marker_gap && f.fault->value > 0.2;
+    const bool not_worn = f.fault->kind == FaultKind::emg_flat && f.fault->value == 0.0;
+    EXPECT_TRUE(hidden || not_worn) << f.message;
+  }
+}
+
+TEST(CheckStudy, AStartThatTheModelPutsOutsideTheBoundsIsWarnedOf) {
+  WrittenStudy study;
+  std::string osim = model::arm4_osim();
+  const std::string tag = "<optimal_fiber_length>";
+  osim.replace(osim.find(tag), tag.size(), tag + "9");  // 9 m and some digits
+  recording::write_file(study.folder / "arm.osim", osim);
+  study.text += "[model]\nfile = \"arm.osim\"\n";
+  const std::vector<Finding> findings = study.findings();
+  EXPECT_TRUE(std::any_of(findings.begin(), findings.end(), [](const Finding& f) {
+    return f.level == Finding::Level::warning &&
+           f.message.find("optimal_fiber_length") != std::string::npos &&
+           f.message.find("lies outside 0.01 to 0.6") != std::string::npos;
+  }));
+}
+
+}  // namespace
+}  // namespace myoid

@@ -1,0 +1,172 @@
+#include "myoid/checks/dynamometer_sign.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "myoid/checks/trial_plausibility.h"
+#include "myoid/core/units.h"
+#include "myoid/model/kinematic_tree.h"
+#include "myoid/model/muscle_path.h"
+#include "myoid/signals/resample.h"
+#include "myoid/study/study_model.h"
+
+namespace myoid {
+namespace {
+
+constexpr double kReversed = -0.5, kCertainlyReversed = -0.8;
+constexpr double kStrong = 0.1;   ///< Of what the muscles can hold.
+constexpr double kWeights = 4.0;  ///< Of the limb's, so that its half is twice the weight.
+constexpr double kActive = 0.1;   ///< Of a channel's largest.
+constexpr double kLargest = 0.5;  ///< Of a trial's largest torque.
+
+/// F_max r of each muscle of the study [N m], r the mean over the coordinate's range.
+Eigen::VectorXd strengths_nm(const Study& study,
+                             const model::BodyModel& model,
+                             const std::string& coordinate) {
+  constexpr int kSteps = 8;
+  const int index = model.coordinate_index(coordinate);
+  const model::Coordinate& c = model.coordinates[static_cast<std::size_t>(index)];
+  const double from = std::max(c.lower, c.default_value - kPi);
+  const double to = std::max(from, std::min(c.upper, c.default_value + kPi));
+  const std::vector<kinematics::MuscleGroup> groups = muscle_groups(study, model);
+  Eigen::VectorXd strength = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(groups.size()));
+  model::BodyState state = model::make_state(model);
+  Eigen::VectorXd q = model.default_q();
+  for (int step = 0; step <= kSteps; ++step) {
+    q[index] = from + (to - from) * step / kSteps;
+    model::compute_poses(model, q, state);
+    for (std::size_t k = 0; k < groups.size(); ++k) {
+      for (const int m : groups[k].members) {
+        const double r = model::compute_path(model, m, state).moment_arm_m[index];
+        if (!std::isfinite(r)) continue;
+        strength[static_cast<Eigen::Index>(k)] +=
+            r * model.muscles[static_cast<std::size_t>(m)].properties.max_isometric_force_n /
+            (kSteps + 1);
+      }
+    }
+  }
+  return strength;
+}
+
+/// What the weight of all that the coordinate moves makes at most: each body straight out [N m].
+double weight_nm(const model::BodyModel& model, const std::string& coordinate) {
+  const int index = model.coordinate_index(coordinate);
+  const auto joint =
+      static_cast<std::size_t>(model.coordinates[static_cast<std::size_t>(index)].joint);
+  model::BodyState state = model::make_state(model);
+  model::compute_poses(model, model.default_q(), state);
+  const Vec3 center =
+      state.X_GB[static_cast<std::size_t>(model.joints[joint].child)] * model.joints[joint].X_BM.p;
+  const std::vector<bool> moved = dynamics::moved_bodies(model, static_cast<int>(joint));
+  double sum = 0.0;
+  for (std::size_t b = 1; b < model.bodies.size(); ++b) {
+    if (moved[b])
+      sum += model.bodies[b].mass_kg * model.gravity_G.norm() *
+             (state.X_GB[b] * model.bodies[b].p_BBcm_B - center).norm();
+  }
+  return sum;
+}
+
+/// Sums for the cosine of what the muscles pull and what they must provide.
+struct Products {
+  double both = 0.0, pull = 0.0, need = 0.0;
+  void add(const Products& other) {
+    both += other.both;
+    pull += other.pull;
+    need += other.need;
+  }
+  [[nodiscard]] double cosine() const {
+    const double size = std::sqrt(pull * need);
+    return size > 0.0 ? both / size : 0.0;
+  }
+};
+
+std::optional<Products> compare(const Study& study,
+                                const EffortTrial& trial,
+                                const std::map<std::string, double>& largest,
+                                const Eigen::VectorXd& strength_nm,
+                                const Eigen::VectorXd& torque_nm) {
+  const Eigen::VectorXd& t = trial.external_torque->time_s();
+  const TimeSeries a = signals::resample(trial.envelopes, t);
+  const double from_s = trial.envelopes.time_s()[0];
+  const double to_s = trial.envelopes.time_s()[trial.envelopes.sample_count() - 1];
+  const double enough = kLargest * usual_peak(torque_nm);
+  Products sums;
+  double most = 0.0;
+  for (Eigen::Index i = 0; i < t.size(); ++i) {
+    if (t[i] < from_s || t[i] > to_s || std::abs(torque_nm[i]) < enough) continue;
+    double pull = 0.0;
+    for (std::size_t k = 0; k < study.muscles.size(); ++k) {
+      const std::string& channel = study.muscles[k].emg;
+      const double relative =
+          a.values()(i, a.index(channel)) / std::max(largest.at(channel), 1e-300);
+      most = std::max(most, relative);
+      pull += relative * strength_nm[static_cast<Eigen::Index>(k)];
+    }
+    sums.add({-pull * torque_nm[i], pull * pull, torque_nm[i] * torque_nm[i]});
+  }
+  if (most < kActive) return std::nullopt;
+  return sums;
+}
+
+}  // namespace
+
+std::vector<Finding> dynamometer_signs(const Study& study,
+                                       const model::BodyModel& model,
+                                       const std::vector<EffortTrial>& trials) {
+  std::vector<Finding> found;
+  const bool any = std::any_of(trials.begin(), trials.end(),
+                               [](const EffortTrial& t) { return t.external_torque != nullptr; });
+  if (!any) return found;
+  std::map<std::string, double> largest;
+  for (const EffortTrial& trial : trials) {
+    for (Eigen::Index c = 0; c < trial.envelopes.channel_count(); ++c) {
+      double& value = largest[trial.envelopes.channels()[static_cast<std::size_t>(c)].name];
+      value = std::max(value, trial.envelopes.values().col(c).maxCoeff());
+    }
+  }
+  for (const auto& [name, capacity] : joint_capacities(study, model)) {
+    const Eigen::VectorXd strength = strengths_nm(study, model, name);
+    const double least_nm =
+        std::max(kStrong * capacity.isometric_nm(), kWeights * weight_nm(model, name));
+    Products all;
+    std::size_t told = 0;
+    std::vector<std::pair<const EffortTrial*, double>> against;
+    for (const EffortTrial& trial : trials) {
+      if (trial.external_torque == nullptr || trial.envelopes.empty() ||
+          trial.spec->use == Use::passive)
+        continue;
+      const auto column = trial.external_torque->find(name + "_moment");
+      if (!column) continue;
+      const Eigen::VectorXd torque = trial.external_torque->values().col(*column);
+      if (usual_peak(torque) < least_nm) continue;
+      const auto sums = compare(study, trial, largest, strength, torque);
+      if (!sums) continue;
+      ++told;
+      all.add(*sums);
+      if (sums->cosine() < kReversed) against.emplace_back(&trial, sums->cosine());
+    }
+    const bool certain =
+        !against.empty() && against.size() == told && all.cosine() < kCertainlyReversed;
+    for (const auto& [trial, cosine] : against) {
+      found.push_back(
+          {certain ? Finding::Level::error : Finding::Level::warning,
+           trial->spec->name,
+           fmt::format(
+               "{}: the torque on {} pushes the way that the active muscles pull (cosine with what "
+               "they have to provide {:.2f}, expected above 0): is its sign reversed? "
+               "external_torque is what the surroundings exert on the body, positive in the "
+               "coordinate's direction; negate the column if it is what the person exerts",
+               trial->spec->external_torque->filename().string(), name, cosine),
+           {},
+           "dynamometer " + name});
+    }
+  }
+  return found;
+}
+
+}  // namespace myoid

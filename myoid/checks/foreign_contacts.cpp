@@ -1,0 +1,332 @@
+#include "myoid/checks/foreign_contacts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "myoid/math/statistics.h"
+
+namespace myoid {
+namespace {
+
+constexpr double kContactShare = 0.05;  ///< Of the largest force.
+constexpr double kLeast_n = 20.0;
+constexpr double kBriefestContact_s = 0.05;
+constexpr double kMergedContact_s = 0.025;  ///< A shorter pause does not end a contact.
+constexpr double kOffFoot_m = 0.2;  ///< A foot is 0.27 m long: half of it and what markers miss.
+constexpr double kFarFromFoot_m = 0.3;  ///< Beyond the foot, whoever is near.
+constexpr double kMuchNearer = 0.5;
+constexpr double kBetween_m = 0.1;  ///< The center of pressure leaves the foot's outline.
+constexpr double kReach_m = 0.4;    ///< Of a plate, from its center of pressure.
+constexpr double kLevel_m = 0.04;   ///< Both feet on the ground.
+constexpr double kStill_m_per_s = 0.25;
+constexpr Eigen::Index kContactFrames = 1500;
+constexpr double kNoDistance = std::numeric_limits<double>::infinity();
+
+/// One frame in which a force is loaded.
+struct LoadedFrame {
+  double time_s = 0.0;
+  double own_m = kNoDistance;    ///< From the body of the force, or its neighbors.
+  double other_m = kNoDistance;  ///< From the nearest other body.
+  model::BodyIndex other = 0;
+  model::BodyIndex second = 0;  ///< A second foot on the ground beside; 0 is none.
+  double second_m = kNoDistance;
+};
+
+struct GroundContact {
+  std::vector<LoadedFrame> frames;
+  [[nodiscard]] double begin_s() const { return frames.front().time_s; }
+  [[nodiscard]] double end_s() const { return frames.back().time_s; }
+};
+
+/// Some frames of a contact that are not the body's own.
+struct ForeignStretch {
+  double begin_s = 0.0, end_s = 0.0;
+  std::size_t frames = 0;
+  double own_m = 0.0, other_m = kNoDistance;
+  model::BodyIndex other = 0;
+  bool second_foot = false;
+};
+
+Vec3 against_gravity(const model::BodyModel& model) {
+  return model.gravity_G.norm() > 0.0 ? Vec3(-model.gravity_G.normalized()) : Vec3::UnitY();
+}
+
+/// Where the force acts on the ground; empty where that means nothing.
+std::optional<Vec3> pressure_center(const dynamics::ExternalForce& force,
+                                    double data_time_s,
+                                    const Vec3& up) {
+  const Vec3 at = force.point->at(data_time_s);
+  if (!force.point->splines.empty() || !force.torque) return at;
+  const Vec3 f = force.force->at(data_time_s);
+  constexpr double kSteep = 0.3;  // a flatter force cuts the plane anywhere
+  if (!(f.dot(up) > kSteep * f.norm())) return std::nullopt;
+  return at + up.cross(force.torque->at(data_time_s)) / f.dot(up);
+}
+
+bool is_on_the_ground(const dynamics::ExternalForce& force) {
+  return force.body != 0 && force.force_frame == 0 && force.point_frame == 0 && force.force &&
+         force.point && !force.force->splines.empty() &&
+         (!force.point->splines.empty() || force.torque);
+}
+
+bool are_neighbors(const model::BodyModel& model, model::BodyIndex a, model::BodyIndex b) {
+  return std::any_of(model.joints.begin(), model.joints.end(), [&](const model::Joint& joint) {
+    return (joint.parent == a && joint.child == b) || (joint.parent == b && joint.child == a);
+  });
+}
+
+/// The lowest point of each body and how fast it moves, frame by frame.
+struct Lowest {
+  std::vector<std::optional<Vec3>> point_m;
+  std::vector<double> speed_m_per_s;
+};
+
+Lowest lowest_of(const BodyPoints& points,
+                 std::size_t bodies,
+                 const Vec3& up,
+                 const Lowest& before,
+                 double since_s) {
+  Lowest now{std::vector<std::optional<Vec3>>(bodies), std::vector<double>(bodies, kNoDistance)};
+  for (std::size_t b = 1; b < bodies; ++b) {
+    for (const Vec3& p : points.of(static_cast<model::BodyIndex>(b))) {
+      if (!now.point_m[b] || p.dot(up) < now.point_m[b]->dot(up)) now.point_m[b] = p;
+    }
+    if (now.point_m[b] && b < before.point_m.size() && before.point_m[b] && since_s > 0.0)
+      now.speed_m_per_s[b] = (*now.point_m[b] - *before.point_m[b]).norm() / since_s;
+  }
+  return now;
+}
+
+/// The loads of one trial over its frames.
+class GroundContacts {
+ public:
+  GroundContacts(const model::BodyModel& model,
+                 const dynamics::ExternalLoads& loads,
+                 BodyPoints points)
+      : model_(model), loads_(loads), up_(against_gravity(model)), points_(std::move(points)) {
+    const Eigen::Index n = points_.frame_count();
+    step_ = std::max<Eigen::Index>(1, n / kContactFrames);
+    for (const dynamics::ExternalForce& force : loads.forces) {
+      if (!is_on_the_ground(force)) continue;
+      double largest = 0.0;
+      for (Eigen::Index i = 0; i < n; i += step_)
+        largest = std::max(largest, force.force->at(data_time(i)).norm());
+      if (largest < kLeast_n) continue;
+      forces_.push_back(&force);
+      threshold_n_.push_back(std::max(kLeast_n, kContactShare * largest));
+    }
+    of_force_.resize(forces_.size());
+    walk();
+  }
+
+  [[nodiscard]] const std::vector<const dynamics::ExternalForce*>& forces() const {
+    return forces_;
+  }
+  [[nodiscard]] const std::vector<GroundContact>& of(std::size_t force) const {
+    return of_force_[force];
+  }
+
+ private:
+  [[nodiscard]] double data_time(Eigen::Index frame) const {
+    return loads_.data_time_s(points_.time_s(frame));
+  }
+
+  void walk() {
+    Lowest before;
+    double before_s = 0.0;
+    std::vector<double> last_s(forces_.size(), -kNoDistance);
+    for (Eigen::Index i = 0; i < points_.frame_count() && !forces_.empty(); i += step_) {
+      points_.pose(i);
+      const double now_s = points_.time_s(i);
+      const Lowest lowest = lowest_of(points_, model_.bodies.size(), up_, before, now_s - before_s);
+      const auto centers = centers_at(data_time(i));
+      for (std::size_t k = 0; k < forces_.size(); ++k) {
+        if (!centers[k]) continue;
+        if (now_s - last_s[k] > std::max(kMergedContact_s, 1.5 * (now_s - before_s)))
+          of_force_[k].emplace_back();
+        last_s[k] = now_s;
+        of_force_[k].back().frames.push_back(frame_of(k, now_s, centers, lowest));
+      }
+      before = lowest;
+      before_s = now_s;
+    }
+    for (std::vector<GroundContact>& contacts : of_force_)
+      std::erase_if(contacts, [](const GroundContact& c) {
+        return c.end_s() - c.begin_s() < kBriefestContact_s;
+      });
+  }
+
+  [[nodiscard]] std::vector<std::optional<Vec3>> centers_at(double data_time_s) const {
+    std::vector<std::optional<Vec3>> centers(forces_.size());
+    for (std::size_t k = 0; k < forces_.size(); ++k) {
+      if (forces_[k]->force->at(data_time_s).norm() >= threshold_n_[k])
+        centers[k] = pressure_center(*forces_[k], data_time_s, up_);
+    }
+    return centers;
+  }
+
+  [[nodiscard]] LoadedFrame frame_of(std::size_t k,
+                                     double time_s,
+                                     const std::vector<std::optional<Vec3>>& centers,
+                                     const Lowest& lowest) const {
+    const Vec3& p = *centers[k];
+    const model::BodyIndex own = forces_[k]->body;
+    LoadedFrame m{.time_s = time_s, .own_m = points_.distance(p, own)};
+    for (std::size_t b = 1; b < model_.bodies.size(); ++b) {
+      const auto body = static_cast<model::BodyIndex>(b);
+      if (body == own || are_neighbors(model_, own, body)) continue;
+      const double d = points_.of_one(p, body);
+      if (d < m.other_m) {
+        m.other_m = d;
+        m.other = body;
+      }
+      if (d < m.second_m && d <= kReach_m && stands(b, own, lowest) &&
+          !has_a_force(k, b, centers)) {
+        m.second_m = d;
+        m.second = body;
+      }
+    }
+    return m;
+  }
+
+  /// Still, and as low as the body that bears the force.
+  [[nodiscard]] bool stands(std::size_t body, model::BodyIndex own, const Lowest& lowest) const {
+    const auto& mine = lowest.point_m[static_cast<std::size_t>(own)];
+    return mine && lowest.point_m[body] && lowest.speed_m_per_s[body] < kStill_m_per_s &&
+           std::abs((*lowest.point_m[body] - *mine).dot(up_)) < kLevel_m;
+  }
+
+  /// Another force acts on the body, or under it.
+  [[nodiscard]] bool has_a_force(std::size_t but,
+                                 std::size_t body,
+                                 const std::vector<std::optional<Vec3>>& centers) const {
+    for (std::size_t k = 0; k < forces_.size(); ++k) {
+      if (k == but || !centers[k]) continue;
+      if (forces_[k]->body == static_cast<model::BodyIndex>(body) ||
+          points_.distance(*centers[k], static_cast<model::BodyIndex>(body)) < kOffFoot_m)
+        return true;
+    }
+    return false;
+  }
+
+  const model::BodyModel& model_;
+  const dynamics::ExternalLoads& loads_;
+  Vec3 up_;
+  BodyPoints points_;
+  Eigen::Index step_ = 1;
+  std::vector<const dynamics::ExternalForce*> forces_;
+  std::vector<double> threshold_n_;
+  std::vector<std::vector<GroundContact>> of_force_;
+};
+
+double usual_distance(const std::vector<LoadedFrame>& frames) {
+  std::vector<double> own;
+  for (const LoadedFrame& m : frames) own.push_back(m.own_m);
+  return own.empty() ? kNoDistance : math::median(std::move(own));
+}
+
+/// What a frame shows: 0 the body's own, 1 a foreign foot, 2 a second foot.
+int frame_kind(const LoadedFrame& m, bool others_are_near) {
+  if (!std::isfinite(m.own_m)) return 0;
+  if (m.own_m > kOffFoot_m && m.other_m <= kMuchNearer * m.own_m) return 1;
+  if (m.own_m > kFarFromFoot_m && others_are_near) return 1;
+  if (m.own_m > kBetween_m && m.second != 0) return 2;
+  return 0;
+}
+
+void close_stretch(std::vector<ForeignStretch>& found,
+                   const std::vector<LoadedFrame>& part,
+                   int kind) {
+  if (part.empty() || part.back().time_s - part.front().time_s < kBriefestContact_s) return;
+  ForeignStretch s{.begin_s = part.front().time_s,
+                   .end_s = part.back().time_s,
+                   .frames = part.size(),
+                   .own_m = usual_distance(part),
+                   .second_foot = kind == 2};
+  const LoadedFrame& middle = part[part.size() / 2];
+  s.other = kind == 2 ? middle.second : middle.other;
+  s.other_m = kind == 2 ? middle.second_m : middle.other_m;
+  found.push_back(s);
+}
+
+/// The stretches of a contact that are another foot's.
+std::vector<ForeignStretch> foreign_stretches(const GroundContact& contact, bool others_are_near) {
+  std::vector<ForeignStretch> found;
+  std::vector<LoadedFrame> part;
+  int kind = 0;
+  for (const LoadedFrame& m : contact.frames) {
+    const int now = frame_kind(m, others_are_near);
+    if (now != kind) {
+      if (kind != 0) close_stretch(found, part, kind);
+      part.clear();
+      kind = now;
+    }
+    part.push_back(m);
+  }
+  if (kind != 0) close_stretch(found, part, kind);
+  return found;
+}
+
+std::string stretch_words(const model::BodyModel& model, const ForeignStretch& s) {
+  const std::string other = s.other_m <= kReach_m
+                                ? fmt::format("{:.2g} m from {}", s.other_m,
+                                              model.bodies[static_cast<std::size_t>(s.other)].name)
+                                : "no other body of the model is near";
+  return fmt::format("from {:.4g} to {:.4g} s {} ({:.2g} m from its own, {})", s.begin_s, s.end_s,
+                     s.second_foot ? "a second foot stands beside" : "another foot's", s.own_m,
+                     other);
+}
+
+}  // namespace
+
+std::vector<Finding> foreign_contacts(const model::BodyModel& model,
+                                      const std::string& trial,
+                                      const dynamics::ExternalLoads& loads,
+                                      BodyPoints points) {
+  std::vector<Finding> findings;
+  const GroundContacts contacts(model, loads, std::move(points));
+  for (std::size_t k = 0; k < contacts.forces().size(); ++k) {
+    std::vector<double> usual;
+    std::size_t loaded = 0;
+    for (const GroundContact& c : contacts.of(k)) {
+      usual.push_back(usual_distance(c.frames));
+      loaded += c.frames.size();
+    }
+    const bool near =
+        std::any_of(usual.begin(), usual.end(), [](double d) { return d < kOffFoot_m; });
+    std::vector<std::string> said;
+    std::size_t foreign = 0;
+    std::size_t touched = 0;
+    for (const GroundContact& c : contacts.of(k)) {
+      const std::vector<ForeignStretch> stretches = foreign_stretches(c, near);
+      touched += stretches.empty() ? 0 : 1;
+      for (const ForeignStretch& s : stretches) {
+        foreign += s.frames;
+        said.push_back(stretch_words(model, s));
+      }
+    }
+    if (said.empty()) continue;
+    const dynamics::ExternalForce& force = *contacts.forces()[k];
+    findings.push_back(
+        {Finding::Level::warning, trial,
+         fmt::format(
+             "'{}' is applied to {}, but not all that it bears is {}'s, in {} of {} contacts "
+             "and {:.0f} % of the loaded time: {}; leave these times out (start_s, end_s), or "
+             "give them to the body that bears them",
+             force.name, model.bodies[static_cast<std::size_t>(force.body)].name,
+             model.bodies[static_cast<std::size_t>(force.body)].name, touched,
+             contacts.of(k).size(),
+             100.0 * static_cast<double>(foreign) / static_cast<double>(loaded),
+             fmt::join(said, "; "))});
+  }
+  return findings;
+}
+
+}  // namespace myoid

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "myoid/checks/body_points.h"
+#include "myoid/core/finding.h"
+#include "myoid/dynamics/external_loads.h"
+#include "myoid/model/body_model.h"
+
+namespace myoid {
+
+/// Whether each contact with the ground belongs to the body that its force is applied to. A contact
+/// is a time of 50 ms or more in which a force on a body bears a twentieth of its largest. Of each
+/// contact the distance of the center of pressure from the body is compared, frame by frame:
+///
+/// - a foreign foot: the center of pressure is more than 0.2 m from the body and half as far from
+///   another body, or 0.3 m from it while the force's other contacts are nearer than 0.2 m;
+/// - a second foot: the center of pressure is more than 0.1 m from the body, while another foot
+///   without a force of its own stands still at the same height within 0.4 m.
+///
+/// One warning for each force, with the times, their share of the loaded time, the distances and
+/// the remedy. A plate's force at the middle of its surface has its center of pressure where its
+/// moment puts it in the plane across gravity.
+[[nodiscard]] std::vector<Finding> foreign_contacts(const model::BodyModel& model,
+                                                    const std::string& trial,
+                                                    const dynamics::ExternalLoads& loads,
+                                                    BodyPoints points);
+
+}  // namespace myoid

@@ -1,0 +1,113 @@
+#include "myoid/checks/marker_sides.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <string_view>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "myoid/core/error.h"
+#include "myoid/kinematics/inverse_kinematics.h"
+
+namespace myoid {
+namespace {
+
+constexpr std::array<std::pair<std::string_view, std::string_view>, 8> kSides{{{"Right", "Left"},
+                                                                               {"right", "left"},
+                                                                               {"RIGHT", "LEFT"},
+                                                                               {"Left", "Right"},
+                                                                               {"left", "right"},
+                                                                               {"LEFT", "RIGHT"},
+                                                                               {"R", "L"},
+                                                                               {"L", "R"}}};
+
+/// Whether a letter for the side at the begin stands apart: before a sign or another capital.
+bool stands_apart(const std::string& label, std::size_t length) {
+  if (label.size() <= length) return false;
+  const auto next = static_cast<unsigned char>(label[length]);
+  return length > 1 || std::isupper(next) != 0 || (std::isalnum(next) == 0);
+}
+
+recording::MarkerSeries one_frame(const recording::MarkerSeries& markers) {
+  Eigen::Index best = 0;
+  Eigen::Index most = -1;
+  for (Eigen::Index f = 0; f < markers.frame_count(); ++f) {
+    Eigen::Index seen = 0;
+    for (Eigen::Index m = 0; m < markers.marker_count(); ++m) seen += markers.missing(f, m) ? 0 : 1;
+    if (seen <= most) continue;
+    most = seen;
+    best = f;
+  }
+  recording::MarkerSeries frame = markers;
+  frame.time_s = markers.time_s.segment(best, 1);
+  frame.positions_m = markers.positions_m.middleRows(best, 1);
+  return frame;
+}
+
+double rms_m(const model::BodyModel& model,
+             const recording::MarkerSeries& frame,
+             const std::map<std::string, double>& weights) {
+  return kinematics::inverse_kinematics(model, frame, {.marker_weights = weights})
+      .errors.column("marker_error_RMS")[0];
+}
+
+}  // namespace
+
+std::optional<std::string> other_side(const std::string& label) {
+  for (const auto& [side, other] : kSides) {
+    if (label.starts_with(side) && stands_apart(label, side.size()))
+      return std::string(other) + label.substr(side.size());
+  }
+  for (const auto& [side, other] : {std::pair{"_r", "_l"},
+                                    {"_l", "_r"},
+                                    {"_R", "_L"},
+                                    {"_L", "_R"},
+                                    {".R", ".L"},
+                                    {".L", ".R"}}) {
+    if (label.ends_with(side)) return label.substr(0, label.size() - 2) + other;
+  }
+  for (const auto& [side, other] : {std::pair{"r_", "l_"}, {"l_", "r_"}}) {
+    if (label.starts_with(side)) return other + label.substr(2);
+  }
+  return std::nullopt;
+}
+
+std::optional<Finding> exchanged_sides(const model::BodyModel& model,
+                                       const TrialSpec& trial,
+                                       const recording::MarkerSeries& markers,
+                                       const std::map<std::string, double>& weights) {
+  constexpr int kFewestPairs = 3;
+  constexpr double kFar_m = 0.04, kBetter = 0.5;
+  recording::MarkerSeries exchanged = markers;
+  int renamed = 0;
+  for (std::string& name : exchanged.names) {
+    const auto other = other_side(name);
+    if (!other || !model.find_marker(name) || !model.find_marker(*other) ||
+        std::find(markers.names.begin(), markers.names.end(), *other) == markers.names.end())
+      continue;
+    name = *other;
+    ++renamed;
+  }
+  if (renamed < 2 * kFewestPairs) return std::nullopt;
+  try {
+    const double now = rms_m(model, one_frame(markers), weights);
+    if (!(now > kFar_m)) return std::nullopt;
+    const double then = rms_m(model, one_frame(exchanged), weights);
+    if (!(then < kBetter * now) || then > kFar_m) return std::nullopt;
+    return Finding{Finding::Level::error,
+                   trial.name,
+                   fmt::format("{}: the markers lie {:.0f} mm rms from the model's, and {:.0f} mm "
+                               "with the labels of left and right exchanged: exchange them in the "
+                               "file, or by [markers] rename",
+                               trial.markers ? trial.markers->filename().string() : "the markers",
+                               1e3 * now, 1e3 * then),
+                   {},
+                   "sides"};
+  } catch (const InvalidInput&) {
+    return std::nullopt;  // said where the markers are compared with the model's
+  }
+}
+
+}  // namespace myoid

@@ -1,0 +1,137 @@
+#include "myoid/checks/marker_sides.h"
+
+#include <limits>
+#include <map>
+#include <string>
+
+#include <gtest/gtest.h>
+
+namespace myoid {
+namespace {
+
+TEST(OtherSide, IsToldByALetterOrWordThatStandsApart) {
+  EXPECT_EQ(other_side("R.Knee"), "L.Knee");
+  EXPECT_EQ(other_side("LASI"), "RASI");
+  EXPECT_EQ(other_side("knee_r"), "knee_l");
+  EXPECT_EQ(other_side("r_acromion"), "l_acromion");
+  EXPECT_EQ(other_side("LeftHeel"), "RightHeel");
+  EXPECT_EQ(other_side("ANKLE_L"), "ANKLE_R");
+  EXPECT_EQ(other_side("rightknee"), "leftknee");
+  EXPECT_EQ(other_side("Radius"), std::nullopt);
+  EXPECT_EQ(other_side("lateral"), std::nullopt);
+  EXPECT_EQ(other_side("Sternum"), std::nullopt);
+}
+
+/// A free trunk with a head that looks forward (x), and on each side of it four markers.
+model::BodyModel trunk(double width = 1.0) {
+  model::BodyModel model;
+  model.bodies = {{.name = "ground"}, {.name = "trunk", .mass_kg = 40.0}};
+  model::Joint root{.name = "root", .class_name = "CustomJoint", .parent = 0, .child = 1};
+  const Vec3 axes[3] = {Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ()};
+  for (int k = 0; k < 3; ++k) {
+    root.coordinates.push_back(k);
+    root.coordinates.push_back(3 + k);
+    root.rotation[static_cast<std::size_t>(k)] = {axes[k], k, model::Linear{1.0, 0.0}};
+    root.translation[static_cast<std::size_t>(k)] = {axes[k], 3 + k, model::Linear{1.0, 0.0}};
+  }
+  model.joints = {root};
+  for (int k = 0; k < 6; ++k) {
+    model.coordinates.push_back({.name = "q" + std::to_string(k), .joint = 0});
+    if (k > 2) model.coordinates.back().motion = model::MotionType::translational;
+  }
+  model.markers = {{"nose", 1, Vec3(0.15, 0.6, 0.0)}, {"chin", 1, Vec3(0.12, 0.5, 0.0)}};
+  for (const double side : {width, -width}) {
+    const std::string letter = side > 0.0 ? "R." : "L.";
+    model.markers.push_back({letter + "Shoulder", 1, Vec3(0.0, 0.4, 0.2 * side)});
+    model.markers.push_back({letter + "ASIS", 1, Vec3(0.1, 0.0, 0.15 * side)});
+    model.markers.push_back({letter + "PSIS", 1, Vec3(-0.12, 0.02, 0.06 * side)});
+    model.markers.push_back({letter + "Ear", 1, Vec3(0.0, 0.58, 0.08 * side)});
+  }
+  return model::finalize(std::move(model));
+}
+
+recording::MarkerSeries measured(const model::BodyModel& model) {
+  recording::MarkerSeries markers;
+  markers.time_s = Eigen::VectorXd::LinSpaced(3, 0.0, 0.02);
+  markers.positions_m.resize(3, static_cast<Eigen::Index>(3 * model.markers.size()));
+  const Mat3 R = Eigen::AngleAxisd(0.4, Vec3::UnitY()).toRotationMatrix();
+  for (std::size_t m = 0; m < model.markers.size(); ++m) {
+    markers.names.push_back(model.markers[m].name);
+    markers.positions_m.middleCols(3 * static_cast<Eigen::Index>(m), 3) =
+        (R * model.markers[m].p_BM + Vec3(1.0, 0.9, 0.3)).transpose().replicate(3, 1);
+  }
+  return markers;
+}
+
+TEST(ExchangedSides, AreFoundAndRightOnesAreNot) {
+  const model::BodyModel model = trunk();
+  recording::MarkerSeries markers = measured(model);
+  TrialSpec trial;
+  trial.name = "walk";
+  trial.markers = "walk.trc";
+  EXPECT_FALSE(exchanged_sides(model, trial, markers, {}));
+  for (std::string& name : markers.names) name = other_side(name).value_or(name);
+  const auto found = exchanged_sides(model, trial, markers, {});
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->level, Finding::Level::error);
+  EXPECT_NE(found->message.find("walk.trc"), std::string::npos) << found->message;
+  // A model that does not fit either way says nothing.
+  markers.positions_m *= 1.5;
+  EXPECT_FALSE(exchanged_sides(model, trial, markers, {}));
+}
+
+/// What is said of markers of this model whose labels of left and right are exchanged.
+struct Exchanged {
+  model::BodyModel model;
+  recording::MarkerSeries markers;
+  std::map<std::string, double> weights;
+
+  explicit Exchanged(double width = 1.0) : model(trunk(width)), markers(measured(model)) {
+    for (std::string& name : markers.names) name = other_side(name).value_or(name);
+  }
+  [[nodiscard]] bool said() const {
+    TrialSpec trial;
+    trial.name = "walk";
+    return exchanged_sides(model, trial, markers, weights).has_value();
+  }
+};
+
+TEST(ExchangedSides, AreLookedForInTheFrameWithTheMostMarkers) {
+  Exchanged e;
+  e.markers.positions_m.row(0).tail(21).setConstant(std::numeric_limits<double>::quiet_NaN());
+  EXPECT_TRUE(e.said());
+}
+
+TEST(ExchangedSides, OfTwoPairsNothingIsSaid) {
+  Exchanged e;
+  for (const int keep : {3, 2}) {  // pairs: nose, chin, then four of either side
+    recording::MarkerSeries few = e.markers;
+    few.names.clear();
+    few.positions_m.resize(3, 0);
+    for (int m = 0; m < 10; ++m) {
+      if (m >= 2 && (m - 2) % 4 >= keep) continue;
+      few.names.push_back(e.markers.names[static_cast<std::size_t>(m)]);
+      few.positions_m.conservativeResize(Eigen::NoChange, few.positions_m.cols() + 3);
+      few.positions_m.rightCols(3) = e.markers.positions_m.middleCols(3 * m, 3);
+    }
+    Exchanged with = e;
+    with.markers = few;
+    EXPECT_EQ(with.said(), keep == 3) << keep << " pairs";
+  }
+}
+
+TEST(ExchangedSides, WhereTheyAreNarrowTheMarkersFitEitherWay) {
+  EXPECT_FALSE(Exchanged(0.12).said());
+  EXPECT_TRUE(Exchanged(0.7).said());
+}
+
+TEST(ExchangedSides, AMarkerWithoutWeightDecidesNothing) {
+  Exchanged e;
+  e.markers.positions_m.leftCols(3).array() += 0.6;  // the nose
+  EXPECT_FALSE(e.said());
+  e.weights["nose"] = 0.0;
+  EXPECT_TRUE(e.said());
+}
+
+}  // namespace
+}  // namespace myoid

@@ -1,0 +1,117 @@
+#include "myoid/checks/study_plausibility.h"
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "myoid/checks/foreign_contacts.h"
+#include "myoid/checks/load_points.h"
+#include "myoid/checks/marker_sides.h"
+#include "myoid/checks/shared_muscles.h"
+#include "myoid/core/error.h"
+#include "myoid/dynamics/ground_support.h"
+
+namespace myoid {
+namespace {
+
+/// A coordinate that carries the body in a trial without any measured force.
+std::optional<Finding> check_support(const Study& study,
+                                     const model::BodyModel& model,
+                                     const TrialSpec& trial,
+                                     const TrialInput& input) {
+  if (input.loads || input.external_torque || trial.use == Use::static_pose) return std::nullopt;
+  if (!input.motion && !input.markers) return std::nullopt;
+  Eigen::VectorXd q = model.default_q();
+  if (input.motion) {
+    for (Eigen::Index c = 0; c < input.motion->channel_count(); ++c) {
+      const auto index =
+          model.find_coordinate(input.motion->channels()[static_cast<std::size_t>(c)].name);
+      if (index) q[*index] = input.motion->values()(0, c);
+    }
+  }
+  for (const std::string& name : study_coordinates(study.model)) {
+    if (!model.find_coordinate(name) ||
+        !dynamics::bears_the_body(model, name, q, study.subject.mass_kg.value_or(0.0)))
+      continue;
+    const auto weight = dynamics::unsupported_weight(model);
+    if (weight)
+      return Finding{Finding::Level::warning, trial.name, weight->sentence(), {}, "support"};
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+StudyPlausibility::StudyPlausibility(const Study& study, const model::BodyModel& model)
+    : study_(&study), model_(&model), capacities_(joint_capacities(study, model)) {}
+
+void StudyPlausibility::look_at(const TrialSpec& trial, const TrialInput& input) {
+  prints_.push_back(print_of(trial, input));
+  for (TrialLengths& lengths : lengths_of(trial, input)) lengths_.push_back(std::move(lengths));
+  if (input.emg) {
+    for (const MuscleSpec& muscle : study_->muscles) {
+      if (const auto column = input.emg->find(muscle.emg))
+        largest_emg_ = std::max(largest_emg_, input.emg->values().col(*column).maxCoeff());
+    }
+  }
+  std::vector<Finding> found = implausible(*study_, *model_, capacities_, trial, input);
+  std::move(found.begin(), found.end(), std::back_inserter(of_trials_));
+  auto sides = input.markers
+                   ? exchanged_sides(*model_, trial, *input.markers, study_->markers.weight)
+                   : std::nullopt;
+  // Exchanged labels put every force under the other foot.
+  found = sides ? std::vector<Finding>{*sides} : misplaced_loads(*model_, trial, input);
+  if (found.empty() && input.loads && (input.markers || input.motion))
+    found = foreign_contacts(*model_, trial.name, *input.loads,
+                             {*model_, input.markers ? &*input.markers : nullptr,
+                              input.motion ? &*input.motion : nullptr});
+  std::move(found.begin(), found.end(), std::back_inserter(of_trials_));
+  if (auto support = check_support(*study_, *model_, trial, input))
+    of_trials_.push_back(std::move(*support));
+}
+
+std::vector<Finding> StudyPlausibility::findings() const {
+  std::vector<Finding> found = grouped(of_trials_);
+  std::vector<Finding> same = same_recordings(prints_);
+  // Activations may be computed, and then alike for good.
+  if (study_->emg.kind == EmgKind::activation) {
+    for (Finding& f : same) f.level = Finding::Level::warning;
+    if (largest_emg_ > 0.0 && largest_emg_ < kFlatActivation) {
+      found.push_back(
+          {Finding::Level::warning, "study",
+           fmt::format("[emg] kind = \"activation\", but no activation of any trial is above "
+                       "{:.2g}, expected up to 1 in the greatest effort: is this EMG in volts? Set "
+                       "[emg] kind = \"envelope\"",
+                       largest_emg_)});
+    }
+  }
+  for (std::vector<Finding> more :
+       {shared_muscles(*study_), same, grouped(unlike_lengths(lengths_))})
+    std::move(more.begin(), more.end(), std::back_inserter(found));
+  return found;
+}
+
+void require_plausible(const Study& study,
+                       const model::BodyModel& model,
+                       std::vector<TrialInput>& inputs) {
+  StudyPlausibility plausibility(study, model);
+  const auto take = [&](std::vector<Finding> findings) {
+    for (Finding& f : findings) {
+      if (f.level == Finding::Level::error)
+        throw InvalidInput(f.where == "study" ? f.message
+                                              : fmt::format("{} (trial '{}')", f.message, f.where));
+      // What is said of the whole study stands with its first trial.
+      std::size_t at = 0;
+      while (at < inputs.size() && study.trials[at].name != f.where) ++at;
+      TrialInput& input = inputs[at < inputs.size() ? at : 0];
+      input.notes.push_back(f.message);
+      input.warnings.push_back(std::move(f.message));
+    }
+  };
+  for (std::size_t i = 0; i < inputs.size(); ++i) plausibility.look_at(study.trials[i], inputs[i]);
+  take(plausibility.findings());
+}
+
+}  // namespace myoid

@@ -1,0 +1,237 @@
+#include "myoid/checks/trial_plausibility.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "myoid/core/units.h"
+#include "myoid/model/kinematic_tree.h"
+#include "myoid/signals/motion_jumps.h"
+#include "myoid/study/trial_up.h"
+
+namespace myoid {
+namespace {
+
+using Level = Finding::Level;
+
+/// Joints go some degrees beyond what a model's author wrote down, and zero postures differ.
+constexpr double kBeyond_rad = 10.0 * kDegree;
+
+std::string whole_degrees(double angle_rad) { return fmt::format("{:.0f}", angle_rad / kDegree); }
+
+void check_angles(const Study& study,
+                  const model::BodyModel& model,
+                  const TimeSeries& motion,
+                  const std::string& where,
+                  std::vector<Finding>& findings) {
+  const std::vector<std::string> own = study_coordinates(study.model);
+  for (const std::string& name : own) {
+    const auto column = motion.find(name);
+    const auto index = model.find_coordinate(name);
+    if (!column || !index) continue;
+    const model::Coordinate& c = model.coordinates[static_cast<std::size_t>(*index)];
+    if (c.motion == model::MotionType::translational || !(c.upper - c.lower > kBeyond_rad))
+      continue;
+    const auto q = motion.values().col(*column).array();
+    const auto outside = (q < c.lower - kBeyond_rad || q > c.upper + kBeyond_rad).count();
+    if (outside == 0) continue;
+    const double share = static_cast<double>(outside) / static_cast<double>(q.size());
+    const double far = std::max(c.lower - q.minCoeff(), q.maxCoeff() - c.upper);
+    // Where it lies outside most of the time it is not a posture but another convention.
+    const bool wrong = share > 0.5 && c.clamped;
+    const bool negated =
+        (-q.maxCoeff() >= c.lower - kBeyond_rad) && (-q.minCoeff() <= c.upper + kBeyond_rad);
+    findings.push_back(
+        {wrong ? Level::error : Level::warning,
+         where,
+         fmt::format("{} goes from {} to {} deg, but the model's range is {} to {} deg{}: {:.0f} % "
+                     "of the samples lie outside, by up to {} deg, where its muscle paths mean "
+                     "nothing; {}",
+                     name, whole_degrees(q.minCoeff()), whole_degrees(q.maxCoeff()),
+                     whole_degrees(c.lower), whole_degrees(c.upper),
+                     c.clamped ? "" : " (not clamped)", 100.0 * share, whole_degrees(far),
+                     negated ? "is its sign the opposite of the model's? Negate the column"
+                             : "is its zero or sign another than the model's?"),
+         {},
+         "angles " + name});
+  }
+}
+
+void check_held_mass(const Study& study,
+                     const model::BodyModel& model,
+                     const Capacities& capacities,
+                     const TrialSpec& trial,
+                     std::vector<Finding>& findings) {
+  if (!(trial.held_mass_kg > 0.0)) return;
+  if (study.subject.mass_kg && trial.held_mass_kg > *study.subject.mass_kg) {
+    findings.push_back(
+        {Level::error,
+         trial.name,
+         fmt::format("held_mass_kg = {} is more than the person weighs ({} kg); is it "
+                     "in grams or pounds, or is a decimal point missing?",
+                     trial.held_mass_kg, *study.subject.mass_kg),
+         {},
+         "held mass"});
+    return;
+  }
+  if (!study.model.held_mass && study.model.file) return;  // an error of its own
+  const auto body =
+      study.model.held_mass ? model.find_body(study.model.held_mass->body) : std::nullopt;
+  model::BodyState state = model::make_state(model);
+  model::compute_poses(model, model.default_q(), state);
+  for (const auto& [name, capacity] : capacities) {
+    double lever_m = capacity.lever_m;
+    if (body) {
+      const auto b = static_cast<std::size_t>(*body);
+      const auto joint = static_cast<std::size_t>(
+          model.coordinates[static_cast<std::size_t>(model.coordinate_index(name))].joint);
+      if (!dynamics::moved_bodies(model, static_cast<int>(joint))[b]) continue;
+      const Vec3 center = state.X_GB[static_cast<std::size_t>(model.joints[joint].child)] *
+                          model.joints[joint].X_BM.p;
+      lever_m = (state.X_GB[b] * study.model.held_mass->p_BP_m - center).norm();
+    }
+    const double moment_nm = trial.held_mass_kg * kStandardGravity * lever_m;
+    // Four lifts in a row are done with 90 % of what can be lifted once (Brzycki 1993), and that
+    // with what the muscles do at the worst angle of the lift, some 80 % of the best.
+    constexpr double kSeveralTimes = 0.75;
+    const bool still =
+        trial.use == Use::isometric || trial.use == Use::static_pose || trial.use == Use::mvc;
+    const double most_nm = (still ? 1.0 : kSeveralTimes) * capacity.isometric_nm();
+    if (!(most_nm > 0.0) || moment_nm <= most_nm) continue;
+    findings.push_back(
+        {Level::warning,
+         trial.name,
+         fmt::format("held_mass_kg = {} at {:.2f} m weighs up to {:.0f} N m on {}, and with "
+                     "literature's strength all muscles of the model can {} {:.0f} N m there: is "
+                     "it in other units, or is a decimal point missing?",
+                     trial.held_mass_kg, lever_m, moment_nm, name,
+                     still ? "hold" : "lift again and again", most_nm),
+         {},
+         "held mass " + name});
+  }
+}
+
+/// The markers of the body that stands on the ground joint, if the study's joints do not turn about
+/// that: a trunk, which is upright in most movements, not a limb.
+void check_vertical(const Study& study,
+                    const model::BodyModel& model,
+                    const TrialInput& input,
+                    const std::string& where,
+                    std::vector<Finding>& findings) {
+  if (!input.markers) return;
+  std::vector<bool> limb(model.bodies.size(), false);
+  for (const std::string& name : study_coordinates(study.model)) {
+    const auto index = model.find_coordinate(name);
+    if (!index) continue;
+    const auto& joint = model.joints[static_cast<std::size_t>(
+        model.coordinates[static_cast<std::size_t>(*index)].joint)];
+    limb[static_cast<std::size_t>(joint.parent)] = true;
+    limb[static_cast<std::size_t>(joint.child)] = true;
+  }
+  recording::MarkerSeries trunk;
+  trunk.time_s = input.markers->time_s;
+  trunk.positions_m.resize(trunk.time_s.size(), 0);
+  for (const model::Joint& joint : model.joints) {
+    if (joint.parent != 0 || limb[static_cast<std::size_t>(joint.child)]) continue;
+    for (Eigen::Index m = 0; m < input.markers->marker_count(); ++m) {
+      const std::string& name = input.markers->names[static_cast<std::size_t>(m)];
+      const auto known = model.find_marker(name);
+      if (!known || model.markers[static_cast<std::size_t>(*known)].body != joint.child) continue;
+      trunk.names.push_back(name);
+      trunk.positions_m.conservativeResize(Eigen::NoChange, trunk.positions_m.cols() + 3);
+      trunk.positions_m.rightCols(3) = input.markers->positions_m.middleCols(3 * m, 3);
+    }
+  }
+  const Mat3 back = rotation_onto(model, input.up_L).transpose();  // the markers are turned already
+  const std::string told = recording::axis_name(input.up_L);
+  const recording::MarkerSeries laboratory = recording::rotated(trunk, back);
+  const double now = upright(model, laboratory, input.up_L);
+  constexpr double kAcross = 0.5;   // 60 degrees
+  constexpr double kUpright = 0.8;  // 37 degrees
+  if (now < -1.5 || now > kAcross) return;
+  for (const char* up : {"x", "y", "z"}) {
+    const double other = upright(model, laboratory, *recording::axis_vector(up));
+    if (up == told || other < kUpright) continue;
+    findings.push_back(
+        {Level::warning,
+         where,
+         fmt::format(
+             "{} is up ({}), but the trunk's markers lie {:.0f} degrees from upright by it, "
+             "and {:.0f} with [markers] up = \"{}\": unless the person lies, gravity pulls "
+             "across the body; correct [markers] up",
+             told, study.markers.up == kUpOfTheFile ? "as the file says" : "[markers] up",
+             std::acos(std::clamp(now, -1.0, 1.0)) / kDegree,
+             std::acos(std::clamp(other, -1.0, 1.0)) / kDegree, up),
+         {},
+         "vertical"});
+    return;
+  }
+}
+
+}  // namespace
+
+Capacities joint_capacities(const Study& study, const model::BodyModel& model) {
+  Capacities capacities;
+  for (const std::string& name : study_coordinates(study.model)) {
+    const auto index = model.find_coordinate(name);
+    if (!index || model.coordinates[static_cast<std::size_t>(*index)].motion ==
+                      model::MotionType::translational)
+      continue;
+    capacities[name] = dynamics::joint_capacity(model, name, study.subject.mass_kg.value_or(0.0));
+  }
+  return capacities;
+}
+
+double usual_peak(const Eigen::Ref<const Eigen::VectorXd>& values) {
+  std::vector<double> sizes;
+  for (const double v : values) {
+    if (std::isfinite(v)) sizes.push_back(std::abs(v));
+  }
+  if (sizes.empty()) return 0.0;
+  const auto at = static_cast<std::ptrdiff_t>(0.99 * static_cast<double>(sizes.size() - 1));
+  std::nth_element(sizes.begin(), sizes.begin() + at, sizes.end());
+  return sizes[static_cast<std::size_t>(at)];
+}
+
+std::string too_much_torque(const std::string& coordinate,
+                            double peak_nm,
+                            double greatest_nm,
+                            const std::string& what_it_is) {
+  if (!(peak_nm > greatest_nm)) return {};
+  return fmt::format(
+      "{} reaches {:.4g} N m at {}, beyond what the strongest person's muscles and weight do there "
+      "in this model, {:.3g} N m{}",
+      what_it_is, peak_nm, coordinate, greatest_nm,
+      peak_nm < 1000.0 * greatest_nm
+          ? "; is it in N mm? Divide by 1000 (Myoid's torques are in N m)"
+          : "; correct its unit (N m)");
+}
+
+std::vector<Finding> implausible(const Study& study,
+                                 const model::BodyModel& model,
+                                 const Capacities& capacities,
+                                 const TrialSpec& trial,
+                                 const TrialInput& input) {
+  std::vector<Finding> findings;
+  if (input.external_torque) {
+    for (const auto& [name, capacity] : capacities) {
+      const auto column = input.external_torque->find(name + "_moment");
+      if (!column) continue;
+      const std::string text =
+          too_much_torque(name, usual_peak(input.external_torque->values().col(*column)),
+                          capacity.greatest_nm(), trial.external_torque->filename().string());
+      if (!text.empty()) findings.push_back({Level::error, trial.name, text, {}, "torque " + name});
+    }
+  }
+  if (input.motion) check_angles(study, model, *input.motion, trial.name, findings);
+  if (input.motion) {
+    for (const signals::MotionJump& jump : signals::find_motion_jumps(*input.motion))
+      findings.push_back({Level::warning, trial.name, jump.sentence()});
+  }
+  check_held_mass(study, model, capacities, trial, findings);
+  check_vertical(study, model, input, trial.name, findings);
+  return findings;
+}
+
+}  // namespace myoid

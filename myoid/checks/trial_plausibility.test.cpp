@@ -1,0 +1,232 @@
+#include "myoid/checks/trial_plausibility.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "myoid/arm/arm4.h"
+#include "myoid/core/units.h"
+#include "myoid/osim/osim_reader.h"
+
+namespace myoid {
+namespace {
+
+using Level = Finding::Level;
+
+struct Elbow {
+  Study study;
+  model::BodyModel model = model::parse_osim(model::arm4_osim(), "arm4.osim");
+  TrialSpec trial;
+  TrialInput input;
+
+  Elbow() {
+    study.model.builtin = "arm4";
+    trial.name = "t";
+  }
+  [[nodiscard]] std::vector<Finding> findings() const {
+    return implausible(study, model, joint_capacities(study, model), trial, input);
+  }
+};
+
+/// Sine between two angles.
+TimeSeries angle(double from_deg, double to_deg) {
+  const Eigen::VectorXd time = Eigen::VectorXd::LinSpaced(400, 0.0, 4.0);
+  const Eigen::MatrixXd q = kDegree * (0.5 * (from_deg + to_deg) +
+                                       0.5 * (to_deg - from_deg) * (3.0 * time.array()).sin());
+  return {time, {{"elbow_flexion", Unit::radian}}, q};
+}
+
+TEST(Implausible, TorqueInNewtonMillimetersIsAnErrorWithTheRemedy) {
+  Elbow elbow;
+  elbow.trial.external_torque = "push.sto";
+  const Eigen::VectorXd time = Eigen::VectorXd::LinSpaced(400, 0.0, 4.0);
+  for (const double peak_nm : {2.0, 20.0, 70.0}) {
+    for (const double unit : {1.0, 1000.0}) {
+      elbow.input.external_torque =
+          TimeSeries(time, {{"elbow_flexion_moment", Unit::newton_meter}},
+                     Eigen::MatrixXd(unit * peak_nm * (2.0 * time.array()).sin()));
+      const std::vector<Finding> found = elbow.findings();
+      ASSERT_EQ(found.size(), unit > 1.0 ? 1U : 0U) << peak_nm;
+      if (found.empty()) continue;
+      EXPECT_EQ(found[0].level, Level::error);
+      EXPECT_NE(found[0].message.find("push.sto reaches"), std::string::npos) << found[0].message;
+      EXPECT_NE(found[0].message.find("N mm? Divide by 1000"), std::string::npos)
+          << found[0].message;
+    }
+  }
+}
+
+TEST(Implausible, ASpikeOfTheTorqueIsNotItsSize) {
+  Eigen::VectorXd torque = Eigen::VectorXd::LinSpaced(1000, -20.0, 20.0);
+  torque[500] = 1e5;
+  EXPECT_LT(usual_peak(torque), 20.1);
+  torque.segment(0, 20).setConstant(1e5);
+  EXPECT_EQ(usual_peak(torque), 1e5);
+}
+
+TEST(Implausible, ANegatedAngleIsAnErrorThatAsksForTheSign) {
+  Elbow elbow;
+  elbow.input.motion = angle(-150.0, -20.0);
+  const std::vector<Finding> found = elbow.findings();
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].level, Level::error);
+  EXPECT_NE(found[0].message.find("-10 to 150 deg"), std::string::npos) << found[0].message;
+  EXPECT_NE(found[0].message.find("sign the opposite"), std::string::npos) << found[0].message;
+}
+
+TEST(Implausible, AnAngleOfAnotherConventionIsOnlyAWarningWhereTheRangeIsNoLimit) {
+  Elbow elbow;
+  elbow.input.motion = angle(200.0, 300.0);  // neither it nor its negative is in -10 to 150
+  ASSERT_EQ(elbow.findings().size(), 1U);
+  EXPECT_EQ(elbow.findings()[0].level, Level::error);
+  EXPECT_NE(elbow.findings()[0].message.find("zero or sign another"), std::string::npos);
+  model::Coordinate& c =
+      elbow.model
+          .coordinates[static_cast<std::size_t>(elbow.model.coordinate_index("elbow_flexion"))];
+  c.clamped = false;
+  EXPECT_EQ(elbow.findings()[0].level, Level::warning);
+  c.lower = c.upper = 0.0;  // nobody wrote a range
+  EXPECT_TRUE(elbow.findings().empty());
+}
+
+TEST(Implausible, AHeldMassCountsWhereItIsHeld) {
+  Elbow elbow;
+  elbow.study.subject.mass_kg = 75.0;
+  elbow.trial.held_mass_kg = 5.5;
+  const std::string forearm = elbow.model.bodies.back().name;
+  elbow.study.model.held_mass = {.body = forearm, .p_BP_m = Vec3(0.0, -0.2, 0.0)};
+  EXPECT_TRUE(elbow.findings().empty());
+  elbow.study.model.held_mass->p_BP_m = Vec3(0.0, -2.5, 0.0);  // 135 N m
+  EXPECT_EQ(elbow.findings().size(), 1U);
+  // What the elbow does not move, its muscles need not hold.
+  elbow.trial.held_mass_kg = 60.0;
+  elbow.study.model.held_mass->body = "ground";
+  EXPECT_TRUE(elbow.findings().empty());
+  // Nor is anything known of a file's model that does not say where.
+  elbow.study.model.held_mass.reset();
+  EXPECT_EQ(elbow.findings().size(), 1U);
+  elbow.study.model.file = "arm.osim";
+  EXPECT_TRUE(elbow.findings().empty());
+}
+
+TEST(Implausible, APostureBeyondTheRangeIsAWarningAndAFewDegreesAreNone) {
+  Elbow elbow;
+  elbow.input.motion = angle(-30.0, 130.0);
+  const std::vector<Finding> found = elbow.findings();
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].level, Level::warning);
+  elbow.input.motion = angle(-15.0, 155.0);
+  EXPECT_TRUE(elbow.findings().empty());
+}
+
+TEST(Implausible, AHeldMassThatNoMuscleHoldsIsAWarningAndOneBeyondThePersonsAnError) {
+  Elbow elbow;
+  elbow.study.subject.mass_kg = 75.0;
+  elbow.input.motion = angle(10.0, 130.0);
+  elbow.trial.held_mass_kg = 5.5;
+  EXPECT_TRUE(elbow.findings().empty());
+  // What may be held is too much for a movement.
+  elbow.trial.held_mass_kg = 27.0;
+  EXPECT_EQ(elbow.findings().size(), 1U);
+  elbow.trial.use = Use::isometric;
+  EXPECT_TRUE(elbow.findings().empty());
+  elbow.trial.use = Use::calibration;
+  elbow.trial.held_mass_kg = 55.0;
+  std::vector<Finding> found = elbow.findings();
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].level, Level::warning);
+  EXPECT_NE(found[0].message.find("decimal point"), std::string::npos) << found[0].message;
+  elbow.trial.held_mass_kg = 550.0;
+  found = elbow.findings();
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].level, Level::error);
+}
+
+/// Whole trunk with an arm: four markers on the trunk, which stands on a free joint.
+model::BodyModel trunk_with_arm() {
+  model::BodyModel model;
+  model.bodies = {{.name = "ground"},
+                  {.name = "thorax", .mass_kg = 40.0},
+                  {.name = "humerus", .mass_kg = 2.0},
+                  {.name = "forearm", .mass_kg = 1.5}};
+  const auto hinge = [](const char* name, int parent, int child, int coordinate) {
+    model::Joint joint{.name = name, .class_name = "PinJoint", .parent = parent, .child = child};
+    joint.coordinates = {coordinate};
+    joint.rotation[0] = {Vec3::UnitZ(), coordinate, model::Linear{1.0, 0.0}};
+    joint.rotation[1].axis = Vec3::UnitX();
+    joint.rotation[2].axis = Vec3::UnitY();
+    return joint;
+  };
+  model.joints = {hinge("root", 0, 1, 0), hinge("shoulder", 1, 2, 1), hinge("elbow", 2, 3, 2)};
+  model.joints[2].X_PF.p = Vec3(0.0, -0.3, 0.0);
+  for (const char* name : {"tilt", "shoulder", "elbow_flexion"}) {
+    model.coordinates.push_back(
+        {.name = name, .joint = static_cast<int>(model.coordinates.size())});
+  }
+  const std::vector<Vec3> places{
+      {0, 0, 0}, {0.1, 0.4, 0}, {0, 0.4, 0.2}, {0, 0.4, -0.2}, {0.1, 0.1, 0.1}};
+  for (std::size_t i = 0; i < places.size(); ++i)
+    model.markers.push_back({"T" + std::to_string(i), 1, places[i]});
+  return model::finalize(std::move(model));
+}
+
+TEST(Implausible, AVerticalThatLiesAcrossTheTrunkIsAWarning) {
+  Elbow elbow;
+  elbow.model = trunk_with_arm();
+  recording::MarkerSeries markers;
+  markers.time_s = Eigen::VectorXd::LinSpaced(20, 0.0, 0.19);
+  markers.positions_m.resize(20, 0);
+  for (const model::Marker& m : elbow.model.markers) {
+    markers.names.push_back(m.name);
+    markers.positions_m.conservativeResize(Eigen::NoChange, markers.positions_m.cols() + 3);
+    // A laboratory whose z points up: the model's (x, y, z) is its (x, -z, y).
+    markers.positions_m.rightCols(3) =
+        Vec3(m.p_BM.x(), -m.p_BM.z(), m.p_BM.y()).transpose().replicate(20, 1);
+  }
+  elbow.study.model.builtin.clear();
+  for (const char up : {'z', 'x', 'y'}) {
+    elbow.study.markers.up = up;
+    elbow.input.up_L = Vec3::Unit(up - 'x');
+    elbow.input.markers = recording::rotated(markers, recording::rotation_to_y_up(up));
+    const std::vector<Finding> found = elbow.findings();
+    ASSERT_EQ(found.size(), up == 'z' ? 0U : 1U) << up;
+    if (found.empty()) continue;
+    EXPECT_EQ(found[0].level, Level::warning);
+    EXPECT_NE(found[0].message.find("up = \"z\""), std::string::npos) << found[0].message;
+  }
+}
+
+/// What is said of a trunk whose long axis points there, in a laboratory whose y points up.
+std::vector<Finding> of_a_trunk_along(const Vec3& axis, const std::string& coordinate = "") {
+  Elbow elbow;
+  elbow.model = trunk_with_arm();
+  elbow.study.model.builtin.clear();
+  if (!coordinate.empty()) elbow.study.model.coordinate = coordinate;
+  elbow.study.markers.up = 'y';
+  recording::MarkerSeries& markers = elbow.input.markers.emplace();
+  markers.time_s = Eigen::VectorXd::LinSpaced(20, 0.0, 0.19);
+  markers.positions_m.resize(20, 0);
+  const Mat3 R = Eigen::Quaterniond::FromTwoVectors(Vec3::UnitY(), axis).toRotationMatrix();
+  for (const model::Marker& m : elbow.model.markers) {
+    markers.names.push_back(m.name);
+    markers.positions_m.conservativeResize(Eigen::NoChange, markers.positions_m.cols() + 3);
+    markers.positions_m.rightCols(3) = (R * m.p_BM).transpose().replicate(20, 1);
+  }
+  return elbow.findings();
+}
+
+TEST(Implausible, ALeaningTrunkOrALimbIsNoWrongVertical) {
+  const auto leaning = [](double deg) {
+    return Vec3(0.0, std::cos(deg * kDegree), std::sin(deg * kDegree));
+  };
+  EXPECT_EQ(of_a_trunk_along(leaning(65.0)).size(), 1U);
+  EXPECT_TRUE(of_a_trunk_along(leaning(57.0)).empty());
+  // Across, but upright by no other axis either.
+  EXPECT_TRUE(of_a_trunk_along(Vec3(0.65, 0.4, 0.65)).empty());
+  // A body that the study's own joint moves may lie as it will.
+  EXPECT_TRUE(of_a_trunk_along(leaning(90.0), "tilt").empty());
+  EXPECT_TRUE(of_a_trunk_along(leaning(90.0), "shoulder").empty());
+}
+
+}  // namespace
+}  // namespace myoid

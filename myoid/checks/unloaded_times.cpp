@@ -1,0 +1,95 @@
+#include "myoid/checks/unloaded_times.h"
+
+#include <optional>
+#include <string>
+
+#include <Eigen/QR>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "myoid/dynamics/ground_support.h"
+
+namespace myoid {
+namespace {
+
+/// Mean height of what is seen in every frame, or of the joint to the ground.
+std::optional<Eigen::VectorXd> height_of(const model::BodyModel& model, const TrialInput& input) {
+  if (!input.markers) {
+    const auto root = dynamics::unsupported_weight(model);
+    const auto column = root ? input.motion->find(root->coordinate) : std::nullopt;
+    if (!column) return std::nullopt;
+    return input.motion->values().col(*column);
+  }
+  const recording::MarkerSeries& markers = *input.markers;
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(markers.frame_count());
+  double count = 0.0;
+  for (Eigen::Index m = 0; m < markers.marker_count(); ++m) {
+    const Eigen::VectorXd height =
+        markers.positions_m.middleCols(3 * m, 3) * -model.gravity_G.normalized();
+    if (!height.allFinite()) continue;
+    sum += height;
+    count += 1.0;
+  }
+  if (!(count > 0.0)) return std::nullopt;
+  return sum / count;
+}
+
+/// Acceleration of the parabola through these samples.
+double acceleration_of(const Eigen::VectorXd& time_s, const Eigen::VectorXd& height_m) {
+  Eigen::MatrixX3d terms(time_s.size(), 3);
+  const Eigen::ArrayXd t = time_s.array() - time_s.mean();
+  terms.col(0).setOnes();
+  terms.col(1) = t;
+  terms.col(2) = 0.5 * t.square();
+  return terms.colPivHouseholderQr().solve(height_m)[2];
+}
+
+}  // namespace
+
+std::vector<Finding> unloaded_times(const model::BodyModel& model,
+                                    const TrialSpec& trial,
+                                    const TrialInput& input) {
+  constexpr double kBears = 0.5, kBearsNothing = 0.05;  // of the weight
+  constexpr double kBriefest_s = 0.1;
+  if (!input.loads || (!input.markers && !input.motion)) return {};
+  const auto weight = dynamics::unsupported_weight(model);
+  const auto height = weight ? height_of(model, input) : std::nullopt;
+  if (!height) return {};
+  const Eigen::VectorXd& t = input.markers ? input.markers->time_s : input.motion->time_s();
+  const double g = model.gravity_G.norm();
+  const Vec3 up = -model.gravity_G / g;
+  Eigen::VectorXd share(t.size());
+  for (Eigen::Index i = 0; i < t.size(); ++i) {
+    double sum = 0.0;
+    const double at = input.loads->data_time_s(t[i]);
+    for (const dynamics::ExternalForce& force : input.loads->forces) {
+      if (force.body != 0 && force.force_frame == 0 && force.force)
+        sum += up.dot(force.force->at(at));
+    }
+    share[i] = sum / weight->weight_n;
+  }
+  if (share.maxCoeff() < kBears) return {};  // held in the hands, not stood upon
+  std::vector<std::string> times;
+  double sum_s = 0.0;
+  for (Eigen::Index i = 0; i < t.size(); ++i) {
+    const Eigen::Index first = i;
+    while (i < t.size() && share[i] < kBearsNothing) ++i;
+    if (i == first || t[i - 1] - t[first] < kBriefest_s || i - first < 4) continue;
+    // Who flies falls.
+    if (acceleration_of(t.segment(first, i - first), height->segment(first, i - first)) < -0.5 * g)
+      continue;
+    times.push_back(fmt::format("{:.4g} to {:.4g} s", t[first], t[i - 1]));
+    sum_s += t[i - 1] - t[first];
+  }
+  if (times.empty()) return {};
+  return {{Finding::Level::warning,
+           trial.name,
+           fmt::format("no measured force carries the body in {:.0f} % of the trial ({}), and it "
+                       "does not fall: was a foot beside the plates? `run` does not fit those "
+                       "times; start_s and end_s leave them out altogether",
+                       100.0 * sum_s / (t[t.size() - 1] - t[0]), fmt::join(times, ", ")),
+           {},
+           "unloaded"}};
+}
+
+}  // namespace myoid

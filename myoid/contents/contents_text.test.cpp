@@ -1,0 +1,36 @@
+#include "myoid/contents/contents_text.h"
+
+#include <gtest/gtest.h>
+
+namespace myoid {
+namespace {
+
+TEST(ContentsText, EachKeyIsALineAndTheMembersOfAListStandBelowIt) {
+  const auto contents = nlohmann::ordered_json::parse(R"({
+      "kind": "C3D", "rate_hz": 100.0, "frames": 3, "gravity": [0.0, -9.81, 0.0], "markers": [],
+      "channels": [{"name": "BIC", "unit": "V", "lowest": -0.003, "gaps": 2}],
+      "repairs": ["line 3: one"]})");
+  EXPECT_EQ(contents_text(contents),
+            "kind: C3D\nrate hz: 100\nframes: 3\ngravity: [0.0,-9.81,0.0]\n"
+            "channels (1):\n  BIC [V]  lowest -0.003  gaps 2\nrepairs (1):\n  line 3: one\n");
+}
+
+TEST(ContentsText, NothingAListOfListsAndBytesThatAreNoUtf8AreRendered) {
+  EXPECT_EQ(contents_text(nlohmann::ordered_json::object()), "");
+  nlohmann::ordered_json nested = nlohmann::ordered_json::object();
+  nested["a"] = nullptr;
+  nested["b"]["c"] = "\xF6";
+  EXPECT_EQ(contents_text(nested), "a: null\nb: {\"c\":\"\xEF\xBF\xBD\"}\n");
+  const auto list = nlohmann::ordered_json::parse(R"({"a": [[1, 2], null, {"unit": "V"}]})");
+  EXPECT_EQ(contents_text(list), "a (3):\n  [1,2]\n  null\n  [V]\n");
+}
+
+TEST(ContentsText, ListsWithinAListStandBelowTheirMember) {
+  const nlohmann::ordered_json clocks{
+      {"other_clocks",
+       {{{"rate_hz", 148.0}, {"channels", {{{"name", "ACC X"}}, {{"name", "ACC Y"}}}}}}}};
+  EXPECT_EQ(contents_text(clocks), "other clocks (1):\n  rate_hz 148\n    ACC X\n    ACC Y\n");
+}
+
+}  // namespace
+}  // namespace myoid

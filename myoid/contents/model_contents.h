@@ -1,0 +1,24 @@
+#pragma once
+
+#include <cstdint>
+
+#include <nlohmann/json.hpp>
+
+#include "myoid/model/body_model.h"
+
+namespace myoid {
+
+/// What is asked of a model beside its contents.
+struct ModelQuestions {
+  bool compare_compat = false;  ///< Muscles whose exact paths differ from OpenSim's.
+  bool jumps = false;           ///< Where a length or a moment arm jumps.
+  int postures = 1000;          ///< Random ones, of the comparison.
+  std::uint64_t seed = 1;       ///< Of the postures.
+};
+
+/// What a model holds, for people and programs: bodies, joints, coordinates with range and unit,
+/// muscles, markers, actuators, and what is not supported.
+[[nodiscard]] nlohmann::ordered_json model_contents(const model::BodyModel& model,
+                                                    const ModelQuestions& ask = {});
+
+}  // namespace myoid

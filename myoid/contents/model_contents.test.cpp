@@ -1,0 +1,29 @@
+#include "myoid/contents/model_contents.h"
+
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "myoid/arm/arm4.h"
+#include "myoid/osim/osim_reader.h"
+
+namespace myoid {
+namespace {
+
+TEST(ModelContents, CountsAndNamesWhatTheModelHas) {
+  const model::BodyModel arm = model::parse_osim(model::arm4_osim(), "arm4.osim");
+  const nlohmann::ordered_json contents = model_contents(arm);
+  EXPECT_EQ(contents.at("muscles").size(), 4U);
+  double mass_kg = 0.0;
+  for (const model::Body& body : arm.bodies) mass_kg += body.mass_kg;
+  EXPECT_NEAR(contents.at("mass_kg").get<double>(), mass_kg, 1e-12);
+  bool elbow = false;
+  for (const auto& c : contents.at("coordinates"))
+    elbow = elbow || c.get<std::string>().starts_with("elbow_flexion [deg] ");
+  EXPECT_TRUE(elbow);
+  EXPECT_FALSE(contents.contains("jumps"));
+  EXPECT_TRUE(model_contents(arm, {.jumps = true}).contains("jumps"));
+}
+
+}  // namespace
+}  // namespace myoid

@@ -1,0 +1,242 @@
+#include "myoid/contents/recording_contents.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "myoid/c3d/c3d_signals.h"
+#include "myoid/core/clock_facts.h"
+#include "myoid/core/error.h"
+#include "myoid/recording/c3d_survey.h"
+#include "myoid/recording/emg_reader.h"
+#include "myoid/recording/recording.h"
+#include "myoid/tables/csv_reader.h"
+#include "myoid/tables/storage_reader.h"
+#include "myoid/tables/trc_reader.h"
+
+namespace myoid {
+
+using nlohmann::ordered_json;
+
+namespace {
+
+ordered_json repairs_json(const std::vector<recording::Repair>& repairs) {
+  ordered_json list = ordered_json::array();
+  for (const recording::Repair& r : repairs) list.push_back(recording::to_string(r));
+  return list;
+}
+
+/// Start, duration and rate as far as there are any; `of` precedes the keys of a second clock.
+ordered_json clock_json(const ClockFacts& facts, std::string_view of = "") {
+  ordered_json j;
+  const auto add = [&](const char* key, const std::optional<double>& value) {
+    if (value) j[fmt::format("{}{}", of, key)] = *value;
+  };
+  add("start_s", facts.start_s);
+  add("duration_s", facts.duration_s);
+  add("rate_hz", facts.rate_hz);
+  return j;
+}
+
+ordered_json channels_json(const TimeSeries& series) {
+  ordered_json list = ordered_json::array();
+  for (std::size_t c = 0; c < series.channels().size(); ++c) {
+    double low = INFINITY;
+    double high = -INFINITY;
+    Eigen::Index gaps = 0;
+    for (const double v : series.values().col(static_cast<Eigen::Index>(c))) {
+      if (std::isfinite(v)) {
+        low = std::min(low, v);
+        high = std::max(high, v);
+      } else {
+        ++gaps;
+      }
+    }
+    ordered_json channel{{"name", series.channels()[c].name}};
+    if (series.channels()[c].unit != Unit::dimensionless)
+      channel["unit"] = std::string(symbol(series.channels()[c].unit));
+    if (low <= high) {
+      channel["lowest"] = low;
+      channel["highest"] = high;
+    }
+    if (gaps > 0) channel["gaps"] = gaps;
+    list.push_back(std::move(channel));
+  }
+  return list;
+}
+
+/// A series whose clock is the file's own.
+ordered_json series_json(const TimeSeries& series) {
+  const ClockFacts facts = clock_facts(series.time_s());
+  ordered_json j{{"samples", facts.samples}};
+  j.update(clock_json(facts));
+  if (facts.rate_hz) j["evenly_sampled"] = facts.even;
+  j["channels"] = channels_json(series);
+  return j;
+}
+
+ordered_json markers_json(const recording::MarkerSeries& markers) {
+  ordered_json j{{"frames", markers.frame_count()}};
+  j.update(clock_json(clock_facts(markers.time_s)));
+  j["markers"] = ordered_json::array();
+  for (Eigen::Index m = 0; m < markers.marker_count(); ++m) {
+    Eigen::Index missing = 0;
+    for (Eigen::Index f = 0; f < markers.frame_count(); ++f)
+      missing += markers.missing(f, m) ? 1 : 0;
+    ordered_json marker{{"name", markers.names[static_cast<std::size_t>(m)]}};
+    if (missing > 0) marker["missing_frames"] = missing;
+    j["markers"].push_back(std::move(marker));
+  }
+  return j;
+}
+
+ordered_json trc_json(const std::filesystem::path& path) {
+  const recording::TrcFile file = recording::read_trc(path);
+  ordered_json j{{"kind", "markers (.trc)"}, {"unit", file.unit}};
+  j.update(markers_json(file.markers));
+  j["repairs"] = repairs_json(file.repairs);
+  return j;
+}
+
+ordered_json events_json(const std::vector<recording::Event>& events) {
+  ordered_json list = ordered_json::array();
+  for (const recording::Event& e : events) {
+    ordered_json j{{"name", e.label.empty() ? "event" : e.label}, {"time_s", e.time_s}};
+    if (!e.context.empty()) j["context"] = e.context;
+    list.push_back(j);
+  }
+  return list;
+}
+
+/// Everything a C3D file says, with the numbers of its channels in the unit as written.
+ordered_json c3d_json(const std::filesystem::path& path) {
+  const recording::C3dSurvey survey = recording::survey_c3d(path);
+  const recording::C3dFile& file = survey.file;
+  const Eigen::Index frames = survey.frames;
+  ordered_json j{{"kind", "C3D"},
+                 {"processor", file.processor == recording::C3dProcessor::intel ? "Intel"
+                               : file.processor == recording::C3dProcessor::dec ? "DEC"
+                                                                                : "SGI"},
+                 {"samples", file.integer ? "16-bit integers" : "32-bit reals"},
+                 {"frames", frames},
+                 {"first_frame", file.first_frame},
+                 {"start_s", file.start_s()},
+                 {"duration_s", static_cast<double>(frames - 1) / file.point_rate_hz},
+                 {"rate_hz", file.point_rate_hz}};
+  if (!file.point_labels.empty()) j["point_unit"] = file.point_unit;
+  const auto columns = recording::marker_columns(file);
+  j["markers"] = ordered_json::array();
+  std::vector<bool> is_marker(file.point_labels.size(), false);
+  for (const Eigen::Index c : columns) {
+    is_marker[static_cast<std::size_t>(c)] = true;
+    const Eigen::Index missing = survey.missing_frames[static_cast<std::size_t>(c)];
+    ordered_json marker{{"name", file.point_labels[static_cast<std::size_t>(c)]}};
+    if (missing > 0) marker["missing_frames"] = missing;
+    j["markers"].push_back(marker);
+  }
+  j["other_points"] = ordered_json::array();
+  for (std::size_t c = 0; c < is_marker.size(); ++c)
+    if (!is_marker[c]) j["other_points"].push_back(file.point_labels[c]);
+  if (!file.channels.empty()) j["analog_rate_hz"] = file.analog_rate_hz();
+  j["channels"] = ordered_json::array();
+  for (std::size_t c = 0; c < file.channels.size(); ++c) {
+    ordered_json entry{{"name", file.channels[c].name}};
+    if (!file.channels[c].unit_text.empty()) entry["unit"] = file.channels[c].unit_text;
+    const double low = survey.lowest[static_cast<Eigen::Index>(c)];
+    const double high = survey.highest[static_cast<Eigen::Index>(c)];
+    if (std::isfinite(low) && std::isfinite(high)) {
+      entry["lowest"] = low;
+      entry["highest"] = high;
+    }
+    j["channels"].push_back(entry);
+  }
+  j["force_plates"] = ordered_json::array();
+  for (std::size_t p = 0; p < survey.plates.size(); ++p) {
+    j["force_plates"].push_back({{"name", fmt::format("plate {}", survey.plates[p].number)},
+                                 {"type", survey.plates[p].type},
+                                 {"largest_force_n", survey.largest_force_n[p]}});
+  }
+  j["events"] = events_json(file.events);
+  j["repairs"] = repairs_json(survey.repairs);
+  return j;
+}
+
+/// Markers, channels in SI, or both: each with its own clock. `series` names a file of channels
+/// alone.
+ordered_json recording_json(const std::filesystem::path& path, const char* series) {
+  const recording::Recording file = recording::read_recording(path);
+  const bool has_markers = file.markers.marker_count() > 0;
+  const bool has_channels = file.analog.channel_count() > 0;
+  ordered_json j;
+  if (has_markers) {
+    j["kind"] = fmt::format("markers{} ({})", has_channels ? " and channels" : "",
+                            recording::extension_of(path));
+    j.update(markers_json(file.markers));
+    if (has_channels) {
+      const TimeSeries analog = file.analog.series();
+      j["analog_samples"] = analog.sample_count();
+      j.update(clock_json(clock_facts(analog.time_s()), "analog_"));
+      j["channels"] = channels_json(analog);
+    }
+  } else {
+    j["kind"] = series;
+    j.update(series_json(file.analog.series()));
+  }
+  for (const recording::AnalogChannels& other : file.other_clocks)
+    j["other_clocks"].push_back(series_json(other.series()));
+  j["events"] = events_json(file.events);
+  j["repairs"] = repairs_json(file.repairs);
+  return j;
+}
+
+ordered_json storage_json(const std::filesystem::path& path) {
+  const recording::Storage file = recording::read_storage(path);
+  ordered_json j{{"kind", "storage (.mot, .sto)"}, {"title", file.title}};
+  // An EMG file has no angles; one that does not speak of them may have none either.
+  if (const auto to_volt = recording::stated_voltage(file)) {
+    j["emg_unit"] = recording::voltage_name(*to_volt) + ", as the header says";
+  } else if (std::any_of(file.header.begin(), file.header.end(), [](const auto& entry) {
+               return recording::equal_ignoring_case(entry.first, "inDegrees");
+             })) {
+    j["angles"] = file.in_degrees ? "degrees" : "radians";
+  } else if (file.in_degrees) {
+    j["angles"] = "degrees (the header does not say; files of this kind are)";
+  }
+  j.update(series_json(file.data));
+  j["repairs"] = repairs_json(file.repairs);
+  return j;
+}
+
+ordered_json csv_json(const std::filesystem::path& path) {
+  try {
+    return recording_json(path, "time series (.csv)");
+  } catch (const ReadError& error) {
+    const recording::CsvTable table = recording::read_csv_table(path);
+    return {{"kind", "table (.csv)"},
+            {"rows", table.rows.size()},
+            {"columns", table.names},
+            {"no_recording", error.what()}};
+  }
+}
+
+}  // namespace
+
+std::optional<ordered_json> recording_contents(const std::filesystem::path& path) {
+  const std::string extension = recording::extension_of(path);
+  if (extension == ".trc") return trc_json(path);
+  if (extension == ".mot" || extension == ".sto") return storage_json(path);
+  if (extension == ".csv" || extension == ".tsv" || extension == ".txt" || extension == ".emt")
+    return csv_json(path);
+  if (extension == ".c3d") return c3d_json(path);
+  if (extension == ".edf" || extension == ".bdf") return recording_json(path, "EMG (.edf, .bdf)");
+  if (extension == ".anc") return recording_json(path, "analog channels (.anc)");
+  return std::nullopt;
+}
+
+}  // namespace myoid

@@ -1,0 +1,74 @@
+#include "myoid/contents/recording_contents.h"
+
+#include <gtest/gtest.h>
+
+#include "myoid/core/error.h"
+#include "myoid/files/atomic_file.h"
+
+#include "tests/support/temporary_folder.h"
+
+namespace myoid {
+namespace {
+
+TEST(RecordingContents, OfASeriesItTellsTimesUnitsExtremesAndGaps) {
+  const test::TemporaryFolder folder;
+  recording::write_file(folder / "e.csv", "time,BIC [mV],TRI [mV]\n0,1,2\n0.01,-3,\n0.02,2,4\n");
+  const auto contents = recording_contents(folder / "e.csv");
+  ASSERT_TRUE(contents);
+  EXPECT_EQ(contents->at("samples"), 3);
+  EXPECT_NEAR(contents->at("rate_hz").get<double>(), 100.0, 1e-9);
+  EXPECT_EQ(contents->at("channels").at(0).at("unit"), "V");
+  EXPECT_NEAR(contents->at("channels").at(0).at("lowest").get<double>(), -0.003, 1e-12);
+  EXPECT_EQ(contents->at("channels").at(1).at("gaps"), 1);
+}
+
+TEST(RecordingContents, ATableOfMarkersAloneIsToldByItsMarkersAndTheirGaps) {
+  const test::TemporaryFolder folder;
+  recording::write_file(folder / "q.tsv",
+                        "NO_OF_FRAMES\t2\nNO_OF_CAMERAS\t8\nNO_OF_MARKERS\t2\nFREQUENCY\t100\n"
+                        "NO_OF_ANALOG\t0\nANALOG_FREQUENCY\t0\nDESCRIPTION\t--\n"
+                        "DATA_INCLUDED\t3D\nMARKER_NAMES\tA\tB\n"
+                        "1\t2\t3\t4\t5\t6\n0\t0\t0\t4\t5\t6\n");
+  const auto contents = recording_contents(folder / "q.tsv");
+  ASSERT_TRUE(contents);
+  EXPECT_EQ(contents->at("kind"), "markers (.tsv)");
+  EXPECT_EQ(contents->at("frames"), 2);
+  EXPECT_NEAR(contents->at("rate_hz").get<double>(), 100.0, 1e-9);
+  EXPECT_EQ(contents->at("markers").at(0).at("name"), "A");
+  EXPECT_EQ(contents->at("markers").at(0).at("missing_frames"), 1);
+  EXPECT_FALSE(contents->contains("channels"));
+}
+
+TEST(RecordingContents, OneSampleHasAStartAndNoRate) {
+  const test::TemporaryFolder folder;
+  recording::write_file(folder / "e.sto", "x\nnRows=1\nnColumns=2\nendheader\ntime\tBIC\n0.5\t2\n");
+  recording::write_file(
+      folder / "m.trc",
+      "PathFileType\t4\t(X/Y/Z)\tm.trc\nDataRate\tCameraRate\tNumFrames\tNumMarkers\tUnits\n"
+      "100\t100\t1\t1\tmm\nFrame#\tTime\tA\n\t\tX1\tY1\tZ1\n1\t0.5\t1\t2\t3\n");
+  for (const char* name : {"e.sto", "m.trc"}) {
+    const auto contents = recording_contents(folder / name);
+    ASSERT_TRUE(contents) << name;
+    EXPECT_EQ(contents->at("start_s"), 0.5) << name;
+    EXPECT_EQ(contents->at("duration_s"), 0.0) << name;
+    EXPECT_FALSE(contents->contains("rate_hz")) << name;
+  }
+}
+
+TEST(RecordingContents, ATableWithoutAClockIsToldByItsColumnsAndWhyItIsNoRecording) {
+  const test::TemporaryFolder folder;
+  recording::write_file(folder / "m.csv", "muscle,l0\nBIC,0.12\n");
+  const auto contents = recording_contents(folder / "m.csv");
+  ASSERT_TRUE(contents);
+  EXPECT_EQ(contents->at("rows"), 1);
+  EXPECT_EQ(contents->at("columns").at(1), "l0");
+  EXPECT_TRUE(contents->contains("no_recording"));
+}
+
+TEST(RecordingContents, OfOtherNamesThereIsNothingAndAMissingFileIsAnError) {
+  EXPECT_FALSE(recording_contents("arm.osim"));
+  EXPECT_THROW((void)recording_contents("/nowhere/e.sto"), ReadError);
+}
+
+}  // namespace
+}  // namespace myoid

@@ -1,0 +1,45 @@
+#include "myoid/core/angle_unit.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "myoid/core/error.h"
+#include "myoid/core/units.h"
+
+namespace myoid {
+
+std::string check_angle_unit(const std::filesystem::path& path,
+                             bool says_degrees,
+                             const TimeSeries& motion) {
+  double largest_rad = 0.0, widest_rad = 0.0;
+  std::string largest_name;
+  for (Eigen::Index c = 0; c < motion.channel_count(); ++c) {
+    const Channel& channel = motion.channels()[static_cast<std::size_t>(c)];
+    if (channel.unit != Unit::radian || motion.sample_count() == 0) continue;
+    const auto column = motion.values().col(c);
+    const double largest = column.cwiseAbs().maxCoeff();
+    if (largest > largest_rad) {
+      largest_rad = largest;
+      largest_name = channel.name;
+    }
+    widest_rad = std::max(widest_rad, column.maxCoeff() - column.minCoeff());
+  }
+  if (!says_degrees && largest_rad > 4.0 * kPi) {
+    throw ReadError(path, 0,
+                    fmt::format("column '{}' reaches {:.4g} although the header says inDegrees=no: "
+                                "these are degrees, not radians; write inDegrees=yes into the "
+                                "header",
+                                largest_name, largest_rad));
+  }
+  // A small joint may move little; one of a whole motion turns by more.
+  if (says_degrees && largest_rad < 3.5 * kDegree && widest_rad > 0.2 * kDegree) {
+    return fmt::format(
+        "{}: no angle reaches 3.5 degrees (the largest is '{}') although the header says "
+        "inDegrees=yes; if these are radians, write inDegrees=no",
+        path.filename().string(), largest_name);
+  }
+  return {};
+}
+
+}  // namespace myoid

@@ -1,0 +1,170 @@
+#include "myoid/design/design_knowledge.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <fmt/format.h>
+
+#include "myoid/core/error.h"
+#include "myoid/intervals/identifiability.h"
+#include "myoid/simulation/random.h"
+
+namespace myoid {
+
+using identification::FreeParameter;
+using identification::ParameterEstimate;
+
+Knowledge knowledge_of(const std::vector<FreeParameter>& free,
+                       const std::optional<EarlierRun>& earlier) {
+  const auto p = static_cast<Eigen::Index>(free.size());
+  Knowledge known{Eigen::VectorXd(p), Eigen::MatrixXd::Zero(p, p), {}};
+  for (Eigen::Index j = 0; j < p; ++j) {
+    const FreeParameter& f = free[static_cast<std::size_t>(j)];
+    const double sd = f.prior_sd > 0.0 ? f.prior_sd : 0.25 * (f.upper - f.lower);
+    known.mean[j] = f.prior_sd > 0.0 ? f.prior_mean : f.start;
+    known.covariance(j, j) = sd * sd;
+  }
+  const Eigen::VectorXd sd_before = known.covariance.diagonal().cwiseSqrt();
+  if (earlier) {
+    std::vector<std::pair<Eigen::Index, Eigen::Index>> pairs;
+    for (Eigen::Index j = 0; j < p; ++j) {
+      const auto it = std::find(earlier->parameters.begin(), earlier->parameters.end(),
+                                free[static_cast<std::size_t>(j)].label);
+      if (it == earlier->parameters.end()) continue;
+      const Eigen::Index from = it - earlier->parameters.begin();
+      if (std::isfinite(earlier->estimate[from])) pairs.emplace_back(j, from);
+    }
+    for (const auto& [a, from_a] : pairs) {
+      const bool logarithmic = free[static_cast<std::size_t>(a)].field->logarithmic;
+      known.mean[a] = logarithmic ? std::log(earlier->estimate[from_a]) : earlier->estimate[from_a];
+      for (const auto& [b, from_b] : pairs)
+        known.covariance(a, b) = earlier->covariance(from_a, from_b);
+    }
+  }
+  // Relative to what was known before: a direction that the run left undetermined has no variance
+  // in its covariance, and is as unknown as it was. None is known better than to a millionth.
+  const Eigen::VectorXd unit = sd_before.cwiseInverse();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> axes(unit.asDiagonal() * known.covariance *
+                                                            unit.asDiagonal());
+  if (!axes.eigenvalues().allFinite())
+    throw InvalidInput("design: the covariance of the earlier run is not finite");
+  Eigen::VectorXd variance = axes.eigenvalues();
+  for (double& v : variance) v = v <= 1e-14 ? 1.0 : std::max(v, 1e-12);
+  const Eigen::MatrixXd scaled = sd_before.asDiagonal() * axes.eigenvectors();
+  known.covariance = scaled * variance.asDiagonal() * scaled.transpose();
+  const Eigen::MatrixXd inverse = unit.asDiagonal() * axes.eigenvectors();
+  known.precision = inverse * variance.cwiseInverse().asDiagonal() * inverse.transpose();
+  return known;
+}
+
+std::vector<Eigen::VectorXd> draw_persons(const std::vector<FreeParameter>& free,
+                                          const Knowledge& known,
+                                          int count,
+                                          std::uint64_t seed) {
+  const Eigen::LLT<Eigen::MatrixXd> factor(known.covariance);
+  simulation::Random random(simulation::seed_for(seed, "design persons"));
+  std::vector<Eigen::VectorXd> persons;
+  for (int k = 0; k < count; ++k) {
+    Eigen::VectorXd z = known.mean;
+    if (k > 0) z += factor.matrixL() * random.normals(z.size());
+    for (Eigen::Index j = 0; j < z.size(); ++j) {
+      const FreeParameter& f = free[static_cast<std::size_t>(j)];
+      z[j] = std::clamp(z[j], f.lower, f.upper);
+    }
+    persons.push_back(std::move(z));
+  }
+  return persons;
+}
+
+std::vector<Eigen::Index> targets_of(const std::vector<FreeParameter>& free,
+                                     const std::vector<std::string>& wanted) {
+  std::vector<Eigen::Index> targets;
+  for (std::size_t j = 0; j < free.size(); ++j) {
+    const std::string& label = free[j].label;
+    const std::size_t dot = label.find('.');
+    const std::string owner = label.substr(0, dot);
+    const std::string parameter = label.substr(dot + 1);
+    // Freed so that the others carry what is not known of it; by name it is a target all the same.
+    const bool nuisance =
+        free[j].field->name == "emg_gain" || free[j].field->name == "max_shortening_speed";
+    for (const std::string& w : wanted) {
+      if (w == label || w == owner || w == parameter || (w == "all" && !nuisance)) {
+        targets.push_back(static_cast<Eigen::Index>(j));
+        break;
+      }
+    }
+  }
+  for (const std::string& w : wanted) {
+    const bool known =
+        w == "all" || std::any_of(free.begin(), free.end(), [&](const auto& f) {
+          const std::size_t dot = f.label.find('.');
+          return f.label == w || f.label.substr(0, dot) == w || f.label.substr(dot + 1) == w;
+        });
+    if (known) continue;
+    std::string names;
+    for (const FreeParameter& f : free) names += (names.empty() ? "" : ", ") + f.label;
+    throw InvalidInput(fmt::format(
+        "target '{}' is no parameter, muscle or muscle.parameter that can be identified; there are "
+        "{}",
+        w, names));
+  }
+  return targets;
+}
+
+const ParameterEstimate* found_by(const std::optional<EarlierRun>& earlier,
+                                  const FreeParameter& f) {
+  if (!earlier) return nullptr;
+  const std::size_t dot = f.label.find('.');
+  const std::string owners = f.label.substr(0, dot);
+  const std::string owner = owners.substr(0, owners.find('+'));
+  for (const ParameterEstimate& e : earlier->estimates) {
+    if ((e.muscle == owner || e.muscle == owners) && e.parameter == f.field->name && e.ci_low &&
+        e.ci_high && std::isfinite(e.estimate))
+      return &e;
+  }
+  return nullptr;
+}
+
+ParameterEstimate expected_estimate(const FreeParameter& f,
+                                    const Expectation& expectation,
+                                    const std::vector<identification::MuscleSetup>& muscles) {
+  const auto& [mean, sd, prior_sd, model_error, found, ratio] = expectation;
+  ParameterEstimate e;
+  const std::size_t dot = f.label.find('.');
+  e.muscle = f.label.substr(0, dot);
+  e.parameter = f.label.substr(dot + 1);
+  e.unit = f.field->unit;
+  e.method = "torque";
+  e.fit_case = "both";
+  e.initial = e.estimate = f.to_value(mean);
+  double below = 1.96 * sd, above = 1.96 * sd;
+  if (found != nullptr) {
+    // Narrower than the run's own interval, by which other routes count too, in the same ratio.
+    const bool logarithmic = f.field->logarithmic;
+    const auto scaled = [&](double value) {
+      return logarithmic ? std::log(std::max(value, 1e-300)) : value;
+    };
+    below = expectation.ratio * (scaled(found->estimate) - scaled(*found->ci_low));
+    above = expectation.ratio * (scaled(*found->ci_high) - scaled(found->estimate));
+  }
+  e.ci_low = f.to_value(std::max(mean - below, f.lower));
+  e.ci_high = f.to_value(std::min(mean + above, f.upper));
+  e.std_error = f.field->logarithmic ? e.estimate * sd : sd;
+  e.prior_mean = e.estimate;
+  e.prior_sd = f.field->logarithmic ? e.estimate * prior_sd : prior_sd;
+  e.shrinkage = 1.0 - sd * sd / (prior_sd * prior_sd);
+  identification::VerdictContext context{.model_error = model_error};
+  const auto own = std::find_if(muscles.begin(), muscles.end(),
+                                [&](const auto& m) { return m.name == e.muscle; });
+  for (const identification::MuscleSetup& other : muscles) {
+    if (own != muscles.end() && other.name != own->name && other.emg_channel == own->emg_channel)
+      context.shares_electrode_with = other.name;
+  }
+  identification::judge(e, context);
+  return e;
+}
+
+}  // namespace myoid

@@ -1,0 +1,12 @@
+#pragma once
+
+#include "myoid/design/design_study.h"
+#include "myoid/report/report.h"
+
+namespace myoid {
+
+/// What to record next: the plan, movement by movement, with the interval that may be expected
+/// after each, and every target before and after the whole plan.
+[[nodiscard]] report::Section next_recording_section(const DesignStudyResult& design);
+
+}  // namespace myoid

@@ -1,0 +1,236 @@
+#include "myoid/design/design_study.h"
+
+#include <cmath>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "myoid/core/error.h"
+#include "myoid/math/butterworth.h"
+#include "myoid/math/zero_phase.h"
+#include "myoid/methods/torque.h"
+#include "myoid/muscle/hill_muscle.h"
+#include "myoid/simulation/random.h"
+#include "myoid/study/study_model.h"
+
+namespace myoid {
+namespace {
+
+using testing::HasSubstr;
+
+Study planned_study() {
+  Study study;
+  study.model.builtin = "arm4";
+  for (const char* name : {"BIC", "BRA", "BRD", "TRI"})
+    study.muscles.push_back({.name = name, .osim = {name}, .emg = name});
+  return study;
+}
+
+MovementPerson typical(const std::vector<identification::MuscleSetup>& setups) {
+  MovementPerson person;
+  for (const auto& s : setups) person.muscles.push_back(identification::muscle_values(s.start));
+  return person;
+}
+
+TEST(Movement, TheMusclesOfAPerformanceExertTheTorqueThatTheMotionRequires) {
+  const Study study = planned_study();
+  const auto setups = muscle_setups(study, load_model(study));
+  const MovementPerson person = typical(setups);
+  for (const bool horizontal : {false, true}) {
+    const MovementCourse course = movement_course(study, movement_models(study),
+                                                  {.horizontal = horizontal,
+                                                   .held_mass_kg = 1.0,
+                                                   .lowest_rad = 0.5,
+                                                   .highest_rad = 2.0,
+                                                   .frequency_hz = 0.6});
+    const auto trial = perform(course, setups, person);
+    ASSERT_TRUE(trial);
+    const Eigen::Index lead = course.time_s.size() - trial->time_s.size();
+    // Sum of r a F over the muscles, by hand, with the EMG read a delay earlier.
+    for (Eigen::Index i = 0; i < trial->time_s.size(); i += 17) {
+      double torque = 0.0;
+      for (Eigen::Index k = 0; k < 4; ++k) {
+        const auto& p = setups[static_cast<std::size_t>(k)].start;
+        const double a = trial->activation.values()(lead + i, k);
+        EXPECT_GE(a, person.co_contraction);
+        torque += trial->moment_arm_m(i, k) *
+                  muscle::hill_force(a, trial->length_m(i, k) - p.tendon_slack_length_m,
+                                     trial->velocity_mps(i, k), p);
+      }
+      EXPECT_NEAR(torque, course.required_torque_nm[lead + i], 1e-9);
+      EXPECT_NEAR(trial->activation.time_s()[lead + i], trial->time_s[i] - person.emg_delay_s,
+                  1e-12);
+    }
+  }
+}
+
+TEST(Movement, WhatIsTooHeavyCannotBePerformed) {
+  const Study study = planned_study();
+  const auto setups = muscle_setups(study, load_model(study));
+  const MovementCourse course = movement_course(
+      study, movement_models(study),
+      {.held_mass_kg = 30.0, .lowest_rad = 0.5, .highest_rad = 2.0, .frequency_hz = 0.5});
+  EXPECT_FALSE(perform(course, setups, typical(setups)));
+}
+
+TEST(Movement, AnIsokineticMovementKeepsItsSpeedOverMostOfTheRange) {
+  const MovementCourse course = movement_course(planned_study(), movement_models(planned_study()),
+                                                {.kind = MovementKind::isokinetic,
+                                                 .lowest_rad = 0.3,
+                                                 .highest_rad = 2.1,
+                                                 .speed_radps = 1.0,
+                                                 .level = 0.5,
+                                                 .duration_s = 8.0});
+  // The speed shows in the brachialis: dl/dt = -r dq/dt.
+  int steady = 0;
+  for (Eigen::Index i = 0; i < course.time_s.size(); ++i) {
+    const double speed =
+        std::abs(course.muscles.velocity_mps(i, 1) / course.muscles.moment_arm_m(i, 1));
+    steady += std::abs(speed - 1.0) < 0.15 ? 1 : 0;
+  }
+  EXPECT_GT(steady, static_cast<int>(0.75 * static_cast<double>(course.time_s.size())));
+}
+
+TEST(DesignStudy, ItsExpectedSpreadIsTheSpreadThatIdentificationHas) {
+  // The plan for one person, the mean of what is known, is carried out by that person ten times
+  // with the noise that the plan assumed; the errors of all estimates, in expected standard
+  // deviations, must have a root mean square of about one. The prior takes part in the estimate
+  // but not in this person (it is exactly the prior's mean), which shrinks the errors: below 1.
+  const Study study = planned_study();
+  DesignStudyOptions options;
+  options.persons = 1;
+  options.choice.movements = 5;
+  const DesignStudyResult design = design_study(study, options);
+  ASSERT_EQ(design.plan.size(), 5U);
+  identification::StudyData data;
+  data.muscles = muscle_setups(study, load_model(study));
+  identification::free_speeds(data, identification::unstated_speeds(data));
+  // The plan is about muscles whose tendons are known.
+  for (identification::MuscleSetup& muscle : data.muscles)
+    muscle.fixed.emplace_back("tendon_slack_length");
+  const MovementPerson person = typical(data.muscles);
+  constexpr double kRate_hz = 50.0;
+  const double above_2_hz = std::sqrt(2.0 * 2.0 / kRate_hz);  // of white noise stays below
+  const auto envelope_filter = math::design_butterworth(
+      math::FilterBand::low_pass, 2,
+      math::two_pass_cutoff_hz(math::FilterBand::low_pass, 2, 3.0, kRate_hz), kRate_hz);
+  double square = 0.0;
+  double expected_square = 0.0;
+  int count = 0;
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    simulation::Random random(seed);
+    data.trials.clear();
+    for (const PlannedMovement& planned : design.plan) {
+      auto trial = perform(movement_course(study, movement_models(study), planned.movement),
+                           data.muscles, person);
+      ASSERT_TRUE(trial);
+      trial->torque_nm +=
+          options.torque_sd_nm / above_2_hz * random.normals(trial->torque_nm.size());
+      // The envelope's noise reaches up to 3 Hz, as after a filter.
+      Eigen::MatrixXd noisy = trial->activation.values();
+      for (Eigen::Index c = 0; c < noisy.cols(); ++c) {
+        const Eigen::VectorXd noise =
+            math::zero_phase(envelope_filter, random.normals(noisy.rows()));
+        noisy.col(c).array() *= 1.0 + options.emg_cv / above_2_hz * noise.array();
+      }
+      trial->activation =
+          TimeSeries(trial->activation.time_s(), trial->activation.channels(), noisy);
+      data.trials.push_back(std::move(*trial));
+    }
+    const auto found = identification::identify_torque(
+        data, {.gain_prior_sd = {{"BIC", 0.05}, {"BRA", 0.05}, {"BRD", 0.05}, {"TRI", 0.05}},
+               .max_rate_hz = 25.0,
+               .model_error = false,  // the plan speaks of noise; this person is as the model
+               .starts = 1});
+    for (const auto& e : found.estimates) {
+      for (const auto& expected : design.plan.back().expected) {
+        if (e.muscle != expected.muscle || e.parameter != expected.parameter) continue;
+        const double sd = *expected.std_error;
+        square += std::pow((e.estimate - expected.estimate) / sd, 2);
+        expected_square += std::pow(*e.std_error / sd, 2);
+        ++count;
+      }
+    }
+  }
+  ASSERT_EQ(count, 250);
+  const double rms = std::sqrt(square / count);
+  EXPECT_GT(rms, 0.3);
+  EXPECT_LT(rms, 1.1);
+  // The standard error that identification states must agree with what the plan promised.
+  EXPECT_NEAR(std::sqrt(expected_square / count), 1.0, 0.25);
+}
+
+TEST(DesignStudy, MoreMovementsTellMoreAndFatigueStaysInItsBudget) {
+  DesignStudyOptions options;
+  options.persons = 3;
+  options.choice.movements = 6;
+  options.targets = {"max_isometric_force", "TRI.optimal_fiber_length"};
+  const DesignStudyResult result = design_study(planned_study(), options);
+  ASSERT_EQ(result.beforehand.size(), 5U);
+  ASSERT_EQ(result.plan.size(), 6U);
+  std::vector<double> sd;
+  for (const auto& e : result.beforehand) sd.push_back(*e.std_error);
+  for (const PlannedMovement& planned : result.plan) {
+    EXPECT_LE(planned.fatigued_share, options.fatigued_share);
+    for (std::size_t t = 0; t < sd.size(); ++t) {
+      EXPECT_LE(*planned.expected[t].std_error, sd[t] * (1.0 + 1e-12));
+      sd[t] = *planned.expected[t].std_error;
+    }
+  }
+}
+
+TEST(DesignStudy, WhatARunLeftUndeterminedIsAsUnknownAsBefore) {
+  DesignStudyOptions options;
+  options.persons = 2;
+  options.choice.movements = 1;
+  options.targets = {"max_isometric_force"};
+  const DesignStudyResult unknown = design_study(planned_study(), options);
+  // A covariance over the determined directions alone: F_max of BIC and BRA only by their ratio.
+  EarlierRun earlier;
+  earlier.parameters = {"BIC.max_isometric_force", "BRA.max_isometric_force"};
+  earlier.estimate = Eigen::Vector2d(600.0, 900.0);
+  earlier.covariance = 0.01 * (Eigen::Matrix2d() << 1.0, -1.0, -1.0, 1.0).finished();
+  earlier.torque_sd_nm = 0.3;
+  earlier.emg_cv = 0.087;
+  options.earlier = earlier;
+  const DesignStudyResult known = design_study(planned_study(), options);
+  for (std::size_t t = 0; t < 2; ++t) {
+    EXPECT_GT(*known.beforehand[t].std_error / known.beforehand[t].estimate,
+              0.6 * *unknown.beforehand[t].std_error / unknown.beforehand[t].estimate);
+  }
+}
+
+TEST(DesignStudy, MusclesOfOneElectrodeAreNotPromisedToBeIdentified) {
+  Study study = planned_study();
+  study.muscles[1].emg = study.muscles[0].emg;
+  DesignStudyOptions options;
+  options.persons = 2;
+  options.choice.movements = 12;
+  options.choice.most_of_each = 12;
+  options.targets = {"optimal_fiber_length"};
+  const DesignStudyResult result = design_study(study, options);
+  ASSERT_FALSE(result.plan.empty());
+  bool other = false;
+  for (const auto& e : result.plan.back().expected) {
+    const bool shared = e.muscle == study.muscles[0].name || e.muscle == study.muscles[1].name;
+    EXPECT_FALSE(shared && e.verdict == identification::Verdict::identified) << e.muscle;
+    other = other || (!shared && e.verdict == identification::Verdict::identified);
+  }
+  EXPECT_TRUE(other);
+}
+
+TEST(DesignStudy, RefusesATargetThatIsNoneAndNamesThoseThereAre) {
+  DesignStudyOptions options;
+  options.targets = {"BIC.max_isometric_froce"};
+  options.persons = 1;
+  try {
+    (void)design_study(planned_study(), options);
+    FAIL();
+  } catch (const InvalidInput& error) {
+    EXPECT_THAT(error.what(), HasSubstr("BIC.max_isometric_froce"));
+    EXPECT_THAT(error.what(), HasSubstr("TRI.force_length_width"));
+  }
+}
+
+}  // namespace
+}  // namespace myoid

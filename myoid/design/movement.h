@@ -1,0 +1,102 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "myoid/identification/muscle_law.h"
+#include "myoid/identification/study_data.h"
+#include "myoid/kinematics/lumped_muscles.h"
+#include "myoid/study/study.h"
+
+namespace myoid {
+
+/// Something a person can be asked to do while being recorded.
+enum class MovementKind {
+  swing,       ///< The joint is moved to and fro, a mass held.
+  lowering,    ///< A mass is raised quickly and lowered slowly.
+  isometric,   ///< The joint is fixed; effort rises and falls; the torque is measured.
+  isokinetic,  ///< A dynamometer moves the joint at one speed, to and fro, against the effort.
+};
+
+struct Movement {
+  MovementKind kind = MovementKind::swing;
+  bool horizontal = false;    ///< Plane of movement of the built-in arm.
+  double held_mass_kg = 0.0;  ///< swing, lowering.
+  double lowest_rad = 0.0;    ///< Of the joint; both the same for isometric.
+  double highest_rad = 0.0;
+  double frequency_hz = 0.0;  ///< swing.
+  double speed_radps = 0.0;   ///< isokinetic.
+  double level = 0.0;         ///< isometric, isokinetic: greatest activation.
+  bool positive = true;       ///< isometric, isokinetic: effort in the coordinate's direction.
+  std::string direction;      ///< Name of that direction: "flexion".
+  double duration_s = 10.0;
+
+  /// "swing 0.6 Hz, 15-122 deg, 2 kg, vertical"
+  [[nodiscard]] std::string description() const;
+};
+
+/// What a catalogue of movements varies.
+struct CatalogueOptions {
+  std::vector<double> held_masses_kg = {0.0, 1.0, 2.0, 4.0};
+  std::vector<double> frequencies_hz = {0.3, 0.6, 1.0, 1.5, 2.0};
+  std::vector<double> isometric_levels = {0.4, 0.8};
+  std::vector<double> isokinetic_speeds_radps = {0.52, 1.57, 3.14};  ///< 30, 90, 180 deg/s
+  double isokinetic_level = 0.6;
+  int angles = 6;           ///< Isometric postures over the range.
+  bool planes = true;       ///< Both planes (built-in arm) or the model's posture only.
+  bool dynamometer = true;  ///< False: no isokinetic movement.
+  std::string coordinate;   ///< Names the directions of effort.
+};
+
+/// All combinations over the coordinate's range [rad], less a tenth of it at each end: swings over
+/// the whole and either half of it, lowerings, isometric and isokinetic efforts both ways.
+[[nodiscard]] std::vector<Movement> movement_catalogue(double lowest_rad,
+                                                       double highest_rad,
+                                                       const CatalogueOptions& options = {});
+
+/// "flexion" or "extension" where the coordinate's name says so, else "positive" or "negative".
+[[nodiscard]] std::string direction_name(const std::string& coordinate, bool positive);
+
+/// A movement as far as it is the same for every person: on a clock that begins before the trial,
+/// so that EMG can reach back.
+struct MovementCourse {
+  Movement movement;
+  Eigen::VectorXd time_s;              ///< From -0.4 s; the trial begins at 0.
+  kinematics::LumpedMuscles muscles;   ///< Of the study's muscles.
+  Eigen::VectorXd required_torque_nm;  ///< swing, lowering; empty where a device measures.
+  Eigen::VectorXd effort;              ///< 0..1 of `level`: isometric, isokinetic; else empty.
+};
+
+/// The study's model in both planes of movement, with no muscles but the study's.
+struct MovementModels {
+  model::BodyModel vertical, horizontal;
+};
+[[nodiscard]] MovementModels movement_models(const Study& study);
+
+/// The course of a movement by the study's model: muscle paths and inverse dynamics of the
+/// coordinate's motion, the other coordinates at their default.
+[[nodiscard]] MovementCourse movement_course(const Study& study,
+                                             const MovementModels& models,
+                                             const Movement& movement);
+
+/// How the virtual persons act.
+struct MovementPerson {
+  std::vector<identification::MuscleValues> muscles;  ///< In the study's order.
+  double emg_delay_s = 0.06;
+  double co_contraction = 0.05;  ///< Least activation of every muscle.
+  double synergy = 0.35;  ///< Spread of ln(share of each EMG channel), over trials and within.
+  double most_activation = 0.8;
+  std::uint64_t seed = 1;
+};
+
+/// The trial as `person` would do it, ready for an estimator: the torque shared among the EMG
+/// channels with least sum of squares of activations about person-specific, slowly changing
+/// proportions. Muscles of one channel act as one. Empty if an activation above the person's
+/// greatest would be needed.
+[[nodiscard]] std::optional<identification::TrialData> perform(
+    const MovementCourse& course,
+    const std::vector<identification::MuscleSetup>& muscles,
+    const MovementPerson& person);
+
+}  // namespace myoid

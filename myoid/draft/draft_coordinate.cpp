@@ -1,0 +1,79 @@
+#include "myoid/draft/draft_coordinate.h"
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+#include <Eigen/Core>
+
+#include "myoid/core/time_series.h"
+#include "myoid/draft/channel_muscles.h"
+#include "myoid/files/label_match.h"
+#include "myoid/kinematics/joint_motion.h"
+#include "myoid/kinematics/muscle_kinematics.h"
+
+namespace myoid {
+namespace {
+
+constexpr std::array<std::string_view, 4> kUsual{"elbowflex", "elbow", "kneeangle", "ankleangle"};
+
+std::size_t rank(const std::string& coordinate) {
+  const std::string plain = recording::plain_label(coordinate);
+  const auto found = std::find_if(kUsual.begin(), kUsual.end(), [&](std::string_view word) {
+    return plain.find(word) != std::string::npos;
+  });
+  return static_cast<std::size_t>(found - kUsual.begin());
+}
+
+}  // namespace
+
+std::vector<std::string> movers(const model::BodyModel& model, const std::string& coordinate) {
+  const auto& c = model.coordinates[static_cast<std::size_t>(model.coordinate_index(coordinate))];
+  const double low = std::max(c.lower, c.default_value - 1.5);
+  const double high = std::min(c.upper, c.default_value + 1.5);
+  constexpr Eigen::Index kPoses = 7;
+  Eigen::MatrixXd q = model.default_q().transpose().replicate(kPoses, 1);
+  for (Eigen::Index i = 0; i < kPoses; ++i)
+    q(i, model.coordinate_index(coordinate)) =
+        low + (high - low) * (static_cast<double>(i) + 0.5) / kPoses;
+  std::vector<Channel> channels;
+  for (const model::Coordinate& each : model.coordinates)
+    channels.push_back({each.name, kinematics::coordinate_unit(each, 0)});
+  const Eigen::VectorXd clock = Eigen::VectorXd::LinSpaced(kPoses, 0.0, 6.0);
+  const kinematics::JointMotion motion =
+      kinematics::joint_motion(model, TimeSeries(clock, channels, q)).motion;
+  const kinematics::MuscleKinematics muscles = kinematics::muscle_kinematics(model, motion);
+  const TimeSeries& arms = muscles.moment_arm.at(coordinate);
+  std::vector<std::string> names;
+  for (Eigen::Index m = 0; m < arms.channel_count(); ++m) {
+    if (arms.values().col(m).cwiseAbs().maxCoeff() > 1e-3)
+      names.push_back(arms.channels()[static_cast<std::size_t>(m)].name);
+  }
+  return names;
+}
+
+bool is_usual(const std::string& coordinate) { return rank(coordinate) < kUsual.size(); }
+
+std::vector<std::string> usual_first(std::vector<std::string> coordinates) {
+  std::stable_sort(coordinates.begin(), coordinates.end(),
+                   [](const std::string& a, const std::string& b) { return rank(a) < rank(b); });
+  return coordinates;
+}
+
+std::string coordinate_of_channels(const model::BodyModel& model,
+                                   const std::vector<std::string>& coordinates,
+                                   const std::vector<std::string>& channels) {
+  std::string best;
+  std::size_t most = 0;
+  for (const std::string& name : coordinates) {
+    std::size_t count = 0;
+    for (const ChannelMuscles& pair : match_channels(channels, movers(model, name)))
+      count += pair.muscles.empty() ? 0 : 1;
+    if (count <= most) continue;
+    most = count;
+    best = name;
+  }
+  return best;
+}
+
+}  // namespace myoid

@@ -1,0 +1,151 @@
+#include "myoid/draft/draft_recordings.h"
+
+#include <algorithm>
+#include <set>
+
+#include <Eigen/LU>
+#include <Eigen/SVD>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <pugixml.hpp>
+
+#include "myoid/files/text_file.h"
+#include "myoid/model/kinematic_tree.h"
+#include "myoid/recording/bids.h"
+#include "myoid/recording/emg_channels.h"
+#include "myoid/recording/emg_reader.h"
+#include "myoid/recording/recording.h"
+#include "myoid/study/trial_up.h"
+#include "myoid/tables/storage_reader.h"
+
+namespace myoid {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string small(std::string text) {
+  for (char& c : text) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c;
+  return text;
+}
+
+std::vector<std::string> words_of(const std::string& stem) {
+  std::vector<std::string> words(1);
+  for (const char c : small(stem)) {
+    if (c == '_' || c == '-' || c == ' ' || c == '.') {
+      if (!words.back().empty()) words.emplace_back();
+    } else {
+      words.back() += c;
+    }
+  }
+  if (words.back().empty() && words.size() > 1) words.pop_back();
+  return words;
+}
+
+}  // namespace
+
+std::string trial_stem(const fs::path& path) {
+  static const std::set<std::string, std::less<>> kKinds{
+      "emg",   "raw",    "uv",     "mv",  "v",      "env",       "envelope", "markers", "marker",
+      "mocap", "analog", "motion", "ik",  "imu",    "landmarks", "kalman",   "elbow",   "angles",
+      "trc",   "c3d",    "mot",    "grf", "forces", "loads",     "external"};
+  std::vector<std::string> words = words_of(path.stem().string());
+  while (words.size() > 1 && kKinds.contains(words.back())) words.pop_back();
+  while (words.size() > 1 && kKinds.contains(words.front())) words.erase(words.begin());
+  return fmt::format("{}", fmt::join(words, "_"));
+}
+
+void find_emg(const fs::path& path,
+              const TimeSeries& analog,
+              const std::vector<recording::PlateSetup>& plates,
+              FoundRecording& found) {
+  found.channels = recording::emg_channels(analog.channels(), plates);
+  const std::string extension = recording::extension_of(path);
+  const bool storage = extension == ".sto" || extension == ".mot";
+  const std::string name = small(path.filename().string());
+  if (found.channels.empty() &&
+      (storage || extension == ".csv" || extension == ".tsv" || extension == ".txt")) {
+    const bool stated = storage && recording::stated_voltage(recording::read_storage(path));
+    const bool named = name.find("emg") != std::string::npos ||
+                       name.find("excitation") != std::string::npos ||
+                       name.find("activation") != std::string::npos;
+    if (!stated && !named) return;
+    for (const Channel& c : analog.channels()) found.channels.push_back(c.name);
+    found.has_unit = stated;
+  }
+  if (found.channels.empty()) return;
+  // Raw EMG goes through its median many times a second, an envelope (below some 10 Hz) does not.
+  std::vector<std::string> named;
+  for (const std::string& c : found.channels) {
+    if (small(c).find("emg") != std::string::npos) named.push_back(c);
+  }
+  const TimeSeries emg = analog.select(named.empty() ? found.channels : named);
+  const Eigen::Index n = emg.sample_count();
+  if (n < 3) return;
+  const double length_s = emg.time_s()[n - 1] - emg.time_s()[0];
+  constexpr double kRaw_hz = 30.0;
+  Eigen::Index raw = 0, varying = 0;
+  for (Eigen::Index c = 0; c < emg.channel_count(); ++c) {
+    const Eigen::VectorXd x = emg.values().col(c);
+    if (!(x.maxCoeff() > x.minCoeff())) continue;  // no electrode on it
+    ++varying;
+    Eigen::VectorXd sorted = x;
+    std::nth_element(sorted.begin(), sorted.begin() + n / 2, sorted.end());
+    Eigen::Index crossings = 0;
+    for (Eigen::Index k = 1; k < n; ++k) {
+      if ((x[k] > sorted[n / 2]) != (x[k - 1] > sorted[n / 2])) ++crossings;
+    }
+    if (static_cast<double>(crossings) > kRaw_hz * length_s) ++raw;
+  }
+  found.raw = 2 * raw >= varying;
+}
+
+fs::path loads_data_file(const fs::path& external_loads) {
+  pugi::xml_document document;
+  if (!document.load_file(external_loads.c_str())) return {};
+  const pugi::xml_node loads = document.document_element().child("ExternalLoads");
+  std::string name(recording::trim(loads.child("datafile").text().get()));
+  std::replace(name.begin(), name.end(), '\\', '/');
+  return name.empty() ? fs::path() : external_loads.parent_path() / name;
+}
+
+std::vector<fs::path> recordings_in(const std::vector<fs::path>& from, FoundBeside& beside) {
+  static const std::set<std::string, std::less<>> kKnown{".c3d", ".trc", ".edf", ".bdf",
+                                                         ".anc", ".csv", ".sto", ".mot"};
+  constexpr int kDeep = 6;
+  std::vector<fs::path> files;
+  for (const fs::path& path : from) {
+    std::error_code error;
+    if (!fs::is_directory(path, error)) {
+      files.push_back(path);
+      continue;
+    }
+    for (auto it = fs::recursive_directory_iterator(
+             path, fs::directory_options::skip_permission_denied, error);
+         !error && it != fs::recursive_directory_iterator(); it.increment(error)) {
+      if (it.depth() > kDeep) it.disable_recursion_pending();
+      if (!it->is_regular_file(error)) continue;
+      const std::string extension = recording::extension_of(it->path());
+      if (extension == ".osim") beside.models.push_back(it->path());
+      if (extension == ".xml" && !loads_data_file(it->path()).empty())
+        beside.external_loads.push_back(it->path());
+      if (kKnown.contains(extension) || recording::is_bids_motion(it->path()))
+        files.push_back(it->path());
+    }
+  }
+  std::sort(files.begin(), files.end());
+  std::sort(beside.models.begin(), beside.models.end());
+  std::sort(beside.external_loads.begin(), beside.external_loads.end());
+  return files;
+}
+
+std::string guessed_use(const std::string& stem) {
+  for (const std::string& word : words_of(stem)) {
+    if (word.starts_with("mvc") || word.starts_with("mvic") || word == "max") return "mvc";
+    if (word == "static" || word == "tpose" || word == "calibration" || word == "anatomical")
+      return "static";
+    if (word == "passive") return "passive";
+  }
+  return "calibration";
+}
+
+}  // namespace myoid

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "myoid/core/time_series.h"
+#include "myoid/files/marker_series.h"
+#include "myoid/model/body_model.h"
+#include "myoid/recording/force_plate.h"
+
+namespace myoid {
+
+/// What a file holds that a study can use.
+struct FoundRecording {
+  std::filesystem::path path;
+  std::string stem;  ///< Small letters, words like "emg" and "markers" at its end removed.
+  recording::MarkerSeries markers;    ///< Empty: none.
+  std::vector<std::string> angles;    ///< Coordinates of the model.
+  std::vector<std::string> channels;  ///< EMG.
+  bool has_unit = true;               ///< Of the EMG.
+  bool raw = true;
+  int plates = 0;
+  bool motion_taken = false;
+  bool emg_taken = false;
+};
+
+/// What is in the folders beside the recordings.
+struct FoundBeside {
+  std::vector<std::filesystem::path> models;          ///< .osim
+  std::vector<std::filesystem::path> external_loads;  ///< .xml with <ExternalLoads>.
+};
+
+/// The recordings among the files, and in the folders with their folders, by name; what is beside
+/// them is added to `beside`.
+[[nodiscard]] std::vector<std::filesystem::path> recordings_in(
+    const std::vector<std::filesystem::path>& from, FoundBeside& beside);
+
+/// The data file that an ExternalLoads file names; empty if it names none.
+[[nodiscard]] std::filesystem::path loads_data_file(const std::filesystem::path& external_loads);
+
+/// The name of the trial that a file belongs to: small letters, without what it says of its own
+/// kind at its begin and end ("flex_2kg" of "Flex_2kg_emg_raw.sto", "walk" of "grf_walk.xml").
+[[nodiscard]] std::string trial_stem(const std::filesystem::path& path);
+
+/// What the name says that the trial is for: "mvc", "static", "passive", else "calibration".
+[[nodiscard]] std::string guessed_use(const std::string& stem);
+
+/// Adds the channels of a file that may be EMG (`recording::emg_channels`), or all of one that is
+/// called EMG, and whether they are raw: raw EMG goes through its median more than 30 times a
+/// second, an envelope does not.
+void find_emg(const std::filesystem::path& path,
+              const TimeSeries& analog,
+              const std::vector<recording::PlateSetup>& plates,
+              FoundRecording& found);
+
+}  // namespace myoid

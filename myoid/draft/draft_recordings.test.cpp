@@ -1,0 +1,69 @@
+#include "myoid/draft/draft_recordings.h"
+
+#include <cmath>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "myoid/files/atomic_file.h"
+
+#include "tests/support/temporary_folder.h"
+
+namespace myoid {
+namespace {
+
+TEST(TrialStem, IsTheNameWithoutWhatAFileSaysOfItsOwnKind) {
+  EXPECT_EQ(trial_stem("a/Flex_2kg_emg_raw_uV.sto"), "flex_2kg");
+  EXPECT_EQ(trial_stem("load2p75_T1_imu_landmarks.trc"), "load2p75_t1");
+  EXPECT_EQ(trial_stem("markers.trc"), "markers");
+  EXPECT_EQ(trial_stem("emg_walk_raw.anc"), "walk");
+  EXPECT_EQ(trial_stem("grf_walk.xml"), "walk");
+}
+
+TEST(GuessedUse, IsWhatAWordOfTheNameSays) {
+  EXPECT_EQ(guessed_use("mvc_biceps"), "mvc");
+  EXPECT_EQ(guessed_use("static_1"), "static");
+  EXPECT_EQ(guessed_use("subject_1_mvt_random"), "calibration");
+}
+
+TEST(RecordingsIn, AFolderAreThoseWithAKnownEndingInItAndItsFolders) {
+  const test::TemporaryFolder folder;
+  for (const char* name : {"b.trc", "a.sto", "c.txt", "notes.md", "sub/d.edf", "m.osim"})
+    recording::write_file(folder / name, "x");
+  recording::write_file(folder / "grf_walk.xml",
+                        "<OpenSimDocument><ExternalLoads name=\"g\"><datafile>grf\\walk.mot"
+                        "</datafile></ExternalLoads></OpenSimDocument>");
+  recording::write_file(folder / "setup.xml", "<OpenSimDocument><IKTool/></OpenSimDocument>");
+  FoundBeside beside;
+  const auto files = recordings_in({folder.path()}, beside);
+  ASSERT_EQ(beside.external_loads.size(), 1U);
+  EXPECT_EQ(loads_data_file(beside.external_loads[0]), folder / "grf/walk.mot");
+  ASSERT_EQ(files.size(), 3U);
+  EXPECT_EQ(files[0].filename(), "a.sto");
+  EXPECT_EQ(files[2].filename(), "d.edf");
+  EXPECT_EQ(beside.models.size(), 1U);
+}
+
+TEST(FindEmg, VoltagesThatGoThroughTheirMedianOftenAreRaw) {
+  const Eigen::VectorXd t = Eigen::VectorXd::LinSpaced(1000, 0.0, 0.999);
+  Eigen::MatrixXd x(1000, 2);
+  x.col(0) = 3.0 + (700.0 * t.array()).sin();
+  x.col(1).setOnes();
+  FoundRecording found;
+  find_emg("a.csv", TimeSeries(t, {{"BIC", Unit::volt}, {"Fz", Unit::newton}}, x), {}, found);
+  EXPECT_EQ(found.channels, std::vector<std::string>{"BIC"});
+  EXPECT_TRUE(found.raw);
+  FoundRecording unused;  // channels without an electrode do not vote
+  Eigen::MatrixXd zeros = Eigen::MatrixXd::Zero(1000, 3);
+  zeros.col(1) = x.col(0);
+  find_emg("a.csv", TimeSeries(t, {{"A", Unit::volt}, {"B", Unit::volt}, {"C", Unit::volt}}, zeros),
+           {}, unused);
+  EXPECT_TRUE(unused.raw);
+  FoundRecording envelope;
+  const Eigen::VectorXd slow = 1.0 + (20.0 * t.array()).sin();
+  find_emg("a.csv", TimeSeries(t, {{"BIC", Unit::volt}}, slow), {}, envelope);
+  EXPECT_FALSE(envelope.raw);
+}
+
+}  // namespace
+}  // namespace myoid

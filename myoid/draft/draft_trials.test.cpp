@@ -1,0 +1,59 @@
+#include "myoid/draft/draft_trials.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "myoid/draft/draft_text.h"
+
+namespace myoid {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+FoundRecording found(const std::string& name, bool angles, bool emg) {
+  FoundRecording f;
+  f.path = name;
+  f.stem = trial_stem(name);
+  if (angles) f.angles = {"elbow"};
+  if (emg) f.channels = {"BIC"};
+  return f;
+}
+
+TEST(DraftText, QuotesAsTomlWritesThem) {
+  EXPECT_EQ(in_quotes("a \"b\" \\ \n"), "\"a \\\"b\\\" \\\\ \"");
+  EXPECT_EQ(list_of({"a", "b"}), "[\"a\", \"b\"]");
+}
+
+TEST(DraftTrials, MotionAndEmgOfOneNameAreATrialAndEmgCalledSoIsAMaximalContraction) {
+  std::vector<FoundRecording> files{found("flex_2p5kg.mot", true, false),
+                                    found("flex_2p5kg_emg.csv", false, true),
+                                    found("mvc_emg.csv", false, true)};
+  DraftText out;
+  draft_trials(
+      files, {}, [](const std::filesystem::path& path) { return "in/" + path.string(); }, true,
+      out);
+  EXPECT_THAT(out.toml,
+              HasSubstr("motion = \"in/flex_2p5kg.mot\"\nemg = \"in/flex_2p5kg_emg.csv\"\n"
+                        "use = \"calibration\""));
+  EXPECT_THAT(out.toml, HasSubstr("# held_mass_kg = 2.5"));
+  EXPECT_THAT(out.toml, HasSubstr("emg = \"in/mvc_emg.csv\"\nuse = \"mvc\""));
+  EXPECT_THAT(out.toml, Not(HasSubstr("no trial has use")));
+  EXPECT_EQ(out.questions.size(), 1U);  // is the mass held in the hand?
+}
+
+TEST(DraftTrials, EmgOfSomeMovementIsNotTakenForAMaximum) {
+  std::vector<FoundRecording> files{found("ik_walk.mot", true, false),
+                                    found("run_emg.csv", false, true)};
+  DraftText out;
+  draft_trials(
+      files, {"in/grf_walk.xml", "in/grf_run.xml"},
+      [](const std::filesystem::path& path) { return path.string(); }, true, out);
+  EXPECT_THAT(out.toml, Not(HasSubstr("\nuse = \"mvc\"")));
+  EXPECT_THAT(out.toml, HasSubstr("# emg = \"run_emg.csv\"\n# use = \"mvc\""));
+  EXPECT_THAT(out.toml, HasSubstr("external_loads = \"in/grf_walk.xml\""));
+  EXPECT_THAT(out.toml, Not(HasSubstr("grf_run")));
+}
+
+}  // namespace
+}  // namespace myoid

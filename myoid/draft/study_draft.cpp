@@ -1,0 +1,390 @@
+#include "myoid/draft/study_draft.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "myoid/arm/arm4.h"
+#include "myoid/core/error.h"
+#include "myoid/draft/channel_muscles.h"
+#include "myoid/draft/draft_coordinate.h"
+#include "myoid/draft/draft_recordings.h"
+#include "myoid/draft/draft_text.h"
+#include "myoid/draft/draft_trials.h"
+#include "myoid/files/label_match.h"
+#include "myoid/files/text_file.h"
+#include "myoid/osim/osim_reader.h"
+#include "myoid/recording/bids.h"
+#include "myoid/recording/plate_standing.h"
+#include "myoid/recording/recording.h"
+
+namespace myoid {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Draft {
+ public:
+  Draft(fs::path folder, const DraftOptions& options)
+      : folder_(std::move(folder)), options_(options) {}
+
+  StudyDraft write() {
+    FoundBeside beside;
+    const std::vector<fs::path> files = recordings_in(options_.from, beside);
+    for (const fs::path& loads : beside.external_loads)
+      loads_data_.insert(loads_data_file(loads).lexically_normal());
+    choose_model(beside.models);
+    for (const fs::path& file : files) read(file);
+    if (coordinate_.empty()) choose_coordinate();
+    if (std::none_of(found_.begin(), found_.end(), [](const FoundRecording& f) {
+          return f.markers.frame_count() > 0 || !f.angles.empty() || !f.channels.empty();
+        })) {
+      std::vector<std::string> sources;
+      for (const fs::path& path : options_.from) sources.push_back(path.string());
+      throw InvalidInput(fmt::format(
+          "no recording with markers, joint angles or EMG in {}; name files or folders with --from",
+          fmt::join(sources, ", ")));
+    }
+    head();
+    muscles();
+    draft_trials(
+        found_, beside.external_loads, [&](const fs::path& path) { return relative(path); },
+        model_file_.has_value(), out_);
+    tail();
+    draft_.toml = std::move(out_.toml);
+    draft_.todo = std::move(out_.questions);
+    return std::move(draft_);
+  }
+
+ private:
+  void line(const std::string& text) { out_.line(text); }
+  void todo(const std::string& text) { out_.todo(text); }
+  [[nodiscard]] std::string relative(const fs::path& path) const {
+    std::error_code error;
+    const fs::path absolute = fs::absolute(path, error);
+    const fs::path from = fs::absolute(folder_, error);
+    const fs::path result = absolute.lexically_normal().lexically_relative(from.lexically_normal());
+    return (result.empty() ? absolute : result).generic_string();
+  }
+
+  void choose_model(const std::vector<fs::path>& models) {
+    if (options_.model) {
+      model_file_ = *options_.model;
+    } else if (models.size() == 1) {
+      model_file_ = models[0];
+    } else if (models.size() > 1) {
+      for (const fs::path& m : models) other_models_.push_back(relative(m));
+    }
+    model_ = model_file_ ? model::read_osim(*model_file_)
+                         : model::parse_osim(model::arm4_osim(), "arm4.osim");
+    coordinate_ = options_.coordinate;
+    if (!coordinate_.empty()) {
+      (void)model_.coordinate_index(coordinate_);
+      return;
+    }
+  }
+
+  void choose_coordinate() {
+    const std::vector<std::string> names = usual_first(free_coordinates());
+    const std::vector<std::string> channels = all_channels();
+    coordinate_ = coordinate_of_channels(model_, names, channels);
+    if (!coordinate_.empty()) return;
+    coordinate_ = names.empty() ? "TODO" : names[0];
+    guessed_coordinate_ = names.empty() || !is_usual(names[0]) || !channels.empty();
+  }
+
+  [[nodiscard]] std::vector<std::string> free_coordinates() const {
+    std::vector<std::string> names;
+    for (const model::Coordinate& c : model_.coordinates) {
+      if (!c.locked) names.push_back(c.name);
+    }
+    return names;
+  }
+
+  void read(const fs::path& path) {
+    FoundRecording f;
+    f.path = path;
+    f.stem = trial_stem(path);
+    try {
+      const std::string extension = recording::extension_of(path);
+      recording::Recording file = recording::read_recording(path);
+      f.plates = static_cast<int>(file.plates.size());
+      note_up(path, file);
+      f.markers = std::move(file.markers);
+      for (const Channel& c : file.analog.channels()) {
+        if ((extension == ".mot" || extension == ".sto") && model_.find_coordinate(c.name))
+          f.angles.push_back(c.name);
+      }
+      if (f.angles.empty() && !file.analog.empty() && !recording::is_bids_motion(path))
+        find_emg(path, file.analog.series(), file.plates, f);
+    } catch (const InvalidInput& error) {
+      draft_.notes.push_back(fmt::format("not read: {}", error.what()));
+      return;
+    }
+    if (loads_data_.contains(path.lexically_normal())) return;  // goes with its ExternalLoads
+    if (f.markers.frame_count() == 0 && f.angles.empty() && f.channels.empty()) {
+      draft_.notes.push_back(
+          fmt::format("{}: no markers, no coordinate of the model, no EMG; not used",
+                      path.filename().string()));
+      return;
+    }
+    if (f.markers.frame_count() > 0) {
+      Eigen::Index known = 0;
+      std::vector<std::string> wanted;
+      for (const model::Marker& m : model_.markers) wanted.push_back(m.name);
+      const recording::LabelMatch match = recording::match_labels(f.markers.names, wanted);
+      for (const std::string& name : f.markers.names) {
+        if (model_.find_marker(name) || match.same.contains(name)) ++known;
+      }
+      for (const auto& [name, like] : match.similar) {
+        const bool taken = std::any_of(similar_.begin(), similar_.end(),
+                                       [&](const auto& pair) { return pair.second == like; });
+        if (!taken) similar_.emplace(name, like);
+      }
+      for (std::string& name : f.markers.names) {
+        if (const auto same = match.same.find(name); same != match.same.end()) name = same->second;
+      }
+      most_known_ = std::max(most_known_, known);
+      if (known >= 4 && up_ == ' ') find_up(f.markers);
+    }
+    found_.push_back(std::move(f));
+  }
+
+  /// Up as the first file says that does.
+  void note_up(const fs::path& path, recording::Recording& file) {
+    try {
+      const recording::LaboratoryUp up = recording::stand_plates(file, std::nullopt);
+      if (!up.up_L || !file_up_.empty()) return;
+      file_up_ = recording::axis_name(*up.up_L);
+      file_up_because_ = fmt::format("{}: {}", path.filename().string(), up.because);
+    } catch (const InvalidInput& error) {
+      draft_.notes.push_back(fmt::format("{}: {}", path.filename().string(), error.what()));
+    }
+  }
+
+  void find_up(const recording::MarkerSeries& markers) {
+    double best = -2.0;
+    for (const char up : {'y', 'z', 'x'}) {
+      const double score = upright(model_, markers, Vec3::Unit(up - 'x'));
+      if (score > best + 1e-9) {
+        best = score;
+        up_ = up;
+      }
+    }
+    up_cosine_ = best;
+    if (best < -1.5) up_ = ' ';
+  }
+
+  void head() {
+    line("# A study to start from, written by `myoid init`. Lines with TODO want an answer; then:");
+    line("#   myoid check study.toml");
+    line("#   myoid run study.toml --out results");
+    line("");
+    line("[subject]");
+    std::error_code error;
+    const fs::path at = fs::absolute(folder_, error).lexically_normal();
+    line("name = " + in_quotes((at.has_filename() ? at : at.parent_path()).filename().string()));
+    if (!model_file_) {
+      todo("the person's mass, for the segments of the built-in arm");
+      line("# mass_kg = 70.0");
+    }
+    line("");
+    line("[model]");
+    if (model_file_) {
+      line("file = " + in_quotes(relative(*model_file_)));
+    } else {
+      line("builtin = \"arm4\"");
+      if (!other_models_.empty())
+        todo(
+            fmt::format("or one of the models that were found: file = {}", list_of(other_models_)));
+    }
+    if (guessed_coordinate_)
+      todo("which joint? free coordinates: " +
+           fmt::format("{}", fmt::join(free_coordinates(), ", ")));
+    line("coordinate = " + in_quotes(coordinate_));
+    line("");
+    const bool any_markers = std::any_of(found_.begin(), found_.end(), [](const FoundRecording& f) {
+      return f.markers.frame_count() > 0;
+    });
+    if (!any_markers) return;
+    line("[markers]");
+    if (up_ == ' ' && file_up_.size() == 1) {
+      line(fmt::format("up = \"{}\"   # {}", file_up_, file_up_because_));
+    } else if (up_ == ' ') {
+      todo("the vertical axis of the laboratory: x, y or z");
+      line("up = \"y\"");
+    } else {
+      line(fmt::format(
+          "up = \"{}\"   # the model's markers stand upright in the laboratory like this "
+          "({:.0f} degrees off)",
+          up_, std::acos(std::clamp(up_cosine_, -1.0, 1.0)) / kDegree));
+      if (up_cosine_ < 0.7) todo("that is not upright; is it the right axis?");
+      if (!file_up_.empty() && file_up_ != std::string(1, up_))
+        todo(fmt::format("by its own words a file has {} up ({}); which is right?", file_up_,
+                         file_up_because_));
+    }
+    if (most_known_ < 3 && !model_.markers.empty()) {
+      std::vector<std::string> names;
+      for (const model::Marker& m : model_.markers) {
+        if (names.size() < 40) names.push_back(m.name);
+      }
+      todo(
+          fmt::format("only {} of the recorded markers are known to the model; its own are {}: "
+                      "rename = {{ FILE = \"MODEL\", ... }}",
+                      most_known_, fmt::join(names, ", ")));
+    }
+    if (!similar_.empty()) {
+      std::string pairs;
+      for (const auto& [name, like] : similar_)
+        pairs +=
+            fmt::format("{}{} = {}", pairs.empty() ? "" : ", ", in_quotes(name), in_quotes(like));
+      todo("are these the same? Then take the # away");
+      line("# rename = { " + pairs + " }");
+    }
+    line("");
+  }
+
+  [[nodiscard]] std::vector<std::string> all_channels() const {
+    std::vector<std::string> channels;
+    for (const FoundRecording& f : found_) {
+      for (const std::string& c : f.channels) {
+        if (std::find(channels.begin(), channels.end(), c) == channels.end()) channels.push_back(c);
+      }
+    }
+    return channels;
+  }
+
+  void muscles() {
+    const std::vector<std::string> channels = all_channels();
+    bool raw = true, unit = true, any = false;
+    for (const FoundRecording& f : found_) {
+      if (!f.channels.empty()) {
+        if (any && f.raw != raw) mixed_ = true;
+        raw = any ? raw && f.raw : f.raw;
+        any = true;
+      }
+      unit = unit && f.has_unit;
+    }
+    line("[emg]");
+    line(fmt::format("kind = \"{}\"   # {}", raw ? "raw" : "envelope",
+                     raw ? "by how often it goes through its median" : "it changes slowly"));
+    if (mixed_)
+      todo(
+          "some files hold raw EMG, others envelopes: a study takes one kind; leave the others "
+          "out");
+    if (raw && !unit) {
+      todo("the unit of the EMG, where the file does not say: V, mV or uV");
+      line("# unit = \"uV\"");
+    }
+    line("");
+    if (channels.empty())
+      todo("no EMG was found; without it only motion and joint torque are computed");
+    const std::vector<std::string> able =
+        coordinate_ == "TODO" ? std::vector<std::string>{} : movers(model_, coordinate_);
+    std::set<std::string> covered;
+    std::vector<std::string> unused;
+    std::set<std::string> names;
+    std::string first;
+    for (const ChannelMuscles& pair : match_channels(channels, able)) {
+      std::vector<std::string> fresh;
+      for (const std::string& m : pair.muscles) {
+        if (covered.insert(m).second) fresh.push_back(m);
+      }
+      if (fresh.empty()) {
+        unused.push_back(pair.channel);
+        continue;
+      }
+      std::string name = fresh.size() == 1 ? fresh[0] : abbreviation(fresh);
+      while (!names.insert(name).second) name += "_2";
+      if (first.empty()) first = name;
+      line("[[muscle]]");
+      line("name = " + in_quotes(name));
+      line("osim = " + list_of(fresh));
+      line("emg = " + in_quotes(pair.channel));
+      line("");
+    }
+    std::vector<std::string> left;
+    for (const std::string& m : able) {
+      if (!covered.contains(m)) left.push_back(m);
+    }
+    if (first.empty() && !channels.empty()) {
+      todo(fmt::format("no channel's name is that of a muscle that moves {}; name the pairs",
+                       coordinate_));
+      line("[[muscle]]");
+      line("name = \"TODO\"");
+      line(fmt::format("osim = [\"TODO\"]   # of {}", fmt::join(able, ", ")));
+      line(fmt::format("emg = \"TODO\"      # of {}", fmt::join(channels, ", ")));
+      line("");
+    } else if (!left.empty() && !first.empty()) {
+      todo(
+          fmt::format("these move {} too, and have no electrode: {}. Leave them out, add them to a "
+                      "group, or let them act as another muscle does:",
+                      coordinate_, fmt::join(left, ", ")));
+      line("# [[muscle]]");
+      line("# name = " + in_quotes(left[0]));
+      line("# emg = { same_as = " + in_quotes(first) + " }");
+      line("");
+    }
+    if (!unused.empty() && !first.empty()) {
+      line(fmt::format("# Channels that no muscle about {} takes: {}", coordinate_,
+                       fmt::join(unused, ", ")));
+      line("");
+    }
+  }
+
+  static std::string abbreviation(const std::vector<std::string>& heads) {
+    std::string name = heads[0];
+    for (const std::string& h : heads) {
+      std::size_t k = 0;
+      while (k < name.size() && k < h.size() && name[k] == h[k]) ++k;
+      name.resize(k);
+    }
+    while (!name.empty() && (name.back() == '_' || name.back() == '-')) name.pop_back();
+    return name.size() >= 2 ? name : heads[0];
+  }
+
+  void tail() {
+    line("");
+    line("[identify]");
+    line("method = [\"paper\", \"torque\"]");
+    if (!draft_.notes.empty()) {
+      line("");
+      for (const std::string& note : draft_.notes) {
+        std::string flat = note;
+        std::replace(flat.begin(), flat.end(), '\n', ' ');
+        line("# " + flat);
+      }
+    }
+  }
+
+  fs::path folder_;
+  const DraftOptions& options_;
+  std::optional<fs::path> model_file_;
+  std::vector<std::string> other_models_;
+  model::BodyModel model_;
+  std::string coordinate_;
+  bool guessed_coordinate_ = false;
+  bool mixed_ = false;
+  std::set<fs::path> loads_data_;
+  std::vector<FoundRecording> found_;
+  std::map<std::string, std::string> similar_;
+  Eigen::Index most_known_ = 0;
+  char up_ = ' ';
+  std::string file_up_, file_up_because_;  ///< "z", as the first file says that does.
+  double up_cosine_ = 0.0;
+  DraftText out_;
+  StudyDraft draft_;
+};
+
+}  // namespace
+
+StudyDraft draft_study(const std::filesystem::path& folder, const DraftOptions& options) {
+  return Draft(folder, options).write();
+}
+
+}  // namespace myoid

@@ -1,0 +1,115 @@
+#include "myoid/draft/study_draft.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "myoid/checks/check_study.h"
+#include "myoid/core/error.h"
+#include "myoid/files/atomic_file.h"
+#include "myoid/study/study.h"
+
+#include "tests/support/data_folder.h"
+#include "tests/support/temporary_folder.h"
+
+namespace myoid {
+namespace {
+
+using ::testing::Contains;
+using ::testing::HasSubstr;
+
+/// Angles of the elbow and raw EMG of one trial.
+void write_trial(const std::filesystem::path& folder, const std::string& stem) {
+  std::string motion =
+      "Coordinates\nversion=1\nnRows=400\nnColumns=2\ninDegrees=no\nendheader\ntime\telbow_"
+      "flexion\n";
+  for (int i = 0; i < 400; ++i)
+    motion += fmt::format("{:.2f}\t{:.6f}\n", 0.01 * i, 1.0 + 0.5 * std::sin(0.06 * i));
+  recording::write_file(folder / (stem + "_angles.mot"), motion);
+  std::string emg = "time,Biceps Brachii [mV],Triceps [mV],ECG [mV]\n";
+  for (int i = 0; i < 4000; ++i) {
+    const double t = 0.001 * i;
+    const double phase = static_cast<double>(stem.size());  // of each trial its own
+    const double noise = std::sin(700.0 * t + phase) + std::sin(431.0 * t + 1.0);
+    emg += fmt::format("{:.3f},{:.5f},{:.5f},{:.5f}\n", t, noise * (1.0 + std::sin(6.0 * t)),
+                       noise * (1.2 - std::sin(6.0 * t)), noise);
+  }
+  recording::write_file(folder / (stem + "_emg.csv"), emg);
+}
+
+TEST(StudyDraft, OfAFolderOfRecordingsPassesTheCheck) {
+  const test::TemporaryFolder folder;
+  write_trial(folder.path(), "flex_2kg");
+  write_trial(folder.path(), "slow");
+  recording::write_file(folder / "broken.trc", "no TRC");
+  const StudyDraft draft = draft_study(folder.path(), {.from = {folder.path()}});
+  const Study study = parse_study(draft.toml, folder / "study.toml");
+  ASSERT_EQ(study.trials.size(), 2U);
+  EXPECT_EQ(study.trials[0].name, "flex_2kg");
+  EXPECT_EQ(study.trials[0].motion->filename(), "flex_2kg_angles.mot");
+  EXPECT_EQ(study.trials[0].emg->filename(), "flex_2kg_emg.csv");
+  ASSERT_EQ(study.muscles.size(), 2U);
+  EXPECT_EQ(study.muscles[0].emg, "Biceps Brachii");
+  EXPECT_EQ(study.muscles[0].osim, std::vector<std::string>{"BIC"});
+  for (const Finding& f : check_study(study))
+    EXPECT_NE(f.level, Finding::Level::error) << f.message;
+  EXPECT_THAT(draft.todo, Contains(HasSubstr("have no electrode: BRA, BRD")));
+  EXPECT_THAT(draft.todo, Contains(HasSubstr("2 kg")));
+  EXPECT_THAT(draft.toml, HasSubstr("# Channels that no muscle about elbow_flexion takes: ECG"));
+  EXPECT_THAT(draft.notes, Contains(HasSubstr("broken.trc")));
+}
+
+TEST(StudyDraft, WhereNoChannelIsKnownTheCheckSaysWhatToFillIn) {
+  const test::TemporaryFolder folder;
+  write_trial(folder.path(), "a");
+  std::string text = "time,V1 [V],V2 [V]\n";
+  for (int i = 0; i < 4000; ++i)
+    text += fmt::format("{:.3f},{:.5f},0.1\n", 0.001 * i, std::sin(0.7 * i));
+  recording::write_file(folder / "a_emg.csv", text);
+  const StudyDraft draft = draft_study(folder.path(), {.from = {folder.path()}});
+  EXPECT_THAT(draft.todo, Contains(HasSubstr("name the pairs")));
+  const Study study = parse_study(draft.toml, folder / "study.toml");
+  bool said = false;
+  for (const Finding& f : check_study(study))
+    said =
+        said || (f.level == Finding::Level::error && f.message.find("TODO") != std::string::npos);
+  EXPECT_TRUE(said);
+}
+
+TEST(StudyDraft, WithoutARecordingIsRefused) {
+  const test::TemporaryFolder folder;
+  EXPECT_THROW((void)draft_study(folder.path(), {.from = {folder.path()}}), InvalidInput);
+}
+
+TEST(StudyDraft, OfAWalkingTrialTheJointIsThatOfTheChannelsAndTheGroundReactionComesAlong) {
+  const auto data = test::data_folder();
+  MYOID_REQUIRE_DATA(data / "gait-emg");
+  const test::TemporaryFolder folder;
+  const StudyDraft draft = draft_study(folder.path(), {.from = {data / "gait-emg"}});
+  const Study study = parse_study(draft.toml, folder / "study.toml");
+  EXPECT_EQ(study.model.coordinate, "knee_angle_r");
+  ASSERT_EQ(study.trials.size(), 1U);
+  EXPECT_EQ(study.trials[0].external_loads->filename(), "grf_walk.xml");
+  EXPECT_EQ(study.trials[0].emg->filename(), "emg_walk_raw.anc");
+  std::vector<std::string> emg;
+  for (const MuscleSpec& muscle : study.muscles) emg.push_back(muscle.emg);
+  EXPECT_THAT(emg, ::testing::UnorderedElementsAre("GAS", "MH", "BF", "VL", "VM", "RF"));
+  EXPECT_THAT(draft.notes, ::testing::Not(Contains(HasSubstr("grf_walk"))));
+}
+
+TEST(StudyDraft, OfTheElbowRecordingsPassesTheCheck) {
+  const auto data = test::data_folder();
+  MYOID_REQUIRE_DATA(data / "elbow-emg");
+  const test::TemporaryFolder folder;
+  const StudyDraft draft = draft_study(folder.path(), {.from = {data / "elbow-emg"}});
+  const Study study = parse_study(draft.toml, folder / "study.toml");
+  EXPECT_EQ(study.trials.size(), 6U);
+  EXPECT_EQ(study.muscles.size(), 3U);
+  for (const Finding& f : check_study(study))
+    EXPECT_NE(f.level, Finding::Level::error) << f.message;
+}
+
+}  // namespace
+}  // namespace myoid

@@ -1,0 +1,167 @@
+#include "myoid/dynamics/ground_support.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "myoid/core/units.h"
+#include "myoid/dynamics/inverse_dynamics.h"
+#include "myoid/dynamics/joint_capacity.h"
+#include "myoid/model/kinematic_tree.h"
+
+namespace myoid::dynamics {
+namespace {
+
+struct Root {
+  int coordinate = -1;
+  double weight_n = 0.0;
+};
+
+/// The free translation of a joint to the ground that goes along gravity; -1: none.
+Root root_of(const model::BodyModel& model) {
+  Root root;
+  const double g = model.gravity_G.norm();
+  if (!(g > 0.0)) return root;
+  const Vec3 down = model.gravity_G / g;
+  model::BodyState state = model::make_state(model);
+  model::compute_poses(model, model.default_q(), state);
+  double best = 0.7;  // of its axis along gravity: nearer than 45 degrees
+  for (const model::Joint& joint : model.joints) {
+    if (joint.parent != 0) continue;
+    for (const int c : joint.coordinates) {
+      const model::Coordinate& coordinate = model.coordinates[static_cast<std::size_t>(c)];
+      if (coordinate.motion != model::MotionType::translational || model.is_constrained(c))
+        continue;
+      const double along = std::abs(state.H_v_G[static_cast<std::size_t>(c)].dot(down));
+      if (along <= best) continue;
+      best = along;
+      root.coordinate = c;
+    }
+  }
+  for (const model::Body& body : model.bodies) root.weight_n += g * body.mass_kg;
+  return root;
+}
+
+}  // namespace
+
+std::string UnsupportedWeight::sentence(const std::string& given_by) const {
+  return fmt::format(
+      "nothing carries the body: {} has to bear {:.0f} N, {:.0f} % of the model's weight ({:.0f} "
+      "N); the torques between the ground and the trunk lack the ground reaction: give it by {}",
+      coordinate, force_n, 100.0 * force_n / weight_n, weight_n, given_by);
+}
+
+std::optional<UnsupportedWeight> unsupported_weight(const model::BodyModel& model,
+                                                    const TimeSeries& generalized_forces) {
+  constexpr double kMost = 0.5;
+  const Root root = root_of(model);
+  if (root.coordinate < 0 || !(root.weight_n > 0.0)) return std::nullopt;
+  const model::Coordinate& c = model.coordinates[static_cast<std::size_t>(root.coordinate)];
+  const auto column = generalized_forces.find(dynamics::generalized_force_name(c));
+  if (!column || generalized_forces.sample_count() == 0) return std::nullopt;
+  const double force = std::abs(generalized_forces.values().col(*column).mean());
+  if (!(force >= kMost * root.weight_n)) return std::nullopt;
+  return UnsupportedWeight{c.name, force, root.weight_n};
+}
+
+std::optional<UnsupportedWeight> unsupported_weight(const model::BodyModel& model) {
+  const Root root = root_of(model);
+  if (root.coordinate < 0 || !(root.weight_n > 0.0)) return std::nullopt;
+  return UnsupportedWeight{model.coordinates[static_cast<std::size_t>(root.coordinate)].name,
+                           root.weight_n, root.weight_n};
+}
+
+std::string UncarriedTime::sentence() const {
+  std::vector<std::string> times;
+  for (const Stretch& s : stretches)
+    times.push_back(fmt::format("{:.4g} to {:.4g} s", s.begin_s, s.end_s));
+  return fmt::format(
+      "no measured force carries the body in {:.0f} % of the trial ({}): {} has to bear up to "
+      "{:.0f} "
+      "N of a weight of {:.0f} N; was a foot beside the plates, or a hand on a rail? The torques "
+      "of "
+      "the legs are wrong there, so that those times are not fitted; start_s and end_s leave them "
+      "out altogether",
+      100.0 * share, fmt::join(times, ", "), coordinate, force_n, weight_n);
+}
+
+std::optional<UncarriedTime> uncarried_time(const model::BodyModel& model,
+                                            const TimeSeries& generalized_forces) {
+  constexpr double kUncarried = 0.5, kAffected = 0.25;  // of the weight
+  constexpr double kBriefest_s = 0.05;
+  constexpr double kThroughout = 0.9;
+  const Root root = root_of(model);
+  if (root.coordinate < 0 || !(root.weight_n > 0.0)) return std::nullopt;
+  const model::Coordinate& c = model.coordinates[static_cast<std::size_t>(root.coordinate)];
+  const auto column = generalized_forces.find(dynamics::generalized_force_name(c));
+  const Eigen::VectorXd& t = generalized_forces.time_s();
+  if (!column || t.size() < 2) return std::nullopt;
+  const Eigen::VectorXd force = generalized_forces.values().col(*column).cwiseAbs();
+  UncarriedTime found{.stretches = {},
+                      .share = 0.0,
+                      .coordinate = c.name,
+                      .force_n = 0.0,
+                      .weight_n = root.weight_n};
+  const auto affected = [&](Eigen::Index i) { return force[i] >= kAffected * root.weight_n; };
+  double sum_s = 0.0;
+  for (Eigen::Index i = 0; i < t.size(); ++i) {
+    if (!affected(i)) continue;
+    const Eigen::Index first = i;
+    Eigen::Index half_first = -1, half_last = -1;
+    for (; i < t.size() && affected(i); ++i) {
+      if (force[i] < kUncarried * root.weight_n) continue;
+      if (half_first < 0) half_first = i;
+      half_last = i;
+    }
+    if (half_first < 0 || t[half_last] - t[half_first] < kBriefest_s) continue;
+    found.stretches.push_back({t[first], t[i - 1]});
+    found.force_n = std::max(found.force_n, force.segment(first, i - first).maxCoeff());
+    sum_s += t[i - 1] - t[first];
+  }
+  found.share = sum_s / (t[t.size() - 1] - t[0]);
+  if (found.stretches.empty() || found.share > kThroughout) return std::nullopt;
+  return found;
+}
+
+bool bears_the_body(const model::BodyModel& model,
+                    const std::string& coordinate,
+                    const Eigen::VectorXd& q,
+                    double body_mass_kg) {
+  // Head, arms and trunk are 0.68 of a person (Winter 2009): a model that stands has more.
+  constexpr double kMostOfABody = 0.75;
+  constexpr double kGenericBody_kg = 75.0;  // where nobody says what the person weighs
+  double mass = 0.0;
+  for (const model::Body& body : model.bodies) mass += body.mass_kg;
+  if (mass < kMostOfABody * (body_mass_kg > 0.0 ? body_mass_kg : kGenericBody_kg)) return false;
+  const double g = model.gravity_G.norm();
+  if (!(g > 0.0)) return false;
+  const Vec3 up = -model.gravity_G / g;
+  const int joint =
+      model.coordinates[static_cast<std::size_t>(model.coordinate_index(coordinate))].joint;
+  const std::vector<bool> moved = moved_bodies(model, joint);
+  model::BodyState state = model::make_state(model);
+  model::compute_poses(model, q, state);
+  double own = std::numeric_limits<double>::infinity();
+  double others = own;
+  for (std::size_t b = 1; b < model.bodies.size(); ++b) {
+    const double height = up.dot(state.X_GB[b].p);
+    (moved[b] ? own : others) = std::min(moved[b] ? own : others, height);
+  }
+  // The other leg's foot is about as low.
+  constexpr double kAsLow_m = 0.15;
+  return own < others + kAsLow_m;
+}
+
+bool stands(const model::BodyModel& model, const Eigen::VectorXd& q) {
+  return std::any_of(model.coordinates.begin(), model.coordinates.end(),
+                     [&](const model::Coordinate& c) {
+                       return c.motion != model::MotionType::translational &&
+                              model.joints[static_cast<std::size_t>(c.joint)].parent != 0 &&
+                              bears_the_body(model, c.name, q, 0.0);
+                     });
+}
+
+}  // namespace myoid::dynamics

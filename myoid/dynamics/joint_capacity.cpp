@@ -1,0 +1,81 @@
+#include "myoid/dynamics/joint_capacity.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "myoid/core/units.h"
+#include "myoid/model/kinematic_tree.h"
+#include "myoid/model/muscle_path.h"
+
+namespace myoid::dynamics {
+
+double JointCapacity::isometric_nm() const { return std::max(positive_nm, negative_nm); }
+
+double JointCapacity::greatest_nm() const {
+  constexpr double kStrongest = 2.5;
+  constexpr double kLengthening = 1.5;
+  return kStrongest * kLengthening * isometric_nm() + body_mass_kg * kStandardGravity * lever_m;
+}
+
+std::vector<bool> moved_bodies(const model::BodyModel& model, int joint) {
+  std::vector<bool> moved(model.bodies.size(), false);
+  const auto first = static_cast<std::size_t>(model.joints[static_cast<std::size_t>(joint)].child);
+  moved[first] = true;
+  // A parent's joint stands before its child's.
+  for (const model::Joint& j : model.joints) {
+    if (moved[static_cast<std::size_t>(j.parent)]) moved[static_cast<std::size_t>(j.child)] = true;
+  }
+  return moved;
+}
+
+JointCapacity joint_capacity(const model::BodyModel& model,
+                             const std::string& coordinate,
+                             double body_mass_kg) {
+  constexpr int kSteps = 12;
+  const int index = model.coordinate_index(coordinate);
+  const model::Coordinate& c = model.coordinates[static_cast<std::size_t>(index)];
+  const double turn = c.motion == model::MotionType::translational ? 1.0 : kPi;
+  const double from = std::max(c.lower, c.default_value - turn);
+  const double to = std::max(from, std::min(c.upper, c.default_value + turn));
+  JointCapacity capacity;
+  model::BodyState state = model::make_state(model);
+  Eigen::VectorXd q = model.default_q();
+  for (int step = 0; step <= kSteps; ++step) {
+    q[index] = from + (to - from) * step / kSteps;
+    model::compute_poses(model, q, state);
+    double positive = 0.0;
+    double negative = 0.0;
+    for (std::size_t m = 0; m < model.muscles.size(); ++m) {
+      const model::PathResult path = model::compute_path(model, static_cast<int>(m), state);
+      const double torque =
+          path.moment_arm_m[index] * model.muscles[m].properties.max_isometric_force_n;
+      if (!std::isfinite(torque)) continue;
+      (torque > 0.0 ? positive : negative) += std::abs(torque);
+    }
+    capacity.positive_nm = std::max(capacity.positive_nm, positive);
+    capacity.negative_nm = std::max(capacity.negative_nm, negative);
+  }
+  q = model.default_q();
+  model::compute_poses(model, q, state);
+  const auto joint = static_cast<std::size_t>(c.joint);
+  const std::vector<bool> moved = moved_bodies(model, c.joint);
+  const auto child = static_cast<std::size_t>(model.joints[joint].child);
+  const Vec3 center = state.X_GB[child] * model.joints[joint].X_BM.p;
+  double mass = 0.0;
+  for (std::size_t b = 1; b < model.bodies.size(); ++b) {
+    mass += model.bodies[b].mass_kg;
+    if (moved[b])
+      capacity.lever_m =
+          std::max(capacity.lever_m, (state.X_GB[b] * model.bodies[b].p_BBcm_B - center).norm());
+  }
+  for (const model::Marker& marker : model.markers) {
+    const auto b = static_cast<std::size_t>(marker.body);
+    if (moved[b])
+      capacity.lever_m = std::max(capacity.lever_m, (state.X_GB[b] * marker.p_BM - center).norm());
+  }
+  capacity.lever_m = std::min(capacity.lever_m, kLongestLever_m);
+  capacity.body_mass_kg = body_mass_kg > 0.0 ? body_mass_kg : std::max(mass, kLightBody_kg);
+  return capacity;
+}
+
+}  // namespace myoid::dynamics

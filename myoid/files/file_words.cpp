@@ -1,0 +1,103 @@
+#include "myoid/files/file_words.h"
+
+#include <array>
+
+namespace myoid::recording {
+namespace {
+
+bool valid_utf8(std::string_view text) {
+  std::size_t i = 0;
+  while (i < text.size()) {
+    const auto lead = static_cast<unsigned char>(text[i]);
+    const std::size_t more = lead < 0x80                    ? 0
+                             : lead >= 0xC2 && lead <= 0xDF ? 1
+                             : lead >= 0xE0 && lead <= 0xEF ? 2
+                             : lead >= 0xF0 && lead <= 0xF4 ? 3
+                                                            : 9;
+    if (more == 9 || i + more >= text.size() + (more == 0 ? 1 : 0)) return false;
+    for (std::size_t k = 1; k <= more; ++k) {
+      if ((static_cast<unsigned char>(text[i + k]) & 0xC0) != 0x80) return false;
+    }
+    // Overlong forms, surrogates and what lies beyond the last code point.
+    const auto second = more > 0 ? static_cast<unsigned char>(text[i + 1]) : 0;
+    if ((lead == 0xE0 && second < 0xA0) || (lead == 0xED && second > 0x9F) ||
+        (lead == 0xF0 && second < 0x90) || (lead == 0xF4 && second > 0x8F))
+      return false;
+    i += more + 1;
+  }
+  return true;
+}
+
+}  // namespace
+
+std::string to_utf8(std::string_view bytes) {
+  std::string text;
+  const bool utf8 = valid_utf8(bytes);
+  for (const char c : bytes) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < 0x20 || byte == 0x7F) {
+      text += ' ';
+    } else if (utf8 || byte < 0x80) {
+      text += c;
+    } else {
+      text += static_cast<char>(0xC0 | (byte >> 6));
+      text += static_cast<char>(0x80 | (byte & 0x3F));
+    }
+  }
+  while (!text.empty() && text.back() == ' ') text.pop_back();
+  std::size_t begin = 0;
+  while (begin < text.size() && text[begin] == ' ') ++begin;
+  return text.substr(begin);
+}
+
+std::optional<ScaledUnit> parse_file_unit(std::string_view text) {
+  std::string word;
+  for (const char c : text) {
+    if (c != ' ' && c != '\0') word += c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c;
+  }
+  struct Word {
+    std::string_view text;
+    ScaledUnit unit;
+  };
+  constexpr std::array kWords = {
+      Word{"nt", {Unit::newton, 1.0}},
+      Word{"newton", {Unit::newton, 1.0}},
+      Word{"ntm", {Unit::newton_meter, 1.0}},
+      Word{"ntmm", {Unit::newton_meter, 1e-3}},
+      Word{"nm", {Unit::newton_meter, 1.0}},
+      Word{"nmm", {Unit::newton_meter, 1e-3}},
+      Word{"n-m", {Unit::newton_meter, 1.0}},
+      Word{"n-mm", {Unit::newton_meter, 1e-3}},
+      Word{"n*m", {Unit::newton_meter, 1.0}},
+      Word{"n*mm", {Unit::newton_meter, 1e-3}},
+      Word{"n/m", {Unit::newton_per_meter, 1.0}},
+      Word{"ncm", {Unit::newton_meter, 1e-2}},
+      Word{"g", {Unit::meter_per_second2, kStandardGravity}},
+      Word{"mg", {Unit::meter_per_second2, 1e-3 * kStandardGravity}},
+      Word{"m/s2", {Unit::meter_per_second2, 1.0}},
+      Word{"m/s/s", {Unit::meter_per_second2, 1.0}},
+      Word{"mm/s2", {Unit::meter_per_second2, 1e-3}},
+      Word{"mm/s^2", {Unit::meter_per_second2, 1e-3}},
+      Word{"rad/s2", {Unit::radian_per_second2, 1.0}},
+      Word{"deg/sec", {Unit::radian_per_second, kDegree}},
+      Word{"°/s", {Unit::radian_per_second, kDegree}},
+      Word{"dps", {Unit::radian_per_second, kDegree}},
+      Word{"v", {Unit::volt, 1.0}},
+      Word{"volts", {Unit::volt, 1.0}},
+      Word{"uv", {Unit::volt, 1e-6}},
+      Word{"millivolt", {Unit::volt, 1e-3}},
+      Word{"microvolt", {Unit::volt, 1e-6}},
+      Word{"inches", {Unit::meter, 0.0254}},
+      Word{"inch", {Unit::meter, 0.0254}},
+  };
+  // "mV" and "MV", "N" and "n" differ by case; where all is in capitals the usual one is meant.
+  if (word == "mv") return ScaledUnit{Unit::volt, 1e-3};
+  for (const Word& entry : kWords) {
+    if (entry.text == word) return entry.unit;
+  }
+  const std::string clean = to_utf8(text.substr(0, text.find('\0')));
+  if (const auto unit = parse_unit(clean)) return unit;
+  return parse_unit(word == "n" ? "N" : word);
+}
+
+}  // namespace myoid::recording

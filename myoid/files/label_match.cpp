@@ -1,0 +1,55 @@
+#include "myoid/files/label_match.h"
+
+#include <algorithm>
+#include <set>
+
+#include "myoid/files/toml_table.h"
+
+namespace myoid::recording {
+
+std::string plain_label(std::string_view label) {
+  if (const auto colon = label.rfind(':'); colon != std::string_view::npos)
+    label.remove_prefix(colon + 1);
+  std::string plain;
+  for (const char c : label) {
+    if (c == ' ' || c == '\t' || c == '_' || c == '-' || c == '.') continue;
+    plain += c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c;
+  }
+  return plain;
+}
+
+LabelMatch match_labels(const std::vector<std::string>& found,
+                        const std::vector<std::string>& wanted) {
+  const std::set<std::string> has(found.begin(), found.end());
+  const std::set<std::string> wants(wanted.begin(), wanted.end());
+  std::map<std::string, std::vector<std::string>> spare;    // names of the file, by plain label
+  std::map<std::string, std::vector<std::string>> missing;  // wanted ones
+  for (const std::string& name : has) {
+    if (!wants.contains(name)) spare[plain_label(name)].push_back(name);
+  }
+  for (const std::string& name : wants) {
+    if (!has.contains(name)) missing[plain_label(name)].push_back(name);
+  }
+  LabelMatch match;
+  std::set<std::string> taken;
+  for (const auto& [plain, names] : spare) {
+    const auto other = missing.find(plain);
+    if (plain.empty() || other == missing.end() || names.size() != 1 || other->second.size() != 1)
+      continue;
+    match.same[names.front()] = other->second.front();
+    taken.insert(other->second.front());
+  }
+  std::vector<std::string> open;
+  for (const std::string& name : wants) {
+    if (!has.contains(name) && !taken.contains(name)) open.push_back(name);
+  }
+  for (const auto& [plain, names] : spare) {
+    for (const std::string& name : names) {
+      if (match.same.contains(name)) continue;
+      if (const auto near = nearest_word(name, open)) match.similar[name] = *near;
+    }
+  }
+  return match;
+}
+
+}  // namespace myoid::recording

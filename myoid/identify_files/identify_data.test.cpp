@@ -1,0 +1,273 @@
+#include "myoid/identify_files/identify_data.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "myoid/core/error.h"
+#include "myoid/files/atomic_file.h"
+#include "myoid/files/text_file.h"
+#include "myoid/methods/torque.h"
+#include "myoid/tables/series_file.h"
+#include "myoid/tables/storage_writer.h"
+
+#include "tests/support/elbow_study.h"
+#include "tests/support/temporary_folder.h"
+
+namespace myoid {
+namespace {
+
+/// A made-up trial of four muscles, in files.
+struct Written {
+  test::TemporaryFolder folder;
+  test::ElbowStudy study = test::elbow_study({.trials = 1, .seconds = 5.0});
+  MuscleTable table;
+  IdentifySources sources;
+  std::vector<std::string> remarks;
+
+  Written() {
+    table.muscles = study.data.muscles;
+    const identification::TrialData& trial = study.data.trials[0];
+    recording::write_series(folder / "a.sto", trial.activation, "activation");
+    write("l.sto", trial.length_m, Unit::meter);
+    write("v.sto", trial.velocity_mps, Unit::meter_per_second);
+    write("r.sto", trial.moment_arm_m, Unit::meter);
+    recording::write_series(folder / "id.sto",
+                            {trial.time_s, {{"elbow_moment", Unit::newton_meter}}, trial.torque_nm},
+                            "torque");
+    sources.activations = {path("a.sto")};
+    sources.lengths = {path("l.sto")};
+    sources.velocities = {path("v.sto")};
+    sources.moment_arms = {path("r.sto")};
+    sources.torques = {path("id.sto")};
+  }
+  [[nodiscard]] std::string path(const std::string& name) const { return (folder / name).string(); }
+  void write(const std::string& name, const Eigen::MatrixXd& values, Unit unit) const {
+    std::vector<Channel> channels;
+    for (const auto& muscle : study.data.muscles) channels.push_back({muscle.name, unit});
+    recording::write_series(folder / name, {study.data.trials[0].time_s, channels, values}, name);
+  }
+  identification::TrialData read() {
+    return read_identify_data(sources, table,
+                              [&](const std::string& text) { remarks.push_back(text); })
+        .trials.at(0);
+  }
+  std::string message() {
+    try {
+      (void)read();
+    } catch (const InvalidInput& error) {
+      return error.what();
+    }
+    return "(no error)";
+  }
+};
+
+TEST(IdentifyData, ColumnsComeBackByNameOnTheClockOfTheLengths) {
+  Written files;
+  const identification::TrialData& truth = files.study.data.trials[0];
+  const identification::TrialData trial = files.read();
+  EXPECT_EQ(trial.time_s, truth.time_s);
+  EXPECT_EQ(trial.length_m, truth.length_m);
+  EXPECT_EQ(trial.moment_arm_m, truth.moment_arm_m);
+  EXPECT_EQ(trial.torque_nm, truth.torque_nm);
+  EXPECT_TRUE(files.remarks.empty());
+}
+
+TEST(IdentifyData, WithoutVelocitiesTheyAreTheRatesOfTheLengths) {
+  Written files;
+  files.sources.velocities.clear();
+  const identification::TrialData& truth = files.study.data.trials[0];
+  // Movements below 2 Hz at 100 Hz; the spline is least good at the ends, where it has one side.
+  EXPECT_LT((files.read().velocity_mps - truth.velocity_mps).cwiseAbs().maxCoeff(),
+            1e-3 * truth.velocity_mps.cwiseAbs().maxCoeff());
+}
+
+TEST(IdentifyData, OnlyTheTimeThatAllFilesCoverIsTaken) {
+  Written files;
+  const identification::TrialData& truth = files.study.data.trials[0];
+  recording::write_series(
+      files.folder / "id.sto",
+      TimeSeries(truth.time_s, {{"elbow_moment", Unit::newton_meter}}, truth.torque_nm)
+          .slice(1.0, 4.0),
+      "torque");
+  const identification::TrialData trial = files.read();
+  EXPECT_NEAR(trial.time_s[0], 1.0, 1e-9);
+  EXPECT_NEAR(trial.time_s[trial.time_s.size() - 1], 4.0, 1e-9);
+  files.sources.start_s = 4.5;
+  EXPECT_NE(files.message().find("must overlap"), std::string::npos) << files.message();
+}
+
+TEST(IdentifyData, ACutOffFileIsSaidOnceWithWhatWasLeftOut) {
+  Written files;
+  std::string text = recording::read_text_file(files.folder / "l.sto");
+  text.resize(text.size() - 200);
+  recording::write_file(files.folder / "l.sto", text);
+  (void)files.read();
+  int said = 0;
+  for (const std::string& remark : files.remarks)
+    said += remark.find("l.sto") != std::string::npos &&
+                    remark.find(recording::kLastRowLeftOut) != std::string::npos
+                ? 1
+                : 0;
+  EXPECT_EQ(said, 1);
+}
+
+TEST(IdentifyData, WhereAFileHasNoSamplesNothingIsFittedAndThatIsSaid) {
+  const auto without_a_second = [](const TimeSeries& series) {
+    std::vector<Eigen::Index> rows;
+    for (Eigen::Index i = 0; i < series.sample_count(); ++i) {
+      if (series.time_s()[i] <= 2.0 || series.time_s()[i] >= 3.0) rows.push_back(i);
+    }
+    return TimeSeries(series.time_s()(rows), series.channels(), series.values()(rows, Eigen::all));
+  };
+  for (const std::string name : {"a.sto", "l.sto", "v.sto", "r.sto", "id.sto"}) {
+    SCOPED_TRACE(name);
+    Written files;
+    recording::write_series(files.folder / name,
+                            without_a_second(recording::read_series(files.path(name)).data), name);
+    const identification::TrialData trial = files.read();
+    ASSERT_EQ(trial.excluded.size(), 1U);
+    EXPECT_NEAR(trial.excluded[0].begin_s, 1.9, 0.02);
+    EXPECT_NEAR(trial.excluded[0].end_s, name == "a.sto" ? 3.3 : 3.1, 0.02);
+    ASSERT_EQ(files.remarks.size(), 1U);
+    EXPECT_NE(files.remarks[0].find(name), std::string::npos) << files.remarks[0];
+    EXPECT_NE(files.remarks[0].find("no samples from 2.0"), std::string::npos) << files.remarks[0];
+    // Noise-free data give F_max back but for what splines do beside the gap; with what they make
+    // up within it they do not.
+    const auto worst_error = [&](const identification::TrialData& fitted) {
+      identification::StudyData data = files.study.data;
+      data.trials[0] = fitted;
+      double worst = 0.0;
+      std::size_t muscle = 0;
+      for (const identification::ParameterEstimate& e :
+           identification::identify_torque(data, {.priors = false, .weights = false}).estimates) {
+        if (e.parameter != "max_isometric_force") continue;
+        const double truth = files.study.truth[muscle++].max_isometric_force_n;
+        worst = std::max(worst, std::abs(e.estimate / truth - 1.0));
+      }
+      return worst;
+    };
+    identification::TrialData whole = trial;
+    whole.excluded.clear();
+    EXPECT_LT(worst_error(trial), 0.015);
+    // Without rows of its own a gap of the lengths makes nothing up.
+    if (name != "l.sto") {
+      EXPECT_GT(worst_error(whole), 2.0 * worst_error(trial));
+    }
+  }
+}
+
+TEST(IdentifyData, ATorqueOfNothingIsRefused) {
+  Written files;
+  const Eigen::VectorXd& time_s = files.study.data.trials[0].time_s;
+  recording::write_series(files.folder / "id.sto",
+                          TimeSeries(time_s, {{"elbow_moment", Unit::newton_meter}},
+                                     Eigen::MatrixXd::Zero(time_s.size(), 1)),
+                          "torque");
+  EXPECT_NE(files.message().find("id.sto: the torque is 0 in all trials"), std::string::npos)
+      << files.message();
+}
+
+TEST(IdentifyData, AnElectrodeThatSaysNothingOrTheSameAsAnotherIsRemarkedOf) {
+  Written files;
+  const TimeSeries& activation = files.study.data.trials[0].activation;
+  Eigen::MatrixXd values = activation.values();
+  values.col(1).setZero();
+  values.col(3) = values.col(0);
+  recording::write_series(files.folder / "a.sto",
+                          TimeSeries(activation.time_s(), activation.channels(), values), "a");
+  (void)files.read();
+  ASSERT_EQ(files.remarks.size(), 2U);
+  EXPECT_NE(files.remarks[0].find("'BRA' never changes"), std::string::npos) << files.remarks[0];
+  EXPECT_NE(files.remarks[1].find("'BIC' and 'TRI' are the same"), std::string::npos)
+      << files.remarks[1];
+}
+
+TEST(IdentifyData, ActivationsThatAreNamedTwiceAreRemarkedOf) {
+  Written once;
+  (void)once.read();
+  EXPECT_TRUE(once.remarks.empty());
+  Written twice;
+  for (auto* files : {&twice.sources.activations, &twice.sources.lengths, &twice.sources.velocities,
+                      &twice.sources.moment_arms, &twice.sources.torques})
+    files->push_back(files->front());
+  (void)twice.read();
+  ASSERT_EQ(twice.remarks.size(), 1U);
+  EXPECT_NE(twice.remarks[0].find("one effort counts twice"), std::string::npos)
+      << twice.remarks[0];
+}
+
+TEST(IdentifyData, FilesThatDoNotMatchTheTrialsOrTheMusclesAreRefused) {
+  Written two;
+  two.sources.torques.push_back(two.sources.torques[0]);
+  EXPECT_NE(two.message().find("--torques: 2 files for 1 trials"), std::string::npos);
+  Written other;
+  other.table.muscles[0].name = "SOL";
+  EXPECT_NE(other.message().find("no column 'SOL'"), std::string::npos) << other.message();
+  Written joint;
+  joint.sources.coordinates = {"knee"};
+  EXPECT_NE(joint.message().find("no column 'knee' or 'knee_moment'"), std::string::npos);
+}
+
+TEST(IdentifyData, ViscosityInertiaAndStiffnessComeBackFromTheJointsMotion) {
+  Written files;
+  // T = sum r F - B qdot - J qddot - k q of an angle whose derivatives are known.
+  constexpr double kViscosity = 0.31, kInertia = 0.012, kStiffness = 1.7;
+  const identification::TrialData& truth = files.study.data.trials[0];
+  const Eigen::ArrayXd t = truth.time_s.array();
+  const Eigen::VectorXd q = 1.1 + 0.7 * (3.1 * t).sin() + 0.3 * (7.3 * t).cos();
+  const Eigen::VectorXd qdot = 0.7 * 3.1 * (3.1 * t).cos() - 0.3 * 7.3 * (7.3 * t).sin();
+  const Eigen::VectorXd qddot =
+      -0.7 * 3.1 * 3.1 * (3.1 * t).sin() - 0.3 * 7.3 * 7.3 * (7.3 * t).cos();
+  recording::write_series(files.folder / "id.sto",
+                          {truth.time_s,
+                           {{"elbow_moment", Unit::newton_meter}},
+                           truth.torque_nm - kViscosity * qdot - kInertia * qddot - kStiffness * q},
+                          "torque");
+  recording::write_storage(files.folder / "q.mot", {truth.time_s, {{"elbow", Unit::radian}}, q},
+                           {.title = "Coordinates", .angles_in_degrees = true});
+  files.sources.motions = {files.path("q.mot")};
+  const identification::TrialData trial = files.read();
+  // The natural quintic, away from its ends: (h w)^6 and less.
+  const Eigen::Index margin = 30, n = q.size() - 2 * margin;
+  EXPECT_LT((trial.angle_rad - q).cwiseAbs().maxCoeff(), 1e-6);
+  EXPECT_LT((trial.velocity_radps - qdot).segment(margin, n).cwiseAbs().maxCoeff(), 1e-5);
+  EXPECT_LT((trial.acceleration_radps2 - qddot).segment(margin, n).cwiseAbs().maxCoeff(), 1e-3);
+  identification::StudyData data{.muscles = files.table.muscles, .trials = {trial}, .rules = {}};
+  for (const char* name : {"joint_viscosity", "joint_inertia", "joint_stiffness"})
+    data.rules.push_back({.parameter = name, .free = true});
+  const identification::IdentificationResult fit = identification::identify_torque(
+      data, {.priors = false, .residual_cutoff_hz = {}, .weights = false, .predictions = false});
+  ASSERT_EQ(fit.values.joints.size(), 1u);
+  const auto& joint = fit.values.joints[0];
+  // What the spline errs by near its ends, over 5 s.
+  EXPECT_NEAR(joint[identification::kViscosity], kViscosity, 1e-3);
+  EXPECT_NEAR(joint[identification::kInertia], kInertia, 1e-4);
+  EXPECT_NEAR(joint[identification::kStiffness], kStiffness, 1e-2);
+}
+
+TEST(IdentifyData, AMotionThatIsNotTheJointsOrNoAngleIsRefused) {
+  Written files;
+  const identification::TrialData& truth = files.study.data.trials[0];
+  const auto motion = [&](const std::vector<Channel>& channels, double value) {
+    recording::write_storage(
+        files.folder / "q.mot",
+        {truth.time_s, channels,
+         Eigen::MatrixXd::Constant(truth.time_s.size(), static_cast<Eigen::Index>(channels.size()),
+                                   value)},
+        {.title = "Coordinates"});
+    files.sources.motions = {files.path("q.mot")};
+    return files.message();
+  };
+  EXPECT_NE(motion({{"a", Unit::radian}, {"b", Unit::radian}}, 1.0).find("--coordinate"),
+            std::string::npos);
+  EXPECT_NE(motion({{"a", Unit::radian}}, 95.0).find("these are degrees"), std::string::npos);
+  EXPECT_EQ(motion({{"a", Unit::radian}}, 1.0), "(no error)");
+  files.sources.coordinates = {"elbow"};
+  EXPECT_NE(motion({{"a", Unit::radian}}, 1.0).find("no column 'elbow'"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace myoid

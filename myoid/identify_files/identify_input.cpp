@@ -1,0 +1,358 @@
+#include "myoid/identify_files/identify_input.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include <Eigen/QR>
+#include <fmt/format.h>
+
+#include "myoid/checks/trial_plausibility.h"
+#include "myoid/core/error.h"
+#include "myoid/dynamics/joint_capacity.h"
+#include "myoid/math/statistics.h"
+#include "myoid/methods/torque.h"
+#include "myoid/signals/emg_levels.h"
+
+namespace myoid {
+namespace {
+
+using identification::StudyData;
+using identification::TrialData;
+
+constexpr double kShortestPath_m = 0.01, kLongestPath_m = 1.0;
+constexpr double kCertainlyShort_m = 0.002, kCertainlyLong_m = 3.0;
+constexpr double kShortestFiber = 0.1, kLongestFiber = 3.0;  ///< In optimal lengths.
+constexpr double kLargestArm_m = 0.2, kCertainlyLargeArm_m = 0.5;
+constexpr double kHighestActivation = 1.05, kCertainlyHigh = 2.0;
+constexpr double kLowestActivation = -0.01, kCertainlyLow = -0.1;
+constexpr double kSpike_s = 0.1;  ///< What is above kCertainlyHigh for less is an artefact.
+constexpr double kWindow_s = 0.1;
+constexpr double kMoves_m = 5e-4;  ///< Change of length within a window that is one.
+constexpr double kTogether = 0.9, kAgainst = -0.8, kDoubtful = 0.5, kClearly = 0.3,
+                 kLargestFactor = 3.0;
+
+double median_of(const Eigen::VectorXd& x) { return math::median({x.begin(), x.end()}); }
+
+double correlation(const Eigen::VectorXd& x, const Eigen::VectorXd& y) {
+  const Eigen::VectorXd a = x.array() - x.mean(), b = y.array() - y.mean();
+  const double size = a.norm() * b.norm();
+  return size > 0.0 ? a.dot(b) / size : 0.0;
+}
+
+[[noreturn]] void fail(const std::string& file, const std::string& what) {
+  throw InvalidInput(fmt::format("{}: {}", file, what));
+}
+
+/// Checks of one trial; remarks collect.
+class TrialCheck {
+ public:
+  TrialCheck(const StudyData& data, const TrialData& trial, const IdentifyFiles& files)
+      : data_(data), trial_(trial), files_(files) {}
+
+  std::vector<std::string> run() {
+    lengths();
+    activations();
+    velocities();
+    moment_arms();
+    length_changes();
+    torque_sizes();
+    torques();
+    return std::move(remarks_);
+  }
+
+ private:
+  [[nodiscard]] const std::string& muscle(Eigen::Index k) const {
+    return data_.muscles[static_cast<std::size_t>(k)].name;
+  }
+  void remark(const std::string& file, const std::string& what) {
+    remarks_.push_back(fmt::format("{}: {}", file, what));
+  }
+
+  void lengths() {
+    for (Eigen::Index k = 0; k < trial_.length_m.cols(); ++k) {
+      const Eigen::VectorXd l = trial_.length_m.col(k);
+      const std::string found = fmt::format("length of {} from {:.4g} to {:.4g} m", muscle(k),
+                                            l.minCoeff(), l.maxCoeff());
+      if (l.minCoeff() <= 0.0)
+        fail(files_.lengths, found +
+                                 ", expected positive lengths of 0.01 to 1 m; are the files of "
+                                 "--lengths and --velocities in the wrong order?");
+      const double typical = median_of(l);
+      const auto& start = data_.muscles[static_cast<std::size_t>(k)].start;
+      const double usual = start.tendon_slack_length_m + start.optimal_fiber_length_m;
+      if (typical > kCertainlyLong_m)
+        fail(files_.lengths,
+             found + fmt::format(", expected 0.01 to 1 m; is it in {}? Write it in m",
+                                 typical > 300.0 * usual ? "mm" : "cm"));
+      if (typical < kCertainlyShort_m)
+        fail(files_.lengths, found + ", expected 0.01 to 1 m; write it in m");
+      if (typical > kLongestPath_m || typical < kShortestPath_m)
+        remark(files_.lengths, found + ", expected 0.01 to 1 m");
+      const double fiber = typical - start.tendon_slack_length_m;
+      if (fiber <= 0.0)
+        fail(files_.lengths,
+             fmt::format("{} and tendon_slack_length {:.4g} m leave no fiber; are these fiber "
+                         "lengths? Then leave tendon_slack_length empty in muscles.csv",
+                         found, start.tendon_slack_length_m));
+      const double relative = fiber / start.optimal_fiber_length_m;
+      if (relative < kShortestFiber || relative > kLongestFiber)
+        remark(files_.lengths,
+               fmt::format("fibers of {} are {:.2g} times their optimal length of {:.4g} m, "
+                           "expected about 1; check tendon_slack_length and optimal_fiber_length "
+                           "in muscles.csv",
+                           muscle(k), relative, start.optimal_fiber_length_m));
+    }
+  }
+
+  /// Largest mean over the half second by which EMG is normalised: shorter peaks rise above 1.
+  [[nodiscard]] double largest_mean(const Eigen::VectorXd& a) const {
+    const double rate_hz = trial_.activation.mean_rate_hz();
+    const Eigen::Index n = std::clamp<Eigen::Index>(std::lround(0.5 * rate_hz), 1, a.size());
+    double sum = a.head(n).sum();
+    double largest = sum;
+    for (Eigen::Index i = n; i < a.size(); ++i) {
+      sum += a[i] - a[i - n];
+      largest = std::max(largest, sum);
+    }
+    return largest / static_cast<double>(n);
+  }
+
+  void activations() {
+    double largest = 0.0;
+    for (const identification::MuscleSetup& setup : data_.muscles) {
+      const Eigen::VectorXd a = trial_.activation.column(setup.emg_channel);
+      const double low = a.minCoeff(), high = a.maxCoeff();
+      largest = std::max(largest, high);
+      const std::string found =
+          fmt::format("activation '{}' from {:.3g} to {:.3g}", setup.emg_channel, low, high);
+      const double rate_hz = trial_.activation.mean_rate_hz();
+      const bool spike =
+          high > kCertainlyHigh && signals::time_above_s(a, rate_hz, kCertainlyHigh) < kSpike_s;
+      if (spike)
+        remark(files_.activations,
+               fmt::format("{}, above {:g} for less than {:g} s: an artefact? Leave that time out "
+                           "(--start, --end) or mend the EMG",
+                           found, kCertainlyHigh, kSpike_s));
+      if (high > kCertainlyHigh && !spike)
+        fail(files_.activations,
+             fmt::format("{}, expected 0 to 1 (1: the greatest effort); {}", found,
+                         high <= 200.0 ? "in percent? Divide by 100"
+                                       : "divide by the EMG of a maximal contraction"));
+      if (low < kCertainlyLow)
+        fail(files_.activations,
+             found +
+                 ", expected 0 to 1; is this raw EMG? Rectify, low-pass and normalise it "
+                 "(myoid emg)");
+      if (largest_mean(a) > kHighestActivation)
+        remark(files_.activations,
+               fmt::format("{}, {:.3g} in the mean of half a second, expected 0 to 1: an effort "
+                           "beyond the one taken for the greatest",
+                           found, largest_mean(a)));
+      if (low < kLowestActivation) remark(files_.activations, found + ", expected 0 to 1");
+    }
+    if (largest < kFlatActivation)
+      remark(files_.activations,
+             fmt::format("no activation above {:.2g}, expected up to 1 in the greatest effort; is "
+                         "this EMG in volts? Divide by the EMG of a maximal contraction",
+                         largest));
+  }
+
+  /// Change of every column within windows, and the integral of its rate.
+  struct Changes {
+    Eigen::MatrixXd of_length, by_velocity;
+    std::vector<Eigen::Index> middle;  ///< Row in the middle of each window.
+  };
+  [[nodiscard]] Changes changes() const {
+    const Eigen::VectorXd& t = trial_.time_s;
+    const Eigen::Index n = t.size();
+    const double step_s = (t[n - 1] - t[0]) / static_cast<double>(n - 1);
+    const auto reach = std::max<Eigen::Index>(1, std::lround(kWindow_s / step_s));
+    Changes c;
+    const Eigen::Index count = std::max<Eigen::Index>(0, (n - 1) / reach);
+    c.of_length.resize(count, trial_.length_m.cols());
+    c.by_velocity.setZero(count, trial_.length_m.cols());
+    for (Eigen::Index w = 0; w < count; ++w) {
+      const Eigen::Index first = w * reach;
+      c.of_length.row(w) = trial_.length_m.row(first + reach) - trial_.length_m.row(first);
+      for (Eigen::Index i = first; i < first + reach; ++i)
+        c.by_velocity.row(w) +=
+            0.5 * (t[i + 1] - t[i]) * (trial_.velocity_mps.row(i) + trial_.velocity_mps.row(i + 1));
+      c.middle.push_back(first + reach / 2);
+    }
+    return c;
+  }
+
+  void velocities() {
+    if (files_.velocities.empty()) return;
+    const Changes c = changes();
+    const auto count = static_cast<double>(c.of_length.rows());
+    if (count < 5.0) return;
+    for (Eigen::Index k = 0; k < c.of_length.cols(); ++k) {
+      const Eigen::VectorXd dl = c.of_length.col(k), vdt = c.by_velocity.col(k);
+      const double moves = dl.norm() / std::sqrt(count);
+      if (moves < kMoves_m) continue;
+      const double factor = vdt.norm() / dl.norm();
+      const double r = factor > 0.0 ? dl.dot(vdt) / (dl.norm() * vdt.norm()) : 0.0;
+      if (r < -kTogether)
+        fail(files_.velocities,
+             fmt::format("velocity of {} is opposite to the change of its length; expected "
+                         "lengthening positive; change the sign",
+                         muscle(k)));
+      if (r > kTogether && (factor > kLargestFactor || factor < 1.0 / kLargestFactor))
+        fail(files_.velocities,
+             fmt::format(
+                 "velocity of {} is {} times the rate of its length in {}; expected "
+                 "the same, in m/s",
+                 muscle(k),
+                 factor >= 10.0 ? fmt::format("{:.0f}", factor) : fmt::format("{:.2g}", factor),
+                 files_.lengths));
+      if (r < kDoubtful)
+        remark(files_.velocities,
+               fmt::format("velocity of {} is not the rate of its length in {} (they agree to "
+                           "r = {:.2f}); is it the same trial and clock?",
+                           muscle(k), files_.lengths, r));
+    }
+  }
+
+  [[nodiscard]] const Eigen::MatrixXd& arms(std::size_t joint) const {
+    return joint == 0 ? trial_.moment_arm_m : trial_.more_joints[joint - 1].moment_arm_m;
+  }
+  [[nodiscard]] const Eigen::VectorXd& torque(std::size_t joint) const {
+    return joint == 0 ? trial_.torque_nm : trial_.more_joints[joint - 1].torque_nm;
+  }
+
+  void moment_arms() {
+    for (std::size_t j = 0; j < files_.moment_arms.size(); ++j) {
+      for (Eigen::Index k = 0; k < arms(j).cols(); ++k) {
+        const double largest = arms(j).col(k).cwiseAbs().maxCoeff();
+        const std::string found =
+            fmt::format("moment arm of {} up to {:.4g} m", muscle(k), largest);
+        if (largest > kCertainlyLargeArm_m)
+          fail(files_.moment_arms[j],
+               fmt::format("{}, expected at most 0.2 m; is it in {}? Write it in m", found,
+                           largest > 10.0 ? "mm" : "cm"));
+        if (largest > kLargestArm_m)
+          remark(files_.moment_arms[j], found + ", expected at most 0.2 m");
+      }
+    }
+  }
+
+  /// Share of the changes of length that dl = -r dq explains, whatever dq is in each window; of all
+  /// muscles but one.
+  [[nodiscard]] double explained(const Changes& c, Eigen::Index without) const {
+    double total = 0.0, left = 0.0;
+    std::vector<Eigen::Index> muscles;
+    for (Eigen::Index k = 0; k < c.of_length.cols(); ++k) {
+      if (k != without) muscles.push_back(k);
+    }
+    const auto joints = static_cast<Eigen::Index>(files_.moment_arms.size());
+    if (static_cast<Eigen::Index>(muscles.size()) <= joints) return 0.0;
+    Eigen::MatrixXd r(static_cast<Eigen::Index>(muscles.size()), joints);
+    for (Eigen::Index w = 0; w < c.of_length.rows(); ++w) {
+      for (Eigen::Index j = 0; j < joints; ++j)
+        r.col(j) = arms(static_cast<std::size_t>(j))
+                       .row(c.middle[static_cast<std::size_t>(w)])(muscles)
+                       .transpose();
+      const Eigen::VectorXd dl = c.of_length.row(w)(muscles).transpose();
+      total += dl.squaredNorm();
+      left += (dl - r * r.colPivHouseholderQr().solve(dl)).squaredNorm();
+    }
+    return total > 0.0 ? 1.0 - left / total : 1.0;
+  }
+
+  void length_changes() {
+    if (files_.moment_arms.empty()) return;
+    const Changes c = changes();
+    if (c.of_length.rows() < 5 ||
+        c.of_length.norm() < kMoves_m * std::sqrt(static_cast<double>(c.of_length.size())))
+      return;
+    if (c.of_length.cols() <= static_cast<Eigen::Index>(files_.moment_arms.size())) return;
+    const double all = explained(c, -1);
+    if (all >= kDoubtful) return;
+    std::string who;
+    for (Eigen::Index k = 0; k < c.of_length.cols(); ++k) {
+      if (explained(c, k) > kTogether) who = muscle(k);
+    }
+    remark(files_.moment_arms.front(),
+           fmt::format("the changes of length do not follow from the moment arms (dl = -r dq "
+                       "explains {:.0f} % of them){}; is a sign wrong, or the file of another "
+                       "trial or joint?",
+                       100.0 * std::max(0.0, all),
+                       who.empty() ? "" : fmt::format("; without {} they do", who)));
+  }
+
+  void torque_sizes() {
+    const std::size_t joints = files_.moment_arms.size();
+    if (joints == 0 || files_.torques.empty()) return;
+    Eigen::VectorXd strength_n(trial_.length_m.cols());
+    for (Eigen::Index k = 0; k < strength_n.size(); ++k)
+      strength_n[k] = data_.muscles[static_cast<std::size_t>(k)].start.max_isometric_force_n;
+    for (std::size_t j = 0; j < joints; ++j) {
+      const auto pull_nm = (arms(j) * strength_n.asDiagonal()).eval();
+      // How heavy and long the person is, nobody said: 100 kg at 1 m.
+      const dynamics::JointCapacity joint{
+          .positive_nm = pull_nm.cwiseMax(0.0).rowwise().sum().maxCoeff(),
+          .negative_nm = pull_nm.cwiseMin(0.0).rowwise().sum().cwiseAbs().maxCoeff(),
+          .lever_m = 1.0,
+          .body_mass_kg = 100.0};
+      const std::string text =
+          too_much_torque(j == 0 ? trial_.joint : trial_.more_joints[j - 1].name,
+                          usual_peak(torque(j)), joint.greatest_nm(), "the torque");
+      if (!text.empty()) fail(files_.torques, text);
+    }
+  }
+
+  void torques() {
+    const std::size_t joints = files_.moment_arms.size();
+    if (joints == 0 || files_.torques.empty()) return;
+    std::vector<muscle::HillParameters<double>> start;
+    for (const identification::MuscleSetup& setup : data_.muscles) start.push_back(setup.start);
+    constexpr double kUsualDelay_s = 0.05;
+    const Eigen::MatrixXd force_n =
+        identification::predict(data_, trial_, start, kUsualDelay_s).force_n;
+    const auto predicted = [&](std::size_t j) {
+      return Eigen::VectorXd(arms(j).cwiseProduct(force_n).rowwise().sum());
+    };
+    if (joints == 2) {
+      const double own =
+          std::max(correlation(torque(0), predicted(0)), correlation(torque(1), predicted(1)));
+      const double other =
+          std::min(correlation(torque(0), predicted(1)), correlation(torque(1), predicted(0)));
+      const std::string found = fmt::format(
+          "these moment arms make the other joint's torque (with the starting values r is {:.2f} "
+          "or more, of their own at most {:.2f}); --moment-arms has the first trial's files in the "
+          "order of --coordinate, then the next trial's",
+          other, own);
+      if (other > kTogether && own < kDoubtful) fail(files_.moment_arms.front(), found);
+      if (other > kDoubtful && other > own + kClearly) remark(files_.moment_arms.front(), found);
+    }
+    for (std::size_t j = 0; j < joints; ++j) {
+      // About zero, not the mean: too long a fiber turns the course of a torque, not its sign.
+      const Eigen::VectorXd p = predicted(j);
+      const double size = torque(j).norm() * p.norm();
+      const double r = size > 0.0 ? torque(j).dot(p) / size : 0.0;
+      const std::string found = fmt::format(
+          "with the starting values the muscles' torque goes against that of {} (r = {:.2f}); are "
+          "the signs of the moment arms (r = -dl/dq) or of the torque reversed?",
+          files_.torques, r);
+      if (r < kAgainst) fail(files_.moment_arms[j], found);
+      if (r < -kDoubtful) remark(files_.moment_arms[j], found);
+    }
+  }
+
+  const StudyData& data_;
+  const TrialData& trial_;
+  const IdentifyFiles& files_;
+  std::vector<std::string> remarks_;
+};
+
+}  // namespace
+
+std::vector<std::string> check_identify_trial(const StudyData& data,
+                                              const TrialData& trial,
+                                              const IdentifyFiles& files) {
+  return TrialCheck(data, trial, files).run();
+}
+
+}  // namespace myoid

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "myoid/identification/study_data.h"
+
+namespace myoid {
+
+/// What muscles.csv says.
+struct MuscleTable {
+  std::vector<identification::MuscleSetup> muscles;
+  std::vector<identification::ParameterRule> rules;  ///< Parameters that are not held by default.
+  std::vector<std::string> notes;                    ///< Of its reader, with the file's name.
+  std::string assumed;  ///< Which starting values are the literature's; empty: none. Also a note.
+  std::vector<std::string> speed_may_be_free;  ///< Muscles whose v_max is neither held nor freed.
+};
+
+/// muscles.csv: `muscle`, `max_isometric_force`, `optimal_fiber_length`, and as many columns of
+/// further parameters as are known (`muscle_columns`; starting values, SI). Numbers of the source
+/// paper's law that are absent are the literature's (`muscle::literature_parameters`). For each
+/// `<parameter>_fixed`, `_lower`, `_upper`, `_prior_sd`; `emg`, the channel, if it has another name
+/// than the muscle. `within_bounds`: the method keeps to bounds, so a start must lie in them.
+/// Throws ReadError with the line for an unknown column, a missing or impossible number and two
+/// muscles of one name.
+[[nodiscard]] MuscleTable read_muscles_csv(const std::filesystem::path& path, bool within_bounds);
+
+}  // namespace myoid

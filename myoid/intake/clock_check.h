@@ -1,0 +1,44 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "myoid/core/error.h"
+#include "myoid/signals/clock_gaps.h"
+#include "myoid/study/study.h"
+
+namespace myoid {
+
+/// A longer pause in a clock is refused: what a spline makes of it is no measurement.
+inline constexpr double kLongestGap_s = 0.5;
+
+/// A clock with a pause of more than kLongestGap_s.
+class ClockPause : public ReadError {
+ public:
+  ClockPause(const std::filesystem::path& path,
+             const std::string& message,
+             std::vector<signals::ClockStretch> stretches)
+      : ReadError(path, 0, message), stretches_(std::move(stretches)) {}
+  /// What lies between the pauses.
+  [[nodiscard]] const std::vector<signals::ClockStretch>& stretches() const { return stretches_; }
+
+ private:
+  std::vector<signals::ClockStretch> stretches_;
+};
+
+/// A warning about the shorter pauses of a file's clock, empty if there are none. Throws ReadError
+/// for a clock slower than a person's movement needs (less than 5 Hz: milliseconds or frames), and
+/// ClockPause for a pause of more than kLongestGap_s.
+[[nodiscard]] std::string check_clock(const std::filesystem::path& path,
+                                      const Eigen::VectorXd& time_s);
+
+/// Throws ReadError where [motion] cutoff_hz is 0.45 of the rate of this file's clock or more.
+void check_cutoff(const Study& study,
+                  const std::filesystem::path& path,
+                  const Eigen::VectorXd& time_s);
+
+}  // namespace myoid

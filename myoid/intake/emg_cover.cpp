@@ -1,0 +1,154 @@
+#include "myoid/intake/emg_cover.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "myoid/core/error.h"
+
+namespace myoid {
+namespace {
+
+constexpr double kByHand_s = 1.0;     ///< Two recordings that are stopped by hand end so far apart.
+constexpr double kSameFactor = 0.02;  ///< What one factor may vary by.
+
+double length_s(const Eigen::VectorXd& time_s) { return time_s[time_s.size() - 1] - time_s[0]; }
+
+const Eigen::VectorXd* motion_clock(const TrialInput& input) {
+  return input.markers ? &input.markers->time_s : input.motion ? &input.motion->time_s() : nullptr;
+}
+
+/// The ratio 2, 3, 4, 5, 10 or its reciprocal that this one is.
+std::optional<double> whole_factor(double ratio) {
+  for (const double factor : {2.0, 3.0, 4.0, 5.0, 10.0}) {
+    for (const double f : {factor, 1.0 / factor}) {
+      if (std::abs(ratio / f - 1.0) < kSameFactor) return f;
+    }
+  }
+  return std::nullopt;
+}
+
+std::string lasts(const TrialLengths& t) {
+  return fmt::format("the EMG lasts {:.4g} s and the motion {:.4g} s, {:.3g} times as long",
+                     t.emg_s, t.motion_s, t.emg_s / t.motion_s);
+}
+
+std::string which_rate(const TrialLengths& t) {
+  return fmt::format(
+      "EMG at {:.4g} Hz instead of {:.4g} Hz, or a motion at {:.4g} Hz instead of {:.4g} Hz, would "
+      "end together with the other: correct the rate or the times in the file that is wrong",
+      t.emg_rate_hz * t.emg_s / t.motion_s, t.emg_rate_hz, t.motion_rate_hz * t.motion_s / t.emg_s,
+      t.motion_rate_hz);
+}
+
+}  // namespace
+
+void check_cover(const TrialSpec& trial, const Eigen::VectorXd& emg_s, TrialInput& input) {
+  const Eigen::VectorXd* motion_s = motion_clock(input);
+  if (motion_s == nullptr) return;
+  const double begin_s = (*motion_s)[0];
+  const double end_s = (*motion_s)[motion_s->size() - 1];
+  const double emg_end_s = emg_s[emg_s.size() - 1];
+  const double overlap = std::min(emg_end_s, end_s) - std::max(emg_s[0], begin_s);
+  constexpr double kShortest_s = 0.5;
+  if (end_s - begin_s < kShortest_s) {
+    throw ReadError(
+        *trial.emg, 0,
+        fmt::format("the trial lasts {:.3g} s ({:.5g} to {:.5g} s); at least {} s are needed: give "
+                    "start_s and end_s that are farther apart",
+                    end_s - begin_s, begin_s, end_s, kShortest_s));
+  }
+  if (overlap < std::max(kShortest_s, 0.5 * (end_s - begin_s))) {
+    throw ReadError(
+        *trial.emg, 0,
+        fmt::format("the EMG ({:.5g} to {:.5g} s) covers less than half of the motion ({:.5g} "
+                    "to {:.5g} s); are both in seconds, at the rate they were recorded with, on "
+                    "one clock? If so, give the trial the start_s and end_s that both have",
+                    emg_s[0], emg_end_s, begin_s, end_s));
+  }
+  if (overlap < end_s - begin_s - 0.1) {
+    warn(input, fmt::format("{}: the EMG ({:.5g} to {:.5g} s) lacks {:.3g} s of the motion ({:.5g} "
+                            "to {:.5g} s): those seconds are not fitted. If both were recorded "
+                            "together, the rate of one of them is wrong; else start_s and end_s "
+                            "leave the rest out",
+                            trial.emg->filename().string(), emg_s[0], emg_end_s,
+                            end_s - begin_s - overlap, begin_s, end_s));
+  }
+}
+
+Rows rows_with_emg(const Eigen::VectorXd& motion_s, const Eigen::VectorXd& emg_s) {
+  if (motion_s.size() < 2 || emg_s.size() == 0) return {};
+  const double spare_s = 0.5 * length_s(motion_s) / static_cast<double>(motion_s.size() - 1);
+  Rows rows{.first = 0, .last = motion_s.size() - 1};
+  while (rows.first <= rows.last && motion_s[rows.first] < emg_s[0] - spare_s) ++rows.first;
+  while (rows.last >= rows.first && motion_s[rows.last] > emg_s[emg_s.size() - 1] + spare_s)
+    --rows.last;
+  return rows;
+}
+
+std::vector<TrialLengths> lengths_of(const TrialSpec& trial, const TrialInput& input) {
+  constexpr double kSameBegin_s = 0.5;
+  const Eigen::VectorXd* clock = motion_clock(input);
+  if (clock == nullptr || !input.emg || trial.start_s || trial.end_s || input.emg_clock) return {};
+  if (trial.use == Use::mvc || trial.use == Use::static_pose) return {};
+  if (trial.emg == trial.markers || trial.emg == trial.motion) return {};
+  const Eigen::VectorXd& emg = input.emg->time_s();
+  const double begin_s = (*clock)[0];
+  if (std::abs(emg[0] - begin_s) > kSameBegin_s) return {};
+  return {{.trial = trial.name,
+           .emg_s = emg[emg.size() - 1] - begin_s,
+           .motion_s = length_s(*clock),
+           .motion_rate_hz = static_cast<double>(clock->size() - 1) / length_s(*clock),
+           .emg_rate_hz = input.emg->mean_rate_hz()}};
+}
+
+std::vector<Finding> unlike_lengths(const std::vector<TrialLengths>& trials) {
+  using Level = Finding::Level;
+  // What one trigger starts and stops ends together to some frames.
+  constexpr double kTogether = 0.005;
+  std::vector<Finding> found;
+  double least = 1e300;
+  double most = 0.0;
+  bool all = true;
+  for (const TrialLengths& t : trials) {
+    const double ratio = t.emg_s / t.motion_s;
+    least = std::min(least, ratio);
+    most = std::max(most, ratio);
+    if (std::abs(t.emg_s - t.motion_s) < kByHand_s) {
+      all = false;
+      continue;
+    }
+    const auto factor = whole_factor(ratio);
+    if (!factor) continue;
+    const bool sure = *factor < 1.0 || std::abs(ratio / *factor - 1.0) < kTogether;
+    found.push_back({sure ? Level::error : Level::warning,
+                     t.trial,
+                     fmt::format("{}: {} the rate of one of them{} wrong{} {}. If both did last "
+                                 "so, give the trial the start_s and end_s that both have",
+                                 lasts(t), sure ? "so" : "is", sure ? " is" : "", sure ? "." : "?",
+                                 which_rate(t)),
+                     {},
+                     "length"});
+  }
+  // Stopped by hand, recordings end so many seconds apart, not by one factor.
+  if (trials.empty() || !found.empty() || !all || most > (1.0 + kSameFactor) * least) return found;
+  const TrialLengths& first = trials.front();
+  if (trials.size() == 1) {
+    // One trial alone must be longer by more than people forget to stop.
+    constexpr double kAlone = 1.5;
+    if (most < kAlone) return found;
+    found.push_back({Level::warning, first.trial,
+                     fmt::format("{}: is the rate of one of them wrong? {}. If the EMG did go on, "
+                                 "end_s leaves it out",
+                                 lasts(first), which_rate(first))});
+    return found;
+  }
+  found.push_back({Level::warning, "study",
+                   fmt::format("in every trial {} (so in '{}'): is a rate wrong? {}", lasts(first),
+                               first.trial, which_rate(first))});
+  return found;
+}
+
+}  // namespace myoid

@@ -1,0 +1,125 @@
+#include "myoid/intake/emg_cover.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/written_trial.h"
+
+namespace myoid {
+namespace {
+
+using namespace test_trials;
+using Level = Finding::Level;
+
+TrialLengths lengths(double emg_s, double motion_s) {
+  return {"t", emg_s, motion_s, 100.0, 1000.0};
+}
+
+TEST(LengthsOf, AreOfRecordingsThatShouldLastAlike) {
+  const TrialInput input = WrittenTrial(0.01, 4.99).read(arm_study());
+  TrialSpec trial;
+  trial.motion = "m.mot";
+  trial.emg = "e.sto";
+  const std::vector<TrialLengths> found = lengths_of(trial, input);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_NEAR(found[0].emg_s, 4.99, 1e-9);
+  EXPECT_NEAR(found[0].motion_rate_hz, 100.0, 1e-6);
+  trial.use = Use::mvc;
+  EXPECT_TRUE(lengths_of(trial, input).empty());
+  trial.use = Use::static_pose;
+  EXPECT_TRUE(lengths_of(trial, input).empty());
+  trial.use = Use::calibration;
+  EXPECT_NEAR(found[0].emg_rate_hz, 100.0, 1e-6);
+  trial.end_s = 10.0;
+  EXPECT_TRUE(lengths_of(trial, input).empty());
+  trial.end_s.reset();
+  trial.emg = trial.motion;  // one file: one clock
+  EXPECT_TRUE(lengths_of(trial, input).empty());
+}
+
+TEST(LengthsOf, AreNotOfClocksThatWereMatchedNorOfARecordingThatBeganLater) {
+  TrialInput input = WrittenTrial(0.01, 4.99).read(arm_study());
+  TrialSpec trial;
+  trial.motion = "m.mot";
+  trial.emg = "e.sto";
+  const TimeSeries emg = *input.emg;
+  input.emg = TimeSeries(emg.time_s().array() + 0.6, emg.channels(), emg.values());
+  EXPECT_TRUE(lengths_of(trial, input).empty());
+  input.emg = TimeSeries(emg.time_s().array() + 0.4, emg.channels(), emg.values());
+  EXPECT_EQ(lengths_of(trial, input).size(), 1U);
+  input.emg_clock.emplace();
+  EXPECT_TRUE(lengths_of(trial, input).empty());
+}
+
+TEST(CheckCover, WantsHalfASecondAndHalfOfTheMotion) {
+  TrialSpec trial;
+  trial.emg = "e.sto";
+  const auto check = [&](double motion_to_s, double emg_from_s, double emg_to_s) {
+    TrialInput input;
+    input.motion = TimeSeries(Eigen::VectorXd::LinSpaced(50, 0.0, motion_to_s),
+                              {{"elbow_flexion", Unit::radian}}, Eigen::MatrixXd::Zero(50, 1));
+    check_cover(trial, Eigen::VectorXd::LinSpaced(50, emg_from_s, emg_to_s), input);
+    return input.warnings.size();
+  };
+  EXPECT_NE(message_of([&] { check(0.4, 0.0, 0.4); }).find("at least 0.5 s are needed"),
+            std::string::npos);
+  EXPECT_EQ(check(0.6, 0.0, 0.6), 0U);
+  EXPECT_NE(message_of([&] { check(10.0, 0.0, 4.0); }).find("less than half"), std::string::npos);
+  EXPECT_NE(message_of([&] { check(10.0, 6.0, 12.0); }).find("less than half"), std::string::npos);
+  EXPECT_EQ(check(10.0, 0.0, 6.0), 1U);
+  EXPECT_EQ(check(10.0, 0.05, 10.0), 0U);
+}
+
+TEST(UnlikeLengths, EmgExactlyTwiceAsLongIsAnErrorThatNamesBothRates) {
+  const std::vector<Finding> found = unlike_lengths({lengths(51.28, 25.64), lengths(20.0, 20.1)});
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].level, Level::error);
+  EXPECT_NE(found[0].message.find("EMG at 2000 Hz instead of 1000 Hz, or a motion at 50 Hz"),
+            std::string::npos)
+      << found[0].message;
+}
+
+TEST(UnlikeLengths, EmgOfHalfTheMotionIsAnError) {
+  // 1 % from a half: motion that is longer than its EMG was not stopped late.
+  EXPECT_EQ(unlike_lengths({lengths(25.8, 51.1)}).at(0).level, Level::error);
+  const std::vector<Finding> found = unlike_lengths({lengths(25.6, 51.1)});
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].level, Level::error);
+  EXPECT_NE(found[0].message.find("a motion at 199.6 Hz instead of 100 Hz"), std::string::npos)
+      << found[0].message;
+}
+
+TEST(UnlikeLengths, AnAmplifierThatRunsOnIsNoFault) {
+  EXPECT_TRUE(unlike_lengths({lengths(30.0, 20.0), lengths(26.0, 10.0)}).empty());
+  EXPECT_TRUE(unlike_lengths({lengths(20.3, 20.0), lengths(10.2, 10.0)}).empty());
+  EXPECT_TRUE(unlike_lengths({lengths(12.0, 10.0)}).empty());
+  EXPECT_TRUE(unlike_lengths({}).empty());
+  EXPECT_EQ(unlike_lengths({lengths(17.0, 10.0)}).size(), 1U);
+  // About twice as long asks.
+  const std::vector<Finding> found = unlike_lengths({lengths(20.2, 10.0)});
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].level, Level::warning);
+}
+
+TEST(UnlikeLengths, OneFactorInEveryTrialNamesTheRate) {
+  for (const double factor : {1.2, 0.8}) {
+    const std::vector<Finding> found =
+        unlike_lengths({lengths(factor * 20.0, 20.0), lengths(factor * 12.0, 12.0)});
+    ASSERT_EQ(found.size(), 1U);
+    EXPECT_EQ(found[0].where, "study");
+    EXPECT_EQ(found[0].level, Level::warning);
+  }
+  EXPECT_TRUE(unlike_lengths({lengths(24.0, 20.0), lengths(12.0, 12.0)}).empty());
+}
+
+TEST(RowsWithEmg, AreThoseThatTheEmgCovers) {
+  const Eigen::VectorXd motion = Eigen::VectorXd::LinSpaced(101, 0.0, 10.0);
+  const Rows all = rows_with_emg(motion, Eigen::VectorXd::LinSpaced(100, 0.04, 9.96));
+  EXPECT_EQ(all.count(), 101);
+  const Rows some = rows_with_emg(motion, Eigen::VectorXd::LinSpaced(100, 2.0, 7.5));
+  EXPECT_EQ(some.first, 20);
+  EXPECT_EQ(some.last, 75);
+  EXPECT_LE(rows_with_emg(motion, Eigen::VectorXd::LinSpaced(9, 20.0, 30.0)).count(), 0);
+}
+
+}  // namespace
+}  // namespace myoid

@@ -1,0 +1,198 @@
+#include "myoid/intake/trial_emg.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "myoid/core/error.h"
+#include "myoid/files/text_file.h"
+#include "myoid/files/toml_table.h"
+#include "myoid/intake/clock_check.h"
+#include "myoid/intake/emg_cover.h"
+#include "myoid/intake/trial_clock.h"
+#include "myoid/intake/trial_quality.h"
+#include "myoid/recording/emg_reader.h"
+#include "myoid/signals/emg_levels.h"
+#include "myoid/signals/emg_quality.h"
+
+namespace myoid {
+namespace {
+
+/// A muscle of the study may name its EMG by the muscle that the electrode is on (EMG-BIDS).
+void name_by_target_muscle(const Study& study,
+                           const std::filesystem::path& path,
+                           recording::EmgFile& file,
+                           std::vector<std::string>& notes) {
+  std::vector<Channel> channels = file.data.channels();
+  bool renamed = false;
+  for (const MuscleSpec& muscle : study.muscles) {
+    if (file.data.find(muscle.emg)) continue;
+    std::vector<std::size_t> targets;
+    for (std::size_t c = 0; c < channels.size(); ++c) {
+      const auto it = file.target_muscle.find(channels[c].name);
+      if (it != file.target_muscle.end() && recording::equal_ignoring_case(it->second, muscle.emg))
+        targets.push_back(c);
+    }
+    if (targets.size() != 1) continue;
+    notes.push_back(fmt::format("{}: channel '{}' is on {}", path.filename().string(),
+                                channels[targets[0]].name, muscle.emg));
+    channels[targets[0]].name = muscle.emg;
+    renamed = true;
+  }
+  if (renamed) file.data = TimeSeries(file.data.time_s(), std::move(channels), file.data.values());
+}
+
+void require_channels(const Study& study,
+                      const std::filesystem::path& path,
+                      const TimeSeries& emg) {
+  for (const MuscleSpec& muscle : study.muscles) {
+    if (emg.find(muscle.emg)) continue;
+    std::vector<std::string> names;
+    for (const Channel& channel : emg.channels()) names.push_back(channel.name);
+    const auto near = recording::nearest_word(muscle.emg, names);
+    throw ReadError(
+        path, 0,
+        fmt::format(
+            "no EMG channel '{}' for muscle {}; found {}{}; correct [[muscle]] emg in the study",
+            muscle.emg, muscle.name, channel_names(emg),
+            near ? fmt::format(" (did you mean '{}'?)", *near) : ""));
+  }
+}
+
+/// What the study calls raw must not be envelopes, of which a high-pass leaves hardly anything but
+/// noise, nor what no electrode gives.
+void require_raw(const Study& study, const std::filesystem::path& path, const TimeSeries& emg) {
+  constexpr double kCertainlyNone_v = 1e8;  // more than the counts of a converter of 24 bits
+  int envelopes = 0;
+  int others = 0;
+  for (const MuscleSpec& muscle : study.muscles) {
+    const auto column = emg.find(muscle.emg);
+    if (!column || !emg.values().col(*column).allFinite()) continue;
+    const auto x = emg.values().col(*column);
+    if (x.cwiseAbs().maxCoeff() > kCertainlyNone_v)
+      throw ReadError(
+          path, 0,
+          fmt::format("channel '{}' reaches {:.3g} V, which no converter gives; correct "
+                      "[emg] unit, or leave out what is no measurement",
+                      muscle.emg, x.cwiseAbs().maxCoeff()));
+    if (x.maxCoeff() > x.minCoeff())
+      ++(signals::is_envelope(x, emg.mean_rate_hz()) ? envelopes : others);
+  }
+  if (envelopes > 0 && others == 0)
+    throw ReadError(path, 0,
+                    "no channel is ever negative or goes up and down as raw EMG does: these are "
+                    "envelopes; set [emg] kind = \"envelope\"");
+}
+
+/// What the study calls an envelope or an activation has to be one: raw EMG, which swings about
+/// zero, and signals in other units would give muscle forces a hundred times too large, in silence.
+void require_kind(const Study& study,
+                  const std::filesystem::path& path,
+                  const TimeSeries& emg,
+                  TrialInput& input) {
+  if (study.emg.kind == EmgKind::raw) return require_raw(study, path, emg);
+  constexpr double kRinging = 0.2;  // of the maximum, that a filter may swing below zero
+  constexpr double kLargestActivation = 2.0;
+  constexpr double kSpike_s = 0.1;
+  const bool activation = study.emg.kind == EmgKind::activation;
+  const char* const kind = activation ? "activation" : "envelope";
+  for (const MuscleSpec& muscle : study.muscles) {
+    const auto column = emg.find(muscle.emg);
+    if (!column) continue;
+    const Unit in = emg.channels()[static_cast<std::size_t>(*column)].unit;
+    const std::string unit =
+        in == Unit::dimensionless ? "(the file's own numbers)" : std::string(symbol(in));
+    double low = 0.0;
+    double high = 0.0;
+    for (const double value : emg.values().col(*column)) {
+      if (!std::isfinite(value)) continue;
+      low = std::min(low, value);
+      high = std::max(high, value);
+    }
+    if (low < -kRinging * high)
+      throw ReadError(path, 0,
+                      fmt::format("channel '{}' reaches from {:.3g} to {:.3g} {}, but [emg] kind = "
+                                  "\"{}\" is never below zero; is it raw EMG? Then set kind = "
+                                  "\"raw\"",
+                                  muscle.emg, low, high, unit, kind));
+    const bool lasting = signals::time_above_s(emg.values().col(*column), emg.mean_rate_hz(),
+                                               kLargestActivation) >= kSpike_s;
+    if (activation && high > kLargestActivation && !lasting)
+      warn(input,
+           fmt::format("{}: channel '{}' reaches {:.3g}, above {:g} for less than {:g} s: an "
+                       "artefact?",
+                       path.filename().string(), muscle.emg, high, kLargestActivation, kSpike_s));
+    if (activation && lasting)
+      throw ReadError(
+          path, 0,
+          fmt::format("channel '{}' reaches {:.3g}, but an activation goes from 0 to 1; "
+                      "percent? Divide by 100, or set [emg] kind = \"envelope\"",
+                      muscle.emg, high));
+  }
+}
+
+/// The EMG on the clock of the motion, and how it came there.
+TimeSeries on_clock_of_motion(const Study& study,
+                              const TrialSpec& trial,
+                              TimeSeries emg,
+                              const std::function<void(const std::filesystem::path&)>& remember,
+                              TrialInput& input) {
+  const auto envelopes = [&] {
+    signals::EnvelopeOptions options = envelope_options(study);
+    options.whitening = false;  // one trial, and for its clock alone
+    return study.emg.kind == EmgKind::raw ? signals::process_emg(emg, options).envelope : emg;
+  };
+  input.emg_clock = trial_clock(study, trial, movement_of(input), envelopes, remember);
+  if (!input.emg_clock) return emg;
+  input.notes.push_back(
+      fmt::format("{}: clock put on that of the motion, {} ({})", trial.emg->filename().string(),
+                  signals::to_string(input.emg_clock->clock), input.emg_clock->source));
+  return signals::on_study_clock(std::move(emg), input.emg_clock->clock);
+}
+
+}  // namespace
+
+signals::EnvelopeOptions envelope_options(const Study& study) {
+  return {.highpass_hz = study.emg.highpass_hz,
+          .lowpass_hz = study.emg.lowpass_hz,
+          .rectify = study.emg.rectify,
+          .notch = study.emg.notch,
+          .whitening = study.emg.whitening ? std::nullopt : std::optional(false),
+          .as_published = study.emg.as_published};
+}
+
+TimeSeries read_trial_emg(const Study& study,
+                          const TrialSpec& trial,
+                          const std::function<void(const std::filesystem::path&)>& remember,
+                          TrialInput& input) {
+  const double start = trial.start_s.value_or(-1e300);
+  const double end = trial.end_s.value_or(1e300);
+  recording::EmgFile file =
+      recording::read_emg(*trial.emg, study.emg.unit, study.emg.kind != EmgKind::raw);
+  add_repairs(*trial.emg, file.repairs, input.notes);
+  if (!file.unit_conflict.empty())
+    warn(input, fmt::format("{}: {}", trial.emg->filename().string(), file.unit_conflict));
+  name_by_target_muscle(study, *trial.emg, file, input.notes);
+  require_channels(study, *trial.emg, file.data);
+  require_kind(study, *trial.emg, file.data, input);
+  std::vector<std::string> wanted;
+  for (const MuscleSpec& muscle : study.muscles) {
+    if (std::find(wanted.begin(), wanted.end(), muscle.emg) == wanted.end())
+      wanted.push_back(muscle.emg);
+  }
+  // The EMG may begin earlier than the motion: the delay reaches back.
+  TimeSeries emg = on_clock_of_motion(study, trial, file.data.select(wanted), remember, input)
+                       .slice(start - 0.5, end);
+  require_finite(emg, trial.emg->string());
+  if (emg.sample_count() < 10) throw ReadError(*trial.emg, 0, few_samples(trial, emg));
+  if (std::string pauses = check_clock(*trial.emg, emg.time_s()); !pauses.empty())
+    warn(input, std::move(pauses));
+  check_cover(trial, emg.time_s(), input);
+  return emg;
+}
+
+}  // namespace myoid

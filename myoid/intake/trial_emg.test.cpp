@@ -1,0 +1,94 @@
+#include "myoid/intake/trial_emg.h"
+
+#include <algorithm>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "myoid/files/atomic_file.h"
+
+#include "tests/support/temporary_folder.h"
+#include "tests/support/written_trial.h"
+
+namespace myoid {
+namespace {
+
+using namespace test_trials;
+
+TEST(ReadTrialEmg, AMissingEmgChannelIsNamedWithThoseThereAre) {
+  const test::TemporaryFolder folder;
+  recording::write_file(
+      folder / "e.sto",
+      "EMG\nendheader\ntime\tBICC\tBRA\tBRD\tTRI\n0\t0\t0\t0\t0\n1\t0\t0\t0\t0\n");
+  TrialSpec trial;
+  trial.name = "t";
+  trial.emg = folder / "e.sto";
+  trial.use = Use::mvc;
+  const std::string message =
+      message_of([&] { (void)read_trial_input(arm_study(), trial, arm()); });
+  EXPECT_NE(message.find("no EMG channel 'BIC'"), std::string::npos) << message;
+  EXPECT_NE(message.find("did you mean 'BICC'"), std::string::npos) << message;
+}
+
+TEST(ReadTrialEmg, EmgThatCoversLessThanHalfOfTheMotionIsRefusedAndALittleLessIsWarnedOf) {
+  const Study study = arm_study();
+  const std::string message = message_of([&] { (void)WrittenTrial(0.1, 20.0).read(study); });
+  EXPECT_NE(message.find("covers less than half of the motion (0 to 49.9 s)"), std::string::npos)
+      << message;
+  const TrialInput shorter = WrittenTrial(0.01, 4.0).read(study);
+  ASSERT_EQ(shorter.warnings.size(), 1U);
+  EXPECT_NE(shorter.warnings[0].find("lacks 0.99 s of the motion"), std::string::npos)
+      << shorter.warnings[0];
+}
+
+/// What reading the trial's EMG says, when all four channels hold these two values in turn, each
+/// for so many samples of 10 ms.
+std::string emg_of(const Study& study, double low, double high, int samples = 1) {
+  const test::TemporaryFolder folder;
+  std::string text = "EMG\nendheader\ntime\tBIC\tBRA\tBRD\tTRI\n";
+  for (int i = 0; i < 300; ++i) {
+    const double v = i / samples % 2 == 0 ? low : high;
+    text += fmt::format("{0}\t{1}\t{1}\t{1}\t{1}\n", 0.01 * i, v);
+  }
+  recording::write_file(folder / "e.sto", text);
+  TrialSpec trial;
+  trial.emg = folder / "e.sto";
+  TrialInput input;
+  return message_of([&] {
+    (void)read_trial_emg(
+        study, trial, [](const auto&) {}, input);
+  });
+}
+
+TEST(ReadTrialEmg, AnEnvelopeMayRingBelowZeroButNotSwingAboutIt) {
+  EXPECT_EQ(emg_of(arm_study(), -0.1, 1.0), "(no error)");
+  EXPECT_NE(emg_of(arm_study(), -0.9, 1.0).find("is it raw EMG?"), std::string::npos);
+}
+
+TEST(ReadTrialEmg, AnEnvelopeThatIsCalledRawIsRefused) {
+  Study study = arm_study();
+  study.emg.kind = EmgKind::raw;
+  study.emg.unit = "V";
+  EXPECT_EQ(emg_of(study, -1e-4, 1e-4), "(no error)");
+  EXPECT_EQ(emg_of(study, 2.0, 2.1), "(no error)");  // a converter without negative numbers
+  const std::string message = emg_of(study, 0.0, 1e-4, 20);
+  EXPECT_NE(message.find("set [emg] kind = \"envelope\""), std::string::npos) << message;
+}
+
+TEST(ReadTrialEmg, RawEmgThatNoConverterGivesIsRefusedAndItsCountsAreNot) {
+  Study study = arm_study();
+  study.emg.kind = EmgKind::raw;
+  study.emg.unit = "V";
+  EXPECT_NE(emg_of(study, -1e27, 1e27).find("which no converter gives"), std::string::npos);
+  EXPECT_EQ(emg_of(study, -32768.0, 32767.0), "(no error)");
+}
+
+TEST(ReadTrialEmg, AnActivationInPercentIsRefused) {
+  Study study = arm_study();
+  study.emg.kind = EmgKind::activation;
+  EXPECT_EQ(emg_of(study, 0.0, 1.0), "(no error)");
+  EXPECT_NE(emg_of(study, 0.0, 60.0).find("percent?"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace myoid

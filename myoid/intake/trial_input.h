@@ -1,0 +1,74 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "myoid/core/fault.h"
+#include "myoid/core/provenance.h"
+#include "myoid/core/time_series.h"
+#include "myoid/dynamics/external_loads.h"
+#include "myoid/files/marker_series.h"
+#include "myoid/files/text_file.h"
+#include "myoid/intake/clock_check.h"
+#include "myoid/intake/trial_clock.h"
+#include "myoid/model/body_model.h"
+#include "myoid/study/study.h"
+
+namespace myoid {
+
+/// Parts of a trial between such pauses that are shorter are left out.
+inline constexpr double kShortestPart_s = 1.0;
+
+/// The files of one trial as values: SI, laboratory turned onto the model's up, markers renamed to
+/// the model's and mended.
+struct TrialInput {
+  std::optional<recording::MarkerSeries> markers;
+  Vec3 up_L = Vec3::UnitY();         ///< Up in the laboratory of the markers, as recorded.
+  std::optional<TimeSeries> motion;  ///< Coordinates [rad | m].
+  std::optional<TimeSeries> emg;     ///< [V], or dimensionless for envelopes and activations.
+  std::optional<TimeSeries> external_torque;  ///< [N m]
+  std::optional<dynamics::ExternalLoads> loads;
+  std::optional<TrialClock> emg_clock;  ///< How the EMG was put on the clock of the motion.
+  std::vector<std::string> notes;       ///< All repairs and remarks.
+  std::vector<std::string> warnings;    ///< Those of them that may make numbers wrong.
+  std::vector<Fault> marker_faults;     ///< Found before they were mended.
+  std::vector<InputFile> files;
+};
+
+/// Reads one trial; its EMG and loads are put on the clock of its motion before anything else
+/// (`trial_clock`). Throws ReadError (file, line, found, expected, remedy) or InvalidInput: a
+/// missing EMG channel, angles that are degrees where radians are said, EMG and motion that do not
+/// cover one time, a pause of more than kLongestGap_s in a clock (ClockPause), a clock that is not
+/// in seconds, a cut-off above half the rate.
+[[nodiscard]] TrialInput read_trial_input(const Study& study,
+                                          const TrialSpec& trial,
+                                          const model::BodyModel& model);
+
+/// Adds a remark to the notes and to the warnings.
+void warn(TrialInput& input, std::string text);
+
+/// Adds what a reader put right or left out: "file:line: message".
+void add_repairs(const std::filesystem::path& path,
+                 const std::vector<recording::Repair>& repairs,
+                 std::vector<std::string>& notes);
+
+/// "3 samples from its begin to 2 s; at least 10 are needed".
+[[nodiscard]] std::string few_samples(const TrialSpec& trial, const TimeSeries& series);
+
+/// A trial, or a part of it.
+struct TrialPart {
+  TrialSpec spec;
+  TrialInput input;
+};
+
+/// Reads one trial; one whose clock pauses for more than kLongestGap_s as several, "name.1",
+/// "name.2", ..., with a warning: nothing is filtered or interpolated across the pause. Parts of
+/// less than kShortestPart_s are left out. Throws as `read_trial_input`, also where nothing is left
+/// or the study calibrates coordinates in a window that not every part has.
+[[nodiscard]] std::vector<TrialPart> read_trial_parts(const Study& study,
+                                                      const TrialSpec& trial,
+                                                      const model::BodyModel& model);
+
+}  // namespace myoid

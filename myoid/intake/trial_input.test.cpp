@@ -1,0 +1,55 @@
+#include "myoid/intake/trial_input.h"
+
+#include <algorithm>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "myoid/files/atomic_file.h"
+
+#include "tests/support/temporary_folder.h"
+#include "tests/support/written_trial.h"
+
+namespace myoid {
+namespace {
+
+using namespace test_trials;
+
+TEST(ReadTrialInput, RefusesDegreesThatAreSaidToBeRadians) {
+  const test::TemporaryFolder folder;
+  std::string text = "motion\nversion=1\ninDegrees=no\nendheader\ntime\telbow_flexion\n";
+  for (int i = 0; i < 20; ++i)
+    text += std::to_string(0.01 * i) + "\t" + std::to_string(5 * i) + "\n";
+  recording::write_file(folder / "m.mot", text);
+  const Study study = arm_study();
+  TrialSpec trial;
+  trial.name = "t";
+  trial.motion = folder / "m.mot";
+  trial.use = Use::static_pose;
+  const std::string message = message_of([&] { (void)read_trial_input(study, trial, arm()); });
+  EXPECT_NE(message.find("these are degrees"), std::string::npos) << message;
+  EXPECT_NE(message.find("m.mot"), std::string::npos) << message;
+}
+
+TEST(ReadTrialParts, ATrialIsCutAtALongPauseAndShortPartsAreLeftOut) {
+  const Study study = arm_study();
+  const WrittenTrial paused(0.01, 8.0, 3.0);
+  const std::vector<TrialPart> parts = read_trial_parts(study, paused.spec, arm());
+  ASSERT_EQ(parts.size(), 2U);
+  EXPECT_EQ(parts[0].spec.name, "t.1");
+  EXPECT_EQ(parts[1].spec.name, "t.2");
+  EXPECT_NEAR(parts[0].input.motion->time_s()[249], 2.49, 1e-9);
+  EXPECT_EQ(parts[0].input.motion->sample_count(), 250);
+  EXPECT_NEAR(parts[1].input.motion->time_s()[0], 5.5, 1e-9);
+  ASSERT_FALSE(parts[1].input.warnings.empty());
+  EXPECT_NE(parts[1].input.warnings.back().find("cut at the pauses of its clock (m.mot)"),
+            std::string::npos);
+  // Of a trial that ends 0.5 s after the pause, that part is left out.
+  WrittenTrial shorter(0.01, 8.0, 3.0);
+  shorter.spec.end_s = 6.0;
+  EXPECT_EQ(read_trial_parts(study, shorter.spec, arm()).size(), 1U);
+  EXPECT_EQ(read_trial_parts(study, WrittenTrial(0.01, 5.0).spec, arm())[0].spec.name, "t");
+}
+
+}  // namespace
+}  // namespace myoid

@@ -1,0 +1,121 @@
+#include "myoid/intake/trial_markers.h"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "myoid/core/error.h"
+#include "myoid/files/label_match.h"
+#include "myoid/intake/clock_check.h"
+#include "myoid/kinematics/marker_segments.h"
+#include "myoid/recording/recording.h"
+#include "myoid/signals/marker_quality.h"
+#include "myoid/signals/mend_markers.h"
+#include "myoid/study/trial_up.h"
+
+namespace myoid {
+namespace {
+
+/// Labels that differ from the model's in their writing only become the model's; of others that
+/// resemble one it is asked.
+void match_labels(const model::BodyModel& model,
+                  const std::filesystem::path& path,
+                  std::vector<std::string>& names,
+                  TrialInput& input) {
+  std::vector<std::string> wanted;
+  for (const model::Marker& marker : model.markers) wanted.push_back(marker.name);
+  const recording::LabelMatch match = recording::match_labels(names, wanted);
+  for (std::string& name : names) {
+    const auto same = match.same.find(name);
+    if (same == match.same.end()) continue;
+    input.notes.push_back(fmt::format("{}: marker '{}' is taken for the model's '{}'",
+                                      path.filename().string(), name, same->second));
+    name = same->second;
+  }
+  for (const auto& [name, like] : match.similar) {
+    input.notes.push_back(
+        fmt::format("{}: the model has no marker '{}'; did you mean '{}'? Then write [markers] "
+                    "rename = {{ \"{}\" = \"{}\" }}",
+                    path.filename().string(), name, like, name, like));
+  }
+}
+
+recording::MarkerSeries read_markers(const Study& study,
+                                     const model::BodyModel& model,
+                                     const std::filesystem::path& path,
+                                     TrialInput& input) {
+  recording::MarkerFile file = recording::read_markers(path);
+  std::vector<std::string>& notes = input.notes;
+  add_repairs(path, file.repairs, notes);
+  for (std::string& name : file.markers.names) {
+    if (const auto it = study.markers.rename.find(name); it != study.markers.rename.end())
+      name = it->second;
+  }
+  match_labels(model, path, file.markers.names, input);
+  const recording::LaboratoryUp up = trial_up(study.markers.up, path, model);
+  input.up_L = *up.up_L;
+  if (*up.up_L != model_up(model)) {
+    notes.push_back(fmt::format("{}: {}", path.filename().string(), up_note(up, model)));
+    file.markers = recording::rotated(std::move(file.markers), rotation_onto(model, *up.up_L));
+  }
+  return std::move(file.markers);
+}
+
+/// What is wrong with the markers, then as much of it put right as can be.
+recording::MarkerSeries mended(const Study& study,
+                               const model::BodyModel& model,
+                               recording::MarkerSeries markers,
+                               TrialInput& input) {
+  const std::vector<signals::ExpectedSegment> expected = kinematics::segments_of(model, markers);
+  input.marker_faults = signals::check_markers(markers, expected);
+  bool right_unit = true;
+  for (Fault& fault : input.marker_faults) {
+    right_unit = right_unit && fault.kind != FaultKind::marker_unit;
+    const bool used =
+        std::any_of(model.markers.begin(), model.markers.end(),
+                    [&](const model::Marker& marker) { return fault.channel == marker.name; });
+    // A marker that the model does not have harms nobody.
+    const bool of_one =
+        std::find(markers.names.begin(), markers.names.end(), fault.channel) != markers.names.end();
+    if (of_one && !used) fault.grave = false;
+  }
+  if (!right_unit) return markers;
+  std::vector<signals::RigidSegment> segments;
+  for (const signals::ExpectedSegment& e : expected) segments.push_back(e.segment);
+  signals::MendedMarkers result = signals::mend_markers(
+      std::move(markers), segments,
+      {.undo_swaps = study.markers.undo_swaps, .fill_gaps = study.markers.fill_gaps});
+  for (std::string& text : result.repairs) input.notes.push_back(std::move(text));
+  return std::move(result.markers);
+}
+
+}  // namespace
+
+recording::MarkerSeries read_trial_markers(const Study& study,
+                                           const TrialSpec& trial,
+                                           const model::BodyModel& model,
+                                           TrialInput& input) {
+  const double start = trial.start_s.value_or(-1e300);
+  const double end = trial.end_s.value_or(1e300);
+  recording::MarkerSeries markers = read_markers(study, model, *trial.markers, input);
+  if (trial.start_s || trial.end_s) {
+    Eigen::Index first = 0;
+    while (first < markers.frame_count() && markers.time_s[first] < start) ++first;
+    Eigen::Index last = markers.frame_count();
+    while (last > first && markers.time_s[last - 1] > end) --last;
+    markers.time_s = markers.time_s.segment(first, last - first).eval();
+    markers.positions_m = markers.positions_m.middleRows(first, last - first).eval();
+  }
+  if (markers.frame_count() < 10)
+    throw ReadError(*trial.markers, 0,
+                    fmt::format("only {} frames; at least 10 are needed", markers.frame_count()));
+  if (std::string pauses = check_clock(*trial.markers, markers.time_s); !pauses.empty())
+    warn(input, std::move(pauses));
+  check_cutoff(study, *trial.markers, markers.time_s);
+  return mended(study, model, std::move(markers), input);
+}
+
+}  // namespace myoid

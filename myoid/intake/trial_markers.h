@@ -1,0 +1,19 @@
+#pragma once
+
+#include "myoid/files/marker_series.h"
+#include "myoid/intake/trial_input.h"
+#include "myoid/model/body_model.h"
+#include "myoid/study/study.h"
+
+namespace myoid {
+
+/// The markers of a trial from its file: under the model's names (renamed as the study says, or
+/// where they differ in their writing alone), y up, cut to the trial's times, and mended as the
+/// study allows. Notes, warnings and the faults found before the mending go to `input`. Throws
+/// ReadError for fewer than 10 frames and as `check_clock` and `check_cutoff`.
+[[nodiscard]] recording::MarkerSeries read_trial_markers(const Study& study,
+                                                         const TrialSpec& trial,
+                                                         const model::BodyModel& model,
+                                                         TrialInput& input);
+
+}  // namespace myoid

@@ -1,0 +1,200 @@
+#include "myoid/intervals/discrepancy.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include <Eigen/Cholesky>
+
+#include "myoid/core/numbers.h"
+#include "myoid/core/units.h"
+#include "myoid/math/statistics.h"
+
+namespace myoid::identification {
+namespace {
+
+/// A size that an error may have, and how probable that is beforehand.
+struct PossibleSize {
+  double size = 0.0, probability = 1.0;
+};
+
+/// 0 in one case of two, else half normal 0.1, on a grid even in the logarithm; 0 for certain where
+/// there is no error to have a size.
+std::vector<PossibleSize> possible_sizes(bool any_errors) {
+  constexpr double kPriorSize = 0.1;
+  std::vector<PossibleSize> sizes{{0.0, 1.0}};
+  if (!any_errors) return sizes;
+  double sum = 0.0;
+  for (double size = 0.003; size < 0.5; size *= 1.25) {
+    sizes.push_back({size, size * std::exp(-0.5 * std::pow(size / kPriorSize, 2))});
+    sum += sizes.back().probability;
+  }
+  for (std::size_t k = 1; k < sizes.size(); ++k) sizes[k].probability *= 0.5 / sum;
+  sizes.front().probability = 0.5;
+  return sizes;
+}
+
+/// Of every shape, whether a muscle's or a joint's.
+Eigen::VectorXd sizes_of(const std::vector<bool>& of_muscle, double muscle, double joint) {
+  Eigen::VectorXd e(static_cast<Eigen::Index>(of_muscle.size()));
+  for (std::size_t b = 0; b < of_muscle.size(); ++b)
+    e[static_cast<Eigen::Index>(b)] = of_muscle[b] ? muscle : joint;
+  return e;
+}
+
+/// -2 log likelihood of h ~ N(0, C + C E^2 C), up to a constant, with sizes e on the diagonal of E:
+/// log |I + E C E| - h'E (I + E C E)^-1 E h.
+double misfit(const Eigen::MatrixXd& c, const Eigen::VectorXd& h, const Eigen::VectorXd& e) {
+  Eigen::MatrixXd m = e.asDiagonal() * c * e.asDiagonal();
+  m.diagonal().array() += 1.0;
+  const Eigen::LLT<Eigen::MatrixXd> factor(m);
+  if (factor.info() != Eigen::Success) return std::numeric_limits<double>::infinity();
+  const Eigen::VectorXd eh = e.cwiseProduct(h);
+  return 2.0 * factor.matrixLLT().diagonal().array().log().sum() - eh.dot(factor.solve(eh));
+}
+
+/// Pairs of sizes by their posterior probability, those below 1e-4 left out.
+std::vector<Discrepancy::Sizes> posterior_sizes(const Eigen::MatrixXd& c,
+                                                const Eigen::VectorXd& h,
+                                                const std::vector<bool>& of_muscle) {
+  const auto any = [&](bool muscle) {
+    return std::find(of_muscle.begin(), of_muscle.end(), muscle) != of_muscle.end();
+  };
+  std::vector<Discrepancy::Sizes> all;
+  double least = std::numeric_limits<double>::infinity();
+  std::vector<double> misfits;
+  for (const PossibleSize& muscle : possible_sizes(any(true))) {
+    for (const PossibleSize& joint : possible_sizes(any(false))) {
+      all.push_back({muscle.size, joint.size, muscle.probability * joint.probability});
+      misfits.push_back(misfit(c, h, sizes_of(of_muscle, muscle.size, joint.size)));
+      least = std::min(least, misfits.back());
+    }
+  }
+  double sum = 0.0;
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    all[k].probability *= std::exp(-0.5 * (misfits[k] - least));
+    sum += all[k].probability;
+  }
+  for (Discrepancy::Sizes& of : all) of.probability /= sum;
+  all.erase(std::remove_if(all.begin(), all.end(),
+                           [](const Discrepancy::Sizes& of) { return !(of.probability > 1e-4); }),
+            all.end());
+  return all;
+}
+
+}  // namespace
+
+double Discrepancy::reach(Eigen::Index j, double variance, double probability) const {
+  std::vector<double> sd;
+  double most = 0.0, all = 0.0;
+  for (const Sizes& s : posterior) {
+    sd.push_back(
+        std::sqrt(variance + s.muscle * s.muscle * by_muscle[j] + s.joint * s.joint * by_joint[j]));
+    most = std::max(most, sd.back());
+    all += s.probability;
+  }
+  if (!(most > 0.0) || !std::isfinite(most)) return most;
+  // What was left out is shared among the rest. The probability within x is concave in x: Newton's
+  // steps from below come to the root from below.
+  double x =
+      math::normal_quantile(0.5 + 0.5 * probability) * *std::min_element(sd.begin(), sd.end());
+  for (int count = 0; count < 60; ++count) {
+    double inside = 0.0, density = 0.0;
+    for (std::size_t k = 0; k < sd.size(); ++k) {
+      const double share = posterior[k].probability / all;
+      const double u = sd[k] > 0.0 ? x / (std::sqrt(2.0) * sd[k]) : kInfinity;
+      inside += share * std::erf(u);
+      if (sd[k] > 0.0) density += share * std::sqrt(2.0 / kPi) / sd[k] * std::exp(-u * u);
+    }
+    const double step = (probability - inside) / density;
+    if (!(step > 1e-13 * x)) break;
+    x += step;
+  }
+  return x;
+}
+
+Discrepancy discrepancy(const Estimator& estimator,
+                        const Estimator::Solution& solution,
+                        const Eigen::MatrixXd& model_based) {
+  const ResidualModel& model = estimator.model();
+  const Eigen::VectorXd& z = solution.search.x;
+  const Weighting& weighting = solution.weighting;
+  Evaluation at;
+  model.evaluate(z, ResidualModel::Depth::gradient, at);
+  const ErrorShapes shapes = model.error_shapes(z);
+  const Eigen::VectorXd root = std::sqrt(weighting.share) * weighting.sd_nm.cwiseInverse();
+  const Eigen::VectorXd residual = (model.measured() - at.predicted).cwiseProduct(root);
+  const Eigen::MatrixXd every = shapes.shapes_nm * root.asDiagonal();  // S W^1/2
+  // A parameter on its bound has not followed the data: what it would take out is in the residual.
+  Eigen::MatrixXd gradient = at.gradient;
+  Eigen::MatrixXd response = model_based;  // given those on their bound
+  for (Eigen::Index j = 0; j < z.size(); ++j) {
+    const FreeParameter& f = estimator.free()[static_cast<std::size_t>(j)];
+    const double margin = 1e-9 * (f.upper - f.lower);
+    if (z[j] <= f.lower + margin || z[j] >= f.upper - margin) {
+      gradient.row(j).setZero();
+      const double variance = response(j, j);
+      if (variance > 0.0) {
+        const Eigen::VectorXd column = response.col(j);
+        response -= column * column.transpose() / variance;
+      }
+      response.row(j).setZero();
+      response.col(j).setZero();
+    }
+  }
+  Eigen::VectorXd along = every * residual;
+  if (weighting.emg_variance.size() > 0) {
+    // The noise of the EMG is in the shapes and in the residual alike: that product has a mean.
+    const Eigen::MatrixXd noisy = shapes.by_emg * shapes.unfiltered * root.asDiagonal();
+    for (Eigen::Index b = 0; b < along.size(); ++b) {
+      const int channel = shapes.channel[static_cast<std::size_t>(b)];
+      if (channel < 0) continue;
+      along[b] += estimator.channel_variance()[channel] *
+                  (noisy.row(b)
+                       .transpose()
+                       .cwiseProduct(root)
+                       .cwiseProduct(weighting.emg_variance)
+                       .cwiseProduct(model.noise_gain().row(channel).transpose()))
+                      .dot(at.channel_torque.row(channel).transpose());
+    }
+  }
+  // Those that are errors, in directions of unit weight: from here S stands for D S.
+  const Eigen::MatrixXd errors = shapes.weight.asDiagonal() * shapes.contrast;
+  std::vector<Eigen::Index> kept;
+  for (Eigen::Index b = 0; b < errors.rows(); ++b) {
+    if (errors.row(b).norm() > 1e-9) kept.push_back(b);
+  }
+  const Eigen::MatrixXd s = errors(kept, Eigen::all) * every;
+  const Eigen::VectorXd h = errors(kept, Eigen::all) * along;
+  const Eigen::MatrixXd sj = s * root.asDiagonal() * gradient.transpose();
+  // Of the data as they are, A has nothing taken out.
+  const Eigen::MatrixXd jacobian = gradient * root.asDiagonal();
+  Eigen::MatrixXd a = jacobian * jacobian.transpose();
+  for (Eigen::Index j = 0; j < z.size(); ++j) {
+    const double prior_sd = estimator.free()[static_cast<std::size_t>(j)].prior_sd;
+    if (prior_sd > 0.0) a(j, j) += 1.0 / (prior_sd * prior_sd);
+    a(j, j) = a(j, j) > 0.0 ? a(j, j) * (1.0 + 1e-12) : 1.0;
+  }
+  const Eigen::MatrixXd left = s * s.transpose() - sj * a.ldlt().solve(sj.transpose());
+  std::vector<bool> of_muscle;
+  for (const Eigen::Index b : kept)
+    of_muscle.push_back(shapes.channel[static_cast<std::size_t>(b)] >= 0);
+  Discrepancy result;
+  result.posterior = posterior_sizes(left, h, of_muscle);
+  for (const Discrepancy::Sizes& of : result.posterior) {
+    result.relative_size += of.probability * of.muscle * of.muscle;
+    result.joint_size += of.probability * of.joint * of.joint;
+  }
+  result.relative_size = std::sqrt(result.relative_size);
+  result.joint_size = std::sqrt(result.joint_size);
+  const Eigen::MatrixXd unit = response * sj.transpose();
+  result.by_muscle = (unit * sizes_of(of_muscle, 1.0, 0.0).asDiagonal()).rowwise().squaredNorm();
+  result.by_joint = (unit * sizes_of(of_muscle, 0.0, 1.0).asDiagonal()).rowwise().squaredNorm();
+  const Eigen::MatrixXd moved =
+      unit * sizes_of(of_muscle, result.relative_size, result.joint_size).asDiagonal();
+  result.covariance = moved * moved.transpose();
+  return result;
+}
+
+}  // namespace myoid::identification

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "myoid/intervals/uncertainty.h"
+
+namespace myoid::identification {
+
+/// Systematic error of the model, as far as the residuals show it.
+struct Discrepancy {
+  double relative_size = 0.0;  ///< Standard deviation, relative to the muscles' torques ...
+  double joint_size = 0.0;     ///< ... and of what is passive, relative to the torque's rms.
+  Eigen::MatrixXd covariance;  ///< What it adds to that of the estimates, in the solver's scale.
+  /// A pair of sizes and its posterior probability; those below 1e-4 are left out.
+  struct Sizes {
+    double muscle = 0.0, joint = 0.0, probability = 0.0;
+  };
+  std::vector<Sizes> posterior;
+  Eigen::VectorXd by_muscle, by_joint;  ///< Variance of each estimate for a size of 1.
+
+  /// Distance to both sides of estimate j within which an error lies with this probability, where
+  /// it has `variance` besides. No more than a normal error of the same whole variance where the
+  /// model may well be right: then that variance is that of rare large errors.
+  [[nodiscard]] double reach(Eigen::Index j, double variance, double probability) const;
+};
+
+/// No muscle is as its model. The residuals then hold, beside noise, something that depends
+/// smoothly on posture, activation and speed (ErrorShapes), that no amount of data averages out,
+/// and that bends the estimates: a wrong moment arm becomes a wrong force-length curve. With shapes
+/// S (k x n; what ErrorShapes::contrast leaves of them), weights D and W = nu / s^2,
+///
+///   r = noise + S'x,   x ~ N(0, size^2 D^2),
+///   h = S W r ~ N(0, C + size^2 C D^2 C),   C = S W S' - S W J' A^-1 J W S'
+///
+/// is what of it the fit leaves. There are two sizes, of muscles and of joints, each 0 with
+/// a probability of one half, else half normal 0.1 (0 where nothing has it); taken is the root of
+/// its mean square over the posterior. The estimates then err by A^-1 J W S'x, with covariance
+///
+///   size^2 (A^-1 J W S') D^2 (A^-1 J W S')'.
+///
+/// Kennedy & O'Hagan (2001), J R Stat Soc B 63:425-464, in linear form.
+[[nodiscard]] Discrepancy discrepancy(const Estimator& estimator,
+                                      const Estimator::Solution& solution,
+                                      const Eigen::MatrixXd& model_based);
+
+}  // namespace myoid::identification

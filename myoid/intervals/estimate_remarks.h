@@ -1,0 +1,74 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "myoid/identification/parameters.h"
+#include "myoid/identification/study_data.h"
+#include "myoid/intervals/result.h"
+
+namespace myoid::identification {
+
+/// What the routes to an interval disagree on, for few lines at the end.
+class RouteRemarks {
+ public:
+  /// Fills `routes_disagree`: one interval is more than 1.5 times as wide as another, by more than
+  /// three times what chance makes of both (RouteInterval::spread; of a hundred pairs none), and
+  /// wider than a tenth of what an identified number may be off.
+  void compare(ParameterEstimate& estimate);
+
+  /// One line for all that disagree of `count` numbers, which says whether the reported interval is
+  /// the wider, and one for all open profiles.
+  void add_to(std::vector<std::string>& warnings, std::size_t count) const;
+
+ private:
+  int disagree_ = 0;
+  int beyond_ = 0;  ///< Of these, where a route is wider than what is reported.
+  double worst_ = 0.0;
+  std::string worst_text_;
+  std::vector<std::string> open_;
+};
+
+/// What a muscle did while it was active (above 2 % of the greatest EMG) for a tenth of a second in
+/// all, faster than a hundredth of v_max, where f_v differs from 1 by a few percent.
+struct ActiveMotion {
+  bool shortened = false, lengthened = false;
+  /// From the shortest to the longest musculotendon length, each but for a tenth of a second [m].
+  double length_span_m = 0.0;
+};
+/// Of every muscle over the calibration trials, the activation `delay_s` late.
+[[nodiscard]] std::vector<ActiveMotion> active_motion(const StudyData& data, double delay_s);
+
+/// What a muscle's number only acts in and it never did, for VerdictContext::never: "lengthened",
+/// "shortened"; empty: nothing is missing. `by_ratio`: V_sh acts in lengthening, too.
+[[nodiscard]] std::string never_done(const FreeParameter& parameter,
+                                     const ActiveMotion& motion,
+                                     bool by_ratio);
+
+/// What the prior of a number is, in words.
+[[nodiscard]] std::string known_beforehand(const FreeParameter& parameter, bool from_mvc);
+
+/// |z - prior mean| / prior sd, of the logarithm where the solver has that.
+[[nodiscard]] double distance_from_prior(const FreeParameter& parameter, double z);
+
+/// Of each muscle that has free parameters of its own with priors, at the solver's numbers `z`.
+[[nodiscard]] std::vector<PriorDistance> prior_distances(const std::vector<FreeParameter>& free,
+                                                         const Eigen::VectorXd& z,
+                                                         const StudyData& data);
+
+/// A line for each muscle that is more than VerdictRules::prior_conflict away.
+void add_distances_to(std::vector<std::string>& warnings,
+                      const std::vector<PriorDistance>& distances);
+
+/// How the muscles follow their EMG, where the fit chose that (`shared_lag_gain`), and whether the
+/// recording tells: a sentence; empty where nothing was chosen.
+[[nodiscard]] std::string lag_remark(const IdentificationResult& result);
+
+/// The last `count` estimates are one unknown of several owners: they get one verdict, the worst
+/// that any of them has, with its reason. Nothing is done to a number of one owner.
+void agree_on_tied(std::vector<ParameterEstimate>& estimates, std::size_t count);
+
+}  // namespace myoid::identification

@@ -1,0 +1,97 @@
+#include "myoid/intervals/product_estimate.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Eigenvalues>
+
+#include "myoid/math/statistics.h"
+
+namespace myoid::identification {
+namespace {
+
+/// Draws from a normal distribution with this covariance, the same in every run.
+Eigen::MatrixXd draws_about(const Eigen::VectorXd& mean, const Eigen::MatrixXd& covariance, int n) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(covariance);
+  const Eigen::MatrixXd root =
+      eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal();
+  Eigen::MatrixXd result(n, mean.size());
+  // Quasi-random: the additive recurrence with square roots of primes, through the normal quantile.
+  const double primes[] = {2.0, 3.0, 5.0};
+  for (int i = 0; i < n; ++i) {
+    Eigen::VectorXd u(mean.size());
+    for (Eigen::Index j = 0; j < mean.size(); ++j) {
+      const double x = (i + 0.5) * std::sqrt(primes[j % 3]) + 0.37 * static_cast<double>(j);
+      u[j] = math::normal_quantile(std::clamp(x - std::floor(x), 1e-6, 1.0 - 1e-6));
+    }
+    result.row(i) = (mean + root * u).transpose();
+  }
+  return result;
+}
+
+/// Standard deviation of ln x and quantiles of x.
+struct Spread {
+  double log_sd = 0.0;
+  double low = 0.0, high = 0.0;
+};
+
+Spread spread_of(std::vector<double> logs) {
+  std::sort(logs.begin(), logs.end());
+  const auto at = [&](double share) {
+    return logs[static_cast<std::size_t>(share * static_cast<double>(logs.size() - 1))];
+  };
+  // Robust: the far tail is where V_ml comes down to 1 and the logarithm has no end.
+  return {(at(0.8413) - at(0.1587)) / 2.0, std::exp(at(0.025)), std::exp(at(0.975))};
+}
+
+/// ln P of draws of (ln V_sh, V_ml, ln S).
+std::vector<double> log_products(const Eigen::MatrixXd& draws) {
+  std::vector<double> logs;
+  for (Eigen::Index i = 0; i < draws.rows(); ++i) {
+    const double vsh = std::exp(draws(i, 0));
+    const double rise = std::max(draws(i, 1) - 1.0, 0.002);
+    logs.push_back(std::log(rise) + draws(i, 0) - draws(i, 2) - std::log1p(vsh));
+  }
+  return logs;
+}
+
+}  // namespace
+
+void add_product_interval(ParameterEstimate& e,
+                          const ProductPositions& where,
+                          const std::vector<FreeParameter>& free,
+                          const Eigen::VectorXd& z,
+                          const Eigen::MatrixXd& covariance,
+                          const BootstrapResult* bootstrap) {
+  if (where.curvature < 0 || where.plateau < 0) return;
+  const std::vector<Eigen::Index> three{where.curvature, where.plateau, where.ratio};
+  constexpr int kDraws = 2000;
+  const Spread posterior =
+      spread_of(log_products(draws_about(z(three), covariance(three, three), kDraws)));
+  e.std_error = e.estimate * posterior.log_sd;
+  e.ci_low = posterior.low;
+  e.ci_high = posterior.high;
+  e.routes.push_back({"sandwich", e.ci_low, e.ci_high});
+  if (bootstrap != nullptr && bootstrap->replicates.rows() >= 40) {
+    const Spread boot = spread_of(log_products(bootstrap->replicates(Eigen::all, three)));
+    e.routes.push_back({"bootstrap", boot.low, boot.high});
+  }
+  Eigen::Vector3d mean = z(three);
+  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+  bool all_priors = true;
+  for (int i = 0; i < 3; ++i) {
+    const FreeParameter& f = free[static_cast<std::size_t>(three[static_cast<std::size_t>(i)])];
+    all_priors = all_priors && f.prior_sd > 0.0;
+    mean[i] = f.prior_mean;
+    spread(i, i) = f.prior_sd * f.prior_sd;
+  }
+  if (all_priors) {
+    const Spread prior = spread_of(log_products(draws_about(mean, spread, kDraws)));
+    e.prior_mean = std::exp(std::log(std::max(mean[1] - 1.0, 0.002)) + mean[0] - mean[2] -
+                            std::log1p(std::exp(mean[0])));
+    e.prior_sd = *e.prior_mean * prior.log_sd;
+    e.shrinkage = 1.0 - std::pow(posterior.log_sd / prior.log_sd, 2);
+  }
+}
+
+}  // namespace myoid::identification

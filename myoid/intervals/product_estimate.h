@@ -1,0 +1,28 @@
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "myoid/identification/parameters.h"
+#include "myoid/intervals/result.h"
+#include "myoid/intervals/uncertainty.h"
+
+namespace myoid::identification {
+
+/// Where the solver has V_sh, V_ml and the slope ratio S of a muscle; -1: not among the unknowns.
+struct ProductPositions {
+  Eigen::Index curvature = -1, plateau = -1, ratio = -1;
+};
+
+/// Fills what is known of P = V_sh V_shl where P follows from three unknowns: interval, standard
+/// error, prior and shrinkage, by draws of (ln V_sh, V_ml, ln S) about the solution `z`. Nothing if
+/// one of them is none. `bootstrap` may be null.
+void add_product_interval(ParameterEstimate& e,
+                          const ProductPositions& where,
+                          const std::vector<FreeParameter>& free,
+                          const Eigen::VectorXd& z,
+                          const Eigen::MatrixXd& covariance,
+                          const BootstrapResult* bootstrap);
+
+}  // namespace myoid::identification

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "myoid/identification/parameters.h"
+#include "myoid/intervals/discrepancy.h"
+#include "myoid/intervals/profile_likelihood.h"
+#include "myoid/intervals/result.h"
+#include "myoid/intervals/uncertainty.h"
+
+namespace myoid::identification {
+
+inline constexpr double kReportedProbability = 0.95;  ///< Of every interval.
+
+/// All routes to the intervals of one fit.
+struct Intervals {
+  Sandwich sandwich;
+  std::optional<Discrepancy> model_error;
+  Eigen::MatrixXd tendon_shift;  ///< `held_tendon_shift`, or empty.
+  std::optional<BootstrapResult> bootstrap;
+  std::optional<std::vector<Interval>> profiles;
+};
+
+/// Scale of a row: what a number of the solver is in the row's unit.
+struct RowScale {
+  const FreeParameter* parameter = nullptr;
+  double ratio = 1.0;
+  [[nodiscard]] double value(double z) const { return ratio * parameter->to_value(z); }
+};
+
+/// The solver's number of a value of this row.
+[[nodiscard]] double z_of(const RowScale& row, double value);
+
+/// Fills `e.routes`, and `e.ci_low`, `e.ci_high` with the interval that is reported, 95 %: to
+/// either side the farther of sandwich and profile, with the model's error on top, but never less
+/// than trials show that differ by both (of few trials the jackknife, which is never too small).
+void add_routes(ParameterEstimate& e,
+                const RowScale& row,
+                const Intervals& intervals,
+                Eigen::Index at,
+                double z);
+
+}  // namespace myoid::identification

@@ -1,0 +1,106 @@
+#include "myoid/intervals/score_blocks.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include <Eigen/Eigenvalues>
+
+namespace myoid::identification {
+
+std::vector<Block> blocks_of(const ResidualModel& model, double block_s) {
+  std::vector<Block> blocks;
+  int trial = -1;
+  std::size_t first_of_trial = 0;
+  for (const Piece& piece : model.pieces()) {
+    const bool same = piece.trial == trial;
+    if (!same) first_of_trial = blocks.size();
+    trial = piece.trial;
+    Eigen::Index count = 1;
+    if (block_s > 0.0) {
+      count = std::max<Eigen::Index>(
+          1, static_cast<Eigen::Index>(
+                 std::lround(static_cast<double>(piece.count) / (model.rate_hz() * block_s))));
+    }
+    for (Eigen::Index b = 0; b < count; ++b) {
+      const Eigen::Index begin = piece.count * b / count;
+      const Eigen::Index end = piece.count * (b + 1) / count;
+      // Joints of one trial are drawn together.
+      const std::size_t at = first_of_trial + static_cast<std::size_t>(b);
+      if (!same || at >= blocks.size()) blocks.push_back({block_s > 0.0 ? trial : 0, {}});
+      blocks[same ? at : blocks.size() - 1].rows.emplace_back(piece.first + begin, end - begin);
+    }
+  }
+  return blocks;
+}
+
+Eigen::MatrixXd inverse_of(const Eigen::MatrixXd& a) {
+  // Scaled to unit diagonal before inverting; near-zero directions stay near-infinite.
+  const Eigen::VectorXd scale = a.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
+  const Eigen::MatrixXd scaled = scale.asDiagonal() * a * scale.asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scaled);
+  const Eigen::VectorXd values =
+      eigen.eigenvalues().cwiseMax(1e-14 * eigen.eigenvalues().maxCoeff()).cwiseInverse();
+  return scale.asDiagonal() * eigen.eigenvectors() * values.asDiagonal() *
+         eigen.eigenvectors().transpose() * scale.asDiagonal();
+}
+
+Eigen::VectorXd unfitted(const Eigen::LLT<Eigen::MatrixXd>& factor,
+                         const Eigen::MatrixXd& of_trial,
+                         const Eigen::VectorXd& sum) {
+  constexpr double kLeast = 0.05;  // of the spread that a fit leaves
+  const auto lower = factor.matrixL();
+  const Eigen::MatrixXd half = lower.solve(of_trial);
+  const Eigen::MatrixXd share = lower.solve(half.transpose());
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(0.5 * (share + share.transpose()));
+  const Eigen::VectorXd left = (1.0 - eigen.eigenvalues().array()).max(kLeast).rsqrt().matrix();
+  const Eigen::VectorXd turned = eigen.eigenvectors().transpose() * lower.solve(sum);
+  return lower * (eigen.eigenvectors() * left.cwiseProduct(turned));
+}
+
+double student_factor(double freedom) {
+  constexpr double z = 1.959963984540054;
+  const double n = std::max(3.0, freedom);
+  const double t = z + (z * z * z + z) / (4.0 * n) +
+                   (5.0 * std::pow(z, 5) + 16.0 * z * z * z + 3.0 * z) / (96.0 * n * n) +
+                   (3.0 * std::pow(z, 7) + 19.0 * std::pow(z, 5) + 17.0 * z * z * z - 15.0 * z) /
+                       (384.0 * n * n * n);
+  return t * t / (z * z);
+}
+
+std::optional<Eigen::MatrixXd> block_covariance(const ResidualModel& model,
+                                                const Estimator::Scores& by_sample,
+                                                const Eigen::MatrixXd& a,
+                                                const Eigen::VectorXd& precision) {
+  constexpr double kBlock_s = 2.0;
+  const std::vector<Block> blocks = blocks_of(model, kBlock_s);
+  const Eigen::LLT<Eigen::MatrixXd> factor(a);
+  if (blocks.size() < 8 || factor.info() != Eigen::Success) return std::nullopt;
+  const Eigen::Index p = a.rows();
+  const Eigen::MatrixXd inverse = inverse_of(a);
+  Eigen::MatrixXd b = precision.asDiagonal();
+  Eigen::VectorXd shares = Eigen::VectorXd::Constant(p, 1e-300), squared = shares;
+  for (const Block& block : blocks) {
+    Eigen::MatrixXd of_block = Eigen::MatrixXd::Zero(p, p);
+    Eigen::VectorXd sum = Eigen::VectorXd::Zero(p);
+    for (const auto& [first, count] : block.rows) {
+      const auto rows = by_sample.rows.middleCols(first, count);
+      of_block += rows * rows.transpose();
+      sum += by_sample.scores.middleCols(first, count).rowwise().sum();
+    }
+    const Eigen::VectorXd alone = unfitted(factor, of_block, sum);
+    b += alone * alone.transpose();
+    const Eigen::VectorXd share = (inverse * of_block).cwiseProduct(inverse).rowwise().sum();
+    shares += share;
+    squared += share.cwiseAbs2();
+  }
+  Eigen::MatrixXd covariance = inverse * b * inverse;
+  for (Eigen::Index j = 0; j < p; ++j) {
+    const double wider = std::sqrt(student_factor(shares[j] * shares[j] / squared[j]));
+    covariance.row(j) *= wider;
+    covariance.col(j) *= wider;
+  }
+  return covariance;
+}
+
+}  // namespace myoid::identification

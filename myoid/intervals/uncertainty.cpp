@@ -1,0 +1,327 @@
+#include "myoid/intervals/uncertainty.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstdint>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <oneapi/tbb/parallel_for.h>
+
+#include "myoid/core/numbers.h"
+#include "myoid/core/units.h"
+#include "myoid/intervals/score_blocks.h"
+#include "myoid/math/statistics.h"
+
+namespace myoid::identification {
+namespace {
+
+/// A stream of numbers that depends on the seed and the stream's number alone (SplitMix64).
+class Stream {
+ public:
+  Stream(std::uint64_t seed, std::uint64_t number)
+      : state_(seed * 0xD1342543DE82EF95ULL + number * 0x9E3779B97F4A7C15ULL + 1) {
+    for (int i = 0; i < 4; ++i) (void)next();
+  }
+  std::uint64_t next() {
+    std::uint64_t x = (state_ += 0x9E3779B97F4A7C15ULL);
+    x = (x ^ (x >> 30)) * 0xBF58476D1CE4E5B9ULL;
+    x = (x ^ (x >> 27)) * 0x94D049BB133111EBULL;
+    return x ^ (x >> 31);
+  }
+  double uniform() { return static_cast<double>(next() >> 11) * 0x1.0p-53; }
+  std::size_t below(std::size_t count) {
+    return std::min(count - 1, static_cast<std::size_t>(uniform() * static_cast<double>(count)));
+  }
+  double normal() {
+    const double radius = std::sqrt(-2.0 * std::log(1.0 - uniform()));
+    return radius * std::cos(2.0 * kPi * uniform());
+  }
+
+ private:
+  std::uint64_t state_;
+};
+
+/// inverse_of(a) * b, by a Cholesky factor where one is at hand.
+Eigen::VectorXd solve_positive(const Eigen::MatrixXd& a, const Eigen::VectorXd& b) {
+  const Eigen::VectorXd scale = a.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
+  const Eigen::LLT<Eigen::MatrixXd> factor(scale.asDiagonal() * a * scale.asDiagonal());
+  const bool regular = factor.info() == Eigen::Success &&
+                       factor.matrixLLT().diagonal().minCoeff() > 1e-5;  // 1 in each column
+  if (!regular) return inverse_of(a) * b;
+  return scale.cwiseProduct(factor.solve(scale.cwiseProduct(b)));
+}
+
+/// Whether the smallest eigenvalue of these rows and columns of a matrix surely exceeds `least`:
+/// then A - least I has a Cholesky factor.
+bool above_in_all_directions(const Eigen::MatrixXd& a,
+                             const std::vector<Eigen::Index>& set,
+                             double least) {
+  Eigen::Matrix4d factor;
+  const std::size_t n = set.size();
+  for (std::size_t j = 0; j < n; ++j) {
+    for (std::size_t i = j; i < n; ++i) {
+      const auto row = static_cast<Eigen::Index>(i), column = static_cast<Eigen::Index>(j);
+      double rest = a(set[i], set[j]) - (i == j ? least : 0.0);
+      for (Eigen::Index k = 0; k < column; ++k) rest -= factor(row, k) * factor(column, k);
+      if (i > j) {
+        factor(row, column) = rest / factor(column, column);
+        continue;
+      }
+      if (!(rest > 0.0)) return false;
+      factor(row, column) = std::sqrt(rest);
+    }
+  }
+  return true;
+}
+
+double quantile(std::vector<double> values, double share) {
+  std::sort(values.begin(), values.end());
+  const double at = share * static_cast<double>(values.size() - 1);
+  const auto below = static_cast<std::size_t>(at);
+  const std::size_t above = std::min(below + 1, values.size() - 1);
+  return values[below] + (at - static_cast<double>(below)) * (values[above] - values[below]);
+}
+
+}  // namespace
+
+Sandwich sandwich(const Estimator& estimator, const Estimator::Solution& solution) {
+  const ResidualModel& model = estimator.model();
+  const Eigen::VectorXd& z = solution.search.x;
+  const Estimator::Scores by_sample = estimator.scores(solution);
+  Sandwich result;
+  result.information = by_sample.information;
+  Eigen::MatrixXd a = result.information;
+  Eigen::VectorXd precision = Eigen::VectorXd::Zero(z.size());
+  for (Eigen::Index j = 0; j < z.size(); ++j) {
+    const double prior_sd = estimator.free()[static_cast<std::size_t>(j)].prior_sd;
+    if (prior_sd > 0.0) precision[j] = 1.0 / (prior_sd * prior_sd);
+  }
+  a.diagonal() += precision;
+  result.model_based = inverse_of(a);
+  double unsure = 0.0;
+  for (const NoiseLevel& level : solution.weighting.noise)
+    unsure = std::max(unsure, level.log_variance_sd);
+  result.by_noise = unsure * result.model_based * by_sample.attenuation;
+
+  // What the data alone determine: eigenvectors of the unit-column information.
+  const Eigen::VectorXd norm = result.information.diagonal().cwiseSqrt();
+  const double largest_norm = norm.maxCoeff();
+  Eigen::VectorXd unit(z.size());
+  for (Eigen::Index j = 0; j < z.size(); ++j) unit[j] = norm[j] > 0.0 ? 1.0 / norm[j] : 0.0;
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(
+      unit.asDiagonal() * result.information * unit.asDiagonal());
+  const Eigen::VectorXd& values = eigen.eigenvalues();  // rising
+  const double top = values[values.size() - 1];
+  result.condition = values[0] > 0.0 ? std::sqrt(top / values[0]) : kInfinity;
+  std::vector<Eigen::Index> open;
+  for (Eigen::Index k = 0; k < values.size(); ++k) {
+    // Squares of singular values: their own round-off is 1e-16 of the largest.
+    if (values[k] <= 1e-13 * top || !(largest_norm > 0.0)) open.push_back(k);
+  }
+  result.rank = static_cast<int>(values.size()) - static_cast<int>(open.size());
+  result.undetermined = eigen.eigenvectors()(Eigen::all, open);
+  result.determined.assign(static_cast<std::size_t>(z.size()), true);
+  for (Eigen::Index j = 0; j < z.size(); ++j) {
+    result.determined[static_cast<std::size_t>(j)] =
+        norm[j] > 0.0 && result.undetermined.row(j).norm() < 1e-3;
+  }
+
+  const Eigen::MatrixXd scores = by_sample.scores.transpose();
+  const auto lag = static_cast<Eigen::Index>(std::lround(0.4 * model.rate_hz()));
+  Eigen::MatrixXd b = math::newey_west(scores, model.piece_lengths(), lag);
+  b.diagonal() += precision;
+  result.newey_west = result.model_based * b * result.model_based;
+  // Var(B) / B^2 = 4/3 L / n of the triangle of lags; the width goes with the root of B.
+  result.sample_spread =
+      0.5 * std::sqrt(4.0 / 3.0 * static_cast<double>(std::max<Eigen::Index>(1, lag)) /
+                      static_cast<double>(model.sample_count()));
+  if (estimator.options().weights) {
+    // Few effective samples make B itself unsure, and its lags are short: never below what the
+    // residuals' own autocorrelation, of all samples together, makes of these gradients.
+    const double told_apart_hz = 8.0 * estimator.options().residual_cutoff_hz.value_or(6.25);
+    const auto stride =
+        static_cast<Eigen::Index>(std::max(1.0, std::floor(model.rate_hz() / told_apart_hz)));
+    Eigen::MatrixXd expected =
+        solution.weighting.share *
+        math::covariance_of_sum(
+            by_sample.rows,
+            math::positive_autocorrelation(by_sample.residual, model.piece_lengths()),
+            model.piece_lengths(), stride);
+    expected.diagonal() += precision;
+    const Eigen::VectorXd least =
+        (result.model_based * expected).cwiseProduct(result.model_based).rowwise().sum();
+    for (Eigen::Index j = 0; j < a.rows(); ++j) {
+      const double factor =
+          std::sqrt(std::max(1.0, least[j] / std::max(result.newey_west(j, j), 1e-300)));
+      if (factor > 1.0) {
+        result.newey_west.row(j) *= factor;
+        result.newey_west.col(j) *= factor;
+      }
+    }
+  }
+
+  std::vector<int>& trials = result.trials;
+  for (const Piece& piece : model.pieces()) {
+    if (std::find(trials.begin(), trials.end(), piece.trial) == trials.end())
+      trials.push_back(piece.trial);
+  }
+  const auto clusters = static_cast<double>(trials.size());
+  Eigen::MatrixXd whole = by_sample.rows * by_sample.rows.transpose();
+  whole.diagonal() += precision;
+  Eigen::MatrixXd sums(z.size(), static_cast<Eigen::Index>(trials.size()));
+  result.trial_shift.resize(z.size(), sums.cols());
+  const Eigen::LLT<Eigen::MatrixXd> factor(whole);
+  const Eigen::MatrixXd of_priors =
+      result.model_based * precision.asDiagonal() * result.model_based;
+  // Expected share of each trial in the variance over trials, and its square.
+  Eigen::VectorXd shares = of_priors.diagonal(), squared_shares = Eigen::VectorXd::Zero(z.size());
+  for (Eigen::Index k = 0; k < sums.cols(); ++k) {
+    Eigen::MatrixXd of_trial = Eigen::MatrixXd::Zero(z.size(), z.size());
+    Eigen::VectorXd sum = Eigen::VectorXd::Zero(z.size());
+    for (const Piece& piece : model.pieces()) {
+      if (piece.trial != trials[static_cast<std::size_t>(k)]) continue;
+      sum += scores.middleRows(piece.first, piece.count).colwise().sum().transpose();
+      const auto rows = by_sample.rows.middleCols(piece.first, piece.count);
+      of_trial += rows * rows.transpose();
+    }
+    result.trial_shift.col(k) = solve_positive(whole - of_trial, sum);
+    const Eigen::VectorXd share =
+        (result.model_based * of_trial).cwiseProduct(result.model_based).rowwise().sum();
+    shares += share;
+    squared_shares += share.cwiseAbs2();
+    sums.col(k) = factor.info() == Eigen::Success ? unfitted(factor, of_trial, sum) : sum;
+  }
+  if (!estimator.options().weights) {
+    // No A^-1 that B could fall back to: few effective samples make Newey and West's too small by a
+    // third. Blocks that hold many correlation times, each as outside of the fit, with the quantile
+    // of their number (Bell & McCaffrey 2002).
+    if (const auto over_blocks = block_covariance(model, by_sample, whole, precision))
+      result.newey_west = *over_blocks;
+  }
+  const auto covariance_of = [](const Eigen::MatrixXd& columns) {
+    const Eigen::MatrixXd off = columns.colwise() - columns.rowwise().mean();
+    return Eigen::MatrixXd(off * off.transpose());
+  };
+  if (trials.size() >= 5)
+    result.jackknife = (clusters - 1.0) / clusters * covariance_of(result.trial_shift) + of_priors;
+  result.trial_spread = (0.5 * squared_shares.array()).sqrt() / shares.array().max(1e-300);
+  if (trials.size() >= 8) {
+    Eigen::MatrixXd sum = sums * sums.transpose();
+    sum.diagonal() += precision;
+    result.cluster = result.model_based * sum * result.model_based;
+  }
+  return result;
+}
+
+BootstrapResult bootstrap(const Estimator& estimator, const Estimator::Solution& solution) {
+  const ResidualModel& model = estimator.model();
+  const IntervalOptions& options = estimator.options().intervals;
+  const std::vector<Block> blocks = blocks_of(model, options.bootstrap_block_s);
+  const auto count = static_cast<std::size_t>(std::max(0, options.bootstrap));
+  const Eigen::Index p = solution.search.x.size();
+  std::vector<Eigen::VectorXd> found(count);
+  std::atomic<int> done = 0;
+  oneapi::tbb::parallel_for(std::size_t{0}, count, [&](std::size_t k) {
+    estimator.options().progress.check();
+    Stream random(options.seed, k + 1);
+    Estimator::Variant variant;
+    variant.multiplicity = Eigen::VectorXd::Zero(model.sample_count());
+    for (std::size_t first = 0; first < blocks.size();) {
+      std::size_t end = first;
+      while (end < blocks.size() && blocks[end].stratum == blocks[first].stratum) ++end;
+      for (std::size_t draw = first; draw < end; ++draw) {
+        const Block& block = blocks[first + random.below(end - first)];
+        for (const auto& [begin, length] : block.rows)
+          variant.multiplicity.segment(begin, length).array() += 1.0;
+      }
+      first = end;
+    }
+    variant.prior_mean = Eigen::VectorXd::Zero(p);
+    for (Eigen::Index j = 0; j < p; ++j) {
+      const FreeParameter& f = estimator.free()[static_cast<std::size_t>(j)];
+      if (f.prior_sd > 0.0) variant.prior_mean[j] = f.prior_mean + f.prior_sd * random.normal();
+    }
+    const NormalSearchResult fit =
+        estimator.search(solution.search.x, solution.weighting, 1e-4, 1e-3, 30, variant);
+    if (fit.termination == math::Termination::converged) found[k] = fit.x;
+    estimator.options().progress.tell(static_cast<double>(++done) / static_cast<double>(count),
+                                      "bootstrap");
+  });
+  BootstrapResult result;
+  std::vector<std::size_t> good;
+  for (std::size_t k = 0; k < count; ++k) {
+    if (found[k].size() > 0) {
+      good.push_back(k);
+    } else {
+      ++result.failed;
+    }
+  }
+  result.replicates.resize(static_cast<Eigen::Index>(good.size()), p);
+  for (std::size_t i = 0; i < good.size(); ++i)
+    result.replicates.row(static_cast<Eigen::Index>(i)) = found[good[i]].transpose();
+  result.intervals.resize(static_cast<std::size_t>(p));
+  // Both ends are quantiles of the replicates, sd sqrt(0.975 0.025 / R) / 0.0585 (density at 1.96)
+  // each; blocks that are drawn anew are a sample themselves.
+  if (!good.empty())
+    result.spread = std::hypot(0.96 / std::sqrt(static_cast<double>(good.size())),
+                               std::sqrt(0.5 / static_cast<double>(blocks.size())));
+  if (good.size() >= 40) {
+    for (Eigen::Index j = 0; j < p; ++j) {
+      const std::vector<double> values(result.replicates.col(j).begin(),
+                                       result.replicates.col(j).end());
+      result.intervals[static_cast<std::size_t>(j)] = {quantile(values, 0.025),
+                                                       quantile(values, 0.975)};
+    }
+  }
+  return result;
+}
+
+std::vector<CollinearSet> collinear_sets(const Eigen::MatrixXd& information,
+                                         double limit,
+                                         std::size_t count) {
+  const Eigen::Index p = information.rows();
+  std::vector<CollinearSet> found;
+  std::vector<Eigen::Index> usable;
+  for (Eigen::Index j = 0; j < p; ++j) {
+    if (information(j, j) > 0.0) usable.push_back(j);
+  }
+  const Eigen::VectorXd scale = information.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
+  const Eigen::MatrixXd unit = scale.asDiagonal() * information * scale.asDiagonal();
+  const auto contains_smaller = [&](const std::vector<Eigen::Index>& set) {
+    return std::any_of(found.begin(), found.end(), [&](const CollinearSet& other) {
+      return other.parameters.size() < set.size() &&
+             std::includes(set.begin(), set.end(), other.parameters.begin(),
+                           other.parameters.end());
+    });
+  };
+  const auto consider = [&](const std::vector<Eigen::Index>& set) {
+    if (above_in_all_directions(unit, set, 0.999 / (limit * limit)) || contains_smaller(set))
+      return;
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(unit(set, set),
+                                                               Eigen::EigenvaluesOnly);
+    const double smallest = eigen.eigenvalues()[0];
+    const double index = smallest > 1e-16 ? 1.0 / std::sqrt(smallest) : 1e8;
+    if (index > limit) found.push_back({set, index});
+  };
+  const std::size_t n = usable.size();
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = i + 1; j < n; ++j) consider({usable[i], usable[j]});
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = i + 1; j < n; ++j)
+      for (std::size_t k = j + 1; k < n; ++k) consider({usable[i], usable[j], usable[k]});
+  if (n <= 40) {
+    for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t j = i + 1; j < n; ++j)
+        for (std::size_t k = j + 1; k < n; ++k)
+          for (std::size_t l = k + 1; l < n; ++l)
+            consider({usable[i], usable[j], usable[k], usable[l]});
+  }
+  std::stable_sort(found.begin(), found.end(),
+                   [](const CollinearSet& a, const CollinearSet& b) { return a.index > b.index; });
+  if (found.size() > count) found.resize(count);
+  return found;
+}
+
+}  // namespace myoid::identification

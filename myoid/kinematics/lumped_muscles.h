@@ -1,0 +1,35 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "myoid/kinematics/muscle_kinematics.h"
+
+namespace myoid::kinematics {
+
+/// Columns of a model's muscles that count as one muscle, and their weights (summing to 1).
+struct MuscleGroup {
+  std::vector<int> members;
+  std::vector<double> weights;
+};
+
+/// Lumped muscles along a motion: the weighted means over their heads, n x m each.
+struct LumpedMuscles {
+  Eigen::MatrixXd length_m;      ///< Musculotendon length.
+  Eigen::MatrixXd velocity_mps;  ///< Of it, lengthening positive.
+  Eigen::MatrixXd moment_arm_m;  ///< By one coordinate, r = -dl/dq.
+};
+
+/// Moment arms r = -dl/dq by one coordinate, n x m [m].
+[[nodiscard]] Eigen::MatrixXd lumped_moment_arm_m(const kinematics::MuscleKinematics& muscles,
+                                                  const std::vector<MuscleGroup>& groups,
+                                                  const std::string& coordinate);
+
+/// Weighted means over the heads of each group.
+[[nodiscard]] LumpedMuscles lumped_muscles(const kinematics::MuscleKinematics& muscles,
+                                           const std::vector<MuscleGroup>& groups,
+                                           const std::string& coordinate);
+
+}  // namespace myoid::kinematics

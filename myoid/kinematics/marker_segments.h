@@ -1,0 +1,16 @@
+#pragma once
+
+#include <vector>
+
+#include "myoid/files/marker_series.h"
+#include "myoid/model/body_model.h"
+#include "myoid/signals/marker_quality.h"
+
+namespace myoid::kinematics {
+
+/// The model's segments that carry two or more of these markers, with where they sit. Bodies that
+/// are welded to one another count as one.
+[[nodiscard]] std::vector<signals::ExpectedSegment> segments_of(
+    const model::BodyModel& model, const recording::MarkerSeries& markers);
+
+}  // namespace myoid::kinematics

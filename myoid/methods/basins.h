@@ -1,0 +1,51 @@
+#pragma once
+
+#include "myoid/core/progress.h"
+#include "myoid/identification/estimator.h"
+#include "myoid/identification/start_box.h"
+#include "myoid/intervals/result.h"
+#include "myoid/math/multistart.h"
+
+namespace myoid::identification {
+
+/// Searches from the given start and Sobol points of the box, in parallel. Two ends are one basin
+/// if no unknown differs by more than 0.04 spreads. `plain_samples` is the number of residuals of a
+/// cost that does not weight them, which their own variance then turns into chi-square; 0: it does.
+/// Throws Interrupted.
+[[nodiscard]] BasinTable find_basins(const math::LocalSearch& search,
+                                     const StartBox& box,
+                                     int starts,
+                                     Eigen::Index plain_samples = 0,
+                                     const Progress& progress = {});
+
+/// Of the estimator's own search, with these weights.
+[[nodiscard]] BasinTable find_basins(const Estimator& estimator,
+                                     const Weighting& weighting,
+                                     int starts);
+
+/// Starts from which a fit that is reported looks around for other minima.
+inline constexpr int kUsualLook = 24;
+
+/// `report_other_minima` of a fit of method torque with these options: of its table where several
+/// starts were asked for, else of searches from `starts` points at the weights of its minimum.
+void look_around(const StudyData& data,
+                 EstimatorOptions options,
+                 IdentificationResult& result,
+                 int starts = kUsualLook);
+
+/// Says which numbers other minima of the table, lower than `cost` or at most a chi-square of 4
+/// above it, put outside of the intervals that are reported; what of them is `identified` becomes
+/// `weak`.
+void report_other_minima(const BasinTable& table,
+                         const std::vector<FreeParameter>& free,
+                         double cost,
+                         IdentificationResult& result);
+
+/// Of the source paper's plain Gauss-Newton steps on one muscle in one branch; no basins where all
+/// is held or it is not fitted (PaperCase::obstacle).
+[[nodiscard]] BasinTable find_paper_basins(const StudyData& data,
+                                           std::size_t muscle,
+                                           bool shortening,
+                                           int starts);
+
+}  // namespace myoid::identification

@@ -1,0 +1,387 @@
+#include "myoid/methods/cross_validation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+
+#include <Eigen/QR>
+#include <fmt/format.h>
+#include <oneapi/tbb/parallel_for.h>
+
+#include "myoid/methods/paper.h"
+
+namespace myoid::identification {
+namespace {
+
+double duration_s(const TrialData& trial) {
+  return trial.time_s[trial.time_s.size() - 1] - trial.time_s[0];
+}
+
+/// Duration from which a trial is cut into blocks: beside a block and its gaps half of it is left.
+double least_for_blocks_s(const CrossValidationOptions& how) {
+  return 2.0 * how.gap_s / (0.5 - 1.0 / how.blocks);
+}
+
+TrialData used(TrialData trial, bool calibration) {
+  trial.calibration = calibration;
+  return trial;
+}
+
+/// Adds block `b` of a trial to be predicted, and what is fitted on either side of it.
+void cut(const TrialData& trial, int b, const CrossValidationOptions& how, Split& split) {
+  const Eigen::Index n = trial.time_s.size();
+  const Eigen::Index begin = n * b / how.blocks;
+  const Eigen::Index end = n * (b + 1) / how.blocks;
+  const auto gap = static_cast<Eigen::Index>(
+      std::ceil(how.gap_s * static_cast<double>(n - 1) / duration_s(trial)));
+  std::vector<TrialData>& to = split.data.trials;
+  to.push_back(used(part(trial, begin, end - begin), false));
+  if (begin > 2 * gap) to.push_back(used(part(trial, 0, begin - gap), true));
+  if (n - end > 2 * gap) to.push_back(used(part(trial, end + gap, n - end - gap), true));
+}
+
+std::vector<Split> block_splits(const StudyData& data,
+                                const std::vector<const TrialData*>& trials,
+                                const CrossValidationOptions& how,
+                                std::string& why_not) {
+  const double least_s = least_for_blocks_s(how);
+  double longest_s = 0.0;
+  for (const TrialData* trial : trials) longest_s = std::max(longest_s, duration_s(*trial));
+  if (longest_s < least_s) {
+    why_not = fmt::format(
+        "blocks need trials of {:.2g} s or more ({:g} s on either side of a block serve neither "
+        "side, and half of a trial must be left to fit); the longest has {:.2g} s; leave out "
+        "whole trials",
+        least_s, how.gap_s, longest_s);
+    return {};
+  }
+  std::vector<Split> result;
+  for (int b = 0; b < how.blocks; ++b) {
+    Split split{fmt::format("block {} of {}", b + 1, how.blocks),
+                {.muscles = data.muscles, .trials = {}, .rules = data.rules}};
+    for (const TrialData* trial : trials) {
+      if (duration_s(*trial) < least_s) {
+        split.data.trials.push_back(*trial);
+      } else {
+        cut(*trial, b, how, split);
+      }
+    }
+    result.push_back(std::move(split));
+  }
+  return result;
+}
+
+std::vector<Split> named_splits(const StudyData& data,
+                                const std::vector<const TrialData*>& trials,
+                                const CrossValidationOptions& how,
+                                std::string& why_not) {
+  const auto name_of = [&](const TrialData& trial) {
+    return how.kind == FoldKind::condition && !trial.condition.empty() ? trial.condition
+                                                                       : trial.name;
+  };
+  std::vector<Split> result;
+  for (const TrialData* trial : trials) {
+    const std::string name = name_of(*trial);
+    if (std::any_of(result.begin(), result.end(), [&](const Split& s) { return s.name == name; }))
+      continue;
+    Split split{name, {.muscles = data.muscles, .trials = {}, .rules = data.rules}};
+    for (const TrialData* other : trials)
+      split.data.trials.push_back(used(*other, name_of(*other) != name));
+    result.push_back(std::move(split));
+  }
+  if (result.size() >= 2) return result;
+  why_not = fmt::format("there is only one {} to fit; leave out blocks of it",
+                        how.kind == FoldKind::condition ? "condition" : "trial");
+  return {};
+}
+
+/// Regressors of baseline (ii): activation times moment arm, per muscle.
+Eigen::MatrixXd regressors(const StudyData& data, const TrialData& trial, double delay_s) {
+  return muscle_activation(data, trial, trial.time_s, delay_s).cwiseProduct(trial.moment_arm_m);
+}
+
+Eigen::VectorXd joined(const std::vector<Eigen::VectorXd>& parts) {
+  Eigen::Index n = 0;
+  for (const Eigen::VectorXd& x : parts) n += x.size();
+  Eigen::VectorXd all(n);
+  Eigen::Index at = 0;
+  for (const Eigen::VectorXd& x : parts) {
+    all.segment(at, x.size()) = x;
+    at += x.size();
+  }
+  return all;
+}
+
+/// The one joint's part of every trial that has it.
+std::vector<TrialData> joint_views(const std::vector<TrialData>& trials, const std::string& joint) {
+  std::vector<TrialData> views;
+  for (const TrialData& trial : trials) {
+    for (std::size_t j = 0; j < joint_count(trial); ++j) {
+      const std::string& name = j == 0 ? trial.joint : trial.more_joints[j - 1].name;
+      if (name == joint) views.push_back(of_joint(trial, j));
+    }
+  }
+  return views;
+}
+
+/// Parameters by which a fold is predicted.
+struct Predictors {
+  const StudyData& data;
+  const IdentificationResult& fit;
+  std::vector<muscle::HillParameters<double>> literature, shortening, lengthening;
+  double literature_delay_s = 0.0;
+  double cutoff_hz = 0.0;  ///< Of the fit.
+  double envelope_cutoff_hz = 0.0;
+  bool paper = false;
+};
+
+/// What the trials that were fitted say to the baselines.
+struct Baselines {
+  double gain = 0.0;       ///< Of the literature's muscles.
+  Eigen::VectorXd slopes;  ///< Of torque on the regressors.
+  double mean_nm = 0.0;
+};
+
+Baselines baselines(const std::vector<TrialData>& training, const Predictors& by) {
+  double product = 0.0, square = 0.0, sum = 0.0, count = 0.0;
+  const auto m = static_cast<Eigen::Index>(by.data.muscles.size());
+  Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(m, m);
+  Eigen::VectorXd right = Eigen::VectorXd::Zero(m);
+  for (const TrialData& t : training) {
+    // Whoever predicts knows what the joint was measured to do by itself.
+    const Eigen::VectorXd resting = resting_torque_nm(t);
+    const Eigen::VectorXd active = t.torque_nm - resting;
+    const Eigen::VectorXd torque =
+        predict(by.data, t, by.literature, by.literature_delay_s, by.fit.lag).torque_nm - resting;
+    product += torque.dot(active);
+    square += torque.squaredNorm();
+    sum += t.torque_nm.sum();
+    count += static_cast<double>(t.torque_nm.size());
+    const Eigen::MatrixXd x = regressors(by.data, t, by.fit.delay_s);
+    normal += x.transpose() * x;
+    right += x.transpose() * active;
+  }
+  return {.gain = square > 0.0 ? product / square : 0.0,
+          .slopes = normal.completeOrthogonalDecomposition().solve(right),
+          .mean_nm = sum / count};
+}
+
+Eigen::VectorXd by_paper(const TrialData& t, const Predictors& by) {
+  const Eigen::MatrixXd slow = predict(by.data, t, by.shortening, 0.0).force_n;
+  const Eigen::MatrixXd fast = predict(by.data, t, by.lengthening, 0.0).force_n;
+  const Eigen::MatrixXd force = (t.velocity_mps.array() <= 0.0).select(slow, fast);
+  return resting_torque_nm(t) + t.moment_arm_m.cwiseProduct(force).rowwise().sum();
+}
+
+/// Pairs of curves, trial after trial.
+struct Curves {
+  std::vector<Eigen::VectorXd> measured, predicted;
+  void add(const Eigen::VectorXd& m, const Eigen::VectorXd& p) {
+    measured.push_back(m);
+    predicted.push_back(p);
+  }
+  [[nodiscard]] Score scored() const { return score(joined(measured), joined(predicted)); }
+};
+
+Fold score_joint(const std::string& name,
+                 const std::vector<TrialData>& training,
+                 const std::vector<TrialData>& held,
+                 const Predictors& by) {
+  const Baselines from = baselines(training, by);
+  Fold fold;
+  fold.trial = name;
+  fold.gain = from.gain;
+  std::vector<Eigen::VectorXd> time;
+  Curves identified, smooth, band, literature, regression, paper;
+  for (const TrialData& t : held) {
+    const std::vector<Eigen::Index> rows = included_rows(t);
+    const FittedPrediction found = predict(by.data, t, by.fit, by.envelope_cutoff_hz);
+    const Eigen::VectorXd& torque = found.of.torque_nm;
+    if (time.empty()) fold.smooth_hz = found.smooth.cutoff_hz;
+    const Eigen::VectorXd resting = resting_torque_nm(t);
+    const Eigen::VectorXd muscles =
+        predict(by.data, t, by.literature, by.literature_delay_s, by.fit.lag).torque_nm - resting;
+    const Eigen::VectorXd regressed = regressors(by.data, t, by.fit.delay_s) * from.slopes;
+    const Eigen::VectorXd measured = t.torque_nm(rows);
+    time.emplace_back(t.time_s(rows));
+    identified.add(measured, torque(rows));
+    smooth.add(measured, found.smooth.torque_nm(rows));
+    band.add(below(t.time_s, t.torque_nm, by.cutoff_hz)(rows),
+             below(t.time_s, torque, by.cutoff_hz)(rows));
+    literature.add(measured, (resting + from.gain * muscles)(rows));
+    regression.add(measured, (resting + regressed)(rows));
+    if (by.paper) paper.add(measured, by_paper(t, by)(rows));
+    fold.lag_s += best_lag_s(t.time_s, t.torque_nm, torque) / static_cast<double>(held.size());
+  }
+  Curves seen;
+  for (const TrialData& t : training) {
+    const std::vector<Eigen::Index> rows = included_rows(t);
+    const Eigen::VectorXd torque = predict(by.data, t, by.fit.values, by.fit.lag).torque_nm;
+    seen.add(t.torque_nm(rows), torque(rows));
+  }
+  fold.fitted = seen.scored();
+  fold.time_s = joined(time);
+  fold.measured_nm = joined(identified.measured);
+  fold.predicted_nm = joined(identified.predicted);
+  fold.literature_nm = joined(literature.predicted);
+  fold.identified = identified.scored();
+  fold.smooth = smooth.scored();
+  fold.band = band.scored();
+  fold.literature = literature.scored();
+  fold.regression = regression.scored();
+  fold.constant =
+      score(fold.measured_nm, Eigen::VectorXd::Constant(fold.measured_nm.size(), from.mean_nm));
+  if (by.paper) fold.paper = paper.scored();
+  return fold;
+}
+
+/// The curves that method `paper` finds from the calibration trials.
+void add_paper(const StudyData& data, const std::vector<std::string>& muscles, Predictors& by) {
+  for (const ParameterEstimate& e : identify_paper(data, {.muscles = muscles}).estimates) {
+    if (!std::isfinite(e.estimate)) continue;
+    for (std::size_t k = 0; k < data.muscles.size(); ++k) {
+      if (data.muscles[k].name == e.muscle)
+        (e.fit_case == "shortening" ? by.shortening : by.lengthening)[k].*
+            muscle::hill_field(e.parameter).member = e.estimate;
+    }
+  }
+}
+
+/// Fits one split and scores what it left out, joint by joint.
+std::vector<Fold> score_split(Split split,
+                              const SplitFit& fit_to,
+                              const EstimatorOptions& options,
+                              bool with_paper) {
+  const IdentificationResult fit = fit_to(split.data);
+  std::vector<muscle::HillParameters<double>> literature;
+  for (const MuscleSetup& setup : split.data.muscles) literature.push_back(setup.start);
+  Predictors by{.data = split.data,
+                .fit = fit,
+                .literature = literature,
+                .shortening = literature,
+                .lengthening = literature,
+                .literature_delay_s = options.delay_s.value_or(options.delay_prior_mean_s),
+                .cutoff_hz = options.residual_cutoff_hz.value_or(0.0),
+                .envelope_cutoff_hz = options.envelope_cutoff_hz};
+  std::vector<TrialData> training, held;
+  for (const TrialData& t : split.data.trials) (t.calibration ? training : held).push_back(t);
+  by.paper = with_paper && std::all_of(training.begin(), training.end(), [](const TrialData& t) {
+               return t.force_n.rows() == t.time_s.size();
+             });
+  if (by.paper) add_paper(split.data, options.muscles, by);
+  std::vector<Fold> folds;
+  for (const std::string& joint : joint_names(split.data)) {
+    const std::vector<TrialData> of_joint = joint_views(held, joint);
+    if (of_joint.empty()) continue;
+    Fold fold = score_joint(split.name, joint_views(training, joint), of_joint, by);
+    fold.joint = joint;
+    fold.parameters = fit.estimates;
+    fold.lag = fit.lag;
+    fold.converged = fit.termination == math::Termination::converged;
+    folds.push_back(std::move(fold));
+  }
+  return folds;
+}
+
+}  // namespace
+
+double best_lag_s(const Eigen::VectorXd& time_s,
+                  const Eigen::VectorXd& measured,
+                  const Eigen::VectorXd& predicted,
+                  double limit_s) {
+  const Eigen::Index n = time_s.size();
+  if (n < 3) return 0.0;
+  const double step = (time_s[n - 1] - time_s[0]) / static_cast<double>(n - 1);
+  const auto most = std::min<Eigen::Index>(static_cast<Eigen::Index>(limit_s / step), n / 3);
+  double best = -std::numeric_limits<double>::infinity();
+  Eigen::Index at = 0;
+  for (Eigen::Index k = -most; k <= most; ++k) {
+    const Eigen::Index m = n - std::abs(k);
+    const Eigen::VectorXd x = measured.segment(k < 0 ? -k : 0, m);
+    const Eigen::VectorXd y = predicted.segment(k > 0 ? k : 0, m);
+    const Eigen::ArrayXd xc = x.array() - x.mean();
+    const Eigen::ArrayXd yc = y.array() - y.mean();
+    const double size = std::sqrt(xc.square().sum() * yc.square().sum());
+    const double correlation = size > 0.0 ? (xc * yc).sum() / size : 0.0;
+    if (correlation > best) {
+      best = correlation;
+      at = k;
+    }
+  }
+  return static_cast<double>(at) * step;
+}
+
+std::vector<Split> splits(const StudyData& data,
+                          const CrossValidationOptions& how,
+                          std::string* why_not) {
+  std::vector<const TrialData*> trials;
+  for (const TrialData& trial : data.trials) {
+    if (trial.calibration && trial.time_s.size() > 1) trials.push_back(&trial);
+  }
+  std::string reason;
+  std::vector<Split> result = how.kind == FoldKind::block ? block_splits(data, trials, how, reason)
+                                                          : named_splits(data, trials, how, reason);
+  if (why_not != nullptr) *why_not = std::move(reason);
+  return result;
+}
+
+std::string generalises_badly(const std::vector<Fold>& folds) {
+  constexpr double kWorse = 2.0;     // times the error of what was fitted
+  constexpr double kExplains = 0.5;  // of the squares: better is good enough
+  double seen = 0.0, unseen = 0.0, spread = 0.0, worst = 0.0, count = 0.0;
+  std::string where;
+  for (const Fold& f : folds) {
+    const auto n = static_cast<double>(f.measured_nm.size());
+    if (!(f.fitted.rmse_nm > 0.0) || !std::isfinite(f.identified.rmse_nm) || n < 2.0) continue;
+    seen += n * std::pow(f.fitted.rmse_nm, 2);
+    unseen += n * std::pow(f.identified.rmse_nm, 2);
+    spread += (f.measured_nm.array() - f.measured_nm.mean()).square().sum();
+    count += n;
+    if (f.identified.rmse_nm / f.fitted.rmse_nm <= worst) continue;
+    worst = f.identified.rmse_nm / f.fitted.rmse_nm;
+    where = f.trial;
+  }
+  const bool bad =
+      count > 0.0 && unseen > kWorse * kWorse * seen && unseen > (1.0 - kExplains) * spread;
+  if (!bad) return "";
+  return fmt::format(
+      "what a fit does not see it predicts {:.1f} times worse than what it sees ({:.3g} N m rms "
+      "instead of {:.3g}; most in '{}'): the samples of one movement share the model's error, and "
+      "the more there are of them the farther the numbers follow it, away from what is known "
+      "beforehand. Record other movements (angles, speeds, loads) rather than more of the same, "
+      "and trust neither numbers nor predictions beyond the movements that were fitted",
+      std::sqrt(unseen / seen), std::sqrt(unseen / count), std::sqrt(seen / count), where);
+}
+
+EstimatorOptions of_a_fold(EstimatorOptions options) {
+  options.predictions = false;
+  options.intervals = {};
+  options.progress.report = nullptr;
+  return options;
+}
+
+std::vector<Fold> cross_validate(const StudyData& data,
+                                 const SplitFit& fit,
+                                 const EstimatorOptions& options,
+                                 const CrossValidationOptions& how) {
+  std::vector<Split> all = splits(data, how);
+  std::vector<std::vector<Fold>> of_split(all.size());
+  oneapi::tbb::parallel_for(std::size_t{0}, all.size(), [&](std::size_t f) {
+    of_split[f] = score_split(std::move(all[f]), fit, options, how.paper);
+  });
+  std::vector<Fold> folds;
+  for (std::vector<Fold>& of_one : of_split)
+    std::move(of_one.begin(), of_one.end(), std::back_inserter(folds));
+  return folds;
+}
+
+std::vector<Fold> cross_validate(const StudyData& data,
+                                 const TorqueOptions& options,
+                                 const CrossValidationOptions& how) {
+  const TorqueOptions once = of_a_fold(options);
+  return cross_validate(
+      data, [&](StudyData& of_fold) { return identify_torque(of_fold, once); }, options, how);
+}
+
+}  // namespace myoid::identification

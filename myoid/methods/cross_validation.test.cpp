@@ -1,0 +1,95 @@
+#include "myoid/methods/cross_validation.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/elbow_study.h"
+
+namespace myoid::identification {
+namespace {
+
+using test::elbow_study;
+using test::ElbowStudy;
+
+TEST(CrossValidate, ATrialThatWasNotFittedIsPredicted) {
+  const ElbowStudy study = elbow_study({.emg_cv = 0.05, .torque_sd_nm = 0.5, .with_priors = true});
+  const std::vector<Fold> folds = cross_validate(study.data, {.starts = 1});
+  ASSERT_EQ(folds.size(), 3U);
+  for (std::size_t i = 0; i < folds.size(); ++i) {
+    EXPECT_EQ(folds[i].trial, study.data.trials[i].name);
+    EXPECT_GT(folds[i].identified.r2, 0.9);
+    // Without its fast part the prediction has less of the noise of the EMG.
+    EXPECT_LT(folds[i].band.rmse_nm, folds[i].identified.rmse_nm);
+    EXPECT_LT(folds[i].identified.rmse_nm, folds[i].literature.rmse_nm);
+    EXPECT_LT(folds[i].literature.rmse_nm, folds[i].constant.rmse_nm);
+  }
+}
+
+TEST(CrossValidate, WhatIsLeftOutDoesNotReachItsOwnPrediction) {
+  // Spoil one trial's torque: its own prediction stays what it was.
+  ElbowStudy study = elbow_study({.torque_sd_nm = 0.5, .with_priors = true});
+  const std::vector<Fold> before = cross_validate(study.data, {.starts = 1});
+  study.data.trials[1].torque_nm.array() += 20.0;
+  const std::vector<Fold> after = cross_validate(study.data, {.starts = 1});
+  EXPECT_EQ((before[1].predicted_nm - after[1].predicted_nm).cwiseAbs().maxCoeff(), 0.0);
+  EXPECT_GT((before[0].predicted_nm - after[0].predicted_nm).cwiseAbs().maxCoeff(), 0.1);
+}
+
+TEST(CrossValidate, NeedsTwoTrials) {
+  EXPECT_TRUE(cross_validate(elbow_study({.trials = 1, .seconds = 5.0}).data).empty());
+}
+
+TEST(CrossValidate, AFoldIsTheReportedFitOnTheOtherTrialsAndScoresItsPlainPrediction) {
+  const ElbowStudy study = elbow_study({.emg_cv = 0.08, .torque_sd_nm = 0.8, .with_priors = true});
+  const TorqueOptions options{.choose_lag = true};
+  const std::vector<Fold> folds = cross_validate(study.data, options);
+  StudyData others = study.data;
+  const TrialData left = others.trials[0];
+  others.trials.erase(others.trials.begin());
+  const IdentificationResult fit = identify_torque(others, options);
+  ASSERT_EQ(folds[0].parameters.size(), fit.estimates.size());
+  for (std::size_t j = 0; j < fit.estimates.size(); ++j)
+    EXPECT_EQ(folds[0].parameters[j].estimate, fit.estimates[j].estimate);
+  EXPECT_EQ(folds[0].lag, fit.lag);
+  const Eigen::VectorXd torque = predict(others, left, fit.values, fit.lag).torque_nm;
+  EXPECT_EQ(folds[0].identified.r2, score(left.torque_nm, torque).r2);
+  EXPECT_GT(folds[0].smooth.r2, folds[0].identified.r2);
+}
+
+TEST(CrossValidate, TrialsThatAreTooShortForBlocksAreNotCut) {
+  std::string why_not;
+  const StudyData brief = elbow_study({.trials = 2, .seconds = 2.0}).data;
+  EXPECT_TRUE(splits(brief, {.kind = FoldKind::block}, &why_not).empty());
+  EXPECT_NE(why_not.find("3.3 s or more"), std::string::npos) << why_not;
+  StudyData mixed = elbow_study({.trials = 1, .seconds = 10.0}).data;
+  mixed.trials.push_back(brief.trials[0]);
+  const std::vector<Split> all = splits(mixed, {.kind = FoldKind::block}, &why_not);
+  ASSERT_EQ(all.size(), 5U);
+  EXPECT_TRUE(why_not.empty());
+  for (const Split& split : all) {
+    double held_s = 0.0, seen_s = 0.0;
+    for (const TrialData& t : split.data.trials)
+      (t.calibration ? seen_s : held_s) += t.time_s[t.time_s.size() - 1] - t.time_s[0];
+    EXPECT_NEAR(held_s, 2.0, 0.02);
+    EXPECT_GT(seen_s, 2.0 + 0.5 * 10.0);  // the short trial whole, and half of the long one
+  }
+}
+
+TEST(CrossValidate, FitsThatDoNotReachBeyondWhatTheySawAreNamed) {
+  const auto fold = [](const char* name, double seen_nm, double unseen_nm) {
+    Fold f;
+    f.trial = name;
+    f.measured_nm = 4.0 * Eigen::VectorXd::LinSpaced(500, 0.0, 40.0).array().sin();
+    f.fitted.rmse_nm = seen_nm;
+    f.identified.rmse_nm = unseen_nm;
+    return f;
+  };
+  EXPECT_EQ(generalises_badly({fold("a", 1.0, 1.1), fold("b", 1.0, 1.2)}), "");
+  // Twice as bad, but still most of the torque.
+  EXPECT_EQ(generalises_badly({fold("a", 0.2, 0.6), fold("b", 0.2, 0.6)}), "");
+  const std::string text = generalises_badly({fold("a", 1.0, 2.5), fold("fast", 1.0, 4.0)});
+  EXPECT_NE(text.find("most in 'fast'"), std::string::npos) << text;
+  EXPECT_EQ(generalises_badly({}), "");
+}
+
+}  // namespace
+}  // namespace myoid::identification

@@ -1,0 +1,170 @@
+#include "myoid/methods/force.h"
+
+#include <algorithm>
+#include <chrono>
+
+#include <fmt/format.h>
+
+#include "myoid/core/error.h"
+#include "myoid/methods/torque.h"
+
+namespace myoid::identification {
+
+StudyData force_study(const StudyData& data, std::size_t muscle) {
+  const auto column = static_cast<Eigen::Index>(muscle);
+  StudyData one;
+  one.muscles.push_back(data.muscles[muscle]);
+  for (const TrialData& trial : data.trials) {
+    if (trial.force_n.rows() != trial.time_s.size()) {
+      throw InvalidInput(fmt::format(
+          "method force: trial '{}' has no muscle forces; measure them, or share the torque first "
+          "(myoid so)",
+          trial.name));
+    }
+    TrialData t;
+    t.name = trial.name;
+    t.calibration = trial.calibration;
+    t.condition = trial.condition;
+    t.joint = data.muscles[muscle].name;
+    t.time_s = trial.time_s;
+    t.length_m = trial.length_m.col(column);
+    t.velocity_mps = trial.velocity_mps.col(column);
+    t.moment_arm_m = Eigen::MatrixXd::Ones(trial.time_s.size(), 1);
+    t.torque_nm = trial.force_n.col(column);
+    t.force_n = trial.force_n.col(column);
+    t.activation = trial.activation;
+    t.excluded = trial.excluded;
+    one.trials.push_back(std::move(t));
+  }
+  for (const ParameterRule& rule : data.rules) {
+    const Scope scope = parameter_field(rule.parameter).scope;
+    if (scope == Scope::joint) continue;
+    ParameterRule kept = rule;
+    kept.owners.clear();
+    kept.tie = false;
+    const std::string& name =
+        scope == Scope::muscle ? one.muscles[0].name : one.muscles[0].emg_channel;
+    const bool named = std::find(rule.owners.begin(), rule.owners.end(), name) != rule.owners.end();
+    if (rule.owners.empty() || named) one.rules.push_back(std::move(kept));
+  }
+  return one;
+}
+
+IdentificationResult identify_muscle_force(const StudyData& one, const ForceOptions& options) {
+  EstimatorOptions once = options.estimator;
+  once.muscles.clear();
+  once.measured_is_force = !options.shared_forces;
+  once.choose_lag = false;  // muscles of one person follow their EMG alike
+  once.progress.report = nullptr;
+  std::vector<std::string> speed;
+  for (const std::string& name : options.speed_may_be_free) {
+    if (name == one.muscles.front().name) speed.push_back(name);
+  }
+  return options.detect_exact ? identify_torque_or_exact(one, once, speed)
+                              : identify_torque(one, once);
+}
+
+IdentificationResult identify_force(const StudyData& data, const ForceOptions& options) {
+  validate(data);
+  const auto begin = std::chrono::steady_clock::now();
+  const std::vector<std::string>& wanted = options.estimator.muscles;
+  IdentificationResult all;
+  all.method = "force";
+  all.termination = math::Termination::converged;
+  all.exact = true;
+  all.lag = options.estimator.lag;
+  for (const TrialData& trial : data.trials) {
+    TrialFit fit;
+    fit.trial = trial.name;
+    fit.calibration = trial.calibration;
+    fit.time_s = trial.time_s;
+    fit.joint = trial.joint;
+    fit.torque_nm = trial.torque_nm;
+    fit.literature_force_n = Eigen::MatrixXd::Zero(trial.time_s.size(), trial.length_m.cols());
+    fit.force_fit_n = fit.literature_force_n;
+    all.trials.push_back(std::move(fit));
+  }
+  for (std::size_t k = 0; k < data.muscles.size(); ++k) {
+    const StudyData one = force_study(data, k);
+    const auto column = static_cast<Eigen::Index>(k);
+    all.muscles.push_back(data.muscles[k].start);
+    const bool named = wanted.empty() || std::find(wanted.begin(), wanted.end(),
+                                                   data.muscles[k].name) != wanted.end();
+    ModelValues values;
+    if (named) {
+      IdentificationResult fit = identify_muscle_force(one, options);
+      values = fit.values;
+      all.muscles.back() = fit.muscles.front();
+      all.exact = all.exact && fit.exact;
+      all.r2 = std::min(all.r2, fit.r2);
+      if (fit.termination != math::Termination::converged) {
+        all.termination = fit.termination;
+        all.message += fmt::format("{}: {}. ", data.muscles[k].name, fit.message);
+      }
+      for (ParameterEstimate& e : fit.estimates) {
+        e.method = "force";
+        if (e.muscle == "subject" || e.muscle == data.muscles[k].emg_channel)
+          e.muscle = data.muscles[k].name;
+        if (options.shared_forces && e.verdict == Verdict::identified) {
+          e.verdict = Verdict::weak;
+          e.reason +=
+              ", but about the forces that an optimizer assigned, which carry its assumptions and "
+              "no co-contraction; method torque does not need them";
+        }
+        all.estimates.push_back(std::move(e));
+      }
+      const auto take = [&](std::vector<std::string>& to, const std::vector<std::string>& from) {
+        for (const std::string& text : from) to.push_back(text);
+      };
+      for (const PriorDistance& d : fit.prior_distances) all.prior_distances.push_back(d);
+      for (BasinTable& table : fit.basins) {
+        table.fit = data.muscles[k].name;
+        all.basins.push_back(std::move(table));
+      }
+      take(all.collinear, fit.collinear);
+      take(all.undetermined, fit.undetermined);
+      take(all.diagnoses, fit.diagnoses);
+      take(all.warnings, fit.warnings);
+      all.samples_used += fit.samples_used;
+      all.samples_dropped += fit.samples_dropped;
+      all.effective_samples += fit.effective_samples;
+      all.iterations += fit.iterations;
+      all.bootstrap_replicates = fit.bootstrap_replicates;
+      all.bootstrap_failed += fit.bootstrap_failed;
+      all.condition = std::max(all.condition, fit.condition);
+      for (std::size_t t = 0; t < all.trials.size() && t < fit.trials.size(); ++t) {
+        all.trials[t].literature_force_n.col(column) = fit.trials[t].literature_force_n.col(0);
+        all.trials[t].force_fit_n.col(column) = fit.trials[t].force_fit_n.col(0);
+      }
+    } else {
+      for (std::size_t t = 0; t < data.trials.size(); ++t) {
+        const EstimatorOptions& common = options.estimator;
+        const Prediction p = predict(one, one.trials[t], {data.muscles[k].start},
+                                     common.delay_s.value_or(common.delay_prior_mean_s));
+        all.trials[t].literature_force_n.col(column) = p.force_n.col(0);
+        all.trials[t].force_fit_n.col(column) = p.force_n.col(0);
+      }
+    }
+  }
+  for (std::size_t t = 0; t < data.trials.size(); ++t) {
+    const TrialData& trial = data.trials[t];
+    TrialFit& fit = all.trials[t];
+    if (trial.moment_arm_m.rows() != trial.time_s.size() ||
+        trial.torque_nm.size() != trial.time_s.size())
+      continue;
+    const Eigen::VectorXd resting = resting_torque_nm(trial);
+    fit.literature_torque_nm =
+        trial.moment_arm_m.cwiseProduct(fit.literature_force_n).rowwise().sum() + resting;
+    fit.torque_fit_nm = trial.moment_arm_m.cwiseProduct(fit.force_fit_n).rowwise().sum() + resting;
+    const std::vector<Eigen::Index> rows = included_rows(trial);
+    const Eigen::VectorXd measured = trial.torque_nm(rows);
+    const Eigen::VectorXd predicted = fit.torque_fit_nm(rows);
+    fit.rmse_nm = std::sqrt((predicted - measured).squaredNorm() /
+                            std::max(1.0, static_cast<double>(rows.size())));
+    fit.r2 = coefficient_of_determination(measured, predicted);
+  }
+  all.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  return all;
+}
+
+}  // namespace myoid::identification

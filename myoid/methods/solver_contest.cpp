@@ -1,0 +1,156 @@
+#include "myoid/methods/solver_contest.h"
+
+#include <chrono>
+#include <functional>
+#include <limits>
+
+#include "myoid/core/error.h"
+#include "myoid/identification/paper_case.h"
+#include "myoid/math/direct_search.h"
+#include "myoid/math/nelder_mead.h"
+#include "myoid/math/simulated_annealing.h"
+
+namespace myoid::identification {
+namespace {
+
+using Search = std::function<math::LocalMinimum(const Eigen::VectorXd& start)>;
+
+/// One cost as each of the contestants takes it.
+struct Contestants {
+  Search gauss_newton, levenberg_marquardt;
+  math::DirectSearchProblem cost;  ///< With the bounds of the fit.
+  Eigen::Index plain_samples = 0;  ///< See find_basins.
+};
+
+template <typename Found>
+math::LocalMinimum end_of(const Found& found) {
+  return {found.termination, found.x, found.cost, found.evaluations};
+}
+
+/// An end without a minimum where the cost is not finite at the start.
+math::LocalMinimum searched(const Search& search, const Eigen::VectorXd& start) {
+  try {
+    return search(start);
+  } catch (const InvalidInput&) {
+    return {.termination = math::Termination::not_finite, .x = start};
+  }
+}
+
+SolverContest contest(const Contestants& who, const StartBox& box, const ContestOptions& options) {
+  const std::vector<Eigen::VectorXd> starts = starts_in(box, options.starts);
+  const Progress stop{{}, options.progress.stop};
+  std::uint64_t seed = options.seed;
+  const std::vector<std::pair<const char*, Search>> solvers{
+      {"gauss_newton", who.gauss_newton},
+      {"levenberg_marquardt", who.levenberg_marquardt},
+      {"nelder_mead",
+       [&](const Eigen::VectorXd& x) {
+         return end_of(math::nelder_mead(
+             who.cost, x, {.max_evaluations = options.direct_evaluations, .progress = stop}));
+       }},
+      {"simulated_annealing", [&](const Eigen::VectorXd& x) {
+         return end_of(math::simulated_annealing(who.cost, x,
+                                                 // The costs of the starts' box spread over many
+                                                 // powers of ten: the temperature follows them.
+                                                 {.seed = seed++,
+                                                  .max_evaluations = options.direct_evaluations,
+                                                  .spread_cooling = 0.7,
+                                                  .cycles = 10,
+                                                  .adjustments = 1,
+                                                  .reach = box.upper - box.lower,
+                                                  .progress = stop}));
+       }}};
+  SolverContest result;
+  std::vector<Eigen::VectorXd> ends;
+  // The searches for the basins count as one start more.
+  const double total = static_cast<double>(solvers.size() * (starts.size() + 1));
+  for (std::size_t s = 0; s < starts.size(); ++s) {
+    for (const auto& [name, search] : solvers) {
+      options.progress.check();
+      options.progress.tell(static_cast<double>(ends.size()) / total, name);
+      const auto begin = std::chrono::steady_clock::now();
+      math::LocalMinimum end = searched(search, starts[s]);
+      const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
+      result.runs.push_back({.solver = name,
+                             .start = static_cast<int>(s),
+                             .termination = end.termination,
+                             .cost = end.cost,
+                             .evaluations = end.evaluations,
+                             .seconds = taken.count()});
+      ends.push_back(std::move(end.x));
+    }
+  }
+  options.progress.tell(static_cast<double>(ends.size()) / total, "searching from many starts");
+  result.basins = find_basins(
+      [&](const Eigen::VectorXd& x, Eigen::Index) { return searched(who.levenberg_marquardt, x); },
+      box, options.basin_starts, who.plain_samples, stop);
+
+  Eigen::VectorXd best = box.given;
+  result.best_cost = std::numeric_limits<double>::infinity();
+  const auto take = [&](double cost, const Eigen::VectorXd& x) {
+    if (!(cost < result.best_cost)) return;
+    result.best_cost = cost;
+    best = x;
+  };
+  for (const BasinRow& basin : result.basins.basins) take(basin.cost, basin.x);
+  for (std::size_t i = 0; i < ends.size(); ++i) take(result.runs[i].cost, ends[i]);
+  for (std::size_t i = 0; i < ends.size(); ++i)
+    result.runs[i].distance = distance(ends[i], best, box);
+  return result;
+}
+
+}  // namespace
+
+SolverContest compare_solvers(const StudyData& data,
+                              const EstimatorOptions& estimator_options,
+                              const ContestOptions& options) {
+  EstimatorOptions plain = estimator_options;
+  plain.gauss_newton = false;
+  plain.correct_attenuation = false;  // one fixed sum of squares for all
+  plain.progress = {{}, options.progress.stop};
+  const Estimator estimator(data, plain);
+  plain.gauss_newton = true;
+  const Estimator by_full_steps(data, plain);
+  const StartBox box = start_box(estimator);
+  if (box.given.size() == 0) return {};
+  const Weighting weighting = estimator.solve(box.given).weighting;
+  return contest(
+      {.gauss_newton =
+           [&](const Eigen::VectorXd& x) {
+             return end_of(by_full_steps.search(x, weighting, 1e-9, 1e-12, 100));
+           },
+       .levenberg_marquardt =
+           [&](const Eigen::VectorXd& x) {
+             return end_of(estimator.search(x, weighting, 1e-9, 1e-12, 200));
+           },
+       .cost = {[&](const Eigen::VectorXd& z) {
+                  return estimator.normal_equations(z, weighting, Derivatives::none).cost;
+                },
+                estimator.lower(), estimator.upper()},
+       .plain_samples = plain.weights ? 0 : estimator.model().sample_count()},
+      box, options);
+}
+
+SolverContest compare_paper_solvers(const StudyData& data,
+                                    std::size_t muscle,
+                                    bool shortening,
+                                    const ContestOptions& options) {
+  const PaperCase samples = paper_case(data, muscle, shortening);
+  const StartBox box = start_box(samples, data.muscles[muscle]);
+  const auto p = box.given.size();
+  if (p == 0 || static_cast<Eigen::Index>(samples.samples.size()) < p) return {};
+  const math::LeastSquaresProblem problem = samples.problem();
+  const Progress stop{{}, options.progress.stop};
+  return contest(
+      {.gauss_newton =
+           [&](const Eigen::VectorXd& x) { return end_of(search_as_published(samples, x, stop)); },
+       .levenberg_marquardt =
+           [&](const Eigen::VectorXd& x) {
+             return end_of(math::minimize(problem, x, {.progress = stop}));
+           },
+       .cost = math::direct_search_problem(problem),
+       .plain_samples = problem.residual_count},
+      box, options);
+}
+
+}  // namespace myoid::identification

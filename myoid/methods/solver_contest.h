@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "myoid/core/progress.h"
+#include "myoid/identification/estimator.h"
+#include "myoid/identification/study_data.h"
+#include "myoid/methods/basins.h"
+
+namespace myoid::identification {
+
+/// One search by one solver from one start.
+struct SolverRun {
+  std::string solver;  ///< gauss_newton | levenberg_marquardt | nelder_mead | simulated_annealing
+  int start = 0;
+  math::Termination termination = math::Termination::no_descent;
+  double cost = 0.0;
+  double distance = 0.0;  ///< To the best minimum of all runs (start_box.h).
+  int evaluations = 0;    ///< Of the whole residual.
+  double seconds = 0.0;
+};
+
+struct SolverContest {
+  std::vector<SolverRun> runs;
+  double best_cost = 0.0;
+  BasinTable basins;  ///< Of Levenberg-Marquardt.
+};
+
+struct ContestOptions {
+  int starts = 3;                  ///< The given one and Sobol points of the box (start_box.h).
+  int direct_evaluations = 20000;  ///< At most, of the simplex and of annealing, per start.
+  int basin_starts = 31;           ///< For the table of basins.
+  std::uint64_t seed = 1;          ///< Of the annealing.
+  Progress progress;
+};
+
+/// The four solvers that the source paper weighs against each other, on the same cost, with the
+/// same weights (those of the usual fit) and bounds, from the same starts. Gauss-Newton takes full
+/// steps; annealing begins with steps as wide as the box of the starts. The estimator's own
+/// progress is not used. Throws Interrupted.
+[[nodiscard]] SolverContest compare_solvers(const StudyData& data,
+                                            const EstimatorOptions& estimator,
+                                            const ContestOptions& options = {});
+
+/// The same on the problem that the source paper solves: 1/2 sum (F_t - F_m(x))^2 of one muscle in
+/// one branch (paper_case.h), without weights, priors or bounds. Gauss-Newton is that of
+/// `identify_paper`. Costs are in N^2. No runs where the
+/// branch has fewer samples than unknowns, or all is held.
+[[nodiscard]] SolverContest compare_paper_solvers(const StudyData& data,
+                                                  std::size_t muscle,
+                                                  bool shortening,
+                                                  const ContestOptions& options = {});
+
+}  // namespace myoid::identification

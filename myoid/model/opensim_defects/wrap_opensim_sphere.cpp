@@ -1,0 +1,112 @@
+#include <cmath>
+#include <limits>
+
+#include "myoid/core/units.h"
+#include "myoid/model/opensim_defects/wrap_opensim_surfaces.h"
+
+namespace myoid::model {
+namespace {
+
+/// The tangent points on one circle, counterclockwise (a) and clockwise (b).
+struct SphereTangents {
+  Vec3 a, b;
+};
+
+}  // namespace
+
+OpenSimContact opensim_sphere_contact(const SphereShape& sphere,
+                                      const Side& side,
+                                      const Vec3& p,
+                                      const Vec3& q,
+                                      const Compat& compat) {
+  OpenSimContact result;
+  const double radius = sphere.radius_m;
+  if (p.norm() < radius || q.norm() < radius) {
+    result.action = WrapAction::inside;
+    return result;
+  }
+  const Vec3 along = p - q;
+  const double a = along.squaredNorm();
+  const double b = 2.0 * q.dot(along);
+  const double c = q.squaredNorm() - radius * radius;
+  const double discriminant = b * b - 4.0 * a * c;
+  if (discriminant < 0.0) return result;
+  const double l1 = (-b + std::sqrt(discriminant)) / (2.0 * a);
+  const double l2 = (-b - std::sqrt(discriminant)) / (2.0 * a);
+  if (!(0.0 < l1 && l1 < 1.0) || !(0.0 < l2 && l2 < 1.0) || l1 < l2) return result;
+  const Vec3 u = along.normalized();
+  const Vec3 across = u.cross(q.normalized());
+  if (across.norm() < 1e-5) {
+    // The line goes through the center: OpenSim's points are not a number, and never chosen.
+    result.action = WrapAction::wrapped;
+    result.arc_length_m = std::numeric_limits<double>::quiet_NaN();
+    return result;
+  }
+  const Vec3 n = across.normalized();
+  const auto tangents = [&](const Vec3& end) {
+    const double distance = end.norm();
+    const Vec3 inward = -end / distance;
+    const Vec3 aside = n.cross(inward);
+    const double tilt = std::asin(radius / distance);
+    const double reach = distance * std::cos(tilt);
+    return SphereTangents{end + reach * (std::cos(tilt) * inward + std::sin(tilt) * aside),
+                          end + reach * (std::cos(tilt) * inward - std::sin(tilt) * aside)};
+  };
+  const SphereTangents t1 = tangents(p);
+  const SphereTangents t2 = tangents(q);
+  const Vec3 a1 = t1.a.normalized();
+  const Vec3 b1 = t1.b.normalized();
+  const Vec3 a2 = t2.a.normalized();
+  const Vec3 b2 = t2.b.normalized();
+  const double aa = a1.dot(a2);
+  const double ab = a1.dot(b2);
+  const double ba = b1.dot(a2);
+  const double bb = b1.dot(b2);
+  bool first_is_a = true;
+  bool second_is_a = true;
+  if (aa > ab && aa > ba && aa > bb) {
+  } else if (ab > ba && ab > bb) {
+    second_is_a = false;
+  } else if (ba > bb) {
+    first_is_a = false;
+  } else {
+    first_is_a = second_is_a = false;
+  }
+  result.action = WrapAction::wrapped;
+  bool far_side = false;
+  const auto first = [&] { return first_is_a ? t1.a : t1.b; };
+  const auto second = [&] { return second_is_a ? t2.a : t2.b; };
+  if (side.sign != 0) {
+    if (side.has(p) || side.has(q)) {
+      const double foot_m = -p.dot(-u);  // from p towards q
+      const Vec3 foot = p - foot_m * u;
+      const double share = compat.negative_sphere_arc ? foot_m : foot_m / along.norm();
+      if (foot.squaredNorm() < radius * radius && share > 0.0 && share < 1.0) {
+        result.action = WrapAction::mandatory;
+      } else if (side.has(p) == side.has(q) || side.has(foot)) {
+        result.action = WrapAction::none;
+        return result;
+      }
+    }
+    if (!side.has(p) || !side.has(q)) {
+      const Vec3 inward = -(p + q).normalized();
+      first_is_a = a1.dot(inward) > b1.dot(inward);
+      second_is_a = a2.dot(inward) > b2.dot(inward);
+      const Vec3 sum = (first() - p) + (second() - q);
+      if (side.sign * sum[side.axis] < 0.0) {
+        first_is_a = !first_is_a;
+        second_is_a = !second_is_a;
+      }
+      far_side = (first() + second()).dot((first() - p) + (second() - q)) < 0.0;
+    }
+  }
+  result.first_W = first();
+  result.second_W = second();
+  double angle = std::acos(result.first_W.normalized().dot(result.second_W.normalized()));
+  if (far_side) angle = (compat.negative_sphere_arc ? -1.0 : 1.0) * (2.0 * kPi - angle);
+  result.arc_length_m = radius * angle;
+  result.has_points = true;
+  return result;
+}
+
+}  // namespace myoid::model

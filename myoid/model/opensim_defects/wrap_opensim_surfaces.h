@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cmath>
+
+#include "myoid/model/opensim_defects/wrap_opensim.h"
+
+namespace myoid::model {
+
+/// Zero for the zero vector.
+inline Vec3 unit_or_zero(const Vec3& v) {
+  const double n = v.norm();
+  return n > 0.0 ? Vec3(v / n) : Vec3::Zero();
+}
+
+/// Which side of a wrap object counts: axis 0..2 and sign, sign 0 for all sides. A coordinate of
+/// zero is on the positive side, as OpenSim has it.
+struct Side {
+  Eigen::Index axis = 0;
+  int sign = 0;
+
+  explicit Side(Quadrant quadrant)
+      : axis(quadrant == 0 ? 0 : std::abs(quadrant) - 1),
+        sign(quadrant == 0 ? 0 : (quadrant > 0 ? 1 : -1)) {}
+  [[nodiscard]] bool has(const Vec3& p) const { return (p[axis] >= 0.0 ? 1 : -1) == sign; }
+};
+
+/// opensim_contact for one kind of surface each.
+[[nodiscard]] OpenSimContact opensim_cylinder_contact(const CylinderShape& cylinder,
+                                                      const Side& side,
+                                                      const Vec3& p_W,
+                                                      const Vec3& q_W,
+                                                      bool single,
+                                                      const Compat& compat);
+[[nodiscard]] OpenSimContact opensim_sphere_contact(const SphereShape& sphere,
+                                                    const Side& side,
+                                                    const Vec3& p_W,
+                                                    const Vec3& q_W,
+                                                    const Compat& compat);
+[[nodiscard]] OpenSimContact opensim_torus_contact(const TorusShape& torus,
+                                                   const Side& side,
+                                                   const Vec3& p_W,
+                                                   const Vec3& q_W,
+                                                   bool single,
+                                                   const Compat& compat);
+
+}  // namespace myoid::model

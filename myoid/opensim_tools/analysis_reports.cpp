@@ -1,0 +1,365 @@
+#include "myoid/opensim_tools/analysis_reports.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "myoid/core/error.h"
+#include "myoid/core/index.h"
+#include "myoid/files/atomic_file.h"
+#include "myoid/files/text_file.h"
+#include "myoid/forces/muscle_analysis.h"
+#include "myoid/kinematics/angular_speeds.h"
+#include "myoid/model/constraints.h"
+#include "myoid/model/kinematic_tree.h"
+#include "myoid/model/muscle_path.h"
+#include "myoid/opensim_tools/opensim_files.h"
+#include "myoid/opensim_tools/tool_stages.h"
+#include "myoid/recording/recording.h"
+#include "myoid/tables/storage_reader.h"
+
+namespace myoid {
+namespace {
+
+struct KnownAnalysis {
+  std::string_view class_name;
+  void (*run)(AnalysisRun&, pugi::xml_node);
+};
+
+constexpr const char* kUnits =
+    "Units are S.I. units (second, meters, Newtons, ...)\nIf the header above contains a line with "
+    "'inDegrees', this indicates whether rotational values are in degrees (yes) or radians "
+    "(no).\n\n";
+
+/// Positions in `names` of the wanted objects; "all" is every one. What is unknown is noted.
+std::vector<int> chosen(const AnalysisRun& run,
+                        pugi::xml_node node,
+                        const char* property,
+                        std::size_t count,
+                        const auto& find) {
+  std::vector<std::string> names = run.setup.xml().words(node, property);
+  std::vector<int> indices;
+  if (names.empty() || recording::equal_ignoring_case(names.front(), "all")) {
+    for (std::size_t i = 0; i < count; ++i) indices.push_back(static_cast<int>(i));
+    return indices;
+  }
+  for (const std::string& name : names) {
+    if (const std::optional<int> index = find(name)) {
+      indices.push_back(*index);
+    } else {
+      run.result.notes.push_back(
+          fmt::format("<{}>: the model has no '{}'; it is left out", property, name));
+    }
+  }
+  return indices;
+}
+
+/// Postures that obey the constraints.
+Eigen::MatrixXd assembled(const model::BodyModel& model, const Eigen::MatrixXd& q) {
+  if (model.couplers.empty() && model.constraints.empty()) return q;
+  Eigen::MatrixXd result = q;
+  for (Eigen::Index i = 0; i < q.rows(); ++i)
+    result.row(i) = model::assemble(model, q.row(i).transpose()).q.transpose();
+  return result;
+}
+
+void report_kinematics(AnalysisRun& run, pugi::xml_node node) {
+  const auto& xml = run.setup.xml();
+  const auto& model = run.model;
+  const auto columns = chosen(run, node, "coordinates", model.coordinates.size(),
+                              [&](const std::string& name) { return model.find_coordinate(name); });
+  const bool in_degrees = xml.flag(node, "in_degrees", true);
+  const auto write = [&](const char* suffix, const char* title, const Eigen::MatrixXd& values) {
+    std::vector<Channel> channels;
+    for (const int c : columns) {
+      const auto& coordinate = model.coordinates[at(c)];
+      channels.push_back({coordinate.name, coordinate.motion == model::MotionType::rotational
+                                               ? Unit::radian
+                                               : Unit::dimensionless});
+    }
+    write_opensim_storage(
+        claim_result(run, analysis_name(node) + suffix),
+        {run.motion.q.time_s(), std::move(channels), Eigen::MatrixXd(values(Eigen::all, columns))},
+        {.title = title,
+         .in_degrees = in_degrees,
+         .description = std::string("\n") + kUnits,
+         .decimals = run.decimals});
+  };
+  write("_q.sto", "Coordinates", assembled(model, run.motion.q.values()));
+  write("_u.sto", "Speeds", run.motion.qdot.values());
+  if (const Eigen::MatrixXd* qddot = accelerations_of(run))
+    write("_dudt.sto", "Accelerations", *qddot);
+  run.result.frames = static_cast<int>(run.motion.sample_count());
+}
+
+void report_muscles(AnalysisRun& run, pugi::xml_node node) {
+  const auto& xml = run.setup.xml();
+  const auto& model = run.model;
+  if (model.muscles.empty()) xml.fail(node, "MuscleAnalysis: the model has no muscles");
+  forces::MuscleAnalysisOptions options{.equilibrium = run.equilibrium,
+                                        .progress = run.options.progress};
+  options.muscles = chosen(run, node, "muscle_list", model.muscles.size(),
+                           [&](const std::string& name) { return model.find_muscle(name); });
+  if (options.muscles.empty())
+    xml.fail(node, "MuscleAnalysis: no muscle of the list is in the model");
+  if (xml.flag(node, "compute_moments", true)) {
+    options.coordinates =
+        chosen(run, node, "moment_arm_coordinate_list", model.coordinates.size(),
+               [&](const std::string& name) { return model.find_coordinate(name); });
+  }
+  if (run.activation.size() > 0) options.activation = run.activation(run.rows, Eigen::all);
+  if (run.fiber_length_m.size() > 0)
+    options.fiber_length_m = run.fiber_length_m(run.rows, Eigen::all);
+  if (!run.equilibrium && run.fiber_length_m.size() == 0) {
+    run.result.notes.push_back(fmt::format(
+        "<solve_for_equilibrium_for_auxiliary_states> is false: fibers have their "
+        "default lengths ({}), so that their velocities and forces mean little; lengths "
+        "of muscles and moment arms do not depend on it",
+        run.options.compat.class_fiber_length
+            ? "0.1 m where the model gives none, as in OpenSim"
+            : "optimal ones where the model gives none; OpenSim takes 0.1 m"));
+  }
+  const forces::MuscleAnalysis analysis = forces::muscle_analysis(model, run.motion, options);
+  run.result.notes.insert(run.result.notes.end(), analysis.notes.begin(), analysis.notes.end());
+  const std::string description = std::string(
+                                      "\nThis analysis gathers basic information about muscles "
+                                      "during a simulation (e.g., forces, "
+                                      "tendon lengths, moment arms, etc).\n") +
+                                  kUnits;
+  for (const auto& [name, table] : analysis.tables) {
+    write_opensim_storage(claim_result(run, analysis_name(node) + "_" + name + ".sto"), table,
+                          {.title = name, .description = description, .decimals = run.decimals});
+  }
+  run.result.frames = static_cast<int>(run.motion.sample_count());
+}
+
+/// One output of the model that a report asks for.
+struct Output {
+  enum class Kind { length, speed, marker, body } kind = Kind::length;
+  int index = 0;  ///< Of the marker, of the body, or in paths_of.
+  std::string path;
+};
+
+std::optional<Output> output_named(const model::BodyModel& model, const std::string& path) {
+  const auto bar = path.rfind('|');
+  if (bar == std::string::npos) return {};
+  const std::string what = path.substr(bar + 1);
+  std::string component = path.substr(0, bar);
+  for (const char* tail : {"/path", "/geometrypath"}) {
+    if (component.ends_with(tail))
+      component.resize(component.size() - std::string_view(tail).size());
+  }
+  if (const auto slash = component.rfind('/'); slash != std::string::npos)
+    component.erase(0, slash + 1);
+  const auto make = [&](Output::Kind kind, std::optional<int> index) -> std::optional<Output> {
+    if (!index) return {};
+    return Output{kind, *index, path};
+  };
+  const auto path_index = [&]() -> std::optional<int> {
+    const auto paths = paths_of(model);
+    for (std::size_t i = 0; i < paths.size(); ++i)
+      if (paths[i].first == component) return static_cast<int>(i);
+    return {};
+  };
+  if (what == "length") return make(Output::Kind::length, path_index());
+  if (what == "lengthening_speed") return make(Output::Kind::speed, path_index());
+  if (what == "location") return make(Output::Kind::marker, model.find_marker(component));
+  if (what == "position") return make(Output::Kind::body, model.find_body(component));
+  return {};
+}
+
+std::string table_text(const std::vector<Output>& outputs,
+                       const Eigen::VectorXd& times,
+                       const std::vector<std::vector<Vec3>>& values,
+                       bool three) {
+  std::string text =
+      fmt::format("inDegrees=no\nnumColumns={}\nDataType={}\nversion=3\nendheader\ntime",
+                  outputs.size(), three ? "Vec3" : "double");
+  for (const Output& output : outputs) text += "\t" + output.path;
+  text += '\n';
+  for (Eigen::Index i = 0; i < times.size(); ++i) {
+    text += recording::format_number(times[i]);
+    for (const Vec3& v : values[at(i)]) {
+      for (Eigen::Index k = 0; k < (three ? 3 : 1); ++k) {
+        text += k == 0 ? '\t' : ',';
+        text += recording::format_number(v[k]);
+      }
+    }
+    text += '\n';
+  }
+  return text;
+}
+
+void report_outputs(AnalysisRun& run, pugi::xml_node node) {
+  const auto& model = run.model;
+  std::vector<Output> wanted[2];  // numbers, points
+  std::string missing;
+  for (const std::string& path : run.setup.xml().words(node, "output_paths")) {
+    if (const auto output = output_named(model, path)) {
+      const bool point = output->kind == Output::Kind::marker || output->kind == Output::Kind::body;
+      wanted[point ? 1 : 0].push_back(*output);
+    } else {
+      missing += (missing.empty() ? "" : ", ") + path;
+    }
+  }
+  if (!missing.empty()) {
+    run.result.notes.push_back(fmt::format(
+        "{}: lengths and lengthening speeds of paths, locations of markers and positions of "
+        "bodies are reported; not so {}",
+        analysis_name(node), missing));
+  }
+  const Eigen::Index frames = run.motion.sample_count();
+  std::vector<std::vector<Vec3>> values[2];
+  values[0].resize(at(frames));
+  values[1].resize(at(frames));
+  model::BodyState state = model::make_state(model);
+  model::PathWorkspace workspace;
+  model::PathResult path;
+  const auto paths = paths_of(model);
+  const Eigen::MatrixXd q = assembled(model, run.motion.q.values());
+  for (Eigen::Index i = 0; i < frames; ++i) {
+    model::compute_poses(model, q.row(i).transpose(), state);
+    model::compute_velocities(model, run.motion.qdot.values().row(i).transpose(), state);
+    int computed = -1;  // whose path that is: two outputs of one stand together
+    for (const int k : {0, 1}) {
+      for (const Output& output : wanted[k]) {
+        Vec3 value = Vec3::Zero();
+        if (output.kind == Output::Kind::marker) {
+          const model::Marker& marker = model.markers[at(output.index)];
+          value = state.X_GB[at(marker.body)] * marker.p_BM;
+        } else if (output.kind == Output::Kind::body) {
+          value = state.X_GB[at(output.index)].p;
+        } else {
+          if (output.index != computed)
+            model::compute_path(model, *paths[at(output.index)].second, state, workspace, path);
+          computed = output.index;
+          value[0] = output.kind == Output::Kind::length ? path.length_m : path.speed_mps;
+        }
+        values[k][at(i)].push_back(value);
+      }
+    }
+  }
+  for (const int k : {0, 1}) {
+    if (wanted[k].empty()) continue;
+    recording::write_file(claim_result(run, k == 0 ? "Outputs.sto" : "OutputsVec3.sto"),
+                          table_text(wanted[k], run.motion.q.time_s(), values[k], k == 1),
+                          recording::Flush::later);
+  }
+}
+
+constexpr std::array kKnown{KnownAnalysis{"Actuation", report_actuation},
+                            KnownAnalysis{"BodyKinematics", report_bodies},
+                            KnownAnalysis{"ForceReporter", report_forces},
+                            KnownAnalysis{"InverseDynamics", report_inverse_dynamics},
+                            KnownAnalysis{"JointReaction", report_reactions},
+                            KnownAnalysis{"Kinematics", report_kinematics},
+                            KnownAnalysis{"MuscleAnalysis", report_muscles},
+                            KnownAnalysis{"OutputReporter", report_outputs},
+                            KnownAnalysis{"PointKinematics", report_point},
+                            KnownAnalysis{"StaticOptimization", run_static_optimization}};
+
+const KnownAnalysis* find_analysis(std::string_view class_name) {
+  const auto known = std::find_if(kKnown.begin(), kKnown.end(), [&](const KnownAnalysis& k) {
+    return k.class_name == class_name;
+  });
+  return known == kKnown.end() ? nullptr : &*known;
+}
+
+}  // namespace
+
+std::string analysis_name(pugi::xml_node node) {
+  const std::string name = model::OsimXml::name_of(node);
+  return name.empty() ? node.name() : name;
+}
+
+bool is_known_analysis(std::string_view class_name) { return find_analysis(class_name) != nullptr; }
+
+std::string known_analyses() {
+  std::string names;
+  for (const KnownAnalysis& known : kKnown)
+    names += (names.empty() ? "" : ", ") + std::string(known.class_name);
+  return names;
+}
+
+void run_analysis(AnalysisRun& run, pugi::xml_node node) {
+  const std::string_view kind = node.name();
+  // Their velocities are those of the bodies.
+  for (const char* moving :
+       {"BodyKinematics", "JointReaction", "OutputReporter", "PointKinematics"})
+    if (kind == moving) run.motion = kinematics::moved_by_speeds(run.model, run.motion);
+  find_analysis(kind)->run(run, node);
+}
+
+std::filesystem::path claim_result(AnalysisRun& run, const std::string& name) {
+  const auto path = run.setup.results_folder() / (run.setup.name() + "_" + name);
+  claim_file(run.options, path, run.result);
+  return path;
+}
+
+std::optional<TimeSeries> read_speeds(const model::BodyModel& model,
+                                      const std::filesystem::path& path,
+                                      bool only_speeds,
+                                      std::vector<std::string>& notes) {
+  const recording::Storage file = recording::read_storage(path);
+  for (const recording::Repair& repair : file.repairs) {
+    if (only_speeds) notes.push_back(recording::to_string(path, repair));  // else with the states
+  }
+  const auto count = static_cast<Eigen::Index>(model.coordinates.size());
+  Eigen::MatrixXd values = Eigen::MatrixXd::Zero(file.data.sample_count(), count);
+  std::vector<Channel> channels;
+  for (const model::Coordinate& c : model.coordinates)
+    channels.push_back({c.name, kinematics::coordinate_unit(c, 1)});
+  bool any = false;
+  for (std::size_t column = 0; column < file.data.channels().size(); ++column) {
+    std::string name = file.data.channels()[column].name;
+    if (name.ends_with("/speed")) {
+      name.resize(name.size() - 6);
+    } else if (name.ends_with("_u") && !model.find_coordinate(name)) {
+      name.resize(name.size() - 2);
+    } else if (!only_speeds) {
+      continue;
+    }
+    const auto c = model.find_coordinate(name);
+    if (!c) continue;
+    const bool angle = model.coordinates[at(*c)].motion == model::MotionType::rotational;
+    values.col(*c) = file.data.values().col(static_cast<Eigen::Index>(column)) *
+                     (angle && file.in_degrees ? kDegree : 1.0);
+    any = true;
+  }
+  if (!any) return {};
+  TimeSeries result(file.data.time_s(), std::move(channels), std::move(values));
+  require_finite(result, path.string());
+  return result;
+}
+
+void read_muscle_states(AnalysisRun& run, const std::filesystem::path& path) {
+  const TimeSeries data = recording::read_storage(path).data;
+  const auto count = static_cast<Eigen::Index>(run.model.muscles.size());
+  bool any_activation = false, any_length = false;
+  Eigen::MatrixXd activation(data.sample_count(), count), length(data.sample_count(), count);
+  for (Eigen::Index m = 0; m < count; ++m) {
+    const model::Muscle& muscle = run.model.muscles[at(m)];
+    activation.col(m).setConstant(muscle.properties.default_activation);
+    length.col(m).setConstant(muscle.properties.default_fiber_length_m);
+    for (std::size_t c = 0; c < data.channels().size(); ++c) {
+      const std::string& name = data.channels()[c].name;
+      const auto is = [&](const char* state) {
+        return name == muscle.name + state || name.ends_with("/" + muscle.name + "/" + (state + 1));
+      };
+      const auto column = data.values().col(static_cast<Eigen::Index>(c));
+      if (is(".activation") || is("/activation")) {
+        activation.col(m) = column;
+        any_activation = true;
+      } else if (is(".fiber_length") || is("/fiber_length")) {
+        length.col(m) = column;
+        any_length = true;
+      }
+    }
+  }
+  if (any_activation) run.activation = std::move(activation);
+  if (any_length) run.fiber_length_m = std::move(length);
+}
+
+}  // namespace myoid

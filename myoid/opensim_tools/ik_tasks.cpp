@@ -1,0 +1,153 @@
+#include <algorithm>
+#include <map>
+#include <memory>
+#include <set>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "myoid/core/error.h"
+#include "myoid/files/label_match.h"
+#include "myoid/files/text_file.h"
+#include "myoid/math/spline.h"
+#include "myoid/opensim_tools/opensim_files.h"
+#include "myoid/opensim_tools/tool_stages.h"
+
+namespace myoid {
+namespace {
+
+using model::OsimXml;
+
+/// The task set within the set-up, or in the file it names; the document must outlive the node.
+struct TaskFile {
+  std::string text;
+  std::unique_ptr<OsimXml> xml;
+  pugi::xml_node set;
+};
+
+TaskFile task_file(const OpensimSetup& setup, pugi::xml_node owner) {
+  TaskFile file;
+  const auto inside = owner.child("IKTaskSet");
+  const std::string name = inside.attribute("file").value();
+  if (name.empty() || recording::equal_ignoring_case(name, "Unassigned")) {
+    file.set = inside;
+    return file;
+  }
+  const auto path = setup.file_named(inside, name);
+  file.text = recording::read_text_file(path);
+  file.xml = std::make_unique<OsimXml>(file.text, path, OsimXml::Root::any);
+  file.set = file.xml->root().child("IKTaskSet");
+  if (!file.set) file.xml->fail(file.xml->root(), "expected an <IKTaskSet>");
+  return file;
+}
+
+void add_coordinate_task(const OpensimSetup& setup,
+                         const OsimXml& xml,
+                         pugi::xml_node owner,
+                         pugi::xml_node node,
+                         const model::BodyModel& model,
+                         const recording::MarkerSeries& markers,
+                         kinematics::IkOptions& ik,
+                         std::vector<std::string>& notes) {
+  const std::string name = OsimXml::name_of(node);
+  const auto found = model.find_coordinate(name);
+  if (!found)
+    xml.fail(node, fmt::format("IKCoordinateTask '{}': the model has no such coordinate", name));
+  const model::Coordinate& coordinate = model.coordinates[static_cast<std::size_t>(*found)];
+  kinematics::CoordinateTask task{name, coordinate.default_value, xml.number(node, "weight", 1.0)};
+  if (!(task.weight > 0.0) || model.is_constrained(*found)) return;  // nothing to wish for
+  const std::string source = xml.word(node, "value_type");
+  if (source == "manual_value") {
+    task.value = xml.number(node, "value", 0.0);
+  } else if (source == "from_file") {
+    const auto file = setup.file(owner, "coordinate_file");
+    if (!file)
+      xml.fail(node, fmt::format("IKCoordinateTask '{}' takes its values from a file, but the "
+                                 "set-up has no <coordinate_file>",
+                                 name));
+    const TimeSeries wished =
+        read_coordinates(model, *file, MissingCoordinate::default_value, notes);
+    task.values = math::Spline::interpolate(wished.time_s(), wished.column(name))
+                      .evaluate(markers.time_s)
+                      .value;
+  } else if (!source.empty() && source != "default_value") {
+    xml.fail(node, fmt::format("IKCoordinateTask '{}': <value_type> '{}', expected default_value, "
+                               "manual_value or from_file",
+                               name, source));
+  }
+  ik.tasks.push_back(std::move(task));
+}
+
+/// Names the markers that tasks weigh and the recording lacks, and what they may be called there.
+void note_unseen_markers(const kinematics::IkOptions& ik,
+                         const recording::MarkerSeries& markers,
+                         std::vector<std::string>& notes) {
+  std::vector<std::string> wanted;
+  for (const auto& [name, weight] : ik.marker_weights) wanted.push_back(name);
+  const recording::LabelMatch match = recording::match_labels(markers.names, wanted);
+  std::map<std::string, std::string> called;
+  for (const auto* names : {&match.similar, &match.same})
+    for (const auto& [found, name] : *names) called[name] = found;
+  std::string unseen;
+  for (const std::string& name : wanted) {
+    if (std::find(markers.names.begin(), markers.names.end(), name) != markers.names.end())
+      continue;
+    const auto other = called.find(name);
+    unseen += fmt::format(
+        "{}'{}'{}", unseen.empty() ? "" : ", ", name,
+        other == called.end() ? "" : fmt::format(" (is it '{}' there?)", other->second));
+  }
+  if (!unseen.empty())
+    notes.push_back(fmt::format("tasks of markers that the recording does not have: {}", unseen));
+}
+
+}  // namespace
+
+kinematics::IkOptions read_ik_tasks(const OpensimSetup& setup,
+                                    pugi::xml_node owner,
+                                    const model::BodyModel& model,
+                                    const recording::MarkerSeries& markers,
+                                    std::vector<std::string>& notes) {
+  kinematics::IkOptions ik;
+  const TaskFile tasks = task_file(setup, owner);
+  const OsimXml& xml = tasks.xml ? *tasks.xml : setup.xml();
+  std::set<std::string> named;
+  for (const auto node : OsimXml::objects(tasks.set)) {
+    if (node.type() != pugi::node_element) continue;
+    const std::string_view kind = node.name();
+    const bool marker_task = kind == "IKMarkerTask";
+    if (!marker_task && kind != "IKCoordinateTask")
+      xml.fail(node, fmt::format("expected IKMarkerTask or IKCoordinateTask, found <{}>", kind));
+    if (marker_task) ik.only_named_markers = true;
+    if (!xml.flag(node, "apply", true)) continue;
+    if (marker_task) {
+      const double weight = xml.number(node, "weight", 1.0);
+      if (!(weight >= 0.0)) {
+        xml.fail(node, fmt::format("IKMarkerTask '{}': weight {}, expected 0 or more",
+                                   OsimXml::name_of(node), weight));
+      }
+      const std::string name = OsimXml::name_of(node);
+      if (!named.insert(name).second)
+        notes.push_back(fmt::format("two tasks for marker '{}': the last one counts", name));
+      if (weight > 0.0) ik.marker_weights[name] = weight;
+    } else {
+      add_coordinate_task(setup, xml, owner, node, model, markers, ik, notes);
+    }
+  }
+  std::string unknown;
+  std::erase_if(ik.marker_weights, [&](const auto& task) {
+    if (model.find_marker(task.first)) return false;
+    unknown += fmt::format("{}'{}'", unknown.empty() ? "" : ", ", task.first);
+    return true;
+  });
+  if (!unknown.empty())
+    notes.push_back(fmt::format("tasks of markers that the model does not have: {}", unknown));
+  note_unseen_markers(ik, markers, notes);
+  if (tasks.xml) {
+    const std::vector<std::string>& defaulted = xml.defaulted();
+    notes.insert(notes.end(), defaulted.begin(), defaulted.end());
+  }
+  return ik;
+}
+
+}  // namespace myoid

@@ -1,0 +1,239 @@
+#include "myoid/opensim_tools/marker_placer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "myoid/core/error.h"
+#include "myoid/core/index.h"
+#include "myoid/core/units.h"
+#include "myoid/files/atomic_file.h"
+#include "myoid/kinematics/inverse_kinematics.h"
+#include "myoid/kinematics/marker_misfit.h"
+#include "myoid/model/kinematic_tree.h"
+#include "myoid/opensim_tools/opensim_files.h"
+#include "myoid/osim/osim_reader.h"
+#include "myoid/recording/recording.h"
+
+namespace myoid {
+namespace {
+
+using model::OsimXml;
+
+/// One frame: every marker at its mean over the range.
+recording::MarkerSeries averaged(const recording::MarkerSeries& markers,
+                                 std::pair<double, double> range,
+                                 double most_movement_m,
+                                 std::vector<std::string>& notes) {
+  const auto [first, last] = frames_in(markers, range);
+  recording::MarkerSeries mean{markers.time_s.segment(first, 1), markers.names,
+                               Eigen::MatrixXd(1, markers.positions_m.cols())};
+  for (Eigen::Index m = 0; m < markers.marker_count(); ++m) {
+    Vec3 sum = Vec3::Zero(), least = Vec3::Constant(INFINITY), most = -least;
+    int seen = 0;
+    for (Eigen::Index i = first; i <= last; ++i) {
+      if (markers.missing(i, m)) continue;
+      const Vec3 p = markers.position(i, m);
+      sum += p;
+      least = least.cwiseMin(p);
+      most = most.cwiseMax(p);
+      ++seen;
+    }
+    mean.positions_m.block<1, 3>(0, 3 * m) = (sum / seen).transpose();
+    if (most_movement_m > 0.0 && seen > 0 && (most - least).maxCoeff() > most_movement_m) {
+      notes.push_back(
+          fmt::format("marker '{}' moves by {:.1f} mm while the frames are averaged, more "
+                      "than <max_marker_movement>",
+                      markers.names[at(m)], 1000.0 * (most - least).maxCoeff()));
+    }
+  }
+  return mean;
+}
+
+/// The pose as a row of OpenSim's states.
+TimeSeries states_of(const model::BodyModel& model, const Eigen::VectorXd& q, double time_s) {
+  std::vector<Channel> channels;
+  std::vector<double> values;
+  for (std::size_t c = 0; c < model.coordinates.size(); ++c) {
+    const model::Coordinate& coordinate = model.coordinates[c];
+    const std::string path =
+        "/jointset/" + model.joints[at(coordinate.joint)].name + "/" + coordinate.name;
+    channels.push_back({path + "/value", Unit::dimensionless});
+    channels.push_back({path + "/speed", Unit::dimensionless});
+    values.push_back(q[static_cast<Eigen::Index>(c)]);
+    values.push_back(coordinate.default_speed);
+  }
+  for (const model::Muscle& muscle : model.muscles) {
+    bool activation = true, fiber = true;
+    if (const auto* millard = std::get_if<model::MillardCurves>(&muscle.properties.curves)) {
+      activation = !millard->ignore_activation_dynamics;
+      fiber = !millard->ignore_tendon_compliance;
+    }
+    if (activation) {
+      channels.push_back({"/forceset/" + muscle.name + "/activation", Unit::dimensionless});
+      values.push_back(muscle.properties.default_activation);
+    }
+    if (fiber) {
+      channels.push_back({"/forceset/" + muscle.name + "/fiber_length", Unit::dimensionless});
+      values.push_back(muscle.properties.default_fiber_length_m);
+    }
+  }
+  return {Eigen::VectorXd::Constant(1, time_s), std::move(channels),
+          Eigen::Map<Eigen::RowVectorXd>(values.data(), static_cast<Eigen::Index>(values.size()))};
+}
+
+std::string join_names(const std::vector<std::string>& names) {
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+/// A static pose that leans on the end of a coordinate's range is not the person's: the markers
+/// that do not fit are then placed into the model for good.
+void note_limits(const model::BodyModel& model,
+                 const Eigen::VectorXd& q,
+                 bool held_inside,
+                 std::vector<std::string>& notes) {
+  std::vector<std::string> at_limit;
+  for (std::size_t k = 0; k < model.coordinates.size(); ++k) {
+    const model::Coordinate& c = model.coordinates[k];
+    if (!c.clamped || c.locked || !(c.lower < c.upper)) continue;
+    const double value = q[static_cast<Eigen::Index>(k)];
+    const double near = 1e-6 * (c.upper - c.lower);
+    if (value > c.lower + near && value < c.upper - near) continue;
+    const bool angle = c.motion == model::MotionType::rotational;
+    at_limit.push_back(fmt::format("'{}' at its limit of {:.4g} {}", c.name,
+                                   angle ? value / kDegree : value, angle ? "degrees" : "m"));
+  }
+  if (at_limit.empty()) return;
+  notes.push_back(fmt::format(
+      "static pose: the markers alone put {}{}; the markers placed from the pose take over what "
+      "does not fit. Are the ranges right, and the markers' places in the model?",
+      join_names(at_limit),
+      held_inside ? " (the pose is held off there as in OpenSim's search)" : ""));
+}
+
+/// What no marker of the static pose determines, and which markers are placed by it all the same.
+void note_undetermined(const model::BodyModel& model,
+                       const std::vector<std::string>& undetermined,
+                       const kinematics::IkOptions& ik,
+                       bool held_inside,
+                       std::vector<std::string>& notes) {
+  if (undetermined.empty()) return;
+  std::vector<bool> carried(model.bodies.size(), false);
+  for (const model::Joint& joint : model.joints) {
+    bool moves = carried[at(joint.parent)];
+    for (const int c : joint.coordinates)
+      moves = moves || std::find(undetermined.begin(), undetermined.end(),
+                                 model.coordinates[at(c)].name) != undetermined.end();
+    carried[at(joint.child)] = moves;
+  }
+  std::vector<std::string> placed;
+  for (const model::Marker& marker : model.markers) {
+    const auto weight = ik.marker_weights.find(marker.name);
+    const bool counts =
+        weight != ik.marker_weights.end() ? weight->second > 0.0 : !ik.only_named_markers;
+    if (carried[at(marker.body)] && !counts) placed.push_back(marker.name);
+  }
+  notes.push_back(fmt::format(
+      "static pose: no marker with a weight determines {}: {}{}. Give weight to markers that do, "
+      "or "
+      "the coordinates a task",
+      join_names(undetermined),
+      held_inside
+          ? "each in the middle of its range, if it is clamped to one, as OpenSim's search has it"
+          : "each at its default value",
+      placed.empty() ? std::string()
+                     : fmt::format("; markers placed by that: {}", join_names(placed))));
+}
+
+/// The barrier that OpenSim's search for the static pose leaves: its optimizer is an interior-point
+/// method where the model has constraints (locked coordinates are), whose tolerance of 1e-4 (of J,
+/// m^2) is met with a barrier of tolerance / 11 (Waechter and Biegler 2006, eq. 7: error below ten
+/// barriers).
+double barrier_of(const model::BodyModel& model) {
+  const bool constrained =
+      !model.couplers.empty() || !model.constraints.empty() ||
+      std::any_of(model.coordinates.begin(), model.coordinates.end(),
+                  [](const model::Coordinate& c) { return c.locked || c.prescribed; });
+  return model.compat.static_pose_inside_ranges && constrained ? 1e-4 / 11.0 : 0.0;
+}
+
+}  // namespace
+
+recording::MarkerSeries markers_of(const Scaling& scaling, const std::filesystem::path& file) {
+  recording::MarkerFile markers = recording::read_markers(file);
+  auto& notes = scaling.result.notes;
+  for (const recording::Repair& repair : markers.repairs) {
+    const std::string note = recording::to_string(file, repair);
+    if (std::find(notes.begin(), notes.end(), note) == notes.end()) notes.push_back(note);
+  }
+  return std::move(markers.markers);
+}
+
+std::pair<Eigen::Index, Eigen::Index> frames_in(const recording::MarkerSeries& markers,
+                                                std::pair<double, double> range) {
+  const Eigen::Index n = markers.frame_count();
+  Eigen::Index first = 0, last = n - 1;
+  const double slack = 1e-9;
+  if (range.second < markers.time_s[0] || range.first > markers.time_s[n - 1]) return {0, n - 1};
+  while (first < n - 1 && markers.time_s[first] < range.first - slack) ++first;
+  while (last > first && markers.time_s[last] > range.second + slack) --last;
+  return {first, last};
+}
+
+void place_markers(const Scaling& scaling, pugi::xml_node placer, model::OsimEditor& editor) {
+  const OsimXml& xml = scaling.setup.xml();
+  auto& notes = scaling.result.notes;
+  const auto file = scaling.setup.required_file(placer, "marker_file");
+  const recording::MarkerSeries all = markers_of(scaling, file);
+  if (all.frame_count() == 0)
+    throw InvalidInput(fmt::format("{}: there are no frames", file.string()));
+  const auto range = scaling.setup.time_range(placer, "time_range");
+  const recording::MarkerSeries pose =
+      averaged(all, range, 1e-3 * xml.number(placer, "max_marker_movement", -1.0), notes);
+  editor.remove_markers([&](const std::string& name) {
+    return std::find(pose.names.begin(), pose.names.end(), name) == pose.names.end();
+  });
+  model::BodyModel model =
+      model::parse_osim(editor.text(), editor.path(), {.compat = scaling.options.compat});
+  kinematics::IkOptions ik = read_ik_tasks(scaling.setup, placer, model, pose, notes);
+  kinematics::IkResult solved = kinematics::inverse_kinematics(model, pose, ik);
+  note_limits(model, solved.q.values().row(0).transpose(), barrier_of(model) > 0.0, notes);
+  note_undetermined(model, solved.undetermined, ik, barrier_of(model) > 0.0, notes);
+  ik.range_barrier = barrier_of(model);
+  if (ik.range_barrier > 0.0) solved = kinematics::inverse_kinematics(model, pose, ik);
+  if (solved.frames_not_converged > 0) ++scaling.result.frames_failed;
+  const kinematics::MarkerMisfit misfit = kinematics::marker_misfit(model, pose, solved);
+  if (!misfit.warning.empty()) notes.push_back("static pose: " + misfit.warning);
+  scaling.result.wrong_unit = misfit.wrong_unit;
+  const Eigen::VectorXd q = solved.q.values().row(0).transpose();
+  model::BodyState state = model::make_state(model);
+  model::compute_poses(model, q, state);
+  int moved = 0;
+  for (const model::Marker& marker : model.markers) {
+    if (editor.is_fixed(marker.name)) continue;
+    const auto found = std::find(pose.names.begin(), pose.names.end(), marker.name);
+    const Eigen::Index m = found - pose.names.begin();
+    if (pose.missing(0, m)) {
+      notes.push_back(fmt::format(
+          "marker '{}' is never seen in the static pose: it stays where it is", marker.name));
+      continue;
+    }
+    editor.move_marker(marker.name, state.X_GB[at(marker.body)].inverse() * pose.position(0, m));
+    ++moved;
+  }
+  if (const auto out = scaling.setup.output_file(placer, "output_motion_file")) {
+    write_opensim_storage(*out, states_of(model, q, pose.time_s[0]), {.title = "static pose"});
+  }
+  if (const auto out = scaling.setup.output_file(placer, "output_marker_file"))
+    recording::write_file(*out, editor.marker_set_text());
+  scaling.result.summary +=
+      fmt::format("; static pose: marker error {:.1f} mm rms, {:.1f} mm at most; {} markers placed",
+                  1000.0 * solved.errors.column("marker_error_RMS")[0],
+                  1000.0 * solved.errors.column("marker_error_max")[0], moved);
+}
+
+}  // namespace myoid

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <filesystem>
+#include <utility>
+
+#include <Eigen/Core>
+#include <pugixml.hpp>
+
+#include "myoid/files/marker_series.h"
+#include "myoid/opensim_tools/tool_stages.h"
+#include "myoid/osim/osim_editor.h"
+
+namespace myoid {
+
+/// One run of OpenSim's ScaleTool.
+struct Scaling {
+  const OpensimSetup& setup;
+  const ToolOptions& options;
+  ToolResult& result;
+};
+
+/// Markers of a file. Measuring and placing usually read one file: what its reader mended is noted
+/// once.
+[[nodiscard]] recording::MarkerSeries markers_of(const Scaling& scaling,
+                                                 const std::filesystem::path& file);
+
+/// First and last frame of a time range; all frames where it says nothing.
+[[nodiscard]] std::pair<Eigen::Index, Eigen::Index> frames_in(
+    const recording::MarkerSeries& markers, std::pair<double, double> range);
+
+/// The step <MarkerPlacer>: fits the model to the mean of the static trial and moves its markers
+/// that are not fixed to where they were measured; writes the pose and the marker set if asked for.
+void place_markers(const Scaling& scaling, pugi::xml_node placer, model::OsimEditor& editor);
+
+}  // namespace myoid

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "myoid/opensim_tools/opensim_setup.h"
+#include "myoid/simulation/excitation.h"
+
+namespace myoid {
+
+/// Controls over time by the names of muscles and actuators.
+using ModelControls = std::map<std::string, simulation::Signal>;
+
+/// The controls that the set-up's <ControllerSet> gives: of ControlSetControllers with a
+/// <controls_file>, a table (.sto) or a <ControlSet> (.xml) of ControlLinear and ControlConstant.
+/// "<name>.excitation" and ".../<name>" are the muscle's. Another controller that is enabled is
+/// named in `notes` or, without them, throws ReadError; so does a file that is no controls.
+[[nodiscard]] ModelControls read_model_controls(const OpensimSetup& setup,
+                                                std::vector<std::string>* notes = nullptr);
+
+}  // namespace myoid

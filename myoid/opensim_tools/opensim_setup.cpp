@@ -1,0 +1,305 @@
+#include "myoid/opensim_tools/opensim_setup.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "myoid/core/error.h"
+#include "myoid/files/named_file.h"
+#include "myoid/files/text_file.h"
+#include "myoid/osim/osim_reader.h"
+
+namespace myoid {
+namespace {
+
+constexpr const char* kTools[] = {
+    "InverseKinematicsTool", "IKTool",    "InverseDynamicsTool",     "AnalyzeTool", "ScaleTool",
+    "ForwardTool",           "IMUPlacer", "IMUInverseKinematicsTool"};
+
+/// What answers the question of a tool that is not run.
+std::string in_place_of(std::string_view tool) {
+  if (tool == "CMCTool") {
+    return "; in place of computed muscle control: AnalyzeTool with StaticOptimization gives the "
+           "muscles' forces along a motion, with MuscleAnalysis their fibers";
+  }
+  if (tool == "RRATool") {
+    return "; in place of residual reduction: InverseDynamicsTool shows the residual forces of the "
+           "pelvis, and ScaleTool adjusts the model's mass";
+  }
+  return "";
+}
+
+/// The name of a result that cannot be here: a path of Windows, or an absolute one whose folder
+/// does not exist.
+bool is_elsewhere(const std::filesystem::path& folder, const std::string& name) {
+  if (name.empty()) return false;
+  if (recording::is_windows_path(name)) return true;
+  const auto path = recording::native_path(folder, name).lexically_normal();
+  const auto above = path.has_filename() ? path.parent_path() : path.parent_path().parent_path();
+  std::error_code ignored;
+  return std::filesystem::path(name).is_absolute() && !std::filesystem::exists(path, ignored) &&
+         (above == above.root_path() || !std::filesystem::exists(above, ignored));
+}
+
+/// The elements that may name files: the tool, its stages, and the objects of its sets.
+std::vector<pugi::xml_node> holders_of(pugi::xml_node tool) {
+  std::vector<pugi::xml_node> holders{tool};
+  for (const auto stage : tool.children()) {
+    holders.push_back(stage);
+    for (const auto object : model::OsimXml::objects(stage)) holders.push_back(object);
+  }
+  return holders;
+}
+
+template <typename Force>
+void drop(std::vector<Force>& forces, const auto& is_dropped) {
+  forces.erase(std::remove_if(forces.begin(), forces.end(), is_dropped), forces.end());
+}
+
+}  // namespace
+
+OpensimSetup::OpensimSetup(const std::filesystem::path& path, SetupFiles instead)
+    : path_(path),
+      text_(recording::read_text_file(path)),
+      xml_(text_, path_, model::OsimXml::Root::any),
+      instead_(std::move(instead)) {
+  const pugi::xml_node root = xml_.root();
+  for (const char* kind : kTools) {
+    if (const auto node = root.child(kind)) {
+      tool_ = node;
+      break;
+    }
+  }
+  if (!tool_) {
+    const auto first = model::OsimXml::first_element(root, {"defaults"});
+    xml_.fail(
+        first ? first : root,
+        fmt::format(
+            "found <{}>, expected a set-up of InverseKinematicsTool, "
+            "InverseDynamicsTool, ForwardTool, ScaleTool, IMUPlacer, IMUInverseKinematicsTool or "
+            "AnalyzeTool (StaticOptimization, MuscleAnalysis, Kinematics, ...); other "
+            "tools are not run{}",
+            first ? first.name() : "nothing", first ? in_place_of(first.name()) : std::string()));
+  }
+  if (const auto defaults = root.child("defaults")) xml_.set_prototypes(defaults);
+  if (!instead_.external_loads.empty() && kind() != "AnalyzeTool" &&
+      kind() != "InverseDynamicsTool") {
+    throw InvalidInput(fmt::format("--external-loads: {} holds a {}, which reads no loads",
+                                   path_.string(), kind()));
+  }
+}
+
+bool OpensimSetup::names_file(pugi::xml_node object, const char* name) const {
+  return !named_in(object, name).empty() || !replacement(name).empty();
+}
+
+std::string OpensimSetup::named_in(pugi::xml_node object, const char* name) const {
+  std::string text = xml_.word(object, name);
+  return recording::equal_ignoring_case(text, "Unassigned") ? std::string() : text;
+}
+
+std::filesystem::path OpensimSetup::replacement(std::string_view name) const {
+  if (name == "model_file") return instead_.model;
+  if (name == "external_loads_file") return instead_.external_loads;
+  // The states, where the set-up names them, else the coordinates.
+  const bool by_states = kind() == "ForwardTool" || !named_in(tool_, "states_file").empty();
+  std::vector<std::string_view> motion{"coordinates_file", "marker_file", "orientations_file",
+                                       "orientation_file_for_calibration"};
+  if (kind() == "AnalyzeTool" || by_states)
+    motion = {by_states ? "states_file" : "coordinates_file"};
+  const bool is_motion = std::find(motion.begin(), motion.end(), name) != motion.end();
+  return is_motion ? instead_.motion : std::filesystem::path();
+}
+
+std::filesystem::path OpensimSetup::file_named(pugi::xml_node node, std::string_view name) const {
+  const recording::NamedFile found = recording::find_named_file(path_.parent_path(), name);
+  if (found.exists) return found.path;
+  xml_.fail(node, fmt::format("<{}> names '{}', and there is no such file; a file of that name "
+                              "beside this set-up or one folder up would be taken",
+                              node.name(), name));
+}
+
+std::optional<std::filesystem::path> OpensimSetup::file(pugi::xml_node object,
+                                                        const char* name) const {
+  if (const auto given = replacement(name); !given.empty()) return given;
+  const std::string text = named_in(object, name);
+  if (text.empty()) return {};
+  return file_named(xml_.property(object, name), text);
+}
+
+std::filesystem::path OpensimSetup::required_file(pugi::xml_node object, const char* name) const {
+  if (const auto found = file(object, name)) return *found;
+  const auto node = object.child(name);
+  xml_.fail(node ? node : object,
+            fmt::format("<{}> expected: a file's name, relative to this set-up{}", name,
+                        std::string_view(name) == "model_file" ? ", or --model FILE" : ""));
+}
+
+std::vector<std::filesystem::path> OpensimSetup::files(pugi::xml_node object,
+                                                       const char* name) const {
+  const std::string text = named_in(object, name);
+  if (text.empty()) return {};
+  // A name may hold blanks: all of it first, then word by word.
+  const auto folder = path_.parent_path();
+  if (recording::find_named_file(folder, text).exists)
+    return {recording::find_named_file(folder, text).path};
+  std::vector<std::filesystem::path> found;
+  for (const std::string_view word : recording::split_words(text))
+    if (!recording::equal_ignoring_case(word, "Unassigned"))
+      found.push_back(file_named(xml_.property(object, name), word));
+  return found;
+}
+
+std::optional<std::filesystem::path> OpensimSetup::output_file(pugi::xml_node object,
+                                                               const char* name) const {
+  const std::string text = named_in(object, name);
+  if (text.empty()) return {};
+  if (!instead_.out.empty()) return instead_.out / recording::last_part(text);
+  if (is_elsewhere(path_.parent_path(), text))
+    return path_.parent_path() / recording::last_part(text);
+  return recording::native_path(path_.parent_path(), text);
+}
+
+std::vector<std::pair<pugi::xml_node, const char*>> OpensimSetup::input_elements() const {
+  std::vector<std::pair<pugi::xml_node, const char*>> found;
+  for (const char* name : {"model_file", "marker_file", "marker_set_file", "coordinates_file",
+                           "coordinate_file", "states_file", "speeds_file", "external_loads_file",
+                           "force_set_files", "actuator_set_files", "forces_file",
+                           "orientations_file", "orientation_file_for_calibration"}) {
+    if (!replacement(name).empty()) found.emplace_back(tool_, name);
+    for (const auto holder : holders_of(tool_))
+      if (holder.child(name)) found.emplace_back(holder, name);
+  }
+  return found;
+}
+
+std::vector<std::filesystem::path> OpensimSetup::inputs() const {
+  std::vector<std::filesystem::path> files{path_};
+  for (const auto& [object, name] : input_elements()) {
+    if (const auto given = replacement(name); !given.empty()) {
+      files.push_back(given);
+      continue;
+    }
+    const auto found = recording::find_named_file(path_.parent_path(), named_in(object, name));
+    if (found.exists) files.push_back(found.path);
+  }
+  return files;
+}
+
+std::vector<std::string> OpensimSetup::notes() const {
+  std::vector<std::string> notes;
+  const auto add = [&](const char* name, const std::string& text) {
+    std::string note = fmt::format("<{}>: {}", name, text);
+    if (std::find(notes.begin(), notes.end(), note) == notes.end())
+      notes.push_back(std::move(note));
+  };
+  for (const auto& [object, name] : input_elements()) {
+    if (!replacement(name).empty()) continue;
+    const auto found = recording::find_named_file(path_.parent_path(), named_in(object, name));
+    if (!found.note.empty()) add(name, found.note);
+  }
+  if (!instead_.out.empty()) return notes;
+  for (const auto holder : holders_of(tool_)) {
+    for (const char* name : {"results_directory", "output_motion_file", "output_model_file",
+                             "output_scale_file", "output_marker_file"}) {
+      const std::string text = holder.child(name) ? named_in(holder, name) : "";
+      if (is_elsewhere(path_.parent_path(), text))
+        add(name, fmt::format("'{}' is not on this computer; results go beside the set-up (--out "
+                              "DIR puts them elsewhere)",
+                              text));
+    }
+  }
+  return notes;
+}
+
+std::filesystem::path OpensimSetup::results_folder() const {
+  if (!instead_.out.empty()) return instead_.out;
+  const std::string text = named_in(tool_, "results_directory");
+  if (text.empty() || is_elsewhere(path_.parent_path(), text)) return path_.parent_path();
+  return recording::native_path(path_.parent_path(), text);
+}
+
+std::pair<double, double> OpensimSetup::time_range(pugi::xml_node object, const char* name) const {
+  const double infinity = std::numeric_limits<double>::infinity();
+  const auto node = xml_.property(object, name);
+  if (!node || model::OsimXml::text_of(node).empty()) return {-infinity, infinity};
+  const auto values = xml_.numbers(node);
+  if (values.size() != 2 || !(values[0] <= values[1])) {
+    xml_.fail(node, fmt::format("<{}>: expected two times, the first not after the second, found "
+                                "'{}'",
+                                name, model::OsimXml::text_of(node)));
+  }
+  return {values[0], values[1]};
+}
+
+void OpensimSetup::check_range(std::pair<double, double> asked_s,
+                               const Eigen::VectorXd& recorded_s,
+                               const std::filesystem::path& file,
+                               std::vector<std::string>& notes) const {
+  const auto [start_s, end_s] = asked_s;
+  const Eigen::Index count = recorded_s.size();
+  const double first_s = recorded_s[0], last_s = recorded_s[count - 1];
+  const double interval_s = count > 1 ? (last_s - first_s) / static_cast<double>(count - 1) : 0.0;
+  if (start_s > last_s + interval_s || end_s < first_s - interval_s) {
+    xml_.fail(tool_, fmt::format("the set-up asks for {} to {} s, but {} holds {} to {} s; nothing "
+                                 "is written",
+                                 start_s, end_s, file.string(), first_s, last_s));
+  }
+  const bool early = start_s < first_s - interval_s && std::isfinite(start_s);
+  const bool late = end_s > last_s + interval_s && std::isfinite(end_s);
+  if (early || late) {
+    notes.push_back(
+        fmt::format("the set-up asks for {} to {} s; {} holds {} to {} s, and what it "
+                    "holds is used, as in OpenSim",
+                    start_s, end_s, file.string(), first_s, last_s));
+  }
+}
+
+model::BodyModel setup_model(const OpensimSetup& setup,
+                             const model::Compat& compat,
+                             const std::vector<std::string>& excluded,
+                             std::vector<std::string>& notes) {
+  const auto& xml = setup.xml();
+  const auto path = setup.required_file(setup.tool(), "model_file");
+  model::BodyModel model = model::read_osim(path, {.compat = compat});
+  const bool replaces = xml.flag(setup.tool(), "replace_force_set",
+                                 xml.flag(setup.tool(), "replace_actuator_set", false));
+  if (replaces) {
+    model.muscles.clear();
+    model.actuators.clear();
+    model.point_actuators.clear();
+    model.torque_actuators.clear();
+    model.path_actuators.clear();
+    model.passive_forces.clear();
+    model.force_order.clear();
+  }
+  const std::size_t noted = model.notes.size();
+  for (const char* element : {"force_set_files", "actuator_set_files"}) {
+    for (const auto& file : setup.files(setup.tool(), element))
+      model = model::with_force_set(std::move(model), file);
+  }
+  notes.insert(notes.end(), model.notes.begin() + static_cast<std::ptrdiff_t>(noted),
+               model.notes.end());
+  for (const std::string& name : excluded) {
+    const bool all = recording::equal_ignoring_case(name, "all");
+    const bool muscles = all || recording::equal_ignoring_case(name, "muscles");
+    const bool actuators = all || recording::equal_ignoring_case(name, "actuators");
+    const auto named = [&](const auto& force) { return all || force.name == name; };
+    const auto actuator = [&](const auto& force) { return actuators || force.name == name; };
+    if (muscles || actuators) model.muscles.clear();  // a muscle is an actuator, too
+    drop(model.muscles, named);
+    drop(model.actuators, actuator);
+    drop(model.point_actuators, actuator);
+    drop(model.torque_actuators, actuator);
+    drop(model.path_actuators, actuator);
+    drop(model.passive_forces, named);
+  }
+  for (const std::string& text : model.unsupported)
+    notes.push_back(fmt::format("{}: {}", path.string(), text));
+  return model;
+}
+
+}  // namespace myoid

@@ -1,0 +1,109 @@
+#include <limits>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "myoid/core/index.h"
+#include "myoid/dynamics/inverse_dynamics.h"
+#include "myoid/forces/actuation.h"
+#include "myoid/forces/actuator_columns.h"
+#include "myoid/forces/static_optimization.h"
+#include "myoid/opensim_tools/analysis_reports.h"
+#include "myoid/opensim_tools/opensim_files.h"
+
+namespace myoid {
+namespace {
+
+/// The model with muscles and actuators that can push and pull as much as they must.
+model::BodyModel without_bounds(model::BodyModel model) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  const auto free = [](auto& force) {
+    force.min_control = -kInfinity;
+    force.max_control = kInfinity;
+  };
+  for (model::Muscle& muscle : model.muscles) free(muscle.properties);
+  for (auto& actuator : model.actuators) free(actuator);
+  for (auto& actuator : model.point_actuators) free(actuator);
+  for (auto& actuator : model.torque_actuators) free(actuator);
+  for (auto& actuator : model.path_actuators) free(actuator);
+  return model;
+}
+
+model::BodyModel with_coordinate_actuators_only(model::BodyModel model) {
+  model.actuators.clear();
+  model.point_actuators.clear();
+  model.torque_actuators.clear();
+  model.path_actuators.clear();
+  return with_coordinate_actuators(std::move(model));
+}
+
+/// "<coordinate>_moment", "_force", or the name alone where the coordinate is neither an angle nor
+/// a length.
+std::string column_name(const model::Coordinate& coordinate) {
+  return coordinate.motion == model::MotionType::coupled
+             ? coordinate.name
+             : dynamics::generalized_force_name(coordinate);
+}
+
+}  // namespace
+
+void report_actuation(AnalysisRun& run, pugi::xml_node node) {
+  const TimeSeries& forces = forces_of_states(run);
+  if (forces.channel_count() == 0)
+    run.setup.xml().fail(node, "Actuation: the model has neither muscles nor actuators");
+  forces::Actuation result =
+      forces::actuation(run.model, run.motion, forces,
+                        {.speeds_of_opensim = run.options.compat == model::kOpenSim452,
+                         .progress = run.options.progress});
+  const auto write = [&](const char* quantity, const char* title, const TimeSeries& table) {
+    write_opensim_storage(
+        claim_result(run, analysis_name(node) + quantity), table,
+        {.title = title,
+         .description = "\nThis file contains the forces, the speeds or the powers of the "
+                        "actuators.\nSpeeds of muscles and other paths are rates of lengthening; "
+                        "a positive power does work on the model.\nUnits are S.I. units (seconds, "
+                        "meters, Newtons, radians, Watts)\n\n",
+         .decimals = run.decimals});
+  };
+  write("_force.sto", "ActuatorForces", forces);
+  write("_speed.sto", "ActuatorSpeeds", result.speed);
+  write("_power.sto", "ActuatorPowers", result.power_w);
+  run.result.frames = static_cast<int>(run.motion.sample_count());
+}
+
+void report_inverse_dynamics(AnalysisRun& run, pugi::xml_node node) {
+  const auto& xml = run.setup.xml();
+  const auto path = claim_result(run, analysis_name(node) + ".sto");
+  const bool use_forces =
+      xml.flag(node, "use_model_force_set", xml.flag(node, "use_model_actuator_set", true));
+  const model::BodyModel model =
+      without_bounds(use_forces ? run.model : with_coordinate_actuators_only(run.model));
+  std::size_t unknown = 0;
+  for (std::size_t c = 0; c < model.coordinates.size(); ++c)
+    if (!model.is_constrained(static_cast<int>(c))) ++unknown;
+  const std::size_t count = forces::actuators_of(model).size();
+  if (count < unknown) {
+    xml.fail(node, fmt::format("InverseDynamics: {} muscles and actuators for {} coordinates that "
+                               "move; append actuators (<force_set_files>), or set "
+                               "<use_model_force_set> false",
+                               count, unknown));
+  }
+  const forces::StaticOptimizationResult solved =
+      forces::static_optimization(model, run.motion,
+                                  {.muscle_physiology = false,
+                                   .loads = run.loads ? &*run.loads : nullptr,
+                                   .progress = run.options.progress});
+  std::vector<Channel> channels = solved.force.channels();
+  if (!use_forces) {
+    for (Channel& channel : channels)
+      channel.name = column_name(model.coordinates[at(model.coordinate_index(channel.name))]);
+  }
+  write_opensim_storage(path, {solved.force.time_s(), std::move(channels), solved.force.values()},
+                        {.title = "Inverse Dynamics",
+                         .description = "This file contains inverse dynamics results.\n\n",
+                         .decimals = run.decimals});
+  run.result.frames = static_cast<int>(run.motion.sample_count());
+  run.result.frames_failed += solved.frames_failed;
+}
+
+}  // namespace myoid

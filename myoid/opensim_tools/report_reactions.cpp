@@ -1,0 +1,208 @@
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "myoid/core/error.h"
+#include "myoid/core/index.h"
+#include "myoid/files/text_file.h"
+#include "myoid/forces/actuator_columns.h"
+#include "myoid/forces/joint_reaction.h"
+#include "myoid/opensim_tools/analysis_reports.h"
+#include "myoid/opensim_tools/opensim_files.h"
+#include "myoid/osim/osim_frames.h"
+#include "myoid/tables/storage_reader.h"
+
+namespace myoid {
+namespace {
+
+/// One joint that is asked for.
+struct Asked {
+  std::size_t joint = 0;
+  bool on_child = true;
+  model::FixedFrame expressed_in;
+  std::string label;
+};
+
+/// The frame that <express_in_frame> names: ground, the joint's child or parent body, any body, or
+/// an offset frame by its path.
+std::pair<model::FixedFrame, std::string> frame_named(const AnalysisRun& run,
+                                                      pugi::xml_node node,
+                                                      const model::Joint& joint,
+                                                      const std::string& name) {
+  const model::BodyModel& model = run.model;
+  const auto body = [&](model::BodyIndex index) {
+    return std::pair(model::FixedFrame{index, {}}, model.bodies[at(index)].name);
+  };
+  if (const auto index = model.find_body(name)) return body(*index);
+  if (recording::equal_ignoring_case(name, "ground")) return body(0);
+  if (recording::equal_ignoring_case(name, "child")) return body(joint.child);
+  if (recording::equal_ignoring_case(name, "parent")) return body(joint.parent);
+  const std::string last = name.substr(name.find_last_of('/') + 1);
+  const auto file = run.setup.required_file(run.setup.tool(), "model_file");
+  if (const auto frame = model::find_frame(model, file, name)) return {*frame, last};
+  run.setup.xml().fail(node, fmt::format("<express_in_frame>: the model has no frame '{}'; "
+                                         "expected ground, child, parent, a body or the path of a "
+                                         "frame, as /jointset/knee_r/tibia_r_offset",
+                                         name));
+}
+
+std::string lower(std::string text) {
+  for (char& c : text) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c;
+  return text;
+}
+
+/// The entry for the k-th joint of a list with one entry for all or one each.
+std::string entry(const std::vector<std::string>& list, std::size_t k, const char* otherwise) {
+  if (list.empty()) return otherwise;
+  return k < list.size() ? list[k] : list[0];
+}
+
+std::vector<Asked> asked_joints(AnalysisRun& run, pugi::xml_node node) {
+  const auto& xml = run.setup.xml();
+  const model::BodyModel& model = run.model;
+  std::vector<std::string> names = xml.words(node, "joint_names");
+  if (names.empty() || recording::equal_ignoring_case(names[0], "all")) {
+    std::vector<const model::Joint*> joints;
+    for (const model::Joint& joint : model.joints) joints.push_back(&joint);
+    std::stable_sort(joints.begin(), joints.end(),
+                     [](const model::Joint* a, const model::Joint* b) {
+                       return a->place_in_file < b->place_in_file;
+                     });
+    names.clear();
+    for (const model::Joint* joint : joints) names.push_back(joint->name);
+  }
+  const auto list = [&](const char* property) {
+    std::vector<std::string> words = xml.words(node, property);
+    if (words.size() > 1 && words.size() != names.size()) {
+      run.result.notes.push_back(fmt::format("<{}>: {} entries for {} joints; the default is taken",
+                                             property, words.size(), names.size()));
+      words.clear();
+    }
+    return words;
+  };
+  const auto on = list("apply_on_bodies"), in = list("express_in_frame");
+  std::vector<Asked> asked;
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    const auto joint = std::find_if(model.joints.begin(), model.joints.end(),
+                                    [&](const model::Joint& j) { return j.name == names[k]; });
+    if (joint == model.joints.end()) {
+      run.result.notes.push_back(
+          fmt::format("<joint_names>: the model has no '{}'; it is left out", names[k]));
+      continue;
+    }
+    Asked a;
+    a.joint = static_cast<std::size_t>(joint - model.joints.begin());
+    a.on_child = lower(entry(on, k, "child")) == "child";
+    auto [frame, frame_name] = frame_named(run, node, *joint, entry(in, k, "ground"));
+    a.expressed_in = std::move(frame);
+    a.label =
+        fmt::format("{}_on_{}_in_{}", joint->name,
+                    model.bodies[at(a.on_child ? joint->child : joint->parent)].name, frame_name);
+    asked.push_back(std::move(a));
+  }
+  if (asked.empty()) xml.fail(node, "JointReaction: no joint of the list is in the model");
+  return asked;
+}
+
+/// Between two rows along a line, beyond the ends the outer row.
+TimeSeries linear_at(const TimeSeries& file, const Eigen::VectorXd& times) {
+  Eigen::MatrixXd values(times.size(), file.channel_count());
+  const Eigen::VectorXd& t = file.time_s();
+  for (Eigen::Index i = 0; i < times.size(); ++i) {
+    const Eigen::Index before = row_at(t, times[i]);
+    const Eigen::Index after = std::min(before + 1, t.size() - 1);
+    const double share = after > before
+                             ? std::clamp((times[i] - t[before]) / (t[after] - t[before]), 0.0, 1.0)
+                             : 0.0;
+    values.row(i) = (1.0 - share) * file.values().row(before) + share * file.values().row(after);
+  }
+  return {times, file.channels(), std::move(values)};
+}
+
+/// The actuators' forces at the motion's times: from the file or, where that lacks one, as the
+/// muscles have them at their states, other actuators at rest.
+TimeSeries actuator_forces(AnalysisRun& run, pugi::xml_node node) {
+  auto& notes = run.result.notes;
+  const Eigen::VectorXd& times = run.motion.q.time_s();
+  if (const auto path = run.setup.file(node, "forces_file")) {
+    const TimeSeries file = recording::read_storage(*path).data;
+    std::string missing;
+    for (const forces::Actuator& a : forces::actuators_of(run.model))
+      if (!file.find(a.name)) missing += (missing.empty() ? "" : ", ") + a.name;
+    if (missing.empty()) {
+      run.setup.check_range({times[0], times[times.size() - 1]}, file.time_s(), *path, notes);
+      return linear_at(file, times);
+    }
+    notes.push_back(
+        fmt::format("{}: no column for {}; as in OpenSim all forces are those of the "
+                    "muscles' states, and other actuators do nothing",
+                    path->string(), missing));
+  } else {
+    notes.push_back(
+        "JointReaction without <forces_file>: muscles pull by their states, other actuators do "
+        "nothing");
+  }
+  return forces_of_states(run);
+}
+
+}  // namespace
+
+void report_reactions(AnalysisRun& run, pugi::xml_node node) {
+  const std::vector<Asked> asked = asked_joints(run, node);
+  const std::string name = analysis_name(node);
+  const auto path = claim_result(run, name + "_ReactionLoads.sto");
+  const auto loads = forces::joint_reactions(
+      run.model, run.motion, actuator_forces(run, node),
+      {.loads = run.loads ? &*run.loads : nullptr, .progress = run.options.progress});
+  for (const model::PassiveForce& force : run.model.passive_forces) {
+    if (std::holds_alternative<model::PathSpring>(force.law) ||
+        std::holds_alternative<model::Ligament>(force.law)) {
+      run.result.notes.push_back(fmt::format(
+          "{}: the pull of '{}' ({}) moves the model, but is not part of what the joints carry",
+          name, force.name, force.class_name));
+    }
+  }
+  std::vector<Channel> channels;
+  for (const Asked& a : asked) {
+    for (const char* part : {"_fx", "_fy", "_fz"})
+      channels.push_back({a.label + part, Unit::newton});
+    for (const char* part : {"_mx", "_my", "_mz"})
+      channels.push_back({a.label + part, Unit::newton_meter});
+    for (const char* part : {"_px", "_py", "_pz"})
+      channels.push_back({a.label + part, Unit::meter});
+  }
+  Eigen::MatrixXd values(run.motion.sample_count(), static_cast<Eigen::Index>(channels.size()));
+  for (Eigen::Index i = 0; i < values.rows(); ++i) {
+    const forces::JointLoads& frame = loads[at(i)];
+    for (std::size_t k = 0; k < asked.size(); ++k) {
+      const model::Joint& joint = run.model.joints[asked[k].joint];
+      const Vec3 child_G = frame.X_GB[at(joint.child)] * joint.X_BM.p;
+      const Vec3 parent_G = frame.X_GB[at(joint.parent)] * joint.X_PF.p;
+      Vec3 force = frame.on_child[asked[k].joint].f_G;
+      Vec3 moment = frame.on_child[asked[k].joint].m_G;
+      Vec3 point = child_G;
+      if (!asked[k].on_child) {
+        point = parent_G;
+        moment = -(moment + (child_G - parent_G).cross(force));
+        force = -force;
+      }
+      const Pose X_GE = frame.X_GB[at(asked[k].expressed_in.body)] * asked[k].expressed_in.X_BF;
+      const auto column = static_cast<Eigen::Index>(9 * k);
+      values.row(i).segment<3>(column) = (X_GE.R.transpose() * force).transpose();
+      values.row(i).segment<3>(column + 3) = (X_GE.R.transpose() * moment).transpose();
+      values.row(i).segment<3>(column + 6) = (X_GE.inverse() * point).transpose();
+    }
+  }
+  write_opensim_storage(
+      path, {run.motion.q.time_s(), std::move(channels), std::move(values)},
+      {.title = "Joint Reaction Loads",
+       .description = "\nThis file contains the reaction forces and moments\napplied to the "
+                      "specified body of a joint pair and expressed  in the specified "
+                      "reference frame.\n\nUnits are S.I. units (seconds, meters, Newtons, "
+                      "...)\n\n",
+       .decimals = run.decimals});
+  run.result.frames = static_cast<int>(run.motion.sample_count());
+}
+
+}  // namespace myoid

@@ -1,0 +1,35 @@
+#include "myoid/opensim_tools/run_tool.h"
+
+#include "myoid/opensim_tools/tool_forward.h"
+#include "myoid/opensim_tools/tool_orientations.h"
+#include "myoid/opensim_tools/tool_stages.h"
+
+namespace myoid {
+
+ToolResult run_tool(const std::filesystem::path& path, const ToolOptions& options) {
+  const OpensimSetup setup(path, options.files);
+  ToolResult result;
+  result.inputs = setup.inputs();
+  result.notes = setup.notes();
+  result.tool = setup.kind();
+  if (result.tool == "InverseKinematicsTool") {
+    run_inverse_kinematics(setup, options, result);
+  } else if (result.tool == "InverseDynamicsTool") {
+    run_inverse_dynamics(setup, options, result);
+  } else if (result.tool == "ScaleTool") {
+    run_scale(setup, options, result);
+  } else if (result.tool == "ForwardTool") {
+    run_forward(setup, options, result);
+  } else if (result.tool == "IMUPlacer") {
+    run_imu_placer(setup, options, result);
+  } else if (result.tool == "IMUInverseKinematicsTool") {
+    run_imu_inverse_kinematics(setup, options, result);
+  } else {
+    run_analyses(setup, options, result);
+  }
+  const std::vector<std::string>& defaulted = setup.xml().defaulted();
+  result.notes.insert(result.notes.end(), defaulted.begin(), defaulted.end());
+  return result;
+}
+
+}  // namespace myoid

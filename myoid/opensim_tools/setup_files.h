@@ -1,0 +1,16 @@
+#pragma once
+
+#include <filesystem>
+
+namespace myoid {
+
+/// Files that stand in for those a set-up names; an empty one leaves the set-up's own.
+struct SetupFiles {
+  std::filesystem::path model;
+  /// The recorded motion: coordinates or states, for inverse kinematics and scaling the markers.
+  std::filesystem::path motion;
+  std::filesystem::path external_loads;
+  std::filesystem::path out;  ///< Folder of all results.
+};
+
+}  // namespace myoid

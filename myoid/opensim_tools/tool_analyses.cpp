@@ -1,0 +1,198 @@
+#include <algorithm>
+#include <memory>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "myoid/core/error.h"
+#include "myoid/files/text_file.h"
+#include "myoid/files/toml_table.h"
+#include "myoid/math/spline.h"
+#include "myoid/opensim_tools/analysis_reports.h"
+#include "myoid/opensim_tools/opensim_files.h"
+#include "myoid/opensim_tools/tool_stages.h"
+#include "myoid/signals/opensim_lowpass.h"
+#include "myoid/tables/storage_reader.h"
+
+namespace myoid {
+namespace {
+
+using model::OsimXml;
+
+/// Derivatives of every channel at its samples, by the natural quintic spline.
+TimeSeries derivative(const TimeSeries& series, const std::vector<Channel>& channels) {
+  Eigen::MatrixXd values(series.sample_count(), series.channel_count());
+  // Fewer samples than a spline needs: postures, at rest.
+  if (series.sample_count() < 4)
+    return {series.time_s(), channels, Eigen::MatrixXd::Zero(values.rows(), values.cols())};
+  const math::SplineKnots knots(series.time_s());
+  for (Eigen::Index c = 0; c < values.cols(); ++c)
+    values.col(c) = knots.interpolate(series.values().col(c)).evaluate(series.time_s()).first;
+  return {series.time_s(), channels, std::move(values)};
+}
+
+std::vector<Channel> channels_of(const model::BodyModel& model, int order) {
+  std::vector<Channel> channels;
+  for (const model::Coordinate& c : model.coordinates)
+    channels.push_back({c.name, kinematics::coordinate_unit(c, order)});
+  return channels;
+}
+
+/// Positions, speeds and accelerations as OpenSim forms them: speeds are the derivative of the
+/// spline through the positions (or given), accelerations that of the spline through the speeds;
+/// zero where nobody asks for them.
+kinematics::JointMotion motion_of(const model::BodyModel& model,
+                                  TimeSeries q,
+                                  std::optional<TimeSeries> speeds,
+                                  bool with_accelerations) {
+  TimeSeries u = speeds ? std::move(*speeds) : derivative(q, channels_of(model, 1));
+  TimeSeries udot = with_accelerations
+                        ? derivative(u, channels_of(model, 2))
+                        : TimeSeries(u.time_s(), channels_of(model, 2),
+                                     Eigen::MatrixXd::Zero(u.sample_count(), u.channel_count()));
+  return {std::move(q), std::move(u), std::move(udot)};
+}
+
+/// The range is compared with the times of the file: a filter adds some at both ends.
+kinematics::JointMotion read_motion(AnalysisRun& run,
+                                    const OpensimSetup& setup,
+                                    std::pair<double, double> range_s,
+                                    bool with_accelerations) {
+  const auto& xml = setup.xml();
+  const auto tool = setup.tool();
+  auto& notes = run.result.notes;
+  if (const auto states = setup.file(tool, "states_file")) {
+    for (const char* other : {"coordinates_file", "speeds_file"}) {
+      if (setup.names_file(tool, other))
+        notes.push_back(fmt::format("<{}> is not read: there is a <states_file>", other));
+    }
+    TimeSeries q = read_coordinates(run.model, *states, MissingCoordinate::default_value, notes);
+    setup.check_range(range_s, q.time_s(), *states, notes);
+    read_muscle_states(run, *states);
+    return motion_of(run.model, std::move(q), read_speeds(run.model, *states, false, notes),
+                     with_accelerations);
+  }
+  const auto path = setup.file(tool, "coordinates_file");
+  if (!path) {
+    xml.fail(tool, "expected a <states_file> or a <coordinates_file>: the motion to analyze");
+  }
+  TimeSeries q = read_coordinates(run.model, *path, MissingCoordinate::zero, notes);
+  setup.check_range(range_s, q.time_s(), *path, notes);
+  const double cutoff_hz = xml.number(tool, "lowpass_cutoff_frequency_for_coordinates", -1.0);
+  if (cutoff_hz > 0.0) q = signals::opensim_lowpass(q, cutoff_hz);
+  std::optional<TimeSeries> speeds;
+  if (const auto file = setup.file(tool, "speeds_file")) {
+    speeds = read_speeds(run.model, *file, true, notes);
+    if (!speeds) {
+      throw InvalidInput(fmt::format("{}: no column is the speed of a coordinate", file->string()));
+    }
+    if (speeds->time_s() != q.time_s()) {
+      throw InvalidInput(
+          fmt::format("{}: its times are not those of the coordinates ({} and {} rows); use "
+                      "<lowpass_cutoff_frequency_for_coordinates> -1 with speeds of the same rows",
+                      file->string(), speeds->sample_count(), q.sample_count()));
+    }
+  }
+  return motion_of(run.model, std::move(q), std::move(speeds), with_accelerations);
+}
+
+TimeSeries chosen_rows(const TimeSeries& series, const std::vector<Eigen::Index>& rows) {
+  return {series.time_s()(rows), series.channels(), series.values()(rows, Eigen::all)};
+}
+
+/// The rows that an analysis records: the first, those whose number its interval divides, the last.
+std::vector<Eigen::Index> recorded_rows(Eigen::Index first, Eigen::Index last, int interval) {
+  std::vector<Eigen::Index> rows;
+  for (Eigen::Index i = first; i <= last; ++i) {
+    if (i == first || i == last || i % std::max(1, interval) == 0) rows.push_back(i);
+  }
+  return rows;
+}
+
+void read_loads(AnalysisRun& run, const OpensimSetup& setup) {
+  const auto file = setup.file(setup.tool(), "external_loads_file");
+  if (!file) return;
+  run.loads = dynamics::read_external_loads(run.model, *file);
+  auto& notes = run.result.notes;
+  notes.insert(notes.end(), run.loads->notes.begin(), run.loads->notes.end());
+}
+
+/// Throws ReadError for a class that no analysis of OpenSim has: a misspelt one would leave its
+/// files out unseen.
+void require_opensim_analysis(const OsimXml& xml, pugi::xml_node node) {
+  static const std::vector<std::string> kOfOpensim{
+      "Actuation",       "BodyKinematics",       "ForceReporter",
+      "IMUDataReporter", "InducedAccelerations", "InverseDynamics",
+      "JointReaction",   "Kinematics",           "MomentArmAnalysis",
+      "MuscleAnalysis",  "OutputReporter",       "PointKinematics",
+      "ProbeReporter",   "StatesReporter",       "StaticOptimization"};
+  const std::string kind = node.name();
+  if (std::find(kOfOpensim.begin(), kOfOpensim.end(), kind) != kOfOpensim.end()) return;
+  const auto near = recording::nearest_word(kind, kOfOpensim);
+  xml.fail(node, fmt::format("OpenSim has no analysis <{}>{}; there are {}", kind,
+                             near ? fmt::format(" (did you mean {}?)", *near) : "",
+                             fmt::join(kOfOpensim, ", ")));
+}
+
+}  // namespace
+
+void run_analyses(const OpensimSetup& setup, const ToolOptions& options, ToolResult& result) {
+  const auto& xml = setup.xml();
+  const auto tool = setup.tool();
+  AnalysisRun run{.setup = setup, .options = options, .result = result};
+  run.model = setup_model(setup, options.compat, {}, result.notes);
+  run.decimals = static_cast<int>(xml.number(tool, "output_precision", 8.0));
+  if (run.decimals < 1 || run.decimals > 30) {
+    xml.fail(tool, fmt::format("<output_precision> {}, expected 1 to 30", run.decimals));
+  }
+  run.equilibrium = xml.flag(tool, "solve_for_equilibrium_for_auxiliary_states", false);
+  const auto set = xml.property(tool, "AnalysisSet");
+  std::vector<pugi::xml_node> analyses;
+  for (const auto node : OsimXml::objects(set)) {
+    if (node.type() == pugi::node_element && xml.flag(node, "on", true)) analyses.push_back(node);
+  }
+  if (analyses.empty()) xml.fail(tool, "no analysis is on: there is nothing to do");
+  for (const auto node : analyses) {
+    if (!is_known_analysis(node.name())) {
+      require_opensim_analysis(xml, node);
+      result.notes.push_back(
+          fmt::format("analysis {} is not supported: its files are not written; {} are",
+                      node.name(), known_analyses()));
+    }
+  }
+  read_loads(run, setup);
+  const bool accelerates = std::any_of(analyses.begin(), analyses.end(), [](pugi::xml_node node) {
+    const std::string_view name = node.name();
+    return name == "StaticOptimization" || name == "InverseDynamics";
+  });
+  const double start_s = xml.number(tool, "initial_time", 0.0);
+  const double end_s = xml.number(tool, "final_time", 1.0);
+  if (!(start_s <= end_s)) {
+    xml.fail(tool, fmt::format("<initial_time> {} and <final_time> {}, expected the first not "
+                               "after the second",
+                               start_s, end_s));
+  }
+  const kinematics::JointMotion all = read_motion(run, setup, {start_s, end_s}, accelerates);
+  const Eigen::VectorXd& times = all.q.time_s();
+  const Eigen::Index first = row_at(times, start_s), last = row_at(times, end_s);
+  if (run.loads) {
+    note_missing_loads(*run.loads, *setup.file(tool, "external_loads_file"),
+                       times.segment(first, last - first + 1), result.notes);
+  }
+  for (const auto node : analyses) {
+    if (!is_known_analysis(node.name())) continue;
+    const auto rows =
+        recorded_rows(first, last, static_cast<int>(xml.number(node, "step_interval", 1.0)));
+    if (rows != run.rows) {
+      run.motion = {chosen_rows(all.q, rows), chosen_rows(all.qdot, rows),
+                    chosen_rows(all.qddot, rows)};
+      run.rows = rows;
+      run.state_forces.reset();
+      run.accelerations.reset();
+    }
+    run_analysis(run, node);
+  }
+}
+
+}  // namespace myoid

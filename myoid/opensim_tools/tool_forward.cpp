@@ -1,0 +1,237 @@
+#include "myoid/opensim_tools/tool_forward.h"
+
+#include <algorithm>
+#include <set>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "myoid/core/error.h"
+#include "myoid/core/index.h"
+#include "myoid/forces/actuator_columns.h"
+#include "myoid/opensim_tools/analysis_reports.h"
+#include "myoid/opensim_tools/model_controls.h"
+#include "myoid/opensim_tools/opensim_files.h"
+#include "myoid/opensim_tools/tool_stages.h"
+#include "myoid/simulation/simulation_model.h"
+
+namespace myoid {
+namespace {
+
+using simulation::Signal;
+using simulation::SimulationModel;
+using simulation::SimulationStart;
+
+/// The row of a states file that the motion starts from: posture, speeds, activations and fibers.
+SimulationStart start_of(AnalysisRun& run, const SimulationModel& model, double& start_s) {
+  auto& notes = run.result.notes;
+  const auto path = run.setup.file(run.setup.tool(), "states_file");
+  if (!path) {
+    notes.push_back("there is no <states_file>: the motion starts from the model's default state");
+    return simulation::default_start(model, start_s);
+  }
+  const TimeSeries q = read_coordinates(run.model, *path, MissingCoordinate::default_value, notes);
+  const Eigen::Index row = row_at(q.time_s(), start_s);
+  start_s = q.time_s()[row];
+  SimulationStart start = simulation::default_start(model, start_s);
+  const auto speeds = read_speeds(run.model, *path, false, notes);
+  for (std::size_t c = 0; c < start.q.size(); ++c) {
+    const auto column = static_cast<Eigen::Index>(c);
+    const model::Coordinate& k = model.body.coordinates[c];
+    if (k.prescribed && !k.locked) continue;
+    start.q[c] = q.values()(row, column);
+    start.qdot[c] = speeds && !k.locked ? speeds->values()(row, column) : 0.0;
+  }
+  read_muscle_states(run, *path);
+  for (const simulation::ModelMuscle& muscle : model.muscles) {
+    if (run.activation.size() > 0) {
+      const double a = run.activation(row, muscle.index);
+      start.activation.push_back({a, a});
+    }
+    if (run.fiber_length_m.size() > 0 && !run.equilibrium)
+      start.fiber.push_back({run.fiber_length_m(row, muscle.index), 0.0});
+  }
+  return start;
+}
+
+/// Every muscle's own control, kept within its bounds as OpenSim keeps it; without one it rests.
+std::vector<Signal> excitations_of(const SimulationModel& model,
+                                   const ModelControls& controls,
+                                   std::vector<std::string>& notes) {
+  std::vector<Signal> result;
+  std::string without;
+  for (const simulation::ModelMuscle& muscle : model.muscles) {
+    const model::MuscleProperties& p = model.body.muscles[at(muscle.index)].properties;
+    const double least = std::clamp(p.minimum_activation, 0.0, 1.0);
+    const auto control = controls.find(muscle.name);
+    if (control == controls.end()) {
+      without += (without.empty() ? "" : ", ") + muscle.name;
+      result.push_back(simulation::constant(least));
+      continue;
+    }
+    Signal signal = control->second;
+    for (double& value : signal.value) value = std::clamp(value, least, 1.0);
+    result.push_back(std::move(signal));
+  }
+  if (!without.empty())
+    notes.push_back(fmt::format("no control for {}: at their least activation", without));
+  return result;
+}
+
+/// The sum of controls times strengths, at the nodes of all.
+Signal sum_of(const std::vector<std::pair<double, const Signal*>>& parts) {
+  std::set<double> times;
+  for (const auto& [strength, signal] : parts)
+    times.insert(signal->time_s.begin(), signal->time_s.end());
+  Signal sum;
+  for (const double t : times) {
+    double value = 0.0;
+    for (const auto& [strength, signal] : parts)
+      value += strength * simulation::value_at(*signal, t);
+    sum.time_s.push_back(t);
+    sum.value.push_back(value);
+  }
+  return sum;
+}
+
+/// Forces along coordinates by the controls of CoordinateActuators; empty if there are none.
+std::vector<Signal> coordinate_forces(const OpensimSetup& setup,
+                                      const model::BodyModel& model,
+                                      const ModelControls& controls) {
+  std::vector<std::vector<std::pair<double, const Signal*>>> parts(model.coordinates.size());
+  bool any = false;
+  for (const forces::Actuator& a : forces::actuators_of(model)) {
+    const auto control = controls.find(a.name);
+    if (control == controls.end() || a.kind == forces::Actuator::Kind::muscle) continue;
+    if (a.kind != forces::Actuator::Kind::coordinate) {
+      const auto& values = control->second.value;
+      if (std::all_of(values.begin(), values.end(), [](double v) { return v == 0.0; })) continue;
+      setup.xml().fail(
+          setup.tool(),
+          fmt::format("actuator '{}' acts on bodies and is controlled: such forces are not part of "
+                      "forward dynamics here; muscles and CoordinateActuators are",
+                      a.name));
+    }
+    const model::CoordinateActuator& actuator = model.actuators[a.index];
+    parts[at(actuator.coordinate)].emplace_back(actuator.optimal_force, &control->second);
+    any = true;
+  }
+  std::vector<Signal> result;
+  if (!any) return result;
+  for (const auto& part : parts)
+    result.push_back(part.empty() ? simulation::constant(0.0) : sum_of(part));
+  return result;
+}
+
+/// States by the paths that OpenSim gives them.
+TimeSeries states_table(const SimulationModel& model, const simulation::Simulation& s) {
+  std::vector<Channel> channels;
+  std::vector<Eigen::VectorXd> columns;
+  const auto add = [&](std::string name, Unit unit, Eigen::VectorXd values) {
+    channels.push_back({std::move(name), unit});
+    columns.push_back(std::move(values));
+  };
+  for (const model::Coordinate& c : model.body.coordinates) {
+    const std::string path =
+        fmt::format("/jointset/{}/{}/", model.body.joints[at(c.joint)].name, c.name);
+    const bool turns = c.motion == model::MotionType::rotational;
+    const Unit unit = turns ? Unit::radian : Unit::dimensionless;
+    add(path + "value", unit, s.motion.column(c.name));
+    add(path + "speed", unit, s.motion.column(c.name + "_speed"));
+  }
+  for (const simulation::ModelMuscle& muscle : model.muscles) {
+    const std::string path = "/forceset/" + muscle.name + "/";
+    add(path + "activation", Unit::dimensionless, s.activation.column(muscle.name));
+    add(path + "fiber_length", Unit::dimensionless, s.fiber_length.column(muscle.name));
+  }
+  Eigen::MatrixXd values(s.motion.sample_count(), static_cast<Eigen::Index>(columns.size()));
+  for (Eigen::Index c = 0; c < values.cols(); ++c) values.col(c) = columns[at(c)];
+  return {s.motion.time_s(), std::move(channels), std::move(values)};
+}
+
+TimeSeries controls_table(const model::BodyModel& model,
+                          const ModelControls& controls,
+                          const simulation::Simulation& s) {
+  std::vector<Channel> channels;
+  const std::vector<forces::Actuator> actuators = forces::actuators_of(model);
+  const Eigen::VectorXd& times = s.motion.time_s();
+  Eigen::MatrixXd values =
+      Eigen::MatrixXd::Zero(times.size(), static_cast<Eigen::Index>(actuators.size()));
+  for (std::size_t k = 0; k < actuators.size(); ++k) {
+    channels.push_back({actuators[k].name, Unit::dimensionless});
+    const auto control = controls.find(actuators[k].name);
+    if (control == controls.end()) continue;
+    for (Eigen::Index i = 0; i < times.size(); ++i)
+      values(i, static_cast<Eigen::Index>(k)) = simulation::value_at(control->second, times[i]);
+  }
+  return {times, std::move(channels), std::move(values)};
+}
+
+/// What the set-up asks for that is not done here.
+void refuse_and_note(const OpensimSetup& setup, std::vector<std::string>& notes) {
+  const auto& xml = setup.xml();
+  const std::string loads = xml.word(setup.tool(), "external_loads_file");
+  if (!loads.empty() && loads != "Unassigned") {
+    xml.fail(xml.property(setup.tool(), "external_loads_file"),
+             "loads on bodies are not part of forward dynamics here; leave them out, or use "
+             "InverseDynamicsTool and StaticOptimization for a motion that is known");
+  }
+  for (const auto node : model::OsimXml::objects(xml.property(setup.tool(), "AnalysisSet"))) {
+    if (node.type() != pugi::node_element || !xml.flag(node, "on", true)) continue;
+    notes.push_back(
+        fmt::format("analysis {} is not done: run an AnalyzeTool with it and "
+                    "<states_file> {}_states.sto",
+                    node.name(), setup.name()));
+  }
+}
+
+}  // namespace
+
+void run_forward(const OpensimSetup& setup, const ToolOptions& options, ToolResult& result) {
+  const auto& xml = setup.xml();
+  const auto tool = setup.tool();
+  refuse_and_note(setup, result.notes);
+  AnalysisRun run{.setup = setup, .options = options, .result = result};
+  run.model = setup_model(setup, options.compat, {}, result.notes);
+  run.decimals = std::clamp(static_cast<int>(xml.number(tool, "output_precision", 8.0)), 1, 30);
+  run.equilibrium = xml.flag(tool, "solve_for_equilibrium_for_auxiliary_states", false);
+  const auto states_file = claim_result(run, "states.sto");
+  const auto degrees_file = claim_result(run, "states_degrees.mot");
+  const auto controls_file = claim_result(run, "controls.sto");
+  const ModelControls controls = read_model_controls(setup);
+  const SimulationModel model = simulation::make_simulation_model(run.model, {.stops = false});
+  for (const std::string& note : model.notes) {
+    if (note.find("ctuator") == std::string::npos) result.notes.push_back(note);
+  }
+  double start_s = xml.number(tool, "initial_time", 0.0);
+  const SimulationStart start = start_of(run, model, start_s);
+  simulation::SimulationOptions how;
+  how.end_s = xml.number(tool, "final_time", 1.0);
+  if (!(how.end_s > start_s)) {
+    xml.fail(tool, fmt::format("<final_time> {} s, expected after the start at {} s", how.end_s,
+                               start_s));
+  }
+  how.ode.relative_tolerance = std::min(1e-8, xml.number(tool, "integrator_error_tolerance", 1e-5));
+  how.ode.absolute_tolerance = 0.01 * how.ode.relative_tolerance;
+  how.progress = options.progress;
+  const simulation::Simulation done =
+      simulation::simulate(model,
+                           {.excitation = excitations_of(model, controls, result.notes),
+                            .external = coordinate_forces(setup, run.model, controls),
+                            .device = simulation::default_devices(model)},
+                           start, how);
+  const TimeSeries states = states_table(model, done);
+  write_opensim_storage(states_file, states, {.title = "states", .decimals = run.decimals});
+  write_opensim_storage(degrees_file, states,
+                        {.title = setup.name(), .in_degrees = true, .decimals = run.decimals});
+  write_opensim_storage(controls_file, controls_table(run.model, controls, done),
+                        {.title = "ModelControls", .decimals = run.decimals});
+  result.frames = static_cast<int>(states.sample_count());
+  result.summary = fmt::format("{} to {} s, {} rows", start_s, done.reached_s, result.frames);
+  if (done.status != math::OdeStatus::done) {
+    result.frames_failed = 1;
+    result.notes.push_back(fmt::format("not simulated to the end: {}", done.message));
+  }
+}
+
+}  // namespace myoid

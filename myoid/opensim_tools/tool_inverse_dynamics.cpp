@@ -1,0 +1,144 @@
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "myoid/core/error.h"
+#include "myoid/dynamics/inverse_dynamics.h"
+#include "myoid/files/named_file.h"
+#include "myoid/forces/muscle_analysis.h"
+#include "myoid/kinematics/angular_speeds.h"
+#include "myoid/opensim_tools/opensim_files.h"
+#include "myoid/opensim_tools/tool_stages.h"
+#include "myoid/signals/opensim_lowpass.h"
+
+namespace myoid {
+namespace {
+
+/// Generalized forces less the moments of the muscles whose fibers have their default lengths at
+/// their default activations. Every coordinate is on its own, as everywhere in inverse dynamics.
+TimeSeries without_muscles(const model::BodyModel& model,
+                           const kinematics::JointMotion& motion,
+                           const TimeSeries& tau,
+                           const Progress& progress) {
+  model::BodyModel uncoupled = model;
+  uncoupled.couplers.clear();
+  uncoupled.constraints.clear();
+  forces::MuscleAnalysisOptions options{.equilibrium = false, .progress = progress};
+  for (std::size_t m = 0; m < model.muscles.size(); ++m)
+    if (model.muscles[m].applies_force) options.muscles.push_back(static_cast<int>(m));
+  for (std::size_t c = 0; c < model.coordinates.size(); ++c)
+    options.coordinates.push_back(static_cast<int>(c));
+  if (options.muscles.empty()) return tau;
+  Eigen::MatrixXd values = tau.values();
+  const forces::MuscleAnalysis analysis = forces::muscle_analysis(uncoupled, motion, options);
+  for (const auto& [name, table] : analysis.tables) {
+    if (!name.starts_with("Moment_")) continue;
+    values.col(model.coordinate_index(name.substr(7))) -= table.values().rowwise().sum();
+  }
+  return {tau.time_s(), tau.channels(), std::move(values)};
+}
+
+/// Says how far OpenSim's moments are from right ones where it takes rates of angles for angular
+/// velocities.
+void note_angular_speeds(const model::BodyModel& model,
+                         const kinematics::JointMotion& motion,
+                         const dynamics::InverseDynamicsOptions& options,
+                         const TimeSeries& tau,
+                         std::vector<std::string>& notes) {
+  const std::vector<int> joints = kinematics::angular_speed_joints(model);
+  if (joints.empty()) return;
+  const bool as_opensim = kinematics::takes_rates_for_speeds(model);
+  model::BodyModel other = model;
+  other.compat = as_opensim ? model::Compat{} : model::kOpenSim452;
+  const TimeSeries others = dynamics::inverse_dynamics(other, motion, options);
+  const Eigen::MatrixXd difference = (tau.values() - others.values()).cwiseAbs();
+  Eigen::Index row = 0, column = 0;
+  const double largest = difference.maxCoeff(&row, &column);
+  std::string names;
+  for (const int j : joints) {
+    const model::Joint& joint = model.joints[static_cast<std::size_t>(j)];
+    names += fmt::format("{}'{}' ({})", names.empty() ? "" : ", ", joint.name, joint.class_name);
+  }
+  notes.push_back(fmt::format(
+      "joints {}: OpenSim takes the rates of their angles for angular velocities; {}; the largest "
+      "difference is {:.3g} {}, {} at {:.4g} s",
+      names, as_opensim ? "so does this result, --compat exact does not" : "this result does not",
+      largest, tau.channels()[static_cast<std::size_t>(column)].unit == Unit::newton ? "N" : "N m",
+      tau.channels()[static_cast<std::size_t>(column)].name, tau.time_s()[row]));
+}
+
+/// Where the result goes: a folder in its name does not count, and without an extension it is .sto,
+/// as in OpenSim.
+std::filesystem::path force_file(const OpensimSetup& setup, std::vector<std::string>& notes) {
+  const std::string text = setup.xml().word(setup.tool(), "output_gen_force_file");
+  std::filesystem::path name = recording::last_part(text.empty() ? "inverse_dynamics" : text);
+  if (name.extension().empty()) name += ".sto";
+  const auto path = setup.results_folder() / name;
+  if (text.find_first_of("/\\") != std::string::npos) {
+    notes.push_back(
+        fmt::format("<output_gen_force_file> '{}': only the name of the file counts, as "
+                    "in OpenSim; it is {}",
+                    text, path.string()));
+  }
+  return path;
+}
+
+}  // namespace
+
+void run_inverse_dynamics(const OpensimSetup& setup,
+                          const ToolOptions& options,
+                          ToolResult& result) {
+  const auto& xml = setup.xml();
+  const auto tool = setup.tool();
+  const auto out = force_file(setup, result.notes);
+  claim_file(options, out, result);
+  const auto excluded = xml.words(tool, "forces_to_exclude");
+  const model::BodyModel model = setup_model(setup, options.compat, excluded, result.notes);
+  if (!model.muscles.empty()) {
+    result.notes.push_back(
+        options.compat.class_fiber_length
+            ? "forces_to_exclude does not name the muscles: as in OpenSim they pull with their "
+              "default activations and fiber lengths (0.1 m where the model gives none)"
+            : "forces_to_exclude does not name the muscles: they pull with their default "
+              "activations and fiber lengths (optimal ones where the model gives none; OpenSim "
+              "takes 0.1 m)");
+  }
+  if (!xml.words(tool, "joints_to_report_body_forces").empty())
+    result.notes.push_back("joints_to_report_body_forces: body forces at joints are not written");
+  const auto motion_file = setup.required_file(tool, "coordinates_file");
+  TimeSeries q =
+      read_coordinates(model, motion_file, MissingCoordinate::default_value, result.notes);
+  const auto [start_s, end_s] = setup.time_range(tool, "time_range");
+  setup.check_range({start_s, end_s}, q.time_s(), motion_file, result.notes);
+  const double cutoff_hz = xml.number(tool, "lowpass_cutoff_frequency_for_coordinates", -1.0);
+  if (cutoff_hz > 0.0) q = signals::opensim_lowpass(q, cutoff_hz);
+  kinematics::JointMotion motion = kinematics::joint_motion(model, q).motion;
+  const Eigen::Index first = row_at(motion.q.time_s(), start_s);
+  const Eigen::Index last = row_at(motion.q.time_s(), end_s);
+  motion = {rows_of(motion.q, first, last), rows_of(motion.qdot, first, last),
+            rows_of(motion.qddot, first, last)};
+  dynamics::InverseDynamicsOptions dynamics_options{.passive_forces = true};
+  dynamics::ExternalLoads loads;
+  if (const auto file = setup.file(tool, "external_loads_file")) {
+    loads = dynamics::read_external_loads(model, *file);
+    dynamics_options.loads = &loads;
+    result.notes.insert(result.notes.end(), loads.notes.begin(), loads.notes.end());
+    note_missing_loads(loads, *file, motion.q.time_s(), result.notes);
+  }
+  TimeSeries tau = dynamics::inverse_dynamics(model, motion, dynamics_options);
+  note_angular_speeds(model, motion, dynamics_options, tau, result.notes);
+  if (!model.muscles.empty()) tau = without_muscles(model, motion, tau, options.progress);
+  // OpenSim's columns are in the order of the tree.
+  std::vector<std::string> columns;
+  for (const model::Joint& joint : model.joints) {
+    for (const int c : joint.coordinates)
+      columns.push_back(
+          dynamics::generalized_force_name(model.coordinates[static_cast<std::size_t>(c)]));
+  }
+  write_opensim_storage(out, tau.select(columns), {.title = "Inverse Dynamics Generalized Forces"});
+  result.frames = static_cast<int>(tau.sample_count());
+  result.summary = fmt::format("{} frames, {} generalized forces", result.frames, columns.size());
+}
+
+}  // namespace myoid

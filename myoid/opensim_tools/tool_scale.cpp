@@ -1,0 +1,251 @@
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "myoid/core/error.h"
+#include "myoid/core/index.h"
+#include "myoid/files/atomic_file.h"
+#include "myoid/files/text_file.h"
+#include "myoid/model/constraints.h"
+#include "myoid/model/kinematic_tree.h"
+#include "myoid/model/muscle_path.h"
+#include "myoid/opensim_tools/marker_placer.h"
+#include "myoid/opensim_tools/opensim_files.h"
+#include "myoid/opensim_tools/tool_stages.h"
+#include "myoid/osim/osim_editor.h"
+#include "myoid/osim/osim_reader.h"
+
+namespace myoid {
+namespace {
+
+using model::OsimXml;
+
+model::BodyState default_state(const model::BodyModel& model) {
+  model::BodyState state = model::make_state(model);
+  model::compute_poses(model, model::assemble(model, model.default_q()).q, state);
+  return state;
+}
+
+/// Factor of one measurement: the mean over its pairs of measured by model distance.
+std::optional<double> measured_factor(const Scaling& scaling,
+                                      pugi::xml_node measurement,
+                                      const model::BodyModel& model,
+                                      const model::BodyState& state,
+                                      const recording::MarkerSeries& markers,
+                                      std::pair<double, double> range) {
+  double sum = 0.0;
+  int count = 0;
+  const std::string name = OsimXml::name_of(measurement);
+  const auto refuse = [&](const std::string& why) {
+    scaling.result.notes.push_back(fmt::format("measurement '{}' is not used: {}", name, why));
+    return std::nullopt;
+  };
+  const auto [first, last] = frames_in(markers, range);
+  for (const auto pair : OsimXml::objects(measurement.child("MarkerPairSet"))) {
+    if (pair.type() != pugi::node_element) continue;
+    const auto names = scaling.setup.xml().words(pair, "markers");
+    if (names.size() != 2)
+      scaling.setup.xml().fail(
+          pair, fmt::format("<markers>: expected two names, found {}", names.size()));
+    Vec3 p[2];
+    Eigen::Index column[2];
+    for (std::size_t k = 0; k < 2; ++k) {
+      const auto in_model = model.find_marker(names[k]);
+      if (!in_model) return refuse(fmt::format("the model has no marker '{}'", names[k]));
+      const model::Marker& marker = model.markers[at(*in_model)];
+      p[k] = state.X_GB[at(marker.body)] * marker.p_BM;
+      const auto found = std::find(markers.names.begin(), markers.names.end(), names[k]);
+      if (found == markers.names.end())
+        return refuse(fmt::format("the recording has no marker '{}'", names[k]));
+      column[k] = found - markers.names.begin();
+    }
+    double distance = 0.0;
+    Eigen::Index seen = 0;
+    for (Eigen::Index i = first; i <= last; ++i) {
+      if (markers.missing(i, column[0]) || markers.missing(i, column[1])) continue;
+      distance += (markers.position(i, column[1]) - markers.position(i, column[0])).norm();
+      ++seen;
+    }
+    if (seen == 0)
+      return refuse(fmt::format("'{}' and '{}' are never seen together", names[0], names[1]));
+    const double own = (p[1] - p[0]).norm();
+    if (!(own > 0.0))
+      return refuse(fmt::format("'{}' and '{}' coincide in the model", names[0], names[1]));
+    sum += distance / static_cast<double>(seen) / own;
+    ++count;
+  }
+  if (count == 0) return refuse("it has no pair of markers");
+  return sum / count;
+}
+
+model::OsimEditor::Factors factors_of(const Scaling& scaling,
+                                      pugi::xml_node scaler,
+                                      const model::BodyModel& model) {
+  const OsimXml& xml = scaling.setup.xml();
+  model::OsimEditor::Factors factors;
+  for (const model::Body& body : model.bodies) factors[body.name] = Vec3::Ones();
+  const auto known = [&](pugi::xml_node node, const std::string& body) {
+    if (factors.contains(body)) return true;
+    scaling.result.notes.push_back(
+        fmt::format("{}: the model has no body '{}'; its factor is not used", node.name(), body));
+    return false;
+  };
+  for (const std::string& method : xml.words(scaler, "scaling_order")) {
+    if (method == "measurements") {
+      std::optional<recording::MarkerSeries> markers;
+      const model::BodyState state = default_state(model);
+      for (const auto node : OsimXml::objects(scaler.child("MeasurementSet"))) {
+        if (node.type() != pugi::node_element || !xml.flag(node, "apply", true)) continue;
+        if (!markers)
+          markers = markers_of(scaling, scaling.setup.required_file(scaler, "marker_file"));
+        const auto factor = measured_factor(scaling, node, model, state, *markers,
+                                            scaling.setup.time_range(scaler, "time_range"));
+        if (!factor) continue;
+        for (const auto body : OsimXml::objects(node.child("BodyScaleSet"))) {
+          if (body.type() != pugi::node_element) continue;
+          const std::string name = OsimXml::name_of(body);
+          if (!known(node, name)) continue;
+          for (const std::string& axis : xml.words(body, "axes")) {
+            const auto k = std::string_view("XYZxyz").find(axis);
+            if (axis.size() != 1 || k == std::string_view::npos)
+              xml.fail(body, fmt::format("<axes>: expected X, Y, Z, found '{}'", axis));
+            factors[name][static_cast<Eigen::Index>(k % 3)] = *factor;
+          }
+        }
+      }
+    } else if (method == "manualScale") {
+      for (const auto node : OsimXml::objects(scaler.child("ScaleSet"))) {
+        if (node.type() != pugi::node_element || !xml.flag(node, "apply", true)) continue;
+        const std::string name = xml.word(node, "segment");
+        if (known(node, name)) factors[name] = xml.vec3(node, "scales", Vec3::Ones());
+      }
+    } else {
+      xml.fail(
+          scaler.child("scaling_order"),
+          fmt::format("<scaling_order>: expected measurements or manualScale, found '{}'", method));
+    }
+  }
+  for (const auto& [name, f] : factors) {
+    if (!(f.cwiseAbs().minCoeff() > 0.0) || !f.allFinite())
+      xml.fail(scaler, fmt::format("the factors of body '{}' are {} {} {}, expected other than 0",
+                                   name, f[0], f[1], f[2]));
+  }
+  return factors;
+}
+
+void scale(const Scaling& scaling,
+           pugi::xml_node scaler,
+           model::OsimEditor& editor,
+           const model::OsimEditor::Factors& factors) {
+  const OsimXml& xml = scaling.setup.xml();
+  const model::OsimOptions as_opensim{.compat = scaling.options.compat};
+  const model::BodyModel before = model::parse_osim(editor.text(), editor.path(), as_opensim);
+  editor.scale_geometry(factors);
+  editor.scale_masses(factors, xml.flag(scaler, "preserve_mass_distribution", false),
+                      xml.number(scaling.setup.tool(), "mass", -1.0));
+  const model::BodyModel after = model::parse_osim(editor.text(), editor.path(), as_opensim);
+  const model::BodyState state_before = default_state(before), state_after = default_state(after);
+  const auto paths_before = paths_of(before), paths_after = paths_of(after);
+  model::PathWorkspace workspace;
+  model::PathResult path;
+  for (std::size_t i = 0; i < paths_before.size() && i < paths_after.size(); ++i) {
+    model::compute_path(before, *paths_before[i].second, state_before, workspace, path);
+    const double length = path.length_m;
+    model::compute_path(after, *paths_after[i].second, state_after, workspace, path);
+    if (length > 0.0) editor.scale_lengths(paths_before[i].first, path.length_m / length);
+  }
+}
+
+std::string scale_set_text(const model::OsimEditor::Factors& factors,
+                           const model::BodyModel& model) {
+  std::string text =
+      "<?xml version=\"1.0\" encoding=\"UTF-8\" ?>\n<OpenSimDocument Version=\"40500\">\n"
+      "\t<ScaleSet name=\"ScaleSet\">\n\t\t<objects>\n";
+  for (const model::Body& body : model.bodies) {
+    const Vec3& f = factors.at(body.name);
+    text += fmt::format(
+        "\t\t\t<Scale>\n\t\t\t\t<scales> {} {} {}</scales>\n\t\t\t\t<segment>{}</segment>\n"
+        "\t\t\t\t<apply>true</apply>\n\t\t\t</Scale>\n",
+        f[0], f[1], f[2], body.name);
+  }
+  return text + "\t\t</objects>\n\t\t<groups />\n\t</ScaleSet>\n</OpenSimDocument>\n";
+}
+
+/// As in OpenSim a result may take the place of the model that is scaled; the model is kept beside
+/// it. A second run would scale what is scaled already: it is refused.
+void keep_model(const std::filesystem::path& file,
+                const std::filesystem::path& model_file,
+                ToolResult& result) {
+  std::error_code ignored;
+  if (!std::filesystem::equivalent(file, model_file, ignored)) return;
+  auto kept = model_file;
+  kept.replace_filename(model_file.stem().string() + "_unscaled" + model_file.extension().string());
+  if (std::filesystem::exists(kept, ignored)) {
+    throw InvalidInput(fmt::format(
+        "{} is the result of an earlier run of this set-up, which kept the model as {}; name that "
+        "as <model_file>, or give --model {}",
+        model_file.string(), kept.string(), kept.string()));
+  }
+  recording::write_file(kept, recording::read_text_file(model_file));
+  result.notes.push_back(
+      fmt::format("{} is read by this set-up and replaced by its result, as in "
+                  "OpenSim; the model that was read is kept as {}",
+                  model_file.string(), kept.string()));
+  std::erase_if(result.inputs, [&](const std::filesystem::path& input) {
+    return std::filesystem::equivalent(input, model_file, ignored);
+  });
+  result.inputs.push_back(kept);
+}
+
+}  // namespace
+
+void run_scale(const OpensimSetup& setup, const ToolOptions& options, ToolResult& result) {
+  const OsimXml& xml = setup.xml();
+  const auto tool = setup.tool();
+  const Scaling scaling{setup, options, result};
+  const auto maker = tool.child("GenericModelMaker");
+  const auto scaler = tool.child("ModelScaler");
+  const auto placer = tool.child("MarkerPlacer");
+  const bool scales = scaler && xml.flag(scaler, "apply", true);
+  const bool places = placer && xml.flag(placer, "apply", true);
+  if (!scales && !places) xml.fail(tool, "neither <ModelScaler> nor <MarkerPlacer> applies");
+  const auto model_file = setup.required_file(maker, "model_file");
+  const auto claim = [&](bool on, pugi::xml_node stage, const char* name) {
+    const auto file = on ? setup.output_file(stage, name) : std::nullopt;
+    if (file) keep_model(*file, model_file, result);
+    if (file) claim_file(options, *file, result);
+    return file;
+  };
+  const auto scaled_file = claim(scales, scaler, "output_model_file");
+  const auto factors_file = claim(scales, scaler, "output_scale_file");
+  const auto placed_file = claim(places, placer, "output_model_file");
+  (void)claim(places, placer, "output_motion_file");
+  (void)claim(places, placer, "output_marker_file");
+
+  model::OsimEditor editor(recording::read_text_file(model_file), model_file);
+  if (!setup.name().empty()) editor.set_name(setup.name());
+  if (const auto markers = setup.file(maker, "marker_set_file")) editor.add_markers(*markers);
+  const model::BodyModel generic =
+      model::parse_osim(editor.text(), editor.path(), {.compat = options.compat});
+  for (const std::string& text : generic.unsupported)
+    result.notes.push_back(fmt::format("{}: {}", model_file.string(), text));
+  if (scales) {
+    const auto factors = factors_of(scaling, scaler, generic);
+    scale(scaling, scaler, editor, factors);
+    if (factors_file) recording::write_file(*factors_file, scale_set_text(factors, generic));
+    if (scaled_file) recording::write_file(*scaled_file, editor.text());
+  }
+  double mass = 0.0;
+  for (const model::Body& body : model::parse_osim(editor.text(), editor.path()).bodies)
+    mass += body.mass_kg;
+  result.summary = fmt::format("model of {:.4g} kg", mass);
+  if (places) place_markers(scaling, placer, editor);
+  if (placed_file) recording::write_file(*placed_file, editor.text());
+  result.notes.insert(result.notes.end(), editor.notes().begin(), editor.notes().end());
+  result.frames = 1;
+}
+
+}  // namespace myoid

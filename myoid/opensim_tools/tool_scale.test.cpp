@@ -1,0 +1,159 @@
+#include <string>
+#include <utility>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "myoid/opensim_tools/marker_placer.h"
+#include "myoid/opensim_tools/tool_stages.h"
+
+#include "tests/support/tool_folder.h"
+
+namespace myoid {
+namespace {
+
+using ToolScale = test::ToolFolder;
+
+TEST_F(ToolScale, MarkersFarFromTheModelsAreSaidSo) {
+  write_markers(10);
+  std::string text;
+  {
+    std::ifstream in(folder_ / "m.trc");
+    text.assign(std::istreambuf_iterator<char>(in), {});
+  }
+  // The values stay, the header says millimeters.
+  text.replace(text.find("\tm\t100"), 7, "\tmm\t100");
+  write("m.trc", text);
+  const ToolResult result =
+      run("<InverseKinematicsTool><model_file>arm.osim</model_file><marker_file>m.trc"
+          "</marker_file><output_motion_file>ik.mot</output_motion_file></InverseKinematicsTool>");
+  EXPECT_THAT(result.notes, ::testing::Contains(::testing::HasSubstr("times as far apart")));
+}
+
+TEST_F(ToolScale, ScalingByHandMakesALargerModelOfTheGivenMass) {
+  const ToolResult result =
+      run("<ScaleTool "
+          "name=\"someone\"><mass>10</mass><GenericModelMaker><model_file>arm.osim</model_file>"
+          "</GenericModelMaker><ModelScaler><scaling_order>manualScale</"
+          "scaling_order><ScaleSet><objects>"
+          "<Scale><scales>1.1 1.1 1.1</scales><segment>" +
+          arm_.bodies.back().name +
+          "</segment></Scale></objects></ScaleSet><preserve_mass_distribution>true</"
+          "preserve_mass_distribution>"
+          "<output_model_file>scaled.osim</output_model_file><output_scale_file>factors.xml</"
+          "output_scale_file>"
+          "</ModelScaler><MarkerPlacer><apply>false</apply></MarkerPlacer></ScaleTool>");
+  const model::BodyModel scaled = model::read_osim(folder_ / "scaled.osim");
+  double mass = 0.0;
+  for (const model::Body& body : scaled.bodies) mass += body.mass_kg;
+  EXPECT_NEAR(mass, 10.0, 1e-12);
+  EXPECT_EQ(scaled.name, "someone");
+  EXPECT_LT((scaled.bodies.back().p_BBcm_B - 1.1 * arm_.bodies.back().p_BBcm_B).norm(), 1e-15);
+  EXPECT_EQ(result.files.size(), 2U);
+}
+
+TEST_F(ToolScale, AStaticPoseAtTheEndOfARangeIsSaidSo) {
+  write_markers(5);  // the elbow at 69 degrees and more
+  const auto placed_with_range = [&](const std::string& range) {
+    std::string text = model::arm4_osim();
+    const auto at = text.find("<range>", text.find("Coordinate name=\"elbow_flexion\"")) + 7;
+    text.replace(at, text.find('<', at) - at, range);
+    write("arm.osim", text);
+    std::string tasks;
+    for (const model::Marker& marker : arm_.markers)
+      tasks += "<IKMarkerTask name=\"" + marker.name + "\"><weight>1</weight></IKMarkerTask>";
+    return run("<ScaleTool name=\"s\"><GenericModelMaker><model_file>arm.osim</model_file>"
+               "</GenericModelMaker><ModelScaler><apply>false</apply></ModelScaler><MarkerPlacer>"
+               "<IKTaskSet><objects>" +
+               tasks +
+               "</objects></IKTaskSet><marker_file>m.trc"
+               "</marker_file><output_model_file>placed.osim</output_model_file></MarkerPlacer>"
+               "</ScaleTool>")
+        .notes;
+  };
+  const auto said =
+      ::testing::Contains(::testing::HasSubstr("'elbow_flexion' at its limit of 57.3 degrees"));
+  EXPECT_THAT(placed_with_range("0 1"), said);
+  std::filesystem::remove(folder_ / "placed.osim");
+  EXPECT_THAT(placed_with_range("0 2"), ::testing::Not(said));
+}
+
+TEST(FramesIn, AreThoseOfTheRangeOrAll) {
+  recording::MarkerSeries markers;
+  markers.time_s = Eigen::VectorXd::LinSpaced(11, 0.0, 1.0);
+  markers.positions_m.resize(11, 0);
+  using Frames = std::pair<Eigen::Index, Eigen::Index>;
+  EXPECT_EQ(frames_in(markers, {0.2, 0.5}), Frames(2, 5));
+  EXPECT_EQ(frames_in(markers, {-1.0, -1.0}), Frames(0, 10)) << "before all of them";
+  EXPECT_EQ(frames_in(markers, {0.3, 7.0}), Frames(3, 10));
+}
+
+TEST_F(ToolScale, AStaticPoseStaysOffTheEndOfARangeWhereOpenSimsSearchHasABarrier) {
+  write_markers(5);  // the elbow at 69 degrees and more
+  std::string text = model::arm4_osim();
+  const auto change = [&](const std::string& coordinate, const char* tag, const std::string& to) {
+    const std::string open = std::string("<") + tag + ">";
+    const auto at =
+        text.find(open, text.find("Coordinate name=\"" + coordinate + "\"")) + open.size();
+    text.replace(at, text.find('<', at) - at, to);
+  };
+  change("elbow_flexion", "range", "0 1");
+  const auto lock_others = [&](const std::string& value) {
+    for (const model::Coordinate& c : arm_.coordinates)
+      if (c.name != "elbow_flexion") change(c.name, "locked", value);
+  };
+  std::string tasks;
+  for (const model::Marker& marker : arm_.markers)
+    tasks += "<IKMarkerTask name=\"" + marker.name + "\"><weight>1</weight></IKMarkerTask>";
+  const auto elbow_at = [&] {
+    write("arm.osim", text);
+    std::filesystem::remove(folder_ / "pose.mot");
+    (void)run(
+        "<ScaleTool name=\"s\"><GenericModelMaker><model_file>arm.osim</model_file>"
+        "</GenericModelMaker><ModelScaler><apply>false</apply></ModelScaler><MarkerPlacer>"
+        "<IKTaskSet><objects>" +
+        tasks +
+        "</objects></IKTaskSet><marker_file>m.trc</marker_file>"
+        "<output_motion_file>pose.mot</output_motion_file></MarkerPlacer></ScaleTool>");
+    const TimeSeries pose = read("pose.mot");
+    for (const Channel& channel : pose.channels())
+      if (channel.name.ends_with("elbow_flexion/value")) return pose.column(channel.name)[0];
+    return -1.0;
+  };
+  // Without constraints OpenSim searches without a barrier; a locked coordinate is a constraint.
+  lock_others("false");
+  EXPECT_EQ(elbow_at(), 1.0);
+  lock_others("true");
+  const double inside = elbow_at();
+  EXPECT_LT(inside, 1.0 - 1e-6);
+  EXPECT_GT(inside, 0.9);
+}
+
+TEST_F(ToolScale, AStaticPoseSaysWhatNoMarkerDetermines) {
+  write_markers(5);
+  // Only the markers that the elbow does not move count.
+  std::string tasks, forearm;
+  const auto elbow = static_cast<std::size_t>(arm_.coordinate_index("elbow_flexion"));
+  const int child = arm_.joints[static_cast<std::size_t>(arm_.coordinates[elbow].joint)].child;
+  for (const model::Marker& marker : arm_.markers) {
+    if (marker.body == child) {
+      forearm = marker.name;
+    } else {
+      tasks += "<IKMarkerTask name=\"" + marker.name + "\"><weight>1</weight></IKMarkerTask>";
+    }
+  }
+  const ToolResult result =
+      run("<ScaleTool name=\"s\"><GenericModelMaker><model_file>arm.osim</model_file>"
+          "</GenericModelMaker><ModelScaler><apply>false</apply></ModelScaler><MarkerPlacer>"
+          "<IKTaskSet><objects>" +
+          tasks +
+          "</objects></IKTaskSet><marker_file>m.trc</marker_file><output_model_file>placed.osim"
+          "</output_model_file></MarkerPlacer></ScaleTool>");
+  EXPECT_THAT(result.notes,
+              ::testing::Contains(::testing::AllOf(::testing::HasSubstr("determines"),
+                                                   ::testing::HasSubstr("elbow_flexion"),
+                                                   ::testing::HasSubstr(forearm))));
+}
+
+}  // namespace
+}  // namespace myoid

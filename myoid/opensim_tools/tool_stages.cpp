@@ -1,0 +1,50 @@
+#include "myoid/opensim_tools/tool_stages.h"
+
+#include <fmt/format.h>
+
+#include "myoid/core/error.h"
+
+namespace myoid {
+
+void note_missing_loads(const dynamics::ExternalLoads& loads,
+                        const std::filesystem::path& file,
+                        const Eigen::VectorXd& times_s,
+                        std::vector<std::string>& notes) {
+  const double first_s = times_s[0], last_s = times_s[times_s.size() - 1];
+  if (first_s >= loads.start_s - 1e-3 && last_s <= loads.end_s + 1e-3) return;
+  notes.push_back(fmt::format(
+      "{}: the loads are known from {} to {} s, the motion goes from {} to {} s; beyond, they are "
+      "guessed by straight lines",
+      file.string(), loads.start_s, loads.end_s, first_s, last_s));
+}
+
+std::vector<std::pair<std::string, const model::MusclePath*>> paths_of(
+    const model::BodyModel& model) {
+  std::vector<std::pair<std::string, const model::MusclePath*>> paths;
+  for (const model::Muscle& m : model.muscles) paths.emplace_back(m.name, &m.path);
+  for (const model::PathActuator& a : model.path_actuators) paths.emplace_back(a.name, &a.path);
+  for (const model::PassiveForce& f : model.passive_forces) {
+    if (const auto* spring = std::get_if<model::PathSpring>(&f.law))
+      paths.emplace_back(f.name, &spring->path);
+    if (const auto* ligament = std::get_if<model::Ligament>(&f.law))
+      paths.emplace_back(f.name, &ligament->path);
+  }
+  return paths;
+}
+
+void claim_file(const ToolOptions& options, const std::filesystem::path& path, ToolResult& result) {
+  std::error_code ignored;
+  const bool exists = std::filesystem::exists(path, ignored);
+  for (const std::filesystem::path& input : result.inputs) {
+    if (path != input && (!exists || !std::filesystem::equivalent(path, input, ignored))) continue;
+    throw InvalidInput(fmt::format(
+        "{} is read by this set-up and would be replaced by its result; name another file for one "
+        "of them",
+        path.string()));
+  }
+  if (options.claim) options.claim(path);
+  if (exists) ++result.replaced;
+  result.files.push_back(path);
+}
+
+}  // namespace myoid

@@ -1,0 +1,114 @@
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "myoid/core/error.h"
+#include "myoid/core/index.h"
+#include "myoid/files/atomic_file.h"
+#include "myoid/files/text_file.h"
+#include "myoid/forces/static_optimization.h"
+#include "myoid/opensim_tools/analysis_reports.h"
+#include "myoid/opensim_tools/opensim_files.h"
+
+namespace myoid {
+namespace {
+
+/// The controls as piecewise linear functions of time, as forward simulations read them.
+std::string controls_text(const TimeSeries& controls) {
+  std::string text =
+      "<?xml version=\"1.0\" encoding=\"UTF-8\" ?>\n<OpenSimDocument Version=\"40500\">\n"
+      "\t<ControlSet name=\"Static Optimization\">\n\t\t<objects>\n";
+  std::vector<std::string> times;
+  for (const double t : controls.time_s()) times.push_back(recording::format_number(t));
+  for (Eigen::Index c = 0; c < controls.channel_count(); ++c) {
+    text += fmt::format(
+        "\t\t\t<ControlLinear name=\"{}\">\n\t\t\t\t<is_model_control>true</is_model_control>\n"
+        "\t\t\t\t<extrapolate>true</extrapolate>\n\t\t\t\t<default_min>0.02</default_min>\n"
+        "\t\t\t\t<default_max>1</default_max>\n\t\t\t\t<filter_on>false</filter_on>\n"
+        "\t\t\t\t<use_steps>false</use_steps>\n\t\t\t\t<x_nodes>\n",
+        controls.channels()[at(c)].name);
+    for (Eigen::Index i = 0; i < controls.sample_count(); ++i) {
+      text += "\t\t\t\t\t<ControlLinearNode>\n\t\t\t\t\t\t<t>";
+      text += times[at(i)];
+      text += "</t>\n\t\t\t\t\t\t<value>";
+      text += recording::format_number(controls.values()(i, c));
+      text += "</value>\n\t\t\t\t\t</ControlLinearNode>\n";
+    }
+    text +=
+        "\t\t\t\t</x_nodes>\n\t\t\t\t<min_nodes />\n\t\t\t\t<max_nodes />\n"
+        "\t\t\t\t<kp>100</kp>\n\t\t\t\t<kv>20</kv>\n\t\t\t</ControlLinear>\n";
+  }
+  return text + "\t\t</objects>\n\t\t<groups />\n\t</ControlSet>\n</OpenSimDocument>\n";
+}
+
+}  // namespace
+
+model::BodyModel with_coordinate_actuators(model::BodyModel model) {
+  model.muscles.clear();
+  std::vector<model::CoordinateActuator> own;
+  std::vector<std::string> order;
+  for (std::size_t c = 0; c < model.coordinates.size(); ++c) {
+    if (model.is_constrained(static_cast<int>(c))) continue;
+    model::CoordinateActuator actuator;
+    actuator.name = model.coordinates[c].name;
+    actuator.coordinate = static_cast<int>(c);
+    order.push_back(actuator.name);
+    own.push_back(std::move(actuator));
+  }
+  model.actuators.insert(model.actuators.begin(), own.begin(), own.end());
+  model.force_order.insert(model.force_order.begin(), order.begin(), order.end());
+  return model;
+}
+
+void run_static_optimization(AnalysisRun& run, pugi::xml_node node) {
+  const auto& xml = run.setup.xml();
+  auto& notes = run.result.notes;
+  const std::string name = analysis_name(node);
+  const auto activation_file = claim_result(run, name + "_activation.sto");
+  const auto force_file = claim_result(run, name + "_force.sto");
+  const auto controls_file = claim_result(run, name + "_controls.xml");
+  const bool use_forces =
+      xml.flag(node, "use_model_force_set", xml.flag(node, "use_model_actuator_set", true));
+  const model::BodyModel model = use_forces ? run.model : with_coordinate_actuators(run.model);
+  const forces::StaticOptimizationOptions options{
+      .exponent = xml.number(node, "activation_exponent", 2.0),
+      .muscle_physiology = xml.flag(node, "use_muscle_physiology", true),
+      .loads = run.loads ? &*run.loads : nullptr,
+      .progress = run.options.progress,
+      .inspect = run.options.inspect};
+  if (!(options.exponent > 1.0)) {
+    xml.fail(
+        xml.property(node, "activation_exponent"),
+        fmt::format("<activation_exponent> {}, expected above 1: only then are the activations "
+                    "determined",
+                    options.exponent));
+  }
+  const forces::StaticOptimizationResult solved =
+      forces::static_optimization(model, run.motion, options);
+  notes.insert(notes.end(), solved.notes.begin(), solved.notes.end());
+  write_opensim_storage(activation_file, solved.control,
+                        {.title = "Static Optimization",
+                         .description = "This file contains static optimization results.\n\n",
+                         .decimals = run.decimals});
+  write_forces(run, model, force_file, solved.force);
+  recording::write_file(controls_file, controls_text(solved.control), recording::Flush::later);
+  const auto infeasible = std::count(solved.is_feasible.begin(), solved.is_feasible.end(), false);
+  if (infeasible > 0) {
+    notes.push_back(fmt::format(
+        "in {} frames, from {} s, muscles and actuators cannot make the accelerations; the "
+        "controls "
+        "that come nearest are written. Append stronger reserve actuators (<force_set_files>)",
+        infeasible,
+        run.motion.q
+            .time_s()[std::find(solved.is_feasible.begin(), solved.is_feasible.end(), false) -
+                      solved.is_feasible.begin()]));
+  }
+  run.result.frames = static_cast<int>(run.motion.sample_count());
+  run.result.frames_failed = solved.frames_failed;
+  run.result.summary = fmt::format(
+      "{} frames, {} without certificate; largest KKT residual {:.1e}", run.result.frames,
+      solved.frames_failed, solved.kkt_residual.size() > 0 ? solved.kkt_residual.maxCoeff() : 0.0);
+}
+
+}  // namespace myoid

@@ -1,0 +1,119 @@
+#include "myoid/osim/osim_constraints.h"
+
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "myoid/core/error.h"
+#include "myoid/osim/osim_functions.h"
+
+namespace myoid::model {
+namespace {
+
+/// A coordinate that depends on several others.
+void read_function_constraint(OsimReading& r,
+                              pugi::xml_node node,
+                              const std::string& name,
+                              const std::vector<std::string>& independent) {
+  auto function = multi_function_property(r, node, "coupled_coordinates_function",
+                                          static_cast<int>(independent.size()));
+  if (!function) {
+    r.model.unsupported.push_back(
+        fmt::format("constraint '{}' couples {} independent coordinates by another function than a "
+                    "LinearFunction or a MultivariatePolynomialFunction; it is not enforced",
+                    name, independent.size()));
+    return;
+  }
+  FunctionConstraint law;
+  law.dependent = coordinate_named(r, node, r.xml.word(node, "dependent_coordinate_name"));
+  for (const std::string& coordinate : independent) {
+    law.independent.push_back(coordinate_named(r, node, coordinate));
+    if (law.independent.back() == law.dependent)
+      r.xml.fail(node, fmt::format("constraint '{}' couples a coordinate with itself", name));
+  }
+  law.function = *std::move(function);
+  law.function.scale *= r.xml.number(node, "scale_factor", 1.0);
+  r.model.constraints.push_back({name, node.name(), std::move(law)});
+}
+
+/// A coordinate that depends on one other.
+void read_coupler(OsimReading& r, pugi::xml_node node, const std::string& name) {
+  const auto independent = r.xml.words(node, "independent_coordinate_names");
+  if (independent.size() > 1) return read_function_constraint(r, node, name, independent);
+  const std::size_t listed = r.model.unsupported.size();
+  const auto function = function_property(r, node, "coupled_coordinates_function");
+  if (independent.size() != 1 || !function || r.model.unsupported.size() > listed) {
+    r.model.unsupported.push_back(
+        fmt::format("constraint '{}' couples {} independent coordinates{}; it is not enforced",
+                    name, independent.size(), function ? "" : " by no function"));
+    return;
+  }
+  CoordinateCoupler coupler;
+  coupler.name = name;
+  coupler.independent = coordinate_named(r, node, independent[0]);
+  coupler.dependent = coordinate_named(r, node, r.xml.word(node, "dependent_coordinate_name"));
+  coupler.function = *function;
+  coupler.function.scale *= r.xml.number(node, "scale_factor", 1.0);
+  if (coupler.independent == coupler.dependent)
+    r.xml.fail(node, fmt::format("constraint '{}' couples a coordinate with itself", name));
+  for (const CoordinateCoupler& other : r.model.couplers) {
+    if (other.dependent == coupler.dependent) {
+      r.xml.fail(
+          node, fmt::format("constraints '{}' and '{}' both set coordinate '{}'", other.name, name,
+                            r.model.coordinates[static_cast<std::size_t>(coupler.dependent)].name));
+    }
+  }
+  r.model.couplers.push_back(std::move(coupler));
+}
+
+}  // namespace
+
+void read_constraints(OsimReading& r, pugi::xml_node set) {
+  for (const auto node : OsimXml::objects(set)) {
+    if (node.type() == pugi::node_element)
+      read_constraint(r, node, "/constraintset/" + OsimXml::name_of(node));
+  }
+}
+
+void read_constraint(OsimReading& r, pugi::xml_node node, const std::string& owner) {
+  if (!is_enabled(r, node, "isEnforced")) return;
+  const std::string kind = node.name();
+  const std::string name = OsimXml::name_of(node);
+  if (kind == "CoordinateCouplerConstraint") {
+    read_coupler(r, node, name);
+  } else if (kind == "WeldConstraint") {
+    const auto [first, second] = two_frames(r, node);
+    r.model.constraints.push_back(
+        {name, kind, FrameConstraint{first.body, second.body, first.X_BF, second.X_BF, true}});
+  } else if (kind == "PointConstraint") {
+    const FixedFrame first = frame_of(r, node, "body_1", owner, "body_1");
+    const FixedFrame second = frame_of(r, node, "body_2", owner, "body_2");
+    FrameConstraint law{first.body, second.body, first.X_BF, second.X_BF, false};
+    law.X_BF1.p = first.X_BF * r.xml.vec3(node, "location_body_1", Vec3::Zero());
+    law.X_BF2.p = second.X_BF * r.xml.vec3(node, "location_body_2", Vec3::Zero());
+    r.model.constraints.push_back({name, kind, law});
+  } else if (kind == "ConstantDistanceConstraint") {
+    const FixedFrame first = frame_of(r, node, "body_1", owner, "body_1");
+    const FixedFrame second = frame_of(r, node, "body_2", owner, "body_2");
+    r.model.constraints.push_back(
+        {name, kind,
+         DistanceConstraint{first.body, second.body,
+                            first.X_BF * r.xml.vec3(node, "location_body_1", Vec3::Zero()),
+                            second.X_BF * r.xml.vec3(node, "location_body_2", Vec3::Zero()),
+                            r.xml.number(node, "constant_distance", 0.0)}});
+  } else if (kind == "PointOnLineConstraint") {
+    const FixedFrame line = frame_of(r, node, "line_body", owner, "line_body");
+    const FixedFrame follower = frame_of(r, node, "follower_body", owner, "follower_body");
+    r.model.constraints.push_back(
+        {name, kind,
+         LineConstraint{line.body, follower.body,
+                        line.X_BF.R * direction_of(r, node, "line_direction_vec", Vec3::UnitX()),
+                        line.X_BF * r.xml.vec3(node, "point_on_line", Vec3::Zero()),
+                        follower.X_BF * r.xml.vec3(node, "point_on_follower", Vec3::Zero())}});
+  } else {
+    r.model.unsupported.push_back(
+        fmt::format("constraint '{}' of kind {} is not enforced", name, kind));
+  }
+}
+
+}  // namespace myoid::model

@@ -1,0 +1,142 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "myoid/model/body_model.h"
+#include "myoid/osim/osim_xml.h"
+
+namespace myoid::model {
+
+/// A frame fixed to a body.
+struct FixedFrame {
+  BodyIndex body = 0;
+  Pose X_BF;
+};
+
+/// What the parts of the reader share: the document, the model as far as it is read, and the frames
+/// by their paths.
+struct OsimReading {
+  const OsimXml& xml;
+  Compat compat;
+  BodyModel model;
+
+  struct OffsetFrame {
+    pugi::xml_node node;
+    std::string owner;  ///< Path of the component that holds it.
+  };
+  using Frames = std::map<std::string, OffsetFrame, std::less<>>;
+  Frames frames;  ///< By absolute path.
+
+  /// Places in the model by name; of one name twice the first.
+  std::map<std::string, int, std::less<>> body_places, coordinate_places;
+  /// Names that coordinates of several joints share; each is told apart by its joint.
+  std::set<std::string, std::less<>> shared_coordinate_names;
+
+  /// With what is known of the model already.
+  explicit OsimReading(const OsimXml& document,
+                       const Compat& as = {},
+                       BodyModel known = {},
+                       Frames known_frames = {});
+  int add(Body body);
+  int add(Coordinate coordinate);
+  [[nodiscard]] std::optional<int> find_body(std::string_view name) const;
+  /// By name, or by a path that ends in joint/coordinate.
+  [[nodiscard]] std::optional<int> find_coordinate(std::string_view name) const;
+
+  /// Documents before this have joints inside bodies and name bodies instead of sockets.
+  [[nodiscard]] bool is_old() const { return xml.version() < 30500; }
+};
+
+/// A component of a model and its path in it.
+struct ModelComponent {
+  pugi::xml_node node;
+  std::string path;
+};
+
+/// The objects of a set ("/bodyset/x"), then those that stand outside of it: among the model's
+/// <components> ("/x") or in its <ComponentSet>, of a class whose name ends in `kind`.
+[[nodiscard]] std::vector<ModelComponent> components_of(pugi::xml_node model,
+                                                        const char* set,
+                                                        std::string_view kind);
+
+/// The element that holds bodies and joints: the model or, before 10700, an engine in it.
+[[nodiscard]] pugi::xml_node skeleton_of(pugi::xml_node model);
+
+/// Reads the bodies (with the inertia of old documents) and collects the offset frames of ground,
+/// bodies, joints and the model. Throws ReadError for a body without a name, with the name of
+/// another or without a mass.
+void read_bodies(OsimReading& reading, pugi::xml_node model);
+
+/// The target of a socket in any of its spellings (<socket_x>, <socket_x_connectee_name>,
+/// <connectors>, where betas of version 4 use the old name), or the text of <old_name>; empty if
+/// there is none.
+[[nodiscard]] std::string socket(const OsimReading& reading,
+                                 pugi::xml_node node,
+                                 std::string_view name,
+                                 const char* old_name = nullptr);
+
+/// The frame a name stands for, seen from the component `owner`: a body, ground or an offset frame,
+/// chained as they may be. Throws ReadError if there is none or it refers to itself.
+[[nodiscard]] FixedFrame resolve_frame(const OsimReading& reading,
+                                       pugi::xml_node where,
+                                       std::string name,
+                                       const std::string& owner);
+
+/// The frame that a socket of `node` names; throws ReadError if the socket is missing.
+[[nodiscard]] FixedFrame frame_of(const OsimReading& reading,
+                                  pugi::xml_node node,
+                                  std::string_view socket_name,
+                                  const std::string& owner,
+                                  const char* old_name = "body");
+
+/// The frame of that path or name in a model file: a body, an offset frame of the model, of a body
+/// or of a joint, also those that OpenSim gives to the joints of old documents
+/// ("/jointset/knee_r/tibia_r_offset"). Empty if there is none.
+[[nodiscard]] std::optional<FixedFrame> find_frame(const BodyModel& model,
+                                                   const std::filesystem::path& path,
+                                                   const std::string& name);
+
+/// The pose that two properties of an element give: location (translation) and body-fixed X-Y-Z
+/// angles. With `rounded` as OpenSim converts old documents, to six digits.
+[[nodiscard]] Pose pose_of(const OsimReading& reading,
+                           pugi::xml_node node,
+                           const char* location,
+                           const char* orientation,
+                           bool rounded = false);
+
+/// The coordinate that a socket or a text names, of several with one name the first joint's; throws
+/// ReadError if there is none.
+[[nodiscard]] int coordinate_named(const OsimReading& reading,
+                                   pugi::xml_node where,
+                                   std::string_view text);
+
+/// Whether a force or constraint is switched on, in any version: `positive` (appliesForce,
+/// isEnforced) or the old isDisabled.
+[[nodiscard]] bool is_enabled(const OsimReading& reading,
+                              pugi::xml_node node,
+                              const char* positive);
+
+/// A number above 0; throws ReadError for another.
+[[nodiscard]] double positive(const OsimReading& reading,
+                              pugi::xml_node node,
+                              const char* name,
+                              double otherwise);
+
+/// The unit vector that a property gives; throws ReadError if it is no direction.
+[[nodiscard]] Vec3 direction_of(const OsimReading& reading,
+                                pugi::xml_node node,
+                                const char* name,
+                                const Vec3& otherwise);
+
+/// The two frames that a bushing or a constraint joins, in the new and in the old spelling.
+[[nodiscard]] std::pair<FixedFrame, FixedFrame> two_frames(const OsimReading& reading,
+                                                           pugi::xml_node node);
+
+}  // namespace myoid::model

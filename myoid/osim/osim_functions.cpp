@@ -1,0 +1,212 @@
+#include "myoid/osim/osim_functions.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "myoid/core/error.h"
+
+namespace myoid::model {
+namespace {
+
+constexpr const char* kSupported =
+    "supported are Constant, LinearFunction, PolynomialFunction, PiecewiseLinearFunction, "
+    "PiecewiseConstantFunction, StepFunction, Sine, SimmSpline, NaturalCubicSpline, GCVSpline that "
+    "interpolates (degree 1, 3, 5 or 7), MultivariatePolynomialFunction of one variable and "
+    "MultiplierFunction";
+
+bool is_simm_spline(std::string_view kind) {
+  return kind == "SimmSpline" || kind == "NaturalCubicSpline" || kind == "natCubicSpline" ||
+         kind == "natCubicSplineFunction";
+}
+
+std::string named(pugi::xml_node node) {
+  const std::string name = OsimXml::name_of(node);
+  return name.empty() ? fmt::format("<{}>", node.name())
+                      : fmt::format("<{}> '{}'", node.name(), name);
+}
+
+/// The element that holds the function, and what that belongs to.
+std::string place_of(pugi::xml_node node) {
+  std::string place;
+  int levels = 0;
+  for (auto n = node.parent(); n && levels < 2; n = n.parent()) {
+    const std::string_view kind = n.name();
+    if (kind == "objects" || kind == "function" || kind.ends_with("Set")) continue;
+    place += " of " + named(n);
+    ++levels;
+  }
+  return place;
+}
+
+Function unsupported(OsimReading& r, pugi::xml_node node, const std::string& why) {
+  r.model.unsupported.push_back(fmt::format("function <{}>{} {}; it is taken as zero ({})",
+                                            node.name(), place_of(node), why, kSupported));
+  return Constant{0.0};
+}
+
+std::vector<double> coefficients_of(const OsimReading& r, pugi::xml_node node) {
+  auto c = r.xml.numbers(r.xml.property(node, "coefficients"));
+  if (c.empty()) r.xml.fail(node, "<coefficients>: expected at least one number");
+  return c;
+}
+
+Function read_knots(OsimReading& r, pugi::xml_node node, double scale) {
+  const std::string_view kind = node.name();
+  std::vector<double> x = r.xml.numbers(r.xml.property(node, "x"));
+  std::vector<double> y = r.xml.numbers(r.xml.property(node, "y"));
+  try {
+    if (is_simm_spline(kind)) return {make_simm_spline(std::move(x), std::move(y)), scale};
+    if (kind == "PiecewiseLinearFunction")
+      return {make_piecewise_linear(std::move(x), std::move(y)), scale};
+    if (kind == "PiecewiseConstantFunction")
+      return {make_piecewise_constant(std::move(x), std::move(y)), scale};
+    const double half_order = r.xml.number(node, "half_order", 3.0);
+    if (r.xml.number(node, "error_variance", 0.0) > 0.0)
+      return unsupported(r, node, "smooths (its <error_variance> is above 0)");
+    if (half_order == 1.0) return {make_piecewise_linear(std::move(x), std::move(y)), scale};
+    if (half_order == 2.0) return {make_natural_spline(std::move(x), std::move(y)), scale};
+    if (half_order == 3.0) return {make_quintic_spline(x, y), scale};
+    if (half_order == 4.0) return {make_septic_spline(x, y), scale};
+    return unsupported(r, node, fmt::format("has <half_order> {}", half_order));
+  } catch (const ReadError&) {
+    throw;
+  } catch (const InvalidInput& error) {
+    r.xml.fail(node, error.what());
+  }
+}
+
+/// Goes from MultiplierFunctions to the function inside; their scales multiply.
+double unwrap(const OsimReading& r, pugi::xml_node& node) {
+  double scale = 1.0;
+  for (int depth = 0; std::string_view(node.name()) == "MultiplierFunction"; ++depth) {
+    scale *= r.xml.number(node, "scale", 1.0);
+    auto inner = OsimXml::first_element(node.child("function"));
+    if (!inner) inner = node.find_child_by_attribute("name", "function");
+    if (!inner) r.xml.fail(node, "<MultiplierFunction> has no function inside");
+    if (depth > 64) r.xml.fail(node, "<MultiplierFunction> is nested more than 64 deep");
+    node = inner;
+  }
+  return scale;
+}
+
+}  // namespace
+
+std::optional<Function> function_in(OsimReading& r, pugi::xml_node holder) {
+  const auto element = OsimXml::first_element(holder);
+  if (!element) return std::nullopt;
+  return read_function(r, element);
+}
+
+std::optional<Function> function_property(OsimReading& r,
+                                          pugi::xml_node object,
+                                          const char* property) {
+  if (const auto holder = r.xml.property(object, property)) return function_in(r, holder);
+  const auto node = object.find_child_by_attribute("name", property);
+  if (!node) return std::nullopt;
+  return read_function(r, node);
+}
+
+std::vector<Function> functions_property(OsimReading& r,
+                                         pugi::xml_node object,
+                                         const char* property) {
+  auto set = r.xml.property(object, property);
+  if (!set) set = object.find_child_by_attribute("name", property);
+  if (const auto inner = set.child("FunctionSet")) set = inner;
+  std::vector<Function> functions;
+  for (const auto node : OsimXml::objects(set)) {
+    if (node.type() == pugi::node_element) functions.push_back(read_function(r, node));
+  }
+  return functions;
+}
+
+std::optional<MultiPolynomial> multi_function_property(const OsimReading& r,
+                                                       pugi::xml_node object,
+                                                       const char* property,
+                                                       int dimension) {
+  const auto holder = r.xml.property(object, property);
+  const auto node =
+      holder ? OsimXml::first_element(holder) : object.find_child_by_attribute("name", property);
+  if (!node) return std::nullopt;
+  return multi_function(r, node, dimension);
+}
+
+std::optional<MultiPolynomial> multi_function(const OsimReading& r,
+                                              pugi::xml_node node,
+                                              int dimension) {
+  const double scale = unwrap(r, node);
+  const std::string_view kind = node.name();
+  MultiPolynomial f{.dimension = dimension, .degree = 1, .scale = scale};
+  if (kind == "LinearFunction") {
+    // Slopes in the order of the variables, then the intercept: the other way round.
+    f.coefficients = coefficients_of(r, node);
+    std::reverse(f.coefficients.begin(), f.coefficients.end());
+  } else if (kind == "MultivariatePolynomialFunction") {
+    const double stated = r.xml.number(node, "dimension", 0.0);
+    const double order = r.xml.number(node, "order", 0.0);
+    constexpr double kHighest = 100.0;
+    if (stated != dimension || !(order >= 0.0 && order <= kHighest)) {
+      r.xml.fail(node, fmt::format("<dimension> {} and <order> {}, expected a function of {} "
+                                   "variables and an order of 0 to {}",
+                                   stated, order, dimension, kHighest));
+    }
+    f.degree = static_cast<int>(order);
+    f.coefficients = coefficients_of(r, node);
+  } else {
+    return std::nullopt;
+  }
+  const double needed = term_count(f.dimension, f.degree);
+  if (static_cast<double>(f.coefficients.size()) != needed) {
+    r.xml.fail(node, fmt::format("<coefficients>: expected {} for {} variables and order {}, found "
+                                 "{}",
+                                 needed, f.dimension, f.degree, f.coefficients.size()));
+  }
+  return f;
+}
+
+Function read_function(OsimReading& r, pugi::xml_node node) {
+  const double scale = unwrap(r, node);
+  const std::string_view kind = node.name();
+  if (kind == "Constant") return {Constant{r.xml.number(node, "value", 0.0)}, scale};
+  if (kind == "LinearFunction") {
+    const auto given = r.xml.property(node, "coefficients");
+    const auto c = given ? r.xml.numbers(given) : std::vector<double>{1.0, 0.0};
+    if (c.size() != 2) {
+      r.xml.fail(node, fmt::format("<coefficients>: expected slope and intercept, found {} numbers",
+                                   c.size()));
+    }
+    return {Linear{c[0], c[1]}, scale};
+  }
+  if (kind == "PolynomialFunction") return {Polynomial{coefficients_of(r, node)}, scale};
+  if (kind == "MultivariatePolynomialFunction") {
+    if (r.xml.number(node, "dimension", 1.0) != 1.0)
+      return unsupported(r, node, "is one of several variables");
+    auto c = coefficients_of(r, node);  // lowest power first
+    std::reverse(c.begin(), c.end());
+    return {Polynomial{std::move(c)}, scale};
+  }
+  if (kind == "Sine") {
+    return {Sine{r.xml.number(node, "amplitude", 1.0), r.xml.number(node, "omega", 1.0),
+                 r.xml.number(node, "phase", 0.0), r.xml.number(node, "offset", 0.0)},
+            scale};
+  }
+  if (kind == "StepFunction") {
+    const SmoothStep step{
+        r.xml.number(node, "start_time", 0.0), r.xml.number(node, "end_time", 1.0),
+        r.xml.number(node, "start_value", 0.0), r.xml.number(node, "end_value", 1.0)};
+    if (!(step.end > step.start)) {
+      r.xml.fail(node, fmt::format("<StepFunction>: expected <end_time> after <start_time> {}, "
+                                   "found {}",
+                                   step.start, step.end));
+    }
+    return {step, scale};
+  }
+  if (is_simm_spline(kind) || kind == "PiecewiseLinearFunction" || kind == "GCVSpline" ||
+      kind == "PiecewiseConstantFunction")
+    return read_knots(r, node, scale);
+  return unsupported(r, node, "is not supported");
+}
+
+}  // namespace myoid::model

@@ -1,0 +1,174 @@
+#include "myoid/osim/osim_muscles.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "myoid/core/error.h"
+#include "myoid/osim/osim_functions.h"
+#include "myoid/osim/osim_paths.h"
+
+namespace myoid::model {
+namespace {
+
+MillardCurves millard_curves(const OsimReading& r, pugi::xml_node node) {
+  MillardCurves c;
+  const auto set = [&](pugi::xml_node curve, const char* name, double& value) {
+    value = r.xml.number(curve, name, value);
+  };
+  const auto active = r.xml.property(node, "ActiveForceLengthCurve");
+  set(active, "min_norm_active_fiber_length", c.active_min_length);
+  set(active, "transition_norm_fiber_length", c.active_transition_length);
+  set(active, "max_norm_active_fiber_length", c.active_max_length);
+  set(active, "shallow_ascending_slope", c.active_shallow_slope);
+  set(active, "minimum_value", c.active_minimum);
+  const auto velocity = r.xml.property(node, "ForceVelocityCurve");
+  set(velocity, "concentric_slope_at_vmax", c.concentric_slope_at_vmax);
+  set(velocity, "concentric_slope_near_vmax", c.concentric_slope_near_vmax);
+  set(velocity, "isometric_slope", c.isometric_slope);
+  set(velocity, "eccentric_slope_at_vmax", c.eccentric_slope_at_vmax);
+  set(velocity, "eccentric_slope_near_vmax", c.eccentric_slope_near_vmax);
+  set(velocity, "max_eccentric_velocity_force_multiplier", c.eccentric_force);
+  set(velocity, "concentric_curviness", c.concentric_curviness);
+  set(velocity, "eccentric_curviness", c.eccentric_curviness);
+  const auto fiber = r.xml.property(node, "FiberForceLengthCurve");
+  set(fiber, "strain_at_zero_force", c.fiber_strain_at_zero_force);
+  set(fiber, "strain_at_one_norm_force", c.fiber_strain_at_one_force);
+  set(fiber, "stiffness_at_low_force", c.fiber_stiffness_at_low_force);
+  set(fiber, "stiffness_at_one_norm_force", c.fiber_stiffness_at_one_force);
+  set(fiber, "curviness", c.fiber_curviness);
+  const auto tendon = r.xml.property(node, "TendonForceLengthCurve");
+  set(tendon, "strain_at_one_norm_force", c.tendon_strain_at_one_force);
+  set(tendon, "stiffness_at_one_norm_force", c.tendon_stiffness_at_one_force);
+  set(tendon, "norm_force_at_toe_end", c.tendon_force_at_toe_end);
+  set(tendon, "curviness", c.tendon_curviness);
+  c.fiber_damping = r.xml.number(node, "fiber_damping", 0.1);
+  c.ignore_tendon_compliance = r.xml.flag(node, "ignore_tendon_compliance", false);
+  c.ignore_activation_dynamics = r.xml.flag(node, "ignore_activation_dynamics", false);
+  return c;
+}
+
+SchutteCurves schutte_curves(OsimReading& r, pugi::xml_node node) {
+  SchutteCurves c;
+  c.time_scale_s = r.xml.number(node, "time_scale", 0.1);
+  c.activation1 = r.xml.number(node, "activation1", 7.667);
+  c.activation2 = r.xml.number(node, "activation2", 1.459854);
+  c.damping = r.xml.number(node, "damping", 0.05);
+  const auto curve = [&](const char* name) { return function_property(r, node, name); };
+  c.active_force_length = curve("active_force_length_curve");
+  c.passive_force_length = curve("passive_force_length_curve");
+  c.tendon_force_length = curve("tendon_force_length_curve");
+  c.force_velocity = curve("force_velocity_curve");
+  return c;
+}
+
+DeGrooteCurves de_groote_curves(const OsimReading& r, pugi::xml_node node) {
+  DeGrooteCurves c;
+  c.active_width_scale = r.xml.number(node, "active_force_width_scale", 1.0);
+  c.fiber_damping = r.xml.number(node, "fiber_damping", 0.0);
+  c.passive_fiber_strain_at_one_force =
+      r.xml.number(node, "passive_fiber_strain_at_one_norm_force", 0.6);
+  c.tendon_strain_at_one_force = r.xml.number(node, "tendon_strain_at_one_norm_force", 0.049);
+  c.ignore_passive_fiber_force = r.xml.flag(node, "ignore_passive_fiber_force", false);
+  c.ignore_tendon_compliance = r.xml.flag(node, "ignore_tendon_compliance", false);
+  c.ignore_activation_dynamics = r.xml.flag(node, "ignore_activation_dynamics", false);
+  c.tendon_dynamics_implicit = r.xml.word(node, "tendon_compliance_dynamics_mode") == "implicit";
+  return c;
+}
+
+}  // namespace
+
+void note_classes(BodyModel& model) {
+  std::map<std::string, std::vector<std::string>> by_class;
+  for (const Muscle& muscle : model.muscles)
+    if (!muscle.class_name.starts_with("Thelen2003Muscle"))
+      by_class[muscle.class_name].push_back(muscle.name);
+  for (const auto& [name, muscles] : by_class) {
+    const bool own = name.starts_with("Millard2012") || name.starts_with("DeGrooteFregly2016");
+    constexpr std::size_t kNamed = 3;
+    const std::vector<std::string> named(
+        muscles.begin(),
+        muscles.begin() + static_cast<std::ptrdiff_t>(std::min(kNamed, muscles.size())));
+    model.notes.push_back(
+        fmt::format("{} {} of class {} ({}{}): identification starts from the numbers that the "
+                    "class shares with "
+                    "Thelen's; {}",
+                    muscles.size(), muscles.size() == 1 ? "muscle is" : "muscles are", name,
+                    fmt::join(named, ", "), named.size() < muscles.size() ? ", ..." : "",
+                    own ? "so, run-tool and simulate use the class's own curves"
+                        : "so, run-tool and simulate take Thelen's curves with their numbers"));
+  }
+}
+
+bool is_muscle(pugi::xml_node node) {
+  const std::string_view kind = node.name();
+  return kind.ends_with("Muscle") || kind.ends_with("Muscle_Deprecated");
+}
+
+Muscle read_muscle(OsimReading& r, pugi::xml_node node) {
+  Muscle muscle;
+  muscle.name = OsimXml::name_of(node);
+  muscle.class_name = node.name();
+  if (muscle.name.empty()) r.xml.fail(node, "a muscle has no name");
+  if (r.model.find_muscle(muscle.name))
+    r.xml.fail(node, fmt::format("two muscles are named '{}'", muscle.name));
+  muscle.applies_force = is_enabled(r, node, "appliesForce");
+  const bool thelen = muscle.class_name.starts_with("Thelen2003Muscle");
+  const bool de_groote = muscle.class_name.starts_with("DeGrooteFregly2016");
+  const bool millard = muscle.class_name.starts_with("Millard2012");
+  const bool schutte =
+      muscle.class_name.starts_with("Schutte1993") || muscle.class_name.starts_with("Delp1990");
+  MuscleProperties& p = muscle.properties;
+  const auto set = [&](const char* name, double& value) {
+    value = r.xml.number(node, name, value);
+    if (!std::isfinite(value) && std::string_view(name) != "min_control" &&
+        std::string_view(name) != "max_control")
+      r.xml.fail(node, fmt::format("muscle '{}': <{}> is not finite", muscle.name, name));
+  };
+  if (!thelen) {
+    p.activation_time_s = de_groote ? 0.015 : 0.01;
+    p.deactivation_time_s = de_groote ? 0.06 : 0.04;
+  }
+  if (!thelen && !millard) p.min_control = 0.0;
+  const double class_min_control = p.min_control;
+  set("max_isometric_force", p.max_isometric_force_n);
+  p.optimal_fiber_length_m = positive(r, node, "optimal_fiber_length", p.optimal_fiber_length_m);
+  set("tendon_slack_length", p.tendon_slack_length_m);
+  set("pennation_angle_at_optimal", p.pennation_at_optimal_rad);
+  if (!r.xml.property(node, "pennation_angle_at_optimal"))
+    set("pennation_angle", p.pennation_at_optimal_rad);
+  set("max_contraction_velocity", p.max_contraction_velocity);
+  set("KshapeActive", p.active_shape);
+  set("KshapePassive", p.passive_shape);
+  set("FmaxTendonStrain", p.max_tendon_strain);
+  set("FmaxMuscleStrain", p.max_muscle_strain);
+  set("Af", p.concentric_shape);
+  set("Flen", p.eccentric_plateau);
+  set("fv_linear_extrap_threshold", p.force_velocity_extrapolation);
+  set("maximum_pennation_angle", p.max_pennation_rad);
+  set("activation_time_constant", p.activation_time_s);
+  set("deactivation_time_constant", p.deactivation_time_s);
+  set("minimum_activation", p.minimum_activation);
+  set("default_activation", p.default_activation);
+  // OpenSim takes its classes' own 0.1 m for every muscle.
+  if (!r.compat.class_fiber_length) p.default_fiber_length_m = p.optimal_fiber_length_m;
+  set("default_fiber_length", p.default_fiber_length_m);
+  set("min_control", p.min_control);
+  set("max_control", p.max_control);
+  if (r.xml.version() < 30513 && p.min_control == 0.0) p.min_control = class_min_control;
+  if (millard) {
+    p.curves = millard_curves(r, node);
+  } else if (schutte) {
+    p.curves = schutte_curves(r, node);
+  } else if (de_groote) {
+    p.curves = de_groote_curves(r, node);
+  }
+  muscle.path = read_path(r, node);
+  return muscle;
+}
+
+}  // namespace myoid::model

@@ -1,0 +1,89 @@
+#include "myoid/osim/osim_named_frames.h"
+
+#include <sstream>
+
+#include <fmt/format.h>
+
+#include "myoid/core/index.h"
+#include "myoid/files/text_file.h"
+#include "myoid/osim/osim_frames.h"
+#include "myoid/osim/osim_update_parts.h"
+#include "myoid/osim/osim_xml.h"
+
+namespace myoid::model {
+namespace {
+
+std::string numbers(const Vec3& v) {
+  using recording::format_number;
+  return format_number(v.x()) + " " + format_number(v.y()) + " " + format_number(v.z());
+}
+
+/// The first element of this class and name below `node`.
+pugi::xml_node element_named(pugi::xml_node node, const char* kind, const std::string& name) {
+  return node.find_node([&](const pugi::xml_node& n) {
+    return std::string_view(n.name()) == kind && OsimXml::name_of(n) == name;
+  });
+}
+
+void add_sensor(pugi::xml_node model, pugi::xml_node carrier, const SensorPlace& sensor) {
+  auto components = carrier.child("components");
+  if (!components) components = carrier.append_child("components");
+  append_frame(components, sensor.name, "..", numbers(sensor.p), numbers(sensor.angles_rad));
+  auto own = model.child("components");
+  if (!own) own = model.append_child("components");
+  auto imu = own.append_child("IMU");
+  imu.append_attribute("name").set_value(sensor.name.c_str());
+  append_text(imu, "socket_frame", sensor.carrier.path + "/" + sensor.name);
+}
+
+}  // namespace
+
+std::map<std::string, NamedFrame> named_frames(std::string_view text,
+                                               const std::filesystem::path& path) {
+  OsimXml xml(text, path);
+  const auto model = xml.root().child("Model");
+  xml.set_prototypes(model.child("defaults"));
+  OsimReading reading{xml};
+  read_bodies(reading, model);
+  std::map<std::string, NamedFrame> frames;
+  for (const Body& body : reading.model.bodies) {
+    frames.emplace(
+        body.name,
+        NamedFrame{body.name == "ground" ? "/ground" : "/bodyset/" + body.name, body.name, Pose{}});
+  }
+  for (const auto& [frame_path, frame] : reading.frames) {
+    if (std::string_view(frame.node.name()) == "Station") continue;
+    const FixedFrame fixed = resolve_frame(reading, frame.node, frame_path, "");
+    frames.emplace(OsimXml::name_of(frame.node),
+                   NamedFrame{frame_path, reading.model.bodies[at(fixed.body)].name, fixed.X_BF});
+  }
+  return frames;
+}
+
+std::string with_sensors(std::string_view text,
+                         const std::filesystem::path& path,
+                         const std::vector<SensorPlace>& sensors) {
+  const OsimXml source(text, path);
+  pugi::xml_document document;
+  (void)document.load_buffer(text.data(), text.size(),
+                             pugi::parse_default | pugi::parse_comments | pugi::parse_declaration);
+  const auto model = document.child("OpenSimDocument").child("Model");
+  for (const SensorPlace& sensor : sensors) {
+    if (auto frame = element_named(model, "PhysicalOffsetFrame", sensor.name)) {
+      auto orientation = frame.child("orientation");
+      if (!orientation) orientation = frame.append_child("orientation");
+      orientation.text().set(numbers(sensor.angles_rad).c_str());
+      continue;
+    }
+    const std::string name = sensor.carrier.path.substr(sensor.carrier.path.find_last_of('/') + 1);
+    auto carrier = element_named(model, "Body", name);
+    if (!carrier) carrier = element_named(model, "PhysicalOffsetFrame", name);
+    if (!carrier) source.fail(source.root(), fmt::format("there is no body or frame '{}'", name));
+    add_sensor(model, carrier, sensor);
+  }
+  std::ostringstream out;
+  document.save(out, "\t", pugi::format_default, pugi::encoding_utf8);
+  return out.str();
+}
+
+}  // namespace myoid::model

@@ -1,0 +1,163 @@
+#include "myoid/osim/osim_reader.h"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "myoid/core/error.h"
+#include "myoid/files/named_file.h"
+#include "myoid/files/text_file.h"
+#include "myoid/osim/osim_constraints.h"
+#include "myoid/osim/osim_forces.h"
+#include "myoid/osim/osim_frames.h"
+#include "myoid/osim/osim_joints.h"
+#include "myoid/osim/osim_muscles.h"
+#include "myoid/osim/osim_paths.h"
+
+namespace myoid::model {
+namespace {
+
+void read_marker(OsimReading& r, pugi::xml_node node, const std::string& path) {
+  Marker marker;
+  marker.name = OsimXml::name_of(node);
+  const FixedFrame frame = frame_of(r, node, "parent_frame", path);
+  marker.body = frame.body;
+  marker.p_BM = frame.X_BF * r.xml.vec3(node, "location", Vec3::Zero());
+  if (!marker.p_BM.allFinite())
+    r.xml.fail(node, fmt::format("marker '{}': its location is not finite", marker.name));
+  r.model.markers.push_back(std::move(marker));
+}
+
+void read_markers(OsimReading& r, pugi::xml_node set) {
+  for (const auto node : OsimXml::objects(set)) {
+    if (std::string_view(node.name()) == "Marker")
+      read_marker(r, node, "/markerset/" + OsimXml::name_of(node));
+  }
+}
+
+/// Markers, constraints and forces that stand outside of their sets.
+void read_loose_components(OsimReading& r, pugi::xml_node model) {
+  for (const auto& [node, path] : components_of(model, "", "Marker")) read_marker(r, node, path);
+  for (const auto& [node, path] : components_of(model, "", "Constraint"))
+    read_constraint(r, node, path);
+  for (const auto& [node, path] : components_of(model, "", "")) read_component_force(r, node);
+}
+
+/// The name of the file in which a set stands instead of in the model; empty if it does not.
+std::string file_of(pugi::xml_node set) {
+  std::string file = set.attribute("file").value();
+  std::replace(file.begin(), file.end(), '\\', '/');
+  return file == "Unassigned" ? std::string() : file;
+}
+
+/// A set of markers or forces in the model or in a file that it names, relative to itself.
+template <typename Read>
+void read_set(OsimReading& r, pugi::xml_node set, const Read& read) {
+  const std::string file = file_of(set);
+  if (file.empty()) return read(r, set);
+  const auto named = recording::find_named_file(r.xml.path().parent_path(), file);
+  if (!named.note.empty()) r.model.notes.push_back(fmt::format("<{}>: {}", set.name(), named.note));
+  const std::filesystem::path& path = named.path;
+  const std::string text = recording::read_text_file(path);
+  const OsimXml xml(text, path, OsimXml::Root::any);
+  const auto other = xml.root().child(set.name());
+  if (!other) xml.fail(xml.root(), fmt::format("expected a <{}>", set.name()));
+  OsimReading inner{xml, r.compat, std::move(r.model), r.frames};
+  read(inner, other);
+  r.model = std::move(inner.model);
+  for (const std::string& sentence : xml.defaulted())
+    r.model.notes.push_back(fmt::format("{}: {}", path.string(), sentence));
+}
+
+/// Other sets that a model may refer to in a file of its own; leaving them out would be silent.
+void list_external_sets(OsimReading& r, pugi::xml_node model) {
+  for (const auto node : model.children()) {
+    const std::string file = file_of(node);
+    const std::string_view set = node.name();
+    if (!file.empty() && set != "MarkerSet" && set != "ForceSet") {
+      r.model.unsupported.push_back(
+          fmt::format("<{}> is in another file, '{}', which is not read", node.name(), file));
+    }
+  }
+}
+
+}  // namespace
+
+BodyModel parse_osim(std::string_view text,
+                     const std::filesystem::path& path,
+                     const OsimOptions& options) {
+  OsimXml xml(text, path);
+  auto model = xml.root().child("Model");
+  if (!model) {
+    xml.fail(xml.root(),
+             "the document has no <Model>; this is another kind of OpenSim file (a set-up?)");
+  }
+  if (xml.version() < 10600) {
+    xml.fail(xml.root(),
+             fmt::format("document version {} is too old (before 10600): open the model "
+                         "in OpenSim and save it again",
+                         xml.version()));
+  }
+  xml.set_prototypes(model.child("defaults"));
+  OsimReading r{xml, options.compat, {}, {}};
+  r.model.compat = options.compat;
+  r.model.document_version = xml.version();
+  r.model.name = OsimXml::name_of(model);
+  r.model.gravity_G = xml.vec3(model, "gravity", r.model.gravity_G);
+  list_external_sets(r, model);
+  const auto skeleton = skeleton_of(model);
+  if (components_of(skeleton, "BodySet", "Body").empty() && !skeleton.child("BodySet"))
+    xml.fail(model, "the model has no <BodySet>, and no <Body> among its components");
+  read_bodies(r, skeleton);
+  read_joints(r, skeleton);
+  read_set(r, skeleton.child("MarkerSet") ? skeleton.child("MarkerSet") : model.child("MarkerSet"),
+           read_markers);
+  read_wrap_objects(r, skeleton);
+  read_set(r, model.child("ForceSet") ? model.child("ForceSet") : model.child("ActuatorSet"),
+           read_forces);
+  read_constraints(r, skeleton.child("ConstraintSet") ? skeleton.child("ConstraintSet")
+                                                      : model.child("ConstraintSet"));
+  read_loose_components(r, model);
+  note_classes(r.model);
+  for (const std::string& sentence : xml.defaulted()) r.model.notes.push_back(sentence);
+  try {
+    return finalize(std::move(r.model));
+  } catch (const ModelError& error) {
+    throw ModelError(fmt::format("{}: {}", path.string(), error.what()));
+  }
+}
+
+BodyModel read_osim(const std::filesystem::path& path, const OsimOptions& options) {
+  const std::string text = recording::read_text_file(path);
+  return parse_osim(text, path, options);
+}
+
+BodyModel with_force_set(BodyModel model, const std::filesystem::path& path) {
+  const std::string text = recording::read_text_file(path);
+  const OsimXml xml(text, path);
+  const auto set = xml.root().child("ForceSet");
+  if (!set) xml.fail(xml.root(), "expected a <ForceSet> in <OpenSimDocument>");
+  OsimReading r{xml, model.compat, std::move(model), {}};
+  std::string repeated;
+  for (const auto node : OsimXml::objects(set)) {
+    if (node.type() != pugi::node_element) continue;
+    const std::string name = OsimXml::name_of(node);
+    const auto& names = r.model.force_order;
+    if (std::find(names.begin(), names.end(), name) == names.end()) {
+      read_force(r, node);
+    } else {
+      repeated += fmt::format("{}'{}'", repeated.empty() ? "" : ", ", name);
+    }
+  }
+  if (!repeated.empty()) {
+    r.model.notes.push_back(
+        fmt::format("{}: the model has forces of these names already; as in OpenSim the model's "
+                    "own act and the file's are left out: {}",
+                    path.string(), repeated));
+  }
+  return finalize(std::move(r.model));
+}
+
+}  // namespace myoid::model

@@ -1,0 +1,208 @@
+#include "myoid/osim/osim_writer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "myoid/core/error.h"
+#include "myoid/files/text_file.h"
+#include "myoid/osim/osim_xml.h"
+
+namespace myoid::model {
+namespace {
+
+constexpr std::string_view kBlank = " \t\r\n";
+
+struct Edit {
+  std::size_t at = 0;
+  std::size_t length = 0;
+  std::string text;
+};
+
+std::string text_of(const std::vector<double>& values) {
+  std::string text;
+  for (const double value : values)
+    text += (text.empty() ? "" : " ") + recording::format_number(value);
+  return text;
+}
+
+/// Position after the '>' of the tag whose name stands at `at`.
+std::size_t after_tag(std::string_view text, std::size_t at) {
+  char quote = 0;
+  for (; at < text.size(); ++at) {
+    const char c = text[at];
+    if (quote != 0) {
+      if (c == quote) quote = 0;
+    } else if (c == '"' || c == '\'') {
+      quote = c;
+    } else if (c == '>') {
+      return at + 1;
+    }
+  }
+  return text.size();
+}
+
+/// Where an element's start tag lies in the text.
+struct StartTag {
+  std::size_t name = 0;   ///< Of its first letter.
+  std::size_t after = 0;  ///< After its '>'.
+  bool is_whole = false;  ///< <x/>: there is no more of the element.
+};
+
+/// The objects of a set as they stand in the bytes, whatever the file's character set: the same
+/// parser without conversion, so that its offsets count bytes.
+class RawText {
+ public:
+  RawText(std::string_view text, const std::filesystem::path& path) : text_(text) {
+    if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF")) {
+      throw ModelError(
+          fmt::format("{}: a model in UTF-16 cannot be changed in place; save it as "
+                      "UTF-8",
+                      path.string()));
+    }
+    // The byte-order mark is not part of what the parser counts.
+    if (text.starts_with("\xEF\xBB\xBF")) mark_ = 3;
+    const auto parsed = document_.load_buffer(text.data() + mark_, text.size() - mark_,
+                                              pugi::parse_default, pugi::encoding_utf8);
+    if (!parsed)
+      throw ReadError(path, 0, fmt::format("cannot be read again: {}", parsed.description()));
+  }
+  [[nodiscard]] pugi::xml_node root() const { return document_.child("OpenSimDocument"); }
+  [[nodiscard]] std::string_view text() const { return text_; }
+  [[nodiscard]] std::size_t offset(pugi::xml_node node) const {
+    return static_cast<std::size_t>(node.offset_debug()) + mark_;
+  }
+  [[nodiscard]] StartTag start_tag(pugi::xml_node element) const {
+    const std::size_t name = offset(element);
+    const std::size_t after = after_tag(text_, name);
+    return {name, after, text_[after - 2] == '/'};
+  }
+
+ private:
+  std::string_view text_;
+  std::size_t mark_ = 0;
+  pugi::xml_document document_;
+};
+
+/// Number of the object in its set; the set is the model's or, in old documents, the root's.
+struct Place {
+  bool in_model = true;
+  std::ptrdiff_t number = 0;
+};
+
+std::optional<Place> place_of(const OsimXml& xml, const OsimChange& change) {
+  for (const bool in_model : {true, false}) {
+    const auto holder = in_model ? xml.root().child("Model") : xml.root();
+    std::ptrdiff_t number = 0;
+    for (const auto node : OsimXml::objects(holder.child(change.set.c_str()))) {
+      if (OsimXml::name_of(node) == change.object) return Place{in_model, number};
+      ++number;
+    }
+  }
+  return std::nullopt;
+}
+
+pugi::xml_node object_at(const RawText& raw, const std::string& set, const Place& place) {
+  const auto holder = place.in_model ? raw.root().child("Model") : raw.root();
+  const auto objects = OsimXml::objects(holder.child(set.c_str()));
+  return *std::next(objects.begin(), place.number);
+}
+
+/// The blanks between a start tag and what follows it: the indentation of the children.
+std::string_view indentation(std::string_view text, std::size_t after) {
+  const std::size_t next = std::min(text.find_first_not_of(kBlank, after), text.size());
+  return next < text.size() && text[next] == '<' ? text.substr(after, next - after) : "";
+}
+
+/// Puts `values` in the place of what the element holds; blanks around it and comments before and
+/// after it stay.
+Edit fill(const RawText& raw, pugi::xml_node element, const std::string& values) {
+  const std::string_view text = raw.text();
+  std::optional<std::size_t> first, last;
+  for (const auto part : element.children()) {
+    if (part.type() != pugi::node_pcdata) continue;
+    const std::size_t begin = raw.offset(part);
+    const std::size_t end = std::min(text.find('<', begin), text.size());
+    const std::string_view inside = text.substr(begin, end - begin);
+    if (inside.find_first_not_of(kBlank) == std::string_view::npos) continue;
+    if (!first) first = begin + inside.find_first_not_of(kBlank);
+    last = begin + inside.find_last_not_of(kBlank);
+  }
+  if (first) return {*first, *last - *first + 1, values};
+  const StartTag tag = raw.start_tag(element);
+  if (!tag.is_whole) return {tag.after, 0, values};
+  return {tag.after - 2, 2, fmt::format(">{}</{}>", values, element.name())};
+}
+
+/// Adds an element that the object does not have.
+Edit add(const RawText& raw,
+         pugi::xml_node object,
+         const std::string& property,
+         const std::string& values) {
+  const std::string element = fmt::format("<{}>{}</{}>", property, values, property);
+  const StartTag tag = raw.start_tag(object);
+  if (!tag.is_whole)
+    return {tag.after, 0, std::string(indentation(raw.text(), tag.after)) + element};
+  return {tag.after - 2, 2, fmt::format(">{}</{}>", element, object.name())};
+}
+
+std::string with_edits(std::string_view text,
+                       std::vector<Edit> edits,
+                       const std::filesystem::path& path) {
+  std::stable_sort(edits.begin(), edits.end(),
+                   [](const Edit& a, const Edit& b) { return a.at < b.at; });
+  std::string result;
+  result.reserve(text.size() + 64 * edits.size());
+  std::size_t done = 0;
+  for (const Edit& e : edits) {
+    if (e.at < done)
+      throw ModelError(fmt::format("{}: one number is to be changed twice", path.string()));
+    result += text.substr(done, e.at - done);
+    result += e.text;
+    done = e.at + e.length;
+  }
+  result += text.substr(done);
+  return result;
+}
+
+}  // namespace
+
+std::string changed_osim(std::string_view text,
+                         const std::filesystem::path& path,
+                         const std::vector<OsimChange>& changes) {
+  const OsimXml xml(text, path);
+  const RawText raw(text, path);
+  std::vector<Edit> edits;
+  for (std::size_t i = 0; i < changes.size(); ++i) {
+    const OsimChange& change = changes[i];
+    for (const double value : change.values) {
+      if (!std::isfinite(value)) {
+        throw ModelError(fmt::format("<{}> of '{}': {} cannot be written to a model",
+                                     change.property, change.object, value));
+      }
+    }
+    for (std::size_t k = 0; k < i; ++k) {
+      if (changes[k].set == change.set && changes[k].object == change.object &&
+          changes[k].property == change.property) {
+        throw ModelError(
+            fmt::format("<{}> of '{}' is to be changed twice", change.property, change.object));
+      }
+    }
+    const auto place = place_of(xml, change);
+    if (!place) {
+      throw ModelError(fmt::format("{}: there is no '{}' in <{}> to change", path.string(),
+                                   change.object, change.set));
+    }
+    const auto object = object_at(raw, change.set, *place);
+    const auto element = object.child(change.property.c_str());
+    // A number that is the same already keeps its digits; so does one that a <defaults> gives.
+    if (element && xml.numbers(element) == change.values) continue;
+    edits.push_back(element ? fill(raw, element, text_of(change.values))
+                            : add(raw, object, change.property, text_of(change.values)));
+  }
+  return with_edits(text, std::move(edits), path);
+}
+
+}  // namespace myoid::model

@@ -1,0 +1,107 @@
+#include "myoid/phases/block_segments.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "myoid/core/numbers.h"
+#include "myoid/math/change_points.h"
+#include "myoid/math/statistics.h"
+
+namespace myoid {
+namespace {
+
+/// Spread of one block about its neighbors: robust, and never below a percent, which no recording
+/// of a person keeps.
+double block_sd(const Eigen::VectorXd& x) {
+  std::vector<double> differences;
+  for (Eigen::Index i = 1; i < x.size(); ++i) differences.push_back(std::abs(x[i] - x[i - 1]));
+  return std::max(0.01, 1.4826 * math::median(differences) / std::sqrt(2.0));
+}
+
+/// The blocks' frequencies; a block in which no channel was loud enough takes its neighbor's. Empty
+/// if more than a fifth of them are such.
+Eigen::VectorXd known_frequencies(const std::vector<Block>& blocks) {
+  const auto n = static_cast<Eigen::Index>(blocks.size());
+  Eigen::VectorXd frequency(n);
+  double last = kNan;
+  Eigen::Index unknown = 0;
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const double f = blocks[static_cast<std::size_t>(i)].frequency;
+    if (std::isfinite(f)) last = f;
+    unknown += std::isfinite(f) ? 0 : 1;
+    frequency[i] = last;
+  }
+  for (Eigen::Index i = n - 2; i >= 0; --i) {
+    if (!std::isfinite(frequency[i])) frequency[i] = frequency[i + 1];
+  }
+  return 5 * unknown > n ? Eigen::VectorXd() : frequency;
+}
+
+/// What one block spreads by, alone or as it counts in a mean, whichever is more.
+double noise_sd(const Eigen::VectorXd& x) {
+  const double long_run = long_run_sd(x, kBatch);
+  return std::isfinite(long_run) ? std::max(block_sd(x), long_run) : block_sd(x);
+}
+
+}  // namespace
+
+BlockChanges find_changes(const std::vector<Block>& blocks) {
+  const auto n = static_cast<Eigen::Index>(blocks.size());
+  BlockChanges changes{.gain = Eigen::VectorXd(n), .frequency = known_frequencies(blocks)};
+  for (Eigen::Index i = 0; i < n; ++i) changes.gain[i] = blocks[static_cast<std::size_t>(i)].gain;
+  const bool frequency_known = changes.frequency.size() > 0;
+  Eigen::MatrixXd x(n, frequency_known ? 2 : 1);
+  Eigen::VectorXd sd(x.cols());
+  x.col(0) = changes.gain;
+  sd[0] = changes.gain_sd = noise_sd(changes.gain);
+  if (frequency_known) {
+    x.col(1) = changes.frequency;
+    sd[1] = changes.frequency_sd = noise_sd(changes.frequency);
+  }
+  const math::ChangePoints found =
+      math::change_points(x, {.cost = math::SegmentCost::mean, .min_length = 2, .noise_sd = sd});
+  for (const math::Segment& part : found.segments) {
+    Segment segment{.first = static_cast<std::size_t>(part.begin),
+                    .last = static_cast<std::size_t>(part.end),
+                    .gain = part.mean[0],
+                    .frequency = frequency_known ? part.mean[1] : kNan};
+    for (std::size_t b = segment.first; b < segment.last; ++b) {
+      segment.speed += blocks[b].speed / segment.count();
+      segment.torque += blocks[b].torque / segment.count();
+    }
+    changes.segments.push_back(segment);
+  }
+  return changes;
+}
+
+bool alike(double speed, double torque, double other_speed, double other_torque, double factor) {
+  const auto within = [&](double a, double b) {
+    return std::max(a, b) < factor * std::max(1e-9, std::min(a, b));
+  };
+  return within(speed, other_speed) && within(torque, other_torque);
+}
+
+std::size_t regular_segment(const BlockChanges& changes, const PhaseOptions& options) {
+  constexpr double kSurely = 3.0;  // standard errors, of either
+  const std::vector<Segment>& all = changes.segments;
+  const auto longest =
+      std::max_element(all.begin(), all.end(),
+                       [](const Segment& a, const Segment& b) { return a.count() < b.count(); });
+  auto regular = static_cast<std::size_t>(longest - all.begin());
+  if (changes.frequency.size() == 0) return regular;
+  for (auto segment = all.begin(); segment != longest; ++segment) {
+    const double share = std::sqrt(1.0 / segment->count() + 1.0 / longest->count());
+    const double gain = segment->gain - longest->gain;
+    const double frequency = segment->frequency - longest->frequency;
+    if (segment->count() >= static_cast<double>(kBatch) &&
+        gain > kSurely * changes.gain_sd * share &&
+        frequency > kSurely * changes.frequency_sd * share &&
+        alike(segment->speed, segment->torque, longest->speed, longest->torque, options.alike) &&
+        segment->gain > all[regular].gain) {
+      regular = static_cast<std::size_t>(segment - all.begin());
+    }
+  }
+  return regular;
+}
+
+}  // namespace myoid

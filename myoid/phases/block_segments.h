@@ -1,0 +1,46 @@
+#pragma once
+
+#include <limits>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "myoid/phases/movement_blocks.h"
+#include "myoid/phases/phases.h"
+
+namespace myoid {
+
+/// Blocks of which the noise is measured by means: some 8 s, longer than what people vary by from
+/// cycle to cycle hangs together. Fewer are too few to be called a warm-up or a fresh phase.
+inline constexpr Eigen::Index kBatch = 4;
+
+/// Blocks first .. last-1 between two changes, and how they compare with others.
+struct Segment {
+  std::size_t first = 0, last = 0;
+  /// Means of logarithms; the frequency is NaN if it is not known.
+  double gain = 0.0, frequency = std::numeric_limits<double>::quiet_NaN();
+  double speed = 0.0, torque = 0.0;
+  [[nodiscard]] double count() const { return static_cast<double>(last - first); }
+};
+
+/// Where torque per EMG and frequency change.
+struct BlockChanges {
+  Eigen::VectorXd gain, frequency;  ///< Per block; the latter empty if not known.
+  std::vector<Segment> segments;
+  double gain_sd = 0.0, frequency_sd = 0.0;  ///< Of one block.
+};
+
+/// Searches both together for the blocks at which their means change. The noise of one block is its
+/// spread about its neighbors, or as it counts in a mean of `kBatch`, whichever is more. Where more
+/// than a fifth of the frequencies are not known, none is used. Gains must be finite.
+[[nodiscard]] BlockChanges find_changes(const std::vector<Block>& blocks);
+
+/// Whether two stretches are the same movement: speed and torque differ by less than `factor`.
+[[nodiscard]] bool alike(
+    double speed, double torque, double other_speed, double other_torque, double factor);
+
+/// The longest segment; but if torque per EMG and frequency were both higher in earlier ones, the
+/// muscles were fresh in those, and the longest is one of tiring: then that with the most torque.
+[[nodiscard]] std::size_t regular_segment(const BlockChanges& changes, const PhaseOptions& options);
+
+}  // namespace myoid

@@ -1,0 +1,83 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "myoid/core/time_series.h"
+
+namespace myoid {
+
+/// What a person does in a stretch of a trial.
+enum class PhaseKind {
+  rest,       ///< Neither movement nor activation.
+  isometric,  ///< Activation without movement.
+  warm_up,    ///< Before the regular phase, and the muscles give another torque for their EMG.
+  regular,    ///< What the parameters are identified from.
+  fatigued,   ///< After it: less torque for the same EMG, and the EMG's frequency has fallen.
+  changed,    ///< Differs from the regular phase, and neither warm-up nor fatigue explains it.
+};
+[[nodiscard]] std::string_view name(PhaseKind kind);
+
+struct Phase {
+  PhaseKind kind = PhaseKind::regular;
+  double begin_s = 0.0, end_s = 0.0;
+  /// Torque measured per torque predicted from the EMG, as a fraction of the regular phase's.
+  std::optional<double> gain;
+  /// Median frequency of the EMG, as a fraction of the regular phase's.
+  std::optional<double> frequency;
+  bool excluded = false;  ///< By the study's rule; set by the caller.
+  std::string reason;     ///< A sentence.
+};
+
+/// One trial, n samples on the clock of the motion.
+struct PhaseSignals {
+  Eigen::VectorXd time_s;
+  Eigen::VectorXd velocity_radps;
+  Eigen::VectorXd torque_nm;     ///< Measured.
+  Eigen::VectorXd predicted_nm;  ///< From the EMG, with one set of parameters for the whole trial.
+  /// Sum of the magnitudes of the muscles' torques, from the EMG as `predicted_nm`; may be empty.
+  Eigen::VectorXd effort_nm;
+  Eigen::MatrixXd activation;      ///< n x channels, 0..1.
+  TimeSeries median_frequency_hz;  ///< signals/spectrum.h; may be empty, values may be NaN.
+};
+
+/// Phases of one trial of a study.
+struct TrialPhases {
+  std::string trial;
+  std::vector<Phase> phases;
+};
+
+struct PhaseOptions {
+  double still_radps = 0.1;  ///< Root mean square of the rate over 1 s below which nothing moves.
+  double rest_activation = 0.03;  ///< Mean activation below which a still muscle rests.
+  double shortest_s = 1.5;        ///< Of rest and isometric phases.
+  double block_s = 2.0;           ///< Torque per EMG is measured per block: a cycle or more.
+  double gain_change = 0.10;      ///< Smaller changes of torque per EMG are none ...
+  double warm_up_change = 0.06;   ///< ... before the regular phase these: what fades is small on
+                                  ///< average, and leaving it out costs little.
+  double frequency_fall = 0.08;   ///< Smaller falls of the median frequency are none (8-10 %).
+  double significance = 4.0;   ///< Standard errors by which a phase differs from the regular one.
+  double false_alarm = 0.001;  ///< Chance that a trial begins with a warm-up that is none.
+  double alike = 1.6;          ///< Phases whose speed or torque differ by a larger factor are not
+                               ///< compared: the law, not the muscle, may explain them.
+};
+
+/// Phases that cover the trial, in order. Rest and isometric phases are where the joint stands
+/// still. In what remains, torque measured per torque predicted and the EMG's median frequency are
+/// formed per block of whole cycles (movement_blocks.h), and both are searched together for the
+/// times at which their means change (math/change_points.h, Bayesian information criterion, the
+/// noise as it counts in means of several blocks). The longest segment is `regular`, or an earlier
+/// one that was fresher; one behind it is fatigue if its torque per EMG is lower and, where it is
+/// known, the median frequency as well; it begins where `gain_change` is lost. Warm-up is a segment
+/// before the regular one whose torque per EMG differs, or a beginning in which the muscles' effort
+/// for the same torque is another and fades (warm_up.h). A contraction that is held is searched for
+/// fatigue in the same way, in windows. Nothing is searched with fewer than 8 blocks. Throws
+/// InvalidInput unless sizes agree and values are finite.
+[[nodiscard]] std::vector<Phase> find_phases(const PhaseSignals& signals,
+                                             const PhaseOptions& options = {});
+
+}  // namespace myoid

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "myoid/report/report.h"
+
+namespace myoid {
+
+/// One number as a session gave it.
+struct SessionEstimate {
+  double estimate = 0.0;
+  std::optional<double> std_error, ci_low, ci_high;
+  std::string verdict;
+};
+
+/// Whether a number differs between two sessions.
+enum class Change {
+  differs,      ///< By more than chance explains.
+  no_change,    ///< Both recordings can tell it, and no difference shows.
+  cannot_tell,  ///< One of the recordings does not determine it: equality would mean nothing.
+};
+[[nodiscard]] std::string_view name(Change change);
+
+struct ComparedParameter {
+  std::string muscle, parameter, unit, method, fit_case;
+  SessionEstimate first, second;
+  double difference = 0.0;                    ///< Second minus first.
+  std::optional<double> smallest_detectable;  ///< 1.96 standard errors of the difference.
+  std::optional<double> p_value;              ///< Two-sided, adjusted (Holm) within the method.
+  Change change = Change::cannot_tell;
+};
+
+/// A trial that both sessions have under one name, or that one of them has.
+struct ComparedTrial {
+  std::string trial, method;
+  std::optional<double> rmse_first_nm, rmse_second_nm;
+};
+
+struct RunComparison {
+  std::filesystem::path first, second;
+  std::vector<ComparedParameter> parameters;
+  std::vector<ComparedTrial> trials;
+  std::vector<std::string> unlike;   ///< Model, person, muscles that differ (run_identity.h).
+  std::vector<std::string> remarks;  ///< What only one of them has.
+};
+
+/// Two finished runs, of one person on two days or of one recording by two studies, number by
+/// number: z = (second - first) / sqrt(se1^2 + se2^2) against the normal distribution, the p-values
+/// adjusted for their number by Holm's method. A parameter that either verdict calls
+/// prior_dominated, not_identifiable or non_physical is not compared: both may agree on what was
+/// known beforehand. The sessions count as independent; a shared prior makes the test cautious.
+/// Throws ReadError if a folder holds no parameters.json of a run.
+[[nodiscard]] RunComparison compare_runs(const std::filesystem::path& first,
+                                         const std::filesystem::path& second);
+
+/// The comparison for people: table, and both intervals of every parameter side by side.
+[[nodiscard]] report::Report comparison_report(const RunComparison& comparison);
+
+}  // namespace myoid

@@ -1,0 +1,122 @@
+#include "myoid/results/compare_runs.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "myoid/core/error.h"
+#include "myoid/files/atomic_file.h"
+
+#include "tests/support/temporary_folder.h"
+
+namespace myoid {
+namespace {
+
+struct Row {
+  const char* muscle;
+  double estimate, std_error;
+  const char* verdict;
+  const char* tied_to = "";
+};
+
+/// A run's folder with one method and these estimates of F_max.
+std::filesystem::path run(const std::filesystem::path& folder,
+                          const std::vector<Row>& rows,
+                          double rmse_nm) {
+  std::string estimates;
+  for (const Row& r : rows) {
+    estimates += fmt::format(
+        R"({}{{"muscle": "{}", "parameter": "max_isometric_force", "unit": "N", "method": "torque", "case": "both",
+            "estimate": {}, "std_error": {}, "ci_low": {}, "ci_high": {}, "verdict": "{}", "tied_to": "{}"}})",
+        estimates.empty() ? "" : ",", r.muscle, r.estimate, r.std_error,
+        r.estimate - 2 * r.std_error, r.estimate + 2 * r.std_error, r.verdict, r.tied_to);
+  }
+  std::filesystem::create_directories(folder);
+  recording::write_file(folder / "parameters.json",
+                        fmt::format(R"({{"methods": [{{"method": "torque", "estimates": [{}],
+                  "trials": [{{"trial": "a", "rmse_nm": {}}}]}}]}})",
+                                    estimates, rmse_nm));
+  return folder;
+}
+
+TEST(CompareRuns, OneUnknownOfSeveralMusclesIsOneNumberAndCountsOnce) {
+  const test::TemporaryFolder folder;
+  const auto rows = [](double shared, double own) {
+    return std::vector<Row>{{"BIC", shared, 5, "identified"},
+                            {"BRA", shared, 5, "identified", "BIC"},
+                            {"BRD", shared, 5, "identified", "BIC"},
+                            {"TRI", own, 50, "identified"}};
+  };
+  const RunComparison c = compare_runs(run(folder.path() / "one", rows(100, 900), 1.0),
+                                       run(folder.path() / "two", rows(117, 910), 1.0));
+  ASSERT_EQ(c.parameters.size(), 2u);
+  EXPECT_EQ(c.parameters[0].muscle, "BIC, BRA, BRD");
+  // z = 17 / (5 sqrt 2) = 2.404, p = 0.0162, of two numbers, not of four.
+  EXPECT_NEAR(*c.parameters[0].p_value, 2 * 0.01621, 2e-4);
+  EXPECT_EQ(c.parameters[0].change, Change::differs);
+}
+
+TEST(CompareRuns, TellsChangeFromChanceAndFromIgnorance) {
+  const test::TemporaryFolder folder;
+  const auto first = run(folder.path() / "one",
+                         {{"BIC", 600, 30, "identified"},
+                          {"BRA", 900, 40, "identified"},
+                          {"BRD", 250, 20, "prior_dominated"},
+                          {"TRI", 1000, 50, "weak"},
+                          {"ANC", 100, 5, "weak"}},
+                         1.5);
+  const auto second = run(folder.path() / "two",
+                          {{"BIC", 780, 40, "identified"},
+                           {"BRA", 930, 40, "weak"},
+                           {"BRD", 400, 20, "identified"},
+                           {"TRI", 1130, 40, "identified"}},
+                          2.0);
+  const RunComparison c = compare_runs(first, second);
+  ASSERT_EQ(c.parameters.size(), 4u);
+  // Standard error of the difference 50: z = 3.6, p = 3.2e-4, times the three that are compared.
+  EXPECT_EQ(c.parameters[0].change, Change::differs);
+  EXPECT_NEAR(*c.parameters[0].p_value, 3.0 * 3.182e-4, 1e-5);
+  EXPECT_NEAR(*c.parameters[0].smallest_detectable, 1.96 * 50.0, 0.01);
+  EXPECT_EQ(c.parameters[1].change, Change::no_change);
+  EXPECT_EQ(c.parameters[2].change, Change::cannot_tell);
+  EXPECT_FALSE(c.parameters[2].p_value);
+  // z = 2.03 alone would be called a difference (p = 0.042); among three it is not.
+  EXPECT_EQ(c.parameters[3].change, Change::no_change);
+  EXPECT_NEAR(*c.parameters[3].p_value, 2.0 * 0.0423, 1e-3);
+  ASSERT_EQ(c.remarks.size(), 1u);
+  EXPECT_NE(c.remarks[0].find("ANC"), std::string::npos);
+  EXPECT_EQ(*c.trials[0].rmse_second_nm, 2.0);
+  report::validate(comparison_report(c));
+}
+
+TEST(CompareRuns, AFolderWithoutARunIsRefused) {
+  const test::TemporaryFolder folder;
+  const auto good = run(folder.path() / "one", {{"BIC", 600, 30, "identified"}}, 1.0);
+  EXPECT_THROW(static_cast<void>(compare_runs(good, folder.path() / "none")), InvalidInput);
+  std::filesystem::create_directories(folder.path() / "bad");
+  recording::write_file(folder.path() / "bad" / "parameters.json", "{\"methods\": [{}]}");
+  EXPECT_THROW(static_cast<void>(compare_runs(good, folder.path() / "bad")), InvalidInput);
+}
+
+TEST(CompareRuns, SaysWhenTheTwoAreNotOfOneKind) {
+  const test::TemporaryFolder folder;
+  const auto write = [&](const char* name, const char* model, double mass_kg) {
+    std::filesystem::create_directories(folder / name);
+    recording::write_file(
+        folder / name / "parameters.json",
+        fmt::format(R"({{"provenance": {{"options": {{"subject": {{"mass_kg": {}}},
+                        "model": {{"builtin": "{}", "coordinate": ["elbow_flexion"]}},
+                        "muscle": [{{"name": "BIC"}}]}}}}, "methods": []}})",
+                    mass_kg, model));
+    return folder / name;
+  };
+  const auto first = write("a", "arm4", 60.0);
+  EXPECT_TRUE(compare_runs(first, write("b", "arm4", 62.0)).unlike.empty());
+  const RunComparison other = compare_runs(first, write("c", "arm7", 90.0));
+  ASSERT_EQ(other.unlike.size(), 2U);
+  EXPECT_NE(comparison_report(other).headline.find("arm7"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace myoid

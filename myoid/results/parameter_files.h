@@ -1,0 +1,49 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "myoid/core/provenance.h"
+#include "myoid/intervals/result.h"
+#include "myoid/methods/cross_validation.h"
+#include "myoid/methods/force_loop.h"
+#include "myoid/methods/resting_torque.h"
+#include "myoid/phases/phases.h"
+#include "myoid/run/study_result.h"
+
+namespace myoid {
+
+/// Table of all estimates, one row per muscle x parameter x method x case, with the columns
+/// promised in docs/guide/run.md. Numbers are the shortest text that reads back the same; an absent
+/// number is an empty cell.
+[[nodiscard]] std::string parameters_csv(
+    const std::vector<identification::IdentificationResult>& methods);
+
+/// The parameters by which every fold's prediction was made, one row per thing left out and
+/// parameter: of fits that did not see it. With muscles.csv or the model for what was held, the
+/// lag, and nothing else, the left-out R2 can be computed anew (docs/theory/identification.md).
+[[nodiscard]] std::string fold_parameters_csv(const std::vector<identification::Fold>& folds);
+
+/// What parameters.json tells beside the estimates and the folds.
+struct ParameterContext {
+  std::vector<TrialPhases> phases;
+  std::vector<identification::RestingJoint> resting;
+  std::string left_out = "trial";     ///< What a fold is: trial, condition, block, or none.
+  std::optional<double> max_rate_hz;  ///< Samples were thinned to at most this; empty: not told.
+  std::string starting_values;  ///< Which of them are the literature's; empty: none is assumed.
+  const identification::ForceLoop* force_loop = nullptr;  ///< Null: none was asked for.
+};
+
+/// The same with covariance, diagnostics, folds, phases, resting torques and how the loop of forces
+/// and parameters ended.
+[[nodiscard]] std::string parameters_json(
+    const std::vector<identification::IdentificationResult>& methods,
+    const std::vector<identification::Fold>& folds,
+    const Provenance& provenance,
+    const ParameterContext& context = {});
+
+/// That of a finished study, whose result has to outlive it.
+[[nodiscard]] ParameterContext parameter_context(const StudyResult& result);
+
+}  // namespace myoid

@@ -1,0 +1,97 @@
+#include "myoid/results/parameter_files.h"
+
+#include <limits>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "myoid/files/atomic_file.h"
+#include "myoid/tables/csv_reader.h"
+
+#include "tests/support/temporary_folder.h"
+
+namespace myoid {
+namespace {
+
+identification::IdentificationResult one_estimate() {
+  identification::ParameterEstimate e;
+  e.muscle = "BIC";
+  e.parameter = "optimal_fiber_length";
+  e.unit = Unit::meter;
+  e.method = "torque";
+  e.fit_case = "both";
+  e.initial = 0.1;
+  e.estimate = 0.1 + 0.2;
+  e.std_error = std::numeric_limits<double>::infinity();
+  e.ci_low = 0.25;
+  e.routes = {{"bootstrap", 0.24, std::nullopt}};
+  e.reason = "known to \"12 %\", about";
+  identification::IdentificationResult result;
+  result.method = "torque";
+  result.estimates = {e};
+  return result;
+}
+
+TEST(ParametersCsv, ANumberReadsBackTheSameAndWhatIsAbsentOrInfiniteIsAnEmptyCell) {
+  const test::TemporaryFolder folder;
+  recording::write_file(folder / "p.csv", parameters_csv({one_estimate()}));
+  const recording::CsvTable table = recording::read_csv_table(folder / "p.csv");
+  const auto cell = [&](const std::string& name) {
+    const auto it = std::find(table.names.begin(), table.names.end(), name);
+    return table.rows.at(0).at(static_cast<std::size_t>(it - table.names.begin()));
+  };
+  EXPECT_EQ(std::stod(cell("estimate")), 0.1 + 0.2);
+  EXPECT_EQ(cell("std_error"), "");
+  EXPECT_EQ(cell("ci_low"), "0.25");
+  EXPECT_EQ(cell("ci_high"), "");
+  EXPECT_EQ(cell("ci_low_bootstrap"), "0.24");
+  EXPECT_EQ(cell("ci_high_bootstrap"), "");
+  EXPECT_EQ(cell("ci_low_profile"), "");
+  EXPECT_EQ(cell("routes_disagree"), "false");
+  EXPECT_EQ(cell("reason"), "known to \"12 %\", about");
+}
+
+TEST(ParametersJson, MethodPaperHasNoNoiseAndNoDelay) {
+  identification::IdentificationResult torque = one_estimate();
+  torque.delay_s = 0.05;
+  identification::IdentificationResult paper = torque;
+  paper.method = "paper";
+  const auto json = nlohmann::json::parse(parameters_json({torque, paper}, {}, {}));
+  EXPECT_EQ(json.at("methods").at(0).at("emg_delay_s"), 0.05);
+  EXPECT_TRUE(json.at("methods").at(1).at("emg_delay_s").is_null());
+  EXPECT_TRUE(json.at("methods").at(0).at("estimates").at(0).at("std_error").is_null());
+  EXPECT_EQ(json.at("methods").at(0).at("estimates").at(0).at("intervals").at(0).at("ci_low"),
+            0.24);
+}
+
+TEST(ParametersJson, SearchesTellWhereTheirStartsEnded) {
+  identification::IdentificationResult torque = one_estimate();
+  const auto none = nlohmann::json::parse(parameters_json({torque}, {}, {}));
+  EXPECT_TRUE(none.at("methods").at(0).at("searches").empty());
+  torque.basins = {{.fit = "all muscles",
+                    .starts = 12,
+                    .failed = 2,
+                    .basins = {{.cost = 4.5, .starts = 9, .converged = 8, .rival = true},
+                               {.cost = 5.5,
+                                .starts = 1,
+                                .converged = 1,
+                                .distance = 1.25,
+                                .rival = true,
+                                .given = true}}}};
+  const auto json = nlohmann::json::parse(parameters_json({torque}, {}, {}));
+  const auto& searches = json.at("methods").at(0).at("searches").at(0);
+  EXPECT_EQ(searches.at("fit"), "all muscles");
+  EXPECT_EQ(searches.at("starts"), 12);
+  EXPECT_EQ(searches.at("starts_without_a_minimum"), 2);
+  ASSERT_EQ(searches.at("basins").size(), 2U);
+  const auto& second = searches.at("basins").at(1);
+  EXPECT_EQ(second.at("cost"), 5.5);
+  EXPECT_EQ(second.at("starts"), 1);
+  EXPECT_EQ(second.at("distance"), 1.25);
+  EXPECT_EQ(second.at("as_good_as_the_best"), true);
+  EXPECT_EQ(second.at("of_the_given_start"), true);
+  EXPECT_EQ(searches.at("basins").at(0).at("converged"), 8);
+}
+
+}  // namespace
+}  // namespace myoid

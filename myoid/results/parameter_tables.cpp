@@ -1,0 +1,256 @@
+#include "myoid/results/parameter_tables.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "myoid/identification/parameter_fields.h"
+#include "myoid/report/typeset.h"
+
+namespace myoid {
+namespace {
+
+using identification::IdentificationResult;
+using identification::ParameterEstimate;
+using identification::Verdict;
+using report::Badge;
+using report::Cell;
+using report::format_rounded;
+using report::format_value;
+using report::Table;
+
+Badge badge(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::identified:
+      return Badge::good;
+    case Verdict::weak:
+      return Badge::weak;
+    case Verdict::prior_dominated:
+      return Badge::info;
+    case Verdict::not_identifiable:
+      return Badge::none;
+    case Verdict::non_physical:
+      return Badge::bad;
+  }
+  return Badge::none;
+}
+
+/// Rounded as the ends of its interval are, so that all three can be compared.
+std::string value_of(const ParameterEstimate& e, double value) {
+  if (!std::isfinite(value)) return "-";
+  return e.ci_low && e.ci_high && !is_undetermined(e)
+             ? format_rounded(value, *e.ci_high - *e.ci_low)
+             : format_value(value);
+}
+
+std::string unit(const ParameterEstimate& e) {
+  return e.unit == Unit::dimensionless ? "–" : std::string(symbol(e.unit));
+}
+
+std::string interval(const ParameterEstimate& e) {
+  if (is_undetermined(e)) return "not determined";
+  return e.ci_low && e.ci_high ? report::format_interval(*e.ci_low, *e.ci_high) : "none";
+}
+
+std::string prior(const ParameterEstimate& e) {
+  if (!e.prior_mean || !e.prior_sd) return "-";
+  return fmt::format("{} ± {}", format_rounded(*e.prior_mean, *e.prior_sd),
+                     format_rounded(*e.prior_sd, *e.prior_sd));
+}
+
+Cell verdict_cell(const ParameterEstimate& e) {
+  return {report::spelled(identification::name(e.verdict)), badge(e.verdict), {}};
+}
+
+std::optional<double> truth_of(const StudyResult& result, const ParameterEstimate& e) {
+  for (const TrueValue& t : result.truth) {
+    if (t.parameter == e.parameter &&
+        (t.muscle == e.muscle || (e.muscle == "subject" && t.parameter == "emg_delay")))
+      return t.value;
+  }
+  return std::nullopt;
+}
+
+Cell truth_cell(const StudyResult& result, const ParameterEstimate& e) {
+  const std::optional<double> truth = truth_of(result, e);
+  if (!truth) return {"-", Badge::none, {}};
+  if (!e.ci_low || !e.ci_high) return {value_of(e, *truth), Badge::none, {}};
+  const bool inside = *truth >= *e.ci_low && *truth <= *e.ci_high;
+  return {value_of(e, *truth), inside ? Badge::good : Badge::weak, {}};
+}
+
+/// What passive trials measured of the joints, for beneath the table of what is left to find.
+std::string measured_at_rest(const StudyResult& result) {
+  constexpr double kDegrees = 180.0 / std::numbers::pi;
+  std::string text;
+  for (const identification::RestingJoint& joint : result.resting) {
+    const identification::RestingTorque& torque = joint.torque;
+    text += fmt::format(
+        " What {} does by itself was measured ({}): {:.1f} N m at {:.0f}°, {:.1f} N m at {:.0f}°. "
+        "It is part of every torque predicted, and the joint's numbers here come on top of it.",
+        joint.joint, fmt::join(joint.trials, ", "), torque.at(torque.lowest_rad),
+        torque.lowest_rad * kDegrees, torque.at(torque.highest_rad), torque.highest_rad * kDegrees);
+  }
+  return text;
+}
+
+}  // namespace
+
+bool is_undetermined(const ParameterEstimate& e) {
+  constexpr double kMeaningless = 1e3;
+  // What most have none of may well be 0: it is measured by how much some have.
+  const double usual = identification::zero_by_nature(e.parameter)
+                           ? identification::parameter_field(e.parameter).prior_sd
+                           : 1e-12;
+  const double size = std::max({std::abs(e.initial), std::abs(e.estimate), usual});
+  return e.ci_low && e.ci_high && *e.ci_high - *e.ci_low > kMeaningless * size;
+}
+
+std::vector<EstimateLine> estimate_lines(const IdentificationResult& method,
+                                         std::size_t muscle_count) {
+  struct Group {
+    const ParameterEstimate* first;
+    std::vector<std::string> owners;
+  };
+  std::vector<Group> groups;
+  for (const bool nuisance : {false, true}) {
+    for (const ParameterEstimate& e : method.estimates) {
+      if (identification::is_nuisance(e) != nuisance) continue;
+      const auto same = std::find_if(groups.begin(), groups.end(), [&](const Group& group) {
+        const ParameterEstimate& first = *group.first;
+        // Tied by a ratio, each is a number of its own.
+        return !e.tied_to.empty() && first.muscle == e.tied_to && first.parameter == e.parameter &&
+               first.estimate == e.estimate && first.verdict == e.verdict;
+      });
+      if (same == groups.end())
+        groups.push_back({&e, {e.muscle}});
+      else
+        same->owners.push_back(e.muscle);
+    }
+  }
+  // One unknown of all muscles belongs to none of them: after theirs.
+  std::stable_partition(groups.begin(), groups.end(), [](const Group& group) {
+    return group.owners.size() == 1 && !identification::is_nuisance(*group.first) &&
+           group.first->muscle != "subject";
+  });
+  std::vector<EstimateLine> lines;
+  for (const Group& group : groups) {
+    lines.push_back({group.first, group.owners.size() > 1 && group.owners.size() == muscle_count
+                                      ? std::string("all muscles")
+                                      : fmt::format("{}", fmt::join(group.owners, ", "))});
+  }
+  return lines;
+}
+
+std::vector<Table> estimate_tables(const StudyResult& result, const IdentificationResult& method) {
+  const bool known = !result.truth.empty();
+  const std::string truth =
+      known ? " Truth: green where it lies in the interval, else yellow." : "";
+  const std::string by = method.method == "force"
+                             ? "Every muscle alone, both branches at once, against the force that "
+                               "force sharing assigned to it. "
+                             : "All muscles and both branches at once against the joint torque. ";
+  Table muscles{
+      "parameters_" + method.method,
+      fmt::format("Identified parameters (method {})", method.method),
+      by +
+          "Interval: 95 %, for correlated residuals. Prior: the literature's mean ± standard "
+          "deviation." +
+          truth,
+      {"muscle", "parameter", "unit", "prior", "estimate", "95 % interval", "verdict", "why"},
+      {}};
+  if (known) muscles.columns.insert(muscles.columns.begin() + 6, "truth");
+  Table others{"nuisances_" + method.method,
+               "Numbers of the electrodes and of the joint",
+               "Freed so that not knowing them widens the muscles' intervals as it must; nobody's "
+               "muscle, and not counted above." +
+                   measured_at_rest(result) + truth,
+               muscles.columns,
+               {}};
+  others.columns.front() = "of";
+  for (const EstimateLine& line : estimate_lines(method, result.data.muscles.size())) {
+    const ParameterEstimate& e = *line.estimate;
+    std::vector<Cell> row{{line.owners},
+                          {report::spelled(e.parameter)},
+                          {unit(e)},
+                          {prior(e)},
+                          {value_of(e, e.estimate)},
+                          {interval(e)},
+                          verdict_cell(e),
+                          {e.reason}};
+    if (known) row.insert(row.begin() + 6, truth_cell(result, e));
+    (identification::is_nuisance(e) ? others : muscles).rows.push_back(std::move(row));
+  }
+  std::vector<Table> tables{std::move(muscles)};
+  if (!others.rows.empty()) tables.push_back(std::move(others));
+  return tables;
+}
+
+std::vector<Table> paper_tables(const IdentificationResult& method) {
+  const auto empty = [](std::string id, std::string title) {
+    return Table{
+        std::move(id),
+        std::move(title),
+        "Each muscle fitted apart to the force that force sharing assigned to it, plain "
+        "Gauss-Newton, as published; intervals and verdicts are ours.",
+        {"muscle", "parameter", "unit", "initial", "estimate", "95 % interval", "verdict", "why"},
+        {}};
+  };
+  std::vector<Table> tables{
+      empty("table_1_shortening", "Table I: parameters from shortening (method paper)"),
+      empty("table_2_lengthening", "Table II: parameters from lengthening (method paper)")};
+  for (const ParameterEstimate& e : method.estimates) {
+    tables[e.fit_case == "shortening" ? 0 : 1].rows.push_back({{e.muscle},
+                                                               {report::spelled(e.parameter)},
+                                                               {unit(e)},
+                                                               {format_value(e.initial)},
+                                                               {value_of(e, e.estimate)},
+                                                               {interval(e)},
+                                                               verdict_cell(e),
+                                                               {e.reason}});
+  }
+  return tables;
+}
+
+std::vector<Table> basin_tables(const IdentificationResult& method) {
+  if (method.basins.empty()) return {};
+  Table table{"basins_" + method.method,
+              fmt::format("Where the searches from {} starts ended (method {})",
+                          method.basins.front().starts, method.method),
+              "The given start and points spread evenly over two standard deviations of what is "
+              "known beforehand. Distance: from the best minimum, root mean square over the "
+              "unknowns, in those standard deviations. A second minimum as good as the best is as "
+              "good an answer.",
+              {"fit", "cost", "starts", "of them converged", "distance", "the given start"},
+              {}};
+  for (const identification::BasinTable& searches : method.basins) {
+    for (const identification::BasinRow& basin : searches.basins) {
+      const bool other_answer = basin.rival && &basin != searches.basins.data();
+      table.rows.push_back({{searches.fit},
+                            {fmt::format("{:.6g}", basin.cost)},
+                            {fmt::format("{}", basin.starts)},
+                            {fmt::format("{}", basin.converged),
+                             basin.converged < basin.starts ? Badge::weak : Badge::none,
+                             {}},
+                            other_answer ? Cell{fmt::format("{:.2g}", basin.distance), Badge::weak,
+                                                "as good as the best"}
+                                         : Cell{fmt::format("{:.2g}", basin.distance)},
+                            {basin.given ? "ends here" : ""}});
+    }
+    if (searches.failed > 0)
+      table.rows.push_back({{searches.fit},
+                            {"none found", Badge::weak, {}},
+                            {fmt::format("{}", searches.failed)},
+                            {"0"},
+                            {"–"},
+                            {""}});
+  }
+  return {table};
+}
+
+}  // namespace myoid

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "myoid/intervals/result.h"
+#include "myoid/report/report.h"
+#include "myoid/run/study_result.h"
+
+namespace myoid {
+
+/// An estimate and the owners that share it: tied numbers are one unknown, and one line.
+struct EstimateLine {
+  const identification::ParameterEstimate* estimate = nullptr;
+  std::string owners;  ///< "BIC", or "BIC, BRA, BRD, TRI"; "all muscles" where it is all of them.
+};
+
+/// The estimates in the order in which people read them: those of the muscles and the person
+/// first, then those that were freed only for the others' sake (`is_nuisance`). Tied numbers that
+/// are equal stand once. `muscle_count` is that of the study.
+[[nodiscard]] std::vector<EstimateLine> estimate_lines(
+    const identification::IdentificationResult& method, std::size_t muscle_count);
+
+/// Whether the 95 % interval is a thousand times as wide as the number is large (or, of what most
+/// have none of, as it is in some): the fit does not hold it at all, and the interval is printed as
+/// "not determined".
+[[nodiscard]] bool is_undetermined(const identification::ParameterEstimate& e);
+
+/// What the recording tells by method torque or force: first the muscles' and the person's
+/// parameters with prior, estimate, 95 % interval, truth (of a virtual recording), verdict and
+/// reason; then, if there are any, gains and exponents of the channels and the joint's own torque.
+[[nodiscard]] std::vector<report::Table> estimate_tables(
+    const StudyResult& result, const identification::IdentificationResult& method);
+
+/// The source paper's tables I and II: shortening, lengthening.
+[[nodiscard]] std::vector<report::Table> paper_tables(
+    const identification::IdentificationResult& method);
+
+/// Where searches from several starts ended, of every fit for which they were asked; no table
+/// where none were.
+[[nodiscard]] std::vector<report::Table> basin_tables(
+    const identification::IdentificationResult& method);
+
+}  // namespace myoid

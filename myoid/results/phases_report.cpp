@@ -1,0 +1,170 @@
+#include "myoid/results/phases_report.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+namespace myoid {
+namespace {
+
+using report::Badge;
+using report::Role;
+using report::to_vector;
+
+std::string percent_of(const std::optional<double>& x) {
+  return x ? fmt::format("{:.0f} %", 100.0 * *x) : "-";
+}
+
+Badge badge(PhaseKind kind) {
+  switch (kind) {
+    case PhaseKind::regular:
+      return Badge::good;
+    case PhaseKind::fatigued:
+    case PhaseKind::changed:
+    case PhaseKind::warm_up:
+      return Badge::weak;
+    case PhaseKind::rest:
+    case PhaseKind::isometric:
+      return Badge::info;
+  }
+  return Badge::none;
+}
+
+/// Measured and predicted torque, with the phases that were left out behind them.
+report::Panel torque_panel(const StudyResult& result, const TrialPhases& trial) {
+  report::Panel panel{
+      .title = trial.trial,
+      .x = {.label = "time", .unit = "s", .lower = {}, .upper = {}, .categories = {}},
+      .y = {.label = "torque", .unit = "N m", .lower = {}, .upper = {}, .categories = {}},
+      .series = {}};
+  const auto data = std::find_if(result.data.trials.begin(), result.data.trials.end(),
+                                 [&](const auto& t) { return t.name == trial.trial; });
+  if (data == result.data.trials.end()) return panel;
+  const double low = data->torque_nm.minCoeff();
+  const double high = data->torque_nm.maxCoeff();
+  for (const Phase& phase : trial.phases) {
+    if (!phase.excluded) continue;
+    panel.series.push_back({.name = std::string(name(phase.kind)) + ", not fitted",
+                            .x = {phase.begin_s, phase.end_s},
+                            .y = {low, low},
+                            .role = Role::band,
+                            .y_lower = {},
+                            .y_upper = {high, high}});
+  }
+  panel.series.push_back({.name = "inverse dynamics",
+                          .x = to_vector(data->time_s),
+                          .y = to_vector(data->torque_nm),
+                          .role = Role::reference,
+                          .y_lower = {},
+                          .y_upper = {}});
+  for (const identification::IdentificationResult& method : result.methods) {
+    if (method.method != "torque") continue;
+    for (const identification::TrialFit& fit : method.trials) {
+      if (fit.trial != trial.trial) continue;
+      panel.series.push_back({.name = "identified muscles",
+                              .x = to_vector(fit.time_s),
+                              .y = to_vector(fit.torque_fit_nm),
+                              .role = Role::identified,
+                              .y_lower = {},
+                              .y_upper = {}});
+    }
+  }
+  return panel;
+}
+
+}  // namespace
+
+report::Section phases_section(const StudyResult& result) {
+  report::Section section{.id = "phases", .heading = "Phases of the trials"};
+  report::Table table{
+      .id = "phases",
+      .title = "Rest, isometric contraction, warm-up, fatigue",
+      .caption =
+          "Found from change points of the torque per EMG and of the EMG's median frequency; "
+          "both relative to the trial's regular phase.",
+      .columns = {"trial", "phase", "from [s]", "to [s]", "torque per EMG", "median frequency",
+                  "fitted", "reason"},
+      .rows = {}};
+  report::Figure figure{.id = "phases_torque",
+                        .title = "Trials of which a phase was left out",
+                        .caption = "Shaded: not fitted.",
+                        .panels = {},
+                        .columns = 1};
+  int whole = 0;
+  for (const TrialPhases& trial : result.phases) {
+    if (trial.phases.size() == 1 && trial.phases.front().kind == PhaseKind::regular) {
+      ++whole;
+      continue;
+    }
+    bool left_out = false;
+    for (const Phase& phase : trial.phases) {
+      left_out = left_out || phase.excluded;
+      table.rows.push_back({{trial.trial},
+                            {std::string(name(phase.kind)), badge(phase.kind), phase.reason},
+                            {fmt::format("{:.1f}", phase.begin_s)},
+                            {fmt::format("{:.1f}", phase.end_s)},
+                            {percent_of(phase.gain)},
+                            {percent_of(phase.frequency)},
+                            {phase.excluded ? "no" : "yes"},
+                            {phase.reason}});
+    }
+    if (left_out) figure.panels.push_back(torque_panel(result, trial));
+  }
+  section.paragraphs.push_back(fmt::format(
+      "{} of {} trials are one regular phase from beginning to end.", whole, result.phases.size()));
+  if (!table.rows.empty()) section.tables.push_back(std::move(table));
+  if (!figure.panels.empty()) section.figures.push_back(std::move(figure));
+  return section;
+}
+
+report::Section informed_section(const StudyResult& result) {
+  report::Section section{.id = "informed", .heading = "Back into the body"};
+  if (!result.informed.empty()) {
+    report::Table table{
+        .id = "informed_forces",
+        .title = "Forces with the identified muscles, informed by the EMG",
+        .caption =
+            "What the muscles found must do so that the torque is balanced, as near to the EMG "
+            "as they can; antagonists may act together. The forces themselves are in each "
+            "trial's EmgInformed_force.sto and EmgInformed_activation.sto.",
+        .columns = {"trial", "departure from the EMG (rms)", "torque no muscle carries (rms) [N m]",
+                    "frames not solved"},
+        .rows = {}};
+    for (const identification::InformedForces& f : result.informed) {
+      const auto samples = static_cast<double>(f.activation.size());
+      table.rows.push_back(
+          {{f.trial},
+           {fmt::format("{:.3f}", std::sqrt((f.activation - f.measured).squaredNorm() / samples))},
+           {fmt::format("{:.2f}", std::sqrt(f.reserve_nm.squaredNorm() /
+                                            static_cast<double>(
+                                                std::max<Eigen::Index>(1, f.reserve_nm.size()))))},
+           {fmt::format("{}", f.frames_not_solved)}});
+    }
+    section.tables.push_back(std::move(table));
+  }
+  if (result.force_loop) {
+    const identification::ForceLoop& loop = *result.force_loop;
+    section.paragraphs.push_back(fmt::format("Forces and parameters in a loop: {} ({}).",
+                                             identification::name(loop.end), loop.message));
+    report::Table table{
+        .id = "force_loop",
+        .title = "Forces and parameters, round by round",
+        .caption =
+            "The largest relative change of a parameter, the change of the "
+            "forces, and the torque that no muscle carries.",
+        .columns = {"round", "largest change", "of", "change of forces", "reserve (rms) [N m]"},
+        .rows = {}};
+    for (std::size_t k = 0; k < loop.rounds.size(); ++k) {
+      const identification::ForceLoopRound& round = loop.rounds[k];
+      table.rows.push_back({{fmt::format("{}", k + 1)},
+                            {fmt::format("{:.2g}", round.parameter_change)},
+                            {round.parameter},
+                            {fmt::format("{:.2g}", round.force_change)},
+                            {fmt::format("{:.3f}", round.reserve_nm)}});
+    }
+    section.tables.push_back(std::move(table));
+  }
+  return section;
+}
+
+}  // namespace myoid

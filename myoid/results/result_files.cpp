@@ -1,0 +1,233 @@
+#include "myoid/results/result_files.h"
+
+#include <algorithm>
+#include <fstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "myoid/files/atomic_file.h"
+#include "myoid/report/json_values.h"
+#include "myoid/results/parameter_files.h"
+#include "myoid/results/stage_files.h"
+#include "myoid/run/effort_prior.h"
+#include "myoid/run/quality_gates.h"
+#include "myoid/run/study_emg.h"
+#include "myoid/study/study_model.h"
+#include "myoid/tables/storage_writer.h"
+
+namespace myoid {
+namespace {
+
+using identification::IdentificationResult;
+using identification::ParameterEstimate;
+using nlohmann::ordered_json;
+
+/// reference, literature and identified force of every muscle, on the clock of the motion.
+TimeSeries identified_forces(const StudyResult& result,
+                             const identification::TrialData& data,
+                             const IdentificationResult& method) {
+  const auto fit = std::find_if(method.trials.begin(), method.trials.end(),
+                                [&](const auto& t) { return t.trial == data.name; });
+  std::vector<Channel> channels;
+  const auto muscles = static_cast<Eigen::Index>(result.data.muscles.size());
+  Eigen::MatrixXd values(data.time_s.size(), 3 * muscles);
+  for (Eigen::Index m = 0; m < muscles; ++m) {
+    const std::string& muscle = result.data.muscles[static_cast<std::size_t>(m)].name;
+    channels.push_back({muscle + "_reference", Unit::newton});
+    channels.push_back({muscle + "_literature", Unit::newton});
+    channels.push_back({muscle + "_identified", Unit::newton});
+    values.col(3 * m) = data.force_n.col(m);
+    values.col(3 * m + 1) = fit->literature_force_n.col(m);
+    values.col(3 * m + 2) = fit->force_fit_n.col(m);
+  }
+  return {data.time_s, std::move(channels), values.array().isFinite().select(values, 0.0)};
+}
+
+void write_informed_forces(const StudyResult& result,
+                           const identification::InformedForces& forces,
+                           const std::filesystem::path& folder,
+                           const std::vector<std::string>& comments) {
+  std::vector<Channel> in_newtons, activations;
+  for (const identification::MuscleSetup& muscle : result.data.muscles) {
+    in_newtons.push_back({muscle.name, Unit::newton});
+    activations.push_back({muscle.name, Unit::dimensionless});
+  }
+  for (const std::string& name : study_coordinates(result.study.model))
+    in_newtons.push_back({name + "_reserve", Unit::newton_meter});
+  Eigen::MatrixXd values(forces.force_n.rows(), forces.force_n.cols() + forces.reserve_nm.cols());
+  values << forces.force_n, forces.reserve_nm;
+  recording::write_storage(folder / "EmgInformed_force.sto",
+                           {forces.time_s, std::move(in_newtons), std::move(values)},
+                           {.title = "Forces informed by the EMG", .comments = comments});
+  recording::write_storage(folder / "EmgInformed_activation.sto",
+                           {forces.time_s, std::move(activations), forces.activation},
+                           {.title = "Activations informed by the EMG", .comments = comments});
+}
+
+/// Only numbers that are `identified`; F_max only if it means the maximum (EMG relative to an MVC);
+/// no model at all if the motion failed its gates, or nothing is to be changed in it.
+void write_identified_model(const StudyResult& result, const std::filesystem::path& folder) {
+  if (motion_is_unreliable(result)) return;
+  const bool from_mvc = from_maximal_effort(result.study.emg);
+  for (const IdentificationResult& method : result.methods) {
+    if (method.method != "torque") continue;
+    std::vector<IdentifiedMuscle> muscles;
+    for (std::size_t m = 0; m < result.data.muscles.size(); ++m) {
+      IdentifiedMuscle muscle{
+          result.data.muscles[m].name, result.data.muscles[m].start, method.muscles[m], {}};
+      for (const ParameterEstimate& e : method.estimates) {
+        const bool sure = e.verdict == identification::Verdict::identified &&
+                          (from_mvc || e.parameter != "max_isometric_force");
+        if (e.muscle == muscle.group && sure) muscle.changed.push_back(e.parameter);
+      }
+      muscles.push_back(std::move(muscle));
+    }
+    if (std::all_of(muscles.begin(), muscles.end(),
+                    [](const IdentifiedMuscle& m) { return m.changed.empty(); }))
+      return;
+    const std::string stem =
+        result.study.model.file ? result.study.model.file->stem().string() : "arm4";
+    recording::write_file(folder / (stem + "_identified.osim"),
+                          identified_model(result.study, result.model_text, muscles));
+  }
+}
+
+ordered_json faults_json(const std::vector<Fault>& faults) {
+  ordered_json list = ordered_json::array();
+  for (const Fault& fault : faults) {
+    list.push_back({{"fault", std::string(name(fault.kind))},
+                    {"level", fault.grave ? "warning" : "note"},
+                    {"channel", fault.channel},
+                    {"begin_s", fault.begin_s},
+                    {"end_s", fault.end_s},
+                    {"value", fault.value},
+                    {"message", sentence(fault)}});
+  }
+  return list;
+}
+
+/// What was computed from what, how long it took, and what was remarked on the way.
+ordered_json run_json(const StudyResult& result, const Provenance& provenance) {
+  ordered_json run = report::provenance_json(provenance);
+  run["study"] = std::filesystem::absolute(result.study.file).string();
+  run["start_s"] = report::number_or_null(result.start_s);
+  run["end_s"] = report::number_or_null(result.end_s);
+  run["seconds"] = ordered_json::object();
+  for (const StageTime& stage : result.times) run["seconds"][stage.stage] = stage.seconds;
+  if (result.force_loop) {
+    run["force_loop"] = {{"end", std::string(identification::name(result.force_loop->end))},
+                         {"message", result.force_loop->message},
+                         {"rounds", result.force_loop->rounds.size()}};
+  }
+  run["trials"] = ordered_json::array();
+  for (const TrialResult& trial : result.trials) {
+    run["trials"].push_back({{"name", trial.spec.name},
+                             {"use", std::string(name(trial.spec.use))},
+                             {"failure", trial.failure},
+                             {"notes", trial.notes},
+                             {"faults", faults_json(trial.faults)}});
+    if (const auto& emg = trial.emg_clock) {
+      ordered_json& clock = run["trials"].back()["emg_clock"];
+      clock = {{"offset_s", emg->clock.offset_s},
+               {"drift_ppm", emg->clock.drift_ppm},
+               {"pivot_s", emg->clock.pivot_s},
+               {"source", emg->source}};
+      if (emg->clock.offset_sd_s) clock["offset_sd_s"] = *emg->clock.offset_sd_s;
+      if (emg->clock.drift_sd_ppm) clock["drift_sd_ppm"] = *emg->clock.drift_sd_ppm;
+    }
+  }
+  const signals::EmgChain emg = emg_chain(result, nullptr);
+  run["emg"] = {{"steps", emg.steps}, {"methods", emg.methods}};
+  run["faults"] = faults_json(result.level_faults);
+  return run;
+}
+
+}  // namespace
+
+void remove_results(const std::filesystem::path& folder) {
+  namespace fs = std::filesystem;
+  std::ifstream stream(folder / "run.json");
+  if (!stream) return;
+  const ordered_json run = ordered_json::parse(stream, nullptr, false);
+  if (run.is_discarded() || !run.contains("trials")) return;
+  std::error_code ignored;
+  for (const ordered_json& trial : run["trials"]) {
+    const std::string name = trial.value("name", "");
+    if (name.empty() || name.find('/') != std::string::npos || name == "..") continue;
+    for (const auto& entry : fs::directory_iterator(folder / name, ignored)) {
+      const std::string file = entry.path().filename().string();
+      const bool ours = file == "ik.mot" || file == "ik_marker_errors.sto" || file == "id.sto" ||
+                        file == "activation.sto" || file == "identified_forces.sto" ||
+                        file.starts_with("MuscleAnalysis_") || file.starts_with("EmgInformed_") ||
+                        file.starts_with("StaticOptimization_");
+      if (ours) fs::remove(entry.path(), ignored);
+    }
+    fs::remove(folder / name, ignored);  // only if nothing else is in it
+  }
+  for (const char* place : {"figures", "tables"}) {
+    for (const auto& entry : fs::directory_iterator(folder / place, ignored)) {
+      const fs::path extension = entry.path().extension();
+      if (extension == ".svg" || extension == ".csv") fs::remove(entry.path(), ignored);
+    }
+  }
+  for (const auto& entry : fs::directory_iterator(folder, ignored)) {
+    const std::string file = entry.path().filename().string();
+    if (file.ends_with("_identified.osim")) fs::remove(entry.path(), ignored);
+  }
+}
+
+void write_results(const StudyResult& result,
+                   const Provenance& provenance,
+                   const std::filesystem::path& folder) {
+  const std::vector<std::string> comments{fmt::format("Made by myoid {}.", provenance.version)};
+  const auto with_emg = [&](const IdentificationResult* method) {
+    std::vector<std::string> lines = comments;
+    for (std::string& line : signals::header_lines(emg_chain(result, method)))
+      lines.push_back(std::move(line));
+    return lines;
+  };
+  const std::vector<std::string> of_activation = with_emg(nullptr);
+  for (const TrialResult& trial : result.trials) {
+    const std::filesystem::path place = folder / trial.spec.name;
+    if (!trial.activation.empty())
+      recording::write_storage(place / "activation.sto", trial.activation,
+                               {.title = "Activation", .comments = of_activation});
+    if (!trial.has_motion()) continue;
+    write_motion(trial.model, trial.motion.q, place / "ik.mot", comments);
+    if (trial.ik) write_marker_errors(*trial.ik, place / "ik_marker_errors.sto");
+    recording::write_storage(
+        place / "id.sto", trial.generalized_forces,
+        {.title = "Inverse Dynamics Generalized Forces", .comments = comments});
+    write_muscle_kinematics(trial.muscles, place);
+    write_shared_forces(trial.shared, place);
+  }
+  for (const IdentificationResult& method : result.methods) {
+    if (method.method != "torque" && result.methods.size() > 1) continue;
+    for (const identification::TrialData& data : result.data.trials) {
+      recording::write_storage(folder / data.name / "identified_forces.sto",
+                               identified_forces(result, data, method),
+                               {.title = "Forces", .comments = with_emg(&method)});
+    }
+  }
+  const auto torque = std::find_if(result.methods.begin(), result.methods.end(),
+                                   [](const auto& method) { return method.method == "torque"; });
+  for (const identification::InformedForces& forces : result.informed)
+    write_informed_forces(result, forces, folder / forces.trial,
+                          with_emg(torque == result.methods.end() ? nullptr : &*torque));
+  write_identified_model(result, folder);
+  recording::write_file(
+      folder / "parameters.json",
+      parameters_json(result.methods, result.folds, provenance, parameter_context(result)));
+  recording::write_file(folder / "parameters.csv", parameters_csv(result.methods));
+  std::error_code ignored;
+  std::filesystem::remove(folder / "fold_parameters.csv", ignored);  // of an earlier run
+  if (!result.folds.empty())
+    recording::write_file(folder / "fold_parameters.csv", fold_parameters_csv(result.folds));
+  recording::write_file(folder / "run.json", run_json(result, provenance).dump(2) + "\n");
+}
+
+}  // namespace myoid

@@ -1,0 +1,316 @@
+#include "myoid/results/simulation_files.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "myoid/files/atomic_file.h"
+#include "myoid/muscle/force_length.h"
+#include "myoid/muscle/force_velocity.h"
+#include "myoid/muscle/literature.h"
+#include "myoid/report/svg_plot.h"
+#include "myoid/report/tables.h"
+#include "myoid/results/stage_files.h"
+#include "myoid/simulation/forward_simulation.h"
+#include "myoid/tables/storage_writer.h"
+
+namespace myoid {
+namespace {
+
+using simulation::Simulation;
+
+std::vector<double> numbers(const Eigen::Ref<const Eigen::VectorXd>& v, double scale = 1.0) {
+  std::vector<double> result(static_cast<std::size_t>(v.size()));
+  for (Eigen::Index k = 0; k < v.size(); ++k) result[static_cast<std::size_t>(k)] = scale * v[k];
+  return result;
+}
+
+std::size_t coordinate_count(const Simulation& s) {
+  return static_cast<std::size_t>(s.motion.channel_count()) / 3;
+}
+std::string coordinate_name(const Simulation& s, std::size_t k) {
+  return s.motion.channels()[3 * k].name;
+}
+
+/// Columns first, first + stride, ... under names without `ending`.
+TimeSeries every(const TimeSeries& series,
+                 Eigen::Index first,
+                 Eigen::Index stride,
+                 std::string_view ending) {
+  std::vector<Channel> channels;
+  Eigen::MatrixXd values(series.sample_count(), series.channel_count() / stride);
+  for (Eigen::Index c = 0; c < values.cols(); ++c) {
+    Channel channel = series.channels()[static_cast<std::size_t>(first + stride * c)];
+    channel.name.resize(channel.name.size() - ending.size());
+    channels.push_back(std::move(channel));
+    values.col(c) = series.values().col(first + stride * c);
+  }
+  return {series.time_s(), std::move(channels), std::move(values)};
+}
+
+TimeSeries with_held(const TimeSeries& q, const HeldCoordinates& held) {
+  std::vector<Channel> channels;
+  Eigen::MatrixXd values(q.sample_count(),
+                         q.channel_count() + static_cast<Eigen::Index>(held.size()));
+  Eigen::Index column = 0;
+  for (const auto& [name, value] : held) {
+    channels.push_back({name, Unit::radian});
+    values.col(column++).setConstant(value);
+  }
+  channels.insert(channels.end(), q.channels().begin(), q.channels().end());
+  values.rightCols(q.channel_count()) = q.values();
+  return {q.time_s(), std::move(channels), std::move(values)};
+}
+
+/// First what inverse dynamics of the motion gives: muscles, joint, external, device together.
+TimeSeries torques(const Simulation& s) {
+  const auto n = static_cast<Eigen::Index>(coordinate_count(s));
+  std::vector<Channel> channels;
+  Eigen::MatrixXd values(s.torque.sample_count(), 6 * n);
+  for (Eigen::Index k = 0; k < n; ++k) {
+    const auto c = static_cast<std::size_t>(k);
+    const Unit unit = s.torque.channels()[5 * c].unit;
+    const std::string name =
+        coordinate_name(s, c) + (unit == Unit::newton_meter ? "_moment" : "_force");
+    for (const char* what : {"", "_muscles", "_gravity", "_joint", "_external", "_device"})
+      channels.push_back({name + what, unit});
+    const auto& parts = s.torque.values().middleCols(5 * k, 5);
+    values.col(6 * k) = parts.col(0) + parts.col(2) + parts.col(3) + parts.col(4);
+    values.middleCols(6 * k + 1, 5) = parts;
+  }
+  return {s.torque.time_s(), std::move(channels), std::move(values)};
+}
+
+TimeSeries states(const Simulation& s) {
+  const Eigen::Index n = s.activation.channel_count();
+  const auto nq = static_cast<Eigen::Index>(coordinate_count(s));
+  std::vector<Channel> channels;
+  Eigen::MatrixXd values(s.motion.sample_count(), 2 * nq + 3 * n);
+  Eigen::Index column = 0;
+  const auto add = [&](std::string name, const TimeSeries& from, Eigen::Index c) {
+    channels.push_back({std::move(name), from.channels()[static_cast<std::size_t>(c)].unit});
+    values.col(column++) = from.values().col(c);
+  };
+  for (Eigen::Index k = 0; k < nq; ++k) {
+    const std::string name = coordinate_name(s, static_cast<std::size_t>(k));
+    add(name + "/value", s.motion, 3 * k);
+    add(name + "/speed", s.motion, 3 * k + 1);
+  }
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const std::string& name = s.activation.channels()[static_cast<std::size_t>(i)].name;
+    add(name + "/activation", s.activation, i);
+    add(name + "/fiber_length", s.fiber_length, i);
+    add(name + "/fiber_velocity", s.fiber_velocity, i);
+  }
+  return {s.motion.time_s(), std::move(channels), std::move(values)};
+}
+
+report::Panel panel(std::string title, std::string label, std::string unit) {
+  return {.title = std::move(title),
+          .x = {.label = "time", .unit = "s"},
+          .y = {.label = std::move(label), .unit = std::move(unit)},
+          .series = {}};
+}
+
+void add(report::Panel& target,
+         const TimeSeries& series,
+         Eigen::Index column,
+         std::string name,
+         report::Role role,
+         double scale = 1.0) {
+  target.series.push_back({.name = std::move(name),
+                           .x = numbers(series.time_s()),
+                           .y = numbers(series.values().col(column), scale),
+                           .role = role});
+}
+
+constexpr report::Role kRoles[] = {report::Role::reference, report::Role::identified,
+                                   report::Role::literature, report::Role::truth};
+
+/// One panel per quantity, of at most four muscles: the roles are told apart by color and dashes.
+void add_muscles(report::Panel& target, const TimeSeries& series, double scale = 1.0) {
+  for (Eigen::Index i = 0; i < std::min<Eigen::Index>(series.channel_count(), 4); ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    add(target, series, i, series.channels()[k].name, kRoles[k], scale);
+  }
+}
+
+report::Figure curves_figure() {
+  report::Figure figure{.id = "figure2",
+                        .title = "Force over velocity and force over length",
+                        .caption =
+                            "Figure 2 of the source paper: equations (4) and (3) with its "
+                            "initial values V_sh 0.3, V_sh V_shl 0.12, V_ml 1.3 and the "
+                            "widths of its tables; v over v_max, l_m over l_m0.",
+                        .panels = {},
+                        .columns = 2};
+  report::Panel velocity{.title = "f_v",
+                         .x = {.label = "fiber velocity / v_max", .unit = ""},
+                         .y = {.label = "f_v", .unit = "", .lower = 0.0, .upper = 1.4},
+                         .series = {}};
+  const muscle::ForceVelocityShape<double> shape{
+      1.0, muscle::kPaperCurvature, muscle::kPaperCurvatureProduct, muscle::kPaperPlateau};
+  report::Series curve{.name = "", .role = report::Role::reference};
+  for (int k = -120; k <= 120; ++k) {
+    curve.x.push_back(0.01 * k);
+    curve.y.push_back(muscle::force_velocity(0.01 * k, shape));
+  }
+  velocity.series.push_back(std::move(curve));
+  report::Panel length{.title = "f_l",
+                       .x = {.label = "fiber length / l_m0", .unit = ""},
+                       .y = {.label = "f_l", .unit = "", .lower = 0.0, .upper = 1.1},
+                       .series = {}};
+  std::size_t role = 0;
+  for (const muscle::PaperMuscle& m : muscle::kPaperMuscles) {
+    report::Series line{.name = std::string(m.name), .role = kRoles[role++]};
+    for (int k = 40; k <= 160; ++k) {
+      line.x.push_back(0.01 * k);
+      line.y.push_back(muscle::force_length(0.01 * k * m.optimal_fiber_length_m,
+                                            m.optimal_fiber_length_m, m.force_length_width_m));
+    }
+    length.series.push_back(std::move(line));
+  }
+  figure.panels = {std::move(velocity), std::move(length)};
+  return figure;
+}
+
+/// Flexors and extensor in turn, half a second each, so that the elbow goes there and back.
+Simulation paper_movement() {
+  simulation::ArmSetup setup;
+  setup.horizontal = true;
+  setup.laws = muscle::paper_laws(muscle::TendonMode::mass);
+  const simulation::Burst flex[] = {{0.2, 0.3, 0.06}, {1.7, 0.3, 0.06}};
+  const simulation::Burst extend[] = {{0.55, 0.3, 0.09}, {1.1, 0.3, 0.05}, {2.05, 0.3, 0.09}};
+  simulation::SimulationInput input;
+  const simulation::Signal flexor = simulation::bursts(flex, 0.01);
+  input.excitation = {flexor, flexor, flexor, simulation::bursts(extend, 0.01)};
+  return simulation::simulate(simulation::make_arm(setup), input, {.q = {0.7}}, {.end_s = 3.0});
+}
+
+}  // namespace
+
+report::Figure movement_figure(const Simulation& s) {
+  report::Figure figure{.id = "movement",
+                        .title = "Simulated movement",
+                        .caption =
+                            "What drives the muscles, how the joints move, and what the "
+                            "muscles do; of each quantity the first four.",
+                        .panels = {},
+                        .columns = 2};
+  report::Panel excitation = panel("Neural input", "excitation", "");
+  add_muscles(excitation, s.excitation);
+  report::Panel activation = panel("Muscle activity", "activation", "");
+  add_muscles(activation, s.activation);
+  report::Panel angle = panel("Joint angle", "angle", "deg");
+  report::Panel speed = panel("Joint speed", "speed", "deg/s");
+  report::Panel torque = panel("Torque of the muscles", "torque", "N m");
+  std::size_t shown = 0;
+  for (std::size_t k = 0; k < coordinate_count(s) && shown < 4; ++k) {
+    const auto c = static_cast<Eigen::Index>(k);
+    const auto& column = s.motion.values().col(3 * c);
+    const bool moves = column.maxCoeff() - column.minCoeff() > 1e-6;
+    if (s.motion.channels()[3 * k].unit != Unit::radian || (!moves && coordinate_count(s) > 1))
+      continue;
+    const std::string name = coordinate_count(s) == 1 ? "" : coordinate_name(s, k);
+    add(angle, s.motion, 3 * c, name, kRoles[shown], 1.0 / kDegree);
+    add(speed, s.motion, 3 * c + 1, name, kRoles[shown], 1.0 / kDegree);
+    add(torque, s.torque, 5 * c, name, kRoles[shown]);
+    ++shown;
+  }
+  report::Panel force = panel("Tendon force", "force", "N");
+  add_muscles(force, s.tendon_force);
+  report::Panel length = panel("Fiber length", "length", "cm");
+  add_muscles(length, s.fiber_length, 100.0);
+  report::Panel velocity = panel("Fiber velocity", "velocity", "cm/s");
+  add_muscles(velocity, s.fiber_velocity, 100.0);
+  figure.panels = {std::move(excitation), std::move(activation), std::move(angle),
+                   std::move(speed),      std::move(torque),     std::move(force),
+                   std::move(length),     std::move(velocity)};
+  std::erase_if(figure.panels, [](const report::Panel& p) { return p.series.empty(); });
+  return figure;
+}
+
+std::vector<report::Figure> paper_figures() {
+  report::Figure movement = movement_figure(paper_movement());
+  movement.id = "figure4";
+  movement.title = "Simulation of the flexion and extension of the elbow";
+  movement.caption =
+      "Figure 4 of the source paper: the built-in arm in the horizontal plane, four muscles with "
+      "mass and elastic tendons, under steps of neural input.";
+  return {curves_figure(), std::move(movement)};
+}
+
+void write_figure(const report::Figure& figure, const std::filesystem::path& folder) {
+  recording::write_file(folder / "figures" / (figure.id + ".svg"), report::svg_plot(figure));
+  recording::write_file(folder / "figures" / (figure.id + ".csv"), report::figure_csv(figure));
+}
+
+std::string simulation_json(const Simulation& s, const Provenance& provenance) {
+  using nlohmann::ordered_json;
+  ordered_json inputs = ordered_json::array();
+  for (const InputFile& file : provenance.inputs)
+    inputs.push_back({{"path", file.path}, {"sha256", file.sha256}});
+  ordered_json json = {{"program", provenance.program},
+                       {"version", provenance.version},
+                       {"command", provenance.command},
+                       {"inputs", inputs},
+                       {"options", ordered_json::parse(provenance.options_json)},
+                       {"finished", s.status == math::OdeStatus::done},
+                       {"message", s.message},
+                       {"reached_s", s.reached_s},
+                       {"samples", s.motion.sample_count()},
+                       {"steps", s.statistics.steps},
+                       {"rejected_steps", s.statistics.rejected},
+                       {"rate_evaluations", s.statistics.rate_evaluations},
+                       {"kinks_located", s.statistics.events},
+                       {"jumps_passed", s.jumps_passed}};
+  if (s.energy.sample_count() > 1) {
+    const simulation::EnergyBalance balance = simulation::energy_balance(s);
+    json["energy"] = {{"turned_over_j", balance.turned_over_j},
+                      {"worst_relative_gap", balance.worst},
+                      {"where", balance.where}};
+  }
+  return json.dump(2) + "\n";
+}
+
+void write_simulation(const Simulation& s,
+                      const model::BodyModel& body,
+                      const HeldCoordinates& held,
+                      const Provenance& provenance,
+                      const std::filesystem::path& folder) {
+  const std::vector<std::string> comments = {
+      fmt::format("{} {}: {}", provenance.program, provenance.version, provenance.command)};
+  const auto write = [&](const std::string& file, const TimeSeries& series, std::string title) {
+    if (series.channel_count() == 0) return;
+    recording::write_storage(folder / file, series,
+                             {.title = std::move(title), .comments = comments});
+  };
+  write_motion(body, with_held(every(s.motion, 0, 3, ""), held), folder / "motion.mot", comments);
+  write("speeds.sto", every(s.motion, 1, 3, "_speed"), "Speeds");
+  write("accelerations.sto", every(s.motion, 2, 3, "_acceleration"), "Accelerations");
+  write("excitation.sto", s.excitation, "controls");
+  write("activation.sto", s.activation, "Activations");
+  write("forces.sto", s.tendon_force, "TendonForces");
+  write("fiber_forces.sto", s.fiber_force, "FiberForces");
+  write("MuscleAnalysis_Length.sto", s.musculotendon_length, "Length");
+  write("MuscleAnalysis_MuscleTendonVelocity.sto", s.musculotendon_velocity,
+        "MuscleTendonVelocity");
+  write("MuscleAnalysis_FiberLength.sto", s.fiber_length, "FiberLength");
+  write("MuscleAnalysis_FiberVelocity.sto", s.fiber_velocity, "FiberVelocity");
+  write("MuscleAnalysis_TendonLength.sto", s.tendon_length, "TendonLength");
+  const Eigen::Index n = s.fiber_length.channel_count();
+  for (std::size_t k = 0; k < coordinate_count(s) && n > 0; ++k) {
+    write("MuscleAnalysis_MomentArm_" + coordinate_name(s, k) + ".sto",
+          {s.moment_arm.time_s(), s.fiber_length.channels(),
+           s.moment_arm.values().middleCols(static_cast<Eigen::Index>(k) * n, n)},
+          "MomentArm_" + coordinate_name(s, k));
+  }
+  write("torques.sto", torques(s), "Generalized Forces");
+  write("states.sto", states(s), "ModelStates");
+  write("energy.sto", s.energy, "Energy");
+  recording::write_file(folder / "simulation.json", simulation_json(s, provenance));
+}
+
+}  // namespace myoid

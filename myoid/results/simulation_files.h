@@ -1,0 +1,43 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "myoid/core/provenance.h"
+#include "myoid/model/body_model.h"
+#include "myoid/report/report.h"
+#include "myoid/simulation/simulation.h"
+
+namespace myoid {
+
+/// Coordinates that the simulation did not have, with their values [rad | m].
+using HeldCoordinates = std::vector<std::pair<std::string, double>>;
+
+/// Writes motion.mot, speeds.sto, accelerations.sto, excitation.sto, activation.sto, forces.sto,
+/// fiber_forces.sto, MuscleAnalysis_*.sto, torques.sto, states.sto, energy.sto where there are
+/// energies, and simulation.json, each whole or not at all; docs/guide/simulate.md says what they
+/// hold.
+void write_simulation(const simulation::Simulation& simulation,
+                      const model::BodyModel& body,
+                      const HeldCoordinates& held,
+                      const Provenance& provenance,
+                      const std::filesystem::path& folder);
+
+/// How it ended, statistics and the balance of energies, as JSON with the provenance.
+[[nodiscard]] std::string simulation_json(const simulation::Simulation& simulation,
+                                          const Provenance& provenance);
+
+/// Excitation, activation, angles, torques, forces and fiber lengths over time.
+[[nodiscard]] report::Figure movement_figure(const simulation::Simulation& simulation);
+
+/// The source paper's figures 2 and 4: the curves of force over length and velocity with its
+/// initial values, and a flexion and extension of the elbow in the horizontal plane under steps of
+/// neural input, of the built-in arm with muscle mass.
+[[nodiscard]] std::vector<report::Figure> paper_figures();
+
+/// Writes figures/ID.svg and figures/ID.csv.
+void write_figure(const report::Figure& figure, const std::filesystem::path& folder);
+
+}  // namespace myoid

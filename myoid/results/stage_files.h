@@ -1,0 +1,33 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "myoid/core/time_series.h"
+#include "myoid/forces/force_sharing.h"
+#include "myoid/kinematics/inverse_kinematics.h"
+#include "myoid/kinematics/muscle_kinematics.h"
+#include "myoid/model/body_model.h"
+
+namespace myoid {
+
+/// Coordinates as ik.mot: rotations in degrees, translations in meters.
+void write_motion(const model::BodyModel& model,
+                  const TimeSeries& q,
+                  const std::filesystem::path& path,
+                  const std::vector<std::string>& comments);
+
+/// ik_marker_errors.sto: the frames that have a marker, and of the markers those that are there in
+/// all of these frames.
+void write_marker_errors(const kinematics::IkResult& ik, const std::filesystem::path& path);
+
+/// MuscleAnalysis_Length.sto, _MuscleTendonVelocity.sto and a _MomentArm_ file for each coordinate.
+void write_muscle_kinematics(const kinematics::MuscleKinematics& muscles,
+                             const std::filesystem::path& folder);
+
+/// StaticOptimization_force.sto with the reserves, _activation.sto and _status.csv: how each
+/// frame's search ended.
+void write_shared_forces(const forces::MuscleForces& shared, const std::filesystem::path& folder);
+
+}  // namespace myoid

@@ -1,0 +1,241 @@
+#include "myoid/results/study_report.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "myoid/design/design_report.h"
+#include "myoid/intervals/estimate_remarks.h"
+#include "myoid/math/statistics.h"
+#include "myoid/report/typeset.h"
+#include "myoid/results/parameter_tables.h"
+#include "myoid/results/phases_report.h"
+#include "myoid/results/study_figures.h"
+#include "myoid/results/study_scene.h"
+#include "myoid/results/torque_report.h"
+#include "myoid/run/quality_gates.h"
+#include "myoid/run/study_emg.h"
+
+namespace myoid {
+namespace {
+
+using identification::IdentificationResult;
+using identification::ParameterEstimate;
+using identification::Verdict;
+using report::Figure;
+using report::Section;
+using report::Table;
+
+const IdentificationResult* method_of(const StudyResult& result, std::string_view name) {
+  for (const IdentificationResult& m : result.methods) {
+    if (m.method == name) return &m;
+  }
+  return nullptr;
+}
+
+std::vector<std::string> assumptions(const StudyResult& result) {
+  std::vector<std::string> list = result.study.subject.notes;
+  list.push_back(result.study.identify.elastic_tendon
+                     ? "Tendons stretch by the strain that the model gives them, quasi-statically."
+                     : "The tendon is taken as rigid: fiber length = musculotendon length - tendon "
+                       "slack length. Optimal fiber length and tendon slack length then act only "
+                       "together; the slack length is held.");
+  list.push_back(fmt::format(
+      "{}; the muscles are effective ones that stand for all heads lumped into them.",
+      result.study.identify.model_muscles
+          ? "Pennation and passive muscle force are those of the model"
+          : "Pennation and passive muscle force are neglected, as in the source paper"));
+  const bool freed = std::any_of(
+      result.methods.begin(), result.methods.end(), [](const IdentificationResult& method) {
+        return std::any_of(method.estimates.begin(), method.estimates.end(),
+                           [](const auto& e) { return e.parameter == "max_shortening_speed"; });
+      });
+  list.push_back(freed ? "v_max is found with the other numbers where nobody states it; where it "
+                         "is held, as always in method paper, an error in it goes into V_sh."
+                       : "v_max is held at its starting value; an error in it goes into V_sh.");
+  list.push_back(
+      "At low activation the optimal length is longer than at full activation (about 15 %); the l0 "
+      "given here belongs to the activations of this recording.");
+  for (const auto& muscle : result.study.muscles) {
+    if (muscle.same_as)
+      list.push_back(
+          fmt::format("{} has no electrode: it is taken to act as {} does. Their strengths can "
+                      "hardly be told apart.",
+                      muscle.name, *muscle.same_as));
+  }
+  if (!result.study.subject.mass_kg && !result.study.model.file)
+    list.push_back("Body mass is not given: 73 kg is assumed for the built-in arm's inertia.");
+  for (const signals::WhiteningFilter& filter : result.whitening.filters) {
+    if (filter.reason.empty())
+      list.push_back(fmt::format("EMG channel {}: statistical bandwidth {:.0f} Hz, {} {:.0f} Hz.",
+                                 filter.channel, filter.bandwidth_before_hz,
+                                 result.whitening.applied ? "whitened" : "whitened it would be",
+                                 filter.bandwidth_after_hz));
+  }
+  const signals::EmgChain chain = emg_chain(result, nullptr);
+  if (!chain.steps.empty()) list.push_back(fmt::format("EMG: {}.", fmt::join(chain.steps, "; ")));
+  if (!chain.methods.empty())
+    list.push_back(fmt::format("For a methods section: {}", fmt::join(chain.methods, " ")));
+  if (result.study.emg.has_mvc) {
+    const EmgSpec& emg = result.study.emg;
+    list.push_back(
+        emg.mvc_effort_sd > 0.0 || emg.mvc_effort < 1.0
+            ? fmt::format(
+                  "F_max is what a muscle could exert if all of it were active: the maximal "
+                  "contractions are taken to reach {:.0f} +- {:.0f} % of that.",
+                  100.0 * emg.mvc_effort, 100.0 * emg.mvc_effort_sd)
+            : std::string("F_max is the force at the greatest effort that was recorded. Untrained "
+                          "people reach some 80 to 100 % of what their muscles could exert; "
+                          "[emg] mvc_effort accounts for that."));
+  }
+  for (const std::string& text : result.model.unsupported) list.push_back("Model: " + text + ".");
+  return list;
+}
+
+std::string headline(const StudyResult& result) {
+  const IdentificationResult* best = method_of(result, "torque");
+  if (best == nullptr) best = method_of(result, "force");
+  if (best == nullptr)
+    return "Parameters by the source paper's method, each with an interval and a verdict.";
+  std::vector<std::string> sure;
+  int total = 0;
+  for (const ParameterEstimate& e : best->estimates) {
+    if (identification::is_nuisance(e) || !e.tied_to.empty()) continue;
+    ++total;
+    if (e.verdict == Verdict::identified)
+      sure.push_back(e.muscle + " " + report::spelled(e.parameter));
+  }
+  std::string text =
+      sure.empty()
+          ? fmt::format("This recording identifies none of {} parameters with certainty.", total)
+          : fmt::format("This recording identifies {} of {} parameters: {}.", sure.size(), total,
+                        fmt::join(sure, ", "));
+  if (!result.folds.empty()) {
+    std::vector<double> ours, theirs;
+    for (const identification::Fold& f : result.folds) {
+      ours.push_back(f.identified.r2);
+      theirs.push_back(f.literature.r2);
+    }
+    text += fmt::format(
+        " Torque of {}s left out of the fit is predicted with a median R2 of {:.2f} "
+        "(literature's parameters with a best gain: {:.2f}).",
+        result.study.identify.folds, math::median(std::move(ours)),
+        math::median(std::move(theirs)));
+  }
+  return text;
+}
+
+}  // namespace
+
+report::Report study_report(const StudyResult& result, const Provenance& provenance) {
+  report::Report report;
+  report.title = fmt::format("Muscle parameters of {}", result.study.subject.name);
+  std::vector<std::string> joints;
+  for (const std::string& name : study_coordinates(result.study.model))
+    joints.push_back(report::spelled(name));
+  report.subtitle = fmt::format("{} trial{}; joint coordinate{} {}; model {}", result.trials.size(),
+                                result.trials.size() == 1 ? "" : "s", joints.size() > 1 ? "s" : "",
+                                fmt::join(joints, ", "), result.model.name);
+  report.headline = headline(result);
+  if (has_motion_page(result))
+    report.links.push_back({"The model moving through every trial, in the browser", kMotionPage});
+  report.gates = quality_gates(result);
+  const IdentificationResult* torque = method_of(result, "torque");
+  const IdentificationResult* paper = method_of(result, "paper");
+
+  report.sections.push_back(recordings_section(result));
+  if (torque != nullptr) {
+    Section section{"parameters", "Parameters", {}, {}, {}, {}};
+    section.paragraphs.push_back(
+        fmt::format("{} samples, worth {:.0f} independent ones; torque noise {:.2f} N m; EMG noise "
+                    "{} of the torque of each channel; EMG delay {:.0f} ms.",
+                    torque->samples_used, torque->effective_samples, torque->torque_sd_nm,
+                    torque->emg_cv < 0.005 ? std::string("too small to be told from it, below 1 %")
+                                           : fmt::format("{:.0f} %", 100.0 * torque->emg_cv),
+                    1000.0 * torque->delay_s));
+    const std::string lag = identification::lag_remark(*torque);
+    if (!lag.empty()) section.paragraphs.push_back(lag);
+    if (!torque->collinear.empty())
+      section.paragraphs.push_back(
+          fmt::format("Hardly told apart: {}.", fmt::join(torque->collinear, "; ")));
+    section.tables = estimate_tables(result, *torque);
+    for (Table& table : basin_tables(*torque)) section.tables.push_back(std::move(table));
+    for (std::size_t m = 0; m < result.data.muscles.size(); ++m)
+      section.figures.push_back(muscle_curves(result, *torque, m));
+    report.sections.push_back(std::move(section));
+  }
+  if (const IdentificationResult* force = method_of(result, "force")) {
+    Section section{"force_method", "Muscle by muscle", {}, {}, {}, {}};
+    section.tables = estimate_tables(result, *force);
+    for (Table& table : basin_tables(*force)) section.tables.push_back(std::move(table));
+    report.sections.push_back(std::move(section));
+  }
+  for (Section& section : validation_sections(result))
+    report.sections.push_back(std::move(section));
+  if (result.next) report.sections.push_back(next_recording_section(*result.next));
+  if (paper != nullptr) {
+    Section section{"paper", "The source paper's method beside it", {}, {}, {}, {}};
+    section.paragraphs.push_back(
+        "Published in 2006: every muscle alone, shortening and lengthening apart, against forces "
+        "that an optimization assigned. Those forces know nothing of co-contraction or of the "
+        "person's own "
+        "strength, so that its numbers often leave physiology; the verdicts say where.");
+    section.tables = paper_tables(*paper);
+    for (Table& table : basin_tables(*paper)) section.tables.push_back(std::move(table));
+    report.sections.push_back(std::move(section));
+  }
+  Section forces{"forces", "Muscle forces", {}, {}, {}, {}};
+  std::vector<const identification::TrialData*> shown;
+  for (const auto& data : result.data.trials) shown.push_back(&data);
+  // Those with the most movement first; all are in the trials' folders.
+  std::stable_sort(shown.begin(), shown.end(), [](const auto* a, const auto* b) {
+    const auto range = [](const identification::TrialData* d) {
+      return (d->length_m.colwise().maxCoeff() - d->length_m.colwise().minCoeff()).maxCoeff();
+    };
+    return std::lround(100.0 * range(a)) > std::lround(100.0 * range(b));
+  });
+  if (shown.size() > 6) shown.resize(6);
+  if (torque != nullptr) {
+    for (const auto* data : shown) forces.figures.push_back(force_figure(result, *data, *torque));
+  }
+  if (paper != nullptr && !result.data.trials.empty())
+    forces.figures.push_back(force_figure(result, *shown.front(), *paper));
+  report.sections.push_back(std::move(forces));
+  const auto task =
+      std::find_if(result.trials.begin(), result.trials.end(),
+                   [](const TrialResult& t) { return t.emg && t.spec.use == Use::calibration; });
+  if (task != result.trials.end())
+    report.sections.push_back({"emg", "EMG", {}, {}, {}, {emg_figure(*task)}});
+  if (!result.informed.empty() || result.force_loop)
+    report.sections.push_back(informed_section(result));
+  if (!result.phases.empty()) report.sections.push_back(phases_section(result));
+  Section trials{"trials", "Trials", {}, {}, {trials_table(result)}, {}};
+  std::vector<std::string> notes;
+  for (const TrialResult& t : result.trials) {
+    for (const std::string& note : t.notes)
+      notes.push_back(fmt::format("{}: {}", t.spec.name, note));
+  }
+  if (notes.size() > 12) {
+    notes.resize(12);
+    notes.push_back("More remarks stand in run.json.");
+  }
+  trials.paragraphs = notes;
+  report.sections.push_back(std::move(trials));
+
+  report.assumptions = assumptions(result);
+  report.provenance.push_back(
+      {"program", fmt::format("{} {}", provenance.program, provenance.version)});
+  report.provenance.push_back({"command", provenance.command});
+  for (const InputFile& file : provenance.inputs)
+    report.provenance.push_back({file.path, "sha256 " + file.sha256});
+  for (const StageTime& t : result.times)
+    report.provenance.push_back({"time: " + t.stage, fmt::format("{:.2f} s", t.seconds)});
+  report.provenance.push_back({"options", provenance.options_json});
+  return report;
+}
+
+}  // namespace myoid

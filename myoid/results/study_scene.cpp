@@ -1,0 +1,79 @@
+#include "myoid/results/study_scene.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "myoid/files/atomic_file.h"
+#include "myoid/scene/model_meshes.h"
+#include "myoid/scene/model_scene.h"
+#include "myoid/study/study_model.h"
+
+namespace myoid {
+namespace {
+
+/// The EMG's activation of every muscle of the model that a [[muscle]] of the study lumps.
+TimeSeries muscle_activation(const Study& study, const TrialResult& trial) {
+  const TimeSeries& emg = trial.activation;
+  const std::vector<kinematics::MuscleGroup> groups = muscle_groups(study, trial.model);
+  std::vector<Channel> channels;
+  std::vector<Eigen::Index> columns;
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    const auto column = emg.find(study.muscles[g].emg);
+    if (!column) continue;
+    for (const int m : groups[g].members) {
+      channels.push_back(
+          {trial.model.muscles[static_cast<std::size_t>(m)].name, Unit::dimensionless});
+      columns.push_back(*column);
+    }
+  }
+  return {emg.time_s(), std::move(channels), emg.values()(Eigen::all, columns)};
+}
+
+report::Scene trial_scene(const Study& study, const TrialResult& trial, int most_frames) {
+  SceneInput input;
+  input.name = trial.spec.name;
+  input.q = trial.motion.q;
+  if (trial.markers) input.markers = &*trial.markers;
+  if (!trial.shared.force.empty()) input.colorings.push_back({"force", "N", trial.shared.force});
+  if (!trial.activation.empty()) {
+    TimeSeries activation = muscle_activation(study, trial);
+    if (activation.channel_count() > 0)
+      input.colorings.push_back({"EMG activation", "", std::move(activation)});
+  }
+  return model_scene(trial.model, input, {.most_frames = most_frames});
+}
+
+}  // namespace
+
+report::ScenePage study_scenes(const StudyResult& result, int most_frames) {
+  const auto moving = [](const TrialResult& trial) { return trial.has_motion(); };
+  const auto count = std::count_if(result.trials.begin(), result.trials.end(), moving);
+  report::ScenePage page{.title = result.study.subject.name,
+                         .subtitle = fmt::format("model {}, {} trials", result.model.name, count)};
+  const int each =
+      std::max(100, most_frames / static_cast<int>(std::max<std::ptrdiff_t>(1, count)));
+  for (const TrialResult& trial : result.trials)
+    if (moving(trial))
+      page.scenes.push_back(trial_scene(result.study, trial, std::min(1500, each)));
+  if (result.study.model.file && !page.scenes.empty())
+    add_meshes(load_meshes(result.model_text, *result.study.model.file), page);
+  return page;
+}
+
+bool has_motion_page(const StudyResult& result) {
+  return report::has_viewer() &&
+         std::any_of(result.trials.begin(), result.trials.end(),
+                     [](const TrialResult& trial) { return trial.has_motion(); });
+}
+
+void write_motion_page(const StudyResult& result, const std::filesystem::path& folder) {
+  if (has_motion_page(result)) {
+    recording::write_file(folder / kMotionPage, report::scene_page(study_scenes(result)));
+  } else {
+    std::error_code ignored;
+    std::filesystem::remove(folder / kMotionPage, ignored);
+  }
+}
+
+}  // namespace myoid

@@ -1,0 +1,86 @@
+#include "myoid/results/study_scene.h"
+
+#include <fstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "myoid/arm/arm4.h"
+#include "myoid/osim/osim_reader.h"
+
+#include "tests/support/temporary_folder.h"
+
+namespace myoid {
+namespace {
+
+/// A trial of the built-in arm: elbow flexing for a second at 100 Hz.
+TrialResult flexing(const std::string& name) {
+  TrialResult trial;
+  trial.spec.name = name;
+  trial.model = model::parse_osim(model::arm4_osim(), "arm4.osim");
+  std::vector<Channel> channels;
+  for (const model::Coordinate& c : trial.model.coordinates)
+    channels.push_back({c.name, Unit::radian});
+  Eigen::MatrixXd q = trial.model.default_q().transpose().replicate(101, 1);
+  q.col(trial.model.coordinate_index("elbow_flexion")).setLinSpaced(0.0, 1.5);
+  trial.motion.q = TimeSeries(Eigen::VectorXd::LinSpaced(101, 0.0, 1.0), channels, q);
+  trial.activation = TimeSeries(Eigen::Vector2d(0.0, 1.0), {{"Biceps", Unit::dimensionless}},
+                                Eigen::Vector2d(0.2, 0.6));
+  recording::MarkerSeries markers;
+  markers.time_s = Eigen::Vector2d(0.0, 1.0);
+  markers.names = {trial.model.markers[0].name};
+  markers.positions_m.setZero(2, 3);
+  trial.markers = markers;
+  return trial;
+}
+
+StudyResult two_trials() {
+  StudyResult result;
+  result.study.subject.name = "S01";
+  result.study.muscles = {{.name = "BIC", .osim = {"BIC", "BRA"}, .emg = "Biceps"}};
+  result.trials = {flexing("slow"), TrialResult{}, flexing("fast")};
+  result.trials[1].spec.name = "mvc without motion";
+  result.model = result.trials[0].model;
+  return result;
+}
+
+TEST(StudyScenes, HaveTheTrialsThatMoveWithTheirMarkersAndActivations) {
+  const report::ScenePage page = study_scenes(two_trials());
+  EXPECT_EQ(page.title, "S01");
+  ASSERT_EQ(page.scenes.size(), 2U);
+  const report::Scene& scene = page.scenes[1];
+  EXPECT_NO_THROW(report::validate(scene));
+  EXPECT_EQ(scene.name, "fast");
+  EXPECT_EQ(scene.time_s.size(), 51);
+  EXPECT_EQ(scene.measured_markers.size(), 1U);
+  ASSERT_EQ(scene.values.size(), 1U);
+  // Both heads have the muscle's electrode, linearly from 0.2 to 0.6; the others have none.
+  const auto& arm = two_trials().model;
+  EXPECT_NEAR(scene.values[0].value(25, arm.muscle_index("BIC")), 0.4, 1e-12);
+  EXPECT_NEAR(scene.values[0].value(25, arm.muscle_index("BRA")), 0.4, 1e-12);
+  EXPECT_TRUE(std::isnan(scene.values[0].value(25, arm.muscle_index("TRI"))));
+}
+
+TEST(StudyScenes, ShareTheFramesAmongManyTrials) {
+  StudyResult many = two_trials();
+  many.trials.resize(3);
+  const report::ScenePage page = study_scenes(many, 60);
+  for (const report::Scene& scene : page.scenes) EXPECT_LE(scene.time_s.size(), 100);
+}
+
+TEST(MotionPage, IsWrittenOrAnEarlierOneIsRemoved) {
+  if (!report::has_viewer()) GTEST_SKIP() << "built without three.js or esbuild";
+  const test::TemporaryFolder folder;
+  StudyResult result = two_trials();
+  EXPECT_TRUE(has_motion_page(result));
+  write_motion_page(result, folder.path());
+  EXPECT_TRUE(std::filesystem::exists(folder / kMotionPage));
+  result.trials.resize(2);
+  result.trials.erase(result.trials.begin());
+  EXPECT_FALSE(has_motion_page(result));
+  write_motion_page(result, folder.path());
+  EXPECT_FALSE(std::filesystem::exists(folder / kMotionPage));
+}
+
+}  // namespace
+}  // namespace myoid

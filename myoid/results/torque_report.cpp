@@ -1,0 +1,248 @@
+#include "myoid/results/torque_report.h"
+
+#include <algorithm>
+#include <limits>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "myoid/run/prediction_gates.h"
+
+namespace myoid {
+namespace {
+
+using report::Badge;
+using report::Cell;
+using report::Figure;
+using report::format_value;
+using report::Panel;
+using report::Role;
+using report::Section;
+using report::Table;
+using report::to_vector;
+
+/// Predicted values as a curve; a gap at the beginning, where the EMG of a delay earlier was not
+/// recorded.
+std::vector<double> after_delay(const Eigen::VectorXd& predicted,
+                                const Eigen::VectorXd& time_s,
+                                double delay_s) {
+  std::vector<double> curve = to_vector(predicted);
+  for (std::size_t i = 0; i < curve.size(); ++i) {
+    if (time_s[static_cast<Eigen::Index>(i)] < time_s[0] + delay_s)
+      curve[i] = std::numeric_limits<double>::quiet_NaN();
+  }
+  return curve;
+}
+
+/// The trial, and the joint if there are several.
+std::string title_of(const StudyResult& result,
+                     const std::string& trial,
+                     const std::string& joint) {
+  return result.study.model.more_coordinates.empty() ? trial : fmt::format("{}, {}", trial, joint);
+}
+
+/// Measured, literature's and identified torque.
+Panel torque_panel(std::string title,
+                   const Eigen::VectorXd& time_s,
+                   const Eigen::VectorXd& measured_nm,
+                   const Eigen::VectorXd& literature_nm,
+                   const Eigen::VectorXd& identified_nm,
+                   double delay_s) {
+  Panel panel{std::move(title), {"time", "s", {}, {}, {}}, {"torque", "N m", {}, {}, {}}, {}};
+  const std::vector<double> t = to_vector(time_s);
+  panel.series.push_back({"inverse dynamics", t, to_vector(measured_nm), Role::reference, {}, {}});
+  panel.series.push_back(
+      {"literature", t, after_delay(literature_nm, time_s, delay_s), Role::literature, {}, {}});
+  panel.series.push_back(
+      {"identified", t, after_delay(identified_nm, time_s, delay_s), Role::identified, {}, {}});
+  return panel;
+}
+
+Figure folds_figure(const StudyResult& result, double delay_s) {
+  const std::string& left_out = result.study.identify.folds;
+  Figure figure{
+      "torque_held_out",
+      fmt::format("Joint torque predicted for {}s that took no part in the fit", left_out),
+      fmt::format("Blue: inverse dynamics. Orange dashed: muscles identified on the other {}s. "
+                  "Grey dotted: literature's muscles with one best gain.",
+                  left_out),
+      {},
+      2};
+  for (const identification::Fold& f : result.folds) {
+    figure.panels.push_back(torque_panel(
+        fmt::format("{}: R2 {:.2f}", title_of(result, f.trial, f.joint), f.identified.r2), f.time_s,
+        f.measured_nm, f.literature_nm, f.predicted_nm, delay_s));
+  }
+  return figure;
+}
+
+/// "1.77 (R2 0.35)"
+std::string error_and_r2(const identification::Score& score) {
+  return fmt::format("{:.2f} ({:.2f})", score.rmse_nm, score.r2);
+}
+
+/// "0.912 (below 2.3 Hz)"
+std::string smoothed_text(const identification::Score& score, double cutoff_hz) {
+  return cutoff_hz > 0.0 ? fmt::format("{:.3f} (below {:.2g} Hz)", score.r2, cutoff_hz)
+                         : fmt::format("{:.3f}", score.r2);
+}
+
+Table folds_table(const StudyResult& result) {
+  const std::string& left_out = result.study.identify.folds;
+  Table table{
+      "leave_one_trial_out",
+      fmt::format("Leave-one-{}-out prediction of the joint torque", left_out),
+      fmt::format("R2 = 1 - SSE/SST, negative when worse than the {}'s own mean. ", left_out) +
+          "NRMSE is RMSE over the "
+          "range. The prediction is the muscles' law with the parameters of a fit that did not see "
+          "it (fold_parameters.csv); smoothed, it is low-passed where the noise of its EMG does "
+          "least harm. Below 1.5 Hz both torques are compared without what is faster, which in the "
+          "prediction "
+          "is above all the noise of the EMG. Lag: positive if the prediction comes late. "
+          "Baselines, "
+          "RMSE in N m and R2 in "
+          "brackets: the literature's parameters with the one gain that fits the others best; "
+          "torque regressed on EMG times moment arm; the source paper's method; the others' mean "
+          "torque.",
+      {left_out, "RMSE [N m]", "NRMSE", "R2", "R2 smoothed", "NRMSE below 1.5 Hz",
+       "R2 below 1.5 Hz", "VAF", "lag [ms]", "literature x gain", "regression", "paper",
+       "constant"},
+      {}};
+  const std::vector<OutlyingFold> outlying = outlying_folds(result.folds);
+  for (const identification::Fold& f : result.folds) {
+    const bool stands_out = std::any_of(
+        outlying.begin(), outlying.end(),
+        [&](const OutlyingFold& o) { return o.trial == f.trial && o.joint == f.joint; });
+    const std::string title = title_of(result, f.trial, f.joint);
+    table.rows.push_back(
+        {stands_out ? Cell{title, Badge::bad, "its error stands out from those of the others"}
+                    : Cell{title},
+         {fmt::format("{:.2f}", f.identified.rmse_nm)},
+         {fmt::format("{:.1f} %", 100.0 * f.identified.nrmse_range)},
+         {fmt::format("{:.3f}", f.identified.r2),
+          f.identified.r2 > std::max(0.0, f.literature.r2) ? Badge::good : Badge::weak},
+         {smoothed_text(f.smooth, f.smooth_hz)},
+         {fmt::format("{:.1f} %", 100.0 * f.band.nrmse_range)},
+         {fmt::format("{:.3f}", f.band.r2)},
+         {fmt::format("{:.3f}", f.identified.vaf)},
+         {fmt::format("{:.0f}", 1000.0 * f.lag_s)},
+         {error_and_r2(f.literature)},
+         {error_and_r2(f.regression)},
+         {f.paper ? error_and_r2(*f.paper) : std::string("-")},
+         {fmt::format("{:.2f}", f.constant.rmse_nm)}});
+  }
+  return table;
+}
+
+/// Trials that were held back for validation.
+Table held_back_table(const StudyResult& result,
+                      const identification::IdentificationResult& method) {
+  Table table{"validation_trials",
+              "Trials held back for validation",
+              "Joint torque predicted with the muscles identified on the calibration trials.",
+              {"trial", "RMSE [N m]", "NRMSE", "R2", "R2 smoothed", "NRMSE below 1.5 Hz",
+               "R2 below 1.5 Hz"},
+              {}};
+  for (const identification::TrialFit& t : method.trials) {
+    if (t.calibration) continue;
+    table.rows.push_back({{title_of(result, t.trial, t.joint)},
+                          {fmt::format("{:.2f}", t.rmse_nm)},
+                          {fmt::format("{:.1f} %", 100.0 * t.nrmse_range)},
+                          {fmt::format("{:.3f}", t.r2), t.r2 > 0.0 ? Badge::good : Badge::weak},
+                          {smoothed_text(smoothed_score(t), t.smooth_hz)},
+                          {fmt::format("{:.1f} %", 100.0 * t.band.nrmse_range)},
+                          {fmt::format("{:.3f}", t.band.r2)}});
+  }
+  return table;
+}
+
+Figure held_back_figure(const StudyResult& result,
+                        const identification::IdentificationResult& method) {
+  Figure figure{"torque_validation",
+                "Joint torque predicted for the trials held back",
+                "Blue: inverse dynamics. Orange dashed: muscles identified on the calibration "
+                "trials. Grey dotted: literature's muscles.",
+                {},
+                2};
+  for (const identification::TrialFit& t : method.trials) {
+    if (t.calibration) continue;
+    figure.panels.push_back(torque_panel(
+        fmt::format("{}: R2 {:.2f}", title_of(result, t.trial, t.joint), t.r2), t.time_s,
+        t.torque_nm, t.literature_torque_nm, t.torque_fit_nm, method.delay_s));
+  }
+  return figure;
+}
+
+std::string range_text(const Eigen::VectorXd& values, int decimals) {
+  return fmt::format("{:.{}f} to {:.{}f}", values.minCoeff(), decimals, values.maxCoeff(),
+                     decimals);
+}
+
+}  // namespace
+
+std::vector<Section> validation_sections(const StudyResult& result) {
+  const auto torque = std::find_if(result.methods.begin(), result.methods.end(),
+                                   [](const auto& m) { return m.method == "torque"; });
+  const bool fitted = torque != result.methods.end();
+  std::vector<Section> sections;
+  if (!result.folds.empty()) {
+    sections.push_back({"validation",
+                        fmt::format("Validation on {}s left out", result.study.identify.folds),
+                        {},
+                        {},
+                        {folds_table(result)},
+                        {folds_figure(result, fitted ? torque->delay_s : 0.0)}});
+  }
+  if (fitted && std::any_of(torque->trials.begin(), torque->trials.end(),
+                            [](const auto& t) { return !t.calibration; })) {
+    sections.push_back({"validation_trials",
+                        "Validation on trials held back",
+                        {},
+                        {},
+                        {held_back_table(result, *torque)},
+                        {held_back_figure(result, *torque)}});
+  }
+  return sections;
+}
+
+Table trials_table(const StudyResult& result) {
+  Table table{"trials",
+              "Trials",
+              "What was recorded and how it went. Ranges of several joints in the order of the "
+              "study's coordinates.",
+              {"trial", "use", "duration", "held mass", "joint range", "torque range", "status"},
+              {}};
+  const bool clocks = std::any_of(result.trials.begin(), result.trials.end(),
+                                  [](const TrialResult& t) { return t.emg_clock.has_value(); });
+  if (clocks) table.columns.insert(table.columns.end() - 1, "EMG's clock moved by");
+  for (const TrialResult& t : result.trials) {
+    std::vector<Cell> row{{t.spec.name}, {std::string(name(t.spec.use))}};
+    if (t.has_motion()) {
+      std::vector<std::string> angles, torques;
+      const std::vector<std::string> coordinates = study_coordinates(result.study.model);
+      for (std::size_t j = 0; j < coordinates.size(); ++j) {
+        angles.push_back(range_text(t.motion.q.column(coordinates[j]) / kDegree, 0));
+        torques.push_back(
+            range_text(t.muscle_torque.values().col(static_cast<Eigen::Index>(j)), 1));
+      }
+      const auto& clock = t.motion.q.time_s();
+      row.push_back({fmt::format("{:.1f} s", clock[clock.size() - 1] - clock[0])});
+      row.push_back({fmt::format("{} kg", format_value(t.spec.held_mass_kg))});
+      row.push_back({fmt::format("{} deg", fmt::join(angles, "; "))});
+      row.push_back({fmt::format("{} N m", fmt::join(torques, "; "))});
+    } else {
+      for (int k = 0; k < 4; ++k) row.push_back({"-"});
+    }
+    if (clocks) {
+      row.push_back(t.emg_clock ? Cell{signals::to_string(t.emg_clock->clock), Badge::none,
+                                       t.emg_clock->source}
+                                : Cell{"-"});
+    }
+    row.push_back(t.failure.empty() ? Cell{"ok", Badge::good}
+                                    : Cell{"failed", Badge::bad, t.failure});
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+}  // namespace myoid

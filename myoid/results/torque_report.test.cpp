@@ -1,0 +1,74 @@
+#include "myoid/results/torque_report.h"
+
+#include <gtest/gtest.h>
+
+#include "myoid/core/units.h"
+
+namespace myoid {
+namespace {
+
+StudyResult two_joints() {
+  StudyResult result;
+  result.study.model.coordinate = "knee";
+  result.study.model.more_coordinates = {"ankle"};
+  const Eigen::VectorXd time = Eigen::VectorXd::LinSpaced(50, 0.0, 1.0);
+  Eigen::MatrixXd values(50, 2);
+  values.col(0) = Eigen::VectorXd::LinSpaced(50, 10.0 * kDegree, 60.0 * kDegree);
+  values.col(1) = Eigen::VectorXd::LinSpaced(50, -5.0 * kDegree, 25.0 * kDegree);
+  TrialResult trial;
+  trial.spec.name = "squat";
+  const TimeSeries q(time, {{"knee", Unit::radian}, {"ankle", Unit::radian}}, values);
+  trial.motion = {q, q, q};
+  trial.muscle_torque =
+      TimeSeries(time, {{"knee_moment", Unit::newton_meter}, {"ankle_moment", Unit::newton_meter}},
+                 values / kDegree);
+  result.trials.push_back(trial);
+  identification::IdentificationResult torque;
+  torque.method = "torque";
+  for (const char* joint : {"knee", "ankle"}) {
+    identification::TrialFit fit;
+    fit.trial = "squat";
+    fit.joint = joint;
+    fit.calibration = false;
+    fit.time_s = time;
+    fit.torque_nm = fit.literature_torque_nm = fit.torque_fit_nm = values.col(0);
+    fit.r2 = 1.0;
+    torque.trials.push_back(fit);
+    identification::Fold fold;
+    fold.trial = "squat";
+    fold.joint = joint;
+    fold.time_s = time;
+    fold.measured_nm = fold.predicted_nm = fold.literature_nm = values.col(1);
+    result.folds.push_back(fold);
+  }
+  result.methods.push_back(torque);
+  return result;
+}
+
+TEST(TorqueReport, EveryJointOfATrialHasItsRowAndItsPanel) {
+  const std::vector<report::Section> sections = validation_sections(two_joints());
+  ASSERT_EQ(sections.size(), 2U);
+  for (const report::Section& section : sections) {
+    ASSERT_EQ(section.tables.at(0).rows.size(), 2U);
+    EXPECT_EQ(section.tables[0].rows[0][0].text, "squat, knee");
+    EXPECT_EQ(section.tables[0].rows[1][0].text, "squat, ankle");
+    EXPECT_EQ(section.figures.at(0).panels.size(), 2U);
+  }
+}
+
+TEST(TorqueReport, RangesOfSeveralJointsStandInTheOrderOfTheCoordinates) {
+  const report::Table table = trials_table(two_joints());
+  ASSERT_EQ(table.rows.size(), 1U);
+  EXPECT_EQ(table.rows[0][4].text, "10 to 60; -5 to 25 deg");
+  EXPECT_EQ(table.rows[0][5].text, "10.0 to 60.0; -5.0 to 25.0 N m");
+}
+
+TEST(TorqueReport, WithoutHeldBackOrLeftOutTrialsThereIsNothingToValidate) {
+  StudyResult result = two_joints();
+  result.folds.clear();
+  for (identification::TrialFit& fit : result.methods[0].trials) fit.calibration = true;
+  EXPECT_TRUE(validation_sections(result).empty());
+}
+
+}  // namespace
+}  // namespace myoid

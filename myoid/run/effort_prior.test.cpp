@@ -1,0 +1,46 @@
+#include "myoid/run/effort_prior.h"
+
+#include <cmath>
+#include <random>
+
+#include <gtest/gtest.h>
+
+namespace myoid {
+namespace {
+
+TEST(ExpectAnyEffort, HasTheMomentsOfAUniformLogarithmOfTheShareTimesTheLiteratures) {
+  identification::MuscleSetup muscle;
+  muscle.priors["max_isometric_force"] = {.mean = 900.0, .sd = 0.25, .logarithmic = true};
+  std::vector<identification::MuscleSetup> muscles{muscle, {}};
+  expect_any_effort(muscles);
+  // 200 000 draws: mean and spread to 0.003.
+  std::mt19937_64 engine(5);
+  std::uniform_real_distribution<double> uniform(std::log(0.05), 0.0);
+  std::normal_distribution<double> strength(std::log(900.0), 0.25);
+  double sum = 0.0, squares = 0.0;
+  constexpr int kDraws = 200000;
+  for (int i = 0; i < kDraws; ++i) {
+    const double x = strength(engine) + uniform(engine);
+    sum += x;
+    squares += x * x;
+  }
+  const double mean = sum / kDraws;
+  const Prior& prior = muscles[0].priors.at("max_isometric_force");
+  EXPECT_NEAR(std::log(prior.mean), mean, 0.01);
+  EXPECT_NEAR(prior.sd, std::sqrt(squares / kDraws - mean * mean), 0.01);
+  EXPECT_TRUE(prior.logarithmic);
+  EXPECT_TRUE(muscles[1].priors.empty());
+}
+
+TEST(ExpectAnyEffort, SpreadInNewtonsIsTakenAsARatio) {
+  identification::MuscleSetup in_newtons, in_logarithms;
+  in_newtons.priors["max_isometric_force"] = {.mean = 900.0, .sd = 180.0};
+  in_logarithms.priors["max_isometric_force"] = {.mean = 900.0, .sd = 0.2, .logarithmic = true};
+  std::vector<identification::MuscleSetup> muscles{in_newtons, in_logarithms};
+  expect_any_effort(muscles);
+  EXPECT_NEAR(muscles[0].priors["max_isometric_force"].sd,
+              muscles[1].priors["max_isometric_force"].sd, 1e-12);
+}
+
+}  // namespace
+}  // namespace myoid

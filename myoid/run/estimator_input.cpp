@@ -1,0 +1,148 @@
+#include "myoid/run/estimator_input.h"
+
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "myoid/intake/emg_cover.h"
+#include "myoid/kinematics/lumped_muscles.h"
+#include "myoid/run/effort_prior.h"
+#include "myoid/run/nuisances.h"
+#include "myoid/run/resting_joints.h"
+#include "myoid/study/study_model.h"
+
+namespace myoid {
+namespace {
+
+identification::TrialData trial_data(const Study& study,
+                                     const TrialResult& trial,
+                                     Use use,
+                                     const TimeSeries& activation,
+                                     const std::vector<kinematics::MuscleGroup>& groups,
+                                     const std::vector<identification::RestingJoint>& resting) {
+  identification::TrialData data;
+  data.name = trial.spec.name;
+  data.calibration = use == Use::calibration || use == Use::isometric;
+  data.time_s = trial.motion.q.time_s();
+  kinematics::LumpedMuscles lumped =
+      kinematics::lumped_muscles(trial.muscles, groups, study.model.coordinate);
+  data.length_m = std::move(lumped.length_m);
+  data.velocity_mps = std::move(lumped.velocity_mps);
+  data.moment_arm_m = std::move(lumped.moment_arm_m);
+  if (!trial.shared.force.empty()) {
+    data.force_n = Eigen::MatrixXd::Zero(data.length_m.rows(), data.length_m.cols());
+    for (Eigen::Index g = 0; g < data.force_n.cols(); ++g) {
+      for (const int head : groups[static_cast<std::size_t>(g)].members)
+        data.force_n.col(g) += trial.shared.force.values().col(head);
+    }
+  }
+  data.torque_nm = trial.muscle_torque.values().col(0);
+  data.condition = trial.spec.condition;
+  data.joint = study.model.coordinate;
+  data.angle_rad = trial.motion.q.column(study.model.coordinate);
+  data.velocity_radps = trial.motion.qdot.column(study.model.coordinate);
+  data.acceleration_radps2 = trial.motion.qddot.column(study.model.coordinate);
+  data.resting_nm = resting_torque_nm(resting, data.joint, data.angle_rad);
+  for (std::size_t j = 0; j < study.model.more_coordinates.size(); ++j) {
+    const std::string& name = study.model.more_coordinates[j];
+    data.more_joints.push_back(
+        {.name = name,
+         .torque_nm = trial.muscle_torque.values().col(static_cast<Eigen::Index>(j) + 1),
+         .moment_arm_m = kinematics::lumped_moment_arm_m(trial.muscles, groups, name),
+         .angle_rad = trial.motion.q.column(name),
+         .velocity_radps = trial.motion.qdot.column(name),
+         .acceleration_radps2 = trial.motion.qddot.column(name),
+         .resting_nm = resting_torque_nm(resting, name, trial.motion.q.column(name))});
+  }
+  data.activation = activation;
+  if (trial.uncarried) data.excluded = trial.uncarried->stretches;
+  // Where there is no EMG there is nothing to fit.
+  const Rows rows = rows_with_emg(trial.motion.q.time_s(), activation.time_s());
+  return identification::part(data, rows.first, rows.count());
+}
+
+}  // namespace
+
+identification::StudyData estimator_data(const StudyResult& result) {
+  return estimator_data(result, result.study, activations_of(result));
+}
+
+identification::StudyData estimator_data(const StudyResult& result,
+                                         const Study& study,
+                                         const StudyActivations& emg) {
+  const std::vector<kinematics::MuscleGroup> groups = muscle_groups(study, result.model);
+  identification::StudyData data;
+  data.muscles = muscle_setups(study, result.model);
+  if (!from_maximal_effort(study.emg)) expect_any_effort(data.muscles);
+  for (std::size_t i = 0; i < result.trials.size(); ++i) {
+    const TrialResult& trial = result.trials[i];
+    const TimeSeries& activation = emg.of_trial[i];
+    const Use use = i < study.trials.size() ? study.trials[i].use : trial.spec.use;
+    if (!trial.has_motion() || activation.empty()) continue;
+    if (use == Use::mvc || use == Use::static_pose || use == Use::passive) continue;
+    data.trials.push_back(trial_data(study, trial, use, activation, groups, result.resting));
+  }
+  if (study.identify.priors) data.rules = nuisance_rules(study.emg, data);
+  data.rules.insert(data.rules.end(), study.parameters.begin(), study.parameters.end());
+  identification::free_speeds(data, identification::unstated_speeds(data, study.identify.muscles));
+  return data;
+}
+
+identification::TorqueOptions torque_options(const StudyResult& result, const Progress& progress) {
+  return torque_options(result.study, result.normalisation, progress);
+}
+
+identification::TorqueOptions torque_options(
+    const Study& study,
+    const std::vector<signals::ChannelNormalisation>& normalisation,
+    const Progress& progress) {
+  identification::TorqueOptions options;
+  options.muscles = study.identify.muscles;
+  options.priors = study.identify.priors;
+  options.delay_s = study.emg.delay_s;
+  options.max_rate_hz = study.identify.max_rate_hz;
+  options.weights = study.identify.priors;
+  const IdentifySpec& spec = study.identify;
+  options.intervals = {.bootstrap = spec.bootstrap, .profile = spec.profile};
+  options.loss = spec.loss == "huber"    ? identification::Loss::huber
+                 : spec.loss == "cauchy" ? identification::Loss::cauchy
+                                         : identification::Loss::square;
+  options.eccentric = spec.eccentric == "product"       ? identification::Eccentric::product
+                      : spec.eccentric == "slope_ratio" ? identification::Eccentric::slope_ratio
+                      : spec.eccentric == "smooth"      ? identification::Eccentric::smooth
+                                                        : identification::Eccentric::automatic;
+  options.normalised = spec.normalised;
+  options.choose_lag = spec.lag == "automatic";
+  if (spec.lag == "shared") options.lag = identification::EmgLag::shared;
+  if (spec.dynamics) use_dynamics(options);
+  options.delay_per_channel = spec.delay_per_channel;
+  options.angle_sd_rad = spec.angle_sd_rad;
+  options.angle_rate_sd_radps = spec.angle_rate_sd_radps;
+  options.from_mvc = from_maximal_effort(study.emg);
+  options.progress.stop = progress.stop;
+  if (study.identify.gain) {
+    for (const signals::ChannelNormalisation& n : normalisation) {
+      // Activation 1 is the greatest effort of the MVC trials: a share of what the muscle can do.
+      const bool known = study.emg.has_mvc;
+      const double effort = known ? study.emg.mvc_effort : 1.0;
+      const double spread = known ? study.emg.mvc_effort_sd / effort : 0.0;
+      options.gain_prior_sd[n.channel] = std::hypot(n.relative_sd, spread);
+      options.gain_prior_mean[n.channel] = effort;
+    }
+  }
+  options.envelope_cutoff_hz = study.emg.lowpass_hz;
+  for (const signals::ChannelNormalisation& n : normalisation) {
+    options.emg_bandwidth_hz[n.channel] = n.bandwidth_hz;
+    options.emg_rest[n.channel] = n.resting_level_v / n.reference_v;
+  }
+  return options;
+}
+
+void use_dynamics(identification::EstimatorOptions& options) {
+  options.lag = identification::EmgLag::equation_1;
+  options.delay_prior_mean_s = 0.010;
+  options.delay_prior_sd_s = 0.010;
+}
+
+}  // namespace myoid

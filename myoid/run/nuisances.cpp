@@ -1,0 +1,103 @@
+#include "myoid/run/nuisances.h"
+
+#include <algorithm>
+#include <map>
+#include <string>
+#include <utility>
+
+namespace myoid {
+namespace {
+
+using identification::JointData;
+using identification::ParameterRule;
+using identification::TrialData;
+
+constexpr double kStrained = 0.5;  // of the greatest EMG
+constexpr double kStiffness = 0.008, kOffset = 0.008, kViscosity = 0.0016;
+
+ParameterRule rule(const char* parameter, double mean, double sd) {
+  ParameterRule r;
+  r.parameter = parameter;
+  r.free = true;
+  r.prior_mean = mean;
+  r.prior_sd = sd;
+  r.usual = true;
+  return r;
+}
+
+/// A joint's largest moment arm of every muscle, and whether every trial that is fitted knows its
+/// motion.
+struct JointReach {
+  Eigen::VectorXd arm_m;
+  bool motion = true;
+};
+
+void widen(const Eigen::MatrixXd& arm_m,
+           const Eigen::VectorXd& angle_rad,
+           const Eigen::VectorXd& velocity_radps,
+           const Eigen::VectorXd& acceleration_radps2,
+           Eigen::Index samples,
+           JointReach& joint) {
+  joint.motion = joint.motion && angle_rad.size() == samples && velocity_radps.size() == samples &&
+                 acceleration_radps2.size() == samples;
+  if (arm_m.rows() == 0) return;
+  const Eigen::VectorXd here = arm_m.cwiseAbs().colwise().maxCoeff().transpose();
+  joint.arm_m = joint.arm_m.size() == 0 ? here : Eigen::VectorXd(joint.arm_m.cwiseMax(here));
+}
+
+/// EMG channels that reach kStrained of the maximum in a trial that is fitted.
+std::vector<std::string> strained_channels(const identification::StudyData& data) {
+  std::vector<std::string> channels;
+  for (const identification::MuscleSetup& muscle : data.muscles) {
+    const std::string& channel = muscle.emg_channel;
+    if (std::find(channels.begin(), channels.end(), channel) != channels.end()) continue;
+    const bool strained =
+        std::any_of(data.trials.begin(), data.trials.end(), [&](const TrialData& trial) {
+          return trial.calibration && trial.activation.find(channel) &&
+                 trial.activation.column(channel).maxCoeff() >= kStrained;
+        });
+    if (strained) channels.push_back(channel);
+  }
+  return channels;
+}
+
+}  // namespace
+
+std::vector<ParameterRule> nuisance_rules(const EmgSpec& emg,
+                                          const identification::StudyData& data) {
+  std::vector<ParameterRule> rules{rule("length_activation", 0.0, 0.1)};
+  rules.back().tie = true;
+  if (emg.kind != EmgKind::activation && emg.has_mvc) {
+    ParameterRule exponent = rule("emg_exponent", 1.0, 0.2);
+    exponent.owners = strained_channels(data);
+    if (!exponent.owners.empty()) rules.push_back(std::move(exponent));
+  }
+  std::map<std::string, JointReach> joints;
+  for (const TrialData& trial : data.trials) {
+    if (!trial.calibration) continue;
+    const Eigen::Index n = trial.time_s.size();
+    widen(trial.moment_arm_m, trial.angle_rad, trial.velocity_radps, trial.acceleration_radps2, n,
+          joints[trial.joint]);
+    for (const JointData& more : trial.more_joints)
+      widen(more.moment_arm_m, more.angle_rad, more.velocity_radps, more.acceleration_radps2, n,
+            joints[more.name]);
+  }
+  for (const auto& [name, joint] : joints) {
+    if (!joint.motion || joint.arm_m.size() != static_cast<Eigen::Index>(data.muscles.size()))
+      continue;
+    double strength_nm = 0.0;
+    for (Eigen::Index k = 0; k < joint.arm_m.size(); ++k)
+      strength_nm +=
+          joint.arm_m[k] * data.muscles[static_cast<std::size_t>(k)].start.max_isometric_force_n;
+    for (const auto& [parameter, share] :
+         {std::pair{"joint_stiffness", kStiffness}, std::pair{"joint_torque_offset", kOffset},
+          std::pair{"joint_viscosity", kViscosity}}) {
+      ParameterRule r = rule(parameter, 0.0, share * strength_nm);
+      r.owners = {name};
+      if (strength_nm > 0.0) rules.push_back(std::move(r));
+    }
+  }
+  return rules;
+}
+
+}  // namespace myoid

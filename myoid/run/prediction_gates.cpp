@@ -1,0 +1,232 @@
+#include "myoid/run/prediction_gates.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "myoid/intervals/identifiability.h"
+#include "myoid/math/statistics.h"
+
+namespace myoid {
+namespace {
+
+using identification::Fold;
+using identification::IdentificationResult;
+using report::Gate;
+using report::GateStatus;
+
+/// Of the torque's squares, the least share that a prediction explains which is called good.
+constexpr double kExplains = 0.5;
+
+/// Sums by joint, of trials each with its mean, its squares about that, and its errors.
+class Sums {
+ public:
+  void add(const std::string& joint, double n, double mean, double squares, double errors) {
+    Joint& j = joints_[joint];
+    j.n += n;
+    j.first += n * mean;
+    j.second += squares + n * mean * mean;
+    errors_ += errors;
+  }
+  [[nodiscard]] Explained result() const {
+    double n = 0.0, varies = 0.0, torque = 0.0;
+    for (const auto& [name, j] : joints_) {
+      n += j.n;
+      torque += j.second;
+      varies += j.second - j.first * j.first / j.n;
+    }
+    Explained all;
+    if (!(n > 0.0)) return all;
+    all.samples = static_cast<Eigen::Index>(n);
+    all.rms_nm = std::sqrt(errors_ / n);
+    all.spread_nm = std::sqrt(std::max(0.0, varies) / n);
+    all.torque_rms_nm = std::sqrt(torque / n);
+    return all;
+  }
+
+ private:
+  struct Joint {
+    double n = 0.0, first = 0.0, second = 0.0;
+  };
+  std::map<std::string, Joint> joints_;
+  double errors_ = 0.0;
+};
+
+double spread_about_mean(const Eigen::VectorXd& x) { return (x.array() - x.mean()).square().sum(); }
+
+Gate distance_gate(const IdentificationResult& fit) {
+  constexpr double kFar = identification::VerdictRules{}.prior_conflict;
+  std::vector<std::string> far;
+  double most = 0.0;
+  for (const identification::PriorDistance& d : fit.prior_distances) {
+    most = std::max({most, d.distance, d.farthest_distance});
+    if (std::max(d.distance, d.farthest_distance) <= kFar) continue;
+    far.push_back(fmt::format("{} {:.1f} ({} {:.1f})", d.muscle, d.distance, d.farthest,
+                              d.farthest_distance));
+  }
+  return {
+      "Muscles within what is known of them", far.empty() ? GateStatus::pass : GateStatus::warn,
+      far.empty()
+          ? fmt::format("at most {:.1f} prior standard deviations from the literature", most)
+          : fmt::format("prior standard deviations from the literature: {}", fmt::join(far, "; ")),
+      fmt::format(
+          "every muscle's numbers, one by one and together, within {:.0f}; of the logarithm "
+          "of what cannot be negative, such as F_max and lengths",
+          kFar),
+      "Do not use the numbers of a muscle beyond before the cause is known: a label, sign, unit, "
+      "mass or geometry that is wrong, or a model too simple for the recording."};
+}
+
+}  // namespace
+
+double Explained::r2() const {
+  return spread_nm > 0.0 ? 1.0 - rms_nm * rms_nm / (spread_nm * spread_nm) : 0.0;
+}
+
+bool Explained::is_wrong() const {
+  constexpr double kUnrelated = -1.0;
+  return rms_nm > torque_rms_nm || (r2() < kUnrelated && rms_nm > 0.5 * torque_rms_nm);
+}
+
+std::string Explained::text() const {
+  return fmt::format("R2 {:.2f}: {:.2f} N m rms below 1.5 Hz, where the torque varies by {:.2f}",
+                     r2(), rms_nm, spread_nm);
+}
+
+identification::Score smoothed_score(const identification::TrialFit& fit) {
+  const Eigen::VectorXd smooth =
+      fit.smooth_hz > 0.0 ? identification::below(fit.time_s, fit.torque_fit_nm, fit.smooth_hz)
+                          : fit.torque_fit_nm;
+  return identification::score(fit.torque_nm, smooth);
+}
+
+Explained explained(const IdentificationResult& fit, bool calibration) {
+  Sums sums;
+  for (const identification::TrialFit& t : fit.trials) {
+    const Eigen::Index n = t.torque_nm.size();
+    if (t.calibration != calibration || n < 2 || t.torque_fit_nm.size() != n) continue;
+    const double errors = static_cast<double>(n) * t.band.rmse_nm * t.band.rmse_nm;
+    if (!std::isfinite(errors)) continue;
+    sums.add(t.joint, static_cast<double>(n), t.torque_nm.mean(),
+             t.band.r2 < 1.0 ? errors / (1.0 - t.band.r2) : spread_about_mean(t.torque_nm), errors);
+  }
+  return sums.result();
+}
+
+Explained explained(const std::vector<Fold>& folds) {
+  Sums sums;
+  for (const Fold& f : folds) {
+    const Eigen::Index n = f.measured_nm.size();
+    const double errors = static_cast<double>(n) * f.band.rmse_nm * f.band.rmse_nm;
+    if (n < 2 || !std::isfinite(errors)) continue;
+    sums.add(f.joint, static_cast<double>(n), f.measured_nm.mean(),
+             f.band.r2 < 1.0 ? errors / (1.0 - f.band.r2) : spread_about_mean(f.measured_nm),
+             errors);
+  }
+  return sums.result();
+}
+
+std::vector<OutlyingFold> outlying_folds(const std::vector<Fold>& folds) {
+  constexpr std::size_t kFewest = 5;
+  constexpr double kRobust = 1.4826;
+  constexpr double kFar = 3.0;
+  constexpr double kSubstance = 1.5;
+  std::map<std::string, std::vector<const Fold*>> joints;
+  for (const Fold& f : folds) {
+    if (f.identified.rmse_nm > 0.0 && std::isfinite(f.identified.rmse_nm))
+      joints[f.joint].push_back(&f);
+  }
+  std::vector<OutlyingFold> found;
+  for (const auto& [joint, of_joint] : joints) {
+    if (of_joint.size() < kFewest) continue;
+    std::vector<double> logs, r2;
+    for (const Fold* f : of_joint) {
+      logs.push_back(std::log(f->identified.rmse_nm));
+      r2.push_back(f->identified.r2);
+    }
+    const double middle = math::median(logs);
+    const double middle_r2 = math::median(std::move(r2));
+    std::vector<double> off;
+    for (const double x : logs) off.push_back(std::abs(x - middle));
+    const double sd = kRobust * math::median(std::move(off));
+    for (std::size_t i = 0; i < of_joint.size(); ++i) {
+      const Fold& f = *of_joint[i];
+      const double above = logs[i] - middle;
+      if (above <= kFar * sd || above <= std::log(kSubstance) || f.identified.r2 >= middle_r2)
+        continue;
+      found.push_back({f.trial, joint, f.identified.rmse_nm, f.identified.r2, std::exp(middle)});
+    }
+  }
+  return found;
+}
+
+std::vector<Gate> fit_gates(const IdentificationResult& fit) {
+  std::vector<Gate> gates;
+  if (const Explained own = explained(fit, true); own.samples > 0) {
+    gates.push_back({"Describes the torque it was fitted to",
+                     own.is_wrong()         ? GateStatus::fail
+                     : own.r2() > kExplains ? GateStatus::pass
+                                            : GateStatus::warn,
+                     own.text(),
+                     "R2 above 0.5; fails where no torque at all would be nearer, or one that has "
+                     "nothing to do with it (R2 below -1)",
+                     "Muscles that do not even make the torque they were fitted to are none."});
+  }
+  if (const Explained held = explained(fit, false); held.samples > 0) {
+    gates.push_back({"Predicts the trials held back",
+                     held.is_wrong()         ? GateStatus::fail
+                     : held.r2() > kExplains ? GateStatus::pass
+                                             : GateStatus::warn,
+                     held.text(), "R2 above 0.5; fails below -1",
+                     "Below 0 their mean torque predicts them better, below -1 an unrelated torque "
+                     "of the same size."});
+  }
+  if (!fit.prior_distances.empty()) gates.push_back(distance_gate(fit));
+  return gates;
+}
+
+std::vector<Gate> fold_gates(const std::vector<Fold>& folds) {
+  std::vector<Gate> gates;
+  if (folds.empty()) return gates;
+  const Explained all = explained(folds);
+  // Both as they are: below 1.5 Hz the literature's prediction has no score.
+  double literature = 0.0, identified = 0.0, count = 0.0;
+  int better = 0;
+  for (const Fold& f : folds) {
+    const auto n = static_cast<double>(f.measured_nm.size());
+    literature += n * f.literature.rmse_nm * f.literature.rmse_nm;
+    identified += n * f.identified.rmse_nm * f.identified.rmse_nm;
+    count += n;
+    better += f.identified.rmse_nm < f.literature.rmse_nm ? 1 : 0;
+  }
+  const bool beats = identified < literature && 2 * better > static_cast<int>(folds.size());
+  gates.push_back(
+      {"Predicts torque it has not seen",
+       all.is_wrong()                  ? GateStatus::fail
+       : beats && all.r2() > kExplains ? GateStatus::pass
+                                       : GateStatus::warn,
+       fmt::format("{}; unfiltered {:.2f} N m, the literature with its best gain {:.2f} N m",
+                   all.text(), std::sqrt(identified / std::max(count, 1.0)),
+                   std::sqrt(literature / std::max(count, 1.0))),
+       "R2 above 0.5 and better than the literature's parameters, over all and in most trials; "
+       "fails "
+       "below -1",
+       fmt::format("Better in {} of the {} left out.", better, folds.size())});
+  const std::vector<OutlyingFold> outlying = outlying_folds(folds);
+  if (!outlying.empty()) {
+    std::vector<std::string> texts;
+    for (const OutlyingFold& f : outlying)
+      texts.push_back(fmt::format("{}: {:.2f} N m rms (R2 {:.2f}), the others about {:.2f}",
+                                  f.trial, f.rms_nm, f.r2, f.usual_rms_nm));
+    gates.push_back({"Trials alike", GateStatus::warn, fmt::format("{}", fmt::join(texts, "; ")),
+                     "none whose error stands out from those of the others",
+                     "Is a file, a label, the held mass or the clock of that trial wrong? Mend it, "
+                     "or leave it out."});
+  }
+  return gates;
+}
+
+}  // namespace myoid

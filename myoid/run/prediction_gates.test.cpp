@@ -1,0 +1,146 @@
+#include "myoid/run/prediction_gates.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+namespace myoid {
+namespace {
+
+using identification::Fold;
+using identification::IdentificationResult;
+using report::Gate;
+using report::GateStatus;
+
+/// A trial of 1000 samples about `mean_nm`, a sine of the amplitude, predicted with this error.
+identification::TrialFit trial(double mean_nm,
+                               double amplitude_nm,
+                               double error_nm,
+                               bool own = true) {
+  identification::TrialFit fit;
+  fit.calibration = own;
+  fit.torque_nm =
+      mean_nm + amplitude_nm * (Eigen::VectorXd::LinSpaced(1000, 0.0, 62.8).array().sin());
+  fit.torque_fit_nm = fit.torque_nm;
+  fit.band = identification::score(fit.torque_nm, fit.torque_nm.array() + error_nm);
+  return fit;
+}
+
+GateStatus status_of(const std::vector<Gate>& gates, std::string_view name) {
+  const auto it =
+      std::find_if(gates.begin(), gates.end(), [&](const Gate& g) { return g.name == name; });
+  return it == gates.end() ? GateStatus::info : it->status;
+}
+
+TEST(Explained, R2AndRmsAreOneStatement) {
+  IdentificationResult fit;
+  fit.trials = {trial(2.0, 1.0, 0.5), trial(12.0, 3.0, -1.0)};
+  const Explained all = explained(fit, true);
+  // Both trials as one series.
+  Eigen::VectorXd measured(2000), error(2000);
+  measured << fit.trials[0].torque_nm, fit.trials[1].torque_nm;
+  error << Eigen::VectorXd::Constant(1000, 0.5), Eigen::VectorXd::Constant(1000, -1.0);
+  const identification::Score whole = identification::score(measured, measured + error);
+  EXPECT_NEAR(all.rms_nm, whole.rmse_nm, 1e-12);
+  EXPECT_NEAR(all.r2(), whole.r2, 1e-12);
+  EXPECT_NEAR(all.r2(), 1.0 - std::pow(all.rms_nm / all.spread_nm, 2), 1e-12);
+  EXPECT_NEAR(all.torque_rms_nm, std::sqrt(measured.squaredNorm() / 2000.0), 1e-12);
+}
+
+TEST(Explained, JointsHaveMeansOfTheirOwn) {
+  IdentificationResult fit;
+  fit.trials = {trial(2.0, 1.0, 0.5), trial(-20.0, 1.0, 0.5)};
+  fit.trials[0].joint = "elbow";
+  fit.trials[1].joint = "shoulder";
+  EXPECT_NEAR(explained(fit, true).spread_nm, std::sqrt(0.5), 1e-3);
+  fit.trials[1].joint = "elbow";
+  EXPECT_NEAR(explained(fit, true).spread_nm, std::hypot(11.0, std::sqrt(0.5)), 1e-2);
+}
+
+TEST(FitGates, WhatIsWorseThanAnUnrelatedTorqueFails) {
+  const auto gate = [](double mean, double amplitude, double error, bool own) {
+    IdentificationResult fit;
+    fit.trials = {trial(mean, amplitude, error, own)};
+    return status_of(fit_gates(fit), own ? "Describes the torque it was fitted to"
+                                         : "Predicts the trials held back");
+  };
+  for (const bool own : {true, false}) {
+    EXPECT_EQ(gate(2.0, 1.0, 0.3, own), GateStatus::pass);
+    EXPECT_EQ(gate(2.0, 1.0, 0.9, own), GateStatus::warn);  // R2 -0.6
+    // R2 -11, 1.93 of 2.05 N m rms: that no torque at all is even farther off is no merit.
+    EXPECT_EQ(gate(2.0, 0.75, 1.93, own), GateStatus::fail);
+    EXPECT_EQ(gate(0.0, 1.0, 0.8, own), GateStatus::fail);
+    // A torque that hardly changes, predicted to 3 %.
+    EXPECT_EQ(gate(10.0, 0.1, 0.3, own), GateStatus::warn);
+  }
+}
+
+TEST(FitGates, AMuscleThatLeftTheLiteratureIsNamed) {
+  IdentificationResult fit;
+  fit.prior_distances = {{"BIC", 1.2, "max_isometric_force", 2.1},
+                         {"TRI", 2.0, "force_length_width", 2.9}};
+  const char* name = "Muscles within what is known of them";
+  EXPECT_EQ(status_of(fit_gates(fit), name), GateStatus::pass);
+  fit.prior_distances[0].farthest_distance = 3.8;
+  EXPECT_EQ(status_of(fit_gates(fit), name), GateStatus::warn);
+  EXPECT_NE(fit_gates(fit)[0].value.find("BIC 1.2 (max_isometric_force 3.8)"), std::string::npos);
+  fit.prior_distances[0].farthest_distance = 2.1;
+  fit.prior_distances[1].distance = 3.2;
+  EXPECT_EQ(status_of(fit_gates(fit), name), GateStatus::warn);
+}
+
+Fold fold(const std::string& name, double amplitude_nm, double error_nm) {
+  Fold f;
+  f.trial = name;
+  f.measured_nm = 2.0 + amplitude_nm * Eigen::VectorXd::LinSpaced(1000, 0.0, 62.8).array().sin();
+  f.predicted_nm = f.measured_nm.array() + error_nm;
+  f.identified = f.band = identification::score(f.measured_nm, f.predicted_nm);
+  f.literature = identification::score(f.measured_nm, f.measured_nm.array() + 2.0);
+  return f;
+}
+
+TEST(OutlyingFolds, OneThatIsPredictedWorseThanTheOthersIsNamed) {
+  std::vector<Fold> folds;
+  for (const double error : {0.84, 1.17, 1.20, 1.25, 1.32}) folds.push_back(fold("t", 3.0, error));
+  EXPECT_TRUE(outlying_folds(folds).empty());
+  folds.push_back(fold("wrong", 3.0, 2.4));
+  const std::vector<OutlyingFold> found = outlying_folds(folds);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].trial, "wrong");
+  EXPECT_NEAR(found[0].usual_rms_nm, std::sqrt(1.20 * 1.25), 1e-9);
+  EXPECT_EQ(status_of(fold_gates(folds), "Trials alike"), GateStatus::warn);
+}
+
+TEST(OutlyingFolds, AHeavierTrialThatIsPredictedAsWellIsNone) {
+  std::vector<Fold> folds;
+  for (const double error : {0.84, 1.17, 1.20, 1.25, 1.32}) folds.push_back(fold("t", 3.0, error));
+  folds.push_back(fold("heavy", 12.0, 2.4));
+  EXPECT_TRUE(outlying_folds(folds).empty());
+}
+
+TEST(FoldGates, FailWhereTrialsLeftOutArePredictedWorseThanByAnUnrelatedTorque) {
+  const char* name = "Predicts torque it has not seen";
+  EXPECT_EQ(status_of(fold_gates({fold("a", 3.0, 0.5), fold("b", 3.0, 0.6)}), name),
+            GateStatus::pass);
+  EXPECT_EQ(status_of(fold_gates({fold("a", 3.0, 2.5), fold("b", 3.0, 2.6)}), name),
+            GateStatus::warn);
+  // Better than the literature, and yet a third of the torque only.
+  EXPECT_EQ(status_of(fold_gates({fold("a", 3.0, 1.75), fold("b", 3.0, 1.75)}), name),
+            GateStatus::warn);
+  EXPECT_EQ(status_of(fold_gates({fold("a", 1.0, 1.8), fold("b", 1.0, 1.8)}), name),
+            GateStatus::fail);
+}
+
+TEST(FoldGates, DoNotPassWhereTheLiteraturePredictsBetterOverAll) {
+  const char* name = "Predicts torque it has not seen";
+  // A little better in two trials, much worse in the third.
+  std::vector<Fold> folds{fold("a", 3.0, 0.5), fold("b", 3.0, 0.5), fold("c", 3.0, 1.5)};
+  for (std::size_t i = 0; i < 3; ++i) folds[i].literature.rmse_nm = i < 2 ? 0.6 : 0.9;
+  EXPECT_EQ(status_of(fold_gates(folds), name), GateStatus::warn);
+  folds[2].literature.rmse_nm = 1.6;
+  EXPECT_EQ(status_of(fold_gates(folds), name), GateStatus::pass);
+}
+
+}  // namespace
+}  // namespace myoid

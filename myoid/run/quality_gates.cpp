@@ -1,0 +1,390 @@
+#include "myoid/run/quality_gates.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "myoid/checks/trial_plausibility.h"
+#include "myoid/core/units.h"
+#include "myoid/dynamics/ground_support.h"
+#include "myoid/dynamics/inverse_dynamics.h"
+#include "myoid/run/prediction_gates.h"
+
+namespace myoid {
+namespace {
+
+using identification::IdentificationResult;
+using identification::Verdict;
+using report::Gate;
+using report::GateStatus;
+
+constexpr double kLostFrames = 0.05;      ///< Share of frames without a pose that is a failure.
+constexpr double kMarkerError_m = 0.020;  ///< Rms over the markers of a frame; twice it fails.
+constexpr double kMissingShare = 0.05;    ///< Of a joint's strength without an identified muscle.
+constexpr double kLeastRange_deg = 5.0;   ///< A joint that moves less was not moved.
+
+const IdentificationResult* torque_of(const StudyResult& result) {
+  for (const IdentificationResult& m : result.methods) {
+    if (m.method == "torque") return &m;
+  }
+  return nullptr;
+}
+
+/// Of the study's coordinate in the trial that moves it most; empty if no trial is meant to.
+std::optional<double> largest_range_deg(const StudyResult& result) {
+  std::optional<double> largest;
+  for (const TrialResult& t : result.trials) {
+    const bool still = t.spec.use == Use::mvc || t.spec.use == Use::static_pose ||
+                       t.spec.use == Use::isometric || t.spec.external_torque;
+    if (!t.has_motion() || still) continue;
+    const Eigen::VectorXd q = t.motion.q.column(result.study.model.coordinate) / kDegree;
+    largest = std::max(largest.value_or(0.0), q.maxCoeff() - q.minCoeff());
+  }
+  return largest;
+}
+
+/// Muscles of the model that pull at the study's joints but belong to no [[muscle]], and the
+/// largest share that they have of a joint's summed strength F_max |r|.
+struct MissingMuscles {
+  std::vector<std::string> names;
+  double share = 0.0;
+};
+
+MissingMuscles missing_muscles(const StudyResult& result) {
+  MissingMuscles missing;
+  const auto count = static_cast<Eigen::Index>(result.model.muscles.size());
+  std::vector<bool> there(result.model.muscles.size(), false);
+  for (const MuscleSpec& spec : result.study.muscles) {
+    for (const std::string& name : spec.osim)
+      there[static_cast<std::size_t>(result.model.muscle_index(name))] = true;
+  }
+  for (const std::string& coordinate : study_coordinates(result.study.model)) {
+    Eigen::VectorXd strength_nm = Eigen::VectorXd::Zero(count);
+    for (const TrialResult& t : result.trials) {
+      const auto arms = t.muscles.moment_arm.find(coordinate);
+      if (!t.has_motion() || arms == t.muscles.moment_arm.end()) continue;
+      strength_nm =
+          strength_nm.cwiseMax(arms->second.values().cwiseAbs().colwise().mean().transpose());
+    }
+    for (Eigen::Index m = 0; m < count; ++m)
+      strength_nm[m] *=
+          result.model.muscles[static_cast<std::size_t>(m)].properties.max_isometric_force_n;
+    const double all_nm = strength_nm.sum();
+    double missing_nm = 0.0;
+    for (Eigen::Index m = 0; m < count; ++m) {
+      const auto i = static_cast<std::size_t>(m);
+      if (there[i] || strength_nm[m] <= 0.002 * all_nm) continue;
+      missing_nm += strength_nm[m];
+      const std::string& name = result.model.muscles[i].name;
+      if (std::find(missing.names.begin(), missing.names.end(), name) == missing.names.end())
+        missing.names.push_back(name);
+    }
+    if (all_nm > 0.0) missing.share = std::max(missing.share, missing_nm / all_nm);
+  }
+  return missing;
+}
+
+/// A trial whose torque no joint can make; empty if there is none.
+std::optional<Gate> torque_gate(const StudyResult& result) {
+  const Capacities capacities = joint_capacities(result.study, result.model);
+  for (const TrialResult& t : result.trials) {
+    if (!t.has_motion()) continue;
+    for (const auto& [name, capacity] : capacities) {
+      const auto c = static_cast<std::size_t>(result.model.coordinate_index(name));
+      const auto column =
+          t.muscle_torque.find(dynamics::generalized_force_name(result.model.coordinates[c]));
+      if (!column) continue;
+      const double greatest = capacity.greatest_nm();
+      const std::string text =
+          too_much_torque(name, usual_peak(t.muscle_torque.values().col(*column)), greatest,
+                          fmt::format("the torque in '{}'", t.spec.name));
+      if (text.empty()) continue;
+      return Gate{"Torques that a joint can make", GateStatus::fail, text,
+                  fmt::format("at most {:.3g} N m", greatest),
+                  "Masses, loads or their units are wrong, or the clock of the motion is."};
+    }
+  }
+  return std::nullopt;
+}
+
+/// A trial in which nothing, or not all the time something, carries a body that the study's joint
+/// bears; empty if there is none.
+std::optional<Gate> support_gate(const StudyResult& result) {
+  for (const TrialResult& t : result.trials) {
+    if (t.uncarried)
+      return Gate{"Something carries the body", GateStatus::warn,
+                  fmt::format("'{}': nothing measured does in {:.0f} % of the time", t.spec.name,
+                              100.0 * t.uncarried->share),
+                  "no time in which half of the weight is on the joint to the ground",
+                  "Torques of the legs there lack the ground reaction; they are not fitted."};
+    if (!t.has_motion() || t.spec.external_torque || t.generalized_forces.empty()) continue;
+    const auto weight = dynamics::unsupported_weight(t.model, t.generalized_forces);
+    if (!weight) continue;
+    for (const std::string& name : study_coordinates(result.study.model)) {
+      if (!dynamics::bears_the_body(t.model, name, t.motion.q.values().row(0).transpose(),
+                                    result.study.subject.mass_kg.value_or(0.0)))
+        continue;
+      return Gate{
+          "Something carries the body", GateStatus::warn,
+          fmt::format("'{}': {}", t.spec.name, weight->sentence()),
+          "less than half of the weight on the joint to the ground",
+          fmt::format("Unless the person hangs, sits or lies, the torque of {} is wrong.", name)};
+    }
+  }
+  return std::nullopt;
+}
+
+/// What `check` warns of: faults of channels, and remarks on files that may make numbers wrong.
+Gate recordings_gate(const StudyResult& result) {
+  std::set<std::string> kinds;
+  std::ptrdiff_t grave = 0;
+  for (const NamedFault& f : all_faults(result)) {
+    if (!f.fault.grave) continue;
+    ++grave;
+    kinds.insert(std::string(name(f.fault.kind)));
+  }
+  std::ptrdiff_t warnings = 0;
+  std::vector<std::string> trials;
+  for (const TrialResult& t : result.trials) {
+    warnings += static_cast<std::ptrdiff_t>(t.warnings.size());
+    if (!t.warnings.empty()) trials.push_back(t.spec.name);
+  }
+  std::vector<std::string> found;
+  if (grave > 0) found.push_back(fmt::format("{} found: {}", grave, fmt::join(kinds, ", ")));
+  if (warnings > 0)
+    found.push_back(fmt::format("{} warning{} about the files of {}", warnings,
+                                warnings == 1 ? "" : "s", fmt::join(trials, ", ")));
+  return {"Recordings without faults", found.empty() ? GateStatus::pass : GateStatus::warn,
+          found.empty() ? std::string("none found") : fmt::format("{}", fmt::join(found, "; ")),
+          "no gap, jump, hum, clipping, missing EMG, ... beyond the limits",
+          "Each is listed below with its channel, its time and what to do."};
+}
+
+}  // namespace
+
+std::vector<report::Gate> quality_gates(const StudyResult& result) {
+  std::vector<Gate> list;
+  if (auto gate = torque_gate(result)) list.push_back(std::move(*gate));
+  if (auto gate = support_gate(result)) list.push_back(std::move(*gate));
+  int frames = 0;
+  int unconverged = 0;
+  int blind = 0;
+  double worst_rms = 0.0;
+  double sum_of_squares = 0.0;
+  double frames_with_markers = 0.0;
+  bool any_ik = false;
+  int sharing_frames = 0;
+  int unsolved = 0;
+  int reserves = 0;
+  std::set<std::string> open;
+  for (const TrialResult& t : result.trials) {
+    if (t.ik) {
+      any_ik = true;
+      frames += static_cast<int>(t.ik->status.size());
+      unconverged += t.ik->frames_not_converged;
+      blind += t.ik->frames_without_markers;
+      const Eigen::VectorXd rms = t.ik->errors.column("marker_error_RMS");
+      for (const double v : rms) {
+        if (!std::isfinite(v)) continue;
+        worst_rms = std::max(worst_rms, v);
+        sum_of_squares += v * v;
+        ++frames_with_markers;
+      }
+      open.insert(t.ik->undetermined.begin(), t.ik->undetermined.end());
+    }
+    if (t.has_motion()) {
+      sharing_frames += static_cast<int>(t.shared.status.size());
+      unsolved += t.shared.frames_not_solved;
+      reserves += t.shared.frames_with_reserve;
+    }
+  }
+  if (result.failed_trials > 0) {
+    list.push_back({"Every trial could be computed", GateStatus::fail,
+                    fmt::format("{} of {} failed", result.failed_trials, result.trials.size()),
+                    "all", "The others are reported; the failures are listed under the trials."});
+  }
+  list.push_back(recordings_gate(result));
+  if (any_ik) {
+    const int lost = unconverged + blind;
+    list.push_back({"Inverse kinematics converged",
+                    lost == 0                     ? GateStatus::pass
+                    : lost > kLostFrames * frames ? GateStatus::fail
+                                                  : GateStatus::warn,
+                    fmt::format("{} of {} frames", frames - lost, frames),
+                    fmt::format("all frames; fails below {:.0f} %", 100.0 * (1.0 - kLostFrames)),
+                    "A frame that did not converge has no trustworthy angle."});
+    const double rms = std::sqrt(sum_of_squares / std::max(frames_with_markers, 1.0));
+    list.push_back({"Markers fit the model",
+                    rms >= 2.0 * kMarkerError_m   ? GateStatus::fail
+                    : worst_rms >= kMarkerError_m ? GateStatus::warn
+                                                  : GateStatus::pass,
+                    fmt::format("{:.1f} mm rms, {:.1f} mm in the worst frame", 1000.0 * rms,
+                                1000.0 * worst_rms),
+                    "every frame below 20 mm; fails at 40 mm rms",
+                    "Larger errors mean wrong labels or units, or a model of another size."});
+    if (!open.empty()) {
+      list.push_back({"Markers determine every coordinate", GateStatus::warn,
+                      fmt::format("open: {}", fmt::join(open, ", ")), "none open",
+                      "These coordinates keep their value where the markers do not tell."});
+    }
+  }
+  if (const auto range = largest_range_deg(result); range && *range < kLeastRange_deg) {
+    list.push_back({"The joint moves", GateStatus::fail,
+                    fmt::format("{:.2g} degrees in the trial that moves it most", *range),
+                    "5 degrees or more",
+                    "Were radians declared as degrees, or is the coordinate another one?"});
+  }
+  if (const MissingMuscles missing = missing_muscles(result); !missing.names.empty()) {
+    list.push_back({"Every muscle of the joint is in the study",
+                    missing.share > kMissingShare ? GateStatus::warn : GateStatus::info,
+                    fmt::format("without {}: {:.0f} % of the joint's strength",
+                                fmt::join(missing.names, ", "), 100.0 * missing.share),
+                    fmt::format("at most {:.0f} % missing", 100.0 * kMissingShare),
+                    "What these muscles do is laid to the others: add them, or name them in a "
+                    "[[muscle]]'s osim list."});
+  }
+  list.push_back(
+      {"Force sharing certified optimal", unsolved == 0 ? GateStatus::pass : GateStatus::fail,
+       fmt::format("{} of {} frames", sharing_frames - unsolved, sharing_frames),
+       "all frames, residual below 1e-9", "Concerns the reference forces of method paper only."});
+  const double share = sharing_frames > 0 ? 100.0 * reserves / sharing_frames : 0.0;
+  list.push_back({"Muscles strong enough for the torque",
+                  share < 5.0 ? GateStatus::pass : GateStatus::warn,
+                  fmt::format("reserve used in {:.1f} % of frames", share), "below 5 %",
+                  "Where a reserve acts, the literature's muscles could not provide the torque."});
+  if (!result.normalisation.empty()) {
+    const bool mvc = std::all_of(result.normalisation.begin(), result.normalisation.end(),
+                                 [](const auto& n) { return n.from_mvc; });
+    std::string sources;
+    for (const auto& n : result.normalisation)
+      sources += fmt::format("{}{}: {}", sources.empty() ? "" : "; ", n.channel, n.source_trial);
+    list.push_back({"EMG relative to a maximal contraction",
+                    mvc ? GateStatus::pass : GateStatus::warn, sources,
+                    "every channel from an MVC trial",
+                    mvc ? "F_max means the maximal force."
+                        : "F_max below means the force at the study's largest EMG, not the "
+                          "muscle's maximum; forces and torques do not depend on it."});
+  }
+  if (const IdentificationResult* torque = torque_of(result)) {
+    list.push_back(
+        {"Fit converged",
+         torque->termination == math::Termination::converged ? GateStatus::pass : GateStatus::fail,
+         torque->message, "converged", "Only a converged fit is an answer."});
+    for (report::Gate& gate : fit_gates(*torque)) list.push_back(std::move(gate));
+    const auto count = [&](Verdict v) {
+      return std::count_if(torque->estimates.begin(), torque->estimates.end(), [&](const auto& e) {
+        return e.verdict == v && e.tied_to.empty() && !identification::is_nuisance(e);
+      });
+    };
+    list.push_back(
+        {"Parameters that this recording tells",
+         count(Verdict::identified) > 0 ? GateStatus::pass : GateStatus::warn,
+         fmt::format("{} identified, {} weak, {} prior-dominated, {} not identifiable, {} "
+                     "non-physical",
+                     count(Verdict::identified), count(Verdict::weak),
+                     count(Verdict::prior_dominated), count(Verdict::not_identifiable),
+                     count(Verdict::non_physical)),
+         "those you need", "Use a number only if its verdict allows it."});
+  }
+  for (report::Gate& gate : fold_gates(result.folds)) list.push_back(std::move(gate));
+  if (result.force_loop) {
+    const identification::ForceLoop& loop = *result.force_loop;
+    list.push_back({"Forces and parameters agree in their loop",
+                    loop.end == identification::LoopEnd::converged  ? GateStatus::pass
+                    : loop.end == identification::LoopEnd::diverged ? GateStatus::fail
+                                                                    : GateStatus::warn,
+                    fmt::format("{} after {} rounds: {}", identification::name(loop.end),
+                                loop.rounds.size(), loop.message),
+                    "converged",
+                    "Concerns the loop's own numbers only; method torque does not need it."});
+  }
+  if (result.exchanged) {
+    // Synergists may also differ by more than usual in strength.
+    constexpr double kDescribes = 0.5;
+    const bool described = result.exchanged->as_named.r2 > kDescribes;
+    list.push_back(
+        {"Electrodes on the muscles that they are named for",
+         described ? GateStatus::warn : GateStatus::fail, result.exchanged->sentence(),
+         fmt::format("no two channels that fit {:.0f} % better as each other; fails where "
+                     "they make less than half of the torque as they are (R2 0.5)",
+                     100.0 * identification::kStrengthSpread),
+         "Every number of the two muscles is then the other's."});
+  }
+  return list;
+}
+
+std::vector<NamedFault> all_faults(const StudyResult& result) {
+  std::vector<NamedFault> faults;
+  for (const TrialResult& t : result.trials) {
+    for (const Fault& fault : t.faults) faults.push_back({t.spec.name, fault});
+  }
+  for (const Fault& fault : result.level_faults) faults.push_back({"", fault});
+  return faults;
+}
+
+report::Section recordings_section(const StudyResult& result) {
+  report::Section section{"recordings", "Quality of the recordings", {}, {}, {}, {}};
+  std::vector<NamedFault> faults = all_faults(result);
+  std::vector<std::vector<report::Cell>> warnings;
+  for (const TrialResult& t : result.trials) {
+    for (const std::string& text : t.warnings)
+      warnings.push_back({{"warning", report::Badge::weak}, {t.spec.name}, {""}, {text}, {""}});
+  }
+  if (faults.empty() && warnings.empty()) {
+    section.paragraphs.emplace_back("No fault was found in any channel.");
+    return section;
+  }
+  std::stable_sort(faults.begin(), faults.end(), [](const NamedFault& a, const NamedFault& b) {
+    return a.fault.grave && !b.fault.grave;
+  });
+  constexpr std::size_t kMost = 40;
+  report::Table table{"recordings",
+                      "What the recordings themselves show",
+                      "As they came, before anything was mended. The limits stand in the guide to "
+                      "`myoid check`.",
+                      {"level", "trial", "time", "what was found", "what to do"},
+                      std::move(warnings)};
+  for (std::size_t i = 0; i < std::min(faults.size(), kMost); ++i) {
+    const NamedFault& f = faults[i];
+    table.rows.push_back(
+        {f.fault.grave ? report::Cell{"warning", report::Badge::weak} : report::Cell{"note"},
+         {f.trial.empty() ? std::string("all") : f.trial},
+         {fmt::format("{:.5g} to {:.5g} s", f.fault.begin_s, f.fault.end_s)},
+         {f.fault.text},
+         {f.fault.remedy}});
+  }
+  section.tables.push_back(std::move(table));
+  if (faults.size() > kMost) {
+    section.paragraphs.push_back(fmt::format("{} more stand in run.json.", faults.size() - kMost));
+  }
+  return section;
+}
+
+bool motion_is_unreliable(const StudyResult& result) {
+  static const std::set<std::string> of_motion{"Inverse kinematics converged",
+                                               "Markers fit the model", "The joint moves"};
+  const std::vector<Gate> gates = quality_gates(result);
+  return std::any_of(gates.begin(), gates.end(), [&](const Gate& g) {
+    return g.status == GateStatus::fail && of_motion.contains(g.name);
+  });
+}
+
+void demote_by_gates(StudyResult& result) {
+  const char* reason = motion_is_unreliable(result)
+                           ? "The motion it rests on failed its quality gate: mend that first."
+                       : result.exchanged ? "Two electrodes seem to be exchanged: mend that first."
+                                          : nullptr;
+  if (reason == nullptr) return;
+  for (IdentificationResult& method : result.methods) {
+    for (identification::ParameterEstimate& e : method.estimates) {
+      if (e.verdict != Verdict::identified) continue;
+      e.verdict = Verdict::weak;
+      e.reason = reason;
+    }
+  }
+}
+
+}  // namespace myoid

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <vector>
+
+#include "myoid/intake/trial_quality.h"
+#include "myoid/report/report.h"
+#include "myoid/run/study_result.h"
+
+namespace myoid {
+
+/// May the numbers of this run be believed? Input, inverse kinematics, force sharing, EMG, fit and
+/// prediction, each with what was found, what is expected and why. The same list heads the report,
+/// goes to the terminal, and decides exit code 4.
+[[nodiscard]] std::vector<report::Gate> quality_gates(const StudyResult& result);
+
+/// The faults of all recordings as a table with their times and remedies, warnings first; the
+/// report begins with it.
+[[nodiscard]] report::Section recordings_section(const StudyResult& result);
+
+/// All faults of the recordings, those of the whole study last.
+[[nodiscard]] std::vector<NamedFault> all_faults(const StudyResult& result);
+
+/// True if a gate failed on which the motion rests (inverse kinematics, markers, angles): no
+/// parameter can then be better than the motion it was computed from.
+[[nodiscard]] bool motion_is_unreliable(const StudyResult& result);
+
+/// Where the motion is unreliable, or electrodes are exchanged, every `identified` parameter
+/// becomes `weak`, with that reason.
+void demote_by_gates(StudyResult& result);
+
+}  // namespace myoid

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+#include "myoid/core/progress.h"
+#include "myoid/run/study_inputs.h"
+#include "myoid/run/study_result.h"
+#include "myoid/study/study.h"
+
+namespace myoid {
+
+struct RunOptions {
+  std::optional<double> start_s, end_s;  ///< Of every trial [s]; empty: as the study says.
+  Progress progress;
+  /// Forces of static optimization, which methods `paper` and `force` need; the torque method does
+  /// not.
+  bool share_forces = true;
+  bool inform_forces = true;  ///< Forces with the identified muscles, informed by the EMG.
+  /// Where inverse kinematics is kept between runs; empty: nowhere.
+  std::optional<std::filesystem::path> store;
+};
+
+/// All stages after reading, on inputs that may never have been files. As `run_study` otherwise.
+[[nodiscard]] StudyResult analyse(const Study& study,
+                                  StudyInputs inputs,
+                                  const RunOptions& options = {});
+
+/// All stages in order: EMG, motion, inverse dynamics, muscle paths, force sharing, identification,
+/// cross-validation; trials in parallel, the same numbers for every number of threads. Throws
+/// ReadError or InvalidInput for input that cannot be used (nothing is computed then: all files are
+/// read first), Interrupted when stopped. A trial whose computation fails is marked and left out.
+[[nodiscard]] StudyResult run_study(const Study& study, const RunOptions& options = {});
+
+}  // namespace myoid

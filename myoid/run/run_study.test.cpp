@@ -1,0 +1,255 @@
+#include "myoid/run/run_study.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <pugixml.hpp>
+
+#include "myoid/results/parameter_files.h"
+#include "myoid/results/result_files.h"
+#include "myoid/results/study_report.h"
+#include "myoid/run/quality_gates.h"
+#include "myoid/study/study_model.h"
+#include "myoid/tables/csv_reader.h"
+#include "myoid/tables/storage_reader.h"
+#include "myoid/twin/write_recording.h"
+
+#include "tests/support/places.h"
+#include "tests/support/temporary_folder.h"
+
+namespace myoid {
+namespace {
+
+/// The exact virtual recording, written once and run once for all tests of this file.
+struct ExactRun {
+  test::TemporaryFolder folder;
+  StudyResult result;
+
+  ExactRun() {
+    const auto protocol =
+        twin::read_protocol(test::source_dir() / "examples/protocols/noise_free.toml");
+    twin::write_virtual_recording(twin::make_virtual_recording(protocol, 3), folder / "recording");
+    Study study = read_study(folder / "recording/study.toml");
+    study.identify.cross_validate = false;
+    result = run_study(study, {.store = folder / "stages"});
+  }
+  static const ExactRun& get() {
+    static const ExactRun run;
+    return run;
+  }
+};
+
+TEST(RunStudy, ASecondRunReusesInverseKinematicsAndFindsTheSame) {
+  const ExactRun& first = ExactRun::get();
+  Study study = first.result.study;
+  study.identify.methods = {"paper"};
+  study.emg.lowpass_hz = 5.0;
+  const StudyResult second = run_study(study, {.store = first.folder / "stages"});
+  ASSERT_EQ(second.trials.size(), first.result.trials.size());
+  int with_markers = 0;
+  for (std::size_t i = 0; i < second.trials.size(); ++i) {
+    if (!second.trials[i].ik) continue;
+    ++with_markers;
+    EXPECT_FALSE(first.result.trials[i].ik_reused);
+    EXPECT_TRUE(second.trials[i].ik_reused);
+    EXPECT_EQ(first.result.trials[i].ik->q.values(), second.trials[i].ik->q.values());
+  }
+  EXPECT_GT(with_markers, 0);
+}
+
+TEST(RunStudy, FromExactFilesEveryParameterIsTheTruthToAMillionth) {
+  const StudyResult& result = ExactRun::get().result;
+  ASSERT_EQ(result.methods.size(), 2U);
+  const identification::IdentificationResult& torque = result.methods[1];
+  int compared = 0;
+  for (const auto& e : torque.estimates) {
+    for (const TrueValue& t : result.truth) {
+      if (t.parameter != e.parameter || t.muscle != e.muscle) continue;
+      EXPECT_NEAR(e.estimate, t.value, 1e-6 * std::abs(t.value)) << e.muscle << " " << e.parameter;
+      ++compared;
+    }
+  }
+  EXPECT_EQ(compared, 25);  // six of each muscle, and the delay
+}
+
+TEST(WriteResults, LeavesTheFilesThatArePromised) {
+  const ExactRun& run = ExactRun::get();
+  const auto out = run.folder / "results";
+  write_results(run.result, {}, out);
+  const std::string trial = run.result.data.trials.front().name;
+  for (const std::string name :
+       {"ik.mot", "ik_marker_errors.sto", "id.sto", "MuscleAnalysis_Length.sto",
+        "MuscleAnalysis_MuscleTendonVelocity.sto", "MuscleAnalysis_MomentArm_elbow_flexion.sto",
+        "StaticOptimization_force.sto", "StaticOptimization_activation.sto", "activation.sto",
+        "identified_forces.sto"}) {
+    EXPECT_GT(recording::read_storage(out / trial / name).data.sample_count(), 10) << name;
+  }
+  const recording::CsvTable table = recording::read_csv_table(out / "parameters.csv");
+  const std::vector<std::string> columns{"muscle",
+                                         "parameter",
+                                         "unit",
+                                         "method",
+                                         "case",
+                                         "initial",
+                                         "estimate",
+                                         "std_error",
+                                         "ci_low",
+                                         "ci_high",
+                                         "prior_mean",
+                                         "prior_sd",
+                                         "shrinkage",
+                                         "at_bound",
+                                         "verdict",
+                                         "reason",
+                                         "ci_low_sandwich",
+                                         "ci_high_sandwich",
+                                         "ci_low_cluster",
+                                         "ci_high_cluster",
+                                         "ci_low_jackknife",
+                                         "ci_high_jackknife",
+                                         "ci_low_bootstrap",
+                                         "ci_high_bootstrap",
+                                         "ci_low_profile",
+                                         "ci_high_profile",
+                                         "routes_disagree"};
+  EXPECT_EQ(table.names, columns);
+  EXPECT_TRUE(std::filesystem::exists(out / "run.json"));
+  EXPECT_TRUE(std::filesystem::exists(out / "parameters.json"));
+}
+
+TEST(WriteResults, AnIdentifiedModelIsThereOnlyIfSomethingWasIdentified) {
+  const ExactRun& run = ExactRun::get();
+  const auto out = run.folder / "some";
+  StudyResult none = run.result;
+  for (auto& method : none.methods) {
+    for (auto& e : method.estimates) e.verdict = identification::Verdict::weak;
+  }
+  StudyResult one = none;
+  for (auto& e : one.methods[1].estimates) {
+    if (e.muscle == "BIC" && e.parameter == "optimal_fiber_length")
+      e.verdict = identification::Verdict::identified;
+  }
+  write_results(one, {}, out);
+  EXPECT_TRUE(
+      std::filesystem::exists(out / (one.study.model.file->stem().string() + "_identified.osim")));
+  write_results(none, {}, run.folder / "none");
+  EXPECT_TRUE(std::filesystem::exists(run.folder / "none" / "parameters.csv"));
+  for (const auto& entry : std::filesystem::directory_iterator(run.folder / "none"))
+    EXPECT_FALSE(entry.path().string().ends_with("_identified.osim")) << entry.path();
+}
+
+TEST(IdentifiedModel, DiffersFromTheInputOnlyInIdentifiedNumbers) {
+  const StudyResult& result = ExactRun::get().result;
+  IdentifiedMuscle muscle{
+      "BIC", result.data.muscles[0].start, result.data.muscles[0].start, {"max_isometric_force"}};
+  EXPECT_EQ(identified_model(result.study, result.model_text,
+                             {{"BIC", muscle.start, muscle.identified, {}}}),
+            result.model_text);
+  muscle.identified.max_isometric_force_n *= 2.0;
+  const std::string changed = identified_model(result.study, result.model_text, {muscle});
+  pugi::xml_document before;
+  pugi::xml_document after;
+  ASSERT_TRUE(before.load_string(result.model_text.c_str()));
+  ASSERT_TRUE(after.load_string(changed.c_str()));
+  const char* path = "//*[@name='BIC']/max_isometric_force";
+  EXPECT_DOUBLE_EQ(after.select_node(path).node().text().as_double(),
+                   2.0 * before.select_node(path).node().text().as_double());
+  const char* other = "//*[@name='TRI']/max_isometric_force";
+  EXPECT_EQ(std::string(after.select_node(other).node().text().get()),
+            before.select_node(other).node().text().get());
+}
+
+TEST(RunStudy, TheReportHasMethodForceAndWhereSearchesEnded) {
+  StudyResult result = ExactRun::get().result;
+  const auto torque = std::find_if(result.methods.begin(), result.methods.end(),
+                                   [](const auto& m) { return m.method == "torque"; });
+  ASSERT_NE(torque, result.methods.end());
+  identification::IdentificationResult force = *torque;
+  force.method = "force";
+  force.basins = {{.fit = "BIC", .starts = 4, .basins = {{.cost = 1.0, .starts = 4}}}};
+  result.methods = {force};
+  const report::Report report = study_report(result, {});
+  EXPECT_EQ(report.headline.find("source paper"), std::string::npos) << report.headline;
+  const auto section =
+      std::find_if(report.sections.begin(), report.sections.end(),
+                   [](const report::Section& s) { return s.id == "force_method"; });
+  ASSERT_NE(section, report.sections.end());
+  EXPECT_EQ(section->tables.front().id, "parameters_force");
+  EXPECT_EQ(section->tables.back().id, "basins_force");
+}
+
+TEST(StudyReport, HasGatesTablesAndFiguresThatFitTogether) {
+  const report::Report report = study_report(ExactRun::get().result, {});
+  EXPECT_NO_THROW(report::validate(report));
+  EXPECT_GE(report.gates.size(), 5U);
+  std::vector<std::string> tables;
+  for (const report::Section& section : report.sections) {
+    for (const report::Table& table : section.tables) tables.push_back(table.id);
+  }
+  for (const std::string wanted :
+       {"parameters_torque", "table_1_shortening", "table_2_lengthening", "trials"}) {
+    EXPECT_NE(std::find(tables.begin(), tables.end(), wanted), tables.end()) << wanted;
+  }
+}
+
+TEST(IdentifiedModel, AWidthIsWrittenOnlyWhereWidthAndLengthAreBothIdentified) {
+  const StudyResult& result = ExactRun::get().result;
+  const auto start = result.data.muscles[0].start;
+  IdentifiedMuscle muscle{"BIC", start, start, {"optimal_fiber_length"}};
+  muscle.identified.optimal_fiber_length_m *= 1.1;
+  muscle.identified.force_length_width_m *= 1.3;
+  muscle.identified.concentric_curvature *= 1.2;
+  muscle.identified.eccentric_plateau *= 1.05;
+  const auto number = [&](const std::vector<std::string>& changed, const std::string& property) {
+    muscle.changed = changed;
+    pugi::xml_document document;
+    EXPECT_TRUE(
+        document.load_string(identified_model(result.study, result.model_text, {muscle}).c_str()));
+    return document.select_node(("//*[@name='BIC']/" + property).c_str()).node().text().as_double();
+  };
+  const std::vector<std::string> all{"optimal_fiber_length", "force_length_width",
+                                     "concentric_curvature", "eccentric_plateau",
+                                     "max_isometric_force"};
+  for (const auto& [property, needed] :
+       std::vector<std::pair<std::string, std::vector<std::string>>>{
+           {"KshapeActive", {"optimal_fiber_length", "force_length_width"}},
+           {"optimal_fiber_length", {"optimal_fiber_length"}},
+           {"Af", {"concentric_curvature"}},
+           {"Flen", {"eccentric_plateau"}}}) {
+    const double before = number({}, property);
+    EXPECT_NE(number(needed, property), before) << property;
+    // Without any one of what it is made of it stays, whatever else is identified.
+    for (const std::string& left_out : needed) {
+      std::vector<std::string> others = all;
+      std::erase(others, left_out);
+      EXPECT_EQ(number(others, property), before) << property << " without " << left_out;
+    }
+  }
+  const double ratio =
+      muscle.identified.force_length_width_m / muscle.identified.optimal_fiber_length_m;
+  EXPECT_NEAR(number(all, "KshapeActive"), ratio * ratio, 1e-12);
+}
+
+TEST(WriteResults, ALoopThatDivergedFailsAGateAndStandsInTheJson) {
+  StudyResult result = ExactRun::get().result;
+  result.force_loop = identification::ForceLoop{.end = identification::LoopEnd::diverged,
+                                                .message = "the changes grow: do not use it",
+                                                .rounds = {{}, {}}};
+  bool failed = false;
+  for (const report::Gate& gate : quality_gates(result)) {
+    if (gate.name == "Forces and parameters agree in their loop")
+      failed = gate.status == report::GateStatus::fail &&
+               gate.value == "diverged after 2 rounds: the changes grow: do not use it";
+  }
+  EXPECT_TRUE(failed);
+  const std::string json = parameters_json({}, {}, {}, parameter_context(result));
+  EXPECT_NE(json.find("the changes grow: do not use it"), std::string::npos);
+  EXPECT_NE(json.find("\"left_out\": \"trial\""), std::string::npos);
+}
+
+}  // namespace
+}  // namespace myoid

@@ -1,0 +1,141 @@
+#include "myoid/run/stage_store.h"
+
+#include <cstring>
+#include <fstream>
+
+#include <nlohmann/json.hpp>
+
+#include "myoid/core/build_identity.h"
+#include "myoid/core/error.h"
+#include "myoid/core/provenance.h"
+#include "myoid/files/atomic_file.h"
+#include "myoid/study/study_json.h"
+
+namespace myoid {
+namespace {
+
+using nlohmann::json;
+using Bytes = std::vector<std::uint8_t>;
+
+/// The bytes of the doubles themselves: NaN and the last bit survive.
+json packed(const double* values, Eigen::Index count) {
+  Bytes bytes(static_cast<std::size_t>(count) * sizeof(double));
+  if (count > 0) std::memcpy(bytes.data(), values, bytes.size());
+  return json::binary(std::move(bytes));
+}
+
+Eigen::VectorXd unpacked(const json& value) {
+  const Bytes& bytes = value.get_binary();
+  Eigen::VectorXd values(static_cast<Eigen::Index>(bytes.size() / sizeof(double)));
+  if (values.size() > 0)
+    std::memcpy(values.data(), bytes.data(),
+                static_cast<std::size_t>(values.size()) * sizeof(double));
+  return values;
+}
+
+json to_json(const TimeSeries& series) {
+  json channels = json::array();
+  for (const Channel& c : series.channels()) channels.push_back({c.name, static_cast<int>(c.unit)});
+  return {{"time", packed(series.time_s().data(), series.time_s().size())},
+          {"channels", channels},
+          {"values", packed(series.values().data(), series.values().size())}};
+}
+
+TimeSeries series_from(const json& value) {
+  const Eigen::VectorXd time = unpacked(value.at("time"));
+  std::vector<Channel> channels;
+  for (const json& c : value.at("channels"))
+    channels.push_back({c.at(0).get<std::string>(), static_cast<Unit>(c.at(1).get<int>())});
+  const Eigen::VectorXd flat = unpacked(value.at("values"));
+  const auto columns = static_cast<Eigen::Index>(channels.size());
+  if (flat.size() != time.size() * columns) throw InvalidInput("the stored size is wrong");
+  const Eigen::Map<const Eigen::MatrixXd> values(flat.data(), time.size(), columns);
+  return {time, std::move(channels), values};
+}
+
+}  // namespace
+
+std::filesystem::path StageStore::file(const std::string& key) const {
+  return folder_ / ("ik-" + key + ".cbor");
+}
+
+void StageStore::mark_used(const std::string& key) {
+  const std::scoped_lock lock(mutex_);
+  used_.insert(file(key).filename().string());
+}
+
+std::optional<kinematics::IkResult> StageStore::find(const std::string& key) {
+  std::ifstream stream(file(key), std::ios::binary);
+  if (!stream) return std::nullopt;
+  try {
+    const json stored = json::from_cbor(stream);
+    kinematics::IkResult result;
+    result.q = series_from(stored.at("q"));
+    result.errors = series_from(stored.at("errors"));
+    for (const int status : stored.at("status").get<std::vector<int>>())
+      result.status.push_back(static_cast<kinematics::FrameStatus>(status));
+    const Eigen::VectorXd objective = unpacked(stored.at("objective"));
+    result.objective.assign(objective.data(), objective.data() + objective.size());
+    result.frames_not_converged = stored.at("frames_not_converged");
+    result.frames_without_markers = stored.at("frames_without_markers");
+    result.undetermined = stored.at("undetermined");
+    result.notes = stored.at("notes");
+    mark_used(key);
+    return result;
+  } catch (const json::exception&) {
+    return std::nullopt;
+  } catch (const InvalidInput&) {
+    return std::nullopt;
+  }
+}
+
+void StageStore::keep(const std::string& key, const kinematics::IkResult& result) {
+  std::vector<int> status;
+  status.reserve(result.status.size());
+  for (const kinematics::FrameStatus s : result.status) status.push_back(static_cast<int>(s));
+  const json stored = {
+      {"q", to_json(result.q)},
+      {"errors", to_json(result.errors)},
+      {"status", status},
+      {"objective",
+       packed(result.objective.data(), static_cast<Eigen::Index>(result.objective.size()))},
+      {"frames_not_converged", result.frames_not_converged},
+      {"frames_without_markers", result.frames_without_markers},
+      {"undetermined", result.undetermined},
+      {"notes", result.notes},
+  };
+  const Bytes bytes = json::to_cbor(stored);
+  try {
+    recording::write_file(file(key), {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+    mark_used(key);
+  } catch (const InvalidInput&) {
+    return;
+  }
+}
+
+void StageStore::remove_unused() {
+  std::error_code error;
+  std::vector<std::filesystem::path> unused;
+  for (const auto& entry : std::filesystem::directory_iterator(folder_, error)) {
+    if (!used_.contains(entry.path().filename().string())) unused.push_back(entry.path());
+  }
+  for (const std::filesystem::path& path : unused) std::filesystem::remove(path, error);
+}
+
+std::string ik_key(const Study& study,
+                   std::string_view model_text,
+                   const recording::MarkerSeries& markers) {
+  const json settings = json::parse(study_json(study));
+  std::string what = build_identity() + '\n' + sha256(model_text) + '\n';
+  for (const char* section : {"model", "markers", "ik"}) what += settings.at(section).dump() + '\n';
+  for (const std::string& name : markers.names) what += name + '\n';
+  const auto add = [&what](const double* values, Eigen::Index count) {
+    what.append(reinterpret_cast<const char*>(values),
+                static_cast<std::size_t>(count) * sizeof(double));
+  };
+  add(markers.time_s.data(), markers.time_s.size());
+  add(markers.positions_m.data(), markers.positions_m.size());
+  return sha256(what);
+}
+
+}  // namespace myoid

@@ -1,0 +1,74 @@
+#include "myoid/run/study_inputs.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+#include <oneapi/tbb/parallel_for.h>
+
+#include "myoid/checks/study_plausibility.h"
+#include "myoid/core/error.h"
+#include "myoid/files/text_file.h"
+#include "myoid/study/study_model.h"
+#include "myoid/tables/csv_reader.h"
+
+namespace myoid {
+namespace {
+
+std::vector<TrueValue> read_truth(const std::filesystem::path& path) {
+  const recording::CsvTable table = recording::read_csv_table(path);
+  const auto column = [&](std::string_view name) {
+    const auto it = std::find(table.names.begin(), table.names.end(), name);
+    if (it == table.names.end()) throw ReadError(path, 1, fmt::format("no column '{}'", name));
+    return static_cast<std::size_t>(it - table.names.begin());
+  };
+  const std::size_t muscle = column("muscle");
+  const std::size_t parameter = column("parameter");
+  const std::size_t value = column("value");
+  std::vector<TrueValue> truth;
+  for (std::size_t r = 0; r < table.rows.size(); ++r) {
+    const auto number = recording::parse_number(table.rows[r][value]);
+    if (!number)
+      throw ReadError(path, table.lines[r],
+                      fmt::format("expected a number, found '{}'", table.rows[r][value]));
+    truth.push_back({table.rows[r][muscle], table.rows[r][parameter], *number});
+  }
+  return truth;
+}
+
+}  // namespace
+
+StudyInputs read_inputs(Study& study) {
+  StudyInputs inputs;
+  const model::BodyModel model = load_model(study);
+  inputs.files.push_back({study.file.string(), sha256(recording::read_text_file(study.file))});
+  if (study.model.file)
+    inputs.files.push_back({study.model.file->string(), sha256(model_text(study))});
+  if (study.truth) inputs.truth = read_truth(*study.truth);
+  std::vector<std::vector<TrialPart>> parts(study.trials.size());
+  oneapi::tbb::parallel_for(std::size_t{0}, study.trials.size(), [&](std::size_t i) {
+    try {
+      parts[i] = read_trial_parts(study, study.trials[i], model);
+    } catch (const InvalidInput& error) {
+      throw InvalidInput(fmt::format("{} (trial '{}')", error.what(), study.trials[i].name));
+    }
+  });
+  study.trials.clear();
+  for (std::vector<TrialPart>& of_one : parts) {
+    for (TrialPart& part : of_one) {
+      study.trials.push_back(std::move(part.spec));
+      inputs.trials.push_back(std::move(part.input));
+    }
+  }
+  require_plausible(study, model, inputs.trials);
+  for (const TrialInput& trial : inputs.trials) {
+    for (const InputFile& file : trial.files) {
+      const bool known = std::any_of(inputs.files.begin(), inputs.files.end(),
+                                     [&](const InputFile& f) { return f.path == file.path; });
+      if (!known) inputs.files.push_back(file);
+    }
+  }
+  return inputs;
+}
+
+}  // namespace myoid

@@ -1,0 +1,162 @@
+#include "myoid/run/study_phases.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "myoid/identification/parameters.h"
+#include "myoid/intake/trial_emg.h"
+#include "myoid/methods/torque.h"
+#include "myoid/signals/emg_envelope.h"
+#include "myoid/signals/emg_levels.h"
+#include "myoid/signals/spectrum.h"
+
+namespace myoid {
+namespace {
+
+/// Shorter trials hold fewer than the 8 blocks that find_phases wants.
+constexpr double kShortest_s = 16.0;
+
+double duration_s(const identification::TrialData& trial) {
+  return trial.time_s[trial.time_s.size() - 1] - trial.time_s[0];
+}
+
+TimeSeries frequency_of(const StudyActivations& emg, const TrialResult& trial, double window_s) {
+  if (!trial.emg || trial.emg->raw.empty()) return {};
+  const TimeSeries& raw = trial.emg->raw;
+  signals::MedianFrequencyOptions options{.window_s = window_s};
+  if (raw.mean_rate_hz() < 4.0 * options.low_hz || !raw.is_uniform()) return {};
+  // The envelope of noise is sqrt(2 / pi) of its root mean square.
+  Eigen::VectorXd resting = Eigen::VectorXd::Zero(raw.channel_count());
+  for (const signals::ChannelNormalisation& n : emg.normalisation) {
+    if (const auto column = raw.find(n.channel))
+      resting[*column] = n.resting_level_v * std::sqrt(std::numbers::pi / 2.0);
+  }
+  options.resting_rms = resting;
+  return signals::median_frequency(raw, options);
+}
+
+const TrialResult* result_of(const StudyResult& result, const std::string& trial) {
+  const auto found = std::find_if(result.trials.begin(), result.trials.end(),
+                                  [&](const TrialResult& t) { return t.spec.name == trial; });
+  return found == result.trials.end() ? nullptr : &*found;
+}
+
+/// What the estimator sees, but for two things that would hide fatigue. Whitening, made for a fresh
+/// muscle, takes out of the EMG's amplitude what tiring adds to it, since its frequencies fall at
+/// the same time: activations are those without. And only strengths, the delay and the joint are
+/// found: by a bent law of the EMG a fit would make one of fresh and tired muscles.
+identification::StudyData plain_data(const StudyResult& result,
+                                     const Study& study,
+                                     const StudyActivations& emg,
+                                     identification::StudyData data) {
+  for (const identification::ParameterField& field : identification::parameter_fields()) {
+    if (field.scope == identification::Scope::joint || field.name == "max_isometric_force" ||
+        field.name == "emg_delay")
+      continue;
+    identification::ParameterRule held;
+    held.parameter = field.name;
+    held.free = false;
+    data.rules.push_back(std::move(held));
+  }
+  if (!emg.whitening.applied) return data;
+
+  const signals::EnvelopeOptions options = envelope_options(study);
+  std::vector<const TrialResult*> trials;
+  std::vector<Use> uses;
+  std::vector<TimeSeries> plain;
+  for (std::size_t i = 0; i < result.trials.size(); ++i) {
+    const TrialResult& trial = result.trials[i];
+    if (!trial.emg || trial.emg->filtered.empty()) continue;
+    signals::EmgStages stages = *trial.emg;
+    signals::add_envelope(stages, options);
+    trials.push_back(&trial);
+    uses.push_back(i < study.trials.size() ? study.trials[i].use : trial.spec.use);
+    plain.push_back(std::move(stages.envelope));
+  }
+  std::vector<signals::TrialEnvelope> envelopes;
+  for (std::size_t i = 0; i < trials.size(); ++i) {
+    if (uses[i] != Use::validation)
+      envelopes.push_back(
+          {trials[i]->spec.name, uses[i] == Use::mvc, &plain[i], trials[i]->emg->bandwidth_hz});
+  }
+  const auto normalisation =
+      signals::find_normalisation(envelopes, {.window_s = study.emg.normalise_window_s});
+  for (identification::TrialData& trial : data.trials) {
+    for (std::size_t i = 0; i < trials.size(); ++i) {
+      if (trials[i]->spec.name == trial.name)
+        trial.activation = signals::normalise(plain[i], normalisation);
+    }
+  }
+  return data;
+}
+
+}  // namespace
+
+std::vector<TrialPhases> study_phases(const StudyResult& result,
+                                      identification::EstimatorOptions options) {
+  return study_phases(result, result.study, activations_of(result), result.data,
+                      std::move(options));
+}
+
+std::vector<TrialPhases> study_phases(const StudyResult& result,
+                                      const Study& study,
+                                      const StudyActivations& emg,
+                                      const identification::StudyData& of_study,
+                                      identification::EstimatorOptions options) {
+  const bool worth_a_fit =
+      std::any_of(of_study.trials.begin(), of_study.trials.end(),
+                  [](const auto& t) { return t.calibration && duration_s(t) >= kShortest_s; });
+  const identification::StudyData data =
+      worth_a_fit ? plain_data(result, study, emg, of_study) : of_study;
+  identification::IdentificationResult fit;
+  if (worth_a_fit) {
+    options.loss = identification::Loss::huber;
+    options.starts = 1;
+    options.multistart = 0;
+    options.passes = 2;
+    options.intervals = {};
+    options.predictions = false;
+    options.choose_lag = false;
+    options.progress.report = nullptr;
+    fit = identification::identify_torque(data, options);
+  }
+  const PhaseOptions how;
+  std::vector<TrialPhases> all;
+  for (const identification::TrialData& trial : data.trials) {
+    PhaseSignals signals{.time_s = trial.time_s,
+                         .velocity_radps = trial.velocity_radps,
+                         .torque_nm = trial.torque_nm};
+    if (worth_a_fit) {
+      identification::Prediction prediction =
+          identification::predict(data, trial, fit.values, options.lag);
+      signals.predicted_nm = std::move(prediction.torque_nm);
+      signals.effort_nm =
+          prediction.force_n.cwiseProduct(trial.moment_arm_m).cwiseAbs().rowwise().sum();
+      signals.activation = std::move(prediction.activation);
+      if (const TrialResult* found = result_of(result, trial.name))
+        signals.median_frequency_hz = frequency_of(emg, *found, 0.5 * how.block_s);
+    } else {
+      signals.predicted_nm = trial.torque_nm;
+      signals.activation = identification::muscle_activation(data, trial, trial.time_s, 0.0);
+    }
+    all.push_back({trial.name, find_phases(signals, how)});
+  }
+  return all;
+}
+
+void exclude_phases(const std::vector<std::string>& rule,
+                    std::vector<TrialPhases>& phases,
+                    identification::StudyData& data) {
+  for (std::size_t i = 0; i < phases.size(); ++i) {
+    for (Phase& phase : phases[i].phases) {
+      const bool named = std::find(rule.begin(), rule.end(), name(phase.kind)) != rule.end();
+      const bool sure = phase.kind != PhaseKind::fatigued || phase.frequency.has_value();
+      if (!named || !sure) continue;
+      phase.excluded = true;
+      data.trials[i].excluded.push_back({phase.begin_s, phase.end_s});
+    }
+  }
+}
+
+}  // namespace myoid

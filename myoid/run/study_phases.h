@@ -1,0 +1,30 @@
+#pragma once
+
+#include <vector>
+
+#include "myoid/identification/options.h"
+#include "myoid/phases/phases.h"
+#include "myoid/run/study_result.h"
+
+namespace myoid {
+
+/// Phases of every trial of the study's data that is fitted or predicted: `find_phases` on the
+/// torque that a first, robust fit of all trials predicts from the EMG (Huber's loss, one start, no
+/// intervals), and on the median frequency of the raw EMG where there is one. Trials that are too
+/// short to search get one phase; the fit is spared when all are.
+[[nodiscard]] std::vector<TrialPhases> study_phases(const StudyResult& result,
+                                                    identification::EstimatorOptions options);
+/// The same of other data of the same trials, with other uses (those of `study`) and activations.
+[[nodiscard]] std::vector<TrialPhases> study_phases(const StudyResult& result,
+                                                    const Study& study,
+                                                    const StudyActivations& emg,
+                                                    const identification::StudyData& of_study,
+                                                    identification::EstimatorOptions options);
+
+/// Marks the phases of the kinds that `rule` names and takes their time out of the data. A phase of
+/// fatigue that only the torque shows (no raw EMG) stays: it may be the law that is wrong.
+void exclude_phases(const std::vector<std::string>& rule,
+                    std::vector<TrialPhases>& phases,
+                    identification::StudyData& data);
+
+}  // namespace myoid

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "myoid/core/geometry.h"
+#include "myoid/model/body_model.h"
+#include "myoid/recording/mesh_reader.h"
+#include "myoid/report/scene_page.h"
+
+namespace myoid {
+
+/// A mesh file that a model draws a body with.
+struct MeshUse {
+  std::string file;  ///< As the model names it: "femur.vtp".
+  model::BodyIndex body = 0;
+  Pose X_BM;
+  Vec3 scale = Vec3::Ones();
+};
+
+/// The meshes that a model file attaches to its bodies and to frames fixed on them (Mesh of
+/// documents since 30500, DisplayGeometry before). Throws ReadError if the text is no model.
+[[nodiscard]] std::vector<MeshUse> list_meshes(std::string_view osim,
+                                               const std::filesystem::path& path);
+
+/// A body's surface, in the body [m].
+struct BodyMesh {
+  model::BodyIndex body = 0;
+  recording::TriangleMesh mesh;
+};
+
+struct LoadedMeshes {
+  std::vector<BodyMesh> meshes;
+  std::vector<std::string> notes;  ///< What was not found, could not be read or was simplified.
+};
+
+struct MeshOptions {
+  /// Looked through after the model's folder and its subfolder Geometry.
+  std::vector<std::filesystem::path> folders = {};
+  int most_triangles = 60000;  ///< Of all meshes together; beyond, they are simplified.
+};
+
+/// Gives the scenes of a page the model's meshes, and the notes.
+void add_meshes(const LoadedMeshes& loaded, report::ScenePage& page);
+
+/// Those of them whose files are there, in the body. A model without any of its files gives no
+/// note: that is how models come.
+[[nodiscard]] LoadedMeshes load_meshes(std::string_view osim,
+                                       const std::filesystem::path& path,
+                                       const MeshOptions& options = {});
+
+}  // namespace myoid

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "myoid/core/geometry.h"
+#include "myoid/model/body_model.h"
+
+namespace myoid {
+
+/// Ends of the sticks that stand for a body's bones, in the body.
+using BodySticks = std::vector<std::array<Vec3, 2>>;
+
+/// Sticks for every body of a model, ground without any: from the body's own joint to each joint of
+/// its children, where these are in the default posture; a joint that is much nearer to one of a
+/// heavier sibling (a patella beside the knee) hangs on that. A body without children reaches to
+/// its mass center, or on to its farthest marker or muscle point in that direction.
+[[nodiscard]] std::vector<BodySticks> body_sticks(const model::BodyModel& model);
+
+}  // namespace myoid

@@ -1,0 +1,52 @@
+#include "myoid/simulation/muscle_force_law.h"
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include <ceres/jet.h>
+
+#include "myoid/muscle/musculotendon.h"
+#include "myoid/simulation/simulation_model.h"
+
+namespace myoid::simulation {
+namespace {
+
+using Jet = ceres::Jet<double, 1>;  ///< With the derivative by the activation.
+
+}  // namespace
+
+forces::MuscleForceLaw muscle_force_law(const model::BodyModel& model,
+                                        const kinematics::MuscleKinematics& muscles,
+                                        const MuscleForceOptions& options) {
+  const simulation::SimulationModel known = simulation::make_simulation_model(
+      model, {.mode = options.elastic_tendon ? muscle::TendonMode::equilibrium
+                                             : muscle::TendonMode::rigid});
+  using Units = std::vector<std::optional<muscle::Musculotendon<Jet>>>;
+  const auto units = std::make_shared<Units>(model.muscles.size());
+  for (std::size_t k = 0; k < known.muscles.size(); ++k) {
+    const simulation::ModelMuscle& m = known.muscles[k];
+    muscle::MusculotendonLaws laws = m.laws;
+    muscle::MusculotendonParameters<double> parameters = m.parameters;
+    if (!options.passive_force) {
+      laws.passive = muscle::PassiveLaw::none;
+      parameters.damping = 0.0;
+    }
+    (*units)[static_cast<std::size_t>(m.index)].emplace(muscle::lifted<Jet>(parameters), laws,
+                                                        known.millard[k]);
+  }
+  return [units, length = muscles.length.values(), velocity = muscles.velocity.values()](
+             Eigen::Index frame, Eigen::Index muscle, double activation) {
+    const auto& unit = (*units)[static_cast<std::size_t>(muscle)];
+    if (!unit) return forces::ForceAtActivation{};
+    const muscle::MusculotendonInput<Jet> input{Jet(activation, 0), Jet(length(frame, muscle)),
+                                                Jet(velocity(frame, muscle))};
+    const bool rigid = unit->laws().mode == muscle::TendonMode::rigid;
+    const muscle::MusculotendonState<Jet> state =
+        rigid ? muscle::MusculotendonState<Jet>{} : muscle::equilibrium_state(*unit, input);
+    const Jet force = muscle::musculotendon_rate(*unit, input, state).tendon_force_n;
+    return forces::ForceAtActivation{force.a, force.v[0]};
+  };
+}
+
+}  // namespace myoid::simulation

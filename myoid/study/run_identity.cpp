@@ -1,0 +1,144 @@
+#include "myoid/study/run_identity.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+#include "myoid/core/error.h"
+#include "myoid/core/provenance.h"
+#include "myoid/files/text_file.h"
+#include "myoid/study/study_json.h"
+
+namespace myoid {
+namespace {
+
+using nlohmann::json;
+
+std::string text(const json& object, const char* key) {
+  const auto found = object.find(key);
+  return found != object.end() && found->is_string() ? found->get<std::string>() : std::string();
+}
+
+/// Of the options that study_json writes.
+RunIdentity identity_of(const json& options) {
+  RunIdentity identity;
+  if (!options.is_object() || !options.contains("model")) return identity;
+  identity.known = true;
+  if (const auto subject = options.find("subject"); subject != options.end()) {
+    identity.subject = text(*subject, "name");
+    identity.sex = text(*subject, "sex");
+    if (const auto mass = subject->find("mass_kg"); mass != subject->end() && mass->is_number())
+      identity.mass_kg = mass->get<double>();
+  }
+  const json& model = options.at("model");
+  identity.model = text(model, "file");
+  if (identity.model.empty()) identity.model = text(model, "builtin");
+  if (const auto names = model.find("coordinate"); names != model.end() && names->is_array())
+    identity.coordinates = names->get<std::vector<std::string>>();
+  if (const auto muscles = options.find("muscle"); muscles != options.end()) {
+    for (const json& muscle : *muscles) identity.muscles.push_back(text(muscle, "name"));
+  }
+  return identity;
+}
+
+std::string model_name(const RunIdentity& identity) {
+  return std::filesystem::path(identity.model).filename().string();
+}
+
+bool same_model(const RunIdentity& a, const RunIdentity& b) {
+  if (!a.model_sha256.empty() && !b.model_sha256.empty()) return a.model_sha256 == b.model_sha256;
+  return model_name(a) == model_name(b);
+}
+
+}  // namespace
+
+RunIdentity identity_of(const Study& study) {
+  RunIdentity identity = identity_of(json::parse(study_json(study)));
+  if (study.model.file)
+    identity.model_sha256 = sha256(recording::read_text_file(*study.model.file));
+  return identity;
+}
+
+RunIdentity read_run_identity(const std::filesystem::path& folder) {
+  const std::filesystem::path path = folder / "parameters.json";
+  try {
+    const json content = json::parse(recording::read_text_file(path));
+    const auto provenance = content.find("provenance");
+    if (provenance == content.end()) return {};
+    RunIdentity identity = identity_of(provenance->value("options", json::object()));
+    for (const json& input : provenance->value("inputs", json::array())) {
+      if (!identity.model.empty() && text(input, "path") == identity.model)
+        identity.model_sha256 = text(input, "sha256");
+    }
+    // Made by `identify`: its rows at least name the muscles.
+    if (!identity.known) {
+      for (const json& method : content.value("methods", json::array())) {
+        for (const json& e : method.value("estimates", json::array())) {
+          const std::string muscle = text(e, "muscle");
+          const bool listed = std::find(identity.muscles.begin(), identity.muscles.end(), muscle) !=
+                              identity.muscles.end();
+          if (!listed && text(e, "parameter") == "optimal_fiber_length")
+            identity.muscles.push_back(muscle);
+        }
+      }
+    }
+    return identity;
+  } catch (const json::exception& error) {
+    throw ReadError(path, 0,
+                    fmt::format("is not the result of a run: {}; run the study (myoid run) and "
+                                "give the folder of its result",
+                                error.what()));
+  }
+}
+
+IdentityDifferences differences(const RunIdentity& here, const RunIdentity& there) {
+  IdentityDifferences found;
+  if (here.known && there.known) {
+    if (!same_model(here, there))
+      found.grave.push_back(
+          model_name(here) == model_name(there)
+              ? fmt::format("the model {} is another one (its content differs)", model_name(here))
+              : fmt::format("the model is {} here, {} there", model_name(here), model_name(there)));
+    if (here.coordinates != there.coordinates)
+      found.grave.push_back(fmt::format("the coordinate is {} here, {} there",
+                                        fmt::join(here.coordinates, ", "),
+                                        fmt::join(there.coordinates, ", ")));
+    const auto named = [](const RunIdentity& i) {
+      return !i.subject.empty() && i.subject != SubjectSpec{}.name;
+    };
+    if (here.subject != there.subject && named(here) && named(there))
+      found.other.push_back(
+          fmt::format("the subject is '{}' here, '{}' there", here.subject, there.subject));
+    if (here.sex != there.sex && !here.sex.empty() && !there.sex.empty())
+      found.other.push_back(fmt::format("the subject is {} here, {} there", here.sex, there.sex));
+    constexpr double kSameMass_kg = 5.0;  // of one person over the months
+    if (here.mass_kg && there.mass_kg && std::abs(*here.mass_kg - *there.mass_kg) > kSameMass_kg)
+      found.other.push_back(fmt::format("the subject's mass is {:.4g} kg here, {:.4g} kg there",
+                                        *here.mass_kg, *there.mass_kg));
+  }
+  std::vector<std::string> only_here, only_there;
+  const auto has = [](const std::vector<std::string>& list, const std::string& name) {
+    return std::find(list.begin(), list.end(), name) != list.end();
+  };
+  for (const std::string& m : here.muscles) {
+    if (!has(there.muscles, m)) only_here.push_back(m);
+  }
+  for (const std::string& m : there.muscles) {
+    if (!has(here.muscles, m)) only_there.push_back(m);
+  }
+  if (here.muscles.empty() || there.muscles.empty()) return found;
+  if (only_here.size() == here.muscles.size())
+    found.grave.push_back(fmt::format("no muscle is common: {} here, {} there",
+                                      fmt::join(here.muscles, ", "),
+                                      fmt::join(there.muscles, ", ")));
+  else if (!only_here.empty() || !only_there.empty())
+    found.other.push_back(fmt::format("the muscles are {} here, {} there",
+                                      fmt::join(here.muscles, ", "),
+                                      fmt::join(there.muscles, ", ")));
+  return found;
+}
+
+}  // namespace myoid

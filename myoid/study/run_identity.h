@@ -1,0 +1,38 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "myoid/study/study.h"
+
+namespace myoid {
+
+/// Whose numbers a result's are, and of which model: what must agree before two are set beside each
+/// other.
+struct RunIdentity {
+  bool known = false;  ///< False: made by `myoid identify`, which knows neither person nor model.
+  std::string subject;
+  std::optional<double> mass_kg;
+  std::string sex;
+  std::string model;         ///< File, or name of the built-in one.
+  std::string model_sha256;  ///< Of the file; empty where there is none.
+  std::vector<std::string> coordinates, muscles;
+};
+
+/// Of a study. Throws ReadError if its model's file cannot be read.
+[[nodiscard]] RunIdentity identity_of(const Study& study);
+
+/// Of a folder's parameters.json. Throws ReadError if there is none.
+[[nodiscard]] RunIdentity read_run_identity(const std::filesystem::path& folder);
+
+struct IdentityDifferences {
+  /// Model or coordinates differ, or no muscle is common: the numbers mean different things.
+  std::vector<std::string> grave;
+  std::vector<std::string> other;  ///< Subject, mass, sex, muscles that only one has.
+};
+/// Sentences: "the model is arm4 here, wu.osim there". What is not known of one says nothing.
+[[nodiscard]] IdentityDifferences differences(const RunIdentity& here, const RunIdentity& there);
+
+}  // namespace myoid

@@ -1,0 +1,98 @@
+#include "myoid/study/run_identity.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "myoid/core/error.h"
+#include "myoid/core/provenance.h"
+#include "myoid/files/atomic_file.h"
+#include "myoid/results/parameter_files.h"
+#include "myoid/study/study_json.h"
+
+#include "tests/support/temporary_folder.h"
+
+namespace myoid {
+namespace {
+
+Study study_of(const std::vector<std::string>& muscles) {
+  Study study;
+  study.subject.name = "anna";
+  study.subject.mass_kg = 60.0;
+  study.model.builtin = "arm4";
+  for (const std::string& name : muscles) {
+    MuscleSpec muscle;
+    muscle.name = name;
+    muscle.osim = {name};
+    muscle.emg = name;
+    study.muscles.push_back(muscle);
+  }
+  return study;
+}
+
+/// The folder that a run of this study leaves, as far as its identity goes.
+std::filesystem::path folder_of(const Study& study, const std::filesystem::path& folder) {
+  Provenance provenance;
+  provenance.options_json = study_json(study);
+  if (study.model.file) provenance.inputs.push_back({study.model.file->string(), "one"});
+  std::filesystem::create_directories(folder);
+  recording::write_file(folder / "parameters.json", parameters_json({}, {}, provenance));
+  return folder;
+}
+
+TEST(RunIdentity, OfAStudyIsThatOfItsRun) {
+  const test::TemporaryFolder folder;
+  const Study study = study_of({"BIC", "TRI"});
+  const RunIdentity of_run = read_run_identity(folder_of(study, folder.path() / "a"));
+  EXPECT_TRUE(of_run.known);
+  EXPECT_EQ(of_run.subject, "anna");
+  EXPECT_EQ(of_run.model, "arm4");
+  const IdentityDifferences same = differences(identity_of(study), of_run);
+  EXPECT_TRUE(same.grave.empty());
+  EXPECT_TRUE(same.other.empty());
+}
+
+TEST(RunIdentity, AnotherModelOrNoCommonMuscleIsGrave) {
+  const test::TemporaryFolder folder;
+  const RunIdentity here = identity_of(study_of({"BIC", "TRI"}));
+  Study wu = study_of({"BIC", "TRI"});
+  wu.model.file = "somewhere/wu.osim";
+  const IdentityDifferences model =
+      differences(here, read_run_identity(folder_of(wu, folder.path() / "wu")));
+  ASSERT_EQ(model.grave.size(), 1U);
+  EXPECT_NE(model.grave[0].find("wu.osim"), std::string::npos);
+  const IdentityDifferences muscles = differences(here, identity_of(study_of({"SOL", "GAS"})));
+  ASSERT_EQ(muscles.grave.size(), 1U);
+  EXPECT_NE(muscles.grave[0].find("SOL, GAS"), std::string::npos);
+  // One name, other content: the run has the sum "one", the file another.
+  recording::write_file(folder.path() / "wu.osim", "changed");
+  Study changed = study_of({"BIC", "TRI"});
+  changed.model.file = folder.path() / "wu.osim";
+  EXPECT_EQ(differences(identity_of(changed), read_run_identity(folder.path() / "wu")).grave.size(),
+            1U);
+}
+
+TEST(RunIdentity, AnotherPersonAndFurtherMusclesAreRemarked) {
+  Study other = study_of({"BIC", "TRI", "BRA"});
+  other.subject.name = "bernd";
+  other.subject.mass_kg = 90.0;
+  const IdentityDifferences found =
+      differences(identity_of(study_of({"BIC", "TRI"})), identity_of(other));
+  EXPECT_TRUE(found.grave.empty());
+  EXPECT_EQ(found.other.size(), 3U);
+}
+
+TEST(RunIdentity, WhatIdentifyMadeIsNotHeldAgainstIt) {
+  const test::TemporaryFolder folder;
+  recording::write_file(folder / "parameters.json",
+                        R"({"provenance": {"options": {}}, "methods": [{"estimates": [
+                           {"muscle": "BIC", "parameter": "optimal_fiber_length"}]}]})");
+  const RunIdentity there = read_run_identity(folder.path());
+  EXPECT_FALSE(there.known);
+  EXPECT_TRUE(differences(identity_of(study_of({"BIC"})), there).grave.empty());
+  EXPECT_FALSE(differences(identity_of(study_of({"SOL"})), there).grave.empty());
+  recording::write_file(folder / "parameters.json", "{\"provenance\": [");
+  EXPECT_THROW((void)read_run_identity(folder.path()), ReadError);
+}
+
+}  // namespace
+}  // namespace myoid

@@ -1,0 +1,233 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "myoid/core/geometry.h"
+#include "myoid/identification/options.h"
+#include "myoid/identification/study_data.h"
+
+namespace myoid {
+
+/// What a trial is for.
+enum class Use { calibration, validation, mvc, static_pose, passive, isometric };
+[[nodiscard]] std::string_view name(Use use);
+
+struct SubjectSpec {
+  std::string name = "subject";
+  std::optional<double> mass_kg;
+  std::string sex;                 ///< "male", "female" or empty.
+  std::vector<std::string> notes;  ///< Assumptions of the user's own, printed in the report.
+};
+
+/// A point of a body where the held mass of a trial acts.
+struct HeldMassSpec {
+  std::string body;
+  Vec3 p_BP_m = Vec3::Zero();  ///< In the body's frame [m].
+};
+
+struct ModelSpec {
+  std::optional<std::filesystem::path> file;  ///< .osim
+  std::string text;     ///< Of the model, instead of the file's: a study that is not on disk.
+  std::string builtin;  ///< "arm4" when there is no file.
+  std::optional<double> upper_arm_length_m;  ///< Of the built-in arm.
+  std::optional<double> forearm_length_m;    ///< Of the built-in arm: elbow to wrist.
+  bool horizontal = false;                   ///< Plane of movement of the built-in arm.
+  bool forearm_rotations = false;  ///< Of the built-in arm: free base and forearm rotations.
+  std::string coordinate = "elbow_flexion";   ///< The joint whose torque the muscles share.
+  std::vector<std::string> more_coordinates;  ///< Further joints that the same muscles cross.
+  std::optional<HeldMassSpec> held_mass;
+};
+
+/// A load cell in something that the person holds.
+struct LoadCellSpec {
+  std::vector<std::string> channels;     ///< Six, in the order of the matrix's columns.
+  std::filesystem::path calibration;     ///< Six rows of six numbers: N and N m for each volt.
+  double sign = 1.0;                     ///< -1: the cell measures the opposite.
+  std::vector<double> zero_s{0.0, 1.0};  ///< Nothing acts on it in this time.
+  std::optional<std::filesystem::path>
+      instrument;     ///< Model of the object, posed by its markers; none: the study's own model.
+  std::string frame;  ///< Body of that model: the cell's axes and origin.
+  std::string body;   ///< Body of the person that feels the load.
+  std::optional<double> lowpass_hz;  ///< Empty: as the motion.
+};
+
+enum class Smoothing { automatic, none, cutoff };
+
+struct MotionSpec {
+  Smoothing smoothing = Smoothing::automatic;
+  double cutoff_hz = 6.0;  ///< -3 dB of the two passes together, when `smoothing` is cutoff.
+  double rate_hz = 100.0;  ///< Of the samples that are analysed.
+};
+
+struct MarkerSpec {
+  std::map<std::string, std::string> rename;  ///< From the file's name to the model's.
+  std::map<std::string, double> weight;       ///< By the model's name; 1 where absent.
+  char up = 'y';           ///< Vertical axis: 'x', 'y', 'z'; 'a': as each file says.
+  bool undo_swaps = true;  ///< Labels that were exchanged are exchanged back.
+  bool fill_gaps = true;   ///< By splines, and from the segment's other markers.
+};
+
+/// Coordinates that are measured once, in a posture that is known, and then held.
+struct CalibrationSpec {
+  std::vector<double> window_s;   ///< Start and end in the trial.
+  std::vector<std::string> free;  ///< Found in the window, all others at their default ...
+  std::vector<std::string> hold;  ///< ... and these of them then locked at their median.
+};
+
+struct IkSpec {
+  std::vector<std::string> unlock;  ///< Coordinates that the model locks and this study frees.
+  std::vector<std::string> lock;    ///< Held at their default value.
+  std::optional<CalibrationSpec> calibrate;
+};
+
+enum class EmgKind { raw, envelope, activation };
+
+struct EmgSpec {
+  EmgKind kind = EmgKind::raw;
+  std::string unit;  ///< "uV", ...; empty: as the file says.
+  bool rectify = true;
+  bool notch = true;      ///< Where mains hum is found.
+  bool whitening = true;  ///< Of raw EMG, where the recording allows.
+  double highpass_hz = 20.0;
+  double lowpass_hz = 6.0;
+  bool as_published = false;  ///< The uncorrected 6 Hz design of the source paper.
+  double normalise_window_s = 0.5;
+  /// What the MVC trials reach of what the muscles could, and how widely people differ in it. 1 and
+  /// 0: F_max is the force at the greatest effort that was recorded.
+  double mvc_effort = 1.0, mvc_effort_sd = 0.0;
+  bool has_mvc = true;  ///< False: no trial is a maximal contraction (set from the trials).
+  std::optional<double> delay_s;  ///< Empty: estimated.
+};
+
+struct MuscleSpec {
+  std::string name;
+  std::vector<std::string> osim;  ///< Muscles of the model that act as this one.
+  std::string emg;                ///< EMG channel.
+  std::optional<std::string>
+      same_as;  ///< Muscle whose channel is used, where there is no electrode.
+  std::map<std::string, double> start;  ///< Starting values by parameter name, SI.
+  std::vector<std::string> fixed;       ///< Parameters held at their start.
+};
+
+/// How the clock of a trial's EMG, and of its loads, stands to that of the motion, which is the
+/// study's. In force where the EMG is in a file of its own. The delay of the body is no part of it.
+struct SyncSpec {
+  std::optional<double> offset_s;  ///< Added to the times of the EMG.
+  std::optional<double> offset_sd_s;
+  double drift_ppm = 0.0;      ///< Of the file's seconds, from its time 0 on.
+  bool estimate = false;       ///< The offset is told from EMG and motion.
+  std::string emg_trigger;     ///< Channel or event of the EMG's file ...
+  std::string motion_trigger;  ///< ... and of the motion's, or "start".
+  std::optional<std::filesystem::path>
+      trigger_file;              ///< On the motion's clock; none: its own file.
+  std::string match = "rising";  ///< Of channels: "rising", "falling" edges, or "shape".
+  double search_s = 0.6;         ///< How far "estimate" and "shape" look, either way.
+  double loads_offset_s = 0.0;   ///< Added to the times of the loads' file.
+  double loads_drift_ppm = 0.0;
+};
+
+/// Force plates under the person.
+struct PlateSpec {
+  std::filesystem::path file;        ///< .c3d
+  std::vector<std::string> bodies;   ///< By plate; empty: found from the markers.
+  double least_force_n = 10.0;       ///< Below it a plate bears nothing.
+  std::optional<double> lowpass_hz;  ///< Empty: as the motion.
+};
+
+struct TrialSpec {
+  std::string name;
+  std::optional<std::filesystem::path> markers;
+  std::optional<std::filesystem::path> motion;
+  std::optional<std::filesystem::path> emg;
+  std::optional<std::filesystem::path>
+      external_torque;  ///< <coordinate>_moment that the surroundings exert [N m].
+  std::optional<std::filesystem::path> external_loads;  ///< OpenSim's ExternalLoads (.xml).
+  std::optional<std::filesystem::path> load_cell;       ///< The recording with its channels.
+  std::optional<PlateSpec> plates;
+  Use use = Use::calibration;
+  double held_mass_kg = 0.0;
+  std::string condition;  ///< Trials of one name are left out together by folds = "condition".
+  std::optional<double> start_s, end_s;  ///< On the clock of the motion.
+  std::optional<SyncSpec> sync;
+};
+
+struct SharingSpec {
+  std::string objective = "activation";
+  double exponent = 2.0;
+  double reserve_nm = 1.0;  ///< Optimal force of the reserve on the coordinate.
+};
+
+/// What becomes of warm-up and fatigue.
+struct PhasesSpec {
+  bool search = true;
+  std::vector<std::string> exclude{"warm_up", "fatigued"};  ///< Phases that are not fitted.
+};
+
+struct IdentifySpec {
+  std::vector<std::string> methods{"paper", "torque"};
+  bool force_loop = false;           ///< Iterate forces and parameters until they agree.
+  std::vector<std::string> muscles;  ///< Empty: all.
+  bool priors = true;
+  bool gain = true;  ///< EMG gain per channel as a nuisance with a tight prior.
+  bool cross_validate = true;
+  int next_movements = 4;       ///< To suggest for the next recording; 0: none.
+  std::string folds = "trial";  ///< What cross-validation leaves out: trial, condition, block.
+  int bootstrap = 100;          ///< Replicates for the second route to intervals; 0: none.
+  bool profile = true;          ///< Profile likelihood, the third.
+  int starts = 1;               ///< Above 1: Sobol points too, and the table of basins.
+  std::string loss = "square";
+  std::string eccentric = "automatic";
+  bool normalised = false;        ///< l_sh and v_max keep their ratio to l0.
+  std::string lag = "automatic";  ///< What the EMG delay is: automatic, delay, shared.
+  bool dynamics = false;          ///< Envelope to activation by the lags of equation (1).
+  bool model_muscles = false;     ///< Pennation and passive force as the model has them; else none.
+  bool elastic_tendon = false;    ///< The model's tendon strain, quasi-static; else rigid.
+  bool delay_per_channel = false;
+  double angle_sd_rad = 0.0;  ///< Error of the joint angle and of its rate, propagated.
+  double angle_rate_sd_radps = 0.0;
+  double max_rate_hz = identification::EstimatorOptions{}.max_rate_hz;
+};
+
+/// What to do, as read from a study.toml. Paths are absolute or relative to the working directory,
+/// resolved against the file's own folder.
+struct Study {
+  std::filesystem::path file;
+  SubjectSpec subject;
+  ModelSpec model;
+  MotionSpec motion;
+  MarkerSpec markers;
+  IkSpec ik;
+  EmgSpec emg;
+  SharingSpec sharing;
+  PhasesSpec phases;
+  IdentifySpec identify;
+  std::optional<LoadCellSpec> load_cell;
+  std::optional<SyncSpec> sync;  ///< Of the trials that have none of their own.
+  std::vector<MuscleSpec> muscles;
+  std::vector<TrialSpec> trials;
+  std::vector<identification::ParameterRule> parameters;  ///< [[parameter]]
+  std::optional<std::filesystem::path> truth;
+};
+
+/// Every coordinate whose torque the muscles share, the main one first.
+[[nodiscard]] std::vector<std::string> study_coordinates(const ModelSpec& model);
+
+/// Cut-off of the motion's smoothing, -3 dB [Hz]; empty: not smoothed. `automatic` is the EMG's
+/// low-pass, so that torque and prediction hold the same band.
+[[nodiscard]] std::optional<double> motion_cutoff_hz(const Study& study);
+
+/// Keeps of every trial only what lies between these times [s] on its own clock. Throws
+/// InvalidInput if nothing is left of one, naming it.
+void restrict_trials(Study& study, std::optional<double> start_s, std::optional<double> end_s);
+
+/// Reads and validates a study file. Throws ReadError with the line for syntax, unknown keys, wrong
+/// types, names that refer to nothing and numbers out of range. Files that the study names are not
+/// opened: that is `check_study`'s.
+[[nodiscard]] Study read_study(const std::filesystem::path& file);
+[[nodiscard]] Study parse_study(std::string_view text, const std::filesystem::path& file);
+
+}  // namespace myoid

@@ -1,0 +1,76 @@
+#include "myoid/study/study.h"
+
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "myoid/core/error.h"
+
+namespace myoid {
+namespace {
+
+const std::string kMinimal = R"(
+[[muscle]]
+name = "BIC"
+emg = "biceps"
+[[muscle]]
+name = "BRA"
+emg = { same_as = "BIC" }
+[[trial]]
+name = "t1"
+markers = "a/t1.trc"
+emg = "t1.sto"
+)";
+
+std::string study_message(const std::string& text) {
+  try {
+    (void)parse_study(text, "dir/study.toml");
+  } catch (const ReadError& error) {
+    return error.what();
+  }
+  return "(no error)";
+}
+
+TEST(ParseStudy, AMuscleWithoutElectrodeTakesTheOtherOnesChannel) {
+  EXPECT_EQ(parse_study(kMinimal, "s.toml").muscles.at(1).emg, "biceps");
+}
+
+TEST(ParseStudy, WithoutAnMvcTrialItKnowsThatTheNormalisationIsOverTheStudy) {
+  EXPECT_FALSE(parse_study(kMinimal, "s.toml").emg.has_mvc);
+}
+
+TEST(ParseStudy, ATieToAMuscleThatIsNotThereIsRefused) {
+  const std::string message = study_message(
+      "[[muscle]]\nname = \"BRA\"\nemg = { same_as = \"BICC\" }\n[[trial]]\nname = \"t\"\nmotion = "
+      "\"a.mot\"\nemg = \"e.sto\"\n");
+  EXPECT_NE(message.find("BICC"), std::string::npos) << message;
+}
+
+TEST(ParseStudy, TwoTrialsOfOneNameAreRefused) {
+  const std::string message =
+      study_message(kMinimal + "[[trial]]\nname = \"t1\"\nmotion = \"b.mot\"\nemg = \"b.sto\"\n");
+  EXPECT_NE(message.find("two [[trial]] are named 't1'"), std::string::npos) << message;
+}
+
+TEST(ParseStudy, WithoutATrialToLearnFromItIsRefused) {
+  EXPECT_NE(study_message(kMinimal + "use = \"validation\"\n").find("no [[trial]] has use"),
+            std::string::npos);
+}
+
+TEST(ParseStudy, LagsOfTheActivationWithoutDynamicsAreRefusedWithTheRemedy) {
+  const std::string lag = "\n[[parameter]]\nname = \"activation_time\"\nfree = true\n";
+  EXPECT_NE(study_message(kMinimal + lag)
+                .find("activation_time: the lags of the activation act only with "
+                      "dynamics = true"),
+            std::string::npos);
+}
+
+TEST(ParseStudy, AnEmgIsFollowedInOneWayOnly) {
+  const std::string both = "\n[identify]\nlag = \"shared\"\ndynamics = true\n";
+  EXPECT_NE(study_message(kMinimal + both).find("lag: it stands beside dynamics = true"),
+            std::string::npos)
+      << study_message(kMinimal + both);
+}
+
+}  // namespace
+}  // namespace myoid

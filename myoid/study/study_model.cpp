@@ -1,0 +1,262 @@
+#include "myoid/study/study_model.h"
+
+#include <algorithm>
+#include <cmath>
+#include <variant>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <pugixml.hpp>
+
+#include "myoid/arm/arm4.h"
+#include "myoid/core/error.h"
+#include "myoid/files/text_file.h"
+#include "myoid/muscle/literature.h"
+#include "myoid/osim/osim_reader.h"
+#include "myoid/osim/osim_writer.h"
+#include "myoid/osim/thelen_properties.h"
+
+namespace myoid {
+namespace {
+
+/// Mean distance from the elbow (or the middle of the epicondyles) to the middle of the styloids.
+std::optional<double> forearm_length(const recording::MarkerSeries& markers) {
+  const auto find = [&](std::string_view name) -> Eigen::Index {
+    const auto it = std::find(markers.names.begin(), markers.names.end(), name);
+    return it == markers.names.end() ? -1 : it - markers.names.begin();
+  };
+  const Eigen::Index lateral = find("r_epicondyle_lateral");
+  const Eigen::Index medial = find("r_epicondyle_medial");
+  const Eigen::Index radial = find("r_styloid_radial");
+  const Eigen::Index ulnar = find("r_styloid_ulnar");
+  if (lateral < 0 || medial < 0 || radial < 0 || ulnar < 0) return std::nullopt;
+  double sum = 0.0;
+  int count = 0;
+  for (Eigen::Index frame = 0; frame < markers.frame_count(); ++frame) {
+    const Vec3 elbow = 0.5 * (markers.position(frame, lateral) + markers.position(frame, medial));
+    const Vec3 wrist = 0.5 * (markers.position(frame, radial) + markers.position(frame, ulnar));
+    const double length = (wrist - elbow).norm();
+    if (!std::isfinite(length)) continue;
+    sum += length;
+    ++count;
+  }
+  return count > 0 ? std::optional<double>(sum / count) : std::nullopt;
+}
+
+model::Arm4Options arm_options(const Study& study, const recording::MarkerSeries* markers) {
+  constexpr double kUpperArmOverForearm = 0.2817 / 0.2689;  // de Leva (1996), men
+  model::Arm4Options options;
+  if (study.subject.mass_kg) options.person.mass_kg = *study.subject.mass_kg;
+  options.person.female = study.subject.sex == "female";
+  options.horizontal = study.model.horizontal;
+  options.forearm_rotations = study.model.forearm_rotations;
+  if (study.model.forearm_length_m) {
+    options.person.forearm_length_m = *study.model.forearm_length_m;
+  } else if (markers != nullptr) {
+    if (const auto measured = forearm_length(*markers)) {
+      options.person.forearm_length_m = *measured;
+      options.person.upper_arm_length_m = kUpperArmOverForearm * *measured;
+    }
+  }
+  if (study.model.upper_arm_length_m)
+    options.person.upper_arm_length_m = *study.model.upper_arm_length_m;
+  return options;
+}
+
+/// Exponent k of the passive force whose slope at its unit force is `slope` over that of a straight
+/// line: k / (1 - exp(-k)) = slope.
+double passive_shape(double slope) {
+  double k = slope;
+  for (int i = 0; i < 60; ++i) k = slope * -std::expm1(-k);
+  return k;
+}
+
+/// Pennation, passive force and tendon as a model's muscle has them.
+identification::MuscleExtras model_extras(const model::Muscle& muscle) {
+  const model::MuscleProperties& p = muscle.properties;
+  identification::MuscleExtras extras{.pennation_angle_rad = p.pennation_at_optimal_rad,
+                                      .passive_force = 1.0,
+                                      .passive_strain = p.max_muscle_strain,
+                                      .passive_shape = p.passive_shape,
+                                      .tendon_strain = p.max_tendon_strain};
+  if (const auto* millard = std::get_if<model::MillardCurves>(&p.curves)) {
+    const double strain = millard->fiber_strain_at_one_force;
+    extras.passive_strain = strain;
+    // The class's own stiffness at one F_max is twice that of the line from zero strain.
+    extras.passive_shape = passive_shape(millard->fiber_stiffness_at_one_force > 0.0
+                                             ? millard->fiber_stiffness_at_one_force * strain
+                                             : 2.0);
+    extras.tendon_strain = millard->tendon_strain_at_one_force;
+  } else if (const auto* degroote = std::get_if<model::DeGrooteCurves>(&p.curves)) {
+    extras.passive_force = degroote->ignore_passive_fiber_force ? 0.0 : 1.0;
+    extras.passive_strain = degroote->passive_fiber_strain_at_one_force;
+    extras.passive_shape = 4.0;
+    extras.tendon_strain = degroote->tendon_strain_at_one_force;
+  } else if (std::holds_alternative<model::SchutteCurves>(p.curves)) {
+    throw ModelError(
+        fmt::format("muscle '{}' is a {}, whose passive force is a free curve; give "
+                    "passive_force and pennation_angle by [[parameter]] and leave [identify] "
+                    "muscle_law and tendon at their defaults",
+                    muscle.name, muscle.class_name));
+  }
+  return extras;
+}
+
+}  // namespace
+
+std::string model_text(const Study& study, const recording::MarkerSeries* markers) {
+  if (!study.model.text.empty()) return study.model.text;
+  if (study.model.file) return recording::read_text_file(*study.model.file);
+  return model::arm4_osim(arm_options(study, markers));
+}
+
+model::BodyModel load_model(const Study& study, const recording::MarkerSeries* markers) {
+  model::BodyModel model =
+      model::parse_osim(model_text(study, markers), study.model.file.value_or("arm4.osim"));
+  const auto coordinate = [&](std::string_view key, const std::string& name) -> model::Coordinate& {
+    try {
+      return model.coordinates[static_cast<std::size_t>(model.coordinate_index(name))];
+    } catch (const ModelError& error) {
+      throw ModelError(fmt::format("{}: {}: {}", study.file.string(), key, error.what()));
+    }
+  };
+  for (const std::string& name : study_coordinates(study.model))
+    (void)coordinate("[model] coordinate", name);
+  for (const MuscleSpec& muscle : study.muscles) {
+    for (const std::string& name : muscle.osim) {
+      try {
+        (void)model.muscle_index(name);
+      } catch (const ModelError& error) {
+        throw ModelError(
+            fmt::format("{}: [[muscle]] {}: {}", study.file.string(), muscle.name, error.what()));
+      }
+    }
+  }
+  for (const std::string& name : study.ik.unlock) coordinate("[ik] unlock", name).locked = false;
+  for (const std::string& name : study.ik.lock) coordinate("[ik] lock", name).locked = true;
+  for (const auto& [name, weight] : study.markers.weight) {
+    if (model.find_marker(name)) continue;
+    std::vector<std::string> names;
+    for (const model::Marker& marker : model.markers) names.push_back(marker.name);
+    throw ModelError(
+        fmt::format("{}: [markers.weight] {}: the model has no such marker; there are {}",
+                    study.file.string(), name, fmt::join(names, ", ")));
+  }
+  if (study.model.held_mass && !model.find_body(study.model.held_mass->body)) {
+    std::string names;
+    for (std::size_t i = 1; i < model.bodies.size(); ++i)
+      names += (i == 1 ? "" : ", ") + model.bodies[i].name;
+    throw ModelError(fmt::format("{}: [model] held_mass: the model has no body '{}'; there are {}",
+                                 study.file.string(), study.model.held_mass->body, names));
+  }
+  return model;
+}
+
+std::vector<kinematics::MuscleGroup> muscle_groups(const Study& study,
+                                                   const model::BodyModel& model) {
+  std::vector<kinematics::MuscleGroup> groups;
+  for (const MuscleSpec& spec : study.muscles) {
+    kinematics::MuscleGroup group;
+    double sum = 0.0;
+    for (const std::string& name : spec.osim) {
+      group.members.push_back(model.muscle_index(name));
+      group.weights.push_back(model.muscles[static_cast<std::size_t>(group.members.back())]
+                                  .properties.max_isometric_force_n);
+      sum += group.weights.back();
+    }
+    for (double& w : group.weights) w /= sum;
+    groups.push_back(std::move(group));
+  }
+  return groups;
+}
+
+std::vector<identification::MuscleSetup> muscle_setups(const Study& study,
+                                                       const model::BodyModel& model) {
+  std::vector<identification::MuscleSetup> setups;
+  const std::vector<kinematics::MuscleGroup> groups = muscle_groups(study, model);
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    const MuscleSpec& spec = study.muscles[g];
+    identification::MuscleSetup setup;
+    setup.name = spec.name;
+    setup.emg_channel = spec.emg;
+    setup.start = {};
+    for (std::size_t i = 0; i < groups[g].members.size(); ++i) {
+      const auto head = muscle::hill_from_thelen(model::thelen_parameters(
+          model.muscles[static_cast<std::size_t>(groups[g].members[i])].properties));
+      for (const muscle::HillField& field : muscle::kHillFields) {
+        const double share = field.name == "max_isometric_force" ? 1.0 : groups[g].weights[i];
+        setup.start.*field.member += share * head.*field.member;
+      }
+    }
+    if (study.identify.model_muscles || study.identify.elastic_tendon) {
+      identification::MuscleExtras mean{.passive_strain = 0.0, .passive_shape = 0.0};
+      for (std::size_t i = 0; i < groups[g].members.size(); ++i) {
+        const auto head =
+            model_extras(model.muscles[static_cast<std::size_t>(groups[g].members[i])]);
+        const double weight = groups[g].weights[i];
+        mean.pennation_angle_rad += weight * head.pennation_angle_rad;
+        mean.passive_force += weight * head.passive_force;
+        mean.passive_strain += weight * head.passive_strain;
+        mean.passive_shape += weight * head.passive_shape;
+        mean.tendon_strain += weight * head.tendon_strain;
+      }
+      if (study.identify.model_muscles) setup.extras = mean;
+      setup.extras.tendon_strain = study.identify.elastic_tendon ? mean.tendon_strain : 0.0;
+    }
+    for (const auto& [name, value] : spec.start)
+      setup.start.*muscle::hill_field(name).member = value;
+    setup.fixed = spec.fixed;
+    setup.priors = identification::literature_priors(setup.start);
+    // A length that the study states is a measured one.
+    if (spec.start.contains("tendon_slack_length")) setup.priors.erase("tendon_slack_length");
+    muscle::validate(setup.start);
+    setups.push_back(std::move(setup));
+  }
+  return setups;
+}
+
+std::string identified_model(const Study& study,
+                             const std::string& osim,
+                             const std::vector<IdentifiedMuscle>& muscles) {
+  const model::BodyModel before = model::parse_osim(osim, "the identified model");
+  std::vector<model::OsimChange> changes;
+  for (const IdentifiedMuscle& muscle : muscles) {
+    const auto spec = std::find_if(study.muscles.begin(), study.muscles.end(),
+                                   [&](const MuscleSpec& m) { return m.name == muscle.group; });
+    if (spec == study.muscles.end()) continue;
+    const auto changed = [&](std::string_view name) {
+      return std::find(muscle.changed.begin(), muscle.changed.end(), name) != muscle.changed.end();
+    };
+    for (const std::string& name : spec->osim) {
+      const auto index = before.find_muscle(name);
+      if (!index) continue;
+      const model::Muscle& old = before.muscles[static_cast<std::size_t>(*index)];
+      const auto set = [&](const char* property, double value) {
+        changes.push_back({"ForceSet", name, property, {value}});
+      };
+      if (changed("max_isometric_force")) {
+        set("max_isometric_force",
+            old.properties.max_isometric_force_n *
+                (muscle.identified.max_isometric_force_n / muscle.start.max_isometric_force_n));
+      }
+      if (changed("optimal_fiber_length")) {
+        set("optimal_fiber_length",
+            old.properties.optimal_fiber_length_m *
+                (muscle.identified.optimal_fiber_length_m / muscle.start.optimal_fiber_length_m));
+      }
+      // The shapes are Thelen's; other classes have curves of their own.
+      if (!old.class_name.starts_with("Thelen2003Muscle")) continue;
+      // (l_sh / l0)^2 is as sure as both.
+      if (changed("force_length_width") && changed("optimal_fiber_length")) {
+        const double ratio =
+            muscle.identified.force_length_width_m / muscle.identified.optimal_fiber_length_m;
+        set("KshapeActive", ratio * ratio);
+      }
+      if (changed("concentric_curvature")) set("Af", muscle.identified.concentric_curvature);
+      if (changed("eccentric_plateau")) set("Flen", muscle.identified.eccentric_plateau);
+    }
+  }
+  return model::changed_osim(osim, "the identified model", changes);
+}
+
+}  // namespace myoid

@@ -1,0 +1,64 @@
+#include "myoid/study/trial_table.h"
+
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "tests/support/message_of.h"
+
+namespace myoid {
+namespace {
+
+TrialSpec trial_of(const std::string& text) {
+  const toml::table root = recording::parse_toml(text, "dir/study.toml");
+  return read_trial({root, "dir/study.toml", "[[trial]]"}, "dir");
+}
+
+std::string trial_message(const std::string& text) {
+  return test::message_of([&] { (void)trial_of(text); });
+}
+
+const std::string kTrial = "name = \"t1\"\nmarkers = \"a/t1.trc\"\nemg = \"t1.sto\"\n";
+
+TEST(TrialTable, PathsAreResolvedAgainstTheFolder) {
+  EXPECT_EQ(trial_of(kTrial).markers, "dir/a/t1.trc");
+  EXPECT_EQ(trial_of(kTrial).emg, "dir/t1.sto");
+}
+
+TEST(TrialTable, ATrialWithoutEmgIsRefusedWithTheRemedy) {
+  const std::string message = trial_message("name = \"t1\"\nmarkers = \"a.trc\"\n");
+  EXPECT_NE(message.find("dir/study.toml:1"), std::string::npos) << message;
+  EXPECT_NE(message.find("'t1' has no 'emg'"), std::string::npos) << message;
+  EXPECT_EQ(trial_message("name = \"t1\"\nmarkers = \"a.trc\"\nuse = \"static\"\n"), "(no error)");
+}
+
+TEST(TrialTable, AnEndBeforeTheStartIsRefused) {
+  EXPECT_NE(trial_message(kTrial + "start_s = 10\nend_s = 5\n").find("after start_s = 10 s"),
+            std::string::npos);
+}
+
+TEST(TrialTable, ANameThatWouldLeaveTheResultsFolderIsRefused) {
+  for (const std::string name : {"../t", "a/b", ".", "", "figures"}) {
+    const std::string message =
+        trial_message("name = \"" + name + "\"\nmotion = \"a.mot\"\nemg = \"e.sto\"\n");
+    EXPECT_NE(message.find("a trial's name becomes a folder"), std::string::npos) << name;
+  }
+}
+
+TEST(TrialTable, OneFileHasOneClock) {
+  const std::string text = "name = \"t\"\nmotion = \"a.sto\"\nemg = \"a.sto\"\n[sync]\n";
+  EXPECT_NE(trial_message(text + "offset_s = 0.1\n").find("in one file"), std::string::npos);
+  EXPECT_EQ(trial_message(text + "loads_offset_s = 0.1\n"), "(no error)");
+}
+
+TEST(TrialTable, ClocksAreJoinedByTriggersOrByANumber) {
+  const std::string triggers = "[sync]\nemg_trigger = \"T\"\nmotion_trigger = \"start\"\n";
+  EXPECT_EQ(trial_of(kTrial + triggers).sync->emg_trigger, "T");
+  EXPECT_NE(trial_message(kTrial + triggers + "offset_s = 0.1\n").find("give one or the other"),
+            std::string::npos);
+  EXPECT_NE(trial_message(kTrial + "[sync]\nemg_trigger = \"T\"\n").find("give both"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace myoid

@@ -1,0 +1,338 @@
+#include "myoid/tables/emg_table.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "myoid/core/error.h"
+#include "myoid/files/file_words.h"
+#include "myoid/tables/channel_labels.h"
+#include "myoid/tables/channel_layouts.h"
+
+namespace myoid::recording {
+namespace {
+
+using Kind = TableColumn::Kind;
+using Cells = std::vector<std::string>;
+
+std::optional<double> cell_number(const std::string& cell, char separator) {
+  if (const auto value = parse_number(cell)) return value;
+  return separator == ',' ? std::nullopt : parse_comma_number(cell);
+}
+
+/// A row of nothing but numbers and empty cells, at least one of the former.
+bool is_numbers(const Cells& cells, char separator) {
+  std::size_t numbers = 0;
+  for (const std::string& cell : cells) {
+    if (cell.empty()) continue;
+    if (!cell_number(cell, separator)) return false;
+    ++numbers;
+  }
+  return numbers > 0;
+}
+
+std::size_t filled(const Cells& cells) {
+  std::size_t n = cells.size();
+  while (n > 0 && cells[n - 1].empty()) --n;
+  return n;
+}
+
+/// "Label: EMG 1 Sampling frequency: 1925.926 Unit: V Domain: Time": name and unit.
+std::optional<TableColumn> label_line(std::string_view line) {
+  const std::string text = lower(line);
+  const std::size_t begin = text.find("label:");
+  const std::size_t unit = text.find("unit:");
+  if (begin == std::string::npos || unit == std::string::npos) return std::nullopt;
+  const std::size_t end = std::min(text.find("sampling", begin), unit);
+  if (end < begin + 6) return std::nullopt;
+  TableColumn column;
+  column.name = to_utf8(trim(line.substr(begin + 6, end - begin - 6)));
+  const auto words = split_words(line.substr(unit + 5));
+  if (!words.empty()) column.unit = parse_file_unit(words[0]);
+  return column;
+}
+
+/// Looks for a table whose cells one separator parts.
+class TableFinder {
+ public:
+  TableFinder(const TableText& text, char separator) : text_(text) {
+    layout_.separator = separator;
+  }
+
+  std::optional<TableLayout> find() {
+    if (!find_first_row()) return std::nullopt;
+    above_ = layout_.first_row;
+    if (!previous()) return std::nullopt;
+    Cells names = row(above_);
+    const Cells rates =
+        take_row(names, [](const std::string& cell) { return rate_in_cell(cell).has_value(); });
+    const Cells units = take_row(names, [](const std::string& cell) {
+      const TableColumn label = take_label_apart(cell);
+      return unit_in_cell(cell) || (label.name.empty() && label.unit);
+    });
+    layout_.names_line = above_;
+    layout_.end_row = text_.lines.size();
+    names.resize(std::max(filled(names), width_));
+    make_columns(names, units, rates);
+    read_head();
+    return std::move(layout_);
+  }
+
+ private:
+  [[nodiscard]] Cells row(std::size_t n) const {
+    return cells_of(text_.lines[n], layout_.separator);
+  }
+  [[nodiscard]] bool blank(std::size_t n) const { return trim(text_.lines[n]).empty(); }
+  [[nodiscard]] bool numbers(const Cells& cells) const {
+    return is_numbers(cells, layout_.separator);
+  }
+
+  bool find_first_row() {
+    constexpr std::size_t kMost = 1000;
+    const std::size_t most = std::min(text_.lines.size(), kMost);
+    for (std::size_t n = 1; n < most; ++n) {
+      if (text_.lines[n].find(layout_.separator) == std::string_view::npos) continue;
+      const Cells cells = row(n);
+      if (!numbers(cells)) continue;
+      // Numbers below each other: the next row that is not empty is as wide and of numbers too.
+      std::size_t next = n + 1;
+      while (next < text_.lines.size() && blank(next)) ++next;
+      width_ = filled(cells);
+      if (next < text_.lines.size()) {
+        const Cells below = row(next);
+        if (below.size() + 1 < cells.size() || !(numbers(below) || has_remark(below))) continue;
+        width_ = filled(below);
+      }
+      layout_.first_row = n;
+      take_rows_with_remarks();
+      return true;
+    }
+    return false;
+  }
+
+  /// A row that begins with a number and has text in one cell.
+  [[nodiscard]] bool has_remark(const Cells& cells) const {
+    const auto texts = std::count_if(cells.begin(), cells.end(), [&](const std::string& cell) {
+      return !cell.empty() && !cell_number(cell, layout_.separator);
+    });
+    return texts == 1 && cell_number(cells[0], layout_.separator);
+  }
+
+  /// Rows of numbers with a remark in one cell, above the first row that has none.
+  void take_rows_with_remarks() {
+    for (std::size_t n = layout_.first_row; n-- > 1;) {
+      const Cells cells = row(n);
+      if (cells.size() < width_ || !has_remark(cells)) return;
+      layout_.first_row = n;
+    }
+  }
+
+  bool previous() {
+    while (above_ > 0 && blank(above_ - 1)) --above_;
+    if (above_ == 0) return false;
+    --above_;
+    return true;
+  }
+
+  /// The row at hand, if all its cells are of one kind: then `names` is the row above it.
+  template <typename Is>
+  Cells take_row(Cells& names, const Is& is) {
+    std::size_t count = 0;
+    for (const std::string& cell : names) {
+      if (cell.empty()) continue;
+      if (!is(cell)) return {};
+      ++count;
+    }
+    const std::size_t here = above_;
+    if (count == 0 || !previous()) {
+      above_ = here;
+      return {};
+    }
+    return std::exchange(names, row(above_));
+  }
+
+  void make_columns(const Cells& names, const Cells& units, const Cells& rates) {
+    std::set<double> rounded;
+    for (std::size_t c = 0; c < names.size(); ++c) {
+      TableColumn column = take_label_apart(names[c]);
+      if (column.rate_hz != std::floor(column.rate_hz)) rounded.insert(column.rate_hz);
+      if (!column.unit && c < units.size()) column.unit = unit_in_cell(units[c]);
+      if (c < rates.size()) column.rate_hz = rate_in_cell(rates[c]).value_or(column.rate_hz);
+      layout_.columns.push_back(std::move(column));
+    }
+    set_kinds(layout_.columns);
+    if (!rounded.empty())
+      layout_.repairs.push_back(
+          {layout_.names_line + 1,
+           fmt::format("rates in whole Hz are those of packets of 27 ms: {:.7g} Hz",
+                       fmt::join(rounded, ", "))});
+    const auto times = std::count_if(layout_.columns.begin(), layout_.columns.end(),
+                                     [](const TableColumn& c) { return c.kind == Kind::time; });
+    const bool rated = std::any_of(layout_.columns.begin(), layout_.columns.end(),
+                                   [](const TableColumn& c) { return c.rate_hz > 0.0; });
+    if (times > 1 || (times == 0 && rated)) layout_.short_row = ShortRow::ended;
+    leave_out_counters(times > 1 || (times == 0 && rated));
+    if (const auto devices = device_row()) put_devices_before_names(layout_, *devices);
+  }
+
+  /// Numbers of frames that do not count the rows are no clock.
+  void leave_out_counters(bool several_clocks) {
+    const Cells first = row(layout_.first_row);
+    const std::size_t next = layout_.first_row + 1;
+    const Cells second = next < text_.lines.size() ? row(next) : Cells();
+    const bool with_sub_frames =
+        std::any_of(layout_.columns.begin(), layout_.columns.end(),
+                    [](const TableColumn& c) { return c.kind == Kind::sub_frame; });
+    std::vector<std::string> left_out;
+    bool taken = false;
+    for (std::size_t c = 0; c < layout_.columns.size(); ++c) {
+      TableColumn& column = layout_.columns[c];
+      if (column.kind != Kind::frame && column.kind != Kind::sub_frame) continue;
+      const auto number = [&](const Cells& cells) {
+        constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+        return c < cells.size() ? parse_number(cells[c]).value_or(kNone) : kNone;
+      };
+      const double begin = number(first);
+      const bool counts = number(second) == begin + 1.0 && column.kind == Kind::frame;
+      if (!several_clocks && !with_sub_frames && counts && !taken) {
+        taken = true;
+        layout_.first_frame = begin == 0.0 ? 0.0 : 1.0;
+        continue;
+      }
+      column.kind = Kind::left_out;
+      left_out.push_back(column.name);
+    }
+    if (!left_out.empty())
+      layout_.repairs.push_back(
+          {layout_.names_line + 1,
+           fmt::format("columns of numbers of frames or samples are left out: {}",
+                       fmt::join(left_out, ", "))});
+  }
+
+  /// The row of sensors: the one above their modes.
+  [[nodiscard]] std::optional<Cells> device_row() const {
+    for (std::size_t n = 1; n < layout_.names_line; ++n) {
+      if (lower(trim(text_.lines[n])).starts_with("sensor mode")) return row(n - 1);
+    }
+    return std::nullopt;
+  }
+
+  /// What the lines above the names say of the channels and of the table.
+  void read_head() {
+    std::map<std::string, std::optional<ScaledUnit>> known;
+    std::optional<double> rate;
+    for (std::size_t n = 0; n < layout_.names_line; ++n) {
+      if (const auto label = label_line(text_.lines[n])) {
+        known[label->name] = label->unit;
+      } else if (!rate) {
+        rate = rate_in_line(text_.lines[n]);
+      }
+    }
+    const std::size_t end = layout_.names_line;
+    const char separator = layout_.separator;
+    const auto unit = unit_in_cell(stated_text(text_, end, separator, "measure unit"));
+    for (TableColumn& column : layout_.columns) {
+      if (column.kind != Kind::channel || column.unit) continue;
+      const auto it = known.find(column.name);
+      column.unit = it != known.end() ? it->second : unit;
+    }
+    if (!rate) rate = stated_number(text_, end, separator, {"frequency", "sampling rate"});
+    layout_.rate_hz = rate && *rate > 0.0 && *rate <= 1e6 ? *rate : 0.0;
+    layout_.rows_said = stated_number(text_, end, separator, {"count", "number of samples"});
+    layout_.length_s = stated_number(text_, end, separator, {"collection length (seconds)"});
+    const bool timed = std::any_of(layout_.columns.begin(), layout_.columns.end(),
+                                   [](const TableColumn& c) { return c.kind == Kind::time; });
+    if (!timed && layout_.rate_hz > 0.0)
+      layout_.repairs.push_back(
+          {0, fmt::format("no time column; the rate of {} Hz stated in the header is taken",
+                          layout_.rate_hz)});
+  }
+
+  const TableText& text_;
+  TableLayout layout_;
+  std::size_t width_ = 0;
+  std::size_t above_ = 0;
+};
+
+/// The first line that is no remark is the header, with one time column and no other line of text
+/// below.
+bool is_plain(const TableText& text, const TableLayout& layout) {
+  std::size_t n = 0;
+  while (n < text.lines.size() &&
+         (trim(text.lines[n]).empty() || trim(text.lines[n]).starts_with('#')))
+    ++n;
+  if (n != layout.names_line) return false;
+  std::size_t times = 0;
+  for (const TableColumn& column : layout.columns) {
+    if (column.kind != Kind::time && column.kind != Kind::channel) return false;
+    if (column.name.find(',') != std::string::npos) return false;
+    const std::string name = lower(column.name);
+    if (column.kind == Kind::channel) continue;
+    if (name != "time" && name != "t" && name != "times" && name != "time_s" && name != "time_ms")
+      return false;
+    ++times;
+  }
+  return times == 1;
+}
+
+/// The widest table that a separator gives.
+std::optional<TableLayout> find_table(const TableText& text) {
+  std::optional<TableLayout> layout;
+  for (const char separator : {'\t', ';', ','}) {
+    auto found = TableFinder(text, separator).find();
+    if (found && found->columns.size() > (layout ? layout->columns.size() : 1))
+      layout = std::move(found);
+  }
+  return layout;
+}
+
+/// Throws ReadError where a comma stands between cells and inside numbers: "-88,9,15,4" below two
+/// names has twice their cells, and every second one is digits alone.
+void refuse_two_commas(const TableText& text,
+                       const TableLayout& layout,
+                       const std::filesystem::path& path) {
+  const std::size_t names = filled(cells_of(text.lines[layout.names_line], layout.separator));
+  const Cells first = cells_of(text.lines[layout.first_row], layout.separator);
+  if (layout.separator != ',' || names == 0 || filled(first) != 2 * names) return;
+  for (std::size_t i = 1; i < first.size(); i += 2) {
+    if (first[i].empty() || first[i].find_first_not_of("0123456789") != std::string::npos) return;
+  }
+  throw ReadError(path, layout.first_row + 1,
+                  fmt::format("{} cells below {} names: commas stand between cells and inside "
+                              "numbers; export with semicolons or tabs, or with decimal points",
+                              2 * names, names));
+}
+
+}  // namespace
+
+CsvSeries parse_emg_table(std::string_view text, const std::filesystem::path& path) {
+  const TableText table(text);
+  if (const auto layout = makers_layout(table, path))
+    return channels_of_table(table, *layout, path);
+  const auto layout = find_table(table);
+  if (layout) refuse_two_commas(table, *layout, path);
+  if (layout &&
+      is_numbers(cells_of(table.lines[layout->names_line], layout->separator), layout->separator)) {
+    throw ReadError(
+        path, layout->names_line + 1,
+        "the table begins with numbers; expected a row of names above them, and a column "
+        "'time' or a line 'Sampling rate: 2000 Hz'");
+  }
+  if (!layout || is_plain(table, *layout)) return parse_csv_series(text, path);
+  return channels_of_table(table, *layout, path);
+}
+
+CsvSeries read_emg_table(const std::filesystem::path& path) {
+  return parse_emg_table(read_text_file(path), path);
+}
+
+}  // namespace myoid::recording

@@ -1,0 +1,57 @@
+#include "myoid/tables/instrument_names.h"
+
+#include <algorithm>
+#include <array>
+#include <regex>
+#include <string>
+
+#include "myoid/files/label_match.h"
+
+namespace myoid::recording {
+
+namespace {
+
+/// Words of letters or of digits, in small letters.
+std::vector<std::string> words_of(std::string_view name) {
+  std::vector<std::string> words;
+  int last = 0;
+  for (const char c : name) {
+    const char small = c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c;
+    const int kind = small >= 'a' && small <= 'z' ? 1 : small >= '0' && small <= '9' ? 2 : 0;
+    if (kind != 0 && kind != last) words.emplace_back();
+    if (kind != 0) words.back() += small;
+    last = kind;
+  }
+  return words;
+}
+
+/// Signals of motion and pressure that the sensors of electrodes record too: "Sensor 1: ACC.X 1",
+/// "GYRO Y", "FSR.A".
+bool named_as_motion(std::string_view name) {
+  const std::vector<std::string> words = words_of(name);
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    if (words[i] == "gyro" || words[i] == "fsr") return true;
+    const bool axis = i + 1 < words.size() && words[i + 1].size() == 1 && words[i + 1] >= "x" &&
+                      words[i + 1] <= "z";
+    if (axis && (words[i] == "acc" || words[i] == "mag")) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+bool named_as_no_emg(std::string_view name) {
+  if (named_as_motion(name)) return true;
+  // Letters and digits alone: instrument, then quantity, axis and number in either order.
+  static const std::regex kForce(
+      "(force|moment|torque|grf|amti|bertec|kistler|forceplate|plate|fp|[0-9])*"
+      "(f|m|cop|p)[0-9]*[xyz][0-9]*");
+  static constexpr std::array<std::string_view, 8> kInstruments{
+      "sync", "trig", "footsw", "heelsw", "gonio", "accel", "gyro", "loadcell"};
+  const std::string plain = plain_label(name);
+  return std::regex_match(plain, kForce) ||
+         std::any_of(kInstruments.begin(), kInstruments.end(),
+                     [&](std::string_view word) { return plain.starts_with(word); });
+}
+
+}  // namespace myoid::recording

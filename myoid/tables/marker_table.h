@@ -1,0 +1,23 @@
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+
+#include "myoid/tables/marker_file.h"
+
+namespace myoid::recording {
+
+/// True if a text is a table of marker positions as these programs export it: Vicon Nexus (.csv
+/// with a section "Trajectories"), Qualisys (.tsv, DATA_INCLUDED 3D), BTS (.emt, "Point 3D
+/// tracks"), OptiTrack Motive (.csv), NDI First Principles (.csv: "NAME x", "NAME y", "NAME z" and
+/// a collection frequency).
+[[nodiscard]] bool is_marker_table(std::string_view text);
+
+/// Its markers. An empty cell, and in Qualisys' files 0 0 0, is a gap. Time is the file's own
+/// column in seconds, else (frame - 1) / rate; the unit is stated, or mm by the format (Qualisys),
+/// or mm with a note. Throws ReadError with the line: no rate, a cell that is no number, a row that
+/// is too short, frames that do not increase, a name twice.
+[[nodiscard]] MarkerFile parse_marker_table(std::string_view text,
+                                            const std::filesystem::path& path);
+
+}  // namespace myoid::recording

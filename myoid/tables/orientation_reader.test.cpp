@@ -1,0 +1,54 @@
+#include "myoid/tables/orientation_reader.h"
+
+#include <cmath>
+#include <fstream>
+
+#include <gtest/gtest.h>
+
+#include "myoid/core/error.h"
+
+#include "tests/support/temporary_folder.h"
+
+namespace myoid::recording {
+namespace {
+
+class Orientations : public ::testing::Test {
+ protected:
+  OrientationSeries read(const std::string& rows, const std::string& type = "Quaternion") {
+    std::ofstream(folder_.path() / "o.sto")
+        << "DataRate=100\nDataType=" << type << "\nversion=3\nOpenSimVersion=4.5\nendheader\n"
+        << rows;
+    return read_orientations(folder_.path() / "o.sto");
+  }
+  test::TemporaryFolder folder_;
+};
+
+// A quarter turn about z takes x to y; its quaternion may have any length.
+TEST_F(Orientations, AreReadAsUnitQuaternions) {
+  const OrientationSeries series =
+      read("time\tpelvis_imu\ttibia_imu\n0\t2,0,0,2\t1,0,0,0\n0.01\tNaN,NaN,NaN,NaN\t0,1,0,0\n");
+  ASSERT_EQ(series.names, (std::vector<std::string>{"pelvis_imu", "tibia_imu"}));
+  ASSERT_EQ(series.time_s.size(), 2);
+  EXPECT_LT((series.rotation(0, 0) * Vec3::UnitX() - Vec3::UnitY()).norm(), 1e-15);
+  EXPECT_LT((series.rotation(1, 1) - Mat3(Vec3(1, -1, -1).asDiagonal())).norm(), 1e-15);
+  EXPECT_TRUE(std::isnan(series.rotation(1, 0)(0, 0)));
+}
+
+TEST_F(Orientations, RefuseWhatIsNoOrientation) {
+  const std::string head = "time\ta_imu\tb_imu\n";
+  for (const char* rows :
+       {"0\t1,0,0,0\n", "0\t1,0,0\t1,0,0,0\n", "0\t0,0,0,0\t1,0,0,0\n", "0\t1,0,x,0\t1,0,0,0\n", "",
+        "0.1\t1,0,0,0\t1,0,0,0\n0.1\t1,0,0,0\t1,0,0,0\n"})
+    EXPECT_THROW((void)read(head + rows), ReadError) << rows;
+  EXPECT_THROW((void)read("time\ta\ta\n0\t1,0,0,0\t1,0,0,0\n"), ReadError);
+  EXPECT_THROW((void)read(head + "0\t1,0,0,0\t1,0,0,0\n", "double"), ReadError);
+  try {
+    (void)read(head + "0\t1,0,0,0\t1,0,0,0\n0.1\t1,0,0\t1,0,0,0\n");
+    FAIL() << "expected an error";
+  } catch (const ReadError& error) {
+    EXPECT_NE(std::string(error.what()).find(":8:"), std::string::npos) << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace myoid::recording

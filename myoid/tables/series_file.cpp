@@ -1,0 +1,43 @@
+#include "myoid/tables/series_file.h"
+
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "myoid/core/error.h"
+#include "myoid/tables/csv_reader.h"
+#include "myoid/tables/storage_reader.h"
+#include "myoid/tables/storage_writer.h"
+
+namespace myoid::recording {
+
+SeriesFile read_series(const std::filesystem::path& path) {
+  for (const char* table : {".csv", ".tsv", ".txt"}) {
+    if (!equal_ignoring_case(path.extension().string(), table)) continue;
+    CsvSeries file = read_csv_series(path);
+    return {std::move(file.data), std::move(file.repairs)};
+  }
+  Storage file = read_storage(path);
+  return {std::move(file.data), std::move(file.repairs)};
+}
+
+void write_series(const std::filesystem::path& path,
+                  const TimeSeries& series,
+                  const std::string& title,
+                  const std::vector<std::string>& remarks) {
+  const std::string extension = path.extension().string();
+  std::error_code ignored;
+  const auto status = std::filesystem::status(path, ignored);
+  if (equal_ignoring_case(extension, ".csv")) {
+    write_csv(path, series, remarks);
+  } else if (equal_ignoring_case(extension, ".sto") || equal_ignoring_case(extension, ".mot") ||
+             (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))) {
+    write_storage(path, series, {.title = title, .comments = remarks});
+  } else {
+    throw InvalidInput(
+        fmt::format("{}: expected a name that ends in .sto, .mot or .csv, found '{}'",
+                    path.string(), extension));
+  }
+}
+
+}  // namespace myoid::recording

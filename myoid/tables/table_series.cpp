@@ -1,0 +1,338 @@
+#include "myoid/tables/table_series.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "myoid/core/error.h"
+#include "myoid/core/index.h"
+#include "myoid/tables/instrument_names.h"
+#include "myoid/tables/table_clock.h"
+
+namespace myoid::recording {
+namespace {
+
+using Kind = TableColumn::Kind;
+
+/// A channel: where its samples stand, and how many there are before nothing but gaps follow.
+struct TableChannel {
+  std::string name;
+  std::optional<ScaledUnit> unit;
+  Eigen::Index column = 0;  ///< Of TableNumbers::values.
+  Eigen::Index samples = 0;
+  std::size_t clock = 0;
+};
+
+struct TableClock {
+  Eigen::VectorXd time_s;
+  std::vector<std::size_t> channels;
+};
+
+/// Channels and clocks of one table.
+class TableSeries {
+ public:
+  TableSeries(const TableText& text, const TableLayout& layout, const std::filesystem::path& path)
+      : layout_(layout), path_(path), numbers_(read_rows(text, rows_of(layout), path)) {
+    series_.repairs = layout.repairs;
+    series_.repairs.insert(series_.repairs.end(), numbers_.repairs.begin(), numbers_.repairs.end());
+  }
+
+  CsvSeries read() {
+    find_channels();
+    const auto times = std::count_if(layout_.columns.begin(), layout_.columns.end(),
+                                     [](const TableColumn& c) { return c.kind == Kind::time; });
+    const bool rated = std::any_of(layout_.columns.begin(), layout_.columns.end(),
+                                   [](const TableColumn& c) { return c.rate_hz > 0.0; });
+    if (times > 1) {
+      clocks_of_time_columns();
+    } else if (times == 0 && rated) {
+      clocks_of_rates();
+    } else {
+      clock_of_rows();
+    }
+    drop_empty_channels();
+    for (const std::size_t clock : clocks_in_order()) add_clock(clocks_[clock]);
+    state_clocks();
+    add_events();
+    return std::move(series_);
+  }
+
+ private:
+  void note(std::size_t line, std::string message) {
+    series_.repairs.push_back({line, std::move(message)});
+  }
+
+  void find_channels() {
+    std::vector<std::string> names;
+    for (const TableColumn& column : layout_.columns) {
+      if (column.kind == Kind::channel) names.push_back(column.name);
+    }
+    compare_count(layout_.channels_said, names.size(), "channels", series_.repairs);
+    if (layout_.plain) {
+      require_names(names);
+    } else {
+      names = unique_names(names, "channel", layout_.names_line + 1, series_.repairs);
+    }
+    std::size_t k = 0;
+    for (const TableColumn& column : layout_.columns) {
+      if (column.kind != Kind::channel) continue;
+      const auto x = numbers_.values.col(static_cast<Eigen::Index>(k));
+      Eigen::Index samples = x.size();
+      while (!layout_.plain && samples > 0 && !std::isfinite(x[samples - 1])) --samples;
+      channels_.push_back({names[k], column.unit, static_cast<Eigen::Index>(k), samples, 0});
+      ++k;
+    }
+  }
+
+  void require_names(const std::vector<std::string>& names) const {
+    for (std::size_t c = 0; c < names.size(); ++c) {
+      if (names[c].empty())
+        throw ReadError(path_, layout_.names_line + 1,
+                        fmt::format("channel {} of the table has no name", c + 1));
+      if (std::find(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(c), names[c]) !=
+          names.begin() + static_cast<std::ptrdiff_t>(c))
+        throw ReadError(path_, layout_.names_line + 1,
+                        fmt::format("two columns are named '{}'; rename one", names[c]));
+    }
+  }
+
+  void clock_of_rows() {
+    clocks_.push_back({row_times(layout_, numbers_, path_, series_.repairs), {}});
+    for (std::size_t c = 0; c < channels_.size(); ++c) clocks_[0].channels.push_back(c);
+  }
+
+  // --- a time column for each channel ---
+
+  /// Seconds of a time column up to its end; each later than the one before.
+  [[nodiscard]] Eigen::VectorXd times_of(const TableColumn& column, Eigen::Index k) const {
+    const auto cells = numbers_.clock.col(k);
+    Eigen::Index count = cells.size();
+    while (count > 0 && !std::isfinite(cells[count - 1])) --count;
+    const Eigen::VectorXd time = (column.unit ? column.unit->to_si : 1.0) * cells.head(count);
+    for (Eigen::Index i = 0; i < count; ++i) {
+      if (!std::isfinite(time[i]))
+        throw ReadError(path_, numbers_.lines[at(i)],
+                        fmt::format("a time of column '{}' is missing", column.name));
+      if (i > 0 && time[i] <= time[i - 1])
+        throw ReadError(path_, numbers_.lines[at(i)],
+                        fmt::format("time of column '{}' does not increase: {} s after {} s",
+                                    column.name, time[i], time[i - 1]));
+    }
+    return time;
+  }
+
+  /// Same clock: the same times, give or take some at the end.
+  static bool same_clock(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
+    const Eigen::Index n = std::min(a.size(), b.size());
+    if (n < 2) return a.size() == b.size();
+    const double interval = (a[n - 1] - a[0]) / static_cast<double>(n - 1);
+    return (a.head(n) - b.head(n)).cwiseAbs().maxCoeff() < 0.1 * interval;
+  }
+
+  std::size_t clock_for(Eigen::VectorXd time) {
+    for (std::size_t k = 0; k < clocks_.size(); ++k) {
+      if (!same_clock(clocks_[k].time_s, time)) continue;
+      if (time.size() > clocks_[k].time_s.size()) clocks_[k].time_s = std::move(time);
+      return k;
+    }
+    clocks_.push_back({std::move(time), {}});
+    return clocks_.size() - 1;
+  }
+
+  void clocks_of_time_columns() {
+    std::size_t channel = 0;
+    Eigen::Index k = 0;
+    std::optional<std::size_t> clock;
+    Eigen::Index end = 0;
+    const auto next_clock = [&](const TableColumn& column) {
+      Eigen::VectorXd time = times_of(column, k);
+      end = time.size();
+      clock = clock_for(std::move(time));
+    };
+    // Channels before the first time column have its clock.
+    for (const TableColumn& column : layout_.columns) {
+      if (column.kind == Kind::time) {
+        next_clock(column);
+        break;
+      }
+      if (column.kind == Kind::frame || column.kind == Kind::sub_frame) ++k;
+    }
+    k = 0;
+    for (const TableColumn& column : layout_.columns) {
+      if (column.kind == Kind::time) {
+        next_clock(column);
+        state_uneven_step(times_of(column, k), numbers_.lines, column.name, series_.repairs);
+      }
+      if (column.kind == Kind::time || column.kind == Kind::frame || column.kind == Kind::sub_frame)
+        ++k;
+      if (column.kind != Kind::channel) continue;
+      TableChannel& c = channels_[channel];
+      if (c.samples > end)
+        throw ReadError(path_, numbers_.lines[at(c.samples - 1)],
+                        fmt::format("'{}' has a value where its time column has none", c.name));
+      c.clock = *clock;
+      clocks_[*clock].channels.push_back(channel++);
+    }
+  }
+
+  // --- a stated rate for each channel ---
+
+  void clocks_of_rates() {
+    std::map<double, std::size_t> known;
+    std::size_t channel = 0;
+    for (const TableColumn& column : layout_.columns) {
+      if (column.kind != Kind::channel) continue;
+      const double rate = column.rate_hz > 0.0 ? column.rate_hz : layout_.rate_hz;
+      if (!(rate > 0.0))
+        throw ReadError(path_, layout_.names_line + 1,
+                        fmt::format("channel '{}' has no sampling rate, which the others state",
+                                    channels_[channel].name));
+      const auto [it, fresh] = known.try_emplace(rate, clocks_.size());
+      if (fresh) {
+        clocks_.push_back({Eigen::VectorXd(numbers_.values.rows()), {}});
+        for (Eigen::Index i = 0; i < numbers_.values.rows(); ++i)
+          clocks_.back().time_s[i] = static_cast<double>(i) / rate;
+      }
+      channels_[channel].clock = it->second;
+      compare_length(channels_[channel], rate);
+      clocks_[it->second].channels.push_back(channel++);
+    }
+  }
+
+  /// Wireless sensors send packets, so that a channel may be longer or shorter by a few of them.
+  void compare_length(const TableChannel& channel, double rate) {
+    constexpr double kPackets_s = 0.06;
+    if (!layout_.length_s || channel.samples == 0) return;
+    const double length = static_cast<double>(channel.samples) / rate;
+    if (std::abs(length - *layout_.length_s) > std::max(kPackets_s, 0.005 * *layout_.length_s))
+      note(0, fmt::format("the header says {:.6g} s, '{}' has {:.6g} s: the file may be cut off",
+                          *layout_.length_s, channel.name, length));
+  }
+
+  // --- together ---
+
+  void drop_empty_channels() {
+    if (layout_.plain) return;
+    std::vector<std::string> empty;
+    for (TableClock& clock : clocks_) {
+      std::erase_if(clock.channels, [&](std::size_t c) {
+        if (channels_[c].samples > 0) return false;
+        empty.push_back(channels_[c].name);
+        return true;
+      });
+    }
+    if (!empty.empty())
+      note(0, fmt::format("left out, since they have no samples: {}", fmt::join(empty, ", ")));
+    if (empty.size() == channels_.size())
+      throw ReadError(path_, 0, "there are no columns of numbers beside the time");
+  }
+
+  /// The clock that most channels called EMG have comes first, then by most in volts.
+  [[nodiscard]] std::vector<std::size_t> clocks_in_order() const {
+    std::vector<std::pair<int, int>> worth;
+    std::vector<std::size_t> order;
+    for (std::size_t k = 0; k < clocks_.size(); ++k) {
+      std::pair<int, int> w{0, 0};
+      for (const std::size_t c : clocks_[k].channels) {
+        const std::string& name = channels_[c].name;
+        const bool emg = lower(name).find("emg") != std::string::npos && !named_as_no_emg(name);
+        w.first += emg ? 1 : 0;
+        w.second += channels_[c].unit && channels_[c].unit->unit == Unit::volt ? 1 : 0;
+      }
+      worth.push_back(w);
+      if (!clocks_[k].channels.empty() || clocks_.size() == 1) order.push_back(k);
+    }
+    const auto best =
+        std::max_element(order.begin(), order.end(),
+                         [&](std::size_t a, std::size_t b) { return worth[a] < worth[b]; });
+    if (best != order.end()) std::rotate(order.begin(), best, best + 1);
+    return order;
+  }
+
+  void add_clock(const TableClock& clock) {
+    Eigen::Index samples = clock.time_s.size();
+    Eigen::Index longest = 0;
+    for (const std::size_t c : clock.channels) {
+      longest = std::max(longest, channels_[c].samples);
+      samples = std::min(samples, channels_[c].samples);
+    }
+    if (longest > samples)
+      note(0, fmt::format("the channels differ in length; all are cut to {} samples", samples));
+    ClockedChannels group;
+    std::vector<Channel> channels;
+    // All that was read is one series: it is not copied.
+    const bool all = clock.channels.size() == channels_.size() && samples == numbers_.values.rows();
+    Eigen::MatrixXd values =
+        all ? std::move(numbers_.values)
+            : Eigen::MatrixXd(samples, static_cast<Eigen::Index>(clock.channels.size()));
+    for (std::size_t k = 0; k < clock.channels.size(); ++k) {
+      const TableChannel& c = channels_[clock.channels[k]];
+      channels.push_back({c.name, c.unit ? c.unit->unit : Unit::dimensionless});
+      group.has_unit.push_back(c.unit.has_value());
+      const auto column = static_cast<Eigen::Index>(k);
+      if (!all) values.col(column) = numbers_.values.col(c.column).head(samples);
+      if (c.unit && c.unit->to_si != 1.0) values.col(column) *= c.unit->to_si;
+    }
+    group.data = TimeSeries(clock.time_s.head(samples), std::move(channels), std::move(values));
+    if (first_clock_) {
+      static_cast<ClockedChannels&>(series_) = std::move(group);
+      first_clock_ = false;
+    } else {
+      series_.other_clocks.push_back(std::move(group));
+    }
+  }
+
+  void state_clocks() {
+    if (series_.other_clocks.empty()) return;
+    const auto said = [](const TimeSeries& data) {
+      std::vector<std::string> names;
+      for (const Channel& c : data.channels()) names.push_back(c.name);
+      const bool more = names.size() > 4;
+      if (more) names.resize(4);
+      return fmt::format("{:.7g} Hz: {}{}", data.mean_rate_hz(), fmt::join(names, ", "),
+                         more ? fmt::format(" and {} more", data.channel_count() - 4) : "");
+    };
+    std::string all = said(series_.data);
+    for (const ClockedChannels& group : series_.other_clocks) all += "; " + said(group.data);
+    note(layout_.names_line + 1,
+         fmt::format("the channels have {} clocks: {}", series_.other_clocks.size() + 1, all));
+  }
+
+  void add_events() {
+    const Eigen::VectorXd& time = series_.data.time_s();
+    std::size_t behind = 0;
+    for (const TableRemark& remark : numbers_.remarks) {
+      if (static_cast<Eigen::Index>(remark.row) >= time.size()) {
+        ++behind;
+        continue;
+      }
+      series_.events.push_back({time[static_cast<Eigen::Index>(remark.row)], remark.text,
+                                layout_.columns[remark.column].name, ""});
+    }
+    if (behind > 0) note(0, fmt::format("{} remarks behind the last sample are left out", behind));
+  }
+
+  const TableLayout& layout_;
+  const std::filesystem::path& path_;
+  TableNumbers numbers_;
+  CsvSeries series_;
+  std::vector<TableChannel> channels_;
+  std::vector<TableClock> clocks_;
+  bool first_clock_ = true;
+};
+
+}  // namespace
+
+CsvSeries channels_of_table(const TableText& text,
+                            const TableLayout& layout,
+                            const std::filesystem::path& path) {
+  return TableSeries(text, layout, path).read();
+}
+
+}  // namespace myoid::recording

@@ -1,0 +1,376 @@
+#include "myoid/tables/text_table.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "myoid/core/error.h"
+#include "myoid/core/index.h"
+#include "myoid/core/parallel.h"
+#include "myoid/files/file_words.h"
+
+namespace myoid::recording {
+namespace {
+
+constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
+
+/// One cell as it stands in its line, from `at` on; moves `at` to the separator behind it, or to
+/// the end.
+std::string_view raw_cell(const char*& at, const char* end, char separator) {
+  const char* const begin = at;
+  bool quoted = false;
+  for (; at != end && (quoted || *at != separator); ++at) quoted = quoted != (*at == '"');
+  return trim({begin, static_cast<std::size_t>(at - begin)});
+}
+
+std::string unquoted(std::string_view cell) {
+  if (cell.find('"') == std::string_view::npos) return to_utf8(cell);
+  std::string text;
+  bool quoted = false;
+  for (std::size_t i = 0; i < cell.size(); ++i) {
+    if (cell[i] != '"') {
+      text += cell[i];
+    } else if (quoted && i + 1 < cell.size() && cell[i + 1] == '"') {
+      text += cell[++i];
+    } else {
+      quoted = !quoted;
+    }
+  }
+  return to_utf8(trim(text));
+}
+
+enum class CellKind : std::uint8_t { number, comma_number, gap, wrong };
+
+/// What stands in a cell of a column of numbers.
+CellKind read_cell(std::string_view cell, char separator, double& value) {
+  if (cell.size() >= 2 && cell.front() == '"' && cell.back() == '"')
+    cell = trim(cell.substr(1, cell.size() - 2));
+  value = kNoNumber;
+  if (cell.empty() || cell == "-" || equal_ignoring_case(cell, "n/a") ||
+      equal_ignoring_case(cell, "nan"))
+    return CellKind::gap;
+  if (const auto number = parse_number(cell)) {
+    value = *number;
+    return CellKind::number;
+  }
+  const auto number = separator == ',' ? std::nullopt : parse_comma_number(cell);
+  if (!number) return CellKind::wrong;
+  value = *number;
+  return CellKind::comma_number;
+}
+
+/// What one line gave.
+struct RowScan {
+  std::uint32_t cells = 0;   ///< Number of cells.
+  std::uint32_t filled = 0;  ///< Cells up to the last one that is not empty.
+  bool blank = true;         ///< No cell has anything in it.
+  bool comma = false;
+  bool gap = false;
+  bool wrong = false;
+  bool remark = false;
+};
+
+/// What is done with the cell of a column.
+struct ColumnUse {
+  enum class Kind : std::uint8_t { none, clock, value, remark } kind = Kind::none;
+  Eigen::Index target = 0;
+};
+
+/// Reads the rows of one table.
+class RowReader {
+ public:
+  RowReader(const TableText& text, const TableRows& rows, const std::filesystem::path& path)
+      : text_(text), rows_(rows), path_(path), uses_(rows.names.size()) {
+    const auto use = [&](const std::vector<std::size_t>& columns, ColumnUse::Kind kind) {
+      for (std::size_t k = 0; k < columns.size(); ++k)
+        uses_[columns[k]] = {kind, static_cast<Eigen::Index>(k)};
+    };
+    use(rows.clock, ColumnUse::Kind::clock);
+    use(rows.values, ColumnUse::Kind::value);
+    use(rows.texts, ColumnUse::Kind::remark);
+  }
+
+  TableNumbers read() {
+    end_ = std::min(rows_.end, text_.lines.size());
+    while (end_ > rows_.first && is_left_out(end_ - 1)) --end_;
+    const std::size_t count = end_ - std::min(end_, rows_.first);
+    scans_.resize(count);
+    numbers_.clock.resize(static_cast<Eigen::Index>(count),
+                          static_cast<Eigen::Index>(rows_.clock.size()));
+    numbers_.values.resize(static_cast<Eigen::Index>(count),
+                           static_cast<Eigen::Index>(rows_.values.size()));
+    parallel_ranges(count, std::size_t{256}, [&](const auto& range) {
+      for (std::size_t i = range.begin(); i != range.end(); ++i) scan(i);
+    });
+    judge();
+    state_what_was_mended();
+    return std::move(numbers_);
+  }
+
+ private:
+  [[nodiscard]] std::size_t width() const { return rows_.names.size(); }
+  void note(std::size_t line, std::string message) {
+    numbers_.repairs.push_back({line, std::move(message)});
+  }
+  [[nodiscard]] std::string_view line_of(std::size_t i) const {
+    return text_.lines[rows_.first + i];
+  }
+
+  /// Blank lines, remarks and rows of nothing at the end of a table.
+  [[nodiscard]] bool is_left_out(std::size_t n) const {
+    const std::string_view line = text_.lines[n];
+    if (line.find(rows_.separator) == std::string_view::npos) return trim(line).empty();
+    return !rows_.empty_row_is_gap && has_no_cell(line, rows_.separator);
+  }
+
+  void put(const ColumnUse& use, Eigen::Index row, double value) {
+    if (use.kind == ColumnUse::Kind::clock) numbers_.clock(row, use.target) = value;
+    if (use.kind == ColumnUse::Kind::value) numbers_.values(row, use.target) = value;
+  }
+
+  /// A number that ends at the separator, the usual cell; moves `at` behind it.
+  [[nodiscard]] bool plain_number(const char*& at, const char* end, double& value) const {
+    const char* begin = at;
+    while (begin != end && *begin == ' ') ++begin;
+    const auto [stop, error] = std::from_chars(begin, end, value);
+    if (error != std::errc() || !std::isfinite(value)) return false;
+    const char* behind = stop;
+    while (behind != end && *behind == ' ') ++behind;
+    if (behind != end && *behind != rows_.separator) return false;
+    at = behind;
+    return true;
+  }
+
+  void scan(std::size_t i) {
+    const std::string_view line = line_of(i);
+    RowScan& row = scans_[i];
+    const auto index = static_cast<Eigen::Index>(i);
+    const char* at = line.data();
+    const char* const end = at + line.size();
+    for (std::size_t c = 0;; ++c) {
+      const ColumnUse use = c < uses_.size() ? uses_[c] : ColumnUse{};
+      double value = kNoNumber;
+      const bool number = use.kind == ColumnUse::Kind::clock || use.kind == ColumnUse::Kind::value;
+      bool empty = false;
+      if (!number || !plain_number(at, end, value)) {
+        const std::string_view cell = raw_cell(at, end, rows_.separator);
+        empty = cell.empty() || cell == "\"\"";
+        if (number) {
+          const CellKind kind = read_cell(cell, rows_.separator, value);
+          row.comma = row.comma || kind == CellKind::comma_number;
+          row.wrong = row.wrong || kind == CellKind::wrong;
+        } else if (use.kind == ColumnUse::Kind::remark) {
+          row.remark = row.remark || !empty;
+        }
+      }
+      if (use.kind == ColumnUse::Kind::value) row.gap = row.gap || !std::isfinite(value);
+      put(use, index, value);
+      ++row.cells;
+      if (!empty) row.filled = row.cells;
+      if (at == end) break;
+      ++at;
+    }
+    row.blank = row.filled == 0;
+    for (std::size_t c = row.cells; c < uses_.size(); ++c) put(uses_[c], index, kNoNumber);
+  }
+
+  /// Decides row by row what is kept, and moves the kept rows together.
+  void judge() {
+    Eigen::Index kept = 0;
+    for (std::size_t i = 0; i < scans_.size(); ++i) {
+      const RowScan& row = scans_[i];
+      if (line_of(i).starts_with('#')) continue;
+      if (row.blank && !(rows_.empty_row_is_gap && row.cells > 1)) {
+        if (row.cells > 1) {
+          throw ReadError(path_, rows_.first + i + 1,
+                          "the row is empty and other rows follow; expected a number in each cell "
+                          "of the clock");
+        }
+        if (kept > 0 && blank_line_++ == 0) first_blank_ = rows_.first + i + 1;
+        continue;
+      }
+      if (!keeps(i, kept)) break;
+      if (row.wrong) refuse_cell(i);
+      if (row.comma && comma_line_ == 0) comma_line_ = rows_.first + i + 1;
+      if (row.gap && gap_line_ == 0) gap_line_ = rows_.first + i + 1;
+      if (row.remark) take_remarks(i, static_cast<std::size_t>(kept));
+      if (kept != static_cast<Eigen::Index>(i)) {
+        numbers_.clock.row(kept) = numbers_.clock.row(static_cast<Eigen::Index>(i));
+        numbers_.values.row(kept) = numbers_.values.row(static_cast<Eigen::Index>(i));
+      }
+      numbers_.lines.push_back(rows_.first + i + 1);
+      ++kept;
+    }
+    if (kept == 0) throw ReadError(path_, rows_.first + 1, "there are no rows of numbers");
+    if (kept < numbers_.values.rows()) {
+      numbers_.clock.conservativeResize(kept, Eigen::NoChange);
+      numbers_.values.conservativeResize(kept, Eigen::NoChange);
+    }
+  }
+
+  /// False: the row is the last one, cut off, and left out. Throws if its width is wrong.
+  bool keeps(std::size_t i, Eigen::Index kept) {
+    const RowScan& row = scans_[i];
+    const std::size_t line = rows_.first + i + 1;
+    const bool last = i + 1 == scans_.size();
+    const bool without_end = last && line == text_.lines.size() && !text_.ends_with_line;
+    if (without_end) {
+      const bool complete = rows_.rows_said && *rows_.rows_said == static_cast<double>(kept + 1) &&
+                            row.cells == width() && kept > 0 &&
+                            !looks_cut(line_of(i), line_of(i - 1));
+      if (!complete && kept > 0) {
+        note(line, std::string(kLastRowLeftOut));
+        return false;
+      }
+      note(line, std::string(kLastRowKept));
+    }
+    if (row.filled > width())
+      throw ReadError(
+          path_, line,
+          fmt::format("{} cells, expected {} as in the header{}", row.filled, width(),
+                      rows_.separator == ','
+                          ? "; a cell too many, or decimal commas in a table separated by commas"
+                          : "; a cell is too many"));
+    if (row.cells >= width()) return true;
+    if (last && kept > 0 && rows_.short_row != ShortRow::ended) {
+      note(line,
+           fmt::format("the last row has {} of {} cells and is left out", row.cells, width()));
+      return false;
+    }
+    const bool triples =
+        row.cells >= rows_.first_triple && (row.cells - rows_.first_triple) % 3 == 0;
+    if (rows_.short_row == ShortRow::refused ||
+        (rows_.short_row == ShortRow::gaps && (!triples || pads())))
+      throw ReadError(path_, line,
+                      fmt::format("{} cells, expected {} as in the header; a cell is lost",
+                                  row.cells, width()));
+    if (short_line_ == 0) short_line_ = line;
+    if (rows_.short_row == ShortRow::ended) require_that_none_follows(i);
+    return true;
+  }
+
+  /// A file that writes the separators of empty cells at the end of a row cuts none off.
+  [[nodiscard]] bool pads() const {
+    return std::any_of(scans_.begin(), scans_.end(), [&](const RowScan& row) {
+      return row.cells >= width() && row.filled < width() && !row.blank;
+    });
+  }
+
+  /// Channels that have ended do not begin again: a later row with more cells says that this one
+  /// lost some.
+  void require_that_none_follows(std::size_t i) {
+    if (i < checked_end_) return;
+    for (std::size_t k = scans_.size(); k-- > i + 1;) {
+      if (scans_[k].cells > scans_[i].cells)
+        throw ReadError(
+            path_, rows_.first + i + 1,
+            fmt::format("{} cells, expected {} as in the header: a cell is lost, since "
+                        "line {} below has {}",
+                        scans_[i].cells, width(), rows_.first + k + 1, scans_[k].cells));
+    }
+    // Rows below are compared with their own followers only where they are narrower still.
+    checked_end_ = i + 1;
+    while (checked_end_ < scans_.size() && scans_[checked_end_].cells >= scans_[i].cells)
+      ++checked_end_;
+  }
+
+  [[noreturn]] void refuse_cell(std::size_t i) const {
+    const auto cells = cells_of(line_of(i), rows_.separator);
+    for (std::size_t c = 0; c < std::min(cells.size(), uses_.size()); ++c) {
+      double ignored = 0.0;
+      if ((uses_[c].kind == ColumnUse::Kind::clock || uses_[c].kind == ColumnUse::Kind::value) &&
+          read_cell(cells[c], rows_.separator, ignored) == CellKind::wrong)
+        throw ReadError(path_, rows_.first + i + 1,
+                        fmt::format("column {} ('{}'): expected a number, found '{}'", c + 1,
+                                    rows_.names[c], cells[c]));
+    }
+    throw ReadError(path_, rows_.first + i + 1, "expected a number in each cell");
+  }
+
+  void take_remarks(std::size_t i, std::size_t row) {
+    const auto cells = cells_of(line_of(i), rows_.separator);
+    for (const std::size_t c : rows_.texts) {
+      if (c < cells.size() && !cells[c].empty()) numbers_.remarks.push_back({row, c, cells[c]});
+    }
+  }
+
+  /// Decimal commas hold for the whole table: a point beside them is either a mark of thousands or
+  /// another hand's.
+  void refuse_points() const {
+    for (std::size_t i = 0; i < scans_.size(); ++i) {
+      if (line_of(i).find('.') == std::string_view::npos) continue;
+      const auto cells = cells_of(line_of(i), rows_.separator);
+      for (std::size_t c = 0; c < std::min(cells.size(), uses_.size()); ++c) {
+        const bool number =
+            uses_[c].kind == ColumnUse::Kind::clock || uses_[c].kind == ColumnUse::Kind::value;
+        if (number && cells[c].find('.') != std::string::npos && parse_number(cells[c]))
+          throw ReadError(path_, rows_.first + i + 1,
+                          fmt::format("'{}' has a decimal point, while line {} has decimal commas; "
+                                      "expected one of them in the whole table",
+                                      cells[c], comma_line_));
+      }
+    }
+  }
+
+  void state_what_was_mended() {
+    if (comma_line_ > 0) {
+      refuse_points();
+      note(comma_line_, "comma decimals read as decimal points");
+    }
+    if (blank_line_ > 0)
+      note(first_blank_,
+           fmt::format(
+               "{} between rows of numbers passed over",
+               blank_line_ == 1 ? "a blank line" : fmt::format("{} blank lines", blank_line_)));
+    if (short_line_ > 0)
+      note(short_line_, rows_.short_row == ShortRow::gaps
+                            ? "a row ends early; the markers behind its end are taken as missing"
+                            : "a row ends early; the channels behind its end have ended");
+    if (gap_line_ > 0 && rows_.state_gaps)
+      note(gap_line_, "a value is missing or no number; kept as a gap");
+    const auto count = static_cast<double>(numbers_.lines.size());
+    if (rows_.rows_said && *rows_.rows_said != count)
+      note(0, fmt::format("the header says {} rows, there are {}", *rows_.rows_said, count));
+  }
+
+  const TableText& text_;
+  const TableRows& rows_;
+  const std::filesystem::path& path_;
+  std::vector<ColumnUse> uses_;
+  std::vector<RowScan> scans_;
+  TableNumbers numbers_;
+  std::size_t end_ = 0;
+  std::size_t comma_line_ = 0, gap_line_ = 0, short_line_ = 0, first_blank_ = 0;
+  std::size_t blank_line_ = 0;
+  std::size_t checked_end_ = 0;
+};
+
+}  // namespace
+
+std::vector<std::string> cells_of(std::string_view line, char separator) {
+  std::vector<std::string> cells;
+  const char* at = line.data();
+  const char* const end = at + line.size();
+  for (;; ++at) {
+    cells.push_back(unquoted(raw_cell(at, end, separator)));
+    if (at == end) return cells;
+  }
+}
+
+bool has_no_cell(std::string_view line, char separator) {
+  return std::all_of(line.begin(), line.end(), [&](char c) {
+    return c == separator || c == ' ' || c == '\t' || c == '\r' || c == '"';
+  });
+}
+
+TableNumbers read_rows(const TableText& text,
+                       const TableRows& rows,
+                       const std::filesystem::path& path) {
+  return RowReader(text, rows, path).read();
+}
+
+}  // namespace myoid::recording

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "myoid/twin/control.h"
+#include "myoid/twin/protocol.h"
+#include "myoid/twin/smooth_motion.h"
+
+namespace myoid::twin {
+
+/// One effort against a dynamometer: rises, holds, falls; 0 outside.
+struct Effort {
+  double start_s = 0.0;
+  double rise_s = 1.0;
+  double hold_s = 1.0;
+  bool flexion = true;
+  Coordination coordination;  ///< Of this effort; its co-contraction is not used.
+
+  /// 0..1, with five continuous derivatives.
+  [[nodiscard]] double level(double time_s) const;
+  [[nodiscard]] double end_s() const { return start_s + 2.0 * rise_s + hold_s; }
+};
+
+/// A slow modulation: 1 + depth cos(2 pi f t + phase).
+struct Modulation {
+  double depth = 0.0;
+  double frequency_hz = 0.1;
+  double phase_rad = 0.0;
+
+  [[nodiscard]] double operator()(double time_s) const;
+};
+
+/// What a virtual person does in one trial, at any time: before the beginning and after the end
+/// too, since muscles act on what the electrodes saw a little earlier.
+struct TrialScript {
+  TrialProtocol protocol;
+  double duration_s = 0.0;
+  SmoothMotion motion;
+  std::vector<Effort> efforts;        ///< Of isometric and maximal trials; else empty.
+  Coordination mean;                  ///< Of the trial.
+  Modulation brachioradialis_change;  ///< Its departure from 1 is added to the mean.
+  Modulation brachialis_change;
+  Modulation co_contraction_change;  ///< A factor.
+  bool eased = false;                ///< See Coordination.
+
+  /// 1 at the beginning of a trial with a warm-up, fading to 0.05 at its end; else 0.
+  [[nodiscard]] double cold(double time_s) const;
+
+  /// How the torque is shared at this time, in trials with a motion.
+  [[nodiscard]] Coordination coordination(double time_s) const;
+
+  /// Activations in a trial against the dynamometer, or of relaxed muscles.
+  [[nodiscard]] PerMuscle prescribed_activations(double time_s) const;
+
+  /// True if `prescribed_activations` holds and the dynamometer exerts what is left of the torque;
+  /// false if the muscles must exert the torque that the motion requires.
+  [[nodiscard]] bool against_dynamometer() const;
+};
+
+/// Draws what the protocol leaves to chance. The streams depend on the name of the trial: one trial
+/// more leaves the others as they were.
+[[nodiscard]] TrialScript make_script(const TrialProtocol& trial,
+                                      const ControlSpec& control,
+                                      std::uint64_t seed);
+
+}  // namespace myoid::twin

@@ -1,0 +1,78 @@
+#include "myoid/twin/write_recording.h"
+
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include "myoid/c3d/c3d_writer.h"
+#include "myoid/c3d/make_c3d.h"
+#include "myoid/core/error.h"
+#include "myoid/files/atomic_file.h"
+#include "myoid/tables/storage_writer.h"
+#include "myoid/tables/trc_writer.h"
+
+namespace myoid::twin {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Makes the folder, or accepts an empty one, or a used one if that is allowed.
+void prepare_directory(const fs::path& directory, bool overwrite) {
+  std::error_code error;
+  fs::create_directories(directory, error);
+  if (error || !fs::is_directory(directory)) {
+    throw InvalidInput(fmt::format("{}: cannot be made a folder ({}); choose another one",
+                                   directory.string(),
+                                   error ? error.message() : "a file of that name exists"));
+  }
+  if (!overwrite && !fs::is_empty(directory)) {
+    throw InvalidInput(fmt::format(
+        "{}: the folder is not empty; choose another one, or --overwrite", directory.string()));
+  }
+}
+
+void write_trial(const VirtualRecording& recording,
+                 const VirtualTrial& trial,
+                 const fs::path& directory,
+                 RecordingFormat format) {
+  const std::string& name = trial.protocol.name;
+  const std::string origin = fmt::format("virtual recording: protocol {}, seed {}",
+                                         recording.protocol.name, recording.seed);
+  const auto write = [&](const fs::path& file, const TimeSeries& series, const std::string& what) {
+    recording::write_storage(directory / file, series,
+                             {.title = what + " " + name, .comments = {origin}});
+  };
+  if (format == RecordingFormat::c3d) {
+    recording::write_c3d(directory / (name + ".c3d"),
+                         recording::make_c3d(trial.markers, trial.emg));
+  } else {
+    recording::write_trc(directory / (name + ".trc"), trial.markers);
+    write(name + "_emg.sto", trial.emg,
+          recording.protocol.level == Level::noise_free ? "activation" : "raw EMG [V]");
+  }
+  if (trial.external_torque) write(name + "_torque.sto", *trial.external_torque, "torque");
+
+  const fs::path truth = "truth";
+  write(truth / (name + "_motion.sto"), trial.truth.motion, "true motion");
+  write(truth / (name + "_torque.sto"), trial.truth.torque, "true torque");
+  write(truth / (name + "_activation.sto"), trial.truth.activation, "true activation");
+  write(truth / (name + "_force.sto"), trial.truth.force, "true force");
+  write(truth / (name + "_state.sto"), trial.truth.state, "cold and fatigue");
+  if (trial.truth.heads) write(truth / (name + "_heads.sto"), *trial.truth.heads, "true heads");
+}
+
+}  // namespace
+
+void write_virtual_recording(const VirtualRecording& recording,
+                             const fs::path& directory,
+                             const WriteOptions& options) {
+  prepare_directory(directory, options.overwrite);
+  recording::write_file(directory / "model.osim", recording.model_osim);
+  for (const VirtualTrial& trial : recording.trials)
+    write_trial(recording, trial, directory, options.format);
+  recording::write_file(directory / "truth" / "person.csv", person_csv(recording));
+  recording::write_file(directory / "truth.csv", truth_csv(recording));
+  recording::write_file(directory / "study.toml", study_toml(recording, options.format));
+}
+
+}  // namespace myoid::twin
