@@ -6,7 +6,7 @@
   myoid_log "Sanitizer build (at most $((limit / 60)) minutes)"
   start=$SECONDS
   cmake --preset asan >/dev/null
-  for name in recording core math model signals muscle kinematics dynamics; do
+  for name in files tables c3d recording core math model osim signals muscle kinematics dynamics; do
     left=$((limit - (SECONDS - start)))
     if [ "$left" -lt 20 ]; then myoid_log "sanitizers: out of time before ${name}_tests"; exit 0; fi
     status=0

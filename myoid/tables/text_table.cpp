@@ -18,6 +18,11 @@ namespace {
 
 constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
 
+/// Copies a row of a matrix that may have no columns, whose data a row of Eigen would point behind.
+void copy_row(Eigen::Index from, Eigen::Index to, Eigen::MatrixXd& matrix) {
+  for (Eigen::Index c = 0; c < matrix.cols(); ++c) matrix(to, c) = matrix(from, c);
+}
+
 /// One cell as it stands in its line, from `at` on; moves `at` to the separator behind it, or to
 /// the end.
 std::string_view raw_cell(const char*& at, const char* end, char separator) {
@@ -199,8 +204,8 @@ class RowReader {
       if (row.gap && gap_line_ == 0) gap_line_ = rows_.first + i + 1;
       if (row.remark) take_remarks(i, static_cast<std::size_t>(kept));
       if (kept != static_cast<Eigen::Index>(i)) {
-        numbers_.clock.row(kept) = numbers_.clock.row(static_cast<Eigen::Index>(i));
-        numbers_.values.row(kept) = numbers_.values.row(static_cast<Eigen::Index>(i));
+        copy_row(static_cast<Eigen::Index>(i), kept, numbers_.clock);
+        copy_row(static_cast<Eigen::Index>(i), kept, numbers_.values);
       }
       numbers_.lines.push_back(rows_.first + i + 1);
       ++kept;

@@ -66,9 +66,9 @@ std::vector<SourceFile> sources() {
 
 TEST(Architecture, TheListOfLayersIsRead) {
   const auto layers = allowed_layers();
-  EXPECT_EQ(layers.size(), 14U);
+  EXPECT_GT(layers.size(), 20U);
   EXPECT_TRUE(layers.at("core").empty());
-  EXPECT_TRUE(layers.at("cli").contains("pipeline"));
+  EXPECT_TRUE(layers.at("cli").contains("study"));
   EXPECT_TRUE(layers.at("cli").contains("report"));
 }
 
@@ -97,6 +97,37 @@ TEST(Architecture, TheLayersHaveNoCircle) {
       ASSERT_TRUE(layers.contains(used)) << layer << " uses " << used;
       EXPECT_FALSE(layers.at(used).contains(layer)) << layer << " and " << used;
     }
+  }
+}
+
+/// A list that allows more than the sources use hides the shape of the house.
+TEST(Architecture, EveryLayerThatIsListedIsUsed) {
+  const std::regex include(R"(#include "myoid/(\w+)/[^"]*")");
+  std::map<std::string, std::set<std::string>> used;
+  for (const SourceFile& source : sources()) {
+    for (std::sregex_iterator it(source.text.begin(), source.text.end(), include), end; it != end;
+         ++it)
+      used[source.layer].insert((*it)[1]);
+  }
+  for (const auto& [layer, allowed] : allowed_layers()) {
+    for (const std::string& other : allowed)
+      EXPECT_TRUE(used[layer].contains(other)) << layer << " does not use " << other;
+  }
+}
+
+/// A room that grows beyond these bounds is two rooms.
+TEST(Architecture, NoRoomHoldsTheHouse) {
+  const std::set<std::string> large = {"model", "cli"};
+  std::map<std::string, std::ptrdiff_t> lines;
+  std::ptrdiff_t all = 0;
+  for (const SourceFile& source : sources()) {
+    const std::ptrdiff_t count = std::count(source.text.begin(), source.text.end(), '\n');
+    lines[source.layer] += count;
+    all += count;
+  }
+  for (const auto& [layer, count] : lines) {
+    EXPECT_LT(100 * count, 12 * all) << layer << " has " << count << " of " << all << " lines";
+    if (!large.contains(layer)) EXPECT_LE(count, 5000) << layer;
   }
 }
 
@@ -164,10 +195,12 @@ TEST(Architecture, OnlyTheProgramPrints) {
 }
 
 TEST(Architecture, OnlyReadersWritersAndTheTopTouchFiles) {
-  const std::set<std::string> top = {"recording", "report", "pipeline", "cli"};
-  const std::set<std::string> doors = {"myoid/osim/osim_reader.cpp", "myoid/twin/protocol.cpp"};
+  const std::set<std::string> rooms = {"files",  "tables",  "c3d", "recording",
+                                       "report", "results", "run", "cli"};
+  const std::set<std::string> doors = {"myoid/core/build_identity.cpp",
+                                       "myoid/design/earlier_run.cpp"};
   for (const SourceFile& source : sources()) {
-    if (top.contains(source.layer) || doors.contains(source.path.generic_string())) continue;
+    if (rooms.contains(source.layer) || doors.contains(source.path.generic_string())) continue;
     EXPECT_EQ(source.text.find("#include <fstream>"), std::string::npos) << source.path;
   }
 }
@@ -182,8 +215,11 @@ TEST(Architecture, NothingIsDrawnWithoutASeed) {
 TEST(Architecture, EveryHeaderIsListedForItsTarget) {
   for (const SourceFile& source : sources()) {
     const std::string list = content(kRoot / "myoid" / source.layer / "CMakeLists.txt");
-    const std::string file = source.path.filename().string();
-    EXPECT_NE(list.find(file), std::string::npos)
+    const fs::path unit = source.path.lexically_relative(fs::path("myoid") / source.layer);
+    std::string name =
+        std::regex_replace(unit.generic_string(), std::regex(R"((_inl)?\.\w+$)"), "");
+    if (source.layer == "cli") name = unit.filename().string();
+    EXPECT_TRUE(std::regex_search(list, std::regex("(^|\\s)" + name + "(\\s|\\)|$)")))
         << source.path << " is not in the CMakeLists.txt of its folder";
   }
 }
