@@ -11,10 +11,10 @@
 namespace myoid::simulation {
 namespace {
 
-struct Arm {
+struct BuiltInArm {
   model::BodyModel model = model::parse_osim(model::arm4_osim(), "arm4.osim");
   kinematics::MuscleKinematics muscles;
-  Arm() {
+  BuiltInArm() {
     const Eigen::VectorXd t = Eigen::VectorXd::LinSpaced(21, 0.0, 0.5);
     const auto n = static_cast<Eigen::Index>(model.coordinates.size());
     std::vector<Channel> channels;
@@ -29,7 +29,7 @@ struct Arm {
 };
 
 TEST(MuscleForceLaw, TheSlopeIsTheDerivativeOfTheForce) {
-  const Arm arm;
+  const BuiltInArm arm;
   for (const bool elastic : {false, true}) {
     for (const bool passive : {false, true}) {
       const auto law = muscle_force_law(arm.model, arm.muscles, {elastic, passive});
@@ -50,7 +50,7 @@ TEST(MuscleForceLaw, TheSlopeIsTheDerivativeOfTheForce) {
 // Independent of any equilibrium solver: with Thelen's tendon the force tells the tendon's length,
 // that the fiber's, and its active force must be what pulls.
 TEST(MuscleForceLaw, FiberAndElasticTendonPullAlike) {
-  const Arm arm;
+  const BuiltInArm arm;
   const auto law = muscle_force_law(arm.model, arm.muscles, {.elastic_tendon = true});
   for (Eigen::Index m = 0; m < arm.muscles.length.channel_count(); ++m) {
     const model::MuscleProperties& p = arm.model.muscles[static_cast<std::size_t>(m)].properties;
@@ -82,7 +82,7 @@ TEST(MuscleForceLaw, FiberAndElasticTendonPullAlike) {
 }
 
 TEST(MuscleForceLaw, AStiffTendonIsARigidOne) {
-  Arm arm;
+  BuiltInArm arm;
   for (model::Muscle& muscle : arm.model.muscles) muscle.properties.max_tendon_strain = 1e-6;
   const auto elastic = muscle_force_law(arm.model, arm.muscles, {.elastic_tendon = true});
   const auto rigid = muscle_force_law(arm.model, arm.muscles, {});
@@ -94,7 +94,7 @@ TEST(MuscleForceLaw, AStiffTendonIsARigidOne) {
 }
 
 TEST(MuscleForceLaw, ThePassiveForceIsThereWithoutActivation) {
-  const Arm arm;
+  const BuiltInArm arm;
   const auto active = muscle_force_law(arm.model, arm.muscles, {});
   const auto both = muscle_force_law(arm.model, arm.muscles, {.passive_force = true});
   for (Eigen::Index m = 0; m < arm.muscles.length.channel_count(); ++m) {

@@ -8,6 +8,7 @@
 
 #include "myoid/core/error.h"
 #include "myoid/files/atomic_file.h"
+#include "myoid/recording/recording.h"
 #include "myoid/tables/marker_layouts.h"
 
 #include "tests/support/temporary_folder.h"

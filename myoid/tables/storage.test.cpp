@@ -106,7 +106,8 @@ TEST(ParseStorage, AFileCutOffAnywhereGivesDataOrAnErrorButNeverACrash) {
 }
 
 TEST(FormatStorage, RoundTripsToTheLastBit) {
-  const Eigen::Vector3d time(0.0, 1.0 / 3.0, 0.7);
+  Eigen::VectorXd time(3);
+  time << 0.0, 1.0 / 3.0, 0.7;
   Eigen::MatrixXd values(3, 2);
   values << 0.1, 1e-17, -2.0 / 7.0, 1e5, 3.0, std::nextafter(1.0, 2.0);
   const TimeSeries series(time, {{"a"}, {"b"}}, values);
