@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <csignal>
 #include <cstring>
 #include <ctime>
+#include <thread>
 #include <utility>
 
 #include <fcntl.h>
@@ -62,6 +64,17 @@ std::optional<FolderOwner> read_owner(int descriptor) {
   return parse_owner({text.data(), static_cast<std::size_t>(size)});
 }
 
+/// The owner of a file that another process holds: between its lock and its signature lies an
+/// instant.
+std::optional<FolderOwner> await_owner(int descriptor) {
+  std::optional<FolderOwner> owner = read_owner(descriptor);
+  for (int i = 0; i < 50 && !owner; ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    owner = read_owner(descriptor);
+  }
+  return owner;
+}
+
 [[noreturn]] void refuse_folder(const fs::path& folder, const std::optional<FolderOwner>& owner) {
   throw InvalidInput(fmt::format(
       "another myoid is writing into the folder {}{}; wait until it ends, or give another --out",
@@ -100,7 +113,8 @@ FolderLock::FolderLock(fs::path folder) : folder_(std::move(folder)) {
     }
     const bool locked = flock(descriptor, LOCK_EX | LOCK_NB) == 0;
     const int cause = locked ? 0 : errno;
-    const std::optional<FolderOwner> owner = read_owner(descriptor);
+    const std::optional<FolderOwner> owner =
+        cause == EWOULDBLOCK ? await_owner(descriptor) : read_owner(descriptor);
     if (cause == EWOULDBLOCK || (!locked && may_live(owner))) {
       close(descriptor);
       refuse_folder(folder_, owner);
