@@ -10,8 +10,6 @@
 namespace myoid::cli {
 namespace {
 
-using ComparedParameter;
-
 nlohmann::ordered_json optional_number(const std::optional<double>& x) {
   return x ? nlohmann::ordered_json(*x) : nlohmann::ordered_json(nullptr);
 }

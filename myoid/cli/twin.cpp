@@ -29,7 +29,7 @@ twin::Protocol protocol_of(const TwinOptions& options) {
   std::optional<twin::Level> level;
   for (const twin::Level known :
        {twin::Level::noise_free, twin::Level::noisy, twin::Level::different}) {
-    if (options.level == simulation::name(known)) level = known;
+    if (options.level == twin::name(known)) level = known;
   }
   twin::Protocol protocol = twin::read_protocol(options.protocol, level);
   protocol.seven_heads = options.model == "arm7";
@@ -37,7 +37,7 @@ twin::Protocol protocol_of(const TwinOptions& options) {
     throw InvalidInput(
         fmt::format("--model arm7 with level {}: only a person at level L2 has seven heads; add "
                     "--level L2 or choose arm4",
-                    simulation::name(protocol.level)));
+                    twin::name(protocol.level)));
   }
   return protocol;
 }
@@ -100,12 +100,12 @@ void make_one(const TwinOptions& options, Context& context) {
   const twin::VirtualRecording recording = twin::make_virtual_recording(protocol, context.seed);
   twin::write_virtual_recording(recording, options.out, write_options(options));
   context.log(fmt::format("{} trials, level {}, seed {}", recording.trials.size(),
-                          simulation::name(recording.protocol.level), context.seed));
+                          twin::name(recording.protocol.level), context.seed));
   const std::string study = (fs::path(options.out) / "study.toml").string();
   if (context.json) {
     nlohmann::ordered_json json;
     json["study"] = study;
-    json["level"] = simulation::name(recording.protocol.level);
+    json["level"] = twin::name(recording.protocol.level);
     json["trials"] = nlohmann::ordered_json::array();
     for (const twin::VirtualTrial& trial : recording.trials)
       json["trials"].push_back(trial.protocol.name);

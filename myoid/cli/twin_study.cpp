@@ -15,13 +15,11 @@
 namespace myoid::cli {
 namespace {
 
-using TwinSummary;
-
 std::string percent(double share) {
   return std::isfinite(share) ? fmt::format("{:.1f}", 100.0 * share) : "-";
 }
 
-void print_summary(const std::vector<TwinSummary>& summaries, bool each_muscle) {
+void print_summary(const std::vector<twin::TwinSummary>& summaries, bool each_muscle) {
   fmt::print(
       "{:<8} {:<12} {:<8} {:<28} {:>5} {:>7} {:>7} {:>6} {:>6} {:>6} {:>6} {:>6} {:>9} {:>9}\n",
       "method", "case", "muscle", "parameter", "n", "bias", "rmse", "<5 %", "<10 %", "<20 %",
@@ -29,7 +27,7 @@ void print_summary(const std::vector<TwinSummary>& summaries, bool each_muscle) 
   fmt::print(
       "{:<8} {:<12} {:<8} {:<28} {:>5} {:>7} {:>7} {:>6} {:>6} {:>6} {:>6} {:>6} {:>9} {:>9}\n", "",
       "", "", "", "", "[%]", "[%]", "[%]", "[%]", "[%]", "<10 %", "[%]", "", "<15 % [%]");
-  for (const TwinSummary& s : summaries) {
+  for (const twin::TwinSummary& s : summaries) {
     if (!each_muscle && s.muscle != "all" && s.muscle != "subject") continue;
     const int identified = s.verdicts[0];
     fmt::print(
@@ -42,18 +40,18 @@ void print_summary(const std::vector<TwinSummary>& summaries, bool each_muscle) 
 }
 
 /// Medians over all trials, then trial by trial.
-void print_predictions(const TwinStudyResult& result) {
+void print_predictions(const twin::TwinStudyResult& result) {
   if (result.predictions.empty()) return;
   fmt::print("\ntrials held back, medians: NRMSE is RMSE over the range of the trial's torque\n");
   fmt::print("{:<28} {:>5} {:>10} {:>7} {:>19} {:>7}\n", "trial", "n", "NRMSE [%]", "R2",
              "below 1.5 Hz: NRMSE", "R2");
   std::vector<std::string> trials{"all"};
-  for (const TwinPrediction& p : result.predictions) {
+  for (const twin::TwinPrediction& p : result.predictions) {
     if (std::find(trials.begin(), trials.end(), p.trial) == trials.end()) trials.push_back(p.trial);
   }
   for (const std::string& trial : trials) {
     std::vector<double> nrmse, r2, band_nrmse, band_r2;
-    for (const TwinPrediction& p : result.predictions) {
+    for (const twin::TwinPrediction& p : result.predictions) {
       if (trial != "all" && trial != p.trial) continue;
       nrmse.push_back(p.nrmse_range);
       r2.push_back(p.r2);
@@ -66,14 +64,15 @@ void print_predictions(const TwinStudyResult& result) {
   }
 }
 
-void print_verdicts(const TwinStudyResult& result, const std::vector<TwinSummary>& summaries) {
+void print_verdicts(const twin::TwinStudyResult& result,
+                    const std::vector<twin::TwinSummary>& summaries) {
   for (const char* method : {"torque", "force", "paper"}) {
     int good = 0;
     int bad = 0;
     int other_good = 0;
     int other_bad = 0;
     int outside = 0;
-    for (const TwinSummary& s : summaries) {
+    for (const twin::TwinSummary& s : summaries) {
       if (s.method != method || (s.muscle != "all" && s.muscle != "subject")) continue;
       good += s.identified_good;
       bad += s.identified_bad;
@@ -103,7 +102,7 @@ void add_twin_study(CLI::App& app, Context& context) {
     std::string protocol, level, out;
     bool each_muscle = false;
     std::optional<double> offset;
-    TwinStudyOptions study;
+    twin::TwinStudyOptions study;
   };
   const auto options = std::make_shared<Options>();
   command.add_option("--protocol", options->protocol, "What is recorded, a .toml file")->required();
@@ -127,23 +126,23 @@ void add_twin_study(CLI::App& app, Context& context) {
     std::optional<twin::Level> level;
     for (const twin::Level known :
          {twin::Level::noise_free, twin::Level::noisy, twin::Level::different}) {
-      if (options->level == simulation::name(known)) level = known;
+      if (options->level == twin::name(known)) level = known;
     }
     twin::Protocol protocol = twin::read_protocol(options->protocol, level);
     if (options->offset) protocol.truth.offset = *options->offset;
     context.prepare_folder(options->out);
     options->study.first_seed = context.seed;
     options->study.progress = context.progress();
-    const TwinStudyResult result = twin_study(protocol, options->study);
+    const twin::TwinStudyResult result = twin::twin_study(protocol, options->study);
     context.end_progress();
     Provenance provenance;
     provenance.command = context.command_line;
     provenance.inputs.push_back(
         {options->protocol, sha256(recording::read_text_file(options->protocol))});
-    write_twin_study(result, provenance, options->out);
-    for (const TwinFailure& f : result.failures)
+    twin::write_twin_study(result, provenance, options->out);
+    for (const twin::TwinFailure& f : result.failures)
       context.warn(fmt::format("seed {}: {}", f.seed, f.message));
-    const std::vector<TwinSummary> summaries = summarize(result);
+    const std::vector<twin::TwinSummary> summaries = twin::summarize(result);
     const std::string persons = result.interrupted ? fmt::format("INTERRUPTED: only {} of {}",
                                                                  result.finished, result.subjects)
                                                    : fmt::format("{}", result.finished);

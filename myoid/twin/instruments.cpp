@@ -36,7 +36,7 @@ void quantize(Eigen::MatrixBase<Derived>& values, double per_unit) {
 simulation::Random stream(std::uint64_t seed,
                           std::string_view instrument,
                           const std::string& trial) {
-  return simulation::Random(seed_for(seed, fmt::format("{}.{}", instrument, trial)));
+  return simulation::Random(simulation::seed_for(seed, fmt::format("{}.{}", instrument, trial)));
 }
 
 Vec3 random_direction(simulation::Random& random) {
@@ -185,9 +185,9 @@ Instruments attach_instruments(const Protocol& protocol,
                                const VirtualArm& arm,
                                std::uint64_t seed) {
   Instruments result;
-  result.markers =
-      place_markers(protocol.motion, arm, simulation::Random(seed_for(seed, "marker placement")));
-  simulation::Random random(seed_for(seed, "electrodes"));
+  result.markers = place_markers(
+      protocol.motion, arm, simulation::Random(simulation::seed_for(seed, "marker placement")));
+  simulation::Random random(simulation::seed_for(seed, "electrodes"));
   const EmgNoise& emg = protocol.emg;
   for (std::size_t m = 0; m < 4; ++m) {
     result.greatest_v[m] =
@@ -197,7 +197,7 @@ Instruments attach_instruments(const Protocol& protocol,
     const double baseline = random.uniform(2.0 / 3.0, 4.0 / 3.0);
     result.baseline[m] = emg.baseline * (protocol.level == Level::different ? baseline : 1.0);
   }
-  simulation::Random tissue(seed_for(seed, "tissue"));
+  simulation::Random tissue(simulation::seed_for(seed, "tissue"));
   for (double& factor : result.spectrum)
     factor = tissue.uniform(emg.spectrum_min, emg.spectrum_max);
   const bool drifts = random.uniform() < 0.5;

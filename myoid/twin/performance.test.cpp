@@ -114,7 +114,7 @@ TEST(Performance, TheMotionThatCameOutIsThatOfTheAdaptiveIntegrator) {
 
   // The same muscles, joint and excitations through the integrator of forward_simulation.h, with
   // the laws themselves instead of tables. The open loop: nobody corrects what differs.
-  Arm<double> other;
+  simulation::Arm<double> other;
   std::vector<muscle::ActivationPoint<double>> activation;
   for (const TrueHead& head : arm.heads) {
     other.muscles.push_back({.name = std::string(head.name),
@@ -130,9 +130,9 @@ TEST(Performance, TheMotionThatCameOutIsThatOfTheAdaptiveIntegrator) {
   other.held_mass_kg = 1.5;
   other.held_at_m = arm.held_at_m;
   other.gravity_mps2 = kStandardGravity;
-  SimulationInput input;
+  simulation::SimulationInput input;
   for (std::size_t i = 0; i < kHeadCount; ++i) {
-    Signal signal;
+    simulation::Signal signal;
     for (std::size_t k = 0; k < performance.sample_count(); ++k) {
       signal.time_s.push_back(performance.sample_time_s(k));
       signal.value.push_back(performance.excitation(k)[i]);
@@ -140,7 +140,7 @@ TEST(Performance, TheMotionThatCameOutIsThatOfTheAdaptiveIntegrator) {
     input.excitation.push_back(std::move(signal));
   }
   const double first_s = performance.sample_time_s(0);
-  const Simulation simulated = simulate(
+  const simulation::Simulation simulated = simulation::simulate(
       other, input, {.time_s = first_s, .q = {performance.sample(0).q.value}},
       {.end_s = first_s + 2.5, .output_rate_hz = 100.0, .ode = {.relative_tolerance = 1e-6}});
   ASSERT_EQ(simulated.status, math::OdeStatus::done) << simulated.message;

@@ -76,7 +76,7 @@ std::string study_toml(const VirtualRecording& recording, RecordingFormat format
   std::string text = fmt::format(
       "# A virtual recording: protocol \"{}\", level {}, seed {}. Nobody was measured.\n"
       "# Analyse it with: myoid run study.toml --out results\n\n",
-      name.substr(1, name.size() - 2), simulation::name(protocol.level), recording.seed);
+      name.substr(1, name.size() - 2), twin::name(protocol.level), recording.seed);
   text += fmt::format("[subject]\nname = {}\nmass_kg = {}\nsex = \"{}\"\n\n",
                       toml_text(subject.name), number(subject.mass_kg), subject.sex);
   text += fmt::format(

@@ -154,7 +154,7 @@ Session perform_by_simulation(const Protocol& protocol,
   for (const TrialScript& script : scripts) {
     auto performance = std::make_unique<SimulatedPerformance>(
         *truth.arm, script, truth.effort, protocol.control.motor_noise, tiredness,
-        seed_for(seed, "nerves." + script.protocol.name));
+        simulation::seed_for(seed, "nerves." + script.protocol.name));
     if (!performance->failure().empty()) {
       session.too_hard = script.protocol.name;
       session.why = performance->failure();
@@ -203,12 +203,12 @@ VirtualRecording make(const Protocol& protocol, std::uint64_t seed, bool record)
   Truth& truth = recording.truth;
   truth.instruments = attach_instruments(protocol, arm, seed);
   if (!simulated) {
-    truth.beside =
-        draw_beside_muscles(protocol.truth, simulation::Random(seed_for(seed, "beside muscles")));
+    truth.beside = draw_beside_muscles(
+        protocol.truth, simulation::Random(simulation::seed_for(seed, "beside muscles")));
     for (std::size_t m = 0; protocol.truth.beside_muscles && m < 4; ++m)
       truth.instruments.exponent[m] *= truth.beside.emg_exponent[m];
   }
-  simulation::Random random(seed_for(seed, "truth"));
+  simulation::Random random(simulation::seed_for(seed, "truth"));
   truth.emg_delay_s =
       random.uniform(protocol.truth.emg_delay_min_s, protocol.truth.emg_delay_max_s);
   if (protocol.level == Level::noise_free) {
@@ -221,7 +221,7 @@ VirtualRecording make(const Protocol& protocol, std::uint64_t seed, bool record)
 
   Session session;
   for (truth.draws = 1; truth.draws <= kMostDraws; ++truth.draws) {
-    const std::uint64_t draw_seed = seed_for(seed, fmt::format("draw {}", truth.draws));
+    const std::uint64_t draw_seed = simulation::seed_for(seed, fmt::format("draw {}", truth.draws));
     const std::vector<TrialScript> scripts = make_scripts(protocol, brachialis, draw_seed);
     if (simulated) {
       truth.arm = draw_true_arm(protocol.truth, protocol.subject, random);

@@ -226,10 +226,10 @@ bool TrialScript::against_dynamometer() const {
 TrialScript make_script(const TrialProtocol& trial,
                         const ControlSpec& control,
                         std::uint64_t seed) {
-  simulation::Random random(seed_for(seed, "script." + trial.name));
+  simulation::Random random(simulation::seed_for(seed, "script." + trial.name));
   TrialScript script;
   script.protocol = trial;
-  simulation::Random uneven(seed_for(seed, "uneven." + trial.name));
+  simulation::Random uneven(simulation::seed_for(seed, "uneven." + trial.name));
   const bool own_range = !trial.co_contraction.empty();
   script.mean.co_contraction =
       random.uniform(own_range ? trial.co_contraction.front() : control.co_contraction_min,

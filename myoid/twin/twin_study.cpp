@@ -200,7 +200,7 @@ TwinStudyResult twin_study(const twin::Protocol& protocol, const TwinStudyOption
   });
   TwinStudyResult result;
   result.protocol = protocol.name;
-  result.level = simulation::name(protocol.level);
+  result.level = name(protocol.level);
   result.finished = static_cast<int>(std::count(finished.begin(), finished.end(), 1));
   result.subjects = options.subjects;
   result.first_seed = options.first_seed;

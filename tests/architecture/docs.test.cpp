@@ -77,7 +77,7 @@ TEST(Documentation, EveryKeyOfAStudyIsInItsPage) {
       R"re((?:text|texts|number|numbers|flag|choice|table|tables|has|require_text|path|positive_number|number_within)\("(\w+)")re");
   std::string reader;
   for (const char* file : {"study", "study_settings", "trial_table", "muscle_table"})
-    reader += content(kRoot / "myoid" / "pipeline" / (std::string(file) + ".cpp"));
+    reader += content(kRoot / "myoid" / "study" / (std::string(file) + ".cpp"));
   const std::string page = content(kRoot / "docs" / "guide" / "study.md");
   int seen = 0;
   for (std::sregex_iterator it(reader.begin(), reader.end(), key), end; it != end; ++it) {

@@ -156,7 +156,7 @@ void flatten(const nlohmann::json& j, const std::string& name, Content& content)
 
 Content read_study(const fs::path& path) {
   Content content;
-  flatten(nlohmann::json::parse(study_json(read_study(path))), "", content);
+  flatten(nlohmann::json::parse(study_json(myoid::read_study(path))), "", content);
   return content;
 }
 
