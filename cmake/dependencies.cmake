@@ -25,6 +25,7 @@ if(NOT OPENSSL_FOUND)
   find_package(OpenSSL 3 REQUIRED COMPONENTS Crypto)
 endif()
 find_package(Threads REQUIRED)
+find_package(Boost 1.74 REQUIRED)  # headers only
 find_path(MYOID_TOMLPLUSPLUS_INCLUDE toml++/toml.h REQUIRED)
 find_path(MYOID_CERES_INCLUDE ceres/jet.h REQUIRED)
 

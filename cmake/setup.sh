@@ -12,7 +12,7 @@ MYOID_PACKAGES=(
   "libeigen3-dev:linear algebra" "libfmt-dev:text formatting" "libpugixml-dev:.osim files"
   "libtomlplusplus-dev:study files" "nlohmann-json3-dev:JSON results" "libcli11-dev:command line"
   "libtbb-dev:threads" "libssl-dev:SHA-256 of the inputs" "libceres-dev:ceres/jet.h (exact derivatives); test oracle"
-  "libsundials-dev:ODE integration"
+  "libsundials-dev:ODE integration" "libboost-dev:Sobol points and distribution functions (headers)"
   "libjs-three:three.js, for pages with a moving model" "esbuild:bundles it with our viewer"
   "libgtest-dev:tests" "libgmock-dev:tests" "libbenchmark-dev:benchmarks"
   "libsimbody-dev:test oracle of the multibody engine"

@@ -90,12 +90,9 @@ int severity(Verdict verdict) { return static_cast<int>(verdict); }
 double equivalent_deviations(double sum_of_squares, int count) {
   if (count < 1 || !(sum_of_squares > 0.0)) return 0.0;
   if (count == 1) return std::sqrt(sum_of_squares);
-  const double n = count;
-  const double spread = 2.0 / (9.0 * n);
-  const double normal = (std::cbrt(sum_of_squares / n) - (1.0 - spread)) / std::sqrt(spread);
-  const double beyond = 0.5 * std::erfc(normal / std::sqrt(2.0));
-  // Where the tail is too small for a number, the one side alone says as much.
-  return beyond > 1e-15 ? math::normal_quantile(1.0 - 0.5 * beyond) : normal;
+  const double beyond = math::chi_squared_tail(sum_of_squares, count);
+  // A tail too small for a number: one deviation of the same square is near enough.
+  return beyond > 0.0 ? -math::normal_quantile(0.5 * beyond) : std::sqrt(sum_of_squares);
 }
 
 namespace {

@@ -85,7 +85,7 @@ void judge(ParameterEstimate& estimate,
 [[nodiscard]] int severity(Verdict verdict);
 
 /// |N(0, 1)| that is as improbable as a sum of squares of `count` of them that is this or more
-/// (chi-square, Wilson and Hilferty 1931): one number in standard deviations for several together.
+/// (chi-square): one number in standard deviations for several together.
 [[nodiscard]] double equivalent_deviations(double sum_of_squares, int count);
 
 }  // namespace myoid::identification

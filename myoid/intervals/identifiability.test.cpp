@@ -120,12 +120,14 @@ TEST(Judge, ThePlaceOfThePeakOfACurveThatNoMuscleHasSaysNothing) {
 
 TEST(EquivalentDeviations, AreThoseOfTheChiSquareDistribution) {
   // Tables: P(chi2_k > x) = 0.0027 (three standard deviations) at x = 9.00, 11.83, 16.25, 20.06 for
-  // k = 1, 2, 4, 6, and 0.05 at x = 12.592 for k = 6. Wilson and Hilferty are good to about 1 %.
+  // k = 1, 2, 4, 6, and 0.05 at x = 12.592 for k = 6. Their digits
+  // leave 0.001.
   for (const auto& [k, x] : {std::pair{1, 9.0}, {2, 11.83}, {4, 16.25}, {6, 20.06}})
-    EXPECT_NEAR(equivalent_deviations(x, k), 3.0, 0.04) << k;
-  EXPECT_NEAR(equivalent_deviations(12.592, 6), 1.96, 0.02);
+    EXPECT_NEAR(equivalent_deviations(x, k), 3.0, 0.001) << k;
+  EXPECT_NEAR(equivalent_deviations(12.592, 6), 1.95996, 0.001);
   EXPECT_EQ(equivalent_deviations(0.0, 4), 0.0);
   EXPECT_GT(equivalent_deviations(400.0, 6), 8.0);
+  EXPECT_EQ(equivalent_deviations(1e5, 6), std::sqrt(1e5));  // a tail below the smallest number
 }
 
 TEST(Judge, ANarrowIntervalIsNotEnough) {

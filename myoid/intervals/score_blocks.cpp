@@ -6,6 +6,8 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "myoid/math/statistics.h"
+
 namespace myoid::identification {
 
 std::vector<Block> blocks_of(const ResidualModel& model, double block_s) {
@@ -59,13 +61,10 @@ Eigen::VectorXd unfitted(const Eigen::LLT<Eigen::MatrixXd>& factor,
 }
 
 double student_factor(double freedom) {
-  constexpr double z = 1.959963984540054;
-  const double n = std::max(3.0, freedom);
-  const double t = z + (z * z * z + z) / (4.0 * n) +
-                   (5.0 * std::pow(z, 5) + 16.0 * z * z * z + 3.0 * z) / (96.0 * n * n) +
-                   (3.0 * std::pow(z, 7) + 19.0 * std::pow(z, 5) + 17.0 * z * z * z - 15.0 * z) /
-                       (384.0 * n * n * n);
-  return t * t / (z * z);
+  constexpr double kProbability = 0.975;
+  const double wider = math::student_quantile(kProbability, std::max(3.0, freedom)) /
+                       math::normal_quantile(kProbability);
+  return wider * wider;
 }
 
 std::optional<Eigen::MatrixXd> block_covariance(const ResidualModel& model,

@@ -31,7 +31,7 @@ struct Block {
                                        const Eigen::VectorXd& sum);
 
 /// Square of the 97.5 % quantile of Student's t with `freedom` degrees over the normal one's
-/// (Cornish and Fisher's expansion, to 1 % from 4 degrees on; below 3 degrees as with 3).
+/// (below 3 degrees as with 3).
 [[nodiscard]] double student_factor(double freedom);
 
 /// A^-1 B A^-1 with B from sums over blocks of 2 s, each as outside of the fit, and Student's

@@ -13,9 +13,9 @@ namespace {
 
 TEST(StudentFactor, IsThatOfTheTables) {
   // t at 97.5 %: 4: 2.7764, 10: 2.2281, 30: 2.0423 (any table), over 1.95996.
-  EXPECT_NEAR(std::sqrt(student_factor(4.0)) * 1.959964, 2.7764, 0.03);
-  EXPECT_NEAR(std::sqrt(student_factor(10.0)) * 1.959964, 2.2281, 0.002);
-  EXPECT_NEAR(std::sqrt(student_factor(30.0)) * 1.959964, 2.0423, 2e-4);
+  EXPECT_NEAR(std::sqrt(student_factor(4.0)) * 1.959964, 2.776445, 1e-6);
+  EXPECT_NEAR(std::sqrt(student_factor(10.0)) * 1.959964, 2.228139, 1e-6);
+  EXPECT_NEAR(std::sqrt(student_factor(30.0)) * 1.959964, 2.042272, 1e-6);
   EXPECT_EQ(student_factor(0.5), student_factor(3.0));
 }
 

@@ -4,26 +4,33 @@
 #include <cmath>
 #include <limits>
 
+#include <boost/math/distributions/chi_squared.hpp>
+#include <boost/math/distributions/normal.hpp>
+#include <boost/math/distributions/students_t.hpp>
+
 #include "myoid/core/error.h"
-#include "myoid/core/units.h"
 
 namespace myoid::math {
 
 double normal_quantile(double p) {
   if (!(p > 0.0 && p < 1.0))
     throw InvalidInput("normal quantile: the probability must lie between 0 and 1");
-  // Newton's steps on ln Q, Q(x) = erfc(x / sqrt 2) / 2 the tail beyond x: ln Q is concave, so that
-  // from the right of the root they come down to it. Q(x) <= exp(-x^2 / 2) / 2 gives such a start.
-  const double tail = std::min(p, 1.0 - p);
-  double x = std::sqrt(std::max(0.0, -2.0 * std::log(2.0 * tail)));
-  for (int i = 0; i < 60; ++i) {
-    const double beyond = 0.5 * std::erfc(x / std::sqrt(2.0));
-    const double density = std::exp(-0.5 * x * x) / std::sqrt(2.0 * kPi);
-    const double step = std::log(beyond / tail) * beyond / density;
-    x += step;
-    if (!(std::abs(step) > 1e-15 * (1.0 + x))) break;
-  }
-  return p < 0.5 ? -x : x;
+  return boost::math::quantile(boost::math::normal(), p);
+}
+
+double student_quantile(double p, double freedom) {
+  if (!(p > 0.0 && p < 1.0 && freedom > 0.0))
+    throw InvalidInput(
+        "Student's quantile: the probability must lie between 0 and 1, the degrees of freedom "
+        "above 0");
+  return boost::math::quantile(boost::math::students_t(freedom), p);
+}
+
+double chi_squared_tail(double x, double freedom) {
+  if (!(x >= 0.0 && freedom > 0.0))
+    throw InvalidInput(
+        "chi-squared: the value must not be negative, the degrees of freedom must lie above 0");
+  return boost::math::cdf(boost::math::complement(boost::math::chi_squared(freedom), x));
 }
 
 double median(std::vector<double> values) {

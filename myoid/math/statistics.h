@@ -10,6 +10,14 @@ namespace myoid::math {
 /// outside.
 [[nodiscard]] double normal_quantile(double p);
 
+/// Quantile of Student's t with `freedom` > 0 degrees of freedom, 0 < p < 1. Throws InvalidInput
+/// outside.
+[[nodiscard]] double student_quantile(double p, double freedom);
+
+/// Probability that chi-squared with `freedom` > 0 degrees of freedom exceeds x >= 0. Throws
+/// InvalidInput outside.
+[[nodiscard]] double chi_squared_tail(double x, double freedom);
+
 /// The middle value, or the mean of the two middle ones; NaN of none.
 [[nodiscard]] double median(std::vector<double> values);
 

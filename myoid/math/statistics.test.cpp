@@ -5,6 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include "myoid/core/error.h"
+#include "myoid/core/units.h"
+
 namespace myoid::math {
 namespace {
 
@@ -45,6 +48,29 @@ TEST(NormalQuantile, IsTheInverseOfTheDistributionFunction) {
     // Round-off of x alone moves p by x^2 times as much.
     EXPECT_NEAR(0.5 * std::erfc(-x / std::sqrt(2.0)) / p, 1.0, 1e-15 * (10.0 + 4.0 * x * x)) << p;
   }
+}
+
+TEST(StudentQuantile, WithOneAndTwoDegreesOfFreedomIsTheClosedForm) {
+  for (const double p : {1e-6, 0.025, 0.5, 0.9, 0.9995}) {
+    const double cauchy = std::tan(kPi * (p - 0.5));
+    EXPECT_NEAR(student_quantile(p, 1.0), cauchy, 1e-9 * (1.0 + std::abs(cauchy))) << p;
+    const double second = (2.0 * p - 1.0) / std::sqrt(2.0 * p * (1.0 - p));
+    EXPECT_NEAR(student_quantile(p, 2.0), second, 1e-9 * (1.0 + std::abs(second))) << p;
+  }
+  EXPECT_NEAR(student_quantile(0.9995, 6.0), 5.9588, 5e-5);  // tables
+  EXPECT_THROW((void)student_quantile(1.0, 5.0), InvalidInput);
+  EXPECT_THROW((void)student_quantile(0.5, 0.0), InvalidInput);
+}
+
+TEST(ChiSquaredTail, WithOneTwoAndFourDegreesOfFreedomIsTheClosedForm) {
+  for (const double x : {0.0, 0.1, 3.84, 30.0, 1000.0}) {
+    const double tail = std::exp(-0.5 * x);
+    EXPECT_NEAR(chi_squared_tail(x, 1.0) / std::erfc(std::sqrt(0.5 * x)), 1.0, 1e-11) << x;
+    EXPECT_NEAR(chi_squared_tail(x, 2.0) / tail, 1.0, 1e-11) << x;
+    EXPECT_NEAR(chi_squared_tail(x, 4.0) / (tail * (1.0 + 0.5 * x)), 1.0, 1e-11) << x;
+  }
+  EXPECT_THROW((void)chi_squared_tail(-1.0, 2.0), InvalidInput);
+  EXPECT_THROW((void)chi_squared_tail(1.0, 0.0), InvalidInput);
 }
 
 TEST(EffectiveSampleSize, OfAnAutoregressiveSeriesIsTheClosedForm) {

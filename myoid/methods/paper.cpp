@@ -208,8 +208,7 @@ void compare_branches(const std::string& muscle,
   if (free.empty() || !(of_free.determinant() > 0.0)) return;
   const Eigen::VectorXd d = difference(free);
   const double wald = d.dot(of_free.inverse() * d);
-  // Upper tail of chi-square with one or two degrees of freedom.
-  const double p = free.size() == 2 ? std::exp(-0.5 * wald) : std::erfc(std::sqrt(0.5 * wald));
+  const double p = math::chi_squared_tail(wald, static_cast<double>(free.size()));
   result.branch_tests.push_back({muscle, difference[0], difference[1], wald, p});
   if (!(p < kReject)) return;
   const std::string how = p < 0.001 ? "p < 0.001" : fmt::format("p = {:.3f}", p);

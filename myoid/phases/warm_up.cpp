@@ -17,16 +17,6 @@ constexpr Eigen::Index kMostOrder = 8;
 /// The autoregression is estimated from the same blocks, which the t does not know.
 constexpr double kCaution = 1.25;
 
-/// Student's t of `freedom` at probability p, by the expansion of Cornish and Fisher about the
-/// normal quantile: 1 % low with 6 degrees of freedom at p = 0.9995.
-double student_quantile(double p, double freedom) {
-  const double z = math::normal_quantile(p);
-  const double z2 = z * z;
-  const double v = freedom;
-  return z * (1.0 + (z2 + 1.0) / (4.0 * v) + (5.0 * z2 * z2 + 16.0 * z2 + 3.0) / (96.0 * v * v) +
-              (3.0 * z2 * z2 * z2 + 19.0 * z2 * z2 + 17.0 * z2 - 15.0) / (384.0 * v * v * v));
-}
-
 /// Powers 0..3 of the time, -1..1.
 Eigen::MatrixXd slow_columns(Eigen::Index n) {
   const Eigen::ArrayXd t = Eigen::ArrayXd::LinSpaced(n, -1.0, 1.0);
@@ -93,8 +83,8 @@ std::optional<WarmUp> find_warm_up(const Eigen::VectorXd& x, double least, doubl
     if (!(t > best.t)) continue;
     best = {.change = solution[4], .fading = fading, .blocks = 0, .t = t, .critical = freedom};
   }
-  best.critical =
-      kCaution * student_quantile(1.0 - 0.5 * false_alarm / std::max(1, tried), best.critical);
+  best.critical = kCaution * math::student_quantile(1.0 - 0.5 * false_alarm / std::max(1, tried),
+                                                    best.critical);
   const double mean = std::abs(best.change) * (1.0 - std::exp(-1.0));
   if (tried == 0 || !(best.t > best.critical) || mean < least) return std::nullopt;
   best.blocks = std::min(
