@@ -5,6 +5,7 @@
 
 #include "myoid/cli/context.h"
 #include "myoid/core/error.h"
+#include "myoid/report/write_report.h"
 #include "myoid/results/compare_runs.h"
 
 namespace myoid::cli {

@@ -1,5 +1,3 @@
-#include "myoid/report/report.h"
-
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -7,6 +5,7 @@
 #include "myoid/cli/held_folders.h"
 #include "myoid/core/error.h"
 #include "myoid/files/text_file.h"
+#include "myoid/report/write_report.h"
 #include "myoid/results/study_report.h"
 #include "myoid/results/study_scene.h"
 #include "myoid/run/run_study.h"

@@ -10,7 +10,7 @@
 
 #include "myoid/cli/context.h"
 #include "myoid/core/error.h"
-#include "myoid/report/report.h"
+#include "myoid/report/write_report.h"
 #include "myoid/results/parameter_files.h"
 #include "myoid/results/parameter_tables.h"
 #include "myoid/results/result_files.h"

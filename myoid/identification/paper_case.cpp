@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
+#include "myoid/identification/muscle_activation.h"
 
 namespace myoid::identification {
 namespace {

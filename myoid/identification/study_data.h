@@ -7,8 +7,8 @@
 
 #include <Eigen/Core>
 
+#include "myoid/core/prior.h"
 #include "myoid/core/stretch.h"
-#include "myoid/core/parameter_set.h"
 #include "myoid/core/time_series.h"
 #include "myoid/identification/muscle_law.h"
 #include "myoid/muscle/hill_parameters.h"
@@ -118,13 +118,5 @@ void free_speeds(StudyData& data, const std::vector<std::string>& muscles);
 /// Throws InvalidInput, naming trial and muscle, unless sizes agree, values are finite and every
 /// EMG channel is there.
 void validate(const StudyData& data);
-
-/// Activation of every muscle of a trial at `time_s - delay_s`, n x m; beyond the recording its end
-/// value. `slope`, if not null, receives d activation / dt.
-[[nodiscard]] Eigen::MatrixXd muscle_activation(const StudyData& data,
-                                                const TrialData& trial,
-                                                const Eigen::VectorXd& time_s,
-                                                double delay_s,
-                                                Eigen::MatrixXd* slope = nullptr);
 
 }  // namespace myoid::identification

@@ -1,114 +1,10 @@
 #include "myoid/intake/trial_input.h"
 
-#include <algorithm>
 #include <utility>
 
 #include <fmt/format.h>
 
-#include "myoid/core/angle_unit.h"
-#include "myoid/core/error.h"
-#include "myoid/core/provenance.h"
-#include "myoid/files/byte_source.h"
-#include "myoid/intake/trial_emg.h"
-#include "myoid/intake/trial_loads.h"
-#include "myoid/intake/trial_markers.h"
-#include "myoid/recording/recording.h"
-#include "myoid/tables/storage_reader.h"
-
 namespace myoid {
-namespace {
-
-/// Throws ReadError that names the trial and its key for a file that is not there.
-void require_files(const Study& study, const TrialSpec& trial) {
-  using Key = std::pair<const char*, const std::optional<std::filesystem::path>*>;
-  for (const auto& [key, path] :
-       {Key{"markers", &trial.markers}, Key{"motion", &trial.motion}, Key{"emg", &trial.emg},
-        Key{"external_torque", &trial.external_torque},
-        Key{"external_loads", &trial.external_loads}, Key{"load_cell", &trial.load_cell}}) {
-    std::error_code ignored;
-    if (!*path || std::filesystem::exists(**path, ignored)) continue;
-    throw ReadError(
-        study.file, 0,
-        fmt::format("trial '{}': {} = \"{}\": there is no such file; a path counts from "
-                    "the folder of the study",
-                    trial.name, key, (*path)->string()));
-  }
-}
-
-TimeSeries read_motion(const std::filesystem::path& path,
-                       const model::BodyModel& model,
-                       TrialInput& input) {
-  const recording::Storage file = recording::read_storage(path);
-  add_repairs(path, file.repairs, input.notes);
-  const auto is_angle = [&](const std::string& name) {
-    const auto index = model.find_coordinate(name);
-    return index && model.coordinates[static_cast<std::size_t>(*index)].motion ==
-                        model::MotionType::rotational;
-  };
-  TimeSeries motion = recording::to_si(file, is_angle);
-  bool any = false;
-  for (const Channel& channel : motion.channels())
-    any |= model.find_coordinate(channel.name).has_value();
-  if (const std::string doubt = check_angle_unit(path, file.in_degrees, motion); !doubt.empty())
-    warn(input, doubt);
-  if (!any) {
-    std::string names;
-    for (const model::Coordinate& c : model.coordinates)
-      names += (names.empty() ? "" : ", ") + c.name;
-    throw ReadError(path, 0,
-                    fmt::format("no column is a coordinate of the model; found {}, expected some "
-                                "of {}; rename the columns",
-                                channel_names(motion), names));
-  }
-  return motion;
-}
-
-TimeSeries read_trial_motion(const Study& study,
-                             const TrialSpec& trial,
-                             const model::BodyModel& model,
-                             TrialInput& input) {
-  TimeSeries motion = read_motion(*trial.motion, model, input)
-                          .slice(trial.start_s.value_or(-1e300), trial.end_s.value_or(1e300));
-  require_finite(motion, trial.motion->string());
-  if (motion.sample_count() < 10) throw ReadError(*trial.motion, 0, few_samples(trial, motion));
-  if (std::string pauses = check_clock(*trial.motion, motion.time_s()); !pauses.empty())
-    warn(input, std::move(pauses));
-  check_cutoff(study, *trial.motion, motion.time_s());
-  return motion;
-}
-
-TimeSeries read_external_torque(const Study& study,
-                                const TrialSpec& trial,
-                                std::vector<std::string>& notes) {
-  recording::Storage file = recording::read_storage(*trial.external_torque);
-  add_repairs(*trial.external_torque, file.repairs, notes);
-  std::vector<Channel> columns;
-  std::vector<std::string> there;
-  for (const std::string& name : study_coordinates(study.model)) {
-    columns.push_back({name + "_moment", Unit::newton_meter});
-    if (file.data.find(columns.back().name)) there.push_back(columns.back().name);
-  }
-  if (there.empty()) {
-    throw ReadError(
-        *trial.external_torque, 0,
-        fmt::format("no column '{}' [N m]; found {}", columns[0].name, channel_names(file.data)));
-  }
-  // A dynamometer acts on one joint: on the others nothing does.
-  const TimeSeries found = file.data.select(there);
-  Eigen::MatrixXd torque =
-      Eigen::MatrixXd::Zero(found.sample_count(), static_cast<Eigen::Index>(columns.size()));
-  for (std::size_t i = 0; i < columns.size(); ++i) {
-    if (const auto column = found.find(columns[i].name))
-      torque.col(static_cast<Eigen::Index>(i)) = found.values().col(*column);
-  }
-  TimeSeries result(found.time_s(), std::move(columns), std::move(torque));
-  if (const auto clock = loads_clock(study, trial, *trial.external_torque))
-    result = signals::on_study_clock(std::move(result), *clock);
-  require_finite(result, trial.external_torque->string());
-  return result;
-}
-
-}  // namespace
 
 void add_repairs(const std::filesystem::path& path,
                  const std::vector<recording::Repair>& repairs,
@@ -128,63 +24,6 @@ std::string few_samples(const TrialSpec& trial, const TimeSeries& series) {
   };
   return fmt::format("{} samples from {} to {}; at least 10 are needed", series.sample_count(),
                      limit(trial.start_s, "its begin"), limit(trial.end_s, "its end"));
-}
-
-TrialInput read_trial_input(const Study& study,
-                            const TrialSpec& trial,
-                            const model::BodyModel& model) {
-  TrialInput input;
-  require_files(study, trial);
-  const auto remember = [&](const std::filesystem::path& path) {
-    input.files.push_back({path.string(), sha256(recording::read_bytes(path))});
-  };
-  if (trial.markers) {
-    remember(*trial.markers);
-    input.markers = read_trial_markers(study, trial, model, input);
-  }
-  if (trial.motion) {
-    remember(*trial.motion);
-    input.motion = read_trial_motion(study, trial, model, input);
-  }
-  if (trial.emg) {
-    remember(*trial.emg);
-    input.emg = read_trial_emg(study, trial, remember, input);
-  }
-  if (trial.external_torque) {
-    remember(*trial.external_torque);
-    input.external_torque = read_external_torque(study, trial, input.notes);
-  }
-  input.loads = read_trial_loads(study, trial, model, input.markers, remember, input.notes);
-  return input;
-}
-
-std::vector<TrialPart> read_trial_parts(const Study& study,
-                                        const TrialSpec& trial,
-                                        const model::BodyModel& model) {
-  std::vector<TrialPart> parts;
-  try {
-    parts.push_back({trial, read_trial_input(study, trial, model)});
-    return parts;
-  } catch (const ClockPause& pause) {
-    if (study.ik.calibrate) throw;
-    int number = 0;
-    for (const signals::ClockStretch& stretch : pause.stretches()) {
-      TrialSpec spec = trial;
-      spec.name = fmt::format("{}.{}", trial.name, ++number);
-      spec.start_s = std::max(trial.start_s.value_or(stretch.begin_s), stretch.begin_s);
-      spec.end_s = std::min(trial.end_s.value_or(stretch.end_s), stretch.end_s);
-      if (*spec.end_s - *spec.start_s < kShortestPart_s) continue;
-      // The other recording may pause elsewhere.
-      for (TrialPart& part : read_trial_parts(study, spec, model)) parts.push_back(std::move(part));
-    }
-    if (parts.empty()) throw;
-    for (TrialPart& part : parts) {
-      warn(part.input,
-           fmt::format("part of trial '{}', which is cut at the pauses of its clock ({})",
-                       trial.name, pause.path().filename().string()));
-    }
-  }
-  return parts;
 }
 
 }  // namespace myoid

@@ -18,9 +18,6 @@
 
 namespace myoid {
 
-/// Parts of a trial between such pauses that are shorter are left out.
-inline constexpr double kShortestPart_s = 1.0;
-
 /// The files of one trial as values: SI, laboratory turned onto the model's up, markers renamed to
 /// the model's and mended.
 struct TrialInput {
@@ -37,15 +34,6 @@ struct TrialInput {
   std::vector<InputFile> files;
 };
 
-/// Reads one trial; its EMG and loads are put on the clock of its motion before anything else
-/// (`trial_clock`). Throws ReadError (file, line, found, expected, remedy) or InvalidInput: a
-/// missing EMG channel, angles that are degrees where radians are said, EMG and motion that do not
-/// cover one time, a pause of more than kLongestGap_s in a clock (ClockPause), a clock that is not
-/// in seconds, a cut-off above half the rate.
-[[nodiscard]] TrialInput read_trial_input(const Study& study,
-                                          const TrialSpec& trial,
-                                          const model::BodyModel& model);
-
 /// Adds a remark to the notes and to the warnings.
 void warn(TrialInput& input, std::string text);
 
@@ -56,19 +44,5 @@ void add_repairs(const std::filesystem::path& path,
 
 /// "3 samples from its begin to 2 s; at least 10 are needed".
 [[nodiscard]] std::string few_samples(const TrialSpec& trial, const TimeSeries& series);
-
-/// A trial, or a part of it.
-struct TrialPart {
-  TrialSpec spec;
-  TrialInput input;
-};
-
-/// Reads one trial; one whose clock pauses for more than kLongestGap_s as several, "name.1",
-/// "name.2", ..., with a warning: nothing is filtered or interpolated across the pause. Parts of
-/// less than kShortestPart_s are left out. Throws as `read_trial_input`, also where nothing is left
-/// or the study calibrates coordinates in a window that not every part has.
-[[nodiscard]] std::vector<TrialPart> read_trial_parts(const Study& study,
-                                                      const TrialSpec& trial,
-                                                      const model::BodyModel& model);
 
 }  // namespace myoid

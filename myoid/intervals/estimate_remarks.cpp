@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "myoid/identification/muscle_activation.h"
 #include "myoid/intervals/identifiability.h"
 
 namespace myoid::identification {

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <oneapi/tbb/parallel_for.h>
 
+#include "myoid/identification/muscle_activation.h"
 #include "myoid/methods/paper.h"
 
 namespace myoid::identification {

@@ -7,6 +7,7 @@
 
 #include "myoid/core/error.h"
 #include "myoid/forces/force_sharing.h"
+#include "myoid/identification/muscle_activation.h"
 
 namespace myoid::identification {
 namespace {

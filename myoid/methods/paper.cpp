@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
+#include "myoid/identification/muscle_activation.h"
 #include "myoid/identification/paper_case.h"
 #include "myoid/intervals/identifiability.h"
 #include "myoid/intervals/score.h"

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "myoid/identification/estimator.h"
+#include "myoid/identification/muscle_activation.h"
 #include "myoid/intervals/estimates.h"
 #include "myoid/methods/basins.h"
 #include "myoid/methods/noise_free.h"

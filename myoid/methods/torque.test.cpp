@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "myoid/core/error.h"
+#include "myoid/identification/muscle_activation.h"
 
 #include "tests/support/elbow_study.h"
 

@@ -9,13 +9,6 @@
 namespace myoid::model {
 namespace {
 
-bool is_active(const PathPoint& point, const BodyState& state) {
-  constexpr double kSlack_rad = 1e-5;
-  if (!point.condition) return true;
-  const double q = state.q[point.condition->coordinate];
-  return q >= point.condition->lower - kSlack_rad && q <= point.condition->upper + kSlack_rad;
-}
-
 void compute_function_path(const FunctionPath& path, const BodyState& state, PathResult& result) {
   Eigen::VectorXd x(static_cast<Eigen::Index>(path.coordinates.size()));
   for (std::size_t k = 0; k < path.coordinates.size(); ++k)
@@ -33,106 +26,6 @@ void compute_function_path(const FunctionPath& path, const BodyState& state, Pat
 }
 
 }  // namespace
-
-void place_points(const BodyModel& model,
-                  const MusclePath& path,
-                  const BodyState& state,
-                  PathWorkspace& workspace) {
-  workspace.stations.clear();
-  for (std::size_t i = 0; i < path.points.size(); ++i) {
-    const PathPoint& point = path.points[i];
-    if (!is_active(point, state)) continue;
-    PathStation s;
-    s.body = point.body;
-    s.p_B = point.p_BP;
-    s.source = static_cast<int>(i);
-    if (point.moving) {
-      const PathPoint::Moving& moving = *point.moving;
-      double q = 0.0;
-      if (moving.coordinate >= 0) {
-        const Coordinate& c = model.coordinates[at(moving.coordinate)];
-        q = std::clamp(state.q[moving.coordinate], c.lower, c.upper);
-      }
-      Vec3 p_F;
-      for (std::size_t k = 0; k < 3; ++k)
-        p_F[static_cast<Eigen::Index>(k)] = evaluate(moving.location[k], q).value;
-      s.p_B = moving.X_BF * p_F;
-    }
-    s.p_G = state.X_GB[at(s.body)] * s.p_B;
-    workspace.stations.push_back(s);
-  }
-}
-
-StationRange station_range(const MusclePath& path,
-                           const PathWrap& wrap,
-                           const std::vector<PathStation>& stations) {
-  const int count = static_cast<int>(path.points.size());
-  const int from = wrap.range_start < 1 ? 0 : std::min(wrap.range_start, count) - 1;
-  const int to = wrap.range_end < 1 ? count - 1 : std::min(wrap.range_end, count) - 1;
-  StationRange range{-1, -1};
-  for (std::size_t j = 0; j < stations.size(); ++j) {
-    const int source = stations[j].source;
-    if (source < from || source > to) continue;
-    if (range.begin < 0) range.begin = static_cast<int>(j);
-    range.end = static_cast<int>(j);
-  }
-  return range.begin < 0 ? StationRange{} : range;
-}
-
-double length_of(const std::vector<PathStation>& stations) {
-  double length = 0.0;
-  for (std::size_t i = 0; i + 1 < stations.size(); ++i) {
-    length += stations[i].on_wrap_after ? stations[i].arc_after_m
-                                        : (stations[i + 1].p_G - stations[i].p_G).norm();
-  }
-  return length;
-}
-
-void add_pair_moment(const BodyModel& model,
-                     const BodyState& state,
-                     BodyIndex a,
-                     const Vec3& p_GA,
-                     BodyIndex b,
-                     const Vec3& p_GB,
-                     const Vec3& u_G,
-                     Eigen::VectorXd& arm) {
-  // Up both branches to where they meet, and from there on only if the pair makes a moment; joints
-  // stand in tree order.
-  const Vec3 along = p_GB - p_GA;
-  const Vec3 moment = along.cross(u_G);
-  for (bool is_couple = moment.norm() > 1e-12 * along.norm(); a != b || (is_couple && a != 0);) {
-    if (a == b) {
-      const Joint& joint = model.joints[at(model.joint_of_body[at(a)])];
-      for (const int c : joint.coordinates) arm[c] -= state.H_w_G[at(c)].dot(moment);
-      a = b = joint.parent;
-      continue;
-    }
-    const bool up_b = model.joint_of_body[at(b)] > model.joint_of_body[at(a)];
-    const BodyIndex body = up_b ? b : a;
-    const Joint& joint = model.joints[at(model.joint_of_body[at(body)])];
-    const Vec3 reach = (up_b ? p_GB : p_GA) - state.X_GB[at(body)].p;
-    for (const int c : joint.coordinates) {
-      const double rate = u_G.dot(state.H_v_G[at(c)] + state.H_w_G[at(c)].cross(reach));
-      arm[c] -= up_b ? rate : -rate;
-    }
-    (up_b ? b : a) = joint.parent;
-  }
-}
-
-Vec3 moving_rate(const BodyModel& model,
-                 const PathPoint& point,
-                 const BodyState& state,
-                 bool beyond_range) {
-  const PathPoint::Moving& moving = *point.moving;
-  if (moving.coordinate < 0) return Vec3::Zero();
-  const Coordinate& coordinate = model.coordinates[at(moving.coordinate)];
-  const double q = state.q[moving.coordinate];
-  if (!beyond_range && (q < coordinate.lower || q > coordinate.upper)) return Vec3::Zero();
-  Vec3 rate;
-  for (std::size_t k = 0; k < 3; ++k)
-    rate[static_cast<Eigen::Index>(k)] = evaluate(moving.location[k], q).first;
-  return state.X_GB[at(point.body)].R * (moving.X_BF.R * rate);
-}
 
 void compute_path(const BodyModel& model,
                   const MusclePath& path,

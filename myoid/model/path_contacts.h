@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "myoid/model/muscle_path.h"
+#include "myoid/model/path_stations.h"
 #include "myoid/model/wrap_contact.h"
 
 namespace myoid::model {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "myoid/model/muscle_path.h"
+#include "myoid/model/path_stations.h"
 
 namespace myoid::model {
 

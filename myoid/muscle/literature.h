@@ -4,7 +4,7 @@
 #include <optional>
 #include <string_view>
 
-#include "myoid/core/parameter_set.h"
+#include "myoid/core/prior.h"
 #include "myoid/muscle/hill_parameters.h"
 #include "myoid/muscle/thelen.h"
 

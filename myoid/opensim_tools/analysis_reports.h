@@ -7,7 +7,7 @@
 #include "myoid/dynamics/external_loads.h"
 #include "myoid/kinematics/joint_motion.h"
 #include "myoid/opensim_tools/opensim_setup.h"
-#include "myoid/opensim_tools/run_tool.h"
+#include "myoid/opensim_tools/tool_result.h"
 
 namespace myoid {
 

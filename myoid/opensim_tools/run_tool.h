@@ -1,37 +1,10 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
-#include <string>
-#include <vector>
 
-#include "myoid/core/progress.h"
-#include "myoid/forces/static_optimization.h"
-#include "myoid/model/opensim_defects/compat.h"
-#include "myoid/opensim_tools/setup_files.h"
+#include "myoid/opensim_tools/tool_result.h"
 
 namespace myoid {
-
-struct ToolOptions {
-  model::Compat compat = model::kOpenSim452;
-  SetupFiles files{};  ///< Instead of those that the set-up names.
-  Progress progress{};
-  /// Called with each file before it is computed; throws to refuse it.
-  std::function<void(const std::filesystem::path&)> claim{};
-  forces::InspectFrame inspect{};  ///< Static optimization, for checks.
-};
-
-struct ToolResult {
-  std::vector<std::filesystem::path> inputs;  ///< Read; never replaced.
-  std::string tool;                           ///< "InverseKinematicsTool", ...
-  std::vector<std::filesystem::path> files;   ///< Written, in order.
-  int replaced = 0;                           ///< Of these, results of an earlier run.
-  std::vector<std::string> notes;             ///< What a user must know, a sentence each.
-  std::string summary;                        ///< One line.
-  int frames = 0;
-  int frames_failed = 0;    ///< Without a converged or certified solution.
-  bool wrong_unit = false;  ///< The markers are not in the unit that their file says.
-};
 
 /// Runs a set-up file of OpenSim's InverseKinematicsTool, InverseDynamicsTool or AnalyzeTool (with
 /// StaticOptimization, MuscleAnalysis or Kinematics) and writes the files that the tool would, with

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "myoid/opensim_tools/opensim_setup.h"
-#include "myoid/opensim_tools/run_tool.h"
+#include "myoid/opensim_tools/tool_result.h"
 
 namespace myoid {
 

@@ -3,7 +3,7 @@
 #include "myoid/dynamics/external_loads.h"
 #include "myoid/kinematics/inverse_kinematics.h"
 #include "myoid/opensim_tools/opensim_setup.h"
-#include "myoid/opensim_tools/run_tool.h"
+#include "myoid/opensim_tools/tool_result.h"
 
 namespace myoid {
 

@@ -9,11 +9,6 @@
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
-#include "myoid/files/atomic_file.h"
-#include "myoid/report/html.h"
-#include "myoid/report/json.h"
-#include "myoid/report/svg_plot.h"
-#include "myoid/report/tables.h"
 
 namespace myoid::report {
 namespace {
@@ -71,21 +66,6 @@ void validate(const Report& report) {
       }
     }
   }
-}
-
-void write_report(const Report& report, const std::filesystem::path& directory) {
-  validate(report);
-  for (const Section& section : report.sections) {
-    for (const Table& table : section.tables) {
-      recording::write_file(directory / "tables" / (table.id + ".csv"), table_csv(table));
-    }
-    for (const Figure& figure : section.figures) {
-      recording::write_file(directory / "figures" / (figure.id + ".svg"), svg_plot(figure));
-      recording::write_file(directory / "figures" / (figure.id + ".csv"), figure_csv(figure));
-    }
-  }
-  recording::write_file(directory / "report.json", report_json(report));
-  recording::write_file(directory / "report.html", html(report));
 }
 
 std::vector<double> to_vector(const Eigen::Ref<const Eigen::VectorXd>& samples) {

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -119,11 +118,6 @@ struct Report {
 /// Throws InvalidInput, naming the figure or table, if series have unequal lengths, rows unequal
 /// numbers of cells, or ids are empty, odd or used twice.
 void validate(const Report& report);
-
-/// Writes report.html (one file that works offline: style and drawings inside), figures/ID.svg and
-/// ID.csv, tables/ID.csv and report.json into the folder; each whole or not at all. Calls
-/// `validate`.
-void write_report(const Report& report, const std::filesystem::path& directory);
 
 /// Samples as a curve's.
 [[nodiscard]] std::vector<double> to_vector(const Eigen::Ref<const Eigen::VectorXd>& samples);

@@ -9,6 +9,7 @@
 #include "myoid/checks/study_plausibility.h"
 #include "myoid/core/error.h"
 #include "myoid/files/text_file.h"
+#include "myoid/intake/read_trial.h"
 #include "myoid/study/study_model.h"
 #include "myoid/tables/csv_reader.h"
 

@@ -4,9 +4,11 @@
 #include <cmath>
 #include <numbers>
 
+#include "myoid/identification/muscle_activation.h"
 #include "myoid/identification/parameters.h"
 #include "myoid/intake/trial_emg.h"
 #include "myoid/methods/torque.h"
+#include "myoid/phases/find_phases.h"
 #include "myoid/signals/emg_envelope.h"
 #include "myoid/signals/emg_levels.h"
 #include "myoid/signals/spectrum.h"

@@ -25,6 +25,7 @@ const std::map<std::string, std::string> kWithoutTest = {
     {"myoid/cli/model_page.h", "the program's options, exercised by running the program"},
     {"myoid/cli/solver_contests.h", "the program's output, exercised by running the program"},
     {"myoid/cli/stage_input.h", "the program's options, exercised by running the program"},
+    {"myoid/core/prior.h", "a plain value, exercised by the estimators"},
     {"myoid/core/stretch.h", "a plain value, exercised by the estimators"},
     {"myoid/files/event.h", "a plain value, exercised by the readers"},
     {"myoid/tables/marker_file.h", "a plain value, exercised by the readers"},

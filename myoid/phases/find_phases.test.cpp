@@ -1,4 +1,4 @@
-#include "myoid/phases/phases.h"
+#include "myoid/phases/find_phases.h"
 
 #include <cmath>
 #include <numbers>

@@ -1,4 +1,4 @@
-#include "myoid/intake/trial_input.h"
+#include "myoid/intake/read_trial.h"
 
 #include <algorithm>
 #include <string>

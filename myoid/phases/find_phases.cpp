@@ -1,0 +1,138 @@
+#include "myoid/phases/find_phases.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "myoid/core/error.h"
+#include "myoid/math/statistics.h"
+#include "myoid/phases/block_segments.h"
+#include "myoid/phases/movement_blocks.h"
+#include "myoid/phases/moving_phases.h"
+
+namespace myoid {
+namespace {
+
+/// A contraction without movement: isometric, and fatigued where torque per EMG and frequency fall
+/// within it. Only one whose torque stays much the same is searched, in windows.
+std::vector<Phase> isometric_phases(const PhaseSignals& signals,
+                                    const TrialStretch& stretch,
+                                    const PhaseOptions& options,
+                                    const Phase& whole) {
+  const std::vector<Block> blocks = blocks_of(signals, stretch, options);
+  std::vector<double> torques;
+  for (const Block& b : blocks) torques.push_back(b.torque);
+  const double middle = math::median(torques);
+  const bool even = std::all_of(blocks.begin(), blocks.end(), [&](const Block& b) {
+    return alike(b.speed, b.torque, b.speed, middle, options.alike);
+  });
+  std::vector<Phase> phases{whole};
+  if (!even) return phases;
+  for (const BlockPhase& found : moving_phases(blocks, options)) {
+    const bool tired = found.phase.kind == PhaseKind::fatigued && found.phase.frequency;
+    if (tired == (phases.back().kind == PhaseKind::fatigued)) continue;
+    Phase next = tired ? found.phase : whole;
+    next.begin_s = phases.back().end_s = signals.time_s[blocks[found.first].first];
+    next.end_s = whole.end_s;
+    phases.push_back(std::move(next));
+  }
+  return phases;
+}
+
+/// The phases of movement within one stretch.
+std::vector<Phase> phases_within(const TrialStretch& stretch,
+                                 const std::vector<Block>& blocks,
+                                 const std::vector<BlockPhase>& moving,
+                                 const Eigen::VectorXd& time_s) {
+  std::vector<Phase> phases;
+  for (const BlockPhase& found : moving) {
+    for (std::size_t b = found.first; b < found.last; ++b) {
+      if (blocks[b].first < stretch.first || blocks[b].first >= stretch.last) continue;
+      phases.push_back(found.phase);
+      phases.back().begin_s = time_s[blocks[b].first];
+      break;
+    }
+  }
+  if (phases.empty())
+    phases.push_back({.kind = PhaseKind::regular, .reason = "too short to search for changes"});
+  return phases;
+}
+
+void require_valid(const PhaseSignals& s) {
+  const Eigen::Index n = s.time_s.size();
+  if (n < 2 || s.velocity_radps.size() != n || s.torque_nm.size() != n ||
+      s.predicted_nm.size() != n || s.activation.rows() != n ||
+      (s.effort_nm.size() != 0 && (s.effort_nm.size() != n || !s.effort_nm.allFinite())) ||
+      !s.velocity_radps.allFinite() || !s.torque_nm.allFinite() || !s.predicted_nm.allFinite() ||
+      !s.activation.allFinite()) {
+    throw InvalidInput(fmt::format(
+        "phases of {} samples: rate, torques and activations must be as many and finite", n));
+  }
+}
+
+}  // namespace
+
+std::vector<Phase> find_phases(const PhaseSignals& signals, const PhaseOptions& options) {
+  require_valid(signals);
+  const std::vector<TrialStretch> stretches = still_and_moving(signals, options);
+  std::vector<Block> blocks;
+  for (const TrialStretch& stretch : stretches) {
+    if (stretch.still) continue;
+    const std::vector<Block> some = blocks_of(signals, stretch, options);
+    blocks.insert(blocks.end(), some.begin(), some.end());
+  }
+  const std::vector<BlockPhase> moving = moving_phases(blocks, options);
+  const Eigen::VectorXd& t = signals.time_s;
+
+  std::vector<Phase> phases;
+  for (const TrialStretch& stretch : stretches) {
+    const double begin_s = t[stretch.first];
+    const double end_s = stretch.last < t.size() ? t[stretch.last] : t[t.size() - 1];
+    if (stretch.still) {
+      const double activation =
+          signals.activation.middleRows(stretch.first, stretch.last - stretch.first)
+              .colwise()
+              .mean()
+              .maxCoeff();
+      const bool rest = activation < options.rest_activation;
+      const Phase whole{
+          .kind = rest ? PhaseKind::rest : PhaseKind::isometric,
+          .begin_s = begin_s,
+          .end_s = end_s,
+          .reason = fmt::format("the joint stands still, mean activation {:.3f}", activation)};
+      const std::vector<Phase> parts =
+          rest ? std::vector{whole} : isometric_phases(signals, stretch, options, whole);
+      phases.insert(phases.end(), parts.begin(), parts.end());
+      continue;
+    }
+    std::vector<Phase> parts = phases_within(stretch, blocks, moving, t);
+    parts.front().begin_s = begin_s;
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      parts[i].end_s = i + 1 < parts.size() ? parts[i + 1].begin_s : end_s;
+    }
+    phases.insert(phases.end(), parts.begin(), parts.end());
+  }
+  // Neighbors of one kind that no change worth the name parts are one phase.
+  std::vector<Phase> merged;
+  for (Phase& phase : phases) {
+    const bool joins = !merged.empty() && merged.back().kind == phase.kind &&
+                       (phase.kind == PhaseKind::regular || phase.kind == PhaseKind::fatigued);
+    if (!joins) {
+      merged.push_back(std::move(phase));
+      continue;
+    }
+    Phase& before = merged.back();
+    const double a = before.end_s - before.begin_s;
+    const double b = phase.end_s - phase.begin_s;
+    const auto mean = [&](const std::optional<double>& x, const std::optional<double>& y) {
+      return x && y ? std::optional((a * *x + b * *y) / (a + b)) : x ? x : y;
+    };
+    before.gain = mean(before.gain, phase.gain);
+    before.frequency = mean(before.frequency, phase.frequency);
+    if (b > a) before.reason = std::move(phase.reason);
+    before.end_s = phase.end_s;
+  }
+  return merged;
+}
+
+}  // namespace myoid
