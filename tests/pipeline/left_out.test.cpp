@@ -14,16 +14,21 @@
 
 #include "program.h"
 #include "tests/support/data_folder.h"
+#include "tests/support/measured_columns.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/written_law.h"
 
 namespace {
 
 using myoid::test::between;
+using myoid::test::envelope;
 using myoid::test::Finished;
 using myoid::test::follow;
+using myoid::test::greatest;
+using myoid::test::moving_mean;
 using myoid::test::myoid;
 using myoid::test::Numbers;
+using myoid::test::read_columns;
 using myoid::test::read_rows;
 using myoid::test::read_table;
 using myoid::test::read_text;
@@ -31,6 +36,7 @@ using myoid::test::Row;
 using myoid::test::Table;
 using myoid::test::TemporaryFolder;
 using myoid::test::tension;
+using myoid::test::TibialisTorque;
 using myoid::test::write_text;
 namespace fs = std::filesystem;
 
@@ -237,6 +243,67 @@ TEST(LeftOut, R2OfAWalkingLegIsThatOfAFitWithoutTheTrial) {
                       "ankle_angle_r_moment"});
   }
   expect_reproducible(data / "muscles.csv", trials, folder);
+}
+
+/// Writes the files of stretches and fixed efforts at an ankle's dynamometer: fiber lengths by
+/// ultrasound and their rates, the authors' moment arms, envelopes relative to the greatest of all.
+std::vector<TrialFiles> write_ankle_trials(const fs::path& data, const TemporaryFolder& folder) {
+  constexpr double kEmg_hz = 2000.0, kStep_s = 0.01, kOffset_deg = 15.0;
+  constexpr std::size_t kEmgPerStep = 20;
+  const std::vector<std::string> names{"PL_0_01",   "PL_50_01",    "PL_50_03",
+                                       "PL_100_01", "Ref_Long_01", "Ref_Long_02"};
+  const TibialisTorque tibialis(data);
+  const auto arm_cm = read_columns(data / "ta_moment_arm.csv", 1);
+  std::vector<std::vector<double>> envelopes;
+  double most = 0.0;
+  for (const std::string& name : names) {
+    envelopes.push_back(envelope(read_columns(data / (name + "_emg.csv"), 1)[1], kEmg_hz));
+    most = std::max(most, greatest(envelopes.back(), kEmg_hz));
+  }
+  std::vector<TrialFiles> trials;
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    const auto d = read_columns(data / (names[k] + "_dynamometer.csv"), 1);
+    const auto f = read_columns(data / (names[k] + "_fascicle.csv"), 1);
+    const auto count = static_cast<std::size_t>((f[0].back() - f[0].front()) / kStep_s);
+    std::vector<double> length;
+    for (std::size_t i = 0; i < count; ++i)
+      length.push_back(1e-3 * between(f[0], f[1], f[0][0] + kStep_s * static_cast<double>(i)));
+    length = moving_mean(moving_mean(length, 10), 10);  // frames of 30 ms
+    std::vector<std::string> a, l, v, r, t;
+    for (std::size_t i = 0; kEmgPerStep * i < envelopes[k].size(); ++i)
+      a.push_back(fmt::format("{}\t{}", kStep_s * static_cast<double>(i),
+                              envelopes[k][kEmgPerStep * i] / most));
+    for (std::size_t i = 0; i < count; ++i) {
+      const double s = f[0][0] + kStep_s * static_cast<double>(i), crank = between(d[0], d[2], s);
+      const std::size_t before = i == 0 ? 0 : i - 1, after = std::min(count - 1, i + 1);
+      const double rate =
+          (length[after] - length[before]) / (kStep_s * static_cast<double>(after - before));
+      l.push_back(fmt::format("{}\t{}", s, length[i]));
+      v.push_back(fmt::format("{}\t{}", s, rate));
+      r.push_back(
+          fmt::format("{}\t{}", s, 1e-2 * between(arm_cm[0], arm_cm[2], crank + kOffset_deg)));
+      t.push_back(fmt::format("{}\t{}", s, tibialis(between(d[0], d[1], s), crank)));
+    }
+    const auto write = [&](const char* kind, const char* column, const auto& rows) {
+      const fs::path file = folder / (names[k] + kind + ".sto");
+      write_text(file, storage(std::string("time\t") + column, rows));
+      return file;
+    };
+    trials.push_back({write("_a", "TA", a), write("_l", "TA", l), write("_v", "TA", v),
+                      write("_r", "TA", r), write("_t", "ankle", t), "ankle"});
+  }
+  return trials;
+}
+
+TEST(LeftOut, R2OfStretchesAtAnAnkleIsThatOfAFitWithoutTheTrial) {
+  const fs::path data = myoid::test::data_folder() / "tecchio-ankle";
+  MYOID_REQUIRE_DATA(data);
+  const TemporaryFolder folder;
+  write_text(folder / "muscles.csv",
+             "muscle,max_isometric_force,optimal_fiber_length,force_length_width,"
+             "concentric_curvature,eccentric_slope_ratio,eccentric_plateau,max_shortening_speed\n"
+             "TA,905,0.068,0.0306,0.28,1.5,1.4,0.68\n");
+  expect_reproducible(folder / "muscles.csv", write_ankle_trials(data, folder), folder);
 }
 
 /// A virtual person with a few seconds of several movements.

@@ -1,72 +1,33 @@
-// What recordings of one joint can tell of a muscle, on other people's data (findings E5, E6).
+// What recordings of one joint can tell of a muscle, on other people's data (findings E5, E6, E7).
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <sstream>
 #include <string>
 #include <vector>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "program.h"
 #include "tests/support/data_folder.h"
+#include "tests/support/measured_columns.h"
 #include "tests/support/temporary_folder.h"
 
 namespace {
 
+using myoid::test::envelope;
 using myoid::test::Finished;
+using myoid::test::greatest;
 using myoid::test::myoid;
+using myoid::test::read_columns;
 using myoid::test::read_rows;
 using myoid::test::Row;
 using myoid::test::TemporaryFolder;
+using myoid::test::TibialisTorque;
 using myoid::test::write_text;
 namespace fs = std::filesystem;
-
-/// Columns of numbers behind `header` lines.
-std::vector<std::vector<double>> read_columns(const fs::path& file, int header) {
-  std::ifstream stream(file);
-  std::string line;
-  for (int i = 0; i < header; ++i) std::getline(stream, line);
-  std::vector<std::vector<double>> columns;
-  while (std::getline(stream, line)) {
-    std::istringstream cells(line);
-    std::string cell;
-    for (std::size_t c = 0; std::getline(cells, cell, ','); ++c) {
-      if (columns.size() <= c) columns.emplace_back();
-      columns[c].push_back(cell.empty() ? 0.0 : std::stod(cell));
-    }
-  }
-  return columns;
-}
-
-/// Mean over `width` samples, as many as there are at the ends.
-std::vector<double> moving_mean(const std::vector<double>& x, std::ptrdiff_t width) {
-  std::vector<double> sums(x.size() + 1, 0.0), result(x.size());
-  for (std::size_t i = 0; i < x.size(); ++i) sums[i + 1] = sums[i] + x[i];
-  const auto n = static_cast<std::ptrdiff_t>(x.size());
-  for (std::ptrdiff_t i = 0; i < n; ++i) {
-    const auto from = static_cast<std::size_t>(std::max<std::ptrdiff_t>(0, i - width / 2));
-    const auto to = static_cast<std::size_t>(std::min(n, i + width / 2 + 1));
-    result[static_cast<std::size_t>(i)] = (sums[to] - sums[from]) / static_cast<double>(to - from);
-  }
-  return result;
-}
-
-/// The local mean over 0.2 s, twice, of what is rectified about its mean.
-std::vector<double> envelope(std::vector<double> raw, double rate_hz) {
-  double mean = 0.0;
-  for (const double x : raw) mean += x / static_cast<double>(raw.size());
-  for (double& x : raw) x = std::abs(x - mean);
-  const auto width = static_cast<std::ptrdiff_t>(0.2 * rate_hz);
-  return moving_mean(moving_mean(raw, width), width);
-}
-
-double greatest(const std::vector<double>& x, double rate_hz) {
-  const std::vector<double> mean = moving_mean(x, static_cast<std::ptrdiff_t>(0.5 * rate_hz));
-  return *std::max_element(mean.begin(), mean.end());
-}
 
 /// One effort of a joint: EMG of its two muscles and the force at the load cell.
 struct Effort {
@@ -150,42 +111,13 @@ TEST(MeasuredJoints, OneAngleTellsNothingOfTheForceLengthCurveForAnyOfTenPeople)
   EXPECT_EQ(people, 10);
 }
 
-/// Least squares through points by a cubic (normal equations, four unknowns).
-std::vector<double> cubic(const std::vector<std::pair<double, double>>& points) {
-  double a[4][5] = {};
-  for (const auto& [x, y] : points) {
-    for (int i = 0; i < 4; ++i) {
-      for (int j = 0; j < 4; ++j) a[i][j] += std::pow(x, i + j);
-      a[i][4] += y * std::pow(x, i);
-    }
-  }
-  for (int i = 0; i < 4; ++i) {
-    for (int r = 0; r < 4; ++r) {
-      if (r == i) continue;
-      const double f = a[r][i] / a[i][i];
-      for (int c = i; c < 5; ++c) a[r][c] -= f * a[i][c];
-    }
-  }
-  return {a[0][4] / a[0][0], a[1][4] / a[1][1], a[2][4] / a[2][2], a[3][4] / a[3][3]};
-}
-
-double median(std::vector<double> x) {
-  std::nth_element(x.begin(), x.begin() + static_cast<std::ptrdiff_t>(x.size() / 2), x.end());
-  return x[x.size() / 2];
-}
-
 TEST(MeasuredJoints, AGenericTendonLeavesRoomForTheFiberLengthThatUltrasoundSees) {
   const fs::path data = myoid::test::data_folder() / "tecchio-ankle";
   const fs::path model = myoid::test::data_folder() / "ceinms-rt-leg/gait2392.osim";
   MYOID_REQUIRE_DATA(data);
   MYOID_REQUIRE_DATA(model);
   constexpr double kEmg_hz = 2000.0;
-  std::vector<std::pair<double, double>> passive;
-  for (const char* angle : {"-15", "-10", "5", "10", "20", "25"}) {
-    const auto held = read_columns(data / fmt::format("Pas_{}_dynamometer.csv", angle), 1);
-    passive.emplace_back(median(held[2]), median(held[1]));
-  }
-  const std::vector<double> p = cubic(passive);
+  const TibialisTorque tibialis(data);
   const std::vector<std::string> trials{"PL_0_01", "PL_50_01", "PL_100_01", "Ref_Long_01",
                                         "Ref_Long_02"};
   const TemporaryFolder folder;
@@ -204,9 +136,7 @@ TEST(MeasuredJoints, AGenericTendonLeavesRoomForTheFiberLengthThatUltrasoundSees
     for (std::size_t i = 0; i < d[0].size(); i += 2, ++rows) {
       const double q = d[2][i];  // crank; plantarflexion is 15 degrees more
       angles += fmt::format("{}\t{}\n", d[0][i], -(q + 15.0));
-      // As the authors have it: half of what the relaxed ankle does not do is the muscle's.
-      torques += fmt::format("{},{}\n", d[0][i],
-                             0.5 * (d[1][i] - (p[0] + q * (p[1] + q * (p[2] + q * p[3])))));
+      torques += fmt::format("{},{}\n", d[0][i], tibialis(d[1][i], q));
     }
     for (std::size_t i = 0; i < envelopes[k].size(); i += 10)
       active += fmt::format("{},{}\n", static_cast<double>(i) / kEmg_hz, envelopes[k][i] / most);
@@ -258,6 +188,67 @@ TEST(MeasuredJoints, AGenericTendonLeavesRoomForTheFiberLengthThatUltrasoundSees
   // 1 mm hardly shows beside what the recording leaves open.
   const auto [near_low, near_high] = interval(",tendon_slack_length_prior_sd", ",0.001");
   EXPECT_NEAR(near_high - near_low, sure_high - sure_low, 0.05 * (sure_high - sure_low));
+}
+
+/// Leaves out each speed of a walking leg, of the whole minute or of a part of it.
+struct Walks {
+  std::vector<double> r2;  ///< By the left-out speed.
+  std::string warnings;
+};
+
+Walks leave_out_walks(const fs::path& data,
+                      const TemporaryFolder& folder,
+                      const std::vector<std::string>& part) {
+  std::vector<std::string> arguments{"identify",
+                                     "--muscles",
+                                     (data / "muscles.csv").string(),
+                                     "--coordinate",
+                                     "ankle_angle_r_moment",
+                                     "--out",
+                                     folder / "out",
+                                     "--overwrite"};
+  arguments.insert(arguments.end(), part.begin(), part.end());
+  std::vector<std::string> a{"--activations"}, l{"--lengths"}, v{"--velocities"},
+      r{"--moment-arms"}, t{"--torques"};
+  for (const std::string walk : {"walk36", "walk45"}) {
+    a.push_back((data / walk / "emgFilt.sto").string());
+    t.push_back((data / walk / "id.sto").string());
+    l.push_back(folder / (walk + "/MuscleAnalysis_Length.sto"));
+    v.push_back(folder / (walk + "/MuscleAnalysis_MuscleTendonVelocity.sto"));
+    r.push_back(folder / (walk + "/MuscleAnalysis_MomentArm_ankle_angle_r.sto"));
+  }
+  for (const auto& list : {a, l, v, r, t})
+    arguments.insert(arguments.end(), list.begin(), list.end());
+  const Finished done = myoid(arguments);
+  EXPECT_NE(done.exit_code, 3) << done.err;
+  Walks found;
+  found.warnings = done.err;
+  std::ifstream stream(folder / "out/parameters.json");
+  const nlohmann::json parameters = nlohmann::json::parse(stream);
+  for (const auto& fold : parameters.at("leave_one_trial_out"))
+    found.r2.push_back(fold.at("identified").at("r2"));
+  return found;
+}
+
+TEST(MeasuredJoints, AMinuteOfOneSpeedIsToldThatItPredictsAnotherWorseThanFiveSecondsDo) {
+  const fs::path data = myoid::test::data_folder() / "ceinms-rt-leg";
+  MYOID_REQUIRE_DATA(data);
+  const TemporaryFolder folder;
+  for (const std::string walk : {"walk36", "walk45"}) {
+    ASSERT_EQ(myoid({"paths", "--model", (data / "gait2392.osim").string(), "--motion",
+                     (data / walk / "ik.sto").string(), "--lowpass", "6", "--out", folder / walk})
+                  .exit_code,
+              0);
+  }
+  const std::string warning = "what a fit does not see it predicts";
+  const Walks minute = leave_out_walks(data, folder, {});
+  const Walks seconds = leave_out_walks(data, folder, {"--start", "19", "--end", "24"});
+  ASSERT_EQ(minute.r2.size(), 2U);
+  ASSERT_EQ(seconds.r2.size(), 2U);
+  EXPECT_LT(minute.r2[1], 0.0);  // its mean torque predicts the faster walk better
+  EXPECT_GT(seconds.r2[1], 0.5);
+  EXPECT_NE(minute.warnings.find(warning), std::string::npos) << minute.warnings;
+  EXPECT_EQ(seconds.warnings.find(warning), std::string::npos) << seconds.warnings;
 }
 
 }  // namespace
