@@ -203,37 +203,6 @@ void check_order(const muscle::IsolatedModel& start,
   }
 }
 
-/// Widens each standard error to what leaving out one recording after the other shows (jackknife),
-/// and says which numbers hang on one recording.
-void compare_left_out(muscle::IsolatedFit& all,
-                      const std::vector<muscle::IsolatedFit>& without,
-                      const std::vector<muscle::IsolatedRecording>& recordings,
-                      const Context& context) {
-  constexpr double kFar = 2.0;  // standard errors of the fit alone
-  const auto count = static_cast<double>(without.size());
-  if (without.size() < 2) return;
-  for (std::size_t p = 0; p < all.estimates.size(); ++p) {
-    muscle::IsolatedEstimate& e = all.estimates[p];
-    double mean = 0.0, squares = 0.0, farthest = 0.0;
-    std::size_t which = 0;
-    for (const muscle::IsolatedFit& fit : without) mean += fit.estimates[p].value / count;
-    for (std::size_t i = 0; i < without.size(); ++i) {
-      const double value = without[i].estimates[p].value;
-      squares += (value - mean) * (value - mean);
-      if (std::abs(value - e.value) <= farthest) continue;
-      farthest = std::abs(value - e.value);
-      which = i;
-    }
-    if (farthest > kFar * e.std_error)
-      context.warn(fmt::format(
-          "{} is {:.4g} {} without {}, {:.1f} of the fit's standard errors from {:.4g}: it hangs "
-          "on that recording; its standard error is widened to what the recordings show",
-          e.parameter, without[which].estimates[p].value, symbol(e.unit), recordings[which].name,
-          farthest / std::max(e.std_error, 1e-300), e.value));
-    e.std_error = std::max(e.std_error, std::sqrt((count - 1.0) / count * squares));
-  }
-}
-
 /// --fit: the parameters from all recordings, and how well those from the others predict each.
 void fit(const MuscleOptions& o, Context& context, const muscle::MuscleFile& file) {
   const muscle::IsolatedModel start{file.parameters, file.laws, file.millard};
@@ -283,7 +252,14 @@ void fit(const MuscleOptions& o, Context& context, const muscle::MuscleFile& fil
                            {"predicted_from_the_others", predicted}});
   }
   context.end_progress();
-  compare_left_out(all, without_one, recordings, context);
+  for (const muscle::DecidedByOne& found : widen_to_jackknife(all, without_one)) {
+    const muscle::IsolatedEstimate& e = all.estimates[found.parameter];
+    context.warn(fmt::format(
+        "{} is {:.4g} {} without {}, {:.1f} of the fit's standard errors from {:.4g}: it hangs "
+        "on that recording; its standard error is widened to what the recordings show",
+        e.parameter, found.without, symbol(e.unit), recordings[found.recording].name,
+        found.std_errors, e.value));
+  }
   add_rows("", all);
   for (std::size_t i = 0; i < without_one.size(); ++i)
     add_rows(std::to_string(i + 1), without_one[i]);

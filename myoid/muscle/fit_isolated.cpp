@@ -157,4 +157,29 @@ IsolatedFit fit_isolated_muscle(const IsolatedModel& start,
   return fit;
 }
 
+std::vector<DecidedByOne> widen_to_jackknife(IsolatedFit& all,
+                                             const std::vector<IsolatedFit>& without) {
+  constexpr double kFar = 2.0;
+  std::vector<DecidedByOne> found;
+  if (without.size() < 2) return found;
+  const auto n = static_cast<Eigen::Index>(without.size());
+  for (std::size_t p = 0; p < all.estimates.size(); ++p) {
+    IsolatedEstimate& e = all.estimates[p];
+    Eigen::VectorXd x(n);
+    for (Eigen::Index i = 0; i < n; ++i)
+      x[i] = without[static_cast<std::size_t>(i)].estimates[p].value;
+    Eigen::Index which = 0;
+    const double farthest = (x.array() - e.value).abs().maxCoeff(&which);
+    if (farthest > kFar * e.std_error)
+      found.push_back({.parameter = p,
+                       .recording = static_cast<std::size_t>(which),
+                       .without = x[which],
+                       .std_errors = farthest / std::max(e.std_error, 1e-300)});
+    const double jackknife = std::sqrt(static_cast<double>(n - 1) / static_cast<double>(n) *
+                                       (x.array() - x.mean()).square().sum());
+    e.std_error = std::max(e.std_error, jackknife);
+  }
+  return found;
+}
+
 }  // namespace myoid::muscle

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -64,5 +65,21 @@ struct IsolatedFit {
 [[nodiscard]] IsolatedFit fit_isolated_muscle(const IsolatedModel& start,
                                               const std::vector<IsolatedRecording>& recordings,
                                               const IsolatedFitOptions& options);
+
+/// An estimate that one recording decides.
+struct DecidedByOne {
+  std::size_t parameter = 0;  ///< Number of the estimate.
+  std::size_t recording = 0;  ///< Number of the recording whose absence moves it farthest.
+  double without = 0.0;       ///< The estimate without that recording, in its own unit.
+  double std_errors = 0.0;    ///< Its distance, in standard errors of the fit to all recordings.
+};
+
+/// Widens each standard error of the fit to all n recordings to the jackknife's,
+/// sqrt((n - 1) / n sum_i (x_i - mean)^2), with x_i the estimate without recording i; a standard
+/// error that is larger stays. Returns the estimates that some x_i lies more than two standard
+/// errors of the residuals away from. `without` holds the fits without recording 0, 1, ...; fewer
+/// than two of them change nothing. (Quenouille 1956; Efron & Tibshirani 1993, ch. 11.)
+[[nodiscard]] std::vector<DecidedByOne> widen_to_jackknife(IsolatedFit& all,
+                                                           const std::vector<IsolatedFit>& without);
 
 }  // namespace myoid::muscle

@@ -67,6 +67,33 @@ TEST(FitIsolatedMuscle, MovesThePlateauOfMillardsCurveWithTheParameter) {
   EXPECT_EQ(fit.model.millard.max_eccentric_multiplier, fit.estimates[0].value);
 }
 
+/// A fit that found these values, each with this standard error from its residuals.
+IsolatedFit fit_of(const std::vector<double>& values, double std_error) {
+  IsolatedFit fit;
+  for (const double value : values)
+    fit.estimates.push_back({.parameter = "x", .value = value, .std_error = std_error});
+  return fit;
+}
+
+TEST(FitIsolatedMuscle, WidensAStandardErrorToTheJackknifes) {
+  IsolatedFit all = fit_of({10.0, 1.0}, 0.4);
+  // Without one of the four: 11, 9, 10.4, 9.6. Their mean is 10, the sum of squares 2.32.
+  const std::vector<IsolatedFit> without{fit_of({11.0, 1.1}, 0.5), fit_of({9.0, 0.9}, 0.5),
+                                         fit_of({10.4, 1.0}, 0.5), fit_of({9.6, 1.0}, 0.5)};
+  const std::vector<DecidedByOne> decided = widen_to_jackknife(all, without);
+  EXPECT_NEAR(all.estimates[0].std_error, std::sqrt(0.75 * 2.32), 1e-12);
+  EXPECT_EQ(all.estimates[1].std_error, 0.4);  // sqrt(0.75 * 0.02) is less
+  ASSERT_EQ(decided.size(), 1U);
+  EXPECT_EQ(decided[0].parameter, 0U);
+  EXPECT_EQ(decided[0].recording, 0U);
+  EXPECT_EQ(decided[0].without, 11.0);
+  EXPECT_NEAR(decided[0].std_errors, 2.5, 1e-12);
+  // One fit without a recording says nothing of their spread.
+  IsolatedFit lonely = fit_of({10.0}, 0.4);
+  EXPECT_TRUE(widen_to_jackknife(lonely, {fit_of({20.0}, 0.5)}).empty());
+  EXPECT_EQ(lonely.estimates[0].std_error, 0.4);
+}
+
 TEST(FitIsolatedMuscle, RefusesWhatIsNoParameterOrCannotBeScaled) {
   const auto recordings = recordings_of(small_muscle());
   const IsolatedModel start = small_muscle();

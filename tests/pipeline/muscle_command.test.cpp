@@ -1,12 +1,18 @@
 // The command `muscle` as a user runs it.
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <map>
 #include <sstream>
+#include <string>
+#include <vector>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "program.h"
+#include "tests/support/data_folder.h"
 #include "tests/support/places.h"
 #include "tests/support/temporary_folder.h"
 
@@ -14,11 +20,14 @@ namespace {
 
 using myoid::test::Finished;
 using myoid::test::myoid;
+using myoid::test::read_rows;
 using myoid::test::read_text;
+using myoid::test::Row;
 using myoid::test::TemporaryFolder;
 using myoid::test::write_text;
 using testing::AllOf;
 using testing::HasSubstr;
+namespace fs = std::filesystem;
 
 const std::string kSoleus = myoid::test::source_dir() / "examples/rat_soleus/muscle.toml";
 
@@ -124,6 +133,77 @@ TEST(MuscleCommand, ForcesInMillinewtonsOrInAnotherOrderAreNoFit) {
   const Finished millinewtons = fit("small_n.csv", "large_mn.csv");
   EXPECT_EQ(millinewtons.exit_code, 3);
   EXPECT_THAT(millinewtons.err, AllOf(HasSubstr("large_mn.csv"), HasSubstr("are they in mN?")));
+}
+
+TEST(MuscleCommand, AStandardErrorHoldsWhatLeavingOutOneRecordingOfARatsSoleusShows) {
+  const fs::path data = myoid::test::data_folder() / "rat-soleus";
+  MYOID_REQUIRE_DATA(data);
+  const TemporaryFolder folder;
+  const auto table = [&](const std::string& name) {
+    std::istringstream file(read_text(data / (name + ".dat")));
+    std::string line, text = "time,value\n";
+    while (std::getline(file, line) && !line.starts_with("endheader")) {
+    }
+    std::getline(file, line);
+    double time_s = 0.0, value = 0.0;
+    while (file >> time_s >> value) text += fmt::format("{},{}\n", time_s, value);
+    write_text(folder / (name + ".csv"), text);
+    return folder / (name + ".csv");
+  };
+  const std::string d = table("displacement");
+  const Finished done = myoid({"muscle",
+                               "--muscle",
+                               kSoleus,
+                               "--excitation",
+                               "1",
+                               "--isometric-force",
+                               "1.17",
+                               "--offset",
+                               "0.032106",
+                               "--length",
+                               d,
+                               d,
+                               d,
+                               d,
+                               "--scale",
+                               "5e-5",
+                               "1e-4",
+                               "5e-4",
+                               "1e-3",
+                               "--measured",
+                               table("force_trial1"),
+                               table("force_trial2"),
+                               table("force_trial4"),
+                               table("force_trial5"),
+                               "--fit",
+                               "max_isometric_force,max_shortening_speed,tendon_strain",
+                               "--out",
+                               folder / "fit.csv"});
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  // The jackknife anew, from what the file says of the fits without a recording.
+  std::map<std::string, std::vector<double>> without;
+  std::map<std::string, double> std_error, all;
+  for (const Row& row : read_rows(folder / "fit.csv")) {
+    const double value = std::stod(row.at("estimate"));
+    if (!row.at("left_out").empty()) {
+      without[row.at("parameter")].push_back(value);
+      continue;
+    }
+    all[row.at("parameter")] = value;
+    std_error[row.at("parameter")] = std::stod(row.at("std_error"));
+  }
+  ASSERT_EQ(all.size(), 3U);
+  for (const auto& [parameter, values] : without) {
+    ASSERT_EQ(values.size(), 4U);
+    double mean = 0.0, squares = 0.0;
+    for (const double x : values) mean += x / 4.0;
+    for (const double x : values) squares += (x - mean) * (x - mean);
+    EXPECT_GE(std_error[parameter], (1.0 - 1e-9) * std::sqrt(0.75 * squares)) << parameter;
+    for (const double x : values)
+      EXPECT_LT(std::abs(x - all[parameter]), 2.0 * std_error[parameter]) << parameter;
+  }
+  EXPECT_THAT(done.err, AllOf(HasSubstr("max_shortening_speed is"), HasSubstr("force_trial5.csv"),
+                              HasSubstr("hangs on that recording")));
 }
 
 TEST(MuscleCommand, SaysWhatItCannotUse) {
