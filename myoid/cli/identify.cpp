@@ -246,6 +246,8 @@ void print_folds(const std::vector<identification::Fold>& folds,
                fold.identified.rmse_nm, 100.0 * fold.identified.nrmse_range, fold.identified.r2,
                fold.smooth.r2, fold.literature.r2);
   }
+  if (const std::string beyond = identification::beyond_what_was_fitted(folds); !beyond.empty())
+    fmt::print("EMG beyond all that was fitted ({}): that prediction extrapolates.\n", beyond);
 }
 
 /// The data for all that follows the fit, with the v_max free that the fit had free.

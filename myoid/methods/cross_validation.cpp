@@ -7,6 +7,7 @@
 
 #include <Eigen/QR>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <oneapi/tbb/parallel_for.h>
 
 #include "myoid/identification/muscle_activation.h"
@@ -272,6 +273,7 @@ std::vector<Fold> score_split(Split split,
              });
   if (by.paper) add_paper(split.data, options.muscles, by);
   std::vector<Fold> folds;
+  const UnseenEffort unseen = unseen_effort(split.data);
   for (const std::string& joint : joint_names(split.data)) {
     const std::vector<TrialData> of_joint = joint_views(held, joint);
     if (of_joint.empty()) continue;
@@ -279,6 +281,7 @@ std::vector<Fold> score_split(Split split,
     fold.joint = joint;
     fold.parameters = fit.estimates;
     fold.lag = fit.lag;
+    fold.unseen = unseen;
     fold.converged = fit.termination == math::Termination::converged;
     folds.push_back(std::move(fold));
   }
@@ -353,6 +356,18 @@ std::string generalises_badly(const std::vector<Fold>& folds) {
       "beforehand. Record other movements (angles, speeds, loads) rather than more of the same, "
       "and trust neither numbers nor predictions beyond the movements that were fitted",
       std::sqrt(unseen / seen), std::sqrt(unseen / count), std::sqrt(seen / count), where);
+}
+
+std::string beyond_what_was_fitted(const std::vector<Fold>& folds) {
+  constexpr double kBadly = 0.5, kFar = 1.5;
+  constexpr std::size_t kNamed = 3;
+  std::vector<std::string> found;
+  for (const Fold& f : folds) {
+    if (f.unseen.ratio >= kFar && f.identified.r2 < kBadly && found.size() < kNamed)
+      found.push_back(
+          fmt::format("'{}': {} {:.1f} times", f.trial, f.unseen.channel, f.unseen.ratio));
+  }
+  return fmt::format("{}", fmt::join(found, ", "));
 }
 
 EstimatorOptions of_a_fold(EstimatorOptions options) {

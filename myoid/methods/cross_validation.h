@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "myoid/methods/torque.h"
+#include "myoid/methods/unseen_effort.h"
 
 namespace myoid::identification {
 
@@ -64,6 +65,7 @@ struct Fold {
   std::optional<Score> paper;  ///< Method paper on the others, where there are forces.
   double gain = 1.0;           ///< That gain.
   double lag_s = 0.0;          ///< Of the identified prediction.
+  UnseenEffort unseen;         ///< How far the EMG goes beyond that of the trials fitted.
   Eigen::VectorXd time_s, measured_nm, predicted_nm,
       literature_nm;  ///< Trials one after the other.
 };
@@ -90,6 +92,10 @@ using SplitFit = std::function<IdentificationResult(StudyData& data)>;
 /// which more of the same samples do not average out: the fit then follows that error, away from
 /// what is known beforehand.
 [[nodiscard]] std::string generalises_badly(const std::vector<Fold>& folds);
+
+/// Names the folds that are predicted badly (R2 below 0.5) and whose EMG reaches 1.5 times that of
+/// the trials fitted or more: "'fast': biceps 2.8 times". Empty where there are none.
+[[nodiscard]] std::string beyond_what_was_fitted(const std::vector<Fold>& folds);
 
 /// Options of a fold's fit: those of the reported one without its intervals, tables and progress.
 [[nodiscard]] EstimatorOptions of_a_fold(EstimatorOptions options);

@@ -274,6 +274,8 @@ std::string parameters_json(const std::vector<IdentificationResult>& methods,
          {"constant", score_json(f.constant)},
          {"paper", f.paper ? score_json(*f.paper) : ordered_json(nullptr)},
          {"lag_s", report::number_or_null(f.lag_s)},
+         {"unseen_effort",
+          {{"channel", f.unseen.channel}, {"ratio", report::number_or_null(f.unseen.ratio)}}},
          {"converged", f.converged},
          {"emg_lag", identification::name(f.lag)},
          {"parameters", fold_values(f)}});

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -202,6 +203,12 @@ std::vector<Gate> fold_gates(const std::vector<Fold>& folds) {
     count += n;
     better += f.identified.rmse_nm < f.literature.rmse_nm ? 1 : 0;
   }
+  std::string hint = fmt::format("Better in {} of the {} left out.", better, folds.size());
+  if (const std::string beyond = identification::beyond_what_was_fitted(folds); !beyond.empty())
+    hint += fmt::format(
+        " EMG beyond all that was fitted ({}): that prediction extrapolates. Record a maximal "
+        "contraction, or trials of like effort.",
+        beyond);
   const bool beats = identified < literature && 2 * better > static_cast<int>(folds.size());
   gates.push_back(
       {"Predicts torque it has not seen",
@@ -212,9 +219,8 @@ std::vector<Gate> fold_gates(const std::vector<Fold>& folds) {
                    all.text(), std::sqrt(identified / std::max(count, 1.0)),
                    std::sqrt(literature / std::max(count, 1.0))),
        "R2 above 0.5 and better than the literature's parameters, over all and in most trials; "
-       "fails "
-       "below -1",
-       fmt::format("Better in {} of the {} left out.", better, folds.size())});
+       "fails below -1",
+       std::move(hint)});
   const std::vector<OutlyingFold> outlying = outlying_folds(folds);
   if (!outlying.empty()) {
     std::vector<std::string> texts;

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
+#include "myoid/math/moving_mean.h"
 #include "myoid/signals/filter.h"
 #include "myoid/signals/mains_hum.h"
 #include "myoid/signals/quality_limits.h"
@@ -22,15 +23,6 @@ constexpr double kRest_s = 1.0;
 /// are held spread by less; EMG that rises no higher above noise is none to work with.
 constexpr double kRises = 1.5;
 constexpr double kRectifiedSpread = 0.7555;  ///< sqrt(pi/2 - 1): of rectified Gaussian noise.
-
-/// Means over a window that slides sample by sample: entry i covers samples i .. i + width - 1.
-Eigen::VectorXd moving_mean(const Eigen::Ref<const Eigen::VectorXd>& x, Eigen::Index width) {
-  Eigen::VectorXd sum(x.size() + 1);
-  sum[0] = 0.0;
-  for (Eigen::Index i = 0; i < x.size(); ++i) sum[i + 1] = sum[i] + x[i];
-  const Eigen::Index count = x.size() - width + 1;
-  return (sum.segment(width, count) - sum.head(count)) / static_cast<double>(width);
-}
 
 Eigen::Index window_samples(const TimeSeries& series, double window_s) {
   const auto wanted = static_cast<Eigen::Index>(std::lround(window_s * series.mean_rate_hz()));
@@ -84,14 +76,14 @@ Means moving_means(std::span<const TrialEnvelope> trials,
   double largest = -1.0, longest_s = 0.0;
   for (const TrialEnvelope& trial : trials) {
     const Eigen::VectorXd x = trial.envelope->column(n.channel);
-    const Eigen::VectorXd second = moving_mean(x, window_samples(*trial.envelope, kRest_s));
+    const Eigen::VectorXd second = math::moving_mean(x, window_samples(*trial.envelope, kRest_s));
     result.of_a_second.insert(result.of_a_second.end(), second.begin(), second.end());
     const Eigen::VectorXd& clock = trial.envelope->time_s();
     const double length_s = clock[clock.size() - 1] - clock[0] + trial.envelope->mean_interval_s();
     longest_s = std::max(longest_s, length_s);
     if (window_s > (1.0 + 1e-9) * length_s) continue;
     const Eigen::Index width = window_samples(*trial.envelope, window_s);
-    const Eigen::VectorXd means = moving_mean(x, width);
+    const Eigen::VectorXd means = math::moving_mean(x, width);
     result.of_a_window.insert(result.of_a_window.end(), means.begin(), means.end());
     Eigen::Index at = 0;
     if (const double top = means.maxCoeff(&at); top > largest) {
