@@ -43,24 +43,29 @@ void print_summary(const std::vector<twin::TwinSummary>& summaries, bool each_mu
 void print_predictions(const twin::TwinStudyResult& result) {
   if (result.predictions.empty()) return;
   fmt::print("\ntrials held back, medians: NRMSE is RMSE over the range of the trial's torque\n");
-  fmt::print("{:<28} {:>5} {:>10} {:>7} {:>19} {:>7}\n", "trial", "n", "NRMSE [%]", "R2",
-             "below 1.5 Hz: NRMSE", "R2");
+  fmt::print("{:<28} {:>5} {:>10} {:>7} {:>16} {:>7} {:>19} {:>7}\n", "trial", "n", "NRMSE [%]",
+             "R2", "smoothed: NRMSE", "R2", "below 1.5 Hz: NRMSE", "R2");
   std::vector<std::string> trials{"all"};
   for (const twin::TwinPrediction& p : result.predictions) {
     if (std::find(trials.begin(), trials.end(), p.trial) == trials.end()) trials.push_back(p.trial);
   }
   for (const std::string& trial : trials) {
-    std::vector<double> nrmse, r2, band_nrmse, band_r2;
-    for (const twin::TwinPrediction& p : result.predictions) {
-      if (trial != "all" && trial != p.trial) continue;
-      nrmse.push_back(p.nrmse_range);
-      r2.push_back(p.r2);
-      band_nrmse.push_back(p.band.nrmse_range);
-      band_r2.push_back(p.band.r2);
-    }
-    fmt::print("{:<28} {:>5} {:>10.1f} {:>7.3f} {:>19.1f} {:>7.3f}\n", trial, nrmse.size(),
-               100.0 * math::median(nrmse), math::median(r2), 100.0 * math::median(band_nrmse),
-               math::median(band_r2));
+    std::size_t count = 0;
+    const auto medians = [&](identification::Score twin::TwinPrediction::*score) {
+      std::vector<double> nrmse, r2;
+      for (const twin::TwinPrediction& p : result.predictions) {
+        if (trial != "all" && trial != p.trial) continue;
+        nrmse.push_back(100.0 * (p.*score).nrmse_range);
+        r2.push_back((p.*score).r2);
+      }
+      count = r2.size();
+      return std::pair{math::median(std::move(nrmse)), math::median(std::move(r2))};
+    };
+    const auto law = medians(&twin::TwinPrediction::law),
+               smooth = medians(&twin::TwinPrediction::smooth),
+               band = medians(&twin::TwinPrediction::band);
+    fmt::print("{:<28} {:>5} {:>10.1f} {:>7.3f} {:>16.1f} {:>7.3f} {:>19.1f} {:>7.3f}\n", trial,
+               count, law.first, law.second, smooth.first, smooth.second, band.first, band.second);
   }
 }
 

@@ -98,9 +98,9 @@ OnePerson one_person(const twin::Protocol& protocol,
       if (method.method != "torque") continue;
       for (const identification::TrialFit& t : method.trials) {
         if (t.calibration) continue;
-        const identification::Score smooth = smoothed_score(t);
-        person.predictions.push_back(
-            {seed, t.trial, smooth.rmse_nm, smooth.nrmse_range, smooth.r2, t.band});
+        const identification::Score law{
+            .rmse_nm = t.rmse_nm, .nrmse_range = t.nrmse_range, .r2 = t.r2};
+        person.predictions.push_back({seed, t.trial, law, smoothed_score(t), t.band});
       }
     }
   } catch (const InvalidInput& error) {
@@ -274,11 +274,14 @@ void write_twin_study(const TwinStudyResult& result,
   }
   recording::write_file(folder / "summary.csv", summary);
   std::string predictions =
-      "seed,trial,rmse_nm,nrmse_range,r2,band_rmse_nm,band_nrmse_range,band_r2\n";
-  for (const TwinPrediction& p : result.predictions)
-    predictions += fmt::format("{},{},{},{},{},{},{},{}\n", p.seed, p.trial, cell(p.rmse_nm),
-                               cell(p.nrmse_range), cell(p.r2), cell(p.band.rmse_nm),
-                               cell(p.band.nrmse_range), cell(p.band.r2));
+      "seed,trial,rmse_nm,nrmse_range,r2,smoothed_rmse_nm,smoothed_nrmse_range,smoothed_r2,"
+      "band_rmse_nm,band_nrmse_range,band_r2\n";
+  for (const TwinPrediction& p : result.predictions) {
+    predictions += fmt::format("{},{}", p.seed, p.trial);
+    for (const identification::Score* s : {&p.law, &p.smooth, &p.band})
+      predictions += fmt::format(",{},{},{}", cell(s->rmse_nm), cell(s->nrmse_range), cell(s->r2));
+    predictions += "\n";
+  }
   recording::write_file(folder / "predictions.csv", predictions);
   nlohmann::ordered_json run = {{"program", provenance.program},
                                 {"version", provenance.version},

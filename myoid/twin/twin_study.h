@@ -30,14 +30,13 @@ struct TwinRow {
   [[nodiscard]] bool covered() const;  ///< The 95 % interval holds the truth.
 };
 
-/// Prediction of one trial that was held back, smoothed (smooth_prediction.h).
+/// Prediction of one trial that was held back.
 struct TwinPrediction {
   std::uint64_t seed = 0;
   std::string trial;
-  double rmse_nm = 0.0;
-  double nrmse_range = 0.0;    ///< RMSE over the range of the trial's torque.
-  double r2 = 0.0;             ///< 1 - SSE/SST
-  identification::Score band;  ///< Both torques below the fit's own cut-off.
+  identification::Score law;     ///< Of the muscles' law with the parameters that are reported.
+  identification::Score smooth;  ///< The same, the prediction smoothed (smooth_prediction.h).
+  identification::Score band;    ///< The same, both torques below the fit's own cut-off.
 };
 
 struct TwinFailure {

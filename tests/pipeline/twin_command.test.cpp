@@ -1,9 +1,11 @@
 // The command `twin` as a user runs it.
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "program.h"
 #include "tests/support/temporary_folder.h"
@@ -109,6 +111,65 @@ TEST(TwinCommand, SaysWhatItCannotDo) {
   EXPECT_EQ(
       myoid({"twin", "--protocol", folder / "p.toml", "--subjects", "0", "--out", "z"}).exit_code,
       2);
+}
+
+TEST(TwinCommand, APersonOfTwinStudyIsPredictedAsRunPredictsTheRecording) {
+  const TemporaryFolder folder;
+  write_text(folder / "p.toml", R"(
+level = "L1"
+[[trial]]
+name = "mvc"
+kind = "mvc"
+direction = "both"
+[[trial]]
+name = "slow"
+kind = "flexion"
+frequency_hz = 0.4
+centre_deg = 72
+amplitude_deg = 45
+held_mass_kg = 2.0
+duration_s = 8
+[[trial]]
+name = "fast"
+kind = "flexion"
+frequency_hz = 0.8
+centre_deg = 72
+amplitude_deg = 50
+held_mass_kg = 1.0
+duration_s = 8
+use = "validation"
+)");
+  const std::vector<std::string> person{"--protocol", folder / "p.toml", "--seed", "3", "--out"};
+  const auto with = [&](std::vector<std::string> command, const std::string& out) {
+    command.insert(command.end(), person.begin(), person.end());
+    command.push_back(out);
+    return myoid(command);
+  };
+  ASSERT_EQ(with({"twin-study", "--subjects", "1"}, folder / "study").exit_code, 0);
+  ASSERT_EQ(with({"twin"}, folder / "recording").exit_code, 0);
+  const Finished done =
+      myoid({"run", folder / "recording/study.toml", "--out", folder / "results"});
+  ASSERT_NE(done.exit_code, 3) << done.err;
+  const auto rows = read_rows(fs::path(folder / "study") / "predictions.csv");
+  ASSERT_EQ(rows.size(), 1U);
+  EXPECT_EQ(rows[0].at("trial"), "fast");
+  const nlohmann::json parameters =
+      nlohmann::json::parse(read_text(fs::path(folder / "results") / "parameters.json"));
+  int compared = 0;
+  for (const auto& method : parameters.at("methods")) {
+    if (method.at("method") != "torque") continue;
+    for (const auto& trial : method.at("trials")) {
+      if (trial.at("trial") != "fast") continue;
+      ++compared;
+      // The files of the recording hold six digits.
+      EXPECT_NEAR(std::stod(rows[0].at("r2")), trial.at("r2").get<double>(), 1e-4);
+      EXPECT_NEAR(std::stod(rows[0].at("rmse_nm")), trial.at("rmse_nm").get<double>(), 1e-4);
+      EXPECT_NEAR(std::stod(rows[0].at("smoothed_r2")), trial.at("smoothed_r2").get<double>(),
+                  1e-4);
+    }
+  }
+  EXPECT_EQ(compared, 1);
+  EXPECT_NE(rows[0].at("r2"), rows[0].at("smoothed_r2"));
 }
 
 }  // namespace
