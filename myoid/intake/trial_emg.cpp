@@ -18,6 +18,7 @@
 #include "myoid/recording/emg_reader.h"
 #include "myoid/signals/emg_levels.h"
 #include "myoid/signals/emg_quality.h"
+#include "myoid/signals/resample.h"
 
 namespace myoid {
 namespace {
@@ -44,6 +45,73 @@ void name_by_target_muscle(const Study& study,
     renamed = true;
   }
   if (renamed) file.data = TimeSeries(file.data.time_s(), std::move(channels), file.data.values());
+}
+
+/// Channels that the study names and that have another clock than the others of their file, each
+/// clock once.
+std::vector<TimeSeries> on_other_clocks(const Study& study,
+                                        const std::filesystem::path& path,
+                                        const recording::EmgFile& file) {
+  std::vector<TimeSeries> found;
+  for (const MuscleSpec& muscle : study.muscles) {
+    const auto has = [&](const TimeSeries& s) { return s.find(muscle.emg).has_value(); };
+    if (has(file.data) || std::any_of(found.begin(), found.end(), has)) continue;
+    try {
+      TimeSeries one =
+          recording::read_emg(path, study.emg.unit, study.emg.kind != EmgKind::raw, {muscle.emg})
+              .data;
+      if (has(one)) found.push_back(std::move(one));
+    } catch (const ReadError&) {
+      continue;  // require_channels says what there is
+    }
+  }
+  return found;
+}
+
+/// Puts the channels that the study names on one clock, that of the fastest of them, over the time
+/// that all have.
+void join_clocks(const Study& study,
+                 const std::filesystem::path& path,
+                 recording::EmgFile& file,
+                 std::vector<std::string>& notes) {
+  std::vector<TimeSeries> parts = on_other_clocks(study, path, file);
+  if (parts.empty()) return;
+  std::vector<std::string> here;
+  for (const MuscleSpec& muscle : study.muscles) {
+    if (file.data.find(muscle.emg) && std::find(here.begin(), here.end(), muscle.emg) == here.end())
+      here.push_back(muscle.emg);
+  }
+  if (!here.empty()) parts.insert(parts.begin(), file.data.select(here));
+  double begin_s = -1e300, end_s = 1e300;
+  const TimeSeries* fastest = &parts.front();
+  for (const TimeSeries& part : parts) {
+    require_finite(part, path.string());
+    if (part.sample_count() < 2) return;
+    begin_s = std::max(begin_s, part.time_s()[0]);
+    end_s = std::min(end_s, part.time_s()[part.sample_count() - 1]);
+    if (part.mean_rate_hz() > fastest->mean_rate_hz()) fastest = &part;
+  }
+  const Eigen::VectorXd clock = fastest->slice(begin_s, end_s).time_s();
+  if (clock.size() < 2)
+    throw ReadError(path, 0,
+                    fmt::format("channels {} and {} have no time in common; give the muscles "
+                                "channels that were recorded together",
+                                channel_names(parts.front()), channel_names(parts.back())));
+  std::vector<Channel> channels;
+  Eigen::MatrixXd values(clock.size(), 0);
+  for (const TimeSeries& part : parts) {
+    const TimeSeries moved =
+        &part == fastest ? part.slice(begin_s, end_s) : signals::resample(part, clock);
+    values.conservativeResize(Eigen::NoChange, values.cols() + moved.channel_count());
+    values.rightCols(moved.channel_count()) = moved.values();
+    channels.insert(channels.end(), moved.channels().begin(), moved.channels().end());
+    if (&part != fastest)
+      notes.push_back(fmt::format("{}: {} at {:.6g} Hz put on the clock of {}, {:.6g} Hz",
+                                  path.filename().string(), channel_names(part),
+                                  part.mean_rate_hz(), channel_names(*fastest),
+                                  fastest->mean_rate_hz()));
+  }
+  file.data = TimeSeries(clock, std::move(channels), std::move(values));
 }
 
 void require_channels(const Study& study,
@@ -177,6 +245,7 @@ TimeSeries read_trial_emg(const Study& study,
   if (!file.unit_conflict.empty())
     warn(input, fmt::format("{}: {}", trial.emg->filename().string(), file.unit_conflict));
   name_by_target_muscle(study, *trial.emg, file, input.notes);
+  join_clocks(study, *trial.emg, file, input.notes);
   require_channels(study, *trial.emg, file.data);
   require_kind(study, *trial.emg, file.data, input);
   std::vector<std::string> wanted;

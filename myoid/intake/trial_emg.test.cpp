@@ -1,7 +1,9 @@
 #include "myoid/intake/trial_emg.h"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -28,6 +30,47 @@ TEST(ReadTrialEmg, AMissingEmgChannelIsNamedWithThoseThereAre) {
       message_of([&] { (void)read_trial_input(arm_study(), trial, arm()); });
   EXPECT_NE(message.find("no EMG channel 'BIC'"), std::string::npos) << message;
   EXPECT_NE(message.find("did you mean 'BICC'"), std::string::npos) << message;
+}
+
+TEST(ReadTrialEmg, ChannelsOfSeveralClocksArePutOnTheFastest) {
+  const test::TemporaryFolder folder;
+  // Sines of 30 Hz at 2000, 1000 and 1250 samples a second, ends apart; an acceleration besides.
+  const auto sine = [](double t, double amplitude) {
+    return amplitude * std::sin(2.0 * 3.14159265358979323846 * 30.0 * t);
+  };
+  std::string text =
+      "X[s],\"BIC\",X[s],\"BRA\",X[s],\"BRD\",X[s],\"TRI\",X[s],\"Avanti sensor 1: ACC.X 1\"\n";
+  for (int i = 0; i < 4000; ++i) {
+    const double fast = i / 2000.0, slow = i / 1000.0, third = i / 1250.0;
+    const auto cells = [&](double t, double end, double amplitude) {
+      return t < end ? fmt::format("{:.9f},{:.9f},", t, sine(t, amplitude)) : std::string(",,");
+    };
+    text += cells(fast, 2.0, 1e-4) + cells(slow, 1.9, 2e-4) + cells(third, 1.8, 3e-4) +
+            cells(fast, 2.0, 4e-4) + (slow < 1.9 ? fmt::format("{:.9f},1\n", slow) : ",\n");
+  }
+  recording::write_file(folder / "e.csv", text);
+  Study study = arm_study();
+  study.emg.kind = EmgKind::raw;
+  study.emg.unit = "V";
+  TrialSpec trial;
+  trial.emg = folder / "e.csv";
+  TrialInput input;
+  const TimeSeries emg = read_trial_emg(
+      study, trial, [](const auto&) {}, input);
+  EXPECT_NEAR(emg.mean_rate_hz(), 2000.0, 1e-6);
+  EXPECT_NEAR(emg.time_s()[emg.sample_count() - 1], 1.799, 1.1e-3);
+  const std::vector<std::string> names{"BIC", "BRA", "BRD", "TRI"};
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    const Eigen::VectorXd x = emg.column(names[k]);
+    const double amplitude = 1e-4 * static_cast<double>(k + 1);
+    // Inside: a spline's error of a sine below a tenth of the rate is 0.1 % (signals/resample.h).
+    for (Eigen::Index i = 100; i < x.size() - 100; ++i)
+      ASSERT_NEAR(x[i], sine(emg.time_s()[i], amplitude), 2e-3 * amplitude) << names[k] << " " << i;
+  }
+  int moved = 0;
+  for (const std::string& note : input.notes)
+    moved += note.find("put on the clock") != std::string::npos;
+  EXPECT_EQ(moved, 2);
 }
 
 TEST(ReadTrialEmg, EmgThatCoversLessThanHalfOfTheMotionIsRefusedAndALittleLessIsWarnedOf) {
