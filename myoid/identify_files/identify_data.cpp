@@ -12,6 +12,7 @@
 #include "myoid/core/error.h"
 #include "myoid/core/units.h"
 #include "myoid/identify_files/identify_input.h"
+#include "myoid/identify_files/joint_of_arms.h"
 #include "myoid/math/spline.h"
 #include "myoid/math/statistics.h"
 #include "myoid/recording/recording.h"
@@ -280,6 +281,10 @@ class TrialReader {
     for (std::size_t j = 0; j < columns.size(); ++j) {
       Eigen::VectorXd torque_nm =
           on_clock_of(torques.select({columns[j].name}), files.torques, trial.time_s).col(0);
+      if (const std::string text =
+              check_joint_by_name(files.moment_arms[j], columns[j].name, torques);
+          !text.empty())
+        remark_(text);
       if (j == 0) {
         trial.torque_nm = std::move(torque_nm);
         if (!sources_.coordinates.empty()) trial.joint = sources_.coordinates[0];
@@ -447,6 +452,8 @@ StudyData read_identify_data(const IdentifySources& sources,
   for (std::size_t i = 0; i < sources.lengths.size(); ++i) {
     TrialData trial = TrialReader(sources, data.muscles, remark).read(i);
     for (const std::string& text : check_identify_trial(data, trial, files_of(sources, i)))
+      remark(text);
+    for (const std::string& text : check_joint_of_arms(data, trial, files_of(sources, i)))
       remark(text);
     data.trials.push_back(std::move(trial));
   }

@@ -1,7 +1,9 @@
 #include "myoid/identify_files/identify_input.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <filesystem>
 #include <optional>
 
 #include <Eigen/QR>
@@ -10,6 +12,7 @@
 #include "myoid/checks/trial_plausibility.h"
 #include "myoid/core/error.h"
 #include "myoid/dynamics/joint_capacity.h"
+#include "myoid/math/moving_mean.h"
 #include "myoid/math/statistics.h"
 #include "myoid/methods/torque.h"
 #include "myoid/signals/emg_levels.h"
@@ -31,6 +34,18 @@ constexpr double kWindow_s = 0.1;
 constexpr double kMoves_m = 5e-4;  ///< Change of length within a window that is one.
 constexpr double kTogether = 0.9, kAgainst = -0.8, kDoubtful = 0.5, kClearly = 0.3,
                  kLargestFactor = 3.0;
+
+/// Fibers make hardly any active force beyond.
+constexpr double kShortestActive = 0.4, kLongestActive = 1.8;
+
+/// Whether a file is called as OpenSim and CEINMS call lengths of muscles with their tendons.
+bool names_whole_muscles(const std::string& path) {
+  std::string name = std::filesystem::path(path).stem().string();
+  for (char& c : name) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return name.ends_with("muscleanalysis_length") || name.find("lmt") != std::string::npos ||
+         name.find("muscletendon") != std::string::npos ||
+         name.find("musculotendon") != std::string::npos;
+}
 
 double median_of(const Eigen::VectorXd& x) { return math::median({x.begin(), x.end()}); }
 
@@ -89,6 +104,10 @@ class TrialCheck {
         fail(files_.lengths, found + ", expected 0.01 to 1 m; write it in m");
       if (typical > kLongestPath_m || typical < kShortestPath_m)
         remark(files_.lengths, found + ", expected 0.01 to 1 m");
+      if (start.tendon_slack_length_m == 0.0) {
+        lengths_without_tendon(k, typical, found);
+        continue;
+      }
       const double fiber = typical - start.tendon_slack_length_m;
       if (fiber <= 0.0)
         fail(files_.lengths,
@@ -105,17 +124,37 @@ class TrialCheck {
     }
   }
 
+  /// Lengths of a muscle for which muscles.csv has no tendon: they must be those of its fibers.
+  void lengths_without_tendon(Eigen::Index k, double typical_m, const std::string& found) {
+    const double optimal_m =
+        data_.muscles[static_cast<std::size_t>(k)].start.optimal_fiber_length_m;
+    const double relative = typical_m / optimal_m;
+    const std::string against = fmt::format(
+        "{}, {:.2g} times its optimal_fiber_length of {:.4g} m, and muscles.csv has no "
+        "tendon_slack_length for it",
+        found, relative, optimal_m);
+    if (relative > kLongestActive)
+      fail(files_.lengths,
+           fmt::format("{}; expected fiber lengths, 0.4 to 1.8 times the optimal one. Are these "
+                       "lengths of whole muscles with their tendons? Then give tendon_slack_length "
+                       "in muscles.csv. Else mend optimal_fiber_length",
+                       against));
+    if (relative < kShortestActive)
+      fail(files_.lengths,
+           fmt::format("{}; expected fiber lengths, 0.4 to 1.8 times the optimal one; check the "
+                       "unit of both, or whose lengths these are",
+                       against));
+    if (names_whole_muscles(files_.lengths))
+      remark(
+          files_.lengths,
+          fmt::format("by its name the file has lengths of whole muscles, {}: they are taken for "
+                      "fiber lengths; give tendon_slack_length in muscles.csv",
+                      against));
+  }
+
   /// Largest mean over the half second by which EMG is normalised: shorter peaks rise above 1.
   [[nodiscard]] double largest_mean(const Eigen::VectorXd& a) const {
-    const double rate_hz = trial_.activation.mean_rate_hz();
-    const Eigen::Index n = std::clamp<Eigen::Index>(std::lround(0.5 * rate_hz), 1, a.size());
-    double sum = a.head(n).sum();
-    double largest = sum;
-    for (Eigen::Index i = n; i < a.size(); ++i) {
-      sum += a[i] - a[i - n];
-      largest = std::max(largest, sum);
-    }
-    return largest / static_cast<double>(n);
+    return math::greatest_mean(a, trial_.activation.mean_rate_hz(), 0.5);
   }
 
   void activations() {

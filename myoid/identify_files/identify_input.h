@@ -21,6 +21,8 @@ struct IdentifyFiles {
 ///
 /// - Lengths are 1 cm to 1 m; certain below 2 mm, not positive, above 3 m. With a tendon slack
 ///   length, fibers are 0.1 to 3 times their optimal length; certain if most are not positive.
+///   Without one the lengths are those of fibers: certain to be none where the median lies outside
+///   0.4 to 1.8 optimal lengths; a remark where the file is called as lengths of whole muscles are.
 /// - Activations are 0 to 1, in the mean of half a second; certain above 2 or below -0.1.
 /// - Velocities are dl/dt: over windows of 0.1 s the lengths change by their integral. Certain if
 ///   both go together (correlation above 0.9) by a factor outside 1/3 to 3, or against each other.

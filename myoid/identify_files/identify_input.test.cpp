@@ -60,6 +60,31 @@ TEST(IdentifyInput, LengthsInMillimetersOrOfFibersAreNamed) {
   expect_in(fibers.error(), {"l.sto", "tendon_slack_length", "fiber lengths"});
 }
 
+TEST(IdentifyInput, LengthsOfWholeMusclesWithoutATendonAreRefused) {
+  const auto without_tendon = [](double times_optimal) {
+    Spoiled s;
+    for (Eigen::Index k = 0; k < 4; ++k) {
+      muscle::HillParameters<double>& start =
+          s.study.data.muscles[static_cast<std::size_t>(k)].start;
+      const Eigen::VectorXd l = s.trial().length_m.col(k);
+      // Some swing about the length asked for.
+      s.trial().length_m.col(k) =
+          l.array() - l.mean() + times_optimal * start.optimal_fiber_length_m;
+      start.tendon_slack_length_m = 0.0;
+    }
+    return s;
+  };
+  EXPECT_EQ(without_tendon(1.0).error(), "");
+  EXPECT_EQ(without_tendon(1.6).error(), "");
+  expect_in(without_tendon(2.5).error(), {"l.sto", "whole muscles", "tendon_slack_length"});
+  expect_in(without_tendon(0.3).error(), {"l.sto", "optimal"});
+  Spoiled named = without_tendon(1.4);
+  named.files.lengths = "x_MuscleAnalysis_Length.sto";
+  const std::vector<std::string> remarks = named.check();
+  ASSERT_FALSE(remarks.empty());
+  expect_in(remarks[0], {"whole muscles", "tendon_slack_length"});
+}
+
 TEST(IdentifyInput, SwappedLengthsAndVelocitiesAreNamed) {
   Spoiled swapped;
   std::swap(swapped.trial().length_m, swapped.trial().velocity_mps);

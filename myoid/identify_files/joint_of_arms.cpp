@@ -1,0 +1,175 @@
+#include "myoid/identify_files/joint_of_arms.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <filesystem>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "myoid/core/error.h"
+
+namespace myoid {
+namespace {
+
+using identification::StudyData;
+using identification::TrialData;
+
+constexpr double kNoArm_m = 1e-4;
+constexpr double kAngleWindow_s = 0.1;
+constexpr double kMovesByAngle_m = 5e-4;  ///< Root mean square of a length's changes over a window.
+constexpr double kExplains = 0.5;
+
+std::string in_small_letters(std::string_view text) {
+  std::string result(text);
+  for (char& c : result) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return result;
+}
+
+bool one_holds_the_other(std::string_view a, std::string_view b) {
+  const std::string x = in_small_letters(a), y = in_small_letters(b);
+  return x.find(y) != std::string::npos || y.find(x) != std::string::npos;
+}
+
+/// Moment arms of one joint and its angle, which may be empty.
+struct JointArms {
+  const Eigen::MatrixXd& arm_m;
+  const Eigen::VectorXd& angle_rad;
+};
+
+std::vector<JointArms> joints_of(const TrialData& trial) {
+  std::vector<JointArms> joints{{trial.moment_arm_m, trial.angle_rad}};
+  for (const identification::JointData& more : trial.more_joints)
+    joints.push_back({more.moment_arm_m, more.angle_rad});
+  return joints;
+}
+
+void add_muscles_without_arm(const StudyData& data,
+                             const std::vector<JointArms>& joints,
+                             const IdentifyFiles& files,
+                             std::vector<std::string>& remarks) {
+  Eigen::VectorXd most = Eigen::VectorXd::Zero(joints.front().arm_m.cols());
+  for (std::size_t j = 0; j < joints.size(); ++j) {
+    const Eigen::VectorXd here = joints[j].arm_m.cwiseAbs().colwise().maxCoeff().transpose();
+    if (here.maxCoeff() < kNoArm_m)
+      throw InvalidInput(fmt::format(
+          "{}: every muscle's moment arm stays below 0.1 mm, expected some centimeters: none of "
+          "these muscles moves this joint; give the file of the joint whose torque is fitted",
+          files.moment_arms[j]));
+    most = most.cwiseMax(here);
+  }
+  std::vector<std::string> still;
+  for (Eigen::Index k = 0; k < most.size(); ++k) {
+    if (most[k] < kNoArm_m) still.push_back(data.muscles[static_cast<std::size_t>(k)].name);
+  }
+  if (!still.empty())
+    remarks.push_back(fmt::format(
+        "{}: the moment arm of {} stays below 0.1 mm: such a muscle makes no torque here, and "
+        "nothing of it can be identified; is this the file of another joint? Else leave the "
+        "muscle out of muscles.csv",
+        files.moment_arms.front(), fmt::join(still, ", ")));
+}
+
+/// Change of every muscle's length over each window, and as the moment arms make it of the angles.
+struct ArmChanges {
+  Eigen::MatrixXd of_length, by_angles;
+};
+
+ArmChanges changes_by_arms(const TrialData& trial, const std::vector<JointArms>& joints) {
+  const Eigen::Index n = trial.time_s.size();
+  const double step_s = (trial.time_s[n - 1] - trial.time_s[0]) / static_cast<double>(n - 1);
+  const auto reach = std::max<Eigen::Index>(1, std::lround(kAngleWindow_s / step_s));
+  const Eigen::Index count = (n - 1) / reach;
+  ArmChanges c;
+  c.of_length.resize(count, trial.length_m.cols());
+  c.by_angles.setZero(count, trial.length_m.cols());
+  for (Eigen::Index w = 0; w < count; ++w) {
+    const Eigen::Index first = w * reach;
+    c.of_length.row(w) = trial.length_m.row(first + reach) - trial.length_m.row(first);
+    for (const JointArms& joint : joints) {
+      for (Eigen::Index i = first; i < first + reach; ++i)
+        c.by_angles.row(w) -= 0.5 * (joint.angle_rad[i + 1] - joint.angle_rad[i]) *
+                              (joint.arm_m.row(i) + joint.arm_m.row(i + 1));
+    }
+  }
+  return c;
+}
+
+/// Share of the changes of a length that others make of it; below 0 if they are farther off than
+/// none.
+double share_explained(const Eigen::VectorXd& change, const Eigen::VectorXd& by) {
+  return 1.0 - (change - by).squaredNorm() / change.squaredNorm();
+}
+
+void compare_with_angles(const TrialData& trial,
+                         const std::vector<JointArms>& joints,
+                         const IdentifyFiles& files,
+                         std::vector<std::string>& remarks) {
+  const bool known = std::all_of(joints.begin(), joints.end(), [&](const JointArms& joint) {
+    return joint.angle_rad.size() == trial.time_s.size();
+  });
+  if (!known || trial.time_s.size() < 3) return;
+  const ArmChanges c = changes_by_arms(trial, joints);
+  const auto count = static_cast<double>(c.of_length.rows());
+  if (count < 5.0) return;
+  double best = -1e300, best_reversed = -1e300;
+  bool any = false;
+  for (Eigen::Index k = 0; k < c.of_length.cols(); ++k) {
+    const Eigen::VectorXd change = c.of_length.col(k), by = c.by_angles.col(k);
+    if (change.norm() < kMovesByAngle_m * std::sqrt(count)) continue;
+    any = true;
+    best = std::max(best, share_explained(change, by));
+    best_reversed = std::max(best_reversed, share_explained(change, -by));
+  }
+  if (!any || best >= kExplains) return;
+  remarks.push_back(fmt::format(
+      "{}: {}", files.moment_arms.front(),
+      best_reversed >= kExplains
+          ? std::string("lengths change by +r dq with the angles of --motion, expected dl = -r dq: "
+                        "the sign of the moment arms or of the angles is reversed")
+          : fmt::format("with the angles of --motion dl = -r dq explains at most {:.0f} % of the "
+                        "change of any muscle's length, expected most of it for a muscle that "
+                        "crosses no other joint; is it the file of another joint or trial?",
+                        100.0 * std::max(0.0, best))));
+}
+
+}  // namespace
+
+std::string_view coordinate_in_name(std::string_view path) {
+  constexpr std::string_view kMark = "momentarm_";
+  const std::size_t folder = path.find_last_of("/\\");
+  if (folder != std::string_view::npos) path.remove_prefix(folder + 1);
+  path = path.substr(0, path.find_last_of('.'));
+  const std::size_t at = in_small_letters(path).find(kMark);
+  return at == std::string::npos ? std::string_view() : path.substr(at + kMark.size());
+}
+
+std::string check_joint_by_name(const std::string& path,
+                                const std::string& torque_column,
+                                const TimeSeries& torques) {
+  const std::string_view stated = coordinate_in_name(path);
+  if (stated.empty() || one_holds_the_other(stated, torque_column)) return {};
+  const std::string found =
+      fmt::format("by its name the moment arms about '{}', but the torque fitted is '{}'", stated,
+                  torque_column);
+  if (torques.find(stated) || torques.find(fmt::format("{}_moment", stated)))
+    throw InvalidInput(fmt::format(
+        "{}: {}; the torque file has both: give --coordinate {}, or the file of the other moment "
+        "arms",
+        path, found, stated));
+  return fmt::format("{}: {}; is it the file of another joint?", path, found);
+}
+
+std::vector<std::string> check_joint_of_arms(const StudyData& data,
+                                             const TrialData& trial,
+                                             const IdentifyFiles& files) {
+  std::vector<std::string> remarks;
+  if (files.moment_arms.empty()) return remarks;
+  const std::vector<JointArms> joints = joints_of(trial);
+  add_muscles_without_arm(data, joints, files, remarks);
+  compare_with_angles(trial, joints, files, remarks);
+  return remarks;
+}
+
+}  // namespace myoid
