@@ -19,6 +19,7 @@
 #include "myoid/osim/osim_named_frames.h"
 #include "myoid/osim/osim_reader.h"
 #include "myoid/osim/osim_updater.h"
+#include "myoid/recording/recording.h"
 
 namespace myoid {
 namespace {
@@ -58,6 +59,15 @@ OrientationSeries rows_between(const OrientationSeries& series,
   }
   if (rows.empty()) setup.xml().fail(setup.tool(), "<time_range> holds no row of the orientations");
   return {series.time_s(rows), series.names, series.quaternions(rows, Eigen::all)};
+}
+
+/// Reads orientations; adds what the reader mended to `notes`.
+OrientationSeries orientations_of(const std::filesystem::path& path,
+                                  std::vector<std::string>& notes) {
+  OrientationSeries series = recording::read_orientations(path);
+  for (const recording::Repair& repair : series.repairs)
+    notes.push_back(recording::to_string(path, repair));
+  return series;
 }
 
 /// The axis that a name like "-z" means.
@@ -205,7 +215,7 @@ void run_imu_placer(const OpensimSetup& setup, const ToolOptions& options, ToolR
       model::parse_osim(updated.text, model_path, {.compat = options.compat});
   const auto orientations = setup.required_file(tool, "orientation_file_for_calibration");
   OrientationSeries series =
-      turned(recording::read_orientations(orientations), sensor_to_ground(setup));
+      turned(orientations_of(orientations, result.notes), sensor_to_ground(setup));
   model::BodyState state = model::make_state(model);
   model::compute_poses(model, model::assemble(model, model.default_q()).q, state);
   series = turned(std::move(series), heading_correction(setup, model, state, series));
@@ -238,7 +248,7 @@ void run_imu_inverse_kinematics(const OpensimSetup& setup,
   claim_file(options, motion_path, result);
   if (report_errors) claim_file(options, errors_path, result);
   const model::BodyModel model = setup_model(setup, options.compat, {}, notes);
-  OrientationSeries series = recording::read_orientations(path);
+  OrientationSeries series = orientations_of(path, notes);
   const auto range_s = setup.time_range(tool, "time_range");
   setup.check_range(range_s, series.time_s, path, notes);
   series = turned(rows_between(series, range_s, setup), sensor_to_ground(setup));

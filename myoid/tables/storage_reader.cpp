@@ -171,10 +171,10 @@ Storage parse_storage(std::string_view text, const std::filesystem::path& path) 
   }
   std::size_t elements = 1;
   if (const std::string* type = value_of(storage.header, "DataType")) {
-    elements = *type == "Vec3" || *type == "UnitVec3"     ? 3
-               : *type == "Vec2"                          ? 2
-               : *type == "Quaternion" || *type == "Vec4" ? 4
-               : *type == "Vec6" || *type == "SpatialVec" ? 6
+    elements = is_one_of(*type, {"Vec3", "UnitVec3"})     ? 3
+               : is_one_of(*type, {"Vec2"})               ? 2
+               : is_one_of(*type, {"Quaternion", "Vec4"}) ? 4
+               : is_one_of(*type, {"Vec6", "SpatialVec"}) ? 6
                                                           : 1;
   }
 
