@@ -20,6 +20,7 @@
 #include "myoid/recording/recording.h"
 #include "myoid/study/study.h"
 #include "myoid/study/study_json.h"
+#include "myoid/tables/orientation_reader.h"
 #include "myoid/tables/storage_reader.h"
 
 #include "tests/damage/table_kinds.h"
@@ -81,11 +82,6 @@ Content read_c3d(const fs::path& path) {
   return content;
 }
 
-Content read_channels(const fs::path& path) {
-  const recording::Recording file = recording::read_recording(path);
-  return of_series(file.analog.series(), file.repairs);
-}
-
 Content read_emg(const fs::path& path) {
   const recording::EmgFile file = recording::read_emg(path, "", false);
   return of_series(file.data, file.repairs);
@@ -95,6 +91,20 @@ Content read_storage(const fs::path& path) {
   recording::Storage file = recording::read_storage(path);
   Content content = of_series(file.data, file.repairs);
   content.texts["in degrees"] = file.in_degrees ? "yes" : "no";
+  return content;
+}
+
+/// The four numbers of each sensor.
+Content read_orientations(const fs::path& path) {
+  const recording::OrientationSeries file = recording::read_orientations(path);
+  Content content;
+  content.time_s = {file.time_s.begin(), file.time_s.end()};
+  for (Eigen::Index c = 0; c < file.quaternions.cols(); ++c) {
+    const auto column = file.quaternions.col(c);
+    content.numbers[file.names[static_cast<std::size_t>(c / 4)] + "." + "wxyz"[c % 4]] = {
+        column.begin(), column.end()};
+  }
+  add_notes(file.repairs, content);
   return content;
 }
 
@@ -198,6 +208,22 @@ class Maker {
       text += '\n';
     }
     if (comma) std::replace(text.begin(), text.end(), '.', ',');
+    return text;
+  }
+  /// Turns of two sensors by any angle about any axis, with eight decimals.
+  std::string orientations() {
+    std::string text;
+    std::normal_distribution<double> normal;
+    for (int i = 0; i < kRows; ++i) {
+      text += fmt::format("{:.2f}", 0.01 * i);
+      for (int sensor = 0; sensor < 2; ++sensor) {
+        Eigen::Vector4d q;
+        for (double& x : q) x = normal(engine_);
+        q.normalize();
+        text += fmt::format("\t{:.8f},{:.8f},{:.8f},{:.8f}", q[0], q[1], q[2], q[3]);
+      }
+      text += '\n';
+    }
     return text;
   }
   std::string counts() {
@@ -326,6 +352,10 @@ std::vector<Kind> good_files(const fs::path& folder) {
   table("MOT of SIMM", "f.mot",
         "name x\ndatacolumns 3\ndatarows 40\nrange 0 0.39\nendheader\ntime\ta\tb\n",
         make.rows(2, '\t', false, 0.01), read_storage);
+  table("STO of orientations", "f.sto",
+        "DataRate=100.000000\nDataType=Quaternion\nversion=3\nOpenSimVersion=4.5\nendheader\n"
+        "time\ta_imu\tb_imu\n",
+        make.orientations(), read_orientations, false);
   table("CSV", "f.csv", "time,E1 [mV],E2 [mV]\n", make.rows(2, ',', false, 0.001), read_emg, false,
         {"check"});
   table("CSV, comma decimals", "f.csv", "time;E1 [mV];E2 [mV]\n",

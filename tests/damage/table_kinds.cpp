@@ -11,7 +11,6 @@
 #include <fmt/format.h>
 
 #include "myoid/files/atomic_file.h"
-#include "myoid/recording/recording.h"
 
 namespace myoid::damage {
 namespace {
@@ -38,16 +37,6 @@ void add_channels(const recording::Recording& file, Content& content) {
       content.numbers[clock.channels()[static_cast<std::size_t>(c)].name] = std::move(column);
     }
   }
-}
-
-Content read_table_channels(const fs::path& path) {
-  const recording::Recording file = recording::read_recording(path);
-  Content content;
-  add_channels(file, content);
-  for (std::size_t i = 0; i < file.events.size(); ++i)
-    content.texts[fmt::format("event {}", i)] = fmt::format("at {:.6f} s", file.events[i].time_s);
-  add_notes(file.repairs, content);
-  return content;
 }
 
 /// Markers by the door of `info` and `check`; a table that is taken for one of channels gives
@@ -200,7 +189,7 @@ void nexus_devices(TableMaker& make, std::vector<Kind>& list) {
   Kind kind =
       table("Nexus devices", "f.csv",
             "Devices\n1000\n,,EMG - Voltage,,Load,\nFrame,Sub Frame,BIC,TRI,Fz\n,,mV,mV,N\n",
-            make.rows(3, ',', frames), read_table_channels);
+            make.rows(3, ',', frames), read_channels);
   kind.says_its_rows = false;
   list.push_back(with_columns(std::move(kind), 2, 3, 1, {0, 1}));
 }
@@ -210,7 +199,7 @@ void qualisys_channels(TableMaker& make, std::vector<Kind>& list) {
       table("Qualisys analog", "f.tsv",
             "NO_OF_SAMPLES\t40\nTOTAL_NO_OF_CHANNELS\t3\nFREQUENCY\t2000\nDESCRIPTION\t--\n"
             "DATA_INCLUDED\tANALOG\nCHANNEL_NAMES\tBIC\tTRI\tBRA\nSAMPLE\tTIME\tBIC\tTRI\tBRA\n",
-            make.rows(3, '\t', frame_and_time('\t', 1, 0.0005)), read_table_channels),
+            make.rows(3, '\t', frame_and_time('\t', 1, 0.0005)), read_channels),
       6, 6, 1, {0, 1}));
 }
 
@@ -219,19 +208,19 @@ void other_channels(TableMaker& make, std::vector<Kind>& list) {
       with_columns(table("BTS EMG", "f.emt",
                          "BTS ASCII format\n\nType:\tEmg tracks\nMeasure unit:\tmV\n\nTracks:\t3\n"
                          "Frequency:\t1000 Hz\nFrames:\t40\n\nFrame\tTime\tBIC\tTRI\tBRA\n",
-                         make.rows(3, '\t', frame_and_time('\t', 1, 0.001)), read_table_channels),
+                         make.rows(3, '\t', frame_and_time('\t', 1, 0.001)), read_channels),
                    9, 9, 1, {0, 1}));
   Kind biopac = table("BIOPAC", "f.txt",
                       "c:\\trial.acq\n0.5 msec/sample\n3 channels\nBIC\nmV\nTRI\nmV\nBRA\nmV\n"
                       "CH1\tCH2\tCH3\n40\t40\t40\n",
-                      make.rows(3, '\t', [](int) { return std::string(); }), read_table_channels);
+                      make.rows(3, '\t', [](int) { return std::string(); }), read_channels);
   biopac.ordered = false;
   list.push_back(std::move(biopac));
   Kind noraxon = table("Noraxon MR4", "f.csv",
                        "\"type\";\"begin_time\";\"frequency\";\"count\";\"sex\"\n"
                        "\"record\";\"0,00000\";\"2000\";\"40\";\"male\"\n\n"
                        "\"time\";\"Activity\";\"Marker\";\"BIC LT (uV)\";\"TRI LT (uV)\"\n",
-                       "", read_table_channels);
+                       "", read_channels);
   std::string rows = make.rows(2, ';', [](int i) {
     return fmt::format("{:.5f};{};;", 0.0005 * i, i == 0 ? "\"Activity\"" : "");
   });
@@ -265,12 +254,12 @@ void delsys(TableMaker& make, std::vector<Kind>& list) {
   Kind old = table("Discover 1.4", "f.csv",
                    "Application:, Trigno Discover (1.4.2)\n" + sensors +
                        "EMG 1 (74Hz), ACC X (37Hz), EMG 2 (74Hz), ACC Y (37Hz), \n",
-                   packets(make, ", ", false), read_table_channels);
+                   packets(make, ", ", false), read_channels);
   Kind recent = table("Discover 1.7", "f.csv",
                       "Application:, Trigno Discover (1.7.0)\n" + sensors +
                           "EMG 1 (mV), ACC X (G), EMG 2 (mV), ACC Y (G)\n"
                           "74.0741 Hz, 37.0370 Hz, 74.0741 Hz, 37.0370 Hz\n",
-                      packets(make, ", ", false), read_table_channels);
+                      packets(make, ", ", false), read_channels);
   for (Kind* kind : {&old, &recent}) {
     kind->says_its_rows = false;
     kind->ordered = false;
@@ -279,7 +268,7 @@ void delsys(TableMaker& make, std::vector<Kind>& list) {
   Kind works = table("EMGworks", "f.csv",
                      "X[s],\"Sensor 1: EMG 1\",X[s],\"Sensor 1: ACC.X 1\",X[s],\"Sensor 2: EMG 2\","
                      "X[s],\"Sensor 2: ACC.Y 2\"\n",
-                     packets(make, ",", true), read_table_channels);
+                     packets(make, ",", true), read_channels);
   works.says_its_rows = false;
   list.push_back(with_columns(std::move(works), 0, 0, 2, {0}));
 }
@@ -288,6 +277,16 @@ void delsys(TableMaker& make, std::vector<Kind>& list) {
 
 void add_notes(const std::vector<recording::Repair>& repairs, Content& content) {
   for (const recording::Repair& r : repairs) content.notes.push_back(recording::to_string(r));
+}
+
+Content read_channels(const fs::path& path) {
+  const recording::Recording file = recording::read_recording(path);
+  Content content;
+  add_channels(file, content);
+  for (std::size_t i = 0; i < file.events.size(); ++i)
+    content.texts[fmt::format("event {}", i)] = fmt::format("at {:.6f} s", file.events[i].time_s);
+  add_notes(file.repairs, content);
+  return content;
 }
 
 std::vector<Kind> good_tables(const fs::path& folder) {

@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "myoid/files/text_file.h"
+#include "myoid/recording/recording.h"
 
 #include "tests/damage/kinds.h"
 
@@ -14,6 +14,9 @@ inline constexpr int kRows = 40;
 
 /// Adds the sentences of what a reader repaired.
 void add_notes(const std::vector<recording::Repair>& repairs, Content& content);
+
+/// Channels of all clocks of a file, with its events.
+[[nodiscard]] Content read_channels(const std::filesystem::path& path);
 
 /// One good table of markers or channels of every maker's layout that the readers know, with what
 /// must stand beside it in `folder`.

@@ -105,6 +105,9 @@ int main(int argc, char** argv) {
         "Coordinates\nversion=1\nnRows=2\nnColumns=3\ninDegrees=yes\n\nendheader\ntime\ta\tb\n"
         "0\t1\t-2e-3\n0.01\tnan\t4\n");
   write(root / "sto", "2", "DataType=Vec3\nversion=3\nendheader\ntime\ta\n0\t1,2,3\n1\t4,5,6\n");
+  write(root / "orientations", "1",
+        "DataRate=100\nDataType=Quaternion\nversion=3\nOpenSimVersion=4.5\nendheader\n"
+        "time\ta_imu\tb_imu\n0\t0.6,0.8,0,0\t1,0,0,0\n0.01\tNaN,NaN,NaN,NaN\t0.6,0,0,-0.8\n");
   write(root / "csv", "1", "time,Biceps [mV]\n0,1\n0.5,2\n");
   write(root / "csv", "2", "Frequency;1500\n\ntime;LT BIC\ns;uV\n0,0;1,5\n0,1;2,5\n");
   write(root / "csv", "3",
