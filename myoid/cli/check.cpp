@@ -7,18 +7,12 @@
 
 #include "myoid/checks/check_study.h"
 #include "myoid/cli/context.h"
+#include "myoid/core/counted.h"
+#include "myoid/core/json_text.h"
 #include "myoid/recording/laboratory_up.h"
 #include "myoid/recording/recording.h"
-#include "myoid/report/json_values.h"
 
 namespace myoid::cli {
-namespace {
-
-std::string counted(long count, std::string_view noun) {
-  return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
-}
-
-}  // namespace
 
 void add_check(CLI::App& app, Context& context) {
   CLI::App& command = *app.add_subcommand("check",
@@ -49,8 +43,8 @@ void add_check(CLI::App& app, Context& context) {
       Study study = read_study(o->input);
       restrict_trials(study, context.start_s, context.end_s);
       findings = check_study(study);
-      what = fmt::format("{}, {}", counted(static_cast<long>(study.trials.size()), "trial"),
-                         counted(static_cast<long>(study.muscles.size()), "muscle"));
+      what = fmt::format("{}, {}", counted(study.trials.size(), "trial"),
+                         counted(study.muscles.size(), "muscle"));
     } else {
       findings = check_recording(o->input, recording::axis_vector(o->up));
       what = o->input;
@@ -70,7 +64,7 @@ void add_check(CLI::App& app, Context& context) {
         json.back()["end_s"] = f.fault->end_s;
         json.back()["value"] = f.fault->value;
       }
-      fmt::print("{}\n", report::json_text(json));
+      fmt::print("{}\n", json_text(json));
     } else {
       // What to do is said with the first of several faults that ask for the same.
       std::set<std::string> said;
@@ -79,8 +73,8 @@ void add_check(CLI::App& app, Context& context) {
             f.fault && !f.fault->remedy.empty() && !said.insert(f.fault->remedy).second;
         fmt::print("{:<8} {}: {}\n", name(f.level), f.where, again ? f.fault->text : f.message);
       }
-      fmt::print("{}: {}, {}\n", what, counted(errors, "error"),
-                 counted(static_cast<long>(findings.size()) - errors, "remark"));
+      fmt::print("{}: {}, {}\n", what, counted(static_cast<std::size_t>(errors), "error"),
+                 counted(findings.size() - static_cast<std::size_t>(errors), "remark"));
     }
     if (errors > 0) context.exit_code = kBadInput;
   });

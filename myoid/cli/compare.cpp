@@ -5,6 +5,7 @@
 
 #include "myoid/cli/context.h"
 #include "myoid/core/error.h"
+#include "myoid/core/json_text.h"
 #include "myoid/report/write_report.h"
 #include "myoid/results/compare_runs.h"
 
@@ -80,7 +81,7 @@ void add_compare(CLI::App& app, Context& context) {
       report::write_report(comparison_report(comparison), options->out);
     }
     if (context.json) {
-      fmt::print("{}\n", to_json(comparison).dump(2));
+      fmt::print("{}\n", json_text(to_json(comparison)));
       return;
     }
     print(comparison);

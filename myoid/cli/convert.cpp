@@ -142,7 +142,7 @@ class Converter {
  private:
   void print_written() const {
     if (context_.json) {
-      fmt::print("{}\n", report::json_text(nlohmann::ordered_json{{"files", written_}}));
+      fmt::print("{}\n", json_text(nlohmann::ordered_json{{"files", written_}}));
     } else {
       for (const std::string& file : written_) fmt::print("{}\n", file);
     }

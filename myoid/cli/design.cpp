@@ -7,6 +7,7 @@
 
 #include "myoid/cli/context.h"
 #include "myoid/core/error.h"
+#include "myoid/core/json_text.h"
 #include "myoid/design/design_study.h"
 #include "myoid/report/report.h"
 #include "myoid/study/run_identity.h"
@@ -85,7 +86,7 @@ void print_json(const DesignStudyResult& result) {
                             {"fatigued_share", m.fatigued_share},
                             {"expected", estimates_json(m.expected)}});
   }
-  fmt::print("{}\n", json.dump(2));
+  fmt::print("{}\n", json_text(json));
 }
 
 }  // namespace

@@ -280,7 +280,7 @@ void run_emg(EmgCommand o, const Context& context) {
                               of_envelope);
   }
   if (context.json) {
-    fmt::print("{}\n", report::json_text(emg_json(activations, files, normalisation, chain)));
+    fmt::print("{}\n", json_text(emg_json(activations, files, normalisation, chain)));
   } else {
     print_emg(activations, files, normalisation, chain);
   }

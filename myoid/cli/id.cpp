@@ -8,6 +8,7 @@
 #include "myoid/cli/context.h"
 #include "myoid/cli/stage_input.h"
 #include "myoid/core/error.h"
+#include "myoid/core/json_text.h"
 #include "myoid/dynamics/external_loads.h"
 #include "myoid/dynamics/ground_support.h"
 #include "myoid/dynamics/held_mass.h"
@@ -91,7 +92,7 @@ void add_id(CLI::App& app, Context& context) {
                                   {"lowest", forces.values().col(c).minCoeff()},
                                   {"highest", forces.values().col(c).maxCoeff()}});
       }
-      fmt::print("{}\n", json.dump(2));
+      fmt::print("{}\n", json_text(json));
     } else {
       fmt::print("{}\n", o->out);
     }

@@ -5,6 +5,7 @@
 #include "myoid/cli/context.h"
 #include "myoid/cli/stage_input.h"
 #include "myoid/core/error.h"
+#include "myoid/core/json_text.h"
 #include "myoid/kinematics/inverse_kinematics.h"
 #include "myoid/kinematics/marker_misfit.h"
 #include "myoid/recording/plate_standing.h"
@@ -139,7 +140,7 @@ void add_ik(CLI::App& app, Context& context) {
                                         {"marker_error_rms_m", worst_mm / 1000.0},
                                         {"wrong_unit", misfit.wrong_unit},
                                         {"undetermined", result.undetermined}};
-      fmt::print("{}\n", json.dump(2));
+      fmt::print("{}\n", json_text(json));
     } else {
       fmt::print("{} frames, {} not converged, {} without markers; marker error {:.2f} mm rms{}\n",
                  result.status.size(), result.frames_not_converged, result.frames_without_markers,

@@ -11,10 +11,10 @@
 #include "myoid/contents/model_contents.h"
 #include "myoid/contents/recording_contents.h"
 #include "myoid/core/error.h"
+#include "myoid/core/json_text.h"
 #include "myoid/files/text_file.h"
 #include "myoid/osim/osim_reader.h"
 #include "myoid/recording/recording.h"
-#include "myoid/report/json_values.h"
 #include "myoid/study/study.h"
 
 namespace myoid::cli {
@@ -96,7 +96,7 @@ void add_info(CLI::App& app, Context& context) {
         throw InvalidInput("--html shows one model: give one .osim, or arm4");
       const std::string done = write_model_page(files->front(), *page, context);
       if (context.json) {
-        fmt::print("{}\n", report::json_text(ordered_json{{"html", page->html}}));
+        fmt::print("{}\n", json_text(ordered_json{{"html", page->html}}));
       } else {
         fmt::print("{}\n", done);
       }
@@ -114,7 +114,7 @@ void add_info(CLI::App& app, Context& context) {
       }
       all.push_back(std::move(j));
     }
-    if (context.json) fmt::print("{}\n", report::json_text(all));
+    if (context.json) fmt::print("{}\n", json_text(all));
   });
 }
 

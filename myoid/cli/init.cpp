@@ -3,6 +3,7 @@
 
 #include "myoid/cli/context.h"
 #include "myoid/core/error.h"
+#include "myoid/core/json_text.h"
 #include "myoid/draft/study_draft.h"
 #include "myoid/files/atomic_file.h"
 
@@ -40,8 +41,7 @@ void add_init(CLI::App& app, Context& context) {
     recording::write_file(file, draft.toml);
     for (const std::string& note : draft.notes) context.log(note);
     if (context.json) {
-      fmt::print("{}\n",
-                 nlohmann::ordered_json{{"file", file.string()}, {"todo", draft.todo}}.dump(2));
+      fmt::print("{}\n", json_text({{"file", file.string()}, {"todo", draft.todo}}));
       return;
     }
     fmt::print("{}\n", file.string());

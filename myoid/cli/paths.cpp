@@ -7,6 +7,7 @@
 #include "myoid/arm/arm4.h"
 #include "myoid/cli/context.h"
 #include "myoid/cli/stage_input.h"
+#include "myoid/core/json_text.h"
 #include "myoid/files/text_file.h"
 #include "myoid/kinematics/muscle_kinematics.h"
 #include "myoid/kinematics/surrogate_file.h"
@@ -126,7 +127,7 @@ void add_paths(CLI::App& app, Context& context) {
       }
       for (const auto& [coordinate, arm] : muscles.moment_arm)
         json["moment_arms"].push_back(coordinate);
-      fmt::print("{}\n", json.dump(2));
+      fmt::print("{}\n", json_text(json));
     } else {
       fmt::print("{}\n", o->out);
     }

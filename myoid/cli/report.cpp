@@ -4,6 +4,7 @@
 #include "myoid/cli/context.h"
 #include "myoid/cli/held_folders.h"
 #include "myoid/core/error.h"
+#include "myoid/core/json_text.h"
 #include "myoid/files/text_file.h"
 #include "myoid/report/write_report.h"
 #include "myoid/results/study_report.h"
@@ -63,7 +64,7 @@ void add_report(CLI::App& app, Context& context) {
     context.end_progress();
     const std::string page = (std::filesystem::path(*folder) / "report.html").string();
     if (context.json) {
-      fmt::print("{}\n", nlohmann::ordered_json{{"report", page}}.dump(2));
+      fmt::print("{}\n", json_text({{"report", page}}));
     } else {
       fmt::print("{}\n", page);
     }

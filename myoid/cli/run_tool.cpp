@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "myoid/cli/context.h"
+#include "myoid/core/json_text.h"
 
 namespace myoid::cli {
 
@@ -47,7 +48,7 @@ void add_run_tool(CLI::App& app, Context& context) {
                                   {"frames_failed", result.frames_failed},
                                   {"notes", result.notes}};
       for (const auto& file : result.files) json["files"].push_back(file.string());
-      fmt::print("{}\n", json.dump(2));
+      fmt::print("{}\n", json_text(json));
     } else {
       fmt::print("{}{}{}\n", result.tool, result.summary.empty() ? "" : ": ", result.summary);
       for (const auto& file : result.files) fmt::print("{}\n", file.string());

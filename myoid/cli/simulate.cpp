@@ -9,6 +9,7 @@
 #include "myoid/cli/context.h"
 #include "myoid/cli/stage_input.h"
 #include "myoid/core/error.h"
+#include "myoid/core/json_text.h"
 #include "myoid/core/units.h"
 #include "myoid/dynamics/held_mass.h"
 #include "myoid/files/text_file.h"
@@ -111,17 +112,17 @@ std::vector<Signal> excitations(const SimulateOptions& o,
 }
 
 std::string options_json(const SimulateOptions& o, double start_s, double end_s) {
-  return nlohmann::ordered_json{{"model", o.model},           {"excitations", o.excitations},
-                                {"excite", o.excite},         {"rest", o.rest},
-                                {"tendon", o.tendon},         {"curves", o.curves},
-                                {"activation", o.activation}, {"initial", o.initial},
-                                {"initial_speed", o.speed},   {"lock", o.lock},
-                                {"horizontal", o.horizontal}, {"held_mass_kg", o.held_mass_kg},
-                                {"held_body", o.held_body},   {"held_at_m", o.held_at},
-                                {"rate_hz", o.rate_hz},       {"tolerance", o.tolerance},
-                                {"energy", o.energy},         {"sensitivity", o.sensitivity},
-                                {"start_s", start_s},         {"end_s", end_s}}
-      .dump();
+  return json_text({{"model", o.model},           {"excitations", o.excitations},
+                    {"excite", o.excite},         {"rest", o.rest},
+                    {"tendon", o.tendon},         {"curves", o.curves},
+                    {"activation", o.activation}, {"initial", o.initial},
+                    {"initial_speed", o.speed},   {"lock", o.lock},
+                    {"horizontal", o.horizontal}, {"held_mass_kg", o.held_mass_kg},
+                    {"held_body", o.held_body},   {"held_at_m", o.held_at},
+                    {"rate_hz", o.rate_hz},       {"tolerance", o.tolerance},
+                    {"energy", o.energy},         {"sensitivity", o.sensitivity},
+                    {"start_s", start_s},         {"end_s", end_s}},
+                   -1);
 }
 
 /// Sets what --initial, --initial-speed and --lock name among the coordinates.

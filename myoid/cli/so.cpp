@@ -7,6 +7,7 @@
 #include "myoid/cli/context.h"
 #include "myoid/cli/stage_input.h"
 #include "myoid/core/error.h"
+#include "myoid/core/json_text.h"
 #include "myoid/dynamics/external_loads.h"
 #include "myoid/dynamics/ground_support.h"
 #include "myoid/forces/force_sharing.h"
@@ -105,7 +106,7 @@ void add_so(CLI::App& app, Context& context) {
                                         {"frames_not_solved", shared.frames_not_solved},
                                         {"frames_with_reserve", shared.frames_with_reserve},
                                         {"largest_kkt_residual", shared.kkt_residual.maxCoeff()}};
-      fmt::print("{}\n", json.dump(2));
+      fmt::print("{}\n", json_text(json));
     } else {
       fmt::print(
           "{} frames: {} not solved, {} where a reserve helps; largest KKT residual {:.1e}\n{}\n",

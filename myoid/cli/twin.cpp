@@ -6,6 +6,7 @@
 
 #include "myoid/cli/context.h"
 #include "myoid/core/error.h"
+#include "myoid/core/json_text.h"
 #include "myoid/files/atomic_file.h"
 #include "myoid/twin/protocol.h"
 #include "myoid/twin/write_recording.h"
@@ -88,7 +89,7 @@ void make_many(const TwinOptions& options, Context& context) {
     json["studies"] = nlohmann::ordered_json::array();
     for (std::size_t i = 0; i < count && !options.truth_only; ++i)
       json["studies"].push_back((folder_of(out, context.seed + i) / "study.toml").string());
-    fmt::print("{}\n", json.dump(2));
+    fmt::print("{}\n", json_text(json));
   } else {
     fmt::print("{}\n", (out / "persons.csv").string());
   }
@@ -109,7 +110,7 @@ void make_one(const TwinOptions& options, Context& context) {
     json["trials"] = nlohmann::ordered_json::array();
     for (const twin::VirtualTrial& trial : recording.trials)
       json["trials"].push_back(trial.protocol.name);
-    fmt::print("{}\n", json.dump(2));
+    fmt::print("{}\n", json_text(json));
   } else {
     fmt::print("{}\n", study);
   }

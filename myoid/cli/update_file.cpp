@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "myoid/cli/context.h"
+#include "myoid/core/json_text.h"
 #include "myoid/files/atomic_file.h"
 #include "myoid/files/text_file.h"
 #include "myoid/model/opensim_defects/compat.h"
@@ -42,7 +43,7 @@ void add_update_file(CLI::App& app, Context& context) {
           {"old_version", updated.old_version},
           {"version", std::max(updated.old_version, model::kNewestOsimVersion)},
           {"notes", updated.notes}};
-      fmt::print("{}\n", json.dump(2));
+      fmt::print("{}\n", json_text(json));
     } else {
       fmt::print("version {} -> {}\n{}\n", updated.old_version,
                  std::max(updated.old_version, model::kNewestOsimVersion), o->new_file);

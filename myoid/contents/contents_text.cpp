@@ -1,8 +1,12 @@
 #include "myoid/contents/contents_text.h"
 
 #include <algorithm>
+#include <string>
+#include <string_view>
 
 #include <fmt/format.h>
+
+#include "myoid/core/json_text.h"
 
 namespace myoid {
 
@@ -11,9 +15,7 @@ using nlohmann::ordered_json;
 namespace {
 
 /// JSON in one line.
-std::string compact(const ordered_json& value) {
-  return value.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
-}
+std::string compact(const ordered_json& value) { return json_text(value, -1); }
 
 std::string number_or_text(const ordered_json& value, int digits) {
   if (value.is_string()) return value.get<std::string>();
@@ -43,6 +45,14 @@ std::string member_text(const ordered_json& item) {
   return line;
 }
 
+/// The ending of a key that says what another key's value comes from: "up" and "up_from".
+constexpr const char* kFrom = "_from";
+
+bool says_where_from(const ordered_json& contents, const std::string& key) {
+  const std::size_t base = key.size() - std::min(key.size(), std::string_view(kFrom).size());
+  return key.ends_with(kFrom) && contents.contains(key.substr(0, base));
+}
+
 /// A member of a list, and below it the members of its own lists.
 std::string lines_of(const ordered_json& item) {
   std::string text = fmt::format("  {}\n", member_text(item));
@@ -59,10 +69,14 @@ std::string lines_of(const ordered_json& item) {
 std::string contents_text(const ordered_json& contents) {
   std::string text;
   for (const auto& [key, value] : contents.items()) {
+    if (says_where_from(contents, key)) continue;
     std::string label = key;
     std::replace(label.begin(), label.end(), '_', ' ');
     if (!value.is_array()) {
-      text += fmt::format("{}: {}\n", label, number_or_text(value, 6));
+      const auto from = contents.find(key + kFrom);
+      text += fmt::format(
+          "{}: {}{}\n", label, number_or_text(value, 6),
+          from == contents.end() ? "" : fmt::format(" (from {})", number_or_text(*from, 6)));
     } else if (!value.empty() && value[0].is_number()) {
       text += fmt::format("{}: {}\n", label, compact(value));
     } else if (!value.empty()) {

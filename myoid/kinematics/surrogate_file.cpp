@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "myoid/core/error.h"
+#include "myoid/core/json_text.h"
 #include "myoid/core/provenance.h"
 #include "myoid/files/atomic_file.h"
 #include "myoid/files/text_file.h"
@@ -114,7 +115,7 @@ void write_surrogates(const std::filesystem::path& path,
                                  {"within_tolerance", s.within_tolerance},
                                  {"coefficient_m", json_numbers(s.coefficient_m)}});
   }
-  recording::write_file(path, object.dump(1) + "\n");
+  recording::write_file(path, json_text(object, 1) + "\n");
 }
 
 std::optional<std::vector<kinematics::PathSurrogate>> read_surrogates(

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "myoid/core/error.h"
+#include "myoid/core/json_text.h"
 #include "myoid/core/provenance.h"
 #include "myoid/files/atomic_file.h"
 #include "myoid/tables/csv_reader.h"
@@ -90,10 +91,10 @@ std::vector<fs::path> write_bids_derivative(const fs::path& results,
       {"BIDSVersion", "1.10.0"},
       {"DatasetType", "derivative"},
       {"GeneratedBy", ordered_json::array({{{"Name", "Myoid"}, {"Version", version()}}})}};
-  write(out / "dataset_description.json", description.dump(2) + '\n');
+  write(out / "dataset_description.json", json_text(description) + '\n');
   const std::string stem = sub + "_desc-identified_parameters";
   write(out / sub / (stem + ".tsv"), parameters_tsv(table));
-  write(out / sub / (stem + ".json"), parameters_columns(table).dump(2) + '\n');
+  write(out / sub / (stem + ".json"), json_text(parameters_columns(table)) + '\n');
 
   std::vector<fs::path> trials;
   for (const auto& entry : fs::directory_iterator(results)) {
@@ -138,7 +139,7 @@ std::vector<fs::path> write_bids_derivative(const fs::path& results,
         {"JNTANGChannelCount", angles},
         {"MissingValues", "n/a"}};
     write(base / (name + "_motion.tsv"), rows);
-    write(base / (name + "_motion.json"), sidecar.dump(2) + '\n');
+    write(base / (name + "_motion.json"), json_text(sidecar) + '\n');
     write(base / (name + "_channels.tsv"), channels);
   }
   return written;

@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "myoid/core/json_text.h"
 #include "myoid/report/tables.h"
 
 namespace myoid::report {
@@ -73,7 +74,7 @@ std::string report_json(const Report& report) {
                      {"assumptions", report.assumptions},
                      {"provenance", provenance}};
   // Text that is not UTF-8 (a file name, say) is shown with a replacement, not refused.
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
+  return json_text(json) + '\n';
 }
 
 }  // namespace myoid::report

@@ -10,10 +10,6 @@ ordered_json number_or_null(const std::optional<double>& value) {
   return value && std::isfinite(*value) ? ordered_json(*value) : ordered_json(nullptr);
 }
 
-std::string json_text(const ordered_json& json) {
-  return json.dump(2, ' ', false, ordered_json::error_handler_t::replace);
-}
-
 ordered_json provenance_json(const Provenance& provenance) {
   ordered_json object;
   object["program"] = provenance.program;

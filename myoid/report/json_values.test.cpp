@@ -14,14 +14,6 @@ TEST(NumberOrNull, WhatIsAbsentOrNotFiniteIsNull) {
   EXPECT_TRUE(number_or_null(-std::numeric_limits<double>::infinity()).is_null());
 }
 
-TEST(JsonText, BytesThatAreNoUtf8AreReplacedAndNothingElseIs) {
-  nlohmann::ordered_json json;
-  json["name"] = "\xF6";
-  EXPECT_EQ(json_text(json), "{\n  \"name\": \"\xEF\xBF\xBD\"\n}");
-  json["name"] = "\xC3\xB6";
-  EXPECT_EQ(json_text(json), "{\n  \"name\": \"\xC3\xB6\"\n}");
-}
-
 TEST(ProvenanceJson, NamesProgramInputsAndOptions) {
   Provenance provenance;
   provenance.version = "1.2.3";

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "myoid/core/error.h"
+#include "myoid/core/json_text.h"
 #include "myoid/report/packing.h"
 #include "myoid/report/svg_plot.h"
 #include "myoid/report/viewer_bundle.h"
@@ -216,7 +217,7 @@ void validate_meshes(const ScenePage& page) {
 
 /// JSON that may stand inside a <script> element.
 std::string embedded(const ordered_json& j) {
-  const std::string text = j.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
+  const std::string text = json_text(j, -1);
   std::string safe;
   safe.reserve(text.size());
   for (const char c : text) {

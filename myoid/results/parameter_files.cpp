@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "myoid/core/json_text.h"
 #include "myoid/files/text_file.h"
 #include "myoid/report/json_values.h"
 #include "myoid/run/prediction_gates.h"
@@ -280,7 +281,7 @@ std::string parameters_json(const std::vector<IdentificationResult>& methods,
          {"emg_lag", identification::name(f.lag)},
          {"parameters", fold_values(f)}});
   }
-  return object.dump(2) + "\n";
+  return json_text(object) + "\n";
 }
 
 ParameterContext parameter_context(const StudyResult& result) {

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "myoid/core/json_text.h"
 #include "myoid/files/atomic_file.h"
 #include "myoid/report/json_values.h"
 #include "myoid/results/parameter_files.h"
@@ -227,7 +228,7 @@ void write_results(const StudyResult& result,
   std::filesystem::remove(folder / "fold_parameters.csv", ignored);  // of an earlier run
   if (!result.folds.empty())
     recording::write_file(folder / "fold_parameters.csv", fold_parameters_csv(result.folds));
-  recording::write_file(folder / "run.json", run_json(result, provenance).dump(2) + "\n");
+  recording::write_file(folder / "run.json", json_text(run_json(result, provenance)) + "\n");
 }
 
 }  // namespace myoid

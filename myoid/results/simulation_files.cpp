@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "myoid/core/json_text.h"
 #include "myoid/files/atomic_file.h"
 #include "myoid/muscle/force_length.h"
 #include "myoid/muscle/force_velocity.h"
@@ -272,7 +273,7 @@ std::string simulation_json(const Simulation& s, const Provenance& provenance) {
                       {"worst_relative_gap", balance.worst},
                       {"where", balance.where}};
   }
-  return json.dump(2) + "\n";
+  return json_text(json) + "\n";
 }
 
 void write_simulation(const Simulation& s,

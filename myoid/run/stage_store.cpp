@@ -7,6 +7,7 @@
 
 #include "myoid/core/build_identity.h"
 #include "myoid/core/error.h"
+#include "myoid/core/json_text.h"
 #include "myoid/core/provenance.h"
 #include "myoid/files/atomic_file.h"
 #include "myoid/study/study_json.h"
@@ -127,7 +128,8 @@ std::string ik_key(const Study& study,
                    const recording::MarkerSeries& markers) {
   const json settings = json::parse(study_json(study));
   std::string what = build_identity() + '\n' + sha256(model_text) + '\n';
-  for (const char* section : {"model", "markers", "ik"}) what += settings.at(section).dump() + '\n';
+  for (const char* section : {"model", "markers", "ik"})
+    what += json_text(settings.at(section), -1) + '\n';
   for (const std::string& name : markers.names) what += name + '\n';
   const auto add = [&what](const double* values, Eigen::Index count) {
     what.append(reinterpret_cast<const char*>(values),

@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "myoid/core/json_text.h"
 #include "myoid/study/trial_up.h"
 
 namespace myoid {
@@ -182,7 +183,7 @@ std::string study_json(const Study& study) {
   }
   for (const TrialSpec& t : study.trials) j["trial"].push_back(trial_json(t));
   j["truth"] = or_null(study.truth);
-  return j.dump();
+  return json_text(j, -1);
 }
 
 }  // namespace myoid

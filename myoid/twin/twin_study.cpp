@@ -13,6 +13,7 @@
 #include <oneapi/tbb/task_arena.h>
 
 #include "myoid/core/error.h"
+#include "myoid/core/json_text.h"
 #include "myoid/files/atomic_file.h"
 #include "myoid/math/statistics.h"
 #include "myoid/muscle/hill_parameters.h"
@@ -298,7 +299,7 @@ void write_twin_study(const TwinStudyResult& result,
     run["inputs"].push_back({{"path", file.path}, {"sha256", file.sha256}});
   for (const TwinFailure& f : result.failures)
     run["failures"].push_back({{"seed", f.seed}, {"message", f.message}});
-  recording::write_file(folder / "run.json", run.dump(2) + "\n");
+  recording::write_file(folder / "run.json", json_text(run) + "\n");
 }
 
 }  // namespace myoid::twin

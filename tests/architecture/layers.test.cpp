@@ -195,6 +195,15 @@ TEST(Architecture, OnlyTheProgramPrints) {
   }
 }
 
+// nlohmann's dump() throws for a name that is no UTF-8; json_text does not.
+TEST(Architecture, JsonIsRenderedInOnePlace) {
+  for (const SourceFile& source : sources()) {
+    if (source.path.filename() == "json_text.cpp") continue;
+    EXPECT_EQ(source.text.find(".dump("), std::string::npos)
+        << source.path << ": json_text renders JSON";
+  }
+}
+
 TEST(Architecture, OnlyReadersWritersAndTheTopTouchFiles) {
   const std::set<std::string> rooms = {"files",  "tables",  "c3d", "recording",
                                        "report", "results", "run", "cli"};

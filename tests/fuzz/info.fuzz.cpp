@@ -3,8 +3,8 @@
 #include "myoid/contents/contents_text.h"
 #include "myoid/contents/model_contents.h"
 #include "myoid/contents/recording_contents.h"
+#include "myoid/core/json_text.h"
 #include "myoid/osim/osim_reader.h"
-#include "myoid/report/json_values.h"
 
 #include "fuzz.h"
 #include "info_kinds.h"
@@ -21,7 +21,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     auto contents = recording_contents(path);
     if (!contents) contents = model_contents(myoid::model::read_osim(path));
     fuzz::require(!contents_text(*contents).empty());
-    fuzz::require(!json_text(*contents).empty());
+    fuzz::require(!myoid::json_text(*contents).empty());
   } catch (const myoid::ReadError&) {
   } catch (const myoid::ModelError&) {
   }
