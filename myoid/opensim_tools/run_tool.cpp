@@ -1,5 +1,6 @@
 #include "myoid/opensim_tools/run_tool.h"
 
+#include "myoid/opensim_tools/setup_elements.h"
 #include "myoid/opensim_tools/tool_forward.h"
 #include "myoid/opensim_tools/tool_orientations.h"
 #include "myoid/opensim_tools/tool_stages.h"
@@ -11,6 +12,8 @@ ToolResult run_tool(const std::filesystem::path& path, const ToolOptions& option
   ToolResult result;
   result.inputs = setup.inputs();
   result.notes = setup.notes();
+  const std::vector<std::string> unknown = unknown_elements(setup.xml(), setup.tool());
+  result.notes.insert(result.notes.end(), unknown.begin(), unknown.end());
   result.tool = setup.kind();
   if (result.tool == "InverseKinematicsTool") {
     run_inverse_kinematics(setup, options, result);

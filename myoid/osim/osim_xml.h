@@ -31,6 +31,8 @@ class OsimXml {
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
 
   [[noreturn]] void fail(pugi::xml_node where, const std::string& message) const;
+  /// The line of an element in the text, counted from 1.
+  [[nodiscard]] std::size_t line_of(pugi::xml_node where) const;
 
   /// Prototypes of classes: the children of a <defaults> element.
   void set_prototypes(pugi::xml_node defaults);
@@ -61,7 +63,6 @@ class OsimXml {
                                                     std::initializer_list<const char*> except = {});
 
  private:
-  [[nodiscard]] std::size_t line_of(pugi::xml_node where) const;
   /// As `property`; an element that is there and empty is told by `defaulted`.
   [[nodiscard]] pugi::xml_node value_of(pugi::xml_node object, const char* name) const;
 

@@ -1,0 +1,169 @@
+#include "myoid/opensim_tools/setup_elements.h"
+
+#include <algorithm>
+#include <initializer_list>
+#include <map>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "myoid/files/toml_table.h"
+
+namespace myoid {
+namespace {
+
+using Names = std::vector<std::string>;
+
+Names joined(std::initializer_list<Names> lists) {
+  Names all;
+  for (const Names& list : lists) all.insert(all.end(), list.begin(), list.end());
+  return all;
+}
+
+/// Elements of OpenSim's classes, those of older versions included.
+std::map<std::string, Names, std::less<>> make_elements() {
+  const Names set{"objects", "groups", "defaults"};
+  const Names folders{"results_directory", "input_directory"};
+  const Names run = joined({folders,
+                            {"model_file",
+                             "replace_force_set",
+                             "replace_actuator_set",
+                             "force_set_files",
+                             "actuator_set_files",
+                             "output_precision",
+                             "initial_time",
+                             "final_time",
+                             "solve_for_equilibrium_for_auxiliary_states",
+                             "maximum_number_of_integrator_steps",
+                             "maximum_integrator_step_size",
+                             "minimum_integrator_step_size",
+                             "integrator_error_tolerance",
+                             "integrator_fine_tolerance",
+                             "AnalysisSet",
+                             "ControllerSet",
+                             "controls_file",
+                             "states_file",
+                             "pseudo_states_file",
+                             "external_loads_file",
+                             "external_loads_model_kinematics_file",
+                             "external_loads_body1",
+                             "external_loads_body2",
+                             "body1_linear_velocity_file",
+                             "lowpass_cutoff_frequency_for_load_kinematics"}});
+  const Names fit = joined({folders,
+                            {"model_file", "constraint_weight", "accuracy", "time_range",
+                             "output_motion_file", "report_errors", "report_marker_locations"}});
+  const Names marker_fit = joined({fit,
+                                   {"IKTaskSet", "IKTrialSet", "marker_file", "coordinate_file",
+                                    "optimizer_algorithm", "model_marker_set"}});
+  const Names analysis{"on", "start_time", "end_time", "step_interval", "in_degrees"};
+  const Names files{"output_model_file", "output_motion_file", "output_marker_file",
+                    "output_scale_file", "output_joint_file",  "output_muscle_file"};
+  return {
+      {"InverseKinematicsTool", marker_fit},
+      {"IKTool", marker_fit},
+      {"InverseDynamicsTool",
+       joined(
+           {folders,
+            {"model_file", "time_range", "forces_to_exclude", "external_loads_file",
+             "coordinates_file", "lowpass_cutoff_frequency_for_coordinates",
+             "output_gen_force_file", "joints_to_report_body_forces", "output_body_forces_file"}})},
+      {"AnalyzeTool", joined({run,
+                              {"coordinates_file", "speeds_file",
+                               "lowpass_cutoff_frequency_for_coordinates", "print_level"}})},
+      {"ForwardTool", joined({run, {"use_specified_dt"}})},
+      {"ScaleTool", joined({folders,
+                            {"mass", "height", "age", "notes", "GenericModelMaker", "ModelScaler",
+                             "MarkerPlacer", "use_model_marker_set"}})},
+      {"IMUPlacer",
+       joined({folders,
+               {"model_file", "base_imu_label", "base_heading_axis", "sensor_to_opensim_rotations",
+                "orientation_file_for_calibration", "output_model_file"}})},
+      {"IMUInverseKinematicsTool", joined({fit,
+                                           {"sensor_to_opensim_rotations", "orientations_file",
+                                            "orientation_weights", "OrientationWeightSet"}})},
+      {"orientation_weights", joined({set, {"OrientationWeightSet"}})},
+      {"OrientationWeightSet", set},
+      {"OrientationWeight", {"weight"}},
+      {"GenericModelMaker", {"model_file", "marker_set_file"}},
+      {"ModelScaler", joined({files,
+                              {"apply", "scaling_order", "MeasurementSet", "ScaleSet",
+                               "marker_file", "time_range", "preserve_mass_distribution"}})},
+      {"MarkerPlacer", joined({files,
+                               {"apply", "IKTaskSet", "marker_file", "coordinate_file",
+                                "time_range", "max_marker_movement", "optimizer_algorithm"}})},
+      {"MeasurementSet", set},
+      {"Measurement", {"apply", "MarkerPairSet", "BodyScaleSet"}},
+      {"MarkerPairSet", set},
+      {"MarkerPair", {"markers"}},
+      {"BodyScaleSet", set},
+      {"BodyScale", {"axes"}},
+      {"ScaleSet", set},
+      {"Scale", {"scales", "segment", "apply"}},
+      {"IKTaskSet", set},
+      {"IKMarkerTask", {"apply", "weight"}},
+      {"IKCoordinateTask", {"apply", "weight", "value_type", "value"}},
+      {"AnalysisSet", set},
+      {"ControllerSet", set},
+      {"Kinematics", joined({analysis, {"coordinates"}})},
+      {"BodyKinematics", joined({analysis, {"bodies", "express_results_in_body_local_frame"}})},
+      {"PointKinematics",
+       joined({analysis, {"body_name", "relative_to_body_name", "point_name", "point"}})},
+      {"MuscleAnalysis",
+       joined({analysis, {"muscle_list", "moment_arm_coordinate_list", "compute_moments"}})},
+      {"StaticOptimization",
+       joined({analysis,
+               {"use_model_force_set", "use_model_actuator_set", "activation_exponent",
+                "use_muscle_physiology", "optimizer_convergence_criterion",
+                "optimizer_max_iterations", "optimizer_algorithm"}})},
+      {"JointReaction",
+       joined({analysis, {"forces_file", "joint_names", "apply_on_bodies", "express_in_frame"}})},
+      {"InverseDynamics", joined({analysis, {"use_model_force_set", "use_model_actuator_set"}})},
+      {"ForceReporter", joined({analysis, {"include_constraint_forces"}})},
+      {"OutputReporter", joined({analysis, {"output_paths"}})},
+      {"Actuation", analysis},
+  };
+}
+
+class UnknownElements {
+ public:
+  explicit UnknownElements(const model::OsimXml& xml) : xml_(xml) {}
+
+  void look_into(pugi::xml_node parent) {
+    static const auto kElements = make_elements();
+    const auto known = kElements.find(std::string_view(parent.name()));
+    for (const pugi::xml_node child : parent.children()) {
+      if (child.type() != pugi::node_element) continue;
+      if (known != kElements.end() && std::find(known->second.begin(), known->second.end(),
+                                                child.name()) == known->second.end()) {
+        tell(child, known->second);
+      } else if (known != kElements.end() || std::string_view(parent.name()) == "objects") {
+        look_into(child);
+      }
+    }
+  }
+
+  Names sentences;
+
+ private:
+  void tell(pugi::xml_node child, const Names& known) {
+    const auto near = recording::nearest_word(child.name(), known);
+    sentences.push_back(
+        fmt::format("line {}: <{}> has no element <{}>{}; OpenSim ignores it, and so "
+                    "does this program",
+                    xml_.line_of(child), child.parent().name(), child.name(),
+                    near ? fmt::format(" (did you mean <{}>?)", *near) : ""));
+  }
+
+  const model::OsimXml& xml_;
+};
+
+}  // namespace
+
+std::vector<std::string> unknown_elements(const model::OsimXml& xml, pugi::xml_node tool) {
+  UnknownElements unknown(xml);
+  unknown.look_into(tool);
+  return std::move(unknown.sentences);
+}
+
+}  // namespace myoid
