@@ -12,10 +12,11 @@
 #include "myoid/cli/context.h"
 #include "myoid/cli/stage_input.h"
 #include "myoid/core/error.h"
+#include "myoid/core/finding.h"
+#include "myoid/core/json_text.h"
 #include "myoid/recording/channel_choice.h"
 #include "myoid/recording/emg_reader.h"
 #include "myoid/recording/recording.h"
-#include "myoid/report/json_values.h"
 #include "myoid/signals/emg_chain.h"
 #include "myoid/signals/emg_envelope.h"
 #include "myoid/signals/emg_levels.h"
@@ -24,6 +25,31 @@
 
 namespace myoid::cli {
 namespace {
+
+/// Warnings of a command; what is alike in several channels or files is said once.
+class Warnings {
+ public:
+  explicit Warnings(const Context& context) : context_(context) {}
+  Warnings(const Warnings&) = delete;
+  Warnings& operator=(const Warnings&) = delete;
+  ~Warnings() {
+    for (const Finding& f : grouped(found_)) context_.warn(f.message);
+  }
+
+  /// `where` names the file or channel where the same `kind` is not the first one.
+  void add(std::string where, std::string message, std::string kind) {
+    found_.push_back({Finding::Level::warning, std::move(where), std::move(message), std::nullopt,
+                      std::move(kind)});
+  }
+
+ private:
+  const Context& context_;
+  std::vector<Finding> found_;
+};
+
+std::string channel_in(const std::string& path, const std::string& channel) {
+  return fmt::format("{} '{}'", std::filesystem::path(path).filename().string(), channel);
+}
 
 /// Why a channel can be neither filtered nor normalized; empty for one that can.
 std::string defect_of(const TimeSeries& emg, Eigen::Index column) {
@@ -37,37 +63,41 @@ std::string defect_of(const TimeSeries& emg, Eigen::Index column) {
 TimeSeries usable_channels(const std::string& path,
                            const TimeSeries& emg,
                            bool asked_for,
-                           const Context& context) {
+                           Warnings& warnings) {
   constexpr Eigen::Index kFewest = 10;
   if (emg.sample_count() < kFewest)
     throw ReadError(path, 0,
                     fmt::format("only {} {}; at least {} are needed", emg.sample_count(),
                                 emg.sample_count() == 1 ? "sample" : "samples", kFewest));
-  std::vector<std::string> usable;
-  std::vector<std::string> defects;
+  std::vector<std::string> usable, unusable, defects;
   for (Eigen::Index c = 0; c < emg.channel_count(); ++c) {
     const std::string& name = emg.channels()[static_cast<std::size_t>(c)].name;
     const std::string defect = defect_of(emg, c);
     if (defect.empty()) {
       usable.push_back(name);
     } else {
-      defects.push_back(fmt::format("channel '{}' {}", name, defect));
+      unusable.push_back(name);
+      defects.push_back(defect);
     }
+  }
+  std::string all;
+  for (std::size_t i = 0; i < defects.size(); ++i) {
+    const std::string one = fmt::format("channel '{}' {}", unusable[i], defects[i]);
+    all += one + "; ";
+    if (!asked_for)
+      warnings.add(channel_in(path, unusable[i]), fmt::format("{}: {}; it is left out", path, one),
+                   "unusable " + defects[i]);
   }
   if (!defects.empty() && (asked_for || usable.empty()))
     throw ReadError(
-        path, 0,
-        fmt::format("{}; {}", fmt::join(defects, "; "),
-                    asked_for ? "ask for others with --channel" : "no other channel is there"));
-  for (const std::string& defect : defects)
-    context.warn(fmt::format("{}: {}; it is left out", path, defect));
+        path, 0, all + (asked_for ? "ask for others with --channel" : "no other channel is there"));
   return emg.select(usable);
 }
 
 /// The channels that all files have: activation is relative to the largest effort of all.
 void keep_common_channels(const std::vector<std::string>& paths,
                           std::vector<TimeSeries>& files,
-                          const Context& context) {
+                          Warnings& warnings) {
   std::vector<std::string> common;
   for (const Channel& channel : files.front().channels()) {
     const auto lacks = std::find_if(files.begin(), files.end(), [&](const TimeSeries& file) {
@@ -76,11 +106,12 @@ void keep_common_channels(const std::vector<std::string>& paths,
     if (lacks == files.end()) {
       common.push_back(channel.name);
     } else {
-      context.warn(fmt::format(
-          "{}: channel '{}' is left out, since {} does not have it (there are "
-          "{}) or it cannot be used there",
-          paths.front(), channel.name, paths[static_cast<std::size_t>(lacks - files.begin())],
-          channel_names(*lacks)));
+      const std::string& other = paths[static_cast<std::size_t>(lacks - files.begin())];
+      warnings.add(channel_in(paths.front(), channel.name),
+                   fmt::format("{}: channel '{}' is left out, since {} does not have it (there are "
+                               "{}) or it cannot be used there",
+                               paths.front(), channel.name, other, channel_names(*lacks)),
+                   "not in " + other);
     }
   }
   if (common.empty())
@@ -92,7 +123,7 @@ void keep_common_channels(const std::vector<std::string>& paths,
 void warn_of_faults(const std::string& path,
                     const TimeSeries& emg,
                     bool highpass,
-                    const Context& context) {
+                    Warnings& warnings) {
   std::vector<std::string> envelopes;
   const std::vector<Fault> faults = signals::check_emg(emg, highpass);
   for (const Fault& fault : faults) {
@@ -108,11 +139,23 @@ void warn_of_faults(const std::string& path,
                     what +
                         "; give the raw EMG, or divide by the largest effort yourself (a study "
                         "does it with [emg] kind = \"envelope\")");
-  if (!envelopes.empty()) context.warn(fmt::format("{}: {}; leave them out", path, what));
+  if (!envelopes.empty())
+    warnings.add(path, fmt::format("{}: {}; leave them out", path, what), "envelopes");
   for (const Fault& fault : faults) {
     const bool envelope =
         std::find(envelopes.begin(), envelopes.end(), fault.channel) != envelopes.end();
-    if (fault.grave && !envelope) context.warn(fmt::format("{}: {}", path, sentence(fault)));
+    if (fault.grave && !envelope)
+      warnings.add(channel_in(path, fault.channel), fmt::format("{}: {}", path, sentence(fault)),
+                   std::string(name(fault.kind)));
+  }
+}
+
+void warn_of_levels(const std::vector<signals::TrialEnvelope>& trials, const Context& context) {
+  Warnings warnings(context);
+  for (const Fault& fault : signals::check_emg_levels(trials)) {
+    if (fault.grave)
+      warnings.add(fmt::format("'{}'", fault.channel), sentence(fault),
+                   std::string(name(fault.kind)));
   }
 }
 
@@ -177,21 +220,26 @@ struct EmgFiles {
   }
 };
 
+/// Reads a file's EMG.
+TimeSeries read_raw(const std::string& path, const EmgCommand& o, Warnings& warnings) {
+  recording::EmgFile file = recording::read_emg(path, o.unit, false, o.channels);
+  for (const recording::Repair& repair : file.repairs)
+    warnings.add(path, fmt::format("{}: {}", path, recording::to_string(repair)), repair.message);
+  if (!file.unit_conflict.empty())
+    warnings.add(path, fmt::format("{}: {}", path, file.unit_conflict), file.unit_conflict);
+  return usable_channels(path, file.data, !o.channels.empty(), warnings);
+}
+
 EmgFiles process(const EmgCommand& o, const Context& context) {
+  Warnings warnings(context);
   EmgFiles files;
   files.paths = o.in;
   files.paths.insert(files.paths.end(), o.mvc.begin(), o.mvc.end());
   std::vector<TimeSeries> raw;
-  for (const std::string& path : files.paths) {
-    recording::EmgFile file = recording::read_emg(path, o.unit, false, o.channels);
-    for (const recording::Repair& repair : file.repairs)
-      context.warn(fmt::format("{}: {}", path, recording::to_string(repair)));
-    if (!file.unit_conflict.empty()) context.warn(fmt::format("{}: {}", path, file.unit_conflict));
-    raw.push_back(usable_channels(path, file.data, !o.channels.empty(), context));
-  }
-  keep_common_channels(files.paths, raw, context);
+  for (const std::string& path : files.paths) raw.push_back(read_raw(path, o, warnings));
+  keep_common_channels(files.paths, raw, warnings);
   for (std::size_t i = 0; i < raw.size(); ++i) {
-    warn_of_faults(files.paths[i], raw[i], !o.chain.as_published, context);
+    warn_of_faults(files.paths[i], raw[i], !o.chain.as_published, warnings);
     files.stages.push_back(signals::clean_emg(raw[i], o.chain));
   }
   files.whitening = signals::find_whitening(files.views(), o.chain);
@@ -262,9 +310,7 @@ void run_emg(EmgCommand o, const Context& context) {
   }
   const signals::NormalisationOptions window{.window_s = o.window_s};
   const auto normalisation = signals::find_normalisation(trials, window);
-  for (const Fault& fault : signals::check_emg_levels(trials)) {
-    if (fault.grave) context.warn(sentence(fault));
-  }
+  warn_of_levels(trials, context);
   signals::EmgChain chain = signals::envelope_chain(files.views(), o.chain, files.whitening);
   const std::vector<std::string> of_envelope = signals::header_lines(chain);
   signals::add_normalisation(normalisation, window, chain);

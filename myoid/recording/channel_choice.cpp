@@ -27,9 +27,8 @@ std::vector<std::string> names_of(const AnalogChannels& channels) {
   return names;
 }
 
-std::string listed(const std::vector<std::string>& names) {
-  constexpr std::size_t kMost = 40;
-  const std::size_t shown = std::min(kMost, names.size());
+std::string listed(const std::vector<std::string>& names, std::size_t most = 40) {
+  const std::size_t shown = std::min(most, names.size());
   return fmt::format(
       "{}{}", fmt::join(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(shown), ", "),
       shown < names.size() ? ", ..." : "");
@@ -91,6 +90,14 @@ TimeSeries choose_channels(const std::vector<const AnalogChannels*>& clocks,
       names.push_back(std::move(found.name));
   }
   return clocks[*clock]->select(names);
+}
+
+std::string first_clock_alone(const std::vector<std::string>& left_out) {
+  constexpr std::size_t kNamed = 6;
+  return fmt::format(
+      "only the channels of the first clock are taken, without {}; `emg` and `convert` take others "
+      "by --channel",
+      listed(left_out, kNamed));
 }
 
 std::string gaps_of(const TimeSeries& series, Eigen::Index column) {

@@ -18,6 +18,10 @@ namespace myoid::recording {
                                          const std::vector<std::string>& wanted,
                                          const std::filesystem::path& path);
 
+/// The sentence that only the channels of the first clock are taken, with the names of the others:
+/// "only the channels of the first clock are taken, without ACC X, ACC Y; ...".
+[[nodiscard]] std::string first_clock_alone(const std::vector<std::string>& left_out);
+
 /// Where a channel has samples that are no numbers: "is not a number at 1.25 s (3 samples)". Empty
 /// for a channel without gaps.
 [[nodiscard]] std::string gaps_of(const TimeSeries& series, Eigen::Index column);

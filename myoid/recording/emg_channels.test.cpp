@@ -30,12 +30,21 @@ TEST(NamedAsNoEmg, ForcesMomentsAndOtherInstrumentsAreAndMusclesAreNot) {
                            "Footswitch L",
                            "Sensor 1: ACC.X 1",
                            "EMG 01 (5471) GYRO Y",
-                           "FSR adapter 9: FSR.A 9"})
+                           "FSR adapter 9: FSR.A 9",
+                           "Sensor 4: EKG 4",
+                           "ECG"})
     EXPECT_TRUE(named_as_no_emg(name)) << name;
   for (const char* name :
        {"SOL", "TA", "BIC", "Flexor carpi", "MG", "M1", "F8", "Max", "FDS", "PL", "Voltage.1",
         "Soleus_R", "Mylohyoid", "EMG 3", "Temporalis", "Acc. flexor", ""})
     EXPECT_FALSE(named_as_no_emg(name)) << name;
+}
+
+TEST(NamedAsInput, SpareInputsAreAndEmgIsNot) {
+  for (const char* name : {"Analog 13", "Sensor 13: Analog 13", "aux2", "AUX"})
+    EXPECT_TRUE(named_as_input(name)) << name;
+  for (const char* name : {"EMG 1", "EMG Analog 3", "BIC", "Auxetic", "Voltage.1", ""})
+    EXPECT_FALSE(named_as_input(name)) << name;
 }
 
 TEST(EmgChannels, NeedVoltsAndNoPlate) {

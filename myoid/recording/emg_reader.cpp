@@ -1,11 +1,14 @@
 #include "myoid/recording/emg_reader.h"
 
+#include <map>
 #include <optional>
 #include <set>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "myoid/core/error.h"
 #include "myoid/files/file_words.h"
@@ -17,6 +20,8 @@
 #include "myoid/tables/csv_reader.h"
 #include "myoid/tables/emg_table.h"
 #include "myoid/tables/instrument_names.h"
+#include "myoid/tables/marker_table.h"
+#include "myoid/tables/nexus_section.h"
 #include "myoid/tables/storage_reader.h"
 
 namespace myoid::recording {
@@ -47,6 +52,14 @@ TimeSeries with_unit(const TimeSeries& series, Unit unit, double factor) {
   return {series.time_s(), std::move(channels), factor * series.values()};
 }
 
+/// Says which columns are left out because their unit is another than volt.
+void state_other_units(const std::map<std::string, std::vector<std::string>>& by_unit,
+                       std::vector<Repair>& repairs) {
+  for (const auto& [unit, names] : by_unit)
+    repairs.push_back(
+        {0, fmt::format("no EMG since in {}, left out: {}", unit, fmt::join(names, ", "))});
+}
+
 /// Columns in volts as they are, those without a unit times `to_volt`; those in another unit are no
 /// EMG and left out. Empty if a factor is needed and there is none.
 std::optional<TimeSeries> volts_of(const CsvSeries& series,
@@ -56,6 +69,7 @@ std::optional<TimeSeries> volts_of(const CsvSeries& series,
   std::vector<double> factors;
   bool stated = false;
   std::string other_instruments;
+  std::map<std::string, std::vector<std::string>> other_units;
   for (std::size_t c = 0; c < series.has_unit.size(); ++c) {
     const Channel& channel = series.data.channels()[c];
     if (named_as_no_emg(channel.name)) {
@@ -63,8 +77,7 @@ std::optional<TimeSeries> volts_of(const CsvSeries& series,
       continue;
     }
     if (series.has_unit[c] && channel.unit != Unit::volt) {
-      repairs.push_back({0, fmt::format("column '{}' is in {} and no EMG; left out", channel.name,
-                                        symbol(channel.unit))});
+      other_units[std::string(symbol(channel.unit))].push_back(channel.name);
       continue;
     }
     if (!series.has_unit[c] && !to_volt) return std::nullopt;
@@ -72,6 +85,7 @@ std::optional<TimeSeries> volts_of(const CsvSeries& series,
     kept.push_back(channel.name);
     factors.push_back(series.has_unit[c] ? 1.0 : *to_volt);
   }
+  state_other_units(other_units, repairs);
   if (!other_instruments.empty())
     repairs.push_back(
         {0, fmt::format("no EMG by what they are called, left out: {}", other_instruments)});
@@ -106,7 +120,14 @@ CsvSeries with_named_units(Storage storage) {
 std::optional<CsvSeries> read_channels(const std::filesystem::path& path, bool voltages_only) {
   const std::string extension = path.extension().string();
   const auto is = [&](const char* ending) { return equal_ignoring_case(extension, ending); };
-  if (is(".csv") || is(".tsv") || is(".txt") || is(".emt")) return read_emg_table(path);
+  if (is(".csv") || is(".tsv") || is(".txt") || is(".emt")) {
+    const std::string text = read_text_file(path);
+    if (is_marker_table(text) && !nexus_section(TableText(text), "Devices", path))
+      throw ReadError(path, 0,
+                      "this is a table of markers and holds no EMG; give the export of the analog "
+                      "channels (of Nexus the devices)");
+    return parse_emg_table(text, path);
+  }
   if (is(".anc")) {
     AncFile file = read_anc(path);
     const auto count = static_cast<std::size_t>(file.data.channel_count());
@@ -225,6 +246,19 @@ void restrict_to(const std::vector<std::string>& wanted,
   series.has_unit = std::move(has_unit);
 }
 
+/// Names the channels that may be EMG and have another clock than the first one's.
+void state_other_clocks(CsvSeries& series) {
+  std::vector<std::string> names;
+  for (const ClockedChannels& clock : series.other_clocks) {
+    for (std::size_t c = 0; c < clock.has_unit.size(); ++c) {
+      const Channel& channel = clock.data.channels()[c];
+      const bool voltage = !clock.has_unit[c] || channel.unit == Unit::volt;
+      if (voltage && !named_as_no_emg(channel.name)) names.push_back(channel.name);
+    }
+  }
+  if (!names.empty()) series.repairs.push_back({0, first_clock_alone(names)});
+}
+
 }  // namespace
 
 std::optional<double> stated_voltage(const Storage& storage) {
@@ -260,6 +294,7 @@ EmgFile read_emg(const std::filesystem::path& path,
   if (std::optional<CsvSeries> table = read_channels(path, !dimensionless)) {
     apply_bids(path, *table, file);
     restrict_to(wanted, path, *table);
+    if (wanted.empty()) state_other_clocks(*table);
     file.repairs = std::move(table->repairs);
     series = dimensionless ? with_unit(table->data, Unit::dimensionless, 1.0)
                            : volts_of(*table, to_volt, file.repairs);

@@ -53,6 +53,8 @@ struct Figure {
   std::string caption;  ///< What is to be seen, one or two sentences.
   std::vector<Panel> panels;
   int columns = 1;  ///< Panels side by side.
+  /// How its numbers were made: lines that ID.csv begins with, each behind "# ".
+  std::vector<std::string> comments{};
 };
 
 /// How a value is to be taken; shown as a small colored word.

@@ -46,7 +46,9 @@ std::string figure_csv(const Figure& figure) {
       bounds = bounds || !series.y_lower.empty() || !series.y_upper.empty();
     }
   }
-  std::string text = bounds ? "panel,series,role,x,y,y_lower,y_upper\n" : "panel,series,role,x,y\n";
+  std::string text;
+  for (const std::string& comment : figure.comments) text += "# " + comment + '\n';
+  text += bounds ? "panel,series,role,x,y,y_lower,y_upper\n" : "panel,series,role,x,y\n";
   for (const Panel& panel : figure.panels) {
     for (const Series& series : panel.series) {
       const std::string head = csv_cell(panel.title) + ',' + csv_cell(series.name) + ',' +

@@ -108,12 +108,13 @@ Figure muscle_curves(const StudyResult& result, const IdentificationResult& meth
   return figure;
 }
 
-Figure emg_figure(const TrialResult& trial) {
+Figure emg_figure(const TrialResult& trial, const std::vector<std::string>& chain) {
   Figure figure{"emg_" + trial.spec.name,
                 fmt::format("EMG of trial {}: raw, rectified, filtered", trial.spec.name),
                 "Millivolts; the orange line is the envelope.",
                 {},
-                2};
+                2,
+                chain};
   const TimeSeries& raw = trial.emg->raw;
   const TimeSeries& rectified = trial.emg->rectified;
   const TimeSeries& envelope = trial.emg->envelope;

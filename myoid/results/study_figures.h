@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
+#include <vector>
 
 #include "myoid/intervals/result.h"
 #include "myoid/report/report.h"
@@ -15,7 +17,9 @@ namespace myoid {
                                            std::size_t m);
 
 /// The source paper's figure 6: EMG raw, rectified, filtered, of a trial that has EMG.
-[[nodiscard]] report::Figure emg_figure(const TrialResult& trial);
+/// Its table begins with the lines of `chain`, which say how the envelope was made.
+[[nodiscard]] report::Figure emg_figure(const TrialResult& trial,
+                                        const std::vector<std::string>& chain);
 
 /// The source paper's figures 8-10: force of every muscle over one trial, in N.
 [[nodiscard]] report::Figure force_figure(const StudyResult& result,

@@ -209,7 +209,13 @@ report::Report study_report(const StudyResult& result, const Provenance& provena
       std::find_if(result.trials.begin(), result.trials.end(),
                    [](const TrialResult& t) { return t.emg && t.spec.use == Use::calibration; });
   if (task != result.trials.end())
-    report.sections.push_back({"emg", "EMG", {}, {}, {}, {emg_figure(*task)}});
+    report.sections.push_back(
+        {"emg",
+         "EMG",
+         {},
+         {},
+         {},
+         {emg_figure(*task, signals::header_lines(emg_chain(result, nullptr)))}});
   if (!result.informed.empty() || result.force_loop)
     report.sections.push_back(informed_section(result));
   if (!result.phases.empty()) report.sections.push_back(phases_section(result));

@@ -12,6 +12,7 @@
 #include "myoid/core/error.h"
 #include "myoid/math/statistics.h"
 #include "myoid/signals/spectrum.h"
+#include "myoid/tables/instrument_names.h"
 
 namespace myoid::signals {
 namespace {
@@ -256,6 +257,16 @@ WhiteningFilter design_one(std::span<const TimeSeries* const> trials,
   return filter;
 }
 
+/// The filters of the channels that are EMG by their names; all where none is.
+std::vector<const WhiteningFilter*> voters(const std::vector<WhiteningFilter>& filters) {
+  std::vector<const WhiteningFilter*> emg, all;
+  for (const WhiteningFilter& filter : filters) {
+    all.push_back(&filter);
+    if (!recording::named_as_input(filter.channel)) emg.push_back(&filter);
+  }
+  return emg.empty() ? all : emg;
+}
+
 }  // namespace
 
 std::vector<WhiteningFilter> design_whitening(std::span<const TimeSeries* const> trials,
@@ -276,24 +287,25 @@ Whitening decide_whitening(std::span<const TimeSeries* const> trials,
                    .filters = design_whitening(trials, highpass_hz)};
   if (result.filters.empty()) return result;
   double log_gain = 0.0;
-  for (const WhiteningFilter& filter : result.filters) {
-    if (!filter.reason.empty()) {
-      result.reason = fmt::format("channel '{}': {}", filter.channel, filter.reason);
+  const std::vector<const WhiteningFilter*> emg = voters(result.filters);
+  for (const WhiteningFilter* filter : emg) {
+    if (!filter->reason.empty()) {
+      result.reason = fmt::format("channel '{}': {}", filter->channel, filter->reason);
       if (!wanted) return result;
       throw InvalidInput(
           fmt::format("whitening is asked for and cannot be done: channel '{}': {}; leave the "
                       "channel out, or let the recording decide",
-                      filter.channel, filter.reason));
+                      filter->channel, filter->reason));
     }
-    log_gain += std::log(filter.bandwidth_after_hz / filter.bandwidth_before_hz) /
-                static_cast<double>(result.filters.size());
+    log_gain += std::log(filter->bandwidth_after_hz / filter->bandwidth_before_hz) /
+                static_cast<double>(emg.size());
   }
   const double gain = std::exp(log_gain);
   result.applied = wanted.value_or(gain > kWorthIt);
   result.reason = wanted ? "asked for"
                          : fmt::format("the statistical bandwidth of {} would grow {:.2f}-fold{}",
-                                       result.filters.size() == 1 ? "the channel" : "the channels",
-                                       gain, result.applied ? "" : ", which is not worth it");
+                                       emg.size() == 1 ? "the channel" : "the channels", gain,
+                                       result.applied ? "" : ", which is not worth it");
   return result;
 }
 

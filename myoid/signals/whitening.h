@@ -57,10 +57,10 @@ struct Whitening {
   std::vector<WhiteningFilter> filters;  ///< One for each channel; empty: nobody asked for it.
 };
 
-/// Decides for the trials of `design_whitening`. `wanted` absent: yes, if every channel has a
-/// filter and the statistical bandwidth grows by more than a tenth, in the geometric mean of the
-/// channels. Throws InvalidInput as `design_whitening`, and where `wanted` is true and a channel
-/// has no filter.
+/// Decides for the trials of `design_whitening`. `wanted` absent: yes, if every EMG channel has a
+/// filter and the bandwidth grows by more than a tenth, in their geometric mean. Spare inputs
+/// (`named_as_input`) have no vote beside EMG. Throws InvalidInput as `design_whitening`, and where
+/// `wanted` is true and an EMG channel has no filter.
 [[nodiscard]] Whitening decide_whitening(std::span<const TimeSeries* const> trials,
                                          double highpass_hz,
                                          std::optional<bool> wanted = std::nullopt);

@@ -185,6 +185,25 @@ TEST(Whitening, IsOneAnswerForAllChannels) {
     EXPECT_GT((even.values() - strong.values()).col(c).cwiseAbs().maxCoeff(), 0.0);
 }
 
+// A switch at a spare input has no spectrum to go by; the muscle beside it is whitened all the
+// same.
+TEST(Whitening, IsNotForASpareInputToRefuse) {
+  Eigen::MatrixXd both(60000, 2);
+  both.col(0) = effort(1.0, 0.01, 11);
+  both.col(1) = effort(1.0, 0.01, 12);
+  both.col(1).tail(47000) *= 0.01;
+  const auto decide = [&](const char* second) {
+    const TimeSeries alike = volts(both);
+    const TimeSeries x(alike.time_s(), {{"EMG 1", Unit::volt}, {second, Unit::volt}}, both);
+    const TimeSeries* one = &x;
+    return decide_whitening(std::span(&one, 1), 20.0);
+  };
+  EXPECT_FALSE(decide("EMG 2").applied);
+  const Whitening beside = decide("Analog 13");
+  EXPECT_TRUE(beside.applied) << beside.reason;
+  EXPECT_NE(beside.reason.find("of the channel would"), std::string::npos) << beside.reason;
+}
+
 TEST(Whitening, ShortSlowAndSilentRecordingsStayAsTheyAre) {
   for (const TimeSeries& x :
        {volts(effort(1.0, 0.01, 8).head(30)), volts(effort(1.0, 0.01, 8), 200.0),

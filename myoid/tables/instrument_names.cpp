@@ -4,6 +4,7 @@
 #include <array>
 #include <regex>
 #include <string>
+#include <vector>
 
 #include "myoid/files/label_match.h"
 
@@ -25,12 +26,13 @@ std::vector<std::string> words_of(std::string_view name) {
   return words;
 }
 
-/// Signals of motion and pressure that the sensors of electrodes record too: "Sensor 1: ACC.X 1",
-/// "GYRO Y", "FSR.A".
-bool named_as_motion(std::string_view name) {
+/// Signals that the sensors of electrodes record too: motion and pressure ("Sensor 1: ACC.X 1",
+/// "GYRO Y", "FSR.A"), the heart ("EKG 1").
+bool named_as_other_sensor(std::string_view name) {
   const std::vector<std::string> words = words_of(name);
   for (std::size_t i = 0; i < words.size(); ++i) {
-    if (words[i] == "gyro" || words[i] == "fsr") return true;
+    if (words[i] == "gyro" || words[i] == "fsr" || words[i] == "ekg" || words[i] == "ecg")
+      return true;
     const bool axis = i + 1 < words.size() && words[i + 1].size() == 1 && words[i + 1] >= "x" &&
                       words[i + 1] <= "z";
     if (axis && (words[i] == "acc" || words[i] == "mag")) return true;
@@ -41,7 +43,7 @@ bool named_as_motion(std::string_view name) {
 }  // namespace
 
 bool named_as_no_emg(std::string_view name) {
-  if (named_as_motion(name)) return true;
+  if (named_as_other_sensor(name)) return true;
   // Letters and digits alone: instrument, then quantity, axis and number in either order.
   static const std::regex kForce(
       "(force|moment|torque|grf|amti|bertec|kistler|forceplate|plate|fp|[0-9])*"
@@ -52,6 +54,14 @@ bool named_as_no_emg(std::string_view name) {
   return std::regex_match(plain, kForce) ||
          std::any_of(kInstruments.begin(), kInstruments.end(),
                      [&](std::string_view word) { return plain.starts_with(word); });
+}
+
+bool named_as_input(std::string_view name) {
+  const std::vector<std::string> words = words_of(name);
+  const auto has = [&](std::string_view word) {
+    return std::find(words.begin(), words.end(), word) != words.end();
+  };
+  return (has("analog") || has("analogue") || has("aux") || has("auxiliary")) && !has("emg");
 }
 
 }  // namespace myoid::recording

@@ -7,7 +7,12 @@ namespace myoid::recording {
 /// True for what the channels of force plates, triggers, switches and the like are usually called:
 /// a force, moment or center of pressure with its axis and number ("F1X", "Force.Fz2", "Mx1",
 /// "COPy", "Fz3" and "Fx12" of piezoelectric plates), "Sync", "Trigger", "Footswitch", ...
-/// and the motion that wireless electrodes record too ("Sensor 1: ACC.X 1", "GYRO Y", "FSR.A").
+/// and other signals that wireless electrodes record too: motion ("Sensor 1: ACC.X 1", "GYRO Y",
+/// "FSR.A") and the heart ("EKG 1", "ECG").
 [[nodiscard]] bool named_as_no_emg(std::string_view name);
+
+/// True for a spare input of an amplifier, "Analog 13" or "AUX 2": EMG in one laboratory, a switch
+/// in another. "EMG Analog 3" is EMG.
+[[nodiscard]] bool named_as_input(std::string_view name);
 
 }  // namespace myoid::recording

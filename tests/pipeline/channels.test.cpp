@@ -141,6 +141,49 @@ TEST(Channels, ATableOfMarkersHasNoneAndInfoTellsItsMarkers) {
   const Finished json = myoid({"info", "--json", in});
   EXPECT_EQ(json.exit_code, 0) << json.err;
   EXPECT_THAT(json.out, HasSubstr("\"name\": \"WRIST\""));
+  const Finished emg = myoid({"emg", in, "--out", folder / "a.sto"});
+  EXPECT_EQ(emg.exit_code, 3);
+  EXPECT_THAT(emg.err, HasSubstr("q.tsv: this is a table of markers and holds no EMG"));
+}
+
+// Four channels that are flat alike in two files: one warning for each, not four.
+TEST(Channels, FaultsThatAreAlikeAreSaidOnce) {
+  const TemporaryFolder folder;
+  std::mt19937_64 random(20261122);
+  std::normal_distribution<double> noise;
+  std::string text = "time,BIC [mV],A [mV],B [mV],C [mV],D [mV],ACC [g]\n";
+  for (int i = 0; i < 4000; ++i)
+    text += fmt::format("{:.3f},{:.5f},0,0,0,0,1\n", 1e-3 * i, noise(random));
+  for (const char* name : {"one.csv", "two.csv"}) write_text(folder / name, text);
+  const Finished done =
+      myoid({"emg", folder / "one.csv", folder / "two.csv", "--out", folder / "out"});
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  const auto count = [&](const std::string& words) {
+    std::size_t found = 0;
+    for (auto at = done.err.find(words); at != std::string::npos; at = done.err.find(words, at + 1))
+      ++found;
+    return found;
+  };
+  EXPECT_EQ(count("has the same value throughout"), 1U) << done.err;
+  EXPECT_THAT(done.err, HasSubstr("(likewise in one.csv 'B', one.csv 'C', one.csv 'D', two.csv 'A' "
+                                  "and 3 more)"));
+}
+
+TEST(Channels, OfSeveralClocksThoseThatAreNotTakenAreNamed) {
+  const TemporaryFolder folder;
+  std::string text = "X[s],EMG 1 [mV],X[s],EMG 2 [mV]\n";
+  for (int i = 0; i < 400; ++i)
+    text += fmt::format("{:.4f},{},{}\n", 5e-4 * i, i % 7,
+                        i < 200 ? fmt::format("{:.4f},{}", 1e-3 * i, i % 5) : ",");
+  write_text(folder / "e.csv", text);
+  const std::vector<std::string> emg{"emg", folder / "e.csv", "--out", folder / "a.sto", "--window",
+                                     "0.05"};
+  const Finished first = myoid(emg);
+  const Finished converted = myoid({"convert", folder / "e.csv", folder / "e.sto"});
+  for (const Finished& finished : {first, converted})
+    EXPECT_THAT(finished.err,
+                HasSubstr("only the channels of the first clock are taken, without EMG"))
+        << finished.out;
 }
 
 }  // namespace
