@@ -26,6 +26,8 @@ constexpr double kBetween_m = 0.1;  ///< The center of pressure leaves the foot'
 constexpr double kReach_m = 0.4;    ///< Of a plate, from its center of pressure.
 constexpr double kLevel_m = 0.04;   ///< Both feet on the ground.
 constexpr double kStill_m_per_s = 0.25;
+constexpr double kFloorPush = 0.5;   ///< Cosine of 60 degrees, as `recording::is_floor`.
+constexpr double kTwoSteps_m = 0.5;  ///< Of stairs: the other foot may stand so much lower.
 constexpr Eigen::Index kContactFrames = 1500;
 constexpr double kNoDistance = std::numeric_limits<double>::infinity();
 
@@ -37,6 +39,8 @@ struct LoadedFrame {
   model::BodyIndex other = 0;
   model::BodyIndex second = 0;  ///< A second foot on the ground beside; 0 is none.
   double second_m = kNoDistance;
+  Vec3 force_n = Vec3::Zero();
+  double above_m = 0.0;  ///< Height of the center of pressure above the lowest point of all bodies.
 };
 
 struct GroundContact {
@@ -132,6 +136,19 @@ class GroundContacts {
   [[nodiscard]] const std::vector<GroundContact>& of(std::size_t force) const {
     return of_force_[force];
   }
+  /// Whether the force is that of a plate in the floor.
+  [[nodiscard]] bool is_of_floor(std::size_t force) const {
+    Vec3 sum_n = Vec3::Zero();
+    std::vector<double> above;
+    for (const GroundContact& contact : of_force_[force]) {
+      for (const LoadedFrame& m : contact.frames) {
+        sum_n += m.force_n;
+        above.push_back(m.above_m);
+      }
+    }
+    return !above.empty() && sum_n.dot(up_) >= kFloorPush * sum_n.norm() &&
+           math::median(std::move(above)) <= kTwoSteps_m;
+  }
 
  private:
   [[nodiscard]] double data_time(Eigen::Index frame) const {
@@ -178,7 +195,10 @@ class GroundContacts {
                                      const Lowest& lowest) const {
     const Vec3& p = *centers[k];
     const model::BodyIndex own = forces_[k]->body;
-    LoadedFrame m{.time_s = time_s, .own_m = points_.distance(p, own)};
+    LoadedFrame m{.time_s = time_s,
+                  .own_m = points_.distance(p, own),
+                  .force_n = forces_[k]->force->at(loads_.data_time_s(time_s)),
+                  .above_m = above_all(p, lowest)};
     for (std::size_t b = 1; b < model_.bodies.size(); ++b) {
       const auto body = static_cast<model::BodyIndex>(b);
       if (body == own || are_neighbors(model_, own, body)) continue;
@@ -194,6 +214,14 @@ class GroundContacts {
       }
     }
     return m;
+  }
+
+  [[nodiscard]] double above_all(const Vec3& p, const Lowest& lowest) const {
+    double height = 0.0;
+    for (const std::optional<Vec3>& point : lowest.point_m) {
+      if (point) height = std::max(height, (p - *point).dot(up_));
+    }
+    return height;
   }
 
   /// Still, and as low as the body that bears the force.
@@ -293,6 +321,7 @@ std::vector<Finding> foreign_contacts(const model::BodyModel& model,
   std::vector<Finding> findings;
   const GroundContacts contacts(model, loads, std::move(points));
   for (std::size_t k = 0; k < contacts.forces().size(); ++k) {
+    if (!contacts.is_of_floor(k)) continue;
     std::vector<double> usual;
     std::size_t loaded = 0;
     for (const GroundContact& c : contacts.of(k)) {

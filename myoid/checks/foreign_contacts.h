@@ -11,8 +11,11 @@
 namespace myoid {
 
 /// Whether each contact with the ground belongs to the body that its force is applied to. A contact
-/// is a time of 50 ms or more in which a force on a body bears a twentieth of its largest. Of each
-/// contact the distance of the center of pressure from the body is compared, frame by frame:
+/// is a time of 50 ms or more in which a force on a body bears a twentieth of its largest. Only
+/// forces of floor plates are looked at: they push up, within 60 degrees, and their center of
+/// pressure is at most 0.5 m above the lowest point of the person. A load cell in a hand is none.
+/// Of each contact the distance of the center of pressure from the body is compared, frame by
+/// frame:
 ///
 /// - a foreign foot: the center of pressure is more than 0.2 m from the body and half as far from
 ///   another body, or 0.3 m from it while the force's other contacts are nearer than 0.2 m;

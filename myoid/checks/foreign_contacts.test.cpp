@@ -204,6 +204,29 @@ TEST(ForeignContacts, ASecondFootOnThePlateIsSaid) {
                     HasSubstr("a second foot stands beside"), HasSubstr("from calcn_l")));
 }
 
+// A load cell that a hand pushes up against 1.1 m above the floor, and a weight of 80 N that hangs
+// from a foot: neither is a plate in the floor. The same force up on the floor is another foot's.
+TEST(ForeignContacts, AreLookedForOnPlatesInTheFloorAlone) {
+  for (const bool hand : {true, false}) {
+    PlateTrial trial;
+    const auto put = [&](double push_n, double height_m) {
+      Eigen::MatrixX3d f = Eigen::MatrixX3d::Zero(601, 3), p = f;
+      for (Eigen::Index i = 0; i < 601; ++i) {
+        f(i, 1) = push_n;
+        p.row(i) = SteadyGait::place(trial.time_s[i], kLeft).transpose();
+        p(i, 1) += height_m;
+      }
+      dynamics::ExternalForce force{.name = "cell", .body = kRight};
+      force.force = force_columns(trial.time_s, f);
+      force.point = force_columns(trial.time_s, p);
+      trial.loads.forces = {force};
+      return trial.findings();
+    };
+    EXPECT_TRUE((hand ? put(200.0, 1.1) : put(-80.0, 0.0)).empty());
+    EXPECT_EQ(put(200.0, 0.0).size(), 1U);
+  }
+}
+
 TEST(BodyPoints, AreThoseOfTheMarkersOrOfTheModelInTheMotion) {
   const model::BodyModel model = two_feet();
   recording::MarkerSeries markers;
