@@ -13,10 +13,12 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <pthread.h>
 #include <unistd.h>
 
 #include "myoid/cli/context.h"
+#include "myoid/cli/held_folders.h"
 #include "myoid/core/error.h"
 #include "myoid/core/provenance.h"
 #include "myoid/files/toml_table.h"
@@ -142,6 +144,20 @@ class CapitalPositionals : public CLI::Formatter {
   }
 };
 
+/// A sentence on an option that takes one value and was given several; empty if there is none.
+std::string repeated_option(CLI::App& app) {
+  for (const CLI::App* command : app.get_subcommands()) {
+    for (const CLI::Option* option : command->get_options()) {
+      const bool takes_one = option->get_items_expected_max() == 1 &&
+                             option->get_multi_option_policy() == CLI::MultiOptionPolicy::Throw;
+      if (takes_one && option->results().size() > 1)
+        return fmt::format("{} is given {} times ({}); it takes one value", option->get_name(),
+                           option->results().size(), fmt::join(option->results(), ", "));
+    }
+  }
+  return "";
+}
+
 int run(int argc, char** argv, myoid::cli::Context& context) {
   CLI::App app{
       "Myoid identifies a person's own muscle parameters from motion capture and EMG,\n"
@@ -167,6 +183,10 @@ int run(int argc, char** argv, myoid::cli::Context& context) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
+    if (const std::string repeated = repeated_option(app); !repeated.empty()) {
+      fmt::print(stderr, "error: {}\n", repeated);
+      return myoid::cli::kWrongCommandLine;
+    }
     const int code = app.exit(error);
     return code == 0 ? myoid::cli::kDone : myoid::cli::kWrongCommandLine;
   }
@@ -186,11 +206,14 @@ int main(int argc, char** argv) {
   stop_on_signals(context.stop);
   try {
     const int code = run(argc, argv, context);
+    cli::finish_folders();
     if (std::fflush(stdout) != 0) return stdout_lost(std::strerror(errno));
     return code;
   } catch (const Interrupted&) {
     context.end_progress();
-    fmt::print(stderr, "interrupted; what was finished stays usable\n");
+    const std::string contents = cli::contents_of_folders();
+    fmt::print(stderr, "interrupted; {}\n",
+               contents.empty() ? "no file is half-written" : contents);
     return cli::kInterrupted;
   } catch (const InvalidInput& error) {
     context.end_progress();

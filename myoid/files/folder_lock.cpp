@@ -131,7 +131,8 @@ FolderLock::FolderLock(fs::path folder) : folder_(std::move(folder)) {
 
 FolderLock::~FolderLock() {
   // The name goes first, so that nobody takes a lock on a file that is about to vanish.
-  if (signed_ || !left_behind_) unlink((folder_ / kFile).c_str());
+  const bool unfinished = from_empty_ && !finished_ && holds_content(folder_);
+  if (!unfinished && (signed_ || !left_behind_)) unlink((folder_ / kFile).c_str());
   close(descriptor_);
 }
 
@@ -142,6 +143,7 @@ void FolderLock::sign(std::string_view command, bool from_empty) {
       fmt::format("process: {}\nhost: {}\nsince: {}\ncommand: {}\nfrom_empty: {}\n", getpid(),
                   this_host(), now_utc(), line, from_empty ? "yes" : "no");
   signed_ = true;
+  from_empty_ = from_empty;
   if (ftruncate(descriptor_, 0) != 0 ||
       pwrite(descriptor_, text.data(), text.size(), 0) != static_cast<ssize_t>(text.size()))
     throw InvalidInput(

@@ -23,6 +23,10 @@ struct FolderOwner {
 /// the kernel's (flock on a file in the folder), so it ends with the process however the process
 /// ends; the file names the owner. Where the file system knows no such locks, the owner's process
 /// number and host decide.
+///
+/// A folder that was empty belongs to the command that began to fill it until that command says
+/// `finish`: where it was killed, or stopped by an error such as a full disk, the file stays, and
+/// `left_behind` tells the next one.
 class FolderLock {
  public:
   static constexpr std::string_view kFile = ".myoid.lock";
@@ -30,23 +34,27 @@ class FolderLock {
   /// Takes the folder, which exists. Throws InvalidInput, naming the owner, while another process
   /// holds it, and if the folder cannot be written.
   explicit FolderLock(std::filesystem::path folder);
-  /// Gives the folder back and removes the file.
+  /// Gives the folder back and removes the file, but for unfinished results in a folder that was
+  /// empty.
   ~FolderLock();
   FolderLock(const FolderLock&) = delete;
   FolderLock& operator=(const FolderLock&) = delete;
 
   [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
-  /// The owner that ended without giving the folder back, if there is one: killed, or power was
-  /// lost.
+  /// The owner that did not finish, if there is one.
   [[nodiscard]] const std::optional<FolderOwner>& left_behind() const { return left_behind_; }
   /// Writes this process into the file as the owner.
   void sign(std::string_view command, bool from_empty);
+  /// The results are whole: nothing is left behind.
+  void finish() { finished_ = true; }
 
  private:
   std::filesystem::path folder_;
   std::optional<FolderOwner> left_behind_;
   int descriptor_ = -1;
   bool signed_ = false;
+  bool from_empty_ = false;
+  bool finished_ = false;
 };
 
 /// Whether the folder holds anything but locks, what a killed process left half-written, and an

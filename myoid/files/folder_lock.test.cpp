@@ -55,6 +55,39 @@ class OtherProcess {
   pid_t child_ = 0;
 };
 
+// What a command leaves that an error ends: its destructors run, as of this block.
+TEST(FolderLock, StaysWhereACommandDidNotFinishWhatItBegan) {
+  const test::TemporaryFolder folder;
+  const auto file = folder / std::string(FolderLock::kFile);
+  for (const bool finished : {false, true}) {
+    std::filesystem::remove(folder / "ik.mot");
+    {
+      FolderLock lock(folder.path());
+      lock.sign("myoid run study.toml", true);
+      write_file(folder / "ik.mot", "half of the results");
+      if (finished) lock.finish();
+    }
+    EXPECT_EQ(std::filesystem::exists(file), !finished);
+    FolderLock next(folder.path());
+    EXPECT_EQ(next.left_behind().has_value(), !finished);
+    if (!finished) {
+      EXPECT_EQ(next.left_behind()->command, "myoid run study.toml");
+      next.sign("myoid run study.toml", true);
+      next.finish();
+    }
+  }
+}
+
+TEST(FolderLock, IsGoneWhereNothingWasWrittenOrTheFolderHadContent) {
+  const test::TemporaryFolder folder;
+  const auto file = folder / std::string(FolderLock::kFile);
+  { FolderLock(folder.path()).sign("myoid run study.toml", true); }
+  EXPECT_FALSE(std::filesystem::exists(file));
+  write_file(folder / "ik.mot", "of another command");
+  { FolderLock(folder.path()).sign("myoid run study.toml --overwrite", false); }
+  EXPECT_FALSE(std::filesystem::exists(file));
+}
+
 TEST(FolderLock, RefusesAFolderThatAnotherProcessHoldsAndNamesTheProcess) {
   const test::TemporaryFolder folder;
   const OtherProcess other(folder.path());

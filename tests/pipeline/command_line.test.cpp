@@ -84,6 +84,12 @@ TEST(CommandLine, IsWrongWithExitCodeTwoAndNothingOnStdout) {
   EXPECT_THAT(seed.err, AllOf(HasSubstr("--seed"), HasSubstr("'abc'")));
 }
 
+TEST(CommandLine, AnOptionOfOneValueThatIsGivenTwiceIsNamed) {
+  const Finished twice = myoid({"check", "a.c3d", "--up", "x", "--up", "z"});
+  EXPECT_EQ(twice.exit_code, 2);
+  EXPECT_EQ(twice.err, "error: --up is given 2 times (x, z); it takes one value\n");
+}
+
 TEST(CommandLine, AWrongPathIsNamedWithExitCodeThree) {
   const TemporaryFolder folder;
   const std::string missing = folder / "missing.toml";
@@ -394,7 +400,7 @@ TEST(CommandLine, InterruptedItEndsWithHundredAndThirty) {
   // The whole study takes many seconds, so a signal after one second falls into the work.
   const Finished run = myoid({"run", folder / "rec/study.toml", "--out", folder / "out"}, 1.0);
   EXPECT_EQ(run.exit_code, 130) << run.err;
-  EXPECT_THAT(run.err, HasSubstr("interrupted"));
+  EXPECT_THAT(run.err, AllOf(HasSubstr("interrupted; "), HasSubstr(folder / "out")));
   EXPECT_FALSE(std::filesystem::exists(folder / "out/parameters.csv"));
 }
 

@@ -44,6 +44,11 @@ Running::Running(const std::vector<std::string>& arguments,
     const rlimit memory{limits.memory_bytes, limits.memory_bytes};
     setrlimit(RLIMIT_DATA, &memory);
   }
+  if (limits.file_bytes > 0) {
+    const rlimit length{limits.file_bytes, limits.file_bytes};
+    setrlimit(RLIMIT_FSIZE, &length);
+    ::signal(SIGXFSZ, SIG_IGN);  // The write fails instead, with a cause.
+  }
   alarm(limits.time_s);  // Outlives execv; 0 is none.
   execv(argv[0], argv.data());
   _exit(127);

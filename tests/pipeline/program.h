@@ -21,10 +21,11 @@ struct Finished {
 };
 
 /// What a program may take; 0 for no limit. Beyond the memory its allocations fail; beyond the time
-/// it is killed.
+/// it is killed; a file that becomes longer fails to be written, as on a full disk.
 struct Limits {
   std::uint64_t memory_bytes = 0;
   unsigned time_s = 0;
+  std::uint64_t file_bytes = 0;
 };
 
 /// The built `myoid` with these arguments while it runs, stdin closed; killed with this object.

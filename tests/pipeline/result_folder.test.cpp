@@ -1,6 +1,8 @@
 // The folder of results when two commands want it, when one is killed in the middle, and when the
 // system grants no threads.
+#include <algorithm>
 #include <csignal>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -105,6 +107,32 @@ TEST(ResultFolder, OfACommandThatWasKilledInTheMiddleTakesTheSameCommandAgain) {
   const Finished third = myoid(again);
   EXPECT_EQ(third.exit_code, 3);
   EXPECT_THAT(third.err, HasSubstr("is not empty"));
+}
+
+/// The size of the longest file in a folder.
+std::uint64_t longest_file(const fs::path& folder) {
+  std::uint64_t longest = 0;
+  for (const auto& [name, text] : files_in(folder)) longest = std::max(longest, text.size());
+  return longest;
+}
+
+// On a full disk some files are written and one is not.
+TEST(ResultFolder, OfACommandThatAFullDiskStoppedTakesTheSameCommandAgain) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(myoid(twin_command(folder, "whole", 2)).exit_code, 0);
+  const std::vector<std::string> again = twin_command(folder, "full", 2);
+  const Finished stopped =
+      myoid(again, 0.0, "", {.file_bytes = longest_file(folder / "whole") - 1});
+  EXPECT_EQ(stopped.exit_code, 3);
+  EXPECT_THAT(stopped.err, HasSubstr("cannot write"));
+  ASSERT_FALSE(files_in(folder / "full").empty());
+  const Finished another = myoid({"run", folder / "whole/study.toml", "--out", folder / "full"});
+  EXPECT_EQ(another.exit_code, 3);
+  const Finished finished = myoid(again);
+  EXPECT_EQ(finished.exit_code, 0) << finished.err;
+  EXPECT_THAT(finished.err, HasSubstr("taken over from a command that did not finish (process "));
+  EXPECT_EQ(files_in(folder / "full"), files_in(folder / "whole"));
+  EXPECT_EQ(myoid(again).exit_code, 3);  // It is whole, and needs --overwrite.
 }
 
 /// The program under a system that grants so many threads at the same time.
