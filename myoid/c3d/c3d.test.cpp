@@ -204,6 +204,33 @@ TEST(C3d, MoreThan255NamesAndMoreThan65535FramesComeBack) {
   expect_same(back, file);
 }
 
+// The convention of long lists: TIMES2, LABELS2, ... for every further 255.
+TEST(C3d, AnyNumberOfEventsComesBack) {
+  for (const std::size_t count : {255U, 256U, 511U, 40000U}) {
+    C3dFile file = small_file();
+    file.events.clear();
+    for (std::size_t i = 0; i < count; ++i)
+      file.events.push_back({0.25 * static_cast<double>(i), "Strike " + std::to_string(i % 7),
+                             i % 2 == 0 ? "Left" : "Right", "S1"});
+    const C3dFile back = parse_c3d(format_c3d(file), "events.c3d");
+    ASSERT_EQ(back.events.size(), count);
+    EXPECT_EQ(back.events, file.events);
+    EXPECT_TRUE(back.repairs.empty()) << back.repairs[0].message;
+    const C3dParameter* const second = back.find("EVENT", "TIMES2");
+    ASSERT_EQ(second != nullptr, count > 255);
+    if (count == 256U) {
+      EXPECT_EQ(second->dimensions, (std::vector<std::uint8_t>{2, 1}));
+    }
+    // Fewer events leave no parameter of the many.
+    file.groups = back.groups;
+    file.events.resize(3);
+    EXPECT_EQ(parse_c3d(format_c3d(file), "fewer.c3d").find("EVENT", "TIMES2"), nullptr);
+  }
+  C3dFile file = small_file();
+  file.events.assign(65536, {0.0, "E", "", ""});
+  EXPECT_THROW((void)format_c3d(file), InvalidInput);
+}
+
 TEST(C3d, UnsignedSamplesAndOffsetsAreRead) {
   C3dFile file = small_file();
   file.channels[0].offset = 32768.0;

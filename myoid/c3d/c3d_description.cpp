@@ -93,19 +93,23 @@ void set_long_texts(C3dGroup& group,
   }
 }
 
+/// NAME, NAME2, ... likewise, of elements of `rows` numbers each.
 void set_long_numbers(C3dGroup& group,
                       const std::string& name,
                       C3dType type,
-                      const std::vector<double>& numbers) {
+                      const std::vector<double>& numbers,
+                      std::uint8_t rows = 1) {
   for (int block = 1; block < 1000; ++block)
     erase(group, block == 1 ? name : fmt::format("{}{}", name, block));
   int block = 1;
-  for (std::size_t first = 0; first < numbers.size() || block == 1; first += 255, ++block) {
-    const std::size_t count = std::min<std::size_t>(255, numbers.size() - first);
-    const auto begin = numbers.begin() + static_cast<std::ptrdiff_t>(first);
+  const std::size_t elements = numbers.size() / rows;
+  for (std::size_t first = 0; first < elements || block == 1; first += 255, ++block) {
+    const std::size_t count = std::min<std::size_t>(255, elements - first);
+    const auto begin = numbers.begin() + static_cast<std::ptrdiff_t>(first * rows);
+    std::vector<std::uint8_t> dimensions{static_cast<std::uint8_t>(count)};
+    if (rows > 1) dimensions.insert(dimensions.begin(), rows);
     set_numbers(group, block == 1 ? name : fmt::format("{}{}", name, block), type,
-                {begin, begin + static_cast<std::ptrdiff_t>(count)},
-                {static_cast<std::uint8_t>(count)});
+                {begin, begin + static_cast<std::ptrdiff_t>(count * rows)}, std::move(dimensions));
   }
 }
 
@@ -185,8 +189,10 @@ void describe_channels(std::vector<C3dGroup>& groups, const C3dFile& file) {
 void describe_events(std::vector<C3dGroup>& groups, const C3dFile& file) {
   if (file.events.empty() && file.find("EVENT", "USED") == nullptr) return;
   C3dGroup& group = group_named(groups, "EVENT");
-  if (file.events.size() > 255)
-    throw InvalidInput(fmt::format("{} events; a C3D file holds at most 255", file.events.size()));
+  constexpr std::size_t kMost = 65535;  // USED has 16 bits
+  if (file.events.size() > kMost)
+    throw InvalidInput(
+        fmt::format("{} events; a C3D file holds at most {}", file.events.size(), kMost));
   std::vector<std::string> labels;
   std::vector<std::string> contexts;
   std::vector<std::string> subjects;
@@ -198,9 +204,8 @@ void describe_events(std::vector<C3dGroup>& groups, const C3dFile& file) {
     times.push_back(0.0);
     times.push_back(event.time_s);
   }
-  const auto count = static_cast<std::uint8_t>(file.events.size());
-  set_number(group, "USED", C3dType::integer, count);
-  set_numbers(group, "TIMES", C3dType::real, std::move(times), {2, count});
+  set_number(group, "USED", C3dType::integer, static_cast<double>(file.events.size()));
+  set_long_numbers(group, "TIMES", C3dType::real, times, 2);
   set_long_texts(group, "LABELS", labels);
   set_long_texts(group, "CONTEXTS", contexts);
   set_long_texts(group, "SUBJECTS", subjects);

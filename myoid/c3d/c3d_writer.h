@@ -18,10 +18,10 @@ struct C3dFormat {
 /// groups of `file` are kept; what describes the data (USED, RATE, SCALE, LABELS, ...) is set from
 /// its values, and the groups and parameters that the format requires are added. Counts beyond 16
 /// bits go to POINT:LONG_FRAMES and TRIAL:ACTUAL_START_FIELD, names beyond the 255th to LABELS2 and
-/// so on. Reals keep every bit, so that the file read back is the same; a position that is no
-/// number is written as missing. Throws InvalidInput if the format cannot hold something: more than
-/// 65535 points or analog samples a frame, an integer sample out of range or with a fraction, a
-/// name of more than 255 bytes.
+/// so on, events beyond the 255th to EVENT:TIMES2, LABELS2 and so on. Reals keep every bit, so that
+/// the file read back is the same; a position that is no number is written as missing. Throws
+/// InvalidInput if the format cannot hold something: more than 65535 points or analog samples a
+/// frame, an integer sample out of range or with a fraction, a name of more than 255 bytes.
 [[nodiscard]] std::vector<std::byte> format_c3d(const C3dFile& file, const C3dFormat& format = {});
 
 /// Writes it, whole or not at all.
