@@ -12,6 +12,7 @@
 #include "myoid/cli/context.h"
 #include "myoid/cli/stage_input.h"
 #include "myoid/core/error.h"
+#include "myoid/core/json_text.h"
 #include "myoid/files/atomic_file.h"
 #include "myoid/recording/bids_derivative.h"
 #include "myoid/recording/channel_choice.h"
@@ -21,7 +22,6 @@
 #include "myoid/recording/ground_reaction.h"
 #include "myoid/recording/plate_standing.h"
 #include "myoid/recording/recording.h"
-#include "myoid/report/json_values.h"
 #include "myoid/signals/resample.h"
 #include "myoid/tables/storage_reader.h"
 #include "myoid/tables/storage_writer.h"
@@ -89,6 +89,15 @@ void without_blanks(recording::MarkerSeries& markers, std::vector<recording::Rep
 bool is_storage(const std::string& file) {
   const std::string extension = recording::extension_of(file);
   return extension == ".sto" || extension == ".mot";
+}
+
+/// The channels that have another clock than the first one's.
+std::vector<std::string> other_clocks(const recording::Recording& file) {
+  std::vector<std::string> names;
+  for (const recording::AnalogChannels& clock : file.other_clocks) {
+    for (const Channel& channel : clock.channels()) names.push_back(channel.name);
+  }
+  return names;
 }
 
 class Converter {
@@ -270,10 +279,8 @@ class Converter {
         throw ReadError(o_.in, 0,
                         "there are no analog channels to write; markers go to a .trc file");
       if (!file.other_clocks.empty() && o_.channels.empty())
-        context_.warn(fmt::format(
-            "{}: only the channels of the first clock are written; name others with --channel, or "
-            "give a folder as OUT",
-            o_.in));
+        context_.warn(fmt::format("{}: {}; a folder as OUT takes all", o_.in,
+                                  recording::first_clock_alone(other_clocks(file))));
       if (stays(file.analog, out)) {
         write_read(out, recording::rows_of(file.analog));
       } else {
@@ -310,11 +317,26 @@ class Converter {
           o_.in, up, up));
   }
 
+  /// Throws InvalidInput where --body gives more or fewer bodies than there are plates.
+  [[nodiscard]] std::vector<int> plate_numbers(const recording::Recording& file) const {
+    std::vector<int> numbers;
+    for (const recording::PlateSetup& plate : file.plates) numbers.push_back(plate.number);
+    const std::size_t given = o_.bodies.size();
+    if (given == 0 || given == numbers.size()) return numbers;
+    throw InvalidInput(
+        fmt::format("--body: {} {} for {} force {} of {} ({}); give one for each, in this order, "
+                    "and \"\" for a "
+                    "plate on which nobody stands",
+                    given, given == 1 ? "body" : "bodies", numbers.size(),
+                    numbers.size() == 1 ? "plate" : "plates", o_.in, fmt::join(numbers, ", ")));
+  }
+
   void plates(const fs::path& out, recording::Recording file) {
     context_.prepare_file(out, {o_.in, o_.analog});
     if (file.plates.empty())
       throw ReadError(o_.in, 0, "there are no force plates that are understood");
     report(file.repairs);
+    const std::vector<int> numbers = plate_numbers(file);
     std::vector<recording::Repair> notes;
     const TimeSeries loads = recording::ground_reaction(
         file.force_plates(), {.R_YG = R_, .least_force_n = o_.least_force_n}, notes);
@@ -322,11 +344,6 @@ class Converter {
     recording::write_storage(out, at_rate(cut(loads, context_)),
                              {.title = out.stem().string(), .comments = {}});
     wrote(out);
-    std::vector<int> numbers;
-    for (const recording::PlateSetup& plate : file.plates) numbers.push_back(plate.number);
-    if (o_.bodies.size() > numbers.size())
-      throw InvalidInput(
-          fmt::format("--body: {} bodies for {} force plates", o_.bodies.size(), numbers.size()));
     if (o_.bodies.empty()) {
       context_.log(
           "give --body BODY for each plate to write the ExternalLoads file too (\"\" leaves one "
@@ -344,6 +361,7 @@ class Converter {
   void everything(const fs::path& folder) {
     recording::Recording file = recording::read_recording(o_.in);
     const std::string stem = fs::path(o_.in).stem().string();
+    (void)plate_numbers(file);
     if (!file.plates.empty()) {
       stand(file);
     } else if (file.screen_up_L && file.markers.frame_count() > 0) {

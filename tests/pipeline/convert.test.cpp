@@ -5,7 +5,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "myoid/c3d/c3d_writer.h"
+
 #include "program.h"
+#include "tests/support/plate_recording.h"
 #include "tests/support/temporary_folder.h"
 
 namespace {
@@ -85,6 +88,24 @@ TEST(Convert, TheFolderOfARunBecomesAFolder) {
   EXPECT_EQ(done.exit_code, 3);
   EXPECT_THAT(done.err, HasSubstr("a folder too"));
   EXPECT_FALSE(std::filesystem::exists(folder / "out.c3d"));
+}
+
+TEST(Convert, EveryPlateNeedsABodyOrNone) {
+  const TemporaryFolder folder;
+  const std::string file = folder / "f.c3d";
+  ::myoid::recording::write_c3d(file, ::myoid::test::plate_recording(2));
+  for (const char* body : {"calcn_r", ""}) {
+    const Finished one =
+        myoid({"convert", file, folder / (std::string("one") + body), "--body", body});
+    EXPECT_EQ(one.exit_code, 0) << one.err;
+  }
+  const Finished two =
+      myoid({"convert", file, folder / "two", "--body", "calcn_r", "--body", "calcn_l"});
+  EXPECT_EQ(two.exit_code, 3);
+  EXPECT_THAT(two.err, HasSubstr("--body: 2 bodies for 1 force plate of"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "two"));
+  const Finished none = myoid({"convert", file, folder / "f.mot", "--what", "plates"});
+  EXPECT_EQ(none.exit_code, 0) << none.err;
 }
 
 TEST(Convert, WhatCannotBeWrittenIsSaid) {
