@@ -25,6 +25,11 @@ TEST(ContentsText, NothingAListOfListsAndBytesThatAreNoUtf8AreRendered) {
   EXPECT_EQ(contents_text(list), "a (3):\n  [1,2]\n  null\n  [V]\n");
 }
 
+TEST(ContentsText, WhereAValueComesFromStandsBehindIt) {
+  EXPECT_EQ(contents_text({{"up", "z"}, {"up_from", "POINT:Y_SCREEN"}, {"not_from", 2}}),
+            "up: z (from POINT:Y_SCREEN)\nnot from: 2\n");
+}
+
 TEST(ContentsText, ListsWithinAListStandBelowTheirMember) {
   const nlohmann::ordered_json clocks{
       {"other_clocks",

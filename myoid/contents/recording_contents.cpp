@@ -15,6 +15,8 @@
 #include "myoid/core/error.h"
 #include "myoid/recording/c3d_survey.h"
 #include "myoid/recording/emg_reader.h"
+#include "myoid/recording/laboratory_up.h"
+#include "myoid/recording/plate_standing.h"
 #include "myoid/recording/recording.h"
 #include "myoid/tables/csv_reader.h"
 #include "myoid/tables/storage_reader.h"
@@ -114,6 +116,23 @@ ordered_json events_json(const std::vector<recording::Event>& events) {
   return list;
 }
 
+/// Which way is up and what says so; "not known" where nothing does, "contradictory" where two
+/// things in the file do not agree.
+void add_up(const std::filesystem::path& path,
+            const recording::C3dSurvey& survey,
+            ordered_json& j) {
+  recording::LaboratoryUp up{recording::screen_up(survey.file), "POINT:Y_SCREEN or POINT:SCREEN"};
+  try {
+    if (!survey.plates.empty()) up = recording::read_laboratory_up(path);
+  } catch (const ReadError& error) {
+    j["up"] = "contradictory";
+    j["up_from"] = error.what();
+    return;
+  }
+  j["up"] = up.up_L ? recording::axis_name(*up.up_L) : "not known";
+  j["up_from"] = up.up_L ? up.because : "no screen's axes and no loaded force plate";
+}
+
 /// Everything a C3D file says, with the numbers of its channels in the unit as written.
 ordered_json c3d_json(const std::filesystem::path& path) {
   const recording::C3dSurvey survey = recording::survey_c3d(path);
@@ -162,6 +181,7 @@ ordered_json c3d_json(const std::filesystem::path& path) {
                                  {"type", survey.plates[p].type},
                                  {"largest_force_n", survey.largest_force_n[p]}});
   }
+  add_up(path, survey, j);
   j["events"] = events_json(file.events);
   j["repairs"] = repairs_json(survey.repairs);
   return j;

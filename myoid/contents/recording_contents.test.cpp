@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include "myoid/c3d/c3d_writer.h"
 #include "myoid/core/error.h"
 #include "myoid/files/atomic_file.h"
 
+#include "tests/support/plate_recording.h"
 #include "tests/support/temporary_folder.h"
 
 namespace myoid {
@@ -53,6 +55,27 @@ TEST(RecordingContents, OneSampleHasAStartAndNoRate) {
     EXPECT_EQ(contents->at("duration_s"), 0.0) << name;
     EXPECT_FALSE(contents->contains("rate_hz")) << name;
   }
+}
+
+// The laboratory of `PlateLoad` turned, with and without a screen's axis; nothing tells beside an
+// unloaded plate.
+TEST(RecordingContents, OfAC3dFileItTellsWhichWayIsUpAndWhatSaysSo) {
+  const test::TemporaryFolder folder;
+  for (const char up : {'x', 'y', 'z'}) {
+    for (const bool screen : {false, true}) {
+      test::PlateCase how{.R_LZ = test::laboratory_with_up(up)};
+      if (screen) how.screen = std::string("+") + static_cast<char>(up - 32);
+      recording::write_c3d(folder / "f.c3d", test::plate_recording(how));
+      const auto contents = recording_contents(folder / "f.c3d");
+      ASSERT_TRUE(contents);
+      EXPECT_EQ(contents->at("up"), std::string(1, up));
+      const auto from = contents->at("up_from").get<std::string>();
+      EXPECT_EQ(from.find("SCREEN") != std::string::npos, screen) << from;
+      EXPECT_NE(from.find("plate"), std::string::npos) << from;
+    }
+  }
+  recording::write_c3d(folder / "f.c3d", test::plate_recording(test::PlateCase{.loaded = false}));
+  EXPECT_EQ(recording_contents(folder / "f.c3d")->at("up"), "not known");
 }
 
 TEST(RecordingContents, ATableWithoutAClockIsToldByItsColumnsAndWhyItIsNoRecording) {
