@@ -8,7 +8,9 @@
 
 #include "myoid/cli/context.h"
 #include "myoid/cli/stage_input.h"
+#include "myoid/core/counted.h"
 #include "myoid/core/error.h"
+#include "myoid/core/json_text.h"
 #include "myoid/core/provenance.h"
 #include "myoid/files/atomic_file.h"
 #include "myoid/files/text_file.h"
@@ -284,7 +286,7 @@ void fit(const MuscleOptions& o, Context& context, const muscle::MuscleFile& fil
                                    {"estimate", e.value},
                                    {"std_error", e.std_error},
                                    {"at_bound", e.at_bound}});
-    fmt::print("{}\n", json.dump(2));
+    fmt::print("{}\n", json_text(json));
     return;
   }
   fmt::print("{}: {} ({} simulated experiments)\n\n", file.name, all.message, all.evaluations);
@@ -307,8 +309,8 @@ void run(const MuscleOptions& o, Context& context) {
   if (o.fit.empty() && (o.lengths.size() > 1 || o.measured.size() > 1))
     throw InvalidInput("several recordings are for --fit: without it, give one --length");
   if (!o.fit.empty() && o.measured.size() != o.lengths.size()) {
-    throw InvalidInput(fmt::format("--measured: {} files for {} of --length; --fit needs one each",
-                                   o.measured.size(), o.lengths.size()));
+    throw InvalidInput(fmt::format("--measured: {} for {} of --length; --fit needs one each",
+                                   counted(o.measured.size(), "file"), o.lengths.size()));
   }
   if (o.scales.size() != 1 && o.scales.size() != o.lengths.size()) {
     throw InvalidInput(
@@ -373,7 +375,7 @@ void run(const MuscleOptions& o, Context& context) {
       json["mean_absolute_error_n"] = comparison->error_n;
       json["mean_absolute_error"] = comparison->share;
     }
-    fmt::print("{}\n", json.dump(2));
+    fmt::print("{}\n", json_text(json));
     return;
   }
   fmt::print("{}: {} samples, force {:.4g} to {:.4g} N\n", file.name, force.size(),

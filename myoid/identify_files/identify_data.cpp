@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "myoid/checks/same_recording.h"
+#include "myoid/core/counted.h"
 #include "myoid/core/error.h"
 #include "myoid/core/units.h"
 #include "myoid/identify_files/identify_input.h"
@@ -51,8 +52,8 @@ Eigen::MatrixXd rates_of(const TimeSeries& series, const Eigen::VectorXd& clock)
 void require_count(std::size_t count, std::size_t trials, std::string_view option) {
   if (count != trials)
     throw InvalidInput(
-        fmt::format("{}: {} files for {} trials; give one per trial, in the same order", option,
-                    count, trials));
+        fmt::format("{}: {} for {} of --lengths; give one per trial, in the same order", option,
+                    counted(count, "file"), trials));
 }
 
 void require_counts(const IdentifySources& s) {
@@ -133,6 +134,30 @@ IdentifyFiles files_of(const IdentifySources& s, std::size_t trial) {
 }
 
 /// The files of one trial, each read once.
+/// "walk" of the only file of lengths; "2 (walk)" of several, and where others have the same name
+/// with as many of its folders as make it another one: "2 (fast/walk)".
+std::string trial_label(const std::vector<std::string>& lengths, std::size_t number) {
+  namespace fs = std::filesystem;
+  const auto tail = [](const std::string& file, int folders) {
+    fs::path label = fs::path(file).stem();
+    fs::path above = fs::path(file).parent_path();
+    for (int k = 0; k < folders && above.has_filename(); ++k, above = above.parent_path())
+      label = above.filename() / label;
+    return label.generic_string();
+  };
+  const auto is_alone = [&](int folders) {
+    const std::string own = tail(lengths[number], folders);
+    return std::count_if(lengths.begin(), lengths.end(), [&](const std::string& other) {
+             return tail(other, folders) == own;
+           }) == 1;
+  };
+  constexpr int kMostFolders = 8;
+  int folders = 0;
+  while (folders < kMostFolders && !is_alone(folders)) ++folders;
+  const std::string label = tail(lengths[number], is_alone(folders) ? folders : 0);
+  return lengths.size() > 1 ? fmt::format("{} ({})", number + 1, label) : label;
+}
+
 class TrialReader {
  public:
   TrialReader(const IdentifySources& sources,
@@ -146,8 +171,7 @@ class TrialReader {
     const std::string motion =
         sources_.torque && !sources_.motions.empty() ? sources_.motions[number] : "";
     TrialData trial;
-    trial.name = std::filesystem::path(files.lengths).stem().string();
-    if (sources_.lengths.size() > 1) trial.name = fmt::format("{} ({})", number + 1, trial.name);
+    trial.name = trial_label(sources_.lengths, number);
     trial.time_s = clock(files, {forces, motion});
     trial.length_m = columns_of(files.lengths, trial.time_s);
     say_jumps(files.lengths, muscle_series(files.lengths), Unit::meter);

@@ -202,13 +202,35 @@ TEST(IdentifyData, ActivationsThatAreNamedTwiceAreRemarkedOf) {
 TEST(IdentifyData, FilesThatDoNotMatchTheTrialsOrTheMusclesAreRefused) {
   Written two;
   two.sources.torques.push_back(two.sources.torques[0]);
-  EXPECT_NE(two.message().find("--torques: 2 files for 1 trials"), std::string::npos);
+  EXPECT_NE(two.message().find("--torques: 2 files for 1 of --lengths"), std::string::npos);
   Written other;
   other.table.muscles[0].name = "SOL";
   EXPECT_NE(other.message().find("no column 'SOL'"), std::string::npos) << other.message();
   Written joint;
   joint.sources.coordinates = {"knee"};
   EXPECT_NE(joint.message().find("no column 'knee' or 'knee_moment'"), std::string::npos);
+}
+
+TEST(IdentifyData, TrialsWhoseFilesHaveOneNameAreToldByTheirFolders) {
+  Written data;
+  std::filesystem::create_directories(data.folder / "slow");
+  std::filesystem::create_directories(data.folder / "fast");
+  for (const char* name : {"slow/l.sto", "fast/l.sto", "m.sto"})
+    std::filesystem::copy_file(data.folder / "l.sto", data.folder / name);
+  IdentifySources& s = data.sources;
+  const auto names = [&](const std::vector<std::string>& lengths) {
+    s.lengths.clear();
+    for (const std::string& file : lengths) s.lengths.push_back(data.path(file));
+    for (auto* list : {&s.activations, &s.velocities, &s.moment_arms, &s.torques})
+      list->assign(lengths.size(), list->front());
+    std::vector<std::string> found;
+    for (const auto& trial : read_identify_data(s, data.table, [](const std::string&) {}).trials)
+      found.push_back(trial.name);
+    return found;
+  };
+  EXPECT_EQ(names({"l.sto"}), (std::vector<std::string>{"l"}));
+  const auto three = names({"slow/l.sto", "fast/l.sto", "m.sto"});
+  EXPECT_EQ(three, (std::vector<std::string>{"1 (slow/l)", "2 (fast/l)", "3 (m)"}));
 }
 
 TEST(IdentifyData, ViscosityInertiaAndStiffnessComeBackFromTheJointsMotion) {

@@ -11,6 +11,7 @@
 
 #include "myoid/core/error.h"
 #include "myoid/files/text_file.h"
+#include "myoid/files/wrong_kind.h"
 #include "myoid/identification/parameters.h"
 #include "myoid/identify_files/muscle_columns.h"
 #include "myoid/muscle/force_velocity.h"
@@ -82,6 +83,9 @@ std::string assumption(const std::filesystem::path& path,
 }  // namespace
 
 MuscleTable read_muscles_csv(const std::filesystem::path& path, bool within_bounds) {
+  const std::string mixed_up =
+      recording::wrong_kind(path, {".csv", ".tsv", ".txt"}, "a table of muscles (.csv)");
+  if (!mixed_up.empty()) throw ReadError(path, 0, mixed_up);
   const recording::CsvTable table = recording::read_csv_table(path);
   const std::map<std::string, MuscleColumn> columns = muscle_columns(table, path);
   MuscleTable result;

@@ -67,6 +67,16 @@ TEST(MusclesCsv, WhatCannotBeMeantIsRefusedAtItsLine) {
             std::string::npos);
 }
 
+TEST(MusclesCsv, AFileOfAnotherKindIsNamedAsThat) {
+  const test::TemporaryFolder folder;
+  recording::write_file(folder / "subject.xml", "<subject>\n</subject>\n");
+  const std::string said =
+      test::message_of([&] { (void)read_muscles_csv(folder / "subject.xml", true); });
+  EXPECT_NE(said.find("subject.xml: this is a .xml file (a set-up), but a table of muscles"),
+            std::string::npos)
+      << said;
+}
+
 TEST(MusclesCsv, NameForceAndLengthAreEnough) {
   const MuscleTable table = table_of(
       "Name,maxIsometricForce,optimalFiberLength [cm],tendonSlackLength\nTA,905,9.8,0.223\n");
