@@ -12,6 +12,7 @@
 #include "myoid/report/html.h"
 #include "myoid/report/json.h"
 #include "myoid/report/tables.h"
+#include "myoid/report/write_report.h"
 
 #include "tests/support/temporary_folder.h"
 

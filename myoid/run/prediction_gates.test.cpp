@@ -148,11 +148,11 @@ TEST(FoldGates, SayWhichPredictionGoesBeyondTheEffortsThatWereFitted) {
   std::vector<Fold> folds{fold("light", 1.0, 1.8), fold("heavy", 1.0, 1.8), fold("well", 1.0, 0.1)};
   folds[1].unseen = {"biceps", 2.84};
   folds[2].unseen = {"triceps", 3.0};  // predicted well: nothing to explain
-  const std::string hint = fold_gates(folds)[0].hint;
+  const std::string hint = fold_gates(folds)[0].why;
   EXPECT_NE(hint.find("beyond all that was fitted ('heavy': biceps 2.8 times)"), std::string::npos)
       << hint;
   folds[1].unseen.ratio = 1.4;
-  EXPECT_EQ(fold_gates(folds)[0].hint.find("beyond"), std::string::npos);
+  EXPECT_EQ(fold_gates(folds)[0].why.find("beyond"), std::string::npos);
 }
 
 }  // namespace

@@ -7,7 +7,7 @@
 
 #include "myoid/arm/arm4.h"
 #include "myoid/files/atomic_file.h"
-#include "myoid/intake/trial_input.h"
+#include "myoid/intake/read_trial.h"
 #include "myoid/osim/osim_reader.h"
 #include "myoid/study/study.h"
 
