@@ -1,5 +1,9 @@
 #include "myoid/opensim_tools/run_tool.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "myoid/core/error.h"
 #include "myoid/opensim_tools/setup_elements.h"
 #include "myoid/opensim_tools/tool_forward.h"
 #include "myoid/opensim_tools/tool_orientations.h"
@@ -7,14 +11,9 @@
 
 namespace myoid {
 
-ToolResult run_tool(const std::filesystem::path& path, const ToolOptions& options) {
-  const OpensimSetup setup(path, options.files);
-  ToolResult result;
-  result.inputs = setup.inputs();
-  result.notes = setup.notes();
-  const std::vector<std::string> unknown = unknown_elements(setup.xml(), setup.tool());
-  result.notes.insert(result.notes.end(), unknown.begin(), unknown.end());
-  result.tool = setup.kind();
+namespace {
+
+void run_named_tool(const OpensimSetup& setup, const ToolOptions& options, ToolResult& result) {
   if (result.tool == "InverseKinematicsTool") {
     run_inverse_kinematics(setup, options, result);
   } else if (result.tool == "InverseDynamicsTool") {
@@ -29,6 +28,25 @@ ToolResult run_tool(const std::filesystem::path& path, const ToolOptions& option
     run_imu_inverse_kinematics(setup, options, result);
   } else {
     run_analyses(setup, options, result);
+  }
+}
+
+}  // namespace
+
+ToolResult run_tool(const std::filesystem::path& path, const ToolOptions& options) {
+  const OpensimSetup setup(path, options.files);
+  ToolResult result;
+  result.inputs = setup.inputs();
+  result.notes = setup.notes();
+  const std::vector<std::string> unknown = unknown_elements(setup.xml(), setup.tool());
+  result.notes.insert(result.notes.end(), unknown.begin(), unknown.end());
+  result.tool = setup.kind();
+  try {
+    run_named_tool(setup, options, result);
+  } catch (const InvalidInput& error) {
+    // A misspelt element is often the cause: the one that was meant is missing.
+    if (unknown.empty()) throw;
+    throw InvalidInput(fmt::format("{}; {}", error.what(), fmt::join(unknown, "; ")));
   }
   const std::vector<std::string>& defaulted = setup.xml().defaulted();
   result.notes.insert(result.notes.end(), defaulted.begin(), defaulted.end());

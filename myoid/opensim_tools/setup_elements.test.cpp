@@ -6,9 +6,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "myoid/files/atomic_file.h"
 #include "myoid/files/text_file.h"
+#include "myoid/opensim_tools/run_tool.h"
 
 #include "tests/support/data_folder.h"
+#include "tests/support/message_of.h"
+#include "tests/support/temporary_folder.h"
 
 namespace myoid {
 namespace {
@@ -55,6 +59,19 @@ TEST(UnknownElements, AreNotLookedForInControllers) {
                    "<enabled>true</enabled></ControlSetController></objects></ControllerSet>"
                    "</ForwardTool></OpenSimDocument>"),
               IsEmpty());
+}
+
+// Without the element that was meant the tool cannot run: the error names both.
+TEST(UnknownElements, AreNamedByTheErrorThatTheyCause) {
+  const test::TemporaryFolder folder;
+  recording::write_file(folder / "ik.xml",
+                        "<OpenSimDocument Version=\"40000\">\n<InverseKinematicsTool>\n"
+                        "<model_fiel>m.osim</model_fiel>\n</InverseKinematicsTool>\n"
+                        "</OpenSimDocument>\n");
+  EXPECT_THAT(test::message_of([&] { (void)run_tool(folder / "ik.xml"); }),
+              AllOf(HasSubstr("<model_file> expected"),
+                    HasSubstr("line 3: <InverseKinematicsTool> has no element <model_fiel> (did "
+                              "you mean <model_file>?)")));
 }
 
 // OpenSim itself and its users wrote them: nothing in them is misspelt.
