@@ -130,7 +130,7 @@ void add_up(const std::filesystem::path& path,
     return;
   }
   j["up"] = up.up_L ? recording::axis_name(*up.up_L) : "not known";
-  j["up_from"] = up.up_L ? up.because : "no screen's axes and no loaded force plate";
+  if (up.up_L) j["up_from"] = up.because;
 }
 
 /// Everything a C3D file says, with the numbers of its channels in the unit as written.

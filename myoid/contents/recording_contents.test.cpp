@@ -57,8 +57,8 @@ TEST(RecordingContents, OneSampleHasAStartAndNoRate) {
   }
 }
 
-// The laboratory of `PlateLoad` turned, with and without a screen's axis; nothing tells beside an
-// unloaded plate.
+// The laboratory of `PlateLoad` turned, with and without a screen's axis; without plates nothing
+// tells.
 TEST(RecordingContents, OfAC3dFileItTellsWhichWayIsUpAndWhatSaysSo) {
   const test::TemporaryFolder folder;
   for (const char up : {'x', 'y', 'z'}) {
@@ -74,8 +74,12 @@ TEST(RecordingContents, OfAC3dFileItTellsWhichWayIsUpAndWhatSaysSo) {
       EXPECT_NE(from.find("plate"), std::string::npos) << from;
     }
   }
-  recording::write_c3d(folder / "f.c3d", test::plate_recording(test::PlateCase{.loaded = false}));
-  EXPECT_EQ(recording_contents(folder / "f.c3d")->at("up"), "not known");
+  recording::C3dFile without = test::plate_recording(test::PlateCase{});
+  without.groups.clear();
+  recording::write_c3d(folder / "f.c3d", without);
+  const auto contents = recording_contents(folder / "f.c3d");
+  EXPECT_EQ(contents->at("up"), "not known");
+  EXPECT_FALSE(contents->contains("up_from"));
 }
 
 TEST(RecordingContents, ATableWithoutAClockIsToldByItsColumnsAndWhyItIsNoRecording) {

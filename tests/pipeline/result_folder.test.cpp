@@ -124,7 +124,7 @@ TEST(ResultFolder, OfACommandThatAFullDiskStoppedTakesTheSameCommandAgain) {
   const Finished stopped =
       myoid(again, 0.0, "", {.file_bytes = longest_file(folder / "whole") - 1});
   EXPECT_EQ(stopped.exit_code, 3);
-  EXPECT_THAT(stopped.err, HasSubstr("cannot write"));
+  EXPECT_THAT(stopped.err, HasSubstr("writing failed"));
   ASSERT_FALSE(files_in(folder / "full").empty());
   const Finished another = myoid({"run", folder / "whole/study.toml", "--out", folder / "full"});
   EXPECT_EQ(another.exit_code, 3);
