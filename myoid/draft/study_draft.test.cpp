@@ -28,7 +28,7 @@ void write_trial(const std::filesystem::path& folder, const std::string& stem) {
   for (int i = 0; i < 400; ++i)
     motion += fmt::format("{:.2f}\t{:.6f}\n", 0.01 * i, 1.0 + 0.5 * std::sin(0.06 * i));
   recording::write_file(folder / (stem + "_angles.mot"), motion);
-  std::string emg = "time,Biceps Brachii [mV],Triceps [mV],ECG [mV]\n";
+  std::string emg = "time,Biceps Brachii [mV],Triceps [mV],Soleus [mV]\n";
   for (int i = 0; i < 4000; ++i) {
     const double t = 0.001 * i;
     const double phase = static_cast<double>(stem.size());  // of each trial its own
@@ -57,7 +57,7 @@ TEST(StudyDraft, OfAFolderOfRecordingsPassesTheCheck) {
     EXPECT_NE(f.level, Finding::Level::error) << f.message;
   EXPECT_THAT(draft.todo, Contains(HasSubstr("have no electrode: BRA, BRD")));
   EXPECT_THAT(draft.todo, Contains(HasSubstr("2 kg")));
-  EXPECT_THAT(draft.toml, HasSubstr("# Channels that no muscle about elbow_flexion takes: ECG"));
+  EXPECT_THAT(draft.toml, HasSubstr("# Channels that no muscle about elbow_flexion takes: Soleus"));
   EXPECT_THAT(draft.notes, Contains(HasSubstr("broken.trc")));
 }
 

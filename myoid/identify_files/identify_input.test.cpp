@@ -67,9 +67,10 @@ TEST(IdentifyInput, LengthsOfWholeMusclesWithoutATendonAreRefused) {
       muscle::HillParameters<double>& start =
           s.study.data.muscles[static_cast<std::size_t>(k)].start;
       const Eigen::VectorXd l = s.trial().length_m.col(k);
-      // Some swing about the length asked for.
+      // A small swing about the length asked for: no length is negative.
       s.trial().length_m.col(k) =
-          l.array() - l.mean() + times_optimal * start.optimal_fiber_length_m;
+          0.1 * (l.array() - l.mean()) + times_optimal * start.optimal_fiber_length_m;
+      s.trial().velocity_mps.col(k) *= 0.1;
       start.tendon_slack_length_m = 0.0;
     }
     return s;

@@ -93,7 +93,7 @@ TEST(Report, FigureNumbersAreAllThere) {
             "panel,series,role,x,y\n\"BIC, slow\",reference,reference,0,2\n"
             "\"BIC, slow\",reference,reference,1,\n");
   figure.comments = {"How it was made:", "  1. twice"};
-  EXPECT_EQ(figure_csv(figure).substr(0, 55),
+  EXPECT_EQ(figure_csv(figure).substr(0, 54),
             "# How it was made:\n#   1. twice\npanel,series,role,x,y\n");
 }
 

@@ -64,7 +64,12 @@ TEST(ResultFolder, TwoCommandsAtTheSameTimeTheSecondIsRefusedAndTheFirstLosesNot
   const std::vector<std::string> study{"run", folder / "rec/study.toml", "--out",
                                        folder / "results"};
   Running first(study);
-  wait_until(first, [&] { return fs::exists(folder / "results/.myoid.lock"); });
+  // Its owner's name stands in the lock as soon as the folder is its own.
+  std::error_code none;
+  wait_until(first, [&] {
+    const auto size = fs::file_size(folder / "results/.myoid.lock", none);
+    return !none && size > 0;
+  });
   first.send(SIGSTOP);  // it keeps the folder while the others ask for it
   ASSERT_FALSE(first.ended());
   std::vector<std::string> insisting = study;
