@@ -10,6 +10,7 @@
 #include "myoid/core/error.h"
 #include "myoid/files/atomic_file.h"
 #include "myoid/files/text_file.h"
+#include "myoid/identification/estimator_settings.h"
 #include "myoid/identification/parameters.h"
 #include "myoid/identify_files/identify_data.h"
 #include "myoid/identify_files/muscles_csv.h"
@@ -23,7 +24,6 @@
 #include "myoid/methods/torque.h"
 #include "myoid/report/report.h"
 #include "myoid/results/parameter_files.h"
-#include "myoid/run/estimator_input.h"
 
 namespace myoid::cli {
 namespace {
@@ -131,25 +131,19 @@ std::vector<std::string> without_effect(const IdentifyOptions& o) {
   return found;
 }
 
-identification::EstimatorOptions estimator_options(const IdentifyOptions& o,
-                                                   const Context& context) {
-  identification::EstimatorOptions options;
-  options.priors = !o.no_priors;
-  options.weights = !o.no_priors;
-  options.choose_lag =
-      o.method == "torque" && !o.no_priors && (o.lag.empty() || o.lag == "automatic");
-  if (o.lag == "shared") options.lag = identification::EmgLag::shared;
-  options.max_rate_hz = o.max_rate_hz;
-  options.delay_s = o.delay_s;
-  options.residual_cutoff_hz.reset();
-  if (o.residual_hz > 0.0) options.residual_cutoff_hz = o.residual_hz;
-  options.loss = o.loss == "huber"    ? identification::Loss::huber
-                 : o.loss == "cauchy" ? identification::Loss::cauchy
-                                      : identification::Loss::square;
-  options.intervals = {.bootstrap = o.bootstrap, .profile = o.profile, .seed = context.seed};
-  options.multistart = o.starts;
-  options.progress = context.progress();
-  return options;
+identification::EstimatorSettings estimator_settings(const IdentifyOptions& o,
+                                                    std::uint64_t seed) {
+  identification::EstimatorSettings settings;
+  settings.priors = !o.no_priors;
+  if (!o.lag.empty()) settings.lag = identification::parse_lag(o.lag);
+  settings.max_rate_hz = o.max_rate_hz;
+  settings.delay_s = o.delay_s;
+  settings.residual_cutoff_hz.reset();
+  if (o.residual_hz > 0.0) settings.residual_cutoff_hz = o.residual_hz;
+  settings.loss = identification::parse_loss(o.loss);
+  settings.starts = o.starts;
+  settings.intervals = {.bootstrap = o.bootstrap, .profile = o.profile, .seed = seed};
+  return settings;
 }
 
 void print_result(const identification::IdentificationResult& result, bool freed_speeds) {
@@ -407,7 +401,7 @@ void add_identify(CLI::App& app, Context& context) {
     }
     context.prepare_folder(o->out);
     context.protect_inputs(o->out, {"parameters.", "fold_parameters.", "solvers."}, {o->muscles});
-    identification::EstimatorOptions options = estimator_options(*o, context);
+    identification::EstimatorSettings settings = estimator_settings(*o, context.seed);
     if (!o->files.motions.empty() && !is_free(data, is_about_motion))
       context.warn(
           "--motion has no effect: no joint_viscosity, joint_inertia or joint_stiffness is to be "
@@ -419,11 +413,13 @@ void add_identify(CLI::App& app, Context& context) {
                         "way to follow the EMG; leave one of both out",
                         o->lag));
       }
-      use_dynamics(options);
+      settings.lag = identification::LagChoice::equation_1;
       context.warn(
           "the lags of equation (1) are to be identified: the activations given are taken for "
           "excitations that pass them, and the delay is what is left beside them");
     }
+    identification::EstimatorOptions options =
+        identification::estimator_options(settings, {}, context.progress());
     identification::IdentificationResult result;
     std::vector<identification::Fold> folds;
     std::string why_not;

@@ -89,60 +89,50 @@ identification::StudyData estimator_data(const StudyResult& result,
   return data;
 }
 
-identification::TorqueOptions torque_options(const StudyResult& result, const Progress& progress) {
-  return torque_options(result.study, result.normalisation, progress);
+identification::EstimatorSettings estimator_settings(const Study& study) {
+  const IdentifySpec& spec = study.identify;
+  return {.muscles = spec.muscles,
+          .priors = spec.priors,
+          .lag = spec.dynamics ? identification::LagChoice::equation_1
+                               : identification::parse_lag(spec.lag),
+          .delay_s = study.emg.delay_s,
+          .delay_per_channel = spec.delay_per_channel,
+          .max_rate_hz = spec.max_rate_hz,
+          .angle_sd_rad = spec.angle_sd_rad,
+          .angle_rate_sd_radps = spec.angle_rate_sd_radps,
+          .loss = identification::parse_loss(spec.loss),
+          .eccentric = identification::parse_eccentric(spec.eccentric),
+          .normalised = spec.normalised,
+          .starts = spec.starts,
+          .intervals = {.bootstrap = spec.bootstrap, .profile = spec.profile}};
 }
 
-identification::TorqueOptions torque_options(
+identification::ActivationSource activation_source(
+    const Study& study, const std::vector<signals::ChannelNormalisation>& normalisation) {
+  identification::ActivationSource source{.from_mvc = from_maximal_effort(study.emg),
+                                          .envelope_cutoff_hz = study.emg.lowpass_hz};
+  // Activation 1 is the greatest effort of the MVC trials: a share of the muscle's maximum.
+  const bool known = study.emg.has_mvc;
+  const double effort = known ? study.emg.mvc_effort : 1.0;
+  const double spread = known ? study.emg.mvc_effort_sd / effort : 0.0;
+  for (const signals::ChannelNormalisation& n : normalisation) {
+    identification::ChannelSource channel{.channel = n.channel,
+                                          .gain_mean = effort,
+                                          .bandwidth_hz = n.bandwidth_hz,
+                                          .rest = n.resting_level_v / n.reference_v};
+    if (study.identify.gain) channel.gain_sd = std::hypot(n.relative_sd, spread);
+    source.channels.push_back(std::move(channel));
+  }
+  return source;
+}
+
+identification::EstimatorOptions torque_options(
     const Study& study,
     const std::vector<signals::ChannelNormalisation>& normalisation,
     const Progress& progress) {
-  identification::TorqueOptions options;
-  options.muscles = study.identify.muscles;
-  options.priors = study.identify.priors;
-  options.delay_s = study.emg.delay_s;
-  options.max_rate_hz = study.identify.max_rate_hz;
-  options.weights = study.identify.priors;
-  const IdentifySpec& spec = study.identify;
-  options.intervals = {.bootstrap = spec.bootstrap, .profile = spec.profile};
-  options.loss = spec.loss == "huber"    ? identification::Loss::huber
-                 : spec.loss == "cauchy" ? identification::Loss::cauchy
-                                         : identification::Loss::square;
-  options.eccentric = spec.eccentric == "product"       ? identification::Eccentric::product
-                      : spec.eccentric == "slope_ratio" ? identification::Eccentric::slope_ratio
-                      : spec.eccentric == "smooth"      ? identification::Eccentric::smooth
-                                                        : identification::Eccentric::automatic;
-  options.normalised = spec.normalised;
-  options.choose_lag = spec.lag == "automatic";
-  if (spec.lag == "shared") options.lag = identification::EmgLag::shared;
-  if (spec.dynamics) use_dynamics(options);
-  options.delay_per_channel = spec.delay_per_channel;
-  options.angle_sd_rad = spec.angle_sd_rad;
-  options.angle_rate_sd_radps = spec.angle_rate_sd_radps;
-  options.from_mvc = from_maximal_effort(study.emg);
-  options.progress.stop = progress.stop;
-  if (study.identify.gain) {
-    for (const signals::ChannelNormalisation& n : normalisation) {
-      // Activation 1 is the greatest effort of the MVC trials: a share of what the muscle can do.
-      const bool known = study.emg.has_mvc;
-      const double effort = known ? study.emg.mvc_effort : 1.0;
-      const double spread = known ? study.emg.mvc_effort_sd / effort : 0.0;
-      options.gain_prior_sd[n.channel] = std::hypot(n.relative_sd, spread);
-      options.gain_prior_mean[n.channel] = effort;
-    }
-  }
-  options.envelope_cutoff_hz = study.emg.lowpass_hz;
-  for (const signals::ChannelNormalisation& n : normalisation) {
-    options.emg_bandwidth_hz[n.channel] = n.bandwidth_hz;
-    options.emg_rest[n.channel] = n.resting_level_v / n.reference_v;
-  }
-  return options;
-}
-
-void use_dynamics(identification::EstimatorOptions& options) {
-  options.lag = identification::EmgLag::equation_1;
-  options.delay_prior_mean_s = 0.010;
-  options.delay_prior_sd_s = 0.010;
+  return identification::estimator_options(estimator_settings(study),
+                                           activation_source(study, normalisation),
+                                           {.report = nullptr, .stop = progress.stop});
 }
 
 }  // namespace myoid

@@ -1,0 +1,91 @@
+#include "myoid/identification/estimator_settings.h"
+
+#include <array>
+#include <cstddef>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "myoid/core/error.h"
+
+namespace myoid::identification {
+namespace {
+
+template <typename Choice, std::size_t N>
+Choice choice_of(std::string_view word,
+                 std::string_view setting,
+                 const std::array<std::pair<std::string_view, Choice>, N>& known) {
+  std::string words;
+  for (const auto& [name, choice] : known) {
+    if (name == word) return choice;
+    words += (words.empty() ? "" : ", ") + std::string(name);
+  }
+  throw InvalidInput(fmt::format("{} \"{}\": expected one of {}", setting, word, words));
+}
+
+void follow_emg(LagChoice lag, EstimatorOptions& options) {
+  options.choose_lag = lag == LagChoice::automatic;
+  if (lag == LagChoice::shared) options.lag = EmgLag::shared;
+  if (lag != LagChoice::equation_1) return;
+  options.lag = EmgLag::equation_1;
+  options.delay_prior_mean_s = 0.010;
+  options.delay_prior_sd_s = 0.010;
+}
+
+}  // namespace
+
+EstimatorOptions estimator_options(const EstimatorSettings& settings,
+                                   const ActivationSource& source,
+                                   const Progress& progress) {
+  EstimatorOptions options;
+  options.muscles = settings.muscles;
+  options.priors = settings.priors;
+  options.weights = settings.priors;
+  follow_emg(settings.lag, options);
+  options.delay_s = settings.delay_s;
+  options.delay_per_channel = settings.delay_per_channel;
+  options.max_rate_hz = settings.max_rate_hz;
+  options.residual_cutoff_hz = settings.residual_cutoff_hz;
+  options.angle_sd_rad = settings.angle_sd_rad;
+  options.angle_rate_sd_radps = settings.angle_rate_sd_radps;
+  options.loss = settings.loss;
+  options.eccentric = settings.eccentric;
+  options.normalised = settings.normalised;
+  options.multistart = settings.starts;
+  options.intervals = settings.intervals;
+  options.from_mvc = source.from_mvc;
+  options.envelope_cutoff_hz = source.envelope_cutoff_hz;
+  for (const ChannelSource& c : source.channels) {
+    options.emg_bandwidth_hz[c.channel] = c.bandwidth_hz;
+    options.emg_rest[c.channel] = c.rest;
+    if (!c.gain_sd) continue;
+    options.gain_prior_sd[c.channel] = *c.gain_sd;
+    options.gain_prior_mean[c.channel] = c.gain_mean;
+  }
+  options.progress = progress;
+  return options;
+}
+
+Loss parse_loss(std::string_view word) {
+  return choice_of<Loss, 3>(
+      word, "loss",
+      {{{"square", Loss::square}, {"huber", Loss::huber}, {"cauchy", Loss::cauchy}}});
+}
+
+Eccentric parse_eccentric(std::string_view word) {
+  return choice_of<Eccentric, 4>(word, "eccentric",
+                                 {{{"automatic", Eccentric::automatic},
+                                   {"product", Eccentric::product},
+                                   {"slope_ratio", Eccentric::slope_ratio},
+                                   {"smooth", Eccentric::smooth}}});
+}
+
+LagChoice parse_lag(std::string_view word) {
+  return choice_of<LagChoice, 4>(word, "lag",
+                                 {{{"automatic", LagChoice::automatic},
+                                   {"delay", LagChoice::delay},
+                                   {"shared", LagChoice::shared},
+                                   {"equation_1", LagChoice::equation_1}}});
+}
+
+}  // namespace myoid::identification

@@ -1,0 +1,65 @@
+#include "myoid/identification/estimator_settings.h"
+
+#include <gtest/gtest.h>
+
+#include "myoid/core/error.h"
+
+namespace myoid::identification {
+namespace {
+
+TEST(EstimatorSettings, DefaultsAreThoseOfTheEstimatorButForTheLagThatTheDataChoose) {
+  const EstimatorOptions made = estimator_options({}, {}, {});
+  const EstimatorOptions plain;
+  EXPECT_TRUE(made.choose_lag);
+  EXPECT_EQ(made.lag, plain.lag);
+  EXPECT_EQ(made.delay_prior_mean_s, plain.delay_prior_mean_s);
+  EXPECT_EQ(made.delay_prior_sd_s, plain.delay_prior_sd_s);
+  EXPECT_EQ(made.max_rate_hz, plain.max_rate_hz);
+  EXPECT_EQ(made.residual_cutoff_hz, plain.residual_cutoff_hz);
+  EXPECT_EQ(made.weights, plain.weights);
+  EXPECT_EQ(made.from_mvc, plain.from_mvc);
+  EXPECT_EQ(made.envelope_cutoff_hz, plain.envelope_cutoff_hz);
+  EXPECT_TRUE(made.gain_prior_sd.empty());
+  EXPECT_TRUE(made.emg_bandwidth_hz.empty());
+}
+
+TEST(EstimatorSettings, WithoutPriorsSquaresArePlain) {
+  const EstimatorOptions made = estimator_options({.priors = false}, {}, {});
+  EXPECT_FALSE(made.priors);
+  EXPECT_FALSE(made.weights);
+}
+
+TEST(EstimatorSettings, WithTheLagsOfEquation1TheDelayIsTheTimeLeftBesideThem) {
+  const EstimatorOptions lags = estimator_options({.lag = LagChoice::equation_1}, {}, {});
+  EXPECT_FALSE(lags.choose_lag);
+  EXPECT_EQ(lags.lag, EmgLag::equation_1);
+  EXPECT_NEAR(lags.delay_prior_mean_s, 0.010, 1e-12);
+  EXPECT_NEAR(lags.delay_prior_sd_s, 0.010, 1e-12);
+}
+
+TEST(EstimatorSettings, AChannelWithoutAnErrorOfItsLevelHasNoGain) {
+  ActivationSource source;
+  source.channels = {{.channel = "BIC", .bandwidth_hz = 90.0, .rest = 0.01},
+                     {.channel = "TRI", .gain_sd = 0.05, .gain_mean = 0.8}};
+  const EstimatorOptions made = estimator_options({}, source, {});
+  EXPECT_FALSE(made.gain_prior_sd.contains("BIC"));
+  EXPECT_EQ(made.gain_prior_sd.at("TRI"), 0.05);
+  EXPECT_EQ(made.gain_prior_mean.at("TRI"), 0.8);
+  EXPECT_EQ(made.emg_bandwidth_hz.at("BIC"), 90.0);
+  EXPECT_EQ(made.emg_rest.at("BIC"), 0.01);
+}
+
+TEST(EstimatorSettings, WordsAreRefusedWithTheOnesThatAreKnown) {
+  EXPECT_EQ(parse_loss("cauchy"), Loss::cauchy);
+  EXPECT_EQ(parse_eccentric("slope_ratio"), Eccentric::slope_ratio);
+  EXPECT_EQ(parse_lag("shared"), LagChoice::shared);
+  try {
+    (void)parse_loss("huger");
+    FAIL() << "not refused";
+  } catch (const InvalidInput& error) {
+    EXPECT_STREQ(error.what(), "loss \"huger\": expected one of square, huber, cauchy");
+  }
+}
+
+}  // namespace
+}  // namespace myoid::identification
