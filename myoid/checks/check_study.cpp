@@ -7,16 +7,16 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "myoid/checks/dynamometer_sign.h"
 #include "myoid/checks/load_points.h"
+#include "myoid/checks/recording_findings.h"
 #include "myoid/checks/study_plausibility.h"
 #include "myoid/checks/unloaded_times.h"
 #include "myoid/core/error.h"
 #include "myoid/files/label_match.h"
 #include "myoid/files/text_file.h"
 #include "myoid/intake/read_trial.h"
-#include "myoid/intake/trial_emg.h"
-#include "myoid/intake/trial_quality.h"
+#include "myoid/intake/study_activation.h"
+#include "myoid/intake/trial_markers.h"
 #include "myoid/kinematics/inverse_kinematics.h"
 #include "myoid/recording/emg_channels.h"
 #include "myoid/recording/emg_reader.h"
@@ -37,38 +37,10 @@ namespace {
 
 using Level = Finding::Level;
 
-/// What is said of several trials in the same words, files apart, is said of the first and the
-/// others are named.
-std::vector<Finding> once(std::vector<Finding> findings) {
-  const auto words = [](const Finding& f) {
-    const std::size_t colon = f.message.find(": ");
-    const bool file = colon != std::string::npos &&
-                      f.message.substr(0, colon).find_first_of("/.") != std::string::npos;
-    return file ? f.message.substr(colon) : f.message;
-  };
-  std::vector<Finding> kept;
-  std::vector<std::vector<std::string>> others;
-  for (Finding& f : findings) {
-    const auto same = std::find_if(kept.begin(), kept.end(), [&](const Finding& k) {
-      return k.level == f.level && !k.fault && !f.fault && k.where != f.where &&
-             words(k) == words(f);
-    });
-    if (same != kept.end() && f.level == Finding::Level::error) {
-      others[static_cast<std::size_t>(same - kept.begin())].push_back(f.where);
-    } else {
-      kept.push_back(std::move(f));
-      others.emplace_back();
-    }
-  }
-  for (std::size_t i = 0; i < kept.size(); ++i) {
-    if (others[i].empty()) continue;
-    const std::size_t shown = std::min<std::size_t>(others[i].size(), 4);
-    kept[i].message += fmt::format(
-        " (so too in {}{})",
-        fmt::join(others[i].begin(), others[i].begin() + static_cast<std::ptrdiff_t>(shown), ", "),
-        shown < others[i].size() ? fmt::format(" and {} more", others[i].size() - shown) : "");
-  }
-  return kept;
+/// The message of an error without the file and the line that it begins with.
+std::string without_place(const ReadError& error) {
+  const std::size_t colons = error.line() == 0 ? 2 : 3 + std::to_string(error.line()).size();
+  return std::string(error.what()).substr(error.path().string().size() + colons);
 }
 
 class StudyCheck {
@@ -95,11 +67,10 @@ class StudyCheck {
     if (together_) {
       for (Finding& f : together_->findings()) findings_.push_back(std::move(f));
     }
-    if (!envelopes_.empty()) attempt("EMG", [&] { check_reference(); });
-    if (model_ && all_read_) attempt("study", [&] { check_dynamometers(); });
+    if (!inputs_.empty()) attempt("EMG", [&] { check_recordings(); });
     std::stable_sort(findings_.begin(), findings_.end(),
                      [](const Finding& a, const Finding& b) { return a.level < b.level; });
-    return once(std::move(findings_));
+    return grouped(findings_);
   }
 
  private:
@@ -107,13 +78,23 @@ class StudyCheck {
     findings_.push_back({level, std::move(where), std::move(message), std::nullopt});
   }
 
+  void refuse(const std::string& where, std::string message, std::string kind) {
+    findings_.push_back({.level = Level::error,
+                         .where = where,
+                         .message = std::move(message),
+                         .kind = std::move(kind)});
+    all_read_ = false;
+  }
+
   template <typename Work>
   void attempt(const std::string& where, Work work) {
+    // Errors that differ in their file alone are of one kind.
     try {
       work();
+    } catch (const ReadError& error) {
+      refuse(where, error.what(), without_place(error));
     } catch (const InvalidInput& error) {
-      add(Level::error, where, error.what());
-      all_read_ = false;
+      refuse(where, error.what(), error.what());
     }
   }
 
@@ -162,12 +143,12 @@ class StudyCheck {
   }
 
   void check_trial(const TrialSpec& trial) {
-    if (trial.held_mass_kg > 0.0 && study_.model.file && !study_.model.held_mass) {
-      add(Level::error, trial.name,
-          "held_mass_kg is given, but [model] held_mass does not say where it acts");
-    }
-    for (const TrialPart& part : read_trial_parts(study_, trial, *model_))
+    if (trial.held_mass_kg > 0.0) attempt(trial.name, [&] { (void)held_mass_place(study_); });
+    for (TrialPart& part : read_trial_parts(study_, trial, *model_)) {
       check_part(part.spec, part.input);
+      specs_.push_back(std::move(part.spec));
+      inputs_.push_back(std::move(part.input));
+    }
   }
 
   void check_part(const TrialSpec& spec, const TrialInput& input) {
@@ -179,21 +160,15 @@ class StudyCheck {
     together_->look_at(spec, input);
     for (Finding& f : unloaded_times(*model_, spec, input)) findings_.push_back(std::move(f));
     if (input.markers) check_markers(*input.markers);
-    const TimeSeries envelope = input.emg ? check_emg(spec, *input.emg) : TimeSeries();
-    for (Fault& fault : trial_faults(study_, input, envelope))
-      findings_.push_back(finding(spec.name, std::move(fault)));
-    if (input.emg) efforts_.push_back({spec, input.external_torque, envelope});
+    if (input.emg && study_.emg.kind == EmgKind::raw && input.emg->mean_rate_hz() < 800.0) {
+      add(Level::warning, spec.name,
+          fmt::format("EMG at {:.0f} Hz: 1000 Hz or more is needed for raw EMG",
+                      input.emg->mean_rate_hz()));
+    }
   }
 
   void check_markers(const recording::MarkerSeries& markers) {
-    if (study_.ik.calibrate) {
-      const std::vector<double>& window = study_.ik.calibrate->window_s;
-      const Eigen::Index inside =
-          (markers.time_s.array() >= window[0] && markers.time_s.array() <= window[1]).count();
-      if (inside < 2)
-        throw InvalidInput(
-            fmt::format("[ik] calibrate: no frames between {} and {} s", window[0], window[1]));
-    }
+    if (study_.ik.calibrate) (void)calibration_window(*study_.ik.calibrate, markers);
     // Names and weights are compared as the real thing does it, on one frame and without a step.
     recording::MarkerSeries first = markers;
     first.time_s = markers.time_s.head(1);
@@ -202,62 +177,39 @@ class StudyCheck {
         *model_, first, {.marker_weights = study_.markers.weight, .max_iterations = 0});
   }
 
-  /// The envelope of a trial, which is kept for the levels.
-  TimeSeries check_emg(const TrialSpec& spec, const TimeSeries& emg) {
-    if (study_.emg.kind == EmgKind::activation) return emg;
-    const bool mvc = spec.use == Use::mvc;
-    if (study_.emg.kind == EmgKind::envelope) {
-      envelopes_.push_back({spec.name, mvc, emg});
-      return emg;
-    }
-    if (emg.mean_rate_hz() < 800.0) {
-      add(Level::warning, spec.name,
-          fmt::format("EMG at {:.0f} Hz: 1000 Hz or more is needed for raw EMG",
-                      emg.mean_rate_hz()));
-    }
-    signals::EnvelopeOptions options = envelope_options(study_);
-    options.whitening = false;  // of all trials together, which `run` has at hand
-    signals::EmgStages stages = signals::process_emg(emg, options);
-    for (const std::string& text : stages.findings) add(Level::note, spec.name, text);
-    envelopes_.push_back({spec.name, mvc, stages.envelope});
-    return std::move(stages.envelope);
-  }
-
-  /// Channels that hardly rise, movements above the maximal contraction; what would be refused: a
+  /// The EMG as `run` processes it, then what `run` says of the recordings; what it would refuse: a
   /// channel that never rises, a window longer than every trial.
-  void check_reference() {
-    std::vector<signals::TrialEnvelope> trials;
-    for (const Envelope& e : envelopes_) trials.push_back({e.trial, e.is_mvc, &e.envelope});
-    for (Fault& fault : signals::check_emg_levels(trials))
-      findings_.push_back(finding("EMG", std::move(fault)));
-    if (all_read_)
-      (void)signals::find_normalisation(trials, {.window_s = study_.emg.normalise_window_s});
+  void check_recordings() {
+    Study study = study_;
+    study.trials = specs_;
+    const EmgOfTrials emg = emg_of(inputs_);
+    StudyActivation activation;
+    activation.trials.resize(inputs_.size());
+    attempt("EMG", [&] { activation = study_envelopes(study, emg); });
+    for (std::size_t i = 0; i < specs_.size(); ++i) {
+      const auto& stages = activation.trials[i].stages;
+      if (stages)
+        for (const std::string& text : stages->findings) add(Level::note, specs_[i].name, text);
+      // Where there is no reference, the levels alone tell.
+      if (emg[i] != nullptr) activation.trials[i].activation = stages ? stages->envelope : *emg[i];
+    }
+    const bool all_read = all_read_;
+    if (all_read) attempt("EMG", [&] { normalise(study, emg, activation); });
+    RecordingFindings found = recording_findings(study, *model_, inputs_, activation);
+    for (std::size_t i = 0; i < specs_.size(); ++i) {
+      for (Fault& fault : found.of_trials[i])
+        findings_.push_back(finding(specs_[i].name, std::move(fault)));
+    }
+    for (Fault& fault : found.levels) findings_.push_back(finding("EMG", std::move(fault)));
+    if (!all_read) return;
+    for (Finding& f : found.dynamometers) findings_.push_back(std::move(f));
   }
-
-  void check_dynamometers() {
-    std::vector<EffortTrial> trials;
-    for (const Effort& e : efforts_)
-      trials.push_back({&e.spec, e.torque ? &*e.torque : nullptr, e.envelope});
-    for (Finding& f : grouped(dynamometer_signs(study_, *model_, trials)))
-      findings_.push_back(std::move(f));
-  }
-
-  struct Effort {
-    TrialSpec spec;
-    std::optional<TimeSeries> torque;
-    TimeSeries envelope;
-  };
-  struct Envelope {
-    std::string trial;
-    bool is_mvc = false;
-    TimeSeries envelope;
-  };
 
   const Study& study_;
   std::optional<model::BodyModel> model_;
   std::optional<StudyPlausibility> together_;
-  std::vector<Envelope> envelopes_;
-  std::vector<Effort> efforts_;
+  std::vector<TrialSpec> specs_;     ///< Of the trials that could be read, or their parts.
+  std::vector<TrialInput> inputs_;   ///< Theirs.
   std::vector<Finding> findings_;
   bool all_read_ = true;
 };

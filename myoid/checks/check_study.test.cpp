@@ -74,7 +74,7 @@ TEST(CheckStudy, AMisspeltChannelOfEveryTrialIsToldOnceWithTheTrialsNamed) {
   EXPECT_EQ(std::count_if(findings.begin(), findings.end(),
                           [](const Finding& f) { return f.level == Finding::Level::error; }),
             1);
-  EXPECT_NE(study.error().find("(so too in u, v)"), std::string::npos) << study.error();
+  EXPECT_NE(study.error().find("(likewise in u, v)"), std::string::npos) << study.error();
 }
 
 TEST(CheckStudy, MarkersOfWhichTheModelHasNoneAreAnError) {

@@ -131,8 +131,7 @@ std::vector<std::string> without_effect(const IdentifyOptions& o) {
   return found;
 }
 
-identification::EstimatorSettings estimator_settings(const IdentifyOptions& o,
-                                                    std::uint64_t seed) {
+identification::EstimatorSettings estimator_settings(const IdentifyOptions& o, std::uint64_t seed) {
   identification::EstimatorSettings settings;
   settings.priors = !o.no_priors;
   if (!o.lag.empty()) settings.lag = identification::parse_lag(o.lag);
@@ -206,7 +205,7 @@ void print_fit(const identification::IdentificationResult& result,
   };
   for (const identification::TrialFit& t : result.trials) {
     if (torque) {
-      row(t.joint == "joint" ? t.trial : t.trial + ", " + t.joint, t.rmse_nm, t.r2);
+      row(t.joint == "joint" ? t.trial : t.trial + ", " + t.joint, t.score.rmse_nm(), t.score.r2());
       continue;
     }
     const auto trial = std::find_if(data.trials.begin(), data.trials.end(),
@@ -216,7 +215,7 @@ void print_fit(const identification::IdentificationResult& result,
       const std::vector<Eigen::Index> rows = identification::included_rows(*trial);
       const identification::Score s =
           identification::score(trial->force_n.col(column)(rows), t.force_fit_n.col(column)(rows));
-      row(t.trial + ", " + data.muscles[k].name, s.rmse_nm, s.r2);
+      row(t.trial + ", " + data.muscles[k].name, s.rmse_nm(), s.r2());
     }
   }
   fmt::print("{:<34}{:>12}{:>8.3f}\n",
@@ -237,8 +236,8 @@ void print_folds(const std::vector<identification::Fold>& folds,
   for (const identification::Fold& fold : folds) {
     fmt::print("{:<34}{:>12.4g}{:>14.1f}{:>8.3f}{:>10.3f}   {:.3f}\n",
                several ? fmt::format("{}, {}", fold.trial, fold.joint) : fold.trial,
-               fold.identified.rmse_nm, 100.0 * fold.identified.nrmse_range, fold.identified.r2,
-               fold.smooth.r2, fold.literature.r2);
+               fold.identified.rmse_nm(), 100.0 * fold.identified.nrmse_range(),
+               fold.identified.r2(), fold.smooth.r2(), fold.literature.r2());
   }
   if (const std::string beyond = identification::beyond_what_was_fitted(folds); !beyond.empty())
     fmt::print("EMG beyond all that was fitted ({}): that prediction extrapolates.\n", beyond);

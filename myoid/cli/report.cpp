@@ -42,7 +42,7 @@ void add_report(CLI::App& app, Context& context) {
     const StudyResult result = run_study(
         study,
         {.start_s = then("start_s"), .end_s = then("end_s"), .progress = context.progress()});
-    for (const InputFile& now : result.inputs) {
+    for (const InputFile& now : result.source.files) {
       for (const auto& recorded : run["inputs"]) {
         if (std::filesystem::path(recorded["path"].get<std::string>()).filename() ==
                 std::filesystem::path(now.path).filename() &&
@@ -56,8 +56,8 @@ void add_report(CLI::App& app, Context& context) {
     }
     Provenance provenance;
     provenance.command = run.value("command", context.command_line);
-    provenance.inputs = result.inputs;
-    provenance.options_json = study_json(result.study);
+    provenance.inputs = result.source.files;
+    provenance.options_json = study_json(result.source.study);
     hold_folder(*folder).sign(context.command_line, false);
     write_motion_page(result, *folder);
     report::write_report(study_report(result, provenance), *folder);

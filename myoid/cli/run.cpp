@@ -68,7 +68,7 @@ void print_method(const identification::IdentificationResult& method, std::size_
 
 void print_predictions(const StudyResult& result) {
   if (!result.folds.empty()) {
-    const std::string& left_out = result.study.identify.folds;
+    const std::string& left_out = result.source.study.identify.folds;
     fmt::print(
         "\nleave one {0} out: torque predicted for a {0} that took no part in the fit (R2 about "
         "that {0}'s own mean)\n",
@@ -76,11 +76,11 @@ void print_predictions(const StudyResult& result) {
     fmt::print("{:<20} {:>10} {:>8} {:>26} {:>8}\n", left_out, "RMSE [N m]", "R2",
                "literature x gain: RMSE", "R2");
     for (const identification::Fold& f : result.folds) {
-      fmt::print("{:<20} {:>10.2f} {:>8.3f} {:>26.2f} {:>8.3f}\n", f.trial, f.identified.rmse_nm,
-                 f.identified.r2, f.literature.rmse_nm, f.literature.r2);
+      fmt::print("{:<20} {:>10.2f} {:>8.3f} {:>26.2f} {:>8.3f}\n", f.trial, f.identified.rmse_nm(),
+                 f.identified.r2(), f.literature.rmse_nm(), f.literature.r2());
     }
   }
-  for (const identification::IdentificationResult& method : result.methods) {
+  for (const identification::IdentificationResult& method : result.fit.methods) {
     if (method.method != "torque") continue;
     bool first = true;
     for (const identification::TrialFit& t : method.trials) {
@@ -88,7 +88,7 @@ void print_predictions(const StudyResult& result) {
       if (first)
         fmt::print("\nvalidation trials\n{:<20} {:>10} {:>8}\n", "trial", "RMSE [N m]", "R2");
       first = false;
-      fmt::print("{:<20} {:>10.2f} {:>8.3f}\n", t.trial, t.rmse_nm, t.r2);
+      fmt::print("{:<20} {:>10.2f} {:>8.3f}\n", t.trial, t.score.rmse_nm(), t.score.r2());
     }
   }
 }
@@ -124,8 +124,9 @@ void print_gates(const std::vector<report::Gate>& gates) {
 /// then the source paper's, then whether to believe it.
 void print_results(const StudyResult& result, const std::vector<report::Gate>& gates) {
   for (const bool paper : {false, true}) {
-    for (const identification::IdentificationResult& method : result.methods) {
-      if ((method.method == "paper") == paper) print_method(method, result.data.muscles.size());
+    for (const identification::IdentificationResult& method : result.fit.methods) {
+      if ((method.method == "paper") == paper)
+        print_method(method, result.fit_input.data.muscles.size());
     }
     if (!paper) print_predictions(result);
   }
@@ -160,8 +161,8 @@ void add_run(CLI::App& app, Context& context) {
                           .store = std::filesystem::path(options->out) / kStageFolder});
     Provenance provenance;
     provenance.command = context.command_line;
-    provenance.inputs = result.inputs;
-    provenance.options_json = study_json(result.study);
+    provenance.inputs = result.source.files;
+    provenance.options_json = study_json(result.source.study);
     remove_results(options->out);
     write_results(result, provenance, options->out);
     write_motion_page(result, options->out);
@@ -175,15 +176,15 @@ void add_run(CLI::App& app, Context& context) {
       }
     }
     const auto reused = std::count_if(result.trials.begin(), result.trials.end(),
-                                      [](const auto& trial) { return trial.ik_reused; });
+                                      [](const auto& trial) { return trial.motion.ik_reused; });
     if (reused > 0)
       context.log(
           fmt::format("inverse kinematics of {} trials reused: same input as before", reused));
     for (const std::string& line : fault_summary(all_faults(result))) context.warn(line);
     std::size_t remarks = 0;
     for (const TrialResult& trial : result.trials) {
-      if (!trial.failure.empty())
-        context.warn(fmt::format("trial {}: {}", trial.spec.name, trial.failure));
+      if (!trial.failure().empty())
+        context.warn(fmt::format("trial {}: {}", trial.spec.name, trial.failure()));
       for (const std::string& warning : trial.warnings)
         context.warn(fmt::format("trial {}: {}", trial.spec.name, warning));
       remarks += trial.notes.size();
@@ -196,7 +197,7 @@ void add_run(CLI::App& app, Context& context) {
           "{} remarks on how files were read and repaired: in run.json, or with --verbose",
           remarks));
     if (context.json) {
-      fmt::print("{}", parameters_json(result.methods, result.folds, provenance,
+      fmt::print("{}", parameters_json(result.fit.methods, result.folds, provenance,
                                        parameter_context(result)));
     } else {
       print_results(result, gates);
@@ -208,14 +209,14 @@ void add_run(CLI::App& app, Context& context) {
     bool gate = std::any_of(gates.begin(), gates.end(), [](const report::Gate& g) {
       return g.status == report::GateStatus::fail;
     });
-    for (const identification::IdentificationResult& method : result.methods) {
+    for (const identification::IdentificationResult& method : result.fit.methods) {
       if (method.method != "torque") continue;
       gate = gate || method.termination != math::Termination::converged;
       for (const ParameterEstimate& e : method.estimates)
         gate = gate || (context.strict && e.verdict == Verdict::not_identifiable);
     }
     if (gate) context.exit_code = kQualityGateFailed;
-    if (result.failed_trials > 0) context.exit_code = kSomeTrialsFailed;
+    if (failed_trials(result.trials) > 0) context.exit_code = kSomeTrialsFailed;
   });
 }
 

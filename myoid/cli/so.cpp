@@ -1,5 +1,5 @@
-#include <algorithm>
 #include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -81,9 +81,6 @@ void add_so(CLI::App& app, Context& context) {
     for (const std::string& note : input.notes) context.warn(note);
     forces::SharingOptions options{
         .objective = o->objective, .exponent = o->exponent, .reserve_nm = o->reserve_nm};
-    options.min_activation = 1.0;
-    for (const model::Muscle& muscle : model.muscles)
-      options.min_activation = std::min(options.min_activation, muscle.properties.min_control);
     if (!o->emg.empty()) {
       const recording::Storage emg = recording::read_storage(o->emg);
       for (const recording::Repair& repair : emg.repairs)
@@ -96,9 +93,7 @@ void add_so(CLI::App& app, Context& context) {
       options.law = simulation::muscle_force_law(
           model, input.muscles, {.elastic_tendon = elastic, .passive_force = o->passive});
     }
-    const forces::MuscleForces shared =
-        forces::share(input.moment_arms, input.torques, input.optimal_force_n,
-                      input.max_isometric_force_n, options);
+    const forces::MuscleForces shared = forces::share(input, std::move(options));
     write_shared_forces(shared, o->out);
     if (context.json) {
       const nlohmann::ordered_json json{{"out", o->out},

@@ -55,8 +55,8 @@ void print_predictions(const twin::TwinStudyResult& result) {
       std::vector<double> nrmse, r2;
       for (const twin::TwinPrediction& p : result.predictions) {
         if (trial != "all" && trial != p.trial) continue;
-        nrmse.push_back(100.0 * (p.*score).nrmse_range);
-        r2.push_back((p.*score).r2);
+        nrmse.push_back(100.0 * (p.*score).nrmse_range());
+        r2.push_back((p.*score).r2());
       }
       count = r2.size();
       return std::pair{math::median(std::move(nrmse)), math::median(std::move(r2))};

@@ -71,7 +71,12 @@ double median_half_width(const std::vector<ParameterEstimate>& estimates) {
 }
 
 DesignStudyResult design_study(const Study& study, const DesignStudyOptions& options) {
-  const model::BodyModel model = load_model(study);
+  return design_study(study, load_model(study), options);
+}
+
+DesignStudyResult design_study(const Study& study,
+                               const model::BodyModel& model,
+                               const DesignStudyOptions& options) {
   StudyData data;
   data.muscles = muscle_setups(study, model);
   if (data.muscles.empty()) throw InvalidInput("design: the study has no [[muscle]]");
@@ -93,7 +98,7 @@ DesignStudyResult design_study(const Study& study, const DesignStudyOptions& opt
       movement_catalogue(coordinate.lower, coordinate.upper, catalogue_options);
 
   options.progress.tell(0.05, "movements");
-  const MovementModels models = movement_models(study);
+  const MovementModels models = movement_models(study, model);
   std::vector<MovementCourse> courses(movements.size());
   oneapi::tbb::parallel_for(std::size_t{0}, movements.size(), [&](std::size_t i) {
     options.progress.check();

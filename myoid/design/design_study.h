@@ -63,5 +63,9 @@ struct DesignStudyResult {
 /// movement is within the muscles' strength. Throws InvalidInput for unknown targets.
 [[nodiscard]] DesignStudyResult design_study(const Study& study,
                                              const DesignStudyOptions& options = {});
+/// The same with the study's model, where that is read already.
+[[nodiscard]] DesignStudyResult design_study(const Study& study,
+                                             const model::BodyModel& model,
+                                             const DesignStudyOptions& options);
 
 }  // namespace myoid

@@ -37,7 +37,7 @@ TEST(Movement, TheMusclesOfAPerformanceExertTheTorqueThatTheMotionRequires) {
   const auto setups = muscle_setups(study, load_model(study));
   const MovementPerson person = typical(setups);
   for (const bool horizontal : {false, true}) {
-    const MovementCourse course = movement_course(study, movement_models(study),
+    const MovementCourse course = movement_course(study, movement_models(study, load_model(study)),
                                                   {.horizontal = horizontal,
                                                    .held_mass_kg = 1.0,
                                                    .lowest_rad = 0.5,
@@ -68,13 +68,13 @@ TEST(Movement, WhatIsTooHeavyCannotBePerformed) {
   const Study study = planned_study();
   const auto setups = muscle_setups(study, load_model(study));
   const MovementCourse course = movement_course(
-      study, movement_models(study),
+      study, movement_models(study, load_model(study)),
       {.held_mass_kg = 30.0, .lowest_rad = 0.5, .highest_rad = 2.0, .frequency_hz = 0.5});
   EXPECT_FALSE(perform(course, setups, typical(setups)));
 }
 
 TEST(Movement, AnIsokineticMovementKeepsItsSpeedOverMostOfTheRange) {
-  const MovementCourse course = movement_course(planned_study(), movement_models(planned_study()),
+  const MovementCourse course = movement_course(planned_study(), movement_models(planned_study(), load_model(planned_study())),
                                                 {.kind = MovementKind::isokinetic,
                                                  .lowest_rad = 0.3,
                                                  .highest_rad = 2.1,
@@ -121,7 +121,7 @@ TEST(DesignStudy, ItsExpectedSpreadIsTheSpreadThatIdentificationHas) {
     simulation::Random random(seed);
     data.trials.clear();
     for (const PlannedMovement& planned : design.plan) {
-      auto trial = perform(movement_course(study, movement_models(study), planned.movement),
+      auto trial = perform(movement_course(study, movement_models(study, load_model(study)), planned.movement),
                            data.muscles, person);
       ASSERT_TRUE(trial);
       trial->torque_nm +=

@@ -208,11 +208,13 @@ std::string direction_name(const std::string& coordinate, bool positive) {
   return positive ? "positive" : "negative";
 }
 
-MovementModels movement_models(const Study& study) {
-  const auto load = [&](bool horizontal) {
+MovementModels movement_models(const Study& study, const model::BodyModel& given) {
+  const bool built_in = !study.model.file && study.model.text.empty();
+  const auto in_plane = [&](bool horizontal) {
     Study posed = study;
     posed.model.horizontal = horizontal;
-    model::BodyModel model = load_model(posed);
+    const bool as_given = !built_in || horizontal == study.model.horizontal;
+    model::BodyModel model = as_given ? given : load_model(posed);
     std::erase_if(model.muscles, [&](const model::Muscle& muscle) {
       return std::none_of(study.muscles.begin(), study.muscles.end(), [&](const MuscleSpec& spec) {
         return std::find(spec.osim.begin(), spec.osim.end(), muscle.name) != spec.osim.end();
@@ -220,9 +222,7 @@ MovementModels movement_models(const Study& study) {
     });
     return model;
   };
-  model::BodyModel vertical = load(false);
-  model::BodyModel horizontal = study.model.file ? vertical : load(true);
-  return {.vertical = std::move(vertical), .horizontal = std::move(horizontal)};
+  return {.vertical = in_plane(false), .horizontal = in_plane(true)};
 }
 
 MovementCourse movement_course(const Study& study,
@@ -230,11 +230,7 @@ MovementCourse movement_course(const Study& study,
                                const Movement& movement) {
   model::BodyModel model = movement.horizontal ? models.horizontal : models.vertical;
   if (movement.held_mass_kg > 0.0) {
-    if (!study.model.held_mass && study.model.file)
-      throw InvalidInput(
-          "design: held masses need [model] held_mass in the study, which says where they act");
-    const HeldMassSpec held =
-        study.model.held_mass.value_or(HeldMassSpec{"forearm_hand", model::arm4_held_at_m()});
+    const HeldMassSpec held = held_mass_place(study);
     model =
         dynamics::with_held_mass(std::move(model), held.body, held.p_BP_m, movement.held_mass_kg);
   }

@@ -41,6 +41,15 @@ SharingInput sharing_input(const model::BodyModel& model,
                            const kinematics::JointMotion& motion,
                            const std::vector<std::string>& coordinates,
                            const dynamics::ExternalLoads* loads) {
+  return sharing_input(model, motion, kinematics::muscle_kinematics(model, motion), coordinates,
+                       loads);
+}
+
+SharingInput sharing_input(const model::BodyModel& model,
+                           const kinematics::JointMotion& motion,
+                           kinematics::MuscleKinematics muscles,
+                           const std::vector<std::string>& coordinates,
+                           const dynamics::ExternalLoads* loads) {
   if (model.muscles.empty()) throw ModelError("the model has no muscles");
   SharingInput input;
   const std::vector<Eigen::Index> chosen = balanced(model, coordinates);
@@ -51,7 +60,7 @@ SharingInput sharing_input(const model::BodyModel& model,
   }
   const TimeSeries tau =
       dynamics::inverse_dynamics(model, motion, {.loads = loads, .passive_forces = true});
-  input.muscles = kinematics::muscle_kinematics(model, motion);
+  input.muscles = std::move(muscles);
   const Eigen::Index frames = motion.sample_count();
   const auto count = static_cast<Eigen::Index>(model.muscles.size());
   const auto rows = static_cast<Eigen::Index>(chosen.size());
@@ -79,6 +88,7 @@ SharingInput sharing_input(const model::BodyModel& model,
   input.torques = TimeSeries(tau.time_s(), std::move(channels), std::move(torque));
   input.optimal_force_n.resize(frames, count);
   input.max_isometric_force_n.resize(count);
+  input.min_activation = 1.0;
   for (Eigen::Index m = 0; m < count; ++m) {
     const OpensimMuscle muscle(model.muscles[at(m)], model.compat);
     if (!muscle.has_own_curves()) {
@@ -86,12 +96,20 @@ SharingInput sharing_input(const model::BodyModel& model,
           fmt::format("muscle '{}' of class {}: its strength is that of Thelen's curves",
                       model.muscles[at(m)].name, model.muscles[at(m)].class_name));
     }
+    input.min_activation =
+        std::min(input.min_activation, model.muscles[at(m)].properties.min_control);
     input.max_isometric_force_n[m] = muscle.properties().max_isometric_force_n;
     for (Eigen::Index i = 0; i < frames; ++i)
       input.optimal_force_n(i, m) = muscle.optimal_force(input.muscles.length.values()(i, m),
                                                          input.muscles.velocity.values()(i, m));
   }
   return input;
+}
+
+MuscleForces share(const SharingInput& input, SharingOptions options) {
+  options.min_activation = input.min_activation;
+  return share(input.moment_arms, input.torques, input.optimal_force_n, input.max_isometric_force_n,
+               options);
 }
 
 }  // namespace myoid::forces

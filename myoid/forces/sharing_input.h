@@ -7,6 +7,7 @@
 
 #include "myoid/core/time_series.h"
 #include "myoid/dynamics/external_loads.h"
+#include "myoid/forces/force_sharing.h"
 #include "myoid/kinematics/joint_motion.h"
 #include "myoid/kinematics/muscle_kinematics.h"
 #include "myoid/model/body_model.h"
@@ -19,6 +20,7 @@ struct SharingInput {
   TimeSeries torques;                   ///< [N m, N]
   Eigen::MatrixXd optimal_force_n;      ///< Frames x muscles.
   Eigen::VectorXd max_isometric_force_n;
+  double min_activation = 0.0;  ///< The least control that a muscle of the model allows.
   kinematics::MuscleKinematics muscles;
   std::vector<std::string> notes;  ///< What a user must know, a sentence each.
 };
@@ -33,5 +35,14 @@ struct SharingInput {
                                          const kinematics::JointMotion& motion,
                                          const std::vector<std::string>& coordinates,
                                          const dynamics::ExternalLoads* loads = nullptr);
+/// The same with the muscles' paths along the motion, where they are known already.
+[[nodiscard]] SharingInput sharing_input(const model::BodyModel& model,
+                                         const kinematics::JointMotion& motion,
+                                         kinematics::MuscleKinematics muscles,
+                                         const std::vector<std::string>& coordinates,
+                                         const dynamics::ExternalLoads* loads);
+
+/// Force sharing on this input; the least activation is the model's, whatever `options` say.
+[[nodiscard]] MuscleForces share(const SharingInput& input, SharingOptions options);
 
 }  // namespace myoid::forces

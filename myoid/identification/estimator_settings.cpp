@@ -68,8 +68,7 @@ EstimatorOptions estimator_options(const EstimatorSettings& settings,
 
 Loss parse_loss(std::string_view word) {
   return choice_of<Loss, 3>(
-      word, "loss",
-      {{{"square", Loss::square}, {"huber", Loss::huber}, {"cauchy", Loss::cauchy}}});
+      word, "loss", {{{"square", Loss::square}, {"huber", Loss::huber}, {"cauchy", Loss::cauchy}}});
 }
 
 Eccentric parse_eccentric(std::string_view word) {

@@ -61,7 +61,7 @@ TEST(ExcludedIntervals, DoNotTouchTheEstimates) {
   const IdentificationResult result = identify_torque(excluded.data, exact);
   EXPECT_LT(worst_error(excluded, result), 1e-6);
   // Scored without it too: the prediction is right wherever it counts.
-  for (const TrialFit& fit : result.trials) EXPECT_LT(fit.rmse_nm, 1e-5);
+  for (const TrialFit& fit : result.trials) EXPECT_LT(fit.score.rmse_nm(), 1e-5);
 }
 
 TEST(ExcludedIntervals, AreNeitherScoredInFoldsNorSampledByThePaper) {
@@ -70,7 +70,7 @@ TEST(ExcludedIntervals, AreNeitherScoredInFoldsNorSampledByThePaper) {
       .priors = false, .residual_cutoff_hz = std::nullopt, .weights = false, .starts = 1};
   for (const Fold& fold : cross_validate(excluded.data, exact, {})) {
     EXPECT_EQ(fold.time_s.size(), 1001 - 151);
-    EXPECT_LT(fold.identified.rmse_nm, 0.01);
+    EXPECT_LT(fold.identified.rmse_nm(), 0.01);
   }
   const ElbowStudy whole = elbow_study({.trials = 2, .seconds = 20.0, .rate_hz = 50.0});
   EXPECT_LT(identify_paper(excluded.data, {}).samples_used,

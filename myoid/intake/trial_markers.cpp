@@ -118,4 +118,20 @@ recording::MarkerSeries read_trial_markers(const Study& study,
   return mended(study, model, std::move(markers), input);
 }
 
+recording::MarkerSeries calibration_window(const CalibrationSpec& spec,
+                                           const recording::MarkerSeries& markers) {
+  recording::MarkerSeries window;
+  window.names = markers.names;
+  Eigen::Index first = 0;
+  while (first < markers.frame_count() && markers.time_s[first] < spec.window_s[0]) ++first;
+  Eigen::Index last = first;
+  while (last < markers.frame_count() && markers.time_s[last] <= spec.window_s[1]) ++last;
+  if (last - first < 2)
+    throw InvalidInput(fmt::format("[ik] calibrate: no frames between {} and {} s",
+                                   spec.window_s[0], spec.window_s[1]));
+  window.time_s = markers.time_s.segment(first, last - first);
+  window.positions_m = markers.positions_m.middleRows(first, last - first);
+  return window;
+}
+
 }  // namespace myoid

@@ -16,4 +16,8 @@ namespace myoid {
                                                          const model::BodyModel& model,
                                                          TrialInput& input);
 
+/// The markers in the window of a calibration. Throws InvalidInput for fewer than two frames there.
+[[nodiscard]] recording::MarkerSeries calibration_window(const CalibrationSpec& spec,
+                                                         const recording::MarkerSeries& markers);
+
 }  // namespace myoid

@@ -70,9 +70,7 @@ struct TrialFit {
   double smooth_hz = 0.0;              ///< Where its noise does least harm (smooth_prediction.h).
   Eigen::MatrixXd literature_force_n;  ///< n x m
   Eigen::MatrixXd force_fit_n;         ///< n x m
-  double rmse_nm = 0.0;
-  double nrmse_range = 0.0;  ///< RMSE over the range of the torque.
-  double r2 = 0.0;           ///< 1 - SSE/SST.
+  Score score;                         ///< Of `torque_fit_nm`.
   /// Both torques below the fit's own cut-off (EstimatorOptions::residual_cutoff_hz): without most
   /// of the noise of the EMG envelope, which the prediction carries and a muscle does not.
   Score band;

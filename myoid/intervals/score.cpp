@@ -13,19 +13,25 @@ double coefficient_of_determination(const Eigen::VectorXd& reference,
   return total > 0.0 ? 1.0 - (reference - predicted).squaredNorm() / total : 0.0;
 }
 
+double Score::rmse_nm() const { return n > 0.0 ? std::sqrt(sse / n) : 0.0; }
+
+double Score::nrmse_range() const { return range_nm > 0.0 ? rmse_nm() / range_nm : 0.0; }
+
+double Score::nrmse_sd() const { return sst > 0.0 ? rmse_nm() / std::sqrt(sst / n) : 0.0; }
+
+double Score::r2() const { return sst > 0.0 ? 1.0 - sse / sst : 0.0; }
+
+double Score::vaf() const { return sst > 0.0 ? 1.0 - error_spread_nm2 / sst : 0.0; }
+
 Score score(const Eigen::VectorXd& measured, const Eigen::VectorXd& predicted) {
-  Score s;
-  if (measured.size() == 0) return s;
+  if (measured.size() == 0) return {};
   const Eigen::VectorXd error = predicted - measured;
-  const auto n = static_cast<double>(measured.size());
-  s.rmse_nm = std::sqrt(error.squaredNorm() / n);
-  const double range = measured.maxCoeff() - measured.minCoeff();
-  s.nrmse_range = range > 0.0 ? s.rmse_nm / range : 0.0;
-  s.r2 = coefficient_of_determination(measured, predicted);
-  const double variance = (measured.array() - measured.mean()).square().sum();
-  s.nrmse_sd = variance > 0.0 ? s.rmse_nm / std::sqrt(variance / n) : 0.0;
-  s.vaf = variance > 0.0 ? 1.0 - (error.array() - error.mean()).square().sum() / variance : 0.0;
-  return s;
+  return {.n = static_cast<double>(measured.size()),
+          .sse = error.squaredNorm(),
+          .sst = (measured.array() - measured.mean()).square().sum(),
+          .mean_nm = measured.mean(),
+          .range_nm = measured.maxCoeff() - measured.minCoeff(),
+          .error_spread_nm2 = (error.array() - error.mean()).square().sum()};
 }
 
 Eigen::VectorXd below(const Eigen::VectorXd& time_s,

@@ -4,13 +4,22 @@
 
 namespace myoid::identification {
 
-/// How well a torque is predicted.
+/// A prediction of a torque against the measured one, as sums over the samples: scores of several
+/// trials are made from their parts.
 struct Score {
-  double rmse_nm = 0.0;
-  double nrmse_range = 0.0;  ///< RMSE over the range of the measured torque.
-  double nrmse_sd = 0.0;     ///< RMSE over its standard deviation.
-  double r2 = 0.0;           ///< 1 - SSE/SST; negative: worse than the trial's own mean.
-  double vaf = 0.0;          ///< 1 - var(error)/var(torque)
+  double n = 0.0;                 ///< Samples.
+  double sse = 0.0;               ///< Sum of the squared errors [N^2 m^2].
+  double sst = 0.0;               ///< Sum of the squares of the torque about its mean.
+  double mean_nm = 0.0;           ///< Of the measured torque.
+  double range_nm = 0.0;          ///< Of the measured torque: largest minus smallest.
+  double error_spread_nm2 = 0.0;  ///< Sum of the squares of the error about its mean.
+
+  [[nodiscard]] double rmse_nm() const;      ///< sqrt(SSE / n); 0 without samples.
+  [[nodiscard]] double nrmse_range() const;  ///< RMSE over the range of the measured torque.
+  [[nodiscard]] double nrmse_sd() const;     ///< RMSE over its standard deviation.
+  /// 1 - SSE/SST; negative: worse than the trial's own mean; 0 for a constant torque.
+  [[nodiscard]] double r2() const;
+  [[nodiscard]] double vaf() const;  ///< 1 - var(error)/var(torque)
 };
 [[nodiscard]] Score score(const Eigen::VectorXd& measured, const Eigen::VectorXd& predicted);
 

@@ -12,11 +12,11 @@ namespace {
 TEST(Score, OfAKnownErrorIsWhatTheDefinitionsSay) {
   const Eigen::Vector4d measured(0.0, 1.0, 2.0, 3.0);
   const Score offset = score(measured, measured.array() + 0.5);
-  EXPECT_DOUBLE_EQ(offset.rmse_nm, 0.5);
-  EXPECT_DOUBLE_EQ(offset.nrmse_range, 0.5 / 3.0);
-  EXPECT_DOUBLE_EQ(offset.r2, 1.0 - 4.0 * 0.25 / 5.0);  // SST = 5
-  EXPECT_DOUBLE_EQ(offset.vaf, 1.0);                    // an offset has no variance
-  EXPECT_DOUBLE_EQ(score(measured, Eigen::Vector4d::Constant(1.5)).r2, 0.0);
+  EXPECT_DOUBLE_EQ(offset.rmse_nm(), 0.5);
+  EXPECT_DOUBLE_EQ(offset.nrmse_range(), 0.5 / 3.0);
+  EXPECT_DOUBLE_EQ(offset.r2(), 1.0 - 4.0 * 0.25 / 5.0);  // SST = 5
+  EXPECT_DOUBLE_EQ(offset.vaf(), 1.0);                    // an offset has no variance
+  EXPECT_DOUBLE_EQ(score(measured, Eigen::Vector4d::Constant(1.5)).r2(), 0.0);
 }
 
 TEST(Below, KeepsWhatIsSlowAndTakesOutWhatIsFast) {

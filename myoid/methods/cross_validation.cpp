@@ -337,13 +337,13 @@ std::string generalises_badly(const std::vector<Fold>& folds) {
   std::string where;
   for (const Fold& f : folds) {
     const auto n = static_cast<double>(f.measured_nm.size());
-    if (!(f.fitted.rmse_nm > 0.0) || !std::isfinite(f.identified.rmse_nm) || n < 2.0) continue;
-    seen += n * std::pow(f.fitted.rmse_nm, 2);
-    unseen += n * std::pow(f.identified.rmse_nm, 2);
+    if (!(f.fitted.rmse_nm() > 0.0) || !std::isfinite(f.identified.rmse_nm()) || n < 2.0) continue;
+    seen += n * std::pow(f.fitted.rmse_nm(), 2);
+    unseen += n * std::pow(f.identified.rmse_nm(), 2);
     spread += (f.measured_nm.array() - f.measured_nm.mean()).square().sum();
     count += n;
-    if (f.identified.rmse_nm / f.fitted.rmse_nm <= worst) continue;
-    worst = f.identified.rmse_nm / f.fitted.rmse_nm;
+    if (f.identified.rmse_nm() / f.fitted.rmse_nm() <= worst) continue;
+    worst = f.identified.rmse_nm() / f.fitted.rmse_nm();
     where = f.trial;
   }
   const bool bad =

@@ -16,11 +16,11 @@ TEST(CrossValidate, ATrialThatWasNotFittedIsPredicted) {
   ASSERT_EQ(folds.size(), 3U);
   for (std::size_t i = 0; i < folds.size(); ++i) {
     EXPECT_EQ(folds[i].trial, study.data.trials[i].name);
-    EXPECT_GT(folds[i].identified.r2, 0.9);
+    EXPECT_GT(folds[i].identified.r2(), 0.9);
     // Without its fast part the prediction has less of the noise of the EMG.
-    EXPECT_LT(folds[i].band.rmse_nm, folds[i].identified.rmse_nm);
-    EXPECT_LT(folds[i].identified.rmse_nm, folds[i].literature.rmse_nm);
-    EXPECT_LT(folds[i].literature.rmse_nm, folds[i].constant.rmse_nm);
+    EXPECT_LT(folds[i].band.rmse_nm(), folds[i].identified.rmse_nm());
+    EXPECT_LT(folds[i].identified.rmse_nm(), folds[i].literature.rmse_nm());
+    EXPECT_LT(folds[i].literature.rmse_nm(), folds[i].constant.rmse_nm());
   }
 }
 
@@ -51,8 +51,8 @@ TEST(CrossValidate, AFoldIsTheReportedFitOnTheOtherTrialsAndScoresItsPlainPredic
     EXPECT_EQ(folds[0].parameters[j].estimate, fit.estimates[j].estimate);
   EXPECT_EQ(folds[0].lag, fit.lag);
   const Eigen::VectorXd torque = predict(others, left, fit.values, fit.lag).torque_nm;
-  EXPECT_EQ(folds[0].identified.r2, score(left.torque_nm, torque).r2);
-  EXPECT_GT(folds[0].smooth.r2, folds[0].identified.r2);
+  EXPECT_EQ(folds[0].identified.r2(), score(left.torque_nm, torque).r2());
+  EXPECT_GT(folds[0].smooth.r2(), folds[0].identified.r2());
 }
 
 TEST(CrossValidate, TrialsThatAreTooShortForBlocksAreNotCut) {
@@ -79,8 +79,8 @@ TEST(CrossValidate, FitsThatDoNotReachBeyondWhatTheySawAreNamed) {
     Fold f;
     f.trial = name;
     f.measured_nm = 4.0 * Eigen::VectorXd::LinSpaced(500, 0.0, 40.0).array().sin();
-    f.fitted.rmse_nm = seen_nm;
-    f.identified.rmse_nm = unseen_nm;
+    f.fitted = {.n = 1.0, .sse = seen_nm * seen_nm};
+    f.identified = {.n = 1.0, .sse = unseen_nm * unseen_nm};
     return f;
   };
   EXPECT_EQ(generalises_badly({fold("a", 1.0, 1.1), fold("b", 1.0, 1.2)}), "");

@@ -159,9 +159,7 @@ IdentificationResult identify_force(const StudyData& data, const ForceOptions& o
     const std::vector<Eigen::Index> rows = included_rows(trial);
     const Eigen::VectorXd measured = trial.torque_nm(rows);
     const Eigen::VectorXd predicted = fit.torque_fit_nm(rows);
-    fit.rmse_nm = std::sqrt((predicted - measured).squaredNorm() /
-                            std::max(1.0, static_cast<double>(rows.size())));
-    fit.r2 = coefficient_of_determination(measured, predicted);
+    fit.score = score(measured, predicted);
   }
   all.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return all;

@@ -42,10 +42,7 @@ void add_predictions(const StudyData& data,
         const std::vector<Eigen::Index> rows = included_rows(trial);
         const Eigen::VectorXd measured = trial.torque_nm(rows);
         const Eigen::VectorXd predicted = after.torque_nm(rows);
-        const Score overall = score(measured, predicted);
-        fit.rmse_nm = overall.rmse_nm;
-        fit.nrmse_range = overall.nrmse_range;
-        fit.r2 = overall.r2;
+        fit.score = score(measured, predicted);
         const double cutoff_hz = options.residual_cutoff_hz.value_or(0.0);
         fit.band = score(below(trial.time_s, trial.torque_nm, cutoff_hz)(rows),
                          below(trial.time_s, after.torque_nm, cutoff_hz)(rows));

@@ -50,7 +50,7 @@ TEST(IdentifyTorque, FindsTheTruthWithoutNoise) {
     EXPECT_GT(std::abs(e.initial - truth), 0.02 * truth) << "the start was the truth already";
     EXPECT_EQ(e.verdict, Verdict::identified) << e.muscle << " " << e.parameter << ": " << e.reason;
   }
-  for (const TrialFit& fit : result.trials) EXPECT_GT(fit.r2, 1.0 - 1e-10);
+  for (const TrialFit& fit : result.trials) EXPECT_GT(fit.score.r2(), 1.0 - 1e-10);
 }
 
 TEST(IdentifyTorque, WhatTheJointMakesByItselfIsNoMusclesForce) {
@@ -67,7 +67,7 @@ TEST(IdentifyTorque, WhatTheJointMakesByItselfIsNoMusclesForce) {
     const double truth = true_value(study, e);
     EXPECT_NEAR(e.estimate, truth, 1e-6 * truth) << e.muscle << " " << e.parameter;
   }
-  for (const TrialFit& fit : with.trials) EXPECT_GT(fit.r2, 1.0 - 1e-10);
+  for (const TrialFit& fit : with.trials) EXPECT_GT(fit.score.r2(), 1.0 - 1e-10);
   for (TrialData& trial : study.data.trials) trial.resting_nm.resize(0);
   const IdentificationResult without = identify_torque(study.data, options);
   double worst = 0.0;

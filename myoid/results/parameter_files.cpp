@@ -140,14 +140,14 @@ ordered_json method_json(const IdentificationResult& method) {
     m["trials"].push_back({{"trial", t.trial},
                            {"joint", t.joint},
                            {"calibration", t.calibration},
-                           {"rmse_nm", unless_paper(t.rmse_nm)},
-                           {"nrmse_range", unless_paper(t.nrmse_range)},
-                           {"r2", unless_paper(t.r2)},
-                           {"smoothed_r2", unless_paper(smoothed_score(t).r2)},
+                           {"rmse_nm", unless_paper(t.score.rmse_nm())},
+                           {"nrmse_range", unless_paper(t.score.nrmse_range())},
+                           {"r2", unless_paper(t.score.r2())},
+                           {"smoothed_r2", unless_paper(smoothed_score(t).r2())},
                            {"smoothed_below_hz", unless_paper(t.smooth_hz)},
-                           {"band_rmse_nm", unless_paper(t.band.rmse_nm)},
-                           {"band_nrmse_range", unless_paper(t.band.nrmse_range)},
-                           {"band_r2", unless_paper(t.band.r2)}});
+                           {"band_rmse_nm", unless_paper(t.band.rmse_nm())},
+                           {"band_nrmse_range", unless_paper(t.band.nrmse_range())},
+                           {"band_r2", unless_paper(t.band.r2())}});
   }
   return m;
 }
@@ -163,11 +163,11 @@ ordered_json fold_values(const identification::Fold& fold) {
 }
 
 ordered_json score_json(const identification::Score& s) {
-  return ordered_json{{"rmse_nm", report::number_or_null(s.rmse_nm)},
-                      {"nrmse_range", report::number_or_null(s.nrmse_range)},
-                      {"nrmse_sd", report::number_or_null(s.nrmse_sd)},
-                      {"r2", report::number_or_null(s.r2)},
-                      {"vaf", report::number_or_null(s.vaf)}};
+  return ordered_json{{"rmse_nm", report::number_or_null(s.rmse_nm())},
+                      {"nrmse_range", report::number_or_null(s.nrmse_range())},
+                      {"nrmse_sd", report::number_or_null(s.nrmse_sd())},
+                      {"r2", report::number_or_null(s.r2())},
+                      {"vaf", report::number_or_null(s.vaf())}};
 }
 
 }  // namespace
@@ -285,11 +285,11 @@ std::string parameters_json(const std::vector<IdentificationResult>& methods,
 }
 
 ParameterContext parameter_context(const StudyResult& result) {
-  return {.phases = result.phases,
+  return {.phases = result.fit_input.phases,
           .resting = result.resting,
-          .left_out = result.study.identify.folds,
-          .max_rate_hz = result.study.identify.max_rate_hz,
-          .force_loop = result.force_loop ? &*result.force_loop : nullptr};
+          .left_out = result.source.study.identify.folds,
+          .max_rate_hz = result.source.study.identify.max_rate_hz,
+          .force_loop = result.fit.force_loop ? &*result.fit.force_loop : nullptr};
 }
 
 }  // namespace myoid

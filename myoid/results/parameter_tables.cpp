@@ -68,7 +68,7 @@ Cell verdict_cell(const ParameterEstimate& e) {
 }
 
 std::optional<double> truth_of(const StudyResult& result, const ParameterEstimate& e) {
-  for (const TrueValue& t : result.truth) {
+  for (const TrueValue& t : result.source.truth) {
     if (t.parameter == e.parameter &&
         (t.muscle == e.muscle || (e.muscle == "subject" && t.parameter == "emg_delay")))
       return t.value;
@@ -148,7 +148,7 @@ std::vector<EstimateLine> estimate_lines(const IdentificationResult& method,
 }
 
 std::vector<Table> estimate_tables(const StudyResult& result, const IdentificationResult& method) {
-  const bool known = !result.truth.empty();
+  const bool known = !result.source.truth.empty();
   const std::string truth =
       known ? " Truth: green where it lies in the interval, else yellow." : "";
   const std::string by = method.method == "force"
@@ -173,7 +173,7 @@ std::vector<Table> estimate_tables(const StudyResult& result, const Identificati
                muscles.columns,
                {}};
   others.columns.front() = "of";
-  for (const EstimateLine& line : estimate_lines(method, result.data.muscles.size())) {
+  for (const EstimateLine& line : estimate_lines(method, result.fit_input.data.muscles.size())) {
     const ParameterEstimate& e = *line.estimate;
     std::vector<Cell> row{{line.owners},
                           {report::spelled(e.parameter)},

@@ -37,9 +37,9 @@ report::Panel torque_panel(const StudyResult& result, const TrialPhases& trial) 
       .x = {.label = "time", .unit = "s", .lower = {}, .upper = {}, .categories = {}},
       .y = {.label = "torque", .unit = "N m", .lower = {}, .upper = {}, .categories = {}},
       .series = {}};
-  const auto data = std::find_if(result.data.trials.begin(), result.data.trials.end(),
+  const auto data = std::find_if(result.fit_input.data.trials.begin(), result.fit_input.data.trials.end(),
                                  [&](const auto& t) { return t.name == trial.trial; });
-  if (data == result.data.trials.end()) return panel;
+  if (data == result.fit_input.data.trials.end()) return panel;
   const double low = data->torque_nm.minCoeff();
   const double high = data->torque_nm.maxCoeff();
   for (const Phase& phase : trial.phases) {
@@ -57,7 +57,7 @@ report::Panel torque_panel(const StudyResult& result, const TrialPhases& trial) 
                           .role = Role::reference,
                           .y_lower = {},
                           .y_upper = {}});
-  for (const identification::IdentificationResult& method : result.methods) {
+  for (const identification::IdentificationResult& method : result.fit.methods) {
     if (method.method != "torque") continue;
     for (const identification::TrialFit& fit : method.trials) {
       if (fit.trial != trial.trial) continue;
@@ -91,7 +91,7 @@ report::Section phases_section(const StudyResult& result) {
                         .panels = {},
                         .columns = 1};
   int whole = 0;
-  for (const TrialPhases& trial : result.phases) {
+  for (const TrialPhases& trial : result.fit_input.phases) {
     if (trial.phases.size() == 1 && trial.phases.front().kind == PhaseKind::regular) {
       ++whole;
       continue;
@@ -111,7 +111,7 @@ report::Section phases_section(const StudyResult& result) {
     if (left_out) figure.panels.push_back(torque_panel(result, trial));
   }
   section.paragraphs.push_back(fmt::format(
-      "{} of {} trials are one regular phase from beginning to end.", whole, result.phases.size()));
+      "{} of {} trials are one regular phase from beginning to end.", whole, result.fit_input.phases.size()));
   if (!table.rows.empty()) section.tables.push_back(std::move(table));
   if (!figure.panels.empty()) section.figures.push_back(std::move(figure));
   return section;
@@ -119,7 +119,7 @@ report::Section phases_section(const StudyResult& result) {
 
 report::Section informed_section(const StudyResult& result) {
   report::Section section{.id = "informed", .heading = "Back into the body"};
-  if (!result.informed.empty()) {
+  if (!result.fit.informed.empty()) {
     report::Table table{
         .id = "informed_forces",
         .title = "Forces with the identified muscles, informed by the EMG",
@@ -130,7 +130,7 @@ report::Section informed_section(const StudyResult& result) {
         .columns = {"trial", "departure from the EMG (rms)", "torque no muscle carries (rms) [N m]",
                     "frames not solved"},
         .rows = {}};
-    for (const identification::InformedForces& f : result.informed) {
+    for (const identification::InformedForces& f : result.fit.informed) {
       const auto samples = static_cast<double>(f.activation.size());
       table.rows.push_back(
           {{f.trial},
@@ -142,8 +142,8 @@ report::Section informed_section(const StudyResult& result) {
     }
     section.tables.push_back(std::move(table));
   }
-  if (result.force_loop) {
-    const identification::ForceLoop& loop = *result.force_loop;
+  if (result.fit.force_loop) {
+    const identification::ForceLoop& loop = *result.fit.force_loop;
     section.paragraphs.push_back(fmt::format("Forces and parameters in a loop: {} ({}).",
                                              identification::name(loop.end), loop.message));
     report::Table table{

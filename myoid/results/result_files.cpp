@@ -34,10 +34,10 @@ TimeSeries identified_forces(const StudyResult& result,
   const auto fit = std::find_if(method.trials.begin(), method.trials.end(),
                                 [&](const auto& t) { return t.trial == data.name; });
   std::vector<Channel> channels;
-  const auto muscles = static_cast<Eigen::Index>(result.data.muscles.size());
+  const auto muscles = static_cast<Eigen::Index>(result.fit_input.data.muscles.size());
   Eigen::MatrixXd values(data.time_s.size(), 3 * muscles);
   for (Eigen::Index m = 0; m < muscles; ++m) {
-    const std::string& muscle = result.data.muscles[static_cast<std::size_t>(m)].name;
+    const std::string& muscle = result.fit_input.data.muscles[static_cast<std::size_t>(m)].name;
     channels.push_back({muscle + "_reference", Unit::newton});
     channels.push_back({muscle + "_literature", Unit::newton});
     channels.push_back({muscle + "_identified", Unit::newton});
@@ -53,11 +53,11 @@ void write_informed_forces(const StudyResult& result,
                            const std::filesystem::path& folder,
                            const std::vector<std::string>& comments) {
   std::vector<Channel> in_newtons, activations;
-  for (const identification::MuscleSetup& muscle : result.data.muscles) {
+  for (const identification::MuscleSetup& muscle : result.fit_input.data.muscles) {
     in_newtons.push_back({muscle.name, Unit::newton});
     activations.push_back({muscle.name, Unit::dimensionless});
   }
-  for (const std::string& name : study_coordinates(result.study.model))
+  for (const std::string& name : study_coordinates(result.source.study.model))
     in_newtons.push_back({name + "_reserve", Unit::newton_meter});
   Eigen::MatrixXd values(forces.force_n.rows(), forces.force_n.cols() + forces.reserve_nm.cols());
   values << forces.force_n, forces.reserve_nm;
@@ -72,14 +72,14 @@ void write_informed_forces(const StudyResult& result,
 /// Only numbers that are `identified`; F_max only if it means the maximum (EMG relative to an MVC);
 /// no model at all if the motion failed its gates, or nothing is to be changed in it.
 void write_identified_model(const StudyResult& result, const std::filesystem::path& folder) {
-  if (motion_is_unreliable(result)) return;
-  const bool from_mvc = from_maximal_effort(result.study.emg);
-  for (const IdentificationResult& method : result.methods) {
+  if (motion_is_unreliable(result.source.study, result.trials)) return;
+  const bool from_mvc = from_maximal_effort(result.source.study.emg);
+  for (const IdentificationResult& method : result.fit.methods) {
     if (method.method != "torque") continue;
     std::vector<IdentifiedMuscle> muscles;
-    for (std::size_t m = 0; m < result.data.muscles.size(); ++m) {
+    for (std::size_t m = 0; m < result.fit_input.data.muscles.size(); ++m) {
       IdentifiedMuscle muscle{
-          result.data.muscles[m].name, result.data.muscles[m].start, method.muscles[m], {}};
+          result.fit_input.data.muscles[m].name, result.fit_input.data.muscles[m].start, method.muscles[m], {}};
       for (const ParameterEstimate& e : method.estimates) {
         const bool sure = e.verdict == identification::Verdict::identified &&
                           (from_mvc || e.parameter != "max_isometric_force");
@@ -91,9 +91,9 @@ void write_identified_model(const StudyResult& result, const std::filesystem::pa
                     [](const IdentifiedMuscle& m) { return m.changed.empty(); }))
       return;
     const std::string stem =
-        result.study.model.file ? result.study.model.file->stem().string() : "arm4";
+        result.source.study.model.file ? result.source.study.model.file->stem().string() : "arm4";
     recording::write_file(folder / (stem + "_identified.osim"),
-                          identified_model(result.study, result.model_text, muscles));
+                          identified_model(result.source.study, result.source.model_text, muscles));
   }
 }
 
@@ -114,24 +114,24 @@ ordered_json faults_json(const std::vector<Fault>& faults) {
 /// What was computed from what, how long it took, and what was remarked on the way.
 ordered_json run_json(const StudyResult& result, const Provenance& provenance) {
   ordered_json run = report::provenance_json(provenance);
-  run["study"] = std::filesystem::absolute(result.study.file).string();
+  run["study"] = std::filesystem::absolute(result.source.study.file).string();
   run["start_s"] = report::number_or_null(result.start_s);
   run["end_s"] = report::number_or_null(result.end_s);
   run["seconds"] = ordered_json::object();
   for (const StageTime& stage : result.times) run["seconds"][stage.stage] = stage.seconds;
-  if (result.force_loop) {
-    run["force_loop"] = {{"end", std::string(identification::name(result.force_loop->end))},
-                         {"message", result.force_loop->message},
-                         {"rounds", result.force_loop->rounds.size()}};
+  if (result.fit.force_loop) {
+    run["force_loop"] = {{"end", std::string(identification::name(result.fit.force_loop->end))},
+                         {"message", result.fit.force_loop->message},
+                         {"rounds", result.fit.force_loop->rounds.size()}};
   }
   run["trials"] = ordered_json::array();
   for (const TrialResult& trial : result.trials) {
     run["trials"].push_back({{"name", trial.spec.name},
                              {"use", std::string(name(trial.spec.use))},
-                             {"failure", trial.failure},
+                             {"failure", trial.failure()},
                              {"notes", trial.notes},
                              {"faults", faults_json(trial.faults)}});
-    if (const auto& emg = trial.emg_clock) {
+    if (const auto& emg = trial.input.emg_clock) {
       ordered_json& clock = run["trials"].back()["emg_clock"];
       clock = {{"offset_s", emg->clock.offset_s},
                {"drift_ppm", emg->clock.drift_ppm},
@@ -194,36 +194,36 @@ void write_results(const StudyResult& result,
   const std::vector<std::string> of_activation = with_emg(nullptr);
   for (const TrialResult& trial : result.trials) {
     const std::filesystem::path place = folder / trial.spec.name;
-    if (!trial.activation.empty())
-      recording::write_storage(place / "activation.sto", trial.activation,
+    if (!trial.emg.activation.empty())
+      recording::write_storage(place / "activation.sto", trial.emg.activation,
                                {.title = "Activation", .comments = of_activation});
     if (!trial.has_motion()) continue;
-    write_motion(trial.model, trial.motion.q, place / "ik.mot", comments);
-    if (trial.ik) write_marker_errors(*trial.ik, place / "ik_marker_errors.sto");
+    write_motion(*trial.motion.model, trial.motion.joints.q, place / "ik.mot", comments);
+    if (trial.motion.ik) write_marker_errors(*trial.motion.ik, place / "ik_marker_errors.sto");
     recording::write_storage(
-        place / "id.sto", trial.generalized_forces,
+        place / "id.sto", trial.forces.generalized,
         {.title = "Inverse Dynamics Generalized Forces", .comments = comments});
-    write_muscle_kinematics(trial.muscles, place);
-    write_shared_forces(trial.shared, place);
+    write_muscle_kinematics(trial.forces.muscles, place);
+    write_shared_forces(trial.forces.shared, place);
   }
-  for (const IdentificationResult& method : result.methods) {
-    if (method.method != "torque" && result.methods.size() > 1) continue;
-    for (const identification::TrialData& data : result.data.trials) {
+  for (const IdentificationResult& method : result.fit.methods) {
+    if (method.method != "torque" && result.fit.methods.size() > 1) continue;
+    for (const identification::TrialData& data : result.fit_input.data.trials) {
       recording::write_storage(folder / data.name / "identified_forces.sto",
                                identified_forces(result, data, method),
                                {.title = "Forces", .comments = with_emg(&method)});
     }
   }
-  const auto torque = std::find_if(result.methods.begin(), result.methods.end(),
+  const auto torque = std::find_if(result.fit.methods.begin(), result.fit.methods.end(),
                                    [](const auto& method) { return method.method == "torque"; });
-  for (const identification::InformedForces& forces : result.informed)
+  for (const identification::InformedForces& forces : result.fit.informed)
     write_informed_forces(result, forces, folder / forces.trial,
-                          with_emg(torque == result.methods.end() ? nullptr : &*torque));
+                          with_emg(torque == result.fit.methods.end() ? nullptr : &*torque));
   write_identified_model(result, folder);
   recording::write_file(
       folder / "parameters.json",
-      parameters_json(result.methods, result.folds, provenance, parameter_context(result)));
-  recording::write_file(folder / "parameters.csv", parameters_csv(result.methods));
+      parameters_json(result.fit.methods, result.folds, provenance, parameter_context(result)));
+  recording::write_file(folder / "parameters.csv", parameters_csv(result.fit.methods));
   std::error_code ignored;
   std::filesystem::remove(folder / "fold_parameters.csv", ignored);  // of an earlier run
   if (!result.folds.empty())

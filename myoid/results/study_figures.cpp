@@ -23,7 +23,7 @@ using report::to_vector;
 std::optional<muscle::HillParameters<double>> true_muscle(
     const StudyResult& result, const identification::MuscleSetup& setup) {
   std::optional<muscle::HillParameters<double>> muscle;
-  for (const TrueValue& t : result.truth) {
+  for (const TrueValue& t : result.source.truth) {
     if (t.muscle != setup.name) continue;
     for (const muscle::HillField& field : muscle::kHillFields) {
       if (field.name != t.parameter) continue;
@@ -37,7 +37,7 @@ std::optional<muscle::HillParameters<double>> true_muscle(
 }  // namespace
 
 Figure muscle_curves(const StudyResult& result, const IdentificationResult& method, std::size_t m) {
-  const auto& setup = result.data.muscles[m];
+  const auto& setup = result.fit_input.data.muscles[m];
   const auto& found = method.muscles[m];
   Figure figure{
       "curves_" + setup.name,
@@ -49,7 +49,7 @@ Figure muscle_curves(const StudyResult& result, const IdentificationResult& meth
   double low = 1e9;
   double high = -1e9;
   double fastest = 0.05;
-  for (const auto& trial : result.data.trials) {
+  for (const auto& trial : result.fit_input.data.trials) {
     const auto c = static_cast<Eigen::Index>(m);
     low = std::min(low, trial.length_m.col(c).minCoeff() - setup.start.tendon_slack_length_m);
     high = std::max(high, trial.length_m.col(c).maxCoeff() - setup.start.tendon_slack_length_m);
@@ -115,9 +115,9 @@ Figure emg_figure(const TrialResult& trial, const std::vector<std::string>& chai
                 {},
                 2,
                 chain};
-  const TimeSeries& raw = trial.emg->raw;
-  const TimeSeries& rectified = trial.emg->rectified;
-  const TimeSeries& envelope = trial.emg->envelope;
+  const TimeSeries& raw = trial.emg.stages->raw;
+  const TimeSeries& rectified = trial.emg.stages->rectified;
+  const TimeSeries& envelope = trial.emg.stages->envelope;
   for (std::size_t c = 0; c < raw.channels().size(); ++c) {
     const auto column = static_cast<Eigen::Index>(c);
     const std::vector<double> t = to_vector(raw.time_s());
@@ -153,15 +153,15 @@ Figure force_figure(const StudyResult& result,
       {},
       2};
   const std::vector<double> t = to_vector(data.time_s);
-  for (std::size_t m = 0; m < result.data.muscles.size(); ++m) {
+  for (std::size_t m = 0; m < result.fit_input.data.muscles.size(); ++m) {
     const auto c = static_cast<Eigen::Index>(m);
     const Eigen::VectorXd error = fit->force_fit_n.col(c) - data.force_n.col(c);
     const bool finite = error.allFinite();
     Panel panel{
         finite
-            ? fmt::format("{}: identified against shared {:.0f} N rms", result.data.muscles[m].name,
+            ? fmt::format("{}: identified against shared {:.0f} N rms", result.fit_input.data.muscles[m].name,
                           std::sqrt(error.squaredNorm() / static_cast<double>(error.size())))
-            : result.data.muscles[m].name,
+            : result.fit_input.data.muscles[m].name,
         {"time", "s", {}, {}, {}},
         {"force", "N", {}, {}, {}},
         {}};

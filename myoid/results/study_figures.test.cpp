@@ -16,21 +16,21 @@ StudyResult one_muscle() {
   setup.start.force_length_width_m = 0.05;
   setup.start.tendon_slack_length_m = 0.2;
   setup.start.max_shortening_speed_mps = 1.2;
-  result.data.muscles = {setup};
+  result.fit_input.data.muscles = {setup};
   identification::TrialData trial;
   trial.name = "slow";
   trial.time_s = Eigen::VectorXd::LinSpaced(3, 0.0, 1.0);
   trial.length_m = Eigen::Vector3d(0.30, 0.33, 0.36);
   trial.velocity_mps = Eigen::Vector3d(0.1, 0.4, -0.2);
   trial.force_n = Eigen::Vector3d(10.0, 20.0, 30.0);
-  result.data.trials = {trial};
+  result.fit_input.data.trials = {trial};
   return result;
 }
 
 identification::IdentificationResult found(const StudyResult& result) {
   identification::IdentificationResult method;
   method.method = "torque";
-  method.muscles = {result.data.muscles[0].start};
+  method.muscles = {result.fit_input.data.muscles[0].start};
   method.muscles[0].optimal_fiber_length_m = 0.14;
   identification::TrialFit fit;
   fit.trial = "slow";
@@ -70,7 +70,7 @@ TEST(MuscleCurves, ShadeWhatTheRecordingVisited) {
 TEST(ForceFigure, TellsTheDifferenceFromTheSharedForces) {
   const StudyResult result = one_muscle();
   const auto method = found(result);
-  const report::Figure figure = force_figure(result, result.data.trials[0], method);
+  const report::Figure figure = force_figure(result, result.fit_input.data.trials[0], method);
   ASSERT_EQ(figure.panels.size(), 1U);
   // rms of 3, 0, -4 N
   EXPECT_EQ(figure.panels[0].title, "BIC: identified against shared 3 N rms");

@@ -31,26 +31,26 @@ using report::Section;
 using report::Table;
 
 const IdentificationResult* method_of(const StudyResult& result, std::string_view name) {
-  for (const IdentificationResult& m : result.methods) {
+  for (const IdentificationResult& m : result.fit.methods) {
     if (m.method == name) return &m;
   }
   return nullptr;
 }
 
 std::vector<std::string> assumptions(const StudyResult& result) {
-  std::vector<std::string> list = result.study.subject.notes;
-  list.push_back(result.study.identify.elastic_tendon
+  std::vector<std::string> list = result.source.study.subject.notes;
+  list.push_back(result.source.study.identify.elastic_tendon
                      ? "Tendons stretch by the strain that the model gives them, quasi-statically."
                      : "The tendon is taken as rigid: fiber length = musculotendon length - tendon "
                        "slack length. Optimal fiber length and tendon slack length then act only "
                        "together; the slack length is held.");
   list.push_back(fmt::format(
       "{}; the muscles are effective ones that stand for all heads lumped into them.",
-      result.study.identify.model_muscles
+      result.source.study.identify.model_muscles
           ? "Pennation and passive muscle force are those of the model"
           : "Pennation and passive muscle force are neglected, as in the source paper"));
   const bool freed = std::any_of(
-      result.methods.begin(), result.methods.end(), [](const IdentificationResult& method) {
+      result.fit.methods.begin(), result.fit.methods.end(), [](const IdentificationResult& method) {
         return std::any_of(method.estimates.begin(), method.estimates.end(),
                            [](const auto& e) { return e.parameter == "max_shortening_speed"; });
       });
@@ -60,28 +60,28 @@ std::vector<std::string> assumptions(const StudyResult& result) {
   list.push_back(
       "At low activation the optimal length is longer than at full activation (about 15 %); the l0 "
       "given here belongs to the activations of this recording.");
-  for (const auto& muscle : result.study.muscles) {
+  for (const auto& muscle : result.source.study.muscles) {
     if (muscle.same_as)
       list.push_back(
           fmt::format("{} has no electrode: it is taken to act as {} does. Their strengths can "
                       "hardly be told apart.",
                       muscle.name, *muscle.same_as));
   }
-  if (!result.study.subject.mass_kg && !result.study.model.file)
+  if (!result.source.study.subject.mass_kg && !result.source.study.model.file)
     list.push_back("Body mass is not given: 73 kg is assumed for the built-in arm's inertia.");
-  for (const signals::WhiteningFilter& filter : result.whitening.filters) {
+  for (const signals::WhiteningFilter& filter : result.emg.whitening.filters) {
     if (filter.reason.empty())
       list.push_back(fmt::format("EMG channel {}: statistical bandwidth {:.0f} Hz, {} {:.0f} Hz.",
                                  filter.channel, filter.bandwidth_before_hz,
-                                 result.whitening.applied ? "whitened" : "whitened it would be",
+                                 result.emg.whitening.applied ? "whitened" : "whitened it would be",
                                  filter.bandwidth_after_hz));
   }
   const signals::EmgChain chain = emg_chain(result, nullptr);
   if (!chain.steps.empty()) list.push_back(fmt::format("EMG: {}.", fmt::join(chain.steps, "; ")));
   if (!chain.methods.empty())
     list.push_back(fmt::format("For a methods section: {}", fmt::join(chain.methods, " ")));
-  if (result.study.emg.has_mvc) {
-    const EmgSpec& emg = result.study.emg;
+  if (result.source.study.emg.has_mvc) {
+    const EmgSpec& emg = result.source.study.emg;
     list.push_back(
         emg.mvc_effort_sd > 0.0 || emg.mvc_effort < 1.0
             ? fmt::format(
@@ -92,7 +92,7 @@ std::vector<std::string> assumptions(const StudyResult& result) {
                           "people reach some 80 to 100 % of what their muscles could exert; "
                           "[emg] mvc_effort accounts for that."));
   }
-  for (const std::string& text : result.model.unsupported) list.push_back("Model: " + text + ".");
+  for (const std::string& text : result.source.model->unsupported) list.push_back("Model: " + text + ".");
   return list;
 }
 
@@ -117,13 +117,13 @@ std::string headline(const StudyResult& result) {
   if (!result.folds.empty()) {
     std::vector<double> ours, theirs;
     for (const identification::Fold& f : result.folds) {
-      ours.push_back(f.identified.r2);
-      theirs.push_back(f.literature.r2);
+      ours.push_back(f.identified.r2());
+      theirs.push_back(f.literature.r2());
     }
     text += fmt::format(
         " Torque of {}s left out of the fit is predicted with a median R2 of {:.2f} "
         "(literature's parameters with a best gain: {:.2f}).",
-        result.study.identify.folds, math::median(std::move(ours)),
+        result.source.study.identify.folds, math::median(std::move(ours)),
         math::median(std::move(theirs)));
   }
   return text;
@@ -133,13 +133,13 @@ std::string headline(const StudyResult& result) {
 
 report::Report study_report(const StudyResult& result, const Provenance& provenance) {
   report::Report report;
-  report.title = fmt::format("Muscle parameters of {}", result.study.subject.name);
+  report.title = fmt::format("Muscle parameters of {}", result.source.study.subject.name);
   std::vector<std::string> joints;
-  for (const std::string& name : study_coordinates(result.study.model))
+  for (const std::string& name : study_coordinates(result.source.study.model))
     joints.push_back(report::spelled(name));
   report.subtitle = fmt::format("{} trial{}; joint coordinate{} {}; model {}", result.trials.size(),
                                 result.trials.size() == 1 ? "" : "s", joints.size() > 1 ? "s" : "",
-                                fmt::join(joints, ", "), result.model.name);
+                                fmt::join(joints, ", "), result.source.model->name);
   report.headline = headline(result);
   if (has_motion_page(result))
     report.links.push_back({"The model moving through every trial, in the browser", kMotionPage});
@@ -164,7 +164,7 @@ report::Report study_report(const StudyResult& result, const Provenance& provena
           fmt::format("Hardly told apart: {}.", fmt::join(torque->collinear, "; ")));
     section.tables = estimate_tables(result, *torque);
     for (Table& table : basin_tables(*torque)) section.tables.push_back(std::move(table));
-    for (std::size_t m = 0; m < result.data.muscles.size(); ++m)
+    for (std::size_t m = 0; m < result.fit_input.data.muscles.size(); ++m)
       section.figures.push_back(muscle_curves(result, *torque, m));
     report.sections.push_back(std::move(section));
   }
@@ -190,7 +190,7 @@ report::Report study_report(const StudyResult& result, const Provenance& provena
   }
   Section forces{"forces", "Muscle forces", {}, {}, {}, {}};
   std::vector<const identification::TrialData*> shown;
-  for (const auto& data : result.data.trials) shown.push_back(&data);
+  for (const auto& data : result.fit_input.data.trials) shown.push_back(&data);
   // Those with the most movement first; all are in the trials' folders.
   std::stable_sort(shown.begin(), shown.end(), [](const auto* a, const auto* b) {
     const auto range = [](const identification::TrialData* d) {
@@ -202,12 +202,12 @@ report::Report study_report(const StudyResult& result, const Provenance& provena
   if (torque != nullptr) {
     for (const auto* data : shown) forces.figures.push_back(force_figure(result, *data, *torque));
   }
-  if (paper != nullptr && !result.data.trials.empty())
+  if (paper != nullptr && !result.fit_input.data.trials.empty())
     forces.figures.push_back(force_figure(result, *shown.front(), *paper));
   report.sections.push_back(std::move(forces));
   const auto task =
       std::find_if(result.trials.begin(), result.trials.end(),
-                   [](const TrialResult& t) { return t.emg && t.spec.use == Use::calibration; });
+                   [](const TrialResult& t) { return t.emg.stages && t.spec.use == Use::calibration; });
   if (task != result.trials.end())
     report.sections.push_back(
         {"emg",
@@ -216,9 +216,9 @@ report::Report study_report(const StudyResult& result, const Provenance& provena
          {},
          {},
          {emg_figure(*task, signals::header_lines(emg_chain(result, nullptr)))}});
-  if (!result.informed.empty() || result.force_loop)
+  if (!result.fit.informed.empty() || result.fit.force_loop)
     report.sections.push_back(informed_section(result));
-  if (!result.phases.empty()) report.sections.push_back(phases_section(result));
+  if (!result.fit_input.phases.empty()) report.sections.push_back(phases_section(result));
   Section trials{"trials", "Trials", {}, {}, {trials_table(result)}, {}};
   std::vector<std::string> notes;
   for (const TrialResult& t : result.trials) {

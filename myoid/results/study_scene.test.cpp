@@ -1,6 +1,7 @@
 #include "myoid/results/study_scene.h"
 
 #include <fstream>
+#include <memory>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -17,30 +18,31 @@ namespace {
 TrialResult flexing(const std::string& name) {
   TrialResult trial;
   trial.spec.name = name;
-  trial.model = model::parse_osim(model::arm4_osim(), "arm4.osim");
+  trial.motion.model = std::make_shared<const model::BodyModel>(
+      model::parse_osim(model::arm4_osim(), "arm4.osim"));
   std::vector<Channel> channels;
-  for (const model::Coordinate& c : trial.model.coordinates)
+  for (const model::Coordinate& c : trial.motion.model->coordinates)
     channels.push_back({c.name, Unit::radian});
-  Eigen::MatrixXd q = trial.model.default_q().transpose().replicate(101, 1);
-  q.col(trial.model.coordinate_index("elbow_flexion")).setLinSpaced(0.0, 1.5);
-  trial.motion.q = TimeSeries(Eigen::VectorXd::LinSpaced(101, 0.0, 1.0), channels, q);
-  trial.activation = TimeSeries(Eigen::Vector2d(0.0, 1.0), {{"Biceps", Unit::dimensionless}},
+  Eigen::MatrixXd q = trial.motion.model->default_q().transpose().replicate(101, 1);
+  q.col(trial.motion.model->coordinate_index("elbow_flexion")).setLinSpaced(0.0, 1.5);
+  trial.motion.joints.q = TimeSeries(Eigen::VectorXd::LinSpaced(101, 0.0, 1.0), channels, q);
+  trial.emg.activation = TimeSeries(Eigen::Vector2d(0.0, 1.0), {{"Biceps", Unit::dimensionless}},
                                 Eigen::Vector2d(0.2, 0.6));
   recording::MarkerSeries markers;
   markers.time_s = Eigen::Vector2d(0.0, 1.0);
-  markers.names = {trial.model.markers[0].name};
+  markers.names = {trial.motion.model->markers[0].name};
   markers.positions_m.setZero(2, 3);
-  trial.markers = markers;
+  trial.input.markers = markers;
   return trial;
 }
 
 StudyResult two_trials() {
   StudyResult result;
-  result.study.subject.name = "S01";
-  result.study.muscles = {{.name = "BIC", .osim = {"BIC", "BRA"}, .emg = "Biceps"}};
+  result.source.study.subject.name = "S01";
+  result.source.study.muscles = {{.name = "BIC", .osim = {"BIC", "BRA"}, .emg = "Biceps"}};
   result.trials = {flexing("slow"), TrialResult{}, flexing("fast")};
   result.trials[1].spec.name = "mvc without motion";
-  result.model = result.trials[0].model;
+  result.source.model = result.trials[0].motion.model;
   return result;
 }
 
@@ -55,7 +57,7 @@ TEST(StudyScenes, HaveTheTrialsThatMoveWithTheirMarkersAndActivations) {
   EXPECT_EQ(scene.measured_markers.size(), 1U);
   ASSERT_EQ(scene.values.size(), 1U);
   // Both heads have the muscle's electrode, linearly from 0.2 to 0.6; the others have none.
-  const auto& arm = two_trials().model;
+  const model::BodyModel arm = *two_trials().source.model;
   EXPECT_NEAR(scene.values[0].value(25, arm.muscle_index("BIC")), 0.4, 1e-12);
   EXPECT_NEAR(scene.values[0].value(25, arm.muscle_index("BRA")), 0.4, 1e-12);
   EXPECT_TRUE(std::isnan(scene.values[0].value(25, arm.muscle_index("TRI"))));

@@ -38,7 +38,7 @@ std::vector<double> after_delay(const Eigen::VectorXd& predicted,
 std::string title_of(const StudyResult& result,
                      const std::string& trial,
                      const std::string& joint) {
-  return result.study.model.more_coordinates.empty() ? trial : fmt::format("{}, {}", trial, joint);
+  return result.source.study.model.more_coordinates.empty() ? trial : fmt::format("{}, {}", trial, joint);
 }
 
 /// Measured, literature's and identified torque.
@@ -59,7 +59,7 @@ Panel torque_panel(std::string title,
 }
 
 Figure folds_figure(const StudyResult& result, double delay_s) {
-  const std::string& left_out = result.study.identify.folds;
+  const std::string& left_out = result.source.study.identify.folds;
   Figure figure{
       "torque_held_out",
       fmt::format("Joint torque predicted for {}s that took no part in the fit", left_out),
@@ -70,7 +70,7 @@ Figure folds_figure(const StudyResult& result, double delay_s) {
       2};
   for (const identification::Fold& f : result.folds) {
     figure.panels.push_back(torque_panel(
-        fmt::format("{}: R2 {:.2f}", title_of(result, f.trial, f.joint), f.identified.r2), f.time_s,
+        fmt::format("{}: R2 {:.2f}", title_of(result, f.trial, f.joint), f.identified.r2()), f.time_s,
         f.measured_nm, f.literature_nm, f.predicted_nm, delay_s));
   }
   return figure;
@@ -78,17 +78,17 @@ Figure folds_figure(const StudyResult& result, double delay_s) {
 
 /// "1.77 (R2 0.35)"
 std::string error_and_r2(const identification::Score& score) {
-  return fmt::format("{:.2f} ({:.2f})", score.rmse_nm, score.r2);
+  return fmt::format("{:.2f} ({:.2f})", score.rmse_nm(), score.r2());
 }
 
 /// "0.912 (below 2.3 Hz)"
 std::string smoothed_text(const identification::Score& score, double cutoff_hz) {
-  return cutoff_hz > 0.0 ? fmt::format("{:.3f} (below {:.2g} Hz)", score.r2, cutoff_hz)
-                         : fmt::format("{:.3f}", score.r2);
+  return cutoff_hz > 0.0 ? fmt::format("{:.3f} (below {:.2g} Hz)", score.r2(), cutoff_hz)
+                         : fmt::format("{:.3f}", score.r2());
 }
 
 Table folds_table(const StudyResult& result) {
-  const std::string& left_out = result.study.identify.folds;
+  const std::string& left_out = result.source.study.identify.folds;
   Table table{
       "leave_one_trial_out",
       fmt::format("Leave-one-{}-out prediction of the joint torque", left_out),
@@ -117,19 +117,19 @@ Table folds_table(const StudyResult& result) {
     table.rows.push_back(
         {stands_out ? Cell{title, Badge::bad, "its error stands out from those of the others"}
                     : Cell{title},
-         {fmt::format("{:.2f}", f.identified.rmse_nm)},
-         {fmt::format("{:.1f} %", 100.0 * f.identified.nrmse_range)},
-         {fmt::format("{:.3f}", f.identified.r2),
-          f.identified.r2 > std::max(0.0, f.literature.r2) ? Badge::good : Badge::weak},
+         {fmt::format("{:.2f}", f.identified.rmse_nm())},
+         {fmt::format("{:.1f} %", 100.0 * f.identified.nrmse_range())},
+         {fmt::format("{:.3f}", f.identified.r2()),
+          f.identified.r2() > std::max(0.0, f.literature.r2()) ? Badge::good : Badge::weak},
          {smoothed_text(f.smooth, f.smooth_hz)},
-         {fmt::format("{:.1f} %", 100.0 * f.band.nrmse_range)},
-         {fmt::format("{:.3f}", f.band.r2)},
-         {fmt::format("{:.3f}", f.identified.vaf)},
+         {fmt::format("{:.1f} %", 100.0 * f.band.nrmse_range())},
+         {fmt::format("{:.3f}", f.band.r2())},
+         {fmt::format("{:.3f}", f.identified.vaf())},
          {fmt::format("{:.0f}", 1000.0 * f.lag_s)},
          {error_and_r2(f.literature)},
          {error_and_r2(f.regression)},
          {f.paper ? error_and_r2(*f.paper) : std::string("-")},
-         {fmt::format("{:.2f}", f.constant.rmse_nm)}});
+         {fmt::format("{:.2f}", f.constant.rmse_nm())}});
   }
   return table;
 }
@@ -146,12 +146,12 @@ Table held_back_table(const StudyResult& result,
   for (const identification::TrialFit& t : method.trials) {
     if (t.calibration) continue;
     table.rows.push_back({{title_of(result, t.trial, t.joint)},
-                          {fmt::format("{:.2f}", t.rmse_nm)},
-                          {fmt::format("{:.1f} %", 100.0 * t.nrmse_range)},
-                          {fmt::format("{:.3f}", t.r2), t.r2 > 0.0 ? Badge::good : Badge::weak},
+                          {fmt::format("{:.2f}", t.score.rmse_nm())},
+                          {fmt::format("{:.1f} %", 100.0 * t.score.nrmse_range())},
+                          {fmt::format("{:.3f}", t.score.r2()), t.score.r2() > 0.0 ? Badge::good : Badge::weak},
                           {smoothed_text(smoothed_score(t), t.smooth_hz)},
-                          {fmt::format("{:.1f} %", 100.0 * t.band.nrmse_range)},
-                          {fmt::format("{:.3f}", t.band.r2)}});
+                          {fmt::format("{:.1f} %", 100.0 * t.band.nrmse_range())},
+                          {fmt::format("{:.3f}", t.band.r2())}});
   }
   return table;
 }
@@ -167,7 +167,7 @@ Figure held_back_figure(const StudyResult& result,
   for (const identification::TrialFit& t : method.trials) {
     if (t.calibration) continue;
     figure.panels.push_back(torque_panel(
-        fmt::format("{}: R2 {:.2f}", title_of(result, t.trial, t.joint), t.r2), t.time_s,
+        fmt::format("{}: R2 {:.2f}", title_of(result, t.trial, t.joint), t.score.r2()), t.time_s,
         t.torque_nm, t.literature_torque_nm, t.torque_fit_nm, method.delay_s));
   }
   return figure;
@@ -181,13 +181,13 @@ std::string range_text(const Eigen::VectorXd& values, int decimals) {
 }  // namespace
 
 std::vector<Section> validation_sections(const StudyResult& result) {
-  const auto torque = std::find_if(result.methods.begin(), result.methods.end(),
+  const auto torque = std::find_if(result.fit.methods.begin(), result.fit.methods.end(),
                                    [](const auto& m) { return m.method == "torque"; });
-  const bool fitted = torque != result.methods.end();
+  const bool fitted = torque != result.fit.methods.end();
   std::vector<Section> sections;
   if (!result.folds.empty()) {
     sections.push_back({"validation",
-                        fmt::format("Validation on {}s left out", result.study.identify.folds),
+                        fmt::format("Validation on {}s left out", result.source.study.identify.folds),
                         {},
                         {},
                         {folds_table(result)},
@@ -213,19 +213,19 @@ Table trials_table(const StudyResult& result) {
               {"trial", "use", "duration", "held mass", "joint range", "torque range", "status"},
               {}};
   const bool clocks = std::any_of(result.trials.begin(), result.trials.end(),
-                                  [](const TrialResult& t) { return t.emg_clock.has_value(); });
+                                  [](const TrialResult& t) { return t.input.emg_clock.has_value(); });
   if (clocks) table.columns.insert(table.columns.end() - 1, "EMG's clock moved by");
   for (const TrialResult& t : result.trials) {
     std::vector<Cell> row{{t.spec.name}, {std::string(name(t.spec.use))}};
     if (t.has_motion()) {
       std::vector<std::string> angles, torques;
-      const std::vector<std::string> coordinates = study_coordinates(result.study.model);
+      const std::vector<std::string> coordinates = study_coordinates(result.source.study.model);
       for (std::size_t j = 0; j < coordinates.size(); ++j) {
-        angles.push_back(range_text(t.motion.q.column(coordinates[j]) / kDegree, 0));
+        angles.push_back(range_text(t.motion.joints.q.column(coordinates[j]) / kDegree, 0));
         torques.push_back(
-            range_text(t.muscle_torque.values().col(static_cast<Eigen::Index>(j)), 1));
+            range_text(t.forces.muscle_torque.values().col(static_cast<Eigen::Index>(j)), 1));
       }
-      const auto& clock = t.motion.q.time_s();
+      const auto& clock = t.motion.joints.q.time_s();
       row.push_back({fmt::format("{:.1f} s", clock[clock.size() - 1] - clock[0])});
       row.push_back({fmt::format("{} kg", format_value(t.spec.held_mass_kg))});
       row.push_back({fmt::format("{} deg", fmt::join(angles, "; "))});
@@ -234,12 +234,12 @@ Table trials_table(const StudyResult& result) {
       for (int k = 0; k < 4; ++k) row.push_back({"-"});
     }
     if (clocks) {
-      row.push_back(t.emg_clock ? Cell{signals::to_string(t.emg_clock->clock), Badge::none,
-                                       t.emg_clock->source}
+      row.push_back(t.input.emg_clock ? Cell{signals::to_string(t.input.emg_clock->clock), Badge::none,
+                                       t.input.emg_clock->source}
                                 : Cell{"-"});
     }
-    row.push_back(t.failure.empty() ? Cell{"ok", Badge::good}
-                                    : Cell{"failed", Badge::bad, t.failure});
+    row.push_back(t.failure().empty() ? Cell{"ok", Badge::good}
+                                    : Cell{"failed", Badge::bad, t.failure()});
     table.rows.push_back(std::move(row));
   }
   return table;

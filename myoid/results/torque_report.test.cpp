@@ -9,8 +9,8 @@ namespace {
 
 StudyResult two_joints() {
   StudyResult result;
-  result.study.model.coordinate = "knee";
-  result.study.model.more_coordinates = {"ankle"};
+  result.source.study.model.coordinate = "knee";
+  result.source.study.model.more_coordinates = {"ankle"};
   const Eigen::VectorXd time = Eigen::VectorXd::LinSpaced(50, 0.0, 1.0);
   Eigen::MatrixXd values(50, 2);
   values.col(0) = Eigen::VectorXd::LinSpaced(50, 10.0 * kDegree, 60.0 * kDegree);
@@ -18,8 +18,8 @@ StudyResult two_joints() {
   TrialResult trial;
   trial.spec.name = "squat";
   const TimeSeries q(time, {{"knee", Unit::radian}, {"ankle", Unit::radian}}, values);
-  trial.motion = {q, q, q};
-  trial.muscle_torque =
+  trial.motion.joints = {q, q, q};
+  trial.forces.muscle_torque =
       TimeSeries(time, {{"knee_moment", Unit::newton_meter}, {"ankle_moment", Unit::newton_meter}},
                  values / kDegree);
   result.trials.push_back(trial);
@@ -32,7 +32,7 @@ StudyResult two_joints() {
     fit.calibration = false;
     fit.time_s = time;
     fit.torque_nm = fit.literature_torque_nm = fit.torque_fit_nm = values.col(0);
-    fit.r2 = 1.0;
+    fit.score = identification::score(fit.torque_nm, fit.torque_fit_nm);
     torque.trials.push_back(fit);
     identification::Fold fold;
     fold.trial = "squat";
@@ -41,7 +41,7 @@ StudyResult two_joints() {
     fold.measured_nm = fold.predicted_nm = fold.literature_nm = values.col(1);
     result.folds.push_back(fold);
   }
-  result.methods.push_back(torque);
+  result.fit.methods.push_back(torque);
   return result;
 }
 
@@ -66,7 +66,7 @@ TEST(TorqueReport, RangesOfSeveralJointsStandInTheOrderOfTheCoordinates) {
 TEST(TorqueReport, WithoutHeldBackOrLeftOutTrialsThereIsNothingToValidate) {
   StudyResult result = two_joints();
   result.folds.clear();
-  for (identification::TrialFit& fit : result.methods[0].trials) fit.calibration = true;
+  for (identification::TrialFit& fit : result.fit.methods[0].trials) fit.calibration = true;
   EXPECT_TRUE(validation_sections(result).empty());
 }
 

@@ -24,64 +24,59 @@ identification::TrialData trial_data(const Study& study,
   identification::TrialData data;
   data.name = trial.spec.name;
   data.calibration = use == Use::calibration || use == Use::isometric;
-  data.time_s = trial.motion.q.time_s();
+  data.time_s = trial.motion.joints.q.time_s();
   kinematics::LumpedMuscles lumped =
-      kinematics::lumped_muscles(trial.muscles, groups, study.model.coordinate);
+      kinematics::lumped_muscles(trial.forces.muscles, groups, study.model.coordinate);
   data.length_m = std::move(lumped.length_m);
   data.velocity_mps = std::move(lumped.velocity_mps);
   data.moment_arm_m = std::move(lumped.moment_arm_m);
-  if (!trial.shared.force.empty()) {
+  if (!trial.forces.shared.force.empty()) {
     data.force_n = Eigen::MatrixXd::Zero(data.length_m.rows(), data.length_m.cols());
     for (Eigen::Index g = 0; g < data.force_n.cols(); ++g) {
       for (const int head : groups[static_cast<std::size_t>(g)].members)
-        data.force_n.col(g) += trial.shared.force.values().col(head);
+        data.force_n.col(g) += trial.forces.shared.force.values().col(head);
     }
   }
-  data.torque_nm = trial.muscle_torque.values().col(0);
+  data.torque_nm = trial.forces.muscle_torque.values().col(0);
   data.condition = trial.spec.condition;
   data.joint = study.model.coordinate;
-  data.angle_rad = trial.motion.q.column(study.model.coordinate);
-  data.velocity_radps = trial.motion.qdot.column(study.model.coordinate);
-  data.acceleration_radps2 = trial.motion.qddot.column(study.model.coordinate);
+  data.angle_rad = trial.motion.joints.q.column(study.model.coordinate);
+  data.velocity_radps = trial.motion.joints.qdot.column(study.model.coordinate);
+  data.acceleration_radps2 = trial.motion.joints.qddot.column(study.model.coordinate);
   data.resting_nm = resting_torque_nm(resting, data.joint, data.angle_rad);
   for (std::size_t j = 0; j < study.model.more_coordinates.size(); ++j) {
     const std::string& name = study.model.more_coordinates[j];
     data.more_joints.push_back(
         {.name = name,
-         .torque_nm = trial.muscle_torque.values().col(static_cast<Eigen::Index>(j) + 1),
-         .moment_arm_m = kinematics::lumped_moment_arm_m(trial.muscles, groups, name),
-         .angle_rad = trial.motion.q.column(name),
-         .velocity_radps = trial.motion.qdot.column(name),
-         .acceleration_radps2 = trial.motion.qddot.column(name),
-         .resting_nm = resting_torque_nm(resting, name, trial.motion.q.column(name))});
+         .torque_nm = trial.forces.muscle_torque.values().col(static_cast<Eigen::Index>(j) + 1),
+         .moment_arm_m = kinematics::lumped_moment_arm_m(trial.forces.muscles, groups, name),
+         .angle_rad = trial.motion.joints.q.column(name),
+         .velocity_radps = trial.motion.joints.qdot.column(name),
+         .acceleration_radps2 = trial.motion.joints.qddot.column(name),
+         .resting_nm = resting_torque_nm(resting, name, trial.motion.joints.q.column(name))});
   }
   data.activation = activation;
-  if (trial.uncarried) data.excluded = trial.uncarried->stretches;
+  if (trial.forces.uncarried) data.excluded = trial.forces.uncarried->stretches;
   // Where there is no EMG there is nothing to fit.
-  const Rows rows = rows_with_emg(trial.motion.q.time_s(), activation.time_s());
+  const Rows rows = rows_with_emg(trial.motion.joints.q.time_s(), activation.time_s());
   return identification::part(data, rows.first, rows.count());
 }
 
 }  // namespace
 
-identification::StudyData estimator_data(const StudyResult& result) {
-  return estimator_data(result, result.study, activations_of(result));
-}
-
-identification::StudyData estimator_data(const StudyResult& result,
-                                         const Study& study,
-                                         const StudyActivations& emg) {
-  const std::vector<kinematics::MuscleGroup> groups = muscle_groups(study, result.model);
+identification::StudyData estimator_data(const FitSource& source) {
+  const Study& study = source.study;
+  const std::vector<kinematics::MuscleGroup> groups = muscle_groups(study, source.model);
   identification::StudyData data;
-  data.muscles = muscle_setups(study, result.model);
+  data.muscles = muscle_setups(study, source.model);
   if (!from_maximal_effort(study.emg)) expect_any_effort(data.muscles);
-  for (std::size_t i = 0; i < result.trials.size(); ++i) {
-    const TrialResult& trial = result.trials[i];
-    const TimeSeries& activation = emg.of_trial[i];
-    const Use use = i < study.trials.size() ? study.trials[i].use : trial.spec.use;
+  for (std::size_t i = 0; i < source.trials.size(); ++i) {
+    const TrialResult& trial = source.trials[i];
+    const TimeSeries& activation = *source.activation[i];
+    const Use use = study.trials[i].use;
     if (!trial.has_motion() || activation.empty()) continue;
     if (use == Use::mvc || use == Use::static_pose || use == Use::passive) continue;
-    data.trials.push_back(trial_data(study, trial, use, activation, groups, result.resting));
+    data.trials.push_back(trial_data(study, trial, use, activation, groups, source.resting));
   }
   if (study.identify.priors) data.rules = nuisance_rules(study.emg, data);
   data.rules.insert(data.rules.end(), study.parameters.begin(), study.parameters.end());

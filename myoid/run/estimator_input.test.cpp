@@ -1,9 +1,13 @@
 #include "myoid/run/estimator_input.h"
 
+#include <memory>
+
 #include <gtest/gtest.h>
 
-#include "myoid/run/trial_stages.h"
+#include "myoid/methods/torque.h"
+#include "myoid/run/study_result.h"
 
+#include "tests/support/elbow_study.h"
 #include "tests/support/written_trial.h"
 
 namespace myoid {
@@ -13,26 +17,34 @@ using namespace test_trials;
 
 StudyResult with_one_channel() {
   StudyResult result;
-  result.study = arm_study();
-  result.model = arm();
+  result.source.study = arm_study();
+  result.source.model = std::make_shared<const model::BodyModel>(arm());
   signals::ChannelNormalisation channel;
   channel.channel = "BIC";
   channel.relative_sd = 0.03;
-  result.normalisation = {channel};
+  result.emg.normalisation = {channel};
   return result;
+}
+
+identification::EstimatorOptions options_of(const StudyResult& result) {
+  return torque_options(result.source.study, result.emg.normalisation, {});
+}
+
+identification::StudyData data_of(const StudyResult& result) {
+  return estimator_data(fit_source(result.source, result.trials, result.resting, result.emg));
 }
 
 TEST(TorqueOptions, AGainsPriorIsTheShareOfTheMaximumThatTheMvcTrialsReach) {
   StudyResult result = with_one_channel();
-  result.study.emg.mvc_effort = 0.8;
-  result.study.emg.mvc_effort_sd = 0.032;
-  result.study.emg.has_mvc = true;
-  const identification::TorqueOptions known = torque_options(result, {});
+  result.source.study.emg.mvc_effort = 0.8;
+  result.source.study.emg.mvc_effort_sd = 0.032;
+  result.source.study.emg.has_mvc = true;
+  const identification::EstimatorOptions known = options_of(result);
   EXPECT_NEAR(known.gain_prior_mean.at("BIC"), 0.8, 1e-12);
   EXPECT_NEAR(known.gain_prior_sd.at("BIC"), 0.05, 1e-12);  // 3 % and 4 %, independent
   // Without MVC the greatest effort of the study is no known share of anything.
-  result.study.emg.has_mvc = false;
-  const identification::TorqueOptions unknown = torque_options(result, {});
+  result.source.study.emg.has_mvc = false;
+  const identification::EstimatorOptions unknown = options_of(result);
   EXPECT_NEAR(unknown.gain_prior_mean.at("BIC"), 1.0, 1e-12);
   EXPECT_NEAR(unknown.gain_prior_sd.at("BIC"), 0.03, 1e-12);
   EXPECT_FALSE(unknown.from_mvc);
@@ -40,9 +52,9 @@ TEST(TorqueOptions, AGainsPriorIsTheShareOfTheMaximumThatTheMvcTrialsReach) {
 
 TEST(TorqueOptions, WithTheLagsOfTheActivationTheDelayIsWhatIsLeftBesideThem) {
   StudyResult result = with_one_channel();
-  EXPECT_NEAR(torque_options(result, {}).delay_prior_mean_s, 0.060, 1e-12);
-  result.study.identify.dynamics = true;
-  const identification::TorqueOptions lags = torque_options(result, {});
+  EXPECT_NEAR(options_of(result).delay_prior_mean_s, 0.060, 1e-12);
+  result.source.study.identify.dynamics = true;
+  const identification::EstimatorOptions lags = options_of(result);
   EXPECT_EQ(lags.lag, identification::EmgLag::equation_1);
   EXPECT_NEAR(lags.delay_prior_mean_s, 0.010, 1e-12);
   EXPECT_NEAR(lags.delay_prior_sd_s, 0.010, 1e-12);
@@ -50,54 +62,73 @@ TEST(TorqueOptions, WithTheLagsOfTheActivationTheDelayIsWhatIsLeftBesideThem) {
 
 TEST(TorqueOptions, WhatTheDelayIsFollowsTheStudyAndElseTheRecording) {
   StudyResult result = with_one_channel();
-  EXPECT_TRUE(torque_options(result, {}).choose_lag);
-  result.study.identify.lag = "shared";
-  EXPECT_FALSE(torque_options(result, {}).choose_lag);
-  EXPECT_EQ(torque_options(result, {}).lag, identification::EmgLag::shared);
-  result.study.identify.lag = "delay";
-  EXPECT_FALSE(torque_options(result, {}).choose_lag);
-  EXPECT_EQ(torque_options(result, {}).lag, identification::EmgLag::delay);
+  EXPECT_TRUE(options_of(result).choose_lag);
+  result.source.study.identify.lag = "shared";
+  EXPECT_FALSE(options_of(result).choose_lag);
+  EXPECT_EQ(options_of(result).lag, identification::EmgLag::shared);
+  result.source.study.identify.lag = "delay";
+  EXPECT_FALSE(options_of(result).choose_lag);
+  EXPECT_EQ(options_of(result).lag, identification::EmgLag::delay);
+}
+
+// `identify` makes its options from its own settings by the same function: equal settings, the same
+// numbers from the same data.
+TEST(TorqueOptions, TheStudyAndTheCommandLineFindTheSameNumbersInTheSameData) {
+  Study study = arm_study("[identify]\nbootstrap = 0\nprofile = false\nmax_rate_hz = 10.0\n");
+  study.emg.lowpass_hz = identification::ActivationSource{}.envelope_cutoff_hz;
+  study.emg.has_mvc = true;
+  const identification::EstimatorOptions of_run = torque_options(study, {}, {});
+  const identification::EstimatorOptions of_identify =
+      identification::estimator_options({.max_rate_hz = 10.0}, {}, {});
+  const test::ElbowStudy elbow = test::elbow_study({.trials = 2, .seconds = 10.0, .delay_s = 0.05});
+  const auto run = identification::identify_torque(elbow.data, of_run);
+  const auto identify = identification::identify_torque(elbow.data, of_identify);
+  ASSERT_EQ(run.estimates.size(), identify.estimates.size());
+  for (std::size_t i = 0; i < run.estimates.size(); ++i) {
+    EXPECT_EQ(run.estimates[i].estimate, identify.estimates[i].estimate);
+    EXPECT_EQ(run.estimates[i].ci_low, identify.estimates[i].ci_low);
+    EXPECT_EQ(run.estimates[i].ci_high, identify.estimates[i].ci_high);
+    EXPECT_EQ(run.estimates[i].verdict, identify.estimates[i].verdict);
+  }
 }
 
 TEST(EstimatorData, AVmaxThatTheStudyDoesNotStateIsFree) {
   StudyResult result = with_one_channel();
   const auto freed = [&] {
     std::vector<std::string> owners;
-    for (const identification::ParameterRule& rule : estimator_data(result).rules) {
+    for (const identification::ParameterRule& rule : data_of(result).rules) {
       if (rule.parameter == "max_shortening_speed" && rule.free.value_or(false))
         owners.insert(owners.end(), rule.owners.begin(), rule.owners.end());
     }
     return owners;
   };
   ASSERT_FALSE(freed().empty());
-  EXPECT_EQ(freed().size(), result.study.muscles.size());
-  result.study.muscles[0].fixed = {"max_shortening_speed"};
-  EXPECT_EQ(freed().size(), result.study.muscles.size() - 1);
+  EXPECT_EQ(freed().size(), result.source.study.muscles.size());
+  result.source.study.muscles[0].fixed = {"max_shortening_speed"};
+  EXPECT_EQ(freed().size(), result.source.study.muscles.size() - 1);
 }
 
 TEST(EstimatorData, WithoutAMaximalContractionFMaxMayBeThatOfAnySmallerEffort) {
   StudyResult result = with_one_channel();
-  const auto prior = [&] {
-    return estimator_data(result).muscles[0].priors.at("max_isometric_force");
-  };
-  result.study.emg = {.kind = EmgKind::raw, .has_mvc = true};
+  const auto prior = [&] { return data_of(result).muscles[0].priors.at("max_isometric_force"); };
+  result.source.study.emg = {.kind = EmgKind::raw, .has_mvc = true};
   const Prior literature = prior();
-  result.study.emg.has_mvc = false;
+  result.source.study.emg.has_mvc = false;
   EXPECT_LT(prior().mean, 0.5 * literature.mean);
   EXPECT_GT(prior().sd, 3.0 * literature.sd);
   // The muscle itself is what it was: so is what it starts from where it is held.
-  EXPECT_EQ(estimator_data(result).muscles[0].start.max_isometric_force_n, literature.mean);
+  EXPECT_EQ(data_of(result).muscles[0].start.max_isometric_force_n, literature.mean);
   // Activation is taken at its word.
-  result.study.emg.kind = EmgKind::activation;
+  result.source.study.emg.kind = EmgKind::activation;
   EXPECT_EQ(prior(), literature);
 }
 
 TEST(EstimatorData, TheStudysOwnRulesComeLastAndTrialsWithoutMotionAreLeftOut) {
   StudyResult result = with_one_channel();
-  result.study.parameters = {{.parameter = "joint_stiffness", .value = 1.0}};
+  result.source.study.parameters = {{.parameter = "joint_stiffness", .value = 1.0}};
   result.trials.resize(1);
-  result.trials[0].spec = result.study.trials[0];
-  const identification::StudyData data = estimator_data(result);
+  result.trials[0].spec = result.source.study.trials[0];
+  const identification::StudyData data = data_of(result);
   EXPECT_TRUE(data.trials.empty());
   EXPECT_EQ(data.muscles.size(), 4U);
   ASSERT_FALSE(data.rules.empty());
@@ -114,13 +145,15 @@ TEST(EstimatorData, HoldsNothingOfTheTimeWithoutEmg) {
                             Eigen::MatrixXd(motion_s.array().sin()));
   result.trials.resize(1);
   TrialResult& trial = result.trials[0];
-  trial.spec = result.study.trials[0];
-  compute_trial(result.study, input, "", false, {}, nullptr, trial);
+  trial.spec = result.source.study.trials[0];
+  trial.motion = trial_motion(result.source, trial.spec, input, nullptr);
+  trial.forces = trial_torques(result.source, trial.spec, input, trial.motion);
   std::vector<Channel> channels;
   for (const char* name : {"BIC", "BRA", "BRD", "TRI"})
     channels.push_back({name, Unit::dimensionless});
-  trial.activation = TimeSeries(emg_s, channels, Eigen::MatrixXd::Constant(emg_s.size(), 4, 0.3));
-  const identification::StudyData data = estimator_data(result);
+  trial.emg.activation =
+      TimeSeries(emg_s, channels, Eigen::MatrixXd::Constant(emg_s.size(), 4, 0.3));
+  const identification::StudyData data = data_of(result);
   ASSERT_EQ(data.trials.size(), 1U);
   EXPECT_NEAR(data.trials[0].time_s[0], 2.0, 0.1);
   EXPECT_NEAR(data.trials[0].time_s[data.trials[0].time_s.size() - 1], 14.5, 0.1);

@@ -22,15 +22,16 @@ using report::GateStatus;
 /// Of the torque's squares, the least share that a prediction explains which is called good.
 constexpr double kExplains = 0.5;
 
-/// Sums by joint, of trials each with its mean, its squares about that, and its errors.
-class Sums {
+/// The scores of several trials together, joint by joint.
+class Pool {
  public:
-  void add(const std::string& joint, double n, double mean, double squares, double errors) {
+  void add(const std::string& joint, const identification::Score& s) {
+    if (s.n < 2.0 || !std::isfinite(s.sse)) return;
     Joint& j = joints_[joint];
-    j.n += n;
-    j.first += n * mean;
-    j.second += squares + n * mean * mean;
-    errors_ += errors;
+    j.n += s.n;
+    j.first += s.n * s.mean_nm;
+    j.second += s.sst + s.n * s.mean_nm * s.mean_nm;
+    errors_ += s.sse;
   }
   [[nodiscard]] Explained result() const {
     double n = 0.0, varies = 0.0, torque = 0.0;
@@ -50,13 +51,11 @@ class Sums {
 
  private:
   struct Joint {
-    double n = 0.0, first = 0.0, second = 0.0;
+    double n = 0.0, first = 0.0, second = 0.0;  ///< Samples, sum and sum of squares of the torque.
   };
   std::map<std::string, Joint> joints_;
   double errors_ = 0.0;
 };
-
-double spread_about_mean(const Eigen::VectorXd& x) { return (x.array() - x.mean()).square().sum(); }
 
 Gate distance_gate(const IdentificationResult& fit) {
   constexpr double kFar = identification::VerdictRules{}.prior_conflict;
@@ -105,29 +104,17 @@ identification::Score smoothed_score(const identification::TrialFit& fit) {
 }
 
 Explained explained(const IdentificationResult& fit, bool calibration) {
-  Sums sums;
+  Pool pool;
   for (const identification::TrialFit& t : fit.trials) {
-    const Eigen::Index n = t.torque_nm.size();
-    if (t.calibration != calibration || n < 2 || t.torque_fit_nm.size() != n) continue;
-    const double errors = static_cast<double>(n) * t.band.rmse_nm * t.band.rmse_nm;
-    if (!std::isfinite(errors)) continue;
-    sums.add(t.joint, static_cast<double>(n), t.torque_nm.mean(),
-             t.band.r2 < 1.0 ? errors / (1.0 - t.band.r2) : spread_about_mean(t.torque_nm), errors);
+    if (t.calibration == calibration) pool.add(t.joint, t.band);
   }
-  return sums.result();
+  return pool.result();
 }
 
 Explained explained(const std::vector<Fold>& folds) {
-  Sums sums;
-  for (const Fold& f : folds) {
-    const Eigen::Index n = f.measured_nm.size();
-    const double errors = static_cast<double>(n) * f.band.rmse_nm * f.band.rmse_nm;
-    if (n < 2 || !std::isfinite(errors)) continue;
-    sums.add(f.joint, static_cast<double>(n), f.measured_nm.mean(),
-             f.band.r2 < 1.0 ? errors / (1.0 - f.band.r2) : spread_about_mean(f.measured_nm),
-             errors);
-  }
-  return sums.result();
+  Pool pool;
+  for (const Fold& f : folds) pool.add(f.joint, f.band);
+  return pool.result();
 }
 
 std::vector<OutlyingFold> outlying_folds(const std::vector<Fold>& folds) {
@@ -137,7 +124,7 @@ std::vector<OutlyingFold> outlying_folds(const std::vector<Fold>& folds) {
   constexpr double kSubstance = 1.5;
   std::map<std::string, std::vector<const Fold*>> joints;
   for (const Fold& f : folds) {
-    if (f.identified.rmse_nm > 0.0 && std::isfinite(f.identified.rmse_nm))
+    if (f.identified.rmse_nm() > 0.0 && std::isfinite(f.identified.rmse_nm()))
       joints[f.joint].push_back(&f);
   }
   std::vector<OutlyingFold> found;
@@ -145,8 +132,8 @@ std::vector<OutlyingFold> outlying_folds(const std::vector<Fold>& folds) {
     if (of_joint.size() < kFewest) continue;
     std::vector<double> logs, r2;
     for (const Fold* f : of_joint) {
-      logs.push_back(std::log(f->identified.rmse_nm));
-      r2.push_back(f->identified.r2);
+      logs.push_back(std::log(f->identified.rmse_nm()));
+      r2.push_back(f->identified.r2());
     }
     const double middle = math::median(logs);
     const double middle_r2 = math::median(std::move(r2));
@@ -156,9 +143,9 @@ std::vector<OutlyingFold> outlying_folds(const std::vector<Fold>& folds) {
     for (std::size_t i = 0; i < of_joint.size(); ++i) {
       const Fold& f = *of_joint[i];
       const double above = logs[i] - middle;
-      if (above <= kFar * sd || above <= std::log(kSubstance) || f.identified.r2 >= middle_r2)
+      if (above <= kFar * sd || above <= std::log(kSubstance) || f.identified.r2() >= middle_r2)
         continue;
-      found.push_back({f.trial, joint, f.identified.rmse_nm, f.identified.r2, std::exp(middle)});
+      found.push_back({f.trial, joint, f.identified.rmse_nm(), f.identified.r2(), std::exp(middle)});
     }
   }
   return found;
@@ -197,11 +184,10 @@ std::vector<Gate> fold_gates(const std::vector<Fold>& folds) {
   double literature = 0.0, identified = 0.0, count = 0.0;
   int better = 0;
   for (const Fold& f : folds) {
-    const auto n = static_cast<double>(f.measured_nm.size());
-    literature += n * f.literature.rmse_nm * f.literature.rmse_nm;
-    identified += n * f.identified.rmse_nm * f.identified.rmse_nm;
-    count += n;
-    better += f.identified.rmse_nm < f.literature.rmse_nm ? 1 : 0;
+    literature += f.literature.sse;
+    identified += f.identified.sse;
+    count += f.identified.n;
+    better += f.identified.rmse_nm() < f.literature.rmse_nm() ? 1 : 0;
   }
   std::string hint = fmt::format("Better in {} of the {} left out.", better, folds.size());
   if (const std::string beyond = identification::beyond_what_was_fitted(folds); !beyond.empty())

@@ -44,8 +44,8 @@ TEST(Explained, R2AndRmsAreOneStatement) {
   measured << fit.trials[0].torque_nm, fit.trials[1].torque_nm;
   error << Eigen::VectorXd::Constant(1000, 0.5), Eigen::VectorXd::Constant(1000, -1.0);
   const identification::Score whole = identification::score(measured, measured + error);
-  EXPECT_NEAR(all.rms_nm, whole.rmse_nm, 1e-12);
-  EXPECT_NEAR(all.r2(), whole.r2, 1e-12);
+  EXPECT_NEAR(all.rms_nm, whole.rmse_nm(), 1e-12);
+  EXPECT_NEAR(all.r2(), whole.r2(), 1e-12);
   EXPECT_NEAR(all.r2(), 1.0 - std::pow(all.rms_nm / all.spread_nm, 2), 1e-12);
   EXPECT_NEAR(all.torque_rms_nm, std::sqrt(measured.squaredNorm() / 2000.0), 1e-12);
 }
@@ -102,6 +102,10 @@ Fold fold(const std::string& name, double amplitude_nm, double error_nm) {
   return f;
 }
 
+identification::Score with_rms(double rms_nm) {
+  return {.n = 1000.0, .sse = 1000.0 * rms_nm * rms_nm};
+}
+
 TEST(OutlyingFolds, OneThatIsPredictedWorseThanTheOthersIsNamed) {
   std::vector<Fold> folds;
   for (const double error : {0.84, 1.17, 1.20, 1.25, 1.32}) folds.push_back(fold("t", 3.0, error));
@@ -138,9 +142,9 @@ TEST(FoldGates, DoNotPassWhereTheLiteraturePredictsBetterOverAll) {
   const char* name = "Predicts torque it has not seen";
   // A little better in two trials, much worse in the third.
   std::vector<Fold> folds{fold("a", 3.0, 0.5), fold("b", 3.0, 0.5), fold("c", 3.0, 1.5)};
-  for (std::size_t i = 0; i < 3; ++i) folds[i].literature.rmse_nm = i < 2 ? 0.6 : 0.9;
+  for (std::size_t i = 0; i < 3; ++i) folds[i].literature = with_rms(i < 2 ? 0.6 : 0.9);
   EXPECT_EQ(status_of(fold_gates(folds), name), GateStatus::warn);
-  folds[2].literature.rmse_nm = 1.6;
+  folds[2].literature = with_rms(1.6);
   EXPECT_EQ(status_of(fold_gates(folds), name), GateStatus::pass);
 }
 

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <set>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -26,21 +28,15 @@ constexpr double kMarkerError_m = 0.020;  ///< Rms over the markers of a frame; 
 constexpr double kMissingShare = 0.05;    ///< Of a joint's strength without an identified muscle.
 constexpr double kLeastRange_deg = 5.0;   ///< A joint that moves less was not moved.
 
-const IdentificationResult* torque_of(const StudyResult& result) {
-  for (const IdentificationResult& m : result.methods) {
-    if (m.method == "torque") return &m;
-  }
-  return nullptr;
-}
-
 /// Of the study's coordinate in the trial that moves it most; empty if no trial is meant to.
-std::optional<double> largest_range_deg(const StudyResult& result) {
+std::optional<double> largest_range_deg(const Study& study,
+                                        const std::vector<TrialResult>& trials) {
   std::optional<double> largest;
-  for (const TrialResult& t : result.trials) {
+  for (const TrialResult& t : trials) {
     const bool still = t.spec.use == Use::mvc || t.spec.use == Use::static_pose ||
                        t.spec.use == Use::isometric || t.spec.external_torque;
     if (!t.has_motion() || still) continue;
-    const Eigen::VectorXd q = t.motion.q.column(result.study.model.coordinate) / kDegree;
+    const Eigen::VectorXd q = t.motion.joints.q.column(study.model.coordinate) / kDegree;
     largest = std::max(largest.value_or(0.0), q.maxCoeff() - q.minCoeff());
   }
   return largest;
@@ -55,30 +51,30 @@ struct MissingMuscles {
 
 MissingMuscles missing_muscles(const StudyResult& result) {
   MissingMuscles missing;
-  const auto count = static_cast<Eigen::Index>(result.model.muscles.size());
-  std::vector<bool> there(result.model.muscles.size(), false);
-  for (const MuscleSpec& spec : result.study.muscles) {
+  const auto count = static_cast<Eigen::Index>(result.source.model->muscles.size());
+  std::vector<bool> there(result.source.model->muscles.size(), false);
+  for (const MuscleSpec& spec : result.source.study.muscles) {
     for (const std::string& name : spec.osim)
-      there[static_cast<std::size_t>(result.model.muscle_index(name))] = true;
+      there[static_cast<std::size_t>(result.source.model->muscle_index(name))] = true;
   }
-  for (const std::string& coordinate : study_coordinates(result.study.model)) {
+  for (const std::string& coordinate : study_coordinates(result.source.study.model)) {
     Eigen::VectorXd strength_nm = Eigen::VectorXd::Zero(count);
     for (const TrialResult& t : result.trials) {
-      const auto arms = t.muscles.moment_arm.find(coordinate);
-      if (!t.has_motion() || arms == t.muscles.moment_arm.end()) continue;
+      const auto arms = t.forces.muscles.moment_arm.find(coordinate);
+      if (!t.has_motion() || arms == t.forces.muscles.moment_arm.end()) continue;
       strength_nm =
           strength_nm.cwiseMax(arms->second.values().cwiseAbs().colwise().mean().transpose());
     }
     for (Eigen::Index m = 0; m < count; ++m)
-      strength_nm[m] *=
-          result.model.muscles[static_cast<std::size_t>(m)].properties.max_isometric_force_n;
+      strength_nm[m] *= result.source.model->muscles[static_cast<std::size_t>(m)]
+                            .properties.max_isometric_force_n;
     const double all_nm = strength_nm.sum();
     double missing_nm = 0.0;
     for (Eigen::Index m = 0; m < count; ++m) {
       const auto i = static_cast<std::size_t>(m);
       if (there[i] || strength_nm[m] <= 0.002 * all_nm) continue;
       missing_nm += strength_nm[m];
-      const std::string& name = result.model.muscles[i].name;
+      const std::string& name = result.source.model->muscles[i].name;
       if (std::find(missing.names.begin(), missing.names.end(), name) == missing.names.end())
         missing.names.push_back(name);
     }
@@ -89,17 +85,17 @@ MissingMuscles missing_muscles(const StudyResult& result) {
 
 /// A trial whose torque no joint can make; empty if there is none.
 std::optional<Gate> torque_gate(const StudyResult& result) {
-  const Capacities capacities = joint_capacities(result.study, result.model);
+  const Capacities capacities = joint_capacities(result.source.study, *result.source.model);
   for (const TrialResult& t : result.trials) {
     if (!t.has_motion()) continue;
     for (const auto& [name, capacity] : capacities) {
-      const auto c = static_cast<std::size_t>(result.model.coordinate_index(name));
-      const auto column =
-          t.muscle_torque.find(dynamics::generalized_force_name(result.model.coordinates[c]));
+      const auto c = static_cast<std::size_t>(result.source.model->coordinate_index(name));
+      const auto column = t.forces.muscle_torque.find(
+          dynamics::generalized_force_name(result.source.model->coordinates[c]));
       if (!column) continue;
       const double greatest = capacity.greatest_nm();
       const std::string text =
-          too_much_torque(name, usual_peak(t.muscle_torque.values().col(*column)), greatest,
+          too_much_torque(name, usual_peak(t.forces.muscle_torque.values().col(*column)), greatest,
                           fmt::format("the torque in '{}'", t.spec.name));
       if (text.empty()) continue;
       return Gate{"Torques that a joint can make", GateStatus::fail, text,
@@ -114,18 +110,19 @@ std::optional<Gate> torque_gate(const StudyResult& result) {
 /// bears; empty if there is none.
 std::optional<Gate> support_gate(const StudyResult& result) {
   for (const TrialResult& t : result.trials) {
-    if (t.uncarried)
+    if (t.forces.uncarried)
       return Gate{"Something carries the body", GateStatus::warn,
                   fmt::format("'{}': nothing measured does in {:.0f} % of the time", t.spec.name,
-                              100.0 * t.uncarried->share),
+                              100.0 * t.forces.uncarried->share),
                   "no time in which half of the weight is on the joint to the ground",
                   "Torques of the legs there lack the ground reaction; they are not fitted."};
-    if (!t.has_motion() || t.spec.external_torque || t.generalized_forces.empty()) continue;
-    const auto weight = dynamics::unsupported_weight(t.model, t.generalized_forces);
+    if (!t.has_motion() || t.spec.external_torque || t.forces.generalized.empty()) continue;
+    const auto weight = dynamics::unsupported_weight(*t.motion.model, t.forces.generalized);
     if (!weight) continue;
-    for (const std::string& name : study_coordinates(result.study.model)) {
-      if (!dynamics::bears_the_body(t.model, name, t.motion.q.values().row(0).transpose(),
-                                    result.study.subject.mass_kg.value_or(0.0)))
+    for (const std::string& name : study_coordinates(result.source.study.model)) {
+      if (!dynamics::bears_the_body(*t.motion.model, name,
+                                    t.motion.joints.q.values().row(0).transpose(),
+                                    result.source.study.subject.mass_kg.value_or(0.0)))
         continue;
       return Gate{
           "Something carries the body", GateStatus::warn,
@@ -163,12 +160,8 @@ Gate recordings_gate(const StudyResult& result) {
           "Each is listed below with its channel, its time and what to do."};
 }
 
-}  // namespace
-
-std::vector<report::Gate> quality_gates(const StudyResult& result) {
-  std::vector<Gate> list;
-  if (auto gate = torque_gate(result)) list.push_back(std::move(*gate));
-  if (auto gate = support_gate(result)) list.push_back(std::move(*gate));
+/// Does inverse kinematics stand? Empty where no trial has markers.
+std::vector<Gate> marker_gates(const std::vector<TrialResult>& trials) {
   int frames = 0;
   int unconverged = 0;
   int blind = 0;
@@ -176,67 +169,65 @@ std::vector<report::Gate> quality_gates(const StudyResult& result) {
   double sum_of_squares = 0.0;
   double frames_with_markers = 0.0;
   bool any_ik = false;
-  int sharing_frames = 0;
-  int unsolved = 0;
-  int reserves = 0;
   std::set<std::string> open;
-  for (const TrialResult& t : result.trials) {
-    if (t.ik) {
-      any_ik = true;
-      frames += static_cast<int>(t.ik->status.size());
-      unconverged += t.ik->frames_not_converged;
-      blind += t.ik->frames_without_markers;
-      const Eigen::VectorXd rms = t.ik->errors.column("marker_error_RMS");
-      for (const double v : rms) {
-        if (!std::isfinite(v)) continue;
-        worst_rms = std::max(worst_rms, v);
-        sum_of_squares += v * v;
-        ++frames_with_markers;
-      }
-      open.insert(t.ik->undetermined.begin(), t.ik->undetermined.end());
+  for (const TrialResult& t : trials) {
+    if (!t.motion.ik) continue;
+    const kinematics::IkResult& ik = *t.motion.ik;
+    any_ik = true;
+    frames += static_cast<int>(ik.status.size());
+    unconverged += ik.frames_not_converged;
+    blind += ik.frames_without_markers;
+    const Eigen::VectorXd rms = ik.errors.column("marker_error_RMS");
+    for (const double v : rms) {
+      if (!std::isfinite(v)) continue;
+      worst_rms = std::max(worst_rms, v);
+      sum_of_squares += v * v;
+      ++frames_with_markers;
     }
-    if (t.has_motion()) {
-      sharing_frames += static_cast<int>(t.shared.status.size());
-      unsolved += t.shared.frames_not_solved;
-      reserves += t.shared.frames_with_reserve;
-    }
+    open.insert(ik.undetermined.begin(), ik.undetermined.end());
   }
-  if (result.failed_trials > 0) {
-    list.push_back({"Every trial could be computed", GateStatus::fail,
-                    fmt::format("{} of {} failed", result.failed_trials, result.trials.size()),
-                    "all", "The others are reported; the failures are listed under the trials."});
+  std::vector<Gate> list;
+  if (!any_ik) return list;
+  const int lost = unconverged + blind;
+  list.push_back({"Inverse kinematics converged",
+                  lost == 0                     ? GateStatus::pass
+                  : lost > kLostFrames * frames ? GateStatus::fail
+                                                : GateStatus::warn,
+                  fmt::format("{} of {} frames", frames - lost, frames),
+                  fmt::format("all frames; fails below {:.0f} %", 100.0 * (1.0 - kLostFrames)),
+                  "A frame that did not converge has no trustworthy angle."});
+  const double rms = std::sqrt(sum_of_squares / std::max(frames_with_markers, 1.0));
+  list.push_back(
+      {"Markers fit the model",
+       rms >= 2.0 * kMarkerError_m   ? GateStatus::fail
+       : worst_rms >= kMarkerError_m ? GateStatus::warn
+                                     : GateStatus::pass,
+       fmt::format("{:.1f} mm rms, {:.1f} mm in the worst frame", 1000.0 * rms, 1000.0 * worst_rms),
+       "every frame below 20 mm; fails at 40 mm rms",
+       "Larger errors mean wrong labels or units, or a model of another size."});
+  if (!open.empty()) {
+    list.push_back({"Markers determine every coordinate", GateStatus::warn,
+                    fmt::format("open: {}", fmt::join(open, ", ")), "none open",
+                    "These coordinates keep their value where the markers do not tell."});
   }
-  list.push_back(recordings_gate(result));
-  if (any_ik) {
-    const int lost = unconverged + blind;
-    list.push_back({"Inverse kinematics converged",
-                    lost == 0                     ? GateStatus::pass
-                    : lost > kLostFrames * frames ? GateStatus::fail
-                                                  : GateStatus::warn,
-                    fmt::format("{} of {} frames", frames - lost, frames),
-                    fmt::format("all frames; fails below {:.0f} %", 100.0 * (1.0 - kLostFrames)),
-                    "A frame that did not converge has no trustworthy angle."});
-    const double rms = std::sqrt(sum_of_squares / std::max(frames_with_markers, 1.0));
-    list.push_back({"Markers fit the model",
-                    rms >= 2.0 * kMarkerError_m   ? GateStatus::fail
-                    : worst_rms >= kMarkerError_m ? GateStatus::warn
-                                                  : GateStatus::pass,
-                    fmt::format("{:.1f} mm rms, {:.1f} mm in the worst frame", 1000.0 * rms,
-                                1000.0 * worst_rms),
-                    "every frame below 20 mm; fails at 40 mm rms",
-                    "Larger errors mean wrong labels or units, or a model of another size."});
-    if (!open.empty()) {
-      list.push_back({"Markers determine every coordinate", GateStatus::warn,
-                      fmt::format("open: {}", fmt::join(open, ", ")), "none open",
-                      "These coordinates keep their value where the markers do not tell."});
-    }
-  }
-  if (const auto range = largest_range_deg(result); range && *range < kLeastRange_deg) {
+  return list;
+}
+
+/// The gates of the motion: no parameter is better than the motion it rests on.
+std::vector<Gate> motion_gates(const Study& study, const std::vector<TrialResult>& trials) {
+  std::vector<Gate> list = marker_gates(trials);
+  if (const auto range = largest_range_deg(study, trials); range && *range < kLeastRange_deg) {
     list.push_back({"The joint moves", GateStatus::fail,
                     fmt::format("{:.2g} degrees in the trial that moves it most", *range),
                     "5 degrees or more",
                     "Were radians declared as degrees, or is the coordinate another one?"});
   }
+  return list;
+}
+
+/// Are all muscles of the joint in the study? Empty: they are.
+std::vector<Gate> model_gates(const StudyResult& result) {
+  std::vector<Gate> list;
   if (const MissingMuscles missing = missing_muscles(result); !missing.names.empty()) {
     list.push_back({"Every muscle of the joint is in the study",
                     missing.share > kMissingShare ? GateStatus::warn : GateStatus::info,
@@ -246,6 +237,21 @@ std::vector<report::Gate> quality_gates(const StudyResult& result) {
                     "What these muscles do is laid to the others: add them, or name them in a "
                     "[[muscle]]'s osim list."});
   }
+  return list;
+}
+
+/// Do the shared forces make the torque?
+std::vector<Gate> sharing_gates(const std::vector<TrialResult>& trials) {
+  int sharing_frames = 0;
+  int unsolved = 0;
+  int reserves = 0;
+  for (const TrialResult& t : trials) {
+    if (!t.has_motion()) continue;
+    sharing_frames += static_cast<int>(t.forces.shared.status.size());
+    unsolved += t.forces.shared.frames_not_solved;
+    reserves += t.forces.shared.frames_with_reserve;
+  }
+  std::vector<Gate> list;
   list.push_back(
       {"Force sharing certified optimal", unsolved == 0 ? GateStatus::pass : GateStatus::fail,
        fmt::format("{} of {} frames", sharing_frames - unsolved, sharing_frames),
@@ -255,64 +261,92 @@ std::vector<report::Gate> quality_gates(const StudyResult& result) {
                   share < 5.0 ? GateStatus::pass : GateStatus::warn,
                   fmt::format("reserve used in {:.1f} % of frames", share), "below 5 %",
                   "Where a reserve acts, the literature's muscles could not provide the torque."});
-  if (!result.normalisation.empty()) {
-    const bool mvc = std::all_of(result.normalisation.begin(), result.normalisation.end(),
-                                 [](const auto& n) { return n.from_mvc; });
-    std::string sources;
-    for (const auto& n : result.normalisation)
-      sources += fmt::format("{}{}: {}", sources.empty() ? "" : "; ", n.channel, n.source_trial);
-    list.push_back({"EMG relative to a maximal contraction",
-                    mvc ? GateStatus::pass : GateStatus::warn, sources,
-                    "every channel from an MVC trial",
-                    mvc ? "F_max means the maximal force."
-                        : "F_max below means the force at the study's largest EMG, not the "
-                          "muscle's maximum; forces and torques do not depend on it."});
+  return list;
+}
+
+/// Is activation 1 a maximal contraction? Empty for EMG that came as activation.
+std::vector<Gate> reference_gates(const EmgScale& emg) {
+  if (emg.normalisation.empty()) return {};
+  const bool mvc = std::all_of(emg.normalisation.begin(), emg.normalisation.end(),
+                               [](const auto& n) { return n.from_mvc; });
+  std::string sources;
+  for (const auto& n : emg.normalisation)
+    sources += fmt::format("{}{}: {}", sources.empty() ? "" : "; ", n.channel, n.source_trial);
+  return {{"EMG relative to a maximal contraction", mvc ? GateStatus::pass : GateStatus::warn,
+           sources, "every channel from an MVC trial",
+           mvc ? "F_max means the maximal force."
+               : "F_max below means the force at the study's largest EMG, not the "
+                 "muscle's maximum; forces and torques do not depend on it."}};
+}
+
+/// Is the fit of method torque an answer, and to how many questions?
+std::vector<Gate> parameter_gates(const IdentificationResult& torque) {
+  std::vector<Gate> list{
+      {"Fit converged",
+       torque.termination == math::Termination::converged ? GateStatus::pass : GateStatus::fail,
+       torque.message, "converged", "Only a converged fit is an answer."}};
+  for (report::Gate& gate : fit_gates(torque)) list.push_back(std::move(gate));
+  const auto count = [&](Verdict v) {
+    return std::count_if(torque.estimates.begin(), torque.estimates.end(), [&](const auto& e) {
+      return e.verdict == v && e.tied_to.empty() && !identification::is_nuisance(e);
+    });
+  };
+  list.push_back({"Parameters that this recording tells",
+                  count(Verdict::identified) > 0 ? GateStatus::pass : GateStatus::warn,
+                  fmt::format("{} identified, {} weak, {} prior-dominated, {} not identifiable, {} "
+                              "non-physical",
+                              count(Verdict::identified), count(Verdict::weak),
+                              count(Verdict::prior_dominated), count(Verdict::not_identifiable),
+                              count(Verdict::non_physical)),
+                  "those you need", "Use a number only if its verdict allows it."});
+  return list;
+}
+
+Gate loop_gate(const identification::ForceLoop& loop) {
+  return {"Forces and parameters agree in their loop",
+          loop.end == identification::LoopEnd::converged  ? GateStatus::pass
+          : loop.end == identification::LoopEnd::diverged ? GateStatus::fail
+                                                          : GateStatus::warn,
+          fmt::format("{} after {} rounds: {}", identification::name(loop.end), loop.rounds.size(),
+                      loop.message),
+          "converged", "Concerns the loop's own numbers only; method torque does not need it."};
+}
+
+Gate electrode_gate(const identification::ExchangedElectrodes& exchanged) {
+  // Synergists may also differ by more than usual in strength.
+  constexpr double kDescribes = 0.5;
+  return {"Electrodes on the muscles that they are named for",
+          exchanged.as_named.r2 > kDescribes ? GateStatus::warn : GateStatus::fail,
+          exchanged.sentence(),
+          fmt::format("no two channels that fit {:.0f} % better as each other; fails where "
+                      "they make less than half of the torque as they are (R2 0.5)",
+                      100.0 * identification::kStrengthSpread),
+          "Every number of the two muscles is then the other's."};
+}
+
+}  // namespace
+
+std::vector<report::Gate> quality_gates(const StudyResult& result) {
+  std::vector<Gate> list;
+  if (auto gate = torque_gate(result)) list.push_back(std::move(*gate));
+  if (auto gate = support_gate(result)) list.push_back(std::move(*gate));
+  if (const int failed = failed_trials(result.trials); failed > 0) {
+    list.push_back({"Every trial could be computed", GateStatus::fail,
+                    fmt::format("{} of {} failed", failed, result.trials.size()), "all",
+                    "The others are reported; the failures are listed under the trials."});
   }
-  if (const IdentificationResult* torque = torque_of(result)) {
-    list.push_back(
-        {"Fit converged",
-         torque->termination == math::Termination::converged ? GateStatus::pass : GateStatus::fail,
-         torque->message, "converged", "Only a converged fit is an answer."});
-    for (report::Gate& gate : fit_gates(*torque)) list.push_back(std::move(gate));
-    const auto count = [&](Verdict v) {
-      return std::count_if(torque->estimates.begin(), torque->estimates.end(), [&](const auto& e) {
-        return e.verdict == v && e.tied_to.empty() && !identification::is_nuisance(e);
-      });
-    };
-    list.push_back(
-        {"Parameters that this recording tells",
-         count(Verdict::identified) > 0 ? GateStatus::pass : GateStatus::warn,
-         fmt::format("{} identified, {} weak, {} prior-dominated, {} not identifiable, {} "
-                     "non-physical",
-                     count(Verdict::identified), count(Verdict::weak),
-                     count(Verdict::prior_dominated), count(Verdict::not_identifiable),
-                     count(Verdict::non_physical)),
-         "those you need", "Use a number only if its verdict allows it."});
-  }
-  for (report::Gate& gate : fold_gates(result.folds)) list.push_back(std::move(gate));
-  if (result.force_loop) {
-    const identification::ForceLoop& loop = *result.force_loop;
-    list.push_back({"Forces and parameters agree in their loop",
-                    loop.end == identification::LoopEnd::converged  ? GateStatus::pass
-                    : loop.end == identification::LoopEnd::diverged ? GateStatus::fail
-                                                                    : GateStatus::warn,
-                    fmt::format("{} after {} rounds: {}", identification::name(loop.end),
-                                loop.rounds.size(), loop.message),
-                    "converged",
-                    "Concerns the loop's own numbers only; method torque does not need it."});
-  }
-  if (result.exchanged) {
-    // Synergists may also differ by more than usual in strength.
-    constexpr double kDescribes = 0.5;
-    const bool described = result.exchanged->as_named.r2 > kDescribes;
-    list.push_back(
-        {"Electrodes on the muscles that they are named for",
-         described ? GateStatus::warn : GateStatus::fail, result.exchanged->sentence(),
-         fmt::format("no two channels that fit {:.0f} % better as each other; fails where "
-                     "they make less than half of the torque as they are (R2 0.5)",
-                     100.0 * identification::kStrengthSpread),
-         "Every number of the two muscles is then the other's."});
-  }
+  list.push_back(recordings_gate(result));
+  const auto add = [&list](std::vector<Gate> gates) {
+    std::move(gates.begin(), gates.end(), std::back_inserter(list));
+  };
+  add(motion_gates(result.source.study, result.trials));
+  add(model_gates(result));
+  add(sharing_gates(result.trials));
+  add(reference_gates(result.emg));
+  if (const IdentificationResult* torque = torque_of(result.fit)) add(parameter_gates(*torque));
+  add(fold_gates(result.folds));
+  if (result.fit.force_loop) list.push_back(loop_gate(*result.fit.force_loop));
+  if (result.fit.exchanged) list.push_back(electrode_gate(*result.fit.exchanged));
   return list;
 }
 
@@ -363,28 +397,34 @@ report::Section recordings_section(const StudyResult& result) {
   return section;
 }
 
-bool motion_is_unreliable(const StudyResult& result) {
-  static const std::set<std::string> of_motion{"Inverse kinematics converged",
-                                               "Markers fit the model", "The joint moves"};
-  const std::vector<Gate> gates = quality_gates(result);
-  return std::any_of(gates.begin(), gates.end(), [&](const Gate& g) {
-    return g.status == GateStatus::fail && of_motion.contains(g.name);
-  });
+bool motion_is_unreliable(const Study& study, const std::vector<TrialResult>& trials) {
+  const std::vector<Gate> gates = motion_gates(study, trials);
+  return std::any_of(gates.begin(), gates.end(),
+                     [](const Gate& gate) { return gate.status == GateStatus::fail; });
 }
 
-void demote_by_gates(StudyResult& result) {
-  const char* reason = motion_is_unreliable(result)
+std::vector<IdentificationResult> judged(
+    std::vector<IdentificationResult> methods,
+    const StudyValidation& validation,
+    const Study& study,
+    const std::vector<TrialResult>& trials,
+    const std::optional<identification::ExchangedElectrodes>& exchanged) {
+  const char* reason = motion_is_unreliable(study, trials)
                            ? "The motion it rests on failed its quality gate: mend that first."
-                       : result.exchanged ? "Two electrodes seem to be exchanged: mend that first."
-                                          : nullptr;
-  if (reason == nullptr) return;
-  for (IdentificationResult& method : result.methods) {
+                       : exchanged ? "Two electrodes seem to be exchanged: mend that first."
+                                   : nullptr;
+  for (IdentificationResult& method : methods) {
+    if (method.method == "torque")
+      method.warnings.insert(method.warnings.end(), validation.warnings.begin(),
+                             validation.warnings.end());
+    if (reason == nullptr) continue;
     for (identification::ParameterEstimate& e : method.estimates) {
       if (e.verdict != Verdict::identified) continue;
       e.verdict = Verdict::weak;
       e.reason = reason;
     }
   }
+  return methods;
 }
 
 }  // namespace myoid

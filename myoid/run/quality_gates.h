@@ -1,10 +1,12 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "myoid/intake/trial_quality.h"
 #include "myoid/report/report.h"
 #include "myoid/run/study_result.h"
+#include "myoid/run/study_validation.h"
 
 namespace myoid {
 
@@ -22,10 +24,15 @@ namespace myoid {
 
 /// True if a gate failed on which the motion rests (inverse kinematics, markers, angles): no
 /// parameter can then be better than the motion it was computed from.
-[[nodiscard]] bool motion_is_unreliable(const StudyResult& result);
+[[nodiscard]] bool motion_is_unreliable(const Study& study, const std::vector<TrialResult>& trials);
 
-/// Where the motion is unreliable, or electrodes are exchanged, every `identified` parameter
-/// becomes `weak`, with that reason.
-void demote_by_gates(StudyResult& result);
+/// The methods with the warnings of the validation. Where the motion is unreliable, or electrodes
+/// are exchanged, every `identified` parameter becomes `weak`, with that reason.
+[[nodiscard]] std::vector<identification::IdentificationResult> judged(
+    std::vector<identification::IdentificationResult> methods,
+    const StudyValidation& validation,
+    const Study& study,
+    const std::vector<TrialResult>& trials,
+    const std::optional<identification::ExchangedElectrodes>& exchanged);
 
 }  // namespace myoid

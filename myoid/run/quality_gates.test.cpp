@@ -1,6 +1,7 @@
 #include "myoid/run/quality_gates.h"
 
 #include <algorithm>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -21,14 +22,14 @@ StudyResult some_result(double error_m, int frames_not_converged, double range_d
   const Eigen::VectorXd time = Eigen::VectorXd::LinSpaced(100, 0.0, 1.0);
   const Eigen::MatrixXd angle = Eigen::VectorXd::LinSpaced(100, 0.0, range_deg * kDegree);
   const TimeSeries q(time, {{"elbow_flexion", Unit::radian}}, angle);
-  trial.motion = {q, q, q};
+  trial.motion.joints = {q, q, q};
   kinematics::IkResult ik;
   ik.q = q;
   ik.errors = TimeSeries(time, {{"marker_error_RMS", Unit::meter}},
                          Eigen::MatrixXd::Constant(100, 1, error_m));
   ik.status.assign(100, kinematics::FrameStatus::converged);
   ik.frames_not_converged = frames_not_converged;
-  trial.ik = ik;
+  trial.motion.ik = ik;
   result.trials.push_back(std::move(trial));
   identification::IdentificationResult torque;
   torque.method = "torque";
@@ -36,8 +37,16 @@ StudyResult some_result(double error_m, int frames_not_converged, double range_d
   torque.estimates.push_back({.muscle = "BIC",
                               .parameter = "max_isometric_force",
                               .verdict = identification::Verdict::identified});
-  result.methods.push_back(torque);
+  result.fit.methods.push_back(torque);
   return result;
+}
+
+std::vector<identification::IdentificationResult> judged_of(const StudyResult& result) {
+  return judged(result.fit.methods, {}, result.source.study, result.trials, result.fit.exchanged);
+}
+
+identification::Verdict verdict_of(const StudyResult& result) {
+  return judged_of(result)[0].estimates[0].verdict;
 }
 
 GateStatus status_of(const StudyResult& result, std::string_view name) {
@@ -80,22 +89,29 @@ TEST(QualityGates, ExchangedElectrodesAreAFailureOrOfSynergistsACaution) {
   const char* gate = "Electrodes on the muscles that they are named for";
   StudyResult result = some_result(0.01, 0, 90.0);
   EXPECT_EQ(status_of(result, gate), GateStatus::info);
-  result.exchanged = {.first = "BIC", .second = "TRI", .as_named = {}, .exchanged = {}};
+  result.fit.exchanged = {.first = "BIC", .second = "TRI", .as_named = {}, .exchanged = {}};
   EXPECT_EQ(status_of(result, gate), GateStatus::fail);
-  result.exchanged->as_named.r2 = 0.9;
+  result.fit.exchanged->as_named.r2 = 0.9;
   EXPECT_EQ(status_of(result, gate), GateStatus::warn);
-  demote_by_gates(result);
-  EXPECT_EQ(result.methods[0].estimates[0].verdict, identification::Verdict::weak);
+  EXPECT_EQ(verdict_of(result), identification::Verdict::weak);
 }
 
 TEST(QualityGates, NothingIsIdentifiedFromAMotionThatFailed) {
-  StudyResult good = some_result(0.01, 0, 90.0);
-  demote_by_gates(good);
-  EXPECT_EQ(good.methods[0].estimates[0].verdict, identification::Verdict::identified);
-  StudyResult bad = some_result(0.05, 0, 90.0);
-  demote_by_gates(bad);
-  EXPECT_EQ(bad.methods[0].estimates[0].verdict, identification::Verdict::weak);
-  EXPECT_NE(bad.methods[0].estimates[0].reason.find("quality gate"), std::string::npos);
+  EXPECT_EQ(verdict_of(some_result(0.01, 0, 90.0)), identification::Verdict::identified);
+  const StudyResult bad = some_result(0.05, 0, 90.0);
+  EXPECT_EQ(verdict_of(bad), identification::Verdict::weak);
+  EXPECT_NE(judged_of(bad)[0].estimates[0].reason.find("quality gate"), std::string::npos);
+}
+
+TEST(QualityGates, TheWarningsOfTheValidationGoToMethodTorque) {
+  const StudyResult result = some_result(0.01, 0, 90.0);
+  std::vector<identification::IdentificationResult> methods(2);
+  methods[0].method = "paper";
+  methods[1].method = "torque";
+  methods = judged(std::move(methods), {.folds = {}, .warnings = {"one trial"}},
+                   result.source.study, result.trials, {});
+  EXPECT_TRUE(methods[0].warnings.empty());
+  EXPECT_EQ(methods[1].warnings, std::vector<std::string>{"one trial"});
 }
 
 }  // namespace

@@ -18,12 +18,13 @@ constexpr double kRelaxed = 0.02, kRelaxedWithoutMvc = 0.05;
 constexpr double kLargestShare = 0.25;
 
 /// Torque that the joint's muscles could exert together, sum of the largest |r| times F_max.
-double strength_nm(const StudyResult& result,
-                   const TrialResult& trial,
+double strength_nm(const Study& study,
+                   const model::BodyModel& model,
+                   const RelaxedTrial& trial,
                    const std::string& coordinate) {
   const Eigen::MatrixXd arms = kinematics::lumped_moment_arm_m(
-      trial.muscles, muscle_groups(result.study, result.model), coordinate);
-  const auto setups = muscle_setups(result.study, result.model);
+      *trial.muscles, muscle_groups(study, model), coordinate);
+  const auto setups = muscle_setups(study, model);
   double sum = 0.0;
   for (Eigen::Index k = 0; k < arms.cols(); ++k)
     sum += arms.col(k).cwiseAbs().maxCoeff() *
@@ -33,15 +34,17 @@ double strength_nm(const StudyResult& result,
 
 /// Why the torques of a passive trial are no relaxed joint's; empty: they are. The weight of limb
 /// and instrument is no resistance.
-std::string too_strong(const StudyResult& result, const TrialResult& trial) {
-  const std::vector<std::string> coordinates = study_coordinates(result.study.model);
+std::string too_strong(const Study& study,
+                       const model::BodyModel& model,
+                       const RelaxedTrial& trial) {
+  const std::vector<std::string> coordinates = study_coordinates(study.model);
   for (std::size_t j = 0; j < coordinates.size(); ++j) {
     const std::string& name = coordinates[j];
-    const Eigen::VectorXd torque = trial.muscle_torque.values().col(static_cast<Eigen::Index>(j));
+    const Eigen::VectorXd torque = trial.muscle_torque->values().col(static_cast<Eigen::Index>(j));
     const double largest = torque.cwiseAbs().maxCoeff();
     const double beside =
-        identification::beside_weight(trial.motion.q.column(name), torque).cwiseAbs().maxCoeff();
-    const double strength = strength_nm(result, trial, name);
+        identification::beside_weight(trial.q->column(name), torque).cwiseAbs().maxCoeff();
+    const double strength = strength_nm(study, model, trial, name);
     const double limit = kLargestShare * strength;
     if (beside <= limit && largest <= limit + identification::kLargestWeight_nm) continue;
     return fmt::format(
@@ -54,11 +57,13 @@ std::string too_strong(const StudyResult& result, const TrialResult& trial) {
 }
 
 /// Why a passive trial does not show a relaxed joint; empty: it does.
-std::string not_at_rest(const StudyResult& result, const TrialResult& trial) {
-  const bool mvc = result.study.emg.has_mvc;
+std::string not_at_rest(const Study& study,
+                        const model::BodyModel& model,
+                        const RelaxedTrial& trial) {
+  const bool mvc = study.emg.has_mvc;
   const double limit = mvc ? kRelaxed : kRelaxedWithoutMvc;
-  for (const Channel& channel : trial.activation.channels()) {
-    const double mean = trial.activation.column(channel.name).mean();
+  for (const Channel& channel : trial.activation->channels()) {
+    const double mean = trial.activation->column(channel.name).mean();
     if (mean > limit) {
       return fmt::format(
           "the muscles were not at rest: EMG channel '{}' is on average at {:.1f} % of {}, at most "
@@ -67,7 +72,7 @@ std::string not_at_rest(const StudyResult& result, const TrialResult& trial) {
           mvc ? "the maximal contraction" : "its greatest value in the study", 100.0 * limit);
     }
   }
-  return too_strong(result, trial);
+  return too_strong(study, model, trial);
 }
 
 Eigen::VectorXd joined(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
@@ -78,40 +83,42 @@ Eigen::VectorXd joined(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
 
 }  // namespace
 
-std::vector<RestingJoint> resting_joints(StudyResult& result) {
-  std::vector<TrialResult*> relaxed;
-  for (TrialResult& trial : result.trials) {
-    if (trial.spec.use != Use::passive || !trial.has_motion()) continue;
-    if (!trial.spec.external_torque && !trial.spec.load_cell) continue;
-    const std::string why = not_at_rest(result, trial);
-    if (why.empty()) {
-      relaxed.push_back(&trial);
-      if (trial.activation.empty())
-        trial.notes.emplace_back(
-            "a relaxed joint by the study's word: no EMG shows that the muscles were at rest");
-    } else {
-      trial.warnings.push_back("what the joint does by itself is not taken from this trial: " +
-                               why);
-      trial.notes.push_back(trial.warnings.back());
+RestingJoints resting_joints(const Study& study,
+                             const model::BodyModel& model,
+                             const std::vector<RelaxedTrial>& trials) {
+  RestingJoints found;
+  std::vector<const RelaxedTrial*> relaxed;
+  for (const RelaxedTrial& trial : trials) {
+    if (!trial.spec->external_torque && !trial.spec->load_cell) continue;
+    const std::string why = not_at_rest(study, model, trial);
+    if (!why.empty()) {
+      found.remarks.push_back(
+          {trial.index, "what the joint does by itself is not taken from this trial: " + why, true});
+      continue;
     }
+    relaxed.push_back(&trial);
+    if (trial.activation->empty())
+      found.remarks.push_back(
+          {trial.index,
+           "a relaxed joint by the study's word: no EMG shows that the muscles were at rest",
+           false});
   }
-  std::vector<RestingJoint> joints;
-  const std::vector<std::string> coordinates = study_coordinates(result.study.model);
+  const std::vector<std::string> coordinates = study_coordinates(study.model);
   for (std::size_t j = 0; j < coordinates.size(); ++j) {
     RestingJoint joint{.joint = coordinates[j], .torque = {}, .trials = {}};
     Eigen::VectorXd angle, velocity, torque;
-    for (const TrialResult* trial : relaxed) {
-      angle = joined(angle, trial->motion.q.column(joint.joint));
-      velocity = joined(velocity, trial->motion.qdot.column(joint.joint));
-      torque = joined(torque, trial->muscle_torque.values().col(static_cast<Eigen::Index>(j)));
-      joint.trials.push_back(trial->spec.name);
+    for (const RelaxedTrial* trial : relaxed) {
+      angle = joined(angle, trial->q->column(joint.joint));
+      velocity = joined(velocity, trial->qdot->column(joint.joint));
+      torque = joined(torque, trial->muscle_torque->values().col(static_cast<Eigen::Index>(j)));
+      joint.trials.push_back(trial->spec->name);
     }
-    const auto found = identification::fit_resting_torque(angle, velocity, torque);
-    if (!found) continue;
-    joint.torque = *found;
-    joints.push_back(std::move(joint));
+    const auto fit = identification::fit_resting_torque(angle, velocity, torque);
+    if (!fit) continue;
+    joint.torque = *fit;
+    found.joints.push_back(std::move(joint));
   }
-  return joints;
+  return found;
 }
 
 Eigen::VectorXd resting_torque_nm(const std::vector<RestingJoint>& joints,

@@ -20,7 +20,7 @@ using ::testing::HasSubstr;
 struct Recorded {
   twin::VirtualRecording recording;
   Study study;
-  StudyInputs inputs;
+  std::vector<TrialInput> inputs;
 };
 
 Recorded recorded() {
@@ -50,10 +50,10 @@ Recorded recorded() {
   r.study.truth.reset();
   for (const twin::VirtualTrial& t : r.recording.trials) {
     TrialInput input;
-    input.markers = t.markers;
+    input.markers = t.input.markers;
     input.emg = t.emg;
     input.external_torque = t.external_torque;
-    r.inputs.trials.push_back(std::move(input));
+    r.inputs.push_back(std::move(input));
   }
   return r;
 }
@@ -62,7 +62,7 @@ TEST(RestingJoints, WhatTheJointOfAPersonDoesByItselfIsFound) {
   // Noise of the dynamometer, 0.3 N m below 5 Hz: 80 independent values for six unknowns, 0.08 N m.
   Recorded r = recorded();
   const twin::BesideMuscles truth = r.recording.truth.beside;
-  const StudyResult result = analyse(r.study, std::move(r.inputs), {});
+  const StudyResult result = analyse(in_memory(r.study, std::move(r.inputs)));
   ASSERT_EQ(result.resting.size(), 1U);
   EXPECT_EQ(result.resting[0].joint, "elbow_flexion");
   EXPECT_EQ(result.resting[0].trials, std::vector<std::string>{"relaxed"});
@@ -75,20 +75,20 @@ TEST(RestingJoints, WhatTheJointOfAPersonDoesByItselfIsFound) {
   }
   for (const std::string& warning : result.trials[2].warnings)
     EXPECT_THAT(warning, ::testing::Not(HasSubstr("what the joint does by itself")));
-  ASSERT_EQ(result.data.trials.size(), 1U);
-  const identification::TrialData& ramp = result.data.trials[0];
+  ASSERT_EQ(result.fit_input.data.trials.size(), 1U);
+  const identification::TrialData& ramp = result.fit_input.data.trials[0];
   EXPECT_EQ(ramp.resting_nm, result.resting[0].torque.at(ramp.angle_rad));
 }
 
 TEST(RestingJoints, MusclesThatWereAtWorkShowNoRestingJoint) {
   Recorded r = recorded();
-  r.inputs.trials[0].emg = r.inputs.trials[2].emg;  // that of the effort
-  const StudyResult result = analyse(r.study, std::move(r.inputs), {});
+  r.inputs[0].emg = r.inputs[2].emg;  // that of the effort
+  const StudyResult result = analyse(in_memory(r.study, std::move(r.inputs)));
   EXPECT_TRUE(result.resting.empty());
   ASSERT_FALSE(result.trials[0].warnings.empty());
   EXPECT_THAT(result.trials[0].warnings.back(), HasSubstr("the muscles were not at rest: EMG"));
   EXPECT_EQ(result.trials[0].notes.back(), result.trials[0].warnings.back());
-  EXPECT_EQ(result.data.trials[0].resting_nm.size(), 0);
+  EXPECT_EQ(result.fit_input.data.trials[0].resting_nm.size(), 0);
 }
 
 TEST(RestingJoints, WithoutAMaximalContractionRestIsAgainstTheGreatestOfTheStudy) {
@@ -96,8 +96,8 @@ TEST(RestingJoints, WithoutAMaximalContractionRestIsAgainstTheGreatestOfTheStudy
     Recorded r = recorded();
     r.study.emg.has_mvc = false;
     r.study.trials[1].use = Use::validation;
-    if (at_work) r.inputs.trials[0].emg = r.inputs.trials[2].emg;
-    const StudyResult result = analyse(r.study, std::move(r.inputs), {});
+    if (at_work) r.inputs[0].emg = r.inputs[2].emg;
+    const StudyResult result = analyse(in_memory(r.study, std::move(r.inputs)));
     EXPECT_EQ(result.resting.empty(), at_work);
     if (!at_work) continue;
     ASSERT_FALSE(result.trials[0].warnings.empty());
@@ -107,11 +107,11 @@ TEST(RestingJoints, WithoutAMaximalContractionRestIsAgainstTheGreatestOfTheStudy
 
 TEST(RestingJoints, WithoutEmgTheStudyIsTakenAtItsWord) {
   Recorded with = recorded();
-  const StudyResult known = analyse(with.study, std::move(with.inputs), {});
+  const StudyResult known = analyse(in_memory(with.study, std::move(with.inputs)));
   Recorded r = recorded();
-  r.inputs.trials[0].emg.reset();
+  r.inputs[0].emg.reset();
   r.study.trials[0].emg.reset();
-  const StudyResult result = analyse(r.study, std::move(r.inputs), {});
+  const StudyResult result = analyse(in_memory(r.study, std::move(r.inputs)));
   ASSERT_EQ(result.resting.size(), 1U);
   EXPECT_EQ(result.resting[0].torque.coefficient_nm, known.resting[0].torque.coefficient_nm);
   EXPECT_THAT(result.trials[0].notes, ::testing::Contains(HasSubstr("by the study's word")));
@@ -120,16 +120,16 @@ TEST(RestingJoints, WithoutEmgTheStudyIsTakenAtItsWord) {
 TEST(RestingJoints, TheWeightOfTheInstrumentIsPartOfIt) {
   // A lever of 1.5 kg at 1 m: 15 N m cos(q), and an offset, beside the joint's own torque.
   Recorded plain = recorded();
-  const StudyResult without = analyse(plain.study, std::move(plain.inputs), {});
+  const StudyResult without = analyse(in_memory(plain.study, std::move(plain.inputs)));
   Recorded r = recorded();
-  TimeSeries& torque = *r.inputs.trials[0].external_torque;
-  const Eigen::VectorXd q = without.trials[0].motion.q.column("elbow_flexion");
-  const TimeSeries motion(without.trials[0].motion.q.time_s(), {{"q", Unit::radian}}, q);
+  TimeSeries& torque = *r.inputs[0].external_torque;
+  const Eigen::VectorXd q = without.trials[0].motion.joints.q.column("elbow_flexion");
+  const TimeSeries motion(without.trials[0].motion.joints.q.time_s(), {{"q", Unit::radian}}, q);
   const Eigen::VectorXd angle = signals::resample(motion, torque.time_s()).values().col(0);
   Eigen::MatrixXd loaded = torque.values();
   loaded.col(0).array() -= 15.0 * angle.array().cos() + 2.0;
   torque = TimeSeries(torque.time_s(), torque.channels(), loaded);
-  const StudyResult result = analyse(r.study, std::move(r.inputs), {});
+  const StudyResult result = analyse(in_memory(r.study, std::move(r.inputs)));
   ASSERT_EQ(result.resting.size(), 1U);
   for (const double angle_deg : {25.0, 50.0, 70.0, 90.0, 115.0}) {
     const double at = angle_deg * kDegree;
@@ -141,9 +141,9 @@ TEST(RestingJoints, TheWeightOfTheInstrumentIsPartOfIt) {
 
 TEST(RestingJoints, ATorqueThatNoRelaxedJointHasIsNotTaken) {
   Recorded r = recorded();
-  TimeSeries& torque = *r.inputs.trials[0].external_torque;
+  TimeSeries& torque = *r.inputs[0].external_torque;
   torque = TimeSeries(torque.time_s(), torque.channels(), torque.values().array() + 90.0);
-  const StudyResult result = analyse(r.study, std::move(r.inputs), {});
+  const StudyResult result = analyse(in_memory(r.study, std::move(r.inputs)));
   EXPECT_TRUE(result.resting.empty());
   ASSERT_FALSE(result.trials[0].warnings.empty());
   EXPECT_THAT(result.trials[0].warnings.back(),
@@ -153,7 +153,7 @@ TEST(RestingJoints, ATorqueThatNoRelaxedJointHasIsNotTaken) {
 TEST(RestingJoints, WithoutAMeasuredTorqueNothingIsKnown) {
   Recorded r = recorded();
   r.study.trials[0].external_torque.reset();
-  const StudyResult result = analyse(r.study, std::move(r.inputs), {});
+  const StudyResult result = analyse(in_memory(r.study, std::move(r.inputs)));
   EXPECT_TRUE(result.resting.empty());
 }
 

@@ -21,13 +21,12 @@ struct RunOptions {
   std::optional<std::filesystem::path> store;
 };
 
-/// All stages after reading, on inputs that may never have been files. As `run_study` otherwise.
-[[nodiscard]] StudyResult analyse(const Study& study,
-                                  StudyInputs inputs,
-                                  const RunOptions& options = {});
+/// All stages after reading, on inputs that may never have been files (`in_memory`). As `run_study`
+/// otherwise.
+[[nodiscard]] StudyResult analyse(StudyInputs inputs, const RunOptions& options = {});
 
-/// All stages in order: EMG, motion, inverse dynamics, muscle paths, force sharing, identification,
-/// cross-validation; trials in parallel, the same numbers for every number of threads. Throws
+/// All stages in order: reading, activation, motion, forces, data, fit, validation, findings; trials
+/// in parallel, the same numbers for every number of threads. Throws
 /// ReadError or InvalidInput for input that cannot be used (nothing is computed then: all files are
 /// read first), Interrupted when stopped. A trial whose computation fails is marked and left out.
 [[nodiscard]] StudyResult run_study(const Study& study, const RunOptions& options = {});

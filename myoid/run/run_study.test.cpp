@@ -45,29 +45,29 @@ struct ExactRun {
 
 TEST(RunStudy, ASecondRunReusesInverseKinematicsAndFindsTheSame) {
   const ExactRun& first = ExactRun::get();
-  Study study = first.result.study;
+  Study study = first.result.source.study;
   study.identify.methods = {"paper"};
   study.emg.lowpass_hz = 5.0;
   const StudyResult second = run_study(study, {.store = first.folder / "stages"});
   ASSERT_EQ(second.trials.size(), first.result.trials.size());
   int with_markers = 0;
   for (std::size_t i = 0; i < second.trials.size(); ++i) {
-    if (!second.trials[i].ik) continue;
+    if (!second.trials[i].motion.ik) continue;
     ++with_markers;
-    EXPECT_FALSE(first.result.trials[i].ik_reused);
-    EXPECT_TRUE(second.trials[i].ik_reused);
-    EXPECT_EQ(first.result.trials[i].ik->q.values(), second.trials[i].ik->q.values());
+    EXPECT_FALSE(first.result.trials[i].motion.ik_reused);
+    EXPECT_TRUE(second.trials[i].motion.ik_reused);
+    EXPECT_EQ(first.result.trials[i].motion.ik->q.values(), second.trials[i].motion.ik->q.values());
   }
   EXPECT_GT(with_markers, 0);
 }
 
 TEST(RunStudy, FromExactFilesEveryParameterIsTheTruthToAMillionth) {
   const StudyResult& result = ExactRun::get().result;
-  ASSERT_EQ(result.methods.size(), 2U);
-  const identification::IdentificationResult& torque = result.methods[1];
+  ASSERT_EQ(result.fit.methods.size(), 2U);
+  const identification::IdentificationResult& torque = result.fit.methods[1];
   int compared = 0;
   for (const auto& e : torque.estimates) {
-    for (const TrueValue& t : result.truth) {
+    for (const TrueValue& t : result.source.truth) {
       if (t.parameter != e.parameter || t.muscle != e.muscle) continue;
       EXPECT_NEAR(e.estimate, t.value, 1e-6 * std::abs(t.value)) << e.muscle << " " << e.parameter;
       ++compared;
@@ -80,7 +80,7 @@ TEST(WriteResults, LeavesTheFilesThatArePromised) {
   const ExactRun& run = ExactRun::get();
   const auto out = run.folder / "results";
   write_results(run.result, {}, out);
-  const std::string trial = run.result.data.trials.front().name;
+  const std::string trial = run.result.fit_input.data.trials.front().name;
   for (const std::string name :
        {"ik.mot", "ik_marker_errors.sto", "id.sto", "MuscleAnalysis_Length.sto",
         "MuscleAnalysis_MuscleTendonVelocity.sto", "MuscleAnalysis_MomentArm_elbow_flexion.sto",
@@ -125,17 +125,17 @@ TEST(WriteResults, AnIdentifiedModelIsThereOnlyIfSomethingWasIdentified) {
   const ExactRun& run = ExactRun::get();
   const auto out = run.folder / "some";
   StudyResult none = run.result;
-  for (auto& method : none.methods) {
+  for (auto& method : none.fit.methods) {
     for (auto& e : method.estimates) e.verdict = identification::Verdict::weak;
   }
   StudyResult one = none;
-  for (auto& e : one.methods[1].estimates) {
+  for (auto& e : one.fit.methods[1].estimates) {
     if (e.muscle == "BIC" && e.parameter == "optimal_fiber_length")
       e.verdict = identification::Verdict::identified;
   }
   write_results(one, {}, out);
   EXPECT_TRUE(
-      std::filesystem::exists(out / (one.study.model.file->stem().string() + "_identified.osim")));
+      std::filesystem::exists(out / (one.source.study.model.file->stem().string() + "_identified.osim")));
   write_results(none, {}, run.folder / "none");
   EXPECT_TRUE(std::filesystem::exists(run.folder / "none" / "parameters.csv"));
   for (const auto& entry : std::filesystem::directory_iterator(run.folder / "none"))
@@ -145,15 +145,15 @@ TEST(WriteResults, AnIdentifiedModelIsThereOnlyIfSomethingWasIdentified) {
 TEST(IdentifiedModel, DiffersFromTheInputOnlyInIdentifiedNumbers) {
   const StudyResult& result = ExactRun::get().result;
   IdentifiedMuscle muscle{
-      "BIC", result.data.muscles[0].start, result.data.muscles[0].start, {"max_isometric_force"}};
-  EXPECT_EQ(identified_model(result.study, result.model_text,
+      "BIC", result.fit_input.data.muscles[0].start, result.fit_input.data.muscles[0].start, {"max_isometric_force"}};
+  EXPECT_EQ(identified_model(result.source.study, result.source.model_text,
                              {{"BIC", muscle.start, muscle.identified, {}}}),
-            result.model_text);
+            result.source.model_text);
   muscle.identified.max_isometric_force_n *= 2.0;
-  const std::string changed = identified_model(result.study, result.model_text, {muscle});
+  const std::string changed = identified_model(result.source.study, result.source.model_text, {muscle});
   pugi::xml_document before;
   pugi::xml_document after;
-  ASSERT_TRUE(before.load_string(result.model_text.c_str()));
+  ASSERT_TRUE(before.load_string(result.source.model_text.c_str()));
   ASSERT_TRUE(after.load_string(changed.c_str()));
   const char* path = "//*[@name='BIC']/max_isometric_force";
   EXPECT_DOUBLE_EQ(after.select_node(path).node().text().as_double(),
@@ -165,13 +165,13 @@ TEST(IdentifiedModel, DiffersFromTheInputOnlyInIdentifiedNumbers) {
 
 TEST(RunStudy, TheReportHasMethodForceAndWhereSearchesEnded) {
   StudyResult result = ExactRun::get().result;
-  const auto torque = std::find_if(result.methods.begin(), result.methods.end(),
+  const auto torque = std::find_if(result.fit.methods.begin(), result.fit.methods.end(),
                                    [](const auto& m) { return m.method == "torque"; });
-  ASSERT_NE(torque, result.methods.end());
+  ASSERT_NE(torque, result.fit.methods.end());
   identification::IdentificationResult force = *torque;
   force.method = "force";
   force.basins = {{.fit = "BIC", .starts = 4, .basins = {{.cost = 1.0, .starts = 4}}}};
-  result.methods = {force};
+  result.fit.methods = {force};
   const report::Report report = study_report(result, {});
   EXPECT_EQ(report.headline.find("source paper"), std::string::npos) << report.headline;
   const auto section =
@@ -198,7 +198,7 @@ TEST(StudyReport, HasGatesTablesAndFiguresThatFitTogether) {
 
 TEST(IdentifiedModel, AWidthIsWrittenOnlyWhereWidthAndLengthAreBothIdentified) {
   const StudyResult& result = ExactRun::get().result;
-  const auto start = result.data.muscles[0].start;
+  const auto start = result.fit_input.data.muscles[0].start;
   IdentifiedMuscle muscle{"BIC", start, start, {"optimal_fiber_length"}};
   muscle.identified.optimal_fiber_length_m *= 1.1;
   muscle.identified.force_length_width_m *= 1.3;
@@ -208,7 +208,7 @@ TEST(IdentifiedModel, AWidthIsWrittenOnlyWhereWidthAndLengthAreBothIdentified) {
     muscle.changed = changed;
     pugi::xml_document document;
     EXPECT_TRUE(
-        document.load_string(identified_model(result.study, result.model_text, {muscle}).c_str()));
+        document.load_string(identified_model(result.source.study, result.source.model_text, {muscle}).c_str()));
     return document.select_node(("//*[@name='BIC']/" + property).c_str()).node().text().as_double();
   };
   const std::vector<std::string> all{"optimal_fiber_length", "force_length_width",
@@ -236,7 +236,7 @@ TEST(IdentifiedModel, AWidthIsWrittenOnlyWhereWidthAndLengthAreBothIdentified) {
 
 TEST(WriteResults, ALoopThatDivergedFailsAGateAndStandsInTheJson) {
   StudyResult result = ExactRun::get().result;
-  result.force_loop = identification::ForceLoop{.end = identification::LoopEnd::diverged,
+  result.fit.force_loop = identification::ForceLoop{.end = identification::LoopEnd::diverged,
                                                 .message = "the changes grow: do not use it",
                                                 .rounds = {{}, {}}};
   bool failed = false;

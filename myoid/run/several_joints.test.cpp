@@ -1,15 +1,20 @@
 // A muscle that crosses two joints, identified from the torques of both.
 #include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "myoid/core/units.h"
 #include "myoid/dynamics/inverse_dynamics.h"
+#include "myoid/forces/sharing_input.h"
 #include "myoid/kinematics/joint_motion.h"
 #include "myoid/kinematics/muscle_kinematics.h"
 #include "myoid/muscle/hill_muscle.h"
 #include "myoid/results/result_files.h"
+#include "myoid/results/stage_files.h"
 #include "myoid/run/run_study.h"
 #include "myoid/study/study_model.h"
 #include "myoid/tables/storage_reader.h"
@@ -154,10 +159,10 @@ muscle::HillParameters<double> truth_of(const identification::MuscleSetup& setup
 }
 
 /// What surrounds the leg exerts whatever the muscles do not.
-StudyInputs exact_inputs(const Study& study) {
+std::vector<TrialInput> exact_inputs(const Study& study) {
   const model::BodyModel leg = load_model(study);
   const std::vector<identification::MuscleSetup> setups = muscle_setups(study, leg);
-  StudyInputs inputs;
+  std::vector<TrialInput> inputs;
   for (const double phase : {0.3, 1.9}) {
     TrialInput input;
     input.motion = leg_motion(phase);
@@ -187,21 +192,21 @@ StudyInputs exact_inputs(const Study& study) {
       columns.push_back({name + "_moment", Unit::newton_meter});
     input.external_torque = TimeSeries(moved.q.time_s(), columns,
                                        outside.leftCols(static_cast<Eigen::Index>(columns.size())));
-    inputs.trials.push_back(std::move(input));
+    inputs.push_back(std::move(input));
   }
   return inputs;
 }
 
 TEST(SeveralJoints, BothTorquesGiveTheMusclesOfBothJoints) {
   const Study study = leg_study(R"(["hip_angle", "knee_angle"])");
-  const StudyResult result = analyse(study, exact_inputs(study), {});
-  ASSERT_EQ(result.methods.size(), 1U);
+  const StudyResult result = analyse(in_memory(study, exact_inputs(study)));
+  ASSERT_EQ(result.fit.methods.size(), 1U);
   int compared = 0;
-  for (const auto& e : result.methods[0].estimates) {
+  for (const auto& e : result.fit.methods[0].estimates) {
     if (e.parameter != "max_isometric_force" && e.parameter != "optimal_fiber_length" &&
         e.parameter != "force_length_width")
       continue;
-    for (const auto& setup : result.data.muscles) {
+    for (const auto& setup : result.fit_input.data.muscles) {
       if (setup.name != e.muscle) continue;
       const double truth = truth_of(setup).*muscle::hill_field(e.parameter).member;
       EXPECT_NEAR(e.estimate, truth, 1e-5 * truth) << e.muscle << " " << e.parameter;
@@ -212,17 +217,17 @@ TEST(SeveralJoints, BothTorquesGiveTheMusclesOfBothJoints) {
   // Each trial left out is predicted at each joint.
   ASSERT_EQ(result.folds.size(), 4U);
   EXPECT_EQ(result.folds[1].joint, "knee_angle");
-  for (const auto& fold : result.folds) EXPECT_GT(fold.identified.r2, 0.999) << fold.joint;
+  for (const auto& fold : result.folds) EXPECT_GT(fold.identified.r2(), 0.999) << fold.joint;
   // Shared forces balance both joints.
   const TrialResult& trial = result.trials[0];
-  EXPECT_EQ(trial.shared.reserve.channel_count(), 2);
-  EXPECT_EQ(result.informed.at(0).reserve_nm.cols(), 2);
+  EXPECT_EQ(trial.forces.shared.reserve.channel_count(), 2);
+  EXPECT_EQ(result.fit.informed.at(0).reserve_nm.cols(), 2);
 }
 
 TEST(SeveralJoints, TheHipAloneDoesNotTellTheKneesMuscle) {
   const Study study = leg_study(R"("hip_angle")");
-  const StudyResult result = analyse(study, exact_inputs(study), {});
-  for (const auto& e : result.methods.at(0).estimates) {
+  const StudyResult result = analyse(in_memory(study, exact_inputs(study)));
+  for (const auto& e : result.fit.methods.at(0).estimates) {
     if (e.muscle != "QUA") continue;
     EXPECT_NE(e.verdict, identification::Verdict::identified) << e.parameter;
   }
@@ -231,10 +236,36 @@ TEST(SeveralJoints, TheHipAloneDoesNotTellTheKneesMuscle) {
 TEST(SeveralJoints, FilesHaveAReserveForEachJoint) {
   const test::TemporaryFolder folder;
   const Study study = leg_study(R"(["hip_angle", "knee_angle"])");
-  write_results(analyse(study, exact_inputs(study), {}), {}, folder / "out");
+  write_results(analyse(in_memory(study, exact_inputs(study))), {}, folder / "out");
   const TimeSeries forces = recording::read_storage(folder / "out/one/EmgInformed_force.sto").data;
   EXPECT_TRUE(forces.find("hip_angle_reserve"));
   EXPECT_TRUE(forces.find("knee_angle_reserve"));
+}
+
+std::string bytes_of(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+// `so` is sharing_input, share and write_shared_forces; the motion is the run's own.
+TEST(SeveralJoints, RunAndSoWriteTheSameStaticOptimizationFiles) {
+  const test::TemporaryFolder folder;
+  Study study = leg_study(R"(["knee_angle", "hip_angle"])");
+  study.identify.cross_validate = false;
+  std::vector<TrialInput> inputs = exact_inputs(study);
+  for (TrialInput& input : inputs) input.external_torque.reset();
+  const StudyResult result = analyse(in_memory(study, std::move(inputs)));
+  write_results(result, {}, folder / "run");
+  const TrialMotion& motion = result.trials[0].motion;
+  const forces::SharingInput shared =
+      forces::sharing_input(*motion.model, motion.joints, {"hip_angle", "knee_angle"});
+  write_shared_forces(forces::share(shared, {}), folder / "so");
+  for (const char* name : {"StaticOptimization_force.sto", "StaticOptimization_activation.sto",
+                           "StaticOptimization_status.csv"}) {
+    const std::string of_so = bytes_of(folder / "so" / name);
+    EXPECT_GT(of_so.size(), 1000U) << name;
+    EXPECT_EQ(bytes_of(folder / "run/one" / name), of_so) << name;
+  }
 }
 
 TEST(SeveralJoints, PennationAndPassiveForceComeFromTheModelWhereAskedFor) {

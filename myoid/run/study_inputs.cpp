@@ -37,39 +37,54 @@ std::vector<TrueValue> read_truth(const std::filesystem::path& path) {
   return truth;
 }
 
+StudySource read_source(const Study& study) {
+  StudySource source{.study = study, .model_text = model_text(study), .model = {}, .truth = {},
+                     .files = {}};
+  source.model =
+      std::make_shared<const model::BodyModel>(load_model(study, source.model_text));
+  return source;
+}
+
 }  // namespace
 
-StudyInputs read_inputs(Study& study) {
-  StudyInputs inputs;
-  const model::BodyModel model = load_model(study);
-  inputs.files.push_back({study.file.string(), sha256(recording::read_text_file(study.file))});
+StudyInputs read_inputs(const Study& study) {
+  StudyInputs inputs{read_source(study), {}};
+  StudySource& source = inputs.source;
+  source.files.push_back({study.file.string(), sha256(recording::read_text_file(study.file))});
   if (study.model.file)
-    inputs.files.push_back({study.model.file->string(), sha256(model_text(study))});
-  if (study.truth) inputs.truth = read_truth(*study.truth);
+    source.files.push_back({study.model.file->string(), sha256(source.model_text)});
+  if (study.truth) source.truth = read_truth(*study.truth);
   std::vector<std::vector<TrialPart>> parts(study.trials.size());
   oneapi::tbb::parallel_for(std::size_t{0}, study.trials.size(), [&](std::size_t i) {
     try {
-      parts[i] = read_trial_parts(study, study.trials[i], model);
+      parts[i] = read_trial_parts(study, study.trials[i], *source.model);
     } catch (const InvalidInput& error) {
       throw InvalidInput(fmt::format("{} (trial '{}')", error.what(), study.trials[i].name));
     }
   });
-  study.trials.clear();
+  source.study.trials.clear();
   for (std::vector<TrialPart>& of_one : parts) {
     for (TrialPart& part : of_one) {
-      study.trials.push_back(std::move(part.spec));
+      source.study.trials.push_back(std::move(part.spec));
       inputs.trials.push_back(std::move(part.input));
     }
   }
-  require_plausible(study, model, inputs.trials);
+  require_plausible(source.study, *source.model, inputs.trials);
   for (const TrialInput& trial : inputs.trials) {
     for (const InputFile& file : trial.files) {
-      const bool known = std::any_of(inputs.files.begin(), inputs.files.end(),
+      const bool known = std::any_of(source.files.begin(), source.files.end(),
                                      [&](const InputFile& f) { return f.path == file.path; });
-      if (!known) inputs.files.push_back(file);
+      if (!known) source.files.push_back(file);
     }
   }
   return inputs;
+}
+
+StudyInputs in_memory(const Study& study, std::vector<TrialInput> trials) {
+  if (trials.size() != study.trials.size())
+    throw InvalidInput(
+        fmt::format("{} inputs are given for {} trials", trials.size(), study.trials.size()));
+  return {read_source(study), std::move(trials)};
 }
 
 }  // namespace myoid

@@ -1,10 +1,12 @@
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "myoid/core/provenance.h"
 #include "myoid/intake/trial_input.h"
+#include "myoid/model/body_model.h"
 #include "myoid/study/study.h"
 
 namespace myoid {
@@ -15,15 +17,27 @@ struct TrueValue {
   double value = 0.0;
 };
 
-/// What a study is computed from, as values.
-struct StudyInputs {
-  std::vector<TrialInput> trials;  ///< In the study's order.
+/// A study as it was read, but for its trials' recordings.
+struct StudySource {
+  Study study;  ///< A trial that pauses is replaced by its parts.
+  std::string model_text;
+  /// Without held mass; read once for all trials. Never null.
+  std::shared_ptr<const model::BodyModel> model = std::make_shared<const model::BodyModel>();
   std::vector<TrueValue> truth;
   std::vector<InputFile> files;
 };
 
-/// Reads every file of a study; a trial that cannot be taken as one piece is replaced by its parts,
-/// in the study too. Throws as `run_study`.
-[[nodiscard]] StudyInputs read_inputs(Study& study);
+/// All that a study is computed from, as values.
+struct StudyInputs {
+  StudySource source;
+  std::vector<TrialInput> trials;  ///< In the study's order.
+};
+
+/// Reads every file of a study, its model once. Throws as `run_study`.
+[[nodiscard]] StudyInputs read_inputs(const Study& study);
+
+/// The inputs of a study whose trials were never files. Throws InvalidInput unless there is one for
+/// each trial, and as `load_model`.
+[[nodiscard]] StudyInputs in_memory(const Study& study, std::vector<TrialInput> trials);
 
 }  // namespace myoid

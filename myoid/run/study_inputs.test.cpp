@@ -30,13 +30,13 @@ struct StudyWithTruth {
 TEST(ReadInputs, ATrialThatPausesIsReplacedByItsPartsInTheStudyToo) {
   StudyWithTruth written("muscle,parameter,value\nBIC,optimal_fiber_length,0.14\n");
   const StudyInputs inputs = read_inputs(written.study);
-  ASSERT_EQ(written.study.trials.size(), 2U);
+  ASSERT_EQ(inputs.source.study.trials.size(), 2U);
   ASSERT_EQ(inputs.trials.size(), 2U);
-  EXPECT_EQ(written.study.trials[1].name, "t.2");
-  ASSERT_EQ(inputs.truth.size(), 1U);
-  EXPECT_EQ(inputs.truth[0].value, 0.14);
+  EXPECT_EQ(inputs.source.study.trials[1].name, "t.2");
+  ASSERT_EQ(inputs.source.truth.size(), 1U);
+  EXPECT_EQ(inputs.source.truth[0].value, 0.14);
   // Both parts are of the same two files, and each file is named once.
-  EXPECT_EQ(std::count_if(inputs.files.begin(), inputs.files.end(),
+  EXPECT_EQ(std::count_if(inputs.source.files.begin(), inputs.source.files.end(),
                           [&](const InputFile& f) { return f.path == written.trial.spec.emg; }),
             1);
 }

@@ -23,14 +23,14 @@ double duration_s(const identification::TrialData& trial) {
   return trial.time_s[trial.time_s.size() - 1] - trial.time_s[0];
 }
 
-TimeSeries frequency_of(const StudyActivations& emg, const TrialResult& trial, double window_s) {
-  if (!trial.emg || trial.emg->raw.empty()) return {};
-  const TimeSeries& raw = trial.emg->raw;
+TimeSeries frequency_of(const EmgScale& scale, const TrialResult& trial, double window_s) {
+  if (!trial.emg.stages || trial.emg.stages->raw.empty()) return {};
+  const TimeSeries& raw = trial.emg.stages->raw;
   signals::MedianFrequencyOptions options{.window_s = window_s};
   if (raw.mean_rate_hz() < 4.0 * options.low_hz || !raw.is_uniform()) return {};
   // The envelope of noise is sqrt(2 / pi) of its root mean square.
   Eigen::VectorXd resting = Eigen::VectorXd::Zero(raw.channel_count());
-  for (const signals::ChannelNormalisation& n : emg.normalisation) {
+  for (const signals::ChannelNormalisation& n : scale.normalisation) {
     if (const auto column = raw.find(n.channel))
       resting[*column] = n.resting_level_v * std::sqrt(std::numbers::pi / 2.0);
   }
@@ -38,20 +38,18 @@ TimeSeries frequency_of(const StudyActivations& emg, const TrialResult& trial, d
   return signals::median_frequency(raw, options);
 }
 
-const TrialResult* result_of(const StudyResult& result, const std::string& trial) {
-  const auto found = std::find_if(result.trials.begin(), result.trials.end(),
-                                  [&](const TrialResult& t) { return t.spec.name == trial; });
-  return found == result.trials.end() ? nullptr : &*found;
+const TrialResult* result_of(const std::vector<TrialResult>& trials, const std::string& name) {
+  const auto found = std::find_if(trials.begin(), trials.end(),
+                                  [&](const TrialResult& t) { return t.spec.name == name; });
+  return found == trials.end() ? nullptr : &*found;
 }
 
 /// What the estimator sees, but for two things that would hide fatigue. Whitening, made for a fresh
 /// muscle, takes out of the EMG's amplitude what tiring adds to it, since its frequencies fall at
 /// the same time: activations are those without. And only strengths, the delay and the joint are
 /// found: by a bent law of the EMG a fit would make one of fresh and tired muscles.
-identification::StudyData plain_data(const StudyResult& result,
-                                     const Study& study,
-                                     const StudyActivations& emg,
-                                     identification::StudyData data) {
+identification::StudyData plain_data(const FitSource& source, identification::StudyData data) {
+  const Study& study = source.study;
   for (const identification::ParameterField& field : identification::parameter_fields()) {
     if (field.scope == identification::Scope::joint || field.name == "max_isometric_force" ||
         field.name == "emg_delay")
@@ -61,26 +59,26 @@ identification::StudyData plain_data(const StudyResult& result,
     held.free = false;
     data.rules.push_back(std::move(held));
   }
-  if (!emg.whitening.applied) return data;
+  if (!source.scale.whitening.applied) return data;
 
   const signals::EnvelopeOptions options = envelope_options(study);
   std::vector<const TrialResult*> trials;
   std::vector<Use> uses;
   std::vector<TimeSeries> plain;
-  for (std::size_t i = 0; i < result.trials.size(); ++i) {
-    const TrialResult& trial = result.trials[i];
-    if (!trial.emg || trial.emg->filtered.empty()) continue;
-    signals::EmgStages stages = *trial.emg;
+  for (std::size_t i = 0; i < source.trials.size(); ++i) {
+    const TrialResult& trial = source.trials[i];
+    if (!trial.emg.stages || trial.emg.stages->filtered.empty()) continue;
+    signals::EmgStages stages = *trial.emg.stages;
     signals::add_envelope(stages, options);
     trials.push_back(&trial);
-    uses.push_back(i < study.trials.size() ? study.trials[i].use : trial.spec.use);
+    uses.push_back(study.trials[i].use);
     plain.push_back(std::move(stages.envelope));
   }
   std::vector<signals::TrialEnvelope> envelopes;
   for (std::size_t i = 0; i < trials.size(); ++i) {
     if (uses[i] != Use::validation)
       envelopes.push_back(
-          {trials[i]->spec.name, uses[i] == Use::mvc, &plain[i], trials[i]->emg->bandwidth_hz});
+          {trials[i]->spec.name, uses[i] == Use::mvc, &plain[i], trials[i]->emg.stages->bandwidth_hz});
   }
   const auto normalisation =
       signals::find_normalisation(envelopes, {.window_s = study.emg.normalise_window_s});
@@ -95,22 +93,14 @@ identification::StudyData plain_data(const StudyResult& result,
 
 }  // namespace
 
-std::vector<TrialPhases> study_phases(const StudyResult& result,
-                                      identification::EstimatorOptions options) {
-  return study_phases(result, result.study, activations_of(result), result.data,
-                      std::move(options));
-}
-
-std::vector<TrialPhases> study_phases(const StudyResult& result,
-                                      const Study& study,
-                                      const StudyActivations& emg,
+std::vector<TrialPhases> study_phases(const FitSource& source,
                                       const identification::StudyData& of_study,
                                       identification::EstimatorOptions options) {
   const bool worth_a_fit =
       std::any_of(of_study.trials.begin(), of_study.trials.end(),
                   [](const auto& t) { return t.calibration && duration_s(t) >= kShortest_s; });
   const identification::StudyData data =
-      worth_a_fit ? plain_data(result, study, emg, of_study) : of_study;
+      worth_a_fit ? plain_data(source, of_study) : of_study;
   identification::IdentificationResult fit;
   if (worth_a_fit) {
     options.loss = identification::Loss::huber;
@@ -136,8 +126,8 @@ std::vector<TrialPhases> study_phases(const StudyResult& result,
       signals.effort_nm =
           prediction.force_n.cwiseProduct(trial.moment_arm_m).cwiseAbs().rowwise().sum();
       signals.activation = std::move(prediction.activation);
-      if (const TrialResult* found = result_of(result, trial.name))
-        signals.median_frequency_hz = frequency_of(emg, *found, 0.5 * how.block_s);
+      if (const TrialResult* found = result_of(source.trials, trial.name))
+        signals.median_frequency_hz = frequency_of(source.scale, *found, 0.5 * how.block_s);
     } else {
       signals.predicted_nm = trial.torque_nm;
       signals.activation = identification::muscle_activation(data, trial, trial.time_s, 0.0);

@@ -4,7 +4,7 @@
 
 #include "myoid/identification/options.h"
 #include "myoid/phases/phases.h"
-#include "myoid/run/study_result.h"
+#include "myoid/run/fit_input.h"
 
 namespace myoid {
 
@@ -12,13 +12,8 @@ namespace myoid {
 /// torque that a first, robust fit of all trials predicts from the EMG (Huber's loss, one start, no
 /// intervals), and on the median frequency of the raw EMG where there is one. Trials that are too
 /// short to search get one phase; the fit is spared when all are.
-[[nodiscard]] std::vector<TrialPhases> study_phases(const StudyResult& result,
-                                                    identification::EstimatorOptions options);
-/// The same of other data of the same trials, with other uses (those of `study`) and activations.
-[[nodiscard]] std::vector<TrialPhases> study_phases(const StudyResult& result,
-                                                    const Study& study,
-                                                    const StudyActivations& emg,
-                                                    const identification::StudyData& of_study,
+[[nodiscard]] std::vector<TrialPhases> study_phases(const FitSource& source,
+                                                    const identification::StudyData& data,
                                                     identification::EstimatorOptions options);
 
 /// Marks the phases of the kinds that `rule` names and takes their time out of the data. A phase of

@@ -8,6 +8,7 @@
 #include "myoid/math/butterworth.h"
 #include "myoid/math/random.h"
 #include "myoid/math/zero_phase.h"
+#include "myoid/run/study_result.h"
 
 #include "tests/support/elbow_study.h"
 
@@ -29,11 +30,11 @@ struct Tiring {
     trial.velocity_radps = -trial.velocity_mps.col(0).cwiseQuotient(trial.moment_arm_m.col(0));
     for (Eigen::Index i = 0; i < trial.time_s.size(); ++i)
       trial.torque_nm[i] *= trial.time_s[i] > kTired_s ? 0.75 : 1.0;
-    result.data = study.data;
+    result.fit_input.data = study.data;
     result.trials.resize(1);
     result.trials[0].spec.name = trial.name;
   }
-  [[nodiscard]] identification::TrialData& trial() { return result.data.trials[0]; }
+  [[nodiscard]] identification::TrialData& trial() { return result.fit_input.data.trials[0]; }
 
   /// Noise of each muscle below 150 Hz, then below 120 Hz.
   void record_emg() {
@@ -53,7 +54,7 @@ struct Tiring {
       };
       volts.col(k) << below(150.0).head(fresh), below(120.0).tail(n - fresh);
     }
-    signals::EmgStages& emg = result.trials[0].emg.emplace();
+    signals::EmgStages& emg = result.trials[0].emg.stages.emplace();
     emg.raw = TimeSeries(clock(begin_s, n), channels(), volts);
   }
   /// After `record_emg`. What the envelope without whitening comes from: every muscle's activation
@@ -66,16 +67,18 @@ struct Tiring {
     Eigen::MatrixXd volts(n, 4);
     for (Eigen::Index i = 0; i < n; ++i)
       volts.row(i) = (i % 2 == 0 ? 1e-4 : -1e-4) * activation.values().row(i / step);
-    result.trials[0].emg.value().filtered = TimeSeries(clock(begin_s, n), channels(), volts);
+    result.trials[0].emg.stages.value().filtered = TimeSeries(clock(begin_s, n), channels(), volts);
     // Ten seconds in which nobody moves: the level of rest.
     TrialResult& rest = result.trials.emplace_back();
     rest.spec.name = "rest";
-    signals::EmgStages& quiet = rest.emg.emplace();
+    signals::EmgStages& quiet = rest.emg.stages.emplace();
     quiet.raw = quiet.filtered =
         TimeSeries(clock(0.0, 10000), channels(), 1e-6 * volts.topRows(10000));
   }
   [[nodiscard]] const Phase* found(PhaseKind kind) {
-    phases = study_phases(result, {.delay_s = 0.05});
+    result.source.study.trials.resize(result.trials.size());
+    phases = study_phases(fit_source(result.source, result.trials, result.resting, result.emg),
+                          result.fit_input.data, {.delay_s = 0.05});
     const auto& list = phases.at(0).phases;
     const auto it =
         std::find_if(list.begin(), list.end(), [&](const Phase& p) { return p.kind == kind; });
@@ -129,7 +132,7 @@ TEST(StudyPhases, AreFoundWithoutTheWhiteningThatHidesFatigue) {
   tiring.trial().activation = TimeSeries(tiring.trial().activation.time_s(),
                                          tiring.trial().activation.channels(), whitened);
   EXPECT_EQ(tiring.found(PhaseKind::fatigued), nullptr);
-  tiring.result.whitening.applied = true;
+  tiring.result.emg.whitening.applied = true;
   const Phase* tired = tiring.found(PhaseKind::fatigued);
   ASSERT_NE(tired, nullptr);
   EXPECT_NEAR(tired->begin_s, kTired_s, 3.0);

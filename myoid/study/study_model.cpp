@@ -102,17 +102,8 @@ identification::MuscleExtras model_extras(const model::Muscle& muscle) {
   return extras;
 }
 
-}  // namespace
-
-std::string model_text(const Study& study, const recording::MarkerSeries* markers) {
-  if (!study.model.text.empty()) return study.model.text;
-  if (study.model.file) return recording::read_text_file(*study.model.file);
-  return model::arm4_osim(arm_options(study, markers));
-}
-
-model::BodyModel load_model(const Study& study, const recording::MarkerSeries* markers) {
-  model::BodyModel model =
-      model::parse_osim(model_text(study, markers), study.model.file.value_or("arm4.osim"));
+/// The model as the study wants it, after its names have been compared with the study's.
+model::BodyModel prepared(const Study& study, model::BodyModel model) {
   const auto coordinate = [&](std::string_view key, const std::string& name) -> model::Coordinate& {
     try {
       return model.coordinates[static_cast<std::size_t>(model.coordinate_index(name))];
@@ -150,6 +141,34 @@ model::BodyModel load_model(const Study& study, const recording::MarkerSeries* m
                                  study.file.string(), study.model.held_mass->body, names));
   }
   return model;
+}
+
+}  // namespace
+
+std::string model_text(const Study& study) {
+  if (!study.model.text.empty()) return study.model.text;
+  if (study.model.file) return recording::read_text_file(*study.model.file);
+  return model::arm4_osim(arm_options(study, nullptr));
+}
+
+model::BodyModel load_model(const Study& study, const std::string& text) {
+  return prepared(study, model::parse_osim(text, study.model.file.value_or("arm4.osim")));
+}
+
+model::BodyModel load_model(const Study& study) { return load_model(study, model_text(study)); }
+
+std::optional<model::BodyModel> arm_of_markers(const Study& study,
+                                               const recording::MarkerSeries& markers) {
+  const bool built_in = study.model.text.empty() && !study.model.file;
+  if (!built_in || study.model.forearm_length_m || !forearm_length(markers)) return std::nullopt;
+  return prepared(study,
+                  model::parse_osim(model::arm4_osim(arm_options(study, &markers)), "arm4.osim"));
+}
+
+HeldMassSpec held_mass_place(const Study& study) {
+  if (study.model.held_mass) return *study.model.held_mass;
+  if (!study.model.file) return {"forearm_hand", model::arm4_held_at_m()};
+  throw InvalidInput("held_mass_kg is given, but [model] held_mass does not say where it acts");
 }
 
 std::vector<kinematics::MuscleGroup> muscle_groups(const Study& study,

@@ -13,16 +13,22 @@
 
 namespace myoid {
 
-/// The study's model as text: its file, or the built-in arm made for the subject. `markers`, if
-/// given, set the built-in arm's forearm length (elbow to middle of the styloids) where the study
-/// does not; the upper arm follows in de Leva's proportion.
-[[nodiscard]] std::string model_text(const Study& study,
-                                     const recording::MarkerSeries* markers = nullptr);
+/// The study's model as text: its file, or the built-in arm made for the subject.
+[[nodiscard]] std::string model_text(const Study& study);
 
-/// The model itself. Throws ReadError, or ModelError if the study's coordinate, muscles or
-/// held-mass body are not in it, with the names that are.
-[[nodiscard]] model::BodyModel load_model(const Study& study,
-                                          const recording::MarkerSeries* markers = nullptr);
+/// The model of that text, read once for all trials of a study. Throws ReadError, or ModelError if
+/// the study's coordinate, muscles or held-mass body are not in it, with the names that are.
+[[nodiscard]] model::BodyModel load_model(const Study& study, const std::string& text);
+[[nodiscard]] model::BodyModel load_model(const Study& study);
+
+/// The built-in arm with the forearm length (elbow to middle of the styloids) that these markers
+/// measure; the upper arm follows in de Leva's proportion. Empty where that is the study's model:
+/// it has a model file, states the length, or the markers do not show it.
+[[nodiscard]] std::optional<model::BodyModel> arm_of_markers(
+    const Study& study, const recording::MarkerSeries& markers);
+
+/// The point that a trial's held mass acts at. Throws InvalidInput where the study does not say it.
+[[nodiscard]] HeldMassSpec held_mass_place(const Study& study);
 
 /// What is identified: one entry per [[muscle]], heads lumped with their F_max as weights, with the
 /// priors of the literature.

@@ -42,14 +42,14 @@ Study study_of(const twin::VirtualRecording& recording, const TwinStudyOptions& 
   return study;
 }
 
-StudyInputs inputs_of(twin::VirtualRecording& recording) {
-  StudyInputs inputs;
+std::vector<TrialInput> inputs_of(twin::VirtualRecording& recording) {
+  std::vector<TrialInput> inputs;
   for (twin::VirtualTrial& trial : recording.trials) {
     TrialInput input;
     input.markers = std::move(trial.markers);
     input.emg = std::move(trial.emg);
     input.external_torque = std::move(trial.external_torque);
-    inputs.trials.push_back(std::move(input));
+    inputs.push_back(std::move(input));
   }
   return inputs;
 }
@@ -86,12 +86,12 @@ OnePerson one_person(const twin::Protocol& protocol,
     run.inform_forces = false;
     run.share_forces = std::any_of(options.methods.begin(), options.methods.end(),
                                    [](const std::string& method) { return method != "torque"; });
-    const StudyResult result = analyse(study, inputs_of(recording), run);
+    const StudyResult result = analyse(in_memory(study, inputs_of(recording)), run);
     for (const TrialResult& trial : result.trials) {
-      if (!trial.failure.empty())
-        person.failures.push_back({seed, fmt::format("{}: {}", trial.spec.name, trial.failure)});
+      if (!trial.failure().empty())
+        person.failures.push_back({seed, fmt::format("{}: {}", trial.spec.name, trial.failure())});
     }
-    for (const identification::IdentificationResult& method : result.methods) {
+    for (const identification::IdentificationResult& method : result.fit.methods) {
       for (const ParameterEstimate& e : method.estimates) {
         const auto it = truth.find({e.muscle, e.parameter});
         if (it != truth.end()) person.rows.push_back({seed, it->second, e});
@@ -99,9 +99,7 @@ OnePerson one_person(const twin::Protocol& protocol,
       if (method.method != "torque") continue;
       for (const identification::TrialFit& t : method.trials) {
         if (t.calibration) continue;
-        const identification::Score law{
-            .rmse_nm = t.rmse_nm, .nrmse_range = t.nrmse_range, .r2 = t.r2};
-        person.predictions.push_back({seed, t.trial, law, smoothed_score(t), t.band});
+        person.predictions.push_back({seed, t.trial, t.score, smoothed_score(t), t.band});
       }
     }
   } catch (const InvalidInput& error) {
@@ -280,7 +278,7 @@ void write_twin_study(const TwinStudyResult& result,
   for (const TwinPrediction& p : result.predictions) {
     predictions += fmt::format("{},{}", p.seed, p.trial);
     for (const identification::Score* s : {&p.law, &p.smooth, &p.band})
-      predictions += fmt::format(",{},{},{}", cell(s->rmse_nm), cell(s->nrmse_range), cell(s->r2));
+      predictions += fmt::format(",{},{},{}", cell(s->rmse_nm()), cell(s->nrmse_range()), cell(s->r2()));
     predictions += "\n";
   }
   recording::write_file(folder / "predictions.csv", predictions);

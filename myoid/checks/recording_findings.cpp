@@ -1,0 +1,42 @@
+#include "myoid/checks/recording_findings.h"
+
+#include <cstddef>
+
+#include "myoid/checks/dynamometer_sign.h"
+#include "myoid/core/parallel.h"
+#include "myoid/intake/trial_quality.h"
+#include "myoid/signals/emg_levels.h"
+
+namespace myoid {
+
+EmgOfTrials emg_of(const std::vector<TrialInput>& inputs) {
+  EmgOfTrials emg;
+  for (const TrialInput& input : inputs) emg.push_back(input.emg ? &*input.emg : nullptr);
+  return emg;
+}
+
+RecordingFindings recording_findings(const Study& study,
+                                     const model::BodyModel& model,
+                                     const std::vector<TrialInput>& inputs,
+                                     const StudyActivation& activation) {
+  RecordingFindings found;
+  found.of_trials.resize(inputs.size());
+  parallel_ranges<std::size_t>(inputs.size(), 1, [&](const auto& range) {
+    for (std::size_t i = range.begin(); i != range.end(); ++i)
+      found.of_trials[i] = trial_faults(study, inputs[i], activation.trials[i].activation);
+  });
+  if (study.emg.kind != EmgKind::activation)
+    found.levels =
+        signals::check_emg_levels(envelopes_of(study, emg_of(inputs), activation, false));
+  std::vector<EffortTrial> efforts;
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    if (activation.trials[i].activation.empty()) continue;
+    const auto& torque = inputs[i].external_torque;
+    efforts.push_back(
+        {&study.trials[i], torque ? &*torque : nullptr, activation.trials[i].activation});
+  }
+  found.dynamometers = grouped(dynamometer_signs(study, model, efforts));
+  return found;
+}
+
+}  // namespace myoid

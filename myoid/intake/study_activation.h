@@ -1,0 +1,63 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "myoid/core/time_series.h"
+#include "myoid/signals/emg_envelope.h"
+#include "myoid/signals/emg_levels.h"
+#include "myoid/study/study.h"
+
+namespace myoid {
+
+/// The EMG of one trial.
+struct TrialActivation {
+  std::optional<signals::EmgStages> stages;  ///< If its EMG was raw.
+  TimeSeries activation;                     ///< Per EMG channel, 0..1; empty: no EMG.
+};
+
+/// The scale of a study's EMG: one for all trials.
+struct EmgScale {
+  signals::Whitening whitening;                              ///< Of raw EMG.
+  std::vector<signals::ChannelNormalisation> normalisation;  ///< Empty if EMG came as activations.
+};
+
+/// The EMG of all trials, in the study's order.
+struct StudyActivation {
+  std::vector<TrialActivation> trials;
+  EmgScale scale;
+};
+
+/// The EMG as its files hold it, one series for each trial of the study; nullptr: no EMG.
+using EmgOfTrials = std::vector<const TimeSeries*>;
+
+/// The rate [Hz] that activations are thinned to.
+inline constexpr double kActivationRate_hz = 200.0;
+
+/// Turns the EMG of all trials into activations: `study_envelopes`, then `normalise`.
+[[nodiscard]] StudyActivation study_activation(const Study& study, const EmgOfTrials& emg);
+
+/// Cleans, whitens (one filter for the study) and rectifies raw EMG; envelopes and activations stay
+/// as they came. Trials that are held back for validation have no part in the filter. The
+/// activations are empty. Throws as `signals::clean_emg`.
+[[nodiscard]] StudyActivation study_envelopes(const Study& study, const EmgOfTrials& emg);
+
+/// The envelopes of the trials that have EMG, for a comparison of levels; without the trials that
+/// are held back for validation if `without_validation`.
+[[nodiscard]] std::vector<signals::TrialEnvelope> envelopes_of(const Study& study,
+                                                               const EmgOfTrials& emg,
+                                                               const StudyActivation& envelopes,
+                                                               bool without_validation);
+
+/// Divides the envelopes by the study's greatest effort and thins them to kActivationRate_hz, for
+/// `TrialActivation::activation` and `EmgScale::normalisation`. Trials that are held back for
+/// validation have no part in the greatest effort. EMG that came as activation stays. Throws
+/// InvalidInput as `signals::find_normalisation`.
+void normalise(const Study& study, const EmgOfTrials& emg, StudyActivation& envelopes);
+
+/// The activations of the same trials if their uses were those of `study`, from the clean EMG of
+/// `known`.
+[[nodiscard]] StudyActivation activation_with_uses(
+    const Study& study, const EmgOfTrials& emg, const std::vector<const TrialActivation*>& known);
+
+}  // namespace myoid

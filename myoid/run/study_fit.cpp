@@ -1,0 +1,82 @@
+#include "myoid/run/study_fit.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <oneapi/tbb/parallel_for.h>
+
+#include "myoid/methods/basins.h"
+#include "myoid/methods/force.h"
+#include "myoid/methods/paper.h"
+#include "myoid/methods/torque.h"
+
+namespace myoid {
+
+using identification::IdentificationResult;
+
+const IdentificationResult* torque_of(const StudyFit& fit) {
+  for (const IdentificationResult& method : fit.methods) {
+    if (method.method == "torque") return &method;
+  }
+  return nullptr;
+}
+
+bool wants_torque(const Study& study) {
+  const std::vector<std::string>& methods = study.identify.methods;
+  return std::find(methods.begin(), methods.end(), "torque") != methods.end();
+}
+
+StudyFit study_fit(const Study& study, const FitInput& input, const Progress& progress) {
+  StudyFit found;
+  if (wants_torque(study)) {
+    found.exchanged = identification::exchanged_electrodes(
+        input.data, study.emg.delay_s.value_or(identification::TorqueOptions{}.delay_prior_mean_s));
+  }
+  for (const std::string& method : study.identify.methods) {
+    progress.check();
+    if (method == "paper") {
+      found.methods.push_back(
+          identification::identify_paper(input.data, {.multistart = study.identify.starts,
+                                                      .muscles = study.identify.muscles,
+                                                      .shared_forces = true}));
+    } else if (method == "force") {
+      identification::EstimatorOptions estimator = input.options;
+      estimator.intervals.profile = false;
+      found.methods.push_back(identification::identify_force(
+          input.data, {.estimator = std::move(estimator), .shared_forces = true}));
+    } else {
+      found.methods.push_back(identification::identify_torque(input.data, input.options));
+      identification::look_around(input.data, input.options, found.methods.back());
+    }
+  }
+  return found;
+}
+
+std::vector<identification::InformedForces> informed_forces(
+    const FitInput& input, const std::vector<IdentificationResult>& methods) {
+  std::vector<identification::InformedForces> found;
+  for (const IdentificationResult& method : methods) {
+    if (method.method != "torque") continue;
+    const std::size_t before = found.size();
+    const std::vector<identification::TrialData>& trials = input.data.trials;
+    found.resize(before + trials.size());
+    oneapi::tbb::parallel_for(std::size_t{0}, trials.size(), [&](std::size_t i) {
+      const identification::Prediction p =
+          identification::predict(input.data, trials[i], method.values, method.lag);
+      found[before + i] =
+          identification::informed_forces(trials[i], p.activation, method.values.muscles);
+    });
+  }
+  return found;
+}
+
+identification::ForceLoop force_loop(const FitInput& input) {
+  identification::EstimatorOptions estimator = input.options;
+  estimator.intervals = {};
+  estimator.multistart = 0;
+  return identification::iterate_forces(
+      input.data,
+      {.force = {.estimator = std::move(estimator), .shared_forces = true}, .delay_s = 0.06});
+}
+
+}  // namespace myoid

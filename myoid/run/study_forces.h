@@ -1,0 +1,61 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "myoid/core/time_series.h"
+#include "myoid/dynamics/ground_support.h"
+#include "myoid/forces/force_sharing.h"
+#include "myoid/intake/study_activation.h"
+#include "myoid/kinematics/muscle_kinematics.h"
+#include "myoid/methods/resting_torque.h"
+#include "myoid/run/study_inputs.h"
+#include "myoid/run/trial_motion.h"
+
+namespace myoid {
+
+/// The torques, muscle paths and shared forces of one trial; all empty without motion.
+struct TrialForces {
+  TimeSeries generalized;                ///< Inverse dynamics, all coordinates.
+  kinematics::MuscleKinematics muscles;  ///< Of the model's muscles.
+  TimeSeries muscle_torque;     ///< Of the study's coordinates: what the muscles provide [N m].
+  forces::MuscleForces shared;  ///< Of the model's muscles.
+  std::optional<dynamics::UncarriedTime> uncarried;  ///< Where torques lack a ground reaction.
+  std::vector<std::string> notes, warnings;
+  std::string failure;  ///< Why it could not be computed; empty: it could.
+};
+
+/// The forces of all trials, in the study's order.
+struct StudyForces {
+  std::vector<TrialForces> trials;
+  std::vector<identification::RestingJoint> resting;  ///< Joints whose passive torque was measured.
+};
+
+/// Inverse dynamics and muscle paths of one trial, without sharing. Throws InvalidInput.
+[[nodiscard]] TrialForces trial_torques(const StudySource& source,
+                                        const TrialSpec& spec,
+                                        const TrialInput& input,
+                                        const TrialMotion& motion);
+
+/// The torques of the study's joints shared among the model's muscles, as `myoid so` does
+/// (forces::sharing_input): the curves of each muscle's own class, the model's passive forces
+/// counted. The torque of a dynamometer and what the joints do by themselves (`resting`) are
+/// no muscle's. What is to be said of it goes to `notes`.
+[[nodiscard]] forces::MuscleForces shared_forces(
+    const Study& study,
+    const TrialInput& input,
+    const TrialMotion& motion,
+    const kinematics::MuscleKinematics& muscles,
+    const std::vector<identification::RestingJoint>& resting,
+    std::vector<std::string>& notes);
+
+/// Torques of all trials, then the resting joints from the passive ones, then, if `share`, shared
+/// forces; trials in parallel. A trial that cannot be computed holds the failure.
+[[nodiscard]] StudyForces study_forces(const StudyInputs& inputs,
+                                       const StudyActivation& activation,
+                                       const std::vector<TrialMotion>& motion,
+                                       bool share,
+                                       const Progress& progress);
+
+}  // namespace myoid

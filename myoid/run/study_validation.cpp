@@ -1,0 +1,73 @@
+#include "myoid/run/study_validation.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "myoid/methods/torque.h"
+
+namespace myoid {
+namespace {
+
+identification::FoldKind fold_kind(const std::string& left_out) {
+  return left_out == "condition" ? identification::FoldKind::condition
+         : left_out == "block"   ? identification::FoldKind::block
+                                 : identification::FoldKind::trial;
+}
+
+/// The study with the trials that a split leaves out held back for validation.
+Study with_uses_of(const identification::StudyData& split, Study study) {
+  for (TrialSpec& trial : study.trials) {
+    for (const identification::TrialData& data : split.trials) {
+      if (data.name == trial.name && !data.calibration) trial.use = Use::validation;
+    }
+  }
+  return study;
+}
+
+/// The data of a fold as if the trials that it leaves out had been held back for validation.
+FitInput without_left_out(const FitSource& source,
+                          const identification::StudyData& split,
+                          const Progress& progress) {
+  const Study study = with_uses_of(split, source.study);
+  EmgOfTrials emg;
+  std::vector<const TrialActivation*> known;
+  for (const TrialResult& trial : source.trials) {
+    emg.push_back(trial.input.emg ? &*trial.input.emg : nullptr);
+    known.push_back(&trial.emg);
+  }
+  const StudyActivation seen = activation_with_uses(study, emg, known);
+  FitSource of_fold{study, source.model, source.trials, source.resting, {}, seen.scale};
+  for (const TrialActivation& trial : seen.trials) of_fold.activation.push_back(&trial.activation);
+  FitInput input = fit_input(of_fold, progress);
+  std::erase_if(input.data.trials, [&](const identification::TrialData& trial) {
+    return std::none_of(split.trials.begin(), split.trials.end(),
+                        [&](const auto& of_split) { return of_split.name == trial.name; });
+  });
+  return input;
+}
+
+}  // namespace
+
+StudyValidation study_validation(const FitSource& source,
+                                 const FitInput& input,
+                                 const Progress& progress) {
+  const identification::CrossValidationOptions how{.kind = fold_kind(source.study.identify.folds)};
+  const auto fit = [&](identification::StudyData& split) {
+    if (how.kind == identification::FoldKind::block)
+      return identification::identify_torque(split, identification::of_a_fold(input.options));
+    FitInput of_fold = without_left_out(source, split, progress);
+    split = std::move(of_fold.data);
+    return identification::identify_torque(split, identification::of_a_fold(of_fold.options));
+  };
+  StudyValidation found;
+  found.folds = identification::cross_validate(input.data, fit, input.options, how);
+  std::string why_not;
+  (void)identification::splits(input.data, how, &why_not);
+  if (!why_not.empty())
+    found.warnings.push_back("nothing was left out of the fit to be predicted: " + why_not);
+  if (std::string bad = identification::generalises_badly(found.folds); !bad.empty())
+    found.warnings.push_back(std::move(bad));
+  return found;
+}
+
+}  // namespace myoid

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "myoid/core/progress.h"
+#include "myoid/methods/cross_validation.h"
+#include "myoid/run/fit_input.h"
+
+namespace myoid {
+
+/// The predictions of what was left out of the fit.
+struct StudyValidation {
+  std::vector<identification::Fold> folds;
+  std::vector<std::string> warnings;  ///< About method torque.
+};
+
+/// Leaves trials, conditions or blocks out (`[identify] folds`), with a fit that is the reported
+/// one on the others: from the EMG on nothing rests on a trial that is left out.
+[[nodiscard]] StudyValidation study_validation(const FitSource& source,
+                                               const FitInput& input,
+                                               const Progress& progress);
+
+}  // namespace myoid

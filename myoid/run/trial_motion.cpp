@@ -1,0 +1,136 @@
+#include "myoid/run/trial_motion.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+#include <oneapi/tbb/parallel_for.h>
+
+#include "myoid/core/error.h"
+#include "myoid/dynamics/held_mass.h"
+#include "myoid/intake/trial_markers.h"
+#include "myoid/signals/resample.h"
+#include "myoid/study/study_model.h"
+
+namespace myoid {
+namespace {
+
+/// Coordinates that are the same throughout a trial: found where the posture is known, then held.
+void calibrate(const CalibrationSpec& spec,
+               const recording::MarkerSeries& markers,
+               model::BodyModel& model) {
+  model::BodyModel posed = model;
+  for (model::Coordinate& c : posed.coordinates) c.locked = true;
+  for (const std::string& name : spec.free)
+    posed.coordinates[static_cast<std::size_t>(posed.coordinate_index(name))].locked = false;
+  const kinematics::IkResult pose =
+      kinematics::inverse_kinematics(posed, calibration_window(spec, markers));
+  for (const std::string& name : spec.hold) {
+    Eigen::VectorXd values = pose.q.column(name);
+    std::nth_element(values.begin(), values.begin() + values.size() / 2, values.end());
+    model::Coordinate& c =
+        model.coordinates[static_cast<std::size_t>(model.coordinate_index(name))];
+    c.default_value = values[values.size() / 2];
+    c.locked = true;
+  }
+}
+
+/// The model of a trial: a copy of its own only where it differs from the study's.
+std::shared_ptr<const model::BodyModel> trial_model(const StudySource& source,
+                                                    const TrialSpec& spec,
+                                                    const TrialInput& input) {
+  const Study& study = source.study;
+  std::optional<model::BodyModel> own;
+  const auto changed = [&]() -> model::BodyModel& {
+    return own ? *own : own.emplace(*source.model);
+  };
+  if (input.markers) own = arm_of_markers(study, *input.markers);
+  if (spec.held_mass_kg > 0.0) {
+    const HeldMassSpec held = held_mass_place(study);
+    own = dynamics::with_held_mass(std::move(changed()), held.body, held.p_BP_m, spec.held_mass_kg);
+  }
+  if (input.markers && study.ik.calibrate)
+    calibrate(*study.ik.calibrate, *input.markers, changed());
+  return own ? std::make_shared<const model::BodyModel>(std::move(*own)) : source.model;
+}
+
+/// Inverse kinematics, or the result that an earlier run found from the same input.
+void solve_ik(const StudySource& source,
+              const recording::MarkerSeries& markers,
+              StageStore* store,
+              TrialMotion& motion) {
+  const std::string key = store != nullptr ? ik_key(source.study, source.model_text, markers) : "";
+  if (store != nullptr) motion.ik = store->find(key);
+  motion.ik_reused = motion.ik.has_value();
+  if (motion.ik_reused) return;
+  kinematics::IkOptions options;
+  options.marker_weights = source.study.markers.weight;
+  motion.ik = kinematics::inverse_kinematics(*motion.model, markers, options);
+  if (store != nullptr) store->keep(key, *motion.ik);
+}
+
+/// The coordinates on the clock of the analysis, smoothed as the study says, with derivatives.
+void add_joint_motion(const Study& study, TimeSeries q, TrialMotion& motion) {
+  kinematics::MotionOptions options;
+  options.cutoff_hz = motion_cutoff_hz(study);
+  const double rate = q.mean_rate_hz();
+  const double wanted = options.cutoff_hz ? study.motion.rate_hz : rate;
+  if (options.cutoff_hz && *options.cutoff_hz >= 0.45 * rate) {
+    motion.notes.push_back(
+        fmt::format("motion at {:.0f} Hz is too slow to be smoothed at {:.3g} Hz: not smoothed",
+                    rate, *options.cutoff_hz));
+    options.cutoff_hz.reset();
+  }
+  const Eigen::VectorXd& clock = q.time_s();
+  if (std::abs(wanted - rate) > 0.01 * rate || !q.is_uniform())
+    options.time_s = signals::even_clock(clock[0], clock[clock.size() - 1], wanted);
+  // What a slower clock cannot hold goes first, where the smoothing spline, whose gain is
+  // 1 / (1 + (f/f_c)^6), leaves more than a thousandth of it at half the new rate.
+  const bool smoothed_away =
+      options.cutoff_hz && std::pow(0.5 * wanted / *options.cutoff_hz, 6) >= 999.0;
+  if (options.time_s && !smoothed_away && q.is_uniform()) q = signals::anti_aliased(q, wanted);
+  kinematics::MotionResult result = kinematics::joint_motion(*motion.model, q, options);
+  motion.joints = std::move(result.motion);
+  motion.notes.insert(motion.notes.end(), result.notes.begin(), result.notes.end());
+}
+
+}  // namespace
+
+TrialMotion trial_motion(const StudySource& source,
+                         const TrialSpec& spec,
+                         const TrialInput& input,
+                         StageStore* store) {
+  TrialMotion motion;
+  motion.model = trial_model(source, spec, input);
+  if (input.markers) {
+    solve_ik(source, *input.markers, store, motion);
+    motion.notes = motion.ik->notes;
+    add_joint_motion(source.study, motion.ik->q, motion);
+  } else if (input.motion) {
+    add_joint_motion(source.study, *input.motion, motion);
+  }
+  return motion;
+}
+
+std::vector<TrialMotion> study_motion(const StudyInputs& inputs,
+                                      StageStore* store,
+                                      const Progress& progress) {
+  const std::vector<TrialSpec>& specs = inputs.source.study.trials;
+  std::vector<TrialMotion> motions(specs.size());
+  std::atomic<int> done = 0;
+  oneapi::tbb::parallel_for(std::size_t{0}, specs.size(), [&](std::size_t i) {
+    progress.check();
+    try {
+      motions[i] = trial_motion(inputs.source, specs[i], inputs.trials[i], store);
+    } catch (const InvalidInput& error) {
+      motions[i].model = inputs.source.model;
+      motions[i].failure = error.what();
+    }
+    progress.tell(++done / static_cast<double>(specs.size()), specs[i].name);
+  });
+  return motions;
+}
+
+}  // namespace myoid

@@ -1,0 +1,63 @@
+#include "myoid/run/trial_motion.h"
+
+#include <filesystem>
+
+#include <gtest/gtest.h>
+
+#include "myoid/arm/arm4.h"
+
+#include "tests/support/written_trial.h"
+
+namespace myoid {
+namespace {
+
+using namespace test_trials;
+
+/// A study of two trials, of which the second holds a mass, with a model on disk.
+struct OnDisk {
+  test::TemporaryFolder folder;
+  Study study = arm_study();
+
+  OnDisk() {
+    recording::write_file(folder / "arm.osim", model::arm4_osim());
+    study.model.file = folder / "arm.osim";
+    study.model.held_mass = {"forearm_hand", model::arm4_held_at_m()};
+    study.trials.resize(2, study.trials[0]);
+    study.trials[1].held_mass_kg = 2.0;
+  }
+  [[nodiscard]] StudyInputs inputs() const {
+    TrialInput input;
+    const Eigen::VectorXd time_s = Eigen::VectorXd::LinSpaced(201, 0.0, 2.0);
+    input.motion = TimeSeries(time_s, {{"elbow_flexion", Unit::radian}},
+                              Eigen::MatrixXd(0.5 + 0.3 * time_s.array().sin()));
+    return in_memory(study, {input, input});
+  }
+};
+
+// With the file gone no stage can read the model a second time.
+TEST(StudyMotion, TheModelIsReadOnceAndTrialsShareIt) {
+  const OnDisk disk;
+  const StudyInputs inputs = disk.inputs();
+  std::filesystem::remove(*disk.study.model.file);
+  const std::vector<TrialMotion> motion = study_motion(inputs, nullptr, {});
+  ASSERT_TRUE(motion[0].failure.empty()) << motion[0].failure;
+  ASSERT_TRUE(motion[1].failure.empty()) << motion[1].failure;
+  EXPECT_EQ(motion[0].model, inputs.source.model);
+  // The held mass is the trial's own.
+  EXPECT_NE(motion[1].model, inputs.source.model);
+  const auto hand =
+      static_cast<std::size_t>(inputs.source.model->find_body("forearm_hand").value());
+  EXPECT_NEAR(motion[1].model->bodies[hand].mass_kg,
+              inputs.source.model->bodies[hand].mass_kg + 2.0, 1e-12);
+}
+
+TEST(StudyMotion, AHeldMassWithoutAPlaceIsTheFailureOfItsTrial) {
+  OnDisk disk;
+  disk.study.model.held_mass.reset();
+  const std::vector<TrialMotion> motion = study_motion(disk.inputs(), nullptr, {});
+  EXPECT_TRUE(motion[0].failure.empty());
+  EXPECT_NE(motion[1].failure.find("does not say where it acts"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace myoid

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "myoid/core/fault.h"
+#include "myoid/intake/study_activation.h"
+#include "myoid/intake/trial_input.h"
+#include "myoid/run/study_forces.h"
+#include "myoid/run/trial_motion.h"
+#include "myoid/study/study.h"
+
+namespace myoid {
+
+/// All that was found about one trial, stage by stage.
+struct TrialResult {
+  TrialSpec spec;
+  TrialInput input;                   ///< read
+  TrialActivation emg;                ///< activation
+  TrialMotion motion;                 ///< motion
+  TrialForces forces;                 ///< forces
+  std::vector<Fault> faults;          ///< findings: of its recordings, as they came.
+  std::vector<std::string> warnings;  ///< Of all stages: what may make numbers wrong.
+  std::vector<std::string> notes;     ///< Of all stages: repairs and remarks, with file and line.
+
+  /// Why the trial could not be computed; empty: it could.
+  [[nodiscard]] const std::string& failure() const {
+    return motion.failure.empty() ? forces.failure : motion.failure;
+  }
+  [[nodiscard]] bool has_motion() const {
+    return motion.joints.q.sample_count() > 0 && failure().empty();
+  }
+};
+
+/// The number of trials that could not be computed.
+[[nodiscard]] inline int failed_trials(const std::vector<TrialResult>& trials) {
+  return static_cast<int>(std::count_if(trials.begin(), trials.end(), [](const TrialResult& trial) {
+    return !trial.failure().empty();
+  }));
+}
+
+}  // namespace myoid
