@@ -2,7 +2,7 @@
 # exactly these; tests/architecture compares every #include with this list.
 set(MYOID_LAYERS core math files muscle tables c3d recording signals model osim arm kinematics
     dynamics forces simulation identification intervals methods report phases study intake checks
-    design run scene results draft contents identify_files opensim_tools twin cli)
+    design run scene results draft contents identify_files opensim_tools twin commands cli)
 set(MYOID_LAYER_core)
 set(MYOID_LAYER_math core)
 set(MYOID_LAYER_files core)
@@ -41,9 +41,11 @@ set(MYOID_LAYER_identify_files core math files muscle tables recording signals d
 set(MYOID_LAYER_opensim_tools core math files tables recording signals model osim kinematics
     dynamics forces simulation)
 set(MYOID_LAYER_twin core math files muscle tables c3d model osim arm simulation intervals run)
-set(MYOID_LAYER_cli core math files muscle tables c3d recording signals model osim arm kinematics
+set(MYOID_LAYER_commands core files muscle tables c3d recording signals model osim arm kinematics
     dynamics forces simulation identification intervals methods report study checks design run scene
-    results draft contents identify_files opensim_tools twin)
+    results draft contents identify_files twin)
+set(MYOID_LAYER_cli core math files intervals methods report results contents opensim_tools
+    commands)
 
 # myoid_layer(NAME UNITS ... [GENERATED sources...] [TESTS_USE layers...] [EXTERNAL targets...])
 # A folder is a target; its tests are one executable. A unit u stands for those of u.h, u.cpp and u.test.cpp

@@ -1,13 +1,10 @@
-#include <filesystem>
+#include "myoid/commands/compare.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "myoid/cli/context.h"
-#include "myoid/core/error.h"
 #include "myoid/core/json_text.h"
-#include "myoid/report/write_report.h"
-#include "myoid/results/compare_runs.h"
 
 namespace myoid::cli {
 namespace {
@@ -59,33 +56,23 @@ void add_compare(CLI::App& app, Context& context) {
       "Two finished runs, number by number: which parameters differ by more than chance, which do "
       "not, and which the recordings cannot tell.\n"
       "Example: myoid compare results/before results/after --out compared");
-  struct Options {
-    std::string first, second, out;
-  };
-  const auto options = std::make_shared<Options>();
+  const auto out = std::make_shared<std::string>();
+  const auto options = std::make_shared<commands::CompareOptions>();
   command.add_option("first", options->first, "Folder of a run (with parameters.json)")->required();
   command.add_option("second", options->second, "Folder of the run to compare it with")->required();
-  command.add_option("--out", options->out, "Folder for report.html, figures and tables");
+  command.add_option("--out", *out, "Folder for report.html, figures and tables");
   add_common_options(command, context, {.threads = false, .seed = false, .range = false});
-  command.callback([&context, options] {
-    std::error_code ignored;
-    if (std::filesystem::equivalent(options->first, options->second, ignored)) {
-      throw InvalidInput(
-          fmt::format("{} and {} are one folder; name two runs", options->first, options->second));
-    }
-    const RunComparison comparison = compare_runs(options->first, options->second);
-    for (const std::string& text : comparison.unlike)
-      context.warn(fmt::format("{} and {}: {}", options->first, options->second, text));
-    if (!options->out.empty()) {
-      context.prepare_folder(options->out);
-      report::write_report(comparison_report(comparison), options->out);
-    }
+  command.callback([&context, options, out] {
+    if (!out->empty()) context.prepare_folder(*out);
+    options->call = context.call();
+    const commands::CompareResult result = commands::compare(*options);
+    if (!out->empty()) commands::write_compare(result, *out);
     if (context.json) {
-      fmt::print("{}\n", json_text(to_json(comparison)));
+      fmt::print("{}\n", json_text(to_json(result.comparison)));
       return;
     }
-    print(comparison);
-    if (!options->out.empty()) fmt::print("{}/report.html\n", options->out);
+    print(result.comparison);
+    if (!out->empty()) fmt::print("{}/report.html\n", *out);
   });
 }
 

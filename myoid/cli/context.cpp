@@ -13,6 +13,7 @@
 
 #include "myoid/cli/granted_threads.h"
 #include "myoid/cli/held_folders.h"
+#include "myoid/commands/output_file.h"
 #include "myoid/core/error.h"
 #include "myoid/files/atomic_file.h"
 #include "myoid/files/text_file.h"
@@ -111,6 +112,22 @@ void Context::warn(std::string_view line) const {
              color_wanted() ? "\033[0m" : "", line);
 }
 
+void Context::tell(const commands::Remark& remark) const {
+  using Kind = commands::Remark::Kind;
+  if (remark.kind == Kind::detail && !verbose) return;
+  end_progress();
+  remark.kind == Kind::warning ? warn(remark.text) : log(remark.text);
+}
+
+commands::Call Context::call() const {
+  return {.seed = seed,
+          .start_s = start_s,
+          .end_s = end_s,
+          .command = command_line,
+          .progress = progress(),
+          .listener = [this](const commands::Remark& remark) { tell(remark); }};
+}
+
 Progress Context::progress() const {
   Progress progress{.report = {}, .stop = stop.get_token()};
   if (!quiet && isatty(STDERR_FILENO) != 0) {
@@ -124,29 +141,15 @@ void Context::end_progress() const {
   if (!quiet && isatty(STDERR_FILENO) != 0) fmt::print(stderr, "\r\033[K");
 }
 
-void Context::refuse_existing(const std::filesystem::path& path) const {
-  std::error_code ignored;
-  if (!overwrite && std::filesystem::is_regular_file(path, ignored)) {
-    throw InvalidInput(fmt::format(
-        "{} exists already; give --overwrite to replace it, or another --out", path.string()));
-  }
-}
-
 void Context::prepare_file(const std::filesystem::path& path,
                            const std::vector<std::string>& inputs) const {
-  namespace fs = std::filesystem;
-  if (path.empty()) throw InvalidInput("--out is empty; name the file to write");
+  commands::check_output(path, inputs, overwrite);
+  remember_new_folder(path.parent_path());
+}
+
+void Context::remember_new_folder(const std::filesystem::path& folder) const {
   std::error_code ignored;
-  for (const std::string& input : inputs) {
-    if (path == input || fs::equivalent(path, input, ignored)) {
-      throw InvalidInput(fmt::format(
-          "{} is an input of this command and would be replaced by its result; give another --out",
-          path.string()));
-    }
-  }
-  refuse_existing(path);
-  const fs::path folder = path.parent_path();
-  if (!folder.empty() && !fs::exists(folder, ignored) &&
+  if (!folder.empty() && !std::filesystem::exists(folder, ignored) &&
       std::find(new_folders.begin(), new_folders.end(), folder) == new_folders.end())
     new_folders.push_back(folder);
 }
@@ -178,6 +181,15 @@ void Context::protect_inputs(const std::filesystem::path& folder,
   }
 }
 
+void Context::remove_empty_folders() const {
+  namespace fs = std::filesystem;
+  std::error_code ignored;
+  for (const fs::path& folder : made_folders) {
+    if (!recording::holds_content(folder)) release_folder(folder);
+    if (fs::is_empty(folder, ignored)) fs::remove(folder, ignored);
+  }
+}
+
 void Context::prepare_folder(const std::filesystem::path& folder,
                              std::string_view unless_only) const {
   namespace fs = std::filesystem;
@@ -187,6 +199,8 @@ void Context::prepare_folder(const std::filesystem::path& folder,
   if (fs::exists(status) && !fs::is_directory(status)) {
     throw InvalidInput(fmt::format("{} is a file; --out must name a folder", folder.string()));
   }
+  for (fs::path part = folder; !part.empty() && !fs::exists(part, error); part = part.parent_path())
+    made_folders.push_back(part);
   fs::create_directories(folder, error);
   if (error)
     throw InvalidInput(
@@ -208,6 +222,14 @@ void Context::prepare_folder(const std::filesystem::path& folder,
                     swept > 0 ? fmt::format("; {} half-written files are removed", swept) : ""));
   }
   lock.sign(command_line, empty || unfinished);
+}
+
+void add_compat_option(CLI::App& command, Context& context) {
+  command
+      .add_option("--compat", context.compat,
+                  "Muscle paths: exact, or opensim to have OpenSim 4.5.2's with its defects")
+      ->check(CLI::IsMember({"exact", "opensim"}))
+      ->capture_default_str();
 }
 
 void add_common_options(CLI::App& command, Context& context, const CommonOptions& used) {

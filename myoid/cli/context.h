@@ -11,6 +11,7 @@
 #include <CLI/CLI.hpp>
 #include <oneapi/tbb/global_control.h>
 
+#include "myoid/commands/call.h"
 #include "myoid/core/progress.h"
 
 namespace myoid::cli {
@@ -45,28 +46,33 @@ struct Context {
   std::string command_line;
   std::stop_source stop;
   int exit_code = kDone;
-  mutable std::vector<std::filesystem::path> new_folders;  ///< Of prepare_file; not there before.
+  mutable std::vector<std::filesystem::path> new_folders;   ///< Of prepare_file; not there before.
+  mutable std::vector<std::filesystem::path> made_folders;  ///< By prepare_folder, innermost first.
   std::shared_ptr<oneapi::tbb::global_control> thread_limit;  ///< While it lives, --threads holds.
 
   /// One line on stderr, unless --quiet.
   void log(std::string_view line) const;
   /// A warning on stderr, unless --quiet.
   void warn(std::string_view line) const;
+  /// A remark of a command on stderr; details with --verbose only.
+  void tell(const commands::Remark& remark) const;
+  /// The common options as the library's commands take them. Remarks are told when they are made.
+  [[nodiscard]] commands::Call call() const;
   /// Progress bar with time left on a terminal, nothing elsewhere.
   [[nodiscard]] Progress progress() const;
   /// Ends the line of the progress bar.
   void end_progress() const;
-  /// Throws InvalidInput with the remedy if there is such a file and --overwrite was not given.
-  void refuse_existing(const std::filesystem::path& path) const;
-  /// For a result that is one file. Throws InvalidInput with the remedy if `path` is one of the
-  /// `inputs` (with --overwrite too), or exists and --overwrite was not given. Remembers a folder
-  /// that is not there yet, for `tell_new_folders`.
+  /// `check_output` with --overwrite. Remembers a folder that is not there yet.
   void prepare_file(const std::filesystem::path& path,
                     const std::vector<std::string>& inputs) const;
+  /// A folder that will be made for a single file, for `tell_new_folders`.
+  void remember_new_folder(const std::filesystem::path& folder) const;
   /// Says on stderr, once each, which folders were made for single files: a slip in --out is seen.
   void tell_new_folders() const;
   /// Creates the folder for results; one that holds anything but `unless_only` needs --overwrite.
   void prepare_folder(const std::filesystem::path& folder, std::string_view unless_only = "") const;
+  /// Removes the folders that prepare_folder made, where they are empty: bad input leaves none.
+  void remove_empty_folders() const;
   /// Throws InvalidInput if one of the `inputs` lies in `folder` under a name that begins like one
   /// of the results there: it would be replaced.
   void protect_inputs(const std::filesystem::path& folder,
@@ -83,6 +89,9 @@ inline constexpr const char* kIdleGroup = "without effect";
 struct CommonOptions {
   bool threads = true, seed = true, json = true, range = true, overwrite = true;
 };
+
+/// Adds --compat to a command that loads a model.
+void add_compat_option(CLI::App& command, Context& context);
 
 /// Adds --threads, --seed, --json, --quiet, --verbose, --start, --end, --overwrite to a command.
 void add_common_options(CLI::App& command, Context& context, const CommonOptions& used = {});

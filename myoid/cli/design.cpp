@@ -1,36 +1,16 @@
-#include <algorithm>
-#include <cmath>
+#include "myoid/commands/design.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include "myoid/cli/context.h"
-#include "myoid/core/error.h"
 #include "myoid/core/json_text.h"
-#include "myoid/design/design_study.h"
 #include "myoid/report/report.h"
-#include "myoid/study/run_identity.h"
 
 namespace myoid::cli {
 namespace {
 
 using identification::ParameterEstimate;
-
-/// The elbow of the source paper: surface electrodes on three muscles, the brachialis taken to act
-/// as the biceps does.
-Study arm4_study(bool wire) {
-  Study study;
-  study.model.builtin = "arm4";
-  for (const char* name : {"BIC", "BRA", "BRD", "TRI"}) {
-    MuscleSpec muscle;
-    muscle.name = name;
-    muscle.osim = {name};
-    muscle.emg = muscle.name == "BRA" && !wire ? "BIC" : name;
-    study.muscles.push_back(std::move(muscle));
-  }
-  return study;
-}
 
 void print_plan(const DesignStudyResult& result) {
   fmt::print("{:>2}  {:<58} {:>6} {:>6} {:>11} {:>15}\n", "", "movement", "time", "rest",
@@ -96,12 +76,8 @@ void add_design(CLI::App& app, Context& context) {
       "design",
       "Which movements to record so that the target parameters become identifiable.\n"
       "Example: myoid design --model arm4 --targets max_isometric_force BIC.force_length_width");
-  struct Options {
-    std::string study, model, after, criterion = "D";
-    bool wire = false, no_dynamometer = false;
-    DesignStudyOptions design;
-  };
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<commands::DesignOptions>();
+  const auto no_dynamometer = std::make_shared<bool>(false);
   DesignStudyOptions& design = options->design;
   command.add_option("study", options->study,
                      "study.toml: model, muscles and electrodes as they are (or --model arm4)");
@@ -135,7 +111,7 @@ void add_design(CLI::App& app, Context& context) {
   command.add_option("--masses", design.catalogue.held_masses_kg, "Held masses there are [kg]")
       ->check(zero_or_more())
       ->capture_default_str();
-  command.add_flag("--no-dynamometer", options->no_dynamometer,
+  command.add_flag("--no-dynamometer", *no_dynamometer,
                    "No isokinetic movement (isometric torque can be measured still)");
   command.add_option("--persons", design.persons, "Drawn from what is known, to average over")
       ->check(CLI::Range(1, 1000))
@@ -149,47 +125,15 @@ void add_design(CLI::App& app, Context& context) {
       ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str();
   add_common_options(command, context, {.range = false, .overwrite = false});
-  command.callback([&context, options] {
-    DesignStudyOptions& choice = options->design;
-    if (options->study.empty() == options->model.empty())
-      throw InvalidInput("design: give either a study.toml or --model arm4");
-    if (!options->model.empty() && options->model != "arm4")
-      throw InvalidInput(fmt::format(
-          "--model {}: only arm4 is built in; for another model write a study.toml that names it",
-          options->model));
-    const Study study =
-        options->study.empty() ? arm4_study(options->wire) : read_study(options->study);
-    choice.choice.criterion = options->criterion == "A"
-                                  ? identification::DesignCriterion::a_optimal
-                                  : identification::DesignCriterion::d_optimal;
-    choice.catalogue.dynamometer = !options->no_dynamometer;
-    choice.seed = context.seed;
-    choice.progress = context.progress();
-    if (!options->after.empty()) {
-      choice.earlier = read_earlier_run(options->after);
-      const IdentityDifferences unlike =
-          differences(identity_of(study), read_run_identity(options->after));
-      if (!unlike.grave.empty())
-        throw InvalidInput(fmt::format(
-            "--after {}: {}; its numbers mean something else; give the result of a run of this "
-            "study",
-            options->after, fmt::join(unlike.grave, "; ")));
-      for (const std::string& text : unlike.other)
-        context.warn(fmt::format("--after {}: {}", options->after, text));
-    }
-    const DesignStudyResult result = design_study(study, choice);
+  command.callback([&context, options, no_dynamometer] {
+    options->call = context.call();
+    options->dynamometer = !*no_dynamometer;
+    const commands::DesignResult result = commands::design(*options);
     context.end_progress();
-    if (result.too_hard == result.catalogue_size)
-      throw InvalidInput("design: no movement of the catalogue is within the muscles' strength");
-    context.log(fmt::format(
-        "{} movements in the catalogue, {} beyond the strength of too many, {} too tiring; {} "
-        "persons; {} exchanges",
-        result.catalogue_size, result.too_hard, result.too_tiring, choice.persons,
-        result.exchanges));
     if (context.json) {
-      print_json(result);
+      print_json(result.design);
     } else {
-      print_plan(result);
+      print_plan(result.design);
     }
   });
 }

@@ -36,4 +36,8 @@ std::string contents_of_folders() {
   return text;
 }
 
+void release_folder(const std::filesystem::path& folder) {
+  std::erase_if(held_folders(), [&](const auto& lock) { return lock->folder() == folder; });
+}
+
 }  // namespace myoid::cli

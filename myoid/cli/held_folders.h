@@ -18,4 +18,7 @@ void finish_folders();
 /// in it, else "nothing was written into out"; empty where no folder is held.
 [[nodiscard]] std::string contents_of_folders();
 
+/// Gives back a folder that `hold_folder` keeps.
+void release_folder(const std::filesystem::path& folder);
+
 }  // namespace myoid::cli

@@ -1,30 +1,21 @@
+#include "myoid/commands/run.h"
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 
-#include <fmt/color.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include "myoid/cli/context.h"
-#include "myoid/core/error.h"
-#include "myoid/report/write_report.h"
+#include "myoid/report/report.h"
 #include "myoid/results/parameter_files.h"
 #include "myoid/results/parameter_tables.h"
-#include "myoid/results/result_files.h"
-#include "myoid/results/study_report.h"
-#include "myoid/results/study_scene.h"
-#include "myoid/run/quality_gates.h"
-#include "myoid/run/run_study.h"
-#include "myoid/study/study_json.h"
 
 namespace myoid::cli {
 namespace {
 
 using identification::ParameterEstimate;
-using identification::Verdict;
 
 /// In --out: what an interrupted or repeated run need not compute again.
 constexpr const char* kStageFolder = ".stages";
@@ -134,6 +125,15 @@ void print_results(const StudyResult& result, const std::vector<report::Gate>& g
   print_gates(gates);
 }
 
+/// With --json and --quiet, which print no gates, the failed ones are warned of.
+void tell_gates(const std::vector<report::Gate>& gates, const Context& context) {
+  if (!context.json && !context.quiet) return;
+  for (const report::Gate& g : gates) {
+    if (g.status == report::GateStatus::fail)
+      context.warn(fmt::format("quality gate failed: {}: {}", g.name, g.value));
+  }
+}
+
 }  // namespace
 
 void add_run(CLI::App& app, Context& context) {
@@ -141,82 +141,38 @@ void add_run(CLI::App& app, Context& context) {
       "run",
       "The whole pipeline, from a study's recordings to muscle parameters with their uncertainty.\n"
       "Example: myoid run study.toml --out results");
-  struct Options {
-    std::string study;
-    std::string out;
-  };
-  const auto options = std::make_shared<Options>();
+  const auto out = std::make_shared<std::string>();
+  const auto options = std::make_shared<commands::RunOptions>();
   command.add_option("study", options->study, "study.toml")->required();
-  command.add_option("--out", options->out, "Folder for everything that comes out")->required();
+  command.add_option("--out", *out, "Folder for everything that comes out")->required();
   command.add_flag("--strict", context.strict, "Exit with 4 if a parameter is not identifiable");
   add_common_options(command, context, {.seed = false});
-  command.callback([&context, options] {
+  command.callback([&context, options, out] {
     const auto begin = std::chrono::steady_clock::now();
-    const Study study = read_study(options->study);
-    context.prepare_folder(options->out, kStageFolder);
-    const StudyResult result =
-        run_study(study, {.start_s = context.start_s,
-                          .end_s = context.end_s,
-                          .progress = context.progress(),
-                          .store = std::filesystem::path(options->out) / kStageFolder});
-    Provenance provenance;
-    provenance.command = context.command_line;
-    provenance.inputs = result.source.files;
-    provenance.options_json = study_json(result.source.study);
-    remove_results(options->out);
-    write_results(result, provenance, options->out);
-    write_motion_page(result, options->out);
-    report::write_report(study_report(result, provenance), options->out);
+    context.prepare_folder(*out, kStageFolder);
+    options->call = context.call();
+    options->store = std::filesystem::path(*out) / kStageFolder;
+    const commands::RunResult result = commands::run(*options);
+    commands::write_run(result, *out);
     context.end_progress();
-    const std::vector<report::Gate> gates = quality_gates(result);
-    if (context.json || context.quiet) {
-      for (const report::Gate& g : gates) {
-        if (g.status == report::GateStatus::fail)
-          context.warn(fmt::format("quality gate failed: {}: {}", g.name, g.value));
-      }
-    }
-    const auto reused = std::count_if(result.trials.begin(), result.trials.end(),
-                                      [](const auto& trial) { return trial.motion.ik_reused; });
-    if (reused > 0)
-      context.log(
-          fmt::format("inverse kinematics of {} trials reused: same input as before", reused));
-    for (const std::string& line : fault_summary(all_faults(result))) context.warn(line);
-    std::size_t remarks = 0;
-    for (const TrialResult& trial : result.trials) {
-      if (!trial.failure().empty())
-        context.warn(fmt::format("trial {}: {}", trial.spec.name, trial.failure()));
-      for (const std::string& warning : trial.warnings)
-        context.warn(fmt::format("trial {}: {}", trial.spec.name, warning));
-      remarks += trial.notes.size();
-      for (const std::string& note : trial.notes) {
-        if (context.verbose) context.log(fmt::format("{}: {}", trial.spec.name, note));
-      }
-    }
-    if (remarks > 0 && !context.verbose)
+    tell_gates(result.gates, context);
+    if (result.reading_remarks > 0 && !context.verbose)
       context.log(fmt::format(
           "{} remarks on how files were read and repaired: in run.json, or with --verbose",
-          remarks));
+          result.reading_remarks));
+    const StudyResult& study = result.study;
     if (context.json) {
-      fmt::print("{}", parameters_json(result.fit.methods, result.folds, provenance,
-                                       parameter_context(result)));
+      fmt::print("{}", parameters_json(study.fit.methods, study.folds, result.provenance,
+                                       parameter_context(study)));
     } else {
-      print_results(result, gates);
+      print_results(study, result.gates);
       const double seconds =
           std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
       context.log(fmt::format("\n{:.1f} s", seconds));
-      fmt::print("\nreport: {}/report.html\n", options->out);
+      fmt::print("\nreport: {}/report.html\n", *out);
     }
-    bool gate = std::any_of(gates.begin(), gates.end(), [](const report::Gate& g) {
-      return g.status == report::GateStatus::fail;
-    });
-    for (const identification::IdentificationResult& method : result.fit.methods) {
-      if (method.method != "torque") continue;
-      gate = gate || method.termination != math::Termination::converged;
-      for (const ParameterEstimate& e : method.estimates)
-        gate = gate || (context.strict && e.verdict == Verdict::not_identifiable);
-    }
-    if (gate) context.exit_code = kQualityGateFailed;
-    if (failed_trials(result.trials) > 0) context.exit_code = kSomeTrialsFailed;
+    if (result.failed(context.strict)) context.exit_code = kQualityGateFailed;
+    if (failed_trials(study.trials) > 0) context.exit_code = kSomeTrialsFailed;
   });
 }
 

@@ -1,41 +1,42 @@
-#include <optional>
-#include <utility>
+#include "myoid/commands/so.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "myoid/cli/context.h"
-#include "myoid/cli/stage_input.h"
-#include "myoid/core/error.h"
 #include "myoid/core/json_text.h"
-#include "myoid/dynamics/external_loads.h"
-#include "myoid/dynamics/ground_support.h"
-#include "myoid/forces/force_sharing.h"
-#include "myoid/forces/sharing_input.h"
-#include "myoid/recording/recording.h"
-#include "myoid/results/stage_files.h"
-#include "myoid/signals/resample.h"
-#include "myoid/simulation/muscle_force_law.h"
-#include "myoid/study/study_model.h"
-#include "myoid/tables/storage_reader.h"
 
 namespace myoid::cli {
+namespace {
+
+void print_so(const forces::MuscleForces& shared, const std::string& out, bool as_json) {
+  if (as_json) {
+    const nlohmann::ordered_json json{{"out", out},
+                                      {"frames", shared.status.size()},
+                                      {"frames_not_solved", shared.frames_not_solved},
+                                      {"frames_with_reserve", shared.frames_with_reserve},
+                                      {"largest_kkt_residual", shared.kkt_residual.maxCoeff()}};
+    fmt::print("{}\n", json_text(json));
+    return;
+  }
+  fmt::print(
+      "{} frames: {} not solved, {} where a reserve helps; largest KKT residual {:.1e}\n{}\n",
+      shared.status.size(), shared.frames_not_solved, shared.frames_with_reserve,
+      shared.kkt_residual.maxCoeff(), out);
+}
+
+}  // namespace
 
 void add_so(CLI::App& app, Context& context) {
   CLI::App& command = *app.add_subcommand(
       "so",
       "Muscle force sharing (static optimization): which forces make the torques?\n"
       "Example: myoid so --model arm.osim --motion ik.mot --lowpass 6 --out so");
-  struct Options {
-    std::string model, motion, out, objective = "activation", emg, loads, tendon = "rigid";
-    bool passive = false;
-    std::vector<std::string> coordinates;
-    double exponent = 2.0, emg_weight = 1.0, reserve_nm = 1.0, cutoff_hz = 0.0;
-  };
-  const auto o = std::make_shared<Options>();
+  const auto out = std::make_shared<std::string>();
+  const auto o = std::make_shared<commands::SoOptions>();
   command.add_option("--model", o->model, "OpenSim model (.osim), or arm4")->required();
   command.add_option("--motion", o->motion, "Joint angles (.mot, .sto)")->required();
-  command.add_option("--out", o->out, "Folder for StaticOptimization_*")->required();
+  command.add_option("--out", *out, "Folder for StaticOptimization_*")->required();
   command
       .add_option("--objective", o->objective, "activation, force or stress (default activation)")
       ->check(CLI::IsMember({"activation", "force", "stress"}));
@@ -64,51 +65,17 @@ void add_so(CLI::App& app, Context& context) {
                    "rest");
   add_compat_option(command, context);
   add_common_options(command, context, {.seed = false});
-  command.callback([&context, o] {
-    const model::BodyModel model = load_model(o->model, context);
-    warn_of_path_differences(model, o->model, context);
-    const kinematics::JointMotion motion = load_motion(model, o->motion, o->cutoff_hz, context);
-    context.prepare_folder(o->out);
-    context.protect_inputs(o->out, {"StaticOptimization_"},
-                           {o->model, o->motion, o->emg, o->loads});
-    std::optional<dynamics::ExternalLoads> loads;
-    if (!o->loads.empty()) loads = load_external_loads(model, o->loads, motion, context);
-    if (const auto weight = dynamics::unsupported_weight(model);
-        weight && !loads && dynamics::stands(model, motion.q.values().row(0).transpose()))
-      context.warn(weight->sentence("--loads"));
-    const forces::SharingInput input =
-        forces::sharing_input(model, motion, o->coordinates, loads ? &*loads : nullptr);
-    for (const std::string& note : input.notes) context.warn(note);
-    forces::SharingOptions options{
-        .objective = o->objective, .exponent = o->exponent, .reserve_nm = o->reserve_nm};
-    if (!o->emg.empty()) {
-      const recording::Storage emg = recording::read_storage(o->emg);
-      for (const recording::Repair& repair : emg.repairs)
-        context.warn(recording::to_string(o->emg, repair));
-      options.emg = signals::resample(emg.data, motion.q.time_s());
-      options.emg_weight = o->emg_weight;
-    }
-    const bool elastic = o->tendon == "elastic";
-    if (elastic || o->passive) {
-      options.law = simulation::muscle_force_law(
-          model, input.muscles, {.elastic_tendon = elastic, .passive_force = o->passive});
-    }
-    const forces::MuscleForces shared = forces::share(input, std::move(options));
-    write_shared_forces(shared, o->out);
-    if (context.json) {
-      const nlohmann::ordered_json json{{"out", o->out},
-                                        {"frames", shared.status.size()},
-                                        {"frames_not_solved", shared.frames_not_solved},
-                                        {"frames_with_reserve", shared.frames_with_reserve},
-                                        {"largest_kkt_residual", shared.kkt_residual.maxCoeff()}};
-      fmt::print("{}\n", json_text(json));
-    } else {
-      fmt::print(
-          "{} frames: {} not solved, {} where a reserve helps; largest KKT residual {:.1e}\n{}\n",
-          shared.status.size(), shared.frames_not_solved, shared.frames_with_reserve,
-          shared.kkt_residual.maxCoeff(), o->out);
-    }
-    if (shared.frames_not_solved > 0) context.exit_code = kQualityGateFailed;
+  command.callback([&context, o, out] {
+    context.prepare_folder(*out);
+    context.protect_inputs(*out, {"StaticOptimization_"}, {o->model, o->motion, o->emg, o->loads});
+    o->call = context.call();
+    o->compat = context.compat;
+    o->compare_with_opensim = !context.quiet;
+    const commands::SoResult result = commands::so(*o);
+    context.end_progress();
+    commands::write_so(result, *out);
+    print_so(result.shared, *out, context.json);
+    if (result.shared.frames_not_solved > 0) context.exit_code = kQualityGateFailed;
   });
 }
 

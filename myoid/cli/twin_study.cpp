@@ -1,15 +1,12 @@
-#include "myoid/twin/twin_study.h"
+#include "myoid/commands/twin_study.h"
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include "myoid/cli/context.h"
 #include "myoid/core/error.h"
-#include "myoid/files/text_file.h"
 #include "myoid/math/statistics.h"
 
 namespace myoid::cli {
@@ -103,13 +100,9 @@ void add_twin_study(CLI::App& app, Context& context) {
       "How good is the method? Many virtual persons, the whole chain, compared with the truth.\n"
       "Example: myoid twin-study --protocol examples/protocols/rich.toml --subjects 200 --out "
       "study");
-  struct Options {
-    std::string protocol, level, out;
-    bool each_muscle = false;
-    std::optional<double> offset;
-    twin::TwinStudyOptions study;
-  };
-  const auto options = std::make_shared<Options>();
+  const auto out = std::make_shared<std::string>();
+  const auto each_muscle = std::make_shared<bool>(false);
+  const auto options = std::make_shared<commands::TwinStudyOptions>();
   command.add_option("--protocol", options->protocol, "What is recorded, a .toml file")->required();
   command.add_option("--level", options->level, "L0, L1 or L2 instead of the protocol's own")
       ->check(CLI::IsMember({"L0", "L1", "L2"}));
@@ -123,40 +116,26 @@ void add_twin_study(CLI::App& app, Context& context) {
   command.add_option("--method", options->study.methods, "torque, force, paper; several")
       ->check(CLI::IsMember({"torque", "force", "paper"}))
       ->capture_default_str();
-  command.add_flag("--each-muscle", options->each_muscle, "A line for each muscle too");
-  command.add_option("--out", options->out, "Folder for persons.csv, summary.csv, predictions.csv")
+  command.add_flag("--each-muscle", *each_muscle, "A line for each muscle too");
+  command.add_option("--out", *out, "Folder for persons.csv, summary.csv, predictions.csv")
       ->required();
   add_common_options(command, context, {.range = false});
-  command.callback([&context, options] {
-    std::optional<twin::Level> level;
-    for (const twin::Level known :
-         {twin::Level::noise_free, twin::Level::noisy, twin::Level::different}) {
-      if (options->level == twin::name(known)) level = known;
-    }
-    twin::Protocol protocol = twin::read_protocol(options->protocol, level);
-    if (options->offset) protocol.truth.offset = *options->offset;
-    context.prepare_folder(options->out);
-    options->study.first_seed = context.seed;
-    options->study.progress = context.progress();
-    const twin::TwinStudyResult result = twin::twin_study(protocol, options->study);
+  command.callback([&context, options, out, each_muscle] {
+    context.prepare_folder(*out);
+    options->call = context.call();
+    const commands::TwinStudyResult result = commands::twin_study(*options);
     context.end_progress();
-    Provenance provenance;
-    provenance.command = context.command_line;
-    provenance.inputs.push_back(
-        {options->protocol, sha256(recording::read_text_file(options->protocol))});
-    twin::write_twin_study(result, provenance, options->out);
-    for (const twin::TwinFailure& f : result.failures)
-      context.warn(fmt::format("seed {}: {}", f.seed, f.message));
-    const std::vector<twin::TwinSummary> summaries = twin::summarize(result);
-    const std::string persons = result.interrupted ? fmt::format("INTERRUPTED: only {} of {}",
-                                                                 result.finished, result.subjects)
-                                                   : fmt::format("{}", result.finished);
-    fmt::print("protocol {}, level {}, {} persons, {} failures\n\n", result.protocol, result.level,
-               persons, result.failures.size());
-    print_summary(summaries, options->each_muscle);
-    print_verdicts(result, summaries);
-    if (result.interrupted) throw Interrupted();
-    if (!result.failures.empty()) context.exit_code = kSomeTrialsFailed;
+    commands::write_twin_study(result, *out);
+    const twin::TwinStudyResult& study = result.study;
+    const std::string persons = study.interrupted ? fmt::format("INTERRUPTED: only {} of {}",
+                                                                study.finished, study.subjects)
+                                                  : fmt::format("{}", study.finished);
+    fmt::print("protocol {}, level {}, {} persons, {} failures\n\n", study.protocol, study.level,
+               persons, study.failures.size());
+    print_summary(result.summaries, *each_muscle);
+    print_verdicts(study, result.summaries);
+    if (study.interrupted) throw Interrupted();
+    if (!study.failures.empty()) context.exit_code = kSomeTrialsFailed;
   });
 }
 

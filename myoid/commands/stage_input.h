@@ -2,32 +2,48 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
+#include <vector>
 
-#include "myoid/cli/context.h"
+#include "myoid/commands/call.h"
+#include "myoid/core/time_series.h"
 #include "myoid/dynamics/external_loads.h"
+#include "myoid/files/marker_series.h"
+#include "myoid/files/text_file.h"
 #include "myoid/kinematics/joint_motion.h"
 #include "myoid/model/body_model.h"
 
-namespace myoid::cli {
+namespace myoid::commands {
 
-/// Adds --compat to a command that loads a model.
-void add_compat_option(CLI::App& command, Context& context);
+/// Throws InvalidInput, naming the option, unless the word is one of `words`.
+void check_word(std::string_view option,
+                const std::string& word,
+                const std::vector<std::string>& words);
 
-/// A model from a file, or the built-in "arm4"; what it cannot do right is warned of.
-[[nodiscard]] model::BodyModel load_model(const std::string& name, const Context& context);
+/// Warns of what the reader of a file mended or left out.
+void warn_of_repairs(const std::filesystem::path& path,
+                     const std::vector<recording::Repair>& repairs,
+                     Remarks& remarks);
+
+/// A model from a file, or the built-in "arm4", with paths as `compat` says ("exact" or "opensim");
+/// remarks tell what it cannot do right.
+[[nodiscard]] model::BodyModel load_model(const std::string& name,
+                                          const std::string& compat,
+                                          Remarks& remarks);
 
 /// Warns of the muscles whose exact path differs visibly (1 mm) from OpenSim's at random postures.
 void warn_of_path_differences(const model::BodyModel& model,
                               const std::string& name,
-                              const Context& context);
+                              Remarks& remarks);
 
 /// A motion file (.mot, .sto) as coordinates and two derivatives. `cutoff_hz` > 0 smooths. The
-/// whole file is smoothed and differentiated, then cut to --start/--end: inside that time the
+/// whole file is smoothed and differentiated, then cut to the call's time: inside that time the
 /// numbers are those of the whole file. Gaps of the clock are warned of.
 [[nodiscard]] kinematics::JointMotion load_motion(const model::BodyModel& model,
                                                   const std::filesystem::path& path,
                                                   double cutoff_hz,
-                                                  const Context& context);
+                                                  const Call& call,
+                                                  Remarks& remarks);
 
 /// The motion with the speeds and accelerations of these files, where they have the coordinate,
 /// instead of the spline's derivatives; an empty path changes nothing. Their times must be those of
@@ -36,15 +52,17 @@ void warn_of_path_differences(const model::BodyModel& model,
                                                        const model::BodyModel& model,
                                                        const std::filesystem::path& speeds,
                                                        const std::filesystem::path& accelerations,
-                                                       const Context& context);
+                                                       const Call& call,
+                                                       Remarks& remarks);
 
 /// An <ExternalLoads> file; what was mended is warned of, and a motion that goes beyond the data.
 [[nodiscard]] dynamics::ExternalLoads load_external_loads(const model::BodyModel& model,
                                                           const std::filesystem::path& path,
                                                           const kinematics::JointMotion& motion,
-                                                          const Context& context);
+                                                          Remarks& remarks);
 
-/// The series cut to --start/--end.
-[[nodiscard]] TimeSeries cut(const TimeSeries& series, const Context& context);
+/// The series cut to the call's time. Throws InvalidInput if nothing is left.
+[[nodiscard]] TimeSeries cut(const TimeSeries& series, const Call& call);
+[[nodiscard]] recording::MarkerSeries cut(recording::MarkerSeries markers, const Call& call);
 
-}  // namespace myoid::cli
+}  // namespace myoid::commands

@@ -5,7 +5,7 @@
 
 #include "myoid/methods/solver_contest.h"
 
-namespace myoid::cli {
+namespace myoid::commands {
 
 /// A contest by the name of its fit: all muscles together, a muscle, a muscle's branch.
 struct NamedContest {
@@ -13,18 +13,14 @@ struct NamedContest {
   identification::SolverContest contest;
 };
 
-/// Every solver on the fits of the method: torque, force or paper. Throws Interrupted.
+/// Runs every solver on the fits of the method: torque, force or paper. Throws Interrupted.
 [[nodiscard]] std::vector<NamedContest> solver_contests(
     const identification::StudyData& data,
     const std::string& method,
     const identification::EstimatorOptions& estimator,
     const identification::ContestOptions& options);
 
-void print_contest(const NamedContest& contest);
-/// Where the searches of several starts ended.
-void print_basins(const identification::BasinTable& table);
-
-/// solvers.csv
+/// solvers.csv: a row per search.
 [[nodiscard]] std::string solvers_csv(const std::vector<NamedContest>& contests);
 
-}  // namespace myoid::cli
+}  // namespace myoid::commands

@@ -1,6 +1,9 @@
-#include "myoid/cli/stage_input.h"
+#include "myoid/commands/stage_input.h"
+
+#include <algorithm>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "myoid/arm/arm4.h"
 #include "myoid/core/angle_unit.h"
@@ -12,21 +15,27 @@
 #include "myoid/signals/motion_jumps.h"
 #include "myoid/tables/storage_reader.h"
 
-namespace myoid::cli {
+namespace myoid::commands {
 
-void add_compat_option(CLI::App& command, Context& context) {
-  command
-      .add_option("--compat", context.compat,
-                  "Muscle paths: exact, or opensim to have OpenSim 4.5.2's with its defects")
-      ->check(CLI::IsMember({"exact", "opensim"}))
-      ->capture_default_str();
+void check_word(std::string_view option,
+                const std::string& word,
+                const std::vector<std::string>& words) {
+  if (std::find(words.begin(), words.end(), word) != words.end()) return;
+  throw InvalidInput(
+      fmt::format("{} '{}': expected one of {}", option, word, fmt::join(words, ", ")));
+}
+
+void warn_of_repairs(const std::filesystem::path& path,
+                     const std::vector<recording::Repair>& repairs,
+                     Remarks& remarks) {
+  for (const recording::Repair& repair : repairs) remarks.warn(recording::to_string(path, repair));
 }
 
 void warn_of_path_differences(const model::BodyModel& model,
                               const std::string& name,
-                              const Context& context) {
+                              Remarks& remarks) {
   constexpr int kPostures = 40;
-  if (context.quiet || model.compat != model::Compat{}) return;
+  if (model.compat != model::Compat{}) return;
   int count = 0;
   std::string worst;
   for (const model::PathDifference& d : model::compare_with_opensim(model, kPostures)) {
@@ -35,32 +44,30 @@ void warn_of_path_differences(const model::BodyModel& model,
       worst += (worst.empty() ? "" : ", ") + model.muscles[static_cast<std::size_t>(d.muscle)].name;
   }
   if (count == 0) return;
-  context.warn(fmt::format(
+  remarks.warn(fmt::format(
       "{}: {} of {} muscles ({}{}) are somewhere more than 1 mm longer or shorter than in OpenSim "
       "4.5.2; `myoid info {} --compare-compat` lists them, --compat opensim reproduces OpenSim",
       name, count, model.muscles.size(), worst, count > 3 ? ", ..." : "", name));
 }
 
-model::BodyModel load_model(const std::string& name, const Context& context) {
+model::BodyModel load_model(const std::string& name, const std::string& compat, Remarks& remarks) {
   std::error_code ignored;
   if (!name.ends_with(".osim") && name != "arm4" && !std::filesystem::exists(name, ignored)) {
     throw InvalidInput(fmt::format(
         "--model {}: there is no such file, and the only built-in model is arm4", name));
   }
-  const model::OsimOptions options{.compat = model::parse_compat(context.compat)};
+  const model::OsimOptions options{.compat = model::parse_compat(compat)};
   model::BodyModel model = name == "arm4"
                                ? model::parse_osim(model::arm4_osim(), "arm4.osim", options)
                                : model::read_osim(name, options);
-  for (const std::string& text : model.unsupported) context.warn(fmt::format("{}: {}", name, text));
-  if (context.verbose) {
-    for (const std::string& text : model.notes) context.log(fmt::format("{}: {}", name, text));
-  }
+  for (const std::string& text : model.unsupported) remarks.warn(fmt::format("{}: {}", name, text));
+  for (const std::string& text : model.notes) remarks.detail(fmt::format("{}: {}", name, text));
   return model;
 }
 
-TimeSeries cut(const TimeSeries& series, const Context& context) {
-  if (!context.start_s && !context.end_s) return series;
-  TimeSeries result = series.slice(context.start_s.value_or(-1e300), context.end_s.value_or(1e300));
+TimeSeries cut(const TimeSeries& series, const Call& call) {
+  if (!call.start_s && !call.end_s) return series;
+  TimeSeries result = series.slice(call.start_s.value_or(-1e300), call.end_s.value_or(1e300));
   if (result.empty()) {
     throw InvalidInput(
         fmt::format("nothing lies between --start and --end; the data go from {} to {} s",
@@ -69,16 +76,29 @@ TimeSeries cut(const TimeSeries& series, const Context& context) {
   return result;
 }
 
+recording::MarkerSeries cut(recording::MarkerSeries markers, const Call& call) {
+  if (!call.start_s && !call.end_s) return markers;
+  const double start_s = call.start_s.value_or(-1e300), end_s = call.end_s.value_or(1e300);
+  Eigen::Index first = 0;
+  while (first < markers.frame_count() && markers.time_s[first] < start_s) ++first;
+  Eigen::Index last = markers.frame_count();
+  while (last > first && markers.time_s[last - 1] > end_s) --last;
+  if (last == first) throw InvalidInput("no frames lie between --start and --end");
+  markers.time_s = markers.time_s.segment(first, last - first).eval();
+  markers.positions_m = markers.positions_m.middleRows(first, last - first).eval();
+  return markers;
+}
+
 kinematics::JointMotion with_derivatives(kinematics::JointMotion motion,
                                          const model::BodyModel& model,
                                          const std::filesystem::path& speeds,
                                          const std::filesystem::path& accelerations,
-                                         const Context& context) {
+                                         const Call& call,
+                                         Remarks& remarks) {
   const auto replace = [&](TimeSeries& derivative, const std::filesystem::path& path) {
     if (path.empty()) return;
     const recording::Storage file = recording::read_storage(path);
-    for (const recording::Repair& repair : file.repairs)
-      context.warn(recording::to_string(path, repair));
+    warn_of_repairs(path, file.repairs, remarks);
     const TimeSeries given =
         cut(recording::to_si(file,
                              [&](const std::string& name) {
@@ -86,7 +106,7 @@ kinematics::JointMotion with_derivatives(kinematics::JointMotion motion,
                                return c && model.coordinates[static_cast<std::size_t>(*c)].motion ==
                                                model::MotionType::rotational;
                              }),
-            context);
+            call);
     const Eigen::VectorXd& time_s = derivative.time_s();
     if (given.sample_count() != time_s.size() ||
         (given.time_s() - time_s).cwiseAbs().maxCoeff() > 1e-9) {
@@ -117,21 +137,21 @@ kinematics::JointMotion with_derivatives(kinematics::JointMotion motion,
 kinematics::JointMotion load_motion(const model::BodyModel& model,
                                     const std::filesystem::path& path,
                                     double cutoff_hz,
-                                    const Context& context) {
+                                    const Call& call,
+                                    Remarks& remarks) {
   const recording::Storage file = recording::read_storage(path);
-  for (const recording::Repair& repair : file.repairs)
-    context.warn(recording::to_string(path, repair));
+  warn_of_repairs(path, file.repairs, remarks);
   const TimeSeries q = recording::to_si(file, [&](const std::string& name) {
     const auto c = model.find_coordinate(name);
     return c &&
            model.coordinates[static_cast<std::size_t>(*c)].motion == model::MotionType::rotational;
   });
   if (const std::string doubt = check_angle_unit(path, file.in_degrees, q); !doubt.empty())
-    context.warn(doubt);
+    remarks.warn(doubt);
   for (const signals::MotionJump& jump : signals::find_motion_jumps(q))
-    context.warn(fmt::format("{}: {}", path.string(), jump.sentence()));
+    remarks.warn(fmt::format("{}: {}", path.string(), jump.sentence()));
   if (const signals::ClockGaps gaps = signals::find_clock_gaps(q.time_s()); gaps.count > 0)
-    context.warn(
+    remarks.warn(
         fmt::format("{}: {}; a spline bridges what was not recorded, and its derivatives "
                     "beside a gap are not to be relied on",
                     path.string(), gaps.text()));
@@ -145,20 +165,20 @@ kinematics::JointMotion load_motion(const model::BodyModel& model,
     options.cutoff_hz = cutoff_hz;
   }
   kinematics::MotionResult result = kinematics::joint_motion(model, q, options);
-  for (const std::string& note : result.notes) context.warn(note);
+  for (const std::string& note : result.notes) remarks.warn(note);
   const kinematics::JointMotion& whole = result.motion;
-  return {cut(whole.q, context), cut(whole.qdot, context), cut(whole.qddot, context)};
+  return {cut(whole.q, call), cut(whole.qdot, call), cut(whole.qddot, call)};
 }
 
 dynamics::ExternalLoads load_external_loads(const model::BodyModel& model,
                                             const std::filesystem::path& path,
                                             const kinematics::JointMotion& motion,
-                                            const Context& context) {
+                                            Remarks& remarks) {
   dynamics::ExternalLoads loads = dynamics::read_external_loads(model, path);
-  for (const std::string& note : loads.notes) context.warn(note);
+  for (const std::string& note : loads.notes) remarks.warn(note);
   const Eigen::VectorXd& time_s = motion.q.time_s();
   if (time_s[0] < loads.start_s - 1e-3 || time_s[time_s.size() - 1] > loads.end_s + 1e-3) {
-    context.warn(fmt::format(
+    remarks.warn(fmt::format(
         "{}: the loads are known from {} to {} s, the motion goes from {} to {} s; beyond, they "
         "are guessed by straight lines",
         path.string(), loads.start_s, loads.end_s, time_s[0], time_s[time_s.size() - 1]));
@@ -166,4 +186,4 @@ dynamics::ExternalLoads load_external_loads(const model::BodyModel& model,
   return loads;
 }
 
-}  // namespace myoid::cli
+}  // namespace myoid::commands

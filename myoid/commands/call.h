@@ -1,0 +1,68 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "myoid/core/progress.h"
+
+/// The commands of the program as functions of the library.
+///
+/// Each command takes an options struct and gives a result struct: `IkResult ik(const IkOptions&)`.
+/// It reads the files that the options name, computes, and returns values; remarks on inputs and
+/// results are values too. A second function, `write_ik(result, path)`, writes the files of a
+/// command that has some. Nothing in this room prints, knows an exit code or reads a command line.
+/// The room `cli` declares the options, prints the result as text or JSON and derives the exit code
+/// from it; a script or a binding to another language calls the same two functions.
+///
+/// All commands throw InvalidInput (or ReadError, ModelError) for bad input and Interrupted when a
+/// stop is requested. Strings that choose among words (`method`, `tendon`) and relative paths are
+/// those of the command line, and so are the names of options in messages.
+namespace myoid::commands {
+
+/// A sentence about inputs or results that a command tells beside its numbers.
+struct Remark {
+  enum class Kind {
+    warning,  ///< A number may be wrong.
+    note,     ///< Good to know.
+    detail,   ///< How a file was read.
+  };
+  Kind kind = Kind::warning;
+  std::string text;
+};
+
+/// What every command takes beside its own options.
+struct Call {
+  std::uint64_t seed = 1;
+  std::optional<double> start_s, end_s;  ///< Only this time of the data is used [s].
+  std::string command;                   ///< Written into results as the command that made them.
+  Progress progress;
+  /// Hears each remark at once, so that a command that throws has told what it noticed; may be
+  /// empty.
+  std::function<void(const Remark&)> listener;
+};
+
+/// Collects the remarks of one call, in order.
+class Remarks {
+ public:
+  explicit Remarks(const Call& call) : listener_(call.listener) {}
+
+  void warn(std::string text) { add({Remark::Kind::warning, std::move(text)}); }
+  void note(std::string text) { add({Remark::Kind::note, std::move(text)}); }
+  void detail(std::string text) { add({Remark::Kind::detail, std::move(text)}); }
+  [[nodiscard]] const std::vector<Remark>& list() const { return list_; }
+
+ private:
+  void add(Remark remark) {
+    if (listener_) listener_(remark);
+    list_.push_back(std::move(remark));
+  }
+
+  std::function<void(const Remark&)> listener_;
+  std::vector<Remark> list_;
+};
+
+}  // namespace myoid::commands

@@ -1,0 +1,29 @@
+#include "myoid/commands/check.h"
+
+#include <algorithm>
+
+#include "myoid/checks/check_study.h"
+#include "myoid/recording/laboratory_up.h"
+#include "myoid/recording/recording.h"
+
+namespace myoid::commands {
+
+CheckResult check(const CheckOptions& o) {
+  CheckResult result;
+  result.of_study = recording::extension_of(o.input) == ".toml";
+  if (result.of_study) {
+    Study study = read_study(o.input);
+    restrict_trials(study, o.call.start_s, o.call.end_s);
+    result.findings = check_study(study);
+    result.trials = study.trials.size();
+    result.muscles = study.muscles.size();
+  } else {
+    result.findings = check_recording(o.input, recording::axis_vector(o.up));
+  }
+  result.errors = static_cast<std::size_t>(
+      std::count_if(result.findings.begin(), result.findings.end(),
+                    [](const Finding& f) { return f.level == Finding::Level::error; }));
+  return result;
+}
+
+}  // namespace myoid::commands

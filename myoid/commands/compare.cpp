@@ -1,0 +1,28 @@
+#include "myoid/commands/compare.h"
+
+#include <fmt/format.h>
+
+#include "myoid/core/error.h"
+#include "myoid/report/write_report.h"
+
+namespace myoid::commands {
+
+CompareResult compare(const CompareOptions& o) {
+  std::error_code ignored;
+  if (std::filesystem::equivalent(o.first, o.second, ignored)) {
+    throw InvalidInput(fmt::format("{} and {} are one folder; name two runs", o.first, o.second));
+  }
+  Remarks remarks(o.call);
+  CompareResult result;
+  result.comparison = compare_runs(o.first, o.second);
+  for (const std::string& text : result.comparison.unlike)
+    remarks.warn(fmt::format("{} and {}: {}", o.first, o.second, text));
+  result.remarks = remarks.list();
+  return result;
+}
+
+void write_compare(const CompareResult& result, const std::filesystem::path& folder) {
+  report::write_report(comparison_report(result.comparison), folder);
+}
+
+}  // namespace myoid::commands

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "myoid/commands/call.h"
+#include "myoid/results/compare_runs.h"
+
+namespace myoid::commands {
+
+/// Two finished runs, number by number.
+struct CompareOptions {
+  Call call;
+  std::string first, second;  ///< Folders with parameters.json.
+};
+
+struct CompareResult {
+  RunComparison comparison;
+  std::vector<Remark> remarks;
+};
+
+/// Throws InvalidInput if both names are one folder.
+[[nodiscard]] CompareResult compare(const CompareOptions& options);
+
+/// Writes report.html, figures and tables.
+void write_compare(const CompareResult& result, const std::filesystem::path& folder);
+
+}  // namespace myoid::commands

@@ -1,0 +1,378 @@
+#include "myoid/commands/convert.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "myoid/c3d/c3d_reader.h"
+#include "myoid/c3d/c3d_writer.h"
+#include "myoid/c3d/make_c3d.h"
+#include "myoid/commands/convert_parts.h"
+#include "myoid/commands/output_file.h"
+#include "myoid/commands/stage_input.h"
+#include "myoid/core/error.h"
+#include "myoid/files/atomic_file.h"
+#include "myoid/recording/bids_derivative.h"
+#include "myoid/recording/channel_choice.h"
+#include "myoid/recording/channel_writer.h"
+#include "myoid/recording/emg_channels.h"
+#include "myoid/recording/emg_reader.h"
+#include "myoid/recording/ground_reaction.h"
+#include "myoid/recording/plate_standing.h"
+#include "myoid/signals/resample.h"
+#include "myoid/tables/storage_reader.h"
+#include "myoid/tables/storage_writer.h"
+#include "myoid/tables/text_rows.h"
+#include "myoid/tables/trc_writer.h"
+
+namespace myoid::commands {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Converter {
+ public:
+  Converter(const ConvertOptions& options, Remarks& remarks)
+      : o_(options),
+        remarks_(remarks),
+        R_(rotation_of(options, recording::axis_vector(options.up).value_or(Vec3::UnitY()))) {}
+
+  /// Writes the files and returns their names.
+  std::vector<std::string> run() {
+    const fs::path out = o_.out;
+    const std::string from = recording::extension_of(o_.in);
+    const std::string to = recording::extension_of(out);
+    const bool folder = to.empty();
+    if (makes_derivative(o_)) {
+      for (const fs::path& file : recording::write_bids_derivative(o_.in, out, o_.subject))
+        wrote(file);
+      return std::move(written_);
+    }
+    if (!folder && to != ".trc" && to != ".sto" && to != ".mot" && to != ".csv" && to != ".c3d")
+      throw InvalidInput(
+          fmt::format("{}: files of kind '{}' are not written; expected .c3d, .trc, .sto, .mot, "
+                      ".csv or a folder",
+                      o_.out, to));
+    if (folder) {
+      everything(out);
+    } else if (to == ".c3d") {
+      to_c3d(out, from);
+    } else if (to == ".trc" || o_.what == "markers") {
+      if (to != ".trc") throw InvalidInput("markers are written as .trc or .c3d");
+      markers(out);
+    } else if (o_.what == "plates") {
+      recording::Recording file = recording::read_recording(o_.in);
+      stand(file);
+      plates(out, std::move(file));
+    } else {
+      channels(out);
+    }
+    return std::move(written_);
+  }
+
+ private:
+  void claim(const fs::path& path) const { check_output(path, {o_.in, o_.analog}, o_.overwrite); }
+
+  void report(const std::vector<recording::Repair>& repairs) const { report(o_.in, repairs); }
+  void report(const std::string& path, const std::vector<recording::Repair>& repairs) const {
+    warn_of_repairs(path, repairs, remarks_);
+  }
+
+  /// Voltages of a file, in --unit where it does not say.
+  [[nodiscard]] TimeSeries voltages(const std::string& path) const {
+    recording::EmgFile file = recording::read_emg(
+        path, o_.unit, false, path == o_.in ? o_.channels : std::vector<std::string>());
+    report(path, file.repairs);
+    if (!file.unit_conflict.empty()) remarks_.warn(fmt::format("{}: {}", path, file.unit_conflict));
+    return std::move(file.data);
+  }
+
+  [[nodiscard]] static bool states_voltage(const std::string& file) {
+    return is_storage(file) && recording::stated_voltage(recording::read_storage(file));
+  }
+
+  void wrote(const fs::path& path) { written_.push_back(path.string()); }
+
+  void write_markers(const fs::path& out,
+                     recording::MarkerSeries markers,
+                     std::vector<recording::Repair>& repairs) {
+    claim(out);
+    without_blanks(markers, repairs);
+    recording::write_trc(out, recording::rotated(at_rate(cut(std::move(markers), o_.call)), R_));
+    wrote(out);
+  }
+
+  void markers(const fs::path& out) {
+    recording::MarkerFile file = recording::read_markers(o_.in);
+    if (file.screen_up_L) tell_vertical(*file.screen_up_L);
+    write_markers(out, std::move(file.markers), file.repairs);
+    report(file.repairs);
+  }
+
+  /// Writes channels that were read in SI.
+  void write_read(const fs::path& out, const recording::RowSource& rows) const {
+    require_channels(rows.channels);
+    recording::write_channels(out, rows, recording::statement_of(rows.channels, o_.in));
+  }
+
+  void require_channels(const std::vector<Channel>& channels) const {
+    if (channels.empty())
+      throw ReadError(o_.in, 0,
+                      "every channel has samples that are no numbers; a .csv file holds them");
+  }
+
+  void storage_channels(const fs::path& out) {
+    recording::Storage file = recording::read_storage(o_.in);
+    report(file.repairs);
+    const recording::ChannelStatement all = recording::statement_of(file);
+    recording::ChannelStatement said{all.title, all.in_degrees, {}};
+    const recording::AnalogChannels read = std::move(file.data);
+    const bool as_read = stays(read, out);
+    const recording::AnalogChannels changed =
+        as_read ? recording::AnalogChannels() : chosen(read, out, o_.in);
+    const recording::AnalogChannels& written = as_read ? read : changed;
+    require_channels(written.channels());
+    for (const Channel& c : written.channels())
+      said.units.push_back(all.units[static_cast<std::size_t>(*read.find(c.name))]);
+    recording::write_channels(out, recording::rows_of(written), said);
+  }
+
+  /// Whether all channels are written as they were read: then they stay as compact as they are.
+  [[nodiscard]] bool stays(const recording::AnalogChannels& channels, const fs::path& out) const {
+    return o_.channels.empty() && !o_.call.start_s && !o_.call.end_s && o_.rate_hz <= 0.0 &&
+           (!is_storage(out.string()) || channels.all_finite());
+  }
+
+  /// The channels asked for, in the time and at the rate asked for. Neither a storage file nor a
+  /// low-pass can hold a gap: a channel with one is left out, with a warning.
+  [[nodiscard]] TimeSeries chosen(const recording::AnalogChannels& channels,
+                                  const fs::path& out,
+                                  const std::string& from) const {
+    return chosen(std::vector{&channels}, out, from);
+  }
+  [[nodiscard]] TimeSeries chosen(const std::vector<const recording::AnalogChannels*>& clocks,
+                                  const fs::path& out,
+                                  const std::string& from) const {
+    TimeSeries series = cut(recording::choose_channels(clocks, o_.channels, from), o_.call);
+    if (!is_storage(out.string()) && o_.rate_hz <= 0.0) return series;
+    std::vector<recording::Repair> gaps;
+    series = recording::without_gaps(series, gaps);
+    report(from, gaps);
+    return at_rate(series);
+  }
+
+  /// With --rate on an even clock of that rate, low-passed where it is slower.
+  [[nodiscard]] TimeSeries at_rate(const TimeSeries& series) const {
+    if (o_.rate_hz <= 0.0 || series.sample_count() < 4) return series;
+    return signals::resample(series, new_clock(o_, series.time_s()));
+  }
+  [[nodiscard]] recording::MarkerSeries at_rate(recording::MarkerSeries markers) const {
+    if (o_.rate_hz <= 0.0 || markers.frame_count() < 4) return markers;
+    return signals::resample(markers, new_clock(o_, markers.time_s));
+  }
+  void channels(const fs::path& out) {
+    claim(out);
+    if (o_.what == "emg" || !o_.unit.empty()) {
+      write_read(out, recording::rows_of(chosen(voltages(o_.in), out, o_.in)));
+    } else if (is_storage(o_.in)) {
+      storage_channels(out);
+    } else {
+      recording::Recording file = recording::read_recording(o_.in);
+      report(file.repairs);
+      if (file.analog.empty())
+        throw ReadError(o_.in, 0,
+                        "there are no analog channels to write; markers go to a .trc file");
+      if (!file.other_clocks.empty() && o_.channels.empty())
+        remarks_.warn(fmt::format("{}: {}; a folder as OUT takes all", o_.in,
+                                  recording::first_clock_alone(other_clocks(file))));
+      if (stays(file.analog, out)) {
+        write_read(out, recording::rows_of(file.analog));
+      } else {
+        write_read(out, recording::rows_of(chosen(file.clocks(), out, o_.in)));
+      }
+    }
+    wrote(out);
+  }
+
+  /// Plates become loads on a person in ground, whose y is up: everything that goes with them is
+  /// turned as --up says, else as the file does.
+  void stand(recording::Recording& file) {
+    try {
+      const recording::LaboratoryUp up =
+          recording::stand_plates(file, recording::axis_vector(o_.up), o_.least_force_n);
+      if (!up.up_L) return;
+      R_ = rotation_of(o_, *up.up_L);
+      if (o_.up.empty())
+        remarks_.note(fmt::format("note: {}: up is {} ({}); everything is turned to y up", o_.in,
+                                  recording::axis_name(*up.up_L), up.because));
+    } catch (const InvalidInput& error) {
+      throw ReadError(o_.in, 0, error.what());
+    }
+  }
+
+  /// Without plates everything stays as recorded unless --up says otherwise.
+  void tell_vertical(const Vec3& up_L) const {
+    if (!o_.up.empty() || !o_.turns.empty()) return;
+    const std::string up = recording::axis_name(up_L);
+    if (up != "y")
+      remarks_.note(fmt::format(
+          "note: {}: up is {} in this file; the markers are written as recorded; --up {} turns "
+          "them to y up, as models stand",
+          o_.in, up, up));
+  }
+
+  void plates(const fs::path& out, recording::Recording file) {
+    claim(out);
+    if (file.plates.empty())
+      throw ReadError(o_.in, 0, "there are no force plates that are understood");
+    report(file.repairs);
+    const std::vector<int> numbers = plate_numbers(o_, file);
+    std::vector<recording::Repair> notes;
+    const TimeSeries loads = recording::ground_reaction(
+        file.force_plates(), {.R_YG = R_, .least_force_n = o_.least_force_n}, notes);
+    report(notes);
+    recording::write_storage(out, at_rate(cut(loads, o_.call)),
+                             {.title = out.stem().string(), .comments = {}});
+    wrote(out);
+    if (o_.bodies.empty()) {
+      remarks_.note(
+          "give --body BODY for each plate to write the ExternalLoads file too (\"\" leaves one "
+          "out)");
+      return;
+    }
+    const fs::path xml = fs::path(out).replace_extension(".xml");
+    claim(xml);
+    recording::write_file(xml,
+                          recording::format_external_loads(out.stem().string(), numbers, o_.bodies,
+                                                           out.filename().string()));
+    wrote(xml);
+  }
+
+  void everything(const fs::path& folder) {
+    recording::Recording file = recording::read_recording(o_.in);
+    const std::string stem = fs::path(o_.in).stem().string();
+    (void)plate_numbers(o_, file);
+    if (!file.plates.empty()) {
+      stand(file);
+    } else if (file.screen_up_L && file.markers.frame_count() > 0) {
+      tell_vertical(*file.screen_up_L);
+    }
+    report(file.repairs);
+    file.repairs.clear();
+    if (file.markers.frame_count() > 0) {
+      write_markers(folder / (stem + ".trc"), file.markers, file.repairs);
+      report(file.repairs);
+      file.repairs.clear();
+    }
+    if (!file.analog.empty()) write_all_channels(folder, stem, file);
+    if (!file.plates.empty()) plates(folder / (stem + "_grf.mot"), std::move(file));
+  }
+
+  /// All channels, and beside them a file of the voltages that may be EMG.
+  void write_all_channels(const fs::path& folder,
+                          const std::string& stem,
+                          const recording::Recording& file) {
+    const auto write = [&](const fs::path& out, const recording::RowSource& rows) {
+      if (rows.channels.empty()) return;
+      claim(out);
+      write_read(out, rows);
+      wrote(out);
+    };
+    const fs::path all = folder / (stem + "_analog.sto");
+    const bool as_read = stays(file.analog, all);
+    const recording::AnalogChannels changed =
+        as_read ? recording::AnalogChannels() : chosen(file.clocks(), all, o_.in);
+    const recording::AnalogChannels& series = as_read ? file.analog : changed;
+    write(all, recording::rows_of(series));
+    if (o_.channels.empty()) {
+      for (const recording::AnalogChannels& other : file.other_clocks) {
+        const double rate_hz = other.series().mean_rate_hz();
+        const fs::path name = folder / fmt::format("{}_analog_{:.0f}Hz.sto", stem, rate_hz);
+        const TimeSeries own = chosen(other, name, o_.in);
+        write(name, recording::rows_of(own));
+      }
+    }
+    std::vector<std::string> volts = recording::emg_channels(file.analog.channels(), file.plates);
+    if (!o_.channels.empty() || volts.size() == file.analog.channels().size()) return;
+    std::erase_if(volts, [&](const std::string& name) { return !series.find(name); });
+    write(folder / (stem + "_emg.sto"), recording::rows_of(series, volts));
+  }
+
+  void to_c3d(const fs::path& out, const std::string& from) {
+    claim(out);
+    if (from == ".c3d") {
+      if (!R_.isIdentity(0.0) || o_.call.start_s || o_.call.end_s || o_.rate_hz > 0.0)
+        throw InvalidInput(
+            "a C3D file is rewritten as it is; convert it to .trc to turn, cut or resample it");
+      recording::C3dFile file = recording::read_c3d(o_.in);
+      report(file.repairs);
+      recording::write_c3d(out, file);
+      wrote(out);
+      return;
+    }
+    recording::Recording file = recording::read_recording(o_.in);
+    report(file.repairs);
+    recording::AnalogChannels analog = std::move(file.analog);
+    if (states_voltage(o_.in)) analog = voltages(o_.in);
+    if (!o_.analog.empty()) {
+      if (o_.unit.empty() && !states_voltage(o_.analog)) {
+        recording::Recording other = recording::read_recording(o_.analog);
+        report(o_.analog, other.repairs);
+        analog = std::move(other.analog);
+      } else {
+        analog = voltages(o_.analog);
+      }
+    }
+    recording::MarkerSeries markers = file.markers;
+    if (markers.frame_count() > 0)
+      markers = recording::rotated(at_rate(cut(std::move(markers), o_.call)), R_);
+    const std::string& channels_from = o_.analog.empty() ? o_.in : o_.analog;
+    recording::write_c3d(
+        out, recording::make_c3d(
+                 markers, analog.empty() ? TimeSeries() : chosen(analog, out, channels_from)));
+    wrote(out);
+  }
+
+  const ConvertOptions& o_;
+  Remarks& remarks_;
+  Mat3 R_;
+  std::vector<std::string> written_;
+};
+
+/// The options with the kind of content that the endings of the names imply.
+ConvertOptions with_kind(ConvertOptions o) {
+  if (o.what.empty() && recording::extension_of(o.out) == ".mot" &&
+      recording::extension_of(o.in) == ".c3d")
+    o.what = "plates";
+  return o;
+}
+
+}  // namespace
+
+bool makes_derivative(const ConvertOptions& o) {
+  std::error_code ignored;
+  if (!fs::is_directory(o.in, ignored)) return false;
+  const std::string to = recording::extension_of(o.out);
+  for (const char* ending : {".c3d", ".trc", ".sto", ".mot", ".csv", ".tsv", ".edf", ".bdf"}) {
+    if (to == ending)
+      throw InvalidInput(fmt::format(
+          "{} is a folder; the results in it are written as a BIDS derivative, which is a "
+          "folder too: give one as OUT instead of {}",
+          o.in, o.out));
+  }
+  return true;
+}
+
+ConvertResult convert(const ConvertOptions& options) {
+  if (!options.what.empty())
+    check_word("--what", options.what, {"markers", "channels", "emg", "plates"});
+  Remarks remarks(options.call);
+  const ConvertOptions o = with_kind(options);
+  ConvertResult result;
+  result.files = Converter(o, remarks).run();
+  result.remarks = remarks.list();
+  return result;
+}
+
+}  // namespace myoid::commands

@@ -1,0 +1,80 @@
+#include "myoid/commands/design.h"
+
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "myoid/commands/stage_input.h"
+#include "myoid/core/error.h"
+#include "myoid/study/run_identity.h"
+#include "myoid/study/study.h"
+
+namespace myoid::commands {
+namespace {
+
+/// The elbow of the source paper: surface electrodes on three muscles, the brachialis taken to act
+/// as the biceps does.
+Study arm4_study(bool wire) {
+  Study study;
+  study.model.builtin = "arm4";
+  for (const char* name : {"BIC", "BRA", "BRD", "TRI"}) {
+    MuscleSpec muscle;
+    muscle.name = name;
+    muscle.osim = {name};
+    muscle.emg = muscle.name == "BRA" && !wire ? "BIC" : name;
+    study.muscles.push_back(std::move(muscle));
+  }
+  return study;
+}
+
+Study study_of(const DesignOptions& o) {
+  if (o.study.empty() == o.model.empty())
+    throw InvalidInput("design: give either a study.toml or --model arm4");
+  if (!o.model.empty() && o.model != "arm4")
+    throw InvalidInput(fmt::format(
+        "--model {}: only arm4 is built in; for another model write a study.toml that names it",
+        o.model));
+  return o.study.empty() ? arm4_study(o.wire) : read_study(o.study);
+}
+
+EarlierRun read_earlier(const DesignOptions& o, const Study& study, Remarks& remarks) {
+  EarlierRun earlier = read_earlier_run(o.after);
+  const IdentityDifferences unlike = differences(identity_of(study), read_run_identity(o.after));
+  if (!unlike.grave.empty())
+    throw InvalidInput(fmt::format(
+        "--after {}: {}; its numbers mean something else; give the result of a run of this "
+        "study",
+        o.after, fmt::join(unlike.grave, "; ")));
+  for (const std::string& text : unlike.other)
+    remarks.warn(fmt::format("--after {}: {}", o.after, text));
+  return earlier;
+}
+
+}  // namespace
+
+DesignResult design(const DesignOptions& o) {
+  check_word("--criterion", o.criterion, {"D", "A"});
+  Remarks remarks(o.call);
+  const Study study = study_of(o);
+  DesignStudyOptions choice = o.design;
+  choice.choice.criterion = o.criterion == "A" ? identification::DesignCriterion::a_optimal
+                                               : identification::DesignCriterion::d_optimal;
+  choice.catalogue.dynamometer = o.dynamometer;
+  choice.seed = o.call.seed;
+  choice.progress = o.call.progress;
+  if (!o.after.empty()) choice.earlier = read_earlier(o, study, remarks);
+  DesignResult result;
+  result.design = design_study(study, choice);
+  const DesignStudyResult& found = result.design;
+  if (found.too_hard == found.catalogue_size)
+    throw InvalidInput("design: no movement of the catalogue is within the muscles' strength");
+  remarks.note(fmt::format(
+      "{} movements in the catalogue, {} beyond the strength of too many, {} too tiring; {} "
+      "persons; {} exchanges",
+      found.catalogue_size, found.too_hard, found.too_tiring, choice.persons, found.exchanges));
+  result.remarks = remarks.list();
+  return result;
+}
+
+}  // namespace myoid::commands

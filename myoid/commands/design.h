@@ -1,0 +1,32 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "myoid/commands/call.h"
+#include "myoid/design/design_study.h"
+
+namespace myoid::commands {
+
+/// The movements to record next.
+struct DesignOptions {
+  Call call;
+  std::string study;            ///< study.toml; or `model`.
+  std::string model;            ///< The built-in arm: "arm4".
+  bool wire = false;            ///< Of arm4: the brachialis has a wire electrode of its own.
+  std::string after;            ///< Folder of a run whose result is known beforehand; empty: none.
+  std::string criterion = "D";  ///< D or A.
+  bool dynamometer = true;      ///< Isokinetic movements are possible.
+  DesignStudyOptions design;    ///< Its seed, criterion and `earlier` follow from the above.
+};
+
+struct DesignResult {
+  DesignStudyResult design;
+  std::vector<Remark> remarks;
+};
+
+/// Throws InvalidInput where the earlier run is of another study, or no movement of the catalogue
+/// is within the muscles' strength.
+[[nodiscard]] DesignResult design(const DesignOptions& options);
+
+}  // namespace myoid::commands

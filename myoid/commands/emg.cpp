@@ -1,0 +1,123 @@
+#include "myoid/commands/emg.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "myoid/commands/emg_input.h"
+#include "myoid/commands/stage_input.h"
+#include "myoid/core/error.h"
+#include "myoid/tables/series_file.h"
+
+namespace myoid::commands {
+namespace {
+
+void warn_of_levels(const std::vector<signals::TrialEnvelope>& trials, Remarks& remarks) {
+  GroupedWarnings warnings(remarks);
+  for (const Fault& fault : signals::check_emg_levels(trials)) {
+    if (fault.grave)
+      warnings.add(fmt::format("'{}'", fault.channel), sentence(fault),
+                   std::string(name(fault.kind)));
+  }
+}
+
+/// Files of EMG, cleaned, whitened by one decision and smoothed.
+struct SmoothedFiles {
+  std::vector<signals::EmgStages> stages;
+  signals::Whitening whitening;
+
+  [[nodiscard]] std::vector<const signals::EmgStages*> views() const {
+    std::vector<const signals::EmgStages*> list;
+    for (const signals::EmgStages& one : stages) list.push_back(&one);
+    return list;
+  }
+};
+
+SmoothedFiles smooth(const EmgOptions& o, const std::vector<std::string>& paths, Remarks& remarks) {
+  GroupedWarnings warnings(remarks);
+  SmoothedFiles files;
+  for (const TimeSeries& raw : read_raw_emg(o, warnings))
+    files.stages.push_back(signals::clean_emg(raw, o.chain));
+  files.whitening = signals::find_whitening(files.views(), o.chain);
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    signals::add_envelope(files.stages[i], o.chain, files.whitening);
+    for (const std::string& finding : files.stages[i].findings)
+      remarks.note(fmt::format("{}: {}", paths[i], finding));
+  }
+  for (const signals::WhiteningFilter& filter : files.whitening.filters) {
+    if (filter.reason.empty())
+      remarks.note(fmt::format("channel '{}': statistical bandwidth {:.0f} Hz, whitened {:.0f} Hz",
+                               filter.channel, filter.bandwidth_before_hz,
+                               filter.bandwidth_after_hz));
+  }
+  return files;
+}
+
+}  // namespace
+
+std::vector<std::string> emg_files(const std::vector<std::string>& inputs,
+                                   const std::string& to,
+                                   const char* option) {
+  if (to.empty()) return {};
+  if (inputs.size() == 1) return {to};
+  std::vector<std::string> files;
+  for (const std::string& path : inputs) {
+    const std::string name = std::filesystem::path(path).stem().string() + ".sto";
+    files.push_back((std::filesystem::path(to) / name).string());
+    if (std::count(files.begin(), files.end(), files.back()) > 1)
+      throw InvalidInput(
+          fmt::format("two inputs would be written to {}: rename one of them, or "
+                      "give them to two commands with every --mvc",
+                      files.back()));
+  }
+  const std::string ending = std::filesystem::path(to).extension().string();
+  if (!ending.empty() && !std::filesystem::is_directory(to))
+    throw InvalidInput(
+        fmt::format("{} {}: of {} inputs this is a folder, found a name that ends "
+                    "in '{}'",
+                    option, to, inputs.size(), ending));
+  return files;
+}
+
+EmgResult emg(const EmgOptions& o) {
+  Remarks remarks(o.call);
+  const std::vector<std::string> paths = emg_paths(o);
+  SmoothedFiles files = smooth(o, paths, remarks);
+  std::vector<signals::TrialEnvelope> trials;
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    trials.push_back(
+        {paths[i], i >= o.in.size(), &files.stages[i].envelope, files.stages[i].bandwidth_hz});
+  }
+  const signals::NormalisationOptions window{.window_s = o.window_s};
+  EmgResult result;
+  result.normalisation = signals::find_normalisation(trials, window);
+  warn_of_levels(trials, remarks);
+  result.whitening = files.whitening;
+  result.chain = signals::envelope_chain(files.views(), o.chain, files.whitening);
+  result.envelope_header = signals::header_lines(result.chain);
+  signals::add_normalisation(result.normalisation, window, result.chain);
+  result.chain.steps.emplace_back("activation dynamics: none in this file");
+  result.activation_header = signals::header_lines(result.chain);
+  for (std::size_t i = 0; i < o.in.size(); ++i) {
+    const TimeSeries& envelope = files.stages[i].envelope;
+    result.activations.push_back(cut(signals::normalise(envelope, result.normalisation), o.call));
+    if (o.keep_envelopes) result.envelopes.push_back(cut(envelope, o.call));
+    files.stages[i] = {};
+  }
+  result.remarks = remarks.list();
+  return result;
+}
+
+void write_emg(const EmgResult& result,
+               const std::vector<std::string>& activations,
+               const std::vector<std::string>& envelopes) {
+  for (std::size_t i = 0; i < activations.size(); ++i)
+    recording::write_series(activations[i], result.activations[i], "Activation",
+                            result.activation_header);
+  for (std::size_t i = 0; i < envelopes.size(); ++i)
+    recording::write_series(envelopes[i], result.envelopes[i], "EMG envelope volt",
+                            result.envelope_header);
+}
+
+}  // namespace myoid::commands

@@ -1,0 +1,75 @@
+#include "myoid/commands/emg.h"
+
+#include <cmath>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "myoid/commands/emg_input.h"
+#include "myoid/core/error.h"
+#include "myoid/files/atomic_file.h"
+
+#include "tests/support/temporary_folder.h"
+
+namespace myoid::commands {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+TEST(EmgFunction, SeveralInputsHaveAFileEachInAFolder) {
+  EXPECT_THAT(emg_files({"a.c3d"}, "", "--out"), ElementsAre());
+  EXPECT_THAT(emg_files({"a.c3d"}, "x.csv", "--out"), ElementsAre("x.csv"));
+  EXPECT_THAT(emg_files({"p/a.c3d", "b.c3d"}, "x", "--out"), ElementsAre("x/a.sto", "x/b.sto"));
+  EXPECT_THROW((void)emg_files({"p/a.c3d", "q/a.c3d"}, "x", "--out"), InvalidInput);
+  EXPECT_THROW((void)emg_files({"a.c3d", "b.c3d"}, "x.csv", "--out"), InvalidInput);
+}
+
+/// Four seconds of two channels at 1000 Hz: bursts of an 80 Hz tone, and a silent wire.
+std::string two_channels() {
+  std::string text = "time,BIC [V],TRI [V]\n";
+  for (int i = 0; i < 4000; ++i) {
+    const double t = 0.001 * i;
+    const double burst = t > 1.0 && t < 3.0 ? 1e-3 : 1e-5;
+    text += std::to_string(t) + "," + std::to_string(burst * std::sin(500.0 * t)) + ",0\n";
+  }
+  return text;
+}
+
+TEST(EmgFunction, AWarningIsToldAlthoughALaterFileIsRefused) {
+  const test::TemporaryFolder folder;
+  recording::write_file(folder / "a.csv", two_channels());
+  EmgOptions o;
+  o.in = {folder / "a.csv"};
+  o.chain.whitening = false;
+  std::vector<std::string> heard;
+  o.call.listener = [&](const Remark& remark) { heard.push_back(remark.text); };
+  const EmgResult result = emg(o);
+  ASSERT_EQ(result.activations.size(), 1U);
+  EXPECT_TRUE(result.envelopes.empty());
+  ASSERT_EQ(result.activations[0].channel_count(), 1);
+  // The mean of half a second of the largest effort is 1.
+  EXPECT_NEAR(result.activations[0].values().col(0).segment(1500, 1000).mean(), 1.0, 0.05);
+  ASSERT_FALSE(heard.empty());
+  EXPECT_EQ(heard.size(), result.remarks.size());
+  heard.clear();
+  o.mvc = {folder / "missing.csv"};
+  EXPECT_THROW((void)emg(o), ReadError);
+  EXPECT_THAT(heard, testing::Contains(HasSubstr("'TRI' has the same value throughout")));
+}
+
+TEST(GroupedWarnings, WhatIsAlikeIsSaidOnceWithTheOtherPlaces) {
+  Remarks remarks{Call{}};
+  {
+    GroupedWarnings warnings(remarks);
+    warnings.add("a 'BIC'", "a: channel 'BIC' hums", "hum");
+    warnings.add("a 'TRI'", "a: channel 'TRI' hums", "hum");
+    EXPECT_TRUE(remarks.list().empty());
+  }
+  ASSERT_EQ(remarks.list().size(), 1U);
+  EXPECT_THAT(remarks.list()[0].text, HasSubstr("channel 'BIC' hums"));
+  EXPECT_THAT(remarks.list()[0].text, HasSubstr("a 'TRI'"));
+}
+
+}  // namespace
+}  // namespace myoid::commands

@@ -1,0 +1,159 @@
+#include "myoid/commands/emg_input.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "myoid/core/error.h"
+#include "myoid/recording/channel_choice.h"
+#include "myoid/recording/emg_reader.h"
+#include "myoid/recording/recording.h"
+#include "myoid/signals/emg_quality.h"
+
+namespace myoid::commands {
+namespace {
+
+std::string channel_in(const std::string& path, const std::string& channel) {
+  return fmt::format("{} '{}'", std::filesystem::path(path).filename().string(), channel);
+}
+
+/// Why a channel can be neither filtered nor normalized; empty for one that can.
+std::string defect_of(const TimeSeries& emg, Eigen::Index column) {
+  if (std::string gaps = recording::gaps_of(emg, column); !gaps.empty()) return gaps;
+  const auto x = emg.values().col(column);
+  return x.maxCoeff() > x.minCoeff() ? "" : "has the same value throughout: nothing was connected";
+}
+
+/// The channels that can be filtered and normalized. Another one is left out with a warning; one
+/// that was asked for, or the last one, is an error.
+TimeSeries usable_channels(const std::string& path,
+                           const TimeSeries& emg,
+                           bool asked_for,
+                           GroupedWarnings& warnings) {
+  constexpr Eigen::Index kFewest = 10;
+  if (emg.sample_count() < kFewest)
+    throw ReadError(path, 0,
+                    fmt::format("only {} {}; at least {} are needed", emg.sample_count(),
+                                emg.sample_count() == 1 ? "sample" : "samples", kFewest));
+  std::vector<std::string> usable, unusable, defects;
+  for (Eigen::Index c = 0; c < emg.channel_count(); ++c) {
+    const std::string& name = emg.channels()[static_cast<std::size_t>(c)].name;
+    const std::string defect = defect_of(emg, c);
+    if (defect.empty()) {
+      usable.push_back(name);
+    } else {
+      unusable.push_back(name);
+      defects.push_back(defect);
+    }
+  }
+  std::string all;
+  for (std::size_t i = 0; i < defects.size(); ++i) {
+    const std::string one = fmt::format("channel '{}' {}", unusable[i], defects[i]);
+    all += one + "; ";
+    if (!asked_for)
+      warnings.add(channel_in(path, unusable[i]), fmt::format("{}: {}; it is left out", path, one),
+                   "unusable " + defects[i]);
+  }
+  if (!defects.empty() && (asked_for || usable.empty()))
+    throw ReadError(
+        path, 0, all + (asked_for ? "ask for others with --channel" : "no other channel is there"));
+  return emg.select(usable);
+}
+
+/// The channels that all files have: activation is relative to the largest effort of all.
+void keep_common_channels(const std::vector<std::string>& paths,
+                          std::vector<TimeSeries>& files,
+                          GroupedWarnings& warnings) {
+  std::vector<std::string> common;
+  for (const Channel& channel : files.front().channels()) {
+    const auto lacks = std::find_if(files.begin(), files.end(), [&](const TimeSeries& file) {
+      return !file.find(channel.name);
+    });
+    if (lacks == files.end()) {
+      common.push_back(channel.name);
+    } else {
+      const std::string& other = paths[static_cast<std::size_t>(lacks - files.begin())];
+      warnings.add(channel_in(paths.front(), channel.name),
+                   fmt::format("{}: channel '{}' is left out, since {} does not have it (there are "
+                               "{}) or it cannot be used there",
+                               paths.front(), channel.name, other, channel_names(*lacks)),
+                   "not in " + other);
+    }
+  }
+  if (common.empty())
+    throw InvalidInput(fmt::format("no channel is in all files: {}", fmt::join(paths, ", ")));
+  for (TimeSeries& file : files) file = file.select(common);
+}
+
+/// Says what is wrong with raw EMG. Throws ReadError if none of it is raw.
+void warn_of_faults(const std::string& path,
+                    const TimeSeries& emg,
+                    bool highpass,
+                    GroupedWarnings& warnings) {
+  std::vector<std::string> envelopes;
+  const std::vector<Fault> faults = signals::check_emg(emg, highpass);
+  for (const Fault& fault : faults) {
+    if (fault.kind == FaultKind::emg_envelope) envelopes.push_back(fault.channel);
+  }
+  const std::string what = fmt::format(
+      "{} never negative and slow: rectified and smoothed already, an envelope, of which this "
+      "command would leave noise",
+      envelopes.size() == 1 ? fmt::format("channel '{}' is", envelopes[0])
+                            : fmt::format("channels {} are", fmt::join(envelopes, ", ")));
+  if (static_cast<Eigen::Index>(envelopes.size()) == emg.channel_count())
+    throw ReadError(path, 0,
+                    what +
+                        "; give the raw EMG, or divide by the largest effort yourself (a study "
+                        "does it with [emg] kind = \"envelope\")");
+  if (!envelopes.empty())
+    warnings.add(path, fmt::format("{}: {}; leave them out", path, what), "envelopes");
+  for (const Fault& fault : faults) {
+    const bool envelope =
+        std::find(envelopes.begin(), envelopes.end(), fault.channel) != envelopes.end();
+    if (fault.grave && !envelope)
+      warnings.add(channel_in(path, fault.channel), fmt::format("{}: {}", path, sentence(fault)),
+                   std::string(name(fault.kind)));
+  }
+}
+
+/// Reads a file's EMG.
+TimeSeries read_raw(const std::string& path, const EmgOptions& o, GroupedWarnings& warnings) {
+  recording::EmgFile file = recording::read_emg(path, o.unit, false, o.channels);
+  for (const recording::Repair& repair : file.repairs)
+    warnings.add(path, fmt::format("{}: {}", path, recording::to_string(repair)), repair.message);
+  if (!file.unit_conflict.empty())
+    warnings.add(path, fmt::format("{}: {}", path, file.unit_conflict), file.unit_conflict);
+  return usable_channels(path, file.data, !o.channels.empty(), warnings);
+}
+
+}  // namespace
+
+GroupedWarnings::~GroupedWarnings() {
+  for (Finding& f : grouped(found_)) remarks_.warn(std::move(f.message));
+}
+
+void GroupedWarnings::add(std::string where, std::string message, std::string kind) {
+  found_.push_back({Finding::Level::warning, std::move(where), std::move(message), std::nullopt,
+                    std::move(kind)});
+}
+
+std::vector<std::string> emg_paths(const EmgOptions& o) {
+  std::vector<std::string> paths = o.in;
+  paths.insert(paths.end(), o.mvc.begin(), o.mvc.end());
+  return paths;
+}
+
+std::vector<TimeSeries> read_raw_emg(const EmgOptions& o, GroupedWarnings& warnings) {
+  const std::vector<std::string> paths = emg_paths(o);
+  std::vector<TimeSeries> raw;
+  for (const std::string& path : paths) raw.push_back(read_raw(path, o, warnings));
+  keep_common_channels(paths, raw, warnings);
+  for (std::size_t i = 0; i < raw.size(); ++i)
+    warn_of_faults(paths[i], raw[i], !o.chain.as_published, warnings);
+  return raw;
+}
+
+}  // namespace myoid::commands

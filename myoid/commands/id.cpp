@@ -1,0 +1,65 @@
+#include "myoid/commands/id.h"
+
+#include <optional>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "myoid/arm/arm4.h"
+#include "myoid/commands/stage_input.h"
+#include "myoid/core/error.h"
+#include "myoid/dynamics/ground_support.h"
+#include "myoid/dynamics/held_mass.h"
+#include "myoid/dynamics/inverse_dynamics.h"
+#include "myoid/tables/series_file.h"
+
+namespace myoid::commands {
+namespace {
+
+model::BodyModel holding(model::BodyModel model, const IdOptions& o) {
+  if (o.held_mass_kg == 0.0) return model;
+  Vec3 p_BP_m(o.held_at_m[0], o.held_at_m[1], o.held_at_m[2]);
+  std::string body = o.held_body;
+  if (body.empty() && o.model == "arm4") {
+    body = "forearm_hand";
+    if (p_BP_m.isZero()) p_BP_m = model::arm4_held_at_m();
+  }
+  if (body.empty()) {
+    std::vector<std::string> names;
+    for (std::size_t i = 1; i < model.bodies.size(); ++i) names.push_back(model.bodies[i].name);
+    throw InvalidInput(
+        fmt::format("--held-mass {} needs --held-body, the body that carries it, one of {}",
+                    o.held_mass_kg, fmt::join(names, ", ")));
+  }
+  return dynamics::with_held_mass(std::move(model), body, p_BP_m, o.held_mass_kg);
+}
+
+}  // namespace
+
+IdResult id(const IdOptions& o) {
+  if (o.cutoff_hz > 0.0 && !(o.speeds.empty() && o.accelerations.empty()))
+    throw InvalidInput(
+        "--lowpass smooths angles that are differentiated: leave it out with "
+        "--speeds or --accelerations");
+  Remarks remarks(o.call);
+  const model::BodyModel model = holding(load_model(o.model, o.compat, remarks), o);
+  const kinematics::JointMotion motion =
+      with_derivatives(load_motion(model, o.motion, o.cutoff_hz, o.call, remarks), model, o.speeds,
+                       o.accelerations, o.call, remarks);
+  std::optional<dynamics::ExternalLoads> loads;
+  if (!o.loads.empty()) loads = load_external_loads(model, o.loads, motion, remarks);
+  IdResult result;
+  result.forces = dynamics::inverse_dynamics(model, motion, {.loads = loads ? &*loads : nullptr});
+  if (const auto weight = dynamics::unsupported_weight(model, result.forces);
+      weight && dynamics::stands(model, motion.q.values().row(0).transpose()))
+    remarks.warn(weight->sentence("--loads"));
+  result.remarks = remarks.list();
+  return result;
+}
+
+void write_id(const IdResult& result, const std::filesystem::path& path) {
+  recording::write_series(path, result.forces, "Inverse Dynamics Generalized Forces");
+}
+
+}  // namespace myoid::commands

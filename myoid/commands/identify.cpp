@@ -1,0 +1,173 @@
+#include "myoid/commands/identify.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "myoid/commands/identify_options.h"
+#include "myoid/files/atomic_file.h"
+#include "myoid/files/text_file.h"
+#include "myoid/identification/parameters.h"
+#include "myoid/identify_files/muscles_csv.h"
+#include "myoid/methods/basins.h"
+#include "myoid/methods/force.h"
+#include "myoid/methods/noise_free.h"
+#include "myoid/methods/paper.h"
+#include "myoid/methods/torque.h"
+
+namespace myoid::commands {
+namespace {
+
+using identification::StudyData;
+
+constexpr int kStartsToCompare = 3;
+
+StudyData read_data(const IdentifyOptions& o, const MuscleTable& table, Remarks& remarks) {
+  IdentifySources files = o.files;
+  files.torque = o.method == "torque";
+  if (o.motion_cutoff_hz > 0.0) files.motion_cutoff_hz = o.motion_cutoff_hz;
+  files.start_s = o.call.start_s;
+  files.end_s = o.call.end_s;
+  StudyData data =
+      read_identify_data(files, table, [&](const std::string& text) { remarks.warn(text); });
+  for (const std::string& name : o.free_more) {
+    (void)identification::parameter_field(name);
+    identification::ParameterRule rule;
+    rule.parameter = name;
+    rule.free = true;
+    data.rules.push_back(rule);
+  }
+  return data;
+}
+
+/// Frees in the data the v_max that the fit had free, for all that follows the fit.
+void free_what_is_free(const identification::IdentificationResult& fit,
+                       const MuscleTable& table,
+                       StudyData& data) {
+  const bool found = std::any_of(fit.estimates.begin(), fit.estimates.end(), [](const auto& e) {
+    return e.parameter == "max_shortening_speed";
+  });
+  if (found) identification::free_speeds(data, table.speed_may_be_free);
+}
+
+/// Fits the data by the method; v_max that it frees becomes free in the data.
+identification::IdentificationResult fit_data(const IdentifyOptions& o,
+                                              const MuscleTable& table,
+                                              const identification::EstimatorOptions& options,
+                                              StudyData& data) {
+  if (o.method == "paper") return identification::identify_paper(data, {.multistart = o.starts});
+  if (o.method == "force") {
+    identification::IdentificationResult fit = identification::identify_force(
+        data,
+        {.estimator = options, .detect_exact = true, .speed_may_be_free = table.speed_may_be_free});
+    free_what_is_free(fit, table, data);
+    return fit;
+  }
+  identification::IdentificationResult fit =
+      identification::identify_torque_or_exact(data, options, table.speed_may_be_free);
+  free_what_is_free(fit, table, data);
+  identification::look_around(data, options, fit);
+  return fit;
+}
+
+/// Predicts trials or blocks by the reported fit of the others. `data` is as it was read.
+std::vector<identification::Fold> held_out(const IdentifyOptions& o,
+                                           const StudyData& data,
+                                           const identification::EstimatorOptions& options,
+                                           const std::vector<std::string>& speed_may_be_free,
+                                           std::string& why_not) {
+  const identification::CrossValidationOptions how{.kind = o.folds == "block"
+                                                               ? identification::FoldKind::block
+                                                               : identification::FoldKind::trial};
+  const identification::EstimatorOptions once = identification::of_a_fold(options);
+  (void)identification::splits(data, how, &why_not);
+  if (o.method == "torque") {
+    return identification::cross_validate(
+        data,
+        [&](StudyData& of_fold) {
+          return identification::identify_torque_or_exact(of_fold, once, speed_may_be_free);
+        },
+        options, how);
+  }
+  const identification::ForceOptions of_force{
+      .estimator = once, .detect_exact = true, .speed_may_be_free = speed_may_be_free};
+  std::vector<identification::Fold> folds;
+  for (std::size_t k = 0; k < data.muscles.size(); ++k) {
+    const auto more = identification::cross_validate(
+        identification::force_study(data, k),
+        [&](StudyData& of_fold) {
+          return identification::identify_muscle_force(of_fold, of_force);
+        },
+        options, how);
+    folds.insert(folds.end(), more.begin(), more.end());
+  }
+  return folds;
+}
+
+Provenance provenance_of(const IdentifyOptions& o) {
+  Provenance provenance;
+  provenance.command = o.call.command;
+  const auto add = [&](const std::string& path) {
+    provenance.inputs.push_back({path, sha256(recording::read_text_file(path))});
+  };
+  add(o.muscles);
+  for (const auto* list :
+       {&o.files.activations, &o.files.lengths, &o.files.velocities, &o.files.forces,
+        &o.files.moment_arms, &o.files.torques, &o.files.motions}) {
+    for (const std::string& path : *list) add(path);
+  }
+  return provenance;
+}
+
+}  // namespace
+
+IdentifyResult identify(const IdentifyOptions& o) {
+  check_words(o);
+  Remarks remarks(o.call);
+  const MuscleTable table = read_muscles_csv(o.muscles, o.method != "paper");
+  refuse_impossible(o, table);
+  for (const std::string& text : without_effect(o)) remarks.warn(text);
+  const StudyData as_read = read_data(o, table, remarks);
+  const identification::EstimatorOptions as_asked = estimator_options(o, as_read, remarks);
+
+  IdentifyResult result;
+  result.data = as_read;
+  result.fit = fit_data(o, table, as_asked, result.data);
+  if (o.method != "paper" && o.folds != "none" && !result.fit.exact)
+    result.folds = held_out(o, as_read, as_asked, table.speed_may_be_free, result.why_no_folds);
+  if (const std::string text = identification::generalises_badly(result.folds); !text.empty())
+    result.fit.warnings.push_back(text);
+  if (o.compare_solvers) {
+    identification::EstimatorOptions as_fitted = as_asked;
+    as_fitted.lag = result.fit.lag;
+    as_fitted.choose_lag = false;
+    result.contests = solver_contests(result.data, o.method, as_fitted,
+                                      {.starts = o.starts > 0 ? o.starts : kStartsToCompare,
+                                       .seed = o.call.seed,
+                                       .progress = o.call.progress});
+  }
+  for (const std::string& text : result.fit.warnings) remarks.warn(text);
+  result.speed_may_be_free = !table.speed_may_be_free.empty();
+  if (o.method != "paper") result.told.max_rate_hz = o.max_rate_hz;
+  result.told.left_out = result.folds.empty() ? "none" : o.folds;
+  result.told.starting_values = table.assumed;
+  result.provenance = provenance_of(o);
+  result.remarks = remarks.list();
+  return result;
+}
+
+std::string identify_json(const IdentifyResult& result) {
+  return parameters_json({result.fit}, result.folds, result.provenance, result.told);
+}
+
+void write_identify(const IdentifyResult& result, const std::filesystem::path& folder) {
+  recording::write_file(folder / "parameters.json", identify_json(result));
+  recording::write_file(folder / "parameters.csv", parameters_csv({result.fit}));
+  std::error_code ignored;
+  std::filesystem::remove(folder / "fold_parameters.csv", ignored);  // of an earlier run
+  if (!result.folds.empty())
+    recording::write_file(folder / "fold_parameters.csv", fold_parameters_csv(result.folds));
+  if (!result.contests.empty())
+    recording::write_file(folder / "solvers.csv", solvers_csv(result.contests));
+}
+
+}  // namespace myoid::commands

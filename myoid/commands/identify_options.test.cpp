@@ -1,0 +1,65 @@
+#include "myoid/commands/identify_options.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "myoid/core/error.h"
+
+namespace myoid::commands {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+TEST(IdentifyOptions, WhatTheMethodDoesNotUseIsSaid) {
+  IdentifyOptions o;
+  EXPECT_THAT(without_effect(o), IsEmpty());
+  o.files.forces = {"f.sto"};
+  EXPECT_THAT(without_effect(o), ElementsAre(HasSubstr("--forces has no effect")));
+  o.method = "force";
+  o.files.torques = {"t.sto"};
+  EXPECT_THAT(without_effect(o), ElementsAre(HasSubstr("--torques has no effect")));
+  o.method = "paper";
+  o.no_priors = true;
+  EXPECT_THAT(without_effect(o), ElementsAre(HasSubstr("--no-priors"), HasSubstr("--torques")));
+}
+
+TEST(IdentifyOptions, WhatTheMethodOrTheFilesCannotGiveIsRefused) {
+  const MuscleTable table;
+  IdentifyOptions o;
+  EXPECT_NO_THROW(refuse_impossible(o, table));
+  o.free_more = {"joint_viscosity"};
+  EXPECT_THROW(refuse_impossible(o, table), InvalidInput);  // no motion
+  o.files.motions = {"m.mot"};
+  EXPECT_NO_THROW(refuse_impossible(o, table));
+  o.method = "force";
+  EXPECT_THROW(refuse_impossible(o, table), InvalidInput);  // the joint's
+  o = {};
+  o.method = "paper";
+  o.delay_s = 0.05;
+  EXPECT_THROW(refuse_impossible(o, table), InvalidInput);
+  o = {};
+  o.residual_hz = 0.45 * o.max_rate_hz;
+  EXPECT_THROW(refuse_impossible(o, table), InvalidInput);
+  o.method = "papers";
+  EXPECT_THROW(check_words(o), InvalidInput);
+}
+
+TEST(IdentifyOptions, LagsToBeIdentifiedLeaveNoOtherWayToFollowTheEmg) {
+  IdentifyOptions o;
+  identification::StudyData data;
+  identification::ParameterRule rule;
+  rule.parameter = "excitation_time";
+  rule.free = true;
+  data.rules.push_back(rule);
+  Remarks remarks(o.call);
+  (void)estimator_options(o, data, remarks);
+  ASSERT_EQ(remarks.list().size(), 1U);
+  EXPECT_THAT(remarks.list()[0].text, HasSubstr("lags of equation (1)"));
+  o.lag = "shared";
+  EXPECT_THROW((void)estimator_options(o, data, remarks), InvalidInput);
+}
+
+}  // namespace
+}  // namespace myoid::commands

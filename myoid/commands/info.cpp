@@ -1,0 +1,71 @@
+#include "myoid/commands/info.h"
+
+#include <filesystem>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "myoid/arm/arm4.h"
+#include "myoid/contents/recording_contents.h"
+#include "myoid/core/error.h"
+#include "myoid/files/text_file.h"
+#include "myoid/osim/osim_reader.h"
+#include "myoid/recording/recording.h"
+#include "myoid/study/study.h"
+
+namespace myoid::commands {
+namespace {
+
+using nlohmann::ordered_json;
+
+ordered_json study_contents(const std::string& path) {
+  const Study study = read_study(path);
+  ordered_json j{{"kind", "study"},
+                 {"subject", study.subject.name},
+                 {"coordinate", study.model.coordinate},
+                 {"methods", study.identify.methods}};
+  for (const auto& m : study.muscles)
+    j["muscles"].push_back(fmt::format("{} <- EMG {}", m.name, m.emg));
+  for (const auto& t : study.trials)
+    j["trials"].push_back(fmt::format("{} ({})", t.name, name(t.use)));
+  return j;
+}
+
+ordered_json contents_of_model(const InfoOptions& o) {
+  const model::OsimOptions options{.compat = model::parse_compat(o.compat)};
+  ModelQuestions ask = o.ask;
+  ask.seed = o.call.seed;
+  return model_contents(o.file == "arm4"
+                            ? model::parse_osim(model::arm4_osim(), "arm4.osim", options)
+                            : model::read_osim(o.file, options),
+                        ask);
+}
+
+ordered_json contents_of(const InfoOptions& o) {
+  if (auto contents = recording_contents(o.file)) return *std::move(contents);
+  if (is_model(o.file)) return contents_of_model(o);
+  const std::string extension = recording::extension_of(o.file);
+  if (extension == ".toml") return study_contents(o.file);
+  (void)recording::read_text_file(o.file);  // a missing or empty file is told as such
+  throw ReadError(
+      o.file, 0,
+      fmt::format(
+          "files of kind '{}' are not known; known are .c3d, .trc, .mot, .sto, .csv, .tsv, .txt, "
+          ".edf, .bdf, .anc, .osim and .toml",
+          extension));
+}
+
+}  // namespace
+
+bool is_model(const std::string& file) {
+  return recording::extension_of(file) == ".osim" ||
+         (file == "arm4" && !std::filesystem::exists(file));
+}
+
+ordered_json info(const InfoOptions& options) {
+  ordered_json j{{"file", options.file}};
+  j.update(contents_of(options));
+  return j;
+}
+
+}  // namespace myoid::commands

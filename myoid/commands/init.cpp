@@ -1,0 +1,25 @@
+#include "myoid/commands/init.h"
+
+#include "myoid/files/atomic_file.h"
+
+namespace myoid::commands {
+
+InitResult init(const InitOptions& o) {
+  DraftOptions options;
+  for (const std::string& from : o.from) options.from.emplace_back(from);
+  if (options.from.empty()) options.from.emplace_back(o.folder);
+  if (!o.model.empty()) options.model = o.model;
+  options.coordinate = o.coordinate;
+  Remarks remarks(o.call);
+  InitResult result;
+  result.draft = draft_study(o.folder, options);
+  for (const std::string& note : result.draft.notes) remarks.note(note);
+  result.remarks = remarks.list();
+  return result;
+}
+
+void write_init(const InitResult& result, const std::filesystem::path& path) {
+  recording::write_file(path, result.draft.toml);
+}
+
+}  // namespace myoid::commands

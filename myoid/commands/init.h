@@ -1,0 +1,31 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "myoid/commands/call.h"
+#include "myoid/draft/study_draft.h"
+
+namespace myoid::commands {
+
+/// A first study.toml.
+struct InitOptions {
+  Call call;
+  std::string folder;             ///< Where study.toml will stand: paths are relative to it.
+  std::vector<std::string> from;  ///< Recordings, or folders of them; none: the folder itself.
+  std::string model;              ///< .osim; empty: the only one in the folders, else arm4.
+  std::string coordinate;         ///< The joint; empty: guessed.
+};
+
+struct InitResult {
+  StudyDraft draft;
+  std::vector<Remark> remarks;
+};
+
+[[nodiscard]] InitResult init(const InitOptions& options);
+
+/// Writes the study file.
+void write_init(const InitResult& result, const std::filesystem::path& path);
+
+}  // namespace myoid::commands

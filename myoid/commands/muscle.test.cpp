@@ -1,0 +1,78 @@
+#include "myoid/commands/muscle.h"
+
+#include <cmath>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "myoid/commands/muscle_input.h"
+#include "myoid/core/error.h"
+#include "myoid/files/atomic_file.h"
+
+#include "tests/support/places.h"
+#include "tests/support/temporary_folder.h"
+
+namespace myoid::commands {
+namespace {
+
+using testing::HasSubstr;
+
+/// Half a second in which the rat soleus swings by 1 mm, driven fully but for the last tenth.
+MuscleOptions swing(const test::TemporaryFolder& folder) {
+  std::string length = "time,length\n";
+  for (int k = 0; k <= 100; ++k)
+    length += std::to_string(0.005 * k) + "," + std::to_string(std::sin(0.1 * k)) + "\n";
+  recording::write_file(folder / "l.csv", length);
+  recording::write_file(folder / "a.csv", "time,activation\n0,1\n0.4,1\n");
+  MuscleOptions options;
+  options.muscle = test::source_dir() / "examples/rat_soleus/muscle.toml";
+  options.lengths = {folder / "l.csv"};
+  options.scales = {0.001};
+  options.offset_m = 0.0321;
+  options.activation = folder / "a.csv";
+  return options;
+}
+
+TEST(MuscleFunction, ComparesWithWhatItWroteAndFindsNoError) {
+  const test::TemporaryFolder folder;
+  MuscleOptions options = swing(folder);
+  const MuscleResult first = muscle(options);
+  ASSERT_TRUE(first.simulated);
+  ASSERT_EQ(first.remarks.size(), 1U);
+  EXPECT_THAT(first.remarks[0].text, HasSubstr("covers 0 to 0.4 s only"));
+  std::string force = "time,force\n";
+  const TimeSeries& series = first.simulated->simulated.series;
+  for (Eigen::Index i = 0; i < series.sample_count(); ++i)
+    force += std::to_string(series.time_s()[i]) + "," +
+             std::to_string(2.0 * series.column("tendon_force")[i]) + "\n";
+  recording::write_file(folder / "f.csv", force);
+  options.measured = {folder / "f.csv"};
+  const MuscleResult second = muscle(options);
+  ASSERT_TRUE(second.simulated->comparison);
+  // Twice the force: the error is the mean force itself, to the six decimals of the file.
+  EXPECT_NEAR(second.simulated->comparison->error_n, series.column("tendon_force").mean(), 1e-6);
+}
+
+TEST(MuscleFunction, HearsOfTheDriveAlthoughTheLengthIsRefusedLater) {
+  const test::TemporaryFolder folder;
+  MuscleOptions options = swing(folder);
+  std::vector<std::string> heard;
+  options.call.listener = [&](const Remark& remark) { heard.push_back(remark.text); };
+  options.initial_activation = "soon";
+  EXPECT_THROW((void)muscle(options), InvalidInput);
+  ASSERT_EQ(heard.size(), 1U);
+  EXPECT_THAT(heard[0], HasSubstr("0.4 s"));
+}
+
+TEST(MuscleFunction, ReadsAColumnByItsName) {
+  const test::TemporaryFolder folder;
+  recording::write_file(folder / "two.csv", "time,a,b\n0,1,3\n1,2,4\n");
+  Remarks remarks{Call{}};
+  EXPECT_EQ(read_column(folder / "two.csv", "b", remarks).values, Eigen::Vector2d(3.0, 4.0));
+  EXPECT_THROW((void)read_column(folder / "two.csv", "", remarks), ReadError);
+  EXPECT_THROW((void)read_column(folder / "two.csv", "c", remarks), ReadError);
+}
+
+}  // namespace
+}  // namespace myoid::commands

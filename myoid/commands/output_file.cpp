@@ -1,0 +1,28 @@
+#include "myoid/commands/output_file.h"
+
+#include <fmt/format.h>
+
+#include "myoid/core/error.h"
+
+namespace myoid::commands {
+
+void check_output(const std::filesystem::path& path,
+                  const std::vector<std::string>& inputs,
+                  bool overwrite) {
+  namespace fs = std::filesystem;
+  if (path.empty()) throw InvalidInput("--out is empty; name the file to write");
+  std::error_code ignored;
+  for (const std::string& input : inputs) {
+    if (path == input || fs::equivalent(path, input, ignored)) {
+      throw InvalidInput(fmt::format(
+          "{} is an input of this command and would be replaced by its result; give another --out",
+          path.string()));
+    }
+  }
+  if (!overwrite && fs::is_regular_file(path, ignored)) {
+    throw InvalidInput(fmt::format(
+        "{} exists already; give --overwrite to replace it, or another --out", path.string()));
+  }
+}
+
+}  // namespace myoid::commands

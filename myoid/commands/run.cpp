@@ -1,0 +1,78 @@
+#include "myoid/commands/run.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "myoid/report/write_report.h"
+#include "myoid/results/result_files.h"
+#include "myoid/results/study_report.h"
+#include "myoid/results/study_scene.h"
+#include "myoid/run/quality_gates.h"
+#include "myoid/run/run_study.h"
+#include "myoid/study/study_json.h"
+
+namespace myoid::commands {
+namespace {
+
+/// Says what is wrong with recordings and trials, and how files were read; counts the latter.
+std::size_t tell_trials(const StudyResult& study, Remarks& remarks) {
+  const auto reused =
+      std::count_if(study.trials.begin(), study.trials.end(),
+                    [](const TrialResult& trial) { return trial.motion.ik_reused; });
+  if (reused > 0)
+    remarks.note(
+        fmt::format("inverse kinematics of {} trials reused: same input as before", reused));
+  for (const std::string& line : fault_summary(all_faults(study))) remarks.warn(line);
+  std::size_t details = 0;
+  for (const TrialResult& trial : study.trials) {
+    if (!trial.failure().empty())
+      remarks.warn(fmt::format("trial {}: {}", trial.spec.name, trial.failure()));
+    for (const std::string& warning : trial.warnings)
+      remarks.warn(fmt::format("trial {}: {}", trial.spec.name, warning));
+    for (const std::string& note : trial.notes)
+      remarks.detail(fmt::format("{}: {}", trial.spec.name, note));
+    details += trial.notes.size();
+  }
+  return details;
+}
+
+}  // namespace
+
+bool RunResult::failed(bool strict) const {
+  bool failed = std::any_of(gates.begin(), gates.end(), [](const report::Gate& gate) {
+    return gate.status == report::GateStatus::fail;
+  });
+  for (const identification::IdentificationResult& method : study.fit.methods) {
+    if (method.method != "torque") continue;
+    failed = failed || method.termination != math::Termination::converged;
+    for (const identification::ParameterEstimate& e : method.estimates)
+      failed = failed || (strict && e.verdict == identification::Verdict::not_identifiable);
+  }
+  return failed;
+}
+
+RunResult run(const RunOptions& o) {
+  Remarks remarks(o.call);
+  RunResult result;
+  result.study = run_study(read_study(o.study), {.start_s = o.call.start_s,
+                                                 .end_s = o.call.end_s,
+                                                 .progress = o.call.progress,
+                                                 .store = o.store});
+  result.gates = quality_gates(result.study);
+  result.provenance.command = o.call.command;
+  result.provenance.inputs = result.study.source.files;
+  result.provenance.options_json = study_json(result.study.source.study);
+  result.reading_remarks = tell_trials(result.study, remarks);
+  result.remarks = remarks.list();
+  return result;
+}
+
+void write_run(const RunResult& result, const std::filesystem::path& folder) {
+  remove_results(folder);
+  write_results(result.study, result.provenance, folder);
+  write_motion_page(result.study, folder);
+  report::write_report(study_report(result.study, result.provenance), folder);
+}
+
+}  // namespace myoid::commands

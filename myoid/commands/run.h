@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "myoid/commands/call.h"
+#include "myoid/core/provenance.h"
+#include "myoid/report/report.h"
+#include "myoid/run/study_result.h"
+
+namespace myoid::commands {
+
+/// The whole pipeline, from a study's recordings to muscle parameters.
+struct RunOptions {
+  Call call;
+  std::string study;                           ///< study.toml
+  std::optional<std::filesystem::path> store;  ///< Where stages are kept between runs; or nowhere.
+};
+
+struct RunResult {
+  StudyResult study;
+  std::vector<report::Gate> gates;
+  std::size_t reading_remarks = 0;  ///< Remarks of the kind `detail`.
+  Provenance provenance;
+  std::vector<Remark> remarks;
+
+  /// Whether a gate failed, or the method torque did not converge; `strict`: or has a parameter
+  /// that is not identifiable.
+  [[nodiscard]] bool failed(bool strict) const;
+};
+
+[[nodiscard]] RunResult run(const RunOptions& options);
+
+/// Writes all results, the report and the page with the moving model, in the place of those of an
+/// earlier run.
+void write_run(const RunResult& result, const std::filesystem::path& folder);
+
+}  // namespace myoid::commands

@@ -1,0 +1,212 @@
+#include "myoid/commands/simulate.h"
+
+#include <utility>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "myoid/arm/arm4.h"
+#include "myoid/commands/simulate_setup.h"
+#include "myoid/commands/stage_input.h"
+#include "myoid/core/error.h"
+#include "myoid/core/json_text.h"
+#include "myoid/dynamics/held_mass.h"
+#include "myoid/files/text_file.h"
+#include "myoid/results/sensitivity_files.h"
+#include "myoid/simulation/forward_simulation.h"
+
+namespace myoid::commands {
+namespace {
+
+/// The options with the words that the kind of model implies.
+SimulateOptions with_defaults(SimulateOptions o) {
+  const bool arm4 = o.model == "arm4";
+  if (o.curves.empty()) o.curves = arm4 ? "paper" : "file";
+  if (o.activation.empty()) o.activation = arm4 ? "two_lags" : "thelen";
+  return o;
+}
+
+void refuse_impossible(const SimulateOptions& o) {
+  if (!o.excitations.empty() && !o.excite.empty())
+    throw InvalidInput("give either --excitations or --excite, not both");
+  if (!(o.rest >= 0.0 && o.rest <= 1.0))
+    throw InvalidInput(fmt::format("--rest {}: expected 0 to 1", o.rest));
+  if (!(o.tolerance >= 1e-13 && o.tolerance <= 1e-2))
+    throw InvalidInput(fmt::format("--tolerance {}: expected 1e-13 to 0.01", o.tolerance));
+  if (o.model == "arm4") return;
+  if (o.horizontal)
+    throw InvalidInput("--horizontal belongs to arm4; a model file says its gravity itself");
+  if (!o.sensitivity.empty()) {
+    throw InvalidInput(
+        "--sensitivity belongs to arm4; of a model file, simulate twice and take differences");
+  }
+}
+
+Provenance provenance_of(const SimulateOptions& o, const Drive& drive) {
+  Provenance provenance;
+  provenance.command = o.call.command;
+  if (o.model != "arm4")
+    provenance.inputs.push_back({o.model, sha256(recording::read_text_file(o.model))});
+  if (!o.excitations.empty())
+    provenance.inputs.push_back({o.excitations, sha256(recording::read_text_file(o.excitations))});
+  provenance.options_json = json_text({{"model", o.model},
+                                       {"excitations", o.excitations},
+                                       {"excite", o.excite},
+                                       {"rest", o.rest},
+                                       {"tendon", o.tendon},
+                                       {"curves", o.curves},
+                                       {"activation", o.activation},
+                                       {"initial", o.initial},
+                                       {"initial_speed", o.initial_speed},
+                                       {"lock", o.lock},
+                                       {"horizontal", o.horizontal},
+                                       {"held_mass_kg", o.held_mass_kg},
+                                       {"held_body", o.held_body},
+                                       {"held_at_m", o.held_at_m},
+                                       {"rate_hz", o.rate_hz},
+                                       {"tolerance", o.tolerance},
+                                       {"energy", o.energy},
+                                       {"sensitivity", o.sensitivity},
+                                       {"start_s", drive.start_s},
+                                       {"end_s", drive.end_s}},
+                                      -1);
+  return provenance;
+}
+
+simulation::SimulationOptions integration_options(const SimulateOptions& o, double end_s) {
+  simulation::SimulationOptions options;
+  options.end_s = end_s;
+  options.output_rate_hz = o.rate_hz;
+  options.energy = o.energy;
+  options.ode.relative_tolerance = o.tolerance;
+  options.ode.absolute_tolerance = 0.01 * o.tolerance;
+  options.progress = o.call.progress;
+  return options;
+}
+
+muscle::MusculotendonLaws laws_of(simulation::MuscleCurves curves, muscle::TendonMode mode) {
+  switch (curves) {
+    case simulation::MuscleCurves::thelen:
+      return muscle::thelen_laws(mode);
+    case simulation::MuscleCurves::de_groote:
+      return muscle::de_groote_laws(mode);
+    case simulation::MuscleCurves::millard:
+      return muscle::millard_laws(mode);
+    case simulation::MuscleCurves::file:
+    case simulation::MuscleCurves::paper:
+      break;
+  }
+  return muscle::paper_laws(mode);
+}
+
+SimulateResult simulate_arm4(const SimulateOptions& o, Remarks& remarks) {
+  simulation::ArmSetup setup;
+  setup.horizontal = o.horizontal;
+  setup.held_mass_kg = o.held_mass_kg;
+  setup.laws = laws_of(muscle_curves(o), tendon_mode(o));
+  setup.activation.law = activation_law(o);
+  const simulation::Arm<double> arm = simulation::make_arm(setup);
+  std::vector<std::string> muscles;
+  for (const auto& m : arm.muscles) muscles.push_back(m.name);
+
+  SimulateResult result;
+  result.body = load_model("arm4", "exact", remarks);
+  Drive drive = read_drive(o, muscles, remarks);
+  simulation::SimulationInput input;
+  input.excitation = std::move(drive.excitation);
+  input.device = {simulation::Device{}};
+  simulation::SimulationStart start;
+  start.time_s = drive.start_s;
+  start.q = {0.0};
+  place(o, {{"elbow_flexion", true}}, start, input.device);
+  const simulation::SimulationOptions options = integration_options(o, drive.end_s);
+  const std::vector<std::string> wanted = wanted_parameters(o, arm);
+  result.simulation = simulation::simulate(arm, input, start, options);
+  if (!wanted.empty() && result.simulation.status == math::OdeStatus::done) {
+    result.sensitivities = simulation::simulate_sensitivities(arm, input, start, options, wanted);
+  }
+  const Vec3 shoulder = model::arm4_shoulder_rad(o.horizontal);
+  result.held = {{"shoulder_flexion", shoulder.x()},
+                 {"shoulder_adduction", shoulder.y()},
+                 {"shoulder_rotation", shoulder.z()}};
+  result.provenance = provenance_of(o, drive);
+  return result;
+}
+
+SimulateResult simulate_file(const SimulateOptions& o, Remarks& remarks) {
+  model::BodyModel body = load_model(o.model, "exact", remarks);
+  if (o.held_mass_kg != 0.0) {
+    body = dynamics::with_held_mass(std::move(body), o.held_body,
+                                    Vec3(o.held_at_m[0], o.held_at_m[1], o.held_at_m[2]),
+                                    o.held_mass_kg);
+  }
+  const simulation::SimulationModel model = simulation::make_simulation_model(
+      std::move(body),
+      {.mode = tendon_mode(o), .curves = muscle_curves(o), .activation = activation_law(o)});
+  for (const std::string& note : model.notes) remarks.warn(fmt::format("{}: {}", o.model, note));
+  std::vector<std::string> muscles;
+  for (const auto& m : model.muscles) muscles.push_back(m.name);
+  std::vector<NamedCoordinate> coordinates;
+  for (const model::Coordinate& c : model.body.coordinates)
+    coordinates.push_back({c.name, c.motion == model::MotionType::rotational});
+
+  SimulateResult result;
+  result.body = model.body;
+  Drive drive = read_drive(o, muscles, remarks);
+  simulation::SimulationInput input;
+  input.excitation = std::move(drive.excitation);
+  input.device = simulation::default_devices(model);
+  simulation::SimulationStart start = simulation::default_start(model, drive.start_s);
+  refuse_followers(o, model.body);
+  place(o, coordinates, start, input.device);
+  result.simulation =
+      simulation::simulate(model, input, start, integration_options(o, drive.end_s));
+  result.provenance = provenance_of(o, drive);
+  return result;
+}
+
+/// Says what did not get to its end, and where the equations jumped.
+void tell_trouble(const SimulateResult& result, Remarks& remarks) {
+  if (result.sensitivities && result.sensitivities->status != math::OdeStatus::done)
+    remarks.warn(fmt::format("sensitivities not to the end: {}", result.sensitivities->message));
+  const simulation::Simulation& s = result.simulation;
+  if (s.jumps_passed > 0) {
+    remarks.warn(fmt::format(
+        "{} times the equations jumped, as where the path of a muscle does; each was passed by a "
+        "step of 1 ns, and energy is not kept there",
+        s.jumps_passed));
+  }
+  if (s.status != math::OdeStatus::done)
+    remarks.warn(fmt::format("not simulated to the end: {}", s.message));
+}
+
+}  // namespace
+
+bool SimulateResult::finished() const {
+  return simulation.status == math::OdeStatus::done &&
+         (!sensitivities || sensitivities->status == math::OdeStatus::done);
+}
+
+SimulateResult simulate(const SimulateOptions& options) {
+  const SimulateOptions o = with_defaults(options);
+  refuse_impossible(o);
+  Remarks remarks(o.call);
+  SimulateResult result = o.model == "arm4" ? simulate_arm4(o, remarks) : simulate_file(o, remarks);
+  if (o.figures) result.figures.push_back(movement_figure(result.simulation));
+  tell_trouble(result, remarks);
+  result.remarks = remarks.list();
+  return result;
+}
+
+void write_simulate(const SimulateResult& result, const std::filesystem::path& folder) {
+  const simulation::Simulation& s = result.simulation;
+  write_simulation(s, result.body, result.held, result.provenance, folder);
+  if (result.sensitivities) {
+    std::vector<std::string> muscles;
+    for (const Channel& channel : s.activation.channels()) muscles.push_back(channel.name);
+    write_sensitivities(*result.sensitivities, muscles, result.provenance, folder);
+  }
+  for (const report::Figure& figure : result.figures) write_figure(figure, folder);
+}
+
+}  // namespace myoid::commands

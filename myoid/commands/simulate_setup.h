@@ -1,0 +1,52 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "myoid/commands/simulate.h"
+#include "myoid/muscle/activation.h"
+#include "myoid/muscle/musculotendon.h"
+#include "myoid/simulation/arm.h"
+#include "myoid/simulation/simulation_model.h"
+
+namespace myoid::commands {
+
+/// The laws that the words of the options name. Throws InvalidInput for other words.
+[[nodiscard]] muscle::TendonMode tendon_mode(const SimulateOptions& options);
+[[nodiscard]] simulation::MuscleCurves muscle_curves(const SimulateOptions& options);
+[[nodiscard]] muscle::ActivationLaw activation_law(const SimulateOptions& options);
+
+/// Excitations of the muscles, and the time that is simulated [s].
+struct Drive {
+  std::vector<simulation::Signal> excitation;
+  double start_s = 0.0, end_s = 1.0;
+};
+
+/// From the file, whose time is simulated unless the call says otherwise, or from the descriptions,
+/// by which one second is simulated.
+[[nodiscard]] Drive read_drive(const SimulateOptions& options,
+                               const std::vector<std::string>& muscles,
+                               Remarks& remarks);
+
+/// A coordinate's name; whether it turns, so that its values are in degrees.
+struct NamedCoordinate {
+  std::string name;
+  bool turns = true;
+};
+
+/// Sets the values, speeds and locks that the options name among the coordinates.
+void place(const SimulateOptions& options,
+           const std::vector<NamedCoordinate>& coordinates,
+           simulation::SimulationStart& start,
+           std::vector<simulation::Device>& devices);
+
+/// Throws InvalidInput if a coordinate that follows another one by a coupler is to be placed.
+void refuse_followers(const SimulateOptions& options, const model::BodyModel& body);
+
+/// The parameters of the arm that `sensitivity` names, each once, in their order.
+[[nodiscard]] std::vector<std::string> wanted_parameters(const SimulateOptions& options,
+                                                         const simulation::Arm<double>& arm);
+
+}  // namespace myoid::commands

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "myoid/commands/call.h"
+#include "myoid/forces/force_sharing.h"
+
+namespace myoid::commands {
+
+/// Static optimization: the muscle forces that make the torques of a motion.
+struct SoOptions {
+  Call call;
+  std::string model;                     ///< A file (.osim), or "arm4".
+  std::string compat = "exact";          ///< Paths: exact, or opensim.
+  bool compare_with_opensim = true;      ///< Warn of muscles whose exact path differs by 1 mm.
+  std::string motion;                    ///< Joint angles (.mot, .sto).
+  double cutoff_hz = 0.0;                ///< Angles are smoothed, -3 dB here; 0: not at all.
+  std::string objective = "activation";  ///< activation, force or stress.
+  double exponent = 2.0;                 ///< Of the sum, above 1.
+  std::string emg;                       ///< Activations by muscle to stay near (.sto).
+  double emg_weight = 1.0;               ///< Of that term.
+  double reserve_nm = 1.0;               ///< Optimal torque of each coordinate's reserve.
+  std::vector<std::string> coordinates;  ///< That the muscles balance; none: all free ones.
+  std::string loads;                     ///< <ExternalLoads> (.xml); empty: none.
+  std::string tendon = "rigid";          ///< rigid or elastic.
+  bool passive = false;                  ///< The fibers' springs and dampers pull too.
+};
+
+struct SoResult {
+  forces::MuscleForces shared;
+  std::vector<Remark> remarks;
+};
+
+[[nodiscard]] SoResult so(const SoOptions& options);
+
+/// Writes StaticOptimization_force.sto, _activation.sto and _status.csv.
+void write_so(const SoResult& result, const std::filesystem::path& folder);
+
+}  // namespace myoid::commands

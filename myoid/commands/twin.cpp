@@ -1,0 +1,90 @@
+#include "myoid/commands/twin.h"
+
+#include <atomic>
+
+#include <fmt/format.h>
+#include <oneapi/tbb/parallel_for.h>
+
+#include "myoid/commands/stage_input.h"
+#include "myoid/core/error.h"
+#include "myoid/files/atomic_file.h"
+#include "myoid/twin/write_recording.h"
+
+namespace myoid::commands {
+namespace {
+
+namespace fs = std::filesystem;
+
+twin::Protocol protocol_of(const TwinOptions& o) {
+  check_word("--model", o.model, {"arm4", "arm7"});
+  check_word("--format", o.format, {"trc", "c3d"});
+  twin::Protocol protocol = twin::read_protocol(o.protocol, level_named(o.level));
+  protocol.seven_heads = o.model == "arm7";
+  if (protocol.seven_heads && protocol.level != twin::Level::different) {
+    throw InvalidInput(
+        fmt::format("--model arm7 with level {}: only a person at level L2 has seven heads; add "
+                    "--level L2 or choose arm4",
+                    twin::name(protocol.level)));
+  }
+  return protocol;
+}
+
+twin::WriteOptions write_options(const std::string& format) {
+  return {.overwrite = true,
+          .format = format == "c3d" ? twin::RecordingFormat::c3d : twin::RecordingFormat::text};
+}
+
+/// One person's folder under the common one: seeds make the names.
+fs::path folder_of(const fs::path& out, std::uint64_t seed) {
+  return out / fmt::format("person_{:06}", seed);
+}
+
+}  // namespace
+
+std::optional<twin::Level> level_named(const std::string& name) {
+  if (name.empty()) return std::nullopt;
+  check_word("--level", name, {"L0", "L1", "L2"});
+  for (const twin::Level level :
+       {twin::Level::noise_free, twin::Level::noisy, twin::Level::different}) {
+    if (name == twin::name(level)) return level;
+  }
+  return std::nullopt;
+}
+
+TwinResult twin(const TwinOptions& o) {
+  return {twin::make_virtual_recording(protocol_of(o), o.call.seed), o.format};
+}
+
+void write_twin(const TwinResult& result, const fs::path& folder) {
+  twin::write_virtual_recording(result.recording, folder, write_options(result.format));
+}
+
+TwinPersonsResult write_twin_persons(const TwinPersonsOptions& options, const fs::path& folder) {
+  const twin::Protocol protocol = protocol_of(options.twin);
+  const Progress& progress = options.twin.call.progress;
+  std::vector<std::string> lines(options.persons);
+  std::atomic<std::size_t> done = 0;
+  oneapi::tbb::parallel_for(std::size_t{0}, options.persons, [&](std::size_t i) {
+    progress.check();
+    const std::uint64_t seed = options.twin.call.seed + i;
+    const twin::VirtualRecording recording = options.truth_only
+                                                 ? twin::make_virtual_person(protocol, seed)
+                                                 : twin::make_virtual_recording(protocol, seed);
+    if (!options.truth_only)
+      twin::write_virtual_recording(recording, folder_of(folder, seed),
+                                    write_options(options.twin.format));
+    lines[i] = twin::truth_row(recording);
+    progress.tell(static_cast<double>(++done) / static_cast<double>(options.persons),
+                  fmt::format("{} of {} persons", done.load(), options.persons));
+  });
+  std::string table = twin::truth_header() + "\n";
+  for (const std::string& line : lines) table += line + "\n";
+  TwinPersonsResult result;
+  result.table = folder / "persons.csv";
+  recording::write_file(result.table, table);
+  for (std::size_t i = 0; i < options.persons && !options.truth_only; ++i)
+    result.studies.push_back(folder_of(folder, options.twin.call.seed + i) / "study.toml");
+  return result;
+}
+
+}  // namespace myoid::commands

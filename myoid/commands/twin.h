@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "myoid/commands/call.h"
+#include "myoid/twin/protocol.h"
+#include "myoid/twin/synthetic_recording.h"
+
+namespace myoid::commands {
+
+/// Virtual recordings whose truth is known. The call's seed makes the person.
+struct TwinOptions {
+  Call call;
+  std::string model = "arm4";  ///< That goes with the recording: arm4, or arm7 at level L2.
+  std::string protocol;        ///< What is recorded (.toml).
+  std::string level;           ///< L0, L1 or L2; empty: as the protocol says.
+  std::string format = "trc";  ///< Of markers and EMG: trc (.trc and .sto), or c3d.
+};
+
+struct TwinResult {
+  twin::VirtualRecording recording;
+  std::string format;
+};
+
+/// One person's recording. Throws InvalidInput for an arm7 at another level than L2.
+[[nodiscard]] TwinResult twin(const TwinOptions& options);
+
+/// Writes the folder that `run` takes, which may hold files.
+void write_twin(const TwinResult& result, const std::filesystem::path& folder);
+
+/// Many persons, whose seeds count up from the call's.
+struct TwinPersonsOptions {
+  TwinOptions twin;
+  std::size_t persons = 1;
+  bool truth_only = false;  ///< Only the table, no recordings.
+};
+
+struct TwinPersonsResult {
+  std::filesystem::path table;                 ///< persons.csv: a person's truth in each row.
+  std::vector<std::filesystem::path> studies;  ///< study.toml of each person; none by truth_only.
+};
+
+/// Makes the persons and writes each into a folder of its own and all into the table, one at a
+/// time: no more recordings are held than threads work. The folder may hold files.
+TwinPersonsResult write_twin_persons(const TwinPersonsOptions& options,
+                                     const std::filesystem::path& folder);
+
+/// The level of this name: L0, L1 or L2; nothing for an empty name. Throws InvalidInput for others.
+[[nodiscard]] std::optional<twin::Level> level_named(const std::string& name);
+
+}  // namespace myoid::commands

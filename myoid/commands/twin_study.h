@@ -1,0 +1,35 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "myoid/commands/call.h"
+#include "myoid/core/provenance.h"
+#include "myoid/twin/twin_study.h"
+
+namespace myoid::commands {
+
+/// Many virtual persons, put through the whole chain and compared with their truth.
+struct TwinStudyOptions {
+  Call call;
+  std::string protocol;          ///< What is recorded (.toml).
+  std::string level;             ///< L0, L1 or L2; empty: as the protocol says.
+  std::optional<double> offset;  ///< Mean of the persons away from the priors', in sd.
+  twin::TwinStudyOptions study;  ///< Its seed and progress are the call's.
+};
+
+struct TwinStudyResult {
+  twin::TwinStudyResult study;  ///< Of a study that was stopped: the persons that were finished.
+  std::vector<twin::TwinSummary> summaries;
+  Provenance provenance;
+  std::vector<Remark> remarks;
+};
+
+[[nodiscard]] TwinStudyResult twin_study(const TwinStudyOptions& options);
+
+/// Writes persons.csv, summary.csv, predictions.csv and run.json.
+void write_twin_study(const TwinStudyResult& result, const std::filesystem::path& folder);
+
+}  // namespace myoid::commands
