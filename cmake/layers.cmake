@@ -23,7 +23,8 @@ set(MYOID_LAYER_intervals core math muscle signals identification)
 set(MYOID_LAYER_methods core math muscle forces identification intervals)
 set(MYOID_LAYER_report core files)
 set(MYOID_LAYER_phases core math)
-set(MYOID_LAYER_study core files muscle recording model osim arm kinematics identification)
+set(MYOID_LAYER_study core files muscle recording model osim arm kinematics forces identification
+    phases)
 set(MYOID_LAYER_intake core files tables recording signals model osim kinematics dynamics study)
 set(MYOID_LAYER_checks core math files tables recording signals model kinematics dynamics study
     intake)

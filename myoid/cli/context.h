@@ -6,12 +6,14 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
 #include <oneapi/tbb/global_control.h>
 
 #include "myoid/commands/call.h"
+#include "myoid/core/choice.h"
 #include "myoid/core/progress.h"
 
 namespace myoid::cli {
@@ -31,6 +33,15 @@ enum ExitCode : int {
 /// the largest double.
 [[nodiscard]] const CLI::Validator& above_zero();
 [[nodiscard]] const CLI::Validator& zero_or_more();
+
+/// An option that takes the name of an enumerator (`choice_names`).
+template <typename Enumeration>
+[[nodiscard]] CLI::CheckedTransformer one_of() {
+  std::vector<std::pair<std::string, Enumeration>> names;
+  for (const std::string_view name : choice_names(Enumeration{}))
+    names.emplace_back(name, *choice_named<Enumeration>(name));
+  return CLI::CheckedTransformer(std::move(names));
+}
 
 /// What every command shares: the common options, progress and log on stderr, and the way to stop.
 struct Context {

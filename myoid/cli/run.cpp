@@ -59,7 +59,7 @@ void print_method(const identification::IdentificationResult& method, std::size_
 
 void print_predictions(const StudyResult& result) {
   if (!result.folds.empty()) {
-    const std::string& left_out = result.source.study.identify.folds;
+    const std::string_view left_out = choice_name(result.source.study.identify.folds);
     fmt::print(
         "\nleave one {0} out: torque predicted for a {0} that took no part in the fit (R2 about "
         "that {0}'s own mean)\n",

@@ -114,8 +114,8 @@ void add_twin_study(CLI::App& app, Context& context) {
       ->check(CLI::Range(1, 1000000))
       ->capture_default_str();
   command.add_option("--method", options->study.methods, "torque, force, paper; several")
-      ->check(CLI::IsMember({"torque", "force", "paper"}))
-      ->capture_default_str();
+      ->transform(one_of<identification::Method>())
+      ->default_str("torque");
   command.add_flag("--each-muscle", *each_muscle, "A line for each muscle too");
   command.add_option("--out", *out, "Folder for persons.csv, summary.csv, predictions.csv")
       ->required();

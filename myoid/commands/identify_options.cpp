@@ -65,12 +65,12 @@ void refuse_free_without_motion(const IdentifyOptions& o) {
 identification::EstimatorSettings settings_of(const IdentifyOptions& o) {
   identification::EstimatorSettings settings;
   settings.priors = !o.no_priors;
-  if (!o.lag.empty()) settings.lag = identification::parse_lag(o.lag);
+  if (!o.lag.empty()) settings.lag = *choice_named<identification::LagChoice>(o.lag);
   settings.max_rate_hz = o.max_rate_hz;
   settings.delay_s = o.delay_s;
   settings.residual_cutoff_hz.reset();
   if (o.residual_hz > 0.0) settings.residual_cutoff_hz = o.residual_hz;
-  settings.loss = identification::parse_loss(o.loss);
+  settings.loss = *choice_named<identification::Loss>(o.loss);
   settings.starts = o.starts;
   settings.intervals = {.bootstrap = o.bootstrap, .profile = o.profile, .seed = o.call.seed};
   return settings;

@@ -23,11 +23,13 @@ ordered_json study_contents(const std::string& path) {
   ordered_json j{{"kind", "study"},
                  {"subject", study.subject.name},
                  {"coordinate", study.model.coordinate},
-                 {"methods", study.identify.methods}};
+                 {"methods", ordered_json::array()}};
+  for (const identification::Method method : study.identify.methods)
+    j["methods"].push_back(std::string(choice_name(method)));
   for (const auto& m : study.muscles)
     j["muscles"].push_back(fmt::format("{} <- EMG {}", m.name, m.emg));
   for (const auto& t : study.trials)
-    j["trials"].push_back(fmt::format("{} ({})", t.name, name(t.use)));
+    j["trials"].push_back(fmt::format("{} ({})", t.name, choice_name(t.use)));
   return j;
 }
 

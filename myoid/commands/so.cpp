@@ -17,8 +17,9 @@ forces::SharingOptions sharing_options(const SoOptions& o,
                                        const model::BodyModel& model,
                                        const forces::SharingInput& input,
                                        Remarks& remarks) {
-  forces::SharingOptions options{
-      .objective = o.objective, .exponent = o.exponent, .reserve_nm = o.reserve_nm};
+  forces::SharingOptions options{.objective = *choice_named<forces::SharingObjective>(o.objective),
+                                 .exponent = o.exponent,
+                                 .reserve_nm = o.reserve_nm};
   if (!o.emg.empty()) {
     const recording::Storage emg = recording::read_storage(o.emg);
     warn_of_repairs(o.emg, emg.repairs, remarks);

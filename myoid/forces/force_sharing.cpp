@@ -251,10 +251,10 @@ MuscleForces share(const std::vector<TimeSeries>& moment_arms,
       problem.upper = Eigen::VectorXd::Constant(muscles, options.max_activation);
       problem.reserve = Eigen::VectorXd::Constant(coordinates, options.reserve_nm);
       problem.exponent = options.exponent;
-      if (options.objective == "force" || options.objective == "stress") {
+      if (options.objective != SharingObjective::activation) {
         // (F_i)^p or (F_i / F_max)^p instead of (F_i / F_opt)^p, relative to the mean so that
         // reserves weigh alike.
-        problem.weight = options.objective == "force"
+        problem.weight = options.objective == SharingObjective::force
                              ? problem.optimal_force
                              : problem.optimal_force.cwiseQuotient(max_isometric_force_n).eval();
         const double mean = std::max(problem.weight.mean(), 1e-12);

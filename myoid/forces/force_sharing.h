@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 
 #include "myoid/core/time_series.h"
+#include "myoid/forces/sharing_objective.h"
 
 namespace myoid::forces {
 
@@ -75,8 +76,7 @@ using MuscleForceLaw =
     const Eigen::VectorXd& start);
 
 struct SharingOptions {
-  std::string objective = "activation";  ///< activation: w = 1; force: w = F_opt^p / mean F_opt^p;
-                                         ///< stress: w as force, F_max
+  SharingObjective objective = SharingObjective::activation;
   double exponent = 2.0;
   double reserve_nm = 1.0;
   double min_activation = 0.0;

@@ -1,27 +1,7 @@
 #include "myoid/identification/estimator_settings.h"
 
-#include <array>
-#include <cstddef>
-#include <utility>
-
-#include <fmt/format.h>
-
-#include "myoid/core/error.h"
-
 namespace myoid::identification {
 namespace {
-
-template <typename Choice, std::size_t N>
-Choice choice_of(std::string_view word,
-                 std::string_view setting,
-                 const std::array<std::pair<std::string_view, Choice>, N>& known) {
-  std::string words;
-  for (const auto& [name, choice] : known) {
-    if (name == word) return choice;
-    words += (words.empty() ? "" : ", ") + std::string(name);
-  }
-  throw InvalidInput(fmt::format("{} \"{}\": expected one of {}", setting, word, words));
-}
 
 void follow_emg(LagChoice lag, EstimatorOptions& options) {
   options.choose_lag = lag == LagChoice::automatic;
@@ -64,27 +44,6 @@ EstimatorOptions estimator_options(const EstimatorSettings& settings,
   }
   options.progress = progress;
   return options;
-}
-
-Loss parse_loss(std::string_view word) {
-  return choice_of<Loss, 3>(
-      word, "loss", {{{"square", Loss::square}, {"huber", Loss::huber}, {"cauchy", Loss::cauchy}}});
-}
-
-Eccentric parse_eccentric(std::string_view word) {
-  return choice_of<Eccentric, 4>(word, "eccentric",
-                                 {{{"automatic", Eccentric::automatic},
-                                   {"product", Eccentric::product},
-                                   {"slope_ratio", Eccentric::slope_ratio},
-                                   {"smooth", Eccentric::smooth}}});
-}
-
-LagChoice parse_lag(std::string_view word) {
-  return choice_of<LagChoice, 4>(word, "lag",
-                                 {{{"automatic", LagChoice::automatic},
-                                   {"delay", LagChoice::delay},
-                                   {"shared", LagChoice::shared},
-                                   {"equation_1", LagChoice::equation_1}}});
 }
 
 }  // namespace myoid::identification

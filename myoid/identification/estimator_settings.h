@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "myoid/core/choice.h"
 #include "myoid/core/progress.h"
 #include "myoid/identification/options.h"
 
@@ -17,6 +18,8 @@ enum class LagChoice {
   shared,      ///< EmgLag::shared
   equation_1,  ///< EmgLag::equation_1: the delay is the time that is left beside the lags.
 };
+inline constexpr std::string_view kLagNames[] = {"automatic", "delay", "shared", "equation_1"};
+constexpr ChoiceNames choice_names(LagChoice) { return kLagNames; }
 
 /// The choices about an estimator that a person makes, in a study file or on a command line. The
 /// defaults are those of `EstimatorOptions`.
@@ -61,11 +64,5 @@ struct ActivationSource {
 [[nodiscard]] EstimatorOptions estimator_options(const EstimatorSettings& settings,
                                                  const ActivationSource& source,
                                                  const Progress& progress);
-
-/// "square", "huber", "cauchy"; "automatic", "product", "slope_ratio", "smooth"; "automatic",
-/// "delay", "shared", "equation_1". Each throws InvalidInput, with the words it knows, for another.
-[[nodiscard]] Loss parse_loss(std::string_view word);
-[[nodiscard]] Eccentric parse_eccentric(std::string_view word);
-[[nodiscard]] LagChoice parse_lag(std::string_view word);
 
 }  // namespace myoid::identification

@@ -49,17 +49,5 @@ TEST(EstimatorSettings, AChannelWithoutAnErrorOfItsLevelHasNoGain) {
   EXPECT_EQ(made.emg_rest.at("BIC"), 0.01);
 }
 
-TEST(EstimatorSettings, WordsAreRefusedWithTheOnesThatAreKnown) {
-  EXPECT_EQ(parse_loss("cauchy"), Loss::cauchy);
-  EXPECT_EQ(parse_eccentric("slope_ratio"), Eccentric::slope_ratio);
-  EXPECT_EQ(parse_lag("shared"), LagChoice::shared);
-  try {
-    (void)parse_loss("huger");
-    FAIL() << "not refused";
-  } catch (const InvalidInput& error) {
-    EXPECT_STREQ(error.what(), "loss \"huger\": expected one of square, huber, cauchy");
-  }
-}
-
 }  // namespace
 }  // namespace myoid::identification

@@ -8,6 +8,7 @@
 
 #include <Eigen/Core>
 
+#include "myoid/core/choice.h"
 #include "myoid/core/progress.h"
 #include "myoid/identification/emg_lag.h"
 
@@ -20,6 +21,9 @@ enum class Eccentric {
   slope_ratio,  ///< S = f_v'(0+) / f_v'(0-), P = (V_ml - 1) V_sh / (S (1 + V_sh)).
   smooth,       ///< S = 1 held: f_v without a kink.
 };
+inline constexpr std::string_view kEccentricNames[] = {"automatic", "product", "slope_ratio",
+                                                       "smooth"};
+constexpr ChoiceNames choice_names(Eccentric) { return kEccentricNames; }
 
 /// What a large residual counts.
 enum class Loss {
@@ -27,6 +31,27 @@ enum class Loss {
   huber,   ///< Linear beyond 1.345 standard deviations.
   cauchy,  ///< Logarithmic, scale 2.385.
 };
+inline constexpr std::string_view kLossNames[] = {"square", "huber", "cauchy"};
+constexpr ChoiceNames choice_names(Loss) { return kLossNames; }
+
+/// The part of the data that cross-validation leaves out of each fit.
+enum class FoldKind {
+  trial,      ///< One trial.
+  condition,  ///< All trials of one condition (TrialData::condition; a trial without one is its
+              ///< own).
+  block,  ///< A fifth of every trial, with half a second on either side that serves neither side.
+};
+inline constexpr std::string_view kFoldNames[] = {"trial", "condition", "block"};
+constexpr ChoiceNames choice_names(FoldKind) { return kFoldNames; }
+
+/// The ways to find the parameters.
+enum class Method {
+  paper,   ///< Each branch alone, as published.
+  force,   ///< Each muscle against its own force.
+  torque,  ///< All muscles against the joint's torque.
+};
+inline constexpr std::string_view kMethodNames[] = {"paper", "force", "torque"};
+constexpr ChoiceNames choice_names(Method) { return kMethodNames; }
 
 /// How intervals are made beside the sandwich.
 struct IntervalOptions {

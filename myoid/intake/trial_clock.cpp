@@ -75,13 +75,13 @@ Instants instants_of(const std::filesystem::path& path,
                      const SyncSpec& spec) {
   if (name == "start") return {{first_time_s(file)}, interval_s(file) / std::sqrt(12.0)};
   if (const auto signal = signal_of(file, name)) {
-    Instants edges = signals::trigger_edges(*signal, name, spec.match == "falling");
+    const bool falling = spec.match == SyncMatch::falling;
+    Instants edges = signals::trigger_edges(*signal, name, falling);
     if (edges.time_s.empty()) {
-      throw ReadError(
-          path, 0,
-          fmt::format("[sync]: '{}' has no {} edge; is it the right channel, or match "
-                      "= \"{}\"?",
-                      name, spec.match, spec.match == "falling" ? "rising" : "falling"));
+      throw ReadError(path, 0,
+                      fmt::format("[sync]: '{}' has no {} edge; is it the right channel, or match "
+                                  "= \"{}\"?",
+                                  name, choice_name(spec.match), falling ? "rising" : "falling"));
     }
     return edges;
   }
@@ -104,7 +104,7 @@ TrialClock triggered(const SyncSpec& spec,
     throw ReadError(emg_file, 0, "[sync]: there are no channels or events");
   TrialClock result;
   try {
-    if (spec.match == "shape") {
+    if (spec.match == SyncMatch::shape) {
       const auto a = signal_of(emg, spec.emg_trigger);
       const auto b = signal_of(motion, spec.motion_trigger);
       if (!a) no_such_signal(emg_file, emg, spec.emg_trigger);

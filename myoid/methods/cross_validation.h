@@ -17,14 +17,6 @@ namespace myoid::identification {
                                 const Eigen::VectorXd& predicted,
                                 double limit_s = 0.2);
 
-/// What is left out of each fit.
-enum class FoldKind {
-  trial,      ///< One trial.
-  condition,  ///< All trials of one condition (TrialData::condition; a trial without one is its
-              ///< own).
-  block,  ///< A fifth of every trial, with half a second on either side that serves neither side.
-};
-
 struct CrossValidationOptions {
   FoldKind kind = FoldKind::trial;
   int blocks = 5;

@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 
+#include "myoid/core/choice.h"
 #include "myoid/core/time_series.h"
 
 namespace myoid {
@@ -16,11 +17,13 @@ enum class PhaseKind {
   rest,       ///< Neither movement nor activation.
   isometric,  ///< Activation without movement.
   warm_up,    ///< Before the regular phase, and the muscles give another torque for their EMG.
-  regular,    ///< What the parameters are identified from.
   fatigued,   ///< After it: less torque for the same EMG, and the EMG's frequency has fallen.
   changed,    ///< Differs from the regular phase, and neither warm-up nor fatigue explains it.
+  regular,    ///< The parameters are identified from it.
 };
-[[nodiscard]] std::string_view name(PhaseKind kind);
+inline constexpr std::string_view kPhaseNames[] = {"rest",     "isometric", "warm_up",
+                                                   "fatigued", "changed",   "regular"};
+constexpr ChoiceNames choice_names(PhaseKind) { return kPhaseNames; }
 
 struct Phase {
   PhaseKind kind = PhaseKind::regular;

@@ -228,7 +228,7 @@ std::string parameters_json(const std::vector<IdentificationResult>& methods,
   for (const TrialPhases& trial : context.phases) {
     for (const Phase& phase : trial.phases) {
       object["segments"].push_back({{"trial", trial.trial},
-                                    {"phase", std::string(name(phase.kind))},
+                                    {"phase", std::string(choice_name(phase.kind))},
                                     {"begin_s", phase.begin_s},
                                     {"end_s", phase.end_s},
                                     {"torque_per_emg", report::number_or_null(phase.gain)},
@@ -287,7 +287,7 @@ std::string parameters_json(const std::vector<IdentificationResult>& methods,
 ParameterContext parameter_context(const StudyResult& result) {
   return {.phases = result.fit_input.phases,
           .resting = result.resting,
-          .left_out = result.source.study.identify.folds,
+          .left_out = std::string(choice_name(result.source.study.identify.folds)),
           .max_rate_hz = result.source.study.identify.max_rate_hz,
           .force_loop = result.fit.force_loop ? &*result.fit.force_loop : nullptr};
 }

@@ -37,14 +37,15 @@ report::Panel torque_panel(const StudyResult& result, const TrialPhases& trial) 
       .x = {.label = "time", .unit = "s", .lower = {}, .upper = {}, .categories = {}},
       .y = {.label = "torque", .unit = "N m", .lower = {}, .upper = {}, .categories = {}},
       .series = {}};
-  const auto data = std::find_if(result.fit_input.data.trials.begin(), result.fit_input.data.trials.end(),
-                                 [&](const auto& t) { return t.name == trial.trial; });
+  const auto data =
+      std::find_if(result.fit_input.data.trials.begin(), result.fit_input.data.trials.end(),
+                   [&](const auto& t) { return t.name == trial.trial; });
   if (data == result.fit_input.data.trials.end()) return panel;
   const double low = data->torque_nm.minCoeff();
   const double high = data->torque_nm.maxCoeff();
   for (const Phase& phase : trial.phases) {
     if (!phase.excluded) continue;
-    panel.series.push_back({.name = std::string(name(phase.kind)) + ", not fitted",
+    panel.series.push_back({.name = std::string(choice_name(phase.kind)) + ", not fitted",
                             .x = {phase.begin_s, phase.end_s},
                             .y = {low, low},
                             .role = Role::band,
@@ -100,7 +101,7 @@ report::Section phases_section(const StudyResult& result) {
     for (const Phase& phase : trial.phases) {
       left_out = left_out || phase.excluded;
       table.rows.push_back({{trial.trial},
-                            {std::string(name(phase.kind)), badge(phase.kind), phase.reason},
+                            {std::string(choice_name(phase.kind)), badge(phase.kind), phase.reason},
                             {fmt::format("{:.1f}", phase.begin_s)},
                             {fmt::format("{:.1f}", phase.end_s)},
                             {percent_of(phase.gain)},
@@ -110,8 +111,9 @@ report::Section phases_section(const StudyResult& result) {
     }
     if (left_out) figure.panels.push_back(torque_panel(result, trial));
   }
-  section.paragraphs.push_back(fmt::format(
-      "{} of {} trials are one regular phase from beginning to end.", whole, result.fit_input.phases.size()));
+  section.paragraphs.push_back(
+      fmt::format("{} of {} trials are one regular phase from beginning to end.", whole,
+                  result.fit_input.phases.size()));
   if (!table.rows.empty()) section.tables.push_back(std::move(table));
   if (!figure.panels.empty()) section.figures.push_back(std::move(figure));
   return section;

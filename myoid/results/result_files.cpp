@@ -78,8 +78,10 @@ void write_identified_model(const StudyResult& result, const std::filesystem::pa
     if (method.method != "torque") continue;
     std::vector<IdentifiedMuscle> muscles;
     for (std::size_t m = 0; m < result.fit_input.data.muscles.size(); ++m) {
-      IdentifiedMuscle muscle{
-          result.fit_input.data.muscles[m].name, result.fit_input.data.muscles[m].start, method.muscles[m], {}};
+      IdentifiedMuscle muscle{result.fit_input.data.muscles[m].name,
+                              result.fit_input.data.muscles[m].start,
+                              method.muscles[m],
+                              {}};
       for (const ParameterEstimate& e : method.estimates) {
         const bool sure = e.verdict == identification::Verdict::identified &&
                           (from_mvc || e.parameter != "max_isometric_force");
@@ -127,7 +129,7 @@ ordered_json run_json(const StudyResult& result, const Provenance& provenance) {
   run["trials"] = ordered_json::array();
   for (const TrialResult& trial : result.trials) {
     run["trials"].push_back({{"name", trial.spec.name},
-                             {"use", std::string(name(trial.spec.use))},
+                             {"use", std::string(choice_name(trial.spec.use))},
                              {"failure", trial.failure()},
                              {"notes", trial.notes},
                              {"faults", faults_json(trial.faults)}});

@@ -92,7 +92,8 @@ std::vector<std::string> assumptions(const StudyResult& result) {
                           "people reach some 80 to 100 % of what their muscles could exert; "
                           "[emg] mvc_effort accounts for that."));
   }
-  for (const std::string& text : result.source.model->unsupported) list.push_back("Model: " + text + ".");
+  for (const std::string& text : result.source.model->unsupported)
+    list.push_back("Model: " + text + ".");
   return list;
 }
 
@@ -123,7 +124,7 @@ std::string headline(const StudyResult& result) {
     text += fmt::format(
         " Torque of {}s left out of the fit is predicted with a median R2 of {:.2f} "
         "(literature's parameters with a best gain: {:.2f}).",
-        result.source.study.identify.folds, math::median(std::move(ours)),
+        choice_name(result.source.study.identify.folds), math::median(std::move(ours)),
         math::median(std::move(theirs)));
   }
   return text;
@@ -205,9 +206,9 @@ report::Report study_report(const StudyResult& result, const Provenance& provena
   if (paper != nullptr && !result.fit_input.data.trials.empty())
     forces.figures.push_back(force_figure(result, *shown.front(), *paper));
   report.sections.push_back(std::move(forces));
-  const auto task =
-      std::find_if(result.trials.begin(), result.trials.end(),
-                   [](const TrialResult& t) { return t.emg.stages && t.spec.use == Use::calibration; });
+  const auto task = std::find_if(
+      result.trials.begin(), result.trials.end(),
+      [](const TrialResult& t) { return t.emg.stages && t.spec.use == Use::calibration; });
   if (task != result.trials.end())
     report.sections.push_back(
         {"emg",

@@ -38,7 +38,8 @@ std::vector<double> after_delay(const Eigen::VectorXd& predicted,
 std::string title_of(const StudyResult& result,
                      const std::string& trial,
                      const std::string& joint) {
-  return result.source.study.model.more_coordinates.empty() ? trial : fmt::format("{}, {}", trial, joint);
+  return result.source.study.model.more_coordinates.empty() ? trial
+                                                            : fmt::format("{}, {}", trial, joint);
 }
 
 /// Measured, literature's and identified torque.
@@ -59,7 +60,7 @@ Panel torque_panel(std::string title,
 }
 
 Figure folds_figure(const StudyResult& result, double delay_s) {
-  const std::string& left_out = result.source.study.identify.folds;
+  const std::string_view left_out = choice_name(result.source.study.identify.folds);
   Figure figure{
       "torque_held_out",
       fmt::format("Joint torque predicted for {}s that took no part in the fit", left_out),
@@ -70,8 +71,8 @@ Figure folds_figure(const StudyResult& result, double delay_s) {
       2};
   for (const identification::Fold& f : result.folds) {
     figure.panels.push_back(torque_panel(
-        fmt::format("{}: R2 {:.2f}", title_of(result, f.trial, f.joint), f.identified.r2()), f.time_s,
-        f.measured_nm, f.literature_nm, f.predicted_nm, delay_s));
+        fmt::format("{}: R2 {:.2f}", title_of(result, f.trial, f.joint), f.identified.r2()),
+        f.time_s, f.measured_nm, f.literature_nm, f.predicted_nm, delay_s));
   }
   return figure;
 }
@@ -88,7 +89,7 @@ std::string smoothed_text(const identification::Score& score, double cutoff_hz) 
 }
 
 Table folds_table(const StudyResult& result) {
-  const std::string& left_out = result.source.study.identify.folds;
+  const std::string_view left_out = choice_name(result.source.study.identify.folds);
   Table table{
       "leave_one_trial_out",
       fmt::format("Leave-one-{}-out prediction of the joint torque", left_out),
@@ -104,7 +105,7 @@ Table folds_table(const StudyResult& result) {
           "brackets: the literature's parameters with the one gain that fits the others best; "
           "torque regressed on EMG times moment arm; the source paper's method; the others' mean "
           "torque.",
-      {left_out, "RMSE [N m]", "NRMSE", "R2", "R2 smoothed", "NRMSE below 1.5 Hz",
+      {std::string(left_out), "RMSE [N m]", "NRMSE", "R2", "R2 smoothed", "NRMSE below 1.5 Hz",
        "R2 below 1.5 Hz", "VAF", "lag [ms]", "literature x gain", "regression", "paper",
        "constant"},
       {}};
@@ -145,13 +146,14 @@ Table held_back_table(const StudyResult& result,
               {}};
   for (const identification::TrialFit& t : method.trials) {
     if (t.calibration) continue;
-    table.rows.push_back({{title_of(result, t.trial, t.joint)},
-                          {fmt::format("{:.2f}", t.score.rmse_nm())},
-                          {fmt::format("{:.1f} %", 100.0 * t.score.nrmse_range())},
-                          {fmt::format("{:.3f}", t.score.r2()), t.score.r2() > 0.0 ? Badge::good : Badge::weak},
-                          {smoothed_text(smoothed_score(t), t.smooth_hz)},
-                          {fmt::format("{:.1f} %", 100.0 * t.band.nrmse_range())},
-                          {fmt::format("{:.3f}", t.band.r2())}});
+    table.rows.push_back(
+        {{title_of(result, t.trial, t.joint)},
+         {fmt::format("{:.2f}", t.score.rmse_nm())},
+         {fmt::format("{:.1f} %", 100.0 * t.score.nrmse_range())},
+         {fmt::format("{:.3f}", t.score.r2()), t.score.r2() > 0.0 ? Badge::good : Badge::weak},
+         {smoothed_text(smoothed_score(t), t.smooth_hz)},
+         {fmt::format("{:.1f} %", 100.0 * t.band.nrmse_range())},
+         {fmt::format("{:.3f}", t.band.r2())}});
   }
   return table;
 }
@@ -186,12 +188,13 @@ std::vector<Section> validation_sections(const StudyResult& result) {
   const bool fitted = torque != result.fit.methods.end();
   std::vector<Section> sections;
   if (!result.folds.empty()) {
-    sections.push_back({"validation",
-                        fmt::format("Validation on {}s left out", result.source.study.identify.folds),
-                        {},
-                        {},
-                        {folds_table(result)},
-                        {folds_figure(result, fitted ? torque->delay_s : 0.0)}});
+    sections.push_back(
+        {"validation",
+         fmt::format("Validation on {}s left out", choice_name(result.source.study.identify.folds)),
+         {},
+         {},
+         {folds_table(result)},
+         {folds_figure(result, fitted ? torque->delay_s : 0.0)}});
   }
   if (fitted && std::any_of(torque->trials.begin(), torque->trials.end(),
                             [](const auto& t) { return !t.calibration; })) {
@@ -212,11 +215,12 @@ Table trials_table(const StudyResult& result) {
               "study's coordinates.",
               {"trial", "use", "duration", "held mass", "joint range", "torque range", "status"},
               {}};
-  const bool clocks = std::any_of(result.trials.begin(), result.trials.end(),
-                                  [](const TrialResult& t) { return t.input.emg_clock.has_value(); });
+  const bool clocks =
+      std::any_of(result.trials.begin(), result.trials.end(),
+                  [](const TrialResult& t) { return t.input.emg_clock.has_value(); });
   if (clocks) table.columns.insert(table.columns.end() - 1, "EMG's clock moved by");
   for (const TrialResult& t : result.trials) {
-    std::vector<Cell> row{{t.spec.name}, {std::string(name(t.spec.use))}};
+    std::vector<Cell> row{{t.spec.name}, {std::string(choice_name(t.spec.use))}};
     if (t.has_motion()) {
       std::vector<std::string> angles, torques;
       const std::vector<std::string> coordinates = study_coordinates(result.source.study.model);
@@ -234,12 +238,12 @@ Table trials_table(const StudyResult& result) {
       for (int k = 0; k < 4; ++k) row.push_back({"-"});
     }
     if (clocks) {
-      row.push_back(t.input.emg_clock ? Cell{signals::to_string(t.input.emg_clock->clock), Badge::none,
-                                       t.input.emg_clock->source}
-                                : Cell{"-"});
+      row.push_back(t.input.emg_clock ? Cell{signals::to_string(t.input.emg_clock->clock),
+                                             Badge::none, t.input.emg_clock->source}
+                                      : Cell{"-"});
     }
     row.push_back(t.failure().empty() ? Cell{"ok", Badge::good}
-                                    : Cell{"failed", Badge::bad, t.failure()});
+                                      : Cell{"failed", Badge::bad, t.failure()});
     table.rows.push_back(std::move(row));
   }
   return table;

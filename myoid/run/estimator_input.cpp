@@ -88,15 +88,14 @@ identification::EstimatorSettings estimator_settings(const Study& study) {
   const IdentifySpec& spec = study.identify;
   return {.muscles = spec.muscles,
           .priors = spec.priors,
-          .lag = spec.dynamics ? identification::LagChoice::equation_1
-                               : identification::parse_lag(spec.lag),
+          .lag = spec.dynamics ? identification::LagChoice::equation_1 : spec.lag,
           .delay_s = study.emg.delay_s,
           .delay_per_channel = spec.delay_per_channel,
           .max_rate_hz = spec.max_rate_hz,
           .angle_sd_rad = spec.angle_sd_rad,
           .angle_rate_sd_radps = spec.angle_rate_sd_radps,
-          .loss = identification::parse_loss(spec.loss),
-          .eccentric = identification::parse_eccentric(spec.eccentric),
+          .loss = spec.loss,
+          .eccentric = spec.eccentric,
           .normalised = spec.normalised,
           .starts = spec.starts,
           .intervals = {.bootstrap = spec.bootstrap, .profile = spec.profile}};

@@ -63,10 +63,10 @@ TEST(TorqueOptions, WithTheLagsOfTheActivationTheDelayIsWhatIsLeftBesideThem) {
 TEST(TorqueOptions, WhatTheDelayIsFollowsTheStudyAndElseTheRecording) {
   StudyResult result = with_one_channel();
   EXPECT_TRUE(options_of(result).choose_lag);
-  result.source.study.identify.lag = "shared";
+  result.source.study.identify.lag = identification::LagChoice::shared;
   EXPECT_FALSE(options_of(result).choose_lag);
   EXPECT_EQ(options_of(result).lag, identification::EmgLag::shared);
-  result.source.study.identify.lag = "delay";
+  result.source.study.identify.lag = identification::LagChoice::delay;
   EXPECT_FALSE(options_of(result).choose_lag);
   EXPECT_EQ(options_of(result).lag, identification::EmgLag::delay);
 }

@@ -43,7 +43,7 @@ Recorded recorded() {
   Recorded r{twin::make_virtual_recording(protocol, 5), {}, {}};
   r.study = parse_study(twin::study_toml(r.recording), "study.toml");
   r.study.model.text = r.recording.model_osim;
-  r.study.identify.methods = {"torque"};
+  r.study.identify.methods = {identification::Method::torque};
   r.study.identify.cross_validate = false;
   r.study.identify.next_movements = 0;
   r.study.identify.bootstrap = 0;

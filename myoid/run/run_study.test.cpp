@@ -46,7 +46,7 @@ struct ExactRun {
 TEST(RunStudy, ASecondRunReusesInverseKinematicsAndFindsTheSame) {
   const ExactRun& first = ExactRun::get();
   Study study = first.result.source.study;
-  study.identify.methods = {"paper"};
+  study.identify.methods = {identification::Method::paper};
   study.emg.lowpass_hz = 5.0;
   const StudyResult second = run_study(study, {.store = first.folder / "stages"});
   ASSERT_EQ(second.trials.size(), first.result.trials.size());
@@ -134,8 +134,8 @@ TEST(WriteResults, AnIdentifiedModelIsThereOnlyIfSomethingWasIdentified) {
       e.verdict = identification::Verdict::identified;
   }
   write_results(one, {}, out);
-  EXPECT_TRUE(
-      std::filesystem::exists(out / (one.source.study.model.file->stem().string() + "_identified.osim")));
+  EXPECT_TRUE(std::filesystem::exists(
+      out / (one.source.study.model.file->stem().string() + "_identified.osim")));
   write_results(none, {}, run.folder / "none");
   EXPECT_TRUE(std::filesystem::exists(run.folder / "none" / "parameters.csv"));
   for (const auto& entry : std::filesystem::directory_iterator(run.folder / "none"))
@@ -144,13 +144,16 @@ TEST(WriteResults, AnIdentifiedModelIsThereOnlyIfSomethingWasIdentified) {
 
 TEST(IdentifiedModel, DiffersFromTheInputOnlyInIdentifiedNumbers) {
   const StudyResult& result = ExactRun::get().result;
-  IdentifiedMuscle muscle{
-      "BIC", result.fit_input.data.muscles[0].start, result.fit_input.data.muscles[0].start, {"max_isometric_force"}};
+  IdentifiedMuscle muscle{"BIC",
+                          result.fit_input.data.muscles[0].start,
+                          result.fit_input.data.muscles[0].start,
+                          {"max_isometric_force"}};
   EXPECT_EQ(identified_model(result.source.study, result.source.model_text,
                              {{"BIC", muscle.start, muscle.identified, {}}}),
             result.source.model_text);
   muscle.identified.max_isometric_force_n *= 2.0;
-  const std::string changed = identified_model(result.source.study, result.source.model_text, {muscle});
+  const std::string changed =
+      identified_model(result.source.study, result.source.model_text, {muscle});
   pugi::xml_document before;
   pugi::xml_document after;
   ASSERT_TRUE(before.load_string(result.source.model_text.c_str()));
@@ -207,8 +210,8 @@ TEST(IdentifiedModel, AWidthIsWrittenOnlyWhereWidthAndLengthAreBothIdentified) {
   const auto number = [&](const std::vector<std::string>& changed, const std::string& property) {
     muscle.changed = changed;
     pugi::xml_document document;
-    EXPECT_TRUE(
-        document.load_string(identified_model(result.source.study, result.source.model_text, {muscle}).c_str()));
+    EXPECT_TRUE(document.load_string(
+        identified_model(result.source.study, result.source.model_text, {muscle}).c_str()));
     return document.select_node(("//*[@name='BIC']/" + property).c_str()).node().text().as_double();
   };
   const std::vector<std::string> all{"optimal_fiber_length", "force_length_width",
@@ -237,8 +240,8 @@ TEST(IdentifiedModel, AWidthIsWrittenOnlyWhereWidthAndLengthAreBothIdentified) {
 TEST(WriteResults, ALoopThatDivergedFailsAGateAndStandsInTheJson) {
   StudyResult result = ExactRun::get().result;
   result.fit.force_loop = identification::ForceLoop{.end = identification::LoopEnd::diverged,
-                                                .message = "the changes grow: do not use it",
-                                                .rounds = {{}, {}}};
+                                                    .message = "the changes grow: do not use it",
+                                                    .rounds = {{}, {}}};
   bool failed = false;
   for (const report::Gate& gate : quality_gates(result)) {
     if (gate.name == "Forces and parameters agree in their loop")

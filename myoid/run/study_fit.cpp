@@ -22,8 +22,8 @@ const IdentificationResult* torque_of(const StudyFit& fit) {
 }
 
 bool wants_torque(const Study& study) {
-  const std::vector<std::string>& methods = study.identify.methods;
-  return std::find(methods.begin(), methods.end(), "torque") != methods.end();
+  const std::vector<identification::Method>& methods = study.identify.methods;
+  return std::find(methods.begin(), methods.end(), identification::Method::torque) != methods.end();
 }
 
 StudyFit study_fit(const Study& study, const FitInput& input, const Progress& progress) {
@@ -32,14 +32,14 @@ StudyFit study_fit(const Study& study, const FitInput& input, const Progress& pr
     found.exchanged = identification::exchanged_electrodes(
         input.data, study.emg.delay_s.value_or(identification::TorqueOptions{}.delay_prior_mean_s));
   }
-  for (const std::string& method : study.identify.methods) {
+  for (const identification::Method method : study.identify.methods) {
     progress.check();
-    if (method == "paper") {
+    if (method == identification::Method::paper) {
       found.methods.push_back(
           identification::identify_paper(input.data, {.multistart = study.identify.starts,
                                                       .muscles = study.identify.muscles,
                                                       .shared_forces = true}));
-    } else if (method == "force") {
+    } else if (method == identification::Method::force) {
       identification::EstimatorOptions estimator = input.options;
       estimator.intervals.profile = false;
       found.methods.push_back(identification::identify_force(

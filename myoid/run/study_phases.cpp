@@ -77,8 +77,8 @@ identification::StudyData plain_data(const FitSource& source, identification::St
   std::vector<signals::TrialEnvelope> envelopes;
   for (std::size_t i = 0; i < trials.size(); ++i) {
     if (uses[i] != Use::validation)
-      envelopes.push_back(
-          {trials[i]->spec.name, uses[i] == Use::mvc, &plain[i], trials[i]->emg.stages->bandwidth_hz});
+      envelopes.push_back({trials[i]->spec.name, uses[i] == Use::mvc, &plain[i],
+                           trials[i]->emg.stages->bandwidth_hz});
   }
   const auto normalisation =
       signals::find_normalisation(envelopes, {.window_s = study.emg.normalise_window_s});
@@ -99,8 +99,7 @@ std::vector<TrialPhases> study_phases(const FitSource& source,
   const bool worth_a_fit =
       std::any_of(of_study.trials.begin(), of_study.trials.end(),
                   [](const auto& t) { return t.calibration && duration_s(t) >= kShortest_s; });
-  const identification::StudyData data =
-      worth_a_fit ? plain_data(source, of_study) : of_study;
+  const identification::StudyData data = worth_a_fit ? plain_data(source, of_study) : of_study;
   identification::IdentificationResult fit;
   if (worth_a_fit) {
     options.loss = identification::Loss::huber;
@@ -137,12 +136,12 @@ std::vector<TrialPhases> study_phases(const FitSource& source,
   return all;
 }
 
-void exclude_phases(const std::vector<std::string>& rule,
+void exclude_phases(const std::vector<PhaseKind>& rule,
                     std::vector<TrialPhases>& phases,
                     identification::StudyData& data) {
   for (std::size_t i = 0; i < phases.size(); ++i) {
     for (Phase& phase : phases[i].phases) {
-      const bool named = std::find(rule.begin(), rule.end(), name(phase.kind)) != rule.end();
+      const bool named = std::find(rule.begin(), rule.end(), phase.kind) != rule.end();
       const bool sure = phase.kind != PhaseKind::fatigued || phase.frequency.has_value();
       if (!named || !sure) continue;
       phase.excluded = true;

@@ -18,7 +18,7 @@ namespace myoid {
 
 /// Marks the phases of the kinds that `rule` names and takes their time out of the data. A phase of
 /// fatigue that only the torque shows (no raw EMG) stays: it may be the law that is wrong.
-void exclude_phases(const std::vector<std::string>& rule,
+void exclude_phases(const std::vector<PhaseKind>& rule,
                     std::vector<TrialPhases>& phases,
                     identification::StudyData& data);
 

@@ -156,7 +156,7 @@ TEST(ExcludePhases, TakesWhatTheRuleNames) {
   identification::StudyData data;
   data.trials.resize(1);
   auto phases = phases_of_one_trial();
-  exclude_phases({"warm_up", "fatigued"}, phases, data);
+  exclude_phases({PhaseKind::warm_up, PhaseKind::fatigued}, phases, data);
   ASSERT_EQ(data.trials[0].excluded.size(), 2u);
   EXPECT_EQ(data.trials[0].excluded[1].begin_s, 40.0);
   EXPECT_TRUE(phases[0].phases[0].excluded);
@@ -168,7 +168,7 @@ TEST(ExcludePhases, KeepsFatigueThatOnlyTheTorqueShows) {
   data.trials.resize(1);
   auto phases = phases_of_one_trial();
   phases[0].phases[2].frequency.reset();
-  exclude_phases({"fatigued"}, phases, data);
+  exclude_phases({PhaseKind::fatigued}, phases, data);
   EXPECT_TRUE(data.trials[0].excluded.empty());
 }
 

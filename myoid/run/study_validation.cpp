@@ -8,12 +8,6 @@
 namespace myoid {
 namespace {
 
-identification::FoldKind fold_kind(const std::string& left_out) {
-  return left_out == "condition" ? identification::FoldKind::condition
-         : left_out == "block"   ? identification::FoldKind::block
-                                 : identification::FoldKind::trial;
-}
-
 /// The study with the trials that a split leaves out held back for validation.
 Study with_uses_of(const identification::StudyData& split, Study study) {
   for (TrialSpec& trial : study.trials) {
@@ -51,7 +45,7 @@ FitInput without_left_out(const FitSource& source,
 StudyValidation study_validation(const FitSource& source,
                                  const FitInput& input,
                                  const Progress& progress) {
-  const identification::CrossValidationOptions how{.kind = fold_kind(source.study.identify.folds)};
+  const identification::CrossValidationOptions how{.kind = source.study.identify.folds};
   const auto fit = [&](identification::StudyData& split) {
     if (how.kind == identification::FoldKind::block)
       return identification::identify_torque(split, identification::of_a_fold(input.options));

@@ -84,24 +84,6 @@ void check_references(const Study& study) {
 
 }  // namespace
 
-std::string_view name(Use use) {
-  switch (use) {
-    case Use::calibration:
-      return "calibration";
-    case Use::validation:
-      return "validation";
-    case Use::mvc:
-      return "mvc";
-    case Use::static_pose:
-      return "static";
-    case Use::passive:
-      return "passive";
-    case Use::isometric:
-      return "isometric";
-  }
-  return "?";
-}
-
 Study parse_study(std::string_view text, const std::filesystem::path& file) {
   const toml::table root = recording::parse_toml(text, file);
   const std::filesystem::path folder = file.parent_path();

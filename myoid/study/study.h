@@ -6,20 +6,30 @@
 #include <string>
 #include <vector>
 
+#include "myoid/core/choice.h"
 #include "myoid/core/geometry.h"
+#include "myoid/forces/sharing_objective.h"
+#include "myoid/identification/estimator_settings.h"
 #include "myoid/identification/options.h"
 #include "myoid/identification/study_data.h"
+#include "myoid/phases/phases.h"
 
 namespace myoid {
 
-/// What a trial is for.
+/// The use that a study makes of a trial.
 enum class Use { calibration, validation, mvc, static_pose, passive, isometric };
-[[nodiscard]] std::string_view name(Use use);
+inline constexpr std::string_view kUseNames[] = {"calibration", "validation", "mvc",
+                                                 "static",      "passive",    "isometric"};
+constexpr ChoiceNames choice_names(Use) { return kUseNames; }
+
+enum class Sex { unstated, male, female };
+inline constexpr std::string_view kSexNames[] = {"", "male", "female"};
+constexpr ChoiceNames choice_names(Sex) { return kSexNames; }
 
 struct SubjectSpec {
   std::string name = "subject";
   std::optional<double> mass_kg;
-  std::string sex;                 ///< "male", "female" or empty.
+  Sex sex = Sex::unstated;
   std::vector<std::string> notes;  ///< Assumptions of the user's own, printed in the report.
 };
 
@@ -56,6 +66,8 @@ struct LoadCellSpec {
 };
 
 enum class Smoothing { automatic, none, cutoff };
+inline constexpr std::string_view kSmoothingNames[] = {"auto", "none", "cutoff"};
+constexpr ChoiceNames choice_names(Smoothing) { return kSmoothingNames; }
 
 struct MotionSpec {
   Smoothing smoothing = Smoothing::automatic;
@@ -85,6 +97,8 @@ struct IkSpec {
 };
 
 enum class EmgKind { raw, envelope, activation };
+inline constexpr std::string_view kEmgKindNames[] = {"raw", "envelope", "activation"};
+constexpr ChoiceNames choice_names(EmgKind) { return kEmgKindNames; }
 
 struct EmgSpec {
   EmgKind kind = EmgKind::raw;
@@ -113,6 +127,15 @@ struct MuscleSpec {
   std::vector<std::string> fixed;       ///< Parameters held at their start.
 };
 
+/// The trace that EMG and motion have in common, by which their clocks are joined.
+enum class SyncMatch {
+  rising,   ///< Rising edges of a channel.
+  falling,  ///< Falling edges.
+  shape,    ///< The shape of the whole signal.
+};
+inline constexpr std::string_view kSyncMatchNames[] = {"rising", "falling", "shape"};
+constexpr ChoiceNames choice_names(SyncMatch) { return kSyncMatchNames; }
+
 /// How the clock of a trial's EMG, and of its loads, stands to that of the motion, which is the
 /// study's. In force where the EMG is in a file of its own. The delay of the body is no part of it.
 struct SyncSpec {
@@ -123,10 +146,10 @@ struct SyncSpec {
   std::string emg_trigger;     ///< Channel or event of the EMG's file ...
   std::string motion_trigger;  ///< ... and of the motion's, or "start".
   std::optional<std::filesystem::path>
-      trigger_file;              ///< On the motion's clock; none: its own file.
-  std::string match = "rising";  ///< Of channels: "rising", "falling" edges, or "shape".
-  double search_s = 0.6;         ///< How far "estimate" and "shape" look, either way.
-  double loads_offset_s = 0.0;   ///< Added to the times of the loads' file.
+      trigger_file;  ///< On the motion's clock; none: its own file.
+  SyncMatch match = SyncMatch::rising;
+  double search_s = 0.6;        ///< How far "estimate" and "shape" look, either way.
+  double loads_offset_s = 0.0;  ///< Added to the times of the loads' file.
   double loads_drift_ppm = 0.0;
 };
 
@@ -156,7 +179,7 @@ struct TrialSpec {
 };
 
 struct SharingSpec {
-  std::string objective = "activation";
+  forces::SharingObjective objective = forces::SharingObjective::activation;
   double exponent = 2.0;
   double reserve_nm = 1.0;  ///< Optimal force of the reserve on the coordinate.
 };
@@ -164,28 +187,29 @@ struct SharingSpec {
 /// What becomes of warm-up and fatigue.
 struct PhasesSpec {
   bool search = true;
-  std::vector<std::string> exclude{"warm_up", "fatigued"};  ///< Phases that are not fitted.
+  std::vector<PhaseKind> exclude{PhaseKind::warm_up, PhaseKind::fatigued};  ///< Not fitted.
 };
 
 struct IdentifySpec {
-  std::vector<std::string> methods{"paper", "torque"};
+  std::vector<identification::Method> methods{identification::Method::paper,
+                                              identification::Method::torque};
   bool force_loop = false;           ///< Iterate forces and parameters until they agree.
   std::vector<std::string> muscles;  ///< Empty: all.
   bool priors = true;
   bool gain = true;  ///< EMG gain per channel as a nuisance with a tight prior.
   bool cross_validate = true;
-  int next_movements = 4;       ///< To suggest for the next recording; 0: none.
-  std::string folds = "trial";  ///< What cross-validation leaves out: trial, condition, block.
-  int bootstrap = 100;          ///< Replicates for the second route to intervals; 0: none.
-  bool profile = true;          ///< Profile likelihood, the third.
-  int starts = 1;               ///< Above 1: Sobol points too, and the table of basins.
-  std::string loss = "square";
-  std::string eccentric = "automatic";
-  bool normalised = false;        ///< l_sh and v_max keep their ratio to l0.
-  std::string lag = "automatic";  ///< What the EMG delay is: automatic, delay, shared.
-  bool dynamics = false;          ///< Envelope to activation by the lags of equation (1).
-  bool model_muscles = false;     ///< Pennation and passive force as the model has them; else none.
-  bool elastic_tendon = false;    ///< The model's tendon strain, quasi-static; else rigid.
+  int next_movements = 4;  ///< To suggest for the next recording; 0: none.
+  identification::FoldKind folds = identification::FoldKind::trial;
+  int bootstrap = 100;  ///< Replicates for the second route to intervals; 0: none.
+  bool profile = true;  ///< Profile likelihood, the third.
+  int starts = 1;       ///< Above 1: Sobol points too, and the table of basins.
+  identification::Loss loss = identification::Loss::square;
+  identification::Eccentric eccentric = identification::Eccentric::automatic;
+  bool normalised = false;  ///< l_sh and v_max keep their ratio to l0.
+  identification::LagChoice lag = identification::LagChoice::automatic;
+  bool dynamics = false;        ///< Envelope to activation by the lags of equation (1).
+  bool model_muscles = false;   ///< Pennation and passive force as the model has them; else none.
+  bool elastic_tendon = false;  ///< The model's tendon strain, quasi-static; else rigid.
   bool delay_per_channel = false;
   double angle_sd_rad = 0.0;  ///< Error of the joint angle and of its rate, propagated.
   double angle_rate_sd_radps = 0.0;

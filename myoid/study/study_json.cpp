@@ -19,6 +19,13 @@ ordered_json or_null(const std::optional<std::filesystem::path>& path) {
   return path ? ordered_json(path->string()) : ordered_json(nullptr);
 }
 
+template <typename Enumeration>
+ordered_json names_of(const std::vector<Enumeration>& values) {
+  ordered_json names = ordered_json::array();
+  for (const Enumeration value : values) names.push_back(choice_name(value));
+  return names;
+}
+
 ordered_json model_json(const ModelSpec& model) {
   ordered_json j = {{"file", or_null(model.file)},
                     {"builtin", model.builtin},
@@ -46,8 +53,7 @@ ordered_json ik_json(const IkSpec& ik) {
 }
 
 ordered_json emg_json(const EmgSpec& emg) {
-  const char* kinds[] = {"raw", "envelope", "activation"};
-  ordered_json j = {{"kind", kinds[static_cast<int>(emg.kind)]},
+  ordered_json j = {{"kind", choice_name(emg.kind)},
                     {"unit", emg.unit},
                     {"rectify", emg.rectify},
                     {"notch", emg.notch ? "auto" : "none"},
@@ -64,16 +70,12 @@ ordered_json emg_json(const EmgSpec& emg) {
 
 ordered_json sync_json(const std::optional<SyncSpec>& sync) {
   if (!sync) return nullptr;
-  ordered_json j = {{"offset_s", or_null(sync->offset_s)},
-                    {"offset_sd_s", or_null(sync->offset_sd_s)},
-                    {"drift_ppm", sync->drift_ppm},
-                    {"emg_trigger", sync->emg_trigger},
-                    {"motion_trigger", sync->motion_trigger},
-                    {"trigger_file", or_null(sync->trigger_file)},
-                    {"match", sync->match},
-                    {"search_s", sync->search_s},
-                    {"loads_offset_s", sync->loads_offset_s},
-                    {"loads_drift_ppm", sync->loads_drift_ppm}};
+  ordered_json j = {
+      {"offset_s", or_null(sync->offset_s)},    {"offset_sd_s", or_null(sync->offset_sd_s)},
+      {"drift_ppm", sync->drift_ppm},           {"emg_trigger", sync->emg_trigger},
+      {"motion_trigger", sync->motion_trigger}, {"trigger_file", or_null(sync->trigger_file)},
+      {"match", choice_name(sync->match)},      {"search_s", sync->search_s},
+      {"loads_offset_s", sync->loads_offset_s}, {"loads_drift_ppm", sync->loads_drift_ppm}};
   if (sync->estimate) j["offset_s"] = "estimate";
   return j;
 }
@@ -95,7 +97,7 @@ ordered_json trial_json(const TrialSpec& trial) {
           {"external_loads", or_null(trial.external_loads)},
           {"load_cell", or_null(trial.load_cell)},
           {"force_plates", plates_json(trial.plates)},
-          {"use", std::string(name(trial.use))},
+          {"use", choice_name(trial.use)},
           {"held_mass_kg", trial.held_mass_kg},
           {"condition", trial.condition},
           {"start_s", or_null(trial.start_s)},
@@ -106,14 +108,13 @@ ordered_json trial_json(const TrialSpec& trial) {
 }  // namespace
 
 std::string study_json(const Study& study) {
-  const char* smoothing[] = {"auto", "none", "cutoff"};
   ordered_json j;
   j["subject"] = {{"name", study.subject.name},
                   {"mass_kg", or_null(study.subject.mass_kg)},
-                  {"sex", study.subject.sex},
+                  {"sex", choice_name(study.subject.sex)},
                   {"notes", study.subject.notes}};
   j["model"] = model_json(study.model);
-  j["motion"] = {{"smoothing", smoothing[static_cast<int>(study.motion.smoothing)]},
+  j["motion"] = {{"smoothing", choice_name(study.motion.smoothing)},
                  {"cutoff_hz", study.motion.cutoff_hz},
                  {"rate_hz", study.motion.rate_hz}};
   j["markers"] = {
@@ -136,11 +137,11 @@ std::string study_json(const Study& study) {
                       {"body", cell->body},
                       {"lowpass_hz", or_null(cell->lowpass_hz)}};
   }
-  j["sharing"] = {{"objective", study.sharing.objective},
+  j["sharing"] = {{"objective", choice_name(study.sharing.objective)},
                   {"exponent", study.sharing.exponent},
                   {"reserve_nm", study.sharing.reserve_nm}};
-  j["phases"] = {{"search", study.phases.search}, {"exclude", study.phases.exclude}};
-  j["identify"] = {{"method", study.identify.methods},
+  j["phases"] = {{"search", study.phases.search}, {"exclude", names_of(study.phases.exclude)}};
+  j["identify"] = {{"method", names_of(study.identify.methods)},
                    {"force_loop", study.identify.force_loop},
                    {"muscles", study.identify.muscles},
                    {"priors", study.identify.priors},
@@ -149,13 +150,13 @@ std::string study_json(const Study& study) {
                    {"cross_validate", study.identify.cross_validate},
                    {"next_movements", study.identify.next_movements},
                    {"starts", study.identify.starts},
-                   {"folds", study.identify.folds},
+                   {"folds", choice_name(study.identify.folds)},
                    {"bootstrap", study.identify.bootstrap},
                    {"profile", study.identify.profile},
-                   {"loss", study.identify.loss},
-                   {"eccentric", study.identify.eccentric},
+                   {"loss", choice_name(study.identify.loss)},
+                   {"eccentric", choice_name(study.identify.eccentric)},
                    {"normalised", study.identify.normalised},
-                   {"lag", study.identify.lag},
+                   {"lag", choice_name(study.identify.lag)},
                    {"dynamics", study.identify.dynamics},
                    {"muscle_law", study.identify.model_muscles ? "model" : "paper"},
                    {"tendon", study.identify.elastic_tendon ? "elastic" : "rigid"},

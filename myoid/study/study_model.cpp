@@ -47,7 +47,7 @@ model::Arm4Options arm_options(const Study& study, const recording::MarkerSeries
   constexpr double kUpperArmOverForearm = 0.2817 / 0.2689;  // de Leva (1996), men
   model::Arm4Options options;
   if (study.subject.mass_kg) options.person.mass_kg = *study.subject.mass_kg;
-  options.person.female = study.subject.sex == "female";
+  options.person.female = study.subject.sex == Sex::female;
   options.horizontal = study.model.horizontal;
   options.forearm_rotations = study.model.forearm_rotations;
   if (study.model.forearm_length_m) {

@@ -38,7 +38,7 @@ SubjectSpec read_subject(TomlTable table) {
                                         *subject.mass_kg));
     }
   }
-  subject.sex = table.choice("sex", "", {"", "male", "female"});
+  subject.sex = table.choice("sex", subject.sex);
   if (auto notes = table.texts("notes")) subject.notes = *notes;
   table.finish();
   return subject;
@@ -92,10 +92,7 @@ MotionSpec read_motion(TomlTable table) {
     motion.cutoff_hz = table.number_within("cutoff_hz", 6.0, 0.1, 500.0, "Hz");
     (void)table.choice("smoothing", "cutoff", {"cutoff"});
   } else {
-    const std::string word = table.choice("smoothing", "auto", {"auto", "none", "cutoff"});
-    motion.smoothing = word == "auto"   ? Smoothing::automatic
-                       : word == "none" ? Smoothing::none
-                                        : Smoothing::cutoff;
+    motion.smoothing = table.choice("smoothing", motion.smoothing);
   }
   motion.rate_hz = table.number_within("rate_hz", motion.rate_hz, 10.0, 2000.0, "Hz");
   table.finish();
@@ -145,10 +142,7 @@ IkSpec read_ik(TomlTable table) {
 
 EmgSpec read_emg(TomlTable table) {
   EmgSpec emg;
-  const std::string kind = table.choice("kind", "raw", {"raw", "envelope", "activation"});
-  emg.kind = kind == "raw"        ? EmgKind::raw
-             : kind == "envelope" ? EmgKind::envelope
-                                  : EmgKind::activation;
+  emg.kind = table.choice("kind", emg.kind);
   emg.unit = table.text("unit").value_or("");
   emg.rectify = table.flag("rectify").value_or(emg.rectify);
   emg.notch = table.choice("notch", "auto", {"auto", "none"}) == "auto";
@@ -198,7 +192,7 @@ LoadCellSpec read_load_cell(TomlTable table, const std::filesystem::path& folder
 
 SharingSpec read_sharing(TomlTable table) {
   SharingSpec sharing;
-  sharing.objective = table.choice("objective", "activation", {"activation", "force", "stress"});
+  sharing.objective = table.choice("objective", sharing.objective);
   sharing.exponent = table.number("exponent").value_or(sharing.exponent);
   if (!(sharing.exponent > 1.0))
     table.fail("exponent", "expected a number above 1 (2 or 3 is usual)");
@@ -210,14 +204,16 @@ SharingSpec read_sharing(TomlTable table) {
 PhasesSpec read_phases(TomlTable table) {
   PhasesSpec phases;
   phases.search = table.flag("search").value_or(phases.search);
-  if (auto exclude = table.texts("exclude")) phases.exclude = *exclude;
-  for (const std::string& word : phases.exclude) {
-    if (word != "warm_up" && word != "fatigued" && word != "changed" && word != "isometric" &&
-        word != "rest") {
-      table.fail("exclude",
-                 fmt::format("found \"{}\", expected \"warm_up\", \"fatigued\", \"changed\", "
-                             "\"isometric\" or \"rest\"",
-                             word));
+  if (auto exclude = table.texts("exclude")) {
+    phases.exclude.clear();
+    for (const std::string& word : *exclude) {
+      const auto kind = choice_named<PhaseKind>(word);
+      if (!kind || *kind == PhaseKind::regular)
+        table.fail("exclude",
+                   fmt::format("found \"{}\", expected \"warm_up\", \"fatigued\", \"changed\", "
+                               "\"isometric\" or \"rest\"",
+                               word));
+      phases.exclude.push_back(*kind);
     }
   }
   table.finish();
@@ -226,11 +222,14 @@ PhasesSpec read_phases(TomlTable table) {
 
 IdentifySpec read_identify(TomlTable table) {
   IdentifySpec identify;
-  if (auto methods = table.texts("method")) identify.methods = *methods;
-  for (const std::string& method : identify.methods) {
-    if (method != "paper" && method != "force" && method != "torque") {
-      table.fail("method",
-                 fmt::format("found \"{}\", expected \"paper\", \"force\" or \"torque\"", method));
+  if (auto methods = table.texts("method")) {
+    identify.methods.clear();
+    for (const std::string& word : *methods) {
+      const auto method = choice_named<identification::Method>(word);
+      if (!method)
+        table.fail("method",
+                   fmt::format("found \"{}\", expected \"paper\", \"force\" or \"torque\"", word));
+      identify.methods.push_back(*method);
     }
   }
   if (auto muscles = table.texts("muscles");
@@ -248,15 +247,14 @@ IdentifySpec read_identify(TomlTable table) {
     return static_cast<int>(value);
   };
   identify.next_movements = count("next_movements", identify.next_movements, 0, 50);
-  identify.folds = table.choice("folds", "trial", {"trial", "condition", "block"});
+  identify.folds = table.choice("folds", identify.folds);
   identify.bootstrap = count("bootstrap", identify.bootstrap, 0, 100000);
   identify.profile = table.flag("profile").value_or(identify.profile);
   identify.starts = count("starts", identify.starts, 1, 1000);
-  identify.loss = table.choice("loss", "square", {"square", "huber", "cauchy"});
-  identify.eccentric =
-      table.choice("eccentric", "automatic", {"automatic", "product", "slope_ratio", "smooth"});
+  identify.loss = table.choice("loss", identify.loss);
+  identify.eccentric = table.choice("eccentric", identify.eccentric);
   identify.normalised = table.flag("normalised").value_or(identify.normalised);
-  identify.lag = table.choice("lag", "automatic", {"automatic", "delay", "shared"});
+  identify.lag = table.choice("lag", identify.lag);
   identify.dynamics = table.flag("dynamics").value_or(identify.dynamics);
   if (identify.dynamics && table.has("lag")) {
     table.fail("lag",

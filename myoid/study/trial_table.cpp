@@ -11,15 +11,6 @@ using recording::TomlTable;
 
 namespace {
 
-Use parse_use(const std::string& word) {
-  if (word == "calibration") return Use::calibration;
-  if (word == "validation") return Use::validation;
-  if (word == "mvc") return Use::mvc;
-  if (word == "static") return Use::static_pose;
-  if (word == "passive") return Use::passive;
-  return Use::isometric;
-}
-
 PlateSpec read_plates(TomlTable table,
                       const std::filesystem::path& folder,
                       const std::optional<std::filesystem::path>& markers) {
@@ -60,7 +51,7 @@ SyncSpec read_sync(TomlTable table, const std::filesystem::path& folder) {
   sync.emg_trigger = table.text("emg_trigger").value_or("");
   sync.motion_trigger = table.text("motion_trigger").value_or("");
   if (auto file = table.text("trigger_file")) sync.trigger_file = folder / *file;
-  sync.match = table.choice("match", "rising", {"rising", "falling", "shape"});
+  sync.match = table.choice("match", sync.match);
   sync.search_s = table.number_within("search_s", sync.search_s, 0.05, 30.0, "s");
   sync.loads_offset_s = table.number("loads_offset_s").value_or(0.0);
   sync.loads_drift_ppm = table.number_within("loads_drift_ppm", 0.0, -1e5, 1e5, "ppm");
@@ -74,7 +65,7 @@ SyncSpec read_sync(TomlTable table, const std::filesystem::path& folder) {
     table.fail(sync.drift_ppm != 0.0 ? "drift_ppm" : "offset_s",
                "the triggers tell offset and drift; give one or the other");
   }
-  if (sync.match == "shape" && sync.motion_trigger == "start")
+  if (sync.match == SyncMatch::shape && sync.motion_trigger == "start")
     table.fail("match",
                "the start of a recording has no shape; expected \"rising\" or \"falling\"");
   table.finish();
@@ -112,9 +103,7 @@ TrialSpec read_trial(TomlTable table, const std::filesystem::path& folder) {
         "motion",
         "give either 'markers' or 'motion', not both: the motion is computed from the markers");
   }
-  trial.use = parse_use(
-      table.choice("use", "calibration",
-                   {"calibration", "validation", "mvc", "static", "passive", "isometric"}));
+  trial.use = table.choice("use", trial.use);
   if (trial.use != Use::mvc && !trial.markers && !trial.motion) {
     table.fail("name",
                fmt::format("trial '{}' has neither 'markers' (.trc) nor 'motion' (.mot); add one",
@@ -125,7 +114,7 @@ TrialSpec read_trial(TomlTable table, const std::filesystem::path& folder) {
   if (needs_emg && !trial.emg) {
     table.fail("name",
                fmt::format("trial '{}' has no 'emg'; a {} trial needs one, or set use = \"static\"",
-                           trial.name, name(trial.use)));
+                           trial.name, choice_name(trial.use)));
   }
   trial.held_mass_kg = table.number("held_mass_kg").value_or(0.0);
   if (trial.held_mass_kg < 0.0 || trial.held_mass_kg > 100.0) {

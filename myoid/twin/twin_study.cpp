@@ -84,8 +84,9 @@ OnePerson one_person(const twin::Protocol& protocol,
     RunOptions run;
     run.progress.stop = options.progress.stop;
     run.inform_forces = false;
-    run.share_forces = std::any_of(options.methods.begin(), options.methods.end(),
-                                   [](const std::string& method) { return method != "torque"; });
+    run.share_forces = std::any_of(
+        options.methods.begin(), options.methods.end(),
+        [](identification::Method method) { return method != identification::Method::torque; });
     const StudyResult result = analyse(in_memory(study, inputs_of(recording)), run);
     for (const TrialResult& trial : result.trials) {
       if (!trial.failure().empty())
@@ -278,7 +279,8 @@ void write_twin_study(const TwinStudyResult& result,
   for (const TwinPrediction& p : result.predictions) {
     predictions += fmt::format("{},{}", p.seed, p.trial);
     for (const identification::Score* s : {&p.law, &p.smooth, &p.band})
-      predictions += fmt::format(",{},{},{}", cell(s->rmse_nm()), cell(s->nrmse_range()), cell(s->r2()));
+      predictions +=
+          fmt::format(",{},{},{}", cell(s->rmse_nm()), cell(s->nrmse_range()), cell(s->r2()));
     predictions += "\n";
   }
   recording::write_file(folder / "predictions.csv", predictions);

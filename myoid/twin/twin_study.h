@@ -15,7 +15,7 @@ namespace myoid::twin {
 struct TwinStudyOptions {
   int subjects = 200;
   std::uint64_t first_seed = 1;  ///< Subject k has this plus k.
-  std::vector<std::string> methods = {"torque"};
+  std::vector<identification::Method> methods = {identification::Method::torque};
   Progress progress;
 };
 
