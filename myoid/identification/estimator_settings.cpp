@@ -1,5 +1,7 @@
 #include "myoid/identification/estimator_settings.h"
 
+#include "myoid/identification/beliefs.h"
+
 namespace myoid::identification {
 namespace {
 
@@ -8,8 +10,8 @@ void follow_emg(LagChoice lag, EstimatorOptions& options) {
   if (lag == LagChoice::shared) options.lag = EmgLag::shared;
   if (lag != LagChoice::equation_1) return;
   options.lag = EmgLag::equation_1;
-  options.delay_prior_mean_s = 0.010;
-  options.delay_prior_sd_s = 0.010;
+  options.delay_prior_mean_s = beliefs::kEmgDelayBesideLags.value;
+  options.delay_prior_sd_s = beliefs::kEmgDelayBesideLags.sd;
 }
 
 }  // namespace

@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "myoid/core/error.h"
-
 namespace myoid::identification {
 namespace {
 

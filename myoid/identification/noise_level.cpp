@@ -5,6 +5,8 @@
 #include <numeric>
 #include <vector>
 
+#include "myoid/identification/beliefs.h"
+
 namespace myoid::identification {
 namespace {
 
@@ -69,7 +71,7 @@ constexpr double kLargestNoise = 0.5;
 NoiseLevel fit_known_noise(const Eigen::ArrayXd& squared,
                            const Eigen::ArrayXd& power,
                            double share) {
-  constexpr double kLogSd = 0.3;
+  constexpr double kLogSd = beliefs::kEmgNoise.sd;
   const NoiseBins bins = bins_of(squared, power);
   const double mean = squared.mean();
   if (!(mean > 0.0)) return {.torque_sd_nm = 0.0, .emg_cv = 1.0, .emg_factor = 1.0};

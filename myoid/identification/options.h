@@ -10,6 +10,7 @@
 
 #include "myoid/core/choice.h"
 #include "myoid/core/progress.h"
+#include "myoid/identification/beliefs.h"
 #include "myoid/identification/emg_lag.h"
 
 namespace myoid::identification {
@@ -67,8 +68,8 @@ struct EstimatorOptions {
   std::vector<std::string> muscles;  ///< To identify; the others keep their start. Empty: all.
   bool priors = true;
   std::optional<double> delay_s;  ///< Held at this; empty: estimated, with a prior.
-  double delay_prior_mean_s = 0.06;
-  double delay_prior_sd_s = 0.02;
+  double delay_prior_mean_s = beliefs::kEmgDelay.value;
+  double delay_prior_sd_s = beliefs::kEmgDelay.sd;
   double delay_limit_s = 0.15;
   bool delay_per_channel = false;  ///< One delay for each EMG channel; false: one for all.
   /// EMG channels whose gain is a nuisance about 1, with the standard deviation of its logarithm:

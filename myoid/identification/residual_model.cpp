@@ -6,15 +6,15 @@
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
+#include "myoid/identification/beliefs.h"
 #include "myoid/identification/row_filter.h"
 
 namespace myoid::identification {
 double envelope_spread(const EstimatorOptions& options, const std::string& channel) {
-  constexpr double kUsualBandwidth_hz = 150.0;
   const auto known = options.emg_bandwidth_hz.find(channel);
   const double bandwidth_hz = known != options.emg_bandwidth_hz.end() && known->second > 0.0
                                   ? known->second
-                                  : kUsualBandwidth_hz;
+                                  : beliefs::kEmgBandwidth.value;
   return 0.7555 / std::sqrt(2.0 * bandwidth_hz * 0.4815 / options.envelope_cutoff_hz);
 }
 

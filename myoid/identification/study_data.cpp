@@ -7,24 +7,23 @@
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
+#include "myoid/identification/beliefs.h"
 #include "myoid/identification/trial_rows.h"
 #include "myoid/muscle/force_velocity.h"
-#include "myoid/muscle/literature.h"
 
 namespace myoid::identification {
 
 std::map<std::string, Prior> literature_priors(const muscle::HillParameters<double>& start) {
-  constexpr double kSlopeRatioSd = 0.5;
   std::map<std::string, Prior> priors;
   for (const muscle::HillField& field : muscle::kHillFields) {
-    if (const auto prior = muscle::literature_prior(field.name, start.*field.member,
-                                                    start.optimal_fiber_length_m)) {
+    if (const auto prior =
+            literature_prior(field.name, start.*field.member, start.optimal_fiber_length_m)) {
       priors[std::string(field.name)] = *prior;
     }
   }
   if (start.eccentric_plateau > 1.0) {
     priors["eccentric_slope_ratio"] = {.mean = muscle::slope_ratio(start.velocity_shape()),
-                                       .sd = kSlopeRatioSd,
+                                       .sd = beliefs::kSlopeRatio.sd,
                                        .logarithmic = true};
   }
   return priors;

@@ -9,6 +9,7 @@
 
 #include "myoid/core/numbers.h"
 #include "myoid/core/units.h"
+#include "myoid/identification/beliefs.h"
 #include "myoid/math/statistics.h"
 
 namespace myoid::identification {
@@ -22,12 +23,11 @@ struct PossibleSize {
 /// 0 in one case of two, else half normal 0.1, on a grid even in the logarithm; 0 for certain where
 /// there is no error to have a size.
 std::vector<PossibleSize> possible_sizes(bool any_errors) {
-  constexpr double kPriorSize = 0.1;
   std::vector<PossibleSize> sizes{{0.0, 1.0}};
   if (!any_errors) return sizes;
   double sum = 0.0;
   for (double size = 0.003; size < 0.5; size *= 1.25) {
-    sizes.push_back({size, size * std::exp(-0.5 * std::pow(size / kPriorSize, 2))});
+    sizes.push_back({size, size * std::exp(-0.5 * std::pow(size / beliefs::kModelError.sd, 2))});
     sum += sizes.back().probability;
   }
   for (std::size_t k = 1; k < sizes.size(); ++k) sizes[k].probability *= 0.5 / sum;

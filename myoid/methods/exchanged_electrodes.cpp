@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "myoid/identification/beliefs.h"
 #include "myoid/intervals/score.h"
 #include "myoid/methods/torque.h"
 
@@ -101,7 +102,7 @@ std::optional<ExchangedElectrodes> exchanged_electrodes(const StudyData& data, d
   for (std::size_t i = 0; i < channels.size(); ++i) {
     for (std::size_t j = i + 1; j < channels.size(); ++j) {
       LabelFit fit = fit_of_labels(data, delay_s, channels[i], channels[j]);
-      if (fit.r2 <= kDescribes || fit.rms_nm >= (1.0 - kStrengthSpread) * now.rms_nm ||
+      if (fit.r2 <= kDescribes || fit.rms_nm >= (1.0 - beliefs::kStrengthRatio.sd) * now.rms_nm ||
           (best && fit.rms_nm >= best->exchanged.rms_nm))
         continue;
       std::size_t better = 0;

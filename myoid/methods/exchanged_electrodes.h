@@ -30,13 +30,9 @@ struct ExchangedElectrodes {
                                      const std::string& second = "");
 
 /// The pair of channels whose exchange lowers the error of the literature's muscles most, if by
-/// more than their strengths are unsure of (kStrengthSpread), in three of four trials at least, and
-/// to a fit that describes the torque (R2 above 0.5). Empty if there is none.
+/// more than their strengths are unsure of (beliefs::kStrengthRatio), in three of four trials at
+/// least, and to a fit that describes the torque (R2 above 0.5). Empty if there is none.
 [[nodiscard]] std::optional<ExchangedElectrodes> exchanged_electrodes(
     const identification::StudyData& data, double delay_s);
-
-/// Spread of the ratio of two muscles' F_max, each of which differs by 30 % between published sets:
-/// by so much the literature's muscles may err in what an exchange changes.
-inline constexpr double kStrengthSpread = 0.42;
 
 }  // namespace myoid::identification

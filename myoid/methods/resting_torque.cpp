@@ -6,6 +6,8 @@
 
 #include <Eigen/QR>
 
+#include "myoid/identification/beliefs.h"
+
 namespace myoid::identification {
 namespace {
 
@@ -14,9 +16,9 @@ constexpr double kRangePerDegree_rad = 15.0 * std::numbers::pi / 180.0;
 /// Over a smaller range a sine cannot be told from a line.
 constexpr double kWeightRange_rad = 15.0 * std::numbers::pi / 180.0;
 constexpr double kLeftByWeight = 0.1;  ///< Of the variance.
-/// A weight is expected to be 0 +- 10 N m and the rest to depart from its sine by 1 N m, in as many
+/// The beliefs about a weight and about the departure from its sine hold in as many
 /// independent samples: over some 40 degrees mean, sine and cosine can hardly be told apart.
-constexpr double kUsualWeight_nm = 10.0, kTissue_nm = 1.0, kIndependent = 30.0;
+constexpr double kIndependent = 30.0;
 constexpr Eigen::Index kFewest = 20;
 /// Slower than this, in both directions, there is no viscosity to be seen.
 constexpr double kMoving_radps = 0.05;
@@ -45,12 +47,13 @@ Eigen::Vector3d nearest_sine(const Eigen::VectorXd& angle_rad, const Eigen::Vect
   if (angle_rad.maxCoeff() - angle_rad.minCoeff() < kWeightRange_rad)
     return {torque_nm.mean(), 0.0, 0.0};
   const Eigen::Index n = angle_rad.size();
-  const double weight = std::sqrt(kIndependent / static_cast<double>(n)) / kTissue_nm;
+  const double weight =
+      std::sqrt(kIndependent / static_cast<double>(n)) / beliefs::kRestingTissue.sd;
   Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(n + 2, 3);
   columns.col(0).head(n).setConstant(weight);
   columns.col(1).head(n) = weight * angle_rad.array().sin();
   columns.col(2).head(n) = weight * angle_rad.array().cos();
-  columns(n, 1) = columns(n + 1, 2) = 1.0 / kUsualWeight_nm;
+  columns(n, 1) = columns(n + 1, 2) = 1.0 / beliefs::kRestingWeight.sd;
   Eigen::VectorXd right = Eigen::VectorXd::Zero(n + 2);
   right.head(n) = weight * torque_nm;
   return columns.colPivHouseholderQr().solve(right);

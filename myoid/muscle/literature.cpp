@@ -47,16 +47,4 @@ HillParameters<double> hill_from_thelen(const ThelenParameters& thelen, double s
   return p;
 }
 
-std::optional<Prior> literature_prior(std::string_view parameter,
-                                      double start_value,
-                                      double optimal_fiber_length_m) {
-  for (const ParameterPrior& prior : kPriors) {
-    if (prior.parameter != parameter) continue;
-    return Prior{.mean = start_value,
-                 .sd = prior.relative ? prior.sd * optimal_fiber_length_m : prior.sd,
-                 .logarithmic = prior.logarithmic};
-  }
-  return std::nullopt;
-}
-
 }  // namespace myoid::muscle

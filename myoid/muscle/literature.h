@@ -1,10 +1,8 @@
 #pragma once
 
 #include <array>
-#include <optional>
 #include <string_view>
 
-#include "myoid/core/prior.h"
 #include "myoid/muscle/hill_parameters.h"
 #include "myoid/muscle/thelen.h"
 
@@ -53,38 +51,6 @@ inline constexpr Range kRelativeWidths{0.2, 1.0};
 /// `slope_ratio` times the concentric one (Thelen's own is 2). Pennation is dropped.
 [[nodiscard]] HillParameters<double> hill_from_thelen(const ThelenParameters& thelen,
                                                       double slope_ratio = kLiteratureSlopeRatio);
-
-/// How far people's parameters spread about the literature.
-struct ParameterPrior {
-  std::string_view parameter;
-  double sd = 0.0;  ///< Of ln(value) if `logarithmic`, else in the parameter's unit ...
-  bool logarithmic = false;
-  bool relative = false;  ///< ... or in optimal fiber lengths.
-};
-
-/// Judgement from the spread between published sets; a study may replace any of it. The product P
-/// carries the spreads of V_ml, V_sh and of the slope ratio (ln S 0.5) together. The tendon slack
-/// length is that of a model: of 25 leg muscles with tendons above 0.1 m, the sets that OpenSim
-/// ships (gait2392 after Delp 1990, Rajagopal 2016) differ by a robust ln 0.13, 0.09 to each.
-inline constexpr std::array<ParameterPrior, 9> kPriors = {
-    {{"max_isometric_force", 0.25, true, false},
-     {"optimal_fiber_length", 0.10, false, true},
-     {"force_length_width", 0.12, false, true},
-     {"concentric_curvature", 0.30, true, false},
-     {"eccentric_curvature_product", 0.65, true, false},
-     {"eccentric_plateau", 0.15, false, false},
-     {"max_shortening_speed", 0.20, true, false},
-     {"tendon_slack_length", 0.10, true, false},
-     {"emg_delay", 0.020, false, false}}};
-
-/// The prior of a parameter about `start_value` (its mean), given the muscle's optimal fiber
-/// length; empty if the table has none of this name.
-[[nodiscard]] std::optional<Prior> literature_prior(std::string_view parameter,
-                                                    double start_value,
-                                                    double optimal_fiber_length_m);
-
-/// Electromechanical delay to expect when the EMG envelope is taken for the activation [s].
-inline constexpr double kLiteratureEmgDelay_s = 0.060;
 
 /// Initial values that the source paper prints in its tables I and II; F_max and v_max it does not
 /// print. Its widths are far below the literature's: do not take them for normalized ones.

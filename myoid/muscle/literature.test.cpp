@@ -48,17 +48,6 @@ TEST(Literature, AThelenMuscleKeepsItsForceLengthCurve) {
   EXPECT_NEAR(p.force_length_width_m / p.optimal_fiber_length_m, 0.671, 5e-4);  // as published
 }
 
-TEST(Literature, EveryMuscleParameterHasAPrior) {
-  for (const HillField& field : kHillFields) {
-    const std::optional<Prior> prior = literature_prior(field.name, 0.3, 0.1);
-    ASSERT_TRUE(prior.has_value()) << field.name;
-    EXPECT_EQ(prior->mean, 0.3);
-    EXPECT_GT(prior->sd, 0.0);
-  }
-  EXPECT_FALSE(literature_prior("shoe_size", 42.0, 0.1).has_value());
-  EXPECT_DOUBLE_EQ(literature_prior("force_length_width", 0.04, 0.1)->sd, 0.012);
-}
-
 TEST(Literature, AnUnknownMuscleIsRefusedWithTheKnownOnes) {
   EXPECT_THROW(static_cast<void>(literature_muscle("XYZ")), InvalidInput);
 }

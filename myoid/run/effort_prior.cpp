@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "myoid/identification/beliefs.h"
+
 namespace myoid {
 
 bool from_maximal_effort(const EmgSpec& emg) {
@@ -9,9 +11,10 @@ bool from_maximal_effort(const EmgSpec& emg) {
 }
 
 void expect_any_effort(std::vector<identification::MuscleSetup>& muscles) {
-  // Of a logarithm that is uniform from ln(kLeastEffort) to 0.
-  const double mean = 0.5 * std::log(kLeastEffort);
-  const double sd = -std::log(kLeastEffort) / std::sqrt(12.0);
+  // Of a logarithm that is uniform from ln(least) to 0.
+  const double least = identification::beliefs::kLeastEffort.value;
+  const double mean = 0.5 * std::log(least);
+  const double sd = -std::log(least) / std::sqrt(12.0);
   for (identification::MuscleSetup& muscle : muscles) {
     const auto found = muscle.priors.find("max_isometric_force");
     if (found == muscle.priors.end()) continue;

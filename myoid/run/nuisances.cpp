@@ -5,22 +5,25 @@
 #include <string>
 #include <utility>
 
+#include "myoid/identification/beliefs.h"
+
 namespace myoid {
 namespace {
 
+namespace beliefs = identification::beliefs;
 using identification::JointData;
 using identification::ParameterRule;
 using identification::TrialData;
 
 constexpr double kStrained = 0.5;  // of the greatest EMG
-constexpr double kStiffness = 0.008, kOffset = 0.008, kViscosity = 0.0016;
 
-ParameterRule rule(const char* parameter, double mean, double sd) {
+/// The belief as a rule, its spread in as many of these units.
+ParameterRule rule(const identification::Belief& belief, double unit = 1.0) {
   ParameterRule r;
-  r.parameter = parameter;
+  r.parameter = belief.name;
   r.free = true;
-  r.prior_mean = mean;
-  r.prior_sd = sd;
+  r.prior_mean = belief.value;
+  r.prior_sd = belief.sd * unit;
   r.usual = true;
   return r;
 }
@@ -65,10 +68,10 @@ std::vector<std::string> strained_channels(const identification::StudyData& data
 
 std::vector<ParameterRule> nuisance_rules(const EmgSpec& emg,
                                           const identification::StudyData& data) {
-  std::vector<ParameterRule> rules{rule("length_activation", 0.0, 0.1)};
+  std::vector<ParameterRule> rules{rule(beliefs::kLengthActivation)};
   rules.back().tie = true;
   if (emg.kind != EmgKind::activation && emg.has_mvc) {
-    ParameterRule exponent = rule("emg_exponent", 1.0, 0.2);
+    ParameterRule exponent = rule(beliefs::kEmgExponent);
     exponent.owners = strained_channels(data);
     if (!exponent.owners.empty()) rules.push_back(std::move(exponent));
   }
@@ -89,10 +92,9 @@ std::vector<ParameterRule> nuisance_rules(const EmgSpec& emg,
     for (Eigen::Index k = 0; k < joint.arm_m.size(); ++k)
       strength_nm +=
           joint.arm_m[k] * data.muscles[static_cast<std::size_t>(k)].start.max_isometric_force_n;
-    for (const auto& [parameter, share] :
-         {std::pair{"joint_stiffness", kStiffness}, std::pair{"joint_torque_offset", kOffset},
-          std::pair{"joint_viscosity", kViscosity}}) {
-      ParameterRule r = rule(parameter, 0.0, share * strength_nm);
+    for (const identification::Belief* belief :
+         {&beliefs::kStiffnessShare, &beliefs::kOffsetShare, &beliefs::kViscosityShare}) {
+      ParameterRule r = rule(*belief, strength_nm);
       r.owners = {name};
       if (strength_nm > 0.0) rules.push_back(std::move(r));
     }

@@ -13,6 +13,7 @@
 #include "myoid/core/units.h"
 #include "myoid/dynamics/ground_support.h"
 #include "myoid/dynamics/inverse_dynamics.h"
+#include "myoid/identification/beliefs.h"
 #include "myoid/run/prediction_gates.h"
 
 namespace myoid {
@@ -320,7 +321,7 @@ Gate electrode_gate(const identification::ExchangedElectrodes& exchanged) {
           exchanged.sentence(),
           fmt::format("no two channels that fit {:.0f} % better as each other; fails where "
                       "they make less than half of the torque as they are (R2 0.5)",
-                      100.0 * identification::kStrengthSpread),
+                      100.0 * identification::beliefs::kStrengthRatio.sd),
           "Every number of the two muscles is then the other's."};
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "myoid/identification/beliefs.h"
 #include "myoid/muscle/force_velocity.h"
 
 namespace myoid::twin {
@@ -11,11 +12,9 @@ namespace {
 
 using Hill = muscle::HillParameters<double>;
 
-constexpr double kWidthSd = 0.12;  // of l_sh / l_0
-constexpr double kConcentricCurvatureSd = 0.3;
-constexpr double kPlateauSd = 0.15;
-constexpr double kSlopeRatioSd = 0.5;
-constexpr double kTendonSd = 0.03;
+namespace beliefs = identification::beliefs;
+
+constexpr double kTendonSd = 0.03;  // of a person about the model, whose tendon the study holds
 constexpr double kLeastWidth = 0.2;
 constexpr double kLeastPlateau = 1.05;
 
@@ -39,13 +38,13 @@ Hill draw(const TruthSpec& spec,
   Hill p = literature;
   const double strength = normal("max_isometric_force") - offset_of("max_isometric_force");
   p.max_isometric_force_n *= std::exp(kSharedStrengthSd * shared_strength + kStrengthSd * strength +
-                                      kWholeStrengthSd * offset_of("max_isometric_force"));
-  p.optimal_fiber_length_m *= 1.0 + kFiberLengthSd * normal("optimal_fiber_length");
+                                      beliefs::kMaxForce.sd * offset_of("max_isometric_force"));
+  p.optimal_fiber_length_m *= 1.0 + beliefs::kFiberLength.sd * normal("optimal_fiber_length");
   p.force_length_width_m +=
-      kWidthSd * normal("force_length_width") * literature.optimal_fiber_length_m;
-  p.concentric_curvature *= std::exp(kConcentricCurvatureSd * normal("concentric_curvature"));
-  p.max_shortening_speed_mps *= std::exp(kSpeedSd * normal("max_shortening_speed"));
-  p.eccentric_plateau += kPlateauSd * normal("eccentric_plateau");
+      beliefs::kWidth.sd * normal("force_length_width") * literature.optimal_fiber_length_m;
+  p.concentric_curvature *= std::exp(beliefs::kCurvature.sd * normal("concentric_curvature"));
+  p.max_shortening_speed_mps *= std::exp(beliefs::kSpeed.sd * normal("max_shortening_speed"));
+  p.eccentric_plateau += beliefs::kPlateau.sd * normal("eccentric_plateau");
   p.tendon_slack_length_m *= 1.0 + kTendonSd * normal("tendon_slack_length");
 
   const double slope = normal("eccentric_curvature_product");
@@ -53,7 +52,8 @@ Hill draw(const TruthSpec& spec,
     // The slopes of f_v at rest keep their ratio S, but for its own spread.
     const double ratio = muscle::slope_ratio(literature.velocity_shape());
     p.eccentric_curvature_product = muscle::curvature_product_from_slope_ratio(
-        ratio * std::exp(kSlopeRatioSd * slope), p.concentric_curvature, p.eccentric_plateau);
+        ratio * std::exp(beliefs::kSlopeRatio.sd * slope), p.concentric_curvature,
+        p.eccentric_plateau);
   }
   return p;
 }
@@ -75,12 +75,12 @@ BesideMuscles draw_beside_muscles(const TruthSpec& spec, simulation::Random rand
   BesideMuscles drawn;
   if (!spec.beside_muscles) return drawn;
   const auto normal = [&] { return spec.spread * random.normal(); };
-  drawn.length_activation = 0.1 * std::abs(normal());
-  drawn.joint_torque_nm = normal();
-  drawn.joint_stiffness_nm_per_rad = normal();
-  drawn.joint_viscosity_nms_per_rad = 0.2 * std::abs(normal());
+  drawn.length_activation = beliefs::kLengthActivation.sd * std::abs(normal());
+  drawn.joint_torque_nm = beliefs::kOffset.sd * normal();
+  drawn.joint_stiffness_nm_per_rad = beliefs::kStiffness.sd * normal();
+  drawn.joint_viscosity_nms_per_rad = beliefs::kViscosity.sd * std::abs(normal());
   for (double& exponent : drawn.emg_exponent)
-    exponent = std::exp(std::clamp(0.2 * normal(), -0.6, 0.6));
+    exponent = std::exp(std::clamp(beliefs::kEmgExponent.sd * normal(), -0.6, 0.6));
   return drawn;
 }
 

@@ -7,11 +7,9 @@
 namespace myoid::twin {
 
 // Standard deviations between persons, of draw_muscles and draw_true_arm.
-inline constexpr double kSharedStrengthSd = 0.2;  ///< Of ln F_max, the whole person's.
-inline constexpr double kStrengthSd = 0.15;       ///< Of ln F_max, per muscle.
-inline constexpr double kWholeStrengthSd = 0.25;  ///< Of both together.
-inline constexpr double kFiberLengthSd = 0.10;    ///< Of l_0 over its mean.
-inline constexpr double kSpeedSd = 0.2;           ///< Of ln v_max.
+/// The belief about ln F_max in two parts, which together make its standard deviation.
+inline constexpr double kSharedStrengthSd = 0.2;  ///< The whole person's.
+inline constexpr double kStrengthSd = 0.15;       ///< The muscle's own.
 
 /// Muscle parameters of a virtual person, drawn about `literature` with `spec.spread` times these
 /// standard deviations: ln F_max 0.2 for the whole person and 0.15 per muscle, l_0 10 %, l_sh
@@ -33,9 +31,9 @@ struct BesideMuscles {
   PerMuscle emg_exponent = {1.0, 1.0, 1.0, 1.0};
 };
 
-/// As a fit expects it beforehand (pipeline/nuisances.h), `spec.spread` times: gamma 0.1, torque 1
-/// N m, stiffness 1 N m/rad, viscosity 0.2 N m s/rad, ln of the exponents 0.2; gamma and viscosity
-/// are sizes of normal numbers, since no fit lets them be negative. Nothing unless
+/// As a fit expects it beforehand (identification/beliefs.h), `spec.spread` times: gamma 0.1,
+/// torque 1 N m, stiffness 1 N m/rad, viscosity 0.2 N m s/rad, ln of the exponents 0.2; gamma and
+/// viscosity are sizes of normal numbers, since no fit lets them be negative. Nothing unless
 /// `spec.beside_muscles`.
 [[nodiscard]] BesideMuscles draw_beside_muscles(const TruthSpec& spec, simulation::Random random);
 

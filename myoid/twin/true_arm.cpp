@@ -6,11 +6,14 @@
 #include "myoid/arm/arm7.h"
 #include "myoid/arm/arm_osim.h"
 #include "myoid/core/units.h"
+#include "myoid/identification/beliefs.h"
 #include "myoid/twin/draw_truth.h"
 #include "myoid/twin/virtual_arm.h"
 
 namespace myoid::twin {
 namespace {
+
+namespace beliefs = identification::beliefs;
 
 constexpr double kHeadStrengthSd = 0.05;
 constexpr double kHeadFiberLengthSd = 0.03;
@@ -98,13 +101,13 @@ TrueArm draw_true_arm(const TruthSpec& spec,
     muscle::HillParameters<double> hill = from.hill;
     hill.max_isometric_force_n *=
         std::exp(kSharedStrengthSd * shared_strength + kStrengthSd * d.strength +
-                 kHeadStrengthSd * z() + kWholeStrengthSd * spec.offset);
+                 kHeadStrengthSd * z() + beliefs::kMaxForce.sd * spec.offset);
     const double length =
-        std::max(0.5, 1.0 + kFiberLengthSd * d.fiber_length + kHeadFiberLengthSd * z());
+        std::max(0.5, 1.0 + beliefs::kFiberLength.sd * d.fiber_length + kHeadFiberLengthSd * z());
     hill.optimal_fiber_length_m *= length;
     hill.force_length_width_m *= length;
     // v_max is so many fiber lengths per second.
-    hill.max_shortening_speed_mps *= length * std::exp(kSpeedSd * d.speed);
+    hill.max_shortening_speed_mps *= length * std::exp(beliefs::kSpeed.sd * d.speed);
     head.parameters = muscle::published_defaults(hill, arm.laws);
     head.parameters.pennation_at_optimal_rad = from.pennation_at_optimal_rad;
     head.parameters.tendon_strain = d.strain;

@@ -12,11 +12,11 @@
 #include "myoid/arm/arm4.h"
 #include "myoid/arm/planar_elbow.h"
 #include "myoid/core/units.h"
+#include "myoid/identification/beliefs.h"
 #include "myoid/identification/study_data.h"
 #include "myoid/math/butterworth.h"
 #include "myoid/math/zero_phase.h"
 #include "myoid/muscle/hill_muscle.h"
-#include "myoid/muscle/literature.h"
 
 namespace myoid::test {
 
@@ -77,8 +77,8 @@ inline ElbowStudy elbow_study(const ElbowStudyOptions& o = {}) {
     muscle::HillParameters<double> truth = start[k];
     for (std::size_t f = 0; f < 6; ++f) {
       const muscle::HillField& field = muscle::kHillFields[f];
-      const auto prior = muscle::literature_prior(field.name, start[k].*field.member,
-                                                  start[k].optimal_fiber_length_m);
+      const auto prior = identification::literature_prior(field.name, start[k].*field.member,
+                                                          start[k].optimal_fiber_length_m);
       if (o.with_priors && prior) setup.priors[std::string(field.name)] = *prior;
       double& value = truth.*field.member;
       if (o.truth_from_prior && prior) {

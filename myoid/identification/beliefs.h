@@ -1,0 +1,255 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "myoid/core/prior.h"
+
+namespace myoid::identification {
+
+/// The quantity whose standard deviation a belief states.
+enum class SpreadOf {
+  value,          ///< The number itself, in its unit.
+  logarithm,      ///< Its logarithm: a relative spread.
+  fiber_length,   ///< The number, in optimal fiber lengths of the muscle.
+  joint_strength  ///< The number, over the sum of largest |r| times F_max of the joint's muscles.
+};
+
+/// An expectation about a number before a recording is looked at.
+struct Belief {
+  std::string_view name;  ///< Of the parameter, as in parameters.csv, or of another quantity.
+  std::string_view mean;  ///< The expected value in words: "the model's", "0".
+  double value = 0.0;     ///< The expected value where it is a number of its own.
+  double sd = 0.0;        ///< Standard deviation.
+  SpreadOf spread = SpreadOf::value;
+  std::string_view unit;  ///< Of mean and, for SpreadOf::value, of the standard deviation.
+  std::string_view when;  ///< The case in which the estimator uses it.
+  std::string_view source;
+};
+
+/// Every belief of the identification, once each. The estimator uses these constants, the twin
+/// draws its persons from them, and docs/theory/priors.md prints them.
+namespace beliefs {
+
+using enum SpreadOf;
+inline constexpr std::string_view kModels = "the model's";
+inline constexpr std::string_view kAlways = "always";
+inline constexpr std::string_view kWhenFree = "where a study frees it without a prior of its own";
+inline constexpr std::string_view kPublished =
+    "judgment from the spread between published sets of parameters";
+inline constexpr std::string_view kNuisance =
+    "judgment; left out, the fit takes it for a property "
+    "of the muscles";
+
+// A muscle's parameters, about the starting values.
+inline constexpr Belief kMaxForce{
+    "max_isometric_force", kModels, 0.0, 0.25, logarithm, "N", kAlways, kPublished};
+inline constexpr Belief kFiberLength{"optimal_fiber_length", kModels, 0.0,     0.10,
+                                     fiber_length,           "m",     kAlways, kPublished};
+inline constexpr Belief kWidth{"force_length_width", kModels, 0.0,     0.12,
+                               fiber_length,         "m",     kAlways, kPublished};
+inline constexpr Belief kCurvature{
+    "concentric_curvature",
+    kModels,
+    0.0,
+    0.30,
+    logarithm,
+    "",
+    "always; with `max_shortening_speed` free the spread of v_max adds, as a muscle's V_sh goes "
+    "with the v_max of its own source: √(0.30² + ((1 + V_sh) 0.20)²) = 0.39",
+    kPublished};
+inline constexpr Belief kProduct{"eccentric_curvature_product",
+                                 kModels,
+                                 0.0,
+                                 0.65,
+                                 logarithm,
+                                 "",
+                                 "`eccentric = \"product\"`",
+                                 "the spreads of V_ml, V_sh and of the slope ratio together"};
+inline constexpr Belief kSlopeRatio{
+    "eccentric_slope_ratio",           kModels,   0.0, 0.5, logarithm, "",
+    "always, in place of the product", kPublished};
+inline constexpr Belief kPlateau{"eccentric_plateau", kModels, 0.0, 0.15, value, "", kAlways,
+                                 kPublished};
+inline constexpr Belief kSpeed{"max_shortening_speed",
+                               kModels,
+                               0.0,
+                               0.20,
+                               logarithm,
+                               "m/s",
+                               "unless a study states it as known",
+                               kPublished};
+inline constexpr Belief kTendonSlack{
+    "tendon_slack_length",
+    kModels,
+    0.0,
+    0.10,
+    logarithm,
+    "m",
+    "held at the model's; the spread goes into the interval of l_m⁰, unless the length is stated "
+    "as measured",
+    "of 25 leg muscles with tendons above 0.1 m, gait2392 (Delp 1990) and Rajagopal (2016) differ "
+    "by a robust ln 0.13, 0.09 to each"};
+inline constexpr Belief kPennation{"pennation_angle", kModels,   0.0, 0.05, value, "rad",
+                                   kWhenFree,         "judgment"};
+inline constexpr Belief kPassiveForce{"passive_force", kModels, 0.0,       0.5,
+                                      value,           "",      kWhenFree, "judgment"};
+inline constexpr Belief kPassiveStrain{"passive_strain", kModels, 0.0,       0.2,
+                                       logarithm,        "",      kWhenFree, "judgment"};
+inline constexpr Belief kPassiveShape{"passive_shape", kModels, 0.0,       0.3,
+                                      logarithm,       "",      kWhenFree, "judgment"};
+inline constexpr Belief kLengthActivation{
+    "length_activation",
+    "0",
+    0.0,
+    0.1,
+    value,
+    "",
+    "always, one for all muscles",
+    "fibers that are little active are at their best when longer, by 15 % (Lloyd and Besier 2003)"};
+inline constexpr Belief kTendonStrain{"tendon_strain", kModels, 0.0,       0.4,
+                                      logarithm,       "",      kWhenFree, "judgment"};
+inline constexpr Belief kActivationShare{"activation_share", "1", 1.0,       0.3,
+                                         logarithm,          "",  kWhenFree, "judgment"};
+
+// An EMG channel's numbers.
+inline constexpr Belief kEmgDelay{
+    "emg_delay", "0.06",
+    0.060,       0.020,
+    value,       "s",
+    kAlways,     "delays between EMG envelope and force in the literature, 30 to 100 ms"};
+inline constexpr Belief kEmgDelayBesideLags{
+    "emg_delay",
+    "0.01",
+    0.010,
+    0.010,
+    value,
+    "s",
+    "`dynamics = true`: the delay left beside the lags of equation (1)",
+    "judgment"};
+inline constexpr Belief kEmgGain{
+    "emg_gain",
+    "1, or `mvc_effort`",
+    1.0,
+    0.1,
+    logarithm,
+    "",
+    "always; in place of this spread that of the EMG's normalization in the recording, with "
+    "`mvc_effort_sd`",
+    "signals/emg_envelope.h"};
+inline constexpr Belief kEmgShape{"emg_shape", "0", 0.0, 0.8, value, "", kWhenFree, "judgment"};
+inline constexpr Belief kEmgExponent{
+    "emg_exponent",
+    "1",
+    1.0,
+    0.2,
+    logarithm,
+    "",
+    "EMG with a maximal contraction, of channels that reach half of it",
+    kNuisance};
+inline constexpr Belief kExcitationTime{"excitation_time", "the start", 0.0,       0.25,
+                                        logarithm,         "s",         kWhenFree, "judgment"};
+inline constexpr Belief kActivationTime{"activation_time", "the start", 0.0,       0.25,
+                                        logarithm,         "s",         kWhenFree, "judgment"};
+inline constexpr Belief kDeactivationTime{"deactivation_time", "the start", 0.0,       0.25,
+                                          logarithm,           "s",         kWhenFree, "judgment"};
+
+// A joint's own torque beside the muscles': as a share of what its muscles could exert together
+// (`run`), and as numbers of an elbow (where a study frees one without a prior, and in the twin).
+inline constexpr std::string_view kJointSource =
+    "a relaxed elbow's own torque: 1 N m/rad, 1 N m, 0.2 N m s/rad";
+inline constexpr std::string_view kKnownMotion = "always, of joints whose motion is known";
+inline constexpr Belief kStiffnessShare{"joint_stiffness", "0",       0.0,          0.008,
+                                        joint_strength,    "N m/rad", kKnownMotion, kJointSource};
+inline constexpr Belief kOffsetShare{"joint_torque_offset", "0",   0.0,          0.008,
+                                     joint_strength,        "N m", kKnownMotion, kJointSource};
+inline constexpr Belief kViscosityShare{"joint_viscosity", "0",         0.0,          0.0016,
+                                        joint_strength,    "N m s/rad", kKnownMotion, kJointSource};
+inline constexpr Belief kStiffness{"joint_stiffness", "0",       0.0,         1.0, value,
+                                   "N m/rad",         kWhenFree, kJointSource};
+inline constexpr Belief kOffset{"joint_torque_offset", "0", 0.0, 1.0, value, "N m", kWhenFree,
+                                kJointSource};
+inline constexpr Belief kViscosity{"joint_viscosity", "0",       0.0,         0.2, value,
+                                   "N m s/rad",       kWhenFree, kJointSource};
+inline constexpr Belief kInertia{"joint_inertia", "0",     0.0,       0.01,
+                                 value,           "kg m²", kWhenFree, "judgment"};
+
+// Quantities that are no parameters.
+inline constexpr Belief kLeastEffort{
+    "least share of its maximum that a muscle's greatest effort is",
+    "0.05",
+    0.05,
+    0.0,
+    value,
+    "",
+    "no maximal contraction was recorded: every ratio from there to 1 is as likely, ln(share) = ln "
+    "0.22 ± 0.86, which adds to the belief about F_max",
+    "antagonists of resisted movements reach 5 to 20 % of their maximum (Kellis 1998), the muscles "
+    "of walking 10 to 80 % of a manual test's (Perry and Burnfield 2010)"};
+inline constexpr Belief kEmgNoise{"noise of an EMG envelope, over that expected from its bandwidth",
+                                  "1",
+                                  1.0,
+                                  0.3,
+                                  logarithm,
+                                  "",
+                                  "where every channel's bandwidth is known",
+                                  "judgment"};
+inline constexpr Belief kEmgBandwidth{"statistical bandwidth of raw EMG",
+                                      "150",
+                                      150.0,
+                                      0.0,
+                                      value,
+                                      "Hz",
+                                      "where the raw signal is not known",
+                                      "usual of surface EMG"};
+inline constexpr Belief kModelError{"relative size of a systematic error of the model",
+                                    "0 in one case of two",
+                                    0.0,
+                                    0.1,
+                                    value,
+                                    "",
+                                    "half normal in the other cases",
+                                    "judgment"};
+inline constexpr Belief kRestingWeight{"weight of limb and instrument in a passive trial",
+                                       "0",
+                                       0.0,
+                                       10.0,
+                                       value,
+                                       "N m",
+                                       "passive trials",
+                                       "judgment"};
+inline constexpr Belief kRestingTissue{"departure of a passive torque from the sine of a weight",
+                                       "0",
+                                       0.0,
+                                       1.0,
+                                       value,
+                                       "N m",
+                                       "passive trials",
+                                       "judgment"};
+inline constexpr Belief kStrengthRatio{
+    "ratio of two muscles' F_max",
+    kModels,
+    0.0,
+    0.42,
+    value,
+    "",
+    "by more than this an exchange of two electrodes must improve the fit",
+    "each differs by 30 % between published sets"};
+
+}  // namespace beliefs
+
+/// All of them, in the order of the page.
+[[nodiscard]] std::span<const Belief* const> all_beliefs();
+
+/// The belief about a muscle's parameter as a prior about `start`, given the muscle's optimal fiber
+/// length; empty if a muscle's parameters have none of this name.
+[[nodiscard]] std::optional<Prior> literature_prior(std::string_view parameter,
+                                                    double start,
+                                                    double optimal_fiber_length_m);
+
+/// The beliefs as a table in Markdown.
+[[nodiscard]] std::string beliefs_markdown();
+
+}  // namespace myoid::identification

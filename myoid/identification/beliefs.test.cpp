@@ -1,0 +1,43 @@
+#include "myoid/identification/beliefs.h"
+
+#include <set>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "myoid/identification/parameter_fields.h"
+#include "myoid/muscle/hill_parameters.h"
+
+#include "tests/support/printed_page.h"
+
+namespace myoid::identification {
+namespace {
+
+TEST(Beliefs, AreTheOnesThatThePagePrints) {
+  test::expect_printed("docs/theory/priors.md", "beliefs", beliefs_markdown());
+}
+
+TEST(Beliefs, EveryParameterThatCanBeIdentifiedHasOne) {
+  std::set<std::string_view> names;
+  for (const Belief* belief : all_beliefs()) {
+    names.insert(belief->name);
+    EXPECT_FALSE(belief->source.empty()) << belief->name;
+    EXPECT_FALSE(belief->when.empty()) << belief->name;
+  }
+  for (const ParameterField& field : parameter_fields())
+    EXPECT_TRUE(names.contains(field.name)) << field.name;
+}
+
+TEST(LiteraturePrior, OfAMuscleStandsAboutTheStart) {
+  for (const muscle::HillField& field : muscle::kHillFields) {
+    const std::optional<Prior> prior = literature_prior(field.name, 0.3, 0.1);
+    ASSERT_TRUE(prior.has_value()) << field.name;
+    EXPECT_EQ(prior->mean, 0.3);
+    EXPECT_GT(prior->sd, 0.0);
+  }
+  EXPECT_FALSE(literature_prior("shoe_size", 42.0, 0.1).has_value());
+  EXPECT_DOUBLE_EQ(literature_prior("force_length_width", 0.04, 0.1)->sd, 0.012);
+}
+
+}  // namespace
+}  // namespace myoid::identification
