@@ -122,6 +122,7 @@ void add_muscle(CLI::App& app, Context& context);
 void add_paths(CLI::App& app, Context& context);
 void add_report(CLI::App& app, Context& context);
 void add_run(CLI::App& app, Context& context);
+void add_settings(CLI::App& app, Context& context);
 void add_simulate(CLI::App& app, Context& context);
 void add_run_tool(CLI::App& app, Context& context);
 void add_so(CLI::App& app, Context& context);

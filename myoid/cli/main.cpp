@@ -83,6 +83,7 @@ constexpr Command kCommands[] = {
     {"init", myoid::cli::add_init},
     {"check", myoid::cli::add_check},
     {"compare", myoid::cli::add_compare},
+    {"settings", myoid::cli::add_settings},
     {"info", myoid::cli::add_info},
     {"convert", myoid::cli::add_convert},
     {"emg", myoid::cli::add_emg},

@@ -25,6 +25,8 @@ class TomlTable {
   TomlTable(const toml::table& table, std::filesystem::path file, std::string where);
 
   [[nodiscard]] bool has(std::string_view key) const { return table_->contains(key); }
+  /// Makes the key a known one; whether the table has it.
+  bool asked(std::string_view key) { return find(key) != nullptr; }
   [[nodiscard]] std::optional<std::string> text(std::string_view key);
   [[nodiscard]] std::optional<double> number(std::string_view key);  ///< Integers too; finite.
   [[nodiscard]] std::optional<bool> flag(std::string_view key);

@@ -39,6 +39,7 @@ struct ParameterRule {
   std::optional<double> prior_mean, prior_sd;  ///< In the parameter's unit.
   bool usual = false;  ///< Not asked for by the study: what is expected of every recording.
   bool tie = false;  ///< One unknown for all owners: their ratios to the starting values are equal.
+  bool operator==(const ParameterRule&) const = default;
 };
 
 /// A further joint of a trial, n samples. Motion is needed for joint viscosity, stiffness and
@@ -80,7 +81,7 @@ struct StudyData {
   std::vector<ParameterRule> rules;
 };
 
-/// What the literature knows beforehand of a muscle that starts here (muscle/literature.h), with
+/// What the literature knows beforehand of a muscle that starts here (beliefs.h), with
 /// the spread of the slope ratio (ln S 0.5) in place of that of V_sh V_shl where V_ml > 1. That of
 /// V_sh is for a v_max that is known, or free: one that is only held belongs to `free_speeds`.
 [[nodiscard]] std::map<std::string, Prior> literature_priors(

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "myoid/core/units.h"
 #include "myoid/intake/emg_cover.h"
 #include "myoid/kinematics/lumped_muscles.h"
 #include "myoid/run/effort_prior.h"
@@ -92,8 +93,8 @@ identification::EstimatorSettings estimator_settings(const Study& study) {
           .delay_s = study.emg.delay_s,
           .delay_per_channel = spec.delay_per_channel,
           .max_rate_hz = spec.max_rate_hz,
-          .angle_sd_rad = spec.angle_sd_rad,
-          .angle_rate_sd_radps = spec.angle_rate_sd_radps,
+          .angle_sd_rad = spec.angle_sd_deg * kDegree,
+          .angle_rate_sd_radps = spec.angle_rate_sd_degps * kDegree,
           .loss = spec.loss,
           .eccentric = spec.eccentric,
           .normalised = spec.normalised,

@@ -10,7 +10,7 @@
 #include "myoid/core/json_text.h"
 #include "myoid/core/provenance.h"
 #include "myoid/files/atomic_file.h"
-#include "myoid/study/study_json.h"
+#include "myoid/study/study_text.h"
 
 namespace myoid {
 namespace {

@@ -1,87 +1,102 @@
 #include "myoid/study/muscle_table.h"
 
+#include <array>
 #include <string>
 #include <vector>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
-#include "myoid/core/error.h"
 #include "myoid/core/units.h"
-#include "myoid/identification/parameters.h"
+#include "myoid/identification/parameter_fields.h"
 #include "myoid/muscle/hill_parameters.h"
 
 namespace myoid {
 
-using recording::TomlTable;
-
 namespace {
 
-/// The muscle parameter of this name, or an error at the key's line that lists them.
-const muscle::HillField& parameter(const TomlTable& table,
-                                   std::string_view key,
-                                   const std::string& name) {
-  std::vector<std::string> names;
+constexpr auto kHillNames = [] {
+  std::array<std::string_view, muscle::kHillFields.size()> names;
+  for (std::size_t i = 0; i < names.size(); ++i) names[i] = muscle::kHillFields[i].name;
+  return names;
+}();
+
+/// Names of all parameters that can be identified.
+ChoiceNames parameter_names() {
+  static const std::vector<std::string_view> names = [] {
+    std::vector<std::string_view> list;
+    for (const identification::ParameterField& field : identification::parameter_fields())
+      list.push_back(field.name);
+    return list;
+  }();
+  return names;
+}
+
+/// Starting values by the name of the muscle's parameter.
+void visit_start(std::map<std::string, double>& start, SettingVisitor& v) {
   for (const muscle::HillField& field : muscle::kHillFields) {
-    if (field.name == name) return field;
-    names.emplace_back(field.name);
+    const std::string name(field.name);
+    std::optional<double> value;
+    if (const auto found = start.find(name); found != start.end()) value = found->second;
+    v.number(field.name, value,
+             {.says = field.symbol,
+              .limits = within(field.bounds.lower, field.bounds.upper,
+                               field.unit == Unit::dimensionless ? "" : symbol(field.unit)),
+              .otherwise = "the model's"});
+    if (value) start[name] = *value;
   }
-  const auto near = recording::nearest_word(name, names);
-  table.fail(key, fmt::format("no muscle parameter is named '{}'{}; there are {}", name,
-                              near ? fmt::format(" (did you mean '{}'?)", *near) : "",
-                              fmt::join(names, ", ")));
 }
 
 }  // namespace
 
-MuscleSpec read_muscle(TomlTable table) {
-  MuscleSpec muscle;
-  muscle.name = table.require_text("name", "a short name for the results, name = \"BIC\"");
-  muscle.osim = table.texts("osim").value_or(std::vector<std::string>{muscle.name});
-  if (muscle.osim.empty()) table.fail("osim", "expected at least one muscle of the model");
-  if (table.is_table("emg")) {
-    TomlTable tie = *table.table("emg");
-    muscle.same_as = tie.require_text("same_as", "the muscle whose electrode serves this one too");
-    tie.finish();
-  } else {
-    muscle.emg = table.require_text(
-        "emg", "the EMG channel, or { same_as = \"MUSCLE\" } where there is no electrode");
-  }
-  if (auto start = table.table("start")) {
-    for (const std::string& key : start->keys()) {
-      const muscle::HillField& field = parameter(*start, key, key);
-      muscle.start[key] = start->number_within(key, 0.0, field.bounds.lower, field.bounds.upper,
-                                               symbol(field.unit));
-    }
-  }
-  muscle.fixed = table.texts("fixed").value_or(muscle.fixed);
-  for (const std::string& name : muscle.fixed) (void)parameter(table, "fixed", name);
-  table.finish();
-  return muscle;
+void visit(MuscleSpec& muscle, SettingVisitor& v) {
+  v.text("name", muscle.name,
+         {.says = "Its name in the results.",
+          .required = "a short name for the results, name = \"BIC\""});
+  const bool stated =
+      v.texts("osim", muscle.osim,
+              {.says = "Muscles of the model that act as this one, lumped by their F_max.",
+               .otherwise = "the one of this name"});
+  v.must(!stated || !muscle.osim.empty(), "osim", "expected at least one muscle of the model");
+  if (muscle.osim.empty()) muscle.osim = {muscle.name};
+  v.text("emg", muscle.emg, muscle.same_as,
+         {.says = "EMG channel; `{ same_as = \"MUSCLE\" }`: another muscle's channel, of a deep "
+                  "muscle without an electrode.",
+          .required = "the EMG channel, or { same_as = \"MUSCLE\" } where there is no electrode",
+          .table = "same_as"});
+  v.table("start", !muscle.start.empty(),
+          {.says = "Starting values, `start = { max_isometric_force = 900.0 }`."},
+          [&muscle](SettingVisitor& inside) { visit_start(muscle.start, inside); });
+  v.texts(
+      "fixed", muscle.fixed,
+      {.says = "Parameters that are held. `max_shortening_speed` is held only where it is named "
+               "here: unknown, it is free with the literature's spread, which the intervals "
+               "of V_sh then carry.",
+       .words = kHillNames});
 }
 
-identification::ParameterRule read_rule(TomlTable table) {
-  identification::ParameterRule rule;
-  rule.parameter = table.require_text("name", "a parameter, such as \"tendon_slack_length\"");
-  try {
-    (void)identification::parameter_field(rule.parameter);
-  } catch (const InvalidInput& error) {
-    table.fail("name", error.what());
-  }
-  rule.owners = table.texts("of").value_or(rule.owners);
-  rule.free = table.flag("free");
-  rule.value = table.number("value");
-  rule.lower = table.number("lower");
-  rule.upper = table.number("upper");
-  rule.prior_mean = table.number("prior_mean");
-  rule.prior_sd = table.number("prior_sd");
-  if (rule.prior_sd && !(*rule.prior_sd > 0.0))
-    table.fail("prior_sd", fmt::format("found {}, expected a positive number", *rule.prior_sd));
-  if (rule.lower && rule.upper && !(*rule.lower < *rule.upper))
-    table.fail("lower", fmt::format("found {}, not below upper = {}", *rule.lower, *rule.upper));
-  rule.tie = table.flag("tie").value_or(false);
-  table.finish();
-  return rule;
+void visit(identification::ParameterRule& rule, SettingVisitor& v) {
+  v.text("name", rule.parameter,
+         {.says = "The parameter.",
+          .required = "a parameter, such as \"tendon_slack_length\"",
+          .words = parameter_names()});
+  v.texts("of", rule.owners,
+          {.says = "Muscles, EMG channels or joints that it is about.", .otherwise = "all"});
+  v.flag("free", rule.free, {.says = "It is identified."});
+  v.number("value", rule.value,
+           {.says = "Where it starts, or what it is held at, SI.",
+            .limits = any_number("SI"),
+            .otherwise = "its prior's mean"});
+  v.number("lower", rule.lower, {.says = "Lower bound.", .limits = any_number("SI")});
+  v.number("upper", rule.upper, {.says = "Upper bound.", .limits = any_number("SI")});
+  v.number("prior_mean", rule.prior_mean,
+           {.says = "The value expected beforehand.", .limits = any_number("SI")});
+  v.number("prior_sd", rule.prior_sd,
+           {.says = "The standard deviation of that expectation.", .limits = above_zero("SI")});
+  v.flag("tie", rule.tie,
+         {.says = "One unknown for all: their ratios to the starting values are equal."});
+  v.must(!rule.lower || !rule.upper || *rule.lower < *rule.upper, "lower",
+         fmt::format("found {}, not below upper = {}", rule.lower.value_or(0.0),
+                     rule.upper.value_or(0.0)));
 }
 
 }  // namespace myoid

@@ -10,7 +10,7 @@
 #include "myoid/core/error.h"
 #include "myoid/core/provenance.h"
 #include "myoid/files/text_file.h"
-#include "myoid/study/study_json.h"
+#include "myoid/study/study_text.h"
 
 namespace myoid {
 namespace {

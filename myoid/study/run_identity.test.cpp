@@ -7,7 +7,7 @@
 #include "myoid/core/provenance.h"
 #include "myoid/files/atomic_file.h"
 #include "myoid/results/parameter_files.h"
-#include "myoid/study/study_json.h"
+#include "myoid/study/study_text.h"
 
 #include "tests/support/temporary_folder.h"
 

@@ -10,9 +10,8 @@
 #include "myoid/files/text_file.h"
 #include "myoid/files/toml_table.h"
 #include "myoid/identification/parameters.h"
-#include "myoid/study/muscle_table.h"
+#include "myoid/study/setting_reader.h"
 #include "myoid/study/study_settings.h"
-#include "myoid/study/trial_table.h"
 
 namespace myoid {
 namespace {
@@ -86,15 +85,13 @@ void check_references(const Study& study) {
 
 Study parse_study(std::string_view text, const std::filesystem::path& file) {
   const toml::table root = recording::parse_toml(text, file);
-  const std::filesystem::path folder = file.parent_path();
   TomlTable table(root, file, "study");
   Study study;
   study.file = file;
-  read_settings(table, folder, study);
-  for (TomlTable& t : table.tables("muscle")) study.muscles.push_back(read_muscle(t));
-  for (TomlTable& t : table.tables("trial")) study.trials.push_back(read_trial(t, folder));
-  for (TomlTable& t : table.tables("parameter")) study.parameters.push_back(read_rule(t));
+  SettingReader reader(table, file.parent_path());
+  visit(study, reader);
   table.finish();
+  if (!study.model.file && study.model.builtin.empty()) study.model.builtin = "arm4";
   for (MuscleSpec& muscle : study.muscles) {
     if (!muscle.same_as) continue;
     for (const MuscleSpec& other : study.muscles) {

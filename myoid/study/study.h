@@ -31,12 +31,14 @@ struct SubjectSpec {
   std::optional<double> mass_kg;
   Sex sex = Sex::unstated;
   std::vector<std::string> notes;  ///< Assumptions of the user's own, printed in the report.
+  bool operator==(const SubjectSpec&) const = default;
 };
 
 /// A point of a body where the held mass of a trial acts.
 struct HeldMassSpec {
   std::string body;
   Vec3 p_BP_m = Vec3::Zero();  ///< In the body's frame [m].
+  bool operator==(const HeldMassSpec&) const = default;
 };
 
 struct ModelSpec {
@@ -50,6 +52,7 @@ struct ModelSpec {
   std::string coordinate = "elbow_flexion";   ///< The joint whose torque the muscles share.
   std::vector<std::string> more_coordinates;  ///< Further joints that the same muscles cross.
   std::optional<HeldMassSpec> held_mass;
+  bool operator==(const ModelSpec&) const = default;
 };
 
 /// A load cell in something that the person holds.
@@ -63,6 +66,7 @@ struct LoadCellSpec {
   std::string frame;  ///< Body of that model: the cell's axes and origin.
   std::string body;   ///< Body of the person that feels the load.
   std::optional<double> lowpass_hz;  ///< Empty: as the motion.
+  bool operator==(const LoadCellSpec&) const = default;
 };
 
 enum class Smoothing { automatic, none, cutoff };
@@ -73,14 +77,16 @@ struct MotionSpec {
   Smoothing smoothing = Smoothing::automatic;
   double cutoff_hz = 6.0;  ///< -3 dB of the two passes together, when `smoothing` is cutoff.
   double rate_hz = 100.0;  ///< Of the samples that are analysed.
+  bool operator==(const MotionSpec&) const = default;
 };
 
 struct MarkerSpec {
   std::map<std::string, std::string> rename;  ///< From the file's name to the model's.
   std::map<std::string, double> weight;       ///< By the model's name; 1 where absent.
-  char up = 'y';           ///< Vertical axis: 'x', 'y', 'z'; 'a': as each file says.
+  char up = 'a';           ///< Vertical axis: 'x', 'y', 'z'; 'a': as each file says.
   bool undo_swaps = true;  ///< Labels that were exchanged are exchanged back.
   bool fill_gaps = true;   ///< By splines, and from the segment's other markers.
+  bool operator==(const MarkerSpec&) const = default;
 };
 
 /// Coordinates that are measured once, in a posture that is known, and then held.
@@ -88,12 +94,14 @@ struct CalibrationSpec {
   std::vector<double> window_s;   ///< Start and end in the trial.
   std::vector<std::string> free;  ///< Found in the window, all others at their default ...
   std::vector<std::string> hold;  ///< ... and these of them then locked at their median.
+  bool operator==(const CalibrationSpec&) const = default;
 };
 
 struct IkSpec {
   std::vector<std::string> unlock;  ///< Coordinates that the model locks and this study frees.
   std::vector<std::string> lock;    ///< Held at their default value.
   std::optional<CalibrationSpec> calibrate;
+  bool operator==(const IkSpec&) const = default;
 };
 
 enum class EmgKind { raw, envelope, activation };
@@ -115,6 +123,7 @@ struct EmgSpec {
   double mvc_effort = 1.0, mvc_effort_sd = 0.0;
   bool has_mvc = true;  ///< False: no trial is a maximal contraction (set from the trials).
   std::optional<double> delay_s;  ///< Empty: estimated.
+  bool operator==(const EmgSpec&) const = default;
 };
 
 struct MuscleSpec {
@@ -125,6 +134,7 @@ struct MuscleSpec {
       same_as;  ///< Muscle whose channel is used, where there is no electrode.
   std::map<std::string, double> start;  ///< Starting values by parameter name, SI.
   std::vector<std::string> fixed;       ///< Parameters held at their start.
+  bool operator==(const MuscleSpec&) const = default;
 };
 
 /// The trace that EMG and motion have in common, by which their clocks are joined.
@@ -151,6 +161,7 @@ struct SyncSpec {
   double search_s = 0.6;        ///< How far "estimate" and "shape" look, either way.
   double loads_offset_s = 0.0;  ///< Added to the times of the loads' file.
   double loads_drift_ppm = 0.0;
+  bool operator==(const SyncSpec&) const = default;
 };
 
 /// Force plates under the person.
@@ -159,6 +170,7 @@ struct PlateSpec {
   std::vector<std::string> bodies;   ///< By plate; empty: found from the markers.
   double least_force_n = 10.0;       ///< Below it a plate bears nothing.
   std::optional<double> lowpass_hz;  ///< Empty: as the motion.
+  bool operator==(const PlateSpec&) const = default;
 };
 
 struct TrialSpec {
@@ -176,18 +188,21 @@ struct TrialSpec {
   std::string condition;  ///< Trials of one name are left out together by folds = "condition".
   std::optional<double> start_s, end_s;  ///< On the clock of the motion.
   std::optional<SyncSpec> sync;
+  bool operator==(const TrialSpec&) const = default;
 };
 
 struct SharingSpec {
   forces::SharingObjective objective = forces::SharingObjective::activation;
   double exponent = 2.0;
   double reserve_nm = 1.0;  ///< Optimal force of the reserve on the coordinate.
+  bool operator==(const SharingSpec&) const = default;
 };
 
 /// What becomes of warm-up and fatigue.
 struct PhasesSpec {
   bool search = true;
   std::vector<PhaseKind> exclude{PhaseKind::warm_up, PhaseKind::fatigued};  ///< Not fitted.
+  bool operator==(const PhasesSpec&) const = default;
 };
 
 struct IdentifySpec {
@@ -211,9 +226,10 @@ struct IdentifySpec {
   bool model_muscles = false;   ///< Pennation and passive force as the model has them; else none.
   bool elastic_tendon = false;  ///< The model's tendon strain, quasi-static; else rigid.
   bool delay_per_channel = false;
-  double angle_sd_rad = 0.0;  ///< Error of the joint angle and of its rate, propagated.
-  double angle_rate_sd_radps = 0.0;
+  double angle_sd_deg = 0.0;  ///< Error of the joint angle and of its rate, propagated.
+  double angle_rate_sd_degps = 0.0;
   double max_rate_hz = identification::EstimatorOptions{}.max_rate_hz;
+  bool operator==(const IdentifySpec&) const = default;
 };
 
 /// What to do, as read from a study.toml. Paths are absolute or relative to the working directory,
@@ -235,6 +251,7 @@ struct Study {
   std::vector<TrialSpec> trials;
   std::vector<identification::ParameterRule> parameters;  ///< [[parameter]]
   std::optional<std::filesystem::path> truth;
+  bool operator==(const Study&) const = default;
 };
 
 /// Every coordinate whose torque the muscles share, the main one first.

@@ -1,305 +1,379 @@
 #include "myoid/study/study_settings.h"
 
 #include <algorithm>
+#include <array>
 
 #include <fmt/format.h>
 
-#include "myoid/core/units.h"
+#include "myoid/study/muscle_table.h"
 #include "myoid/study/trial_table.h"
 #include "myoid/study/trial_up.h"
 
 namespace myoid {
+
+void visit(SubjectSpec& subject, SettingVisitor& v) {
+  v.text("name", subject.name, {.says = "The person's name or number, for the report."});
+  v.number("mass_kg", subject.mass_kg,
+           {.says = "Body mass, for the segments of the built-in arm.",
+            .limits = within(10.0, 350.0, "kg"),
+            .otherwise = "the literature's person"});
+  v.choice("sex", subject.sex,
+           {.says = "Selects the literature's segment masses.", .otherwise = "not stated"});
+  v.texts("notes", subject.notes, {.says = "Assumptions of your own, printed among the report's."});
+}
+
+void visit(HeldMassSpec& held, SettingVisitor& v) {
+  v.text("body", held.body,
+         {.says = "The body that carries the held mass.",
+          .required = "the body that carries the held mass"});
+  std::vector<double> at_m{held.p_BP_m.x(), held.p_BP_m.y(), held.p_BP_m.z()};
+  const bool given = v.numbers("at_m", at_m,
+                               {.says = "The point where it acts, in the body's frame.",
+                                .limits = any_number("m"),
+                                .otherwise = "required",
+                                .count = 3});
+  held.p_BP_m = Vec3(at_m[0], at_m[1], at_m[2]);
+  v.must(given, "at_m", "expected the point's three coordinates in the body [m]");
+  constexpr double kFarthest_m = 2.0;  // the end of a pole that a person holds
+  v.must(held.p_BP_m.norm() <= kFarthest_m, "at_m",
+         fmt::format("found a point {:.3g} m from the body's origin, expected less than {} m; is "
+                     "it in cm or mm?",
+                     held.p_BP_m.norm(), kFarthest_m));
+}
+
 namespace {
 
-using recording::TomlTable;
-
-/// A length of a person, adult or child, in meters; what lies outside is in another unit.
-std::optional<double> segment_length(TomlTable& table, const char* key) {
-  constexpr double kShortest_m = 0.08, kLongest_m = 0.5;
-  if (!table.has(key)) return std::nullopt;
-  const double length_m = table.positive_number(key, 0.0);
-  if (length_m < kShortest_m || length_m > kLongest_m) {
-    const char* unit = length_m > 5.0 && length_m < 60.0      ? "; is it in cm? Divide by 100"
-                       : length_m > 60.0 && length_m < 1000.0 ? "; is it in mm? Divide by 1000"
-                                                              : "";
-    table.fail(key, fmt::format("found {} m, expected {} to {} m, as people's arms have{}",
-                                length_m, kShortest_m, kLongest_m, unit));
-  }
-  return length_m;
-}
-
-SubjectSpec read_subject(TomlTable table) {
-  SubjectSpec subject;
-  subject.name = table.text("name").value_or(subject.name);
-  if (table.has("mass_kg")) {
-    subject.mass_kg = table.positive_number("mass_kg", 0.0);
-    if (*subject.mass_kg < 10.0 || *subject.mass_kg > 350.0) {
-      table.fail("mass_kg", fmt::format("found {} kg, expected a person's mass in kilograms",
-                                        *subject.mass_kg));
-    }
-  }
-  subject.sex = table.choice("sex", subject.sex);
-  if (auto notes = table.texts("notes")) subject.notes = *notes;
-  table.finish();
-  return subject;
-}
-
-ModelSpec read_model(TomlTable table, const std::filesystem::path& folder) {
-  ModelSpec model;
-  if (auto file = table.text("file")) model.file = folder / *file;
-  model.builtin = table.choice("builtin", model.file ? "" : "arm4", {"", "arm4"});
-  if (model.file && !model.builtin.empty()) {
-    table.fail("builtin", "give either 'file' or 'builtin', not both");
-  }
-  model.upper_arm_length_m = segment_length(table, "upper_arm_length_m");
-  model.forearm_length_m = segment_length(table, "forearm_length_m");
-  model.horizontal = table.choice("plane", "vertical", {"vertical", "horizontal"}) == "horizontal";
-  model.forearm_rotations = table.flag("forearm_rotations").value_or(false);
-  if (const auto names = table.texts("coordinate")) {
-    for (std::size_t i = 0; i < names->size(); ++i) {
-      if (std::find(names->begin(), names->begin() + static_cast<std::ptrdiff_t>(i), (*names)[i]) !=
-          names->begin() + static_cast<std::ptrdiff_t>(i))
-        table.fail("coordinate", fmt::format("'{}' is named twice", (*names)[i]));
-    }
-    if (names->empty()) table.fail("coordinate", "expected the name of a joint coordinate");
-    model.coordinate = names->front();
-    model.more_coordinates.assign(names->begin() + 1, names->end());
-  }
-  if (auto held = table.table("held_mass")) {
-    HeldMassSpec spec;
-    spec.body = held->require_text("body", "the body that carries the held mass");
-    const auto at = held->numbers("at_m");
-    if (!at || at->size() != 3)
-      held->fail("at_m", "expected the point's three coordinates in the body [m]");
-    spec.p_BP_m = Vec3((*at)[0], (*at)[1], (*at)[2]);
-    constexpr double kFarthest_m = 2.0;  // what a person may hold at the end of a pole
-    if (spec.p_BP_m.norm() > kFarthest_m) {
-      held->fail("at_m", fmt::format("found a point {:.3g} m from the body's origin, expected less "
-                                     "than {} m; is it in cm or mm?",
-                                     spec.p_BP_m.norm(), kFarthest_m));
-    }
-    held->finish();
-    model.held_mass = spec;
-  }
-  table.finish();
-  return model;
-}
-
-MotionSpec read_motion(TomlTable table) {
-  MotionSpec motion;
-  if (table.has("cutoff_hz")) {
-    motion.smoothing = Smoothing::cutoff;
-    motion.cutoff_hz = table.number_within("cutoff_hz", 6.0, 0.1, 500.0, "Hz");
-    (void)table.choice("smoothing", "cutoff", {"cutoff"});
-  } else {
-    motion.smoothing = table.choice("smoothing", motion.smoothing);
-  }
-  motion.rate_hz = table.number_within("rate_hz", motion.rate_hz, 10.0, 2000.0, "Hz");
-  table.finish();
-  return motion;
-}
-
-MarkerSpec read_markers(TomlTable table) {
-  MarkerSpec markers;
-  markers.up = table.choice("up", "auto", {"auto", "x", "y", "z"})[0];
-  if (auto rename = table.table("rename")) {
-    for (const std::string& key : rename->keys()) markers.rename[key] = *rename->text(key);
-  }
-  if (auto weight = table.table("weight")) {
-    for (const std::string& key : weight->keys()) {
-      const double value = *weight->number(key);
-      if (value < 0.0)
-        weight->fail(key, fmt::format("found {}, expected a weight of 0 or more", value));
-      markers.weight[key] = value;
-    }
-  }
-  markers.undo_swaps = table.flag("undo_swaps").value_or(markers.undo_swaps);
-  markers.fill_gaps = table.flag("fill_gaps").value_or(markers.fill_gaps);
-  table.finish();
-  return markers;
-}
-
-IkSpec read_ik(TomlTable table) {
-  IkSpec ik;
-  ik.unlock = table.texts("unlock").value_or(ik.unlock);
-  ik.lock = table.texts("lock").value_or(ik.lock);
-  if (auto calibrate = table.table("calibrate")) {
-    CalibrationSpec spec;
-    spec.window_s = calibrate->numbers("window_s").value_or(std::vector<double>{});
-    if (spec.window_s.size() != 2 || !(spec.window_s[0] < spec.window_s[1])) {
-      calibrate->fail("window_s", "expected [start, end] in seconds, start before end");
-    }
-    spec.free = calibrate->texts("free").value_or(spec.free);
-    spec.hold = calibrate->texts("hold").value_or(spec.free);
-    if (spec.free.empty())
-      calibrate->fail("free", "expected the coordinates to find in the window");
-    calibrate->finish();
-    ik.calibrate = spec;
-  }
-  table.finish();
-  return ik;
-}
-
-EmgSpec read_emg(TomlTable table) {
-  EmgSpec emg;
-  emg.kind = table.choice("kind", emg.kind);
-  emg.unit = table.text("unit").value_or("");
-  emg.rectify = table.flag("rectify").value_or(emg.rectify);
-  emg.notch = table.choice("notch", "auto", {"auto", "none"}) == "auto";
-  emg.whitening = table.flag("whitening").value_or(emg.whitening);
-  emg.highpass_hz = table.positive_number("highpass_hz", emg.highpass_hz);
-  emg.lowpass_hz = table.positive_number("lowpass_hz", emg.lowpass_hz);
-  emg.as_published = table.flag("as_published").value_or(emg.as_published);
-  (void)table.choice("normalise", "max", {"max"});
-  emg.normalise_window_s =
-      table.number_within("normalise_window_s", emg.normalise_window_s, 0.01, 60.0, "s");
-  emg.mvc_effort = table.number_within("mvc_effort", emg.mvc_effort, 0.3, 1.0, "");
-  emg.mvc_effort_sd = table.number_within("mvc_effort_sd", emg.mvc_effort_sd, 0.0, 0.3, "");
-  if (table.is_text("delay_s")) {
-    (void)table.choice("delay_s", "estimate", {"estimate"});
-  } else if (auto delay = table.number("delay_s")) {
-    if (*delay < 0.0 || *delay > 0.3) {
-      table.fail("delay_s", fmt::format("found {} s, expected 0 to 0.3 s or \"estimate\"", *delay));
-    }
-    emg.delay_s = delay;
-  }
-  table.finish();
-  return emg;
-}
-
-LoadCellSpec read_load_cell(TomlTable table, const std::filesystem::path& folder) {
-  LoadCellSpec cell;
-  cell.channels = table.texts("channels").value_or(cell.channels);
-  if (cell.channels.size() != 6) {
-    table.fail("channels",
-               fmt::format("found {} names, expected six: those of the matrix's columns",
-                           cell.channels.size()));
-  }
-  cell.calibration =
-      folder / table.require_text("calibration", "the file of the 6 x 6 matrix [N/V] and [N m/V]");
-  cell.sign = table.number("sign").value_or(cell.sign);
-  if (cell.sign != 1.0 && cell.sign != -1.0) table.fail("sign", "expected 1 or -1");
-  cell.zero_s = table.numbers("zero_s").value_or(cell.zero_s);
-  if (cell.zero_s.size() != 2 || !(cell.zero_s[0] < cell.zero_s[1]))
-    table.fail("zero_s", "expected [start, end] in seconds, start before end");
-  if (auto file = table.text("instrument")) cell.instrument = folder / *file;
-  cell.frame = table.require_text("frame", "the body of the instrument that is the cell");
-  cell.body = table.require_text("body", "the body of the person that feels the load");
-  if (table.has("lowpass_hz")) cell.lowpass_hz = table.positive_number("lowpass_hz", 0.0);
-  table.finish();
-  return cell;
-}
-
-SharingSpec read_sharing(TomlTable table) {
-  SharingSpec sharing;
-  sharing.objective = table.choice("objective", sharing.objective);
-  sharing.exponent = table.number("exponent").value_or(sharing.exponent);
-  if (!(sharing.exponent > 1.0))
-    table.fail("exponent", "expected a number above 1 (2 or 3 is usual)");
-  sharing.reserve_nm = table.positive_number("reserve_nm", sharing.reserve_nm);
-  table.finish();
-  return sharing;
-}
-
-PhasesSpec read_phases(TomlTable table) {
-  PhasesSpec phases;
-  phases.search = table.flag("search").value_or(phases.search);
-  if (auto exclude = table.texts("exclude")) {
-    phases.exclude.clear();
-    for (const std::string& word : *exclude) {
-      const auto kind = choice_named<PhaseKind>(word);
-      if (!kind || *kind == PhaseKind::regular)
-        table.fail("exclude",
-                   fmt::format("found \"{}\", expected \"warm_up\", \"fatigued\", \"changed\", "
-                               "\"isometric\" or \"rest\"",
-                               word));
-      phases.exclude.push_back(*kind);
-    }
-  }
-  table.finish();
-  return phases;
-}
-
-IdentifySpec read_identify(TomlTable table) {
-  IdentifySpec identify;
-  if (auto methods = table.texts("method")) {
-    identify.methods.clear();
-    for (const std::string& word : *methods) {
-      const auto method = choice_named<identification::Method>(word);
-      if (!method)
-        table.fail("method",
-                   fmt::format("found \"{}\", expected \"paper\", \"force\" or \"torque\"", word));
-      identify.methods.push_back(*method);
-    }
-  }
-  if (auto muscles = table.texts("muscles");
-      muscles && *muscles != std::vector<std::string>{"all"}) {
-    identify.muscles = *muscles;
-  }
-  identify.force_loop = table.flag("force_loop").value_or(identify.force_loop);
-  identify.priors = table.flag("priors").value_or(identify.priors);
-  identify.gain = table.flag("gain").value_or(identify.gain);
-  identify.cross_validate = table.flag("cross_validate").value_or(identify.cross_validate);
-  const auto count = [&](std::string_view key, int otherwise, int least, int most) {
-    const double value = table.number_within(key, otherwise, least, most, "");
-    if (value != std::floor(value))
-      table.fail(key, fmt::format("found {}, expected a whole number", value));
-    return static_cast<int>(value);
-  };
-  identify.next_movements = count("next_movements", identify.next_movements, 0, 50);
-  identify.folds = table.choice("folds", identify.folds);
-  identify.bootstrap = count("bootstrap", identify.bootstrap, 0, 100000);
-  identify.profile = table.flag("profile").value_or(identify.profile);
-  identify.starts = count("starts", identify.starts, 1, 1000);
-  identify.loss = table.choice("loss", identify.loss);
-  identify.eccentric = table.choice("eccentric", identify.eccentric);
-  identify.normalised = table.flag("normalised").value_or(identify.normalised);
-  identify.lag = table.choice("lag", identify.lag);
-  identify.dynamics = table.flag("dynamics").value_or(identify.dynamics);
-  if (identify.dynamics && table.has("lag")) {
-    table.fail("lag",
-               "it stands beside dynamics = true, which is a third way to follow the EMG; leave "
-               "one of both out");
-  }
-  identify.model_muscles = table.choice("muscle_law", "paper", {"paper", "model"}) == "model";
-  identify.elastic_tendon = table.choice("tendon", "rigid", {"rigid", "elastic"}) == "elastic";
-  identify.delay_per_channel = table.flag("delay_per_channel").value_or(identify.delay_per_channel);
-  const auto not_negative = [&](std::string_view key) {
-    const double value = table.number(key).value_or(0.0);
-    if (value < 0.0) table.fail(key, fmt::format("found {}, expected 0 or more", value));
-    return value;
-  };
-  identify.angle_sd_rad = not_negative("angle_sd_deg") * kDegree;
-  identify.angle_rate_sd_radps = not_negative("angle_rate_sd_degps") * kDegree;
-  identify.max_rate_hz =
-      table.number_within("max_rate_hz", identify.max_rate_hz, 5.0, 2000.0, "Hz");
-  table.finish();
-  return identify;
+/// The joints of a study stand in one list, the main one first.
+void visit_coordinates(ModelSpec& model, SettingVisitor& v) {
+  std::vector<std::string> names = study_coordinates(model);
+  v.texts("coordinate", names,
+          {.says = "The joint whose torque the muscles share; or several that the same muscles "
+                   "cross, `[\"knee_angle_r\", \"ankle_angle_r\"]`: method `torque` fits all their "
+                   "torques at once, force sharing balances them all, and each is validated."});
+  v.must(!names.empty(), "coordinate", "expected the name of a joint coordinate");
+  for (auto it = names.begin(); it != names.end(); ++it)
+    v.must(std::find(names.begin(), it, *it) == it, "coordinate",
+           fmt::format("'{}' is named twice", *it));
+  model.coordinate = names.front();
+  model.more_coordinates.assign(names.begin() + 1, names.end());
 }
 
 }  // namespace
 
-void read_settings(TomlTable& table, const std::filesystem::path& folder, Study& study) {
-  if (auto t = table.table("subject")) study.subject = read_subject(*t);
-  if (auto t = table.table("model")) {
-    study.model = read_model(*t, folder);
-  } else {
-    study.model.builtin = "arm4";
+void visit(ModelSpec& model, SettingVisitor& v) {
+  static constexpr std::string_view kBuiltIn[] = {"", "arm4"};
+  static constexpr std::string_view kPlanes[] = {"vertical", "horizontal"};
+  constexpr SettingLimits kArms = within(0.08, 0.5, "m");  // of people, children too
+  v.path("file", model.file, {.says = "The model, `.osim`."});
+  v.text("builtin", model.builtin,
+         {.says = "`arm4`: trunk, upper arm, forearm with hand; BIC, BRA, BRD, TRI.",
+          .otherwise = "`arm4` without a `file`",
+          .words = kBuiltIn});
+  v.must(!model.file || model.builtin.empty(), "builtin",
+         "give either 'file' or 'builtin', not both");
+  v.number("upper_arm_length_m", model.upper_arm_length_m,
+           {.says = "Of the built-in arm.",
+            .limits = kArms,
+            .otherwise = "from markers, else the literature"});
+  v.number("forearm_length_m", model.forearm_length_m,
+           {.says = "Of the built-in arm, from elbow to wrist.",
+            .limits = kArms,
+            .otherwise = "from markers, else the literature"});
+  v.either("plane", model.horizontal,
+           {.says = "Plane of the built-in arm's movement.", .words = kPlanes});
+  v.flag("forearm_rotations", model.forearm_rotations,
+         {.says = "The built-in arm has a movable base, a carrying angle and forearm rotation, for "
+                  "landmarks that all move with the forearm."});
+  visit_coordinates(model, v);
+  v.table("held_mass", model.held_mass,
+          {.says = "The place where a trial's `held_mass_kg` acts.",
+           .otherwise = "the built-in arm's palm"});
+}
+
+void visit(MotionSpec& motion, SettingVisitor& v) {
+  const bool stated =
+      v.choice("smoothing", motion.smoothing,
+               {.says = "`auto`: as the EMG's `lowpass_hz`, so that torque and prediction hold the "
+                        "same band; `cutoff`: at `cutoff_hz`."});
+  std::optional<double> cutoff_hz;
+  if (motion.smoothing == Smoothing::cutoff) cutoff_hz = motion.cutoff_hz;
+  const bool given =
+      v.number("cutoff_hz", cutoff_hz,
+               {.says = "Smoothing at this frequency, −3 dB of both passes together; "
+                        "below 0.45 of the recording's rate.",
+                .limits = within(0.1, 500.0, "Hz"),
+                .otherwise = "6 with `smoothing = \"cutoff\"`"});
+  if (given) {
+    v.must(!stated || motion.smoothing == Smoothing::cutoff, "smoothing",
+           "it stands beside cutoff_hz, which says how to smooth; expected cutoff");
+    motion.smoothing = Smoothing::cutoff;
+    motion.cutoff_hz = *cutoff_hz;
   }
-  if (auto t = table.table("motion")) study.motion = read_motion(*t);
-  study.markers.up = kUpOfTheFile;
-  if (auto t = table.table("markers")) study.markers = read_markers(*t);
-  if (auto t = table.table("ik")) study.ik = read_ik(*t);
-  if (auto t = table.table("emg")) study.emg = read_emg(*t);
-  if (auto t = table.table("sync")) study.sync = read_sync(*t, folder);
-  if (auto t = table.table("load_cell")) study.load_cell = read_load_cell(*t, folder);
-  if (auto t = table.table("sharing")) study.sharing = read_sharing(*t);
-  if (auto t = table.table("phases")) study.phases = read_phases(*t);
-  if (auto t = table.table("identify")) study.identify = read_identify(*t);
-  if (auto t = table.table("truth")) {
-    study.truth = folder / t->require_text("file", "the table of true values, truth.csv");
-    t->finish();
-  }
+  v.number(
+      "rate_hz", motion.rate_hz,
+      {.says = "Rate of the samples that are analyzed.", .limits = within(10.0, 2000.0, "Hz")});
+}
+
+void visit(MarkerSpec& markers, SettingVisitor& v) {
+  static constexpr std::string_view kUps[] = {"auto", "x", "y", "z"};
+  std::string up = markers.up == kUpOfTheFile ? "auto" : std::string(1, markers.up);
+  v.text("up", up,
+         {.says = "The laboratory's vertical, of markers and force plates; it is turned onto the "
+                  "model's, against its gravity. `auto`: [as each `.c3d` file "
+                  "says](c3d.md#which-way-is-up), the model's for files that do not.",
+          .words = kUps});
+  markers.up = up == "auto" ? kUpOfTheFile : up.front();
+  v.texts_by_name("rename", markers.rename,
+                  {.says = "Marker name of the file = that of the model."});
+  v.numbers_by_name("weight", markers.weight,
+                    {.says = "Weight in inverse kinematics, by the model's marker name.",
+                     .limits = zero_or_more(),
+                     .otherwise = "1 each"});
+  v.flag("undo_swaps", markers.undo_swaps, {.says = "Exchanged labels are exchanged back."});
+  v.flag("fill_gaps", markers.fill_gaps,
+         {.says = "[Gaps are filled](check.md#what-is-mended) where something is known."});
+}
+
+void visit(CalibrationSpec& calibrate, SettingVisitor& v) {
+  v.numbers("window_s", calibrate.window_s,
+            {.says = "Start and end of the known posture.",
+             .limits = any_number("s"),
+             .otherwise = "required",
+             .count = 2});
+  v.must(calibrate.window_s.size() == 2 && calibrate.window_s[0] < calibrate.window_s[1],
+         "window_s", "expected [start, end] in seconds, start before end");
+  v.texts("free", calibrate.free,
+          {.says = "The coordinates that are found there.", .otherwise = "required"});
+  v.must(!calibrate.free.empty(), "free", "expected the coordinates to find in the window");
+  const bool held =
+      v.texts("hold", calibrate.hold,
+              {.says = "Which of them stay fixed afterwards.", .otherwise = "all of `free`"});
+  if (!held && calibrate.hold.empty()) calibrate.hold = calibrate.free;
+}
+
+void visit(IkSpec& ik, SettingVisitor& v) {
+  v.texts("unlock", ik.unlock,
+          {.says = "Coordinates that are freed although the model locks them."});
+  v.texts("lock", ik.lock, {.says = "Coordinates that are held at their default value."});
+  v.table("calibrate", ik.calibrate, {.says = "Coordinates that are found once and then held."});
+}
+
+void visit(EmgSpec& emg, SettingVisitor& v) {
+  static constexpr std::string_view kNotch[] = {"none", "auto"};
+  static constexpr std::string_view kNormalise[] = {"max"};
+  v.choice("kind", emg.kind, {.says = "How far the EMG is processed already."});
+  v.text("unit", emg.unit,
+         {.says = "`V`, `mV` or `uV`, if the file does not say.", .otherwise = "as the file says"});
+  v.flag("rectify", emg.rectify,
+         {.says = "First step of [the chain](emg.md) after the high-pass."});
+  v.either("notch", emg.notch,
+           {.says = "`auto`: takes mains hum out [where it is found](check.md).", .words = kNotch});
+  v.flag(
+      "whitening", emg.whitening,
+      {.says = "Raw EMG is [whitened](../theory/emg.md#whitening) before it is rectified, in all "
+               "channels or in none, as the recording allows; the report says which, and why. "
+               "`false`: in none."});
+  v.number("highpass_hz", emg.highpass_hz,
+           {.says = "High-pass of raw EMG.", .limits = above_zero("Hz")});
+  v.number("lowpass_hz", emg.lowpass_hz,
+           {.says = "Low-pass of the rectified EMG, −3 dB of both passes together.",
+            .limits = above_zero("Hz")});
+  v.flag("as_published", emg.as_published,
+         {.says = "The source paper's design: no high-pass, uncorrected low-pass."});
+  std::string normalise(kNormalise[0]);
+  v.text("normalise", normalise,
+         {.says = "`max`: the largest effort over all maximal and task trials counts as 1; the "
+                  "report names it.",
+          .words = kNormalise});
+  v.number(
+      "normalise_window_s", emg.normalise_window_s,
+      {.says = "Length of the moving mean that counts as 1.", .limits = within(0.01, 60.0, "s")});
+  v.number("mvc_effort", emg.mvc_effort,
+           {.says = "Share of what the muscles could exert that the `mvc` trials reach, e.g. 0.9; "
+                    "see [below](#what-f_max-means).",
+            .limits = within(0.3, 1.0)});
+  v.number("mvc_effort_sd", emg.mvc_effort_sd,
+           {.says = "How widely people differ in it, e.g. 0.06.", .limits = within(0.0, 0.3)});
+  bool estimated = !emg.delay_s;
+  v.number("delay_s", emg.delay_s, estimated,
+           {.says = "Delay between EMG and force.",
+            .limits = within(0.0, 0.3, "s"),
+            .word = "estimate"});
+}
+
+void visit(LoadCellSpec& cell, SettingVisitor& v) {
+  v.texts("channels", cell.channels,
+          {.says = "Six channels, in the order of the matrix's columns.",
+           .otherwise = "required",
+           .count = 6});
+  v.must(!cell.channels.empty(), "channels",
+         "expected six names: the channels of the matrix's columns");
+  v.path("calibration", cell.calibration,
+         {.says = "File of six rows (Fx, Fy, Fz, Mx, My, Mz) of six numbers, N and N m for each "
+                  "volt.",
+          .required = "the file of the 6 x 6 matrix [N/V] and [N m/V]"});
+  v.number("sign", cell.sign,
+           {.says = "`-1` where the cell measures the opposite of what the body feels.",
+            .limits = within(-1.0, 1.0)});
+  v.must(cell.sign == 1.0 || cell.sign == -1.0, "sign", "expected 1 or -1");
+  v.numbers("zero_s", cell.zero_s,
+            {.says = "Start and end of a time when nothing acts on it; its median is the zero.",
+             .limits = any_number("s"),
+             .count = 2});
+  v.must(cell.zero_s[0] < cell.zero_s[1], "zero_s",
+         "expected [start, end] in seconds, start before end");
+  v.path("instrument", cell.instrument,
+         {.says = "`.osim` of the object that holds the cell; the trial's markers pose it.",
+          .otherwise = "the study's model"});
+  v.text("frame", cell.frame,
+         {.says = "The body of the instrument that is the cell.",
+          .required = "the body of the instrument that is the cell"});
+  v.text("body", cell.body,
+         {.says = "The body of the person that feels the load.",
+          .required = "the body of the person that feels the load"});
+  v.number("lowpass_hz", cell.lowpass_hz,
+           {.says = "Smoothing, −3 dB of both passes together.",
+            .limits = above_zero("Hz"),
+            .otherwise = "as the motion is smoothed"});
+}
+
+void visit(SharingSpec& sharing, SettingVisitor& v) {
+  v.choice("objective", sharing.objective,
+           {.says = "The quantity of which [force sharing](so.md) uses the least, for method "
+                    "`paper`."});
+  v.number("exponent", sharing.exponent,
+           {.says = "Exponent of the sum; 2 or 3 is usual.",
+            .limits = {.lower = 1.0, .above_lower = true}});
+  v.number(
+      "reserve_nm", sharing.reserve_nm,
+      {.says = "Optimal torque of the reserve on the coordinate.", .limits = above_zero("N m")});
+}
+
+void visit(PhasesSpec& phases, SettingVisitor& v) {
+  v.flag("search", phases.search, {.says = "Warm-up and fatigue are looked for."});
+  v.choices("exclude", phases.exclude,
+            {.says = "The phases that are not fitted. Fatigue that no raw EMG confirms stays in.",
+             .words = choice_names(PhaseKind{}).first<5>()});  // all but the regular one
+}
+
+namespace {
+
+/// [identify]: the fit itself.
+void visit_fit(IdentifySpec& identify, SettingVisitor& v) {
+  static constexpr std::string_view kMuscleLaws[] = {"paper", "model"};
+  static constexpr std::string_view kTendons[] = {"rigid", "elastic"};
+  v.choices("method", identify.methods, {.says = "The methods, one or several."});
+  v.texts("muscles", identify.muscles,
+          {.says = "The muscles whose parameters are found.", .word = "all"});
+  v.flag("force_loop", identify.force_loop,
+         {.says = "Share the torque with the muscles found, fit them to their forces, share again, "
+                  "until nothing changes. The end is reported: `converged`, `diverged` (a gate "
+                  "fails) or `not_settled`."});
+  v.flag("priors", identify.priors,
+         {.says = "[What is known of people](../theory/priors.md) is used."});
+  v.flag("gain", identify.gain,
+         {.says = "The uncertainty of the EMG's normalization widens the intervals."});
+  v.count("starts", identify.starts,
+          {.says = "Above 1: the search begins at the literature's values and at Sobol points over "
+                   "± 2 standard deviations of what is known of people, and the lowest minimum "
+                   "counts (`paper`: still that of the first, as published). A table of where they "
+                   "ended goes to the report and parameters.json (`searches`).",
+           .limits = within(1, 1000)});
+  v.choice("loss", identify.loss, {.says = "How much a large residual counts."});
+  v.choice("eccentric", identify.eccentric,
+           {.says = "Unknown of the lengthening branch: `product` (V_sh V_shl), `slope_ratio` (of "
+                    "f_v, lengthening over shortening), `smooth` (ratio 1, no kink), `automatic` "
+                    "(the ratio where priors are used)."});
+  v.flag("normalised", identify.normalised, {.says = "l_mˢʰ and v_max keep their ratio to l_m⁰."});
+  v.either("muscle_law", identify.model_muscles,
+           {.says = "`paper`: neither pennation nor passive force; `model`: as the model's muscles "
+                    "have them.",
+            .words = kMuscleLaws});
+  v.either("tendon", identify.elastic_tendon,
+           {.says = "`elastic`: quasi-static, with the strain that the model's muscles have.",
+            .words = kTendons});
+}
+
+/// [identify]: how a muscle follows its EMG.
+void visit_lag(IdentifySpec& identify, SettingVisitor& v) {
+  v.flag("dynamics", identify.dynamics,
+         {.says = "A third way, not beside `lag`: the envelope becomes activation by the two lags "
+                  "of the source paper's equation (1), and `emg_delay` is the delay left beside "
+                  "them. `[[parameter]]` of `excitation_time`, `activation_time`, "
+                  "`deactivation_time` needs it."});
+  const bool stated =
+      v.choice("lag", identify.lag,
+               {.says = "`delay`: the activation is the envelope of `emg_delay` ago; `shared`: the "
+                        "delay is the mean of a pure one and the lags of excitation and "
+                        "activation, which damp fast changes; `automatic`: the one that the "
+                        "recording prefers ([how](../theory/identification.md); method `force` has "
+                        "one muscle at a time and takes `delay`).",
+                .silent = identify.dynamics});
+  v.must(!identify.dynamics || !stated, "lag",
+         "it stands beside dynamics = true, which is a third way to follow the EMG; leave one of "
+         "both out");
+  v.flag("delay_per_channel", identify.delay_per_channel,
+         {.says = "Each EMG channel has a delay of its own."});
+}
+
+/// [identify]: validation, intervals and the samples that are fitted.
+void visit_data(IdentifySpec& identify, SettingVisitor& v) {
+  v.flag("cross_validate", identify.cross_validate,
+         {.says = "A part of the data is left out of the fit and predicted, each part in turn."});
+  v.choice("folds", identify.folds,
+           {.says = "The part that is left out: a trial; all trials of one `condition`; `block`: a "
+                    "fifth of every trial with half a second on either side."});
+  v.count("next_movements", identify.next_movements,
+          {.says = "Movements to suggest for the [next recording](design.md), from what this one "
+                   "tells; 0: none.",
+           .limits = within(0, 50)});
+  v.count("bootstrap", identify.bootstrap,
+          {.says = "Replicates, blocks of 2 s within trials: the second route to intervals; 0: "
+                   "none.",
+           .limits = within(0, 100000)});
+  v.flag("profile", identify.profile,
+         {.says = "Profile likelihood of every parameter, the third route."});
+  v.number("angle_sd_deg", identify.angle_sd_deg,
+           {.says = "Error of the joint angle, propagated into the weights.",
+            .limits = zero_or_more("deg")});
+  v.number("angle_rate_sd_degps", identify.angle_rate_sd_degps,
+           {.says = "Error of the angle's rate.", .limits = zero_or_more("deg/s")});
+  v.number("max_rate_hz", identify.max_rate_hz,
+           {.says = "Samples are thinned to at most this.", .limits = within(5.0, 2000.0, "Hz")});
+}
+
+}  // namespace
+
+void visit(IdentifySpec& identify, SettingVisitor& v) {
+  visit_fit(identify, v);
+  visit_lag(identify, v);
+  visit_data(identify, v);
+}
+
+void visit(Study& study, SettingVisitor& v) {
+  v.table("subject", study.subject, {.says = "The person."});
+  v.table("model", study.model, {.says = "The model of the body."});
+  v.table("motion", study.motion, {.says = "Smoothing and rate of the joint angles."});
+  v.table("markers", study.markers, {.says = "The markers of all trials."});
+  v.table("ik", study.ik, {.says = "Inverse kinematics."});
+  v.table("emg", study.emg, {.says = "The EMG of all trials."});
+  v.table("sync", study.sync, {.says = "The clocks of all trials."});
+  v.table("load_cell", study.load_cell,
+          {.says = "A load cell in something that the person holds; it acts in the trials that "
+                   "name a `load_cell`."});
+  v.table("sharing", study.sharing, {.says = "Force sharing, for method `paper`."});
+  v.table("phases", study.phases, {.says = "Warm-up and fatigue."});
+  v.table("identify", study.identify, {.says = "The identification."});
+  v.tables("muscle", study.muscles, {.says = "A muscle, or group, to identify."});
+  v.tables("trial", study.trials, {.says = "A recording."});
+  v.tables("parameter", study.parameters, {.says = "A wish for a parameter; later tables win."});
+  v.table("truth", study.truth.has_value(), {.says = "A virtual recording's true values."},
+          [&study](SettingVisitor& inside) {
+            inside.path(
+                "file", study.truth,
+                {.says = "True values of a virtual recording, printed beside the estimates.",
+                 .required = "the table of true values, truth.csv"});
+          });
 }
 
 }  // namespace myoid

@@ -1,15 +1,26 @@
 #pragma once
 
-#include <filesystem>
-
-#include "myoid/files/toml_table.h"
+#include "myoid/study/setting.h"
 #include "myoid/study/study.h"
 
 namespace myoid {
 
-/// Reads every table that a study has once, from [subject] to [truth], into `study`; what is absent
-/// keeps its default, and a study without [model] gets the built-in arm. Paths are resolved against
-/// `folder`. Throws ReadError with the line for a key, type or number that cannot be meant.
-void read_settings(recording::TomlTable& table, const std::filesystem::path& folder, Study& study);
+/// Name every setting of a table once: key, allowed values, default (the struct's), one sentence of
+/// the reference, and the rules that join it to other settings.
+void visit(SubjectSpec& subject, SettingVisitor& v);
+void visit(HeldMassSpec& held, SettingVisitor& v);
+void visit(ModelSpec& model, SettingVisitor& v);
+void visit(MotionSpec& motion, SettingVisitor& v);
+void visit(MarkerSpec& markers, SettingVisitor& v);
+void visit(CalibrationSpec& calibrate, SettingVisitor& v);
+void visit(IkSpec& ik, SettingVisitor& v);
+void visit(EmgSpec& emg, SettingVisitor& v);
+void visit(LoadCellSpec& cell, SettingVisitor& v);
+void visit(SharingSpec& sharing, SettingVisitor& v);
+void visit(PhasesSpec& phases, SettingVisitor& v);
+void visit(IdentifySpec& identify, SettingVisitor& v);
+
+/// Every table of a study.
+void visit(Study& study, SettingVisitor& v);
 
 }  // namespace myoid

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "myoid/study/setting_reader.h"
+
 #include "tests/support/message_of.h"
 
 namespace myoid {
@@ -11,19 +13,16 @@ namespace {
 
 Study settings_of(const std::string& text) {
   const toml::table root = recording::parse_toml(text, "dir/study.toml");
-  recording::TomlTable table(root, "dir/study.toml", "study");
-  Study study;
-  read_settings(table, "dir", study);
-  table.finish();
-  return study;
+  return read_spec<Study>({root, "dir/study.toml", "study"}, "dir");
 }
 
 std::string settings_message(const std::string& text) {
   return test::message_of([&] { (void)settings_of(text); });
 }
 
-TEST(StudySettings, WithoutAModelTheBuiltInArmIsUsed) {
-  EXPECT_EQ(settings_of("").model.builtin, "arm4");
+TEST(StudySettings, AModelIsAFileOrBuiltIn) {
+  EXPECT_NE(settings_message("[model]\nfile = \"a.osim\"\nbuiltin = \"arm4\"\n").find("not both"),
+            std::string::npos);
   const Study study = settings_of("[model]\nfile = \"a.osim\"\n");
   EXPECT_EQ(study.model.builtin, "");
   EXPECT_EQ(study.model.file, "dir/a.osim");
@@ -66,13 +65,28 @@ TEST(StudySettings, ADelayInMillisecondsIsRefused) {
 
 TEST(StudySettings, AngularErrorsAreGivenInDegrees) {
   const Study study = settings_of("[identify]\nangle_sd_deg = 180\nangle_rate_sd_degps = 90\n");
-  EXPECT_DOUBLE_EQ(study.identify.angle_sd_rad, 3.14159265358979323846);
-  EXPECT_DOUBLE_EQ(study.identify.angle_rate_sd_radps, 1.57079632679489661923);
+  EXPECT_EQ(study.identify.angle_sd_deg, 180.0);
+  EXPECT_EQ(study.identify.angle_rate_sd_degps, 90.0);
 }
 
 TEST(StudySettings, AJointNamedTwiceIsRefused) {
   EXPECT_NE(settings_message("[model]\ncoordinate = [\"knee\", \"knee\"]\n")
                 .find("'knee' is named twice"),
+            std::string::npos);
+}
+
+TEST(StudySettings, AMisspeltWordIsRefusedWithTheNearestKnownOne) {
+  EXPECT_NE(settings_message("[identify]\nloss = \"hubr\"\n").find("did you mean 'huber'"),
+            std::string::npos);
+  EXPECT_NE(settings_message("[phases]\nexclude = [\"regular\"]\n").find("found \"regular\""),
+            std::string::npos);
+}
+
+TEST(StudySettings, ACutOffSaysHowToSmooth) {
+  const Study study = settings_of("[motion]\ncutoff_hz = 8\n");
+  EXPECT_EQ(study.motion.smoothing, Smoothing::cutoff);
+  EXPECT_EQ(study.motion.cutoff_hz, 8.0);
+  EXPECT_NE(settings_message("[motion]\nsmoothing = \"none\"\ncutoff_hz = 8\n").find("smoothing"),
             std::string::npos);
 }
 

@@ -7,137 +7,181 @@
 
 namespace myoid {
 
-using recording::TomlTable;
+void visit(SyncSpec& sync, SettingVisitor& v) {
+  constexpr SettingLimits kDrift = within(-1e5, 1e5, "ppm");
+  v.number(
+      "offset_s", sync.offset_s, sync.estimate,
+      {.says = "Seconds to add to the EMG's times. `estimate`: found so that the EMG leads the "
+               "motion by 60 ± 54 ms, as people's does, ± a quarter of the movement's period "
+               "(0.2 to 0.3 s), since activation goes with velocity as well as with torque: "
+               "better than nothing, no match for a trigger.",
+       .limits = any_number("s"),
+       .word = "estimate"});
+  v.number("offset_sd_s", sync.offset_sd_s,
+           {.says = "Its standard deviation, if you know it.",
+            .limits = above_zero("s"),
+            .otherwise = "not stated"});
+  v.number(
+      "drift_ppm", sync.drift_ppm,
+      {.says = "How much too slowly the EMG's clock counts, in microseconds per second from its "
+               "time 0 on (50: a minute of it lasts 60.003 s).",
+       .limits = kDrift});
+  v.text(
+      "emg_trigger", sync.emg_trigger,
+      {.says = "What the EMG's recording saw of the same instants, or of the same signal, as the "
+               "motion's: a channel, or the label of events (C3D, EDF+). Offset and drift follow "
+               "from the two, with their errors, by as many edges as there are; edges that one "
+               "recording missed are found by the intervals of the others."});
+  v.text(
+      "motion_trigger", sync.motion_trigger,
+      {.says = "The same of the motion's recording: a channel, `NAME.x`, `.y`, `.z` of a marker, "
+               "the label of events, or `start`, its first frame."});
+  v.path("trigger_file", sync.trigger_file,
+         {.says = "File that holds `motion_trigger`, on the motion's clock.",
+          .otherwise = "the motion's"});
+  v.choice("match", sync.match,
+           {.says = "Of channels: their `rising` or `falling` edges, or the `shape` of the whole "
+                    "signal."});
+  v.number("search_s", sync.search_s,
+           {.says = "How far `estimate` and `shape` look, either way.",
+            .limits = within(0.05, 30.0, "s")});
+  v.number(
+      "loads_offset_s", sync.loads_offset_s,
+      {.says = "Seconds to add to the times of the trial's loads, if they are in another file.",
+       .limits = any_number("s")});
+  v.number("loads_drift_ppm", sync.loads_drift_ppm,
+           {.says = "How much too slowly the clock of that file counts.", .limits = kDrift});
+  const bool emg = !sync.emg_trigger.empty(), motion = !sync.motion_trigger.empty();
+  v.must(emg == motion, emg ? "motion_trigger" : "emg_trigger",
+         "give both emg_trigger and motion_trigger: what each recording saw of the same instants");
+  const bool by_number = sync.offset_s || sync.estimate || sync.drift_ppm != 0.0;
+  v.must(!(emg && motion && by_number), sync.drift_ppm != 0.0 ? "drift_ppm" : "offset_s",
+         "the triggers tell offset and drift; give one or the other");
+  v.must(!(sync.match == SyncMatch::shape && sync.motion_trigger == "start"), "match",
+         "the start of a recording has no shape; expected \"rising\" or \"falling\"");
+}
+
+void visit(PlateSpec& plates, SettingVisitor& v) {
+  v.path("file", plates.file,
+         {.says = "The `.c3d` with the force plates.", .otherwise = "that of the markers"});
+  const bool given = v.texts(
+      "bodies", plates.bodies,
+      {.says = "The body that stands on plate 1, 2, … (`\"\"`: none). `auto`: each contact goes to "
+               "the body whose marker is nearest to its center of pressure, and is said.",
+       .word = "auto"});
+  const auto empty = [](const std::string& body) { return body.empty(); };
+  v.must(!given || plates.bodies.empty() ||
+             !std::all_of(plates.bodies.begin(), plates.bodies.end(), empty),
+         "bodies", "no body is named; name one for each plate (\"\" for none), or \"auto\"");
+  v.number("least_force_n", plates.least_force_n,
+           {.says = "Below this force a plate bears nothing.", .limits = above_zero("N")});
+  v.number("lowpass_hz", plates.lowpass_hz,
+           {.says = "Smoothing, −3 dB of both passes together.",
+            .limits = above_zero("Hz"),
+            .otherwise = "as the motion is smoothed"});
+}
 
 namespace {
 
-PlateSpec read_plates(TomlTable table,
-                      const std::filesystem::path& folder,
-                      const std::optional<std::filesystem::path>& markers) {
-  PlateSpec plates;
-  if (auto file = table.text("file")) {
-    plates.file = folder / *file;
-  } else if (markers) {
-    plates.file = *markers;
-  } else {
-    table.fail("file", "expected the .c3d file that holds the force plates");
+void visit_name(TrialSpec& trial, SettingVisitor& v) {
+  v.text("name", trial.name,
+         {.says = "Unique; becomes a folder.", .required = "a name that is unique in the study"});
+  const std::string& name = trial.name;
+  const bool folder = !name.empty() && name.find_first_of("/\\") == std::string::npos &&
+                      !name.starts_with(".") && name != "figures" && name != "tables";
+  v.must(folder, "name",
+         fmt::format("found \"{}\"; a trial's name becomes a folder: use letters, digits, _ and -",
+                     name));
+}
+
+/// The recordings of a trial.
+void visit_files(TrialSpec& trial, SettingVisitor& v) {
+  v.path("markers", trial.markers,
+         {.says = "`.trc`, `.c3d`, a [table of another program](file-formats.md) or BIDS "
+                  "`_motion.tsv`.",
+          .otherwise = "this or `motion`, but for `mvc`"});
+  v.path("motion", trial.motion, {.says = "Joint angles, to start later than at markers."});
+  v.must(!trial.markers || !trial.motion, "motion",
+         "give either 'markers' or 'motion', not both: the motion is computed from the markers");
+  v.path("emg", trial.emg,
+         {.says = "`.c3d` (may be that of the markers), `.edf`, `.bdf`, `.anc`, `.csv`, `.tsv`, "
+                  "`.txt`, `.sto`, `.mot`.",
+          .otherwise = "required, but for `static` and `passive`"});
+  v.path("external_torque", trial.external_torque,
+         {.says = "File with `<coordinate>_moment` [N m], where a dynamometer took part: what the "
+                  "surroundings exert on the body, positive in the coordinate's direction. The "
+                  "muscles provide inverse dynamics minus it. A coordinate without a column is "
+                  "acted on by nothing."});
+  v.path("external_loads", trial.external_loads,
+         {.says = "Measured forces on bodies: OpenSim's ExternalLoads file (`.xml`), as "
+                  "[`convert`](convert.md) writes it for force plates."});
+  v.path("load_cell", trial.load_cell,
+         {.says = "Recording with the channels of the load cell that [load_cell] describes (may be "
+                  "the `.c3d` of the markers)."});
+  v.must(!trial.external_loads || !trial.load_cell, "load_cell",
+         "give either 'external_loads' or 'load_cell', not both");
+  v.table("force_plates", trial.plates, {.says = "Force plates under the person."});
+  if (trial.plates && trial.plates->file.empty()) {
+    v.must(trial.markers.has_value(), "force_plates",
+           "'file' is missing; expected the .c3d file that holds the force plates");
+    if (trial.markers) trial.plates->file = *trial.markers;
   }
-  if (table.is_text("bodies")) {
-    (void)table.choice("bodies", "auto", {"auto"});
-  } else if (auto bodies = table.texts("bodies")) {
-    plates.bodies = *bodies;
-    if (std::all_of(bodies->begin(), bodies->end(), [](const auto& b) { return b.empty(); }))
-      table.fail("bodies",
-                 "no body is named; name one for each plate (\"\" for none), or \"auto\"");
-  }
-  plates.least_force_n = table.positive_number("least_force_n", plates.least_force_n);
-  if (table.has("lowpass_hz")) plates.lowpass_hz = table.positive_number("lowpass_hz", 0.0);
-  table.finish();
-  return plates;
+}
+
+void visit_use(TrialSpec& trial, SettingVisitor& v) {
+  v.choice(
+      "use", trial.use,
+      {.says = "`calibration` and `isometric` are fitted; `validation` is only predicted; "
+               "`mvc` sets activation 1; `passive`, with the torque of a dynamometer: what the "
+               "joint does by itself, with the weight of limb and instrument, taken off "
+               "everywhere else (EMG, where given, must stay below 2 % of the maximal "
+               "contraction); `static` is computed up to the torque."});
+  v.must(trial.use == Use::mvc || trial.markers || trial.motion, "name",
+         fmt::format("trial '{}' has neither 'markers' (.trc) nor 'motion' (.mot); add one",
+                     trial.name));
+  v.must(trial.use == Use::static_pose || trial.use == Use::passive || trial.emg, "name",
+         fmt::format("trial '{}' has no 'emg'; a {} trial needs one, or set use = \"static\"",
+                     trial.name, choice_name(trial.use)));
+}
+
+void visit_clock(TrialSpec& trial, SettingVisitor& v) {
+  v.table("sync", trial.sync,
+          {.says = "How the EMG's clock stands to that of the motion, where [sync] does not hold: "
+                   "`sync = { offset_s = 0.012 }`.",
+           .otherwise = "[sync]"});
+  if (!trial.sync) return;
+  const auto& motion_file = trial.markers ? trial.markers : trial.motion;
+  v.must(trial.emg && motion_file, "sync",
+         "it joins the clocks of an 'emg' file and of 'markers' or 'motion'");
+  v.must(trial.emg != motion_file || trial.sync->loads_offset_s != 0.0 ||
+             trial.sync->loads_drift_ppm != 0.0,
+         "sync", "EMG and motion are in one file, and so on one clock");
 }
 
 }  // namespace
 
-SyncSpec read_sync(TomlTable table, const std::filesystem::path& folder) {
-  SyncSpec sync;
-  if (table.is_text("offset_s")) {
-    (void)table.choice("offset_s", "estimate", {"estimate"});
-    sync.estimate = true;
-  } else {
-    sync.offset_s = table.number("offset_s");
-  }
-  if (table.has("offset_sd_s")) sync.offset_sd_s = table.positive_number("offset_sd_s", 0.0);
-  sync.drift_ppm = table.number_within("drift_ppm", 0.0, -1e5, 1e5, "ppm");
-  sync.emg_trigger = table.text("emg_trigger").value_or("");
-  sync.motion_trigger = table.text("motion_trigger").value_or("");
-  if (auto file = table.text("trigger_file")) sync.trigger_file = folder / *file;
-  sync.match = table.choice("match", sync.match);
-  sync.search_s = table.number_within("search_s", sync.search_s, 0.05, 30.0, "s");
-  sync.loads_offset_s = table.number("loads_offset_s").value_or(0.0);
-  sync.loads_drift_ppm = table.number_within("loads_drift_ppm", 0.0, -1e5, 1e5, "ppm");
-  const bool triggered = !sync.emg_trigger.empty() || !sync.motion_trigger.empty();
-  if (triggered && (sync.emg_trigger.empty() || sync.motion_trigger.empty())) {
-    table.fail(sync.emg_trigger.empty() ? "motion_trigger" : "emg_trigger",
-               "give both emg_trigger and motion_trigger: what each recording saw of the same "
-               "instants");
-  }
-  if (triggered && (sync.offset_s || sync.estimate || sync.drift_ppm != 0.0)) {
-    table.fail(sync.drift_ppm != 0.0 ? "drift_ppm" : "offset_s",
-               "the triggers tell offset and drift; give one or the other");
-  }
-  if (sync.match == SyncMatch::shape && sync.motion_trigger == "start")
-    table.fail("match",
-               "the start of a recording has no shape; expected \"rising\" or \"falling\"");
-  table.finish();
-  return sync;
-}
-
-TrialSpec read_trial(TomlTable table, const std::filesystem::path& folder) {
-  TrialSpec trial;
-  trial.name = table.require_text("name", "a name that is unique in the study");
-  if (trial.name.empty() || trial.name.find_first_of("/\\") != std::string::npos ||
-      trial.name.starts_with(".") || trial.name == "figures" || trial.name == "tables") {
-    table.fail(
-        "name",
-        fmt::format("found \"{}\"; a trial's name becomes a folder: use letters, digits, _ and -",
-                    trial.name));
-  }
-  const auto path = [&](std::string_view key) -> std::optional<std::filesystem::path> {
-    const auto text = table.text(key);
-    if (!text) return std::nullopt;
-    if (text->empty()) table.fail(key, "the path is empty");
-    return folder / *text;
-  };
-  trial.markers = path("markers");
-  trial.motion = path("motion");
-  trial.emg = path("emg");
-  trial.external_torque = path("external_torque");
-  trial.external_loads = path("external_loads");
-  trial.load_cell = path("load_cell");
-  if (trial.external_loads && trial.load_cell)
-    table.fail("load_cell", "give either 'external_loads' or 'load_cell', not both");
-  if (auto plates = table.table("force_plates"))
-    trial.plates = read_plates(*plates, folder, trial.markers);
-  if (trial.markers && trial.motion) {
-    table.fail(
-        "motion",
-        "give either 'markers' or 'motion', not both: the motion is computed from the markers");
-  }
-  trial.use = table.choice("use", trial.use);
-  if (trial.use != Use::mvc && !trial.markers && !trial.motion) {
-    table.fail("name",
-               fmt::format("trial '{}' has neither 'markers' (.trc) nor 'motion' (.mot); add one",
-                           trial.name));
-  }
-  const bool needs_emg = trial.use == Use::calibration || trial.use == Use::validation ||
-                         trial.use == Use::isometric || trial.use == Use::mvc;
-  if (needs_emg && !trial.emg) {
-    table.fail("name",
-               fmt::format("trial '{}' has no 'emg'; a {} trial needs one, or set use = \"static\"",
-                           trial.name, choice_name(trial.use)));
-  }
-  trial.held_mass_kg = table.number("held_mass_kg").value_or(0.0);
-  if (trial.held_mass_kg < 0.0 || trial.held_mass_kg > 100.0) {
-    table.fail("held_mass_kg",
-               fmt::format("found {} kg, expected 0 to 100 kg", trial.held_mass_kg));
-  }
-  trial.condition = table.text("condition").value_or("");
-  trial.start_s = table.number("start_s");
-  trial.end_s = table.number("end_s");
-  if (trial.start_s && trial.end_s && !(*trial.start_s < *trial.end_s)) {
-    table.fail("end_s", fmt::format("found {} s, expected a time after start_s = {} s",
-                                    *trial.end_s, *trial.start_s));
-  }
-  if (auto sync = table.table("sync")) {
-    const auto& motion_file = trial.markers ? trial.markers : trial.motion;
-    if (!trial.emg || !motion_file)
-      table.fail("sync", "it joins the clocks of an 'emg' file and of 'markers' or 'motion'");
-    if (trial.emg == motion_file && !sync->has("loads_offset_s") && !sync->has("loads_drift_ppm"))
-      table.fail("sync", "EMG and motion are in one file, and so on one clock");
-    trial.sync = read_sync(*sync, folder);
-  }
-  table.finish();
-  return trial;
+void visit(TrialSpec& trial, SettingVisitor& v) {
+  visit_name(trial, v);
+  visit_files(trial, v);
+  visit_use(trial, v);
+  v.number("held_mass_kg", trial.held_mass_kg,
+           {.says = "Mass in the hand.", .limits = within(0.0, 100.0, "kg")});
+  v.text("condition", trial.condition,
+         {.says = "Trials of one name are left out together by `folds = \"condition\"`.",
+          .otherwise = "the trial alone"});
+  v.number("start_s", trial.start_s,
+           {.says = "Begin of the part that is used, in seconds of the motion.",
+            .limits = any_number("s"),
+            .otherwise = "all"});
+  v.number("end_s", trial.end_s,
+           {.says = "End of that part. A trial with a pause of more than 0.5 s is [cut "
+                    "there](check.md#what-is-mended) by itself.",
+            .limits = any_number("s"),
+            .otherwise = "all"});
+  v.must(!trial.start_s || !trial.end_s || *trial.start_s < *trial.end_s, "end_s",
+         fmt::format("found {} s, expected a time after start_s = {} s", trial.end_s.value_or(0.0),
+                     trial.start_s.value_or(0.0)));
+  visit_clock(trial, v);
 }
 
 }  // namespace myoid

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "myoid/study/setting_reader.h"
+
 #include "tests/support/message_of.h"
 
 namespace myoid {
@@ -11,7 +13,7 @@ namespace {
 
 TrialSpec trial_of(const std::string& text) {
   const toml::table root = recording::parse_toml(text, "dir/study.toml");
-  return read_trial({root, "dir/study.toml", "[[trial]]"}, "dir");
+  return read_spec<TrialSpec>({root, "dir/study.toml", "[[trial]]"}, "dir");
 }
 
 std::string trial_message(const std::string& text) {

@@ -5,6 +5,7 @@
 
 #include "myoid/arm/arm7.h"
 #include "myoid/core/units.h"
+#include "myoid/files/toml_text.h"
 #include "myoid/muscle/force_velocity.h"
 #include "myoid/muscle/hill_parameters.h"
 #include "myoid/twin/effective_truth.h"
@@ -13,28 +14,7 @@
 namespace myoid::twin {
 namespace {
 
-/// A TOML basic string. Protocols come from files, so names may hold anything.
-std::string toml_text(std::string_view text) {
-  std::string result = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') {
-      result += '\\';
-      result += c;
-    } else if (static_cast<unsigned char>(c) < 0x20) {
-      result += fmt::format("\\u{:04x}", static_cast<unsigned>(c));
-    } else {
-      result += c;
-    }
-  }
-  return result + '"';
-}
-
-/// A TOML float: always with a point or an exponent, and read back to the same bits.
-std::string number(double value) {
-  std::string text = fmt::format("{}", value);
-  if (text.find_first_of(".en") == std::string::npos) text += ".0";
-  return text;
-}
+using recording::toml_text;
 
 void add_trial(const VirtualTrial& trial, RecordingFormat format, std::string& text) {
   const TrialProtocol& p = trial.protocol;
@@ -45,7 +25,7 @@ void add_trial(const VirtualTrial& trial, RecordingFormat format, std::string& t
   if (trial.external_torque) {
     text += fmt::format("external_torque = {}\n", toml_text(p.name + "_torque.sto"));
   }
-  text += fmt::format("held_mass_kg = {}\n", number(p.held_mass_kg));
+  text += fmt::format("held_mass_kg = {}\n", recording::toml_number(p.held_mass_kg));
 }
 
 }  // namespace
@@ -77,15 +57,17 @@ std::string study_toml(const VirtualRecording& recording, RecordingFormat format
       "# A virtual recording: protocol \"{}\", level {}, seed {}. Nobody was measured.\n"
       "# Analyse it with: myoid run study.toml --out results\n\n",
       name.substr(1, name.size() - 2), twin::name(protocol.level), recording.seed);
-  text += fmt::format("[subject]\nname = {}\nmass_kg = {}\nsex = \"{}\"\n\n",
-                      toml_text(subject.name), number(subject.mass_kg), subject.sex);
+  text +=
+      fmt::format("[subject]\nname = {}\nmass_kg = {}\nsex = \"{}\"\n\n", toml_text(subject.name),
+                  recording::toml_number(subject.mass_kg), subject.sex);
   text += fmt::format(
       "[model]\n"
       "file = \"model.osim\"              # this subject's segments, the literature's muscles\n"
       "coordinate = \"elbow_flexion\"     # the joint whose torque the muscles share\n"
       "held_mass = {{ body = {}, at_m = [{}, {}, {}] }}  # where held_mass_kg of a trial acts\n\n",
-      toml_text(recording.held_body), number(recording.held_at_m.x()),
-      number(recording.held_at_m.y()), number(recording.held_at_m.z()));
+      toml_text(recording.held_body), recording::toml_number(recording.held_at_m.x()),
+      recording::toml_number(recording.held_at_m.y()),
+      recording::toml_number(recording.held_at_m.z()));
   text += fmt::format("[motion]\nsmoothing = \"{}\"{}\n\n", exact ? "none" : "auto",
                       exact ? "               # the markers are exact" : "");
 
@@ -104,7 +86,7 @@ std::string study_toml(const VirtualRecording& recording, RecordingFormat format
         "normalise = \"max\"\n"
         "normalise_window_s = {}          # the greatest efforts are kept for longer than this\n"
         "delay_s = \"estimate\"\n",
-        number(protocol.lowpass_hz), number(protocol.mvc_window_s));
+        recording::toml_number(protocol.lowpass_hz), recording::toml_number(protocol.mvc_window_s));
     if (protocol.emg.effort_min < 1.0) {
       // As in the literature of these people, not as this one happened to be.
       text += fmt::format(

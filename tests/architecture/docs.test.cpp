@@ -72,21 +72,5 @@ TEST(Documentation, EveryOptionOfACommandIsInItsPage) {
   EXPECT_GT(seen, 30);
 }
 
-TEST(Documentation, EveryKeyOfAStudyIsInItsPage) {
-  const std::regex key(
-      R"re((?:text|texts|number|numbers|flag|choice|table|tables|has|require_text|path|positive_number|number_within)\("(\w+)")re");
-  std::string reader;
-  for (const char* file : {"study", "study_settings", "trial_table", "muscle_table"})
-    reader += content(kRoot / "myoid" / "study" / (std::string(file) + ".cpp"));
-  const std::string page = content(kRoot / "docs" / "guide" / "study.md");
-  int seen = 0;
-  for (std::sregex_iterator it(reader.begin(), reader.end(), key), end; it != end; ++it) {
-    const std::regex word("\\b" + (*it)[1].str() + "\\b");
-    EXPECT_TRUE(std::regex_search(page, word)) << "docs/guide/study.md leaves out " << (*it)[1];
-    ++seen;
-  }
-  EXPECT_GT(seen, 40);
-}
-
 }  // namespace
 }  // namespace myoid::architecture

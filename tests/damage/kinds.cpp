@@ -19,7 +19,7 @@
 #include "myoid/recording/emg_reader.h"
 #include "myoid/recording/recording.h"
 #include "myoid/study/study.h"
-#include "myoid/study/study_json.h"
+#include "myoid/study/study_text.h"
 #include "myoid/tables/orientation_reader.h"
 #include "myoid/tables/storage_reader.h"
 

@@ -1,0 +1,20 @@
+#include "myoid/commands/settings.h"
+
+#include "myoid/study/study_text.h"
+
+namespace myoid::commands {
+
+SettingsResult settings(const SettingsOptions& options) {
+  if (options.study.empty()) return {.study = std::nullopt, .tables = setting_tables()};
+  return {.study = read_study(options.study), .tables = {}};
+}
+
+std::string settings_text(const SettingsResult& result) {
+  return result.study ? study_toml(*result.study) : reference_text(result.tables);
+}
+
+std::string settings_json(const SettingsResult& result) {
+  return result.study ? study_json(*result.study) + "\n" : reference_json(result.tables);
+}
+
+}  // namespace myoid::commands

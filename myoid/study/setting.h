@@ -1,0 +1,186 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <limits>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "myoid/core/choice.h"
+
+namespace myoid {
+
+/// The numbers that a setting may take.
+struct SettingLimits {
+  double lower = -std::numeric_limits<double>::infinity();
+  double upper = std::numeric_limits<double>::infinity();
+  std::string_view unit;     ///< "s", "Hz"; empty: dimensionless.
+  bool above_lower = false;  ///< `lower` itself is refused.
+};
+[[nodiscard]] constexpr SettingLimits any_number(std::string_view unit = {}) {
+  return {.unit = unit};
+}
+[[nodiscard]] constexpr SettingLimits above_zero(std::string_view unit = {}) {
+  return {.lower = 0.0, .unit = unit, .above_lower = true};
+}
+[[nodiscard]] constexpr SettingLimits zero_or_more(std::string_view unit = {}) {
+  return {.lower = 0.0, .unit = unit};
+}
+[[nodiscard]] constexpr SettingLimits within(double lower,
+                                             double upper,
+                                             std::string_view unit = {}) {
+  return {.lower = lower, .upper = upper, .unit = unit};
+}
+
+/// The facts of a setting that its C++ type does not tell.
+struct About {
+  std::string_view says;            ///< One sentence of the reference; Markdown.
+  SettingLimits limits = {};        ///< Of a number.
+  std::string_view otherwise = {};  ///< Default in words, where the value itself does not say it.
+  std::string_view required = {};   ///< The setting must be given; these words say how.
+  std::string_view word = {};       ///< May stand instead of a number or a list: "estimate".
+  std::string_view table = {};      ///< Key of a table that may stand instead of a text: "same_as".
+  ChoiceNames words = {};           ///< The only texts that are allowed; empty: any.
+  std::size_t count = 0;            ///< A list has as many entries; 0: any number.
+  bool silent =
+      false;  ///< Not written: another setting is in force, and both together are refused.
+};
+
+enum class SettingKind {
+  flag,
+  number,
+  count,
+  text,
+  path,
+  texts,
+  numbers,
+  texts_by_name,
+  numbers_by_name
+};
+
+/// A setting: its key in the file and the facts about it.
+struct Setting {
+  std::string_view key;
+  SettingKind kind = SettingKind::text;
+  About about;
+};
+
+/// The value of a setting as a file holds it; monostate: not given.
+using SettingValue = std::variant<std::monostate,
+                                  bool,
+                                  double,
+                                  std::string,
+                                  std::vector<std::string>,
+                                  std::vector<double>,
+                                  std::map<std::string, std::string>,
+                                  std::map<std::string, double>>;
+
+/// Meets the settings of a study one by one, in the order of the reference. `visit(spec, visitor)`
+/// names every setting of a struct once; a visitor reads it from a file, writes it, or describes
+/// it. Each of the functions below returns whether a file gave the setting.
+class SettingVisitor {
+ public:
+  using Inside = std::function<void(SettingVisitor&)>;
+
+  SettingVisitor() = default;
+  SettingVisitor(const SettingVisitor&) = delete;
+  SettingVisitor& operator=(const SettingVisitor&) = delete;
+  virtual ~SettingVisitor() = default;
+
+  bool flag(std::string_view key, bool& value, const About& about);
+  bool flag(std::string_view key, std::optional<bool>& value, const About& about);
+  /// A truth that the file writes as one of two words, `words[false]` and `words[true]`.
+  bool either(std::string_view key, bool& value, const About& about);
+  bool number(std::string_view key, double& value, const About& about);
+  bool number(std::string_view key, std::optional<double>& value, const About& about);
+  /// A number, nothing, or `about.word`, which sets `worded`.
+  bool number(std::string_view key, std::optional<double>& value, bool& worded, const About& about);
+  bool count(std::string_view key, int& value, const About& about);
+  bool text(std::string_view key, std::string& value, const About& about);
+  /// A text, or a table { `about.table` = text }, which goes to `instead`.
+  bool text(std::string_view key,
+            std::string& value,
+            std::optional<std::string>& instead,
+            const About& about);
+  bool path(std::string_view key, std::filesystem::path& value, const About& about);
+  bool path(std::string_view key, std::optional<std::filesystem::path>& value, const About& about);
+  /// An empty list stands for `about.word`, where there is one.
+  bool texts(std::string_view key, std::vector<std::string>& value, const About& about);
+  bool numbers(std::string_view key, std::vector<double>& value, const About& about);
+  bool texts_by_name(std::string_view key,
+                     std::map<std::string, std::string>& value,
+                     const About& about);
+  bool numbers_by_name(std::string_view key,
+                       std::map<std::string, double>& value,
+                       const About& about);
+
+  template <typename Enumeration>
+  bool choice(std::string_view key, Enumeration& value, About about) {
+    about.words = choice_names(value);
+    return met({key, SettingKind::text, about}, std::string(choice_name(value)),
+               [&value](SettingValue given) {
+                 value = *choice_named<Enumeration>(std::get<std::string>(given));
+               });
+  }
+  /// Several of an enumeration's values, of which `about.words` are allowed (empty: all).
+  template <typename Enumeration>
+  bool choices(std::string_view key, std::vector<Enumeration>& value, About about) {
+    if (about.words.empty()) about.words = choice_names(Enumeration{});
+    std::vector<std::string> names;
+    for (const Enumeration each : value) names.emplace_back(choice_name(each));
+    return met({key, SettingKind::texts, about}, names, [&value](SettingValue given) {
+      value.clear();
+      for (const std::string& name : std::get<std::vector<std::string>>(given))
+        value.push_back(*choice_named<Enumeration>(name));
+    });
+  }
+
+  /// A table whose settings `inside` visits, [key] of a study or { ... } within a table. `present`:
+  /// it is written.
+  bool table(std::string_view key, bool present, const About& about, const Inside& inside) {
+    return entered(key, present, about, inside);
+  }
+  template <typename Spec>
+  void table(std::string_view key, Spec& spec, const About& about) {
+    entered(key, true, about, [&spec](SettingVisitor& v) { visit(spec, v); });
+  }
+  template <typename Spec>
+  void table(std::string_view key, std::optional<Spec>& spec, const About& about) {
+    entered(key, spec.has_value(), about, [&spec](SettingVisitor& v) {
+      if (!spec) spec.emplace();
+      visit(*spec, v);
+    });
+  }
+  /// One table [[key]] for each of `specs`.
+  template <typename Spec>
+  void tables(std::string_view key, std::vector<Spec>& specs, const About& about) {
+    repeated(key, specs.size(), about, [&specs](std::size_t i, SettingVisitor& v) {
+      if (i >= specs.size()) specs.resize(i + 1);
+      visit(specs[i], v);
+    });
+  }
+
+  /// Refuses a file in which settings do not go together: ReadError at the line of `key`.
+  virtual void must(bool holds, std::string_view key, const std::string& message);
+
+ protected:
+  using Set = std::function<void(SettingValue)>;
+  /// One setting, its present value, and the way to set it. Returns whether a file gave it.
+  virtual bool met(const Setting& setting, const SettingValue& now, const Set& set) = 0;
+  virtual bool entered(std::string_view key,
+                       bool present,
+                       const About& about,
+                       const Inside& inside) = 0;
+  virtual void repeated(std::string_view key,
+                        std::size_t count,
+                        const About& about,
+                        const std::function<void(std::size_t, SettingVisitor&)>& inside) = 0;
+};
+
+}  // namespace myoid

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <filesystem>
+
+#include "myoid/files/toml_table.h"
+#include "myoid/study/setting.h"
+
+namespace myoid {
+
+/// Reads settings from a table of a TOML file. A setting that the file does not give keeps its
+/// value; paths are resolved against `folder`. Throws ReadError with the line for a wrong type, a
+/// number or word that is not allowed, and settings that exclude each other. The caller asks the
+/// table for unknown keys at the end (TomlTable::finish).
+class SettingReader : public SettingVisitor {
+ public:
+  SettingReader(recording::TomlTable& table, std::filesystem::path folder)
+      : table_(&table), folder_(std::move(folder)) {}
+
+  void must(bool holds, std::string_view key, const std::string& message) override;
+
+ protected:
+  bool met(const Setting& setting, const SettingValue& now, const Set& set) override;
+  bool entered(std::string_view key,
+               bool present,
+               const About& about,
+               const Inside& inside) override;
+  void repeated(std::string_view key,
+                std::size_t count,
+                const About& about,
+                const std::function<void(std::size_t, SettingVisitor&)>& inside) override;
+
+ private:
+  [[nodiscard]] SettingValue text(const Setting& setting);
+  [[nodiscard]] SettingValue number(const Setting& setting);
+  [[nodiscard]] SettingValue texts(const Setting& setting);
+  [[nodiscard]] SettingValue numbers(const Setting& setting);
+  [[nodiscard]] SettingValue by_name(const Setting& setting);
+  void allow(const Setting& setting, const std::string& word) const;
+  void allow(const recording::TomlTable& table,
+             std::string_view key,
+             const SettingLimits& limits,
+             std::string_view word,
+             double value) const;
+
+  recording::TomlTable* table_;
+  std::filesystem::path folder_;
+};
+
+/// One table of a study as its struct: `read_spec<TrialSpec>(table, folder)`. Throws ReadError as
+/// SettingReader does, and for an unknown key with the nearest known one.
+template <typename Spec>
+[[nodiscard]] Spec read_spec(recording::TomlTable table, const std::filesystem::path& folder) {
+  Spec spec;
+  SettingReader reader(table, folder);
+  visit(spec, reader);
+  table.finish();
+  return spec;
+}
+
+}  // namespace myoid

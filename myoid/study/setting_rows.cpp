@@ -1,0 +1,236 @@
+#include "myoid/study/setting_rows.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+#include "myoid/core/json_text.h"
+#include "myoid/study/study_settings.h"
+
+namespace myoid {
+namespace {
+
+std::string code(std::string_view text) { return fmt::format("`{}`", text); }
+
+std::string in_quotes(const std::string& text) { return fmt::format("\"{}\"", text); }
+
+std::string words_of(const Setting& setting) {
+  std::vector<std::string> words;
+  for (const std::string_view word : setting.about.words) {
+    if (!word.empty()) words.push_back(code(word));
+  }
+  const std::string list = fmt::format("{}", fmt::join(words, ", "));
+  return setting.kind == SettingKind::texts ? "one or several of " + list : list;
+}
+
+std::string range_of(const SettingLimits& limits) {
+  const std::string unit = limits.unit.empty() ? "" : fmt::format(" {}", limits.unit);
+  if (std::isfinite(limits.upper))
+    return fmt::format("{} to {}{}", limits.lower, limits.upper, unit);
+  if (std::isfinite(limits.lower)) {
+    return limits.above_lower ? fmt::format("above {}{}", limits.lower, unit)
+                              : fmt::format("{}{} or more", limits.lower, unit);
+  }
+  return limits.unit.empty() ? "number" : fmt::format("number [{}]", limits.unit);
+}
+
+std::string type_of(const Setting& setting) {
+  const About& about = setting.about;
+  const std::string several = about.count > 0 ? fmt::format("{} ", about.count) : "";
+  switch (setting.kind) {
+    case SettingKind::flag:
+      return "true, false";
+    case SettingKind::number:
+      return range_of(about.limits);
+    case SettingKind::count:
+      return "whole, " + range_of(about.limits);
+    case SettingKind::text:
+      return about.words.empty() ? "text" : words_of(setting);
+    case SettingKind::path:
+      return "file";
+    case SettingKind::texts:
+      return about.words.empty() ? several + "text or list of texts" : words_of(setting);
+    case SettingKind::numbers:
+      return fmt::format("{}numbers{}", several,
+                         about.limits.unit.empty() ? "" : fmt::format(" [{}]", about.limits.unit));
+    case SettingKind::texts_by_name:
+      return "table of texts";
+    case SettingKind::numbers_by_name:
+      return "table of numbers, " + range_of(about.limits);
+  }
+  return "";
+}
+
+std::string allowed(const Setting& setting) {
+  std::string text = type_of(setting);
+  const About& about = setting.about;
+  if (setting.kind == SettingKind::texts && about.count > 0)
+    text = fmt::format("{} texts", about.count);
+  if (!about.word.empty()) text += fmt::format(", or `\"{}\"`", about.word);
+  if (!about.table.empty()) text += fmt::format(", or `{{ {} = … }}`", about.table);
+  return text;
+}
+
+std::string default_of(const Setting& setting, const SettingValue& value) {
+  const About& about = setting.about;
+  if (!about.required.empty()) return "required";
+  if (!about.otherwise.empty()) return std::string(about.otherwise);
+  if (const auto* flag = std::get_if<bool>(&value)) return *flag ? "true" : "false";
+  if (const auto* number = std::get_if<double>(&value)) return fmt::format("{}", *number);
+  if (const auto* text = std::get_if<std::string>(&value); text != nullptr && !text->empty())
+    return code(in_quotes(*text));
+  if (const auto* list = std::get_if<std::vector<std::string>>(&value);
+      list != nullptr && !list->empty()) {
+    std::vector<std::string> quoted;
+    std::transform(list->begin(), list->end(), std::back_inserter(quoted), in_quotes);
+    return list->size() == 1 ? code(quoted.front())
+                             : code(fmt::format("[{}]", fmt::join(quoted, ", ")));
+  }
+  if (const auto* list = std::get_if<std::vector<double>>(&value); list != nullptr)
+    return code(fmt::format("[{}]", fmt::join(*list, ", ")));
+  return "–";
+}
+
+/// Describes the settings of one table.
+class RowVisitor : public SettingVisitor {
+ public:
+  RowVisitor(std::string prefix, std::vector<SettingRow>& rows)
+      : prefix_(std::move(prefix)), rows_(&rows) {}
+
+ protected:
+  bool met(const Setting& setting, const SettingValue& now, const Set& /*set*/) override {
+    rows_->push_back({prefix_ + std::string(setting.key), allowed(setting),
+                      default_of(setting, now), std::string(setting.about.says)});
+    return false;
+  }
+  bool entered(std::string_view key,
+               bool /*present*/,
+               const About& about,
+               const Inside& inside) override {
+    rows_->push_back({prefix_ + std::string(key), "table",
+                      about.otherwise.empty() ? "–" : std::string(about.otherwise),
+                      std::string(about.says)});
+    if (key == "sync") return false;  // the table [sync] describes its settings
+    RowVisitor rows(prefix_ + std::string(key) + ".", *rows_);
+    inside(rows);
+    return false;
+  }
+  void repeated(std::string_view /*key*/,
+                std::size_t /*count*/,
+                const About& /*about*/,
+                const std::function<void(std::size_t, SettingVisitor&)>& /*inside*/) override {}
+
+ private:
+  std::string prefix_;
+  std::vector<SettingRow>* rows_;
+};
+
+/// Describes the tables of a study.
+class TableVisitor : public SettingVisitor {
+ public:
+  std::vector<SettingTable> tables;
+
+ protected:
+  bool met(const Setting& /*setting*/, const SettingValue& /*now*/, const Set& /*set*/) override {
+    return false;
+  }
+  bool entered(std::string_view key,
+               bool /*present*/,
+               const About& about,
+               const Inside& inside) override {
+    SettingTable table{fmt::format("[{}]", key), std::string(about.says), {}};
+    RowVisitor rows("", table.rows);
+    inside(rows);
+    tables.push_back(std::move(table));
+    return false;
+  }
+  void repeated(std::string_view key,
+                std::size_t /*count*/,
+                const About& about,
+                const std::function<void(std::size_t, SettingVisitor&)>& inside) override {
+    SettingTable table{fmt::format("[[{}]]", key), std::string(about.says), {}};
+    RowVisitor rows("", table.rows);
+    inside(0, rows);
+    tables.push_back(std::move(table));
+  }
+};
+
+/// Without the marks of Markdown: `code` and [text](address).
+std::string plain(const std::string& text) {
+  std::string result;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text.compare(i, 2, "](") == 0 && text.find(')', i) != std::string::npos) {
+      const std::size_t opened = result.rfind('[');
+      if (opened != std::string::npos) result.erase(opened, 1);
+      i = text.find(')', i);
+    } else if (text[i] != '`') {
+      result += text[i];
+    }
+  }
+  return result;
+}
+
+/// The words in lines of at most 100 characters, indented.
+std::string paragraph(const std::string& text) {
+  constexpr std::size_t kWidth = 100;
+  const std::string indent(6, ' ');
+  std::string result, line;
+  std::size_t begin = 0;
+  while (begin < text.size()) {
+    const std::size_t end = std::min(text.find(' ', begin), text.size());
+    if (!line.empty() && indent.size() + line.size() + end - begin + 1 > kWidth) {
+      result += indent + line + '\n';
+      line.clear();
+    }
+    line += (line.empty() ? "" : " ") + text.substr(begin, end - begin);
+    begin = end + 1;
+  }
+  return result + indent + line + '\n';
+}
+
+}  // namespace
+
+std::string reference_text(const std::vector<SettingTable>& tables) {
+  std::string text;
+  for (const SettingTable& table : tables) {
+    text += fmt::format("{} {}\n", table.name, plain(table.says));
+    for (const SettingRow& row : table.rows)
+      text += fmt::format("  {}: {}; default {}\n{}", row.key, plain(row.allowed), plain(row.usual),
+                          paragraph(plain(row.says)));
+    text += '\n';
+  }
+  return text;
+}
+
+std::string reference_json(const std::vector<SettingTable>& tables) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const SettingTable& table : tables) {
+    nlohmann::ordered_json rows = nlohmann::ordered_json::array();
+    for (const SettingRow& row : table.rows)
+      rows.push_back({{"key", row.key},
+                      {"values", plain(row.allowed)},
+                      {"default", plain(row.usual)},
+                      {"meaning", plain(row.says)}});
+    list.push_back({{"table", table.name}, {"meaning", plain(table.says)}, {"settings", rows}});
+  }
+  return json_text(list) + "\n";
+}
+
+std::vector<SettingTable> setting_tables() {
+  Study study;
+  TableVisitor visitor;
+  visit(study, visitor);
+  return std::move(visitor.tables);
+}
+
+std::string markdown(const SettingTable& table) {
+  std::string text = "| key | values | default | meaning |\n| --- | --- | --- | --- |\n";
+  for (const SettingRow& row : table.rows)
+    text += fmt::format("| `{}` | {} | {} | {} |\n", row.key, row.allowed, row.usual, row.says);
+  return text;
+}
+
+}  // namespace myoid
