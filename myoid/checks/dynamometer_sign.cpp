@@ -9,6 +9,7 @@
 
 #include "myoid/checks/trial_plausibility.h"
 #include "myoid/core/units.h"
+#include "myoid/intake/limits.h"
 #include "myoid/model/kinematic_tree.h"
 #include "myoid/model/muscle_path.h"
 #include "myoid/signals/resample.h"
@@ -17,9 +18,6 @@
 namespace myoid {
 namespace {
 
-constexpr double kReversed = -0.5, kCertainlyReversed = -0.8;
-constexpr double kStrong = 0.1;   ///< Of what the muscles can hold.
-constexpr double kWeights = 4.0;  ///< Of the limb's, so that its half is twice the weight.
 constexpr double kActive = 0.1;   ///< Of a channel's largest.
 constexpr double kLargest = 0.5;  ///< Of a trial's largest torque.
 
@@ -131,8 +129,8 @@ std::vector<Finding> dynamometer_signs(const Study& study,
   }
   for (const auto& [name, capacity] : joint_capacities(study, model)) {
     const Eigen::VectorXd strength = strengths_nm(study, model, name);
-    const double least_nm =
-        std::max(kStrong * capacity.isometric_nm(), kWeights * weight_nm(model, name));
+    const double least_nm = std::max(kLimits.dynamometer_share * capacity.isometric_nm(),
+                                     kLimits.dynamometer_weights * weight_nm(model, name));
     Products all;
     std::size_t told = 0;
     std::vector<std::pair<const EffortTrial*, double>> against;
@@ -148,10 +146,10 @@ std::vector<Finding> dynamometer_signs(const Study& study,
       if (!sums) continue;
       ++told;
       all.add(*sums);
-      if (sums->cosine() < kReversed) against.emplace_back(&trial, sums->cosine());
+      if (sums->cosine() < kLimits.reversed) against.emplace_back(&trial, sums->cosine());
     }
     const bool certain =
-        !against.empty() && against.size() == told && all.cosine() < kCertainlyReversed;
+        !against.empty() && against.size() == told && all.cosine() < kLimits.certainly_reversed;
     for (const auto& [trial, cosine] : against) {
       found.push_back(
           {certain ? Finding::Level::error : Finding::Level::warning,

@@ -10,21 +10,15 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "myoid/intake/limits.h"
 #include "myoid/math/statistics.h"
 
 namespace myoid {
 namespace {
 
-constexpr double kContactShare = 0.05;  ///< Of the largest force.
 constexpr double kLeast_n = 20.0;
-constexpr double kBriefestContact_s = 0.05;
 constexpr double kMergedContact_s = 0.025;  ///< A shorter pause does not end a contact.
-constexpr double kOffFoot_m = 0.2;  ///< A foot is 0.27 m long: half of it and what markers miss.
-constexpr double kFarFromFoot_m = 0.3;  ///< Beyond the foot, whoever is near.
-constexpr double kMuchNearer = 0.5;
-constexpr double kBetween_m = 0.1;  ///< The center of pressure leaves the foot's outline.
-constexpr double kReach_m = 0.4;    ///< Of a plate, from its center of pressure.
-constexpr double kLevel_m = 0.04;   ///< Both feet on the ground.
+constexpr double kLevel_m = 0.04;           ///< Both feet on the ground.
 constexpr double kStill_m_per_s = 0.25;
 constexpr double kFloorPush = 0.5;   ///< Cosine of 60 degrees, as `recording::is_floor`.
 constexpr double kTwoSteps_m = 0.5;  ///< Of stairs: the other foot may stand so much lower.
@@ -124,7 +118,7 @@ class GroundContacts {
         largest = std::max(largest, force.force->at(data_time(i)).norm());
       if (largest < kLeast_n) continue;
       forces_.push_back(&force);
-      threshold_n_.push_back(std::max(kLeast_n, kContactShare * largest));
+      threshold_n_.push_back(std::max(kLeast_n, kLimits.contact_share * largest));
     }
     of_force_.resize(forces_.size());
     walk();
@@ -176,7 +170,7 @@ class GroundContacts {
     }
     for (std::vector<GroundContact>& contacts : of_force_)
       std::erase_if(contacts, [](const GroundContact& c) {
-        return c.end_s() - c.begin_s() < kBriefestContact_s;
+        return c.end_s() - c.begin_s() < kLimits.contact_s;
       });
   }
 
@@ -207,7 +201,7 @@ class GroundContacts {
         m.other_m = d;
         m.other = body;
       }
-      if (d < m.second_m && d <= kReach_m && stands(b, own, lowest) &&
+      if (d < m.second_m && d <= kLimits.second_foot_m && stands(b, own, lowest) &&
           !has_a_force(k, b, centers)) {
         m.second_m = d;
         m.second = body;
@@ -238,7 +232,7 @@ class GroundContacts {
     for (std::size_t k = 0; k < forces_.size(); ++k) {
       if (k == but || !centers[k]) continue;
       if (forces_[k]->body == static_cast<model::BodyIndex>(body) ||
-          points_.distance(*centers[k], static_cast<model::BodyIndex>(body)) < kOffFoot_m)
+          points_.distance(*centers[k], static_cast<model::BodyIndex>(body)) < kLimits.off_body_m)
         return true;
     }
     return false;
@@ -263,16 +257,16 @@ double usual_distance(const std::vector<LoadedFrame>& frames) {
 /// What a frame shows: 0 the body's own, 1 a foreign foot, 2 a second foot.
 int frame_kind(const LoadedFrame& m, bool others_are_near) {
   if (!std::isfinite(m.own_m)) return 0;
-  if (m.own_m > kOffFoot_m && m.other_m <= kMuchNearer * m.own_m) return 1;
-  if (m.own_m > kFarFromFoot_m && others_are_near) return 1;
-  if (m.own_m > kBetween_m && m.second != 0) return 2;
+  if (m.own_m > kLimits.off_body_m && m.other_m <= kLimits.much_nearer * m.own_m) return 1;
+  if (m.own_m > kLimits.far_from_foot_m && others_are_near) return 1;
+  if (m.own_m > kLimits.between_feet_m && m.second != 0) return 2;
   return 0;
 }
 
 void close_stretch(std::vector<ForeignStretch>& found,
                    const std::vector<LoadedFrame>& part,
                    int kind) {
-  if (part.empty() || part.back().time_s - part.front().time_s < kBriefestContact_s) return;
+  if (part.empty() || part.back().time_s - part.front().time_s < kLimits.contact_s) return;
   ForeignStretch s{.begin_s = part.front().time_s,
                    .end_s = part.back().time_s,
                    .frames = part.size(),
@@ -303,7 +297,7 @@ std::vector<ForeignStretch> foreign_stretches(const GroundContact& contact, bool
 }
 
 std::string stretch_words(const model::BodyModel& model, const ForeignStretch& s) {
-  const std::string other = s.other_m <= kReach_m
+  const std::string other = s.other_m <= kLimits.second_foot_m
                                 ? fmt::format("{:.2g} m from {}", s.other_m,
                                               model.bodies[static_cast<std::size_t>(s.other)].name)
                                 : "no other body of the model is near";
@@ -329,7 +323,7 @@ std::vector<Finding> foreign_contacts(const model::BodyModel& model,
       loaded += c.frames.size();
     }
     const bool near =
-        std::any_of(usual.begin(), usual.end(), [](double d) { return d < kOffFoot_m; });
+        std::any_of(usual.begin(), usual.end(), [](double d) { return d < kLimits.off_body_m; });
     std::vector<std::string> said;
     std::size_t foreign = 0;
     std::size_t touched = 0;

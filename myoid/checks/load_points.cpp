@@ -7,14 +7,12 @@
 #include <fmt/format.h>
 
 #include "myoid/checks/body_points.h"
+#include "myoid/intake/limits.h"
 #include "myoid/math/statistics.h"
 
 namespace myoid {
 namespace {
 
-constexpr double kOff_m = 0.2;        ///< A foot is 0.27 m long: half of it and what markers miss.
-constexpr double kElsewhere_m = 2.0;  ///< Beyond any body.
-constexpr double kNearer = 0.5;
 constexpr double kLoaded = 0.2;  ///< Of the largest force.
 constexpr int kFrames = 200;
 constexpr double kNone = std::numeric_limits<double>::infinity();
@@ -98,7 +96,7 @@ std::vector<Finding> misplaced_loads(const model::BodyModel& model,
   std::vector<bool> said(loads.size(), false);
   for (std::size_t i = 0; i < loads.size(); ++i) {
     const model::BodyIndex own = loads[i].force->body;
-    if (off(loads[i], own) > kElsewhere_m && off(loads[i], own) < kNone) {
+    if (off(loads[i], own) > kLimits.elsewhere_m && off(loads[i], own) < kNone) {
       said[i] = true;
       found.push_back(
           {Level::error, trial.name,
@@ -109,9 +107,10 @@ std::vector<Finding> misplaced_loads(const model::BodyModel& model,
     }
     for (std::size_t j = i + 1; j < loads.size() && !said[i]; ++j) {
       const model::BodyIndex other = loads[j].force->body;
-      if (other == own || said[j] || off(loads[i], own) < kOff_m || off(loads[j], other) < kOff_m ||
-          off(loads[i], other) > kNearer * off(loads[i], own) ||
-          off(loads[j], own) > kNearer * off(loads[j], other))
+      if (other == own || said[j] || off(loads[i], own) < kLimits.off_body_m ||
+          off(loads[j], other) < kLimits.off_body_m ||
+          off(loads[i], other) > kLimits.much_nearer * off(loads[i], own) ||
+          off(loads[j], own) > kLimits.much_nearer * off(loads[j], other))
         continue;
       said[i] = said[j] = true;
       found.push_back(
@@ -125,10 +124,11 @@ std::vector<Finding> misplaced_loads(const model::BodyModel& model,
   }
   for (std::size_t i = 0; i < loads.size(); ++i) {
     const model::BodyIndex own = loads[i].force->body;
-    if (said[i] || off(loads[i], own) < kOff_m || off(loads[i], own) == kNone) continue;
+    if (said[i] || off(loads[i], own) < kLimits.off_body_m || off(loads[i], own) == kNone) continue;
     const std::vector<double>& alone = loads[i].alone_m;
     const auto nearest = std::min_element(alone.begin() + 1, alone.end()) - alone.begin();
-    if (alone[static_cast<std::size_t>(nearest)] > kNearer * off(loads[i], own)) continue;
+    if (alone[static_cast<std::size_t>(nearest)] > kLimits.much_nearer * off(loads[i], own))
+      continue;
     found.push_back({Level::warning, trial.name,
                      fmt::format("{}: '{}' is applied to {}, but acts {:.2g} m from it (median "
                                  "while loaded) and {:.2g} m from {}; is applied_to_body right?",

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
+#include "myoid/intake/limits.h"
 #include "myoid/kinematics/inverse_kinematics.h"
 
 namespace myoid {
@@ -78,8 +79,6 @@ std::optional<Finding> exchanged_sides(const model::BodyModel& model,
                                        const TrialSpec& trial,
                                        const recording::MarkerSeries& markers,
                                        const std::map<std::string, double>& weights) {
-  constexpr int kFewestPairs = 3;
-  constexpr double kFar_m = 0.04, kBetter = 0.5;
   recording::MarkerSeries exchanged = markers;
   int renamed = 0;
   for (std::string& name : exchanged.names) {
@@ -90,12 +89,12 @@ std::optional<Finding> exchanged_sides(const model::BodyModel& model,
     name = *other;
     ++renamed;
   }
-  if (renamed < 2 * kFewestPairs) return std::nullopt;
+  if (renamed < 2 * kLimits.sides_pairs) return std::nullopt;
   try {
     const double now = rms_m(model, one_frame(markers), weights);
-    if (!(now > kFar_m)) return std::nullopt;
+    if (!(now > kLimits.sides_m)) return std::nullopt;
     const double then = rms_m(model, one_frame(exchanged), weights);
-    if (!(then < kBetter * now) || then > kFar_m) return std::nullopt;
+    if (!(then < kLimits.sides_better * now) || then > kLimits.sides_m) return std::nullopt;
     return Finding{Finding::Level::error,
                    trial.name,
                    fmt::format("{}: the markers lie {:.0f} mm rms from the model's, and {:.0f} mm "

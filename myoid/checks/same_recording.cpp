@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "myoid/intake/limits.h"
 #include "myoid/intake/trial_quality.h"
 
 namespace myoid {
@@ -15,7 +16,7 @@ constexpr Eigen::Index kStretch = 32;
 constexpr std::uint64_t kOneIn = 4;
 constexpr std::size_t kFewestStretches = 8;  ///< Stretches that tell anything.
 /// Windows of one file that meet may share their edges.
-constexpr double kEdges = 0.1;
+constexpr double kEdges = kLimits.same_samples;
 
 /// The finalizer of SplitMix64 (Steele, Lea and Flood 2014).
 std::uint64_t mixed(std::uint64_t x) {

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "myoid/core/units.h"
+#include "myoid/intake/limits.h"
 #include "myoid/model/kinematic_tree.h"
 #include "myoid/signals/motion_jumps.h"
 #include "myoid/study/trial_up.h"
@@ -15,8 +16,7 @@ namespace {
 
 using Level = Finding::Level;
 
-/// Joints go some degrees beyond what a model's author wrote down, and zero postures differ.
-constexpr double kBeyond_rad = 10.0 * kDegree;
+constexpr double kBeyond_rad = kLimits.angle_beyond_deg * kDegree;
 
 std::string whole_degrees(double angle_rad) { return fmt::format("{:.0f}", angle_rad / kDegree); }
 
@@ -39,7 +39,7 @@ void check_angles(const Study& study,
     const double share = static_cast<double>(outside) / static_cast<double>(q.size());
     const double far = std::max(c.lower - q.minCoeff(), q.maxCoeff() - c.upper);
     // Where it lies outside most of the time it is not a posture but another convention.
-    const bool wrong = share > 0.5 && c.clamped;
+    const bool wrong = share > kLimits.angle_share && c.clamped;
     const bool negated =
         (-q.maxCoeff() >= c.lower - kBeyond_rad) && (-q.minCoeff() <= c.upper + kBeyond_rad);
     findings.push_back(
@@ -92,12 +92,9 @@ void check_held_mass(const Study& study,
       lever_m = (state.X_GB[b] * study.model.held_mass->p_BP_m - center).norm();
     }
     const double moment_nm = trial.held_mass_kg * kStandardGravity * lever_m;
-    // Four lifts in a row are done with 90 % of what can be lifted once (Brzycki 1993), and that
-    // with what the muscles do at the worst angle of the lift, some 80 % of the best.
-    constexpr double kSeveralTimes = 0.75;
     const bool still =
         trial.use == Use::isometric || trial.use == Use::static_pose || trial.use == Use::mvc;
-    const double most_nm = (still ? 1.0 : kSeveralTimes) * capacity.isometric_nm();
+    const double most_nm = (still ? 1.0 : kLimits.lift_share) * capacity.isometric_nm();
     if (!(most_nm > 0.0) || moment_nm <= most_nm) continue;
     findings.push_back(
         {Level::warning,
@@ -147,12 +144,10 @@ void check_vertical(const Study& study,
   const std::string told = recording::axis_name(input.up_L);
   const recording::MarkerSeries laboratory = recording::rotated(trunk, back);
   const double now = upright(model, laboratory, input.up_L);
-  constexpr double kAcross = 0.5;   // 60 degrees
-  constexpr double kUpright = 0.8;  // 37 degrees
-  if (now < -1.5 || now > kAcross) return;
+  if (now < -1.5 || now > kLimits.trunk_across) return;
   for (const char* up : {"x", "y", "z"}) {
     const double other = upright(model, laboratory, *recording::axis_vector(up));
-    if (up == told || other < kUpright) continue;
+    if (up == told || other < kLimits.trunk_upright) continue;
     findings.push_back(
         {Level::warning,
          where,

@@ -7,6 +7,7 @@
 #include "myoid/core/finding.h"
 #include "myoid/core/time_series.h"
 #include "myoid/dynamics/joint_capacity.h"
+#include "myoid/intake/limits.h"
 #include "myoid/intake/trial_input.h"
 #include "myoid/model/body_model.h"
 #include "myoid/study/study.h"
@@ -27,7 +28,7 @@ using Capacities = std::map<std::string, dynamics::JointCapacity>;
                                                const TrialInput& input);
 
 /// The activation that a trial must exceed somewhere to count as one with active muscles.
-inline constexpr double kFlatActivation = 0.02;
+inline constexpr double kFlatActivation = kLimits.flat_activation;
 
 /// The share of samples by whose size a torque is judged: what one in a hundred exceeds, so that a
 /// spike does not.

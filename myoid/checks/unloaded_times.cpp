@@ -8,6 +8,7 @@
 #include <fmt/ranges.h>
 
 #include "myoid/dynamics/ground_support.h"
+#include "myoid/intake/limits.h"
 
 namespace myoid {
 namespace {
@@ -49,8 +50,6 @@ double acceleration_of(const Eigen::VectorXd& time_s, const Eigen::VectorXd& hei
 std::vector<Finding> unloaded_times(const model::BodyModel& model,
                                     const TrialSpec& trial,
                                     const TrialInput& input) {
-  constexpr double kBears = 0.5, kBearsNothing = 0.05;  // of the weight
-  constexpr double kBriefest_s = 0.1;
   if (!input.loads || (!input.markers && !input.motion)) return {};
   const auto weight = dynamics::unsupported_weight(model);
   const auto height = weight ? height_of(model, input) : std::nullopt;
@@ -68,13 +67,13 @@ std::vector<Finding> unloaded_times(const model::BodyModel& model,
     }
     share[i] = sum / weight->weight_n;
   }
-  if (share.maxCoeff() < kBears) return {};  // held in the hands, not stood upon
+  if (share.maxCoeff() < kLimits.bears) return {};  // held in the hands, not stood upon
   std::vector<std::string> times;
   double sum_s = 0.0;
   for (Eigen::Index i = 0; i < t.size(); ++i) {
     const Eigen::Index first = i;
-    while (i < t.size() && share[i] < kBearsNothing) ++i;
-    if (i == first || t[i - 1] - t[first] < kBriefest_s || i - first < 4) continue;
+    while (i < t.size() && share[i] < kLimits.bears_nothing) ++i;
+    if (i == first || t[i - 1] - t[first] < kLimits.unloaded_s || i - first < 4) continue;
     // Who flies falls.
     if (acceleration_of(t.segment(first, i - first), height->segment(first, i - first)) < -0.5 * g)
       continue;

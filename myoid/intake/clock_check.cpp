@@ -2,17 +2,19 @@
 
 #include <fmt/format.h>
 
+#include "myoid/intake/limits.h"
+
 namespace myoid {
 
 std::string check_clock(const std::filesystem::path& path, const Eigen::VectorXd& time_s) {
-  constexpr double kSlowest_hz = 5.0;
   const Eigen::Index n = time_s.size();
   const signals::ClockGaps gaps = signals::find_clock_gaps(time_s);
-  if (gaps.usual_interval_s > 1.0 / kSlowest_hz) {
-    throw ReadError(path, 0,
-                    fmt::format("{} samples from {:.6g} to {:.6g}, about one per {:.3g} s: is the "
-                                "time in ms or in frames? expected seconds and {} Hz or more",
-                                n, time_s[0], time_s[n - 1], gaps.usual_interval_s, kSlowest_hz));
+  if (gaps.usual_interval_s > 1.0 / kLimits.slowest_clock_hz) {
+    throw ReadError(
+        path, 0,
+        fmt::format("{} samples from {:.6g} to {:.6g}, about one per {:.3g} s: is the "
+                    "time in ms or in frames? expected seconds and {} Hz or more",
+                    n, time_s[0], time_s[n - 1], gaps.usual_interval_s, kLimits.slowest_clock_hz));
   }
   if (gaps.longest_s() > kLongestGap_s) {
     throw ClockPause(

@@ -8,13 +8,14 @@
 #include <Eigen/Core>
 
 #include "myoid/core/error.h"
+#include "myoid/intake/limits.h"
 #include "myoid/signals/clock_gaps.h"
 #include "myoid/study/study.h"
 
 namespace myoid {
 
 /// A longer pause in a clock is refused: what a spline makes of it is no measurement.
-inline constexpr double kLongestGap_s = 0.5;
+inline constexpr double kLongestGap_s = kLimits.pause_s;
 
 /// A clock with a pause of more than kLongestGap_s.
 class ClockPause : public ReadError {

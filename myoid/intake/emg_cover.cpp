@@ -7,12 +7,10 @@
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
+#include "myoid/intake/limits.h"
 
 namespace myoid {
 namespace {
-
-constexpr double kByHand_s = 1.0;     ///< Two recordings that are stopped by hand end so far apart.
-constexpr double kSameFactor = 0.02;  ///< What one factor may vary by.
 
 double length_s(const Eigen::VectorXd& time_s) { return time_s[time_s.size() - 1] - time_s[0]; }
 
@@ -24,7 +22,7 @@ const Eigen::VectorXd* motion_clock(const TrialInput& input) {
 std::optional<double> whole_factor(double ratio) {
   for (const double factor : {2.0, 3.0, 4.0, 5.0, 10.0}) {
     for (const double f : {factor, 1.0 / factor}) {
-      if (std::abs(ratio / f - 1.0) < kSameFactor) return f;
+      if (std::abs(ratio / f - 1.0) < kLimits.same_factor) return f;
     }
   }
   return std::nullopt;
@@ -52,15 +50,14 @@ void check_cover(const TrialSpec& trial, const Eigen::VectorXd& emg_s, TrialInpu
   const double end_s = (*motion_s)[motion_s->size() - 1];
   const double emg_end_s = emg_s[emg_s.size() - 1];
   const double overlap = std::min(emg_end_s, end_s) - std::max(emg_s[0], begin_s);
-  constexpr double kShortest_s = 0.5;
-  if (end_s - begin_s < kShortest_s) {
+  if (end_s - begin_s < kLimits.shortest_trial_s) {
     throw ReadError(
         *trial.emg, 0,
         fmt::format("the trial lasts {:.3g} s ({:.5g} to {:.5g} s); at least {} s are needed: give "
                     "start_s and end_s that are farther apart",
-                    end_s - begin_s, begin_s, end_s, kShortest_s));
+                    end_s - begin_s, begin_s, end_s, kLimits.shortest_trial_s));
   }
-  if (overlap < std::max(kShortest_s, 0.5 * (end_s - begin_s))) {
+  if (overlap < std::max(kLimits.shortest_trial_s, kLimits.covered * (end_s - begin_s))) {
     throw ReadError(
         *trial.emg, 0,
         fmt::format("the EMG ({:.5g} to {:.5g} s) covers less than half of the motion ({:.5g} "
@@ -106,8 +103,6 @@ std::vector<TrialLengths> lengths_of(const TrialSpec& trial, const TrialInput& i
 
 std::vector<Finding> unlike_lengths(const std::vector<TrialLengths>& trials) {
   using Level = Finding::Level;
-  // What one trigger starts and stops ends together to some frames.
-  constexpr double kTogether = 0.005;
   std::vector<Finding> found;
   double least = 1e300;
   double most = 0.0;
@@ -116,13 +111,13 @@ std::vector<Finding> unlike_lengths(const std::vector<TrialLengths>& trials) {
     const double ratio = t.emg_s / t.motion_s;
     least = std::min(least, ratio);
     most = std::max(most, ratio);
-    if (std::abs(t.emg_s - t.motion_s) < kByHand_s) {
+    if (std::abs(t.emg_s - t.motion_s) < kLimits.by_hand_s) {
       all = false;
       continue;
     }
     const auto factor = whole_factor(ratio);
     if (!factor) continue;
-    const bool sure = *factor < 1.0 || std::abs(ratio / *factor - 1.0) < kTogether;
+    const bool sure = *factor < 1.0 || std::abs(ratio / *factor - 1.0) < kLimits.ends_together;
     found.push_back({sure ? Level::error : Level::warning,
                      t.trial,
                      fmt::format("{}: {} the rate of one of them{} wrong{} {}. If both did last "
@@ -133,12 +128,12 @@ std::vector<Finding> unlike_lengths(const std::vector<TrialLengths>& trials) {
                      "length"});
   }
   // Stopped by hand, recordings end so many seconds apart, not by one factor.
-  if (trials.empty() || !found.empty() || !all || most > (1.0 + kSameFactor) * least) return found;
+  if (trials.empty() || !found.empty() || !all || most > (1.0 + kLimits.same_factor) * least)
+    return found;
   const TrialLengths& first = trials.front();
   if (trials.size() == 1) {
     // One trial alone must be longer by more than people forget to stop.
-    constexpr double kAlone = 1.5;
-    if (most < kAlone) return found;
+    if (most < kLimits.alone_longer) return found;
     found.push_back({Level::warning, first.trial,
                      fmt::format("{}: is the rate of one of them wrong? {}. If the EMG did go on, "
                                  "end_s leaves it out",

@@ -7,6 +7,7 @@
 #include "myoid/core/geometry.h"
 #include "myoid/dynamics/external_loads.h"
 #include "myoid/files/marker_series.h"
+#include "myoid/intake/limits.h"
 #include "myoid/model/body_model.h"
 #include "myoid/recording/force_plate.h"
 #include "myoid/study/study.h"
@@ -14,7 +15,7 @@
 namespace myoid {
 
 /// A marker farther than this from the center of pressure does not stand on the plate.
-inline constexpr double kFarFromPlate_m = 0.3;
+inline constexpr double kFarFromPlate_m = kLimits.plate_far_m;
 
 /// What force plates do to the bodies that stand on them, in the model's ground (R_YG from the
 /// laboratory). Each plate acts with its force and its moment about the middle of its surface,

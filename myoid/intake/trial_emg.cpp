@@ -13,6 +13,7 @@
 #include "myoid/files/toml_table.h"
 #include "myoid/intake/clock_check.h"
 #include "myoid/intake/emg_cover.h"
+#include "myoid/intake/limits.h"
 #include "myoid/intake/trial_clock.h"
 #include "myoid/intake/trial_quality.h"
 #include "myoid/recording/emg_reader.h"
@@ -134,14 +135,13 @@ void require_channels(const Study& study,
 /// What the study calls raw must not be envelopes, of which a high-pass leaves hardly anything but
 /// noise, nor what no electrode gives.
 void require_raw(const Study& study, const std::filesystem::path& path, const TimeSeries& emg) {
-  constexpr double kCertainlyNone_v = 1e8;  // more than the counts of a converter of 24 bits
   int envelopes = 0;
   int others = 0;
   for (const MuscleSpec& muscle : study.muscles) {
     const auto column = emg.find(muscle.emg);
     if (!column || !emg.values().col(*column).allFinite()) continue;
     const auto x = emg.values().col(*column);
-    if (x.cwiseAbs().maxCoeff() > kCertainlyNone_v)
+    if (x.cwiseAbs().maxCoeff() > kLimits.no_converter_v)
       throw ReadError(
           path, 0,
           fmt::format("channel '{}' reaches {:.3g} V, which no converter gives; correct "
@@ -163,9 +163,6 @@ void require_kind(const Study& study,
                   const TimeSeries& emg,
                   TrialInput& input) {
   if (study.emg.kind == EmgKind::raw) return require_raw(study, path, emg);
-  constexpr double kRinging = 0.2;  // of the maximum, that a filter may swing below zero
-  constexpr double kLargestActivation = 2.0;
-  constexpr double kSpike_s = 0.1;
   const bool activation = study.emg.kind == EmgKind::activation;
   const char* const kind = activation ? "activation" : "envelope";
   for (const MuscleSpec& muscle : study.muscles) {
@@ -181,19 +178,20 @@ void require_kind(const Study& study,
       low = std::min(low, value);
       high = std::max(high, value);
     }
-    if (low < -kRinging * high)
+    if (low < -kLimits.below_zero * high)
       throw ReadError(path, 0,
                       fmt::format("channel '{}' reaches from {:.3g} to {:.3g} {}, but [emg] kind = "
                                   "\"{}\" is never below zero; is it raw EMG? Then set kind = "
                                   "\"raw\"",
                                   muscle.emg, low, high, unit, kind));
     const bool lasting = signals::time_above_s(emg.values().col(*column), emg.mean_rate_hz(),
-                                               kLargestActivation) >= kSpike_s;
-    if (activation && high > kLargestActivation && !lasting)
+                                               kLimits.largest_activation) >= kLimits.spike_s;
+    if (activation && high > kLimits.largest_activation && !lasting)
       warn(input,
            fmt::format("{}: channel '{}' reaches {:.3g}, above {:g} for less than {:g} s: an "
                        "artefact?",
-                       path.filename().string(), muscle.emg, high, kLargestActivation, kSpike_s));
+                       path.filename().string(), muscle.emg, high, kLimits.largest_activation,
+                       kLimits.spike_s));
     if (activation && lasting)
       throw ReadError(
           path, 0,

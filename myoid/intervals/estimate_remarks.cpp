@@ -107,7 +107,7 @@ double span_but_for(double time_s, LengthsInTime lengths) {
 }  // namespace
 
 std::vector<ActiveMotion> active_motion(const StudyData& data, double delay_s) {
-  constexpr double kActive = 0.02, kShareOfSpeed = 0.01, kLeast_s = 0.1;
+  constexpr VerdictRules kRules;
   const std::size_t muscles = data.muscles.size();
   std::vector<double> shortening_s(muscles, 0.0), lengthening_s(muscles, 0.0);
   std::vector<LengthsInTime> lengths(muscles);
@@ -119,9 +119,9 @@ std::vector<ActiveMotion> active_motion(const StudyData& data, double delay_s) {
     for (const Eigen::Index i : included_rows(trial)) {
       for (std::size_t k = 0; k < muscles; ++k) {
         const auto column = static_cast<Eigen::Index>(k);
-        const double least = kShareOfSpeed * data.muscles[k].start.max_shortening_speed_mps;
+        const double least = kRules.moving_share * data.muscles[k].start.max_shortening_speed_mps;
         const double v = trial.velocity_mps(i, column);
-        if (!(activation(i, column) > kActive)) continue;
+        if (!(activation(i, column) > kRules.active)) continue;
         lengths[k].emplace_back(trial.length_m(i, column), step_s);
         if (v > least) lengthening_s[k] += step_s;
         if (v < -least) shortening_s[k] += step_s;
@@ -130,9 +130,9 @@ std::vector<ActiveMotion> active_motion(const StudyData& data, double delay_s) {
   }
   std::vector<ActiveMotion> result(muscles);
   for (std::size_t k = 0; k < muscles; ++k)
-    result[k] = {.shortened = shortening_s[k] >= kLeast_s,
-                 .lengthened = lengthening_s[k] >= kLeast_s,
-                 .length_span_m = span_but_for(kLeast_s, std::move(lengths[k]))};
+    result[k] = {.shortened = shortening_s[k] >= kRules.least_s,
+                 .lengthened = lengthening_s[k] >= kRules.least_s,
+                 .length_span_m = span_but_for(kRules.least_s, std::move(lengths[k]))};
   return result;
 }
 

@@ -104,7 +104,7 @@ std::string deviations(double distance, const VerdictContext& context) {
 
 /// What the recording adds to what is known beforehand.
 std::string narrowing(double shrinkage) {
-  return shrinkage > 0.005
+  return shrinkage > VerdictRules{}.any_shrinkage
              ? fmt::format("the recording narrows it by only {:.0f} %", 100.0 * shrinkage)
              : std::string("the recording does not narrow it");
 }
@@ -191,9 +191,8 @@ Ground judge_alone(ParameterEstimate& e, const VerdictContext& context, const Ve
             "the same fit puts {} where no muscle can be: none of its numbers describes the muscle",
             context.bad_company));
   }
-  constexpr double kNoDelay_s = 1e-6;
   const bool unexplained = context.r2 < rules.least_r2;
-  if (e.at_bound && e.parameter == "emg_delay" && e.estimate <= kNoDelay_s && e.ci_high) {
+  if (e.at_bound && e.parameter == "emg_delay" && e.estimate <= rules.no_delay_s && e.ci_high) {
     if (*e.ci_high > rules.delay_weak_s) {
       return set(
           Ground::any_delay, Verdict::not_identifiable,
@@ -243,8 +242,7 @@ Ground judge_alone(ParameterEstimate& e, const VerdictContext& context, const Ve
     }
     // A fit with a prior moves a value by N(0, P - C), P the prior's and C its own variance: much
     // farther, and what the recording says and the prior contradict each other.
-    constexpr double kLeastShrinkage = 0.005;
-    const double conflict = context.prior_is_given && *e.shrinkage > kLeastShrinkage
+    const double conflict = context.prior_is_given && *e.shrinkage > rules.any_shrinkage
                                 ? context.prior_distance / std::sqrt(*e.shrinkage)
                                 : 0.0;
     if (conflict > rules.prior_conflict) {
@@ -368,8 +366,7 @@ void judge(ParameterEstimate& e, const VerdictContext& context, const VerdictRul
   if (context.prior_distance > rules.prior_conflict && std::isfinite(e.estimate) && !said)
     e.reason += fmt::format("; {} away from {}", deviations(context.prior_distance, context),
                             context.beforehand);
-  constexpr double kMostly = 0.5;
-  if (context.tendon_share > kMostly && e.verdict != Verdict::identified &&
+  if (context.tendon_share > rules.mostly_tendon && e.verdict != Verdict::identified &&
       std::isfinite(e.estimate))
     e.reason +=
         "; most of its uncertainty is that of the tendon slack length, which is no measurement: "

@@ -4,34 +4,9 @@
 #include <string>
 
 #include "myoid/intervals/result.h"
-#include "myoid/muscle/literature.h"
+#include "myoid/intervals/verdict_rules.h"
 
 namespace myoid::identification {
-
-/// The thresholds of the verdicts, in one place.
-struct VerdictRules {
-  /// Farther end of the 95 % interval from the value, relative: at most this is `identified`: nine
-  /// times in ten the value is then within 10 % (0.10 times 1.96 / 1.645) ...
-  double identified_half_width = 0.12;
-  double weak_half_width = 0.60;      ///< ... at most this `weak`, beyond it `not_identifiable`.
-  double least_shrinkage = 0.30;      ///< Below, the value is `prior_dominated`.
-  double half_shrinkage = 0.50;       ///< Below, at most `weak`: half of it is the prior's.
-  double delay_identified_s = 0.012;  ///< Half width of the EMG delay, absolute.
-  double delay_weak_s = 0.05;
-  double model_error =
-      0.20;  ///< Systematic error of the model above which nothing is `identified`.
-  double prior_conflict = 3.0;  ///< Spreads of the prior away from its mean: at most `weak`.
-  double prior_stays = 1.0;     ///< So near, a value that is not narrowed is the literature's.
-  /// Of the optimal fiber length: where a muscle's active lengths span less, F_max f_l(l) is one
-  /// number, and nothing is told of l0 and l_sh.
-  double least_length_span = 0.05;
-  double flat_plateau = 1.02;  ///< V_ml whose interval reaches below says nothing about P.
-  muscle::Range relative_width = muscle::kRelativeWidths;  ///< l_sh over l0 that a muscle can have.
-  [[nodiscard]] bool possible(double width) const {
-    return width == 0.0 || (width >= relative_width.lower && width <= relative_width.upper);
-  }
-  double least_r2 = 0.50;  ///< A fit that explains less of the torque identifies nothing.
-};
 
 /// Context that a verdict needs beyond the estimate itself.
 struct VerdictContext {

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "myoid/intake/limits.h"
 #include "myoid/intervals/identifiability.h"
 #include "myoid/math/statistics.h"
 
@@ -18,9 +19,6 @@ using identification::Fold;
 using identification::IdentificationResult;
 using report::Gate;
 using report::GateStatus;
-
-/// Of the torque's squares, the least share that a prediction explains which is called good.
-constexpr double kExplains = 0.5;
 
 /// The scores of several trials together, joint by joint.
 class Pool {
@@ -87,8 +85,7 @@ double Explained::r2() const {
 }
 
 bool Explained::is_wrong() const {
-  constexpr double kUnrelated = -1.0;
-  return rms_nm > torque_rms_nm || (r2() < kUnrelated && rms_nm > 0.5 * torque_rms_nm);
+  return rms_nm > torque_rms_nm || (r2() < kGateLimits.unrelated && rms_nm > 0.5 * torque_rms_nm);
 }
 
 std::string Explained::text() const {
@@ -120,8 +117,6 @@ Explained explained(const std::vector<Fold>& folds) {
 std::vector<OutlyingFold> outlying_folds(const std::vector<Fold>& folds) {
   constexpr std::size_t kFewest = 5;
   constexpr double kRobust = 1.4826;
-  constexpr double kFar = 3.0;
-  constexpr double kSubstance = 1.5;
   std::map<std::string, std::vector<const Fold*>> joints;
   for (const Fold& f : folds) {
     if (f.identified.rmse_nm() > 0.0 && std::isfinite(f.identified.rmse_nm()))
@@ -143,9 +138,11 @@ std::vector<OutlyingFold> outlying_folds(const std::vector<Fold>& folds) {
     for (std::size_t i = 0; i < of_joint.size(); ++i) {
       const Fold& f = *of_joint[i];
       const double above = logs[i] - middle;
-      if (above <= kFar * sd || above <= std::log(kSubstance) || f.identified.r2() >= middle_r2)
+      if (above <= kGateLimits.far_fold * sd || above <= std::log(kGateLimits.larger_fold) ||
+          f.identified.r2() >= middle_r2)
         continue;
-      found.push_back({f.trial, joint, f.identified.rmse_nm(), f.identified.r2(), std::exp(middle)});
+      found.push_back(
+          {f.trial, joint, f.identified.rmse_nm(), f.identified.r2(), std::exp(middle)});
     }
   }
   return found;
@@ -155,9 +152,9 @@ std::vector<Gate> fit_gates(const IdentificationResult& fit) {
   std::vector<Gate> gates;
   if (const Explained own = explained(fit, true); own.samples > 0) {
     gates.push_back({"Describes the torque it was fitted to",
-                     own.is_wrong()         ? GateStatus::fail
-                     : own.r2() > kExplains ? GateStatus::pass
-                                            : GateStatus::warn,
+                     own.is_wrong()                    ? GateStatus::fail
+                     : own.r2() > kGateLimits.explains ? GateStatus::pass
+                                                       : GateStatus::warn,
                      own.text(),
                      "R2 above 0.5; fails where no torque at all would be nearer, or one that has "
                      "nothing to do with it (R2 below -1)",
@@ -165,9 +162,9 @@ std::vector<Gate> fit_gates(const IdentificationResult& fit) {
   }
   if (const Explained held = explained(fit, false); held.samples > 0) {
     gates.push_back({"Predicts the trials held back",
-                     held.is_wrong()         ? GateStatus::fail
-                     : held.r2() > kExplains ? GateStatus::pass
-                                             : GateStatus::warn,
+                     held.is_wrong()                    ? GateStatus::fail
+                     : held.r2() > kGateLimits.explains ? GateStatus::pass
+                                                        : GateStatus::warn,
                      held.text(), "R2 above 0.5; fails below -1",
                      "Below 0 their mean torque predicts them better, below -1 an unrelated torque "
                      "of the same size."});
@@ -198,9 +195,9 @@ std::vector<Gate> fold_gates(const std::vector<Fold>& folds) {
   const bool beats = identified < literature && 2 * better > static_cast<int>(folds.size());
   gates.push_back(
       {"Predicts torque it has not seen",
-       all.is_wrong()                  ? GateStatus::fail
-       : beats && all.r2() > kExplains ? GateStatus::pass
-                                       : GateStatus::warn,
+       all.is_wrong()                             ? GateStatus::fail
+       : beats && all.r2() > kGateLimits.explains ? GateStatus::pass
+                                                  : GateStatus::warn,
        fmt::format("{}; unfiltered {:.2f} N m, the literature with its best gain {:.2f} N m",
                    all.text(), std::sqrt(identified / std::max(count, 1.0)),
                    std::sqrt(literature / std::max(count, 1.0))),

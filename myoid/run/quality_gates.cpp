@@ -14,6 +14,7 @@
 #include "myoid/dynamics/ground_support.h"
 #include "myoid/dynamics/inverse_dynamics.h"
 #include "myoid/identification/beliefs.h"
+#include "myoid/intake/limits.h"
 #include "myoid/run/prediction_gates.h"
 
 namespace myoid {
@@ -23,11 +24,6 @@ using identification::IdentificationResult;
 using identification::Verdict;
 using report::Gate;
 using report::GateStatus;
-
-constexpr double kLostFrames = 0.05;      ///< Share of frames without a pose that is a failure.
-constexpr double kMarkerError_m = 0.020;  ///< Rms over the markers of a frame; twice it fails.
-constexpr double kMissingShare = 0.05;    ///< Of a joint's strength without an identified muscle.
-constexpr double kLeastRange_deg = 5.0;   ///< A joint that moves less was not moved.
 
 /// Of the study's coordinate in the trial that moves it most; empty if no trial is meant to.
 std::optional<double> largest_range_deg(const Study& study,
@@ -190,19 +186,20 @@ std::vector<Gate> marker_gates(const std::vector<TrialResult>& trials) {
   std::vector<Gate> list;
   if (!any_ik) return list;
   const int lost = unconverged + blind;
-  list.push_back({"Inverse kinematics converged",
-                  lost == 0                     ? GateStatus::pass
-                  : lost > kLostFrames * frames ? GateStatus::fail
-                                                : GateStatus::warn,
-                  fmt::format("{} of {} frames", frames - lost, frames),
-                  fmt::format("all frames; fails below {:.0f} %", 100.0 * (1.0 - kLostFrames)),
-                  "A frame that did not converge has no trustworthy angle."});
+  list.push_back(
+      {"Inverse kinematics converged",
+       lost == 0                                 ? GateStatus::pass
+       : lost > kGateLimits.lost_frames * frames ? GateStatus::fail
+                                                 : GateStatus::warn,
+       fmt::format("{} of {} frames", frames - lost, frames),
+       fmt::format("all frames; fails below {:.0f} %", 100.0 * (1.0 - kGateLimits.lost_frames)),
+       "A frame that did not converge has no trustworthy angle."});
   const double rms = std::sqrt(sum_of_squares / std::max(frames_with_markers, 1.0));
   list.push_back(
       {"Markers fit the model",
-       rms >= 2.0 * kMarkerError_m   ? GateStatus::fail
-       : worst_rms >= kMarkerError_m ? GateStatus::warn
-                                     : GateStatus::pass,
+       rms >= 2.0 * kGateLimits.marker_error_m   ? GateStatus::fail
+       : worst_rms >= kGateLimits.marker_error_m ? GateStatus::warn
+                                                 : GateStatus::pass,
        fmt::format("{:.1f} mm rms, {:.1f} mm in the worst frame", 1000.0 * rms, 1000.0 * worst_rms),
        "every frame below 20 mm; fails at 40 mm rms",
        "Larger errors mean wrong labels or units, or a model of another size."});
@@ -217,7 +214,8 @@ std::vector<Gate> marker_gates(const std::vector<TrialResult>& trials) {
 /// The gates of the motion: no parameter is better than the motion it rests on.
 std::vector<Gate> motion_gates(const Study& study, const std::vector<TrialResult>& trials) {
   std::vector<Gate> list = marker_gates(trials);
-  if (const auto range = largest_range_deg(study, trials); range && *range < kLeastRange_deg) {
+  if (const auto range = largest_range_deg(study, trials);
+      range && *range < kGateLimits.least_range_deg) {
     list.push_back({"The joint moves", GateStatus::fail,
                     fmt::format("{:.2g} degrees in the trial that moves it most", *range),
                     "5 degrees or more",
@@ -231,10 +229,10 @@ std::vector<Gate> model_gates(const StudyResult& result) {
   std::vector<Gate> list;
   if (const MissingMuscles missing = missing_muscles(result); !missing.names.empty()) {
     list.push_back({"Every muscle of the joint is in the study",
-                    missing.share > kMissingShare ? GateStatus::warn : GateStatus::info,
+                    missing.share > kGateLimits.missing_share ? GateStatus::warn : GateStatus::info,
                     fmt::format("without {}: {:.0f} % of the joint's strength",
                                 fmt::join(missing.names, ", "), 100.0 * missing.share),
-                    fmt::format("at most {:.0f} % missing", 100.0 * kMissingShare),
+                    fmt::format("at most {:.0f} % missing", 100.0 * kGateLimits.missing_share),
                     "What these muscles do is laid to the others: add them, or name them in a "
                     "[[muscle]]'s osim list."});
   }
@@ -259,7 +257,7 @@ std::vector<Gate> sharing_gates(const std::vector<TrialResult>& trials) {
        "all frames, residual below 1e-9", "Concerns the reference forces of method paper only."});
   const double share = sharing_frames > 0 ? 100.0 * reserves / sharing_frames : 0.0;
   list.push_back({"Muscles strong enough for the torque",
-                  share < 5.0 ? GateStatus::pass : GateStatus::warn,
+                  share < kGateLimits.reserve_percent ? GateStatus::pass : GateStatus::warn,
                   fmt::format("reserve used in {:.1f} % of frames", share), "below 5 %",
                   "Where a reserve acts, the literature's muscles could not provide the torque."});
   return list;
@@ -315,9 +313,8 @@ Gate loop_gate(const identification::ForceLoop& loop) {
 
 Gate electrode_gate(const identification::ExchangedElectrodes& exchanged) {
   // Synergists may also differ by more than usual in strength.
-  constexpr double kDescribes = 0.5;
   return {"Electrodes on the muscles that they are named for",
-          exchanged.as_named.r2 > kDescribes ? GateStatus::warn : GateStatus::fail,
+          exchanged.as_named.r2 > kGateLimits.explains ? GateStatus::warn : GateStatus::fail,
           exchanged.sentence(),
           fmt::format("no two channels that fit {:.0f} % better as each other; fails where "
                       "they make less than half of the torque as they are (R2 0.5)",
