@@ -363,7 +363,7 @@ std::string beyond_what_was_fitted(const std::vector<Fold>& folds) {
   constexpr std::size_t kNamed = 3;
   std::vector<std::string> found;
   for (const Fold& f : folds) {
-    if (f.unseen.ratio >= kFar && f.identified.r2 < kBadly && found.size() < kNamed)
+    if (f.unseen.ratio >= kFar && f.identified.r2() < kBadly && found.size() < kNamed)
       found.push_back(
           fmt::format("'{}': {} {:.1f} times", f.trial, f.unseen.channel, f.unseen.ratio));
   }

@@ -8,6 +8,7 @@
 #include "myoid/core/fault.h"
 #include "myoid/design/design_study.h"
 #include "myoid/intake/study_activation.h"
+#include "myoid/methods/cross_validation.h"
 #include "myoid/run/fit_input.h"
 #include "myoid/run/study_fit.h"
 #include "myoid/run/study_forces.h"
