@@ -7,6 +7,7 @@
 
 #include "myoid/core/error.h"
 #include "myoid/forces/optimality.h"
+#include "myoid/forces/sharing_objective.h"
 
 namespace myoid::forces {
 namespace {

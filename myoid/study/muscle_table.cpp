@@ -83,15 +83,15 @@ void visit(identification::ParameterRule& rule, SettingVisitor& v) {
           {.says = "Muscles, EMG channels or joints that it is about.", .otherwise = "all"});
   v.flag("free", rule.free, {.says = "It is identified."});
   v.number("value", rule.value,
-           {.says = "Where it starts, or what it is held at, SI.",
-            .limits = any_number("SI"),
+           {.says = "The value where it starts or is held, in its unit.",
+            .limits = any_number(),
             .otherwise = "its prior's mean"});
-  v.number("lower", rule.lower, {.says = "Lower bound.", .limits = any_number("SI")});
-  v.number("upper", rule.upper, {.says = "Upper bound.", .limits = any_number("SI")});
+  v.number("lower", rule.lower, {.says = "Lower bound.", .limits = any_number()});
+  v.number("upper", rule.upper, {.says = "Upper bound.", .limits = any_number()});
   v.number("prior_mean", rule.prior_mean,
-           {.says = "The value expected beforehand.", .limits = any_number("SI")});
+           {.says = "The value expected beforehand.", .limits = any_number()});
   v.number("prior_sd", rule.prior_sd,
-           {.says = "The standard deviation of that expectation.", .limits = above_zero("SI")});
+           {.says = "The standard deviation of that expectation.", .limits = above_zero()});
   v.flag("tie", rule.tie,
          {.says = "One unknown for all: their ratios to the starting values are equal."});
   v.must(!rule.lower || !rule.upper || *rule.lower < *rule.upper, "lower",

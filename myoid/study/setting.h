@@ -120,15 +120,16 @@ class SettingVisitor {
                        std::map<std::string, double>& value,
                        const About& about);
 
+  /// One of an enumeration's values, of which `about.words` are allowed (empty: all).
   template <typename Enumeration>
   bool choice(std::string_view key, Enumeration& value, About about) {
-    about.words = choice_names(value);
+    if (about.words.empty()) about.words = choice_names(value);
     return met({key, SettingKind::text, about}, std::string(choice_name(value)),
                [&value](SettingValue given) {
                  value = *choice_named<Enumeration>(std::get<std::string>(given));
                });
   }
-  /// Several of an enumeration's values, of which `about.words` are allowed (empty: all).
+  /// Several of them.
   template <typename Enumeration>
   bool choices(std::string_view key, std::vector<Enumeration>& value, About about) {
     if (about.words.empty()) about.words = choice_names(Enumeration{});

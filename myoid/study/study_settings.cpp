@@ -308,6 +308,7 @@ void visit_lag(IdentifySpec& identify, SettingVisitor& v) {
                         "activation, which damp fast changes; `automatic`: the one that the "
                         "recording prefers ([how](../theory/identification.md); method `force` has "
                         "one muscle at a time and takes `delay`).",
+                .words = choice_names(identify.lag).first<3>(),  // `dynamics` is the fourth
                 .silent = identify.dynamics});
   v.must(!identify.dynamics || !stated, "lag",
          "it stands beside dynamics = true, which is a third way to follow the EMG; leave one of "

@@ -31,8 +31,7 @@ class SettingWriter : public SettingVisitor {
     ordered_json& written = object_[std::string(setting.key)];
     if (setting.about.silent || std::holds_alternative<std::monostate>(now)) return false;
     if (setting.kind == SettingKind::path && folder_) {
-      const std::filesystem::path path = std::get<std::string>(now);
-      written = folder_->empty() ? path.string() : path.lexically_proximate(*folder_).string();
+      written = from_folder(std::get<std::string>(now)).string();
     } else if (setting.kind == SettingKind::count) {
       written = static_cast<long>(std::get<double>(now));
     } else {
@@ -61,6 +60,14 @@ class SettingWriter : public SettingVisitor {
   }
 
  private:
+  /// The path as a file in the folder names it.
+  [[nodiscard]] std::filesystem::path from_folder(const std::filesystem::path& path) const {
+    const auto [rest, own] =
+        std::mismatch(folder_->begin(), folder_->end(), path.begin(), path.end());
+    const bool below = rest == folder_->end() && own != path.end();
+    return below || path.is_relative() ? path.lexically_proximate(*folder_) : path;
+  }
+
   template <typename Value>
   static void write(const Value& value, ordered_json& written) {
     written = value;
