@@ -12,8 +12,6 @@
 #define TOML_ASSERT(expr) static_assert(true)
 #include <toml++/toml.h>
 
-#include "myoid/core/choice.h"
-
 namespace myoid::recording {
 
 /// Reads one table of a TOML file strictly: every key is asked for by name and type, and `finish`
@@ -44,14 +42,6 @@ class TomlTable {
   [[nodiscard]] std::string choice(std::string_view key,
                                    std::string_view otherwise,
                                    const std::vector<std::string>& allowed);
-
-  /// The enumerator that the key names; throws listing the names.
-  template <typename Enumeration>
-  [[nodiscard]] Enumeration choice(std::string_view key, Enumeration otherwise) {
-    const ChoiceNames names = choice_names(otherwise);
-    return *choice_named<Enumeration>(
-        choice(key, choice_name(otherwise), {names.begin(), names.end()}));
-  }
 
   /// A number, `otherwise` if absent; throws unless it lies from `lower` to `upper` [unit].
   [[nodiscard]] double number_within(
