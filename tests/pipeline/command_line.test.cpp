@@ -26,10 +26,10 @@ using testing::Not;
 
 const std::string kProtocols = myoid::test::source_dir() / "examples/protocols/";
 
-constexpr const char* kCommands[] = {"run",    "check",    "info",       "emg",      "ik",
-                                     "id",     "muscle",   "paths",      "so",       "identify",
-                                     "twin",   "report",   "convert",    "simulate", "compare",
-                                     "design", "run-tool", "twin-study", "init",     "update-file"};
+constexpr const char* kCommands[] = {
+    "run",     "check",  "info",     "emg",        "ik",     "id",          "muscle",
+    "paths",   "so",     "identify", "twin",       "report", "convert",     "simulate",
+    "compare", "design", "run-tool", "twin-study", "init",   "update-file", "settings"};
 
 /// One second of elbow flexion from 0 to 90 degrees, written in degrees under this header value.
 std::string ramp_motion(const std::string& in_degrees) {
@@ -50,6 +50,20 @@ std::filesystem::path recording_in(const TemporaryFolder& folder) {
       {"twin", "--protocol", folder / "protocol.toml", "--seed", "1", "--out", folder / "rec"});
   EXPECT_EQ(twin.exit_code, 0) << twin.err;
   return folder / "rec";
+}
+
+TEST(CommandLine, PrintedSettingsAreAStudyOfTheSameSettings) {
+  const TemporaryFolder folder;
+  write_text(folder / "study.toml",
+             "[emg]\nlowpass_hz = 5\n[[muscle]]\nname = \"BIC\"\nemg = \"b\"\n[[trial]]\nname = "
+             "\"t\"\nmarkers = \"t.trc\"\nemg = \"t.sto\"\n");
+  const Finished first = myoid({"settings", folder / "study.toml"});
+  EXPECT_EQ(first.exit_code, 0) << first.err;
+  EXPECT_THAT(first.out, AllOf(HasSubstr("lowpass_hz = 5.0"), HasSubstr("markers = \"t.trc\""),
+                               HasSubstr("loss = \"square\"")));
+  write_text(folder / "again.toml", first.out);
+  EXPECT_EQ(myoid({"settings", folder / "again.toml"}).out, first.out);
+  EXPECT_THAT(myoid({"settings"}).out, HasSubstr("  rate_hz: 10 to 2000 Hz; default 100\n"));
 }
 
 TEST(CommandLine, HelpOfEveryCommandSucceedsAndShowsAnExample) {
