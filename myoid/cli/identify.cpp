@@ -115,39 +115,6 @@ void print_folds(const std::vector<identification::Fold>& folds,
     fmt::print("EMG beyond all that was fitted ({}): that prediction extrapolates.\n", beyond);
 }
 
-void print_basins(const identification::BasinTable& table) {
-  constexpr std::size_t kMost = 8;
-  fmt::print("{:<22}{:>12}{:>16}{:>12}\n", fmt::format("  basin of {} starts", table.starts),
-             "starts", "cost", "distance");
-  for (std::size_t i = 0; i < table.basins.size() && i < kMost; ++i) {
-    const identification::BasinRow& basin = table.basins[i];
-    fmt::print("  {:<20}{:>12}{:>16.6g}{:>12.2g}{}{}\n", i + 1, basin.starts, basin.cost,
-               basin.distance,
-               basin.converged < basin.starts
-                   ? fmt::format("  {} did not converge", basin.starts - basin.converged)
-                   : "",
-               basin.rival && i > 0 ? "  as good as the best: both are answers" : "");
-  }
-  if (table.basins.size() > kMost) fmt::print("  and {} more\n", table.basins.size() - kMost);
-  if (table.failed > 0) fmt::print("  {:<20}{:>12}\n", "no minimum", table.failed);
-}
-
-void print_contest(const commands::NamedContest& named) {
-  const SolverContest& c = named.contest;
-  if (c.runs.empty()) {
-    fmt::print("\nSolvers, {}: nothing to fit\n", named.fit);
-    return;
-  }
-  fmt::print("\nSolvers, {}:\n{:<22}{:>6}{:>16}{:>12}{:>13}{:>10}  {}\n", named.fit, "solver",
-             "start", "cost", "distance", "evaluations", "seconds", "ended");
-  for (const identification::SolverRun& run : c.runs) {
-    fmt::print("{:<22}{:>6}{:>16.6g}{:>12.2g}{:>13}{:>10.3f}  {}\n", run.solver, run.start,
-               run.cost, run.distance, run.evaluations, run.seconds, math::name(run.termination));
-  }
-  fmt::print("Levenberg-Marquardt:\n");
-  print_basins(c.basins);
-}
-
 /// Where the searches of several starts ended.
 void print_basins(const identification::BasinTable& table) {
   constexpr std::size_t kMost = 8;
@@ -167,7 +134,7 @@ void print_basins(const identification::BasinTable& table) {
 }
 
 void print_contest(const commands::NamedContest& named) {
-  const SolverContest& c = named.contest;
+  const identification::SolverContest& c = named.contest;
   if (c.runs.empty()) {
     fmt::print("\nSolvers, {}: nothing to fit\n", named.fit);
     return;

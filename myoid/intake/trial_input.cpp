@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "myoid/recording/recording.h"
+
 namespace myoid {
 
 void add_repairs(const std::filesystem::path& path,

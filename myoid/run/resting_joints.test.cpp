@@ -50,7 +50,7 @@ Recorded recorded() {
   r.study.truth.reset();
   for (const twin::VirtualTrial& t : r.recording.trials) {
     TrialInput input;
-    input.markers = t.input.markers;
+    input.markers = t.markers;
     input.emg = t.emg;
     input.external_torque = t.external_torque;
     r.inputs.push_back(std::move(input));

@@ -3,6 +3,7 @@
 #include <Eigen/SVD>
 #include <fmt/format.h>
 
+#include "myoid/model/kinematic_tree.h"
 #include "myoid/recording/plate_standing.h"
 
 namespace myoid {
