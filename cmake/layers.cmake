@@ -30,8 +30,8 @@ set(MYOID_LAYER_checks core math files tables recording signals model kinematics
     intake)
 set(MYOID_LAYER_design core muscle arm kinematics dynamics simulation identification intervals
     methods report study)
-set(MYOID_LAYER_run core math files tables signals osim arm kinematics dynamics forces
-    identification intervals methods report phases study intake checks design)
+set(MYOID_LAYER_run core math files tables signals model kinematics dynamics forces identification
+    intervals methods report phases study intake checks design)
 set(MYOID_LAYER_scene core files recording model osim report)
 set(MYOID_LAYER_results core math files muscle tables model kinematics forces simulation
     identification intervals methods report phases study design run scene)
@@ -41,13 +41,12 @@ set(MYOID_LAYER_identify_files core math files muscle tables recording signals d
     identification methods checks)
 set(MYOID_LAYER_opensim_tools core math files tables recording signals model osim kinematics
     dynamics forces simulation)
-set(MYOID_LAYER_twin core math files muscle tables c3d model osim arm simulation identification intervals
-    run)
+set(MYOID_LAYER_twin core math files muscle tables c3d model osim arm simulation identification
+    intervals run)
 set(MYOID_LAYER_commands core files muscle tables c3d recording signals model osim arm kinematics
     dynamics forces simulation identification intervals methods report study checks design run scene
     results draft contents identify_files twin)
-set(MYOID_LAYER_cli core math files intervals methods report results contents opensim_tools
-    commands)
+set(MYOID_LAYER_cli core math files intervals methods report results contents opensim_tools commands)
 
 # myoid_layer(NAME UNITS ... [GENERATED sources...] [TESTS_USE layers...] [EXTERNAL targets...])
 # A folder is a target; its tests are one executable. A unit u stands for those of u.h, u.cpp and u.test.cpp

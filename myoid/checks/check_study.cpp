@@ -208,8 +208,8 @@ class StudyCheck {
   const Study& study_;
   std::optional<model::BodyModel> model_;
   std::optional<StudyPlausibility> together_;
-  std::vector<TrialSpec> specs_;     ///< Of the trials that could be read, or their parts.
-  std::vector<TrialInput> inputs_;   ///< Theirs.
+  std::vector<TrialSpec> specs_;    ///< Of the trials that could be read, or their parts.
+  std::vector<TrialInput> inputs_;  ///< Theirs.
   std::vector<Finding> findings_;
   bool all_read_ = true;
 };

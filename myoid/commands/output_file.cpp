@@ -13,7 +13,9 @@ void check_output(const std::filesystem::path& path,
   if (path.empty()) throw InvalidInput("--out is empty; name the file to write");
   std::error_code ignored;
   for (const std::string& input : inputs) {
-    if (path == input || fs::equivalent(path, input, ignored)) {
+    // A folder of the path that is not there yet ("new/../a.sto") hides the file from `equivalent`.
+    if (fs::weakly_canonical(path, ignored) == fs::weakly_canonical(input, ignored) ||
+        fs::equivalent(path, input, ignored)) {
       throw InvalidInput(fmt::format(
           "{} is an input of this command and would be replaced by its result; give another --out",
           path.string()));

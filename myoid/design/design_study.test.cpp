@@ -74,13 +74,14 @@ TEST(Movement, WhatIsTooHeavyCannotBePerformed) {
 }
 
 TEST(Movement, AnIsokineticMovementKeepsItsSpeedOverMostOfTheRange) {
-  const MovementCourse course = movement_course(planned_study(), movement_models(planned_study(), load_model(planned_study())),
-                                                {.kind = MovementKind::isokinetic,
-                                                 .lowest_rad = 0.3,
-                                                 .highest_rad = 2.1,
-                                                 .speed_radps = 1.0,
-                                                 .level = 0.5,
-                                                 .duration_s = 8.0});
+  const MovementCourse course = movement_course(
+      planned_study(), movement_models(planned_study(), load_model(planned_study())),
+      {.kind = MovementKind::isokinetic,
+       .lowest_rad = 0.3,
+       .highest_rad = 2.1,
+       .speed_radps = 1.0,
+       .level = 0.5,
+       .duration_s = 8.0});
   // The speed shows in the brachialis: dl/dt = -r dq/dt.
   int steady = 0;
   for (Eigen::Index i = 0; i < course.time_s.size(); ++i) {
@@ -121,8 +122,9 @@ TEST(DesignStudy, ItsExpectedSpreadIsTheSpreadThatIdentificationHas) {
     simulation::Random random(seed);
     data.trials.clear();
     for (const PlannedMovement& planned : design.plan) {
-      auto trial = perform(movement_course(study, movement_models(study, load_model(study)), planned.movement),
-                           data.muscles, person);
+      auto trial = perform(
+          movement_course(study, movement_models(study, load_model(study)), planned.movement),
+          data.muscles, person);
       ASSERT_TRUE(trial);
       trial->torque_nm +=
           options.torque_sd_nm / above_2_hz * random.normals(trial->torque_nm.size());

@@ -68,13 +68,12 @@ struct MovementCourse {
   Eigen::VectorXd effort;              ///< 0..1 of `level`: isometric, isokinetic; else empty.
 };
 
-/// The study's model (`given`) in both planes of movement, with no muscles but the study's. Only the
-/// built-in arm is made anew for the other plane.
+/// The study's model (`given`) in both planes of movement, with no muscles but the study's. Only
+/// the built-in arm is made anew for the other plane.
 struct MovementModels {
   model::BodyModel vertical, horizontal;
 };
-[[nodiscard]] MovementModels movement_models(const Study& study,
-                                             const model::BodyModel& given);
+[[nodiscard]] MovementModels movement_models(const Study& study, const model::BodyModel& given);
 
 /// The course of a movement by the study's model: muscle paths and inverse dynamics of the
 /// coordinate's motion, the other coordinates at their default.

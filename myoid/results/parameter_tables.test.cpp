@@ -51,7 +51,8 @@ TEST(EstimateLines, KeepApartWhatIsTiedByARatio) {
 
 TEST(EstimateTables, ShowTheTruthAsWideAsTheIntervalAndWhetherItLiesInside) {
   StudyResult result;
-  result.source.truth = {{"BIC", "optimal_fiber_length", 0.145}, {"TRI", "optimal_fiber_length", 0.15}};
+  result.source.truth = {{"BIC", "optimal_fiber_length", 0.145},
+                         {"TRI", "optimal_fiber_length", 0.15}};
   result.fit_input.data.muscles.resize(2);
   const std::vector<report::Table> tables = estimate_tables(result, two_muscles());
   ASSERT_EQ(tables.size(), 2U);

@@ -158,10 +158,10 @@ Figure force_figure(const StudyResult& result,
     const Eigen::VectorXd error = fit->force_fit_n.col(c) - data.force_n.col(c);
     const bool finite = error.allFinite();
     Panel panel{
-        finite
-            ? fmt::format("{}: identified against shared {:.0f} N rms", result.fit_input.data.muscles[m].name,
-                          std::sqrt(error.squaredNorm() / static_cast<double>(error.size())))
-            : result.fit_input.data.muscles[m].name,
+        finite ? fmt::format("{}: identified against shared {:.0f} N rms",
+                             result.fit_input.data.muscles[m].name,
+                             std::sqrt(error.squaredNorm() / static_cast<double>(error.size())))
+               : result.fit_input.data.muscles[m].name,
         {"time", "s", {}, {}, {}},
         {"force", "N", {}, {}, {}},
         {}};

@@ -35,7 +35,8 @@ report::Scene trial_scene(const Study& study, const TrialResult& trial, int most
   input.name = trial.spec.name;
   input.q = trial.motion.joints.q;
   if (trial.input.markers) input.markers = &*trial.input.markers;
-  if (!trial.forces.shared.force.empty()) input.colorings.push_back({"force", "N", trial.forces.shared.force});
+  if (!trial.forces.shared.force.empty())
+    input.colorings.push_back({"force", "N", trial.forces.shared.force});
   if (!trial.emg.activation.empty()) {
     TimeSeries activation = muscle_activation(study, trial);
     if (activation.channel_count() > 0)
@@ -49,8 +50,9 @@ report::Scene trial_scene(const Study& study, const TrialResult& trial, int most
 report::ScenePage study_scenes(const StudyResult& result, int most_frames) {
   const auto moving = [](const TrialResult& trial) { return trial.has_motion(); };
   const auto count = std::count_if(result.trials.begin(), result.trials.end(), moving);
-  report::ScenePage page{.title = result.source.study.subject.name,
-                         .subtitle = fmt::format("model {}, {} trials", result.source.model->name, count)};
+  report::ScenePage page{
+      .title = result.source.study.subject.name,
+      .subtitle = fmt::format("model {}, {} trials", result.source.model->name, count)};
   const int each =
       std::max(100, most_frames / static_cast<int>(std::max<std::ptrdiff_t>(1, count)));
   for (const TrialResult& trial : result.trials)

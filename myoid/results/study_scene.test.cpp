@@ -18,8 +18,8 @@ namespace {
 TrialResult flexing(const std::string& name) {
   TrialResult trial;
   trial.spec.name = name;
-  trial.motion.model = std::make_shared<const model::BodyModel>(
-      model::parse_osim(model::arm4_osim(), "arm4.osim"));
+  trial.motion.model =
+      std::make_shared<const model::BodyModel>(model::parse_osim(model::arm4_osim(), "arm4.osim"));
   std::vector<Channel> channels;
   for (const model::Coordinate& c : trial.motion.model->coordinates)
     channels.push_back({c.name, Unit::radian});
@@ -27,7 +27,7 @@ TrialResult flexing(const std::string& name) {
   q.col(trial.motion.model->coordinate_index("elbow_flexion")).setLinSpaced(0.0, 1.5);
   trial.motion.joints.q = TimeSeries(Eigen::VectorXd::LinSpaced(101, 0.0, 1.0), channels, q);
   trial.emg.activation = TimeSeries(Eigen::Vector2d(0.0, 1.0), {{"Biceps", Unit::dimensionless}},
-                                Eigen::Vector2d(0.2, 0.6));
+                                    Eigen::Vector2d(0.2, 0.6));
   recording::MarkerSeries markers;
   markers.time_s = Eigen::Vector2d(0.0, 1.0);
   markers.names = {trial.motion.model->markers[0].name};

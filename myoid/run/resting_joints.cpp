@@ -22,8 +22,8 @@ double strength_nm(const Study& study,
                    const model::BodyModel& model,
                    const RelaxedTrial& trial,
                    const std::string& coordinate) {
-  const Eigen::MatrixXd arms = kinematics::lumped_moment_arm_m(
-      *trial.muscles, muscle_groups(study, model), coordinate);
+  const Eigen::MatrixXd arms =
+      kinematics::lumped_moment_arm_m(*trial.muscles, muscle_groups(study, model), coordinate);
   const auto setups = muscle_setups(study, model);
   double sum = 0.0;
   for (Eigen::Index k = 0; k < arms.cols(); ++k)
@@ -92,8 +92,9 @@ RestingJoints resting_joints(const Study& study,
     if (!trial.spec->external_torque && !trial.spec->load_cell) continue;
     const std::string why = not_at_rest(study, model, trial);
     if (!why.empty()) {
-      found.remarks.push_back(
-          {trial.index, "what the joint does by itself is not taken from this trial: " + why, true});
+      found.remarks.push_back({trial.index,
+                               "what the joint does by itself is not taken from this trial: " + why,
+                               true});
       continue;
     }
     relaxed.push_back(&trial);

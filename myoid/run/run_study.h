@@ -25,10 +25,10 @@ struct RunOptions {
 /// otherwise.
 [[nodiscard]] StudyResult analyse(StudyInputs inputs, const RunOptions& options = {});
 
-/// All stages in order: reading, activation, motion, forces, data, fit, validation, findings; trials
-/// in parallel, the same numbers for every number of threads. Throws
-/// ReadError or InvalidInput for input that cannot be used (nothing is computed then: all files are
-/// read first), Interrupted when stopped. A trial whose computation fails is marked and left out.
+/// All stages in order: reading, activation, motion, forces, data, fit, validation, findings;
+/// trials in parallel, the same numbers for every number of threads. Throws ReadError or
+/// InvalidInput for input that cannot be used (nothing is computed then: all files are read first),
+/// Interrupted when stopped. A trial whose computation fails is marked and left out.
 [[nodiscard]] StudyResult run_study(const Study& study, const RunOptions& options = {});
 
 }  // namespace myoid

@@ -38,10 +38,9 @@ std::vector<TrueValue> read_truth(const std::filesystem::path& path) {
 }
 
 StudySource read_source(const Study& study) {
-  StudySource source{.study = study, .model_text = model_text(study), .model = {}, .truth = {},
-                     .files = {}};
-  source.model =
-      std::make_shared<const model::BodyModel>(load_model(study, source.model_text));
+  StudySource source{
+      .study = study, .model_text = model_text(study), .model = {}, .truth = {}, .files = {}};
+  source.model = std::make_shared<const model::BodyModel>(load_model(study, source.model_text));
   return source;
 }
 

@@ -125,8 +125,9 @@ class SettingVisitor {
   bool choice(std::string_view key, Enumeration& value, About about) {
     if (about.words.empty()) about.words = choice_names(value);
     return met({key, SettingKind::text, about}, std::string(choice_name(value)),
-               [&value](SettingValue given) {
-                 value = *choice_named<Enumeration>(std::get<std::string>(given));
+               [&value](const SettingValue& given) {
+                 if (const auto* name = std::get_if<std::string>(&given))
+                   value = *choice_named<Enumeration>(*name);
                });
   }
   /// Several of them.

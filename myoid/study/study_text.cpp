@@ -128,7 +128,8 @@ std::string study_json(const Study& study) { return json_text(settings(study, st
 
 std::string study_toml(const Study& study) {
   std::string text;
-  for (const auto& [key, value] : settings(study, study.file.parent_path()).items()) {
+  const ordered_json all = settings(study, study.file.parent_path());
+  for (const auto& [key, value] : all.items()) {
     if (value.is_object()) text += fmt::format("[{}]\n{}\n", key, toml_lines(value));
     if (!value.is_array()) continue;
     for (const ordered_json& each : value)
