@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include "myoid/methods/torque.h"
+#include "myoid/run/fit_input.h"
+#include "myoid/run/fit_source.h"
 #include "myoid/run/study_result.h"
 
 #include "tests/support/elbow_study.h"

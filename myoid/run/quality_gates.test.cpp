@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "myoid/core/units.h"
+#include "myoid/run/study_validation.h"
 
 namespace myoid {
 namespace {

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <vector>
+
+#include "myoid/core/time_series.h"
+#include "myoid/intake/study_activation.h"
+#include "myoid/methods/resting_torque.h"
+#include "myoid/model/body_model.h"
+#include "myoid/run/study_inputs.h"
+#include "myoid/run/trial_result.h"
+#include "myoid/study/study.h"
+
+namespace myoid {
+
+/// The findings that the data of a fit are made from; nothing is owned.
+struct FitSource {
+  const Study& study;  ///< With the uses of the trials.
+  const model::BodyModel& model;
+  const std::vector<TrialResult>& trials;
+  const std::vector<identification::RestingJoint>& resting;
+  std::vector<const TimeSeries*> activation;  ///< Of each trial; empty series: no EMG.
+  const EmgScale& scale;                      ///< Of these activations.
+};
+
+/// The source that a run's own trials are.
+[[nodiscard]] FitSource fit_source(const StudySource& source,
+                                   const std::vector<TrialResult>& trials,
+                                   const std::vector<identification::RestingJoint>& resting,
+                                   const EmgScale& scale);
+
+}  // namespace myoid
