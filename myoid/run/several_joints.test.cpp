@@ -252,6 +252,7 @@ TEST(SeveralJoints, RunAndSoWriteTheSameStaticOptimizationFiles) {
   const test::TemporaryFolder folder;
   Study study = leg_study(R"(["knee_angle", "hip_angle"])");
   study.identify.cross_validate = false;
+  study.identify.next_movements = 0;
   std::vector<TrialInput> inputs = exact_inputs(study);
   for (TrialInput& input : inputs) input.external_torque.reset();
   const StudyResult result = analyse(in_memory(study, std::move(inputs)));
