@@ -52,9 +52,7 @@ SoResult so(const SoOptions& o) {
       forces::sharing_input(model, motion, o.coordinates, loads ? &*loads : nullptr);
   for (const std::string& note : input.notes) remarks.warn(note);
   SoResult result;
-  result.shared =
-      forces::share(input.moment_arms, input.torques, input.optimal_force_n,
-                    input.max_isometric_force_n, sharing_options(o, model, input, remarks));
+  result.shared = forces::share(input, sharing_options(o, model, input, remarks));
   result.remarks = remarks.list();
   return result;
 }
