@@ -11,16 +11,15 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   namespace fuzz = myoid::fuzz;
-  namespace pipeline = myoid;
   if (size == 0) return 0;
   const std::size_t kind = (data[0] - std::size_t{'a'}) % fuzz::kInfoKinds.size();
   const std::string name = "f" + std::string(fuzz::kInfoKinds[kind]);
   const auto path = fuzz::folder() / name;
   fuzz::write(name, fuzz::text(data + 1, size - 1));
   try {
-    auto contents = recording_contents(path);
-    if (!contents) contents = model_contents(myoid::model::read_osim(path));
-    fuzz::require(!contents_text(*contents).empty());
+    auto contents = myoid::recording_contents(path);
+    if (!contents) contents = myoid::model_contents(myoid::model::read_osim(path));
+    fuzz::require(!myoid::contents_text(*contents).empty());
     fuzz::require(!myoid::json_text(*contents).empty());
   } catch (const myoid::ReadError&) {
   } catch (const myoid::ModelError&) {
