@@ -190,7 +190,7 @@ class StudyCheck {
       const auto& stages = activation.trials[i].stages;
       if (stages)
         for (const std::string& text : stages->findings) add(Level::note, specs_[i].name, text);
-      // Where there is no reference, the levels alone tell.
+      // Without a reference the levels alone tell.
       if (emg[i] != nullptr) activation.trials[i].activation = stages ? stages->envelope : *emg[i];
     }
     const bool all_read = all_read_;
@@ -236,7 +236,7 @@ std::optional<TimeSeries> voltages(const std::filesystem::path& path,
   return recording::read_emg(path, "", false).data;
 }
 
-/// Whether the EMG of one recording rises from rest.
+/// Faults of a recording whose EMG does not rise from rest.
 std::vector<Fault> levels_alone(const TimeSeries& emg, bool raw, const std::string& where) {
   constexpr double kSlowest_hz = 100.0;  // twice what the high-pass needs
   if (raw && emg.mean_rate_hz() < kSlowest_hz) return {};

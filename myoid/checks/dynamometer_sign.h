@@ -17,7 +17,7 @@ struct EffortTrial {
   TimeSeries envelopes;                         ///< Of the study's EMG channels, any scale.
 };
 
-/// Whether the dynamometers push against the muscles that are active, or, with the sign reversed,
+/// Tells if the dynamometers push against the muscles that are active, or, with the sign reversed,
 /// with them. What the muscles pull is taken as a F_max r with r the mean over the coordinate's
 /// range and a relative to the channel's largest of all trials; it is compared with minus the
 /// dynamometer's torque, by the cosine of both, in the half of a trial's torque that is largest. A

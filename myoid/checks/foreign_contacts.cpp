@@ -130,7 +130,7 @@ class GroundContacts {
   [[nodiscard]] const std::vector<GroundContact>& of(std::size_t force) const {
     return of_force_[force];
   }
-  /// Whether the force is that of a plate in the floor.
+  /// True if the force is that of a plate in the floor.
   [[nodiscard]] bool is_of_floor(std::size_t force) const {
     Vec3 sum_n = Vec3::Zero();
     std::vector<double> above;

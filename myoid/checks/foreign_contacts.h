@@ -10,11 +10,11 @@
 
 namespace myoid {
 
-/// Whether each contact with the ground belongs to the body that its force is applied to. A contact
-/// is a time of 50 ms or more in which a force on a body bears a twentieth of its largest. Only
-/// forces of floor plates are looked at: they push up, within 60 degrees, and their center of
+/// Tells if each contact with the ground belongs to the body that its force is applied to. A
+/// contact is a time of 50 ms or more in which a force on a body bears a twentieth of its largest.
+/// Only forces of floor plates are looked at: they push up, within 60 degrees, and their center of
 /// pressure is at most 0.5 m above the lowest point of the person. A load cell in a hand is none.
-/// Of each contact the distance of the center of pressure from the body is compared, frame by
+/// The distance of the center of pressure from the body is compared for each contact, frame by
 /// frame:
 ///
 /// - a foreign foot: the center of pressure is more than 0.2 m from the body and half as far from

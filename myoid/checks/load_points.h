@@ -10,7 +10,7 @@
 
 namespace myoid {
 
-/// Whether the measured forces on the ground act where the bodies are that they are applied to: a
+/// Tells if the measured forces on the ground act where the bodies are that they are applied to: a
 /// center of pressure lies under its foot. Of every force with a moving point in ground, the median
 /// distance over the frames in which it is loaded (a fifth of its largest or more) from the nearest
 /// marker of each body, or, of a motion without markers, from the nearest of its markers, joints

@@ -29,7 +29,7 @@ nlohmann::ordered_json findings_json(const std::vector<Finding>& findings) {
 }
 
 void print_findings(const commands::CheckResult& result, const std::string& input) {
-  // What to do is said with the first of several faults that ask for the same.
+  // The first of several faults that ask for the same remedy names the remedy.
   std::set<std::string> said;
   for (const auto& f : result.findings) {
     const bool again = f.fault && !f.fault->remedy.empty() && !said.insert(f.fault->remedy).second;

@@ -115,7 +115,7 @@ void print_folds(const std::vector<identification::Fold>& folds,
     fmt::print("EMG beyond all that was fitted ({}): that prediction extrapolates.\n", beyond);
 }
 
-/// Where the searches of several starts ended.
+/// Prints the minima that the searches of several starts reached.
 void print_basins(const identification::BasinTable& table) {
   constexpr std::size_t kMost = 8;
   fmt::print("{:<22}{:>12}{:>16}{:>12}\n", fmt::format("  basin of {} starts", table.starts),
@@ -161,7 +161,7 @@ void print_identify(const commands::IdentifyResult& result, const commands::Iden
   for (const commands::NamedContest& contest : result.contests) print_contest(contest);
 }
 
-/// Whether the fit did not converge or, with --strict, a parameter is not identifiable.
+/// True if the fit did not converge or, with --strict, a parameter is not identifiable.
 bool failed(const identification::IdentificationResult& fit,
             const std::string& method,
             bool strict) {

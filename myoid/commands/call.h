@@ -34,7 +34,7 @@ struct Remark {
   std::string text;
 };
 
-/// What every command takes beside its own options.
+/// Values that every command takes beside its own options.
 struct Call {
   std::uint64_t seed = 1;
   std::optional<double> start_s, end_s;  ///< Only this time of the data is used [s].

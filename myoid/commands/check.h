@@ -23,7 +23,7 @@ struct CheckResult {
   std::size_t errors = 0;               ///< Findings because of which `run` refuses the study.
 };
 
-/// What is wrong with an input is a finding. Throws ReadError for a study that cannot be read.
+/// A fault of an input is a finding. Throws ReadError for a study that cannot be read.
 [[nodiscard]] CheckResult check(const CheckOptions& options);
 
 }  // namespace myoid::commands

@@ -138,7 +138,7 @@ class Converter {
     recording::write_channels(out, recording::rows_of(written), said);
   }
 
-  /// Whether all channels are written as they were read: then they stay as compact as they are.
+  /// True if all channels are written as they were read: then they stay as compact as they are.
   [[nodiscard]] bool stays(const recording::AnalogChannels& channels, const fs::path& out) const {
     return o_.channels.empty() && !o_.call.start_s && !o_.call.end_s && o_.rate_hz <= 0.0 &&
            (!is_storage(out.string()) || channels.all_finite());

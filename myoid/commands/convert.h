@@ -36,7 +36,7 @@ struct ConvertResult {
 /// for a format that is not written and for a file that exists or is an input.
 ConvertResult convert(const ConvertOptions& options);
 
-/// Whether the input is the folder of a run, whose results become a BIDS derivative in the folder
+/// True if the input is the folder of a run, whose results become a BIDS derivative in the folder
 /// `out`. Throws InvalidInput where `out` names a recording.
 [[nodiscard]] bool makes_derivative(const ConvertOptions& options);
 

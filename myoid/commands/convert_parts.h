@@ -16,7 +16,7 @@ namespace myoid::commands {
 /// Replaces blanks in names, which .trc cannot hold, by '_'; a repair says so.
 void without_blanks(recording::MarkerSeries& markers, std::vector<recording::Repair>& repairs);
 
-/// Whether the file is a .sto or .mot.
+/// True if the file is a .sto or .mot.
 [[nodiscard]] bool is_storage(const std::string& file);
 
 /// The channels that have another clock than the first one's.

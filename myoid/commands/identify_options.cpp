@@ -32,7 +32,7 @@ bool is_about_motion(const ParameterRule& rule) {
 
 bool is_about_lags(const ParameterRule& rule) { return identification::is_lag(rule.parameter); }
 
-/// What the published method does not have, as it was asked for.
+/// Names the options that the published method does not have.
 std::vector<std::string> beyond_the_paper(const IdentifyOptions& o, const MuscleTable& table) {
   std::vector<std::string> asked;
   if (o.delay_s) asked.emplace_back("--delay");

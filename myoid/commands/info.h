@@ -22,7 +22,7 @@ struct InfoOptions {
 /// (`contents_text` makes text of it). Throws ReadError for a file of no known kind.
 [[nodiscard]] nlohmann::ordered_json info(const InfoOptions& options);
 
-/// Whether the name is that of a model: an .osim file, or the built-in "arm4".
+/// True if the name is that of a model: an .osim file, or the built-in "arm4".
 [[nodiscard]] bool is_model(const std::string& file);
 
 }  // namespace myoid::commands

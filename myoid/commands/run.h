@@ -27,7 +27,7 @@ struct RunResult {
   Provenance provenance;
   std::vector<Remark> remarks;
 
-  /// Whether a gate failed, or the method torque did not converge; `strict`: or has a parameter
+  /// True if a gate failed, or the method torque did not converge; `strict`: or has a parameter
   /// that is not identifiable.
   [[nodiscard]] bool failed(bool strict) const;
 };

@@ -52,7 +52,7 @@ struct SimulateResult {
   Provenance provenance;
   std::vector<Remark> remarks;
 
-  /// Whether the simulation and the sensitivities got to their end.
+  /// True if the simulation and the sensitivities got to their end.
   [[nodiscard]] bool finished() const;
 };
 

@@ -116,8 +116,8 @@ ordered_json events_json(const std::vector<recording::Event>& events) {
   return list;
 }
 
-/// Which way is up and what says so; "not known" where nothing does, "contradictory" where two
-/// things in the file do not agree.
+/// The upward direction and the parts of the file that say so; "not known" where nothing does,
+/// "contradictory" where two things in the file do not agree.
 void add_up(const std::filesystem::path& path,
             const recording::C3dSurvey& survey,
             ordered_json& j) {

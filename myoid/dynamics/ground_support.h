@@ -46,7 +46,7 @@ struct UncarriedTime {
 [[nodiscard]] std::optional<UncarriedTime> uncarried_time(const model::BodyModel& model,
                                                           const TimeSeries& generalized_forces);
 
-/// Whether the coordinate stands between the ground and the rest of the body, so that a ground
+/// True if the coordinate stands between the ground and the rest of the body, so that a ground
 /// reaction would act on it: the model is most of a person (three quarters of `body_mass_kg`, or of
 /// a generic 75 kg), and what the coordinate moves reaches lower than everything else in this
 /// posture.

@@ -20,7 +20,7 @@ void write_file(const std::filesystem::path& path,
                 std::string_view content,
                 Flush flush = Flush::now);
 
-/// Whether a file of this name is the temporary one of `write_file`: ".ik.mot.myoid-part.a1B2c3".
+/// True if a file of this name is the temporary one of `write_file`: ".ik.mot.myoid-part.a1B2c3".
 [[nodiscard]] bool is_temporary(const std::filesystem::path& name);
 
 /// Removes the temporary files that a killed process left in the folder and below it, and returns

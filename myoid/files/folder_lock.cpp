@@ -88,7 +88,7 @@ bool may_live(const std::optional<FolderOwner>& owner) {
   return kill(static_cast<pid_t>(owner->process), 0) == 0 || errno == EPERM;
 }
 
-/// Whether the open file is still the one of that name: its owner removes it when it ends.
+/// True if the open file is still the one of that name: its owner removes it when it ends.
 bool is_still(const fs::path& path, int descriptor) {
   struct stat opened {};
   struct stat named {};

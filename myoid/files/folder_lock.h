@@ -57,7 +57,7 @@ class FolderLock {
   bool finished_ = false;
 };
 
-/// Whether the folder holds anything but locks, what a killed process left half-written, and an
+/// True if the folder holds anything but locks, what a killed process left half-written, and an
 /// entry named `unless_only`.
 [[nodiscard]] bool holds_content(const std::filesystem::path& folder,
                                  std::string_view unless_only = "");

@@ -55,7 +55,7 @@ class OtherProcess {
   pid_t child_ = 0;
 };
 
-// What a command leaves that an error ends: its destructors run, as of this block.
+// A command that an error ends leaves this block, so that its destructors run.
 TEST(FolderLock, StaysWhereACommandDidNotFinishWhatItBegan) {
   const test::TemporaryFolder folder;
   const auto file = folder / std::string(FolderLock::kFile);

@@ -168,7 +168,7 @@ void TomlTable::finish() const {
 
 namespace {
 
-/// Whether a key or a value stands at the present place of a TOML text.
+/// Tells if a key or a value stands at the present place of a TOML text.
 struct Place {
   bool in_value = false;
   std::string brackets;  ///< Of lists and tables in values that are open.

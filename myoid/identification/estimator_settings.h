@@ -11,7 +11,7 @@
 
 namespace myoid::identification {
 
-/// How a person wants muscles to follow their EMG.
+/// The ways in which muscles may follow their EMG, as a person chooses them.
 enum class LagChoice {
   automatic,   ///< Method `torque`: the lag that the data prefer; other methods: `delay`.
   delay,       ///< EmgLag::delay

@@ -81,7 +81,7 @@ struct StudyData {
   std::vector<ParameterRule> rules;
 };
 
-/// What the literature knows beforehand of a muscle that starts here (beliefs.h), with
+/// The literature's priors of a muscle that starts here (beliefs.h), with
 /// the spread of the slope ratio (ln S 0.5) in place of that of V_sh V_shl where V_ml > 1. That of
 /// V_sh is for a v_max that is known, or free: one that is only held belongs to `free_speeds`.
 [[nodiscard]] std::map<std::string, Prior> literature_priors(

@@ -38,7 +38,7 @@ constexpr double kTogether = 0.9, kAgainst = -0.8, kDoubtful = 0.5, kClearly = 0
 /// Fibers make hardly any active force beyond.
 constexpr double kShortestActive = 0.4, kLongestActive = 1.8;
 
-/// Whether a file is called as OpenSim and CEINMS call lengths of muscles with their tendons.
+/// True if a file is called as OpenSim and CEINMS call lengths of muscles with their tendons.
 bool names_whole_muscles(const std::string& path) {
   std::string name = std::filesystem::path(path).stem().string();
   for (char& c : name) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));

@@ -16,7 +16,7 @@
 
 namespace myoid::identification {
 
-/// Whether a number may be believed.
+/// The degree to which a number may be believed.
 enum class Verdict {
   identified,        ///< The recording determines it.
   weak,              ///< It says something, but the interval is wide.
@@ -98,7 +98,7 @@ struct BasinTable {
   std::vector<BasinRow> basins;  ///< By rising cost.
 };
 
-/// Whether the two branches of method `paper` agree on what they share.
+/// The comparison of the numbers that both branches of method `paper` share.
 struct BranchTest {
   std::string muscle;
   double length_difference_m = 0.0;  ///< l0 in lengthening minus in shortening.
@@ -120,7 +120,7 @@ struct PriorDistance {
   double farthest_distance = 0.0;  ///< ... and how far.
 };
 
-/// Whether a parameter is no muscle's and no person's, but freed so that its uncertainty enters the
+/// True if a parameter is no muscle's and no person's, but freed so that its uncertainty enters the
 /// others: gain and exponent of an EMG channel, torque of the joint itself. Not counted among what
 /// a recording tells.
 [[nodiscard]] inline bool is_nuisance(const ParameterEstimate& estimate) {

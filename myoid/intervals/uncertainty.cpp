@@ -53,7 +53,7 @@ Eigen::VectorXd solve_positive(const Eigen::MatrixXd& a, const Eigen::VectorXd& 
   return scale.cwiseProduct(factor.solve(scale.cwiseProduct(b)));
 }
 
-/// Whether the smallest eigenvalue of these rows and columns of a matrix surely exceeds `least`:
+/// True if the smallest eigenvalue of these rows and columns of a matrix surely exceeds `least`:
 /// then A - least I has a Cholesky factor.
 bool above_in_all_directions(const Eigen::MatrixXd& a,
                              const std::vector<Eigen::Index>& set,

@@ -20,8 +20,8 @@ struct VerdictRules {
       0.20;  ///< Systematic error of the model above which nothing is `identified`.
   double prior_conflict = 3.0;  ///< Spreads of the prior away from its mean: at most `weak`.
   double prior_stays = 1.0;     ///< So near, a value that is not narrowed is the literature's.
-  /// Of the optimal fiber length: where a muscle's active lengths span less, F_max f_l(l) is one
-  /// number, and nothing is told of l0 and l_sh.
+  /// A share of the optimal fiber length: where a muscle's active lengths span less, F_max f_l(l)
+  /// is one number, and nothing is told of l0 and l_sh.
   double least_length_span = 0.05;
   double flat_plateau = 1.02;  ///< V_ml whose interval reaches below says nothing about P.
   muscle::Range relative_width = muscle::kRelativeWidths;  ///< l_sh over l0 that a muscle can have.

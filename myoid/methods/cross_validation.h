@@ -79,7 +79,7 @@ using SplitFit = std::function<IdentificationResult(StudyData& data)>;
                                                const TorqueOptions& options = {},
                                                const CrossValidationOptions& how = {});
 
-/// Whether fits explain the trials that they see much better than those that they do not: a
+/// Tells if fits explain the trials that they see much better than those that they do not: a
 /// sentence, with the numbers; empty where not. Samples of one movement share the model's error,
 /// which more of the same samples do not average out: the fit then follows that error, away from
 /// what is known beforehand.

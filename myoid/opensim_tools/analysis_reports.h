@@ -32,7 +32,7 @@ struct AnalysisRun {
 /// The analysis's name in the set-up, else its class.
 [[nodiscard]] std::string analysis_name(pugi::xml_node node);
 
-/// Whether an analysis of this class can be run.
+/// True if an analysis of this class can be run.
 [[nodiscard]] bool is_known_analysis(std::string_view class_name);
 /// Their names, for messages.
 [[nodiscard]] std::string known_analyses();

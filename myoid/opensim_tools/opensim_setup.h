@@ -31,7 +31,7 @@ class OpensimSetup {
   }
   [[nodiscard]] std::string name() const { return model::OsimXml::name_of(tool_); }
 
-  /// Whether an element names a file.
+  /// True if an element names a file.
   [[nodiscard]] bool names_file(pugi::xml_node object, const char* name) const;
   /// The file that an element names, to be read; empty where it is absent, empty or "Unassigned".
   /// Throws ReadError, naming the element, if there is no such file.

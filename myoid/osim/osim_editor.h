@@ -33,7 +33,7 @@ class OsimEditor {
   /// Takes the markers of a file with a <MarkerSet>: those of known names replace the model's.
   void add_markers(const std::filesystem::path& file);
   void remove_markers(const std::function<bool(const std::string&)>& is_removed);
-  /// Whether marker placement leaves the marker where it is.
+  /// True if marker placement leaves the marker where it is.
   [[nodiscard]] bool is_fixed(const std::string& marker) const;
   /// A new place in the frame of the marker's body.
   void move_marker(const std::string& marker, const Vec3& p_B);

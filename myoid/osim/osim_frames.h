@@ -117,7 +117,7 @@ void read_bodies(OsimReading& reading, pugi::xml_node model);
                                    pugi::xml_node where,
                                    std::string_view text);
 
-/// Whether a force or constraint is switched on, in any version: `positive` (appliesForce,
+/// True if a force or constraint is switched on, in any version: `positive` (appliesForce,
 /// isEnforced) or the old isDisabled.
 [[nodiscard]] bool is_enabled(const OsimReading& reading,
                               pugi::xml_node node,

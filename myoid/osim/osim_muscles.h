@@ -7,7 +7,7 @@ namespace myoid::model {
 /// Notes, by class, the muscles whose curves are not Thelen's, and who takes which.
 void note_classes(BodyModel& model);
 
-/// Whether an element is a muscle of a kind that is read.
+/// True if an element is a muscle of a kind that is read.
 [[nodiscard]] bool is_muscle(pugi::xml_node node);
 [[nodiscard]] Muscle read_muscle(OsimReading& reading, pugi::xml_node node);
 

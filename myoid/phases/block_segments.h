@@ -35,7 +35,7 @@ struct BlockChanges {
 /// than a fifth of the frequencies are not known, none is used. Gains must be finite.
 [[nodiscard]] BlockChanges find_changes(const std::vector<Block>& blocks);
 
-/// Whether two stretches are the same movement: speed and torque differ by less than `factor`.
+/// True if two stretches are the same movement: speed and torque differ by less than `factor`.
 [[nodiscard]] bool alike(
     double speed, double torque, double other_speed, double other_torque, double factor);
 

@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::string_view kInDegrees = "inDegrees=yes";
 
-/// Whether a remark above a table says so; the table itself is not read.
+/// True if a remark above a table says so; the table itself is not read.
 bool remarks_degrees(const std::filesystem::path& file) {
   std::ifstream stream(file);
   for (std::string line; std::getline(stream, line);) {

@@ -53,7 +53,7 @@ struct Figure {
   std::string caption;  ///< What is to be seen, one or two sentences.
   std::vector<Panel> panels;
   int columns = 1;  ///< Panels side by side.
-  /// How its numbers were made: lines that ID.csv begins with, each behind "# ".
+  /// Lines on the making of its numbers, with which ID.csv begins, each behind "# ".
   std::vector<std::string> comments{};
 };
 

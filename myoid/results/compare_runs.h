@@ -17,7 +17,7 @@ struct SessionEstimate {
   std::string verdict;
 };
 
-/// Whether a number differs between two sessions.
+/// The answer to the question if a number differs between two sessions.
 enum class Change {
   differs,      ///< By more than chance explains.
   no_change,    ///< Both recordings can tell it, and no difference shows.

@@ -21,7 +21,7 @@ struct EstimateLine {
 [[nodiscard]] std::vector<EstimateLine> estimate_lines(
     const identification::IdentificationResult& method, std::size_t muscle_count);
 
-/// Whether the 95 % interval is a thousand times as wide as the number is large (or, of what most
+/// True if the 95 % interval is a thousand times as wide as the number is large (or, of what most
 /// have none of, as it is in some): the fit does not hold it at all, and the interval is printed as
 /// "not determined".
 [[nodiscard]] bool is_undetermined(const identification::ParameterEstimate& e);

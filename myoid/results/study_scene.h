@@ -15,7 +15,7 @@ inline constexpr const char* kMotionPage = "motion.html";
 /// All trials together have at most `most_frames` frames.
 [[nodiscard]] report::ScenePage study_scenes(const StudyResult& result, int most_frames = 6000);
 
-/// Whether `write_motion_page` writes one: there is a motion, and the program has a viewer.
+/// True if `write_motion_page` writes one: there is a motion, and the program has a viewer.
 [[nodiscard]] bool has_motion_page(const StudyResult& result);
 
 /// Writes the page into the run's folder, or removes that of an earlier run.

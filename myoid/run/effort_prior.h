@@ -7,7 +7,7 @@
 
 namespace myoid {
 
-/// Whether activation 1 is a maximal effort: a trial of the study is one, or the EMG came as
+/// True if activation 1 is a maximal effort: a trial of the study is one, or the EMG came as
 /// activation, whose 1 is taken at its word.
 [[nodiscard]] bool from_maximal_effort(const EmgSpec& emg);
 

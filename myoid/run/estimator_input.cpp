@@ -58,7 +58,7 @@ identification::TrialData trial_data(const Study& study,
   }
   data.activation = activation;
   if (trial.forces.uncarried) data.excluded = trial.forces.uncarried->stretches;
-  // Where there is no EMG there is nothing to fit.
+  // Times without EMG are not fitted.
   const Rows rows = rows_with_emg(trial.motion.joints.q.time_s(), activation.time_s());
   return identification::part(data, rows.first, rows.count());
 }

@@ -25,7 +25,8 @@ using identification::Verdict;
 using report::Gate;
 using report::GateStatus;
 
-/// Of the study's coordinate in the trial that moves it most; empty if no trial is meant to.
+/// The range of the study's coordinate in the trial that moves it most; empty if no trial is meant
+/// to.
 std::optional<double> largest_range_deg(const Study& study,
                                         const std::vector<TrialResult>& trials) {
   std::optional<double> largest;
@@ -131,7 +132,7 @@ std::optional<Gate> support_gate(const StudyResult& result) {
   return std::nullopt;
 }
 
-/// What `check` warns of: faults of channels, and remarks on files that may make numbers wrong.
+/// The warnings of `check`: faults of channels, and remarks on files that may make numbers wrong.
 Gate recordings_gate(const StudyResult& result) {
   std::set<std::string> kinds;
   std::ptrdiff_t grave = 0;

@@ -17,7 +17,7 @@ struct RunOptions {
   /// not.
   bool share_forces = true;
   bool inform_forces = true;  ///< Forces with the identified muscles, informed by the EMG.
-  /// Where inverse kinematics is kept between runs; empty: nowhere.
+  /// Folder that keeps inverse kinematics between runs; empty: none.
   std::optional<std::filesystem::path> store;
 };
 

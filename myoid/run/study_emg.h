@@ -5,8 +5,9 @@
 
 namespace myoid {
 
-/// How the activations of a study came about, for the headers of files; without steps where there
-/// is no EMG. `method`: of its forces, with the delay that it found; null: before any delay.
+/// Steps by which the activations of a study were made, for the headers of files; without steps
+/// where there is no EMG. `method`: of its forces, with the delay that it found; null: before any
+/// delay.
 [[nodiscard]] signals::EmgChain emg_chain(const StudyResult& result,
                                           const identification::IdentificationResult* method);
 

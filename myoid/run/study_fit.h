@@ -25,7 +25,7 @@ struct StudyFit {
 /// The result of method torque; nullptr without.
 [[nodiscard]] const identification::IdentificationResult* torque_of(const StudyFit& fit);
 
-/// Whether the study asks for method torque.
+/// True if the study asks for method torque.
 [[nodiscard]] bool wants_torque(const Study& study);
 
 /// The parameters by every method that the study names.

@@ -95,7 +95,7 @@ TrialForces trial_torques(const StudySource& source,
         {dynamics::generalized_force_name(model.coordinates[index]), Unit::newton_meter});
     torque.col(column) = found.generalized.column(columns.back().name);
   }
-  // What the surroundings exert on the coordinates, the muscles need not.
+  // The muscles need not make the torque that the surroundings exert.
   if (input.external_torque)
     torque -= signals::resample(*input.external_torque, motion.joints.q.time_s()).values();
   found.muscle_torque = TimeSeries(motion.joints.q.time_s(), std::move(columns), std::move(torque));

@@ -28,7 +28,7 @@ namespace myoid::signals {
                                            bool high_passed = true,
                                            const QualityLimits& limits = {});
 
-/// Whether one channel's samples are never negative (a filter's swing of 5 % apart) and go through
+/// True if one channel's samples are never negative (a filter's swing of 5 % apart) and go through
 /// their median less than `raw_hz` times a second: rectified and smoothed EMG.
 [[nodiscard]] bool is_envelope(const Eigen::Ref<const Eigen::VectorXd>& samples,
                                double rate_hz,

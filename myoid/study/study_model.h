@@ -30,8 +30,8 @@ namespace myoid {
 /// The point that a trial's held mass acts at. Throws InvalidInput where the study does not say it.
 [[nodiscard]] HeldMassSpec held_mass_place(const Study& study);
 
-/// What is identified: one entry per [[muscle]], heads lumped with their F_max as weights, with the
-/// priors of the literature.
+/// The muscles to identify: one entry per [[muscle]], heads lumped with their F_max as weights,
+/// with the priors of the literature.
 [[nodiscard]] std::vector<identification::MuscleSetup> muscle_setups(const Study& study,
                                                                      const model::BodyModel& model);
 

@@ -53,7 +53,7 @@ class Wrapping {
     std::erase_if(w_.stations, [wrap](const PathStation& s) { return s.wrap == wrap; });
   }
 
-  /// Whether two neighbors are tangent points of one object.
+  /// True if two neighbors are tangent points of one object.
   [[nodiscard]] bool on_one_object(const PathStation& a, const PathStation& b) const {
     return a.wrap >= 0 && b.wrap >= 0 &&
            path_.wraps[at(a.wrap)].wrap_object == path_.wraps[at(b.wrap)].wrap_object;
