@@ -48,8 +48,8 @@ struct WhiteningFilter {
 [[nodiscard]] std::vector<WhiteningFilter> design_whitening(
     std::span<const TimeSeries* const> trials, double highpass_hz);
 
-/// The answer to the question if EMG is whitened: one answer for all channels and trials, because a whitened amplitude
-/// and one that is not differ in noise and in how fatigue changes them, so that
+/// The answer to the question if EMG is whitened: one answer for all channels and trials, because a
+/// whitened amplitude and one that is not differ in noise and in how fatigue changes them, so that
 /// left and right could not be compared.
 struct Whitening {
   bool applied = false;
