@@ -11,6 +11,7 @@
 #include "myoid/core/error.h"
 #include "myoid/files/atomic_file.h"
 #include "myoid/files/text_file.h"
+#include "myoid/study/read_study.h"
 
 #include "tests/support/data_folder.h"
 #include "tests/support/temporary_folder.h"

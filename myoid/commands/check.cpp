@@ -5,6 +5,7 @@
 #include "myoid/checks/check_study.h"
 #include "myoid/recording/laboratory_up.h"
 #include "myoid/recording/recording.h"
+#include "myoid/study/read_study.h"
 
 namespace myoid::commands {
 

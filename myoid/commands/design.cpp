@@ -7,8 +7,8 @@
 
 #include "myoid/commands/stage_input.h"
 #include "myoid/core/error.h"
+#include "myoid/study/read_study.h"
 #include "myoid/study/run_identity.h"
-#include "myoid/study/study.h"
 
 namespace myoid::commands {
 namespace {

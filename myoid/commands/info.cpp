@@ -11,7 +11,7 @@
 #include "myoid/files/text_file.h"
 #include "myoid/osim/osim_reader.h"
 #include "myoid/recording/recording.h"
-#include "myoid/study/study.h"
+#include "myoid/study/read_study.h"
 
 namespace myoid::commands {
 namespace {

@@ -1,9 +1,30 @@
 #pragma once
 
-#include "myoid/commands/muscle.h"
+#include <string>
+#include <vector>
+
+#include "myoid/commands/muscle_options.h"
+#include "myoid/muscle/fit_isolated.h"
 #include "myoid/muscle/muscle_file.h"
 
 namespace myoid::commands {
+
+/// Mean absolute errors of one recording, as shares of the force that errors are related to.
+struct RecordingErrors {
+  std::string recording;
+  double starting_values = 0.0, fitted = 0.0;
+  double predicted = 0.0;  ///< By the fit of the other recordings; NaN where there is no other.
+};
+
+/// The parameters from all recordings.
+struct MuscleFit {
+  muscle::IsolatedFit all;  ///< Standard errors hold the spread over the recordings (jackknife).
+  std::vector<muscle::IsolatedFit> without_one;  ///< Without recording 0, 1, ...; empty for one.
+  std::vector<RecordingErrors> errors;
+  double relative_to_n = 0.0;  ///< What the errors are related to.
+  bool converged = false;      ///< All of these fits.
+  bool misses = false;         ///< A recording's fitted force errs by more than a guess would.
+};
 
 /// Fits the parameters to all recordings and to all but each one, and compares the two. Throws
 /// InvalidInput for forces that the muscle cannot make.

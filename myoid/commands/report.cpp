@@ -11,6 +11,7 @@
 #include "myoid/results/study_report.h"
 #include "myoid/results/study_scene.h"
 #include "myoid/run/run_study.h"
+#include "myoid/study/read_study.h"
 #include "myoid/study/study_text.h"
 
 namespace myoid::commands {

@@ -10,6 +10,7 @@
 #include "myoid/results/study_scene.h"
 #include "myoid/run/quality_gates.h"
 #include "myoid/run/run_study.h"
+#include "myoid/study/read_study.h"
 #include "myoid/study/study_text.h"
 
 namespace myoid::commands {

@@ -1,5 +1,6 @@
 #include "myoid/commands/settings.h"
 
+#include "myoid/study/read_study.h"
 #include "myoid/study/study_text.h"
 
 namespace myoid::commands {

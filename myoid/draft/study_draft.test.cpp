@@ -9,7 +9,7 @@
 #include "myoid/checks/check_study.h"
 #include "myoid/core/error.h"
 #include "myoid/files/atomic_file.h"
-#include "myoid/study/study.h"
+#include "myoid/study/read_study.h"
 
 #include "tests/support/data_folder.h"
 #include "tests/support/temporary_folder.h"

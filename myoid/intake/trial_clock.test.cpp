@@ -10,8 +10,10 @@
 #include "myoid/arm/arm4.h"
 #include "myoid/core/error.h"
 #include "myoid/files/atomic_file.h"
+#include "myoid/intake/read_trial.h"
 #include "myoid/intake/trial_input.h"
 #include "myoid/osim/osim_reader.h"
+#include "myoid/study/read_study.h"
 
 #include "tests/support/temporary_folder.h"
 

@@ -10,6 +10,7 @@
 #include "myoid/core/error.h"
 #include "myoid/files/atomic_file.h"
 #include "myoid/osim/osim_reader.h"
+#include "myoid/study/read_study.h"
 
 #include "tests/support/temporary_folder.h"
 

@@ -8,6 +8,7 @@
 #include "myoid/core/units.h"
 #include "myoid/run/run_study.h"
 #include "myoid/signals/resample.h"
+#include "myoid/study/read_study.h"
 #include "myoid/twin/synthetic_recording.h"
 #include "myoid/twin/write_recording.h"
 

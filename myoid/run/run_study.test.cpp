@@ -13,6 +13,7 @@
 #include "myoid/results/result_files.h"
 #include "myoid/results/study_report.h"
 #include "myoid/run/quality_gates.h"
+#include "myoid/study/read_study.h"
 #include "myoid/study/study_model.h"
 #include "myoid/tables/csv_reader.h"
 #include "myoid/tables/storage_reader.h"

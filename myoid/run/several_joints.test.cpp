@@ -16,6 +16,7 @@
 #include "myoid/results/result_files.h"
 #include "myoid/results/stage_files.h"
 #include "myoid/run/run_study.h"
+#include "myoid/study/read_study.h"
 #include "myoid/study/study_model.h"
 #include "myoid/tables/storage_reader.h"
 

@@ -265,10 +265,4 @@ struct Study {
 /// InvalidInput if nothing is left of one, naming it.
 void restrict_trials(Study& study, std::optional<double> start_s, std::optional<double> end_s);
 
-/// Reads and validates a study file. Throws ReadError with the line for syntax, unknown keys, wrong
-/// types, names that refer to nothing and numbers out of range. Files that the study names are not
-/// opened: that is `check_study`'s.
-[[nodiscard]] Study read_study(const std::filesystem::path& file);
-[[nodiscard]] Study parse_study(std::string_view text, const std::filesystem::path& file);
-
 }  // namespace myoid

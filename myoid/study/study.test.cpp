@@ -1,10 +1,9 @@
-#include "myoid/study/study.h"
-
 #include <string>
 
 #include <gtest/gtest.h>
 
 #include "myoid/core/error.h"
+#include "myoid/study/read_study.h"
 
 namespace myoid {
 namespace {

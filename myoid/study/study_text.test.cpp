@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "myoid/study/read_study.h"
 #include "myoid/study/setting_rows.h"
 
 namespace myoid {

@@ -19,6 +19,7 @@
 #include "myoid/muscle/hill_parameters.h"
 #include "myoid/run/prediction_gates.h"
 #include "myoid/run/run_study.h"
+#include "myoid/study/read_study.h"
 #include "myoid/twin/synthetic_recording.h"
 #include "myoid/twin/write_recording.h"
 

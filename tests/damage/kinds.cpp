@@ -18,7 +18,7 @@
 #include "myoid/osim/osim_reader.h"
 #include "myoid/recording/emg_reader.h"
 #include "myoid/recording/recording.h"
-#include "myoid/study/study.h"
+#include "myoid/study/read_study.h"
 #include "myoid/study/study_text.h"
 #include "myoid/tables/orientation_reader.h"
 #include "myoid/tables/storage_reader.h"

@@ -9,7 +9,7 @@
 #include "myoid/files/atomic_file.h"
 #include "myoid/intake/read_trial.h"
 #include "myoid/osim/osim_reader.h"
-#include "myoid/study/study.h"
+#include "myoid/study/read_study.h"
 
 #include "tests/support/message_of.h"
 #include "tests/support/temporary_folder.h"
