@@ -1,22 +1,20 @@
 #pragma once
 
-#include <optional>
-
 #include "myoid/model/body_model.h"
-#include "myoid/muscle/millard.h"
-#include "myoid/muscle/thelen.h"
+#include "myoid/muscle/normalized_curves.h"
 
 namespace myoid::forces {
 
-/// A muscle of a model file under the curves of its own class, as OpenSim's tools use it.
+/// A muscle of a model file under the curves of its own class, in the geometry and the equilibrium
+/// of OpenSim's tools. Lengths and velocities of the path [m, m/s], lengthening positive.
 class OpensimMuscle {
  public:
   /// `compat` decides on Millard's pennation (Compat::normalized_pennation).
   OpensimMuscle(const model::Muscle& muscle, const model::Compat& compat);
 
-  /// Force along the tendon [N] at full activation with a rigid tendon, F_max f_l f_v cos(alpha):
-  /// what static optimization multiplies by the activation. Lengths of the path [m, m/s]. Zero
-  /// where the fiber is at its shortest.
+  /// Force along the tendon [N] at full activation with a rigid tendon, F_max f_l f_v cos(alpha),
+  /// by which static optimization multiplies the activation. Zero where the fiber is at its
+  /// shortest.
   [[nodiscard]] double optimal_force(double length_m, double velocity_mps) const;
 
   /// Fiber and tendon in balance at an activation.
@@ -29,49 +27,46 @@ class OpensimMuscle {
     double fiber_force_n = 0.0, tendon_force_n = 0.0;
     bool converged = true;
   };
-  /// OpenSim's equilibrium: tendon and fiber pull alike, while the velocity of the path is shared
-  /// between them by their stiffnesses or, with Millard's class, the fiber is at rest. At the
-  /// shortest fiber length the force is the tendon's.
+  /// OpenSim's equilibrium to 1e-8 F_max: tendon and fiber pull alike, while their stiffnesses
+  /// share the velocity of the path or, with Millard's class, the fiber is at rest. At the shortest
+  /// fiber length the force is the tendon's.
   [[nodiscard]] State equilibrium(double activation, double length_m, double velocity_mps) const;
-  /// The muscle whose fiber has this length: the velocity is that at which fiber and tendon pull
-  /// alike. A fiber at its shortest length that would shorten rests without force. With a rigid
-  /// tendon the fiber's length follows from the path's.
+  /// The muscle whose fiber has this length, at the velocity at which fiber and tendon pull alike.
+  /// A fiber at its shortest length that would shorten rests without force. With a rigid tendon the
+  /// fiber's length follows from the path's.
   [[nodiscard]] State at_fiber_length(double activation,
                                       double fiber_length_m,
                                       double length_m,
                                       double velocity_mps) const;
 
-  /// Whether the class has curves of its own here; other classes take Thelen's.
+  /// Whether the class's curves are known here; every other class takes Thelen's.
   [[nodiscard]] bool has_own_curves() const { return own_curves_; }
   [[nodiscard]] const model::MuscleProperties& properties() const { return p_; }
 
  private:
-  struct Curve {
-    double value = 0.0, slope = 0.0;
-  };
+  using Curve = muscle::CurvePoint<double>;
+  class Balance;
+
+  [[nodiscard]] bool is_millard() const {
+    return curves_.laws().length == muscle::LengthLaw::millard;
+  }
+  [[nodiscard]] bool is_thelen() const {
+    return curves_.laws().velocity == muscle::VelocityLaw::thelen;
+  }
   [[nodiscard]] Curve active_length(double normalized) const;
   [[nodiscard]] double velocity(double activation, double normalized) const;
-  [[nodiscard]] Curve passive(double normalized) const;
-  [[nodiscard]] Curve tendon(double normalized) const;
   [[nodiscard]] double cos_pennation(double fiber_length_m) const;
-  /// The normalized velocity at which strength times the force-velocity curve and the damping make
-  /// `force`, all over F_max.
-  [[nodiscard]] double velocity_of(double activation, double strength, double force) const;
 
   model::MuscleProperties p_;
-  muscle::ThelenParameters thelen_;
-  std::optional<muscle::MillardCurves> millard_;
-  enum class Kind { thelen, millard, de_groote } kind_ = Kind::thelen;
-  bool own_curves_ = true;
-  bool normalized_pennation_ = false;
-  bool rigid_tendon_ = false;
+  muscle::NormalizedCurves<double> curves_;
+  bool own_curves_;
+  bool normalized_pennation_;
+  bool rigid_tendon_;
   double damping_ = 0.0;
+  double width_ = 1.0;  ///< Of De Groote's active curve, over the published one.
   double height_m_ = 0.0;
   double least_cosine_ = 0.0;  ///< At the greatest pennation.
   double shortest_m_ = 0.0;    ///< By pennation and, for Millard's, by the active curve.
-  double tendon_strain_ = 0.04;
-  double width_ = 1.0;
-  double passive_rate_ = 0.0, passive_scale_ = 0.0;  ///< Of Thelen's passive curve.
 };
 
 }  // namespace myoid::forces

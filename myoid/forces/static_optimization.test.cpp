@@ -8,11 +8,10 @@
 
 #include "myoid/dynamics/inverse_dynamics.h"
 #include "myoid/forces/force_sharing.h"
+#include "myoid/forces/opensim_muscle.h"
 #include "myoid/kinematics/joint_motion.h"
 #include "myoid/kinematics/muscle_kinematics.h"
-#include "myoid/muscle/thelen.h"
 #include "myoid/osim/osim_reader.h"
-#include "myoid/osim/thelen_properties.h"
 #include "myoid/signals/opensim_lowpass.h"
 #include "myoid/tables/storage_reader.h"
 
@@ -47,10 +46,9 @@ class Arm26Trial : public ::testing::Test {
                                                const Eigen::MatrixXd& speed) const {
     Eigen::MatrixXd force_n(length.rows(), length.cols());
     for (Eigen::Index i = 0; i < length.cols(); ++i) {
-      const model::MuscleProperties& p = model_.muscles[static_cast<std::size_t>(i)].properties;
-      const muscle::ThelenParameters thelen = model::thelen_parameters(p);
+      const OpensimMuscle muscle(model_.muscles[static_cast<std::size_t>(i)], model_.compat);
       for (Eigen::Index row = 0; row < length.rows(); ++row) {
-        force_n(row, i) = muscle::thelen_optimal_force(thelen, length(row, i), speed(row, i));
+        force_n(row, i) = muscle.optimal_force(length(row, i), speed(row, i));
       }
     }
     return force_n;

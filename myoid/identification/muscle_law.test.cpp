@@ -2,10 +2,12 @@
 
 #include <cmath>
 
+#include <ceres/jet.h>
 #include <gtest/gtest.h>
 
 #include "myoid/arm/arm4.h"
 #include "myoid/muscle/hill_muscle.h"
+#include "myoid/muscle/musculotendon.h"
 
 namespace myoid::identification {
 namespace {
@@ -146,6 +148,81 @@ TEST(Tension, OfAVeryStiffTendonIsThatOfARigidOne) {
   const double l_mt = rigid[kSlack] + 0.95 * rigid[kFiberLength];
   EXPECT_NEAR(tension(0.4, l_mt, -0.2, stiff).force_n, tension(0.4, l_mt, -0.2, rigid).force_n,
               1e-5 * tension(0.4, l_mt, -0.2, rigid).force_n);
+}
+
+using Jet = ceres::Jet<double, kMuscleFieldCount + 3>;  // the fields, then a, l and v
+
+/// The tension by the templates of muscle/: a unit under the paper's laws, with Thelen's passive
+/// force where the amount is 1. An elastic tendon is De Groote's, and the unit steady.
+Jet template_tension(double activation,
+                     double length_m,
+                     double velocity_mps,
+                     const MuscleValues& p) {
+  std::array<Jet, kMuscleFieldCount> x;
+  for (int f = 0; f < kMuscleFieldCount; ++f) {
+    const auto i = static_cast<std::size_t>(f);
+    x[i] = Jet(p[i], f);
+  }
+  const Jet a = x[kShare] * Jet(activation, kMuscleFieldCount);
+  muscle::MusculotendonParameters<Jet> unit;
+  unit.hill = {x[kMaxForce], x[kFiberLength], x[kWidth], x[kCurvature],
+               x[kProduct],  x[kPlateau],     x[kSpeed], x[kSlack]};
+  // The unit's width grows with its optimal length; that of the fit does not.
+  unit.hill.force_length_width_m /= Jet(1.0) + x[kLengthActivation] * (Jet(1.0) - a);
+  unit.optimal_length_shift = x[kLengthActivation];
+  unit.pennation_at_optimal_rad = x[kPennation];
+  unit.passive_strain = x[kPassiveStrain];
+  unit.passive_shape = x[kPassiveShape];
+  unit.damping = Jet(0.0);
+  const bool elastic = p[kTendonStrain] > 0.0;
+  if (elastic) unit.tendon_strain = x[kTendonStrain];
+  muscle::MusculotendonLaws laws =
+      muscle::paper_laws(elastic ? muscle::TendonMode::mass : muscle::TendonMode::rigid);
+  if (p[kPassiveForce] == 1.0) laws.passive = muscle::PassiveLaw::thelen;
+  if (elastic) laws.tendon = muscle::TendonLaw::de_groote;
+  const muscle::Musculotendon<Jet> muscle(unit, laws);
+  const muscle::MusculotendonInput<Jet> input{a, Jet(length_m, kMuscleFieldCount + 1),
+                                              Jet(velocity_mps, kMuscleFieldCount + 2)};
+  return musculotendon_rate(muscle, input, equilibrium_state(muscle, input)).tendon_force_n;
+}
+
+TEST(Tension, IsTheTemplateOfMuscleWithAllItsDerivatives) {
+  for (const bool pennate : {false, true}) {
+    for (const bool passive : {false, true}) {
+      for (const bool elastic : {false, true}) {
+        MuscleValues p = everything_on();
+        p[kPassiveForce] = passive ? 1.0 : 0.0;
+        if (!pennate) p[kPennation] = 0.0;
+        if (!elastic) p[kTendonStrain] = 0.0;
+        for (const double reach : {0.8, 1.0, 1.2}) {
+          for (const double v : {-2.0 * p[kSpeed], -0.5, 0.0, 0.4}) {
+            SCOPED_TRACE(testing::Message()
+                         << pennate << passive << elastic << ' ' << reach << ' ' << v);
+            const double l_mt = p[kSlack] * (elastic ? 1.02 : 1.0) + reach * p[kFiberLength];
+            const Tension t = tension(0.4, l_mt, v, p);
+            const Jet expected = template_tension(0.4, l_mt, v, p);
+            // Round-off, through the tendon's stiffness of some 100 F_max per length.
+            const auto near = [](double derivative, double exact, double scale) {
+              EXPECT_NEAR(derivative, exact, 1e-9 * (std::abs(exact) + scale));
+            };
+            const double f_max = p[kMaxForce];
+            near(t.force_n, expected.a, 1e-3 * f_max);
+            for (int f = 0; f < kMuscleFieldCount; ++f) {
+              const auto i = static_cast<std::size_t>(f);
+              if (f == kPassiveForce || (f == kTendonStrain && !elastic)) continue;
+              if (f == kPennation && !pennate) continue;  // a double zero
+              if ((f == kPassiveStrain || f == kPassiveShape) && !passive) continue;
+              SCOPED_TRACE(f);
+              near(t.by_field[i], expected.v[f], f_max / std::abs(p[i]));
+            }
+            near(t.by_activation, expected.v[kMuscleFieldCount], f_max);
+            near(t.by_length, expected.v[kMuscleFieldCount + 1], f_max / p[kFiberLength]);
+            near(t.by_velocity, expected.v[kMuscleFieldCount + 2], f_max / p[kSpeed]);
+          }
+        }
+      }
+    }
+  }
 }
 
 TEST(Tension, DerivativesAreThoseOfDifferences) {

@@ -9,6 +9,7 @@
 
 #include "myoid/core/error.h"
 #include "myoid/identification/muscle_activation.h"
+#include "myoid/identification/muscle_law.h"
 
 namespace myoid::identification {
 namespace {
@@ -63,17 +64,17 @@ PaperCase paper_case(const StudyData& data, std::size_t muscle, bool shortening)
     if (rule.free) std::erase(held, rule.parameter);
     if (rule.free == std::optional(false)) held.push_back(rule.parameter);
   }
-  const auto add = [&](std::string_view name, double muscle::HillForce::*derivative) {
+  const auto add = [&](std::string_view name) {
     if (std::find(held.begin(), held.end(), name) == held.end())
-      result.unknowns.push_back({&muscle::hill_field(name), derivative});
+      result.unknowns.push_back(&muscle::hill_field(name));
   };
-  add("optimal_fiber_length", &muscle::HillForce::by_optimal_fiber_length);
-  add("force_length_width", &muscle::HillForce::by_force_length_width);
+  add("optimal_fiber_length");
+  add("force_length_width");
   if (shortening) {
-    add("concentric_curvature", &muscle::HillForce::by_concentric_curvature);
+    add("concentric_curvature");
   } else {
-    add("eccentric_curvature_product", &muscle::HillForce::by_eccentric_curvature_product);
-    add("eccentric_plateau", &muscle::HillForce::by_eccentric_plateau);
+    add("eccentric_curvature_product");
+    add("eccentric_plateau");
   }
   add_samples(data, muscle, result);
   return result;
@@ -82,7 +83,7 @@ PaperCase paper_case(const StudyData& data, std::size_t muscle, bool shortening)
 Eigen::VectorXd PaperCase::start_vector() const {
   Eigen::VectorXd x(static_cast<Eigen::Index>(unknowns.size()));
   for (std::size_t j = 0; j < unknowns.size(); ++j)
-    x[static_cast<Eigen::Index>(j)] = start.*unknowns[j].field->member;
+    x[static_cast<Eigen::Index>(j)] = start.*unknowns[j]->member;
   return x;
 }
 
@@ -107,16 +108,20 @@ math::LeastSquaresProblem PaperCase::problem() const {
                             Eigen::MatrixXd* jacobian) {
     muscle::HillParameters<double> parameters = start;
     for (std::size_t j = 0; j < unknowns.size(); ++j)
-      parameters.*unknowns[j].field->member = x[static_cast<Eigen::Index>(j)];
+      parameters.*unknowns[j]->member = x[static_cast<Eigen::Index>(j)];
+    parameters.tendon_slack_length_m = 0.0;  // the samples hold fiber lengths
+    const MuscleValues values = muscle_values(parameters);
+    Tension t;
     for (std::size_t i = 0; i < samples.size(); ++i) {
       const MuscleSample& s = samples[i];
       const auto row = static_cast<Eigen::Index>(i);
-      const muscle::HillForce f = muscle::hill_force_derivatives(s.activation, s.fiber_length_m,
-                                                                 s.fiber_velocity_mps, parameters);
-      r[row] = f.force_n - s.force_n;
+      plain_tension(s.activation, s.fiber_length_m, s.fiber_velocity_mps, values, t);
+      r[row] = t.force_n - s.force_n;
       if (jacobian == nullptr) continue;
-      for (std::size_t j = 0; j < unknowns.size(); ++j)
-        (*jacobian)(row, static_cast<Eigen::Index>(j)) = f.*unknowns[j].derivative;
+      for (std::size_t j = 0; j < unknowns.size(); ++j) {
+        const auto field = static_cast<std::size_t>(unknowns[j] - muscle::kHillFields.data());
+        (*jacobian)(row, static_cast<Eigen::Index>(j)) = t.by_field[field];
+      }
     }
   };
   return problem;
@@ -142,7 +147,7 @@ math::LeastSquaresResult search_as_published(const PaperCase& samples,
     return found;
   }
   for (Eigen::Index j = 0; j < start.size(); ++j) {
-    if (samples.unknowns[static_cast<std::size_t>(j)].field->name == "force_length_width")
+    if (samples.unknowns[static_cast<std::size_t>(j)]->name == "force_length_width")
       found.x[j] = std::abs(found.x[j]);
     if (std::abs(found.x[j]) <= kAway * std::abs(start[j])) continue;
     found.termination = math::Termination::no_descent;

@@ -8,15 +8,9 @@
 #include "myoid/identification/muscle_sample.h"
 #include "myoid/identification/study_data.h"
 #include "myoid/math/least_squares.h"
-#include "myoid/muscle/hill_muscle.h"
+#include "myoid/muscle/hill_parameters.h"
 
 namespace myoid::identification {
-
-/// One unknown of the source paper's method.
-struct PaperUnknown {
-  const muscle::HillField* field = nullptr;
-  double muscle::HillForce::*derivative = nullptr;
-};
 
 /// What the source paper's method fits at a time: one muscle in shortening (v <= 0) or lengthening.
 struct PaperCase {
@@ -24,7 +18,7 @@ struct PaperCase {
   bool shortening = true;
   muscle::HillParameters<double> start;
   /// l0, l_sh, V_sh, or l0, l_sh, P, V_ml, without what is held at its start.
-  std::vector<PaperUnknown> unknowns;
+  std::vector<const muscle::HillField*> unknowns;
   std::vector<MuscleSample> samples;
   std::vector<Eigen::Index> pieces;  ///< Lengths of the stretches of consecutive samples.
   int dropped = 0;                   ///< Samples with a = 0 or v <= -v_max.

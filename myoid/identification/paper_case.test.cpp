@@ -13,7 +13,7 @@ namespace {
 
 std::vector<std::string> names(const PaperCase& of) {
   std::vector<std::string> result;
-  for (const PaperUnknown& unknown : of.unknowns) result.emplace_back(unknown.field->name);
+  for (const muscle::HillField* unknown : of.unknowns) result.emplace_back(unknown->name);
   return result;
 }
 

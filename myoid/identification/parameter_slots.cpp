@@ -59,9 +59,8 @@ ParameterSlots default_slots(const StudyData& data,
   slope_ratio.assign(data.muscles.size(), 0.0);
   for (std::size_t k = 0; k < data.muscles.size(); ++k) {
     const MuscleSetup& setup = data.muscles[k];
-    const double start = setup.start.eccentric_plateau > 1.0
-                             ? muscle::slope_ratio(setup.start.velocity_shape())
-                             : 0.0;
+    const double start =
+        setup.start.eccentric_plateau > 1.0 ? muscle::slope_ratio(setup.start.velocity_law()) : 0.0;
     const bool by_ratio = options.eccentric == Eccentric::slope_ratio ||
                           (options.eccentric == Eccentric::automatic && options.priors &&
                            setup.priors.contains("eccentric_slope_ratio"));

@@ -22,7 +22,7 @@ std::map<std::string, Prior> literature_priors(const muscle::HillParameters<doub
     }
   }
   if (start.eccentric_plateau > 1.0) {
-    priors["eccentric_slope_ratio"] = {.mean = muscle::slope_ratio(start.velocity_shape()),
+    priors["eccentric_slope_ratio"] = {.mean = muscle::slope_ratio(start.velocity_law()),
                                        .sd = beliefs::kSlopeRatio.sd,
                                        .logarithmic = true};
   }

@@ -63,7 +63,7 @@ std::optional<CaseShape> fit_case(const StudyData& data,
                                   std::vector<ParameterEstimate>& minima) {
   const MuscleSetup& setup = data.muscles[muscle];
   const PaperCase samples = paper_case(data, muscle, shortening);
-  const std::vector<PaperUnknown>& list = samples.unknowns;
+  const std::vector<const muscle::HillField*>& list = samples.unknowns;
   const auto p = static_cast<Eigen::Index>(list.size());
   const auto n = static_cast<Eigen::Index>(samples.samples.size());
   result.samples_dropped += samples.dropped;
@@ -74,7 +74,7 @@ std::optional<CaseShape> fit_case(const StudyData& data,
   /// Where an unknown is in x, or -1 if it is held.
   const auto at = [&](std::string_view name) {
     const auto it = std::find_if(list.begin(), list.end(),
-                                 [&](const PaperUnknown& u) { return u.field->name == name; });
+                                 [&](const muscle::HillField* u) { return u->name == name; });
     return it == list.end() ? Eigen::Index{-1} : static_cast<Eigen::Index>(it - list.begin());
   };
   const Eigen::Index length = at("optimal_fiber_length");
@@ -107,7 +107,7 @@ std::optional<CaseShape> fit_case(const StudyData& data,
   }
   const double quantile = math::normal_quantile(0.975);
   const auto unphysical = [&](Eigen::Index j) {
-    const muscle::Range bounds = list[static_cast<std::size_t>(j)].field->bounds;
+    const muscle::Range bounds = list[static_cast<std::size_t>(j)]->bounds;
     return fit.x[j] != start[j] && std::isfinite(fit.x[j]) &&
            (fit.x[j] < bounds.lower || fit.x[j] > bounds.upper);
   };
@@ -123,10 +123,10 @@ std::optional<CaseShape> fit_case(const StudyData& data,
   }
   std::string bad_company;
   for (Eigen::Index j = 0; j < p; ++j) {
-    if (unphysical(j)) bad_company = std::string(list[static_cast<std::size_t>(j)].field->name);
+    if (unphysical(j)) bad_company = std::string(list[static_cast<std::size_t>(j)]->name);
   }
   for (Eigen::Index j = 0; j < p; ++j) {
-    const muscle::HillField& field = *list[static_cast<std::size_t>(j)].field;
+    const muscle::HillField& field = *list[static_cast<std::size_t>(j)];
     ParameterEstimate e;
     e.muscle = setup.name;
     e.parameter = std::string(field.name);

@@ -50,13 +50,6 @@ template <typename T>
   return {T(d1) * asinh_x + T(d4), d1 * d2 / value_of(root)};
 }
 
-/// The velocity at which the multiplier is `f`: (sinh((f - d4) / d1) - d3) / d2. The published
-/// supplement omits d3.
-[[nodiscard]] inline double de_groote_inverse_force_velocity(double f) {
-  const auto& [d1, d2, d3, d4] = kDeGrooteVelocity;
-  return (std::sinh((f - d4) / d1) - d3) / d2;
-}
-
 /// The velocity at which strength f + damping v = force, all over F_max; strength > 0, damping >=
 /// 0. In x = asinh(d2 v + d3) this is -a x - b sinh(x) = rest, odd and monotone: Newton from beyond
 /// the root never leaves its side.
@@ -84,26 +77,29 @@ template <typename T>
 }
 
 /// Passive multiplier (exp(k (l - 1) / e) - o) / (exp(k) - o), o = exp(k (0.2 - 1) / e): 0 at l =
-/// 0.2, 1 at l = 1 + e. Published: k = 4, e = 0.6.
+/// 0.2, 1 at l = 1 + e. Published: k = 4 (`shape`), e = 0.6 (`strain`).
 template <typename T>
-[[nodiscard]] CurvePoint<T> de_groote_passive(const T& l, const T& strain, const T& shape) {
-  using std::exp;
-  const T rate = shape / strain;
-  const T offset = exp(T(-0.8) * rate);
-  const T scale = T(1.0) / (exp(shape) - offset);
-  const T e = exp(rate * (l - T(1.0)));
-  return {(e - offset) * scale, value_of(e * scale * rate)};
-}
+class DeGrootePassive {
+ public:
+  DeGrootePassive(const T& strain, const T& shape) : rate_(shape / strain) {
+    using std::exp;
+    offset_ = exp(T(-0.8) * rate_);
+    scale_ = T(1.0) / (exp(shape) - offset_);
+  }
+  [[nodiscard]] CurvePoint<T> operator()(const T& l) const {
+    using std::exp;
+    const T e = exp(rate_ * (l - T(1.0)));
+    return {(e - offset_) * scale_, value_of(e * scale_ * rate_)};
+  }
+  /// The integral from l = 0.2: the energy over F_max l0.
+  [[nodiscard]] T energy(const T& l) const {
+    using std::exp;
+    return ((exp(rate_ * (l - T(1.0))) - offset_) / rate_ - offset_ * (l - T(0.2))) * scale_;
+  }
 
-/// Its integral from l = 0.2, the energy over F_max l0.
-template <typename T>
-[[nodiscard]] T de_groote_passive_energy(const T& l, const T& strain, const T& shape) {
-  using std::exp;
-  const T rate = shape / strain;
-  const T offset = exp(T(-0.8) * rate);
-  return ((exp(rate * (l - T(1.0))) - offset) / rate - offset * (l - T(0.2))) /
-         (exp(shape) - offset);
-}
+ private:
+  T rate_, offset_, scale_;
+};
 
 /// Tendon multiplier (exp(k e) - 1) / 5 with k = ln(6) / e0, over the strain e; 1 at e0 (published:
 /// 0.049). The published curve goes on below slack, to a push of F_max / 5; here it is 0 there.

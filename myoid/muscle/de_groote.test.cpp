@@ -13,9 +13,9 @@ TEST(DeGroote, CurvesPassThePointsThatOpenSimTests) {
   // opensim-core, testDeGrooteFregly2016Muscle, with its tolerances.
   EXPECT_EQ(de_groote_tendon(0.0, 0.049).value, 0.0);
   EXPECT_NEAR(de_groote_tendon(0.049, 0.049).value, 1.0, 1e-14);
-  EXPECT_NEAR(de_groote_passive(1.0, 0.6, 4.0).value, 0.0182288, 1e-7);
-  EXPECT_NEAR(de_groote_passive(0.2, 0.6, 4.0).value, 0.0, 1e-16);
-  EXPECT_NEAR(de_groote_passive(1.6, 0.6, 4.0).value, 1.0, 1e-15);
+  EXPECT_NEAR(DeGrootePassive<double>(0.6, 4.0)(1.0).value, 0.0182288, 1e-7);
+  EXPECT_NEAR(DeGrootePassive<double>(0.6, 4.0)(0.2).value, 0.0, 1e-16);
+  EXPECT_NEAR(DeGrootePassive<double>(0.6, 4.0)(1.6).value, 1.0, 1e-15);
   EXPECT_NEAR(de_groote_force_length(1.0).value, 1.0, 1e-14);
   EXPECT_NEAR(de_groote_force_velocity(-1.0).value, 0.0, 1e-14);
   EXPECT_NEAR(de_groote_force_velocity(0.0).value, 1.0, 1e-14);
@@ -40,7 +40,7 @@ TEST(DeGroote, CurvesAreWithinTheRoundingOfThePublishedConstants) {
 
 TEST(DeGroote, InverseOfTheVelocityLawInverts) {
   for (double v = -2.0; v < 2.0; v += 0.17) {
-    EXPECT_NEAR(de_groote_inverse_force_velocity(de_groote_force_velocity(v).value), v, 1e-13);
+    EXPECT_NEAR(solve_de_groote_velocity(1.0, 0.0, de_groote_force_velocity(v).value), v, 1e-13);
   }
 }
 
@@ -62,10 +62,10 @@ TEST(DeGroote, SlopesAndEnergiesBelongToTheValues) {
   for (const double x : {0.5, 0.9, 1.0, 1.3}) {
     EXPECT_NEAR(de_groote_force_length(Jet(x, 0)).value.v[0], de_groote_force_length(x).slope,
                 1e-13);
-    EXPECT_NEAR(de_groote_passive(Jet(x, 0), Jet(0.6), Jet(4.0)).value.v[0],
-                de_groote_passive(x, 0.6, 4.0).slope, 1e-13);
-    EXPECT_NEAR(de_groote_passive_energy(Jet(x, 0), Jet(0.6), Jet(4.0)).v[0],
-                de_groote_passive(x, 0.6, 4.0).value, 1e-14);
+    EXPECT_NEAR(DeGrootePassive<Jet>(Jet(0.6), Jet(4.0))(Jet(x, 0)).value.v[0],
+                DeGrootePassive<double>(0.6, 4.0)(x).slope, 1e-13);
+    EXPECT_NEAR(DeGrootePassive<Jet>(Jet(0.6), Jet(4.0)).energy(Jet(x, 0)).v[0],
+                DeGrootePassive<double>(0.6, 4.0)(x).value, 1e-14);
   }
   for (const double v : {-1.2, -0.1, 0.0, 0.6}) {
     EXPECT_NEAR(de_groote_force_velocity(Jet(v, 0)).value.v[0], de_groote_force_velocity(v).slope,
@@ -77,7 +77,7 @@ TEST(DeGroote, SlopesAndEnergiesBelongToTheValues) {
     EXPECT_NEAR(de_groote_tendon_energy(Jet(e, 0), Jet(0.049)).v[0],
                 de_groote_tendon(e, 0.049).value, 1e-14);
   }
-  EXPECT_NEAR(de_groote_passive_energy(0.2, 0.6, 4.0), 0.0, 1e-17);
+  EXPECT_NEAR(DeGrootePassive<double>(0.6, 4.0).energy(0.2), 0.0, 1e-17);
 }
 
 }  // namespace

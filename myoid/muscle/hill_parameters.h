@@ -22,9 +22,10 @@ struct HillParameters {
   T tendon_slack_length_m{};  ///< l_t0 [m]: fiber length = musculotendon length - l_t0 when the
                               ///< tendon is rigid.
 
-  [[nodiscard]] ForceVelocityShape<T> velocity_shape() const {
-    return {max_shortening_speed_mps, concentric_curvature, eccentric_curvature_product,
-            eccentric_plateau};
+  [[nodiscard]] VelocityHyperbola<T> velocity_law() const {
+    return {.concentric_curvature = concentric_curvature,
+            .eccentric_curvature_product = eccentric_curvature_product,
+            .eccentric_plateau = eccentric_plateau};
   }
 };
 

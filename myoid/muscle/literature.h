@@ -4,7 +4,6 @@
 #include <string_view>
 
 #include "myoid/muscle/hill_parameters.h"
-#include "myoid/muscle/thelen.h"
 
 namespace myoid::muscle {
 
@@ -45,12 +44,6 @@ inline constexpr Range kRelativeWidths{0.2, 1.0};
 
 /// The muscle of this name (BIC, BRA, BRD, TRI); throws InvalidInput listing them.
 [[nodiscard]] const LiteratureMuscle& literature_muscle(std::string_view name);
-
-/// Starting values from a muscle of a model file: l_sh = l0 sqrt(gamma), V_sh = A_f, V_ml = F_len,
-/// v_max = (fiber lengths per second) l0, and P such that the eccentric slope at rest is
-/// `slope_ratio` times the concentric one (Thelen's own is 2). Pennation is dropped.
-[[nodiscard]] HillParameters<double> hill_from_thelen(const ThelenParameters& thelen,
-                                                      double slope_ratio = kLiteratureSlopeRatio);
 
 /// Initial values that the source paper prints in its tables I and II; F_max and v_max it does not
 /// print. Its widths are far below the literature's: do not take them for normalized ones.

@@ -1,11 +1,8 @@
 #include "myoid/muscle/literature.h"
 
-#include <cmath>
-
 #include <gtest/gtest.h>
 
 #include "myoid/core/error.h"
-#include "myoid/muscle/force_length.h"
 
 namespace myoid::muscle {
 namespace {
@@ -34,18 +31,8 @@ TEST(Literature, ParametersLieWithinThePhysicalBounds) {
       EXPECT_GE(p.*(field.member), field.bounds.lower) << muscle.name << ' ' << field.name;
       EXPECT_LE(p.*(field.member), field.bounds.upper) << muscle.name << ' ' << field.name;
     }
-    EXPECT_DOUBLE_EQ(slope_ratio(p.velocity_shape()), 1.5);
+    EXPECT_DOUBLE_EQ(slope_ratio(p.velocity_law()), 1.5);
   }
-}
-
-TEST(Literature, AThelenMuscleKeepsItsForceLengthCurve) {
-  ThelenParameters thelen;
-  thelen.active_shape = 0.45;
-  const HillParameters<double> p = hill_from_thelen(thelen);
-  const double l_m = 1.2 * thelen.optimal_fiber_length_m;
-  EXPECT_NEAR(force_length(l_m, p.optimal_fiber_length_m, p.force_length_width_m),
-              std::exp(-0.2 * 0.2 / 0.45), 1e-15);
-  EXPECT_NEAR(p.force_length_width_m / p.optimal_fiber_length_m, 0.671, 5e-4);  // as published
 }
 
 TEST(Literature, AnUnknownMuscleIsRefusedWithTheKnownOnes) {

@@ -102,11 +102,11 @@ std::array<double, kMusculotendonEventCount> musculotendon_events(
   const double law_speed = unit.laws().velocity == VelocityLaw::thelen
                                ? now.speed / thelen_speed(input.activation)
                                : now.speed;
-  const double share = unit.hyperbola().tangent_from;
-  const bool tangent = share < 1.0 && (unit.laws().velocity == VelocityLaw::hill ||
-                                       unit.laws().velocity == VelocityLaw::thelen);
+  const VelocityHyperbola<double>& h = unit.curves().hyperbola();
+  const bool tangent = h.tangent_from < 1.0 && (unit.laws().velocity == VelocityLaw::hill ||
+                                                unit.laws().velocity == VelocityLaw::thelen);
   const double last =
-      tangent ? unit.hyperbola().eccentric_curvature_product * share / (1.0 - share) : 0.0;
+      tangent ? h.eccentric_curvature_product * h.tangent_from / (1.0 - h.tangent_from) : 0.0;
   return {unit.laws().mode == TendonMode::rigid ? now.tendon.value : now.strain,
           now.speed,
           1.0 + law_speed,

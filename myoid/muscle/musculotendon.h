@@ -2,16 +2,66 @@
 
 #include <array>
 
-#include "myoid/muscle/musculotendon_unit.h"
+#include "myoid/muscle/musculotendon_parameters.h"
+#include "myoid/muscle/normalized_curves.h"
+#include "myoid/muscle/scalar.h"
 
 namespace myoid::muscle {
+
+/// Cosine of the greatest pennation.
+inline constexpr double kLeastPennationCosine = 0.1;
+/// In the undamped equilibrium, the least value of a f_l.
+inline constexpr double kLeastStrength = 0.01;
+
+/// A fiber in series with a tendon, between two points of the skeleton: parameters, laws and what
+/// follows from them, immutable. `T` is double, or ceres::Jet for exact derivatives by states,
+/// inputs and parameters: lift the parameters with `lifted`, seed them, and build a
+/// Musculotendon<Jet>.
+///
+///   along(l_m) = sqrt(l_m^2 - h^2),  h = l0 sin(alpha0),  cos(alpha) = along / l_m
+///   l_t = l_mt - along(l_m),         F_t = F_max f_t((l_t - l_t0) / l_t0),  never negative
+///   F_m = F_max (a f_l f_v + f_pe) + B_m v,   B_m = beta F_max / v_max
+///
+///   mass:         M_m dv/dt = F_t / cos(alpha) - F_m          (equation (5) of the source paper)
+///   equilibrium:  F_t = F_m cos(alpha), solved for v = dl_m/dt
+///   rigid:        l_t = l_t0, F_t = F_m cos(alpha). A tendon does not push: where B_m v would make
+///                 F_m negative, the damper gives way to F_m = 0.
+///
+/// Below its shortest length (a hundredth of l0, or cos(alpha) = 0.1) the fiber is held by a stiff
+/// spring, and its line of pull keeps its angle. With zero damping the equilibrium needs a f_l f_v
+/// to be invertible: the velocity law goes on as its tangents (below -v_max, above 95 % of the
+/// plateau) and a f_l is at least `kLeastStrength`. docs/theory/muscle.md derives all this.
+template <typename T = double>
+class Musculotendon {
+ public:
+  /// Throws InvalidInput if the parameters make no unit under these laws.
+  explicit Musculotendon(const MusculotendonParameters<T>& parameters,
+                         const MusculotendonLaws& laws = {},
+                         const MillardShape& millard = {});
+
+  [[nodiscard]] const MusculotendonParameters<T>& parameters() const { return p_; }
+  [[nodiscard]] const MusculotendonLaws& laws() const { return curves_.laws(); }
+  [[nodiscard]] const NormalizedCurves<T>& curves() const { return curves_; }
+  [[nodiscard]] const T& height_m() const { return height_; }  ///< h
+  [[nodiscard]] const T& shortest_fiber_m() const { return shortest_; }
+  [[nodiscard]] const T& damping_nspm() const { return damping_; }  ///< B_m
+  [[nodiscard]] bool undamped_equilibrium() const { return undamped_equilibrium_; }
+
+ private:
+  MusculotendonParameters<T> p_;
+  bool undamped_equilibrium_;
+  NormalizedCurves<T> curves_;
+  T height_{};
+  T shortest_{};
+  T damping_{};
+};
 
 /// States that the mode integrates: rigid 0, equilibrium 1 (l_m), mass 2 (l_m, then dl_m/dt).
 [[nodiscard]] constexpr int state_size(TendonMode mode) {
   return mode == TendonMode::rigid ? 0 : mode == TendonMode::equilibrium ? 1 : 2;
 }
 
-/// What drives a unit: activation 0..1, length [m] and velocity [m/s] of the whole path.
+/// The drive of a unit: activation 0..1, length [m] and velocity [m/s] of the whole path.
 template <typename T = double>
 struct MusculotendonInput {
   T activation{};
@@ -26,7 +76,7 @@ struct MusculotendonState {
   T fiber_velocity_mps{};
 };
 
-/// The right-hand side and the force on the skeleton: what an integrator calls. No allocation.
+/// The right-hand side and the force on the skeleton, as an integrator calls them. No allocation.
 template <typename T = double>
 struct MusculotendonRate {
   T fiber_length_rate_mps{};     ///< dl_m/dt, in every mode (rigid: from the path).
@@ -38,10 +88,10 @@ template <typename T>
                                                       const MusculotendonInput<T>& input,
                                                       const MusculotendonState<T>& state);
 
-/// Everything there is to know at one instant. Powers are those *given*: the contractile element's
-/// is positive in shortening, a spring's when it relaxes, the viscous one's never. They add up:
+/// Lengths, forces, powers and energies at one instant. A power is positive where its element gives
+/// it: the contractile element in shortening, a spring when it relaxes, the viscous one never.
 ///   active + passive + viscous + tendon + kinetic = musculotendon power = -F_t dl_mt/dt.
-/// Energies are those stored, zero in a slack spring and a fiber at rest: power = -dE/dt.
+/// A stored energy is zero in a slack spring and in a fiber at rest: power = -dE/dt.
 template <typename T = double>
 struct MusculotendonOutput {
   T fiber_length_m{}, fiber_velocity_mps{}, fiber_acceleration_mps2{};
@@ -83,9 +133,6 @@ inline constexpr int kMusculotendonEventCount = 6;
     const Musculotendon<double>& unit,
     const MusculotendonInput<double>& input,
     const MusculotendonState<double>& state);
-
-/// In the undamped equilibrium, a f_l is not taken below this.
-inline constexpr double kLeastStrength = 0.01;
 
 }  // namespace myoid::muscle
 

@@ -9,9 +9,7 @@
 
 #include "myoid/core/error.h"
 #include "myoid/core/units.h"
-#include "myoid/muscle/musculotendon_elements.h"
 #include "myoid/muscle/musculotendon_inl.h"
-#include "myoid/muscle/musculotendon_unit.h"
 
 namespace myoid::muscle {
 namespace {

@@ -6,36 +6,112 @@
 #include <type_traits>
 
 #include "myoid/muscle/musculotendon.h"
-#include "myoid/muscle/musculotendon_elements.h"
 
 namespace myoid::muscle {
 namespace musculotendon_detail {
 
-/// What every mode needs at one instant; forces over F_max, velocities over v_max.
+/// Stiffness [F_max / l0] of the spring at the shortest length.
+inline constexpr double kLimitStiffness = 100;
+
+/// The curves of a unit. Without damping its equilibrium needs an invertible velocity law: tangents
+/// below -v_max and above 95 % of the plateau, where Thelen's law has it already.
+template <typename T>
+NormalizedCurves<T> unit_curves(const MusculotendonParameters<T>& p,
+                                const MusculotendonLaws& laws,
+                                const MillardShape& millard,
+                                bool undamped) {
+  CurveShape<T> shape = curve_shape(p, laws, millard);
+  if (undamped && laws.velocity == VelocityLaw::hill) shape.hyperbola.tangent_from = T(0.95);
+  shape.hyperbola.tangent_below = undamped;
+  return {laws, shape};
+}
+
+/// The parameters as plain numbers, which `validate` sees.
+template <typename T>
+MusculotendonParameters<double> plain_parameters(const MusculotendonParameters<T>& p) {
+  MusculotendonParameters<double> numbers;
+  double* fields[kMusculotendonParameterCount];
+  int k = 0;
+  visit_parameters(numbers, [&](std::string_view, Unit, double& field) { fields[k++] = &field; });
+  k = 0;
+  visit_parameters(p, [&](std::string_view, Unit, const T& v) { *fields[k++] = value_of(v); });
+  return numbers;
+}
+
+/// The fiber's projection on the tendon, and cos(alpha) = 1 / (d along / d l_m).
+template <typename T>
+struct Reach {
+  T along_m{};
+  T cosine{};
+};
+
+template <typename T>
+Reach<T> reach(const Musculotendon<T>& unit, const T& l) {
+  using std::sqrt;
+  const T& h = unit.height_m();
+  if (value_of(h) == 0.0) return {l, T(1.0)};
+  const T& shortest = unit.shortest_fiber_m();
+  if (value_of(l) >= value_of(shortest)) {
+    const T along = sqrt(l * l - h * h);
+    return {along, along / l};
+  }
+  const T along = sqrt(shortest * shortest - h * h);
+  const T cosine = along / shortest;
+  return {along + (l - shortest) / cosine, cosine};
+}
+
+/// How far the fiber is below its shortest length, over l0: negative, or 0.
+template <typename T>
+T squeeze(const Musculotendon<T>& unit, const T& l) {
+  if (!(value_of(l) < value_of(unit.shortest_fiber_m()))) return T(0.0);
+  return (l - unit.shortest_fiber_m()) / unit.parameters().hill.optimal_fiber_length_m;
+}
+
+/// Energy of the passive force and of the spring at the shortest length [J].
+template <typename T>
+T passive_energy_j(const Musculotendon<T>& unit, const T& l) {
+  const HillParameters<T>& hill = unit.parameters().hill;
+  const T push = squeeze(unit, l);
+  return (unit.curves().passive_energy(l / hill.optimal_fiber_length_m) +
+          T(0.5 * kLimitStiffness) * push * push) *
+         hill.max_isometric_force_n * hill.optimal_fiber_length_m;
+}
+
+/// Geometry and forces of one instant, as every mode needs them; forces over F_max, velocities over
+/// v_max.
 template <typename T>
 struct Instant {
   T length_m{};
   Reach<T> reach{};
-  T strain{};  ///< Of the tendon.
-  CurvePoint<T> length{}, velocity{}, passive{}, tendon{};
-  T strength{};  ///< a f_l
-  T speed{};     ///< v / v_max
-  T viscous{};   ///< Mode `rigid`: the damper's force over F_max.
+  T strain{};                                               ///< Of the tendon.
+  CurvePoint<T> length{}, velocity{}, passive{}, tendon{};  ///< The first by l_m / l0.
+  T strength{};                                             ///< a f_l
+  T speed{};                                                ///< v / v_max
+  T viscous{};  ///< Mode `rigid`: the damper's force over F_max.
   bool floored = false;
 };
 
+/// The forces that the fiber's length decides. The optimum is longer at low activation.
 template <typename T>
 void contract(const Musculotendon<T>& unit, const MusculotendonInput<T>& input, Instant<T>& now) {
-  now.length = length_multiplier(unit, input.activation, now.length_m);
+  const MusculotendonParameters<T>& p = unit.parameters();
+  const T& l0 = p.hill.optimal_fiber_length_m;
+  const T longer = T(1.0) + p.optimal_length_shift * (T(1.0) - input.activation);
+  now.length = unit.curves().length(now.length_m / longer / l0);
+  now.length.slope /= value_of(longer);
   now.strength = input.activation * now.length.value;
   if (unit.undamped_equilibrium() && value_of(now.strength) < kLeastStrength) {
     now.strength = T(kLeastStrength);
     now.floored = true;
   }
-  now.passive = passive_law(unit, now.length_m);
+  now.passive = unit.curves().passive(now.length_m / l0);
+  if (value_of(now.length_m) < value_of(unit.shortest_fiber_m())) {
+    now.passive.value = now.passive.value + T(kLimitStiffness) * squeeze(unit, now.length_m);
+    now.passive.slope += kLimitStiffness;
+  }
 }
 
-/// How much of an instant is wanted: what an integrator needs, or all of it.
+/// How much of an instant to find: the part that an integrator needs, or all of it.
 enum class Depth { rate, all };
 
 /// The equilibrium's velocity, with its derivatives: one Newton step in T from the solution in
@@ -47,23 +123,68 @@ void solve_speed(const Musculotendon<T>& unit,
                  Depth depth,
                  Instant<T>& now) {
   const T& damping = unit.parameters().damping;
-  const VelocityHyperbola<T>& h = unit.hyperbola();
-  const double speed =
-      solve_velocity_law(unit.laws().velocity,
-                         {value_of(h.concentric_curvature), value_of(h.eccentric_curvature_product),
-                          value_of(h.eccentric_plateau), value_of(h.tangent_from), h.tangent_below},
-                         unit.millard(), value_of(activation), value_of(now.strength),
-                         value_of(damping), value_of(force));
+  const double speed = unit.curves().solve_velocity(value_of(activation), value_of(now.strength),
+                                                    value_of(damping), value_of(force));
   now.speed = T(speed);
   if constexpr (std::is_same_v<T, double>) {
-    if (depth == Depth::all) now.velocity = velocity_law(unit, activation, now.speed);
+    if (depth == Depth::all) now.velocity = unit.curves().velocity(activation, now.speed);
   } else {
-    now.velocity = velocity_law(unit, activation, now.speed);
+    now.velocity = unit.curves().velocity(activation, now.speed);
     const T miss = force - now.strength * now.velocity.value - damping * now.speed;
     now.speed =
         now.speed + miss / T(value_of(now.strength) * now.velocity.slope + value_of(damping));
-    if (depth == Depth::all) now.velocity = velocity_law(unit, activation, now.speed);
+    if (depth == Depth::all) now.velocity = unit.curves().velocity(activation, now.speed);
   }
+}
+
+/// The fiber whose projection on the tendon is `along`, at least the shortest.
+template <typename T>
+T fiber_length(const Musculotendon<T>& unit, const T& along) {
+  using std::sqrt;
+  const T& shortest = unit.shortest_fiber_m();
+  if (!(value_of(along) > value_of(reach(unit, shortest).along_m))) return shortest;
+  const T& h = unit.height_m();
+  return value_of(h) == 0.0 ? along : sqrt(along * along + h * h);
+}
+
+template <typename T>
+Instant<T> rigid_instant(const Musculotendon<T>& unit, const MusculotendonInput<T>& input) {
+  const MusculotendonParameters<T>& p = unit.parameters();
+  const T along = input.length_m - p.hill.tendon_slack_length_m;
+  Instant<T> now;
+  now.length_m = fiber_length(unit, along);
+  if (!(value_of(now.length_m) > value_of(unit.shortest_fiber_m()))) {
+    now.reach = reach(unit, now.length_m);
+    return now;
+  }
+  now.reach = {along, along / now.length_m};
+  now.speed = input.velocity_mps * now.reach.cosine / p.hill.max_shortening_speed_mps;
+  contract(unit, input, now);
+  now.velocity = unit.curves().velocity(input.activation, now.speed);
+  const T pull = now.strength * now.velocity.value + now.passive.value;
+  const T total = pull + p.damping * now.speed;
+  if (value_of(total) > 0.0) {
+    now.viscous = p.damping * now.speed;
+    now.tendon.value = total * now.reach.cosine;
+  } else {  // a tendon does not push: the damper gives way
+    now.viscous = -pull;
+  }
+  return now;
+}
+
+/// Tendon and fiber at a fiber length, but for the velocity.
+template <typename T>
+Instant<T> stretched(const Musculotendon<T>& unit,
+                     const MusculotendonInput<T>& input,
+                     const T& fiber_length_m) {
+  Instant<T> now;
+  now.length_m = fiber_length_m;
+  now.reach = reach(unit, now.length_m);
+  const T& slack_length = unit.parameters().hill.tendon_slack_length_m;
+  now.strain = (input.length_m - now.reach.along_m) / slack_length - T(1.0);
+  now.tendon = unit.curves().tendon(now.strain);
+  contract(unit, input, now);
+  return now;
 }
 
 template <typename T>
@@ -71,44 +192,27 @@ Instant<T> instant(const Musculotendon<T>& unit,
                    const MusculotendonInput<T>& input,
                    const MusculotendonState<T>& state,
                    Depth depth) {
-  using std::sqrt;
-  const MusculotendonParameters<T>& p = unit.parameters();
-  const T& slack_length = p.hill.tendon_slack_length_m;
-  Instant<T> now;
-  if (unit.laws().mode == TendonMode::rigid) {
-    const T along = input.length_m - slack_length;
-    now.length_m = unit.shortest_fiber_m();
-    now.reach = reach(unit, now.length_m);
-    if (value_of(along) > value_of(now.reach.along_m)) {
-      const T& h = unit.height_m();
-      now.length_m = value_of(h) == 0.0 ? along : sqrt(along * along + h * h);
-      now.reach = {along, along / now.length_m};
-      now.speed = input.velocity_mps * now.reach.cosine / p.hill.max_shortening_speed_mps;
-      contract(unit, input, now);
-      now.velocity = velocity_law(unit, input.activation, now.speed);
-      const T pull = now.strength * now.velocity.value + now.passive.value;
-      const T total = pull + p.damping * now.speed;
-      if (value_of(total) > 0.0) {
-        now.viscous = p.damping * now.speed;
-        now.tendon.value = total * now.reach.cosine;
-      } else {  // a tendon does not push: the damper gives way
-        now.viscous = -pull;
-      }
-    }
-    return now;
-  }
-  now.length_m = state.fiber_length_m;
-  now.reach = reach(unit, now.length_m);
-  now.strain = (input.length_m - now.reach.along_m) / slack_length - T(1.0);
-  now.tendon = tendon_law(unit, now.strain);
-  contract(unit, input, now);
+  if (unit.laws().mode == TendonMode::rigid) return rigid_instant(unit, input);
+  Instant<T> now = stretched(unit, input, state.fiber_length_m);
   if (unit.laws().mode == TendonMode::mass) {
-    now.speed = state.fiber_velocity_mps / p.hill.max_shortening_speed_mps;
-    now.velocity = velocity_law(unit, input.activation, now.speed);
+    now.speed = state.fiber_velocity_mps / unit.parameters().hill.max_shortening_speed_mps;
+    now.velocity = unit.curves().velocity(input.activation, now.speed);
   } else {
     const T force = now.tendon.value / now.reach.cosine - now.passive.value;
     solve_speed(unit, input.activation, force, depth, now);
   }
+  return now;
+}
+
+/// A fiber of length l that moves with the path, while the tendon keeps its length.
+template <typename T>
+Instant<T> steady_instant(const Musculotendon<T>& unit,
+                          const MusculotendonInput<T>& input,
+                          const T& l) {
+  Instant<T> now = stretched(unit, input, l);
+  now.speed =
+      input.velocity_mps * now.reach.cosine / unit.parameters().hill.max_shortening_speed_mps;
+  now.velocity = unit.curves().velocity(input.activation, now.speed);
   return now;
 }
 
@@ -120,6 +224,28 @@ T imbalance(const Musculotendon<T>& unit, const Instant<T>& now) {
 }
 
 }  // namespace musculotendon_detail
+
+template <typename T>
+Musculotendon<T>::Musculotendon(const MusculotendonParameters<T>& parameters,
+                                const MusculotendonLaws& laws,
+                                const MillardShape& millard)
+    : p_(parameters),
+      undamped_equilibrium_(laws.mode == TendonMode::equilibrium &&
+                            value_of(parameters.damping) == 0.0),
+      curves_(musculotendon_detail::unit_curves(p_, laws, millard, undamped_equilibrium_)) {
+  using std::sin;
+  validate(musculotendon_detail::plain_parameters(p_), laws);
+  const HillParameters<T>& hill = p_.hill;
+  shortest_ = T(0.01) * hill.optimal_fiber_length_m;
+  height_ = T(0.0);
+  if (value_of(p_.pennation_at_optimal_rad) > 0.0) {
+    height_ = hill.optimal_fiber_length_m * sin(p_.pennation_at_optimal_rad);
+    const double least = kLeastPennationCosine;
+    const T most_pennate = height_ / T(std::sqrt(1.0 - least * least));
+    if (value_of(most_pennate) > value_of(shortest_)) shortest_ = most_pennate;
+  }
+  damping_ = p_.damping * hill.max_isometric_force_n / hill.max_shortening_speed_mps;
+}
 
 template <typename T>
 MusculotendonRate<T> musculotendon_rate(const Musculotendon<T>& unit,
@@ -167,7 +293,7 @@ MusculotendonOutput<T> musculotendon_output(const Musculotendon<T>& unit,
   o.viscous_power_w = -o.viscous_force_n * o.fiber_velocity_mps;
   o.tendon_power_w = -o.tendon_force_n * o.tendon_velocity_mps;
   o.musculotendon_power_w = -o.tendon_force_n * input.velocity_mps;
-  o.passive_energy_j = detail::passive_energy(unit, now.length_m);
+  o.passive_energy_j = detail::passive_energy_j(unit, now.length_m);
   o.kinetic_power_w = T(0.0);
   o.kinetic_energy_j = T(0.0);
   if (mode == TendonMode::rigid) {
@@ -175,7 +301,8 @@ MusculotendonOutput<T> musculotendon_output(const Musculotendon<T>& unit,
     o.tendon_power_w = T(0.0);
     o.tendon_energy_j = T(0.0);
   } else {
-    o.tendon_energy_j = detail::tendon_energy(unit, now.strain);
+    o.tendon_energy_j =
+        unit.curves().tendon_energy(now.strain) * f_max * p.hill.tendon_slack_length_m;
     o.tendon_stiffness_npm =
         value_of(f_max) * now.tendon.slope / value_of(p.hill.tendon_slack_length_m);
   }
@@ -197,37 +324,20 @@ template <typename T>
 MusculotendonState<T> equilibrium_state(const Musculotendon<T>& unit,
                                         const MusculotendonInput<T>& input) {
   namespace detail = musculotendon_detail;
-  using std::sqrt;
-  const MusculotendonParameters<T>& p = unit.parameters();
-  const T& v_max = p.hill.max_shortening_speed_mps;
+  const T& v_max = unit.parameters().hill.max_shortening_speed_mps;
   if (unit.laws().mode == TendonMode::rigid) {
-    const detail::Instant<T> now = detail::instant(unit, input, {}, detail::Depth::all);
+    const detail::Instant<T> now = detail::rigid_instant(unit, input);
     return {now.length_m, now.speed * v_max};
   }
-  // A fiber of length l, while the tendon keeps its length.
-  const auto steady = [&](const T& l) {
-    detail::Instant<T> now;
-    now.length_m = l;
-    now.reach = detail::reach(unit, l);
-    now.strain = (input.length_m - now.reach.along_m) / p.hill.tendon_slack_length_m - T(1.0);
-    now.tendon = detail::tendon_law(unit, now.strain);
-    detail::contract(unit, input, now);
-    now.speed = input.velocity_mps * now.reach.cosine / v_max;
-    now.velocity = detail::velocity_law(unit, input.activation, now.speed);
-    return now;
-  };
+  const auto steady = [&](const T& l) { return detail::steady_instant(unit, input, l); };
   const auto miss = [&](double l) { return value_of(detail::imbalance(unit, steady(T(l)))); };
   const auto state_at = [&](const T& l) {
     return MusculotendonState<T>{l, steady(l).speed * v_max};
   };
 
   // From the length at which the tendon is just slack, down to where it pulls more than the fiber.
-  const T slack_along = input.length_m - p.hill.tendon_slack_length_m;
-  T slack_length = unit.shortest_fiber_m();
-  if (value_of(slack_along) > value_of(detail::reach(unit, slack_length).along_m)) {
-    const T& h = unit.height_m();
-    slack_length = value_of(h) == 0.0 ? slack_along : sqrt(slack_along * slack_along + h * h);
-  }
+  const T slack_length =
+      detail::fiber_length(unit, T(input.length_m - unit.parameters().hill.tendon_slack_length_m));
   double high = value_of(slack_length);
   double low = high;
   if (miss(high) >= 0.0) {

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
+#include "myoid/muscle/force_velocity.h"
 #include "myoid/muscle/scalar.h"
-#include "myoid/muscle/velocity_hyperbola.h"
 
 namespace myoid::muscle {
 
@@ -12,13 +12,15 @@ namespace myoid::muscle {
 /// = l0 sqrt(gamma).
 
 /// The force-velocity hyperbolas of A_f (`concentric_shape`) and F_len (`plateau`): P = (F_len - 1)
-/// / (2 + 2 / A_f), tangent beyond 95 % of F_len. The velocity they take is v / (v_max (1/4 + 3/4
-/// a)): `thelen_speed`.
+/// / (2 + 2 / A_f), tangent beyond the share `extrapolation` of F_len. Their velocity is v / (v_max
+/// (1/4 + 3/4 a)): `thelen_speed`.
 template <typename T>
-[[nodiscard]] VelocityHyperbola<T> thelen_hyperbola(const T& concentric_shape, const T& plateau) {
+[[nodiscard]] VelocityHyperbola<T> thelen_hyperbola(const T& concentric_shape,
+                                                    const T& plateau,
+                                                    double extrapolation = 0.95) {
   return {concentric_shape,
           (plateau - T(1.0)) * concentric_shape / (T(2.0) * (concentric_shape + T(1.0))), plateau,
-          (T(0.95) * plateau - T(1.0)) / (plateau - T(1.0)), false};
+          (T(extrapolation) * plateau - T(1.0)) / (plateau - T(1.0)), false};
 }
 
 /// Share of v_max that a muscle of this activation reaches: 1/4 + 3/4 a.
@@ -28,35 +30,32 @@ template <typename T>
 }
 
 /// Passive multiplier (exp(k (l - 1) / e) - 1) / (exp(k) - 1) above l = 1, else 0; 1 at l = 1 + e.
-/// Published: k = 5 (OpenSim 4), e = 0.6 (0.5 in old age). Its slope jumps at l = 1. For one
-/// muscle, `rate` k / e and `scale` 1 / (exp(k) - 1) stay.
+/// Published: k = 5 (`shape`, OpenSim 4), e = 0.6 (`strain`; 0.5 in old age). The slope jumps at
+/// l = 1.
 template <typename T>
-[[nodiscard]] CurvePoint<T> thelen_passive_at(const T& l, const T& rate, const T& scale) {
-  using std::exp;
-  if (value_of(l) <= 1.0) return {T(0.0), 0.0};
-  const T e = exp(rate * (l - T(1.0)));
-  return {(e - T(1.0)) * scale, value_of(e * scale * rate)};
-}
-template <typename T>
-[[nodiscard]] T thelen_passive_scale(const T& shape) {
-  using std::exp;
-  return T(1.0) / (exp(shape) - T(1.0));
-}
-template <typename T>
-[[nodiscard]] CurvePoint<T> thelen_passive(const T& l, const T& strain, const T& shape) {
-  if (value_of(l) <= 1.0) return {T(0.0), 0.0};
-  return thelen_passive_at(l, T(shape / strain), thelen_passive_scale(shape));
-}
+class ThelenPassive {
+ public:
+  ThelenPassive(const T& strain, const T& shape) : rate_(shape / strain) {
+    using std::exp;
+    scale_ = T(1.0) / (exp(shape) - T(1.0));
+  }
+  [[nodiscard]] CurvePoint<T> operator()(const T& l) const {
+    using std::exp;
+    if (value_of(l) <= 1.0) return {T(0.0), 0.0};
+    const T e = exp(rate_ * (l - T(1.0)));
+    return {(e - T(1.0)) * scale_, value_of(e * scale_ * rate_)};
+  }
+  /// The integral from l = 1: the energy over F_max l0.
+  [[nodiscard]] T energy(const T& l) const {
+    using std::exp;
+    if (value_of(l) <= 1.0) return T(0.0);
+    const T stretch = l - T(1.0);
+    return ((exp(rate_ * stretch) - T(1.0)) / rate_ - stretch) * scale_;
+  }
 
-/// Its integral, the energy over F_max l0.
-template <typename T>
-[[nodiscard]] T thelen_passive_energy(const T& l, const T& strain, const T& shape) {
-  using std::exp;
-  if (value_of(l) <= 1.0) return T(0.0);
-  const T rate = shape / strain;
-  const T stretch = l - T(1.0);
-  return ((exp(rate * stretch) - T(1.0)) / rate - stretch) / (exp(shape) - T(1.0));
-}
+ private:
+  T rate_, scale_;
+};
 
 /// Where the toe of Thelen's tendon ends, as a share of e0, 99 e^3 / (166 e^3 - 67) = 0.6091, and
 /// the slope beyond, 0.67 / (1 - that) [F_max / e0]: the exact values of his rounded 0.609

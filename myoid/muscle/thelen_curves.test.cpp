@@ -9,10 +9,10 @@ namespace myoid::muscle {
 namespace {
 
 TEST(ThelenCurves, PassiveForceIsThePublishedExponential) {
-  EXPECT_EQ(thelen_passive(0.9, 0.6, 5.0).value, 0.0);
-  EXPECT_EQ(thelen_passive(1.0, 0.6, 5.0).value, 0.0);
-  EXPECT_NEAR(thelen_passive(1.6, 0.6, 5.0).value, 1.0, 1e-15);
-  EXPECT_NEAR(thelen_passive(1.3, 0.6, 5.0).value, std::expm1(2.5) / std::expm1(5.0), 1e-15);
+  EXPECT_EQ(ThelenPassive<double>(0.6, 5.0)(0.9).value, 0.0);
+  EXPECT_EQ(ThelenPassive<double>(0.6, 5.0)(1.0).value, 0.0);
+  EXPECT_NEAR(ThelenPassive<double>(0.6, 5.0)(1.6).value, 1.0, 1e-15);
+  EXPECT_NEAR(ThelenPassive<double>(0.6, 5.0)(1.3).value, std::expm1(2.5) / std::expm1(5.0), 1e-15);
 }
 
 TEST(ThelenCurves, TendonHasThePublishedToeAndLine) {
@@ -40,7 +40,7 @@ TEST(ThelenCurves, VelocityLawInvertsThePublishedOne) {
     for (const double f : {0.1, 0.5, 0.99, 1.01, 1.3, 1.7}) {
       const double b = f <= 1.0 ? 1.0 + f / af : (2.0 + 2.0 / af) * (flen - f) / (flen - 1.0);
       const double v = thelen_speed(a) * (f - 1.0) / b;
-      EXPECT_NEAR(velocity_multiplier(hyperbola, v / thelen_speed(a)).value, f, 1e-14);
+      EXPECT_NEAR(force_velocity(hyperbola, v / thelen_speed(a)).value, f, 1e-14);
     }
   }
 }
@@ -48,10 +48,10 @@ TEST(ThelenCurves, VelocityLawInvertsThePublishedOne) {
 TEST(ThelenCurves, SlopesAndEnergiesBelongToTheValues) {
   using Jet = ceres::Jet<double, 1>;
   for (const double l : {0.8, 1.1, 1.5}) {
-    EXPECT_NEAR(thelen_passive(Jet(l, 0), Jet(0.6), Jet(4.0)).value.v[0],
-                thelen_passive(l, 0.6, 4.0).slope, 1e-13);
-    EXPECT_NEAR(thelen_passive_energy(Jet(l, 0), Jet(0.6), Jet(4.0)).v[0],
-                thelen_passive(l, 0.6, 4.0).value, 1e-14);
+    EXPECT_NEAR(ThelenPassive<Jet>(Jet(0.6), Jet(4.0))(Jet(l, 0)).value.v[0],
+                ThelenPassive<double>(0.6, 4.0)(l).slope, 1e-13);
+    EXPECT_NEAR(ThelenPassive<Jet>(Jet(0.6), Jet(4.0)).energy(Jet(l, 0)).v[0],
+                ThelenPassive<double>(0.6, 4.0)(l).value, 1e-14);
   }
   for (const double e : {-0.01, 0.004, 0.02, 0.035, 0.06}) {
     EXPECT_NEAR(thelen_tendon(Jet(e, 0), Jet(0.04)).value.v[0], thelen_tendon(e, 0.04).slope,

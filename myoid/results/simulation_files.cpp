@@ -151,12 +151,12 @@ report::Figure curves_figure() {
                          .x = {.label = "fiber velocity / v_max", .unit = ""},
                          .y = {.label = "f_v", .unit = "", .lower = 0.0, .upper = 1.4},
                          .series = {}};
-  const muscle::ForceVelocityShape<double> shape{
-      1.0, muscle::kPaperCurvature, muscle::kPaperCurvatureProduct, muscle::kPaperPlateau};
+  const muscle::VelocityHyperbola<double> law{
+      muscle::kPaperCurvature, muscle::kPaperCurvatureProduct, muscle::kPaperPlateau};
   report::Series curve{.name = "", .role = report::Role::reference};
   for (int k = -120; k <= 120; ++k) {
     curve.x.push_back(0.01 * k);
-    curve.y.push_back(muscle::force_velocity(0.01 * k, shape));
+    curve.y.push_back(muscle::force_velocity(law, 0.01 * k).value);
   }
   velocity.series.push_back(std::move(curve));
   report::Panel length{.title = "f_l",

@@ -93,15 +93,17 @@ Figure muscle_curves(const StudyResult& result, const IdentificationResult& meth
   if (truth) highest = std::max(highest, truth->eccentric_plateau);
   velocity.series.push_back(
       {"visited", {-fastest, fastest}, {0.0, 0.0}, Role::band, {}, {highest, highest}});
-  const auto [vx, vy] = sample(
-      -v, v, [&](double x) { return muscle::force_velocity(x, setup.start.velocity_shape()); });
+  const auto multiplier = [&](const muscle::HillParameters<double>& p) {
+    return sample(-v, v, [&](double x) {
+      return muscle::force_velocity(p.velocity_law(), x / p.max_shortening_speed_mps).value;
+    });
+  };
+  const auto [vx, vy] = multiplier(setup.start);
   velocity.series.push_back({"literature", vx, vy, Role::literature, {}, {}});
-  const auto [wx, wy] =
-      sample(-v, v, [&](double x) { return muscle::force_velocity(x, found.velocity_shape()); });
+  const auto [wx, wy] = multiplier(found);
   velocity.series.push_back({"identified", wx, wy, Role::identified, {}, {}});
   if (truth) {
-    const auto [tx, ty] =
-        sample(-v, v, [&](double x) { return muscle::force_velocity(x, truth->velocity_shape()); });
+    const auto [tx, ty] = multiplier(*truth);
     velocity.series.push_back({"truth", tx, ty, Role::truth, {}, {}});
   }
   figure.panels = {length, velocity};

@@ -8,80 +8,51 @@
 #include "myoid/core/units.h"
 #include "myoid/dynamics/passive_forces.h"
 #include "myoid/model/muscle_path.h"
-#include "myoid/muscle/literature.h"
-#include "myoid/osim/thelen_properties.h"
+#include "myoid/osim/muscle_laws.h"
 #include "myoid/simulation/simulation_run.h"
 #include "myoid/simulation/tree_dynamics.h"
 
 namespace myoid::simulation {
 namespace {
 
-MuscleCurves curves_of(const model::Muscle& muscle, MuscleCurves wanted) {
-  if (wanted != MuscleCurves::file) return wanted;
-  if (muscle.class_name.find("Millard") != std::string::npos) return MuscleCurves::millard;
-  if (muscle.class_name.find("DeGroote") != std::string::npos) return MuscleCurves::de_groote;
-  return MuscleCurves::thelen;
-}
-
-muscle::MusculotendonLaws laws_of(MuscleCurves curves, muscle::TendonMode mode) {
+/// The laws that the setup asks for. Where these are the class's own, the class has its say.
+muscle::MusculotendonLaws laws_of(const model::MuscleProperties& p,
+                                  MuscleCurves curves,
+                                  muscle::TendonMode mode) {
+  const muscle::MusculotendonLaws own = model::class_laws(p, mode);
   switch (curves) {
+    case MuscleCurves::file:
+      break;
     case MuscleCurves::paper:
       return muscle::paper_laws(mode);
+    case MuscleCurves::thelen:
+      return muscle::thelen_laws(mode);
     case MuscleCurves::de_groote:
-      return muscle::de_groote_laws(mode);
+      return own.length == muscle::LengthLaw::de_groote ? own : muscle::de_groote_laws(mode);
     case MuscleCurves::millard:
       return muscle::millard_laws(mode);
-    case MuscleCurves::file:
-    case MuscleCurves::thelen:
-      break;
   }
-  return muscle::thelen_laws(mode);
-}
-
-/// What a muscle's file says of its own dynamics.
-struct FileSays {
-  bool rigid_tendon = false, no_activation_dynamics = false;
-};
-FileSays file_says(const model::MuscleProperties& p) {
-  if (const auto* c = std::get_if<model::MillardCurves>(&p.curves))
-    return {c->ignore_tendon_compliance, c->ignore_activation_dynamics};
-  if (const auto* c = std::get_if<model::DeGrooteCurves>(&p.curves))
-    return {c->ignore_tendon_compliance, c->ignore_activation_dynamics};
-  return {};
+  return own;
 }
 
 ModelMuscle muscle_of(const model::Muscle& m, int index, const ModelSetup& setup) {
   const model::MuscleProperties& p = m.properties;
-  const MuscleCurves curves = curves_of(m, setup.curves);
   ModelMuscle result{
       .name = m.name, .index = index, .parameters = {}, .laws = {}, .activation = {}};
-  const FileSays says = file_says(p);
   const bool as_file = setup.curves == MuscleCurves::file;
-  const bool rigid = as_file && says.rigid_tendon && setup.mode == muscle::TendonMode::equilibrium;
-  result.laws = laws_of(curves, rigid ? muscle::TendonMode::rigid : setup.mode);
-  result.parameters = muscle::published_defaults(
-      muscle::hill_from_thelen(model::thelen_parameters(p)), result.laws);
-  result.parameters.pennation_at_optimal_rad = p.pennation_at_optimal_rad;
-  if (curves == MuscleCurves::thelen) {
-    result.parameters.tendon_strain = p.max_tendon_strain;
-    result.parameters.passive_strain = p.max_muscle_strain;
-    result.parameters.passive_shape = p.passive_shape;
-    if (setup.mode == muscle::TendonMode::equilibrium) result.parameters.damping = 0.0;
-  }
-  if (const auto* d = std::get_if<model::DeGrooteCurves>(&p.curves);
-      d != nullptr && curves == MuscleCurves::de_groote) {
-    result.parameters.tendon_strain = d->tendon_strain_at_one_force;
-    result.parameters.passive_strain = d->passive_fiber_strain_at_one_force;
-    if (d->fiber_damping > 0.0) result.parameters.damping = d->fiber_damping;
-    if (d->ignore_passive_fiber_force) result.laws.passive = muscle::PassiveLaw::none;
-  }
-  if (const auto* c = std::get_if<model::MillardCurves>(&p.curves);
-      c != nullptr && curves == MuscleCurves::millard) {
-    result.parameters.tendon_strain = c->tendon_strain_at_one_force;
-    if (c->fiber_damping > 0.0) result.parameters.damping = c->fiber_damping;
-  }
+  const bool equilibrium = setup.mode == muscle::TendonMode::equilibrium;
+  const model::MuscleStates states = model::muscle_states(p);
+  result.laws = laws_of(
+      p, setup.curves,
+      as_file && equilibrium && states.rigid_tendon ? muscle::TendonMode::rigid : setup.mode);
+  result.parameters = model::musculotendon_parameters(p, result.laws);
+  // Only Thelen's equilibrium does without damping; other units take the published one.
+  const bool undamped = equilibrium && result.laws.velocity == muscle::VelocityLaw::thelen;
+  if (!(result.parameters.damping > 0.0) && !undamped)
+    result.parameters.damping =
+        muscle::published_defaults(result.parameters.hill, result.laws).damping;
   result.activation.law =
-      as_file && says.no_activation_dynamics ? muscle::ActivationLaw::envelope : setup.activation;
+      as_file && states.no_activation_dynamics ? muscle::ActivationLaw::envelope : setup.activation;
   result.activation.excitation_time_s = setup.excitation_time_s;
   result.activation.activation_time_s = p.activation_time_s;
   result.activation.deactivation_time_s = p.deactivation_time_s;
@@ -94,38 +65,11 @@ ModelMuscle muscle_of(const model::Muscle& m, int index, const ModelSetup& setup
   return result;
 }
 
-/// The shape that the file gives to Millard's curves; what it leaves to the class stays.
+/// Millard's curves as the file shapes them. A simulated unit of Millard's is damped, so that f_l
+/// is never divided by and needs no minimum.
 muscle::MillardShape shape_of(const model::Muscle& m) {
-  muscle::MillardShape shape;
-  const auto* c = std::get_if<model::MillardCurves>(&m.properties.curves);
-  if (c == nullptr) return shape;
-  shape.shortest_active_length = c->active_min_length;
-  shape.transition_length = c->active_transition_length;
-  shape.longest_active_length = c->active_max_length;
-  shape.shallow_slope = c->active_shallow_slope;
-  shape.slope_at_shortening_limit = c->concentric_slope_at_vmax;
-  shape.slope_near_shortening_limit = c->concentric_slope_near_vmax;
-  shape.slope_at_rest = c->isometric_slope;
-  shape.slope_at_lengthening_limit = c->eccentric_slope_at_vmax;
-  shape.slope_near_lengthening_limit = c->eccentric_slope_near_vmax;
-  shape.max_eccentric_multiplier = c->eccentric_force;
-  shape.concentric_curviness = c->concentric_curviness;
-  shape.eccentric_curviness = c->eccentric_curviness;
-  shape.passive_strain_at_zero = c->fiber_strain_at_zero_force;
-  shape.passive_strain_at_one = c->fiber_strain_at_one_force;
-  const auto given = [](double value, double& target) {
-    if (value >= 0.0) target = value;
-  };
-  given(c->fiber_stiffness_at_low_force, shape.passive_stiffness_low);
-  shape.passive_stiffness_at_one =
-      2.0 / (shape.passive_strain_at_one - shape.passive_strain_at_zero);
-  given(c->fiber_stiffness_at_one_force, shape.passive_stiffness_at_one);
-  given(c->fiber_curviness, shape.passive_curviness);
-  if (c->tendon_stiffness_at_one_force >= 0.0)
-    shape.tendon_stiffness_at_one =
-        c->tendon_stiffness_at_one_force * c->tendon_strain_at_one_force;
-  given(c->tendon_force_at_toe_end, shape.tendon_toe_force);
-  given(c->tendon_curviness, shape.tendon_curviness);
+  muscle::MillardShape shape = model::millard_shape(m.properties);
+  shape.active_minimum = 0.0;
   return shape;
 }
 

@@ -12,9 +12,9 @@
 #include "myoid/core/error.h"
 #include "myoid/files/text_file.h"
 #include "myoid/muscle/literature.h"
+#include "myoid/osim/muscle_laws.h"
 #include "myoid/osim/osim_reader.h"
 #include "myoid/osim/osim_writer.h"
-#include "myoid/osim/thelen_properties.h"
 
 namespace myoid {
 namespace {
@@ -63,43 +63,23 @@ model::Arm4Options arm_options(const Study& study, const recording::MarkerSeries
   return options;
 }
 
-/// Exponent k of the passive force whose slope at its unit force is `slope` over that of a straight
-/// line: k / (1 - exp(-k)) = slope.
-double passive_shape(double slope) {
-  double k = slope;
-  for (int i = 0; i < 60; ++i) k = slope * -std::expm1(-k);
-  return k;
-}
-
 /// Pennation, passive force and tendon as a model's muscle has them.
 identification::MuscleExtras model_extras(const model::Muscle& muscle) {
   const model::MuscleProperties& p = muscle.properties;
-  identification::MuscleExtras extras{.pennation_angle_rad = p.pennation_at_optimal_rad,
-                                      .passive_force = 1.0,
-                                      .passive_strain = p.max_muscle_strain,
-                                      .passive_shape = p.passive_shape,
-                                      .tendon_strain = p.max_tendon_strain};
-  if (const auto* millard = std::get_if<model::MillardCurves>(&p.curves)) {
-    const double strain = millard->fiber_strain_at_one_force;
-    extras.passive_strain = strain;
-    // The class's own stiffness at one F_max is twice that of the line from zero strain.
-    extras.passive_shape = passive_shape(millard->fiber_stiffness_at_one_force > 0.0
-                                             ? millard->fiber_stiffness_at_one_force * strain
-                                             : 2.0);
-    extras.tendon_strain = millard->tendon_strain_at_one_force;
-  } else if (const auto* degroote = std::get_if<model::DeGrooteCurves>(&p.curves)) {
-    extras.passive_force = degroote->ignore_passive_fiber_force ? 0.0 : 1.0;
-    extras.passive_strain = degroote->passive_fiber_strain_at_one_force;
-    extras.passive_shape = 4.0;
-    extras.tendon_strain = degroote->tendon_strain_at_one_force;
-  } else if (std::holds_alternative<model::SchutteCurves>(p.curves)) {
+  if (std::holds_alternative<model::SchutteCurves>(p.curves)) {
     throw ModelError(
         fmt::format("muscle '{}' is a {}, whose passive force is a free curve; give "
                     "passive_force and pennation_angle by [[parameter]] and leave [identify] "
                     "muscle_law and tendon at their defaults",
                     muscle.name, muscle.class_name));
   }
-  return extras;
+  const muscle::MusculotendonLaws laws = model::class_laws(p, muscle::TendonMode::equilibrium);
+  const muscle::MusculotendonParameters<double> unit = model::musculotendon_parameters(p, laws);
+  return {.pennation_angle_rad = unit.pennation_at_optimal_rad,
+          .passive_force = laws.passive == muscle::PassiveLaw::none ? 0.0 : 1.0,
+          .passive_strain = unit.passive_strain,
+          .passive_shape = unit.passive_shape,
+          .tendon_strain = unit.tendon_strain};
 }
 
 /// The model as the study wants it, after its names have been compared with the study's.
@@ -200,8 +180,8 @@ std::vector<identification::MuscleSetup> muscle_setups(const Study& study,
     setup.emg_channel = spec.emg;
     setup.start = {};
     for (std::size_t i = 0; i < groups[g].members.size(); ++i) {
-      const auto head = muscle::hill_from_thelen(model::thelen_parameters(
-          model.muscles[static_cast<std::size_t>(groups[g].members[i])].properties));
+      const auto head = model::hill_parameters(
+          model.muscles[static_cast<std::size_t>(groups[g].members[i])].properties);
       for (const muscle::HillField& field : muscle::kHillFields) {
         const double share = field.name == "max_isometric_force" ? 1.0 : groups[g].weights[i];
         setup.start.*field.member += share * head.*field.member;

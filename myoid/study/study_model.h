@@ -8,7 +8,6 @@
 #include "myoid/identification/study_data.h"
 #include "myoid/kinematics/lumped_muscles.h"
 #include "myoid/model/body_model.h"
-#include "myoid/muscle/thelen.h"
 #include "myoid/study/study.h"
 
 namespace myoid {

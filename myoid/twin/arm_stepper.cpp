@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -19,48 +20,13 @@ constexpr int kMostIterations = 60;
 /// about 1e-9 of F_max.
 constexpr double kLengthTolerance = 1e-12;
 
-CurveTable tabulated_length(const TrueArm& arm, const muscle::MillardCurves& curves) {
-  const bool millard = arm.laws.length == muscle::LengthLaw::millard;
-  return {[&](double l) {
-            return millard ? curves.force_length()(l) : muscle::de_groote_force_length(l);
-          },
-          0.3, 2.1, kIntervals};
-}
-
-CurveTable tabulated_velocity(const TrueArm& arm, const muscle::MillardCurves& curves) {
-  const bool millard = arm.laws.velocity == muscle::VelocityLaw::millard;
-  return {[&](double v) {
-            return millard ? curves.force_velocity()(v) : muscle::de_groote_force_velocity(v);
-          },
-          -1.2, 1.2, 2 * kIntervals};
-}
-
-CurveTable tabulated_passive(const TrueArm& arm,
-                             const muscle::MillardCurves& curves,
-                             const muscle::MusculotendonParameters<double>& p) {
-  const bool millard = arm.laws.passive == muscle::PassiveLaw::millard;
-  return {[&](double l) {
-            return millard ? curves.passive()(l)
-                           : muscle::de_groote_passive(l, p.passive_strain, p.passive_shape);
-          },
-          0.2, 2.0, kIntervals};
-}
-
-/// Over the strain, from slack to twice the strain at F_max. Below, it is 0.
-CurveTable tabulated_tendon(const TrueArm& arm,
-                            const muscle::MillardCurves& curves,
+/// Over the strain, from slack to twice the strain at F_max. The slope at slack is that from the
+/// right, where De Groote's curve has a corner.
+CurveTable tabulated_tendon(const muscle::NormalizedCurves<double>& curves,
                             double strain_at_max_force) {
-  const bool millard = arm.laws.tendon == muscle::TendonLaw::millard;
   return {[&](double e) -> CurvePoint<double> {
-            if (!millard) {
-              // The slope from the right at slack, where the curve has a corner.
-              const double rate = std::log(6.0) / strain_at_max_force;
-              if (e <= 0.0) return {0.0, 0.2 * rate};
-              return muscle::de_groote_tendon(e, strain_at_max_force);
-            }
-            CurvePoint<double> point = curves.tendon()(e / strain_at_max_force);
-            point.slope /= strain_at_max_force;
-            return point;
+            if (e > 0.0) return curves.tendon(e);
+            return {0.0, curves.tendon(std::numeric_limits<double>::min()).slope};
           },
           0.0, 2.0 * strain_at_max_force, kIntervals};
 }
@@ -73,18 +39,17 @@ ArmStepper::ArmStepper(const TrueArm& arm, double step_s) : arm_(&arm), step_s_(
   lag_up_ = -std::expm1(-step_s / arm.activation.activation_time_s);
   lag_down_ = -std::expm1(-step_s / arm.activation.deactivation_time_s);
   strength_.fill(1.0);
-  const muscle::MillardCurves curves(arm.millard);
-  const CurveTable length = tabulated_length(arm, curves);
-  const CurveTable velocity = tabulated_velocity(arm, curves);
   for (std::size_t i = 0; i < kHeadCount; ++i) {
     const muscle::MusculotendonParameters<double>& p = arm.heads[i].parameters;
     const muscle::Musculotendon<double> unit(p, arm.laws, arm.millard);
-    laws_[i] = {.length = length,
-                .velocity = velocity,
-                .passive = tabulated_passive(arm, curves, p),
-                .tendon = tabulated_tendon(arm, curves, p.tendon_strain),
-                .height_m = unit.height_m(),
-                .shortest_m = unit.shortest_fiber_m()};
+    const muscle::NormalizedCurves<double>& curves = unit.curves();
+    laws_[i] = {
+        .length = {[&](double l) { return curves.length(l); }, 0.3, 2.1, kIntervals},
+        .velocity = {[&](double v) { return curves.velocity(1.0, v); }, -1.2, 1.2, 2 * kIntervals},
+        .passive = {[&](double l) { return curves.passive(l); }, 0.2, 2.0, kIntervals},
+        .tendon = tabulated_tendon(curves, p.tendon_strain),
+        .height_m = unit.height_m(),
+        .shortest_m = unit.shortest_fiber_m()};
   }
 }
 

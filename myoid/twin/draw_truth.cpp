@@ -50,7 +50,7 @@ Hill draw(const TruthSpec& spec,
   const double slope = normal("eccentric_curvature_product");
   if (varies(spec, "eccentric_curvature_product")) {
     // The slopes of f_v at rest keep their ratio S, but for its own spread.
-    const double ratio = muscle::slope_ratio(literature.velocity_shape());
+    const double ratio = muscle::slope_ratio(literature.velocity_law());
     p.eccentric_curvature_product = muscle::curvature_product_from_slope_ratio(
         ratio * std::exp(beliefs::kSlopeRatio.sd * slope), p.concentric_curvature,
         p.eccentric_plateau);

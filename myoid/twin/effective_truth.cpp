@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "myoid/core/units.h"
+#include "myoid/identification/muscle_law.h"
 #include "myoid/math/least_squares.h"
-#include "myoid/muscle/hill_muscle.h"
 
 namespace myoid::twin {
 namespace {
@@ -71,26 +71,20 @@ std::vector<SteadyPoint> steady_points(const TrueArm& person,
   return points;
 }
 
-/// What is fitted, and how its derivative is found.
+/// A fitted parameter, as muscle::kHillFields and the fields of a tension count it.
 struct Fitted {
-  double Hill::*value;
-  double muscle::HillForce::*derivative;
+  identification::MuscleField field;
   double tether;  ///< Weight of (value / literature - 1) in the residual.
-};
-constexpr std::array<Fitted, 6> kFitted = {
-    {{&Hill::max_isometric_force_n, &muscle::HillForce::by_max_isometric_force, 0.0},
-     {&Hill::optimal_fiber_length_m, &muscle::HillForce::by_optimal_fiber_length, 0.0},
-     {&Hill::force_length_width_m, &muscle::HillForce::by_force_length_width, 0.0},
-     {&Hill::concentric_curvature, &muscle::HillForce::by_concentric_curvature, 0.1},
-     {&Hill::eccentric_curvature_product, &muscle::HillForce::by_eccentric_curvature_product, 0.1},
-     {&Hill::eccentric_plateau, &muscle::HillForce::by_eccentric_plateau, 0.3}}};
-
-double bound_of(double Hill::*value, bool upper) {
-  for (const muscle::HillField& field : muscle::kHillFields) {
-    if (field.member == value) return upper ? field.bounds.upper : field.bounds.lower;
+  [[nodiscard]] const muscle::HillField& row() const {
+    return muscle::kHillFields[static_cast<std::size_t>(field)];
   }
-  return upper ? HUGE_VAL : -HUGE_VAL;
-}
+};
+constexpr std::array<Fitted, 6> kFitted = {{{identification::kMaxForce, 0.0},
+                                            {identification::kFiberLength, 0.0},
+                                            {identification::kWidth, 0.0},
+                                            {identification::kCurvature, 0.1},
+                                            {identification::kProduct, 0.1},
+                                            {identification::kPlateau, 0.3}}};
 
 }  // namespace
 
@@ -113,7 +107,7 @@ HillSet effective_muscles(const TrueArm& person, const VirtualArm& modelled, Per
   const auto hill_of = [&literature](const Eigen::VectorXd& x, Eigen::Index m) {
     Hill p = literature[static_cast<std::size_t>(m)];
     for (std::size_t i = 0; i < kFitted.size(); ++i)
-      p.*(kFitted[i].value) *= x(kPerMuscle * m + static_cast<Eigen::Index>(i));
+      p.*(kFitted[i].row().member) *= x(kPerMuscle * m + static_cast<Eigen::Index>(i));
     return p;
   };
   math::LeastSquaresProblem problem;
@@ -123,25 +117,21 @@ HillSet effective_muscles(const TrueArm& person, const VirtualArm& modelled, Per
     Eigen::Index row = 0;
     for (Eigen::Index m = 0; m < muscles; ++m) {
       const auto muscle = static_cast<std::size_t>(m);
-      const Hill p = hill_of(x, m);
+      const identification::MuscleValues values =
+          identification::muscle_values(hill_of(x, m), {.length_activation = x(gamma)});
+      identification::Tension t;
       const Eigen::Index first = kPerMuscle * m;
       for (const SteadyPoint& point : points[muscle]) {
-        const double longer = 1.0 + x(gamma) * (1.0 - point.activation);
-        Hill at = p;
-        at.optimal_fiber_length_m *= longer;
-        const muscle::HillForce f = muscle::hill_force_derivatives(
-            point.activation, point.path_m - p.tendon_slack_length_m, point.path_mps, at);
+        identification::plain_tension(point.activation, point.path_m, point.path_mps, values, t);
         const double scale = point.arm_m / largest_nm[muscle];
-        r(row) = scale * f.force_n - point.torque_nm / largest_nm[muscle];
+        r(row) = scale * t.force_n - point.torque_nm / largest_nm[muscle];
         if (J != nullptr) {
           for (std::size_t i = 0; i < kFitted.size(); ++i) {
-            const double inner = kFitted[i].value == &Hill::optimal_fiber_length_m ? longer : 1.0;
             (*J)(row, first + static_cast<Eigen::Index>(i)) =
-                scale * inner * (f.*(kFitted[i].derivative)) *
-                literature[muscle].*(kFitted[i].value);
+                scale * t.by_field[static_cast<std::size_t>(kFitted[i].field)] *
+                literature[muscle].*(kFitted[i].row().member);
           }
-          (*J)(row, gamma) = scale * f.by_optimal_fiber_length * p.optimal_fiber_length_m *
-                             (1.0 - point.activation);
+          (*J)(row, gamma) = scale * t.by_field[identification::kLengthActivation];
         }
         ++row;
       }
@@ -164,9 +154,10 @@ HillSet effective_muscles(const TrueArm& person, const VirtualArm& modelled, Per
   for (Eigen::Index m = 0; m < muscles; ++m) {
     for (std::size_t i = 0; i < kFitted.size(); ++i) {
       const Eigen::Index c = kPerMuscle * m + static_cast<Eigen::Index>(i);
-      const double value = literature[static_cast<std::size_t>(m)].*(kFitted[i].value);
-      problem.lower(c) = bound_of(kFitted[i].value, false) / value;
-      problem.upper(c) = bound_of(kFitted[i].value, true) / value;
+      const muscle::HillField& field = kFitted[i].row();
+      const double value = literature[static_cast<std::size_t>(m)].*(field.member);
+      problem.lower(c) = field.bounds.lower / value;
+      problem.upper(c) = field.bounds.upper / value;
       start(c) = 1.0;
     }
   }

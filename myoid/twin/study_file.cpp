@@ -137,7 +137,7 @@ std::string truth_csv(const VirtualRecording& recording) {
   text += fmt::format("subject,emg_delay,s,{}\n", recording.truth.emg_delay_s);
   for (std::size_t i = 0; i < kArmMuscles.size(); ++i)
     text += fmt::format("{},eccentric_slope_ratio,1,{}\n", kArmMuscles[i],
-                        muscle::slope_ratio(recording.truth.muscles[i].velocity_shape()));
+                        muscle::slope_ratio(recording.truth.muscles[i].velocity_law()));
   if (!recording.truth.arm) {
     // Where the fitted model is the person's: what a fit finds beside the muscles. Exact
     // activations are the muscles' own: no electrode bends them.

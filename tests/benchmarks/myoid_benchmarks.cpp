@@ -10,6 +10,7 @@
 #include "myoid/core/time_series.h"
 #include "myoid/dynamics/inverse_dynamics.h"
 #include "myoid/forces/force_sharing.h"
+#include "myoid/identification/muscle_law.h"
 #include "myoid/kinematics/inverse_kinematics.h"
 #include "myoid/kinematics/joint_motion.h"
 #include "myoid/kinematics/muscle_kinematics.h"
@@ -54,10 +55,13 @@ void force_law(benchmark::State& state) {
 BENCHMARK(force_law);
 
 void force_law_with_derivatives(benchmark::State& state) {
-  const muscle::HillParameters<double> muscle = model::arm4_muscles()[0];
+  const identification::MuscleValues muscle =
+      identification::muscle_values(model::arm4_muscles()[0]);
+  identification::Tension tension;
   double velocity_mps = -0.3;
   for (auto _ : state) {
-    benchmark::DoNotOptimize(muscle::hill_force_derivatives(0.4, 0.12, velocity_mps, muscle));
+    identification::plain_tension(0.4, 0.4, velocity_mps, muscle, tension);
+    benchmark::DoNotOptimize(tension);
     velocity_mps = -velocity_mps;
   }
 }

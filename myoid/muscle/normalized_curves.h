@@ -1,0 +1,194 @@
+#pragma once
+
+#include "myoid/muscle/de_groote.h"
+#include "myoid/muscle/force_length.h"
+#include "myoid/muscle/millard.h"
+#include "myoid/muscle/musculotendon_parameters.h"
+#include "myoid/muscle/thelen_curves.h"
+
+namespace myoid::muscle {
+
+/// The numbers that shape the normalized curves; each law reads those it needs.
+template <typename T = double>
+struct CurveShape {
+  T relative_width{};              ///< l_sh / l0 of the Gaussian.
+  VelocityHyperbola<T> hyperbola;  ///< Of the velocity laws `hill` and `thelen`.
+  T passive_strain{};              ///< Of the exponential passive laws.
+  T passive_shape{};
+  T tendon_strain{};  ///< e0, at F_max.
+  MillardShape millard;
+};
+
+/// The shape that the parameters give under these laws. Thelen's hyperbolas follow from A_f and
+/// F_len.
+template <typename T>
+[[nodiscard]] CurveShape<T> curve_shape(const MusculotendonParameters<T>& p,
+                                        const MusculotendonLaws& laws,
+                                        const MillardShape& millard) {
+  const HillParameters<T>& hill = p.hill;
+  return {.relative_width = hill.force_length_width_m / hill.optimal_fiber_length_m,
+          .hyperbola = laws.velocity == VelocityLaw::thelen
+                           ? thelen_hyperbola<T>(hill.concentric_curvature, hill.eccentric_plateau)
+                           : hill.velocity_law(),
+          .passive_strain = p.passive_strain,
+          .passive_shape = p.passive_shape,
+          .tendon_strain = p.tendon_strain,
+          .millard = millard};
+}
+
+/// The curves of a musculotendon unit, each under the law chosen for it: forces over F_max, fiber
+/// lengths over l0, velocities over v_max, tendon strains over l_t0. Values carry derivatives in T;
+/// slopes are plain numbers. Immutable.
+template <typename T = double>
+class NormalizedCurves {
+ public:
+  /// Throws InvalidInput if Millard's shape makes no curve.
+  NormalizedCurves(const MusculotendonLaws& laws, const CurveShape<T>& shape)
+      : laws_(laws),
+        relative_width_(shape.relative_width),
+        hyperbola_(shape.hyperbola),
+        tendon_strain_(shape.tendon_strain),
+        thelen_passive_(shape.passive_strain, shape.passive_shape),
+        de_groote_passive_(shape.passive_strain, shape.passive_shape),
+        millard_(shape.millard) {}
+
+  [[nodiscard]] const MusculotendonLaws& laws() const { return laws_; }
+  [[nodiscard]] const VelocityHyperbola<T>& hyperbola() const { return hyperbola_; }
+
+  /// f_l at the fiber length l.
+  [[nodiscard]] CurvePoint<T> length(const T& l) const {
+    switch (laws_.length) {
+      case LengthLaw::gaussian: {
+        const T f = force_length(l, T(1.0), relative_width_);
+        const double w = value_of(relative_width_);
+        return {f, -2.0 * value_of(f) * (value_of(l) - 1.0) / (w * w)};
+      }
+      case LengthLaw::de_groote:
+        return de_groote_force_length<T>(l);
+      case LengthLaw::millard:
+        return millard_.force_length()(l);
+    }
+    return {};
+  }
+
+  /// f_v at the velocity v. Thelen's law is slower at low activation.
+  [[nodiscard]] CurvePoint<T> velocity(const T& activation, const T& v) const {
+    switch (laws_.velocity) {
+      case VelocityLaw::hill:
+        return force_velocity<T>(hyperbola_, v);
+      case VelocityLaw::thelen: {
+        const T speed = thelen_speed(activation);
+        CurvePoint<T> point = force_velocity<T>(hyperbola_, v / speed);
+        point.slope /= value_of(speed);
+        return point;
+      }
+      case VelocityLaw::de_groote:
+        return de_groote_force_velocity(v);
+      case VelocityLaw::millard:
+        return millard_.force_velocity()(v);
+    }
+    return {};
+  }
+
+  /// The velocity at which strength f_v + damping v = force.
+  [[nodiscard]] double solve_velocity(double activation,
+                                      double strength,
+                                      double damping,
+                                      double force) const {
+    if (strength == 0.0) return force / damping;
+    switch (laws_.velocity) {
+      case VelocityLaw::hill:
+        return muscle::solve_velocity(plain_hyperbola(), strength, damping, force);
+      case VelocityLaw::thelen: {
+        const double speed = thelen_speed(activation);
+        return speed * muscle::solve_velocity(plain_hyperbola(), strength, damping * speed, force);
+      }
+      case VelocityLaw::de_groote:
+        return solve_de_groote_velocity(strength, damping, force);
+      case VelocityLaw::millard:
+        return millard_.force_velocity().solve(strength, damping, force);
+    }
+    return 0.0;
+  }
+
+  /// Passive force of the fiber at the length l.
+  [[nodiscard]] CurvePoint<T> passive(const T& l) const {
+    switch (laws_.passive) {
+      case PassiveLaw::none:
+        break;
+      case PassiveLaw::thelen:
+        return thelen_passive_(l);
+      case PassiveLaw::de_groote:
+        return de_groote_passive_(l);
+      case PassiveLaw::millard:
+        return millard_.passive()(l);
+    }
+    return {T(0.0), 0.0};
+  }
+  /// The integral of `passive`: the energy over F_max l0.
+  [[nodiscard]] T passive_energy(const T& l) const {
+    switch (laws_.passive) {
+      case PassiveLaw::none:
+        break;
+      case PassiveLaw::thelen:
+        return thelen_passive_.energy(l);
+      case PassiveLaw::de_groote:
+        return de_groote_passive_.energy(l);
+      case PassiveLaw::millard:
+        return millard_.passive().integral(l);
+    }
+    return T(0.0);
+  }
+
+  /// Tendon force at a strain; zero when slack.
+  [[nodiscard]] CurvePoint<T> tendon(const T& strain) const {
+    if (value_of(strain) <= 0.0) return {T(0.0), 0.0};
+    switch (laws_.tendon) {
+      case TendonLaw::linear:
+        return {strain / tendon_strain_, 1.0 / value_of(tendon_strain_)};
+      case TendonLaw::thelen:
+        return thelen_tendon(strain, tendon_strain_);
+      case TendonLaw::de_groote:
+        return de_groote_tendon(strain, tendon_strain_);
+      case TendonLaw::millard: {
+        CurvePoint<T> point = millard_.tendon()(T(strain / tendon_strain_));
+        point.slope /= value_of(tendon_strain_);
+        return point;
+      }
+    }
+    return {};
+  }
+  /// The integral of `tendon`: the energy over F_max l_t0.
+  [[nodiscard]] T tendon_energy(const T& strain) const {
+    if (value_of(strain) <= 0.0) return T(0.0);
+    switch (laws_.tendon) {
+      case TendonLaw::linear:
+        return T(0.5) * strain * strain / tendon_strain_;
+      case TendonLaw::thelen:
+        return thelen_tendon_energy(strain, tendon_strain_);
+      case TendonLaw::de_groote:
+        return de_groote_tendon_energy(strain, tendon_strain_);
+      case TendonLaw::millard:
+        return millard_.tendon().integral(T(strain / tendon_strain_)) * tendon_strain_;
+    }
+    return T(0.0);
+  }
+
+ private:
+  [[nodiscard]] VelocityHyperbola<double> plain_hyperbola() const {
+    return {value_of(hyperbola_.concentric_curvature),
+            value_of(hyperbola_.eccentric_curvature_product),
+            value_of(hyperbola_.eccentric_plateau), value_of(hyperbola_.tangent_from),
+            hyperbola_.tangent_below};
+  }
+
+  MusculotendonLaws laws_;
+  T relative_width_;
+  VelocityHyperbola<T> hyperbola_;
+  T tendon_strain_;
+  ThelenPassive<T> thelen_passive_;
+  DeGrootePassive<T> de_groote_passive_;
+  MillardCurves millard_;
+};
+
+}  // namespace myoid::muscle
