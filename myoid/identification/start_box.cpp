@@ -39,7 +39,7 @@ StartBox start_box(const Estimator& estimator) {
 StartBox start_box(const PaperCase& samples, const MuscleSetup& setup) {
   StartBox box = box_about(samples.start_vector());
   for (Eigen::Index j = 0; j < box.given.size(); ++j) {
-    const muscle::HillField& field = *samples.unknowns[static_cast<std::size_t>(j)].field;
+    const muscle::HillField& field = *samples.unknowns[static_cast<std::size_t>(j)];
     const double size = std::abs(box.given[j]);
     const auto prior = setup.priors.find(std::string(field.name));
     box.spread[j] = prior == setup.priors.end() ? 0.1 * size
