@@ -45,8 +45,8 @@ set(MYOID_LAYER_twin core math files muscle tables c3d model osim arm simulation
     intervals run)
 set(MYOID_LAYER_commands core files muscle tables c3d recording signals model osim arm kinematics
     dynamics forces simulation identification intervals methods report study checks design run scene
-    results draft contents identify_files twin)
-set(MYOID_LAYER_cli core math files intervals methods report results contents opensim_tools commands)
+    results draft contents identify_files opensim_tools twin)
+set(MYOID_LAYER_cli core math files intervals methods report study results contents commands)
 
 # myoid_layer(NAME UNITS ... [GENERATED sources...] [TESTS_USE layers...] [EXTERNAL targets...])
 # A folder is a target; its tests are one executable. A unit u stands for those of u.h, u.cpp and u.test.cpp

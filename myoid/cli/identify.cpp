@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "myoid/cli/context.h"
+#include "myoid/cli/options.h"
 #include "myoid/intervals/estimate_remarks.h"
 #include "myoid/intervals/score.h"
 #include "myoid/methods/noise_free.h"
@@ -35,8 +36,9 @@ void print_result(const identification::IdentificationResult& result, bool freed
         "number.\n");
   if (freed_speeds)
     fmt::print(
-        "max_shortening_speed is not stated as known: it is free, and concentric_curvature carries "
-        "what is not known of it. Where it is known: max_shortening_speed_fixed = true.\n");
+        "max_shortening_speed is not stated as known: it is free, and its uncertainty widens the "
+        "interval of concentric_curvature. Where it is known: max_shortening_speed_fixed = "
+        "true.\n");
   const std::string lag = identification::lag_remark(result);
   if (!lag.empty()) fmt::print("{}\n", lag);
   if (result.exact) fmt::print("The data are free of noise: fitted as they are, without priors.\n");
@@ -51,7 +53,7 @@ void print_result(const identification::IdentificationResult& result, bool freed
   }
 }
 
-/// How many samples the fit took.
+/// Prints the number of fitted samples.
 void print_samples(const identification::IdentificationResult& result,
                    const StudyData& data,
                    const commands::IdentifyOptions& o) {
@@ -66,7 +68,7 @@ void print_samples(const identification::IdentificationResult& result,
              result.samples_used, all, rate_hz, result.exact ? "" : " (--max-rate)");
 }
 
-/// How the fit meets what it was fitted to: torque by trial and joint, or force by trial and
+/// Prints the errors of the fit: of the torque by trial and joint, or of the force by trial and
 /// muscle.
 void print_fit(const identification::IdentificationResult& result,
                const StudyData& data,
@@ -171,59 +173,6 @@ bool failed(const identification::IdentificationResult& fit,
          });
 }
 
-/// Options that say how the method fits and how sure it is.
-void add_fit_options(CLI::App& command, commands::IdentifyOptions& o) {
-  command
-      .add_option("--delay", o.delay_s,
-                  "EMG delay held at this [s] (default: estimated, methods force and torque)")
-      ->check(CLI::Range(0.0, 0.3));
-  command
-      .add_option(
-          "--lag", o.lag,
-          "How muscles follow their EMG: delay, the activation is the envelope of that time "
-          "ago; shared, the delay is the mean of a pure one and the lags of excitation and "
-          "activation; automatic, what the data prefer (default automatic for torque, else "
-          "delay)")
-      ->check(CLI::IsMember({"automatic", "delay", "shared"}));
-  command.add_flag("--no-priors", o.no_priors,
-                   "Methods force and torque: the data alone, plain least squares");
-  command
-      .add_option("--free", o.free_more,
-                  "Further parameters to identify, of all muscles, channels or the joint: "
-                  "emg_shape, length_activation, ...")
-      ->delimiter(',');
-  command
-      .add_option("--residual-cutoff", o.residual_hz,
-                  "Both sides of the residual are low-passed here [Hz], methods force and torque; "
-                  "0: not at all")
-      ->check(CLI::Range(0.0, 1000.0))
-      ->capture_default_str();
-  command
-      .add_option("--max-rate", o.max_rate_hz,
-                  "Samples are thinned to at most this [Hz], methods force and torque, as by "
-                  "max_rate_hz of a study; data without noise to 200 Hz")
-      ->check(CLI::Range(5.0, 2000.0))
-      ->capture_default_str();
-  command.add_option("--loss", o.loss, "square, huber or cauchy (default square)")
-      ->check(CLI::IsMember({"square", "huber", "cauchy"}));
-  command.add_option("--bootstrap", o.bootstrap, "Bootstrap replicates (default 0: none)")
-      ->check(CLI::Range(0, 100000));
-  command.add_flag("--profile", o.profile, "Profile likelihood of every parameter");
-  command.add_flag("--compare-solvers", o.compare_solvers,
-                   "Gauss-Newton, Levenberg-Marquardt, simplex and annealing from the same starts");
-  command
-      .add_option("--starts", o.starts,
-                  "Starts of the search: the given one and points spread about it, with a table of "
-                  "where they end (default 1; of --compare-solvers 3)")
-      ->check(CLI::Range(1, 1000));
-  command
-      .add_option("--folds", o.folds,
-                  "Methods force and torque, what is left out and predicted: trial, block (a fifth "
-                  "of every trial) or none")
-      ->check(CLI::IsMember({"trial", "block", "none"}))
-      ->capture_default_str();
-}
-
 }  // namespace
 
 void add_identify(CLI::App& app, Context& context) {
@@ -233,58 +182,28 @@ void add_identify(CLI::App& app, Context& context) {
       "Example: myoid identify --muscles muscles.csv --activations a.sto --lengths l.sto "
       "--velocities v.sto\n"
       "                        --moment-arms r.sto --torques id.sto --method torque --out results");
+  add_options<commands::IdentifyOptions>(command);
+  command.get_option("--free")->delimiter(',');
   const auto out = std::make_shared<std::string>();
-  const auto o = std::make_shared<commands::IdentifyOptions>();
-  command.add_option("--muscles", o->muscles, "muscles.csv: starting values, SI")->required();
-  command
-      .add_option("--activations", o->files.activations,
-                  "Activations 0..1 by muscle (.sto), one file per trial")
-      ->required();
-  command
-      .add_option("--lengths", o->files.lengths,
-                  "Musculotendon lengths [m] (fiber lengths where tendon_slack_length is 0), one "
-                  "file per trial")
-      ->required();
-  command.add_option("--velocities", o->files.velocities,
-                     "Their rates [m/s], lengthening positive (default: by a spline through the "
-                     "lengths)");
-  command.add_option("--forces", o->files.forces,
-                     "Muscle forces [N], for --method paper and force");
-  command.add_option("--moment-arms", o->files.moment_arms,
-                     "Moment arms [m] by muscle, for --method torque");
-  command.add_option("--torques", o->files.torques,
-                     "Joint torque of the muscles [N m], for --method torque");
-  command.add_option("--motion", o->files.motions,
-                     "Joint angles (.mot, .sto), one file per trial, for --free joint_viscosity, "
-                     "joint_inertia, joint_stiffness");
-  command
-      .add_option("--lowpass", o->motion_cutoff_hz,
-                  "Smooth the angles of --motion, -3 dB at this frequency [Hz] (default: not "
-                  "smoothed)")
-      ->check(above_zero());
-  command.add_option("--coordinate", o->files.coordinates,
-                     "Columns of the torque file, where it has several; with more than one, "
-                     "--moment-arms has a file for each, trial by trial");
-  command.add_option("--method", o->method, "paper, force or torque (default torque)")
-      ->check(CLI::IsMember({"paper", "force", "torque"}));
-  add_fit_options(command, *o);
   command.add_option("--out", *out, "Folder for parameters.csv, parameters.json")->required();
   command.add_flag("--strict", context.strict, "Exit with 4 if a parameter is not identifiable");
   add_common_options(command, context);
-  command.callback([&context, o, out] {
+  command.callback([&context, &command, out] {
+    auto o = read_options<commands::IdentifyOptions>(command);
     context.prepare_folder(*out);
-    context.protect_inputs(*out, {"parameters.", "fold_parameters.", "solvers."}, {o->muscles});
-    o->call = context.call();
-    const commands::IdentifyResult result = commands::identify(*o);
+    context.protect_inputs(*out, {"parameters.", "fold_parameters.", "solvers."},
+                           {o.muscles.string()});
+    o.call = context.call();
+    const commands::IdentifyResult result = commands::identify(o);
     context.end_progress();
     commands::write_identify(result, *out);
     if (context.json) {
       fmt::print("{}", identify_json(result));
     } else {
-      print_identify(result, *o);
+      print_identify(result, o);
       fmt::print("{}/parameters.csv\n", *out);
     }
-    if (failed(result.fit, o->method, context.strict)) context.exit_code = kQualityGateFailed;
+    if (failed(result.fit, o.method, context.strict)) context.exit_code = kQualityGateFailed;
   });
 }
 

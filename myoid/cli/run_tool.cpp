@@ -1,10 +1,8 @@
-#include "myoid/opensim_tools/run_tool.h"
+#include "myoid/commands/run_tool.h"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include "myoid/cli/context.h"
-#include "myoid/core/json_text.h"
 
 namespace myoid::cli {
 
@@ -13,11 +11,7 @@ void add_run_tool(CLI::App& app, Context& context) {
       "run-tool",
       "Run an OpenSim set-up file: inverse kinematics, inverse dynamics, analyses, scaling\n"
       "Example: myoid run-tool subject01_Setup_IK.xml");
-  struct Options {
-    std::string setup, compat = "opensim";
-    SetupFiles files;
-  };
-  const auto o = std::make_shared<Options>();
+  const auto o = std::make_shared<commands::RunToolOptions>();
   command.add_option("setup", o->setup, "Set-up file (.xml)")->required();
   command.add_option("--model", o->files.model, "Model (.osim), instead of the set-up's");
   command.add_option(
@@ -34,26 +28,17 @@ void add_run_tool(CLI::App& app, Context& context) {
       ->check(CLI::IsMember({"opensim", "exact"}));
   add_common_options(command, context, {.seed = false, .range = false, .overwrite = false});
   command.callback([&context, o] {
-    const ToolResult result = run_tool(o->setup, {.compat = model::parse_compat(o->compat),
-                                                  .files = o->files,
-                                                  .progress = context.progress()});
+    o->call = context.call();
+    const commands::RunToolResult result = commands::run_tool(*o);
     context.end_progress();
-    for (const std::string& note : result.notes) context.warn(note);
-    if (result.replaced > 0)
-      context.log(fmt::format("{} files of an earlier run are replaced", result.replaced));
     if (context.json) {
-      nlohmann::ordered_json json{{"tool", result.tool},
-                                  {"summary", result.summary},
-                                  {"frames", result.frames},
-                                  {"frames_failed", result.frames_failed},
-                                  {"notes", result.notes}};
-      for (const auto& file : result.files) json["files"].push_back(file.string());
-      fmt::print("{}\n", json_text(json));
+      fmt::print("{}", run_tool_json(result));
     } else {
-      fmt::print("{}{}{}\n", result.tool, result.summary.empty() ? "" : ": ", result.summary);
-      for (const auto& file : result.files) fmt::print("{}\n", file.string());
+      const std::string& summary = result.tool.summary;
+      fmt::print("{}{}{}\n", result.tool.tool, summary.empty() ? "" : ": ", summary);
+      for (const auto& file : result.tool.files) fmt::print("{}\n", file.string());
     }
-    if (result.frames_failed > 0 || result.wrong_unit) context.exit_code = kQualityGateFailed;
+    if (!result.good()) context.exit_code = kQualityGateFailed;
   });
 }
 

@@ -3,11 +3,9 @@
 #include <algorithm>
 #include <utility>
 
-#include "myoid/commands/identify_options.h"
 #include "myoid/files/atomic_file.h"
 #include "myoid/files/text_file.h"
 #include "myoid/identification/parameters.h"
-#include "myoid/identify_files/muscles_csv.h"
 #include "myoid/methods/basins.h"
 #include "myoid/methods/force.h"
 #include "myoid/methods/noise_free.h"
@@ -24,7 +22,6 @@ constexpr int kStartsToCompare = 3;
 StudyData read_data(const IdentifyOptions& o, const MuscleTable& table, Remarks& remarks) {
   IdentifySources files = o.files;
   files.torque = o.method == "torque";
-  if (o.motion_cutoff_hz > 0.0) files.motion_cutoff_hz = o.motion_cutoff_hz;
   files.start_s = o.call.start_s;
   files.end_s = o.call.end_s;
   StudyData data =
@@ -39,7 +36,7 @@ StudyData read_data(const IdentifyOptions& o, const MuscleTable& table, Remarks&
   return data;
 }
 
-/// Frees in the data the v_max that the fit had free, for all that follows the fit.
+/// Frees in the data the v_max that the fit freed, for validation and comparison of solvers.
 void free_what_is_free(const identification::IdentificationResult& fit,
                        const MuscleTable& table,
                        StudyData& data) {
@@ -49,12 +46,13 @@ void free_what_is_free(const identification::IdentificationResult& fit,
   if (found) identification::free_speeds(data, table.speed_may_be_free);
 }
 
-/// Fits the data by the method; v_max that it frees becomes free in the data.
+/// Fits the data by the method. A v_max that the fit frees becomes free in the data too.
 identification::IdentificationResult fit_data(const IdentifyOptions& o,
                                               const MuscleTable& table,
                                               const identification::EstimatorOptions& options,
                                               StudyData& data) {
-  if (o.method == "paper") return identification::identify_paper(data, {.multistart = o.starts});
+  if (o.method == "paper")
+    return identification::identify_paper(data, {.multistart = o.starts.value_or(1)});
   if (o.method == "force") {
     identification::IdentificationResult fit = identification::identify_force(
         data,
@@ -69,7 +67,7 @@ identification::IdentificationResult fit_data(const IdentifyOptions& o,
   return fit;
 }
 
-/// Predicts trials or blocks by the reported fit of the others. `data` is as it was read.
+/// Predicts trials or blocks by the fit of the others. `data` are the data before the fit.
 std::vector<identification::Fold> held_out(const IdentifyOptions& o,
                                            const StudyData& data,
                                            const identification::EstimatorOptions& options,
@@ -109,7 +107,7 @@ Provenance provenance_of(const IdentifyOptions& o) {
   const auto add = [&](const std::string& path) {
     provenance.inputs.push_back({path, sha256(recording::read_text_file(path))});
   };
-  add(o.muscles);
+  add(o.muscles.string());
   for (const auto* list :
        {&o.files.activations, &o.files.lengths, &o.files.velocities, &o.files.forces,
         &o.files.moment_arms, &o.files.torques, &o.files.motions}) {
@@ -121,7 +119,7 @@ Provenance provenance_of(const IdentifyOptions& o) {
 }  // namespace
 
 IdentifyResult identify(const IdentifyOptions& o) {
-  check_words(o);
+  check_values(o);
   Remarks remarks(o.call);
   const MuscleTable table = read_muscles_csv(o.muscles, o.method != "paper");
   refuse_impossible(o, table);
@@ -141,7 +139,7 @@ IdentifyResult identify(const IdentifyOptions& o) {
     as_fitted.lag = result.fit.lag;
     as_fitted.choose_lag = false;
     result.contests = solver_contests(result.data, o.method, as_fitted,
-                                      {.starts = o.starts > 0 ? o.starts : kStartsToCompare,
+                                      {.starts = o.starts.value_or(kStartsToCompare),
                                        .seed = o.call.seed,
                                        .progress = o.call.progress});
   }

@@ -6,9 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "myoid/commands/stage_input.h"
 #include "myoid/core/error.h"
-#include "myoid/identification/estimator_settings.h"
 #include "myoid/identification/parameter_fields.h"
 #include "myoid/identification/parameters.h"
 
@@ -43,7 +41,7 @@ std::vector<std::string> beyond_the_paper(const IdentifyOptions& o, const Muscle
   if (!o.lag.empty()) asked.push_back("--lag " + o.lag);
   for (const std::string& name : o.free_more) asked.push_back("--free " + name);
   for (const ParameterRule& rule : table.rules)
-    asked.push_back(fmt::format("{}_fixed = false in {}", rule.parameter, o.muscles));
+    asked.push_back(fmt::format("{}_fixed = false in {}", rule.parameter, o.muscles.string()));
   return asked;
 }
 
@@ -71,18 +69,142 @@ identification::EstimatorSettings settings_of(const IdentifyOptions& o) {
   settings.residual_cutoff_hz.reset();
   if (o.residual_hz > 0.0) settings.residual_cutoff_hz = o.residual_hz;
   settings.loss = *choice_named<identification::Loss>(o.loss);
-  settings.starts = o.starts;
+  settings.starts = o.starts.value_or(1);
   settings.intervals = {.bootstrap = o.bootstrap, .profile = o.profile, .seed = o.call.seed};
   return settings;
 }
 
+/// Throws InvalidInput for a value that its setting does not allow.
+class ValueCheck : public FlatSettingVisitor {
+ protected:
+  bool met(const Setting& setting, const SettingValue& now, const Set& /*set*/) override {
+    std::string reason;
+    if (const auto* number = std::get_if<double>(&now)) reason = refusal(setting, *number);
+    // An empty word stands for the default, which need not be a word.
+    if (const auto* word = std::get_if<std::string>(&now); word != nullptr && !word->empty())
+      reason = refusal(setting, *word);
+    if (!reason.empty()) throw InvalidInput(fmt::format("--{}: {}", setting.key, reason));
+    return false;
+  }
+};
+
+void visit_files(IdentifyOptions& o, SettingVisitor& v) {
+  v.path("muscles", o.muscles,
+         {.says = "[muscles.csv](#musclescsv): the muscles and their starting values, SI.",
+          .required = "muscles.csv"});
+  v.texts("activations", o.files.activations,
+          {.says = "Activations, 0 to 1, in columns named by muscle, or by the column `emg` of "
+                   "muscles.csv; one file per trial. They may have a clock of their own.",
+           .required = "a file per trial"});
+  v.texts("lengths", o.files.lengths,
+          {.says = "Musculotendon lengths [m], or fiber lengths where `tendon_slack_length` is 0 "
+                   "or absent; one file per trial.",
+           .required = "a file per trial"});
+  v.texts("velocities", o.files.velocities,
+          {.says = "Rates of these lengths [m/s], lengthening positive.",
+           .otherwise = "by the quintic spline through the lengths: for lengths without noise"});
+  v.texts("forces", o.files.forces,
+          {.says = "Muscle forces [N], in columns named by muscle.",
+           .otherwise = "needed by `paper` and `force`"});
+  v.texts("moment-arms", o.files.moment_arms,
+          {.says = "Moment arms r = −dl/dq [m], in columns named by muscle; a file for each "
+                   "coordinate of each trial.",
+           .otherwise = "needed by `torque`"});
+  v.texts("torques", o.files.torques,
+          {.says = "The joint torque that the muscles provide together [N m].",
+           .otherwise = "needed by `torque`"});
+  v.texts("coordinate", o.files.coordinates,
+          {.says = "Columns of the torque file, with or without `_moment`. Several joints are "
+                   "fitted at once: `--moment-arms` then has the first trial's files in this "
+                   "order, then the next trial's.",
+           .otherwise = "the only column"});
+  v.texts("motion", o.files.motions,
+          {.says = "Joint angles (`.mot`, `.sto`; columns as `--coordinate`, or the only one), "
+                   "differentiated by the quintic spline through them: for `--free "
+                   "joint_viscosity`, `joint_inertia`, `joint_stiffness`.",
+           .otherwise = "none"});
+  v.number("lowpass", o.files.motion_cutoff_hz,
+           {.says = "The angles of `--motion` are smoothed, −3 dB at this frequency.",
+            .limits = above_zero("Hz"),
+            .otherwise = "not smoothed"});
+}
+
+/// The method and the law that it fits.
+void visit_law(IdentifyOptions& o, SettingVisitor& v) {
+  static constexpr std::string_view kMethods[] = {"torque", "force", "paper"};
+  static constexpr std::string_view kLags[] = {"automatic", "delay", "shared"};
+  v.text("method", o.method,
+         {.says = "`torque`: all muscles against the joint's torque; `force`: each muscle, both "
+                  "branches at once, against its own force; `paper`: each branch alone, as "
+                  "published.",
+          .words = kMethods});
+  v.number("delay", o.delay_s,
+           {.says = "The EMG delay is held at this (`force`, `torque`).",
+            .limits = within(0.0, 0.3, "s"),
+            .otherwise = "estimated"});
+  v.text("lag", o.lag,
+         {.says = "How muscles follow their EMG (`force`, `torque`). `delay`: the activation is "
+                  "the envelope of `emg_delay` ago; `shared`: the mean delay is split into a pure "
+                  "delay and the lags of excitation and activation, which damp fast changes; "
+                  "`automatic`: the one that the data prefer "
+                  "([how](../theory/identification.md)).",
+          .otherwise = "`automatic` for `torque`, else `delay`",
+          .words = kLags});
+  v.flag("no-priors", o.no_priors,
+         {.says = "The data alone, plain least squares (`force`, `torque`)."});
+  v.texts("free", o.free_more,
+          {.says = "Further parameters to identify, of all muscles, channels or the joint, by "
+                   "comma: `emg_shape,length_activation`.",
+           .otherwise = "none"});
+}
+
+/// The fit and the certainty of its result.
+void visit_fit(IdentifyOptions& o, SettingVisitor& v) {
+  static constexpr std::string_view kFolds[] = {"trial", "block", "none"};
+  v.number("residual-cutoff", o.residual_hz,
+           {.says = "Both sides of the residual are low-passed here (`force`, `torque`): the noise "
+                    "of an EMG envelope reaches to higher frequencies than the differences "
+                    "between muscles. 0: not at all, for activations that are known.",
+            .limits = within(0.0, 1000.0, "Hz")});
+  v.number("max-rate", o.max_rate_hz,
+           {.says = "Samples are thinned to at most this (`force`, `torque`), as by "
+                    "[`max_rate_hz`](study.md) of a study; data without noise to 200 Hz.",
+            .limits = within(5.0, 2000.0, "Hz")});
+  v.text(
+      "loss", o.loss,
+      {.says = "How much a large residual counts.", .words = choice_names(identification::Loss{})});
+  v.count("bootstrap", o.bootstrap,
+          {.says = "Bootstrap replicates, a second route to the intervals; 0: none.",
+           .limits = within(0, 100000)});
+  v.flag("profile", o.profile,
+         {.says = "Profile likelihood of every parameter, a third route to the intervals."});
+  v.flag("compare-solvers", o.compare_solvers,
+         {.says = "Gauss–Newton, Levenberg–Marquardt, simplex and simulated annealing from the "
+                  "same starts: [which solver](#which-solver). Also writes `solvers.csv`."});
+  v.count("starts", o.starts,
+          {.says = "Starts of the search: the given one and [Sobol points about "
+                   "it](#starts-of-the-search), with a table of the minima they reach.",
+           .limits = within(1, 1000),
+           .otherwise = "1; of `--compare-solvers` 3"});
+  v.text("folds", o.folds,
+         {.says = "The part that is left out of the fit and predicted (`force`, `torque`): a "
+                  "`trial`; a `block`, a fifth of every trial of 3.3 s or more with half a second "
+                  "on either side; or `none`.",
+          .words = kFolds});
+}
+
 }  // namespace
 
-void check_words(const IdentifyOptions& o) {
-  check_word("--method", o.method, {"paper", "force", "torque"});
-  check_word("--loss", o.loss, {"square", "huber", "cauchy"});
-  check_word("--folds", o.folds, {"trial", "block", "none"});
-  if (!o.lag.empty()) check_word("--lag", o.lag, {"automatic", "delay", "shared"});
+void visit(IdentifyOptions& o, SettingVisitor& v) {
+  visit_files(o, v);
+  visit_law(o, v);
+  visit_fit(o, v);
+}
+
+void check_values(const IdentifyOptions& options) {
+  IdentifyOptions checked = options;
+  ValueCheck check;
+  visit(checked, check);
 }
 
 void refuse_impossible(const IdentifyOptions& o, const MuscleTable& table) {
@@ -97,13 +219,13 @@ void refuse_impossible(const IdentifyOptions& o, const MuscleTable& table) {
         "--lag automatic: method force fits each muscle alone, and all follow their EMG alike; "
         "give --lag delay or shared, or use --method torque");
   }
-  // Samples hold what lies well below half of their rate.
+  // Samples hold frequencies well below half of their rate.
   if (o.method != "paper" && o.residual_hz >= 0.45 * o.max_rate_hz)
     throw InvalidInput(fmt::format(
         "--residual-cutoff {0}: samples are thinned to {1} Hz, which holds less than {2:.3g} Hz; "
         "give --max-rate {3:.0f}, or --residual-cutoff 0 for no low-pass",
         o.residual_hz, o.max_rate_hz, 0.45 * o.max_rate_hz, std::ceil(o.residual_hz / 0.4)));
-  if (o.motion_cutoff_hz > 0.0 && o.files.motions.empty())
+  if (o.files.motion_cutoff_hz && o.files.motions.empty())
     throw InvalidInput("--lowpass smooths the angles of --motion, which is not given");
   refuse_free_without_motion(o);
 }
@@ -145,7 +267,7 @@ identification::EstimatorOptions estimator_options(const IdentifyOptions& o,
     settings.lag = identification::LagChoice::equation_1;
     remarks.warn(
         "the lags of equation (1) are to be identified: the activations given are taken for "
-        "excitations that pass them, and the delay is what is left beside them");
+        "excitations that pass them, and the delay is the time that is left beside them");
   }
   return identification::estimator_options(settings, {}, o.call.progress);
 }

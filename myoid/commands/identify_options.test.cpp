@@ -4,6 +4,9 @@
 #include <gtest/gtest.h>
 
 #include "myoid/core/error.h"
+#include "myoid/study/setting_rows.h"
+
+#include "tests/support/printed_page.h"
 
 namespace myoid::commands {
 namespace {
@@ -11,6 +14,11 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
+
+TEST(IdentifyOptions, AreTheOnesThatTheGuidePrints) {
+  test::expect_printed("docs/guide/identify.md", "options",
+                       markdown(option_rows(IdentifyOptions{}), "option"));
+}
 
 TEST(IdentifyOptions, WhatTheMethodDoesNotUseIsSaid) {
   IdentifyOptions o;
@@ -43,7 +51,11 @@ TEST(IdentifyOptions, WhatTheMethodOrTheFilesCannotGiveIsRefused) {
   o.residual_hz = 0.45 * o.max_rate_hz;
   EXPECT_THROW(refuse_impossible(o, table), InvalidInput);
   o.method = "papers";
-  EXPECT_THROW(check_words(o), InvalidInput);
+  EXPECT_THROW(check_values(o), InvalidInput);
+  o = {};
+  EXPECT_NO_THROW(check_values(o));
+  o.delay_s = 60.0;  // ms
+  EXPECT_THROW(check_values(o), InvalidInput);
 }
 
 TEST(IdentifyOptions, LagsToBeIdentifiedLeaveNoOtherWayToFollowTheEmg) {

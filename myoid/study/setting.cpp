@@ -1,8 +1,41 @@
 #include "myoid/study/setting.h"
 
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "myoid/files/toml_table.h"
+
 namespace myoid {
 
 namespace {
+
+/// "; is it in mm? Divide by 1000" where that would make an allowed number.
+std::string other_unit(double value, const SettingLimits& limits) {
+  struct Slip {
+    std::string_view meant, written;
+    double factor;
+  };
+  for (const Slip& slip :
+       {Slip{"m", "cm", 100.0}, Slip{"m", "mm", 1000.0}, Slip{"s", "ms", 1000.0}}) {
+    const double meant = value / slip.factor;
+    if (limits.unit == slip.meant && meant >= limits.lower && meant <= limits.upper && meant != 0.0)
+      return fmt::format("; is it in {}? Divide by {}", slip.written, slip.factor);
+  }
+  return "";
+}
+
+std::string expected(const SettingLimits& limits) {
+  const std::string unit = limits.unit.empty() ? "" : fmt::format(" {}", limits.unit);
+  if (std::isfinite(limits.upper))
+    return fmt::format("{} to {}{}", limits.lower, limits.upper, unit);
+  if (limits.above_lower)
+    return limits.lower == 0.0 ? "a positive number"
+                               : fmt::format("a number above {}", limits.lower);
+  return fmt::format("{} or more", limits.lower);
+}
 
 template <typename T>
 SettingValue or_nothing(const std::optional<T>& value) {
@@ -10,6 +43,34 @@ SettingValue or_nothing(const std::optional<T>& value) {
 }
 
 }  // namespace
+
+std::string refusal(const Setting& setting, double value) {
+  if (!std::isfinite(value)) return "expected a finite number";
+  const SettingLimits& limits = setting.about.limits;
+  const bool low = limits.above_lower ? !(value > limits.lower) : !(value >= limits.lower);
+  if (low || value > limits.upper)
+    return fmt::format(
+        "found {}{}{}, expected {}{}{}", value, limits.unit.empty() ? "" : " ", limits.unit,
+        expected(limits),
+        setting.about.word.empty() ? "" : fmt::format(" or \"{}\"", setting.about.word),
+        other_unit(value, limits));
+  if (setting.kind == SettingKind::count && value != std::floor(value))
+    return fmt::format("found {}, expected a whole number", value);
+  return "";
+}
+
+std::string refusal(const Setting& setting, const std::string& word) {
+  const ChoiceNames words = setting.about.words;
+  if (words.empty() || std::find(words.begin(), words.end(), word) != words.end()) return "";
+  std::vector<std::string> named;
+  for (const std::string_view each : words) {
+    if (!each.empty()) named.emplace_back(each);
+  }
+  const auto near = recording::nearest_word(word, named);
+  return fmt::format("found \"{}\"{}, expected {}{}", word,
+                     near ? fmt::format(" (did you mean '{}'?)", *near) : "",
+                     named.size() > 1 ? "one of " : "", fmt::join(named, ", "));
+}
 
 bool SettingVisitor::flag(std::string_view key, bool& value, const About& about) {
   return met({key, SettingKind::flag, about}, value,
@@ -53,6 +114,12 @@ bool SettingVisitor::number(std::string_view key,
 
 bool SettingVisitor::count(std::string_view key, int& value, const About& about) {
   return met({key, SettingKind::count, about}, static_cast<double>(value),
+             [&](SettingValue given) { value = static_cast<int>(std::get<double>(given)); });
+}
+
+bool SettingVisitor::count(std::string_view key, std::optional<int>& value, const About& about) {
+  return met({key, SettingKind::count, about},
+             value ? SettingValue(static_cast<double>(*value)) : SettingValue(),
              [&](SettingValue given) { value = static_cast<int>(std::get<double>(given)); });
 }
 

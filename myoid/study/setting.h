@@ -71,6 +71,11 @@ struct Setting {
   About about;
 };
 
+/// Says why a number or a word is refused ("found 3 Hz, expected 5 to 2000 Hz"); empty: it is
+/// allowed.
+[[nodiscard]] std::string refusal(const Setting& setting, double value);
+[[nodiscard]] std::string refusal(const Setting& setting, const std::string& word);
+
 /// The value of a setting as a file holds it; monostate: not given.
 using SettingValue = std::variant<std::monostate,
                                   bool,
@@ -81,9 +86,9 @@ using SettingValue = std::variant<std::monostate,
                                   std::map<std::string, std::string>,
                                   std::map<std::string, double>>;
 
-/// Meets the settings of a study one by one, in the order of the reference. `visit(spec, visitor)`
-/// names every setting of a struct once; a visitor reads it from a file, writes it, or describes
-/// it. Each of the functions below returns whether a file gave the setting.
+/// Meets settings one by one, in the order of the reference. `visit(spec, visitor)` names every
+/// setting of a struct once; visitors read settings from a file or a command line, write, check or
+/// describe them. Each of the functions below returns whether the user gave the setting.
 class SettingVisitor {
  public:
   using Inside = std::function<void(SettingVisitor&)>;
@@ -102,6 +107,7 @@ class SettingVisitor {
   /// A number, nothing, or `about.word`, which sets `worded`.
   bool number(std::string_view key, std::optional<double>& value, bool& worded, const About& about);
   bool count(std::string_view key, int& value, const About& about);
+  bool count(std::string_view key, std::optional<int>& value, const About& about);
   bool text(std::string_view key, std::string& value, const About& about);
   /// A text, or a table { `about.table` = text }, which goes to `instead`.
   bool text(std::string_view key,
@@ -173,6 +179,7 @@ class SettingVisitor {
 
  protected:
   using Set = std::function<void(SettingValue)>;
+  using InsideEach = std::function<void(std::size_t, SettingVisitor&)>;
   /// One setting, its present value, and the way to set it. Returns whether a file gave it.
   virtual bool met(const Setting& setting, const SettingValue& now, const Set& set) = 0;
   virtual bool entered(std::string_view key,
@@ -182,7 +189,22 @@ class SettingVisitor {
   virtual void repeated(std::string_view key,
                         std::size_t count,
                         const About& about,
-                        const std::function<void(std::size_t, SettingVisitor&)>& inside) = 0;
+                        const InsideEach& inside) = 0;
+};
+
+/// A visitor of settings that stand in no tables.
+class FlatSettingVisitor : public SettingVisitor {
+ protected:
+  bool entered(std::string_view /*key*/,
+               bool /*present*/,
+               const About& /*about*/,
+               const Inside& /*inside*/) override {
+    return false;
+  }
+  void repeated(std::string_view /*key*/,
+                std::size_t /*count*/,
+                const About& /*about*/,
+                const InsideEach& /*inside*/) override {}
 };
 
 }  // namespace myoid

@@ -27,7 +27,7 @@ class SettingReader : public SettingVisitor {
   void repeated(std::string_view key,
                 std::size_t count,
                 const About& about,
-                const std::function<void(std::size_t, SettingVisitor&)>& inside) override;
+                const InsideEach& inside) override;
 
  private:
   [[nodiscard]] SettingValue text(const Setting& setting);
@@ -35,12 +35,8 @@ class SettingReader : public SettingVisitor {
   [[nodiscard]] SettingValue texts(const Setting& setting);
   [[nodiscard]] SettingValue numbers(const Setting& setting);
   [[nodiscard]] SettingValue by_name(const Setting& setting);
-  void allow(const Setting& setting, const std::string& word) const;
-  void allow(const recording::TomlTable& table,
-             std::string_view key,
-             const SettingLimits& limits,
-             std::string_view word,
-             double value) const;
+  /// Throws ReadError at the setting's line where there is a reason to refuse it.
+  void refuse(const Setting& setting, const std::string& reason) const;
 
   recording::TomlTable* table_;
   std::filesystem::path folder_;

@@ -37,12 +37,12 @@ std::string range_of(const SettingLimits& limits) {
   return limits.unit.empty() ? "number" : fmt::format("number [{}]", limits.unit);
 }
 
-std::string type_of(const Setting& setting) {
+std::string type_of(const Setting& setting, bool option) {
   const About& about = setting.about;
   const std::string several = about.count > 0 ? fmt::format("{} ", about.count) : "";
   switch (setting.kind) {
     case SettingKind::flag:
-      return "true, false";
+      return option ? "no value" : "true, false";
     case SettingKind::number:
       return range_of(about.limits);
     case SettingKind::count:
@@ -52,7 +52,8 @@ std::string type_of(const Setting& setting) {
     case SettingKind::path:
       return "file";
     case SettingKind::texts:
-      return about.words.empty() ? several + "text or list of texts" : words_of(setting);
+      if (!about.words.empty()) return words_of(setting);
+      return option ? "one or several" : several + "text or list of texts";
     case SettingKind::numbers:
       return fmt::format("{}numbers{}", several,
                          about.limits.unit.empty() ? "" : fmt::format(" [{}]", about.limits.unit));
@@ -64,8 +65,8 @@ std::string type_of(const Setting& setting) {
   return "";
 }
 
-std::string allowed(const Setting& setting) {
-  std::string text = type_of(setting);
+std::string allowed(const Setting& setting, bool option) {
+  std::string text = type_of(setting, option);
   const About& about = setting.about;
   if (setting.kind == SettingKind::texts && about.count > 0)
     text = fmt::format("{} texts", about.count);
@@ -74,14 +75,15 @@ std::string allowed(const Setting& setting) {
   return text;
 }
 
-std::string default_of(const Setting& setting, const SettingValue& value) {
+std::string default_of(const Setting& setting, const SettingValue& value, bool option) {
   const About& about = setting.about;
   if (!about.required.empty()) return "required";
   if (!about.otherwise.empty()) return std::string(about.otherwise);
-  if (const auto* flag = std::get_if<bool>(&value)) return *flag ? "true" : "false";
+  if (const auto* flag = std::get_if<bool>(&value))
+    return option ? (*flag ? "on" : "off") : (*flag ? "true" : "false");
   if (const auto* number = std::get_if<double>(&value)) return fmt::format("{}", *number);
   if (const auto* text = std::get_if<std::string>(&value); text != nullptr && !text->empty())
-    return code(in_quotes(*text));
+    return code(option ? *text : in_quotes(*text));
   if (const auto* list = std::get_if<std::vector<std::string>>(&value);
       list != nullptr && !list->empty()) {
     std::vector<std::string> quoted;
@@ -102,8 +104,8 @@ class RowVisitor : public SettingVisitor {
 
  protected:
   bool met(const Setting& setting, const SettingValue& now, const Set& /*set*/) override {
-    rows_->push_back({prefix_ + std::string(setting.key), allowed(setting),
-                      default_of(setting, now), std::string(setting.about.says)});
+    rows_->push_back(setting_row(setting, now, SettingNotation::file));
+    rows_->back().key.insert(0, prefix_);
     return false;
   }
   bool entered(std::string_view key,
@@ -121,7 +123,7 @@ class RowVisitor : public SettingVisitor {
   void repeated(std::string_view /*key*/,
                 std::size_t /*count*/,
                 const About& /*about*/,
-                const std::function<void(std::size_t, SettingVisitor&)>& /*inside*/) override {}
+                const InsideEach& /*inside*/) override {}
 
  private:
   std::string prefix_;
@@ -150,28 +152,13 @@ class TableVisitor : public SettingVisitor {
   void repeated(std::string_view key,
                 std::size_t /*count*/,
                 const About& about,
-                const std::function<void(std::size_t, SettingVisitor&)>& inside) override {
+                const InsideEach& inside) override {
     SettingTable table{fmt::format("[[{}]]", key), std::string(about.says), {}};
     RowVisitor rows("", table.rows);
     inside(0, rows);
     tables.push_back(std::move(table));
   }
 };
-
-/// Without the marks of Markdown: `code` and [text](address).
-std::string plain(const std::string& text) {
-  std::string result;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    if (text.compare(i, 2, "](") == 0 && text.find(')', i) != std::string::npos) {
-      const std::size_t opened = result.rfind('[');
-      if (opened != std::string::npos) result.erase(opened, 1);
-      i = text.find(')', i);
-    } else if (text[i] != '`') {
-      result += text[i];
-    }
-  }
-  return result;
-}
 
 /// The words in lines of at most 100 characters, indented.
 std::string paragraph(const std::string& text) {
@@ -193,13 +180,35 @@ std::string paragraph(const std::string& text) {
 
 }  // namespace
 
+std::string without_markdown(const std::string& text) {
+  std::string result;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text.compare(i, 2, "](") == 0 && text.find(')', i) != std::string::npos) {
+      const std::size_t opened = result.rfind('[');
+      if (opened != std::string::npos) result.erase(opened, 1);
+      i = text.find(')', i);
+    } else if (text[i] != '`') {
+      result += text[i];
+    }
+  }
+  return result;
+}
+
+SettingRow setting_row(const Setting& setting,
+                       const SettingValue& usual,
+                       SettingNotation notation) {
+  const bool option = notation == SettingNotation::command_line;
+  return {(option ? "--" : "") + std::string(setting.key), allowed(setting, option),
+          default_of(setting, usual, option), std::string(setting.about.says)};
+}
+
 std::string reference_text(const std::vector<SettingTable>& tables) {
   std::string text;
   for (const SettingTable& table : tables) {
-    text += fmt::format("{} {}\n", table.name, plain(table.says));
+    text += fmt::format("{} {}\n", table.name, without_markdown(table.says));
     for (const SettingRow& row : table.rows)
-      text += fmt::format("  {}: {}; default {}\n{}", row.key, plain(row.allowed), plain(row.usual),
-                          paragraph(plain(row.says)));
+      text += fmt::format("  {}: {}; default {}\n{}", row.key, without_markdown(row.allowed),
+                          without_markdown(row.usual), paragraph(without_markdown(row.says)));
     text += '\n';
   }
   return text;
@@ -211,10 +220,11 @@ std::string reference_json(const std::vector<SettingTable>& tables) {
     nlohmann::ordered_json rows = nlohmann::ordered_json::array();
     for (const SettingRow& row : table.rows)
       rows.push_back({{"key", row.key},
-                      {"values", plain(row.allowed)},
-                      {"default", plain(row.usual)},
-                      {"meaning", plain(row.says)}});
-    list.push_back({{"table", table.name}, {"meaning", plain(table.says)}, {"settings", rows}});
+                      {"values", without_markdown(row.allowed)},
+                      {"default", without_markdown(row.usual)},
+                      {"meaning", without_markdown(row.says)}});
+    list.push_back(
+        {{"table", table.name}, {"meaning", without_markdown(table.says)}, {"settings", rows}});
   }
   return json_text(list) + "\n";
 }
@@ -226,9 +236,10 @@ std::vector<SettingTable> setting_tables() {
   return std::move(visitor.tables);
 }
 
-std::string markdown(const SettingTable& table) {
-  std::string text = "| key | values | default | meaning |\n| --- | --- | --- | --- |\n";
-  for (const SettingRow& row : table.rows)
+std::string markdown(const std::vector<SettingRow>& rows, std::string_view heading) {
+  std::string text =
+      fmt::format("| {} | values | default | meaning |\n| --- | --- | --- | --- |\n", heading);
+  for (const SettingRow& row : rows)
     text += fmt::format("| `{}` | {} | {} | {} |\n", row.key, row.allowed, row.usual, row.says);
   return text;
 }

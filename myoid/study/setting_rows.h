@@ -3,6 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "myoid/study/setting.h"
+
 namespace myoid {
 
 /// A setting as the reference describes it.
@@ -12,6 +14,17 @@ struct SettingRow {
   std::string usual;    ///< Default.
   std::string says;     ///< One sentence or two; Markdown.
 };
+
+/// The way in which settings are written, and so described.
+enum class SettingNotation {
+  file,         ///< A line of study.toml: `loss = "huber"`.
+  command_line  ///< An option: `--loss huber`.
+};
+
+/// The row of a setting; `usual` is the value without a word of the user's.
+[[nodiscard]] SettingRow setting_row(const Setting& setting,
+                                     const SettingValue& usual,
+                                     SettingNotation notation);
 
 /// A table of study.toml.
 struct SettingTable {
@@ -23,11 +36,35 @@ struct SettingTable {
 /// The reference of study.toml: every table and setting in the order of the visits.
 [[nodiscard]] std::vector<SettingTable> setting_tables();
 
-/// The rows of a table as Markdown, which docs/guide/study.md holds.
-[[nodiscard]] std::string markdown(const SettingTable& table);
+/// The rows as Markdown under the words of `heading`, as pages of docs/guide hold them.
+[[nodiscard]] std::string markdown(const std::vector<SettingRow>& rows,
+                                   std::string_view heading = "key");
+
+/// The text without the marks of Markdown: `code` and [text](address).
+[[nodiscard]] std::string without_markdown(const std::string& markdown);
 
 /// The reference for a terminal, and for machines as a list of tables.
 [[nodiscard]] std::string reference_text(const std::vector<SettingTable>& tables);
 [[nodiscard]] std::string reference_json(const std::vector<SettingTable>& tables);
+
+/// Collects the rows of settings that stand in no tables.
+class OptionRows : public FlatSettingVisitor {
+ public:
+  std::vector<SettingRow> rows;
+
+ protected:
+  bool met(const Setting& setting, const SettingValue& now, const Set& /*set*/) override {
+    rows.push_back(setting_row(setting, now, SettingNotation::command_line));
+    return false;
+  }
+};
+
+/// The rows of a command's options: `option_rows(IdentifyOptions{})`.
+template <typename Options>
+[[nodiscard]] std::vector<SettingRow> option_rows(Options options) {
+  OptionRows visitor;
+  visit(options, visitor);
+  return visitor.rows;
+}
 
 }  // namespace myoid

@@ -20,7 +20,7 @@ using nlohmann::ordered_json;
 /// Collects the settings that it meets as a JSON object.
 class SettingWriter : public SettingVisitor {
  public:
-  /// Paths are written as from `folder`; without one, as they are.
+  /// Paths are written relative to `folder`; without a folder they stay unchanged.
   explicit SettingWriter(std::optional<std::filesystem::path> folder)
       : folder_(std::move(folder)) {}
 
@@ -52,7 +52,7 @@ class SettingWriter : public SettingVisitor {
   void repeated(std::string_view key,
                 std::size_t count,
                 const About& /*about*/,
-                const std::function<void(std::size_t, SettingVisitor&)>& inside) override {
+                const InsideEach& inside) override {
     ordered_json list = ordered_json::array();
     for (std::size_t i = 0; i < count; ++i)
       list.push_back(written_by([&](SettingVisitor& each) { inside(i, each); }));

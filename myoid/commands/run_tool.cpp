@@ -1,0 +1,41 @@
+#include "myoid/commands/run_tool.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "myoid/commands/stage_input.h"
+#include "myoid/core/counted.h"
+#include "myoid/core/json_text.h"
+
+namespace myoid::commands {
+
+bool RunToolResult::good() const { return tool.frames_failed == 0 && !tool.wrong_unit; }
+
+RunToolResult run_tool(const RunToolOptions& o) {
+  check_word("--compat", o.compat, {"opensim", "exact"});
+  Remarks remarks(o.call);
+  RunToolResult result;
+  result.tool = myoid::run_tool(
+      o.setup,
+      {.compat = model::parse_compat(o.compat), .files = o.files, .progress = o.call.progress});
+  for (const std::string& note : result.tool.notes) remarks.warn(note);
+  if (result.tool.replaced > 0)
+    remarks.note(fmt::format("{} of an earlier run {} replaced",
+                             counted(static_cast<std::size_t>(result.tool.replaced), "file"),
+                             result.tool.replaced == 1 ? "is" : "are"));
+  result.remarks = remarks.list();
+  return result;
+}
+
+std::string run_tool_json(const RunToolResult& result) {
+  const ToolResult& tool = result.tool;
+  nlohmann::ordered_json json{{"tool", tool.tool},
+                              {"summary", tool.summary},
+                              {"frames", tool.frames},
+                              {"frames_failed", tool.frames_failed},
+                              {"notes", tool.notes}};
+  for (const std::filesystem::path& file : tool.files) json["files"].push_back(file.string());
+  return json_text(json) + "\n";
+}
+
+}  // namespace myoid::commands

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "myoid/commands/call.h"
+#include "myoid/opensim_tools/run_tool.h"
+
+namespace myoid::commands {
+
+/// A set-up file of one of OpenSim's tools. The tools take their times from that file.
+struct RunToolOptions {
+  Call call;
+  std::string setup;               ///< .xml
+  SetupFiles files;                ///< Instead of the set-up's own.
+  std::string compat = "opensim";  ///< Paths of muscles: as OpenSim 4.5.2 has them, or "exact".
+};
+
+struct RunToolResult {
+  ToolResult tool;  ///< Its files are written.
+  std::vector<Remark> remarks;
+
+  /// True if every frame was solved and the markers are in the unit that their file states.
+  [[nodiscard]] bool good() const;
+};
+
+/// Runs the tool and writes its files. (OpenSim's names and folders stand in the set-up, so
+/// reading, computing and writing are one call.) Throws as `myoid::run_tool`.
+RunToolResult run_tool(const RunToolOptions& options);
+
+/// Tool, summary, counts of frames, notes and files.
+[[nodiscard]] std::string run_tool_json(const RunToolResult& result);
+
+}  // namespace myoid::commands
