@@ -1,26 +1,16 @@
 #include "myoid/identify_files/identify_data.h"
 
 #include <algorithm>
-#include <filesystem>
-#include <map>
 #include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "myoid/checks/same_recording.h"
-#include "myoid/core/counted.h"
 #include "myoid/core/error.h"
-#include "myoid/core/units.h"
 #include "myoid/identify_files/identify_input.h"
+#include "myoid/identify_files/identify_trial.h"
 #include "myoid/identify_files/joint_of_arms.h"
-#include "myoid/math/spline.h"
-#include "myoid/math/statistics.h"
-#include "myoid/recording/recording.h"
-#include "myoid/signals/motion_jumps.h"
-#include "myoid/signals/resample.h"
-#include "myoid/tables/series_file.h"
-#include "myoid/tables/storage_reader.h"
 
 namespace myoid {
 namespace {
@@ -29,354 +19,7 @@ using identification::MuscleSetup;
 using identification::StudyData;
 using identification::TrialData;
 
-/// Finite values of a series on another clock; as they are if the clocks agree.
-Eigen::MatrixXd on_clock_of(const TimeSeries& series,
-                            const std::string& path,
-                            const Eigen::VectorXd& clock) {
-  require_finite(series, path);
-  if (series.time_s().size() == clock.size() &&
-      (series.time_s() - clock).cwiseAbs().maxCoeff() < 1e-9)
-    return series.values();
-  return signals::resample(series, clock).values();
-}
-
-/// Rates of the columns on another clock, by the quintic spline through them.
-Eigen::MatrixXd rates_of(const TimeSeries& series, const Eigen::VectorXd& clock) {
-  const math::SplineKnots knots(series.time_s());
-  Eigen::MatrixXd rates(clock.size(), series.channel_count());
-  for (Eigen::Index c = 0; c < rates.cols(); ++c)
-    rates.col(c) = knots.interpolate(series.values().col(c)).evaluate(clock).first;
-  return rates;
-}
-
-void require_count(std::size_t count, std::size_t trials, std::string_view option) {
-  if (count != trials)
-    throw InvalidInput(
-        fmt::format("{}: {} for {} of --lengths; give one per trial, in the same order", option,
-                    counted(count, "file"), trials));
-}
-
-void require_counts(const IdentifySources& s) {
-  const std::size_t trials = s.lengths.size();
-  require_count(s.activations.size(), trials, "--activations");
-  if (!s.velocities.empty()) require_count(s.velocities.size(), trials, "--velocities");
-  if (!s.torque) {
-    require_count(s.forces.size(), trials, "--forces");
-    return;
-  }
-  const std::size_t joints = std::max<std::size_t>(1, s.coordinates.size());
-  if (joints > 1 && s.moment_arms.size() != joints * trials) {
-    throw InvalidInput(
-        fmt::format("--moment-arms: {} files for {} trials with {} coordinates each; give the "
-                    "first trial's in the order of --coordinate, then the next trial's",
-                    s.moment_arms.size(), trials, joints));
-  }
-  if (joints == 1) require_count(s.moment_arms.size(), trials, "--moment-arms");
-  require_count(s.torques.size(), trials, "--torques");
-  if (!s.motions.empty()) require_count(s.motions.size(), trials, "--motion");
-  if (!s.forces.empty()) require_count(s.forces.size(), trials, "--forces");
-}
-
-/// Columns of the torque file, one for each coordinate; without any the only one.
-std::vector<Channel> torque_columns(const std::vector<std::string>& coordinates,
-                                    const std::string& path,
-                                    const TimeSeries& torques) {
-  if (coordinates.empty()) {
-    if (torques.channel_count() != 1) {
-      throw ReadError(path, 0,
-                      fmt::format("has several columns ({}); name the joint's with --coordinate",
-                                  channel_names(torques)));
-    }
-    return torques.channels();
-  }
-  std::vector<Channel> columns;
-  for (const std::string& coordinate : coordinates) {
-    auto column = torques.find(coordinate);
-    if (!column) column = torques.find(coordinate + "_moment");
-    if (!column) {
-      throw ReadError(path, 0,
-                      fmt::format("no column '{}' or '{}_moment'; found {}", coordinate, coordinate,
-                                  channel_names(torques)));
-    }
-    columns.push_back(torques.channels()[static_cast<std::size_t>(*column)]);
-  }
-  return columns;
-}
-
-/// Where a clock has no samples for more than 0.1 s and five of its usual intervals.
-std::vector<Stretch> gaps_of(const Eigen::VectorXd& time_s) {
-  constexpr double kShortest_s = 0.1, kUsual = 5.0;
-  std::vector<Stretch> gaps;
-  if (time_s.size() < 3) return gaps;
-  const Eigen::VectorXd steps = time_s.tail(time_s.size() - 1) - time_s.head(time_s.size() - 1);
-  const double usual_s = math::median({steps.begin(), steps.end()});
-  for (Eigen::Index i = 0; i < steps.size(); ++i) {
-    if (steps[i] > std::max(kShortest_s, kUsual * usual_s))
-      gaps.push_back({time_s[i], time_s[i + 1]});
-  }
-  return gaps;
-}
-
-/// The names of one trial's files.
-IdentifyFiles files_of(const IdentifySources& s, std::size_t trial) {
-  const auto of_trial = [&](const std::vector<std::string>& list) {
-    return trial < list.size() ? list[trial] : std::string();
-  };
-  IdentifyFiles files{.activations = s.activations[trial],
-                      .lengths = s.lengths[trial],
-                      .velocities = of_trial(s.velocities),
-                      .moment_arms = {},
-                      .torques = s.torque ? of_trial(s.torques) : ""};
-  const std::size_t joints = std::max<std::size_t>(1, s.coordinates.size());
-  for (std::size_t j = 0; s.torque && j < joints; ++j)
-    files.moment_arms.push_back(s.moment_arms[joints * trial + j]);
-  return files;
-}
-
-/// The files of one trial, each read once.
-/// "walk" of the only file of lengths; "2 (walk)" of several, and where others have the same name
-/// with as many of its folders as make it another one: "2 (fast/walk)".
-std::string trial_label(const std::vector<std::string>& lengths, std::size_t number) {
-  namespace fs = std::filesystem;
-  const auto tail = [](const std::string& file, int folders) {
-    fs::path label = fs::path(file).stem();
-    fs::path above = fs::path(file).parent_path();
-    for (int k = 0; k < folders && above.has_filename(); ++k, above = above.parent_path())
-      label = above.filename() / label;
-    return label.generic_string();
-  };
-  const auto is_alone = [&](int folders) {
-    const std::string own = tail(lengths[number], folders);
-    return std::count_if(lengths.begin(), lengths.end(), [&](const std::string& other) {
-             return tail(other, folders) == own;
-           }) == 1;
-  };
-  constexpr int kMostFolders = 8;
-  int folders = 0;
-  while (folders < kMostFolders && !is_alone(folders)) ++folders;
-  const std::string label = tail(lengths[number], is_alone(folders) ? folders : 0);
-  return lengths.size() > 1 ? fmt::format("{} ({})", number + 1, label) : label;
-}
-
-class TrialReader {
- public:
-  TrialReader(const IdentifySources& sources,
-              const std::vector<MuscleSetup>& muscles,
-              const std::function<void(const std::string&)>& remark)
-      : sources_(sources), muscles_(muscles), remark_(remark) {}
-
-  TrialData read(std::size_t number) {
-    const IdentifyFiles files = files_of(sources_, number);
-    const std::string forces = sources_.forces.empty() ? "" : sources_.forces[number];
-    const std::string motion =
-        sources_.torque && !sources_.motions.empty() ? sources_.motions[number] : "";
-    TrialData trial;
-    trial.name = trial_label(sources_.lengths, number);
-    trial.time_s = clock(files, {forces, motion});
-    trial.length_m = columns_of(files.lengths, trial.time_s);
-    say_jumps(files.lengths, muscle_series(files.lengths), Unit::meter);
-    trial.velocity_mps = files.velocities.empty()
-                             ? rates_of(muscle_series(files.lengths), trial.time_s)
-                             : columns_of(files.velocities, trial.time_s);
-    trial.activation = series(files.activations);
-    require_finite(trial.activation, files.activations);
-    for (const MuscleSetup& m : muscles_) {
-      if (!trial.activation.find(m.emg_channel))
-        throw ReadError(files.activations, 0,
-                        fmt::format("no column '{}'; found {}", m.emg_channel,
-                                    channel_names(trial.activation)));
-    }
-    trial.torque_nm = Eigen::VectorXd::Zero(trial.time_s.size());
-    trial.moment_arm_m = Eigen::MatrixXd::Zero(trial.time_s.size(), trial.length_m.cols());
-    if (!forces.empty()) trial.force_n = columns_of(forces, trial.time_s);
-    if (sources_.torque) add_torques(files, trial);
-    if (!motion.empty()) add_motion(motion, trial);
-    leave_out_gaps(files, {forces, motion}, trial);
-    return trial;
-  }
-
- private:
-  const TimeSeries& series(const std::string& path) {
-    const auto known = read_.find(path);
-    if (known != read_.end()) return known->second;
-    if (std::find(sources_.motions.begin(), sources_.motions.end(), path) != sources_.motions.end())
-      return read_.emplace(path, motion_series(path)).first->second;
-    recording::SeriesFile file = recording::read_series(path);
-    for (const recording::Repair& repair : file.repairs)
-      remark_(recording::to_string(path, repair));
-    return read_.emplace(path, std::move(file.data)).first->second;
-  }
-
-  /// Moments that are too fast and too short to be a movement.
-  void say_jumps(const std::string& path, const TimeSeries& series, Unit unit) {
-    std::vector<Channel> channels = series.channels();
-    for (Channel& channel : channels) channel.unit = unit;
-    for (const signals::MotionJump& jump :
-         signals::find_motion_jumps({series.time_s(), std::move(channels), series.values()}))
-      remark_(fmt::format("{}: {}", path, jump.sentence()));
-  }
-
-  /// The columns of the muscles, by name.
-  TimeSeries muscle_series(const std::string& path) {
-    const TimeSeries& all = series(path);
-    std::vector<std::string> names;
-    for (const MuscleSetup& m : muscles_) {
-      if (!all.find(m.name))
-        throw ReadError(path, 0,
-                        fmt::format("no column '{}'; found {}", m.name, channel_names(all)));
-      names.push_back(m.name);
-    }
-    return all.select(names);
-  }
-
-  Eigen::MatrixXd columns_of(const std::string& path, const Eigen::VectorXd& clock_s) {
-    return on_clock_of(muscle_series(path), path, clock_s);
-  }
-
-  /// Times of the lengths, within what is asked for and what all the files cover: nothing is made
-  /// up beyond their ends.
-  Eigen::VectorXd clock(const IdentifyFiles& files, const std::vector<std::string>& more) {
-    TimeSeries lengths = series(files.lengths);
-    if (sources_.start_s || sources_.end_s)
-      lengths = lengths.slice(sources_.start_s.value_or(-1e300), sources_.end_s.value_or(1e300));
-    if (lengths.sample_count() < 2)
-      throw ReadError(files.lengths, 0, "fewer than two samples in the time asked for");
-    std::vector<std::string> others{files.activations, files.velocities, files.torques};
-    others.insert(others.end(), more.begin(), more.end());
-    others.insert(others.end(), files.moment_arms.begin(), files.moment_arms.end());
-    for (const std::string& file : others) {
-      if (file.empty()) continue;
-      const Eigen::VectorXd& time_s = series(file).time_s();
-      const double begin_s = lengths.time_s()[0];
-      const double end_s = lengths.time_s()[lengths.sample_count() - 1];
-      const double last_s = time_s[time_s.size() - 1];
-      // Half a sample more is where neither clock has anything to say.
-      const double spare_s =
-          0.5 * (end_s - begin_s) / static_cast<double>(lengths.sample_count() - 1);
-      if (begin_s >= time_s[0] - spare_s && end_s <= last_s + spare_s) continue;
-      const bool apart = last_s <= begin_s || time_s[0] >= end_s;
-      if (!apart) lengths = lengths.slice(time_s[0] - 1e-9, last_s + 1e-9);
-      if (apart || lengths.sample_count() < 2) {
-        throw ReadError(file, 0,
-                        fmt::format("covers {:g} to {:g} s, {} covers {:g} to {:g} s: they must "
-                                    "overlap; bring them to one clock",
-                                    time_s[0], last_s, files.lengths, begin_s, end_s));
-      }
-    }
-    return lengths.time_s();
-  }
-
-  /// Files that a trial is made of, each once.
-  static std::vector<std::string> all_of(const IdentifyFiles& files,
-                                         const std::vector<std::string>& more) {
-    std::vector<std::string> all{files.lengths, files.activations, files.velocities, files.torques};
-    all.insert(all.end(), more.begin(), more.end());
-    all.insert(all.end(), files.moment_arms.begin(), files.moment_arms.end());
-    std::sort(all.begin(), all.end());
-    all.erase(std::unique(all.begin(), all.end()), all.end());
-    all.erase(std::remove(all.begin(), all.end(), ""), all.end());
-    return all;
-  }
-
-  /// What lies where a file has no samples is made up by its neighbors: it is not fitted.
-  void leave_out_gaps(const IdentifyFiles& files,
-                      const std::vector<std::string>& more,
-                      TrialData& trial) {
-    constexpr double kSplines_s = 0.1;  // reach of a spline's ends
-    constexpr double kBehind_s = 0.3;   // and by how much torque may follow the EMG
-    const double begin_s = trial.time_s[0], end_s = trial.time_s[trial.time_s.size() - 1];
-    for (const std::string& file : all_of(files, more)) {
-      for (const Stretch& gap : gaps_of(series(file).time_s())) {
-        if (gap.end_s <= begin_s || gap.begin_s >= end_s) continue;
-        const double after_s = file == files.activations ? kBehind_s : kSplines_s;
-        trial.excluded.push_back({gap.begin_s - kSplines_s, gap.end_s + after_s});
-        remark_(fmt::format(
-            "{}: no samples from {:.3f} to {:.3f} s: {:.3f} to {:.3f} s are not fitted", file,
-            gap.begin_s, gap.end_s, trial.excluded.back().begin_s, trial.excluded.back().end_s));
-      }
-    }
-  }
-
-  void add_torques(const IdentifyFiles& files, TrialData& trial) {
-    trial.moment_arm_m = columns_of(files.moment_arms[0], trial.time_s);
-    const TimeSeries& torques = series(files.torques);
-    const std::vector<Channel> columns =
-        torque_columns(sources_.coordinates, files.torques, torques);
-    for (std::size_t j = 0; j < columns.size(); ++j) {
-      Eigen::VectorXd torque_nm =
-          on_clock_of(torques.select({columns[j].name}), files.torques, trial.time_s).col(0);
-      if (const std::string text =
-              check_joint_by_name(files.moment_arms[j], columns[j].name, torques);
-          !text.empty())
-        remark_(text);
-      if (j == 0) {
-        trial.torque_nm = std::move(torque_nm);
-        if (!sources_.coordinates.empty()) trial.joint = sources_.coordinates[0];
-      } else {
-        trial.more_joints.push_back(
-            {.name = sources_.coordinates[j],
-             .torque_nm = std::move(torque_nm),
-             .moment_arm_m = columns_of(files.moment_arms[j], trial.time_s)});
-      }
-    }
-  }
-
-  /// Angle, speed and acceleration of every joint, of the whole file's quintic spline.
-  void add_motion(const std::string& path, TrialData& trial) {
-    const TimeSeries& angles = series(path);
-    say_jumps(path, angles, Unit::radian);
-    const auto column = [&](const std::string& joint) {
-      const auto found = angles.find(joint);
-      if (!found && !(sources_.coordinates.empty() && angles.channel_count() == 1)) {
-        throw ReadError(
-            path, 0,
-            sources_.coordinates.empty()
-                ? fmt::format("has several columns ({}); name the joint's with "
-                              "--coordinate",
-                              channel_names(angles))
-                : fmt::format("no column '{}'; found {}", joint, channel_names(angles)));
-      }
-      return angles.values().col(found.value_or(0));
-    };
-    const auto set = [&](auto& joint, const std::string& name) {
-      const math::Spline spline =
-          sources_.motion_cutoff_hz
-              ? math::Spline::smooth(angles.time_s(), column(name),
-                                     {.cutoff_hz = sources_.motion_cutoff_hz, .noise_sd = {}})
-              : math::Spline::interpolate(angles.time_s(), column(name));
-      math::SplineValues at = spline.evaluate(trial.time_s);
-      joint.angle_rad = std::move(at.value);
-      joint.velocity_radps = std::move(at.first);
-      joint.acceleration_radps2 = std::move(at.second);
-    };
-    set(trial, trial.joint);
-    for (identification::JointData& joint : trial.more_joints) set(joint, joint.name);
-  }
-
-  /// Angles in radians, whatever the file has.
-  TimeSeries motion_series(const std::string& path) {
-    const recording::Storage file = recording::read_storage(path);
-    for (const recording::Repair& repair : file.repairs)
-      remark_(recording::to_string(path, repair));
-    TimeSeries angles = recording::to_si(file, [](const std::string&) { return true; });
-    require_finite(angles, path);
-    constexpr double kTwoTurns_rad = 4.0 * kPi;
-    if (angles.values().cwiseAbs().maxCoeff() > kTwoTurns_rad) {
-      throw ReadError(path, 0,
-                      fmt::format("an angle reaches {:.4g} rad: these are degrees; write "
-                                  "inDegrees=yes into the header",
-                                  angles.values().cwiseAbs().maxCoeff()));
-    }
-    return angles;
-  }
-
-  const IdentifySources& sources_;
-  const std::vector<MuscleSetup>& muscles_;
-  const std::function<void(const std::string&)>& remark_;
-  std::map<std::string, TimeSeries> read_;
-};
-
-/// One recording in two trials. Data may be computed, and then alike for good: a remark only.
+/// Remarks on a recording that stands in two trials. Computed data may be alike for good reason.
 void compare_trials(const StudyData& data,
                     const IdentifySources& sources,
                     const std::function<void(const std::string&)>& remark) {
@@ -404,7 +47,7 @@ void compare_trials(const StudyData& data,
   }
 }
 
-/// What all trials together cannot be: a joint without torque, muscles without force.
+/// Refuses a joint without torque and muscles without force in all trials.
 void require_something_to_fit(const StudyData& data, const IdentifySources& sources) {
   const auto nothing = [](const auto& values) { return !(values.cwiseAbs().maxCoeff() > 0.0); };
   const std::string_view remedy =
@@ -426,7 +69,8 @@ void require_something_to_fit(const StudyData& data, const IdentifySources& sour
   }
 }
 
-/// An electrode that says nothing, or the same as another, gives its muscle's work to the others.
+/// Remarks on activations that never change or are equal: the fit would give the work of one muscle
+/// to the others.
 void compare_activations(const StudyData& data,
                          const IdentifySources& sources,
                          const std::function<void(const std::string&)>& remark) {
@@ -445,8 +89,9 @@ void compare_activations(const StudyData& data,
           return !(a.maxCoeff() > a.minCoeff());
         })) {
       remark(fmt::format(
-          "{}: activation '{}' never changes in any trial: was the electrode connected? What its "
-          "muscles did is given to the others; leave them out of muscles.csv only if they were "
+          "{}: activation '{}' never changes in any trial: was the electrode connected? The "
+          "work of its muscles is given to the others; leave them out of muscles.csv only if they "
+          "were "
           "at rest",
           file, channels[c]));
       continue;
@@ -474,7 +119,7 @@ StudyData read_identify_data(const IdentifySources& sources,
   data.muscles = table.muscles;
   data.rules = table.rules;
   for (std::size_t i = 0; i < sources.lengths.size(); ++i) {
-    TrialData trial = TrialReader(sources, data.muscles, remark).read(i);
+    TrialData trial = read_identify_trial(sources, i, data.muscles, remark);
     for (const std::string& text : check_identify_trial(data, trial, files_of(sources, i)))
       remark(text);
     for (const std::string& text : check_joint_of_arms(data, trial, files_of(sources, i)))

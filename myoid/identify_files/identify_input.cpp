@@ -29,16 +29,16 @@ constexpr double kShortestFiber = 0.1, kLongestFiber = 3.0;  ///< In optimal len
 constexpr double kLargestArm_m = 0.2, kCertainlyLargeArm_m = 0.5;
 constexpr double kHighestActivation = 1.05, kCertainlyHigh = 2.0;
 constexpr double kLowestActivation = -0.01, kCertainlyLow = -0.1;
-constexpr double kSpike_s = 0.1;  ///< What is above kCertainlyHigh for less is an artefact.
+constexpr double kSpike_s = 0.1;  ///< A shorter time above kCertainlyHigh is an artefact.
 constexpr double kWindow_s = 0.1;
-constexpr double kMoves_m = 5e-4;  ///< Change of length within a window that is one.
+constexpr double kMoves_m = 5e-4;  ///< A smaller change of length within a window is noise.
 constexpr double kTogether = 0.9, kAgainst = -0.8, kDoubtful = 0.5, kClearly = 0.3,
                  kLargestFactor = 3.0;
 
-/// Fibers make hardly any active force beyond.
+/// Optimal fiber lengths beyond which fibers make hardly any active force.
 constexpr double kShortestActive = 0.4, kLongestActive = 1.8;
 
-/// True if a file is called as OpenSim and CEINMS call lengths of muscles with their tendons.
+/// True if the name of a file is that of musculotendon lengths in OpenSim or CEINMS.
 bool names_whole_muscles(const std::string& path) {
   std::string name = std::filesystem::path(path).stem().string();
   for (char& c : name) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
@@ -59,7 +59,7 @@ double correlation(const Eigen::VectorXd& x, const Eigen::VectorXd& y) {
   throw InvalidInput(fmt::format("{}: {}", file, what));
 }
 
-/// Checks of one trial; remarks collect.
+/// Checks one trial and collects remarks.
 class TrialCheck {
  public:
   TrialCheck(const StudyData& data, const TrialData& trial, const IdentifyFiles& files)
@@ -124,7 +124,7 @@ class TrialCheck {
     }
   }
 
-  /// Lengths of a muscle for which muscles.csv has no tendon: they must be those of its fibers.
+  /// Checks that the lengths of a muscle without a tendon in muscles.csv are fiber lengths.
   void lengths_without_tendon(Eigen::Index k, double typical_m, const std::string& found) {
     const double optimal_m =
         data_.muscles[static_cast<std::size_t>(k)].start.optimal_fiber_length_m;
@@ -277,8 +277,8 @@ class TrialCheck {
     }
   }
 
-  /// Share of the changes of length that dl = -r dq explains, whatever dq is in each window; of all
-  /// muscles but one.
+  /// Share of the changes of length that dl = -r dq explains with the best dq of each window, for
+  /// all muscles but one.
   [[nodiscard]] double explained(const Changes& c, Eigen::Index without) const {
     double total = 0.0, left = 0.0;
     std::vector<Eigen::Index> muscles;
@@ -329,7 +329,7 @@ class TrialCheck {
       strength_n[k] = data_.muscles[static_cast<std::size_t>(k)].start.max_isometric_force_n;
     for (std::size_t j = 0; j < joints; ++j) {
       const auto pull_nm = (arms(j) * strength_n.asDiagonal()).eval();
-      // How heavy and long the person is, nobody said: 100 kg at 1 m.
+      // The files do not state the person's size: 100 kg at 1 m bound it.
       const dynamics::JointCapacity joint{
           .positive_nm = pull_nm.cwiseMax(0.0).rowwise().sum().maxCoeff(),
           .negative_nm = pull_nm.cwiseMin(0.0).rowwise().sum().cwiseAbs().maxCoeff(),
@@ -367,7 +367,7 @@ class TrialCheck {
       if (other > kDoubtful && other > own + kClearly) remark(files_.moment_arms.front(), found);
     }
     for (std::size_t j = 0; j < joints; ++j) {
-      // About zero, not the mean: too long a fiber turns the course of a torque, not its sign.
+      // The cosine about zero: a wrong fiber length changes the course of a torque, not its sign.
       const Eigen::VectorXd p = predicted(j);
       const double size = torque(j).norm() * p.norm();
       const double r = size > 0.0 ? torque(j).dot(p) / size : 0.0;

@@ -4,20 +4,13 @@
 #include <vector>
 
 #include "myoid/identification/study_data.h"
+#include "myoid/identify_files/identify_sources.h"
 
 namespace myoid {
 
-/// Where the numbers of one trial of `myoid identify` came from.
-struct IdentifyFiles {
-  std::string activations, lengths;
-  std::string velocities;                ///< Empty: by a spline through the lengths.
-  std::vector<std::string> moment_arms;  ///< By joint; empty: not given.
-  std::string torques;                   ///< Empty: not given.
-};
-
-/// Looks for what no muscle can be: wrong units, swapped files, wrong signs. Throws InvalidInput
-/// with file, what was found, what is expected and what to do where it is certain; returns a
-/// sentence for each thing that is only suspicious.
+/// Looks for values that no muscle has: wrong units, swapped files, wrong signs. A certain fault
+/// throws InvalidInput, with the file, the value found, the one expected and the remedy. Each
+/// suspicious value returns a sentence.
 ///
 /// - Lengths are 1 cm to 1 m; certain below 2 mm, not positive, above 3 m. With a tendon slack
 ///   length, fibers are 0.1 to 3 times their optimal length; certain if most are not positive.

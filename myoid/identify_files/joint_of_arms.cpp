@@ -71,7 +71,7 @@ void add_muscles_without_arm(const StudyData& data,
         files.moment_arms.front(), fmt::join(still, ", ")));
 }
 
-/// Change of every muscle's length over each window, and as the moment arms make it of the angles.
+/// The change of every muscle's length over each window, measured and by moment arms and angles.
 struct ArmChanges {
   Eigen::MatrixXd of_length, by_angles;
 };
@@ -96,8 +96,8 @@ ArmChanges changes_by_arms(const TrialData& trial, const std::vector<JointArms>&
   return c;
 }
 
-/// Share of the changes of a length that others make of it; below 0 if they are farther off than
-/// none.
+/// 1 - (sum of squared errors) / (sum of squared changes of a length); below 0 where the prediction
+/// is worse than no change.
 double share_explained(const Eigen::VectorXd& change, const Eigen::VectorXd& by) {
   return 1.0 - (change - by).squaredNorm() / change.squaredNorm();
 }

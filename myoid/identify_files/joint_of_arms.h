@@ -4,7 +4,9 @@
 #include <string_view>
 #include <vector>
 
-#include "myoid/identify_files/identify_input.h"
+#include "myoid/core/time_series.h"
+#include "myoid/identification/study_data.h"
+#include "myoid/identify_files/identify_sources.h"
 
 namespace myoid {
 
@@ -20,7 +22,7 @@ namespace myoid {
                                               const std::string& torque_column,
                                               const TimeSeries& torques);
 
-/// Compares one trial's moment arms with what else is known of the joint.
+/// Compares one trial's moment arms with the lengths and the motion of the joint.
 ///
 /// - A muscle that no joint's arms move (below 0.1 mm throughout) makes no torque: a remark. Throws
 ///   InvalidInput where this holds for all muscles of a joint.

@@ -79,7 +79,7 @@ std::string plain(std::string_view text) {
   return result;
 }
 
-/// Every name of this program's own: the parameters, and with their suffixes.
+/// The program's own names of columns: the parameters, alone and with suffixes.
 std::vector<std::string> own_names() {
   std::vector<std::string> names{"muscle", "emg", std::string(kSpeedInLengths)};
   for (const identification::ParameterField& field : identification::parameter_fields()) {
@@ -90,7 +90,7 @@ std::vector<std::string> own_names() {
   return names;
 }
 
-/// "F_max [kN]" in its parts.
+/// The parts of a header such as "F_max [kN]".
 struct Header {
   std::string word, unit;
 };

@@ -9,7 +9,7 @@
 
 namespace myoid {
 
-/// Where a quantity stands in a muscles.csv and what its numbers mean.
+/// The column of a quantity in muscles.csv, and the unit of its numbers.
 struct MuscleColumn {
   std::size_t index = 0;
   double to_si = 1.0;             ///< By the unit in the header, "F_max [kN]"; else 1.

@@ -30,7 +30,7 @@ bool given_for_hill(std::string_view name) {
                      [&](const muscle::HillField& field) { return field.name == name; });
 }
 
-/// Column of a parameter in muscles.csv beyond the eight of the paper's law, in MuscleExtras.
+/// The field of MuscleExtras that a column beyond the eight of the paper's law sets.
 double* extra_field(identification::MuscleExtras& extras, std::string_view name) {
   if (name == "pennation_angle") return &extras.pennation_angle_rad;
   if (name == "passive_force") return &extras.passive_force;
@@ -43,9 +43,10 @@ double* extra_field(identification::MuscleExtras& extras, std::string_view name)
 }
 
 constexpr const char* kProduct = "eccentric_curvature_product";
+constexpr const char* kRatio = "eccentric_slope_ratio";
+constexpr const char* kSpeed = "max_shortening_speed";
 
-/// The literature's number for every one that is 0, from the others. The narrowest widths lie
-/// below the general bound in muscles of less than 11 mm: that muscle's bound is half of its width.
+/// Sets every number that is 0 to the literature's, which follows from the other numbers.
 void fill_in(double slope_ratio, MuscleSetup& setup) {
   muscle::HillParameters<double>& start = setup.start;
   const auto absent = [](double& value, double literature) {
@@ -55,14 +56,14 @@ void fill_in(double slope_ratio, MuscleSetup& setup) {
   absent(start.concentric_curvature, muscle::kLiteratureCurvature);
   absent(start.eccentric_plateau, muscle::kLiteraturePlateau);
   absent(start.max_shortening_speed_mps, muscle::kLiteratureSpeed * start.optimal_fiber_length_m);
-  // Of a plateau of 1 the law in lengthening is level, whatever the product.
+  // With a plateau of 1 the law in lengthening is level for every product.
   absent(start.eccentric_curvature_product,
          std::max(muscle::hill_field(kProduct).bounds.lower,
                   muscle::curvature_product_from_slope_ratio(
                       slope_ratio, start.concentric_curvature, start.eccentric_plateau)));
 }
 
-/// What stands in for what the file does not say.
+/// The literature's values that replace empty cells, as a sentence.
 std::string assumption(const std::filesystem::path& path,
                        const std::map<std::string, std::vector<std::string>>& assumed,
                        std::size_t muscles) {
@@ -80,6 +81,212 @@ std::string assumption(const std::filesystem::path& path,
   return fmt::format("{}: start from the literature's values: {}", path.string(), text);
 }
 
+/// One muscle's row of the table.
+class Row {
+ public:
+  Row(const recording::CsvTable& table,
+      const std::map<std::string, MuscleColumn>& columns,
+      const std::filesystem::path& path,
+      std::size_t index)
+      : table_(&table), columns_(&columns), path_(&path), index_(index) {}
+
+  [[noreturn]] void fail(const std::string& message) const {
+    throw ReadError(*path_, table_->lines[index_], message);
+  }
+
+  /// Empty where there is no such column.
+  [[nodiscard]] std::string cell(const std::string& name) const {
+    const auto column = columns_->find(name);
+    return column == columns_->end() ? "" : table_->rows[index_][column->second.index];
+  }
+
+  /// In SI; nothing for an empty cell.
+  [[nodiscard]] std::optional<double> number(const std::string& name) const {
+    const std::string text = cell(name);
+    if (text.empty()) return std::nullopt;
+    auto value = recording::parse_number(text);
+    // A cell holds a comma only where another sign stands between the columns.
+    if (!value) value = recording::parse_comma_number(text);
+    if (!value) fail(fmt::format("{}: expected a number, found '{}'", name, text));
+    return *value * columns_->at(name).to_si;
+  }
+
+  [[nodiscard]] std::optional<double> positive(const std::string& name) const {
+    const std::optional<double> value = number(name);
+    if (value && !(*value > 0.0))
+      fail(fmt::format("{}: expected a positive number, found {}", name, *value));
+    return value;
+  }
+
+  [[nodiscard]] std::optional<bool> flag(const std::string& name) const {
+    const std::string text = cell(name);
+    if (text.empty()) return std::nullopt;
+    for (const char* yes : {"true", "1", "yes"}) {
+      if (recording::equal_ignoring_case(text, yes)) return true;
+    }
+    for (const char* no : {"false", "0", "no"}) {
+      if (recording::equal_ignoring_case(text, no)) return false;
+    }
+    fail(fmt::format("{}: expected true or false, found '{}'", name, text));
+  }
+
+  [[nodiscard]] bool speed_in_fiber_lengths() const {
+    return number(kSpeed) && columns_->at(kSpeed).in_fiber_lengths;
+  }
+
+ private:
+  const recording::CsvTable* table_;
+  const std::map<std::string, MuscleColumn>* columns_;
+  const std::filesystem::path* path_;
+  std::size_t index_;
+};
+
+/// A muscle with its starting values, and the parameters whose start is the literature's.
+struct StartingMuscle {
+  MuscleSetup setup;
+  std::optional<double> slope_ratio;  ///< Stated without the product, which follows from the ratio.
+  std::vector<std::string> assumed;
+};
+
+StartingMuscle read_start(const Row& row) {
+  StartingMuscle result;
+  MuscleSetup& setup = result.setup;
+  setup.name = row.cell("muscle");
+  if (setup.name.empty()) row.fail("a muscle without a name");
+  setup.emg_channel = row.cell("emg").empty() ? setup.name : row.cell("emg");
+  const std::optional<double> ratio = row.number(kRatio);
+  if (ratio && row.cell(kProduct).empty()) result.slope_ratio = row.positive(kRatio);
+  for (const muscle::HillField& field : muscle::kHillFields) {
+    const std::string name(field.name);
+    const std::optional<double> start = row.number(name);
+    const bool may_be_absent = name == "tendon_slack_length";
+    if (start && *start == 0.0 && !may_be_absent)
+      row.fail(
+          fmt::format("muscle '{}': {} = 0, expected a positive number, or an empty cell for "
+                      "the literature's",
+                      setup.name, name));
+    if (start) {
+      setup.start.*field.member = *start;
+      continue;
+    }
+    if (name == "max_isometric_force" || name == "optimal_fiber_length")
+      row.fail(fmt::format("muscle '{}' has no {}; it needs a starting value in SI units",
+                           setup.name, name));
+    if (!may_be_absent && !(result.slope_ratio && name == kProduct)) result.assumed.push_back(name);
+  }
+  if (row.speed_in_fiber_lengths())
+    setup.start.max_shortening_speed_mps *= setup.start.optimal_fiber_length_m;
+  fill_in(ratio.value_or(muscle::kLiteratureSlopeRatio), setup);
+  try {
+    muscle::validate(setup.start);
+  } catch (const InvalidInput& error) {
+    row.fail(fmt::format("muscle '{}': {}", setup.name, error.what()));
+  }
+  setup.priors = identification::literature_priors(setup.start);
+  return result;
+}
+
+/// The cells that tell how a parameter is identified.
+struct Wishes {
+  std::optional<bool> held;
+  std::optional<double> lower, upper, prior_sd;
+
+  [[nodiscard]] bool is_held() const { return held.value_or(false); }
+  [[nodiscard]] bool any_bound() const { return lower || upper; }
+};
+
+Wishes read_wishes(const Row& row, const std::string& parameter) {
+  return {.held = row.flag(parameter + "_fixed"),
+          .lower = row.number(parameter + "_lower"),
+          .upper = row.number(parameter + "_upper"),
+          .prior_sd = row.positive(parameter + "_prior_sd")};
+}
+
+/// Sets the parameter's bounds, and refuses a start outside of them where the method keeps to
+/// bounds.
+void set_bounds(const Row& row,
+                const identification::ParameterField& field,
+                const Wishes& wishes,
+                double start,
+                bool within_bounds,
+                MuscleSetup& setup) {
+  const std::string name(field.name);
+  const double least = wishes.lower.value_or(field.bounds.lower);
+  const double most = wishes.upper.value_or(field.bounds.upper);
+  if (wishes.any_bound()) {
+    setup.bounds[name] = {least, most};
+    if (!(least < most))
+      row.fail(fmt::format("{}: lower bound {} is not below upper bound {}", name, least, most));
+  }
+  if (!given_for_hill(name)) return;
+  if (row.cell(name).empty() && !wishes.any_bound()) {
+    // The literature's width of a muscle of less than 11 mm lies below the general bound.
+    if (start < least && start > 0.0) setup.bounds[name] = {0.5 * start, most};
+    return;
+  }
+  if (within_bounds && !wishes.is_held() && (start < least || start > most))
+    row.fail(
+        fmt::format("muscle '{}': {} = {}, expected {} to {} (SI units); columns {}_lower and "
+                    "{}_upper set other bounds",
+                    setup.name, name, start, least, most, name, name));
+}
+
+/// The rule for a parameter whose cells differ from what is held or free by default.
+std::optional<identification::ParameterRule> rule_of(const Row& row,
+                                                     const identification::ParameterField& field,
+                                                     const Wishes& wishes,
+                                                     const StartingMuscle& muscle) {
+  const std::string name(field.name);
+  const bool stated_ratio = muscle.slope_ratio && name == kRatio;
+  identification::ParameterRule rule;
+  rule.parameter = name;
+  rule.owners = {muscle.setup.name};
+  if (stated_ratio && wishes.is_held()) {
+    rule.free = false;
+    rule.value = *muscle.slope_ratio;
+    return rule;
+  }
+  const bool of_the_law = field.field <= identification::kPlateau;
+  if (of_the_law || wishes.held.value_or(!stated_ratio)) return std::nullopt;
+  rule.free = true;
+  rule.value = row.number(name);
+  rule.lower = wishes.lower;
+  rule.upper = wishes.upper;
+  rule.prior_sd = wishes.prior_sd;
+  return rule;
+}
+
+/// Reads start, bounds, prior and freedom of one parameter.
+void read_parameter(const Row& row,
+                    const identification::ParameterField& field,
+                    bool within_bounds,
+                    StartingMuscle& muscle,
+                    MuscleTable& table) {
+  MuscleSetup& setup = muscle.setup;
+  const std::string name(field.name);
+  const bool hill = given_for_hill(name);
+  double start = row.number(name).value_or(0.0);
+  if (double* extra = extra_field(setup.extras, name)) {
+    *extra = row.number(name).value_or(*extra);
+    start = *extra;
+  }
+  if (hill) start = setup.start.*muscle::hill_field(name).member;
+  const Wishes wishes = read_wishes(row, name);
+  set_bounds(row, field, wishes, start, within_bounds, setup);
+  if (wishes.prior_sd) {
+    setup.priors[name] = {.mean = start, .sd = *wishes.prior_sd};
+    setup.given_priors.push_back(name);
+  }
+  // Parameters beyond the paper's law are held by default.
+  if (wishes.is_held() && (hill || field.field <= identification::kPlateau))
+    setup.fixed.push_back(name);
+  // A wish for the product makes the product the unknown, in place of the ratio of slopes.
+  if (name == kProduct && (wishes.is_held() || wishes.any_bound() || wishes.prior_sd))
+    setup.priors.erase(kRatio);
+  if (const auto rule = rule_of(row, field, wishes, muscle)) table.rules.push_back(*rule);
+  if (name == kSpeed && !wishes.held) table.speed_may_be_free.push_back(setup.name);
+}
+
 }  // namespace
 
 MuscleTable read_muscles_csv(const std::filesystem::path& path, bool within_bounds) {
@@ -91,140 +298,19 @@ MuscleTable read_muscles_csv(const std::filesystem::path& path, bool within_boun
   MuscleTable result;
   std::map<std::string, std::vector<std::string>> assumed;  // Muscles by parameter.
   for (std::size_t r = 0; r < table.rows.size(); ++r) {
-    const auto fail = [&](const std::string& message) {
-      throw ReadError(path, table.lines[r], message);
-    };
-    const auto cell = [&](const std::string& name) -> std::string {
-      const auto c = columns.find(name);
-      return c == columns.end() ? "" : table.rows[r][c->second.index];
-    };
-    const auto number = [&](const std::string& name) -> std::optional<double> {
-      if (cell(name).empty()) return std::nullopt;
-      auto value = recording::parse_number(cell(name));
-      // A cell holds a comma only where another sign stands between the columns.
-      if (!value) value = recording::parse_comma_number(cell(name));
-      if (!value) fail(fmt::format("{}: expected a number, found '{}'", name, cell(name)));
-      return *value * columns.at(name).to_si;
-    };
-    const auto flag = [&](const std::string& name) -> std::optional<bool> {
-      const std::string text = cell(name);
-      if (text.empty()) return std::nullopt;
-      for (const char* yes : {"true", "1", "yes"}) {
-        if (recording::equal_ignoring_case(text, yes)) return true;
-      }
-      for (const char* no : {"false", "0", "no"}) {
-        if (recording::equal_ignoring_case(text, no)) return false;
-      }
-      fail(fmt::format("{}: expected true or false, found '{}'", name, text));
-      return std::nullopt;
-    };
-    MuscleSetup setup;
-    setup.name = cell("muscle");
-    if (setup.name.empty()) fail("a muscle without a name");
+    const Row row(table, columns, path, r);
     for (const MuscleSetup& other : result.muscles) {
-      if (other.name == setup.name) fail(fmt::format("muscle '{}' is listed twice", setup.name));
+      if (other.name == row.cell("muscle"))
+        row.fail(fmt::format("muscle '{}' is listed twice", other.name));
     }
-    setup.emg_channel = cell("emg").empty() ? setup.name : cell("emg");
-    // With the slopes' ratio alone, the product follows from it.
-    const std::string ratio_name = "eccentric_slope_ratio";
-    const std::optional<double> ratio = number(ratio_name);
-    const bool by_ratio = ratio && cell("eccentric_curvature_product").empty();
-    if (by_ratio && !(*ratio > 0.0))
-      fail(fmt::format("{}: expected a positive number, found {}", ratio_name, *ratio));
-    for (const muscle::HillField& field : muscle::kHillFields) {
-      const std::string name(field.name);
-      const auto start = number(name);
-      if (start && *start == 0.0 && name != "tendon_slack_length")
-        fail(
-            fmt::format("muscle '{}': {} = 0, expected a positive number, or an empty cell for "
-                        "the literature's",
-                        setup.name, name));
-      if (start) setup.start.*field.member = *start;
-      const bool needed = name == "max_isometric_force" || name == "optimal_fiber_length";
-      if (!start && needed)
-        fail(fmt::format("muscle '{}' has no {}; it needs a starting value in SI units", setup.name,
-                         name));
-      if (!start && name != "tendon_slack_length" && !(by_ratio && name == kProduct))
-        assumed[name].push_back(setup.name);
-    }
-    if (number("max_shortening_speed") && columns.at("max_shortening_speed").in_fiber_lengths)
-      setup.start.max_shortening_speed_mps *= setup.start.optimal_fiber_length_m;
-    fill_in(ratio.value_or(muscle::kLiteratureSlopeRatio), setup);
-    try {
-      muscle::validate(setup.start);
-    } catch (const InvalidInput& error) {
-      fail(fmt::format("muscle '{}': {}", setup.name, error.what()));
-    }
-    setup.priors = identification::literature_priors(setup.start);
+    StartingMuscle muscle = read_start(row);
+    for (const std::string& parameter : muscle.assumed)
+      assumed[parameter].push_back(muscle.setup.name);
     for (const identification::ParameterField& field : identification::parameter_fields()) {
-      if (field.scope != identification::Scope::muscle) continue;
-      const std::string name(field.name);
-      double start = 0.0;
-      if (const double* extra = extra_field(setup.extras, name)) start = *extra;
-      if (const auto given = number(name)) {
-        start = *given;
-        if (double* extra = extra_field(setup.extras, name)) *extra = start;
-      }
-      const bool hill = given_for_hill(name);
-      if (hill) start = setup.start.*muscle::hill_field(name).member;
-      const auto held = flag(name + "_fixed");
-      const auto lower = number(name + "_lower");
-      const auto upper = number(name + "_upper");
-      const auto sd = number(name + "_prior_sd");
-      if (sd && !(*sd > 0.0))
-        fail(fmt::format("{}_prior_sd: expected a positive number, found {}", name, *sd));
-      if (lower || upper) {
-        setup.bounds[name] = {lower.value_or(field.bounds.lower),
-                              upper.value_or(field.bounds.upper)};
-        if (!(setup.bounds[name].lower < setup.bounds[name].upper))
-          fail(fmt::format("{}: lower bound {} is not below upper bound {}", name,
-                           setup.bounds[name].lower, setup.bounds[name].upper));
-      }
-      const bool literature = hill && cell(name).empty();
-      if (literature && start < field.bounds.lower && !lower && !upper && start > 0.0)
-        setup.bounds[name] = {0.5 * start, field.bounds.upper};
-      const double least = lower.value_or(field.bounds.lower);
-      const double most = upper.value_or(field.bounds.upper);
-      if (within_bounds && hill && !(literature && !lower && !upper) && !held.value_or(false) &&
-          (start < least || start > most)) {
-        fail(
-            fmt::format("muscle '{}': {} = {}, expected {} to {} (SI units); columns {}_lower and "
-                        "{}_upper set other bounds",
-                        setup.name, name, start, least, most, name, name));
-      }
-      if (sd) {
-        setup.priors[name] = {.mean = start, .sd = *sd};
-        setup.given_priors.push_back(name);
-      }
-      const bool usual = field.field <= identification::kPlateau;
-      // What the paper's law leaves out is held anyway.
-      if (held.value_or(false) && (usual || hill)) setup.fixed.push_back(name);
-      // Who asks something of the product itself has it as the unknown.
-      if (name == "eccentric_curvature_product" && (held.value_or(false) || lower || upper || sd))
-        setup.priors.erase("eccentric_slope_ratio");
-      const bool the_ratio = by_ratio && name == ratio_name;
-      if (the_ratio && held.value_or(false)) {
-        identification::ParameterRule rule;
-        rule.parameter = name;
-        rule.owners = {setup.name};
-        rule.free = false;
-        rule.value = *ratio;
-        result.rules.push_back(rule);
-      }
-      if (!usual && !held.value_or(!the_ratio)) {
-        identification::ParameterRule rule;
-        rule.parameter = name;
-        rule.owners = {setup.name};
-        rule.free = true;
-        if (number(name)) rule.value = *number(name);
-        if (lower) rule.lower = *lower;
-        if (upper) rule.upper = *upper;
-        if (sd) rule.prior_sd = *sd;
-        result.rules.push_back(rule);
-      }
-      if (name == "max_shortening_speed" && !held) result.speed_may_be_free.push_back(setup.name);
+      if (field.scope == identification::Scope::muscle)
+        read_parameter(row, field, within_bounds, muscle, result);
     }
-    result.muscles.push_back(std::move(setup));
+    result.muscles.push_back(std::move(muscle.setup));
   }
   if (!table.last_row_has_end) {
     result.notes.push_back(

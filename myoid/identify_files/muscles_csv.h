@@ -8,12 +8,12 @@
 
 namespace myoid {
 
-/// What muscles.csv says.
+/// The content of muscles.csv.
 struct MuscleTable {
   std::vector<identification::MuscleSetup> muscles;
   std::vector<identification::ParameterRule> rules;  ///< Parameters that are not held by default.
   std::vector<std::string> notes;                    ///< Of its reader, with the file's name.
-  std::string assumed;  ///< Which starting values are the literature's; empty: none. Also a note.
+  std::string assumed;  ///< The starting values from the literature; empty: none. Also a note.
   std::vector<std::string> speed_may_be_free;  ///< Muscles whose v_max is neither held nor freed.
 };
 

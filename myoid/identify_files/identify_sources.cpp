@@ -1,0 +1,82 @@
+#include "myoid/identify_files/identify_sources.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "myoid/core/counted.h"
+#include "myoid/core/error.h"
+
+namespace myoid {
+namespace {
+
+void require_count(std::size_t count, std::size_t trials, std::string_view option) {
+  if (count != trials)
+    throw InvalidInput(
+        fmt::format("{}: {} for {} of --lengths; give one per trial, in the same order", option,
+                    counted(count, "file"), trials));
+}
+
+}  // namespace
+
+void require_counts(const IdentifySources& s) {
+  const std::size_t trials = s.lengths.size();
+  require_count(s.activations.size(), trials, "--activations");
+  if (!s.velocities.empty()) require_count(s.velocities.size(), trials, "--velocities");
+  if (!s.torque) {
+    require_count(s.forces.size(), trials, "--forces");
+    return;
+  }
+  const std::size_t joints = std::max<std::size_t>(1, s.coordinates.size());
+  if (joints > 1 && s.moment_arms.size() != joints * trials) {
+    throw InvalidInput(
+        fmt::format("--moment-arms: {} files for {} trials with {} coordinates each; give the "
+                    "first trial's in the order of --coordinate, then the next trial's",
+                    s.moment_arms.size(), trials, joints));
+  }
+  if (joints == 1) require_count(s.moment_arms.size(), trials, "--moment-arms");
+  require_count(s.torques.size(), trials, "--torques");
+  if (!s.motions.empty()) require_count(s.motions.size(), trials, "--motion");
+  if (!s.forces.empty()) require_count(s.forces.size(), trials, "--forces");
+}
+
+IdentifyFiles files_of(const IdentifySources& s, std::size_t trial) {
+  const auto of_trial = [&](const std::vector<std::string>& list) {
+    return trial < list.size() ? list[trial] : std::string();
+  };
+  IdentifyFiles files{.activations = s.activations[trial],
+                      .lengths = s.lengths[trial],
+                      .velocities = of_trial(s.velocities),
+                      .moment_arms = {},
+                      .torques = s.torque ? of_trial(s.torques) : ""};
+  const std::size_t joints = std::max<std::size_t>(1, s.coordinates.size());
+  for (std::size_t j = 0; s.torque && j < joints; ++j)
+    files.moment_arms.push_back(s.moment_arms[joints * trial + j]);
+  return files;
+}
+
+std::string trial_label(const std::vector<std::string>& lengths, std::size_t number) {
+  namespace fs = std::filesystem;
+  const auto tail = [](const std::string& file, int folders) {
+    fs::path label = fs::path(file).stem();
+    fs::path above = fs::path(file).parent_path();
+    for (int k = 0; k < folders && above.has_filename(); ++k, above = above.parent_path())
+      label = above.filename() / label;
+    return label.generic_string();
+  };
+  const auto is_alone = [&](int folders) {
+    const std::string own = tail(lengths[number], folders);
+    return std::count_if(lengths.begin(), lengths.end(), [&](const std::string& other) {
+             return tail(other, folders) == own;
+           }) == 1;
+  };
+  constexpr int kMostFolders = 8;
+  int folders = 0;
+  while (folders < kMostFolders && !is_alone(folders)) ++folders;
+  const std::string label = tail(lengths[number], is_alone(folders) ? folders : 0);
+  return lengths.size() > 1 ? fmt::format("{} ({})", number + 1, label) : label;
+}
+
+}  // namespace myoid

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "myoid/identification/study_data.h"
+#include "myoid/identify_files/identify_sources.h"
+
+namespace myoid {
+
+/// Reads the files of one trial, each once, onto the clock of its lengths and the time that all of
+/// its files cover. Stretches where a file has no samples are excluded. `remark` is told of
+/// repairs, of jumps and of those stretches. Throws ReadError for missing columns and for files
+/// that do not overlap.
+[[nodiscard]] identification::TrialData read_identify_trial(
+    const IdentifySources& sources,
+    std::size_t number,
+    const std::vector<identification::MuscleSetup>& muscles,
+    const std::function<void(const std::string&)>& remark);
+
+}  // namespace myoid
