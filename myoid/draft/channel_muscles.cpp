@@ -10,7 +10,7 @@
 namespace myoid {
 namespace {
 
-/// What a muscle is called: words that begin a channel's name, and beginnings of a model's.
+/// The names of a muscle: words that begin a channel's name, and beginnings of a model's.
 struct Family {
   const char* name;
   std::vector<std::string_view> in_channels, in_models;

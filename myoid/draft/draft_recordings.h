@@ -11,7 +11,7 @@
 
 namespace myoid {
 
-/// What a file holds that a study can use.
+/// The content of a file that a study can use.
 struct FoundRecording {
   std::filesystem::path path;
   std::string stem;  ///< Small letters, words like "emg" and "markers" at its end removed.
@@ -25,30 +25,30 @@ struct FoundRecording {
   bool emg_taken = false;
 };
 
-/// What is in the folders beside the recordings.
+/// The other files in the folders of the recordings.
 struct FoundBeside {
   std::vector<std::filesystem::path> models;          ///< .osim
   std::vector<std::filesystem::path> external_loads;  ///< .xml with <ExternalLoads>.
 };
 
-/// The recordings among the files, and in the folders with their folders, by name; what is beside
-/// them is added to `beside`.
+/// Finds the recordings among the files and in the folders and their folders, by name. Models and
+/// loads are added to `beside`.
 [[nodiscard]] std::vector<std::filesystem::path> recordings_in(
     const std::vector<std::filesystem::path>& from, FoundBeside& beside);
 
 /// The data file that an ExternalLoads file names; empty if it names none.
 [[nodiscard]] std::filesystem::path loads_data_file(const std::filesystem::path& external_loads);
 
-/// The name of the trial that a file belongs to: small letters, without what it says of its own
-/// kind at its begin and end ("flex_2kg" of "Flex_2kg_emg_raw.sto", "walk" of "grf_walk.xml").
+/// The name of the trial that a file belongs to: small letters, without words for the kind of file
+/// at its begin and end ("flex_2kg" of "Flex_2kg_emg_raw.sto", "walk" of "grf_walk.xml").
 [[nodiscard]] std::string trial_stem(const std::filesystem::path& path);
 
-/// What the name says that the trial is for: "mvc", "static", "passive", else "calibration".
+/// The use that the trial's name suggests: "mvc", "static", "passive", else "calibration".
 [[nodiscard]] std::string guessed_use(const std::string& stem);
 
-/// Adds the channels of a file that may be EMG (`recording::emg_channels`), or all of one that is
-/// called EMG, and whether they are raw: raw EMG goes through its median more than 30 times a
-/// second, an envelope does not.
+/// Adds the channels of a file that may be EMG (`recording::emg_channels`), or all channels of a
+/// file with EMG in its name. Raw EMG crosses its median more than 30 times a second, an envelope
+/// does not.
 void find_emg(const std::filesystem::path& path,
               const TimeSeries& analog,
               const std::vector<recording::PlateSetup>& plates,

@@ -26,7 +26,7 @@ FoundRecording* emg_of(FoundRecording& motion, std::vector<FoundRecording>& foun
   return best;
 }
 
-/// "flex_2.5kg": a mass in the hand, perhaps.
+/// Asks whether a mass in the name is held in the hand: "flex_2.5kg".
 void held_mass(const std::string& stem, bool own_model, DraftText& out) {
   const auto at = stem.find("kg");
   if (at == std::string::npos) return;
@@ -43,87 +43,118 @@ void held_mass(const std::string& stem, bool own_model, DraftText& out) {
   out.line(fmt::format("# held_mass_kg = {}", *mass));
 }
 
-}  // namespace
+/// Writes the [[trial]] tables one after another.
+class TrialWriter {
+ public:
+  TrialWriter(std::vector<FoundRecording>& found, const TrialSurroundings& around, DraftText& out)
+      : found_(found), around_(around), out_(out) {}
 
-void draft_trials(std::vector<FoundRecording>& found,
-                  const std::vector<std::filesystem::path>& external_loads,
-                  const std::function<std::string(const std::filesystem::path&)>& relative,
-                  bool own_model,
-                  DraftText& out) {
-  std::vector<std::string> notes;
-  std::set<std::string> names;
-  bool two_clocks = false, any_calibration = false;
-  const auto unique = [&](std::string name) {
-    while (!names.insert(name).second) name += "_2";
-    return name;
-  };
-  // Joint angles first: a trial that has them needs no markers.
-  for (const bool with_angles : {true, false}) {
-    for (FoundRecording& f : found) {
-      const bool fits = with_angles ? !f.angles.empty() : f.markers.frame_count() > 0;
-      if (!fits || f.motion_taken) continue;
-      if (!with_angles && std::any_of(found.begin(), found.end(), [&](const FoundRecording& g) {
-            return !g.angles.empty() && g.motion_taken && g.stem == f.stem;
-          })) {
-        notes.push_back(
-            fmt::format("# Not used: markers = {} (the trial starts from its joint angles)",
-                        in_quotes(relative(f.path))));
-        continue;
-      }
-      f.motion_taken = true;
-      FoundRecording* emg = emg_of(f, found);
-      std::string use = guessed_use(f.stem);
-      if (emg == nullptr && use == "calibration") use = "passive";
-      if (emg != nullptr) emg->emg_taken = true;
-      out.line("[[trial]]");
-      out.line("name = " + in_quotes(unique(f.stem)));
-      out.line((with_angles ? "motion = " : "markers = ") + in_quotes(relative(f.path)));
-      if (emg != nullptr) out.line("emg = " + in_quotes(relative(emg->path)));
-      two_clocks = two_clocks || (emg != nullptr && emg != &f);
-      out.line("use = " + in_quotes(use));
-      if (use == "calibration") any_calibration = true;
-      if (emg == nullptr && use == "passive")
-        out.todo(fmt::format("no EMG was found for '{}'; it gives motion and torque only", f.stem));
-      for (const std::filesystem::path& loads : external_loads) {
-        if (trial_stem(loads) == f.stem) out.line("external_loads = " + in_quotes(relative(loads)));
-      }
-      if (f.plates > 0) {
-        out.line(
-            fmt::format("# force_plates = {{ bodies = \"auto\" }}   # {} in this file, if the "
-                        "person stood on them",
-                        f.plates));
-      }
-      held_mass(f.stem, own_model, out);
-      out.line("");
+  void write() {
+    // Joint angles first: a trial that has them needs no markers.
+    for (FoundRecording& f : found_) {
+      if (!f.angles.empty() && !f.motion_taken) motion_trial(f, "motion");
     }
+    for (FoundRecording& f : found_) {
+      if (f.markers.frame_count() == 0 || f.motion_taken) continue;
+      if (has_angles_of_its_name(f)) {
+        notes_.push_back(
+            fmt::format("# Not used: markers = {} (the trial starts from its joint angles)",
+                        in_quotes(around_.relative(f.path))));
+      } else {
+        motion_trial(f, "markers");
+      }
+    }
+    for (const FoundRecording& f : found_) {
+      if (!f.channels.empty() && !f.emg_taken && !f.motion_taken) emg_trial(f);
+    }
+    if (!any_calibration_)
+      out_.todo("no trial has use = \"calibration\", from which parameters are found");
+    for (const std::string& note : notes_) out_.line(note);
+    if (two_clocks_) clocks();
   }
-  for (FoundRecording& f : found) {
-    if (f.channels.empty() || f.emg_taken || f.motion_taken) continue;
+
+ private:
+  [[nodiscard]] bool has_angles_of_its_name(const FoundRecording& f) const {
+    return std::any_of(found_.begin(), found_.end(), [&](const FoundRecording& g) {
+      return !g.angles.empty() && g.motion_taken && g.stem == f.stem;
+    });
+  }
+
+  [[nodiscard]] std::string unique(std::string name) {
+    while (!names_.insert(name).second) name += "_2";
+    return name;
+  }
+
+  /// A trial with the EMG of the same name; `key` names the kind of its file.
+  void motion_trial(FoundRecording& f, const std::string& key) {
+    f.motion_taken = true;
+    FoundRecording* emg = emg_of(f, found_);
+    std::string use = guessed_use(f.stem);
+    if (emg == nullptr && use == "calibration") use = "passive";
+    if (emg != nullptr) emg->emg_taken = true;
+    out_.line("[[trial]]");
+    out_.line("name = " + in_quotes(unique(f.stem)));
+    out_.line(key + " = " + in_quotes(around_.relative(f.path)));
+    if (emg != nullptr) out_.line("emg = " + in_quotes(around_.relative(emg->path)));
+    two_clocks_ = two_clocks_ || (emg != nullptr && emg != &f);
+    out_.line("use = " + in_quotes(use));
+    any_calibration_ = any_calibration_ || use == "calibration";
+    if (emg == nullptr && use == "passive")
+      out_.todo(fmt::format("no EMG was found for '{}'; it gives motion and torque only", f.stem));
+    for (const std::filesystem::path& loads : around_.external_loads) {
+      if (trial_stem(loads) == f.stem)
+        out_.line("external_loads = " + in_quotes(around_.relative(loads)));
+    }
+    if (f.plates > 0) {
+      out_.line(
+          fmt::format("# force_plates = {{ bodies = \"auto\" }}   # {} in this file, if the "
+                      "person stood on them",
+                      f.plates));
+    }
+    held_mass(f.stem, around_.own_model, out_);
+    out_.line("");
+  }
+
+  /// A maximal contraction if its name says so; else a question.
+  void emg_trial(const FoundRecording& f) {
     const bool mvc = guessed_use(f.stem) == "mvc";
     if (!mvc)
-      out.todo(fmt::format(
+      out_.todo(fmt::format(
           "'{}' has EMG and no motion: give it markers or motion; or take the # away if "
           "it is a maximal contraction",
           f.path.filename().string()));
     const std::string remark = mvc ? "" : "# ";
-    out.line(remark + "[[trial]]");
-    out.line(remark + "name = " + in_quotes(unique(f.stem)));
-    out.line(remark + "emg = " + in_quotes(relative(f.path)));
-    out.line(remark + "use = \"mvc\"");
-    out.line("");
+    out_.line(remark + "[[trial]]");
+    out_.line(remark + "name = " + in_quotes(unique(f.stem)));
+    out_.line(remark + "emg = " + in_quotes(around_.relative(f.path)));
+    out_.line(remark + "use = \"mvc\"");
+    out_.line("");
   }
-  if (!any_calibration)
-    out.todo("no trial has use = \"calibration\", from which parameters are found");
-  for (const std::string& note : notes) out.line(note);
-  if (two_clocks) {
-    out.line("");
-    out.line(
+
+  void clocks() {
+    out_.line("");
+    out_.line(
         "# EMG and motion are in different files. If they did not start together, or their "
         "clocks run");
-    out.line("# apart, say so (docs/guide/study.md, [sync]):");
-    out.line("# [sync]");
-    out.line("# offset_s = 0.0");
+    out_.line("# apart, say so (docs/guide/study.md, [sync]):");
+    out_.line("# [sync]");
+    out_.line("# offset_s = 0.0");
   }
+
+  std::vector<FoundRecording>& found_;
+  const TrialSurroundings& around_;
+  DraftText& out_;
+  std::set<std::string> names_;
+  std::vector<std::string> notes_;
+  bool two_clocks_ = false, any_calibration_ = false;
+};
+
+}  // namespace
+
+void draft_trials(std::vector<FoundRecording>& found,
+                  const TrialSurroundings& around,
+                  DraftText& out) {
+  TrialWriter(found, around, out).write();
 }
 
 }  // namespace myoid

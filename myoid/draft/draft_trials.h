@@ -10,14 +10,19 @@
 
 namespace myoid {
 
-/// The [[trial]] tables of a draft: joint angles or markers with the EMG of the same name, then EMG
-/// alone: a maximal contraction if it is called one, else in remarks, for activation 1 must not be
-/// what some movement reached. What each is for is guessed from its name. `external_loads` of a
-/// trial's name go with it. `relative` gives a path as the study writes it. Marks what was taken.
+/// The facts of a draft that all its trials share.
+struct TrialSurroundings {
+  std::vector<std::filesystem::path> external_loads;
+  bool own_model = false;  ///< The study names a model file.
+  std::function<std::string(const std::filesystem::path&)> relative;  ///< A path as in the study.
+};
+
+/// Writes the [[trial]] tables of a draft and marks the recordings that it takes: joint angles or
+/// markers with the EMG of the same name and its external loads, then EMG alone. EMG alone is a
+/// maximal contraction where its name says so, and else a remark: a movement must not define
+/// activation 1. The use of a trial follows from its name.
 void draft_trials(std::vector<FoundRecording>& found,
-                  const std::vector<std::filesystem::path>& external_loads,
-                  const std::function<std::string(const std::filesystem::path&)>& relative,
-                  bool own_model,
+                  const TrialSurroundings& around,
                   DraftText& out);
 
 }  // namespace myoid

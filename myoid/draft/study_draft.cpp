@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <set>
 #include <utility>
@@ -22,6 +23,7 @@
 #include "myoid/recording/bids.h"
 #include "myoid/recording/plate_standing.h"
 #include "myoid/recording/recording.h"
+#include "myoid/study/trial_up.h"
 
 namespace myoid {
 namespace {
@@ -50,11 +52,16 @@ class Draft {
           "no recording with markers, joint angles or EMG in {}; name files or folders with --from",
           fmt::join(sources, ", ")));
     }
-    head();
-    muscles();
-    draft_trials(
-        found_, beside.external_loads, [&](const fs::path& path) { return relative(path); },
-        model_file_.has_value(), out_);
+    subject_table();
+    model_table();
+    markers_table();
+    emg_table();
+    muscle_tables();
+    draft_trials(found_,
+                 {.external_loads = beside.external_loads,
+                  .own_model = model_file_.has_value(),
+                  .relative = [&](const fs::path& path) { return relative(path); }},
+                 out_);
     tail();
     draft_.toml = std::move(out_.toml);
     draft_.todo = std::move(out_.questions);
@@ -83,10 +90,7 @@ class Draft {
     model_ = model_file_ ? model::read_osim(*model_file_)
                          : model::parse_osim(model::arm4_osim(), "arm4.osim");
     coordinate_ = options_.coordinate;
-    if (!coordinate_.empty()) {
-      (void)model_.coordinate_index(coordinate_);
-      return;
-    }
+    if (!coordinate_.empty()) (void)model_.coordinate_index(coordinate_);
   }
 
   void choose_coordinate() {
@@ -155,7 +159,7 @@ class Draft {
     found_.push_back(std::move(f));
   }
 
-  /// Up as the first file says that does.
+  /// Keeps the vertical that the first file with one states.
   void note_up(const fs::path& path, recording::Recording& file) {
     try {
       const recording::LaboratoryUp up = recording::stand_plates(file, std::nullopt);
@@ -180,7 +184,7 @@ class Draft {
     if (best < -1.5) up_ = ' ';
   }
 
-  void head() {
+  void subject_table() {
     line("# A study to start from, written by `myoid init`. Lines with TODO want an answer; then:");
     line("#   myoid check study.toml");
     line("#   myoid run study.toml --out results");
@@ -194,6 +198,9 @@ class Draft {
       line("# mass_kg = 70.0");
     }
     line("");
+  }
+
+  void model_table() {
     line("[model]");
     if (model_file_) {
       line("file = " + in_quotes(relative(*model_file_)));
@@ -208,26 +215,39 @@ class Draft {
            fmt::format("{}", fmt::join(free_coordinates(), ", ")));
     line("coordinate = " + in_quotes(coordinate_));
     line("");
-    const bool any_markers = std::any_of(found_.begin(), found_.end(), [](const FoundRecording& f) {
-      return f.markers.frame_count() > 0;
-    });
-    if (!any_markers) return;
+  }
+
+  void markers_table() {
+    if (std::none_of(found_.begin(), found_.end(),
+                     [](const FoundRecording& f) { return f.markers.frame_count() > 0; }))
+      return;
     line("[markers]");
+    vertical();
+    marker_names();
+    line("");
+  }
+
+  void vertical() {
     if (up_ == ' ' && file_up_.size() == 1) {
       line(fmt::format("up = \"{}\"   # {}", file_up_, file_up_because_));
-    } else if (up_ == ' ') {
+      return;
+    }
+    if (up_ == ' ') {
       todo("the vertical axis of the laboratory: x, y or z");
       line("up = \"y\"");
-    } else {
-      line(fmt::format(
-          "up = \"{}\"   # the model's markers stand upright in the laboratory like this "
-          "({:.0f} degrees off)",
-          up_, std::acos(std::clamp(up_cosine_, -1.0, 1.0)) / kDegree));
-      if (up_cosine_ < 0.7) todo("that is not upright; is it the right axis?");
-      if (!file_up_.empty() && file_up_ != std::string(1, up_))
-        todo(fmt::format("by its own words a file has {} up ({}); which is right?", file_up_,
-                         file_up_because_));
+      return;
     }
+    line(
+        fmt::format("up = \"{}\"   # the model's markers stand upright in the laboratory like this "
+                    "({:.0f} degrees off)",
+                    up_, std::acos(std::clamp(up_cosine_, -1.0, 1.0)) / kDegree));
+    if (up_cosine_ < 0.7) todo("that is not upright; is it the right axis?");
+    if (!file_up_.empty() && file_up_ != std::string(1, up_))
+      todo(fmt::format("by its own words a file has {} up ({}); which is right?", file_up_,
+                       file_up_because_));
+  }
+
+  void marker_names() {
     if (most_known_ < 3 && !model_.markers.empty()) {
       std::vector<std::string> names;
       for (const model::Marker& m : model_.markers) {
@@ -238,15 +258,12 @@ class Draft {
                       "rename = {{ FILE = \"MODEL\", ... }}",
                       most_known_, fmt::join(names, ", ")));
     }
-    if (!similar_.empty()) {
-      std::string pairs;
-      for (const auto& [name, like] : similar_)
-        pairs +=
-            fmt::format("{}{} = {}", pairs.empty() ? "" : ", ", in_quotes(name), in_quotes(like));
-      todo("are these the same? Then take the # away");
-      line("# rename = { " + pairs + " }");
-    }
-    line("");
+    if (similar_.empty()) return;
+    std::vector<std::string> pairs;
+    for (const auto& [name, like] : similar_)
+      pairs.push_back(fmt::format("{} = {}", in_quotes(name), in_quotes(like)));
+    todo("are these the same? Then take the # away");
+    line(fmt::format("# rename = {{ {} }}", fmt::join(pairs, ", ")));
   }
 
   [[nodiscard]] std::vector<std::string> all_channels() const {
@@ -259,21 +276,17 @@ class Draft {
     return channels;
   }
 
-  void muscles() {
-    const std::vector<std::string> channels = all_channels();
-    bool raw = true, unit = true, any = false;
+  void emg_table() {
+    bool any_raw = false, any_envelope = false, unit = true;
     for (const FoundRecording& f : found_) {
-      if (!f.channels.empty()) {
-        if (any && f.raw != raw) mixed_ = true;
-        raw = any ? raw && f.raw : f.raw;
-        any = true;
-      }
+      if (!f.channels.empty()) (f.raw ? any_raw : any_envelope) = true;
       unit = unit && f.has_unit;
     }
+    const bool raw = !any_envelope;
     line("[emg]");
     line(fmt::format("kind = \"{}\"   # {}", raw ? "raw" : "envelope",
                      raw ? "by how often it goes through its median" : "it changes slowly"));
-    if (mixed_)
+    if (any_raw && any_envelope)
       todo(
           "some files hold raw EMG, others envelopes: a study takes one kind; leave the others "
           "out");
@@ -282,13 +295,16 @@ class Draft {
       line("# unit = \"uV\"");
     }
     line("");
+  }
+
+  void muscle_tables() {
+    const std::vector<std::string> channels = all_channels();
     if (channels.empty())
       todo("no EMG was found; without it only motion and joint torque are computed");
     const std::vector<std::string> able =
         coordinate_ == "TODO" ? std::vector<std::string>{} : movers(model_, coordinate_);
-    std::set<std::string> covered;
+    std::set<std::string> covered, names;
     std::vector<std::string> unused;
-    std::set<std::string> names;
     std::string first;
     for (const ChannelMuscles& pair : match_channels(channels, able)) {
       std::vector<std::string> fresh;
@@ -308,33 +324,43 @@ class Draft {
       line("emg = " + in_quotes(pair.channel));
       line("");
     }
+    if (first.empty()) {
+      if (!channels.empty()) unknown_pairs(channels, able);
+      return;
+    }
     std::vector<std::string> left;
-    for (const std::string& m : able) {
-      if (!covered.contains(m)) left.push_back(m);
-    }
-    if (first.empty() && !channels.empty()) {
-      todo(fmt::format("no channel's name is that of a muscle that moves {}; name the pairs",
-                       coordinate_));
-      line("[[muscle]]");
-      line("name = \"TODO\"");
-      line(fmt::format("osim = [\"TODO\"]   # of {}", fmt::join(able, ", ")));
-      line(fmt::format("emg = \"TODO\"      # of {}", fmt::join(channels, ", ")));
-      line("");
-    } else if (!left.empty() && !first.empty()) {
-      todo(
-          fmt::format("these move {} too, and have no electrode: {}. Leave them out, add them to a "
-                      "group, or let them act as another muscle does:",
-                      coordinate_, fmt::join(left, ", ")));
-      line("# [[muscle]]");
-      line("# name = " + in_quotes(left[0]));
-      line("# emg = { same_as = " + in_quotes(first) + " }");
-      line("");
-    }
-    if (!unused.empty() && !first.empty()) {
+    std::copy_if(able.begin(), able.end(), std::back_inserter(left),
+                 [&](const std::string& muscle) { return !covered.contains(muscle); });
+    if (!left.empty()) without_electrode(left, first);
+    if (!unused.empty()) {
       line(fmt::format("# Channels that no muscle about {} takes: {}", coordinate_,
                        fmt::join(unused, ", ")));
       line("");
     }
+  }
+
+  /// A table to fill in, where no channel is called like a muscle.
+  void unknown_pairs(const std::vector<std::string>& channels,
+                     const std::vector<std::string>& able) {
+    todo(fmt::format("no channel's name is that of a muscle that moves {}; name the pairs",
+                     coordinate_));
+    line("[[muscle]]");
+    line("name = \"TODO\"");
+    line(fmt::format("osim = [\"TODO\"]   # of {}", fmt::join(able, ", ")));
+    line(fmt::format("emg = \"TODO\"      # of {}", fmt::join(channels, ", ")));
+    line("");
+  }
+
+  /// Offers the channel of the muscle `like` to the first of the muscles that have none.
+  void without_electrode(const std::vector<std::string>& left, const std::string& like) {
+    todo(
+        fmt::format("these move {} too, and have no electrode: {}. Leave them out, add them to a "
+                    "group, or let them act as another muscle does:",
+                    coordinate_, fmt::join(left, ", ")));
+    line("# [[muscle]]");
+    line("# name = " + in_quotes(left[0]));
+    line("# emg = { same_as = " + in_quotes(like) + " }");
+    line("");
   }
 
   static std::string abbreviation(const std::vector<std::string>& heads) {
@@ -369,13 +395,12 @@ class Draft {
   model::BodyModel model_;
   std::string coordinate_;
   bool guessed_coordinate_ = false;
-  bool mixed_ = false;
   std::set<fs::path> loads_data_;
   std::vector<FoundRecording> found_;
   std::map<std::string, std::string> similar_;
   Eigen::Index most_known_ = 0;
   char up_ = ' ';
-  std::string file_up_, file_up_because_;  ///< "z", as the first file says that does.
+  std::string file_up_, file_up_because_;  ///< "z", and the sentence of the file that states it.
   double up_cosine_ = 0.0;
   DraftText out_;
   StudyDraft draft_;

@@ -16,14 +16,14 @@ struct DraftOptions {
 /// A study.toml to start from.
 struct StudyDraft {
   std::string toml;
-  std::vector<std::string> todo;   ///< What must be filled in or looked at, as in its TODO lines.
-  std::vector<std::string> notes;  ///< What was found, and files that could not be read.
+  std::vector<std::string> todo;   ///< The questions of its TODO lines.
+  std::vector<std::string> notes;  ///< On files, among them unreadable ones.
 };
 
 /// Reads all recordings that are named or in the folders (with their folders, for BIDS), tells
 /// markers, joint angles and EMG apart, pairs them by their names into trials, the channels with
-/// the model's muscles by what both are called, and finds the vertical of the laboratory by laying
-/// the model's markers on the first complete frame. What it cannot know stands in lines with TODO.
+/// the model's muscles by their names, and finds the vertical of the laboratory by laying
+/// the model's markers on the first complete frame. Open questions stand in lines with TODO.
 /// Paths are written relative to `folder`. Throws ReadError or ModelError if the model cannot be
 /// read, InvalidInput if there is no recording.
 [[nodiscard]] StudyDraft draft_study(const std::filesystem::path& folder,
