@@ -10,8 +10,8 @@
 
 namespace myoid {
 
-/// Blocks of which the noise is measured by means: some 8 s, longer than what people vary by from
-/// cycle to cycle hangs together. Fewer are too few to be called a warm-up or a fresh phase.
+/// Blocks in a mean by which the noise is measured: some 8 s, longer than the correlation of a
+/// person's variation from cycle to cycle. A warm-up or a fresh phase has at least as many.
 inline constexpr Eigen::Index kBatch = 4;
 
 /// Blocks first .. last-1 between two changes, and how they compare with others.
@@ -23,7 +23,7 @@ struct Segment {
   [[nodiscard]] double count() const { return static_cast<double>(last - first); }
 };
 
-/// Where torque per EMG and frequency change.
+/// The blocks at which torque per EMG and frequency change.
 struct BlockChanges {
   Eigen::VectorXd gain, frequency;  ///< Per block; the latter empty if not known.
   std::vector<Segment> segments;
@@ -39,8 +39,9 @@ struct BlockChanges {
 [[nodiscard]] bool alike(
     double speed, double torque, double other_speed, double other_torque, double factor);
 
-/// The longest segment; but if torque per EMG and frequency were both higher in earlier ones, the
-/// muscles were fresh in those, and the longest is one of tiring: then that with the most torque.
+/// Chooses the longest segment. If torque per EMG and frequency were both higher in earlier
+/// segments, the muscles tired in the longest one: the earlier segment with the most torque per EMG
+/// is chosen.
 [[nodiscard]] std::size_t regular_segment(const BlockChanges& changes, const PhaseOptions& options);
 
 }  // namespace myoid

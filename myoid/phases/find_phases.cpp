@@ -13,8 +13,8 @@
 namespace myoid {
 namespace {
 
-/// A contraction without movement: isometric, and fatigued where torque per EMG and frequency fall
-/// within it. Only one whose torque stays much the same is searched, in windows.
+/// Divides a contraction without movement into isometric and fatigued phases: fatigue lowers torque
+/// per EMG and frequency. A contraction with a varying torque stays one phase.
 std::vector<Phase> isometric_phases(const PhaseSignals& signals,
                                     const TrialStretch& stretch,
                                     const PhaseOptions& options,
@@ -70,6 +70,55 @@ void require_valid(const PhaseSignals& s) {
   }
 }
 
+/// Rest, or an isometric contraction with its parts.
+std::vector<Phase> still_phases(const PhaseSignals& signals,
+                                const TrialStretch& stretch,
+                                const PhaseOptions& options,
+                                double begin_s,
+                                double end_s) {
+  const double activation =
+      signals.activation.middleRows(stretch.first, stretch.last - stretch.first)
+          .colwise()
+          .mean()
+          .maxCoeff();
+  const bool rest = activation < options.rest_activation;
+  const Phase whole{
+      .kind = rest ? PhaseKind::rest : PhaseKind::isometric,
+      .begin_s = begin_s,
+      .end_s = end_s,
+      .reason = fmt::format("the joint stands still, mean activation {:.3f}", activation)};
+  return rest ? std::vector{whole} : isometric_phases(signals, stretch, options, whole);
+}
+
+/// Joins two phases; the means of gain and frequency are weighted by duration.
+Phase joined(Phase first, const Phase& second) {
+  const double a = first.end_s - first.begin_s;
+  const double b = second.end_s - second.begin_s;
+  const auto mean = [&](const std::optional<double>& x, const std::optional<double>& y) {
+    return x && y ? std::optional((a * *x + b * *y) / (a + b)) : x ? x : y;
+  };
+  first.gain = mean(first.gain, second.gain);
+  first.frequency = mean(first.frequency, second.frequency);
+  if (b > a) first.reason = second.reason;
+  first.end_s = second.end_s;
+  return first;
+}
+
+/// Joins neighbors that are both regular or both fatigued.
+std::vector<Phase> merge_alike(std::vector<Phase> phases) {
+  std::vector<Phase> result;
+  for (Phase& phase : phases) {
+    const bool joins = !result.empty() && result.back().kind == phase.kind &&
+                       (phase.kind == PhaseKind::regular || phase.kind == PhaseKind::fatigued);
+    if (joins) {
+      result.back() = joined(std::move(result.back()), phase);
+    } else {
+      result.push_back(std::move(phase));
+    }
+  }
+  return result;
+}
+
 }  // namespace
 
 std::vector<Phase> find_phases(const PhaseSignals& signals, const PhaseOptions& options) {
@@ -88,51 +137,17 @@ std::vector<Phase> find_phases(const PhaseSignals& signals, const PhaseOptions& 
   for (const TrialStretch& stretch : stretches) {
     const double begin_s = t[stretch.first];
     const double end_s = stretch.last < t.size() ? t[stretch.last] : t[t.size() - 1];
-    if (stretch.still) {
-      const double activation =
-          signals.activation.middleRows(stretch.first, stretch.last - stretch.first)
-              .colwise()
-              .mean()
-              .maxCoeff();
-      const bool rest = activation < options.rest_activation;
-      const Phase whole{
-          .kind = rest ? PhaseKind::rest : PhaseKind::isometric,
-          .begin_s = begin_s,
-          .end_s = end_s,
-          .reason = fmt::format("the joint stands still, mean activation {:.3f}", activation)};
-      const std::vector<Phase> parts =
-          rest ? std::vector{whole} : isometric_phases(signals, stretch, options, whole);
-      phases.insert(phases.end(), parts.begin(), parts.end());
-      continue;
-    }
-    std::vector<Phase> parts = phases_within(stretch, blocks, moving, t);
-    parts.front().begin_s = begin_s;
-    for (std::size_t i = 0; i < parts.size(); ++i) {
-      parts[i].end_s = i + 1 < parts.size() ? parts[i + 1].begin_s : end_s;
+    std::vector<Phase> parts = stretch.still
+                                   ? still_phases(signals, stretch, options, begin_s, end_s)
+                                   : phases_within(stretch, blocks, moving, t);
+    if (!stretch.still) {
+      parts.front().begin_s = begin_s;
+      for (std::size_t i = 0; i < parts.size(); ++i)
+        parts[i].end_s = i + 1 < parts.size() ? parts[i + 1].begin_s : end_s;
     }
     phases.insert(phases.end(), parts.begin(), parts.end());
   }
-  // Neighbors of one kind that no change worth the name parts are one phase.
-  std::vector<Phase> merged;
-  for (Phase& phase : phases) {
-    const bool joins = !merged.empty() && merged.back().kind == phase.kind &&
-                       (phase.kind == PhaseKind::regular || phase.kind == PhaseKind::fatigued);
-    if (!joins) {
-      merged.push_back(std::move(phase));
-      continue;
-    }
-    Phase& before = merged.back();
-    const double a = before.end_s - before.begin_s;
-    const double b = phase.end_s - phase.begin_s;
-    const auto mean = [&](const std::optional<double>& x, const std::optional<double>& y) {
-      return x && y ? std::optional((a * *x + b * *y) / (a + b)) : x ? x : y;
-    };
-    before.gain = mean(before.gain, phase.gain);
-    before.frequency = mean(before.frequency, phase.frequency);
-    if (b > a) before.reason = std::move(phase.reason);
-    before.end_s = phase.end_s;
-  }
-  return merged;
+  return merge_alike(std::move(phases));
 }
 
 }  // namespace myoid

@@ -6,17 +6,21 @@
 
 namespace myoid {
 
-/// Phases that cover the trial, in order. Rest and isometric phases are where the joint stands
-/// still. In what remains, torque measured per torque predicted and the EMG's median frequency are
-/// formed per block of whole cycles (movement_blocks.h), and both are searched together for the
-/// times at which their means change (math/change_points.h, Bayesian information criterion, the
-/// noise as it counts in means of several blocks). The longest segment is `regular`, or an earlier
-/// one that was fresher; one behind it is fatigue if its torque per EMG is lower and, where it is
-/// known, the median frequency as well; it begins where `gain_change` is lost. Warm-up is a segment
-/// before the regular one whose torque per EMG differs, or a beginning in which the muscles' effort
-/// for the same torque is another and fades (warm_up.h). A contraction that is held is searched for
-/// fatigue in the same way, in windows. Nothing is searched with fewer than 8 blocks. Throws
-/// InvalidInput unless sizes agree and values are finite.
+/// Divides a trial into phases that cover it, in order.
+///
+/// - Rest and isometric phases: the joint stands still.
+/// - Movement: each block of whole cycles (movement_blocks.h) has a ratio of measured to predicted
+///   torque and a median frequency of the EMG. The times at which their means change follow from
+///   both together (math/change_points.h, Bayesian information criterion).
+/// - `regular` is the longest segment between changes, or an earlier and fresher one.
+/// - `fatigued` is a later segment with less torque per EMG and, where the frequency is known, a
+///   lower median frequency. It begins where `gain_change` is lost.
+/// - `warm_up` is an earlier segment with another torque per EMG, or a beginning in which the
+///   muscles' effort for the same torque differs and approaches the later level (warm_up.h).
+/// - A held contraction is searched for fatigue in the same way, in windows.
+///
+/// With fewer than 8 blocks all movement is regular. Throws InvalidInput unless sizes agree and
+/// values are finite.
 [[nodiscard]] std::vector<Phase> find_phases(const PhaseSignals& signals,
                                              const PhaseOptions& options = {});
 

@@ -33,8 +33,8 @@ double mean_log_frequency(const TimeSeries& median, double begin_s, double end_s
   return count > 0 ? sum / count : kNan;
 }
 
-/// Where the joint turns from falling to rising, having moved by a third of its usual rate both
-/// ways: samples of the stretch.
+/// The samples of a stretch at which the joint turns from falling to rising, with at least a third
+/// of its usual rate before and after.
 std::vector<Eigen::Index> lower_turns(const PhaseSignals& s, const TrialStretch& stretch) {
   const Eigen::Index n = stretch.last - stretch.first;
   const double least =
@@ -98,7 +98,7 @@ std::vector<Block> blocks_of(const PhaseSignals& s,
   std::vector<Block> blocks;
   Eigen::Index begin = stretch.first;
   while (begin + shortest <= stretch.last) {
-    // A turn is only known to about a tenth of a cycle; a block may be shorter by that.
+    // The time of a turn is known to about a tenth of a cycle; a block may be shorter by that.
     const auto turn =
         std::lower_bound(turns.begin(), turns.end(), begin + shortest - shortest / 10);
     const bool turns_in_time = turn != turns.end() && *turn <= begin + 2 * shortest;

@@ -18,7 +18,8 @@ struct TrialStretch {
 [[nodiscard]] std::vector<TrialStretch> still_and_moving(const PhaseSignals& signals,
                                                          const PhaseOptions& options);
 
-/// What a trial is searched in: whole cycles of a movement, or equal windows where there is none.
+/// The unit of the search: whole cycles of a movement, or a window of fixed length where the joint
+/// stands still.
 struct Block {
   Eigen::Index first = 0, last = 0;  ///< Samples first .. last-1.
   /// ln of measured per predicted torque, by regression through the origin; NaN if not positive.

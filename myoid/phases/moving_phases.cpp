@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t kFewestBlocks = 8;
 
-/// A segment against the regular one.
+/// Compares a segment with the regular one.
 Phase judge(const Segment& segment,
             const Segment& regular,
             const BlockChanges& changes,
@@ -68,9 +68,9 @@ Phase judge(const Segment& segment,
   return phase;
 }
 
-/// The first block behind a warm-up, in which the muscles work harder, or less hard, for the same
-/// torque than later on, by the EMG or against each other; 0: none. Blocks of another movement,
-/// such as one of starting from rest, are passed over.
+/// The first block after a warm-up; 0: there is none. In a warm-up the EMG or the effort of the
+/// muscles against each other differs from the later one at the same torque. Blocks of another
+/// movement, such as a start from rest, do not count.
 std::size_t end_of_warm_up(const std::vector<Block>& blocks,
                            const Segment& regular,
                            const PhaseOptions& options,
@@ -95,9 +95,8 @@ std::size_t end_of_warm_up(const std::vector<Block>& blocks,
   return comparable[static_cast<std::size_t>(found->blocks)];
 }
 
-/// Where tiring goes on through the change, the change has no place of its own: the block from
-/// which on torque per EMG is `gain_change` below the regular phase's, on a line through both
-/// segments, if that describes them better than the step.
+/// The first block of fatigue. Where a line through both segments fits torque per EMG better than a
+/// step, fatigue begins where the line is `gain_change` below the regular phase.
 std::size_t begin_of_fatigue(const Segment& before,
                              const Segment& after,
                              const Segment& regular,
@@ -136,9 +135,9 @@ std::vector<BlockPhase> moving_phases(const std::vector<Block>& blocks,
     const Segment& segment = changes.segments[i];
     Phase phase = i == regular ? Phase{.kind = PhaseKind::regular,
                                        .gain = 1.0,
-                                       .reason = "what the others are compared with"}
+                                       .reason = "the phase that the others are compared with"}
                                : judge(segment, reference, changes, options);
-    // Tired muscles stay tired until their torque is back.
+    // Fatigue lasts until torque per EMG has recovered.
     if (tired && phase.kind != PhaseKind::fatigued &&
         *phase.gain < 1.0 - 0.5 * options.gain_change) {
       phase.kind = PhaseKind::fatigued;
@@ -148,7 +147,7 @@ std::vector<BlockPhase> moving_phases(const std::vector<Block>& blocks,
     phases.push_back({segment.first, segment.last, std::move(phase)});
   }
   for (std::size_t i = phases.size() - 1; i-- > regular;) {
-    // Less torque before fatigue is its beginning, even if the frequency had not fallen enough yet.
+    // Fatigue lowers the torque earlier than the frequency.
     const Phase& next = phases[i + 1].phase;
     Phase& here = phases[i].phase;
     if (next.kind == PhaseKind::fatigued && here.kind == PhaseKind::changed && *here.gain < 1.0 &&

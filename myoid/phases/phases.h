@@ -12,7 +12,7 @@
 
 namespace myoid {
 
-/// What a person does in a stretch of a trial.
+/// The activity and the state of the muscles in a stretch of a trial.
 enum class PhaseKind {
   rest,       ///< Neither movement nor activation.
   isometric,  ///< Activation without movement.
@@ -60,8 +60,8 @@ struct PhaseOptions {
   double shortest_s = 1.5;        ///< Of rest and isometric phases.
   double block_s = 2.0;           ///< Torque per EMG is measured per block: a cycle or more.
   double gain_change = 0.10;      ///< Smaller changes of torque per EMG are none ...
-  double warm_up_change = 0.06;   ///< ... before the regular phase these: what fades is small on
-                                  ///< average, and leaving it out costs little.
+  double warm_up_change = 0.06;   ///< ... before the regular phase these: a change that fades is
+                                  ///< small on average, and leaving it out costs little.
   double frequency_fall = 0.08;   ///< Smaller falls of the median frequency are none (8-10 %).
   double significance = 4.0;   ///< Standard errors by which a phase differs from the regular one.
   double false_alarm = 0.001;  ///< Chance that a trial begins with a warm-up that is none.

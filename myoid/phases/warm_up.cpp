@@ -14,7 +14,7 @@ namespace {
 
 constexpr Eigen::Index kFewestWarmUpBlocks = 24;
 constexpr Eigen::Index kMostOrder = 8;
-/// The autoregression is estimated from the same blocks, which the t does not know.
+/// Widens the critical value: Student's t ignores that the autoregression is estimated.
 constexpr double kCaution = 1.25;
 
 /// Powers 0..3 of the time, -1..1.
