@@ -48,7 +48,7 @@ void print_findings(const commands::CheckResult& result, const std::string& inpu
 void add_check(CLI::App& app, Context& context) {
   CLI::App& command = *app.add_subcommand("check",
                                           "Reads every input of a study, or a single recording, "
-                                          "and says what is wrong with it, worst first; computes "
+                                          "and lists its faults, worst first; computes "
                                           "nothing.\n"
                                           "Example: myoid check study.toml");
   const auto o = std::make_shared<commands::CheckOptions>();

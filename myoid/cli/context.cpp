@@ -56,8 +56,8 @@ std::string_view command_word(std::string_view command_line) {
   return command_line.substr(first + 1, command_line.find(' ', first + 1) - first - 1);
 }
 
-/// As many threads as --threads and the cores say, or as many fewer as the system grants: the
-/// scheduler ends the program where it cannot make one.
+/// Limits the threads to --threads or the number of cores, and to the number that the system
+/// grants: the scheduler ends the program where the system refuses a thread.
 void limit_threads(Context& context) {
   const int wanted =
       context.threads > 0 ? context.threads : oneapi::tbb::info::default_concurrency();
@@ -102,7 +102,7 @@ const CLI::Validator& zero_or_more() {
 }
 
 void Context::log(std::string_view line) const {
-  std::fflush(stdout);  // so that the two streams stay in order where they go to one place
+  std::fflush(stdout);  // keeps the order of the two streams in one file
   if (!quiet) fmt::print(stderr, "{}\n", line);
 }
 

@@ -18,7 +18,7 @@
 
 namespace myoid::cli {
 
-/// Exit codes as promised to scripts.
+/// Exit codes, which scripts rely on.
 enum ExitCode : int {
   kDone = 0,
   kInternalError = 1,
@@ -29,8 +29,8 @@ enum ExitCode : int {
   kInterrupted = 130,
 };
 
-/// Checks of an option's number that say in a short sentence what is expected: CLI11's own print
-/// the largest double.
+/// Checks of an option's number with a short sentence on the expected range. (CLI11's own checks
+/// print the largest double.)
 [[nodiscard]] const CLI::Validator& above_zero();
 [[nodiscard]] const CLI::Validator& zero_or_more();
 
@@ -43,7 +43,7 @@ template <typename Enumeration>
   return CLI::CheckedTransformer(std::move(names));
 }
 
-/// What every command shares: the common options, progress and log on stderr, and the way to stop.
+/// The common options of all commands, progress and log on stderr, and the way to stop.
 struct Context {
   int threads = 0;  ///< 0: all cores.
   std::uint64_t seed = 1;
@@ -53,11 +53,11 @@ struct Context {
   bool overwrite = false;
   bool strict = false;
   std::optional<double> start_s, end_s;
-  std::string compat = "exact";  ///< How paths are computed: exact, or as OpenSim 4.5.2.
+  std::string compat = "exact";  ///< Muscle paths: exact, or those of OpenSim 4.5.2.
   std::string command_line;
   std::stop_source stop;
   int exit_code = kDone;
-  mutable std::vector<std::filesystem::path> new_folders;   ///< Of prepare_file; not there before.
+  mutable std::vector<std::filesystem::path> new_folders;   ///< That prepare_file will make.
   mutable std::vector<std::filesystem::path> made_folders;  ///< By prepare_folder, innermost first.
   std::shared_ptr<oneapi::tbb::global_control> thread_limit;  ///< While it lives, --threads holds.
 
@@ -67,7 +67,7 @@ struct Context {
   void warn(std::string_view line) const;
   /// A remark of a command on stderr; details with --verbose only.
   void tell(const commands::Remark& remark) const;
-  /// The common options as the library's commands take them. Remarks are told when they are made.
+  /// The common options for the functions of `commands`, with a listener that tells remarks.
   [[nodiscard]] commands::Call call() const;
   /// Progress bar with time left on a terminal, nothing elsewhere.
   [[nodiscard]] Progress progress() const;
@@ -78,14 +78,14 @@ struct Context {
                     const std::vector<std::string>& inputs) const;
   /// A folder that will be made for a single file, for `tell_new_folders`.
   void remember_new_folder(const std::filesystem::path& folder) const;
-  /// Says on stderr, once each, which folders were made for single files: a slip in --out is seen.
+  /// Names on stderr the folders that were made for single files, so that a slip in --out is seen.
   void tell_new_folders() const;
   /// Creates the folder for results; one that holds anything but `unless_only` needs --overwrite.
   void prepare_folder(const std::filesystem::path& folder, std::string_view unless_only = "") const;
   /// Removes the folders that prepare_folder made, where they are empty: bad input leaves none.
   void remove_empty_folders() const;
-  /// Throws InvalidInput if one of the `inputs` lies in `folder` under a name that begins like one
-  /// of the results there: it would be replaced.
+  /// Throws InvalidInput if a result would replace one of the `inputs`: it lies in `folder` and its
+  /// name begins with one of `results`.
   void protect_inputs(const std::filesystem::path& folder,
                       const std::vector<std::string_view>& results,
                       const std::vector<std::string>& inputs) const;
@@ -95,8 +95,8 @@ struct Context {
 /// CLI11 hides, would take the option's name out of error messages too.)
 inline constexpr const char* kIdleGroup = "without effect";
 
-/// Which of the common options a command uses. All are accepted everywhere; one without effect is
-/// left out of the help, and warned of when given.
+/// The common options that a command uses. Every command accepts all of them. The help leaves out
+/// an option without effect, and the program warns where it is given.
 struct CommonOptions {
   bool threads = true, seed = true, json = true, range = true, overwrite = true;
 };

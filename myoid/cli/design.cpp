@@ -69,6 +69,47 @@ void print_json(const DesignStudyResult& result) {
   fmt::print("{}\n", json_text(json));
 }
 
+/// The movements to choose from, and how many.
+void add_choice_options(CLI::App& command, commands::DesignOptions& options) {
+  DesignStudyOptions& design = options.design;
+  command
+      .add_option("--criterion", options.criterion,
+                  "D: volume of the confidence ellipsoid, A: sum of relative variances")
+      ->check(CLI::IsMember({"D", "A"}))
+      ->capture_default_str();
+  command.add_option("--movements", design.choice.movements, "How many to choose")
+      ->check(CLI::Range(1, 50))
+      ->capture_default_str();
+  command.add_option("--repeat", design.choice.most_of_each, "The same movement at most so often")
+      ->check(CLI::Range(1, 50))
+      ->capture_default_str();
+  command.add_option("--budget", design.choice.budget_s, "Recording time at most [s]")
+      ->check(above_zero());
+  command
+      .add_option("--fatigue", design.fatigued_share,
+                  "Share of a muscle that may be fatigued at any time")
+      ->check(CLI::Range(0.001, 1.0))
+      ->capture_default_str();
+  command.add_option("--masses", design.catalogue.held_masses_kg, "Held masses there are [kg]")
+      ->check(zero_or_more())
+      ->capture_default_str();
+}
+
+/// The persons and the noise of the recording that is expected.
+void add_recording_options(CLI::App& command, DesignStudyOptions& design) {
+  command.add_option("--persons", design.persons, "Persons drawn from the priors, to average over")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  command
+      .add_option("--torque-noise", design.torque_sd_nm,
+                  "Standard deviation of the joint torque's error below 2 Hz [N m]")
+      ->check(above_zero())
+      ->capture_default_str();
+  command.add_option("--emg-noise", design.emg_cv, "Relative noise of the EMG envelope below 2 Hz")
+      ->check(CLI::Range(0.0, 1.0))
+      ->capture_default_str();
+}
+
 }  // namespace
 
 void add_design(CLI::App& app, Context& context) {
@@ -89,41 +130,11 @@ void add_design(CLI::App& app, Context& context) {
                   "all, parameters, muscles or MUSCLE.PARAMETER (default all)")
       ->capture_default_str();
   command.add_option("--after", options->after,
-                     "Folder of a finished run: what it found is known beforehand");
-  command
-      .add_option("--criterion", options->criterion,
-                  "D: volume of the confidence ellipsoid, A: sum of relative variances")
-      ->check(CLI::IsMember({"D", "A"}))
-      ->capture_default_str();
-  command.add_option("--movements", design.choice.movements, "How many to choose")
-      ->check(CLI::Range(1, 50))
-      ->capture_default_str();
-  command.add_option("--repeat", design.choice.most_of_each, "The same movement at most so often")
-      ->check(CLI::Range(1, 50))
-      ->capture_default_str();
-  command.add_option("--budget", design.choice.budget_s, "Recording time at most [s]")
-      ->check(above_zero());
-  command
-      .add_option("--fatigue", design.fatigued_share,
-                  "Share of a muscle that may be fatigued at any time")
-      ->check(CLI::Range(0.001, 1.0))
-      ->capture_default_str();
-  command.add_option("--masses", design.catalogue.held_masses_kg, "Held masses there are [kg]")
-      ->check(zero_or_more())
-      ->capture_default_str();
+                     "Folder of a finished run: its result is known beforehand");
+  add_choice_options(command, *options);
   command.add_flag("--no-dynamometer", *no_dynamometer,
                    "No isokinetic movement (isometric torque can be measured still)");
-  command.add_option("--persons", design.persons, "Drawn from what is known, to average over")
-      ->check(CLI::Range(1, 1000))
-      ->capture_default_str();
-  command
-      .add_option("--torque-noise", design.torque_sd_nm,
-                  "Standard deviation of the joint torque's error below 2 Hz [N m]")
-      ->check(above_zero())
-      ->capture_default_str();
-  command.add_option("--emg-noise", design.emg_cv, "Relative noise of the EMG envelope below 2 Hz")
-      ->check(CLI::Range(0.0, 1.0))
-      ->capture_default_str();
+  add_recording_options(command, design);
   add_common_options(command, context, {.range = false, .overwrite = false});
   command.callback([&context, options, no_dynamometer] {
     options->call = context.call();

@@ -22,7 +22,7 @@ struct EmgFlags {
   bool whitening = false, no_whitening = false;
 };
 
-/// Refuses output files that are there or are inputs, or each other.
+/// Refuses output files that exist, that are inputs, or that have the same name.
 void prepare(const commands::EmgOptions& o,
              const std::vector<std::string>& activations,
              const std::vector<std::string>& envelopes,

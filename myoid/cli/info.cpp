@@ -38,7 +38,7 @@ void add_model_page_options(CLI::App& command,
       ->needs(html);
 }
 
-/// Writes the page of the one model that the files are.
+/// Writes the page of the model, which must be the only file.
 void write_page(const std::vector<std::string>& files,
                 commands::ModelPageOptions options,
                 const std::string& html,
@@ -69,7 +69,7 @@ void add_info(CLI::App& app, Context& context) {
   CLI::App& command =
       *app.add_subcommand("info",
                           "Says what a file holds: channels, units, rates, duration, gaps, "
-                          "repairs; of a model also what is not supported.\n"
+                          "repairs; of a model also its unsupported elements.\n"
                           "Example: myoid info arm.osim flex.trc");
   const auto files = std::make_shared<std::vector<std::string>>();
   const auto o = std::make_shared<commands::InfoOptions>();

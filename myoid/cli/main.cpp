@@ -1,4 +1,4 @@
-// The program: options, one try, exit code. Everything else is the library.
+// The program: it parses the command line, calls a command and returns an exit code.
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
@@ -25,8 +25,8 @@
 
 namespace {
 
-/// Waits for Ctrl-C (or a polite kill): the first asks the work to stop, the second ends at once.
-/// Without a thread for it the first ends the program at once.
+/// Waits for SIGINT (Ctrl-C) or SIGTERM: the first asks the work to stop, the second ends the
+/// program at once. Where the system refuses the thread that waits, the first ends the program.
 void stop_on_signals(std::stop_source stop) {
   sigset_t signals;
   sigemptyset(&signals);
@@ -47,7 +47,8 @@ void stop_on_signals(std::stop_source stop) {
   }
 }
 
-/// An error that no caller can catch: the scheduler of the threads throws where it cannot make one.
+/// Ends the program at an error that no caller can catch: the scheduler throws where the system
+/// refuses a thread.
 [[noreturn]] void end_with_a_message() {
   std::string what = "unknown";
   if (const std::exception_ptr error = std::current_exception()) {
@@ -66,7 +67,7 @@ void stop_on_signals(std::stop_source stop) {
   _exit(myoid::cli::kInternalError);
 }
 
-/// A result that did not arrive is not done.
+/// Reports a result that standard output did not take.
 int stdout_lost(const char* cause) {
   fmt::print(stderr, "error: the result could not be written to standard output: {}\n", cause);
   return myoid::cli::kBadInput;
@@ -121,7 +122,7 @@ int unknown_command(std::string_view word) {
   return myoid::cli::kWrongCommandLine;
 }
 
-/// What stands without dashes is written in capitals, as in the guide: "run [OPTIONS] STUDY".
+/// Writes arguments without dashes in capitals, as in the guide: "run [OPTIONS] STUDY".
 class CapitalPositionals : public CLI::Formatter {
  public:
   std::string make_option_name(const CLI::Option* option, bool is_positional) const override {
@@ -145,7 +146,7 @@ class CapitalPositionals : public CLI::Formatter {
   }
 };
 
-/// A sentence on an option that takes one value and was given several; empty if there is none.
+/// A sentence on an option that takes one value and has several; empty: there is none.
 std::string repeated_option(CLI::App& app) {
   for (const CLI::App* command : app.get_subcommands()) {
     for (const CLI::Option* option : command->get_options()) {
@@ -162,12 +163,11 @@ std::string repeated_option(CLI::App& app) {
 int run(int argc, char** argv, myoid::cli::Context& context) {
   CLI::App app{
       "Myoid identifies a person's own muscle parameters from motion capture and EMG,\n"
-      "says how sure it is of each, and what the recording could not tell.",
+      "says how sure it is of each, and names the parameters that the recording leaves open.",
       "myoid"};
   app.set_version_flag("--version,-V", std::string(myoid::version()));
   app.require_subcommand(0, 1);
-  // Only the command that is called, where it is one: the options of all take longer than a small
-  // run.
+  // Declaring the options of all commands takes longer than a small run.
   const std::string_view word = argc > 1 ? argv[1] : "";
   const Command* const called = find_command(word);
   if (called == nullptr) {

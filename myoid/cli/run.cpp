@@ -17,7 +17,7 @@ namespace {
 
 using identification::ParameterEstimate;
 
-/// In --out: what an interrupted or repeated run need not compute again.
+/// Folder in --out with the stages that a repeated run need not compute again.
 constexpr const char* kStageFolder = ".stages";
 
 void print_method(const identification::IdentificationResult& method, std::size_t muscle_count) {
@@ -40,7 +40,8 @@ void print_method(const identification::IdentificationResult& method, std::size_
     const ParameterEstimate& e = *line.estimate;
     if (identification::is_nuisance(e) && !nuisances) {
       nuisances = true;
-      fmt::print("of the electrodes and the joint, freed for the intervals' sake:\n");
+      fmt::print(
+          "of the electrodes and the joint, free so that the intervals hold their uncertainty:\n");
     }
     const bool interval = e.ci_low && e.ci_high && !is_undetermined(e);
     const std::string estimate = !std::isfinite(e.estimate) ? "-"
@@ -87,7 +88,7 @@ void print_predictions(const StudyResult& result) {
 void print_next(const StudyResult& result) {
   if (!result.next || result.next->plan.empty()) return;
   fmt::print(
-      "\nwhat to record next: {} of {} parameters identified now, median 95 % interval "
+      "\nnext recording: {} of {} parameters identified now, median 95 % interval "
       "+-{:.0f} %\n",
       identified_count(result.next->beforehand), result.next->beforehand.size(),
       median_half_width(result.next->beforehand));
@@ -111,8 +112,8 @@ void print_gates(const std::vector<report::Gate>& gates) {
   }
 }
 
-/// The results on stdout: what was found by the method that knows how sure it is, how it predicts,
-/// then the source paper's, then whether to believe it.
+/// Prints the methods with intervals, their predictions, method `paper`, the next movements and the
+/// quality gates.
 void print_results(const StudyResult& result, const std::vector<report::Gate>& gates) {
   for (const bool paper : {false, true}) {
     for (const identification::IdentificationResult& method : result.fit.methods) {
@@ -125,7 +126,7 @@ void print_results(const StudyResult& result, const std::vector<report::Gate>& g
   print_gates(gates);
 }
 
-/// With --json and --quiet, which print no gates, the failed ones are warned of.
+/// Warns of failed gates with --json and --quiet, which do not print the gates.
 void tell_gates(const std::vector<report::Gate>& gates, const Context& context) {
   if (!context.json && !context.quiet) return;
   for (const report::Gate& g : gates) {
@@ -144,7 +145,7 @@ void add_run(CLI::App& app, Context& context) {
   const auto out = std::make_shared<std::string>();
   const auto options = std::make_shared<commands::RunOptions>();
   command.add_option("study", options->study, "study.toml")->required();
-  command.add_option("--out", *out, "Folder for everything that comes out")->required();
+  command.add_option("--out", *out, "Folder of the results")->required();
   command.add_flag("--strict", context.strict, "Exit with 4 if a parameter is not identifiable");
   add_common_options(command, context, {.seed = false});
   command.callback([&context, options, out] {

@@ -69,7 +69,7 @@ void add_twin(CLI::App& app, Context& context) {
                   "Model that goes with the recording: arm4 (four muscles, default) or arm7 (seven "
                   "heads, level L2)")
       ->check(CLI::IsMember({"arm4", "arm7"}));
-  command.add_option("--protocol", options->twin.protocol, "What is recorded, a .toml file")
+  command.add_option("--protocol", options->twin.protocol, "Protocol of the recording (.toml)")
       ->required();
   command
       .add_option("--level", options->twin.level,

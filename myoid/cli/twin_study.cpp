@@ -103,7 +103,8 @@ void add_twin_study(CLI::App& app, Context& context) {
   const auto out = std::make_shared<std::string>();
   const auto each_muscle = std::make_shared<bool>(false);
   const auto options = std::make_shared<commands::TwinStudyOptions>();
-  command.add_option("--protocol", options->protocol, "What is recorded, a .toml file")->required();
+  command.add_option("--protocol", options->protocol, "Protocol of the recording (.toml)")
+      ->required();
   command.add_option("--level", options->level, "L0, L1 or L2 instead of the protocol's own")
       ->check(CLI::IsMember({"L0", "L1", "L2"}));
   command

@@ -13,22 +13,22 @@
 ///
 /// Each command takes an options struct and gives a result struct: `IkResult ik(const IkOptions&)`.
 /// It reads the files that the options name, computes, and returns values; remarks on inputs and
-/// results are values too. A second function, `write_ik(result, path)`, writes the files of a
-/// command that has some. Nothing in this room prints, knows an exit code or reads a command line.
+/// results are values too. A second function, `write_ik(result, path)`, writes the files.
+/// No function of this room prints, knows an exit code or reads a command line.
 /// The room `cli` declares the options, prints the result as text or JSON and derives the exit code
 /// from it; a script or a binding to another language calls the same two functions.
 ///
 /// All commands throw InvalidInput (or ReadError, ModelError) for bad input and Interrupted when a
-/// stop is requested. Strings that choose among words (`method`, `tendon`) and relative paths are
-/// those of the command line, and so are the names of options in messages.
+/// stop is requested. Strings that choose among words (`method`, `tendon`), relative paths and the
+/// names of options in messages are as on the command line.
 namespace myoid::commands {
 
-/// A sentence about inputs or results that a command tells beside its numbers.
+/// A sentence about inputs or results beside the numbers of a command.
 struct Remark {
   enum class Kind {
     warning,  ///< A number may be wrong.
-    note,     ///< Good to know.
-    detail,   ///< How a file was read.
+    note,     ///< A choice or a repair that leaves the numbers right.
+    detail,   ///< Of the reading of a file.
   };
   Kind kind = Kind::warning;
   std::string text;
@@ -37,11 +37,10 @@ struct Remark {
 /// Values that every command takes beside its own options.
 struct Call {
   std::uint64_t seed = 1;
-  std::optional<double> start_s, end_s;  ///< Only this time of the data is used [s].
+  std::optional<double> start_s, end_s;  ///< The time of the data that is used [s].
   std::string command;                   ///< Written into results as the command that made them.
   Progress progress;
-  /// Hears each remark at once, so that a command that throws has told what it noticed; may be
-  /// empty.
+  /// Hears each remark at once, also of a command that throws later; may be empty.
   std::function<void(const Remark&)> listener;
 };
 

@@ -9,7 +9,7 @@
 
 namespace myoid::commands {
 
-/// Looks at the inputs of a study, or at one recording, without computing anything.
+/// Checks the inputs of a study, or one recording, without computing a result.
 struct CheckOptions {
   Call call;
   std::string input;  ///< study.toml, or a recording.

@@ -138,14 +138,14 @@ class Converter {
     recording::write_channels(out, recording::rows_of(written), said);
   }
 
-  /// True if all channels are written as they were read: then they stay as compact as they are.
+  /// True if all channels are written unchanged, in the compact form of their file.
   [[nodiscard]] bool stays(const recording::AnalogChannels& channels, const fs::path& out) const {
     return o_.channels.empty() && !o_.call.start_s && !o_.call.end_s && o_.rate_hz <= 0.0 &&
            (!is_storage(out.string()) || channels.all_finite());
   }
 
-  /// The channels asked for, in the time and at the rate asked for. Neither a storage file nor a
-  /// low-pass can hold a gap: a channel with one is left out, with a warning.
+  /// Selects the channels, the time and the rate that the options name. Neither a storage file nor
+  /// a low-pass can hold a gap: channels with gaps are left out, with a warning.
   [[nodiscard]] TimeSeries chosen(const recording::AnalogChannels& channels,
                                   const fs::path& out,
                                   const std::string& from) const {
@@ -162,7 +162,7 @@ class Converter {
     return at_rate(series);
   }
 
-  /// With --rate on an even clock of that rate, low-passed where it is slower.
+  /// Resamples to the even clock of --rate, after a low-pass where the new clock is slower.
   [[nodiscard]] TimeSeries at_rate(const TimeSeries& series) const {
     if (o_.rate_hz <= 0.0 || series.sample_count() < 4) return series;
     return signals::resample(series, new_clock(o_, series.time_s()));
@@ -195,8 +195,8 @@ class Converter {
     wrote(out);
   }
 
-  /// Plates become loads on a person in ground, whose y is up: everything that goes with them is
-  /// turned as --up says, else as the file does.
+  /// Turns plates, markers and events to the model's ground, whose y is up: by --up, else by the
+  /// vertical of the file.
   void stand(recording::Recording& file) {
     try {
       const recording::LaboratoryUp up =
@@ -211,7 +211,7 @@ class Converter {
     }
   }
 
-  /// Without plates everything stays as recorded unless --up says otherwise.
+  /// Without plates only --up turns the recording.
   void tell_vertical(const Vec3& up_L) const {
     if (!o_.up.empty() || !o_.turns.empty()) return;
     const std::string up = recording::axis_name(up_L);
@@ -269,7 +269,7 @@ class Converter {
     if (!file.plates.empty()) plates(folder / (stem + "_grf.mot"), std::move(file));
   }
 
-  /// All channels, and beside them a file of the voltages that may be EMG.
+  /// Writes all channels, and a second file of the voltages that may be EMG.
   void write_all_channels(const fs::path& folder,
                           const std::string& stem,
                           const recording::Recording& file) {

@@ -20,15 +20,15 @@ std::string channel_in(const std::string& path, const std::string& channel) {
   return fmt::format("{} '{}'", std::filesystem::path(path).filename().string(), channel);
 }
 
-/// Why a channel can be neither filtered nor normalized; empty for one that can.
+/// The defect for which a channel can be neither filtered nor normalized; empty: none.
 std::string defect_of(const TimeSeries& emg, Eigen::Index column) {
   if (std::string gaps = recording::gaps_of(emg, column); !gaps.empty()) return gaps;
   const auto x = emg.values().col(column);
   return x.maxCoeff() > x.minCoeff() ? "" : "has the same value throughout: nothing was connected";
 }
 
-/// The channels that can be filtered and normalized. Another one is left out with a warning; one
-/// that was asked for, or the last one, is an error.
+/// Selects the channels that can be filtered and normalized. Defective channels are left out with a
+/// warning. It is an error if the user named the channels or none remains.
 TimeSeries usable_channels(const std::string& path,
                            const TimeSeries& emg,
                            bool asked_for,
@@ -88,7 +88,7 @@ void keep_common_channels(const std::vector<std::string>& paths,
   for (TimeSeries& file : files) file = file.select(common);
 }
 
-/// Says what is wrong with raw EMG. Throws ReadError if none of it is raw.
+/// Warns of faults in raw EMG. Throws ReadError if no channel is raw.
 void warn_of_faults(const std::string& path,
                     const TimeSeries& emg,
                     bool highpass,
@@ -99,8 +99,8 @@ void warn_of_faults(const std::string& path,
     if (fault.kind == FaultKind::emg_envelope) envelopes.push_back(fault.channel);
   }
   const std::string what = fmt::format(
-      "{} never negative and slow: rectified and smoothed already, an envelope, of which this "
-      "command would leave noise",
+      "{} never negative and slow: rectified and smoothed already. This command would "
+      "turn such an envelope into noise",
       envelopes.size() == 1 ? fmt::format("channel '{}' is", envelopes[0])
                             : fmt::format("channels {} are", fmt::join(envelopes, ", ")));
   if (static_cast<Eigen::Index>(envelopes.size()) == emg.channel_count())

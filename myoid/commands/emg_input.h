@@ -9,7 +9,7 @@
 
 namespace myoid::commands {
 
-/// Warnings that are told together at the end: what is alike in several channels or files is said
+/// Collects warnings until the end: one that several channels or files share is said
 /// once. They are told although an exception leaves the scope.
 class GroupedWarnings {
  public:

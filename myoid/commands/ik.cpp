@@ -35,8 +35,8 @@ std::vector<std::string> runs_not_converged(const kinematics::IkResult& result) 
   return runs;
 }
 
-/// The rotation of a marker file's laboratory onto the model's: with `up` ("z", "-y"), or where it
-/// is empty as the file says, which is noted; a file that does not say stands as the model.
+/// The rotation of a marker file's laboratory onto the model's: by `up` ("z", "-y"); where `up` is
+/// empty by the vertical that the file states, with a note; else none.
 Mat3 onto_model(const model::BodyModel& model,
                 const std::string& markers,
                 const std::string& up,

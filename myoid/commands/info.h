@@ -18,11 +18,11 @@ struct InfoOptions {
   ModelQuestions ask;            ///< Of a model; its seed is the call's.
 };
 
-/// "file", "kind" and what there is: channels, units, rates, bodies, muscles, ...
+/// "file", "kind" and the content: channels, units, rates, bodies, muscles, ...
 /// (`contents_text` makes text of it). Throws ReadError for a file of no known kind.
 [[nodiscard]] nlohmann::ordered_json info(const InfoOptions& options);
 
-/// True if the name is that of a model: an .osim file, or the built-in "arm4".
+/// True if the name belongs to a model: an .osim file, or the built-in "arm4".
 [[nodiscard]] bool is_model(const std::string& file);
 
 }  // namespace myoid::commands

@@ -30,7 +30,7 @@ void refuse_contradictions(const MuscleOptions& o) {
   }
 }
 
-/// The force that errors are related to [N].
+/// The force of which errors are shares [N].
 double related_to(const MuscleOptions& o, const muscle::MuscleFile& file) {
   return o.isometric_n > 0.0 ? o.isometric_n : file.parameters.hill.max_isometric_force_n;
 }

@@ -15,7 +15,7 @@ using muscle::IsolatedFit;
 using muscle::IsolatedRecording;
 
 /// Widens each standard error to the spread over fits without one recording (jackknife), and warns
-/// of numbers that hang on one recording.
+/// of numbers that one recording decides.
 void compare_left_out(const std::vector<IsolatedRecording>& recordings,
                       MuscleFit& fit,
                       Remarks& remarks) {
@@ -23,7 +23,7 @@ void compare_left_out(const std::vector<IsolatedRecording>& recordings,
     const muscle::IsolatedEstimate& e = fit.all.estimates[found.parameter];
     remarks.warn(fmt::format(
         "{} is {:.4g} {} without {}, {:.1f} of the fit's standard errors from {:.4g}: it hangs "
-        "on that recording; its standard error is widened to what the recordings show",
+        "on that recording; its standard error is widened to the spread over the recordings",
         e.parameter, found.without, symbol(e.unit), recordings[found.recording].name,
         found.std_errors, e.value));
   }
@@ -53,7 +53,7 @@ std::vector<IsolatedFit> fits_without_one(const muscle::IsolatedModel& start,
   return fits;
 }
 
-/// Errors of every recording; a fit that misses one by more than a guess would is warned of.
+/// Adds the errors of every recording.
 void add_errors(const muscle::IsolatedModel& start,
                 const std::vector<IsolatedRecording>& recordings,
                 double relative_tolerance,

@@ -21,7 +21,7 @@ struct MuscleFit {
   muscle::IsolatedFit all;  ///< Standard errors hold the spread over the recordings (jackknife).
   std::vector<muscle::IsolatedFit> without_one;  ///< Without recording 0, 1, ...; empty for one.
   std::vector<RecordingErrors> errors;
-  double relative_to_n = 0.0;  ///< What the errors are related to.
+  double relative_to_n = 0.0;  ///< Force of which the errors are shares.
   bool converged = false;      ///< All of these fits.
   bool misses = false;         ///< A recording's fitted force errs by more than a guess would.
 };

@@ -31,7 +31,8 @@ struct Column {
                                                           const muscle::MuscleFile& file,
                                                           Remarks& remarks);
 
-/// Who guesses half of the maximum misses no force between none and it by more than this share.
+/// Share of the maximal force: the guess of half of it errs by no more, for every force between 0
+/// and the maximum.
 inline constexpr double kErrorOfAGuess = 0.5;
 
 }  // namespace myoid::commands

@@ -18,7 +18,7 @@ namespace {
 
 using kinematics::PathSurrogate;
 
-/// Says how near the polynomials come, and which muscles have none.
+/// Notes the errors of the polynomials, and the muscles without polynomials.
 void tell_errors(const std::vector<PathSurrogate>& surrogates,
                  const std::string& path,
                  Remarks& remarks) {
@@ -42,7 +42,7 @@ void tell_errors(const std::vector<PathSurrogate>& surrogates,
   }
 }
 
-/// The polynomials of the file, or new ones where it has none of this model.
+/// Reads the polynomials of the file; fits new ones where the file has none of this model.
 std::vector<PathSurrogate> load_surrogates(const PathsOptions& o,
                                            const model::BodyModel& model,
                                            Remarks& remarks) {

@@ -16,7 +16,8 @@
 namespace myoid::commands {
 namespace {
 
-/// Says what is wrong with recordings and trials, and how files were read; counts the latter.
+/// Tells the faults of recordings and trials and the repairs of files; returns the count of
+/// repairs.
 std::size_t tell_trials(const StudyResult& study, Remarks& remarks) {
   const auto reused =
       std::count_if(study.trials.begin(), study.trials.end(),

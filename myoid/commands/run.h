@@ -34,8 +34,8 @@ struct RunResult {
 
 [[nodiscard]] RunResult run(const RunOptions& options);
 
-/// Writes all results, the report and the page with the moving model, in the place of those of an
-/// earlier run.
+/// Writes all results, the report and the page with the moving model, in the place of the files of
+/// an earlier run.
 void write_run(const RunResult& result, const std::filesystem::path& folder);
 
 }  // namespace myoid::commands

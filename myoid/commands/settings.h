@@ -10,7 +10,7 @@
 
 namespace myoid::commands {
 
-/// The settings of study files: all that there are, or those of one study.
+/// The settings of study files: the reference of all, or the values of one study.
 struct SettingsOptions {
   Call call;
   std::string study;  ///< study.toml; empty: the reference of all settings.

@@ -18,7 +18,7 @@
 namespace myoid::commands {
 namespace {
 
-/// The options with the words that the kind of model implies.
+/// Fills empty words of the options with the defaults of the kind of model.
 SimulateOptions with_defaults(SimulateOptions o) {
   const bool arm4 = o.model == "arm4";
   if (o.curves.empty()) o.curves = arm4 ? "paper" : "file";
@@ -165,7 +165,7 @@ SimulateResult simulate_file(const SimulateOptions& o, Remarks& remarks) {
   return result;
 }
 
-/// Says what did not get to its end, and where the equations jumped.
+/// Warns of simulations that ended early, and of jumps of the equations.
 void tell_trouble(const SimulateResult& result, Remarks& remarks) {
   if (result.sensitivities && result.sensitivities->status != math::OdeStatus::done)
     remarks.warn(fmt::format("sensitivities not to the end: {}", result.sensitivities->message));

@@ -60,7 +60,7 @@ struct SimulateResult {
 /// coordinates that do not exist, and for settings that only the other kind of model has.
 [[nodiscard]] SimulateResult simulate(const SimulateOptions& options);
 
-/// Writes what `write_simulation` and `write_sensitivities` write, and the figures.
+/// Writes the files of `write_simulation` and `write_sensitivities`, and the figures.
 void write_simulate(const SimulateResult& result, const std::filesystem::path& folder);
 
 }  // namespace myoid::commands

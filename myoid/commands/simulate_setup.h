@@ -24,13 +24,13 @@ struct Drive {
   double start_s = 0.0, end_s = 1.0;
 };
 
-/// From the file, whose time is simulated unless the call says otherwise, or from the descriptions,
-/// by which one second is simulated.
+/// Reads the excitations of the file, or takes the descriptions. The simulated time is the call's,
+/// else the time of the file, or one second.
 [[nodiscard]] Drive read_drive(const SimulateOptions& options,
                                const std::vector<std::string>& muscles,
                                Remarks& remarks);
 
-/// A coordinate's name; whether it turns, so that its values are in degrees.
+/// A coordinate; the options give the values of a rotation in degrees.
 struct NamedCoordinate {
   std::string name;
   bool turns = true;

@@ -152,7 +152,7 @@ kinematics::JointMotion load_motion(const model::BodyModel& model,
     remarks.warn(fmt::format("{}: {}", path.string(), jump.sentence()));
   if (const signals::ClockGaps gaps = signals::find_clock_gaps(q.time_s()); gaps.count > 0)
     remarks.warn(
-        fmt::format("{}: {}; a spline bridges what was not recorded, and its derivatives "
+        fmt::format("{}: {}; a spline bridges the gaps, and its derivatives "
                     "beside a gap are not to be relied on",
                     path.string(), gaps.text()));
   kinematics::MotionOptions options;

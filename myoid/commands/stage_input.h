@@ -20,13 +20,13 @@ void check_word(std::string_view option,
                 const std::string& word,
                 const std::vector<std::string>& words);
 
-/// Warns of what the reader of a file mended or left out.
+/// Warns of the repairs and omissions of a file's reader.
 void warn_of_repairs(const std::filesystem::path& path,
                      const std::vector<recording::Repair>& repairs,
                      Remarks& remarks);
 
-/// A model from a file, or the built-in "arm4", with paths as `compat` says ("exact" or "opensim");
-/// remarks tell what it cannot do right.
+/// Loads a model from a file, or the built-in "arm4", with the paths that `compat` names ("exact"
+/// or "opensim"). Remarks name elements that are not supported.
 [[nodiscard]] model::BodyModel load_model(const std::string& name,
                                           const std::string& compat,
                                           Remarks& remarks);
@@ -38,7 +38,7 @@ void warn_of_path_differences(const model::BodyModel& model,
 
 /// A motion file (.mot, .sto) as coordinates and two derivatives. `cutoff_hz` > 0 smooths. The
 /// whole file is smoothed and differentiated, then cut to the call's time: inside that time the
-/// numbers are those of the whole file. Gaps of the clock are warned of.
+/// numbers are those of the whole file. Warns of gaps of the clock.
 [[nodiscard]] kinematics::JointMotion load_motion(const model::BodyModel& model,
                                                   const std::filesystem::path& path,
                                                   double cutoff_hz,
@@ -55,13 +55,13 @@ void warn_of_path_differences(const model::BodyModel& model,
                                                        const Call& call,
                                                        Remarks& remarks);
 
-/// An <ExternalLoads> file; what was mended is warned of, and a motion that goes beyond the data.
+/// Reads an <ExternalLoads> file. Warns of repairs, and of a motion that goes beyond the data.
 [[nodiscard]] dynamics::ExternalLoads load_external_loads(const model::BodyModel& model,
                                                           const std::filesystem::path& path,
                                                           const kinematics::JointMotion& motion,
                                                           Remarks& remarks);
 
-/// The series cut to the call's time. Throws InvalidInput if nothing is left.
+/// Cuts the series to the call's time. Throws InvalidInput where no sample lies in that time.
 [[nodiscard]] TimeSeries cut(const TimeSeries& series, const Call& call);
 [[nodiscard]] recording::MarkerSeries cut(recording::MarkerSeries markers, const Call& call);
 

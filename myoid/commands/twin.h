@@ -12,12 +12,12 @@
 
 namespace myoid::commands {
 
-/// Virtual recordings whose truth is known. The call's seed makes the person.
+/// Virtual recordings with known parameters. The call's seed makes the person.
 struct TwinOptions {
   Call call;
   std::string model = "arm4";  ///< That goes with the recording: arm4, or arm7 at level L2.
-  std::string protocol;        ///< What is recorded (.toml).
-  std::string level;           ///< L0, L1 or L2; empty: as the protocol says.
+  std::string protocol;        ///< Of the recording (.toml).
+  std::string level;           ///< L0, L1 or L2; empty: the protocol's.
   std::string format = "trc";  ///< Of markers and EMG: trc (.trc and .sto), or c3d.
 };
 

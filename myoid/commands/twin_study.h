@@ -11,11 +11,11 @@
 
 namespace myoid::commands {
 
-/// Many virtual persons, put through the whole chain and compared with their truth.
+/// Studies of many virtual persons, compared with their true parameters.
 struct TwinStudyOptions {
   Call call;
-  std::string protocol;          ///< What is recorded (.toml).
-  std::string level;             ///< L0, L1 or L2; empty: as the protocol says.
+  std::string protocol;          ///< Of the recording (.toml).
+  std::string level;             ///< L0, L1 or L2; empty: the protocol's.
   std::optional<double> offset;  ///< Mean of the persons away from the priors', in sd.
   twin::TwinStudyOptions study;  ///< Its seed and progress are the call's.
 };

@@ -22,7 +22,7 @@ std::string text(const json& object, const char* key) {
   return found != object.end() && found->is_string() ? found->get<std::string>() : std::string();
 }
 
-/// Of the options that study_json writes.
+/// Reads the identity from the options that study_json writes.
 RunIdentity identity_of(const json& options) {
   RunIdentity identity;
   if (!options.is_object() || !options.contains("model")) return identity;
@@ -73,7 +73,7 @@ RunIdentity read_run_identity(const std::filesystem::path& folder) {
       if (!identity.model.empty() && text(input, "path") == identity.model)
         identity.model_sha256 = text(input, "sha256");
     }
-    // Made by `identify`: its rows at least name the muscles.
+    // A result of `identify` names muscles in its rows alone.
     if (!identity.known) {
       for (const json& method : content.value("methods", json::array())) {
         for (const json& e : method.value("estimates", json::array())) {

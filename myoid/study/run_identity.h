@@ -9,10 +9,10 @@
 
 namespace myoid {
 
-/// Whose numbers a result's are, and of which model: what must agree before two are set beside each
-/// other.
+/// Person and model of a result. The numbers of two results can be compared where both have the
+/// same person and model.
 struct RunIdentity {
-  bool known = false;  ///< False: made by `myoid identify`, which knows neither person nor model.
+  bool known = false;  ///< False: a result of `myoid identify`, which has neither person nor model.
   std::string subject;
   std::optional<double> mass_kg;
   std::string sex;
@@ -32,7 +32,7 @@ struct IdentityDifferences {
   std::vector<std::string> grave;
   std::vector<std::string> other;  ///< Subject, mass, sex, muscles that only one has.
 };
-/// Sentences: "the model is arm4 here, wu.osim there". What is not known of one says nothing.
+/// Compares the facts that both state, in sentences: "the model is arm4 here, wu.osim there".
 [[nodiscard]] IdentityDifferences differences(const RunIdentity& here, const RunIdentity& there);
 
 }  // namespace myoid

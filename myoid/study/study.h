@@ -16,7 +16,7 @@
 
 namespace myoid {
 
-/// The use that a study makes of a trial.
+/// The purpose of a trial.
 enum class Use { calibration, validation, mvc, static_pose, passive, isometric };
 inline constexpr std::string_view kUseNames[] = {"calibration", "validation", "mvc",
                                                  "static",      "passive",    "isometric"};
@@ -55,7 +55,7 @@ struct ModelSpec {
   bool operator==(const ModelSpec&) const = default;
 };
 
-/// A load cell in something that the person holds.
+/// A load cell in an object that the person holds.
 struct LoadCellSpec {
   std::vector<std::string> channels;     ///< Six, in the order of the matrix's columns.
   std::filesystem::path calibration;     ///< Six rows of six numbers: N and N m for each volt.
@@ -118,8 +118,8 @@ struct EmgSpec {
   double lowpass_hz = 6.0;
   bool as_published = false;  ///< The uncorrected 6 Hz design of the source paper.
   double normalise_window_s = 0.5;
-  /// What the MVC trials reach of what the muscles could, and how widely people differ in it. 1 and
-  /// 0: F_max is the force at the greatest effort that was recorded.
+  /// Share of the muscles' full force that the MVC trials reach, and its standard deviation among
+  /// people. With 1 and 0, F_max is the force at the greatest recorded effort.
   double mvc_effort = 1.0, mvc_effort_sd = 0.0;
   bool has_mvc = true;  ///< False: no trial is a maximal contraction (set from the trials).
   std::optional<double> delay_s;  ///< Empty: estimated.
@@ -146,8 +146,8 @@ enum class SyncMatch {
 inline constexpr std::string_view kSyncMatchNames[] = {"rising", "falling", "shape"};
 constexpr ChoiceNames choice_names(SyncMatch) { return kSyncMatchNames; }
 
-/// How the clock of a trial's EMG, and of its loads, stands to that of the motion, which is the
-/// study's. In force where the EMG is in a file of its own. The delay of the body is no part of it.
+/// The clock of a trial's EMG and of its loads against the clock of the motion. It acts where the
+/// EMG is in a file of its own. The electromechanical delay is a parameter of the muscles instead.
 struct SyncSpec {
   std::optional<double> offset_s;  ///< Added to the times of the EMG.
   std::optional<double> offset_sd_s;
@@ -198,7 +198,7 @@ struct SharingSpec {
   bool operator==(const SharingSpec&) const = default;
 };
 
-/// What becomes of warm-up and fatigue.
+/// The search for warm-up and fatigue.
 struct PhasesSpec {
   bool search = true;
   std::vector<PhaseKind> exclude{PhaseKind::warm_up, PhaseKind::fatigued};  ///< Not fitted.
@@ -232,7 +232,7 @@ struct IdentifySpec {
   bool operator==(const IdentifySpec&) const = default;
 };
 
-/// What to do, as read from a study.toml. Paths are absolute or relative to the working directory,
+/// The settings of a study.toml. Paths are absolute or relative to the working directory,
 /// resolved against the file's own folder.
 struct Study {
   std::filesystem::path file;
@@ -261,8 +261,8 @@ struct Study {
 /// low-pass, so that torque and prediction hold the same band.
 [[nodiscard]] std::optional<double> motion_cutoff_hz(const Study& study);
 
-/// Keeps of every trial only what lies between these times [s] on its own clock. Throws
-/// InvalidInput if nothing is left of one, naming it.
+/// Restricts every trial to the time between `start_s` and `end_s` on its own clock. Throws
+/// InvalidInput where a trial has no such time, naming the trial.
 void restrict_trials(Study& study, std::optional<double> start_s, std::optional<double> end_s);
 
 }  // namespace myoid

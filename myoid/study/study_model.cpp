@@ -63,7 +63,7 @@ model::Arm4Options arm_options(const Study& study, const recording::MarkerSeries
   return options;
 }
 
-/// Pennation, passive force and tendon as a model's muscle has them.
+/// Pennation, passive force and tendon of a model's muscle.
 identification::MuscleExtras model_extras(const model::Muscle& muscle) {
   const model::MuscleProperties& p = muscle.properties;
   if (std::holds_alternative<model::SchutteCurves>(p.curves)) {
@@ -82,7 +82,7 @@ identification::MuscleExtras model_extras(const model::Muscle& muscle) {
           .tendon_strain = unit.tendon_strain};
 }
 
-/// The model as the study wants it, after its names have been compared with the study's.
+/// Applies the study's settings to the model, after a check that the study's names are in it.
 model::BodyModel prepared(const Study& study, model::BodyModel model) {
   const auto coordinate = [&](std::string_view key, const std::string& name) -> model::Coordinate& {
     try {
@@ -206,7 +206,7 @@ std::vector<identification::MuscleSetup> muscle_setups(const Study& study,
       setup.start.*muscle::hill_field(name).member = value;
     setup.fixed = spec.fixed;
     setup.priors = identification::literature_priors(setup.start);
-    // A length that the study states is a measured one.
+    // The study states measured lengths.
     if (spec.start.contains("tendon_slack_length")) setup.priors.erase("tendon_slack_length");
     muscle::validate(setup.start);
     setups.push_back(std::move(setup));
@@ -245,7 +245,7 @@ std::string identified_model(const Study& study,
       }
       // The shapes are Thelen's; other classes have curves of their own.
       if (!old.class_name.starts_with("Thelen2003Muscle")) continue;
-      // (l_sh / l0)^2 is as sure as both.
+      // (l_sh / l0)^2 needs both to be identified.
       if (changed("force_length_width") && changed("optimal_fiber_length")) {
         const double ratio =
             muscle.identified.force_length_width_m / muscle.identified.optimal_fiber_length_m;

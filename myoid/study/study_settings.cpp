@@ -130,8 +130,10 @@ void visit(MarkerSpec& markers, SettingVisitor& v) {
                      .limits = zero_or_more(),
                      .otherwise = "1 each"});
   v.flag("undo_swaps", markers.undo_swaps, {.says = "Exchanged labels are exchanged back."});
-  v.flag("fill_gaps", markers.fill_gaps,
-         {.says = "[Gaps are filled](check.md#what-is-mended) where something is known."});
+  v.flag(
+      "fill_gaps", markers.fill_gaps,
+      {.says =
+           "[Gaps are filled](check.md#what-is-mended) where neighbors or the segment show them."});
 }
 
 void visit(CalibrationSpec& calibrate, SettingVisitor& v) {
@@ -189,7 +191,7 @@ void visit(EmgSpec& emg, SettingVisitor& v) {
       "normalise_window_s", emg.normalise_window_s,
       {.says = "Length of the moving mean that counts as 1.", .limits = within(0.01, 60.0, "s")});
   v.number("mvc_effort", emg.mvc_effort,
-           {.says = "Share of what the muscles could exert that the `mvc` trials reach, e.g. 0.9; "
+           {.says = "Share of the muscles' full force that the `mvc` trials reach, e.g. 0.9; "
                     "see [below](#what-f_max-means).",
             .limits = within(0.3, 1.0)});
   v.number("mvc_effort_sd", emg.mvc_effort_sd,
@@ -213,7 +215,7 @@ void visit(LoadCellSpec& cell, SettingVisitor& v) {
                   "volt.",
           .required = "the file of the 6 x 6 matrix [N/V] and [N m/V]"});
   v.number("sign", cell.sign,
-           {.says = "`-1` where the cell measures the opposite of what the body feels.",
+           {.says = "`-1` where the cell measures the opposite of the load on the body.",
             .limits = within(-1.0, 1.0)});
   v.must(cell.sign == 1.0 || cell.sign == -1.0, "sign", "expected 1 or -1");
   v.numbers("zero_s", cell.zero_s,
@@ -270,12 +272,12 @@ void visit_fit(IdentifySpec& identify, SettingVisitor& v) {
                   "until nothing changes. The end is reported: `converged`, `diverged` (a gate "
                   "fails) or `not_settled`."});
   v.flag("priors", identify.priors,
-         {.says = "[What is known of people](../theory/priors.md) is used."});
+         {.says = "The [priors](../theory/priors.md) from the literature are used."});
   v.flag("gain", identify.gain,
          {.says = "The uncertainty of the EMG's normalization widens the intervals."});
   v.count("starts", identify.starts,
           {.says = "Above 1: the search begins at the literature's values and at Sobol points over "
-                   "± 2 standard deviations of what is known of people, and the lowest minimum "
+                   "± 2 standard deviations of the priors, and the lowest minimum "
                    "counts (`paper`: still that of the first, as published). A table of where they "
                    "ended goes to the report and parameters.json (`searches`).",
            .limits = within(1, 1000)});
@@ -325,8 +327,8 @@ void visit_data(IdentifySpec& identify, SettingVisitor& v) {
            {.says = "The part that is left out: a trial; all trials of one `condition`; `block`: a "
                     "fifth of every trial with half a second on either side."});
   v.count("next_movements", identify.next_movements,
-          {.says = "Movements to suggest for the [next recording](design.md), from what this one "
-                   "tells; 0: none.",
+          {.says = "Movements to suggest for the [next recording](design.md), from this one's "
+                   "result; 0: none.",
            .limits = within(0, 50)});
   v.count("bootstrap", identify.bootstrap,
           {.says = "Replicates, blocks of 2 s within trials: the second route to intervals; 0: "

@@ -28,10 +28,11 @@ void visit(SyncSpec& sync, SettingVisitor& v) {
        .limits = kDrift});
   v.text(
       "emg_trigger", sync.emg_trigger,
-      {.says = "What the EMG's recording saw of the same instants, or of the same signal, as the "
-               "motion's: a channel, or the label of events (C3D, EDF+). Offset and drift follow "
-               "from the two, with their errors, by as many edges as there are; edges that one "
-               "recording missed are found by the intervals of the others."});
+      {.says =
+           "Record of the same instants, or of the same signal, in the EMG's recording as in "
+           "the motion's: a channel, or the label of events (C3D, EDF+). Offset and drift follow "
+           "from the two, with their errors, by as many edges as there are; edges that one "
+           "recording missed are found by the intervals of the others."});
   v.text(
       "motion_trigger", sync.motion_trigger,
       {.says = "The same of the motion's recording: a channel, `NAME.x`, `.y`, `.z` of a marker, "
@@ -53,7 +54,7 @@ void visit(SyncSpec& sync, SettingVisitor& v) {
            {.says = "How much too slowly the clock of that file counts.", .limits = kDrift});
   const bool emg = !sync.emg_trigger.empty(), motion = !sync.motion_trigger.empty();
   v.must(emg == motion, emg ? "motion_trigger" : "emg_trigger",
-         "give both emg_trigger and motion_trigger: what each recording saw of the same instants");
+         "give both emg_trigger and motion_trigger: the record of the same instants in each file");
   const bool by_number = sync.offset_s || sync.estimate || sync.drift_ppm != 0.0;
   v.must(!(emg && motion && by_number), sync.drift_ppm != 0.0 ? "drift_ppm" : "offset_s",
          "the triggers tell offset and drift; give one or the other");
@@ -107,11 +108,13 @@ void visit_files(TrialSpec& trial, SettingVisitor& v) {
          {.says = "`.c3d` (may be that of the markers), `.edf`, `.bdf`, `.anc`, `.csv`, `.tsv`, "
                   "`.txt`, `.sto`, `.mot`.",
           .otherwise = "required, but for `static` and `passive`"});
-  v.path("external_torque", trial.external_torque,
-         {.says = "File with `<coordinate>_moment` [N m], where a dynamometer took part: what the "
-                  "surroundings exert on the body, positive in the coordinate's direction. The "
-                  "muscles provide inverse dynamics minus it. A coordinate without a column is "
-                  "acted on by nothing."});
+  v.path(
+      "external_torque", trial.external_torque,
+      {.says =
+           "File with `<coordinate>_moment` [N m], where a dynamometer took part: the torque "
+           "that the surroundings exert on the body, positive in the coordinate's direction. The "
+           "muscles provide inverse dynamics minus it. A coordinate without a column is "
+           "acted on by nothing."});
   v.path("external_loads", trial.external_loads,
          {.says = "Measured forces on bodies: OpenSim's ExternalLoads file (`.xml`), as "
                   "[`convert`](convert.md) writes it for force plates."});
@@ -132,8 +135,8 @@ void visit_use(TrialSpec& trial, SettingVisitor& v) {
   v.choice(
       "use", trial.use,
       {.says = "`calibration` and `isometric` are fitted; `validation` is only predicted; "
-               "`mvc` sets activation 1; `passive`, with the torque of a dynamometer: what the "
-               "joint does by itself, with the weight of limb and instrument, taken off "
+               "`mvc` sets activation 1; `passive`, with the torque of a dynamometer: the joint's "
+               "resting torque with the weight of limb and instrument, subtracted "
                "everywhere else (EMG, where given, must stay below 2 % of the maximal "
                "contraction); `static` is computed up to the torque."});
   v.must(trial.use == Use::mvc || trial.markers || trial.motion, "name",
