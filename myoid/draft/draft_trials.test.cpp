@@ -31,7 +31,10 @@ TEST(DraftTrials, MotionAndEmgOfOneNameAreATrialAndEmgCalledSoIsAMaximalContract
                                     found("mvc_emg.csv", false, true)};
   DraftText out;
   draft_trials(
-      files, {}, [](const std::filesystem::path& path) { return "in/" + path.string(); }, true,
+      files,
+      {.external_loads = {},
+       .own_model = true,
+       .relative = [](const std::filesystem::path& path) { return "in/" + path.string(); }},
       out);
   EXPECT_THAT(out.toml,
               HasSubstr("motion = \"in/flex_2p5kg.mot\"\nemg = \"in/flex_2p5kg_emg.csv\"\n"
@@ -46,9 +49,11 @@ TEST(DraftTrials, EmgOfSomeMovementIsNotTakenForAMaximum) {
   std::vector<FoundRecording> files{found("ik_walk.mot", true, false),
                                     found("run_emg.csv", false, true)};
   DraftText out;
-  draft_trials(
-      files, {"in/grf_walk.xml", "in/grf_run.xml"},
-      [](const std::filesystem::path& path) { return path.string(); }, true, out);
+  draft_trials(files,
+               {.external_loads = {"in/grf_walk.xml", "in/grf_run.xml"},
+                .own_model = true,
+                .relative = [](const std::filesystem::path& path) { return path.string(); }},
+               out);
   EXPECT_THAT(out.toml, Not(HasSubstr("\nuse = \"mvc\"")));
   EXPECT_THAT(out.toml, HasSubstr("# emg = \"run_emg.csv\"\n# use = \"mvc\""));
   EXPECT_THAT(out.toml, HasSubstr("external_loads = \"in/grf_walk.xml\""));
