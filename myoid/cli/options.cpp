@@ -67,7 +67,7 @@ bool OptionDeclarer::met(const Setting& setting, const SettingValue& now, const 
   option->required(!setting.about.required.empty());
   option->type_name(type_of(setting));
   if (setting.kind == SettingKind::texts)
-    option->expected(1, CLI::detail::expected_max_vector_size);
+    option->expected(1, CLI::detail::expected_max_vector_size)->allow_extra_args();
   if (is_number(setting) || !setting.about.words.empty()) option->check(check_of(setting));
   return false;
 }

@@ -105,14 +105,14 @@ void visit_files(IdentifyOptions& o, SettingVisitor& v) {
            .otherwise = "by the quintic spline through the lengths: for lengths without noise"});
   v.texts("forces", o.files.forces,
           {.says = "Muscle forces [N], in columns named by muscle.",
-           .otherwise = "needed by `paper` and `force`"});
+           .otherwise = "none; `paper` and `force` need them"});
   v.texts("moment-arms", o.files.moment_arms,
           {.says = "Moment arms r = −dl/dq [m], in columns named by muscle; a file for each "
                    "coordinate of each trial.",
-           .otherwise = "needed by `torque`"});
+           .otherwise = "none; `torque` needs them"});
   v.texts("torques", o.files.torques,
           {.says = "The joint torque that the muscles provide together [N m].",
-           .otherwise = "needed by `torque`"});
+           .otherwise = "none; `torque` needs them"});
   v.texts("coordinate", o.files.coordinates,
           {.says = "Columns of the torque file, with or without `_moment`. Several joints are "
                    "fitted at once: `--moment-arms` then has the first trial's files in this "
