@@ -203,8 +203,8 @@ void visit(IdentifyOptions& o, SettingVisitor& v) {
 
 void check_values(const IdentifyOptions& options) {
   IdentifyOptions checked = options;
-  ValueCheck check;
-  visit(checked, check);
+  ValueCheck checker;
+  visit(checked, checker);
 }
 
 void refuse_impossible(const IdentifyOptions& o, const MuscleTable& table) {
