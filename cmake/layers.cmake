@@ -42,7 +42,7 @@ set(MYOID_LAYER_identify_files core math files muscle tables recording signals d
 set(MYOID_LAYER_opensim_tools core math files tables recording signals model osim kinematics
     dynamics forces simulation)
 set(MYOID_LAYER_twin core math files muscle tables c3d model osim arm simulation identification
-    intervals run)
+    intervals study run)
 set(MYOID_LAYER_commands core files muscle tables c3d recording signals model osim arm kinematics
     dynamics forces simulation identification intervals methods report study checks design run scene
     results draft contents identify_files opensim_tools twin)
