@@ -16,13 +16,13 @@ struct Actuator {
   double lower = 0.0, upper = 1.0;  ///< Of its control.
 };
 
-/// All of them, in the order of the file's force set.
+/// All actuators of a model, in the order of the file's force set.
 [[nodiscard]] std::vector<Actuator> actuators_of(const model::BodyModel& model);
 
 /// Force at control 1: a muscle's greatest isometric force, an actuator's optimal force.
 [[nodiscard]] double actuator_strength(const model::BodyModel& model, const Actuator& actuator);
 
-/// What actuators exert at a posture; one per thread. `compute_poses` (for path().speed_mps also
+/// The forces of actuators at a posture; one per thread. `compute_poses` (for path().speed_mps also
 /// `compute_velocities`) must have been called on the states given.
 class ActuatorColumns {
  public:
@@ -34,7 +34,7 @@ class ActuatorColumns {
                                                      const model::BodyState& state);
   /// The path of the last muscle or path actuator.
   [[nodiscard]] const model::PathResult& path() const { return path_; }
-  /// Adds what it exerts on bodies at this force; a force along a coordinate acts on none. Paths
+  /// Adds its wrenches on bodies at this force; a force along a coordinate acts on none. Paths
   /// pull along their straight pieces, at their points and where they leave wrap objects.
   void append_wrenches(const Actuator& actuator,
                        double force,

@@ -4,7 +4,7 @@
 
 namespace myoid::forces {
 
-/// Which controls x of given actuators make given generalized forces?
+/// The controls x of given actuators that make given generalized forces.
 ///
 ///   minimize  sum_i |x_i|^p   subject to  A x = b,   lower <= x <= upper
 ///

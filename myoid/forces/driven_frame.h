@@ -10,11 +10,11 @@
 
 namespace myoid::forces {
 
-/// What acts on a model and how it accelerates, at one instant.
+/// The wrenches on a model and its accelerations, at one instant.
 struct DrivenState {
   Eigen::VectorXd q;      ///< Meets the constraints.
   Eigen::VectorXd qddot;  ///< By forward dynamics, the constraints kept.
-  /// All wrenches on bodies besides gravity and what joints transmit: external loads, passive
+  /// All wrenches on bodies besides gravity and the loads of joints: external loads, passive
   /// forces, actuators, and constraints that close loops.
   std::vector<model::BodyWrench> wrenches;
 };

@@ -12,7 +12,7 @@
 
 namespace myoid::forces {
 
-/// One instant: which forces make the torques?
+/// The sharing of the torques of one instant among muscles.
 ///
 ///   minimize  sum_i w_i |x_i|^p + W sum_i (x_i - e_i)^2 + sum_k |y_k|^p
 ///   subject to  sum_i r_ki F_i^opt x_i + T_k y_k = tau_k,   lower <= x <= upper,   y free

@@ -13,7 +13,7 @@ namespace myoid::forces {
 
 struct MuscleAnalysisOptions {
   std::vector<int> muscles{};      ///< Indices in the model; empty: all.
-  std::vector<int> coordinates{};  ///< Those whose moment arms and moments are wanted.
+  std::vector<int> coordinates{};  ///< Coordinates of the moment arms and moments.
   /// Fiber and tendon in balance in every frame; else fibers have `fiber_length_m`.
   bool equilibrium = true;
   /// Frames x all muscles of the model; empty: the model's default values.
@@ -29,8 +29,8 @@ struct MuscleAnalysis {
   std::vector<std::string> notes;
 };
 
-/// What OpenSim's MuscleAnalysis reports of muscles along a motion [m, m/s, rad, rad/s, N, N m, W;
-/// fractions of the optimal length and of v_max]. Positive powers do work on what is outside: fiber
+/// The tables of OpenSim's MuscleAnalysis along a motion [m, m/s, rad, rad/s, N, N m, W;
+/// fractions of the optimal length and of v_max]. Positive powers do work on the outside: fiber
 /// -F v, tendon -F v, muscle -F dl/dt. Moment arms as in kinematics::MuscleKinematics; a moment is
 /// arm times tendon force. Dependent coordinates are first made to obey their constraints. Parallel
 /// over frames; the same for every number of threads.

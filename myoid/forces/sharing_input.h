@@ -14,7 +14,7 @@
 
 namespace myoid::forces {
 
-/// What force sharing needs of a motion, on its clock (force_sharing.h).
+/// The input of force sharing along a motion, on its clock (force_sharing.h).
 struct SharingInput {
   std::vector<TimeSeries> moment_arms;  ///< One for each channel of `torques` [m].
   TimeSeries torques;                   ///< [N m, N]
@@ -22,7 +22,7 @@ struct SharingInput {
   Eigen::VectorXd max_isometric_force_n;
   double min_activation = 0.0;  ///< The least control that a muscle of the model allows.
   kinematics::MuscleKinematics muscles;
-  std::vector<std::string> notes;  ///< What a user must know, a sentence each.
+  std::vector<std::string> notes;  ///< Remarks to the user, a sentence each.
 };
 
 /// Torques of inverse dynamics (passive forces of the model and `loads`, if any, counted), moment

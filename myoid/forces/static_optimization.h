@@ -14,8 +14,8 @@ namespace myoid::forces {
 
 struct ActuatorProblem;
 struct ActuatorSolution;
-/// What is given to whoever wants to see the problem of a frame and its solution
-/// (actuator_sharing.h): for checks. Called from any thread, frames in any order.
+/// Sees the problem of a frame and its solution (actuator_sharing.h), for checks.
+/// Called from any thread, frames in any order.
 using InspectFrame =
     std::function<void(Eigen::Index frame, const ActuatorProblem&, const ActuatorSolution&)>;
 

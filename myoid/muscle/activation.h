@@ -13,7 +13,7 @@ enum class ActivationLaw {
   envelope,   ///< a = u: the envelope is the activation, as in the source paper's experiment.
   two_lags,   ///< u -> e -> a, the source paper's equation (1).
   thelen,     ///< One lag whose time depends on a: Thelen (2003).
-  de_groote,  ///< The same, smooth in u - a: De Groote et al. (2016).
+  de_groote,  ///< Thelen's, smooth in u - a: De Groote et al. (2016).
   recursive,  ///< Two lags, rising and falling alike: the recursive filter of Buchanan et al.
               ///< (2004).
 };
@@ -32,7 +32,7 @@ struct ActivationDynamics {
 /// Throws InvalidInput unless all times and the steepness are positive and finite.
 void validate(const ActivationDynamics<double>& dynamics);
 
-/// e and a; laws of one state leave e as it is.
+/// The states e and a; a law of one state does not change e.
 template <typename T = double>
 struct ActivationPoint {
   T filtered_excitation{};  ///< e

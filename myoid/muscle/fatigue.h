@@ -29,8 +29,8 @@ struct FatigueState {
 /// and relaxation positive.
 void validate(const FatigueRates<double>& rates);
 
-/// What the central drive moves between resting and active [1/s] under a target load in 0..1 of the
-/// fresh muscle's strength:
+/// The central drive's flow from resting to active [1/s] under a target load in 0..1 of the fresh
+/// muscle's strength:
 ///   C = LD min(target - M_A, M_R) below the target, LR (target - M_A) above.
 template <typename T>
 [[nodiscard]] T fatigue_drive(const FatigueRates<T>& rates,

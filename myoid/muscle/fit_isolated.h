@@ -20,7 +20,7 @@ struct IsolatedRecording {
   Eigen::VectorXd time_s, force_n;  ///< Measured force of the tendon; within the input's times.
 };
 
-/// All that a unit is made of.
+/// Parameters, laws and curves of a unit.
 struct IsolatedModel {
   MusculotendonParameters<double> parameters;
   MusculotendonLaws laws;

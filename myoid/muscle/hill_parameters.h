@@ -8,8 +8,8 @@
 
 namespace myoid::muscle {
 
-/// The numbers of one muscle: what the source paper identifies, and what it takes from the
-/// literature.
+/// The parameters of one muscle in the source paper, which identifies some of them and takes the
+/// others from the literature.
 template <typename T = double>
 struct HillParameters {
   T max_isometric_force_n{};        ///< F_max [N]
@@ -41,7 +41,7 @@ struct HillField {
   std::string_view symbol;
   Unit unit;
   double HillParameters<double>::*member;
-  Range bounds;  ///< Outside, no muscle lives.
+  Range bounds;  ///< Physical: no muscle lies outside.
 };
 
 inline constexpr std::array kHillFields = {

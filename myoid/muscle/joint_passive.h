@@ -6,8 +6,8 @@
 
 namespace myoid::muscle {
 
-/// What a relaxed joint does by itself: a spring, a dashpot, and ligaments as exponential stops at
-/// both ends of the range.
+/// A relaxed joint: a spring, a dashpot, and ligaments as exponential stops at both ends of the
+/// range.
 ///
 ///   T(q, qdot) = -k (q - q0) - b qdot + t_low exp(-(q - q_low) / w_low)
 ///                - t_high exp((q - q_high) / w_high)
@@ -18,7 +18,7 @@ struct JointPassive {
   T stiffness_nm_per_rad{};         ///< k
   T neutral_rad{};                  ///< q0
   T viscosity_nms_per_rad{};        ///< b; the source paper's B_l
-  T lower_stop_torque_nm{};         ///< t_low: what the stop pushes at q_low
+  T lower_stop_torque_nm{};         ///< t_low: the push of the stop at q_low
   T lower_stop_rad{};               ///< q_low
   T lower_stop_width_rad{T(0.05)};  ///< w_low: the angle over which the push grows e-fold
   T upper_stop_torque_nm{};         ///< t_high

@@ -7,7 +7,7 @@
 
 namespace myoid::muscle {
 
-/// A muscle of the elbow as the literature has it, heads lumped into one.
+/// A muscle of the elbow in the literature, its heads lumped into one.
 struct LiteratureMuscle {
   std::string_view name;
   double max_isometric_force_n = 0.0;
@@ -24,7 +24,7 @@ inline constexpr std::array<LiteratureMuscle, 4> kElbowMuscles = {
      {"BRD", 261.33, 0.1726, 0.1330, 0.0},
      {"TRI", 2047.12, 0.1217, 0.1134, 0.1775}}};
 
-/// What is taken for every muscle of which nothing better is known.
+/// The values for a muscle of which nothing better is known.
 inline constexpr double kLiteratureWidth = 0.45;      ///< l_sh / l0
 inline constexpr double kLiteratureCurvature = 0.28;  ///< V_sh
 inline constexpr double kLiteraturePlateau = 1.4;     ///< V_ml
@@ -32,10 +32,10 @@ inline constexpr double kLiteratureSlopeRatio =
     1.5;  ///< S: slopes of f_v at rest, eccentric over concentric
 inline constexpr double kLiteratureSpeed = 10.0;  ///< v_max / l0 [1/s]
 
-/// l_sh over l0 that a muscle can have. A sarcomere makes half of its greatest force between about
-/// 0.65 and 1.3 of its optimal length (Gordon, Huxley and Julian 1966), which is a Gaussian of 0.35
-/// to 0.4, and fibers of unequal length only widen their sum; half of it is no muscle's. Models in
-/// use go up to 0.71 (Thelen's gamma of 0.5).
+/// The range of l_sh / l0 in muscles. A sarcomere makes half of its greatest force between about
+/// 0.65 and 1.3 of its optimal length (Gordon, Huxley and Julian 1966), a Gaussian of 0.35 to
+/// 0.4. Fibers of unequal length only widen their sum, so no muscle has half of this width. Models
+/// in use go up to 0.71 (Thelen's gamma of 0.5).
 inline constexpr Range kRelativeWidths{0.2, 1.0};
 
 /// The numbers above for one muscle: l_sh = 0.45 l0, V_sh = 0.28, V_ml = 1.4, S = 1.5, v_max = 10

@@ -4,7 +4,7 @@
 
 namespace myoid::muscle {
 
-/// What shapes the curves of Millard, Uchida, Seth & Delp (2013), J Biomech Eng 135:021005.
+/// Shape of the curves of Millard, Uchida, Seth & Delp (2013), J Biomech Eng 135:021005.
 /// Defaults are those of OpenSim's curves of these names. Lengths in optimal fiber lengths,
 /// velocities in v_max, forces in F_max.
 struct MillardShape {
@@ -31,7 +31,7 @@ struct MillardShape {
   double tendon_curviness = 0.5;
 };
 
-/// The four curves. They are numbers: their shape has no derivatives, but their arguments have.
+/// The four curves. Derivatives pass through their arguments, not through their shape.
 class MillardCurves {
  public:
   /// Throws InvalidInput if the shape makes no curve.

@@ -8,7 +8,7 @@
 
 namespace myoid::muscle {
 
-/// What stands between fiber and bone.
+/// The tendon between fiber and bone, and the states of the unit.
 enum class TendonMode {
   rigid,        ///< No state: the fiber follows the path.
   equilibrium,  ///< State l_m: massless, fiber and tendon pull alike at every instant.
@@ -86,9 +86,9 @@ template <typename T>
   return result;
 }
 
-/// What a muscle of this strength and length weighs [kg]: density 1060 kg/m^3, F_max / (0.5 MPa) of
-/// cross-section, l0 long. All of it moving as one with the node; a uniform bar held at its origin
-/// has a third of it there.
+/// Mass of a muscle of this strength and length [kg]: density 1060 kg/m^3, cross-section F_max /
+/// (0.5 MPa), length l0. The whole mass moves with the node; of a uniform bar held at its origin
+/// the node would have a third.
 [[nodiscard]] inline double muscle_mass_kg(double max_isometric_force_n,
                                            double optimal_fiber_length_m) {
   return 1060.0 * max_isometric_force_n / 0.5e6 * optimal_fiber_length_m;
@@ -101,7 +101,7 @@ template <typename T>
 [[nodiscard]] MusculotendonLaws de_groote_laws(TendonMode mode = TendonMode::equilibrium);
 [[nodiscard]] MusculotendonLaws millard_laws(TendonMode mode = TendonMode::equilibrium);
 
-/// The Hill parameters with what the publication of these laws takes for the rest: tendon strain
+/// The Hill parameters, and for the rest the values in the publication of these laws: tendon strain
 /// 0.033 (linear), 0.04 (Thelen), 0.049 (De Groote, Millard); passive strain 0.6 and shape 5
 /// (Thelen) or 4; damping 0.1; the mass of `muscle_mass_kg`; no pennation, no shift of the optimum.
 [[nodiscard]] MusculotendonParameters<double> published_defaults(const HillParameters<double>& hill,
