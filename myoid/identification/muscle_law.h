@@ -71,8 +71,8 @@ struct Tension {
 /// pennation) the tension is 0.
 ///
 /// This is the only law with derivatives written by hand. It costs a ninth of muscle::hill_force
-/// with Jets (`plain_tension`) and, with an elastic tendon, a hundredth of muscle::equilibrium_state
-/// with Jets; a test compares it with both.
+/// with Jets (`plain_tension`) and, with an elastic tendon, a hundredth of
+/// muscle::equilibrium_state with Jets; a test compares it with both.
 [[nodiscard]] Tension tension(double activation,
                               double length_m,
                               double velocity_mps,
