@@ -36,7 +36,7 @@ set(MYOID_LAYER_scene core files recording model osim report)
 set(MYOID_LAYER_results core math files muscle tables model kinematics forces simulation
     identification intervals methods report phases study design run scene)
 set(MYOID_LAYER_draft core files tables recording model osim arm kinematics study)
-set(MYOID_LAYER_contents core tables c3d recording model)
+set(MYOID_LAYER_contents core files tables c3d recording model)
 set(MYOID_LAYER_identify_files core math files muscle tables recording signals dynamics
     identification methods checks)
 set(MYOID_LAYER_opensim_tools core math files tables recording signals model osim kinematics

@@ -12,6 +12,7 @@
 #include "myoid/checks/study_plausibility.h"
 #include "myoid/checks/unloaded_times.h"
 #include "myoid/core/error.h"
+#include "myoid/files/file_format.h"
 #include "myoid/files/label_match.h"
 #include "myoid/files/text_file.h"
 #include "myoid/intake/read_trial.h"
@@ -230,8 +231,7 @@ std::optional<TimeSeries> voltages(const std::filesystem::path& path,
   }
   if (!named_emg.empty()) return analog.select(named_emg);
   if (!names.empty()) return analog.select(names);
-  const std::string extension = recording::extension_of(path);
-  if (extension != ".sto" && extension != ".mot") return std::nullopt;
+  if (recording::format_of(path) != recording::FileFormat::storage) return std::nullopt;
   if (!recording::stated_voltage(recording::read_storage(path))) return std::nullopt;
   return recording::read_emg(path, "", false).data;
 }

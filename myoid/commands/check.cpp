@@ -3,15 +3,15 @@
 #include <algorithm>
 
 #include "myoid/checks/check_study.h"
+#include "myoid/files/file_format.h"
 #include "myoid/recording/laboratory_up.h"
-#include "myoid/recording/recording.h"
 #include "myoid/study/read_study.h"
 
 namespace myoid::commands {
 
 CheckResult check(const CheckOptions& o) {
   CheckResult result;
-  result.of_study = recording::extension_of(o.input) == ".toml";
+  result.of_study = recording::format_of(o.input) == recording::FileFormat::toml;
   if (result.of_study) {
     Study study = read_study(o.input);
     restrict_trials(study, o.call.start_s, o.call.end_s);

@@ -13,6 +13,7 @@
 #include "myoid/commands/stage_input.h"
 #include "myoid/core/error.h"
 #include "myoid/files/atomic_file.h"
+#include "myoid/files/file_format.h"
 #include "myoid/recording/bids_derivative.h"
 #include "myoid/recording/channel_choice.h"
 #include "myoid/recording/channel_writer.h"
@@ -30,6 +31,7 @@ namespace myoid::commands {
 namespace {
 
 namespace fs = std::filesystem;
+using recording::FileFormat;
 
 class Converter {
  public:
@@ -41,7 +43,6 @@ class Converter {
   /// Writes the files and returns their names.
   std::vector<std::string> run() {
     const fs::path out = o_.out;
-    const std::string from = recording::extension_of(o_.in);
     const std::string to = recording::extension_of(out);
     const bool folder = to.empty();
     if (makes_derivative(o_)) {
@@ -49,17 +50,17 @@ class Converter {
         wrote(file);
       return std::move(written_);
     }
-    if (!folder && to != ".trc" && to != ".sto" && to != ".mot" && to != ".csv" && to != ".c3d")
+    if (!folder && !recording::is_written_ending(to))
       throw InvalidInput(
-          fmt::format("{}: files of kind '{}' are not written; expected .c3d, .trc, .sto, .mot, "
-                      ".csv or a folder",
-                      o_.out, to));
+          fmt::format("{}: files of kind '{}' are not written; expected {}, or a folder", o_.out,
+                      to, recording::written_endings_text()));
+    const auto format = recording::format_of(out);
     if (folder) {
       everything(out);
-    } else if (to == ".c3d") {
-      to_c3d(out, from);
-    } else if (to == ".trc" || o_.what == "markers") {
-      if (to != ".trc") throw InvalidInput("markers are written as .trc or .c3d");
+    } else if (format == FileFormat::c3d) {
+      to_c3d(out);
+    } else if (format == FileFormat::trc || o_.what == "markers") {
+      if (format != FileFormat::trc) throw InvalidInput("markers are written as .trc or .c3d");
       markers(out);
     } else if (o_.what == "plates") {
       recording::Recording file = recording::read_recording(o_.in);
@@ -299,9 +300,9 @@ class Converter {
     write(folder / (stem + "_emg.sto"), recording::rows_of(series, volts));
   }
 
-  void to_c3d(const fs::path& out, const std::string& from) {
+  void to_c3d(const fs::path& out) {
     claim(out);
-    if (from == ".c3d") {
+    if (recording::format_of(o_.in) == FileFormat::c3d) {
       if (!R_.isIdentity(0.0) || o_.call.start_s || o_.call.end_s || o_.rate_hz > 0.0)
         throw InvalidInput(
             "a C3D file is rewritten as it is; convert it to .trc to turn, cut or resample it");
@@ -343,7 +344,7 @@ class Converter {
 /// The options with the kind of content that the endings of the names imply.
 ConvertOptions with_kind(ConvertOptions o) {
   if (o.what.empty() && recording::extension_of(o.out) == ".mot" &&
-      recording::extension_of(o.in) == ".c3d")
+      recording::format_of(o.in) == FileFormat::c3d)
     o.what = "plates";
   return o;
 }
@@ -353,14 +354,11 @@ ConvertOptions with_kind(ConvertOptions o) {
 bool makes_derivative(const ConvertOptions& o) {
   std::error_code ignored;
   if (!fs::is_directory(o.in, ignored)) return false;
-  const std::string to = recording::extension_of(o.out);
-  for (const char* ending : {".c3d", ".trc", ".sto", ".mot", ".csv", ".tsv", ".edf", ".bdf"}) {
-    if (to == ending)
-      throw InvalidInput(fmt::format(
-          "{} is a folder; the results in it are written as a BIDS derivative, which is a "
-          "folder too: give one as OUT instead of {}",
-          o.in, o.out));
-  }
+  if (const auto to = recording::format_of(o.out); to && recording::is_recording(*to))
+    throw InvalidInput(
+        fmt::format("{} is a folder; the results in it are written as a BIDS derivative, which is "
+                    "a folder too: give one as OUT instead of {}",
+                    o.in, o.out));
   return true;
 }
 

@@ -9,6 +9,7 @@
 
 #include "myoid/core/error.h"
 #include "myoid/core/units.h"
+#include "myoid/files/file_format.h"
 #include "myoid/recording/plate_standing.h"
 
 namespace myoid::commands {
@@ -45,8 +46,7 @@ void without_blanks(recording::MarkerSeries& markers, std::vector<recording::Rep
 }
 
 bool is_storage(const std::string& file) {
-  const std::string extension = recording::extension_of(file);
-  return extension == ".sto" || extension == ".mot";
+  return recording::format_of(file) == recording::FileFormat::storage;
 }
 
 std::vector<std::string> other_clocks(const recording::Recording& file) {

@@ -8,9 +8,9 @@
 #include "myoid/arm/arm4.h"
 #include "myoid/contents/recording_contents.h"
 #include "myoid/core/error.h"
+#include "myoid/files/file_format.h"
 #include "myoid/files/text_file.h"
 #include "myoid/osim/osim_reader.h"
-#include "myoid/recording/recording.h"
 #include "myoid/study/read_study.h"
 
 namespace myoid::commands {
@@ -46,21 +46,23 @@ ordered_json contents_of_model(const InfoOptions& o) {
 ordered_json contents_of(const InfoOptions& o) {
   if (auto contents = recording_contents(o.file)) return *std::move(contents);
   if (is_model(o.file)) return contents_of_model(o);
-  const std::string extension = recording::extension_of(o.file);
-  if (extension == ".toml") return study_contents(o.file);
+  const auto format = recording::format_of(o.file);
+  if (format == recording::FileFormat::toml) return study_contents(o.file);
   (void)recording::read_text_file(o.file);  // a missing or empty file is told as such
   throw ReadError(
       o.file, 0,
-      fmt::format(
-          "files of kind '{}' are not known; known are .c3d, .trc, .mot, .sto, .csv, .tsv, .txt, "
-          ".edf, .bdf, .anc, .osim and .toml",
-          extension));
+      fmt::format("files of kind '{}' are not known; known are {}", recording::extension_of(o.file),
+                  recording::endings_text([](const recording::FormatEntry& entry) {
+                    return recording::is_recording(entry.format) ||
+                           entry.format == recording::FileFormat::model ||
+                           entry.format == recording::FileFormat::toml;
+                  })));
 }
 
 }  // namespace
 
 bool is_model(const std::string& file) {
-  return recording::extension_of(file) == ".osim" ||
+  return recording::format_of(file) == recording::FileFormat::model ||
          (file == "arm4" && !std::filesystem::exists(file));
 }
 

@@ -13,6 +13,7 @@
 #include "myoid/c3d/c3d_signals.h"
 #include "myoid/core/clock_facts.h"
 #include "myoid/core/error.h"
+#include "myoid/files/file_format.h"
 #include "myoid/recording/c3d_survey.h"
 #include "myoid/recording/emg_reader.h"
 #include "myoid/recording/laboratory_up.h"
@@ -25,6 +26,7 @@
 namespace myoid {
 
 using nlohmann::ordered_json;
+using recording::FileFormat;
 
 namespace {
 
@@ -248,14 +250,30 @@ ordered_json csv_json(const std::filesystem::path& path) {
 }  // namespace
 
 std::optional<ordered_json> recording_contents(const std::filesystem::path& path) {
-  const std::string extension = recording::extension_of(path);
-  if (extension == ".trc") return trc_json(path);
-  if (extension == ".mot" || extension == ".sto") return storage_json(path);
-  if (extension == ".csv" || extension == ".tsv" || extension == ".txt" || extension == ".emt")
-    return csv_json(path);
-  if (extension == ".c3d") return c3d_json(path);
-  if (extension == ".edf" || extension == ".bdf") return recording_json(path, "EMG (.edf, .bdf)");
-  if (extension == ".anc") return recording_json(path, "analog channels (.anc)");
+  const auto format = recording::format_of(path);
+  if (!format) return std::nullopt;
+  switch (*format) {
+    case FileFormat::c3d:
+      return c3d_json(path);
+    case FileFormat::trc:
+      return trc_json(path);
+    case FileFormat::storage:
+      return storage_json(path);
+    case FileFormat::text_table:
+    case FileFormat::bids_motion:
+      return csv_json(path);
+    case FileFormat::edf:
+      return recording_json(path, "EMG (.edf, .bdf)");
+    case FileFormat::anc:
+      return recording_json(path, "analog channels (.anc)");
+    case FileFormat::mesh_vtp:
+    case FileFormat::mesh_stl:
+    case FileFormat::mesh_obj:
+    case FileFormat::model:
+    case FileFormat::set_up:
+    case FileFormat::toml:
+      break;
+  }
   return std::nullopt;
 }
 

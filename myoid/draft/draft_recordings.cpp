@@ -9,9 +9,9 @@
 #include <fmt/ranges.h>
 #include <pugixml.hpp>
 
+#include "myoid/files/file_format.h"
 #include "myoid/files/text_file.h"
 #include "myoid/model/kinematic_tree.h"
-#include "myoid/recording/bids.h"
 #include "myoid/recording/emg_channels.h"
 #include "myoid/recording/emg_reader.h"
 #include "myoid/recording/recording.h"
@@ -22,10 +22,19 @@ namespace myoid {
 namespace {
 
 namespace fs = std::filesystem;
+using recording::FileFormat;
 
 std::string small(std::string text) {
   for (char& c : text) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c;
   return text;
+}
+
+/// True for the tables that describe a BIDS recording and hold no samples.
+bool is_bids_description(const fs::path& path) {
+  const std::string name = path.filename().string();
+  const auto ends = [&](const char* ending) { return name.ends_with(ending); };
+  return ends("_channels.tsv") || ends("_electrodes.tsv") || ends("_events.tsv") ||
+         ends("_scans.tsv") || ends("_sessions.tsv") || name == "participants.tsv";
 }
 
 std::vector<std::string> words_of(const std::string& stem) {
@@ -59,11 +68,10 @@ void find_emg(const fs::path& path,
               const std::vector<recording::PlateSetup>& plates,
               FoundRecording& found) {
   found.channels = recording::emg_channels(analog.channels(), plates);
-  const std::string extension = recording::extension_of(path);
-  const bool storage = extension == ".sto" || extension == ".mot";
+  const auto format = recording::format_of(path);
+  const bool storage = format == FileFormat::storage;
   const std::string name = small(path.filename().string());
-  if (found.channels.empty() &&
-      (storage || extension == ".csv" || extension == ".tsv" || extension == ".txt")) {
+  if (found.channels.empty() && (storage || format == FileFormat::text_table)) {
     const bool stated = storage && recording::stated_voltage(recording::read_storage(path));
     const bool named = name.find("emg") != std::string::npos ||
                        name.find("excitation") != std::string::npos ||
@@ -109,8 +117,6 @@ fs::path loads_data_file(const fs::path& external_loads) {
 }
 
 std::vector<fs::path> recordings_in(const std::vector<fs::path>& from, FoundBeside& beside) {
-  static const std::set<std::string, std::less<>> kKnown{".c3d", ".trc", ".edf", ".bdf",
-                                                         ".anc", ".csv", ".sto", ".mot"};
   constexpr int kDeep = 6;
   std::vector<fs::path> files;
   for (const fs::path& path : from) {
@@ -124,11 +130,12 @@ std::vector<fs::path> recordings_in(const std::vector<fs::path>& from, FoundBesi
          !error && it != fs::recursive_directory_iterator(); it.increment(error)) {
       if (it.depth() > kDeep) it.disable_recursion_pending();
       if (!it->is_regular_file(error)) continue;
-      const std::string extension = recording::extension_of(it->path());
-      if (extension == ".osim") beside.models.push_back(it->path());
-      if (extension == ".xml" && !loads_data_file(it->path()).empty())
+      const auto format = recording::format_of(it->path());
+      if (!format) continue;
+      if (format == FileFormat::model) beside.models.push_back(it->path());
+      if (format == FileFormat::set_up && !loads_data_file(it->path()).empty())
         beside.external_loads.push_back(it->path());
-      if (kKnown.contains(extension) || recording::is_bids_motion(it->path()))
+      if (recording::is_recording(*format) && !is_bids_description(it->path()))
         files.push_back(it->path());
     }
   }

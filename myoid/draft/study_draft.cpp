@@ -17,10 +17,10 @@
 #include "myoid/draft/draft_recordings.h"
 #include "myoid/draft/draft_text.h"
 #include "myoid/draft/draft_trials.h"
+#include "myoid/files/file_format.h"
 #include "myoid/files/label_match.h"
 #include "myoid/files/text_file.h"
 #include "myoid/osim/osim_reader.h"
-#include "myoid/recording/bids.h"
 #include "myoid/recording/plate_standing.h"
 #include "myoid/recording/recording.h"
 #include "myoid/study/trial_up.h"
@@ -115,16 +115,16 @@ class Draft {
     f.path = path;
     f.stem = trial_stem(path);
     try {
-      const std::string extension = recording::extension_of(path);
+      const auto format = recording::format_of(path);
       recording::Recording file = recording::read_recording(path);
       f.plates = static_cast<int>(file.plates.size());
       note_up(path, file);
       f.markers = std::move(file.markers);
       for (const Channel& c : file.analog.channels()) {
-        if ((extension == ".mot" || extension == ".sto") && model_.find_coordinate(c.name))
+        if (format == recording::FileFormat::storage && model_.find_coordinate(c.name))
           f.angles.push_back(c.name);
       }
-      if (f.angles.empty() && !file.analog.empty() && !recording::is_bids_motion(path))
+      if (f.angles.empty() && !file.analog.empty() && format != recording::FileFormat::bids_motion)
         find_emg(path, file.analog.series(), file.plates, f);
     } catch (const InvalidInput& error) {
       draft_.notes.push_back(fmt::format("not read: {}", error.what()));

@@ -10,7 +10,7 @@
 #include <fmt/ranges.h>
 
 #include "myoid/core/error.h"
-#include "myoid/files/wrong_kind.h"
+#include "myoid/files/file_format.h"
 
 namespace myoid::recording {
 
@@ -260,7 +260,7 @@ void refuse_letters_outside_quotes(std::string_view text, const std::filesystem:
 }  // namespace
 
 toml::table parse_toml(std::string_view text, const std::filesystem::path& file) {
-  if (const std::string other = wrong_kind(file, {".toml"}, "a study or protocol (.toml)");
+  if (const std::string other = wrong_kind(file, {FileFormat::toml}, "a study or protocol (.toml)");
       !other.empty())
     throw ReadError(file, 0, other);
   refuse_letters_outside_quotes(text, file);

@@ -10,8 +10,8 @@
 #include <fmt/ranges.h>
 
 #include "myoid/core/error.h"
+#include "myoid/files/file_format.h"
 #include "myoid/files/text_file.h"
-#include "myoid/files/wrong_kind.h"
 #include "myoid/identification/parameters.h"
 #include "myoid/identify_files/muscle_columns.h"
 #include "myoid/muscle/force_velocity.h"
@@ -291,7 +291,7 @@ void read_parameter(const Row& row,
 
 MuscleTable read_muscles_csv(const std::filesystem::path& path, bool within_bounds) {
   const std::string mixed_up =
-      recording::wrong_kind(path, {".csv", ".tsv", ".txt"}, "a table of muscles (.csv)");
+      recording::wrong_kind(path, {recording::FileFormat::text_table}, "a table of muscles (.csv)");
   if (!mixed_up.empty()) throw ReadError(path, 0, mixed_up);
   const recording::CsvTable table = recording::read_csv_table(path);
   const std::map<std::string, MuscleColumn> columns = muscle_columns(table, path);

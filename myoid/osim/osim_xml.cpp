@@ -8,8 +8,8 @@
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
+#include "myoid/files/file_format.h"
 #include "myoid/files/text_file.h"
-#include "myoid/files/wrong_kind.h"
 
 namespace myoid::model {
 
@@ -37,8 +37,9 @@ OsimXml::OsimXml(std::string_view text, std::filesystem::path path, Root root)
     : text_(text), path_(std::move(path)) {
   const auto parsed = document_.load_buffer(text.data(), text.size(), pugi::parse_default);
   if (!parsed) {
-    const std::string other =
-        recording::wrong_kind(path_, {".osim", ".xml"}, "a model (.osim) or a set-up (.xml)");
+    using recording::FileFormat;
+    const std::string other = recording::wrong_kind(path_, {FileFormat::model, FileFormat::set_up},
+                                                    "a model (.osim) or a set-up (.xml)");
     if (!other.empty()) throw ReadError(path_, 0, other);
     throw ReadError(
         path_, line_at(text_, parsed.offset),

@@ -92,10 +92,6 @@ double rate_of(const std::filesystem::path& path) {
 
 }  // namespace
 
-bool is_bids_motion(const std::filesystem::path& path) {
-  return path.filename().string().ends_with("_motion.tsv");
-}
-
 std::optional<std::vector<BidsChannel>> bids_channels_of(const std::filesystem::path& data) {
   const std::string stem = stem_without_suffix(data);
   const auto path = data.parent_path() / (stem + "_channels.tsv");

@@ -39,7 +39,4 @@ struct BidsMotion {
 /// missing.
 [[nodiscard]] BidsMotion read_bids_motion(const std::filesystem::path& path);
 
-/// True for names that end in "_motion.tsv".
-[[nodiscard]] bool is_bids_motion(const std::filesystem::path& path);
-
 }  // namespace myoid::recording

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "myoid/files/file_format.h"
 #include "myoid/files/text_file.h"
 #include "myoid/recording/emg_reader.h"
 #include "myoid/recording/recording.h"

@@ -11,6 +11,7 @@
 #include <fmt/ranges.h>
 
 #include "myoid/core/error.h"
+#include "myoid/files/file_format.h"
 #include "myoid/files/file_words.h"
 #include "myoid/recording/anc_reader.h"
 #include "myoid/recording/bids.h"
@@ -116,59 +117,82 @@ CsvSeries with_named_units(Storage storage) {
   return series;
 }
 
-/// The channels of every kind of file that may name their units.
-std::optional<CsvSeries> read_channels(const std::filesystem::path& path, bool voltages_only) {
-  const std::string extension = path.extension().string();
-  const auto is = [&](const char* ending) { return equal_ignoring_case(extension, ending); };
-  if (is(".csv") || is(".tsv") || is(".txt") || is(".emt")) {
-    const std::string text = read_text_file(path);
-    if (is_marker_table(text) && !nexus_section(TableText(text), "Devices", path))
-      throw ReadError(path, 0,
-                      "this is a table of markers and holds no EMG; give the export of the analog "
-                      "channels (of Nexus the devices)");
-    return parse_emg_table(text, path);
-  }
-  if (is(".anc")) {
-    AncFile file = read_anc(path);
-    const auto count = static_cast<std::size_t>(file.data.channel_count());
-    return CsvSeries{std::move(file.data), std::vector<bool>(count, true), std::move(file.repairs)};
-  }
-  if (is(".edf") || is(".bdf")) {
-    EdfFile file = read_edf(path);
-    return CsvSeries{file.data.series(), std::move(file.has_unit), std::move(file.repairs)};
-  }
-  if (is(".c3d")) {
-    std::vector<bool> has_unit;
-    Recording file = read_c3d_channels(path, has_unit);
-    if (file.analog.empty())
-      throw ReadError(path, 0, "the C3D file holds no analog channels, so no EMG");
-    CsvSeries series;
-    std::vector<std::string> names;
-    std::size_t others = 0;
-    std::set<Eigen::Index> of_plates;
-    for (const PlateSetup& plate : file.plates)
-      of_plates.insert(plate.channels.begin(), plate.channels.end());
-    for (std::size_t c = 0; c < has_unit.size(); ++c) {
-      const Channel& channel = file.analog.channels()[c];
-      if (voltages_only && ((has_unit[c] && channel.unit != Unit::volt) ||
-                            of_plates.contains(static_cast<Eigen::Index>(c)))) {
-        ++others;
-        continue;
-      }
-      names.push_back(channel.name);
-      series.has_unit.push_back(has_unit[c]);
+CsvSeries channels_of_table(const std::filesystem::path& path) {
+  const std::string text = read_text_file(path);
+  if (is_marker_table(text) && !nexus_section(TableText(text), "Devices", path))
+    throw ReadError(path, 0,
+                    "this is a table of markers and holds no EMG; give the export of the analog "
+                    "channels (of Nexus the devices)");
+  return parse_emg_table(text, path);
+}
+
+/// The analog channels of a C3D file; with `voltages_only` without those in another unit than volt
+/// and those of force plates.
+CsvSeries channels_of_c3d(const std::filesystem::path& path, bool voltages_only) {
+  std::vector<bool> has_unit;
+  Recording file = read_c3d_channels(path, has_unit);
+  if (file.analog.empty())
+    throw ReadError(path, 0, "the C3D file holds no analog channels, so no EMG");
+  CsvSeries series;
+  std::vector<std::string> names;
+  std::size_t others = 0;
+  std::set<Eigen::Index> of_plates;
+  for (const PlateSetup& plate : file.plates)
+    of_plates.insert(plate.channels.begin(), plate.channels.end());
+  for (std::size_t c = 0; c < has_unit.size(); ++c) {
+    const Channel& channel = file.analog.channels()[c];
+    if (voltages_only && ((has_unit[c] && channel.unit != Unit::volt) ||
+                          of_plates.contains(static_cast<Eigen::Index>(c)))) {
+      ++others;
+      continue;
     }
-    if (names.empty())
-      throw ReadError(path, 0,
-                      "none of the analog channels is a voltage beside the force plates', so "
-                      "there is no EMG");
-    if (others > 0)
-      file.repairs.push_back(
-          {0, fmt::format("{} analog channels are no voltages or belong to force plates; left out",
-                          others)});
-    series.data = file.analog.select(names);
-    series.repairs = std::move(file.repairs);
-    return series;
+    names.push_back(channel.name);
+    series.has_unit.push_back(has_unit[c]);
+  }
+  if (names.empty())
+    throw ReadError(path, 0,
+                    "none of the analog channels is a voltage beside the force plates', so "
+                    "there is no EMG");
+  if (others > 0)
+    file.repairs.push_back(
+        {0, fmt::format("{} analog channels are no voltages or belong to force plates; left out",
+                        others)});
+  series.data = file.analog.select(names);
+  series.repairs = std::move(file.repairs);
+  return series;
+}
+
+/// The channels of a format that can name their units; empty for storage files, which cannot, and
+/// for formats without channels.
+std::optional<CsvSeries> read_channels(const std::filesystem::path& path, bool voltages_only) {
+  const auto format = format_of(path);
+  if (!format) return std::nullopt;
+  switch (*format) {
+    case FileFormat::text_table:
+      return channels_of_table(path);
+    case FileFormat::c3d:
+      return channels_of_c3d(path, voltages_only);
+    case FileFormat::anc: {
+      AncFile file = read_anc(path);
+      const auto count = static_cast<std::size_t>(file.data.channel_count());
+      return CsvSeries{std::move(file.data), std::vector<bool>(count, true),
+                       std::move(file.repairs)};
+    }
+    case FileFormat::edf: {
+      EdfFile file = read_edf(path);
+      return CsvSeries{file.data.series(), std::move(file.has_unit), std::move(file.repairs)};
+    }
+    case FileFormat::bids_motion:
+      throw ReadError(path, 0, "this is a motion of BIDS and holds no EMG; give its _emg file");
+    case FileFormat::storage:
+    case FileFormat::trc:
+    case FileFormat::mesh_vtp:
+    case FileFormat::mesh_stl:
+    case FileFormat::mesh_obj:
+    case FileFormat::model:
+    case FileFormat::set_up:
+    case FileFormat::toml:
+      break;
   }
   return std::nullopt;
 }

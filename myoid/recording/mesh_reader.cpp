@@ -12,6 +12,7 @@
 
 #include "myoid/core/error.h"
 #include "myoid/files/byte_source.h"
+#include "myoid/files/file_format.h"
 #include "myoid/files/text_file.h"
 
 namespace myoid::recording {
@@ -270,17 +271,18 @@ TriangleMesh parse_obj(std::string_view text, const std::filesystem::path& path)
 }  // namespace
 
 TriangleMesh parse_mesh(std::string_view bytes, const std::filesystem::path& path) {
-  const std::string ending = path.extension().string();
+  const auto format = format_of(path);
   TriangleMesh mesh;
-  if (equal_ignoring_case(ending, ".vtp")) {
+  if (format == FileFormat::mesh_vtp) {
     mesh = parse_vtp(bytes, path);
-  } else if (equal_ignoring_case(ending, ".stl")) {
+  } else if (format == FileFormat::mesh_stl) {
     mesh = is_binary_stl(bytes) ? parse_binary_stl(bytes) : parse_text_stl(bytes, path);
-  } else if (equal_ignoring_case(ending, ".obj")) {
+  } else if (format == FileFormat::mesh_obj) {
     mesh = parse_obj(bytes, path);
   } else {
     throw ReadError(path, 0,
-                    fmt::format("expected a mesh in .vtp, .stl or .obj, found '{}'", ending));
+                    fmt::format("expected a mesh in .vtp, .stl or .obj, found '{}'",
+                                path.extension().string()));
   }
   const auto count = static_cast<int>(mesh.vertices.size());
   for (const auto& triangle : mesh.triangles) {

@@ -9,6 +9,7 @@
 
 #include "myoid/core/error.h"
 #include "myoid/core/units.h"
+#include "myoid/files/file_format.h"
 
 namespace myoid::recording {
 namespace {
@@ -130,7 +131,7 @@ LaboratoryUp stand_plates(Recording& recording,
 }
 
 LaboratoryUp read_laboratory_up(const std::filesystem::path& path) {
-  if (extension_of(path) != ".c3d") return {};
+  if (format_of(path) != FileFormat::c3d) return {};
   Recording recording = read_recording(path);
   try {
     return stand_plates(recording, std::nullopt);

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
+#include "myoid/files/file_format.h"
 #include "myoid/recording/anc_reader.h"
 #include "myoid/recording/bids.h"
 #include "myoid/recording/c3d_recording.h"
@@ -17,12 +18,6 @@
 
 namespace myoid::recording {
 
-std::string extension_of(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  for (char& c : extension) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c;
-  return extension;
-}
-
 std::string to_string(const Repair& repair) {
   return repair.line > 0 ? fmt::format("line {}: {}", repair.line, repair.message) : repair.message;
 }
@@ -34,32 +29,40 @@ std::string to_string(const std::filesystem::path& path, const Repair& repair) {
 
 namespace {
 
-bool is_table(std::string_view extension) {
-  return extension == ".csv" || extension == ".tsv" || extension == ".txt" || extension == ".emt";
+/// Nexus writes its devices and the markers into one file: both are read.
+Recording read_text_table(const std::filesystem::path& path) {
+  Recording recording;
+  const std::string text = read_text_file(path);
+  const bool markers = is_marker_table(text);
+  if (markers) {
+    MarkerFile file = parse_marker_table(text, path);
+    recording.markers = std::move(file.markers);
+    recording.repairs = std::move(file.repairs);
+  }
+  if (!markers || nexus_section(TableText(text), "Devices", path)) {
+    CsvSeries file = parse_emg_table(text, path);
+    recording.analog = std::move(file.data);
+    for (ClockedChannels& group : file.other_clocks)
+      recording.other_clocks.emplace_back(std::move(group.data));
+    recording.events = std::move(file.events);
+    recording.repairs.insert(recording.repairs.end(), file.repairs.begin(), file.repairs.end());
+  }
+  return recording;
 }
 
-}  // namespace
+MarkerFile markers_of_trc(const std::filesystem::path& path) {
+  TrcFile file = read_trc(path);
+  return {std::move(file.markers), std::move(file.unit), std::move(file.repairs), {}};
+}
 
-MarkerFile read_markers(const std::filesystem::path& path) {
-  const std::string extension = extension_of(path);
-  if (extension == ".trc") {
-    TrcFile file = read_trc(path);
-    return {std::move(file.markers), std::move(file.unit), std::move(file.repairs), {}};
-  }
-  if (is_bids_motion(path)) {
-    BidsMotion motion = read_bids_motion(path);
-    if (motion.markers.frame_count() == 0)
-      throw ReadError(path, 0, "there are no positions (POS) among the channels, so no markers");
-    return {std::move(motion.markers), "m", std::move(motion.repairs), {}};
-  }
-  if (is_table(extension)) return parse_marker_table(read_text_file(path), path);
-  if (extension != ".c3d") {
-    throw ReadError(path, 0,
-                    fmt::format("markers are read from .trc, .c3d, tables (.tsv, .csv, .txt, .emt) "
-                                "and BIDS _motion.tsv, not from '{}'; export the recording as one "
-                                "of these",
-                                extension));
-  }
+MarkerFile markers_of_bids(const std::filesystem::path& path) {
+  BidsMotion motion = read_bids_motion(path);
+  if (motion.markers.frame_count() == 0)
+    throw ReadError(path, 0, "there are no positions (POS) among the channels, so no markers");
+  return {std::move(motion.markers), "m", std::move(motion.repairs), {}};
+}
+
+MarkerFile markers_of_c3d(const std::filesystem::path& path) {
   MarkerFile result;
   Recording file = read_c3d_markers(path, result.unit);
   if (file.markers.frame_count() == 0) throw ReadError(path, 0, "the C3D file holds no markers");
@@ -67,6 +70,57 @@ MarkerFile read_markers(const std::filesystem::path& path) {
   result.repairs = std::move(file.repairs);
   result.screen_up_L = file.screen_up_L;
   return result;
+}
+
+void refuse_folder(const std::filesystem::path& path) {
+  std::error_code ignored;
+  if (!std::filesystem::is_directory(path, ignored)) return;
+  throw ReadError(path, 0,
+                  std::filesystem::exists(path / "study.toml", ignored)
+                      ? "this is a folder; did you mean the study.toml in it?"
+                      : "this is a folder; name a file inside it");
+}
+
+/// The channels, events and repairs of a file that has no markers.
+template <typename File>
+Recording of_channels(File file) {
+  Recording recording;
+  recording.analog = std::move(file.data);
+  if constexpr (requires { file.events; }) recording.events = std::move(file.events);
+  recording.repairs = std::move(file.repairs);
+  return recording;
+}
+
+}  // namespace
+
+MarkerFile read_markers(const std::filesystem::path& path) {
+  if (const auto format = format_of(path)) {
+    switch (*format) {
+      case FileFormat::trc:
+        return markers_of_trc(path);
+      case FileFormat::bids_motion:
+        return markers_of_bids(path);
+      case FileFormat::text_table:
+        return parse_marker_table(read_text_file(path), path);
+      case FileFormat::c3d:
+        return markers_of_c3d(path);
+      case FileFormat::storage:
+      case FileFormat::edf:
+      case FileFormat::anc:
+      case FileFormat::mesh_vtp:
+      case FileFormat::mesh_stl:
+      case FileFormat::mesh_obj:
+      case FileFormat::model:
+      case FileFormat::set_up:
+      case FileFormat::toml:
+        break;
+    }
+  }
+  throw ReadError(
+      path, 0,
+      fmt::format("markers are read from {}, not from '{}'; export the recording as one of these",
+                  endings_text([](const FormatEntry& entry) { return entry.markers; }),
+                  extension_of(path)));
 }
 
 std::vector<const AnalogChannels*> Recording::clocks() const {
@@ -86,63 +140,48 @@ std::vector<ForcePlate> Recording::force_plates() const {
 }
 
 Recording read_recording(const std::filesystem::path& path) {
-  if (std::error_code ignored; std::filesystem::is_directory(path, ignored)) {
-    throw ReadError(path, 0,
-                    std::filesystem::exists(path / "study.toml", ignored)
-                        ? "this is a folder; did you mean the study.toml in it?"
-                        : "this is a folder; name a file inside it");
-  }
-  const std::string extension = extension_of(path);
-  Recording recording;
-  if (extension == ".trc") {
-    TrcFile file = read_trc(path);
-    recording.markers = std::move(file.markers);
-    recording.repairs = std::move(file.repairs);
-  } else if (is_bids_motion(path)) {
-    BidsMotion motion = read_bids_motion(path);
-    recording.markers = std::move(motion.markers);
-    recording.analog = std::move(motion.angles);
-    recording.repairs = std::move(motion.repairs);
-  } else if (extension == ".c3d") {
-    recording = read_c3d_recording(path);
-  } else if (extension == ".edf" || extension == ".bdf") {
-    EdfFile file = read_edf(path);
-    recording.analog = std::move(file.data);
-    recording.events = std::move(file.events);
-    recording.repairs = std::move(file.repairs);
-  } else if (extension == ".anc") {
-    AncFile file = read_anc(path);
-    recording.analog = std::move(file.data);
-    recording.repairs = std::move(file.repairs);
-  } else if (is_table(extension)) {
-    const std::string text = read_text_file(path);
-    const bool markers = is_marker_table(text);
-    if (markers) {
-      MarkerFile file = parse_marker_table(text, path);
-      recording.markers = std::move(file.markers);
-      recording.repairs = std::move(file.repairs);
+  refuse_folder(path);
+  if (const auto format = format_of(path)) {
+    switch (*format) {
+      case FileFormat::c3d:
+        return read_c3d_recording(path);
+      case FileFormat::trc: {
+        TrcFile file = read_trc(path);
+        Recording recording;
+        recording.markers = std::move(file.markers);
+        recording.repairs = std::move(file.repairs);
+        return recording;
+      }
+      case FileFormat::storage:
+        return of_channels(read_storage(path));
+      case FileFormat::text_table:
+        return read_text_table(path);
+      case FileFormat::bids_motion: {
+        BidsMotion motion = read_bids_motion(path);
+        Recording recording;
+        recording.markers = std::move(motion.markers);
+        recording.analog = std::move(motion.angles);
+        recording.repairs = std::move(motion.repairs);
+        return recording;
+      }
+      case FileFormat::edf:
+        return of_channels(read_edf(path));
+      case FileFormat::anc:
+        return of_channels(read_anc(path));
+      case FileFormat::mesh_vtp:
+      case FileFormat::mesh_stl:
+      case FileFormat::mesh_obj:
+      case FileFormat::model:
+      case FileFormat::set_up:
+      case FileFormat::toml:
+        break;
     }
-    // Nexus writes its devices and the markers into one file.
-    if (!markers || nexus_section(TableText(text), "Devices", path)) {
-      CsvSeries file = parse_emg_table(text, path);
-      recording.analog = std::move(file.data);
-      for (ClockedChannels& group : file.other_clocks)
-        recording.other_clocks.emplace_back(std::move(group.data));
-      recording.events = std::move(file.events);
-      recording.repairs.insert(recording.repairs.end(), file.repairs.begin(), file.repairs.end());
-    }
-  } else if (extension == ".sto" || extension == ".mot") {
-    Storage file = read_storage(path);
-    recording.analog = std::move(file.data);
-    recording.repairs = std::move(file.repairs);
-  } else {
-    throw ReadError(
-        path, 0,
-        fmt::format("recordings of kind '{}' are not known; known are .c3d, .trc, .edf, "
-                    ".bdf, .anc, .csv, .tsv, .txt, .emt, .sto and .mot",
-                    extension));
   }
-  return recording;
+  throw ReadError(path, 0,
+                  fmt::format("recordings of kind '{}' are not known; known are {}",
+                              extension_of(path), endings_text([](const FormatEntry& entry) {
+                                return is_recording(entry.format);
+                              })));
 }
 
 }  // namespace myoid::recording

@@ -15,8 +15,8 @@
 
 namespace myoid::recording {
 
-/// Markers from .trc, .c3d or a Motion-BIDS `_motion.tsv`, by the ending of the name. Throws
-/// ReadError, also where a .c3d file holds none.
+/// The markers of a file, read in the format of its ending (`format_of`). Throws ReadError where
+/// the format or the file holds none.
 [[nodiscard]] MarkerFile read_markers(const std::filesystem::path& path);
 
 /// One trial as measured: what a single file holds of it, in SI, on the file's own clock, in the
@@ -38,8 +38,8 @@ struct Recording {
   [[nodiscard]] std::vector<ForcePlate> force_plates() const;
 };
 
-/// Everything in a .c3d file, the markers of a .trc file, or the channels of an .edf, .bdf, .anc,
-/// .csv, .tsv, .txt, .sto or .mot file (the last two without units). Throws ReadError.
+/// Everything in a recording, read in the format of its ending (`format_of`). Channels of a storage
+/// file (.sto, .mot) have no unit. Throws ReadError.
 [[nodiscard]] Recording read_recording(const std::filesystem::path& path);
 
 /// "line 3: message", or the message alone where a repair has no line.
@@ -47,8 +47,5 @@ struct Recording {
 
 /// "flex.sto:3: message", or "flex.sto: message" where it has none: a repair of this file.
 [[nodiscard]] std::string to_string(const std::filesystem::path& path, const Repair& repair);
-
-/// The ending of the name in small letters, with its point: ".c3d".
-[[nodiscard]] std::string extension_of(const std::filesystem::path& path);
 
 }  // namespace myoid::recording

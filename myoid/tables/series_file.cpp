@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
+#include "myoid/files/file_format.h"
 #include "myoid/tables/csv_reader.h"
 #include "myoid/tables/storage_reader.h"
 #include "myoid/tables/storage_writer.h"
@@ -12,8 +13,7 @@
 namespace myoid::recording {
 
 SeriesFile read_series(const std::filesystem::path& path) {
-  for (const char* table : {".csv", ".tsv", ".txt"}) {
-    if (!equal_ignoring_case(path.extension().string(), table)) continue;
+  if (format_of(path) == FileFormat::text_table) {
     CsvSeries file = read_csv_series(path);
     return {std::move(file.data), std::move(file.repairs)};
   }
@@ -25,12 +25,12 @@ void write_series(const std::filesystem::path& path,
                   const TimeSeries& series,
                   const std::string& title,
                   const std::vector<std::string>& remarks) {
-  const std::string extension = path.extension().string();
+  const std::string extension = extension_of(path);
   std::error_code ignored;
   const auto status = std::filesystem::status(path, ignored);
-  if (equal_ignoring_case(extension, ".csv")) {
+  if (extension == ".csv") {
     write_csv(path, series, remarks);
-  } else if (equal_ignoring_case(extension, ".sto") || equal_ignoring_case(extension, ".mot") ||
+  } else if (format_of(path) == FileFormat::storage ||
              (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))) {
     write_storage(path, series, {.title = title, .comments = remarks});
   } else {

@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
-#include "myoid/files/wrong_kind.h"
+#include "myoid/files/file_format.h"
 
 namespace myoid::recording {
 namespace {
@@ -156,7 +156,7 @@ Storage parse_storage(std::string_view text, const std::filesystem::path& path) 
     if (line > 2000) break;
   }
   if (!found) {
-    const std::string other = wrong_kind(path, {".sto", ".mot"}, "a time series (.mot, .sto)");
+    const std::string other = wrong_kind(path, {FileFormat::storage}, "a time series (.mot, .sto)");
     if (!other.empty()) throw ReadError(path, 0, other);
     throw ReadError(path, 0,
                     "no line 'endheader': this is not a .mot or .sto file, or it is cut off; for a "

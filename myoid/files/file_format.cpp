@@ -1,0 +1,221 @@
+#include "myoid/files/file_format.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace myoid::recording {
+namespace {
+
+std::string small_letters(std::string text) {
+  for (char& c : text) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c;
+  return text;
+}
+
+std::string listed(const std::vector<std::string_view>& endings) {
+  if (endings.size() < 2) return fmt::format("{}", fmt::join(endings, ""));
+  return fmt::format("{} and {}", fmt::join(endings.begin(), endings.end() - 1, ", "),
+                     endings.back());
+}
+
+std::vector<std::string_view> written_endings() {
+  std::vector<std::string_view> endings;
+  for (const FormatEntry& entry : file_formats()) {
+    if (is_recording(entry.format))
+      endings.insert(endings.end(), entry.written.begin(), entry.written.end());
+  }
+  return endings;
+}
+
+/// The longest ending of a name that the table holds, with its row; the row is null if none fits.
+struct NamedEnding {
+  const FormatEntry* entry = nullptr;
+  std::string_view ending;
+};
+
+NamedEnding named_ending(const std::filesystem::path& path) {
+  const std::string name = small_letters(path.filename().string());
+  const std::string extension = extension_of(path);
+  NamedEnding best;
+  for (const FormatEntry& entry : file_formats()) {
+    for (const std::string_view ending : entry.endings) {
+      const bool fits = ending.starts_with('.') ? extension == ending : name.ends_with(ending);
+      if (fits && ending.size() > best.ending.size()) best = {&entry, ending};
+    }
+  }
+  return best;
+}
+
+}  // namespace
+
+const std::vector<FormatEntry>& file_formats() {
+  using F = FileFormat;
+  static const std::vector<FormatEntry> table{
+      {.format = F::c3d,
+       .endings = {".c3d"},
+       .written = {".c3d"},
+       .kind = "a recording",
+       .holds = "markers, analog channels, force plates, events",
+       .reader = "c3d/c3d_reader",
+       .writer = "c3d/c3d_writer",
+       .markers = true,
+       .channels = true},
+      {.format = F::trc,
+       .endings = {".trc"},
+       .written = {".trc"},
+       .kind = "markers",
+       .holds = "markers",
+       .reader = "tables/trc_reader",
+       .writer = "tables/trc_writer",
+       .markers = true},
+      {.format = F::storage,
+       .endings = {".sto", ".mot"},
+       .written = {".sto", ".mot"},
+       .kind = "a time series",
+       .holds = "angles, torques, EMG, activations: anything over time",
+       .reader = "tables/storage_reader",
+       .writer = "tables/storage_writer",
+       .channels = true},
+      {.format = F::text_table,
+       .endings = {".csv", ".tsv", ".txt", ".emt"},
+       .written = {".csv"},
+       .kind = "a table",
+       .holds = "channels or markers over time, as programs export them; tables without a clock",
+       .reader = "tables/text_table",
+       .writer = "tables/table_writer",
+       .markers = true,
+       .channels = true},
+      {.format = F::bids_motion,
+       .endings = {"_motion.tsv"},
+       .written = {},
+       .kind = "a motion of BIDS",
+       .holds = "markers, joint angles",
+       .reader = "recording/bids",
+       .writer = "",
+       .markers = true,
+       .channels = true},
+      {.format = F::edf,
+       .endings = {".edf", ".bdf"},
+       .written = {},
+       .kind = "a recording",
+       .holds = "EMG, events",
+       .reader = "recording/edf_reader",
+       .writer = "",
+       .channels = true},
+      {.format = F::anc,
+       .endings = {".anc"},
+       .written = {},
+       .kind = "analog channels",
+       .holds = "analog channels",
+       .reader = "recording/anc_reader",
+       .writer = "",
+       .channels = true},
+      {.format = F::mesh_vtp,
+       .endings = {".vtp"},
+       .written = {},
+       .kind = "a mesh",
+       .holds = "the surface of a bone",
+       .reader = "recording/mesh_reader",
+       .writer = ""},
+      {.format = F::mesh_stl,
+       .endings = {".stl"},
+       .written = {},
+       .kind = "a mesh",
+       .holds = "the surface of a bone",
+       .reader = "recording/mesh_reader",
+       .writer = ""},
+      {.format = F::mesh_obj,
+       .endings = {".obj"},
+       .written = {},
+       .kind = "a mesh",
+       .holds = "the surface of a bone",
+       .reader = "recording/mesh_reader",
+       .writer = ""},
+      {.format = F::model,
+       .endings = {".osim"},
+       .written = {".osim"},
+       .kind = "a model",
+       .holds = "bodies, joints, muscles, markers",
+       .reader = "osim/osim_reader",
+       .writer = "osim/osim_writer"},
+      {.format = F::set_up,
+       .endings = {".xml"},
+       .written = {},
+       .kind = "a set-up",
+       .holds = "the set-up of a tool of OpenSim, external loads",
+       .reader = "opensim_tools/opensim_setup",
+       .writer = ""},
+      {.format = F::toml,
+       .endings = {".toml"},
+       .written = {".toml"},
+       .kind = "a study",
+       .holds = "a study, the protocol of a virtual recording, an isolated muscle",
+       .reader = "files/toml_table",
+       .writer = "files/toml_text"},
+  };
+  return table;
+}
+
+const FormatEntry& format_entry(FileFormat format) {
+  const auto& table = file_formats();
+  return *std::find_if(table.begin(), table.end(),
+                       [&](const FormatEntry& entry) { return entry.format == format; });
+}
+
+std::optional<FileFormat> format_of(const std::filesystem::path& path) {
+  const FormatEntry* entry = named_ending(path).entry;
+  return entry == nullptr ? std::nullopt : std::optional(entry->format);
+}
+
+bool is_recording(FileFormat format) {
+  const FormatEntry& entry = format_entry(format);
+  return entry.markers || entry.channels;
+}
+
+std::string extension_of(const std::filesystem::path& path) {
+  return small_letters(path.extension().string());
+}
+
+std::string endings_text(bool (*accepts)(const FormatEntry&)) {
+  std::vector<std::string_view> endings;
+  for (const FormatEntry& entry : file_formats()) {
+    if (accepts(entry)) endings.insert(endings.end(), entry.endings.begin(), entry.endings.end());
+  }
+  return listed(endings);
+}
+
+std::string written_endings_text() { return listed(written_endings()); }
+
+bool is_written_ending(std::string_view ending) {
+  const auto endings = written_endings();
+  return std::find(endings.begin(), endings.end(), ending) != endings.end();
+}
+
+std::string wrong_kind(const std::filesystem::path& path,
+                       const std::vector<FileFormat>& wanted,
+                       std::string_view expected) {
+  const auto [entry, ending] = named_ending(path);
+  if (entry == nullptr || std::find(wanted.begin(), wanted.end(), entry->format) != wanted.end())
+    return {};
+  return fmt::format("this is a {} file ({}), but {} is expected here: were two options mixed up?",
+                     ending, entry->kind, expected);
+}
+
+std::string file_formats_markdown() {
+  const auto code = [](const std::vector<std::string_view>& words) {
+    std::string text;
+    for (const std::string_view word : words)
+      text += fmt::format("{}`{}`", text.empty() ? "" : ", ", word);
+    return text.empty() ? std::string("–") : text;
+  };
+  const auto unit = [&](std::string_view name) { return name.empty() ? code({}) : code({name}); };
+  std::string text =
+      "| ending | holds | written as | reader | writer |\n| --- | --- | --- | --- | --- |\n";
+  for (const FormatEntry& entry : file_formats())
+    text += fmt::format("| {} | {} | {} | {} | {} |\n", code(entry.endings), entry.holds,
+                        code(entry.written), unit(entry.reader), unit(entry.writer));
+  return text;
+}
+
+}  // namespace myoid::recording
