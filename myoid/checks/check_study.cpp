@@ -1,6 +1,7 @@
 #include "myoid/checks/check_study.h"
 
 #include <algorithm>
+#include <iterator>
 #include <optional>
 #include <utility>
 
@@ -36,8 +37,6 @@
 namespace myoid {
 namespace {
 
-using Level = Finding::Level;
-
 /// The message of an error without the file and the line that it begins with.
 std::string without_place(const ReadError& error) {
   const std::size_t colons = error.line() == 0 ? 2 : 3 + std::to_string(error.line()).size();
@@ -48,15 +47,15 @@ class StudyCheck {
  public:
   explicit StudyCheck(const Study& study) : study_(study) {}
 
-  std::vector<Finding> findings() {
+  std::vector<Remark> findings() {
     check_model();
     if (!study_.emg.has_mvc && study_.emg.kind != EmgKind::activation) {
-      add(Level::warning, "study",
+      add(RemarkCode::no_maximal_contraction, Severity::warning, "study",
           "no trial is a maximal contraction (use = \"mvc\"): F_max will mean the force at the "
           "study's largest EMG");
     }
     if (!study_.model.file && !study_.subject.mass_kg)
-      add(Level::warning, "study",
+      add(RemarkCode::no_body_mass, Severity::warning, "study",
           "[subject] mass_kg is not given: the built-in arm has the segments of a person of 73 kg");
     check_todos();
     if (study_.truth) {
@@ -66,24 +65,35 @@ class StudyCheck {
       if (model_) attempt(trial.name, [&] { check_trial(trial); });
     }
     if (together_) {
-      for (Finding& f : together_->findings()) findings_.push_back(std::move(f));
+      add(together_->findings());
     }
     if (!inputs_.empty()) attempt("EMG", [&] { check_recordings(); });
-    std::stable_sort(findings_.begin(), findings_.end(),
-                     [](const Finding& a, const Finding& b) { return a.level < b.level; });
-    return grouped(findings_);
+    sort_by_severity(remarks_);
+    return grouped(remarks_);
   }
 
  private:
-  void add(Level level, std::string where, std::string message) {
-    findings_.push_back({level, std::move(where), std::move(message), std::nullopt});
+  void add(RemarkCode code, Severity severity, std::string where, std::string says) {
+    remarks_.push_back(
+        {.code = code, .severity = severity, .where = std::move(where), .says = std::move(says)});
   }
 
-  void refuse(const std::string& where, std::string message, std::string kind) {
-    findings_.push_back({.level = Level::error,
-                         .where = where,
-                         .message = std::move(message),
-                         .kind = std::move(kind)});
+  void add(std::vector<Remark> remarks, const std::string& where) {
+    for (Remark& remark : remarks) {
+      remark.where = where;
+      remarks_.push_back(std::move(remark));
+    }
+  }
+  void add(std::vector<Remark> remarks) {
+    std::move(remarks.begin(), remarks.end(), std::back_inserter(remarks_));
+  }
+
+  void refuse(const std::string& where, std::string says, std::string complaint) {
+    remarks_.push_back({.code = RemarkCode::refused,
+                        .severity = Severity::error,
+                        .where = where,
+                        .about = std::move(complaint),
+                        .says = std::move(says)});
     all_read_ = false;
   }
 
@@ -115,7 +125,7 @@ class StudyCheck {
       asked.push_back(fmt::format("line {}: {}", i + 1, what));
     }
     if (asked.empty()) return;
-    add(Level::warning, study_.file.filename().string(),
+    add(RemarkCode::unanswered, Severity::warning, study_.file.filename().string(),
         fmt::format("{} line{} still ask{} for an answer (TODO), or for being deleted: {}",
                     asked.size(), asked.size() == 1 ? "" : "s", asked.size() == 1 ? "s" : "",
                     fmt::join(asked, "; ")));
@@ -128,7 +138,7 @@ class StudyCheck {
         for (const muscle::HillField& field : muscle::kHillFields) {
           const double value = setup.start.*field.member;
           if (value >= field.bounds.lower && value <= field.bounds.upper) continue;
-          add(Level::warning, "model",
+          add(RemarkCode::start_outside_bounds, Severity::warning, "model",
               fmt::format(
                   "{}: the model's {} of {:.4g} {} lies outside {} to {}: the search begins "
                   "at the nearest of these; [[muscle]] start sets another value",
@@ -136,8 +146,10 @@ class StudyCheck {
                   field.bounds.upper));
         }
       }
-      for (const std::string& text : model.unsupported) add(Level::warning, "model", text);
-      for (const std::string& text : model.notes) add(Level::note, "model", text);
+      for (const std::string& text : model.unsupported)
+        add(RemarkCode::model_unsupported, Severity::warning, "model", text);
+      for (const std::string& text : model.notes)
+        add(RemarkCode::reading, Severity::note, "model", text);
       model_ = std::move(model);
       together_.emplace(study_, *model_);
     });
@@ -153,16 +165,12 @@ class StudyCheck {
   }
 
   void check_part(const TrialSpec& spec, const TrialInput& input) {
-    for (const std::string& note : input.notes) {
-      const bool warning =
-          std::find(input.warnings.begin(), input.warnings.end(), note) != input.warnings.end();
-      add(warning ? Level::warning : Level::note, spec.name, note);
-    }
+    add(input.remarks, spec.name);
     together_->look_at(spec, input);
-    for (Finding& f : unloaded_times(*model_, spec, input)) findings_.push_back(std::move(f));
+    add(unloaded_times(*model_, spec, input));
     if (input.markers) check_markers(*input.markers);
     if (input.emg && study_.emg.kind == EmgKind::raw && input.emg->mean_rate_hz() < 800.0) {
-      add(Level::warning, spec.name,
+      add(RemarkCode::emg_rate, Severity::warning, spec.name,
           fmt::format("EMG at {:.0f} Hz: 1000 Hz or more is needed for raw EMG",
                       input.emg->mean_rate_hz()));
     }
@@ -190,20 +198,17 @@ class StudyCheck {
     for (std::size_t i = 0; i < specs_.size(); ++i) {
       const auto& stages = activation.trials[i].stages;
       if (stages)
-        for (const std::string& text : stages->findings) add(Level::note, specs_[i].name, text);
+        for (const std::string& text : stages->findings)
+          add(RemarkCode::emg_processing, Severity::note, specs_[i].name, text);
       // Without a reference the levels alone tell.
       if (emg[i] != nullptr) activation.trials[i].activation = stages ? stages->envelope : *emg[i];
     }
     const bool all_read = all_read_;
     if (all_read) attempt("EMG", [&] { normalise(study, emg, activation); });
     RecordingFindings found = recording_findings(study, *model_, inputs_, activation);
-    for (std::size_t i = 0; i < specs_.size(); ++i) {
-      for (Fault& fault : found.of_trials[i])
-        findings_.push_back(finding(specs_[i].name, std::move(fault)));
-    }
-    for (Fault& fault : found.levels) findings_.push_back(finding("EMG", std::move(fault)));
-    if (!all_read) return;
-    for (Finding& f : found.dynamometers) findings_.push_back(std::move(f));
+    for (std::vector<Remark>& of_trial : found.of_trials) add(std::move(of_trial));
+    add(std::move(found.levels), "EMG");
+    if (all_read) add(std::move(found.dynamometers));
   }
 
   const Study& study_;
@@ -211,7 +216,7 @@ class StudyCheck {
   std::optional<StudyPlausibility> together_;
   std::vector<TrialSpec> specs_;    ///< Of the trials that could be read, or their parts.
   std::vector<TrialInput> inputs_;  ///< Theirs.
-  std::vector<Finding> findings_;
+  std::vector<Remark> remarks_;
   bool all_read_ = true;
 };
 
@@ -237,7 +242,7 @@ std::optional<TimeSeries> voltages(const std::filesystem::path& path,
 }
 
 /// Faults of a recording whose EMG does not rise from rest.
-std::vector<Fault> levels_alone(const TimeSeries& emg, bool raw, const std::string& where) {
+std::vector<Remark> levels_alone(const TimeSeries& emg, bool raw, const std::string& where) {
   constexpr double kSlowest_hz = 100.0;  // twice what the high-pass needs
   if (raw && emg.mean_rate_hz() < kSlowest_hz) return {};
   signals::EnvelopeOptions options;
@@ -249,26 +254,37 @@ std::vector<Fault> levels_alone(const TimeSeries& emg, bool raw, const std::stri
 
 }  // namespace
 
-std::vector<Finding> check_recording(const std::filesystem::path& path,
-                                     const std::optional<Vec3>& stated_up_L) {
+std::vector<Remark> check_recording(const std::filesystem::path& path,
+                                    const std::optional<Vec3>& stated_up_L) {
   recording::Recording file = recording::read_recording(path);
   const std::string where = path.filename().string();
-  std::vector<Finding> findings;
+  std::vector<Remark> findings;
   bool standing = true;
   try {
     const recording::LaboratoryUp up = recording::stand_plates(file, stated_up_L);
     if (up.up_L)
-      findings.push_back({Level::note, where,
-                          fmt::format("{} is up ({})", recording::axis_name(*up.up_L), up.because),
-                          std::nullopt});
+      findings.push_back(
+          {.code = RemarkCode::reading,
+           .severity = Severity::note,
+           .where = where,
+           .says = fmt::format("{} is up ({})", recording::axis_name(*up.up_L), up.because)});
   } catch (const InvalidInput& error) {
-    findings.push_back({Level::error, where, error.what(), std::nullopt});
+    findings.push_back({.code = RemarkCode::refused,
+                        .severity = Severity::error,
+                        .where = where,
+                        .says = error.what()});
     standing = false;
   }
   for (const recording::Repair& repair : file.repairs)
-    findings.push_back({Level::note, where, recording::to_string(repair), std::nullopt});
-  const auto add = [&](std::vector<Fault> faults) {
-    for (Fault& fault : faults) findings.push_back(finding(where, std::move(fault)));
+    findings.push_back({.code = RemarkCode::reading,
+                        .severity = Severity::note,
+                        .where = where,
+                        .says = recording::to_string(repair)});
+  const auto add = [&](std::vector<Remark> faults) {
+    for (Remark& fault : faults) {
+      fault.where = where;
+      findings.push_back(std::move(fault));
+    }
   };
   add(signals::check_markers(file.markers));
   if (const auto emg = voltages(path, file.analog, file.plates)) {
@@ -279,9 +295,10 @@ std::vector<Finding> check_recording(const std::filesystem::path& path,
           path, 0,
           fmt::format("only {} sample{} of EMG; at least {} are needed", emg->sample_count(),
                       emg->sample_count() == 1 ? "" : "s", kFewest));
-    std::vector<Fault> faults = signals::check_emg(*emg);
-    const bool raw = std::none_of(faults.begin(), faults.end(),
-                                  [](const Fault& f) { return f.kind == FaultKind::emg_envelope; });
+    std::vector<Remark> faults = signals::check_emg(*emg);
+    const bool raw = std::none_of(faults.begin(), faults.end(), [](const Remark& f) {
+      return f.code == RemarkCode::emg_envelope;
+    });
     add(std::move(faults));
     add(levels_alone(*emg, raw, where));
     if (auto uneven = signals::check_clock_evenness(emg->time_s(), "EMG")) add({*uneven});
@@ -289,11 +306,10 @@ std::vector<Finding> check_recording(const std::filesystem::path& path,
   for (const recording::PlateSetup& plate : file.plates) {
     if (standing) add(signals::check_force_plate(file.force_plate(plate)));
   }
-  std::stable_sort(findings.begin(), findings.end(),
-                   [](const Finding& a, const Finding& b) { return a.level < b.level; });
+  sort_by_severity(findings);
   return findings;
 }
 
-std::vector<Finding> check_study(const Study& study) { return StudyCheck(study).findings(); }
+std::vector<Remark> check_study(const Study& study) { return StudyCheck(study).findings(); }
 
 }  // namespace myoid

@@ -45,15 +45,15 @@ struct WrittenStudy {
     recording::write_file(folder / "t.trc", trc);
     recording::write_file(folder / "t.sto", emg);
   }
-  [[nodiscard]] std::vector<Finding> findings() const {
+  [[nodiscard]] std::vector<Remark> findings() const {
     return check_study(parse_study(text, folder / "study.toml"));
   }
   /// Text of the first finding if it is an error.
   [[nodiscard]] std::string error() const {
-    const std::vector<Finding> all = findings();
-    return all.empty() || all.front().level != Finding::Level::error
+    const std::vector<Remark> all = findings();
+    return all.empty() || all.front().severity != Severity::error
                ? "(no error)"
-               : all.front().where + ": " + all.front().message;
+               : all.front().where + ": " + all.front().says;
   }
 };
 
@@ -71,9 +71,9 @@ TEST(CheckStudy, AMisspeltChannelOfEveryTrialIsToldOnceWithTheTrialsNamed) {
     study.text +=
         fmt::format("[[trial]]\nname = \"{}\"\nmarkers = \"t.trc\"\nemg = \"t.sto\"\n", name);
   study.text.replace(study.text.find("emg = \"TRI\""), 11, "emg = \"TRJ\"");
-  const std::vector<Finding> findings = study.findings();
+  const std::vector<Remark> findings = study.findings();
   EXPECT_EQ(std::count_if(findings.begin(), findings.end(),
-                          [](const Finding& f) { return f.level == Finding::Level::error; }),
+                          [](const Remark& f) { return f.severity == Severity::error; }),
             1);
   EXPECT_NE(study.error().find("(likewise in u, v)"), std::string::npos) << study.error();
 }
@@ -139,8 +139,8 @@ TEST(CheckStudy, WhatInitLeftToBeAnsweredIsAWarningWithItsLine) {
   WrittenStudy study;
   const auto asked = [&] {
     recording::write_file(study.folder / "study.toml", study.text);
-    for (const Finding& f : study.findings()) {
-      if (f.message.find("TODO") != std::string::npos) return f.message;
+    for (const Remark& f : study.findings()) {
+      if (f.says.find("TODO") != std::string::npos) return f.says;
     }
     return std::string();
   };
@@ -153,9 +153,9 @@ TEST(CheckStudy, WhatInitLeftToBeAnsweredIsAWarningWithItsLine) {
 }
 
 TEST(CheckStudy, EnvelopesWithoutAMaximalContractionAreSaidToBeSo) {
-  const std::vector<Finding> found = WrittenStudy().findings();
-  EXPECT_TRUE(std::any_of(found.begin(), found.end(), [](const Finding& f) {
-    return f.message.find("no trial is a maximal contraction") != std::string::npos;
+  const std::vector<Remark> found = WrittenStudy().findings();
+  EXPECT_TRUE(std::any_of(found.begin(), found.end(), [](const Remark& f) {
+    return f.says.find("no trial is a maximal contraction") != std::string::npos;
   }));
 }
 
@@ -181,12 +181,12 @@ TEST(CheckStudy, TellsEveryFaultOfAChannelWithItsNameAndTime) {
   trc.replace(trc.find(frame), frame.size(), "101\t1.00\t0.4\t");
   recording::write_file(study.folder / "t.trc", trc);
   bool jump = false;
-  for (const Finding& f : study.findings()) {
-    if (!f.fault || f.fault->kind != FaultKind::marker_jump) continue;
+  for (const Remark& f : study.findings()) {
+    if (f.code != RemarkCode::marker_jump) continue;
     jump = true;
-    EXPECT_EQ(f.level, Finding::Level::warning);
-    EXPECT_EQ(f.fault->channel, "r_styloid_radial");
-    EXPECT_NEAR(f.fault->begin_s, 1.0, 0.021);
+    EXPECT_EQ(f.severity, Severity::warning);
+    EXPECT_EQ(f.about, "r_styloid_radial");
+    EXPECT_NEAR(f.when->begin_s, 1.0, 0.021);
   }
   EXPECT_TRUE(jump);
 }
@@ -202,17 +202,17 @@ TEST(CheckRecording, LooksAtASingleFile) {
                         1e-4 * effort * ((i * 104729) % 4001) / 4001.0 + 1e-4 * hum);
   }
   recording::write_file(folder / "emg.csv", text);
-  const std::vector<Finding> findings = check_recording(folder / "emg.csv");
+  const std::vector<Remark> findings = check_recording(folder / "emg.csv");
   ASSERT_EQ(std::count_if(findings.begin(), findings.end(),
-                          [](const Finding& f) { return f.level == Finding::Level::warning; }),
+                          [](const Remark& f) { return f.severity == Severity::warning; }),
             1);
-  EXPECT_EQ(findings[0].fault->kind, FaultKind::emg_hum);
-  EXPECT_EQ(findings[0].fault->channel, "b");
+  EXPECT_EQ(findings[0].code, RemarkCode::emg_hum);
+  EXPECT_EQ(findings[0].about, "b");
 }
 
-std::vector<Finding> warnings_of(const std::filesystem::path& file) {
-  std::vector<Finding> findings = check_recording(file);
-  std::erase_if(findings, [](const Finding& f) { return f.level != Finding::Level::warning; });
+std::vector<Remark> warnings_of(const std::filesystem::path& file) {
+  std::vector<Remark> findings = check_recording(file);
+  std::erase_if(findings, [](const Remark& f) { return f.severity != Severity::warning; });
   return findings;
 }
 
@@ -222,10 +222,10 @@ TEST(CheckRecording, NoiseAloneIsNoEmg) {
   for (int i = 0; i < 4000; ++i)
     text += fmt::format("{:.3f},{:.9f}\n", 0.001 * i, ((i * 7919) % 2003) / 2003.0 - 0.5);
   recording::write_file(folder / "emg.csv", text);
-  const std::vector<Finding> found = warnings_of(folder / "emg.csv");
+  const std::vector<Remark> found = warnings_of(folder / "emg.csv");
   ASSERT_EQ(found.size(), 1U);
-  EXPECT_EQ(found[0].fault->kind, FaultKind::emg_low_signal);
-  EXPECT_LT(found[0].fault->value, 2.0);
+  EXPECT_EQ(found[0].code, RemarkCode::emg_low_signal);
+  EXPECT_LT(*found[0].value, 2.0);
 }
 
 TEST(CheckRecording, OneSampleIsNoRecording) {
@@ -253,11 +253,11 @@ TEST(CheckRecording, OfRealRecordingsOnlyWhatIsTrueIsSaid) {
     const std::string file = "subject_1_" + trial + ".trc";
     EXPECT_TRUE(warnings_of(data / "upper-limb-optical" / file).empty()) << trial;
   }
-  for (const Finding& f : warnings_of(data / "box-lift" / "markers_analogs.c3d")) {
-    ASSERT_TRUE(f.fault) << f.message;
-    const bool hidden = f.fault->kind == FaultKind::marker_gap && f.fault->value > 0.2;
-    const bool not_worn = f.fault->kind == FaultKind::emg_flat && f.fault->value == 0.0;
-    EXPECT_TRUE(hidden || not_worn) << f.message;
+  for (const Remark& f : warnings_of(data / "box-lift" / "markers_analogs.c3d")) {
+    ASSERT_TRUE(f.when) << f.says;
+    const bool hidden = f.code == RemarkCode::marker_gap && *f.value > 0.2;
+    const bool not_worn = f.code == RemarkCode::emg_flat && *f.value == 0.0;
+    EXPECT_TRUE(hidden || not_worn) << f.says;
   }
 }
 
@@ -268,11 +268,11 @@ TEST(CheckStudy, AStartThatTheModelPutsOutsideTheBoundsIsWarnedOf) {
   osim.replace(osim.find(tag), tag.size(), tag + "9");  // 9 m and some digits
   recording::write_file(study.folder / "arm.osim", osim);
   study.text += "[model]\nfile = \"arm.osim\"\n";
-  const std::vector<Finding> findings = study.findings();
-  EXPECT_TRUE(std::any_of(findings.begin(), findings.end(), [](const Finding& f) {
-    return f.level == Finding::Level::warning &&
-           f.message.find("optimal_fiber_length") != std::string::npos &&
-           f.message.find("lies outside 0.01 to 0.6") != std::string::npos;
+  const std::vector<Remark> findings = study.findings();
+  EXPECT_TRUE(std::any_of(findings.begin(), findings.end(), [](const Remark& f) {
+    return f.severity == Severity::warning &&
+           f.says.find("optimal_fiber_length") != std::string::npos &&
+           f.says.find("lies outside 0.01 to 0.6") != std::string::npos;
   }));
 }
 

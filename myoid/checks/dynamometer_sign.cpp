@@ -113,10 +113,10 @@ std::optional<Products> compare(const Study& study,
 
 }  // namespace
 
-std::vector<Finding> dynamometer_signs(const Study& study,
-                                       const model::BodyModel& model,
-                                       const std::vector<EffortTrial>& trials) {
-  std::vector<Finding> found;
+std::vector<Remark> dynamometer_signs(const Study& study,
+                                      const model::BodyModel& model,
+                                      const std::vector<EffortTrial>& trials) {
+  std::vector<Remark> found;
   const bool any = std::any_of(trials.begin(), trials.end(),
                                [](const EffortTrial& t) { return t.external_torque != nullptr; });
   if (!any) return found;
@@ -152,16 +152,16 @@ std::vector<Finding> dynamometer_signs(const Study& study,
         !against.empty() && against.size() == told && all.cosine() < kLimits.certainly_reversed;
     for (const auto& [trial, cosine] : against) {
       found.push_back(
-          {certain ? Finding::Level::error : Finding::Level::warning,
-           trial->spec->name,
-           fmt::format(
+          {.code = RemarkCode::dynamometer_sign,
+           .severity = certain ? Severity::error : Severity::warning,
+           .where = trial->spec->name,
+           .about = name,
+           .says = fmt::format(
                "{}: the torque on {} pushes the way that the active muscles pull (cosine with what "
                "they have to provide {:.2f}, expected above 0): is its sign reversed? "
                "external_torque is what the surroundings exert on the body, positive in the "
                "coordinate's direction; negate the column if it is what the person exerts",
-               trial->spec->external_torque->filename().string(), name, cosine),
-           {},
-           "dynamometer " + name});
+               trial->spec->external_torque->filename().string(), name, cosine)});
     }
   }
   return found;

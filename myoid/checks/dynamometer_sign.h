@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "myoid/core/finding.h"
+#include "myoid/core/remark.h"
 #include "myoid/core/time_series.h"
 #include "myoid/model/body_model.h"
 #include "myoid/study/study.h"
@@ -24,8 +24,8 @@ struct EffortTrial {
 /// trial below -0.5 is a warning; an error where all trials are and the cosine of all is below
 /// -0.8. Torques below a tenth of what the muscles can hold or four times what the limb weighs,
 /// in which that and its inertia count, tell nothing, nor do passive trials.
-[[nodiscard]] std::vector<Finding> dynamometer_signs(const Study& study,
-                                                     const model::BodyModel& model,
-                                                     const std::vector<EffortTrial>& trials);
+[[nodiscard]] std::vector<Remark> dynamometer_signs(const Study& study,
+                                                    const model::BodyModel& model,
+                                                    const std::vector<EffortTrial>& trials);
 
 }  // namespace myoid

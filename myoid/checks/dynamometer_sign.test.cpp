@@ -10,7 +10,6 @@ namespace myoid {
 namespace {
 
 using namespace test_trials;
-using Level = Finding::Level;
 
 /// An isometric push of the elbow: up to `share` of full activation in flexors or extensors, held
 /// by a dynamometer of `torque_nm` that pushes the other way.
@@ -36,7 +35,7 @@ struct Push {
   }
 };
 
-std::vector<Finding> findings(const std::vector<Push>& pushes) {
+std::vector<Remark> findings(const std::vector<Push>& pushes) {
   std::vector<EffortTrial> trials;
   for (const Push& p : pushes) trials.push_back({&p.spec, &p.torque, p.envelopes});
   return dynamometer_signs(arm_study(), arm(), trials);
@@ -47,21 +46,21 @@ TEST(DynamometerSigns, AreRightWhereItPushesAgainstTheMuscles) {
 }
 
 TEST(DynamometerSigns, ReversedInEveryTrialAreAnErrorThatSaysWhatToNegate) {
-  const std::vector<Finding> found =
+  const std::vector<Remark> found =
       findings({{"up", true, 1.0, -50.0}, {"down", false, 1.0, -40.0}});
   ASSERT_EQ(found.size(), 2U);
-  EXPECT_EQ(found[0].level, Level::error);
+  EXPECT_EQ(found[0].severity, Severity::error);
   EXPECT_EQ(found[0].where, "up");
-  EXPECT_NE(found[0].message.find("up.sto: the torque on elbow_flexion"), std::string::npos)
-      << found[0].message;
-  EXPECT_NE(found[0].message.find("negate the column"), std::string::npos);
+  EXPECT_NE(found[0].says.find("up.sto: the torque on elbow_flexion"), std::string::npos)
+      << found[0].says;
+  EXPECT_NE(found[0].says.find("negate the column"), std::string::npos);
 }
 
 TEST(DynamometerSigns, ReversedInOneTrialAreAWarningOfThatTrial) {
-  const std::vector<Finding> found =
+  const std::vector<Remark> found =
       findings({{"up", true, 1.0, 50.0}, {"down", false, 1.0, -40.0}, {"again", true, 0.7, 30.0}});
   ASSERT_EQ(found.size(), 1U);
-  EXPECT_EQ(found[0].level, Level::warning);
+  EXPECT_EQ(found[0].severity, Severity::warning);
   EXPECT_EQ(found[0].where, "down");
 }
 
@@ -81,14 +80,14 @@ TEST(DynamometerSigns, AreAnErrorOnlyWhereAllTrialsAndAllOfThemSaySo) {
   // of the time 81 % of them are past: cosine -0.62.
   std::vector<Push> most{{"most", true, 1.0, -50.0}};
   turn_after(most[0], 0.71);
-  const std::vector<Finding> unsure = findings(most);
+  const std::vector<Remark> unsure = findings(most);
   ASSERT_EQ(unsure.size(), 1U);
-  EXPECT_EQ(unsure[0].level, Level::warning);
+  EXPECT_EQ(unsure[0].severity, Severity::warning);
   // A small one that is right, beside a large one that is not.
-  const std::vector<Finding> one =
+  const std::vector<Remark> one =
       findings({{"large", true, 1.0, -50.0}, {"small", true, 0.3, 15.0}});
   ASSERT_EQ(one.size(), 1U);
-  EXPECT_EQ(one[0].level, Level::warning);
+  EXPECT_EQ(one[0].severity, Severity::warning);
 }
 
 TEST(DynamometerSigns, AreToldWhereThereIsEmg) {

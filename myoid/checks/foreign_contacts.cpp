@@ -308,11 +308,11 @@ std::string stretch_words(const model::BodyModel& model, const ForeignStretch& s
 
 }  // namespace
 
-std::vector<Finding> foreign_contacts(const model::BodyModel& model,
-                                      const std::string& trial,
-                                      const dynamics::ExternalLoads& loads,
-                                      BodyPoints points) {
-  std::vector<Finding> findings;
+std::vector<Remark> foreign_contacts(const model::BodyModel& model,
+                                     const std::string& trial,
+                                     const dynamics::ExternalLoads& loads,
+                                     BodyPoints points) {
+  std::vector<Remark> findings;
   const GroundContacts contacts(model, loads, std::move(points));
   for (std::size_t k = 0; k < contacts.forces().size(); ++k) {
     if (!contacts.is_of_floor(k)) continue;
@@ -338,8 +338,10 @@ std::vector<Finding> foreign_contacts(const model::BodyModel& model,
     if (said.empty()) continue;
     const dynamics::ExternalForce& force = *contacts.forces()[k];
     findings.push_back(
-        {Finding::Level::warning, trial,
-         fmt::format(
+        {.code = RemarkCode::foreign_contact,
+         .severity = Severity::warning,
+         .where = trial,
+         .says = fmt::format(
              "'{}' is applied to {}, but not all that it bears is {}'s, in {} of {} contacts "
              "and {:.0f} % of the loaded time: {}; leave these times out (start_s, end_s), or "
              "give them to the body that bears them",

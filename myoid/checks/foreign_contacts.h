@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "myoid/checks/body_points.h"
-#include "myoid/core/finding.h"
+#include "myoid/core/remark.h"
 #include "myoid/dynamics/external_loads.h"
 #include "myoid/model/body_model.h"
 
@@ -25,9 +25,9 @@ namespace myoid {
 /// One warning for each force, with the times, their share of the loaded time, the distances and
 /// the remedy. A plate's force at the middle of its surface has its center of pressure where its
 /// moment puts it in the plane across gravity.
-[[nodiscard]] std::vector<Finding> foreign_contacts(const model::BodyModel& model,
-                                                    const std::string& trial,
-                                                    const dynamics::ExternalLoads& loads,
-                                                    BodyPoints points);
+[[nodiscard]] std::vector<Remark> foreign_contacts(const model::BodyModel& model,
+                                                   const std::string& trial,
+                                                   const dynamics::ExternalLoads& loads,
+                                                   BodyPoints points);
 
 }  // namespace myoid

@@ -112,7 +112,7 @@ struct PlateTrial {
     if (about_a_point) e.torque = force_columns(time_s, moment);
     loads.forces.push_back(e);
   }
-  [[nodiscard]] std::vector<Finding> findings() const {
+  [[nodiscard]] std::vector<Remark> findings() const {
     return foreign_contacts(model, "walk", loads, {model, &markers, nullptr});
   }
 };
@@ -126,7 +126,7 @@ TEST(ForeignContacts, AreNoneWhereEachFootHasItsOwnForce) {
     PlateTrial trial;
     trial.load("right", kRight, about_a_point, [](double t) { return if_stands(t, kRight); });
     trial.load("left", kLeft, about_a_point, [](double t) { return if_stands(t, kLeft); });
-    for (const Finding& f : trial.findings()) ADD_FAILURE() << about_a_point << f.message;
+    for (const Remark& f : trial.findings()) ADD_FAILURE() << about_a_point << f.says;
   }
 }
 
@@ -138,16 +138,15 @@ TEST(ForeignContacts, OneContactOfSeveralIsSaidWithItsTimeShareAndDistances) {
       if (t > 4.0 && t < 5.0) return if_stands(t, kLeft);
       return t < 1.0 || (t > 2.0 && t < 3.5) ? if_stands(t, kRight) : 0;
     });
-    const std::vector<Finding> found = trial.findings();
+    const std::vector<Remark> found = trial.findings();
     ASSERT_EQ(found.size(), 1U) << about_a_point;
-    EXPECT_EQ(found[0].level, Finding::Level::warning);
+    EXPECT_EQ(found[0].severity, Severity::warning);
     EXPECT_EQ(found[0].where, "walk");
-    EXPECT_THAT(
-        found[0].message,
-        AllOf(HasSubstr("'plate_1' is applied to calcn_r"), HasSubstr("in 1 of 3 contacts"),
-              HasSubstr("from 4.2"), HasSubstr("s another foot's"), HasSubstr("m from calcn_l")));
-    const std::size_t at = found[0].message.find(" % of the loaded time");
-    EXPECT_NEAR(std::stod(found[0].message.substr(at - 2)), 34.0, 3.0) << found[0].message;
+    EXPECT_THAT(found[0].says, AllOf(HasSubstr("'plate_1' is applied to calcn_r"),
+                                     HasSubstr("in 1 of 3 contacts"), HasSubstr("from 4.2"),
+                                     HasSubstr("s another foot's"), HasSubstr("m from calcn_l")));
+    const std::size_t at = found[0].says.find(" % of the loaded time");
+    EXPECT_NEAR(std::stod(found[0].says.substr(at - 2)), 34.0, 3.0) << found[0].says;
   }
 }
 
@@ -164,10 +163,10 @@ TEST(ForeignContacts, AFootOfSomebodyElseIsSaidToo) {
   }
   force.force = force_columns(trial.time_s, f);
   force.point = force_columns(trial.time_s, p);
-  const std::vector<Finding> found = trial.findings();
+  const std::vector<Remark> found = trial.findings();
   ASSERT_EQ(found.size(), 1U);
-  EXPECT_THAT(found[0].message, AllOf(HasSubstr("in 1 of 5 contacts"), HasSubstr("from 5.2"),
-                                      HasSubstr("no other body of the model is near")));
+  EXPECT_THAT(found[0].says, AllOf(HasSubstr("in 1 of 5 contacts"), HasSubstr("from 5.2"),
+                                   HasSubstr("no other body of the model is near")));
 }
 
 TEST(ForeignContacts, ASecondFootOnThePlateIsSaid) {
@@ -197,9 +196,9 @@ TEST(ForeignContacts, ASecondFootOnThePlateIsSaid) {
   force.force = force_columns(trial.time_s, f);
   force.point = force_columns(trial.time_s, p);
   trial.loads.forces = {force};
-  const std::vector<Finding> found = trial.findings();
+  const std::vector<Remark> found = trial.findings();
   ASSERT_EQ(found.size(), 1U);
-  EXPECT_THAT(found[0].message,
+  EXPECT_THAT(found[0].says,
               AllOf(HasSubstr("in 1 of 2 contacts"), HasSubstr("from 1.0"),
                     HasSubstr("a second foot stands beside"), HasSubstr("from calcn_l")));
 }

@@ -76,11 +76,10 @@ std::vector<Load> distances(const model::BodyModel& model,
 
 }  // namespace
 
-std::vector<Finding> misplaced_loads(const model::BodyModel& model,
-                                     const TrialSpec& trial,
-                                     const TrialInput& input) {
-  using Level = Finding::Level;
-  std::vector<Finding> found;
+std::vector<Remark> misplaced_loads(const model::BodyModel& model,
+                                    const TrialSpec& trial,
+                                    const TrialInput& input) {
+  std::vector<Remark> found;
   if (!input.loads || (!input.markers && !input.motion)) return found;
   BodyPoints points(model, input.markers ? &*input.markers : nullptr,
                     input.motion ? &*input.motion : nullptr);
@@ -99,11 +98,14 @@ std::vector<Finding> misplaced_loads(const model::BodyModel& model,
     if (off(loads[i], own) > kLimits.elsewhere_m && off(loads[i], own) < kNone) {
       said[i] = true;
       found.push_back(
-          {Level::error, trial.name,
-           fmt::format("{}: the point of '{}' lies {:.3g} m from {}, on which it acts (median "
-                       "while loaded), expected under it: is it in mm, or in other axes or another "
-                       "origin than the motion?",
-                       file, loads[i].force->name, off(loads[i], own), name(own))});
+          {.code = RemarkCode::load_misplaced,
+           .severity = Severity::error,
+           .where = trial.name,
+           .says = fmt::format(
+               "{}: the point of '{}' lies {:.3g} m from {}, on which it acts (median "
+               "while loaded), expected under it: is it in mm, or in other axes or another "
+               "origin than the motion?",
+               file, loads[i].force->name, off(loads[i], own), name(own))});
     }
     for (std::size_t j = i + 1; j < loads.size() && !said[i]; ++j) {
       const model::BodyIndex other = loads[j].force->body;
@@ -114,12 +116,15 @@ std::vector<Finding> misplaced_loads(const model::BodyModel& model,
         continue;
       said[i] = said[j] = true;
       found.push_back(
-          {Level::error, trial.name,
-           fmt::format("{}: '{}' is applied to {} and '{}' to {}, but each acts at the other's: "
-                       "{:.2g} m from its own body and {:.2g} m from the other (median while "
-                       "loaded); exchange their applied_to_body",
-                       file, loads[i].force->name, name(own), loads[j].force->name, name(other),
-                       off(loads[i], own), off(loads[i], other))});
+          {.code = RemarkCode::load_misplaced,
+           .severity = Severity::error,
+           .where = trial.name,
+           .says = fmt::format(
+               "{}: '{}' is applied to {} and '{}' to {}, but each acts at the other's: "
+               "{:.2g} m from its own body and {:.2g} m from the other (median while "
+               "loaded); exchange their applied_to_body",
+               file, loads[i].force->name, name(own), loads[j].force->name, name(other),
+               off(loads[i], own), off(loads[i], other))});
     }
   }
   for (std::size_t i = 0; i < loads.size(); ++i) {
@@ -129,12 +134,15 @@ std::vector<Finding> misplaced_loads(const model::BodyModel& model,
     const auto nearest = std::min_element(alone.begin() + 1, alone.end()) - alone.begin();
     if (alone[static_cast<std::size_t>(nearest)] > kLimits.much_nearer * off(loads[i], own))
       continue;
-    found.push_back({Level::warning, trial.name,
-                     fmt::format("{}: '{}' is applied to {}, but acts {:.2g} m from it (median "
-                                 "while loaded) and {:.2g} m from {}; is applied_to_body right?",
-                                 file, loads[i].force->name, name(own), off(loads[i], own),
-                                 alone[static_cast<std::size_t>(nearest)],
-                                 name(static_cast<model::BodyIndex>(nearest)))});
+    found.push_back(
+        {.code = RemarkCode::load_misplaced,
+         .severity = Severity::warning,
+         .where = trial.name,
+         .says = fmt::format("{}: '{}' is applied to {}, but acts {:.2g} m from it (median "
+                             "while loaded) and {:.2g} m from {}; is applied_to_body right?",
+                             file, loads[i].force->name, name(own), off(loads[i], own),
+                             alone[static_cast<std::size_t>(nearest)],
+                             name(static_cast<model::BodyIndex>(nearest)))});
   }
   return found;
 }

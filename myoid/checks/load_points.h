@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "myoid/core/finding.h"
+#include "myoid/core/remark.h"
 #include "myoid/intake/trial_input.h"
 #include "myoid/model/body_model.h"
 #include "myoid/study/study.h"
@@ -17,8 +17,8 @@ namespace myoid {
 /// and center of mass in the model. An error where two forces are each nearer to the other's body
 /// (their feet are exchanged) or one is more than 2 m away (its unit or axes are others); a warning
 /// where one is more than 0.2 m from its own body and half as far from another.
-[[nodiscard]] std::vector<Finding> misplaced_loads(const model::BodyModel& model,
-                                                   const TrialSpec& trial,
-                                                   const TrialInput& input);
+[[nodiscard]] std::vector<Remark> misplaced_loads(const model::BodyModel& model,
+                                                  const TrialSpec& trial,
+                                                  const TrialInput& input);
 
 }  // namespace myoid

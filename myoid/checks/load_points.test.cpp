@@ -7,8 +7,6 @@
 namespace myoid {
 namespace {
 
-using Level = Finding::Level;
-
 /// A pelvis that moves forward at 1 m/s, with two feet 0.2 m to the sides and 0.9 m below that
 /// swing half a meter either way.
 model::BodyModel walker() {
@@ -99,7 +97,7 @@ struct Walk {
     input.markers = markers;
     input.motion.reset();
   }
-  [[nodiscard]] std::vector<Finding> findings() const {
+  [[nodiscard]] std::vector<Remark> findings() const {
     return misplaced_loads(model, trial, input);
   }
 };
@@ -116,12 +114,12 @@ TEST(MisplacedLoads, ExchangedFeetAreAnErrorThatNamesBoth) {
     Walk walk;
     if (markers) walk.with_markers();
     std::swap(walk.input.loads->forces[0].body, walk.input.loads->forces[1].body);
-    const std::vector<Finding> found = walk.findings();
+    const std::vector<Remark> found = walk.findings();
     ASSERT_EQ(found.size(), 1U) << markers;
-    EXPECT_EQ(found[0].level, Level::error);
-    EXPECT_NE(found[0].message.find("'right' is applied to calcn_l and 'left' to calcn_r"),
+    EXPECT_EQ(found[0].severity, Severity::error);
+    EXPECT_NE(found[0].says.find("'right' is applied to calcn_l and 'left' to calcn_r"),
               std::string::npos)
-        << found[0].message;
+        << found[0].says;
   }
 }
 
@@ -129,11 +127,11 @@ TEST(MisplacedLoads, OneForceOnTheWrongFootIsAWarning) {
   Walk walk;
   walk.input.loads->forces.pop_back();
   walk.input.loads->forces[0].body = 3;
-  const std::vector<Finding> found = walk.findings();
+  const std::vector<Remark> found = walk.findings();
   ASSERT_EQ(found.size(), 1U);
-  EXPECT_EQ(found[0].level, Level::warning);
-  EXPECT_NE(found[0].message.find("from calcn_r; is applied_to_body right?"), std::string::npos)
-      << found[0].message;
+  EXPECT_EQ(found[0].severity, Severity::warning);
+  EXPECT_NE(found[0].says.find("from calcn_r; is applied_to_body right?"), std::string::npos)
+      << found[0].says;
 }
 
 TEST(MisplacedLoads, APointInMillimetersIsAnError) {
@@ -141,10 +139,10 @@ TEST(MisplacedLoads, APointInMillimetersIsAnError) {
   for (math::Spline& s : walk.input.loads->forces[0].point->splines)
     s = math::Spline::interpolate(walk.input.motion->time_s(),
                                   Eigen::VectorXd::Constant(200, 300.0), 3);
-  const std::vector<Finding> found = walk.findings();
+  const std::vector<Remark> found = walk.findings();
   ASSERT_EQ(found.size(), 1U);
-  EXPECT_EQ(found[0].level, Level::error);
-  EXPECT_NE(found[0].message.find("is it in mm"), std::string::npos) << found[0].message;
+  EXPECT_EQ(found[0].severity, Severity::error);
+  EXPECT_NE(found[0].says.find("is it in mm"), std::string::npos) << found[0].says;
 }
 
 /// Its points from here on, or while its force is below a newton.

@@ -75,10 +75,10 @@ std::optional<std::string> other_side(const std::string& label) {
   return std::nullopt;
 }
 
-std::optional<Finding> exchanged_sides(const model::BodyModel& model,
-                                       const TrialSpec& trial,
-                                       const recording::MarkerSeries& markers,
-                                       const std::map<std::string, double>& weights) {
+std::optional<Remark> exchanged_sides(const model::BodyModel& model,
+                                      const TrialSpec& trial,
+                                      const recording::MarkerSeries& markers,
+                                      const std::map<std::string, double>& weights) {
   recording::MarkerSeries exchanged = markers;
   int renamed = 0;
   for (std::string& name : exchanged.names) {
@@ -95,15 +95,16 @@ std::optional<Finding> exchanged_sides(const model::BodyModel& model,
     if (!(now > kLimits.sides_m)) return std::nullopt;
     const double then = rms_m(model, one_frame(exchanged), weights);
     if (!(then < kLimits.sides_better * now) || then > kLimits.sides_m) return std::nullopt;
-    return Finding{Finding::Level::error,
-                   trial.name,
-                   fmt::format("{}: the markers lie {:.0f} mm rms from the model's, and {:.0f} mm "
-                               "with the labels of left and right exchanged: exchange them in the "
-                               "file, or by [markers] rename",
-                               trial.markers ? trial.markers->filename().string() : "the markers",
-                               1e3 * now, 1e3 * then),
-                   {},
-                   "sides"};
+    return Remark{
+        .code = RemarkCode::sides_exchanged,
+        .severity = Severity::error,
+        .where = trial.name,
+        .about = "left, right",
+        .says = fmt::format("{}: the markers lie {:.0f} mm rms from the model's, and {:.0f} mm "
+                            "with the labels of left and right exchanged: exchange them in the "
+                            "file, or by [markers] rename",
+                            trial.markers ? trial.markers->filename().string() : "the markers",
+                            1e3 * now, 1e3 * then)};
   } catch (const InvalidInput&) {
     return std::nullopt;  // said where the markers are compared with the model's
   }

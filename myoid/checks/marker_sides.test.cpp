@@ -73,8 +73,8 @@ TEST(ExchangedSides, AreFoundAndRightOnesAreNot) {
   for (std::string& name : markers.names) name = other_side(name).value_or(name);
   const auto found = exchanged_sides(model, trial, markers, {});
   ASSERT_TRUE(found);
-  EXPECT_EQ(found->level, Finding::Level::error);
-  EXPECT_NE(found->message.find("walk.trc"), std::string::npos) << found->message;
+  EXPECT_EQ(found->severity, Severity::error);
+  EXPECT_NE(found->says.find("walk.trc"), std::string::npos) << found->says;
   // A model that does not fit either way says nothing.
   markers.positions_m *= 1.5;
   EXPECT_FALSE(exchanged_sides(model, trial, markers, {}));

@@ -2,6 +2,8 @@
 
 #include <cstddef>
 
+#include <fmt/format.h>
+
 #include "myoid/checks/dynamometer_sign.h"
 #include "myoid/core/parallel.h"
 #include "myoid/intake/trial_quality.h"
@@ -22,8 +24,10 @@ RecordingFindings recording_findings(const Study& study,
   RecordingFindings found;
   found.of_trials.resize(inputs.size());
   parallel_ranges<std::size_t>(inputs.size(), 1, [&](const auto& range) {
-    for (std::size_t i = range.begin(); i != range.end(); ++i)
+    for (std::size_t i = range.begin(); i != range.end(); ++i) {
       found.of_trials[i] = trial_faults(study, inputs[i], activation.trials[i].activation);
+      for (Remark& fault : found.of_trials[i]) fault.where = study.trials[i].name;
+    }
   });
   if (study.emg.kind != EmgKind::activation)
     found.levels =
@@ -37,6 +41,18 @@ RecordingFindings recording_findings(const Study& study,
   }
   found.dynamometers = grouped(dynamometer_signs(study, model, efforts));
   return found;
+}
+
+std::vector<std::string> fault_summary(std::vector<Remark> faults, std::size_t most) {
+  std::erase_if(faults, [](const Remark& f) { return f.severity != Severity::warning; });
+  std::vector<std::string> lines;
+  for (const Remark& f : grouped(faults, Times::merged))
+    lines.push_back((f.where.empty() ? "" : fmt::format("trial {}: ", f.where)) + sentence(f));
+  if (lines.size() <= most) return lines;
+  const std::size_t more = lines.size() - most;
+  lines.resize(most);
+  lines.push_back(fmt::format("{} more faults: see `myoid check`", more));
+  return lines;
 }
 
 }  // namespace myoid

@@ -34,11 +34,41 @@ TEST(RecordingFindings, AMovementAboveTheMaximalContractionIsOfTheLevelsAndNotOf
       recording_findings(study, model::parse_osim(model::arm4_osim(), "arm4.osim"), inputs,
                          study_activation(study, emg));
   ASSERT_EQ(found.of_trials.size(), 2U);
-  const auto above = [](const Fault& f) { return f.kind == FaultKind::emg_over_reference; };
+  const auto above = [](const Remark& f) { return f.code == RemarkCode::emg_over_reference; };
   EXPECT_TRUE(std::any_of(found.levels.begin(), found.levels.end(), above));
-  for (const std::vector<Fault>& faults : found.of_trials)
+  for (const std::vector<Remark>& faults : found.of_trials)
     EXPECT_TRUE(std::none_of(faults.begin(), faults.end(), above));
   EXPECT_TRUE(found.dynamometers.empty());
+}
+
+Remark fault(const std::string& trial,
+             RemarkCode code,
+             const std::string& channel,
+             Severity severity = Severity::warning) {
+  return {.code = code,
+          .severity = severity,
+          .where = trial,
+          .about = channel,
+          .when = Stretch{0.0, 1.0},
+          .says = channel + " is bad"};
+}
+
+TEST(FaultSummary, SaysTheSameOfSeveralTrialsOnce) {
+  const auto lines = fault_summary({fault("one", RemarkCode::emg_hum, "BIC"),
+                                    fault("one", RemarkCode::emg_drift, "BIC", Severity::note),
+                                    fault("two", RemarkCode::emg_hum, "BIC"),
+                                    fault("", RemarkCode::emg_low_signal, "TRI")});
+  EXPECT_EQ(lines,
+            (std::vector<std::string>{"trial one: BIC is bad (likewise in two)", "TRI is bad"}));
+}
+
+TEST(FaultSummary, EndsAfterSoManyLines) {
+  std::vector<Remark> faults;
+  for (int k = 0; k < 9; ++k)
+    faults.push_back(fault("t", RemarkCode::marker_gap, std::to_string(k)));
+  const auto lines = fault_summary(faults, 5);
+  ASSERT_EQ(lines.size(), 6U);
+  EXPECT_EQ(lines.back(), "4 more faults: see `myoid check`");
 }
 
 }  // namespace

@@ -93,8 +93,8 @@ TrialPrint print_of(const TrialSpec& spec, const TrialInput& input) {
   return print;
 }
 
-std::vector<Finding> same_recordings(const std::vector<TrialPrint>& trials) {
-  std::vector<Finding> findings;
+std::vector<Remark> same_recordings(const std::vector<TrialPrint>& trials) {
+  std::vector<Remark> findings;
   for (std::size_t j = 0; j < trials.size(); ++j) {
     for (std::size_t i = 0; i < j; ++i) {
       const TrialPrint& a = trials[i];
@@ -102,31 +102,34 @@ std::vector<Finding> same_recordings(const std::vector<TrialPrint>& trials) {
       const double emg = common_share(a.emg, b.emg);
       const double movement = common_share(a.movement, b.movement);
       const bool both_count = counts(a.use) && counts(b.use);
-      const auto add = [&](Finding::Level level, std::string message) {
-        findings.push_back({level, b.trial, std::move(message)});
+      const auto add = [&](Severity severity, std::string text) {
+        findings.push_back({.code = RemarkCode::same_recording,
+                            .severity = severity,
+                            .where = b.trial,
+                            .says = std::move(text)});
       };
       if (emg > kEdges && movement > kEdges) {
         if (both_count)
-          add(Finding::Level::error,
+          add(Severity::error,
               fmt::format("{:.0f} % of its EMG{} and of its motion are those of trial '{}': one "
                           "effort would count twice; name each recording once, or give the two "
                           "trials windows (start_s, end_s) that do not overlap",
                           100.0 * emg, of(b.emg_file), a.trial));
       } else if (emg > kEdges) {
         if (both_count) {
-          add(Finding::Level::error,
+          add(Severity::error,
               fmt::format("{:.0f} % of its EMG{} is the EMG of trial '{}'{}, but its motion is "
                           "another: one of the two names the wrong file; correct its emg",
                           100.0 * emg, of(b.emg_file), a.trial, of(a.emg_file)));
         } else if (counts(a.use) != counts(b.use)) {
-          add(Finding::Level::warning,
+          add(Severity::warning,
               fmt::format("{:.0f} % of its EMG{} is the EMG of trial '{}': is one of the two file "
                           "names a slip? A trial that is its own maximal contraction sets 1 to "
                           "its own largest effort",
                           100.0 * emg, of(b.emg_file), a.trial));
         }
       } else if (movement > kEdges && both_count && !a.emg.empty() && !b.emg.empty()) {
-        add(Finding::Level::warning,
+        add(Severity::warning,
             fmt::format("{:.0f} % of its motion{} is the motion of trial '{}', but its EMG is "
                         "another: was one of the two files named by mistake?",
                         100.0 * movement, of(b.motion_file), a.trial));

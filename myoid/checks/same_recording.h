@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "myoid/core/finding.h"
+#include "myoid/core/remark.h"
 #include "myoid/core/time_series.h"
 #include "myoid/intake/trial_input.h"
 #include "myoid/study/study.h"
@@ -36,6 +36,6 @@ struct TrialPrint {
 /// or one effort is counted twice; a warning where two EMGs are said to have driven one movement,
 /// or a maximal contraction is only a trial once more. The same file may serve several trials with
 /// windows that do not overlap, and several maximal contractions.
-[[nodiscard]] std::vector<Finding> same_recordings(const std::vector<TrialPrint>& trials);
+[[nodiscard]] std::vector<Remark> same_recordings(const std::vector<TrialPrint>& trials);
 
 }  // namespace myoid

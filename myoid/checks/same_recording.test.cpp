@@ -7,8 +7,6 @@
 namespace myoid {
 namespace {
 
-using Level = Finding::Level;
-
 /// Two channels of noise in steps of a converter; `from` is the number of the first sample.
 TimeSeries noise(std::uint64_t seed, Eigen::Index from = 0, Eigen::Index count = 4000) {
   std::mt19937_64 engine(seed);
@@ -36,9 +34,9 @@ TrialPrint print(const std::string& name,
           .movement = stretches_of(noise(1000 + motion))};
 }
 
-std::vector<Level> levels(const std::vector<TrialPrint>& trials) {
-  std::vector<Level> result;
-  for (const Finding& f : same_recordings(trials)) result.push_back(f.level);
+std::vector<Severity> levels(const std::vector<TrialPrint>& trials) {
+  std::vector<Severity> result;
+  for (const Remark& f : same_recordings(trials)) result.push_back(f.severity);
   return result;
 }
 
@@ -67,27 +65,27 @@ TEST(CommonShare, OfWhatDoesNotChangeIsNone) {
 }
 
 TEST(SameRecordings, OneEmgWithTwoMovementsIsAnError) {
-  const std::vector<Finding> found =
+  const std::vector<Remark> found =
       same_recordings({print("a", 1, 1), print("b", 2, 2), print("c", 1, 3)});
   ASSERT_EQ(found.size(), 1U);
-  EXPECT_EQ(found[0].level, Level::error);
+  EXPECT_EQ(found[0].severity, Severity::error);
   EXPECT_EQ(found[0].where, "c");
-  EXPECT_NE(found[0].message.find("EMG of trial 'a' (a.sto)"), std::string::npos)
-      << found[0].message;
+  EXPECT_NE(found[0].says.find("EMG of trial 'a' (a.sto)"), std::string::npos) << found[0].says;
 }
 
 TEST(SameRecordings, OneRecordingTwiceIsAnErrorAndDifferentOnesAreNone) {
-  EXPECT_EQ(levels({print("a", 1, 1), print("b", 1, 1)}), std::vector{Level::error});
-  EXPECT_EQ(levels({print("a", 1, 1), print("b", 2, 2)}), std::vector<Level>{});
+  EXPECT_EQ(levels({print("a", 1, 1), print("b", 1, 1)}), std::vector{Severity::error});
+  EXPECT_EQ(levels({print("a", 1, 1), print("b", 2, 2)}), std::vector<Severity>{});
 }
 
 TEST(SameRecordings, OneMovementWithTwoEmgsIsAWarning) {
-  EXPECT_EQ(levels({print("a", 1, 1), print("b", 2, 1)}), std::vector{Level::warning});
+  EXPECT_EQ(levels({print("a", 1, 1), print("b", 2, 1)}), std::vector{Severity::warning});
 }
 
 TEST(SameRecordings, AMaximalContractionThatIsATrialOnceMoreIsAWarning) {
-  EXPECT_EQ(levels({print("a", 1, 1), print("m", 1, 2, Use::mvc)}), std::vector{Level::warning});
-  EXPECT_EQ(levels({print("m", 1, 1, Use::mvc), print("n", 1, 1, Use::mvc)}), std::vector<Level>{});
+  EXPECT_EQ(levels({print("a", 1, 1), print("m", 1, 2, Use::mvc)}), std::vector{Severity::warning});
+  EXPECT_EQ(levels({print("m", 1, 1, Use::mvc), print("n", 1, 1, Use::mvc)}),
+            std::vector<Severity>{});
 }
 
 TEST(SameRecordings, WindowsOfOneFileThatMeetAreTwoTrials) {
@@ -101,9 +99,9 @@ TEST(SameRecordings, WindowsOfOneFileThatMeetAreTwoTrials) {
   first.name = "a";
   second.name = "b";
   EXPECT_EQ(levels({print_of(first, window(0)), print_of(second, window(4000))}),
-            std::vector<Level>{});
+            std::vector<Severity>{});
   EXPECT_EQ(levels({print_of(first, window(0)), print_of(second, window(3000))}),
-            std::vector{Level::error});
+            std::vector{Severity::error});
 }
 
 }  // namespace

@@ -19,16 +19,16 @@ TEST(SharedMuscles, OfMusclesOfTheirOwnNothingIsSaid) {
 TEST(SharedMuscles, AMuscleOfTheModelInTwoTablesIsAnError) {
   const auto found = shared_muscles(two("BICshort", "Triceps"));
   ASSERT_EQ(found.size(), 1U);
-  EXPECT_EQ(found[0].level, Finding::Level::error);
-  EXPECT_NE(found[0].message.find("'BICshort'"), std::string::npos) << found[0].message;
+  EXPECT_EQ(found[0].severity, Severity::error);
+  EXPECT_NE(found[0].says.find("'BICshort'"), std::string::npos) << found[0].says;
 }
 
 TEST(SharedMuscles, AChannelOfTwoMusclesIsAWarningUnlessItIsMeant) {
   Study study = two("TRIlong", "Biceps");
   const auto found = shared_muscles(study);
   ASSERT_EQ(found.size(), 1U);
-  EXPECT_EQ(found[0].level, Finding::Level::warning);
-  EXPECT_NE(found[0].message.find("same_as = \"BIC\""), std::string::npos) << found[0].message;
+  EXPECT_EQ(found[0].severity, Severity::warning);
+  EXPECT_NE(found[0].says.find("same_as = \"BIC\""), std::string::npos) << found[0].says;
   study.muscles[1].same_as = "BIC";
   EXPECT_TRUE(shared_muscles(study).empty());
 }

@@ -17,10 +17,10 @@ namespace myoid {
 namespace {
 
 /// A coordinate that carries the body in a trial without any measured force.
-std::optional<Finding> check_support(const Study& study,
-                                     const model::BodyModel& model,
-                                     const TrialSpec& trial,
-                                     const TrialInput& input) {
+std::optional<Remark> check_support(const Study& study,
+                                    const model::BodyModel& model,
+                                    const TrialSpec& trial,
+                                    const TrialInput& input) {
   if (input.loads || input.external_torque || trial.use == Use::static_pose) return std::nullopt;
   if (!input.motion && !input.markers) return std::nullopt;
   Eigen::VectorXd q = model.default_q();
@@ -37,7 +37,11 @@ std::optional<Finding> check_support(const Study& study,
       continue;
     const auto weight = dynamics::unsupported_weight(model);
     if (weight)
-      return Finding{Finding::Level::warning, trial.name, weight->sentence(), {}, "support"};
+      return Remark{.code = RemarkCode::body_unsupported,
+                    .severity = Severity::warning,
+                    .where = trial.name,
+                    .about = "ground",
+                    .says = weight->sentence()};
   }
   return std::nullopt;
 }
@@ -56,13 +60,13 @@ void StudyPlausibility::look_at(const TrialSpec& trial, const TrialInput& input)
         largest_emg_ = std::max(largest_emg_, input.emg->values().col(*column).maxCoeff());
     }
   }
-  std::vector<Finding> found = implausible(*study_, *model_, capacities_, trial, input);
+  std::vector<Remark> found = implausible(*study_, *model_, capacities_, trial, input);
   std::move(found.begin(), found.end(), std::back_inserter(of_trials_));
   auto sides = input.markers
                    ? exchanged_sides(*model_, trial, *input.markers, study_->markers.weight)
                    : std::nullopt;
   // Exchanged labels put every force under the other foot.
-  found = sides ? std::vector<Finding>{*sides} : misplaced_loads(*model_, trial, input);
+  found = sides ? std::vector<Remark>{*sides} : misplaced_loads(*model_, trial, input);
   if (found.empty() && input.loads && (input.markers || input.motion))
     found = foreign_contacts(*model_, trial.name, *input.loads,
                              {*model_, input.markers ? &*input.markers : nullptr,
@@ -72,22 +76,25 @@ void StudyPlausibility::look_at(const TrialSpec& trial, const TrialInput& input)
     of_trials_.push_back(std::move(*support));
 }
 
-std::vector<Finding> StudyPlausibility::findings() const {
-  std::vector<Finding> found = grouped(of_trials_);
-  std::vector<Finding> same = same_recordings(prints_);
+std::vector<Remark> StudyPlausibility::findings() const {
+  std::vector<Remark> found = grouped(of_trials_);
+  std::vector<Remark> same = same_recordings(prints_);
   // Activations may be computed, and then alike for good.
   if (study_->emg.kind == EmgKind::activation) {
-    for (Finding& f : same) f.level = Finding::Level::warning;
+    for (Remark& f : same) f.severity = Severity::warning;
     if (largest_emg_ > 0.0 && largest_emg_ < kFlatActivation) {
       found.push_back(
-          {Finding::Level::warning, "study",
-           fmt::format("[emg] kind = \"activation\", but no activation of any trial is above "
-                       "{:.2g}, expected up to 1 in the greatest effort: is this EMG in volts? Set "
-                       "[emg] kind = \"envelope\"",
-                       largest_emg_)});
+          {.code = RemarkCode::flat_activations,
+           .severity = Severity::warning,
+           .where = "study",
+           .says = fmt::format(
+               "[emg] kind = \"activation\", but no activation of any trial is above "
+               "{:.2g}, expected up to 1 in the greatest effort: is this EMG in volts? Set "
+               "[emg] kind = \"envelope\"",
+               largest_emg_)});
     }
   }
-  for (std::vector<Finding> more :
+  for (std::vector<Remark> more :
        {shared_muscles(*study_), same, grouped(unlike_lengths(lengths_))})
     std::move(more.begin(), more.end(), std::back_inserter(found));
   return found;
@@ -97,17 +104,16 @@ void require_plausible(const Study& study,
                        const model::BodyModel& model,
                        std::vector<TrialInput>& inputs) {
   StudyPlausibility plausibility(study, model);
-  const auto take = [&](std::vector<Finding> findings) {
-    for (Finding& f : findings) {
-      if (f.level == Finding::Level::error)
-        throw InvalidInput(f.where == "study" ? f.message
-                                              : fmt::format("{} (trial '{}')", f.message, f.where));
+  const auto take = [&](std::vector<Remark> findings) {
+    for (Remark& f : findings) {
+      if (f.severity == Severity::error)
+        throw InvalidInput(f.where == "study"
+                               ? sentence(f)
+                               : fmt::format("{} (trial '{}')", sentence(f), f.where));
       // What is said of the whole study stands with its first trial.
       std::size_t at = 0;
       while (at < inputs.size() && study.trials[at].name != f.where) ++at;
-      TrialInput& input = inputs[at < inputs.size() ? at : 0];
-      input.notes.push_back(f.message);
-      input.warnings.push_back(std::move(f.message));
+      inputs[at < inputs.size() ? at : 0].remarks.push_back(std::move(f));
     }
   };
   for (std::size_t i = 0; i < inputs.size(); ++i) plausibility.look_at(study.trials[i], inputs[i]);

@@ -5,7 +5,7 @@
 
 #include "myoid/checks/same_recording.h"
 #include "myoid/checks/trial_plausibility.h"
-#include "myoid/core/finding.h"
+#include "myoid/core/remark.h"
 #include "myoid/intake/emg_cover.h"
 #include "myoid/intake/trial_input.h"
 #include "myoid/model/body_model.h"
@@ -23,13 +23,13 @@ class StudyPlausibility {
   void look_at(const TrialSpec& trial, const TrialInput& input);
   /// What is wrong with the trials seen so far, one by one and together; what several have alike is
   /// said of the first, and the others are named.
-  [[nodiscard]] std::vector<Finding> findings() const;
+  [[nodiscard]] std::vector<Remark> findings() const;
 
  private:
   const Study* study_;
   const model::BodyModel* model_;
   Capacities capacities_;
-  std::vector<Finding> of_trials_;
+  std::vector<Remark> of_trials_;
   std::vector<TrialPrint> prints_;
   std::vector<TrialLengths> lengths_;
   double largest_emg_ = 0.0;  ///< Of all trials.

@@ -48,8 +48,8 @@ struct TwoTrials {
 TEST(RequirePlausible, LetsGoodTrialsPassUntouched) {
   TwoTrials two;
   require_plausible(two.study, two.model, two.inputs);
-  EXPECT_TRUE(two.inputs[0].warnings.empty());
-  EXPECT_TRUE(two.inputs[1].warnings.empty());
+  EXPECT_TRUE(two.inputs[0].remarks.empty());
+  EXPECT_TRUE(two.inputs[1].remarks.empty());
 }
 
 TEST(RequirePlausible, RefusesOneEmgInTwoTrialsAndNamesBoth) {
@@ -72,10 +72,10 @@ TEST(StudyPlausibility, WhatSeveralTrialsHaveAlikeIsSaidOnce) {
     two.study.trials[i].held_mass_kg = 60.0;
     plausibility.look_at(two.study.trials[i], two.inputs[i]);
   }
-  const std::vector<Finding> found = plausibility.findings();
+  const std::vector<Remark> found = plausibility.findings();
   ASSERT_EQ(found.size(), 1U);
   EXPECT_EQ(found[0].where, "first");
-  EXPECT_NE(found[0].message.find("(likewise in second)"), std::string::npos) << found[0].message;
+  EXPECT_EQ(found[0].likewise, std::vector<std::string>{"second"});
 }
 
 TEST(RequirePlausible, VoltsThatAreCalledActivationsAreWarnedOf) {
@@ -87,10 +87,10 @@ TEST(RequirePlausible, VoltsThatAreCalledActivationsAreWarnedOf) {
       two.inputs[i].emg = TimeSeries(two.inputs[i].emg->time_s(), two.inputs[i].emg->channels(),
                                      (volts ? 1.0 : 1e4) * two.inputs[i].emg->values());
     require_plausible(two.study, two.model, two.inputs);
-    ASSERT_EQ(two.inputs[0].warnings.size(), volts ? 1U : 0U);
+    ASSERT_EQ(two.inputs[0].remarks.size(), volts ? 1U : 0U);
     if (!volts) continue;
-    EXPECT_NE(two.inputs[0].warnings[0].find("is this EMG in volts?"), std::string::npos)
-        << two.inputs[0].warnings[0];
+    EXPECT_NE(two.inputs[0].remarks[0].says.find("is this EMG in volts?"), std::string::npos)
+        << two.inputs[0].remarks[0].says;
   }
 }
 
@@ -99,16 +99,16 @@ TEST(RequirePlausible, ActivationsThatAreAlikeMayBeComputedAndAreWarnedOf) {
   two.study.emg.kind = EmgKind::activation;
   two.inputs[1].emg = two.inputs[0].emg;
   require_plausible(two.study, two.model, two.inputs);
-  EXPECT_EQ(two.inputs[1].warnings.size(), 1U);
+  EXPECT_EQ(two.inputs[1].remarks.size(), 1U);
 }
 
 TEST(RequirePlausible, AWarningGoesToItsTrial) {
   TwoTrials two;
   two.study.trials[1].held_mass_kg = 60.0;
   require_plausible(two.study, two.model, two.inputs);
-  EXPECT_TRUE(two.inputs[0].warnings.empty());
-  ASSERT_EQ(two.inputs[1].warnings.size(), 1U);
-  EXPECT_EQ(two.inputs[1].notes, two.inputs[1].warnings);
+  EXPECT_TRUE(two.inputs[0].remarks.empty());
+  ASSERT_EQ(two.inputs[1].remarks.size(), 1U);
+  EXPECT_EQ(two.inputs[1].remarks[0].severity, Severity::warning);
 }
 
 TEST(RequirePlausible, RefusesEmgThatLastsTwiceAsLongAsTheMotion) {
@@ -165,8 +165,8 @@ TEST(StudyPlausibility, AStandingPersonWithoutAnyMeasuredForceIsSaid) {
     StudyPlausibility plausibility(study, model);
     plausibility.look_at(trial, with);
     const auto found = plausibility.findings();
-    return std::any_of(found.begin(), found.end(), [](const Finding& f) {
-      return f.message.find("external_loads or force_plates") != std::string::npos;
+    return std::any_of(found.begin(), found.end(), [](const Remark& f) {
+      return f.says.find("external_loads or force_plates") != std::string::npos;
     });
   };
   EXPECT_TRUE(said({}, Use::calibration, 0.0));

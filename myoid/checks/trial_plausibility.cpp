@@ -14,8 +14,6 @@
 namespace myoid {
 namespace {
 
-using Level = Finding::Level;
-
 constexpr double kBeyond_rad = kLimits.angle_beyond_deg * kDegree;
 
 std::string whole_degrees(double angle_rad) { return fmt::format("{:.0f}", angle_rad / kDegree); }
@@ -24,7 +22,7 @@ void check_angles(const Study& study,
                   const model::BodyModel& model,
                   const TimeSeries& motion,
                   const std::string& where,
-                  std::vector<Finding>& findings) {
+                  std::vector<Remark>& findings) {
   const std::vector<std::string> own = study_coordinates(study.model);
   for (const std::string& name : own) {
     const auto column = motion.find(name);
@@ -43,18 +41,19 @@ void check_angles(const Study& study,
     const bool negated =
         (-q.maxCoeff() >= c.lower - kBeyond_rad) && (-q.minCoeff() <= c.upper + kBeyond_rad);
     findings.push_back(
-        {wrong ? Level::error : Level::warning,
-         where,
-         fmt::format("{} goes from {} to {} deg, but the model's range is {} to {} deg{}: {:.0f} % "
-                     "of the samples lie outside, by up to {} deg, where its muscle paths mean "
-                     "nothing; {}",
-                     name, whole_degrees(q.minCoeff()), whole_degrees(q.maxCoeff()),
-                     whole_degrees(c.lower), whole_degrees(c.upper),
-                     c.clamped ? "" : " (not clamped)", 100.0 * share, whole_degrees(far),
-                     negated ? "is its sign the opposite of the model's? Negate the column"
-                             : "is its zero or sign another than the model's?"),
-         {},
-         "angles " + name});
+        {.code = RemarkCode::angle_outside_range,
+         .severity = wrong ? Severity::error : Severity::warning,
+         .where = where,
+         .about = name,
+         .says = fmt::format(
+             "{} goes from {} to {} deg, but the model's range is {} to {} deg{}: {:.0f} % "
+             "of the samples lie outside, by up to {} deg, where its muscle paths mean "
+             "nothing; {}",
+             name, whole_degrees(q.minCoeff()), whole_degrees(q.maxCoeff()), whole_degrees(c.lower),
+             whole_degrees(c.upper), c.clamped ? "" : " (not clamped)", 100.0 * share,
+             whole_degrees(far),
+             negated ? "is its sign the opposite of the model's? Negate the column"
+                     : "is its zero or sign another than the model's?")});
   }
 }
 
@@ -62,17 +61,17 @@ void check_held_mass(const Study& study,
                      const model::BodyModel& model,
                      const Capacities& capacities,
                      const TrialSpec& trial,
-                     std::vector<Finding>& findings) {
+                     std::vector<Remark>& findings) {
   if (!(trial.held_mass_kg > 0.0)) return;
   if (study.subject.mass_kg && trial.held_mass_kg > *study.subject.mass_kg) {
     findings.push_back(
-        {Level::error,
-         trial.name,
-         fmt::format("held_mass_kg = {} is more than the person weighs ({} kg); is it "
-                     "in grams or pounds, or is a decimal point missing?",
-                     trial.held_mass_kg, *study.subject.mass_kg),
-         {},
-         "held mass"});
+        {.code = RemarkCode::held_mass_impossible,
+         .severity = Severity::error,
+         .where = trial.name,
+         .about = "held mass",
+         .says = fmt::format("held_mass_kg = {} is more than the person weighs ({} kg); is it "
+                             "in grams or pounds, or is a decimal point missing?",
+                             trial.held_mass_kg, *study.subject.mass_kg)});
     return;
   }
   if (!study.model.held_mass && study.model.file) return;  // an error of its own
@@ -97,15 +96,16 @@ void check_held_mass(const Study& study,
     const double most_nm = (still ? 1.0 : kLimits.lift_share) * capacity.isometric_nm();
     if (!(most_nm > 0.0) || moment_nm <= most_nm) continue;
     findings.push_back(
-        {Level::warning,
-         trial.name,
-         fmt::format("held_mass_kg = {} at {:.2f} m weighs up to {:.0f} N m on {}, and with "
-                     "literature's strength all muscles of the model can {} {:.0f} N m there: is "
-                     "it in other units, or is a decimal point missing?",
-                     trial.held_mass_kg, lever_m, moment_nm, name,
-                     still ? "hold" : "lift again and again", most_nm),
-         {},
-         "held mass " + name});
+        {.code = RemarkCode::held_mass_impossible,
+         .severity = Severity::warning,
+         .where = trial.name,
+         .about = name,
+         .says = fmt::format(
+             "held_mass_kg = {} at {:.2f} m weighs up to {:.0f} N m on {}, and with "
+             "literature's strength all muscles of the model can {} {:.0f} N m there: is "
+             "it in other units, or is a decimal point missing?",
+             trial.held_mass_kg, lever_m, moment_nm, name, still ? "hold" : "lift again and again",
+             most_nm)});
   }
 }
 
@@ -115,7 +115,7 @@ void check_vertical(const Study& study,
                     const model::BodyModel& model,
                     const TrialInput& input,
                     const std::string& where,
-                    std::vector<Finding>& findings) {
+                    std::vector<Remark>& findings) {
   if (!input.markers) return;
   std::vector<bool> limb(model.bodies.size(), false);
   for (const std::string& name : study_coordinates(study.model)) {
@@ -143,23 +143,23 @@ void check_vertical(const Study& study,
   const Mat3 back = rotation_onto(model, input.up_L).transpose();  // the markers are turned already
   const std::string told = recording::axis_name(input.up_L);
   const recording::MarkerSeries laboratory = recording::rotated(trunk, back);
-  const double now = upright(model, laboratory, input.up_L);
-  if (now < -1.5 || now > kLimits.trunk_across) return;
+  const std::optional<double> now = upright(model, laboratory, input.up_L);
+  if (!now || *now > kLimits.trunk_across) return;
   for (const char* up : {"x", "y", "z"}) {
-    const double other = upright(model, laboratory, *recording::axis_vector(up));
-    if (up == told || other < kLimits.trunk_upright) continue;
+    const std::optional<double> other = upright(model, laboratory, *recording::axis_vector(up));
+    if (up == told || !other || *other < kLimits.trunk_upright) continue;
     findings.push_back(
-        {Level::warning,
-         where,
-         fmt::format(
+        {.code = RemarkCode::vertical_across_trunk,
+         .severity = Severity::warning,
+         .where = where,
+         .about = "trunk",
+         .says = fmt::format(
              "{} is up ({}), but the trunk's markers lie {:.0f} degrees from upright by it, "
              "and {:.0f} with [markers] up = \"{}\": unless the person lies, gravity pulls "
              "across the body; correct [markers] up",
              told, study.markers.up == kUpOfTheFile ? "as the file says" : "[markers] up",
-             std::acos(std::clamp(now, -1.0, 1.0)) / kDegree,
-             std::acos(std::clamp(other, -1.0, 1.0)) / kDegree, up),
-         {},
-         "vertical"});
+             std::acos(std::clamp(*now, -1.0, 1.0)) / kDegree,
+             std::acos(std::clamp(*other, -1.0, 1.0)) / kDegree, up)});
     return;
   }
 }
@@ -203,12 +203,12 @@ std::string too_much_torque(const std::string& coordinate,
           : "; correct its unit (N m)");
 }
 
-std::vector<Finding> implausible(const Study& study,
-                                 const model::BodyModel& model,
-                                 const Capacities& capacities,
-                                 const TrialSpec& trial,
-                                 const TrialInput& input) {
-  std::vector<Finding> findings;
+std::vector<Remark> implausible(const Study& study,
+                                const model::BodyModel& model,
+                                const Capacities& capacities,
+                                const TrialSpec& trial,
+                                const TrialInput& input) {
+  std::vector<Remark> findings;
   if (input.external_torque) {
     for (const auto& [name, capacity] : capacities) {
       const auto column = input.external_torque->find(name + "_moment");
@@ -216,13 +216,21 @@ std::vector<Finding> implausible(const Study& study,
       const std::string text =
           too_much_torque(name, usual_peak(input.external_torque->values().col(*column)),
                           capacity.greatest_nm(), trial.external_torque->filename().string());
-      if (!text.empty()) findings.push_back({Level::error, trial.name, text, {}, "torque " + name});
+      if (!text.empty())
+        findings.push_back({.code = RemarkCode::torque_impossible,
+                            .severity = Severity::error,
+                            .where = trial.name,
+                            .about = name,
+                            .says = text});
     }
   }
   if (input.motion) check_angles(study, model, *input.motion, trial.name, findings);
   if (input.motion) {
     for (const signals::MotionJump& jump : signals::find_motion_jumps(*input.motion))
-      findings.push_back({Level::warning, trial.name, jump.sentence()});
+      findings.push_back({.code = RemarkCode::angle_jump,
+                          .severity = Severity::warning,
+                          .where = trial.name,
+                          .says = jump.sentence()});
   }
   check_held_mass(study, model, capacities, trial, findings);
   check_vertical(study, model, input, trial.name, findings);

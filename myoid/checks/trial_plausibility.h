@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "myoid/core/finding.h"
+#include "myoid/core/remark.h"
 #include "myoid/core/time_series.h"
 #include "myoid/dynamics/joint_capacity.h"
 #include "myoid/intake/limits.h"
@@ -21,11 +21,11 @@ using Capacities = std::map<std::string, dynamics::JointCapacity>;
 /// What no person can have done or held: an external torque that no joint makes (N mm?), a held
 /// mass that no muscle holds, angles far outside the model's range (sign or convention?), the
 /// laboratory's vertical lying across the trunk. Each with numbers and remedy.
-[[nodiscard]] std::vector<Finding> implausible(const Study& study,
-                                               const model::BodyModel& model,
-                                               const Capacities& capacities,
-                                               const TrialSpec& trial,
-                                               const TrialInput& input);
+[[nodiscard]] std::vector<Remark> implausible(const Study& study,
+                                              const model::BodyModel& model,
+                                              const Capacities& capacities,
+                                              const TrialSpec& trial,
+                                              const TrialInput& input);
 
 /// The activation that a trial must exceed somewhere to count as one with active muscles.
 inline constexpr double kFlatActivation = kLimits.flat_activation;

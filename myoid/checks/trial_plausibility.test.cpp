@@ -11,8 +11,6 @@
 namespace myoid {
 namespace {
 
-using Level = Finding::Level;
-
 struct Elbow {
   Study study;
   model::BodyModel model = model::parse_osim(model::arm4_osim(), "arm4.osim");
@@ -23,7 +21,7 @@ struct Elbow {
     study.model.builtin = "arm4";
     trial.name = "t";
   }
-  [[nodiscard]] std::vector<Finding> findings() const {
+  [[nodiscard]] std::vector<Remark> findings() const {
     return implausible(study, model, joint_capacities(study, model), trial, input);
   }
 };
@@ -45,13 +43,12 @@ TEST(Implausible, TorqueInNewtonMillimetersIsAnErrorWithTheRemedy) {
       elbow.input.external_torque =
           TimeSeries(time, {{"elbow_flexion_moment", Unit::newton_meter}},
                      Eigen::MatrixXd(unit * peak_nm * (2.0 * time.array()).sin()));
-      const std::vector<Finding> found = elbow.findings();
+      const std::vector<Remark> found = elbow.findings();
       ASSERT_EQ(found.size(), unit > 1.0 ? 1U : 0U) << peak_nm;
       if (found.empty()) continue;
-      EXPECT_EQ(found[0].level, Level::error);
-      EXPECT_NE(found[0].message.find("push.sto reaches"), std::string::npos) << found[0].message;
-      EXPECT_NE(found[0].message.find("N mm? Divide by 1000"), std::string::npos)
-          << found[0].message;
+      EXPECT_EQ(found[0].severity, Severity::error);
+      EXPECT_NE(found[0].says.find("push.sto reaches"), std::string::npos) << found[0].says;
+      EXPECT_NE(found[0].says.find("N mm? Divide by 1000"), std::string::npos) << found[0].says;
     }
   }
 }
@@ -67,24 +64,24 @@ TEST(Implausible, ASpikeOfTheTorqueIsNotItsSize) {
 TEST(Implausible, ANegatedAngleIsAnErrorThatAsksForTheSign) {
   Elbow elbow;
   elbow.input.motion = angle(-150.0, -20.0);
-  const std::vector<Finding> found = elbow.findings();
+  const std::vector<Remark> found = elbow.findings();
   ASSERT_EQ(found.size(), 1U);
-  EXPECT_EQ(found[0].level, Level::error);
-  EXPECT_NE(found[0].message.find("-10 to 150 deg"), std::string::npos) << found[0].message;
-  EXPECT_NE(found[0].message.find("sign the opposite"), std::string::npos) << found[0].message;
+  EXPECT_EQ(found[0].severity, Severity::error);
+  EXPECT_NE(found[0].says.find("-10 to 150 deg"), std::string::npos) << found[0].says;
+  EXPECT_NE(found[0].says.find("sign the opposite"), std::string::npos) << found[0].says;
 }
 
 TEST(Implausible, AnAngleOfAnotherConventionIsOnlyAWarningWhereTheRangeIsNoLimit) {
   Elbow elbow;
   elbow.input.motion = angle(200.0, 300.0);  // neither it nor its negative is in -10 to 150
   ASSERT_EQ(elbow.findings().size(), 1U);
-  EXPECT_EQ(elbow.findings()[0].level, Level::error);
-  EXPECT_NE(elbow.findings()[0].message.find("zero or sign another"), std::string::npos);
+  EXPECT_EQ(elbow.findings()[0].severity, Severity::error);
+  EXPECT_NE(elbow.findings()[0].says.find("zero or sign another"), std::string::npos);
   model::Coordinate& c =
       elbow.model
           .coordinates[static_cast<std::size_t>(elbow.model.coordinate_index("elbow_flexion"))];
   c.clamped = false;
-  EXPECT_EQ(elbow.findings()[0].level, Level::warning);
+  EXPECT_EQ(elbow.findings()[0].severity, Severity::warning);
   c.lower = c.upper = 0.0;  // nobody wrote a range
   EXPECT_TRUE(elbow.findings().empty());
 }
@@ -112,9 +109,9 @@ TEST(Implausible, AHeldMassCountsWhereItIsHeld) {
 TEST(Implausible, APostureBeyondTheRangeIsAWarningAndAFewDegreesAreNone) {
   Elbow elbow;
   elbow.input.motion = angle(-30.0, 130.0);
-  const std::vector<Finding> found = elbow.findings();
+  const std::vector<Remark> found = elbow.findings();
   ASSERT_EQ(found.size(), 1U);
-  EXPECT_EQ(found[0].level, Level::warning);
+  EXPECT_EQ(found[0].severity, Severity::warning);
   elbow.input.motion = angle(-15.0, 155.0);
   EXPECT_TRUE(elbow.findings().empty());
 }
@@ -132,14 +129,14 @@ TEST(Implausible, AHeldMassThatNoMuscleHoldsIsAWarningAndOneBeyondThePersonsAnEr
   EXPECT_TRUE(elbow.findings().empty());
   elbow.trial.use = Use::calibration;
   elbow.trial.held_mass_kg = 55.0;
-  std::vector<Finding> found = elbow.findings();
+  std::vector<Remark> found = elbow.findings();
   ASSERT_EQ(found.size(), 1U);
-  EXPECT_EQ(found[0].level, Level::warning);
-  EXPECT_NE(found[0].message.find("decimal point"), std::string::npos) << found[0].message;
+  EXPECT_EQ(found[0].severity, Severity::warning);
+  EXPECT_NE(found[0].says.find("decimal point"), std::string::npos) << found[0].says;
   elbow.trial.held_mass_kg = 550.0;
   found = elbow.findings();
   ASSERT_EQ(found.size(), 1U);
-  EXPECT_EQ(found[0].level, Level::error);
+  EXPECT_EQ(found[0].severity, Severity::error);
 }
 
 /// Whole trunk with an arm: four markers on the trunk, which stands on a free joint.
@@ -188,16 +185,16 @@ TEST(Implausible, AVerticalThatLiesAcrossTheTrunkIsAWarning) {
     elbow.study.markers.up = up;
     elbow.input.up_L = Vec3::Unit(up - 'x');
     elbow.input.markers = recording::rotated(markers, recording::rotation_to_y_up(up));
-    const std::vector<Finding> found = elbow.findings();
+    const std::vector<Remark> found = elbow.findings();
     ASSERT_EQ(found.size(), up == 'z' ? 0U : 1U) << up;
     if (found.empty()) continue;
-    EXPECT_EQ(found[0].level, Level::warning);
-    EXPECT_NE(found[0].message.find("up = \"z\""), std::string::npos) << found[0].message;
+    EXPECT_EQ(found[0].severity, Severity::warning);
+    EXPECT_NE(found[0].says.find("up = \"z\""), std::string::npos) << found[0].says;
   }
 }
 
 /// What is said of a trunk whose long axis points there, in a laboratory whose y points up.
-std::vector<Finding> of_a_trunk_along(const Vec3& axis, const std::string& coordinate = "") {
+std::vector<Remark> of_a_trunk_along(const Vec3& axis, const std::string& coordinate = "") {
   Elbow elbow;
   elbow.model = trunk_with_arm();
   elbow.study.model.builtin.clear();

@@ -47,9 +47,9 @@ double acceleration_of(const Eigen::VectorXd& time_s, const Eigen::VectorXd& hei
 
 }  // namespace
 
-std::vector<Finding> unloaded_times(const model::BodyModel& model,
-                                    const TrialSpec& trial,
-                                    const TrialInput& input) {
+std::vector<Remark> unloaded_times(const model::BodyModel& model,
+                                   const TrialSpec& trial,
+                                   const TrialInput& input) {
   if (!input.loads || (!input.markers && !input.motion)) return {};
   const auto weight = dynamics::unsupported_weight(model);
   const auto height = weight ? height_of(model, input) : std::nullopt;
@@ -74,21 +74,23 @@ std::vector<Finding> unloaded_times(const model::BodyModel& model,
     const Eigen::Index first = i;
     while (i < t.size() && share[i] < kLimits.bears_nothing) ++i;
     if (i == first || t[i - 1] - t[first] < kLimits.unloaded_s || i - first < 4) continue;
-    // Who flies falls.
-    if (acceleration_of(t.segment(first, i - first), height->segment(first, i - first)) < -0.5 * g)
+    // A body in the air falls, and no plate carries it.
+    if (acceleration_of(t.segment(first, i - first), height->segment(first, i - first)) <
+        -kLimits.falls * g)
       continue;
     times.push_back(fmt::format("{:.4g} to {:.4g} s", t[first], t[i - 1]));
     sum_s += t[i - 1] - t[first];
   }
   if (times.empty()) return {};
-  return {{Finding::Level::warning,
-           trial.name,
-           fmt::format("no measured force carries the body in {:.0f} % of the trial ({}), and it "
-                       "does not fall: was a foot beside the plates? `run` does not fit those "
-                       "times; start_s and end_s leave them out altogether",
-                       100.0 * sum_s / (t[t.size() - 1] - t[0]), fmt::join(times, ", ")),
-           {},
-           "unloaded"}};
+  return {{.code = RemarkCode::unloaded_time,
+           .severity = Severity::warning,
+           .where = trial.name,
+           .about = "ground",
+           .says = fmt::format(
+               "no measured force carries the body in {:.0f} % of the trial ({}), and it "
+               "does not fall: was a foot beside the plates? `run` does not fit those "
+               "times; start_s and end_s leave them out altogether",
+               100.0 * sum_s / (t[t.size() - 1] - t[0]), fmt::join(times, ", "))}};
 }
 
 }  // namespace myoid

@@ -40,7 +40,7 @@ struct WalkWithGap {
   int up = 1;            ///< The model's axis against gravity.
   double clock_s = 0.0;  ///< The loads' time at the motion's 0 s.
 
-  [[nodiscard]] std::vector<Finding> findings() const {
+  [[nodiscard]] std::vector<Remark> findings() const {
     const Eigen::Index n = 401;
     const Eigen::VectorXd t = Eigen::VectorXd::LinSpaced(n, 0.0, 2.0);
     Eigen::VectorXd share(n), height(n);
@@ -90,11 +90,11 @@ struct WalkWithGap {
 TEST(UnloadedTimes, AreThoseInWhichNobodyFliesAndNoPlateBears) {
   for (const bool markers : {false, true}) {
     SCOPED_TRACE(markers);
-    const std::vector<Finding> found = WalkWithGap{.markers = markers}.findings();
+    const std::vector<Remark> found = WalkWithGap{.markers = markers}.findings();
     ASSERT_EQ(found.size(), 1U);
-    EXPECT_EQ(found[0].level, Finding::Level::warning);
+    EXPECT_EQ(found[0].severity, Severity::warning);
     // 79 samples strictly inside 0.8 to 1.2 s, from the first to the last: 0.39 of 2 s.
-    EXPECT_THAT(found[0].message, testing::HasSubstr("in 20 % of the trial (0.805 to 1.195 s)"));
+    EXPECT_THAT(found[0].says, testing::HasSubstr("in 20 % of the trial (0.805 to 1.195 s)"));
     EXPECT_TRUE((WalkWithGap{.falls = true, .markers = markers}.findings().empty()));
   }
 }
@@ -107,9 +107,9 @@ TEST(UnloadedTimes, OfAModelWhoseThirdAxisPointsUpAreTheSame) {
 }
 
 TEST(UnloadedTimes, AreToldOnTheMotionsClock) {
-  const std::vector<Finding> found = WalkWithGap{.clock_s = 60.0}.findings();
+  const std::vector<Remark> found = WalkWithGap{.clock_s = 60.0}.findings();
   ASSERT_EQ(found.size(), 1U);
-  EXPECT_THAT(found[0].message, testing::HasSubstr("0.805 to 1.195 s"));
+  EXPECT_THAT(found[0].says, testing::HasSubstr("0.805 to 1.195 s"));
 }
 
 TEST(UnloadedTimes, ABriefGapAndALightStepAreNone) {

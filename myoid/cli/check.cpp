@@ -13,17 +13,17 @@
 namespace myoid::cli {
 namespace {
 
-nlohmann::ordered_json findings_json(const std::vector<Finding>& findings) {
+nlohmann::ordered_json findings_json(const std::vector<Remark>& findings) {
   nlohmann::ordered_json json = nlohmann::ordered_json::array();
-  for (const auto& f : findings) {
+  for (const Remark& f : findings) {
     json.push_back(
-        {{"level", std::string(name(f.level))}, {"where", f.where}, {"message", f.message}});
-    if (!f.fault) continue;
-    json.back()["fault"] = std::string(name(f.fault->kind));
-    json.back()["channel"] = f.fault->channel;
-    json.back()["begin_s"] = f.fault->begin_s;
-    json.back()["end_s"] = f.fault->end_s;
-    json.back()["value"] = f.fault->value;
+        {{"level", std::string(name(f.severity))}, {"where", f.where}, {"message", sentence(f)}});
+    if (!f.when) continue;
+    json.back()["fault"] = std::string(name(f.code));
+    json.back()["channel"] = f.about;
+    json.back()["begin_s"] = f.when->begin_s;
+    json.back()["end_s"] = f.when->end_s;
+    json.back()["value"] = f.value.value_or(0.0);
   }
   return json;
 }
@@ -31,9 +31,9 @@ nlohmann::ordered_json findings_json(const std::vector<Finding>& findings) {
 void print_findings(const commands::CheckResult& result, const std::string& input) {
   // The first of several faults that ask for the same remedy names the remedy.
   std::set<std::string> said;
-  for (const auto& f : result.findings) {
-    const bool again = f.fault && !f.fault->remedy.empty() && !said.insert(f.fault->remedy).second;
-    fmt::print("{:<8} {}: {}\n", name(f.level), f.where, again ? f.fault->text : f.message);
+  for (const Remark& f : result.findings) {
+    const bool again = !f.remedy.empty() && !said.insert(f.remedy).second;
+    fmt::print("{:<8} {}: {}\n", name(f.severity), f.where, again ? f.says : sentence(f));
   }
   const std::string subject = result.of_study
                                   ? fmt::format("{}, {}", counted(result.trials, "trial"),

@@ -112,11 +112,10 @@ void Context::warn(std::string_view line) const {
              color_wanted() ? "\033[0m" : "", line);
 }
 
-void Context::tell(const commands::Remark& remark) const {
-  using Kind = commands::Remark::Kind;
-  if (remark.kind == Kind::detail && !verbose) return;
+void Context::tell(const Remark& remark) const {
+  if (remark.severity == Severity::detail && !verbose) return;
   end_progress();
-  remark.kind == Kind::warning ? warn(remark.text) : log(remark.text);
+  remark.severity == Severity::warning ? warn(sentence(remark)) : log(sentence(remark));
 }
 
 commands::Call Context::call() const {
@@ -125,7 +124,7 @@ commands::Call Context::call() const {
           .end_s = end_s,
           .command = command_line,
           .progress = progress(),
-          .listener = [this](const commands::Remark& remark) { tell(remark); }};
+          .listener = [this](const Remark& remark) { tell(remark); }};
 }
 
 Progress Context::progress() const {

@@ -66,7 +66,7 @@ struct Context {
   /// A warning on stderr, unless --quiet.
   void warn(std::string_view line) const;
   /// A remark of a command on stderr; details with --verbose only.
-  void tell(const commands::Remark& remark) const;
+  void tell(const Remark& remark) const;
   /// The common options for the functions of `commands`, with a listener that tells remarks.
   [[nodiscard]] commands::Call call() const;
   /// Progress bar with time left on a terminal, nothing elsewhere.

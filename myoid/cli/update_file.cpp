@@ -33,7 +33,7 @@ void add_update_file(CLI::App& app, Context& context) {
                                   {"old_version", result.old_version},
                                   {"version", result.version},
                                   {"notes", nlohmann::ordered_json::array()}};
-      for (const commands::Remark& remark : result.remarks) json["notes"].push_back(remark.text);
+      for (const Remark& remark : result.remarks) json["notes"].push_back(sentence(remark));
       fmt::print("{}\n", json_text(json));
     } else {
       fmt::print("version {} -> {}\n{}\n", result.old_version, result.version, *new_file);

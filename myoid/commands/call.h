@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "myoid/core/progress.h"
+#include "myoid/core/remark.h"
 
 /// The commands of the program as functions of the library.
 ///
@@ -22,17 +23,6 @@
 /// stop is requested. Strings that choose among words (`method`, `tendon`), relative paths and the
 /// names of options in messages are as on the command line.
 namespace myoid::commands {
-
-/// A sentence about inputs or results beside the numbers of a command.
-struct Remark {
-  enum class Kind {
-    warning,  ///< A number may be wrong.
-    note,     ///< A choice or a repair that leaves the numbers right.
-    detail,   ///< Of the reading of a file.
-  };
-  Kind kind = Kind::warning;
-  std::string text;
-};
 
 /// Values that every command takes beside its own options.
 struct Call {
@@ -49,17 +39,16 @@ class Remarks {
  public:
   explicit Remarks(const Call& call) : listener_(call.listener) {}
 
-  void warn(std::string text) { add({Remark::Kind::warning, std::move(text)}); }
-  void note(std::string text) { add({Remark::Kind::note, std::move(text)}); }
-  void detail(std::string text) { add({Remark::Kind::detail, std::move(text)}); }
-  [[nodiscard]] const std::vector<Remark>& list() const { return list_; }
-
- private:
+  void warn(std::string text) { add({.severity = Severity::warning, .says = std::move(text)}); }
+  void note(std::string text) { add({.severity = Severity::note, .says = std::move(text)}); }
+  void detail(std::string text) { add({.severity = Severity::detail, .says = std::move(text)}); }
   void add(Remark remark) {
     if (listener_) listener_(remark);
     list_.push_back(std::move(remark));
   }
+  [[nodiscard]] const std::vector<Remark>& list() const { return list_; }
 
+ private:
   std::function<void(const Remark&)> listener_;
   std::vector<Remark> list_;
 };

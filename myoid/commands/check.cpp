@@ -23,7 +23,7 @@ CheckResult check(const CheckOptions& o) {
   }
   result.errors = static_cast<std::size_t>(
       std::count_if(result.findings.begin(), result.findings.end(),
-                    [](const Finding& f) { return f.level == Finding::Level::error; }));
+                    [](const Remark& f) { return f.severity == Severity::error; }));
   return result;
 }
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "myoid/commands/call.h"
-#include "myoid/core/finding.h"
+#include "myoid/core/remark.h"
 
 namespace myoid::commands {
 
@@ -17,7 +17,7 @@ struct CheckOptions {
 };
 
 struct CheckResult {
-  std::vector<Finding> findings;  ///< Worst first.
+  std::vector<Remark> findings;  ///< Worst first.
   bool of_study = false;
   std::size_t trials = 0, muscles = 0;  ///< Of the study.
   std::size_t errors = 0;               ///< Findings because of which `run` refuses the study.

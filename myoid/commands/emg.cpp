@@ -15,10 +15,9 @@ namespace {
 
 void warn_of_levels(const std::vector<signals::TrialEnvelope>& trials, Remarks& remarks) {
   GroupedWarnings warnings(remarks);
-  for (const Fault& fault : signals::check_emg_levels(trials)) {
-    if (fault.grave)
-      warnings.add(fmt::format("'{}'", fault.channel), sentence(fault),
-                   std::string(name(fault.kind)));
+  for (const Remark& fault : signals::check_emg_levels(trials)) {
+    if (fault.severity == Severity::warning)
+      warnings.add(fault.code, fmt::format("'{}'", fault.about), "channels", sentence(fault));
   }
 }
 

@@ -43,7 +43,7 @@ TEST(EmgFunction, AWarningIsToldAlthoughALaterFileIsRefused) {
   o.in = {folder / "a.csv"};
   o.chain.whitening = false;
   std::vector<std::string> heard;
-  o.call.listener = [&](const Remark& remark) { heard.push_back(remark.text); };
+  o.call.listener = [&](const Remark& remark) { heard.push_back(remark.says); };
   const EmgResult result = emg(o);
   ASSERT_EQ(result.activations.size(), 1U);
   EXPECT_TRUE(result.envelopes.empty());
@@ -62,13 +62,13 @@ TEST(GroupedWarnings, WhatIsAlikeIsSaidOnceWithTheOtherPlaces) {
   Remarks remarks{Call{}};
   {
     GroupedWarnings warnings(remarks);
-    warnings.add("a 'BIC'", "a: channel 'BIC' hums", "hum");
-    warnings.add("a 'TRI'", "a: channel 'TRI' hums", "hum");
+    warnings.add(RemarkCode::emg_hum, "a 'BIC'", "channels", "a: channel 'BIC' hums");
+    warnings.add(RemarkCode::emg_hum, "a 'TRI'", "channels", "a: channel 'TRI' hums");
     EXPECT_TRUE(remarks.list().empty());
   }
   ASSERT_EQ(remarks.list().size(), 1U);
-  EXPECT_THAT(remarks.list()[0].text, HasSubstr("channel 'BIC' hums"));
-  EXPECT_THAT(remarks.list()[0].text, HasSubstr("a 'TRI'"));
+  EXPECT_EQ(remarks.list()[0].says, "a: channel 'BIC' hums");
+  EXPECT_EQ(remarks.list()[0].likewise, std::vector<std::string>{"a 'TRI'"});
 }
 
 }  // namespace

@@ -54,8 +54,8 @@ TimeSeries usable_channels(const std::string& path,
     const std::string one = fmt::format("channel '{}' {}", unusable[i], defects[i]);
     all += one + "; ";
     if (!asked_for)
-      warnings.add(channel_in(path, unusable[i]), fmt::format("{}: {}; it is left out", path, one),
-                   "unusable " + defects[i]);
+      warnings.add(RemarkCode::channel_unusable, channel_in(path, unusable[i]), defects[i],
+                   fmt::format("{}: {}; it is left out", path, one));
   }
   if (!defects.empty() && (asked_for || usable.empty()))
     throw ReadError(
@@ -76,11 +76,10 @@ void keep_common_channels(const std::vector<std::string>& paths,
       common.push_back(channel.name);
     } else {
       const std::string& other = paths[static_cast<std::size_t>(lacks - files.begin())];
-      warnings.add(channel_in(paths.front(), channel.name),
+      warnings.add(RemarkCode::channel_missing, channel_in(paths.front(), channel.name), other,
                    fmt::format("{}: channel '{}' is left out, since {} does not have it (there are "
                                "{}) or it cannot be used there",
-                               paths.front(), channel.name, other, channel_names(*lacks)),
-                   "not in " + other);
+                               paths.front(), channel.name, other, channel_names(*lacks)));
     }
   }
   if (common.empty())
@@ -94,9 +93,9 @@ void warn_of_faults(const std::string& path,
                     bool highpass,
                     GroupedWarnings& warnings) {
   std::vector<std::string> envelopes;
-  const std::vector<Fault> faults = signals::check_emg(emg, highpass);
-  for (const Fault& fault : faults) {
-    if (fault.kind == FaultKind::emg_envelope) envelopes.push_back(fault.channel);
+  const std::vector<Remark> faults = signals::check_emg(emg, highpass);
+  for (const Remark& fault : faults) {
+    if (fault.code == RemarkCode::emg_envelope) envelopes.push_back(fault.about);
   }
   const std::string what = fmt::format(
       "{} never negative and slow: rectified and smoothed already. This command would "
@@ -109,13 +108,14 @@ void warn_of_faults(const std::string& path,
                         "; give the raw EMG, or divide by the largest effort yourself (a study "
                         "does it with [emg] kind = \"envelope\")");
   if (!envelopes.empty())
-    warnings.add(path, fmt::format("{}: {}; leave them out", path, what), "envelopes");
-  for (const Fault& fault : faults) {
+    warnings.add(RemarkCode::emg_envelope, path, "envelopes",
+                 fmt::format("{}: {}; leave them out", path, what));
+  for (const Remark& fault : faults) {
     const bool envelope =
-        std::find(envelopes.begin(), envelopes.end(), fault.channel) != envelopes.end();
-    if (fault.grave && !envelope)
-      warnings.add(channel_in(path, fault.channel), fmt::format("{}: {}", path, sentence(fault)),
-                   std::string(name(fault.kind)));
+        std::find(envelopes.begin(), envelopes.end(), fault.about) != envelopes.end();
+    if (fault.severity == Severity::warning && !envelope)
+      warnings.add(fault.code, channel_in(path, fault.about), "channels",
+                   fmt::format("{}: {}", path, sentence(fault)));
   }
 }
 
@@ -123,21 +123,25 @@ void warn_of_faults(const std::string& path,
 TimeSeries read_raw(const std::string& path, const EmgOptions& o, GroupedWarnings& warnings) {
   recording::EmgFile file = recording::read_emg(path, o.unit, false, o.channels);
   for (const recording::Repair& repair : file.repairs)
-    warnings.add(path, fmt::format("{}: {}", path, recording::to_string(repair)), repair.message);
+    warnings.add(RemarkCode::reading, path, repair.message,
+                 fmt::format("{}: {}", path, recording::to_string(repair)));
   if (!file.unit_conflict.empty())
-    warnings.add(path, fmt::format("{}: {}", path, file.unit_conflict), file.unit_conflict);
+    warnings.add(RemarkCode::unit_doubtful, path, file.unit_conflict,
+                 fmt::format("{}: {}", path, file.unit_conflict));
   return usable_channels(path, file.data, !o.channels.empty(), warnings);
 }
 
 }  // namespace
 
 GroupedWarnings::~GroupedWarnings() {
-  for (Finding& f : grouped(found_)) remarks_.warn(std::move(f.message));
+  for (Remark& remark : grouped(found_)) remarks_.add(std::move(remark));
 }
 
-void GroupedWarnings::add(std::string where, std::string message, std::string kind) {
-  found_.push_back({Finding::Level::warning, std::move(where), std::move(message), std::nullopt,
-                    std::move(kind)});
+void GroupedWarnings::add(RemarkCode code, std::string where, std::string about, std::string says) {
+  found_.push_back({.code = code,
+                    .where = std::move(where),
+                    .about = std::move(about),
+                    .says = std::move(says)});
 }
 
 std::vector<std::string> emg_paths(const EmgOptions& o) {

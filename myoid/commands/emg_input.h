@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "myoid/commands/emg.h"
-#include "myoid/core/finding.h"
+#include "myoid/core/remark.h"
 #include "myoid/core/time_series.h"
 
 namespace myoid::commands {
@@ -18,12 +18,12 @@ class GroupedWarnings {
   GroupedWarnings& operator=(const GroupedWarnings&) = delete;
   ~GroupedWarnings();
 
-  /// `where` names the file or channel where the same `kind` is not the first one.
-  void add(std::string where, std::string message, std::string kind);
+  /// `where` is the file and channel; warnings of one code and one matter (`about`) are alike.
+  void add(RemarkCode code, std::string where, std::string about, std::string says);
 
  private:
   Remarks& remarks_;
-  std::vector<Finding> found_;
+  std::vector<Remark> found_;
 };
 
 /// The inputs, then the maximal contractions.

@@ -40,7 +40,7 @@ TEST(MuscleFunction, ComparesWithWhatItWroteAndFindsNoError) {
   const MuscleResult first = muscle(options);
   ASSERT_TRUE(first.simulated);
   ASSERT_EQ(first.remarks.size(), 1U);
-  EXPECT_THAT(first.remarks[0].text, HasSubstr("covers 0 to 0.4 s only"));
+  EXPECT_THAT(first.remarks[0].says, HasSubstr("covers 0 to 0.4 s only"));
   std::string force = "time,force\n";
   const TimeSeries& series = first.simulated->simulated.series;
   for (Eigen::Index i = 0; i < series.sample_count(); ++i)
@@ -58,7 +58,7 @@ TEST(MuscleFunction, HearsOfTheDriveAlthoughTheLengthIsRefusedLater) {
   const test::TemporaryFolder folder;
   MuscleOptions options = swing(folder);
   std::vector<std::string> heard;
-  options.call.listener = [&](const Remark& remark) { heard.push_back(remark.text); };
+  options.call.listener = [&](const Remark& remark) { heard.push_back(remark.says); };
   options.initial_activation = "soon";
   EXPECT_THROW((void)muscle(options), InvalidInput);
   ASSERT_EQ(heard.size(), 1U);

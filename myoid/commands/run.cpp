@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "myoid/checks/recording_findings.h"
 #include "myoid/report/write_report.h"
 #include "myoid/results/result_files.h"
 #include "myoid/results/study_report.h"
@@ -30,11 +31,12 @@ std::size_t tell_trials(const StudyResult& study, Remarks& remarks) {
   for (const TrialResult& trial : study.trials) {
     if (!trial.failure().empty())
       remarks.warn(fmt::format("trial {}: {}", trial.spec.name, trial.failure()));
-    for (const std::string& warning : trial.warnings)
+    for (const std::string& warning : sentences(trial.remarks, Severity::warning))
       remarks.warn(fmt::format("trial {}: {}", trial.spec.name, warning));
-    for (const std::string& note : trial.notes)
+    const std::vector<std::string> notes = sentences(trial.remarks, Severity::note);
+    for (const std::string& note : notes)
       remarks.detail(fmt::format("{}: {}", trial.spec.name, note));
-    details += trial.notes.size();
+    details += notes.size();
   }
   return details;
 }

@@ -143,7 +143,8 @@ SimulateResult simulate_file(const SimulateOptions& o, Remarks& remarks) {
   const simulation::SimulationModel model = simulation::make_simulation_model(
       std::move(body),
       {.mode = tendon_mode(o), .curves = muscle_curves(o), .activation = activation_law(o)});
-  for (const std::string& note : model.notes) remarks.warn(fmt::format("{}: {}", o.model, note));
+  if (model.idle_actuators > 0)
+    remarks.warn(fmt::format("{}: its {} actuators exert nothing", o.model, model.idle_actuators));
   std::vector<std::string> muscles;
   for (const auto& m : model.muscles) muscles.push_back(m.name);
   std::vector<NamedCoordinate> coordinates;

@@ -172,16 +172,14 @@ class Draft {
   }
 
   void find_up(const recording::MarkerSeries& markers) {
-    double best = -2.0;
+    std::optional<double> best;
     for (const char up : {'y', 'z', 'x'}) {
-      const double score = upright(model_, markers, Vec3::Unit(up - 'x'));
-      if (score > best + 1e-9) {
-        best = score;
-        up_ = up;
-      }
+      const std::optional<double> score = upright(model_, markers, Vec3::Unit(up - 'x'));
+      if (!score || (best && *score <= *best + 1e-9)) continue;
+      best = score;
+      up_ = up;
     }
-    up_cosine_ = best;
-    if (best < -1.5) up_ = ' ';
+    if (best) up_cosine_ = *best;
   }
 
   void subject_table() {

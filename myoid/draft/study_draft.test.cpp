@@ -53,8 +53,7 @@ TEST(StudyDraft, OfAFolderOfRecordingsPassesTheCheck) {
   ASSERT_EQ(study.muscles.size(), 2U);
   EXPECT_EQ(study.muscles[0].emg, "Biceps Brachii");
   EXPECT_EQ(study.muscles[0].osim, std::vector<std::string>{"BIC"});
-  for (const Finding& f : check_study(study))
-    EXPECT_NE(f.level, Finding::Level::error) << f.message;
+  for (const Remark& f : check_study(study)) EXPECT_NE(f.severity, Severity::error) << f.says;
   EXPECT_THAT(draft.todo, Contains(HasSubstr("have no electrode: BRA, BRD")));
   EXPECT_THAT(draft.todo, Contains(HasSubstr("2 kg")));
   EXPECT_THAT(draft.toml, HasSubstr("# Channels that no muscle about elbow_flexion takes: Soleus"));
@@ -72,9 +71,8 @@ TEST(StudyDraft, WhereNoChannelIsKnownTheCheckSaysWhatToFillIn) {
   EXPECT_THAT(draft.todo, Contains(HasSubstr("name the pairs")));
   const Study study = parse_study(draft.toml, folder / "study.toml");
   bool said = false;
-  for (const Finding& f : check_study(study))
-    said =
-        said || (f.level == Finding::Level::error && f.message.find("TODO") != std::string::npos);
+  for (const Remark& f : check_study(study))
+    said = said || (f.severity == Severity::error && f.says.find("TODO") != std::string::npos);
   EXPECT_TRUE(said);
 }
 
@@ -107,8 +105,7 @@ TEST(StudyDraft, OfTheElbowRecordingsPassesTheCheck) {
   const Study study = parse_study(draft.toml, folder / "study.toml");
   EXPECT_EQ(study.trials.size(), 6U);
   EXPECT_EQ(study.muscles.size(), 3U);
-  for (const Finding& f : check_study(study))
-    EXPECT_NE(f.level, Finding::Level::error) << f.message;
+  for (const Remark& f : check_study(study)) EXPECT_NE(f.severity, Severity::error) << f.says;
 }
 
 }  // namespace

@@ -17,13 +17,13 @@ using namespace test_trials;
 
 TEST(ClockOfATrial, AShortPauseOfTheClockIsWarnedOfAndALongOneRefused) {
   const Study study = arm_study();
-  EXPECT_TRUE(WrittenTrial(0.01, 5.0).read(study).warnings.empty());
+  EXPECT_TRUE(WrittenTrial(0.01, 5.0).read(study).remarks.empty());
   const TrialInput paused = WrittenTrial(0.01, 5.3, 0.3).read(study);
-  ASSERT_EQ(paused.warnings.size(), 1U);
-  EXPECT_NE(paused.warnings[0].find("a gap from 2.49 to 2.8 s"), std::string::npos)
-      << paused.warnings[0];
-  EXPECT_NE(std::find(paused.notes.begin(), paused.notes.end(), paused.warnings[0]),
-            paused.notes.end());
+  ASSERT_EQ(paused.remarks.size(), 1U);
+  EXPECT_NE(paused.remarks[0].says.find("a gap from 2.49 to 2.8 s"), std::string::npos)
+      << paused.remarks[0].says;
+  EXPECT_EQ(paused.remarks[0].code, RemarkCode::clock_pause);
+  EXPECT_EQ(paused.remarks[0].severity, Severity::warning);
   const std::string message = message_of([&] { (void)WrittenTrial(0.01, 8.0, 3.0).read(study); });
   EXPECT_NE(message.find("a gap from 2.49 to 5.5 s"), std::string::npos) << message;
   EXPECT_NE(message.find("make two trials of it"), std::string::npos) << message;

@@ -66,12 +66,13 @@ void check_cover(const TrialSpec& trial, const Eigen::VectorXd& emg_s, TrialInpu
                     emg_s[0], emg_end_s, begin_s, end_s));
   }
   if (overlap < end_s - begin_s - 0.1) {
-    warn(input, fmt::format("{}: the EMG ({:.5g} to {:.5g} s) lacks {:.3g} s of the motion ({:.5g} "
-                            "to {:.5g} s): those seconds are not fitted. If both were recorded "
-                            "together, the rate of one of them is wrong; else start_s and end_s "
-                            "leave the rest out",
-                            trial.emg->filename().string(), emg_s[0], emg_end_s,
-                            end_s - begin_s - overlap, begin_s, end_s));
+    warn(input, RemarkCode::emg_cover,
+         fmt::format("{}: the EMG ({:.5g} to {:.5g} s) lacks {:.3g} s of the motion ({:.5g} "
+                     "to {:.5g} s): those seconds are not fitted. If both were recorded "
+                     "together, the rate of one of them is wrong; else start_s and end_s "
+                     "leave the rest out",
+                     trial.emg->filename().string(), emg_s[0], emg_end_s, end_s - begin_s - overlap,
+                     begin_s, end_s));
   }
 }
 
@@ -101,9 +102,8 @@ std::vector<TrialLengths> lengths_of(const TrialSpec& trial, const TrialInput& i
            .emg_rate_hz = input.emg->mean_rate_hz()}};
 }
 
-std::vector<Finding> unlike_lengths(const std::vector<TrialLengths>& trials) {
-  using Level = Finding::Level;
-  std::vector<Finding> found;
+std::vector<Remark> unlike_lengths(const std::vector<TrialLengths>& trials) {
+  std::vector<Remark> found;
   double least = 1e300;
   double most = 0.0;
   bool all = true;
@@ -118,14 +118,15 @@ std::vector<Finding> unlike_lengths(const std::vector<TrialLengths>& trials) {
     const auto factor = whole_factor(ratio);
     if (!factor) continue;
     const bool sure = *factor < 1.0 || std::abs(ratio / *factor - 1.0) < kLimits.ends_together;
-    found.push_back({sure ? Level::error : Level::warning,
-                     t.trial,
-                     fmt::format("{}: {} the rate of one of them{} wrong{} {}. If both did last "
-                                 "so, give the trial the start_s and end_s that both have",
-                                 lasts(t), sure ? "so" : "is", sure ? " is" : "", sure ? "." : "?",
-                                 which_rate(t)),
-                     {},
-                     "length"});
+    found.push_back(
+        {.code = RemarkCode::emg_length,
+         .severity = sure ? Severity::error : Severity::warning,
+         .where = t.trial,
+         .about = "EMG and motion",
+         .says = fmt::format("{}: {} the rate of one of them{} wrong{} {}. If both did last "
+                             "so, give the trial the start_s and end_s that both have",
+                             lasts(t), sure ? "so" : "is", sure ? " is" : "", sure ? "." : "?",
+                             which_rate(t))});
   }
   // Stopped by hand, recordings end so many seconds apart, not by one factor.
   if (trials.empty() || !found.empty() || !all || most > (1.0 + kLimits.same_factor) * least)
@@ -134,15 +135,20 @@ std::vector<Finding> unlike_lengths(const std::vector<TrialLengths>& trials) {
   if (trials.size() == 1) {
     // One trial alone must be longer by more than people forget to stop.
     if (most < kLimits.alone_longer) return found;
-    found.push_back({Level::warning, first.trial,
-                     fmt::format("{}: is the rate of one of them wrong? {}. If the EMG did go on, "
-                                 "end_s leaves it out",
-                                 lasts(first), which_rate(first))});
+    found.push_back(
+        {.code = RemarkCode::emg_length,
+         .severity = Severity::warning,
+         .where = first.trial,
+         .says = fmt::format("{}: is the rate of one of them wrong? {}. If the EMG did go on, "
+                             "end_s leaves it out",
+                             lasts(first), which_rate(first))});
     return found;
   }
-  found.push_back({Level::warning, "study",
-                   fmt::format("in every trial {} (so in '{}'): is a rate wrong? {}", lasts(first),
-                               first.trial, which_rate(first))});
+  found.push_back({.code = RemarkCode::emg_length,
+                   .severity = Severity::warning,
+                   .where = "study",
+                   .says = fmt::format("in every trial {} (so in '{}'): is a rate wrong? {}",
+                                       lasts(first), first.trial, which_rate(first))});
   return found;
 }
 

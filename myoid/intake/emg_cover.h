@@ -5,7 +5,7 @@
 
 #include <Eigen/Core>
 
-#include "myoid/core/finding.h"
+#include "myoid/core/remark.h"
 #include "myoid/intake/trial_input.h"
 #include "myoid/study/study.h"
 
@@ -38,6 +38,6 @@ struct TrialLengths {
 /// times or as part of it, within 2 %: an error where it covers only that part, or ends together
 /// with the motion within 0.5 % once the rate is corrected, as what one trigger stops does; else a
 /// warning. Likewise a warning where both differ by one and the same factor in every trial.
-[[nodiscard]] std::vector<Finding> unlike_lengths(const std::vector<TrialLengths>& trials);
+[[nodiscard]] std::vector<Remark> unlike_lengths(const std::vector<TrialLengths>& trials);
 
 }  // namespace myoid

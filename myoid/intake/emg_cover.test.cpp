@@ -8,7 +8,6 @@ namespace myoid {
 namespace {
 
 using namespace test_trials;
-using Level = Finding::Level;
 
 TrialLengths lengths(double emg_s, double motion_s) {
   return {"t", emg_s, motion_s, 100.0, 1000.0};
@@ -58,7 +57,7 @@ TEST(CheckCover, WantsHalfASecondAndHalfOfTheMotion) {
     input.motion = TimeSeries(Eigen::VectorXd::LinSpaced(50, 0.0, motion_to_s),
                               {{"elbow_flexion", Unit::radian}}, Eigen::MatrixXd::Zero(50, 1));
     check_cover(trial, Eigen::VectorXd::LinSpaced(50, emg_from_s, emg_to_s), input);
-    return input.warnings.size();
+    return input.remarks.size();
   };
   EXPECT_NE(message_of([&] { check(0.4, 0.0, 0.4); }).find("at least 0.5 s are needed"),
             std::string::npos);
@@ -70,22 +69,22 @@ TEST(CheckCover, WantsHalfASecondAndHalfOfTheMotion) {
 }
 
 TEST(UnlikeLengths, EmgExactlyTwiceAsLongIsAnErrorThatNamesBothRates) {
-  const std::vector<Finding> found = unlike_lengths({lengths(51.28, 25.64), lengths(20.0, 20.1)});
+  const std::vector<Remark> found = unlike_lengths({lengths(51.28, 25.64), lengths(20.0, 20.1)});
   ASSERT_EQ(found.size(), 1U);
-  EXPECT_EQ(found[0].level, Level::error);
-  EXPECT_NE(found[0].message.find("EMG at 2000 Hz instead of 1000 Hz, or a motion at 50 Hz"),
+  EXPECT_EQ(found[0].severity, Severity::error);
+  EXPECT_NE(found[0].says.find("EMG at 2000 Hz instead of 1000 Hz, or a motion at 50 Hz"),
             std::string::npos)
-      << found[0].message;
+      << found[0].says;
 }
 
 TEST(UnlikeLengths, EmgOfHalfTheMotionIsAnError) {
   // 1 % from a half: motion that is longer than its EMG was not stopped late.
-  EXPECT_EQ(unlike_lengths({lengths(25.8, 51.1)}).at(0).level, Level::error);
-  const std::vector<Finding> found = unlike_lengths({lengths(25.6, 51.1)});
+  EXPECT_EQ(unlike_lengths({lengths(25.8, 51.1)}).at(0).severity, Severity::error);
+  const std::vector<Remark> found = unlike_lengths({lengths(25.6, 51.1)});
   ASSERT_EQ(found.size(), 1U);
-  EXPECT_EQ(found[0].level, Level::error);
-  EXPECT_NE(found[0].message.find("a motion at 199.6 Hz instead of 100 Hz"), std::string::npos)
-      << found[0].message;
+  EXPECT_EQ(found[0].severity, Severity::error);
+  EXPECT_NE(found[0].says.find("a motion at 199.6 Hz instead of 100 Hz"), std::string::npos)
+      << found[0].says;
 }
 
 TEST(UnlikeLengths, AnAmplifierThatRunsOnIsNoFault) {
@@ -95,18 +94,18 @@ TEST(UnlikeLengths, AnAmplifierThatRunsOnIsNoFault) {
   EXPECT_TRUE(unlike_lengths({}).empty());
   EXPECT_EQ(unlike_lengths({lengths(17.0, 10.0)}).size(), 1U);
   // About twice as long asks.
-  const std::vector<Finding> found = unlike_lengths({lengths(20.2, 10.0)});
+  const std::vector<Remark> found = unlike_lengths({lengths(20.2, 10.0)});
   ASSERT_EQ(found.size(), 1U);
-  EXPECT_EQ(found[0].level, Level::warning);
+  EXPECT_EQ(found[0].severity, Severity::warning);
 }
 
 TEST(UnlikeLengths, OneFactorInEveryTrialNamesTheRate) {
   for (const double factor : {1.2, 0.8}) {
-    const std::vector<Finding> found =
+    const std::vector<Remark> found =
         unlike_lengths({lengths(factor * 20.0, 20.0), lengths(factor * 12.0, 12.0)});
     ASSERT_EQ(found.size(), 1U);
     EXPECT_EQ(found[0].where, "study");
-    EXPECT_EQ(found[0].level, Level::warning);
+    EXPECT_EQ(found[0].severity, Severity::warning);
   }
   EXPECT_TRUE(unlike_lengths({lengths(24.0, 20.0), lengths(12.0, 12.0)}).empty());
 }

@@ -153,10 +153,11 @@ void add_markers_and_loads(std::vector<PlausibilityRow>& rows) {
       {"a foot beside the plates", "warning",
        fmt::format(
            "for {:g} s or more the forces on the ground, which elsewhere carry {:g} % of the "
-           "weight, are below {:g} % of it, and the body does not fall. `run` tells it by "
-           "what the joint to the ground would have to bear (half of the weight), and does "
+           "weight, are below {:g} % of it, and the body does not fall (by {:g} g or more). `run` "
+           "tells it by what the joint to the ground would have to bear (half of the weight), and "
+           "does "
            "not fit those times",
-           l.unloaded_s, percent(l.bears), percent(l.bears_nothing))});
+           l.unloaded_s, percent(l.bears), percent(l.bears_nothing), l.falls)});
   rows.push_back(
       {"nothing carries the body", "warning",
        "a model of a whole person on a free joint, without any measured force, of which a "

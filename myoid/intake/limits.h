@@ -54,6 +54,7 @@ struct PlausibilityLimits {
   double bears = 0.5;            ///< Of the weight: forces that the body stands on.
   double bears_nothing = 0.05;   ///< Of the weight.
   double unloaded_s = 0.1;
+  double falls = 0.5;  ///< Of gravity: a body that sinks faster flies.
 };
 inline constexpr PlausibilityLimits kLimits;
 

@@ -39,7 +39,7 @@ TimeSeries read_motion(const std::filesystem::path& path,
                        const model::BodyModel& model,
                        TrialInput& input) {
   const recording::Storage file = recording::read_storage(path);
-  add_repairs(path, file.repairs, input.notes);
+  add_repairs(path, file.repairs, input.remarks);
   const auto is_angle = [&](const std::string& name) {
     const auto index = model.find_coordinate(name);
     return index && model.coordinates[static_cast<std::size_t>(*index)].motion ==
@@ -50,7 +50,7 @@ TimeSeries read_motion(const std::filesystem::path& path,
   for (const Channel& channel : motion.channels())
     any |= model.find_coordinate(channel.name).has_value();
   if (const std::string doubt = check_angle_unit(path, file.in_degrees, motion); !doubt.empty())
-    warn(input, doubt);
+    warn(input, RemarkCode::unit_doubtful, doubt);
   if (!any) {
     std::string names;
     for (const model::Coordinate& c : model.coordinates)
@@ -72,16 +72,16 @@ TimeSeries read_trial_motion(const Study& study,
   require_finite(motion, trial.motion->string());
   if (motion.sample_count() < 10) throw ReadError(*trial.motion, 0, few_samples(trial, motion));
   if (std::string pauses = check_clock(*trial.motion, motion.time_s()); !pauses.empty())
-    warn(input, std::move(pauses));
+    warn(input, RemarkCode::clock_pause, std::move(pauses));
   check_cutoff(study, *trial.motion, motion.time_s());
   return motion;
 }
 
 TimeSeries read_external_torque(const Study& study,
                                 const TrialSpec& trial,
-                                std::vector<std::string>& notes) {
+                                std::vector<Remark>& remarks) {
   recording::Storage file = recording::read_storage(*trial.external_torque);
-  add_repairs(*trial.external_torque, file.repairs, notes);
+  add_repairs(*trial.external_torque, file.repairs, remarks);
   std::vector<Channel> columns;
   std::vector<std::string> there;
   for (const std::string& name : study_coordinates(study.model)) {
@@ -132,9 +132,9 @@ TrialInput read_trial_input(const Study& study,
   }
   if (trial.external_torque) {
     remember(*trial.external_torque);
-    input.external_torque = read_external_torque(study, trial, input.notes);
+    input.external_torque = read_external_torque(study, trial, input.remarks);
   }
-  input.loads = read_trial_loads(study, trial, model, input.markers, remember, input.notes);
+  input.loads = read_trial_loads(study, trial, model, input.markers, remember, input.remarks);
   return input;
 }
 
@@ -159,7 +159,7 @@ std::vector<TrialPart> read_trial_parts(const Study& study,
     }
     if (parts.empty()) throw;
     for (TrialPart& part : parts) {
-      warn(part.input,
+      warn(part.input, RemarkCode::clock_pause,
            fmt::format("part of trial '{}', which is cut at the pauses of its clock ({})",
                        trial.name, pause.path().filename().string()));
     }

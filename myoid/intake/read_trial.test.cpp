@@ -41,8 +41,8 @@ TEST(ReadTrialParts, ATrialIsCutAtALongPauseAndShortPartsAreLeftOut) {
   EXPECT_NEAR(parts[0].input.motion->time_s()[249], 2.49, 1e-9);
   EXPECT_EQ(parts[0].input.motion->sample_count(), 250);
   EXPECT_NEAR(parts[1].input.motion->time_s()[0], 5.5, 1e-9);
-  ASSERT_FALSE(parts[1].input.warnings.empty());
-  EXPECT_NE(parts[1].input.warnings.back().find("cut at the pauses of its clock (m.mot)"),
+  ASSERT_FALSE(parts[1].input.remarks.empty());
+  EXPECT_NE(parts[1].input.remarks.back().says.find("cut at the pauses of its clock (m.mot)"),
             std::string::npos);
   // Of a trial that ends 0.5 s after the pause, that part is left out.
   WrittenTrial shorter(0.01, 8.0, 3.0);

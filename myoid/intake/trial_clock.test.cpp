@@ -96,8 +96,8 @@ TEST_F(TwoClocks, ByPulsesThatBothRecordedOffsetAndDriftAreFoundWithinTheirError
   }
   EXPECT_NEAR(clock.drift_ppm, kDrift_ppm, 3.0 * *clock.drift_sd_ppm);
   EXPECT_LT(*clock.drift_sd_ppm, 60.0);
-  ASSERT_FALSE(input.notes.empty());
-  EXPECT_THAT(input.notes[0], HasSubstr("11 instants of 'Trig' and 'sync'"));
+  ASSERT_FALSE(input.remarks.empty());
+  EXPECT_THAT(input.remarks[0].says, HasSubstr("11 instants of 'Trig' and 'sync'"));
   // Samples are moved, not changed, and the 60 ms between EMG and motion stay.
   EXPECT_NEAR(input.emg->time_s()[0], kOffset_s, 0.003);
   EXPECT_NEAR(input.emg->values()(5000, 0), 0.5 + 0.2 * swing(input.emg->time_s()[5000] + 0.06),
@@ -107,7 +107,7 @@ TEST_F(TwoClocks, ByPulsesThatBothRecordedOffsetAndDriftAreFoundWithinTheirError
 TEST_F(TwoClocks, ByNumbersTheTimesAreWhatTheStudySays) {
   const TrialInput input = read(study("offset_s = 0.2345\ndrift_ppm = 50\noffset_sd_s = 0.002\n"));
   EXPECT_NEAR(input.emg->time_s()[12500], 50.0 + 50e-6 * 50.0 + 0.2345, 1e-9);
-  EXPECT_THAT(input.notes[0], HasSubstr("+234.5 ± 2 ms, 50 ppm (as the study says)"));
+  EXPECT_THAT(input.remarks[0].says, HasSubstr("+234.5 ± 2 ms, 50 ppm (as the study says)"));
 }
 
 TEST_F(TwoClocks, EstimatedFromEmgAndMotionTheOffsetIsFoundWithinItsError) {
@@ -116,7 +116,7 @@ TEST_F(TwoClocks, EstimatedFromEmgAndMotionTheOffsetIsFoundWithinItsError) {
   EXPECT_NEAR(input.emg_clock->clock.offset_s, kOffset_s,
               2.0 * *input.emg_clock->clock.offset_sd_s);
   EXPECT_GE(*input.emg_clock->clock.offset_sd_s, kUsualLeadSd_s);
-  EXPECT_THAT(input.notes[0], HasSubstr("estimated"));
+  EXPECT_THAT(input.remarks[0].says, HasSubstr("estimated"));
 }
 
 TEST_F(TwoClocks, ATrialsOwnSyncWinsOverTheStudys) {

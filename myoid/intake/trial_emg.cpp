@@ -28,7 +28,7 @@ namespace {
 void name_by_target_muscle(const Study& study,
                            const std::filesystem::path& path,
                            recording::EmgFile& file,
-                           std::vector<std::string>& notes) {
+                           std::vector<Remark>& remarks) {
   std::vector<Channel> channels = file.data.channels();
   bool renamed = false;
   for (const MuscleSpec& muscle : study.muscles) {
@@ -40,8 +40,9 @@ void name_by_target_muscle(const Study& study,
         targets.push_back(c);
     }
     if (targets.size() != 1) continue;
-    notes.push_back(fmt::format("{}: channel '{}' is on {}", path.filename().string(),
-                                channels[targets[0]].name, muscle.emg));
+    add_notes({fmt::format("{}: channel '{}' is on {}", path.filename().string(),
+                           channels[targets[0]].name, muscle.emg)},
+              remarks);
     channels[targets[0]].name = muscle.emg;
     renamed = true;
   }
@@ -74,7 +75,7 @@ std::vector<TimeSeries> on_other_clocks(const Study& study,
 void join_clocks(const Study& study,
                  const std::filesystem::path& path,
                  recording::EmgFile& file,
-                 std::vector<std::string>& notes) {
+                 std::vector<Remark>& remarks) {
   std::vector<TimeSeries> parts = on_other_clocks(study, path, file);
   if (parts.empty()) return;
   std::vector<std::string> here;
@@ -107,10 +108,10 @@ void join_clocks(const Study& study,
     values.rightCols(moved.channel_count()) = moved.values();
     channels.insert(channels.end(), moved.channels().begin(), moved.channels().end());
     if (&part != fastest)
-      notes.push_back(fmt::format("{}: {} at {:.6g} Hz put on the clock of {}, {:.6g} Hz",
-                                  path.filename().string(), channel_names(part),
-                                  part.mean_rate_hz(), channel_names(*fastest),
-                                  fastest->mean_rate_hz()));
+      add_notes({fmt::format("{}: {} at {:.6g} Hz put on the clock of {}, {:.6g} Hz",
+                             path.filename().string(), channel_names(part), part.mean_rate_hz(),
+                             channel_names(*fastest), fastest->mean_rate_hz())},
+                remarks);
   }
   file.data = TimeSeries(clock, std::move(channels), std::move(values));
 }
@@ -187,7 +188,7 @@ void require_kind(const Study& study,
     const bool lasting = signals::time_above_s(emg.values().col(*column), emg.mean_rate_hz(),
                                                kLimits.largest_activation) >= kLimits.spike_s;
     if (activation && high > kLimits.largest_activation && !lasting)
-      warn(input,
+      warn(input, RemarkCode::emg_artifact,
            fmt::format("{}: channel '{}' reaches {:.3g}, above {:g} for less than {:g} s: an "
                        "artefact?",
                        path.filename().string(), muscle.emg, high, kLimits.largest_activation,
@@ -214,9 +215,10 @@ TimeSeries on_clock_of_motion(const Study& study,
   };
   input.emg_clock = trial_clock(study, trial, movement_of(input), envelopes, remember);
   if (!input.emg_clock) return emg;
-  input.notes.push_back(
-      fmt::format("{}: clock put on that of the motion, {} ({})", trial.emg->filename().string(),
-                  signals::to_string(input.emg_clock->clock), input.emg_clock->source));
+  add_notes(
+      {fmt::format("{}: clock put on that of the motion, {} ({})", trial.emg->filename().string(),
+                   signals::to_string(input.emg_clock->clock), input.emg_clock->source)},
+      input.remarks);
   return signals::on_study_clock(std::move(emg), input.emg_clock->clock);
 }
 
@@ -239,11 +241,12 @@ TimeSeries read_trial_emg(const Study& study,
   const double end = trial.end_s.value_or(1e300);
   recording::EmgFile file =
       recording::read_emg(*trial.emg, study.emg.unit, study.emg.kind != EmgKind::raw);
-  add_repairs(*trial.emg, file.repairs, input.notes);
+  add_repairs(*trial.emg, file.repairs, input.remarks);
   if (!file.unit_conflict.empty())
-    warn(input, fmt::format("{}: {}", trial.emg->filename().string(), file.unit_conflict));
-  name_by_target_muscle(study, *trial.emg, file, input.notes);
-  join_clocks(study, *trial.emg, file, input.notes);
+    warn(input, RemarkCode::unit_doubtful,
+         fmt::format("{}: {}", trial.emg->filename().string(), file.unit_conflict));
+  name_by_target_muscle(study, *trial.emg, file, input.remarks);
+  join_clocks(study, *trial.emg, file, input.remarks);
   require_channels(study, *trial.emg, file.data);
   require_kind(study, *trial.emg, file.data, input);
   std::vector<std::string> wanted;
@@ -257,7 +260,7 @@ TimeSeries read_trial_emg(const Study& study,
   require_finite(emg, trial.emg->string());
   if (emg.sample_count() < 10) throw ReadError(*trial.emg, 0, few_samples(trial, emg));
   if (std::string pauses = check_clock(*trial.emg, emg.time_s()); !pauses.empty())
-    warn(input, std::move(pauses));
+    warn(input, RemarkCode::clock_pause, std::move(pauses));
   check_cover(trial, emg.time_s(), input);
   return emg;
 }

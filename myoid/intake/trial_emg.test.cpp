@@ -68,7 +68,7 @@ TEST(ReadTrialEmg, ChannelsOfSeveralClocksArePutOnTheFastest) {
       ASSERT_NEAR(x[i], sine(emg.time_s()[i], amplitude), 2e-3 * amplitude) << names[k] << " " << i;
   }
   int moved = 0;
-  for (const std::string& note : input.notes)
+  for (const std::string& note : sentences(input.remarks))
     moved += note.find("put on the clock") != std::string::npos;
   EXPECT_EQ(moved, 2);
 }
@@ -79,9 +79,9 @@ TEST(ReadTrialEmg, EmgThatCoversLessThanHalfOfTheMotionIsRefusedAndALittleLessIs
   EXPECT_NE(message.find("covers less than half of the motion (0 to 49.9 s)"), std::string::npos)
       << message;
   const TrialInput shorter = WrittenTrial(0.01, 4.0).read(study);
-  ASSERT_EQ(shorter.warnings.size(), 1U);
-  EXPECT_NE(shorter.warnings[0].find("lacks 0.99 s of the motion"), std::string::npos)
-      << shorter.warnings[0];
+  ASSERT_EQ(shorter.remarks.size(), 1U);
+  EXPECT_NE(shorter.remarks[0].says.find("lacks 0.99 s of the motion"), std::string::npos)
+      << shorter.remarks[0].says;
 }
 
 /// What reading the trial's EMG says, when all four channels hold these two values in turn, each

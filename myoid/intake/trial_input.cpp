@@ -8,16 +8,20 @@
 
 namespace myoid {
 
-void add_repairs(const std::filesystem::path& path,
-                 const std::vector<recording::Repair>& repairs,
-                 std::vector<std::string>& notes) {
-  for (const recording::Repair& repair : repairs)
-    notes.push_back(recording::to_string(path.filename(), repair));
+void warn(TrialInput& input, RemarkCode code, std::string text) {
+  input.remarks.push_back({.code = code, .says = std::move(text)});
 }
 
-void warn(TrialInput& input, std::string text) {
-  input.notes.push_back(text);
-  input.warnings.push_back(std::move(text));
+void add_notes(const std::vector<std::string>& texts, std::vector<Remark>& remarks) {
+  for (const std::string& text : texts)
+    remarks.push_back({.code = RemarkCode::reading, .severity = Severity::note, .says = text});
+}
+
+void add_repairs(const std::filesystem::path& path,
+                 const std::vector<recording::Repair>& repairs,
+                 std::vector<Remark>& remarks) {
+  for (const recording::Repair& repair : repairs)
+    add_notes({recording::to_string(path.filename(), repair)}, remarks);
 }
 
 std::string few_samples(const TrialSpec& trial, const TimeSeries& series) {

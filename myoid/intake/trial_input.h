@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "myoid/core/fault.h"
 #include "myoid/core/provenance.h"
+#include "myoid/core/remark.h"
 #include "myoid/core/time_series.h"
 #include "myoid/dynamics/external_loads.h"
 #include "myoid/files/marker_series.h"
@@ -28,19 +28,21 @@ struct TrialInput {
   std::optional<TimeSeries> external_torque;  ///< [N m]
   std::optional<dynamics::ExternalLoads> loads;
   std::optional<TrialClock> emg_clock;  ///< How the EMG was put on the clock of the motion.
-  std::vector<std::string> notes;       ///< All repairs and remarks.
-  std::vector<std::string> warnings;    ///< Those of them that may make numbers wrong.
-  std::vector<Fault> marker_faults;     ///< Found before they were mended.
+  std::vector<Remark> remarks;          ///< Notes and warnings about the files.
+  std::vector<Remark> marker_faults;    ///< Of the markers as recorded, before mending.
   std::vector<InputFile> files;
 };
 
-/// Adds a remark to the notes and to the warnings.
-void warn(TrialInput& input, std::string text);
+/// Adds a remark that a number may be wrong.
+void warn(TrialInput& input, RemarkCode code, std::string text);
 
-/// Adds what a reader put right or left out: "file:line: message".
+/// Adds notes on how files were read.
+void add_notes(const std::vector<std::string>& texts, std::vector<Remark>& remarks);
+
+/// Adds the repairs of a reader: "file:line: message".
 void add_repairs(const std::filesystem::path& path,
                  const std::vector<recording::Repair>& repairs,
-                 std::vector<std::string>& notes);
+                 std::vector<Remark>& remarks);
 
 /// "3 samples from its begin to 2 s; at least 10 are needed".
 [[nodiscard]] std::string few_samples(const TrialSpec& trial, const TimeSeries& series);

@@ -74,13 +74,13 @@ dynamics::ExternalForce read_load_cell(
     const model::BodyModel& model,
     const std::optional<recording::MarkerSeries>& markers,
     const std::function<void(const std::filesystem::path&)>& remember,
-    std::vector<std::string>& notes) {
+    std::vector<Remark>& remarks) {
   const LoadCellSpec& spec = *study.load_cell;
   const std::filesystem::path& file = *trial.load_cell;
   remember(file);
   remember(spec.calibration);
   const recording::Recording recorded = recording::read_recording(file);
-  add_repairs(file, recorded.repairs, notes);
+  add_repairs(file, recorded.repairs, remarks);
   const recording::AnalogChannels& channels = recorded.analog;
   if (channels.empty()) throw ReadError(file, 0, "there are no channels, so no load cell");
   TimeSeries wrench;
@@ -102,8 +102,9 @@ dynamics::ExternalForce read_load_cell(
   if (cutoff && *cutoff < 0.45 * wrench.mean_rate_hz())
     wrench = signals::zero_phase_filter(wrench, math::FilterBand::low_pass, *cutoff);
   const double most = wrench.values().leftCols(3).rowwise().norm().maxCoeff();
-  notes.push_back(fmt::format("{}: load cell, up to {:.3g} N on '{}'", file.filename().string(),
-                              most, spec.body));
+  add_notes({fmt::format("{}: load cell, up to {:.3g} N on '{}'", file.filename().string(), most,
+                         spec.body)},
+            remarks);
   const model::BodyIndex body = body_of(model, spec.body, "body");
   if (!spec.instrument)
     return dynamics::instrument_load(body_of(model, spec.frame, "frame"), wrench, body,
@@ -118,9 +119,10 @@ dynamics::ExternalForce read_load_cell(
         "model holds the cell");
   }
   const kinematics::IkResult pose = kinematics::inverse_kinematics(object, *markers);
-  notes.push_back(fmt::format("{}: pose of '{}' with {:.2g} mm rms",
-                              spec.instrument->filename().string(), spec.frame,
-                              1e3 * pose.errors.column("marker_error_RMS").mean()));
+  add_notes(
+      {fmt::format("{}: pose of '{}' with {:.2g} mm rms", spec.instrument->filename().string(),
+                   spec.frame, 1e3 * pose.errors.column("marker_error_RMS").mean())},
+      remarks);
   return dynamics::instrument_load(object, pose.q, body_of(object, spec.frame, "frame"), wrench,
                                    body, "load cell");
 }
@@ -131,7 +133,7 @@ dynamics::ExternalLoads read_plates(
     const model::BodyModel& model,
     const std::optional<recording::MarkerSeries>& markers,
     const std::function<void(const std::filesystem::path&)>& remember,
-    std::vector<std::string>& notes) {
+    std::vector<Remark>& remarks) {
   const PlateSpec& spec = *trial.plates;
   const auto name = spec.file.filename().string();
   if (!trial.markers || *trial.markers != spec.file) remember(spec.file);
@@ -142,8 +144,8 @@ dynamics::ExternalLoads read_plates(
   } catch (const InvalidInput& error) {
     throw ReadError(spec.file, 0, error.what());
   }
-  add_repairs(spec.file, file.repairs, notes);
-  notes.push_back(fmt::format("{}: {}", name, up_note(up, model)));
+  add_repairs(spec.file, file.repairs, remarks);
+  add_notes({fmt::format("{}: {}", name, up_note(up, model))}, remarks);
   std::vector<recording::ForcePlate> plates = file.force_plates();
   if (const auto clock = loads_clock(study, trial, spec.file)) {
     for (recording::ForcePlate& plate : plates) {
@@ -154,7 +156,8 @@ dynamics::ExternalLoads read_plates(
     dynamics::ExternalLoads loads = plate_loads(
         plates, rotation_onto(model, up.up_L.value_or(model_up(model))), model, spec.bodies,
         markers, spec.least_force_n, spec.lowpass_hz ? spec.lowpass_hz : motion_cutoff_hz(study));
-    for (const std::string& note : loads.notes) notes.push_back(fmt::format("{}: {}", name, note));
+    for (const std::string& note : loads.notes)
+      add_notes({fmt::format("{}: {}", name, note)}, remarks);
     if (markers && markers->frame_count() > 0 &&
         (markers->time_s[0] < loads.start_s - 0.05 ||
          markers->time_s[markers->frame_count() - 1] > loads.end_s + 0.05)) {
@@ -178,23 +181,24 @@ std::optional<dynamics::ExternalLoads> read_trial_loads(
     const model::BodyModel& model,
     const std::optional<recording::MarkerSeries>& markers,
     const std::function<void(const std::filesystem::path&)>& remember,
-    std::vector<std::string>& notes) {
+    std::vector<Remark>& remarks) {
   if (!trial.external_loads && !trial.load_cell && !trial.plates) return std::nullopt;
   dynamics::ExternalLoads loads;
   if (trial.external_loads) {
     remember(*trial.external_loads);
     loads = dynamics::read_external_loads(model, *trial.external_loads);
-    notes.insert(notes.end(), loads.notes.begin(), loads.notes.end());
+    add_notes(loads.notes, remarks);
     if (const auto clock = loads_clock(study, trial, *trial.external_loads))
       loads.set_clock(clock->offset_s, clock->drift_ppm);
     if (study.markers.up != 'y' && study.markers.up != kUpOfTheFile)
-      notes.push_back(fmt::format("{}: taken as y up, as OpenSim has it; only markers are turned",
-                                  trial.external_loads->filename().string()));
+      add_notes({fmt::format("{}: taken as y up, as OpenSim has it; only markers are turned",
+                             trial.external_loads->filename().string())},
+                remarks);
   }
   if (trial.load_cell)
-    loads.forces.push_back(read_load_cell(study, trial, model, markers, remember, notes));
+    loads.forces.push_back(read_load_cell(study, trial, model, markers, remember, remarks));
   if (trial.plates) {
-    dynamics::ExternalLoads plates = read_plates(study, trial, model, markers, remember, notes);
+    dynamics::ExternalLoads plates = read_plates(study, trial, model, markers, remember, remarks);
     std::move(plates.forces.begin(), plates.forces.end(), std::back_inserter(loads.forces));
   }
   return loads;

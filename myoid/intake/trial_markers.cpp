@@ -31,15 +31,17 @@ void match_labels(const model::BodyModel& model,
   for (std::string& name : names) {
     const auto same = match.same.find(name);
     if (same == match.same.end()) continue;
-    input.notes.push_back(fmt::format("{}: marker '{}' is taken for the model's '{}'",
-                                      path.filename().string(), name, same->second));
+    add_notes({fmt::format("{}: marker '{}' is taken for the model's '{}'",
+                           path.filename().string(), name, same->second)},
+              input.remarks);
     name = same->second;
   }
   for (const auto& [name, like] : match.similar) {
-    input.notes.push_back(
-        fmt::format("{}: the model has no marker '{}'; did you mean '{}'? Then write [markers] "
-                    "rename = {{ \"{}\" = \"{}\" }}",
-                    path.filename().string(), name, like, name, like));
+    add_notes(
+        {fmt::format("{}: the model has no marker '{}'; did you mean '{}'? Then write [markers] "
+                     "rename = {{ \"{}\" = \"{}\" }}",
+                     path.filename().string(), name, like, name, like)},
+        input.remarks);
   }
 }
 
@@ -48,8 +50,8 @@ recording::MarkerSeries read_markers(const Study& study,
                                      const std::filesystem::path& path,
                                      TrialInput& input) {
   recording::MarkerFile file = recording::read_markers(path);
-  std::vector<std::string>& notes = input.notes;
-  add_repairs(path, file.repairs, notes);
+  std::vector<Remark>& remarks = input.remarks;
+  add_repairs(path, file.repairs, remarks);
   for (std::string& name : file.markers.names) {
     if (const auto it = study.markers.rename.find(name); it != study.markers.rename.end())
       name = it->second;
@@ -58,7 +60,7 @@ recording::MarkerSeries read_markers(const Study& study,
   const recording::LaboratoryUp up = trial_up(study.markers.up, path, model);
   input.up_L = *up.up_L;
   if (*up.up_L != model_up(model)) {
-    notes.push_back(fmt::format("{}: {}", path.filename().string(), up_note(up, model)));
+    add_notes({fmt::format("{}: {}", path.filename().string(), up_note(up, model))}, remarks);
     file.markers = recording::rotated(std::move(file.markers), rotation_onto(model, *up.up_L));
   }
   return std::move(file.markers);
@@ -72,15 +74,15 @@ recording::MarkerSeries mended(const Study& study,
   const std::vector<signals::ExpectedSegment> expected = kinematics::segments_of(model, markers);
   input.marker_faults = signals::check_markers(markers, expected);
   bool right_unit = true;
-  for (Fault& fault : input.marker_faults) {
-    right_unit = right_unit && fault.kind != FaultKind::marker_unit;
+  for (Remark& fault : input.marker_faults) {
+    right_unit = right_unit && fault.code != RemarkCode::marker_unit;
     const bool used =
         std::any_of(model.markers.begin(), model.markers.end(),
-                    [&](const model::Marker& marker) { return fault.channel == marker.name; });
+                    [&](const model::Marker& marker) { return fault.about == marker.name; });
     // A marker that the model does not have harms nobody.
     const bool of_one =
-        std::find(markers.names.begin(), markers.names.end(), fault.channel) != markers.names.end();
-    if (of_one && !used) fault.grave = false;
+        std::find(markers.names.begin(), markers.names.end(), fault.about) != markers.names.end();
+    if (of_one && !used) fault.severity = Severity::note;
   }
   if (!right_unit) return markers;
   std::vector<signals::RigidSegment> segments;
@@ -88,7 +90,7 @@ recording::MarkerSeries mended(const Study& study,
   signals::MendedMarkers result = signals::mend_markers(
       std::move(markers), segments,
       {.undo_swaps = study.markers.undo_swaps, .fill_gaps = study.markers.fill_gaps});
-  for (std::string& text : result.repairs) input.notes.push_back(std::move(text));
+  add_notes(result.repairs, input.remarks);
   return std::move(result.markers);
 }
 
@@ -113,7 +115,7 @@ recording::MarkerSeries read_trial_markers(const Study& study,
     throw ReadError(*trial.markers, 0,
                     fmt::format("only {} frames; at least 10 are needed", markers.frame_count()));
   if (std::string pauses = check_clock(*trial.markers, markers.time_s); !pauses.empty())
-    warn(input, std::move(pauses));
+    warn(input, RemarkCode::clock_pause, std::move(pauses));
   check_cutoff(study, *trial.markers, markers.time_s);
   return mended(study, model, std::move(markers), input);
 }

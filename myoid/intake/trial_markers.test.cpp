@@ -48,8 +48,8 @@ TEST(ReadTrialMarkers, ALabelThatDiffersInItsWritingBecomesTheModelsWithANote) {
   const MarkerTrial trial(upper, 50);
   TrialInput input;
   EXPECT_EQ(read_trial_markers(arm_study(), trial.spec, arm(), input).names[0], first_name());
-  EXPECT_TRUE(std::any_of(input.notes.begin(), input.notes.end(), [](const std::string& note) {
-    return note.find("is taken for the model's") != std::string::npos;
+  EXPECT_TRUE(std::any_of(input.remarks.begin(), input.remarks.end(), [](const Remark& note) {
+    return note.says.find("is taken for the model's") != std::string::npos;
   }));
 }
 

@@ -2,11 +2,9 @@
 
 #include <algorithm>
 #include <iterator>
-#include <set>
 #include <utility>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "myoid/signals/clock_offset.h"
 #include "myoid/signals/emg_quality.h"
@@ -33,11 +31,11 @@ TimeSeries movement_of(const TrialInput& input) {
   return {input.markers->time_s, std::move(channels), std::move(values)};
 }
 
-std::vector<Fault> trial_faults(const Study& study,
-                                const TrialInput& input,
-                                const TimeSeries& envelope) {
-  std::vector<Fault> faults = input.marker_faults;
-  const auto append = [&](std::vector<Fault> more) {
+std::vector<Remark> trial_faults(const Study& study,
+                                 const TrialInput& input,
+                                 const TimeSeries& envelope) {
+  std::vector<Remark> faults = input.marker_faults;
+  const auto append = [&](std::vector<Remark> more) {
     std::move(more.begin(), more.end(), std::back_inserter(faults));
   };
   if (input.emg) {
@@ -58,31 +56,6 @@ std::vector<Fault> trial_faults(const Study& study,
   const TimeSeries movement = movement_of(input);
   if (!movement.empty()) append(signals::check_clock_offset(envelope, movement));
   return faults;
-}
-
-std::vector<std::string> fault_summary(const std::vector<NamedFault>& faults, std::size_t most) {
-  std::vector<std::string> lines;
-  std::set<std::pair<FaultKind, std::string>> said;
-  std::size_t more = 0;
-  for (const NamedFault& f : faults) {
-    if (!f.fault.grave || !said.insert({f.fault.kind, f.fault.channel}).second) continue;
-    if (lines.size() == most) {
-      ++more;
-      continue;
-    }
-    std::vector<std::string> others;
-    for (const NamedFault& g : faults) {
-      if (g.fault.grave && g.fault.kind == f.fault.kind && g.fault.channel == f.fault.channel &&
-          g.trial != f.trial)
-        others.push_back(g.trial);
-    }
-    std::string line = f.trial.empty() ? "" : fmt::format("trial {}: ", f.trial);
-    line += sentence(f.fault);
-    if (!others.empty()) line += fmt::format(" (likewise in {})", fmt::join(others, ", "));
-    lines.push_back(std::move(line));
-  }
-  if (more > 0) lines.push_back(fmt::format("{} more faults: see `myoid check`", more));
-  return lines;
 }
 
 }  // namespace myoid

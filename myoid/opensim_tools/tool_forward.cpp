@@ -200,9 +200,6 @@ void run_forward(const OpensimSetup& setup, const ToolOptions& options, ToolResu
   const auto controls_file = claim_result(run, "controls.sto");
   const ModelControls controls = read_model_controls(setup);
   const SimulationModel model = simulation::make_simulation_model(run.model, {.stops = false});
-  for (const std::string& note : model.notes) {
-    if (note.find("ctuator") == std::string::npos) result.notes.push_back(note);
-  }
   double start_s = xml.number(tool, "initial_time", 0.0);
   const SimulationStart start = start_of(run, model, start_s);
   simulation::SimulationOptions how;

@@ -99,15 +99,15 @@ void write_identified_model(const StudyResult& result, const std::filesystem::pa
   }
 }
 
-ordered_json faults_json(const std::vector<Fault>& faults) {
+ordered_json faults_json(const std::vector<Remark>& faults) {
   ordered_json list = ordered_json::array();
-  for (const Fault& fault : faults) {
-    list.push_back({{"fault", std::string(name(fault.kind))},
-                    {"level", fault.grave ? "warning" : "note"},
-                    {"channel", fault.channel},
-                    {"begin_s", fault.begin_s},
-                    {"end_s", fault.end_s},
-                    {"value", fault.value},
+  for (const Remark& fault : faults) {
+    list.push_back({{"fault", std::string(name(fault.code))},
+                    {"level", std::string(name(fault.severity))},
+                    {"channel", fault.about},
+                    {"begin_s", fault.when.value_or(Stretch{}).begin_s},
+                    {"end_s", fault.when.value_or(Stretch{}).end_s},
+                    {"value", fault.value.value_or(0.0)},
                     {"message", sentence(fault)}});
   }
   return list;
@@ -131,7 +131,7 @@ ordered_json run_json(const StudyResult& result, const Provenance& provenance) {
     run["trials"].push_back({{"name", trial.spec.name},
                              {"use", std::string(choice_name(trial.spec.use))},
                              {"failure", trial.failure()},
-                             {"notes", trial.notes},
+                             {"notes", sentences(trial.remarks)},
                              {"faults", faults_json(trial.faults)}});
     if (const auto& emg = trial.input.emg_clock) {
       ordered_json& clock = run["trials"].back()["emg_clock"];

@@ -223,7 +223,7 @@ report::Report study_report(const StudyResult& result, const Provenance& provena
   Section trials{"trials", "Trials", {}, {}, {trials_table(result)}, {}};
   std::vector<std::string> notes;
   for (const TrialResult& t : result.trials) {
-    for (const std::string& note : t.notes)
+    for (const std::string& note : sentences(t.remarks))
       notes.push_back(fmt::format("{}: {}", t.spec.name, note));
   }
   if (notes.size() > 12) {

@@ -134,21 +134,22 @@ std::optional<Gate> support_gate(const StudyResult& result) {
 
 /// The warnings of `check`: faults of channels, and remarks on files that may make numbers wrong.
 Gate recordings_gate(const StudyResult& result) {
-  std::set<std::string> kinds;
-  std::ptrdiff_t grave = 0;
-  for (const NamedFault& f : all_faults(result)) {
-    if (!f.fault.grave) continue;
+  std::set<std::string_view> codes;
+  std::size_t grave = 0;
+  for (const Remark& fault : all_faults(result)) {
+    if (fault.severity != Severity::warning) continue;
     ++grave;
-    kinds.insert(std::string(name(f.fault.kind)));
+    codes.insert(name(fault.code));
   }
-  std::ptrdiff_t warnings = 0;
+  std::size_t warnings = 0;
   std::vector<std::string> trials;
   for (const TrialResult& t : result.trials) {
-    warnings += static_cast<std::ptrdiff_t>(t.warnings.size());
-    if (!t.warnings.empty()) trials.push_back(t.spec.name);
+    const std::size_t count = sentences(t.remarks, Severity::warning).size();
+    warnings += count;
+    if (count > 0) trials.push_back(t.spec.name);
   }
   std::vector<std::string> found;
-  if (grave > 0) found.push_back(fmt::format("{} found: {}", grave, fmt::join(kinds, ", ")));
+  if (grave > 0) found.push_back(fmt::format("{} found: {}", grave, fmt::join(codes, ", ")));
   if (warnings > 0)
     found.push_back(fmt::format("{} warning{} about the files of {}", warnings,
                                 warnings == 1 ? "" : "s", fmt::join(trials, ", ")));
@@ -349,30 +350,27 @@ std::vector<report::Gate> quality_gates(const StudyResult& result) {
   return list;
 }
 
-std::vector<NamedFault> all_faults(const StudyResult& result) {
-  std::vector<NamedFault> faults;
-  for (const TrialResult& t : result.trials) {
-    for (const Fault& fault : t.faults) faults.push_back({t.spec.name, fault});
-  }
-  for (const Fault& fault : result.level_faults) faults.push_back({"", fault});
+std::vector<Remark> all_faults(const StudyResult& result) {
+  std::vector<Remark> faults;
+  for (const TrialResult& t : result.trials)
+    faults.insert(faults.end(), t.faults.begin(), t.faults.end());
+  faults.insert(faults.end(), result.level_faults.begin(), result.level_faults.end());
   return faults;
 }
 
 report::Section recordings_section(const StudyResult& result) {
   report::Section section{"recordings", "Quality of the recordings", {}, {}, {}, {}};
-  std::vector<NamedFault> faults = all_faults(result);
+  std::vector<Remark> faults = all_faults(result);
   std::vector<std::vector<report::Cell>> warnings;
   for (const TrialResult& t : result.trials) {
-    for (const std::string& text : t.warnings)
+    for (const std::string& text : sentences(t.remarks, Severity::warning))
       warnings.push_back({{"warning", report::Badge::weak}, {t.spec.name}, {""}, {text}, {""}});
   }
   if (faults.empty() && warnings.empty()) {
     section.paragraphs.emplace_back("No fault was found in any channel.");
     return section;
   }
-  std::stable_sort(faults.begin(), faults.end(), [](const NamedFault& a, const NamedFault& b) {
-    return a.fault.grave && !b.fault.grave;
-  });
+  sort_by_severity(faults);
   constexpr std::size_t kMost = 40;
   report::Table table{"recordings",
                       "What the recordings themselves show",
@@ -381,13 +379,15 @@ report::Section recordings_section(const StudyResult& result) {
                       {"level", "trial", "time", "what was found", "what to do"},
                       std::move(warnings)};
   for (std::size_t i = 0; i < std::min(faults.size(), kMost); ++i) {
-    const NamedFault& f = faults[i];
-    table.rows.push_back(
-        {f.fault.grave ? report::Cell{"warning", report::Badge::weak} : report::Cell{"note"},
-         {f.trial.empty() ? std::string("all") : f.trial},
-         {fmt::format("{:.5g} to {:.5g} s", f.fault.begin_s, f.fault.end_s)},
-         {f.fault.text},
-         {f.fault.remedy}});
+    const Remark& f = faults[i];
+    const Stretch when = f.when.value_or(Stretch{});
+    table.rows.push_back({f.severity == Severity::warning
+                              ? report::Cell{"warning", report::Badge::weak}
+                              : report::Cell{"note"},
+                          {f.where.empty() ? std::string("all") : f.where},
+                          {fmt::format("{:.5g} to {:.5g} s", when.begin_s, when.end_s)},
+                          {f.says},
+                          {f.remedy}});
   }
   section.tables.push_back(std::move(table));
   if (faults.size() > kMost) {

@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "myoid/intake/trial_quality.h"
+#include "myoid/core/remark.h"
 #include "myoid/report/report.h"
 #include "myoid/run/study_result.h"
 #include "myoid/run/study_validation.h"
@@ -20,7 +20,7 @@ namespace myoid {
 [[nodiscard]] report::Section recordings_section(const StudyResult& result);
 
 /// All faults of the recordings, those of the whole study last.
-[[nodiscard]] std::vector<NamedFault> all_faults(const StudyResult& result);
+[[nodiscard]] std::vector<Remark> all_faults(const StudyResult& result);
 
 /// True if a gate failed on which the motion rests (inverse kinematics, markers, angles): no
 /// parameter can then be better than the motion it was computed from.

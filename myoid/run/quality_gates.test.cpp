@@ -67,11 +67,11 @@ TEST(QualityGates, AWarningAboutAFileIsNoRecordingWithoutFaults) {
   const char* gate = "Recordings without faults";
   StudyResult result = some_result(0.010, 0, 90.0);
   EXPECT_EQ(status_of(result, gate), GateStatus::pass);
-  result.trials[0].warnings = {"e.sto: the EMG lacks 7.5 s of the motion"};
+  result.trials[0].remarks = {{.says = "e.sto: the EMG lacks 7.5 s of the motion"}};
   EXPECT_EQ(status_of(result, gate), GateStatus::warn);
   const report::Section section = recordings_section(result);
   ASSERT_EQ(section.tables.size(), 1U);
-  EXPECT_EQ(section.tables[0].rows[0][3].text, result.trials[0].warnings[0]);
+  EXPECT_EQ(section.tables[0].rows[0][3].text, result.trials[0].remarks[0].says);
 }
 
 TEST(QualityGates, FramesWithoutAPoseAreACautionThenAFailure) {

@@ -92,17 +92,20 @@ RestingJoints resting_joints(const Study& study,
     if (!trial.spec->external_torque && !trial.spec->load_cell) continue;
     const std::string why = not_at_rest(study, model, trial);
     if (!why.empty()) {
-      found.remarks.push_back({trial.index,
-                               "what the joint does by itself is not taken from this trial: " + why,
-                               true});
+      found.remarks.push_back(
+          {.code = RemarkCode::resting_torque,
+           .where = trial.spec->name,
+           .says = "what the joint does by itself is not taken from this trial: " + why});
       continue;
     }
     relaxed.push_back(&trial);
     if (trial.activation->empty())
       found.remarks.push_back(
-          {trial.index,
-           "a relaxed joint by the study's word: no EMG shows that the muscles were at rest",
-           false});
+          {.code = RemarkCode::resting_torque,
+           .severity = Severity::note,
+           .where = trial.spec->name,
+           .says = "a relaxed joint by the study's word: no EMG shows that the muscles were at "
+                   "rest"});
   }
   const std::vector<std::string> coordinates = study_coordinates(study.model);
   for (std::size_t j = 0; j < coordinates.size(); ++j) {

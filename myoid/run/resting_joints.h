@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "myoid/core/remark.h"
 #include "myoid/core/time_series.h"
 #include "myoid/kinematics/muscle_kinematics.h"
 #include "myoid/methods/resting_torque.h"
@@ -23,16 +24,9 @@ struct RelaxedTrial {
   const kinematics::MuscleKinematics* muscles = nullptr;
 };
 
-/// A sentence about a passive trial.
-struct RestingRemark {
-  std::size_t trial = 0;  ///< In the study.
-  std::string text;
-  bool warning = false;
-};
-
 struct RestingJoints {
   std::vector<identification::RestingJoint> joints;
-  std::vector<RestingRemark> remarks;
+  std::vector<Remark> remarks;  ///< `where` is the trial.
 };
 
 /// The torques that the joints of a study make by themselves, from its passive trials that a

@@ -74,7 +74,7 @@ TEST(RestingJoints, WhatTheJointOfAPersonDoesByItselfIsFound) {
                 truth.joint_torque_nm - truth.joint_stiffness_nm_per_rad * q, 0.3)
         << angle_deg;
   }
-  for (const std::string& warning : result.trials[2].warnings)
+  for (const std::string& warning : sentences(result.trials[2].remarks, Severity::warning))
     EXPECT_THAT(warning, ::testing::Not(HasSubstr("what the joint does by itself")));
   ASSERT_EQ(result.fit_input.data.trials.size(), 1U);
   const identification::TrialData& ramp = result.fit_input.data.trials[0];
@@ -86,9 +86,9 @@ TEST(RestingJoints, MusclesThatWereAtWorkShowNoRestingJoint) {
   r.inputs[0].emg = r.inputs[2].emg;  // that of the effort
   const StudyResult result = analyse(in_memory(r.study, std::move(r.inputs)));
   EXPECT_TRUE(result.resting.empty());
-  ASSERT_FALSE(result.trials[0].warnings.empty());
-  EXPECT_THAT(result.trials[0].warnings.back(), HasSubstr("the muscles were not at rest: EMG"));
-  EXPECT_EQ(result.trials[0].notes.back(), result.trials[0].warnings.back());
+  ASSERT_FALSE(result.trials[0].remarks.empty());
+  EXPECT_EQ(result.trials[0].remarks.back().severity, Severity::warning);
+  EXPECT_THAT(result.trials[0].remarks.back().says, HasSubstr("the muscles were not at rest: EMG"));
   EXPECT_EQ(result.fit_input.data.trials[0].resting_nm.size(), 0);
 }
 
@@ -101,8 +101,9 @@ TEST(RestingJoints, WithoutAMaximalContractionRestIsAgainstTheGreatestOfTheStudy
     const StudyResult result = analyse(in_memory(r.study, std::move(r.inputs)));
     EXPECT_EQ(result.resting.empty(), at_work);
     if (!at_work) continue;
-    ASSERT_FALSE(result.trials[0].warnings.empty());
-    EXPECT_THAT(result.trials[0].warnings.back(), HasSubstr("its greatest value in the study"));
+    ASSERT_FALSE(result.trials[0].remarks.empty());
+    EXPECT_EQ(result.trials[0].remarks.back().severity, Severity::warning);
+    EXPECT_THAT(result.trials[0].remarks.back().says, HasSubstr("its greatest value in the study"));
   }
 }
 
@@ -115,7 +116,8 @@ TEST(RestingJoints, WithoutEmgTheStudyIsTakenAtItsWord) {
   const StudyResult result = analyse(in_memory(r.study, std::move(r.inputs)));
   ASSERT_EQ(result.resting.size(), 1U);
   EXPECT_EQ(result.resting[0].torque.coefficient_nm, known.resting[0].torque.coefficient_nm);
-  EXPECT_THAT(result.trials[0].notes, ::testing::Contains(HasSubstr("by the study's word")));
+  EXPECT_THAT(sentences(result.trials[0].remarks),
+              ::testing::Contains(HasSubstr("by the study's word")));
 }
 
 TEST(RestingJoints, TheWeightOfTheInstrumentIsPartOfIt) {
@@ -146,8 +148,9 @@ TEST(RestingJoints, ATorqueThatNoRelaxedJointHasIsNotTaken) {
   torque = TimeSeries(torque.time_s(), torque.channels(), torque.values().array() + 90.0);
   const StudyResult result = analyse(in_memory(r.study, std::move(r.inputs)));
   EXPECT_TRUE(result.resting.empty());
-  ASSERT_FALSE(result.trials[0].warnings.empty());
-  EXPECT_THAT(result.trials[0].warnings.back(),
+  ASSERT_FALSE(result.trials[0].remarks.empty());
+  EXPECT_EQ(result.trials[0].remarks.back().severity, Severity::warning);
+  EXPECT_THAT(result.trials[0].remarks.back().says,
               HasSubstr("more than a quarter of what its muscles"));
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <iterator>
 #include <string>
 #include <utility>
 #include <vector>
@@ -55,9 +56,9 @@ class Stages {
 RecordingFindings findings_of(const StudyInputs& inputs, const StudyActivation& activation) {
   RecordingFindings found =
       recording_findings(inputs.source.study, *inputs.source.model, inputs.trials, activation);
-  for (const Finding& f : found.dynamometers) {
-    if (f.level == Finding::Level::error)
-      throw InvalidInput(fmt::format("{} (trial '{}')", f.message, f.where));
+  for (const Remark& f : found.dynamometers) {
+    if (f.severity == Severity::error)
+      throw InvalidInput(fmt::format("{} (trial '{}')", sentence(f), f.where));
   }
   return found;
 }
@@ -94,18 +95,14 @@ std::vector<TrialResult> joined(const Study& study,
     trial.motion = std::move(motion[i]);
     trial.forces = std::move(forces[i]);
     trial.faults = findings.of_trials[i];
-    const auto add = [](const std::vector<std::string>& texts, std::vector<std::string>& all) {
-      all.insert(all.end(), texts.begin(), texts.end());
-    };
-    add(trial.input.warnings, trial.warnings);
-    for (const Finding& f : findings.dynamometers) {
-      if (f.where == trial.spec.name) trial.warnings.push_back(f.message);
-    }
-    add(trial.forces.warnings, trial.warnings);
-    add(trial.input.notes, trial.notes);
-    if (trial.emg.stages) add(trial.emg.stages->findings, trial.notes);
-    add(trial.motion.notes, trial.notes);
-    add(trial.forces.notes, trial.notes);
+    std::vector<Remark>& remarks = trial.remarks;
+    remarks = trial.input.remarks;
+    std::copy_if(findings.dynamometers.begin(), findings.dynamometers.end(),
+                 std::back_inserter(remarks),
+                 [&](const Remark& remark) { return remark.where == trial.spec.name; });
+    if (trial.emg.stages) add_notes(trial.emg.stages->findings, remarks);
+    add_notes(trial.motion.notes, remarks);
+    remarks.insert(remarks.end(), trial.forces.remarks.begin(), trial.forces.remarks.end());
   }
   require_one(trials);
   return trials;

@@ -65,10 +65,11 @@ std::vector<identification::RestingJoint> find_resting(const StudyInputs& inputs
                       &motion[i].joints.qdot, &forces[i].muscle_torque, &forces[i].muscles});
   }
   RestingJoints found = resting_joints(inputs.source.study, *inputs.source.model, trials);
-  for (RestingRemark& remark : found.remarks) {
-    TrialForces& trial = forces[remark.trial];
-    if (remark.warning) trial.warnings.push_back(remark.text);
-    trial.notes.push_back(std::move(remark.text));
+  for (Remark& remark : found.remarks) {
+    const auto of_it = std::find_if(trials.begin(), trials.end(), [&](const RelaxedTrial& trial) {
+      return trial.spec->name == remark.where;
+    });
+    forces[of_it->index].remarks.push_back(std::move(remark));
   }
   return std::move(found.joints);
 }
@@ -100,7 +101,9 @@ TrialForces trial_torques(const StudySource& source,
     torque -= signals::resample(*input.external_torque, motion.joints.q.time_s()).values();
   found.muscle_torque = TimeSeries(motion.joints.q.time_s(), std::move(columns), std::move(torque));
   found.uncarried = uncarried_time(source.study, spec, motion, found.generalized);
-  if (found.uncarried) found.warnings.push_back(found.uncarried->sentence());
+  if (found.uncarried)
+    found.remarks.push_back(
+        {.code = RemarkCode::body_unsupported, .says = found.uncarried->sentence()});
   return found;
 }
 
@@ -109,11 +112,11 @@ forces::MuscleForces shared_forces(const Study& study,
                                    const TrialMotion& motion,
                                    const kinematics::MuscleKinematics& muscles,
                                    const std::vector<identification::RestingJoint>& resting,
-                                   std::vector<std::string>& notes) {
+                                   std::vector<Remark>& remarks) {
   const std::vector<std::string> coordinates = study_coordinates(study.model);
   forces::SharingInput sharing = forces::sharing_input(
       *motion.model, motion.joints, muscles, coordinates, input.loads ? &*input.loads : nullptr);
-  notes.insert(notes.end(), sharing.notes.begin(), sharing.notes.end());
+  add_notes(sharing.notes, remarks);
   Eigen::MatrixXd torque = sharing.torques.values();
   for (std::size_t j = 0; j < coordinates.size(); ++j) {
     const auto index = static_cast<std::size_t>(motion.model->coordinate_index(coordinates[j]));
@@ -156,7 +159,7 @@ StudyForces study_forces(const StudyInputs& inputs,
     const bool passive = study.trials[i].use == Use::passive;
     trial.shared = shared_forces(
         study, inputs.trials[i], motion[i], trial.muscles,
-        passive ? std::vector<identification::RestingJoint>{} : found.resting, trial.notes);
+        passive ? std::vector<identification::RestingJoint>{} : found.resting, trial.remarks);
     progress.tell(++done / (2.0 * static_cast<double>(motion.size())), study.trials[i].name);
   });
   return found;

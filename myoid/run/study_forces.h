@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "myoid/core/remark.h"
 #include "myoid/core/time_series.h"
 #include "myoid/dynamics/ground_support.h"
 #include "myoid/forces/force_sharing.h"
@@ -22,7 +23,7 @@ struct TrialForces {
   TimeSeries muscle_torque;     ///< Of the study's coordinates: what the muscles provide [N m].
   forces::MuscleForces shared;  ///< Of the model's muscles.
   std::optional<dynamics::UncarriedTime> uncarried;  ///< Where torques lack a ground reaction.
-  std::vector<std::string> notes, warnings;
+  std::vector<Remark> remarks;
   std::string failure;  ///< Why it could not be computed; empty: it could.
 };
 
@@ -41,14 +42,14 @@ struct StudyForces {
 /// The torques of the study's joints shared among the model's muscles, as `myoid so` does
 /// (forces::sharing_input): the curves of each muscle's own class, the model's passive forces
 /// counted. The torque of a dynamometer and what the joints do by themselves (`resting`) are
-/// no muscle's. What is to be said of it goes to `notes`.
+/// no muscle's. Notes on the sharing go to `remarks`.
 [[nodiscard]] forces::MuscleForces shared_forces(
     const Study& study,
     const TrialInput& input,
     const TrialMotion& motion,
     const kinematics::MuscleKinematics& muscles,
     const std::vector<identification::RestingJoint>& resting,
-    std::vector<std::string>& notes);
+    std::vector<Remark>& remarks);
 
 /// Torques of all trials, then the resting joints from the passive ones, then, if `share`, shared
 /// forces; trials in parallel. A trial that cannot be computed holds the failure.

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "myoid/core/fault.h"
+#include "myoid/core/remark.h"
 #include "myoid/design/design_study.h"
 #include "myoid/intake/study_activation.h"
 #include "myoid/methods/cross_validation.h"
@@ -27,9 +27,9 @@ struct StageTime {
 struct StudyResult {
   std::optional<double> start_s, end_s;  ///< As RunOptions had them.
   StudySource source;                    ///< read
-  std::vector<TrialResult> trials;  ///< read, activation, motion, forces; in the study's order.
-  EmgScale emg;                     ///< activation
-  std::vector<Fault> level_faults;  ///< findings: of EMG channels, over all trials.
+  std::vector<TrialResult> trials;   ///< read, activation, motion, forces; in the study's order.
+  EmgScale emg;                      ///< activation
+  std::vector<Remark> level_faults;  ///< findings: of EMG channels, over all trials.
   std::vector<identification::RestingJoint> resting;  ///< forces
   FitInput fit_input;                                 ///< data
   StudyFit fit;                                       ///< fit

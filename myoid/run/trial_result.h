@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "myoid/core/fault.h"
+#include "myoid/core/remark.h"
 #include "myoid/intake/study_activation.h"
 #include "myoid/intake/trial_input.h"
 #include "myoid/run/study_forces.h"
@@ -16,13 +16,12 @@ namespace myoid {
 /// All that was found about one trial, stage by stage.
 struct TrialResult {
   TrialSpec spec;
-  TrialInput input;                   ///< read
-  TrialActivation emg;                ///< activation
-  TrialMotion motion;                 ///< motion
-  TrialForces forces;                 ///< forces
-  std::vector<Fault> faults;          ///< findings: of its recordings, as they came.
-  std::vector<std::string> warnings;  ///< Of all stages: what may make numbers wrong.
-  std::vector<std::string> notes;     ///< Of all stages: repairs and remarks, with file and line.
+  TrialInput input;             ///< read
+  TrialActivation emg;          ///< activation
+  TrialMotion motion;           ///< motion
+  TrialForces forces;           ///< forces
+  std::vector<Remark> faults;   ///< findings: of its recordings as they came.
+  std::vector<Remark> remarks;  ///< Of all stages: repairs and doubts, with file and line.
 
   /// Why the trial could not be computed; empty: it could.
   [[nodiscard]] const std::string& failure() const {

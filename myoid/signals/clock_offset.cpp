@@ -232,10 +232,10 @@ std::optional<ClockOffset> estimate_clock_offset(const TimeSeries& envelopes,
                      .correlation = peak.correlation};
 }
 
-std::vector<Fault> check_clock_offset(const TimeSeries& envelopes,
-                                      const TimeSeries& motion,
-                                      const QualityLimits& limits) {
-  std::vector<Fault> faults;
+std::vector<Remark> check_clock_offset(const TimeSeries& envelopes,
+                                       const TimeSeries& motion,
+                                       const QualityLimits& limits) {
+  std::vector<Remark> faults;
   const std::optional<ClockOffset> offset = estimate_clock_offset(envelopes, motion);
   if (!offset) return faults;
   const double begin_s = std::max(envelopes.time_s()[0], motion.time_s()[0]);
@@ -248,13 +248,12 @@ std::vector<Fault> check_clock_offset(const TimeSeries& envelopes,
   const bool tells = 2.0 * offset->sd_s < limits.latest_offset_s - limits.earliest_offset_s;
   if (grave || tells)
     faults.push_back(
-        {.kind = FaultKind::clock_offset,
-         .grave = grave,
-         .channel = "EMG and motion",
-         .begin_s = begin_s,
-         .end_s = end_s,
+        {.code = RemarkCode::clock_offset,
+         .severity = grave ? Severity::warning : Severity::note,
+         .about = "EMG and motion",
+         .when = Stretch{begin_s, end_s},
          .value = offset->lead_s,
-         .text = fmt::format("the EMG is {:.0f} ± {:.0f} ms {} the motion that it drives",
+         .says = fmt::format("the EMG is {:.0f} ± {:.0f} ms {} the motion that it drives",
                              1000.0 * std::abs(offset->lead_s), 1000.0 * offset->sd_s,
                              offset->lead_s < 0.0 ? "behind" : "ahead of"),
          .remedy =
@@ -273,13 +272,12 @@ std::vector<Fault> check_clock_offset(const TimeSeries& envelopes,
   const double sd_s = std::hypot(first->scatter_s, last->scatter_s);
   if (std::abs(drift_s) < limits.drift_s || std::abs(drift_s) < 3.0 * sd_s) return faults;
   faults.push_back(
-      {.kind = FaultKind::clock_drift,
-       .grave = true,
-       .channel = "EMG and motion",
-       .begin_s = begin_s,
-       .end_s = end_s,
+      {.code = RemarkCode::clock_drift,
+       .severity = Severity::warning,
+       .about = "EMG and motion",
+       .when = Stretch{begin_s, end_s},
        .value = drift_s,
-       .text = fmt::format("the EMG's lead over the motion changes by {:.0f} ± {:.0f} ms from the "
+       .says = fmt::format("the EMG's lead over the motion changes by {:.0f} ± {:.0f} ms from the "
                            "first third to the last",
                            1000.0 * drift_s, 1000.0 * sd_s),
        .remedy = "do the two clocks run at the same rate? Check the rates that the files state, or "
@@ -287,24 +285,23 @@ std::vector<Fault> check_clock_offset(const TimeSeries& envelopes,
   return faults;
 }
 
-std::optional<Fault> check_clock_evenness(const Eigen::Ref<const Eigen::VectorXd>& time_s,
-                                          const std::string& what,
-                                          const QualityLimits& limits) {
+std::optional<Remark> check_clock_evenness(const Eigen::Ref<const Eigen::VectorXd>& time_s,
+                                           const std::string& what,
+                                           const QualityLimits& limits) {
   const Eigen::Index n = time_s.size();
   if (n < 10) return std::nullopt;
   const Eigen::VectorXd intervals = time_s.tail(n - 1) - time_s.head(n - 1);
   const double mean = intervals.mean();
   const double sd = std::sqrt((intervals.array() - mean).square().mean());
   if (sd <= limits.uneven_share * mean) return std::nullopt;
-  return Fault{.kind = FaultKind::clock_uneven,
-               .grave = false,
-               .channel = what,
-               .begin_s = time_s[0],
-               .end_s = time_s[n - 1],
-               .value = sd / mean,
-               .text = fmt::format("{}: the samples are not even, intervals of {:.3g} ± {:.2g} ms",
-                                   what, 1000.0 * mean, 1000.0 * sd),
-               .remedy = "they are put on an even clock by interpolation"};
+  return Remark{.code = RemarkCode::clock_uneven,
+                .severity = Severity::note,
+                .about = what,
+                .when = Stretch{time_s[0], time_s[n - 1]},
+                .value = sd / mean,
+                .says = fmt::format("{}: the samples are not even, intervals of {:.3g} ± {:.2g} ms",
+                                    what, 1000.0 * mean, 1000.0 * sd),
+                .remedy = "they are put on an even clock by interpolation"};
 }
 
 }  // namespace myoid::signals

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "myoid/core/fault.h"
+#include "myoid/core/remark.h"
 #include "myoid/core/time_series.h"
 #include "myoid/signals/quality_limits.h"
 
@@ -39,12 +39,12 @@ struct ClockOffset {
 /// The offset as a remark, or a warning where it lies outside the limits by more than `phase_s` and
 /// two standard deviations of the scatter; from 30 s on, a drift between the first and the last
 /// third.
-[[nodiscard]] std::vector<Fault> check_clock_offset(const TimeSeries& envelopes,
-                                                    const TimeSeries& motion,
-                                                    const QualityLimits& limits = {});
+[[nodiscard]] std::vector<Remark> check_clock_offset(const TimeSeries& envelopes,
+                                                     const TimeSeries& motion,
+                                                     const QualityLimits& limits = {});
 
 /// Intervals that vary; `what` names the file or the channels.
-[[nodiscard]] std::optional<Fault> check_clock_evenness(
+[[nodiscard]] std::optional<Remark> check_clock_evenness(
     const Eigen::Ref<const Eigen::VectorXd>& time_s,
     const std::string& what,
     const QualityLimits& limits = {});

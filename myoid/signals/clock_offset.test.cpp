@@ -105,23 +105,23 @@ TEST(ClockOffset, OutsideWhatABodyCanDoItIsAWarning) {
   EXPECT_TRUE(check_clock_offset(effort(swing, 20.0, 0.08), motion(swing, 20.0)).empty());
   const auto late = check_clock_offset(effort(swing, 20.0, -0.55), motion(swing, 20.0));
   ASSERT_EQ(late.size(), 1U);
-  EXPECT_TRUE(late[0].grave);
-  EXPECT_NE(late[0].text.find("behind the motion"), std::string::npos);
+  EXPECT_EQ(late[0].severity, Severity::warning);
+  EXPECT_NE(late[0].says.find("behind the motion"), std::string::npos);
 }
 
 TEST(ClockOffset, AClockThatRunsFastIsADrift) {
   const Swing swing{3};
   bool drift = false;
   // 0.4 % over 60 s: from the first third to the last 0.16 s.
-  for (const Fault& fault :
+  for (const Remark& fault :
        check_clock_offset(effort(swing, 60.0, 0.0, 1.004), motion(swing, 60.0))) {
-    if (fault.kind != FaultKind::clock_drift) continue;
+    if (fault.code != RemarkCode::clock_drift) continue;
     drift = true;
-    EXPECT_NEAR(fault.value, 0.16, 0.06);
+    EXPECT_NEAR(*fault.value, 0.16, 0.06);
   }
   EXPECT_TRUE(drift);
-  for (const Fault& fault : check_clock_offset(effort(swing, 60.0, 0.05), motion(swing, 60.0)))
-    EXPECT_NE(fault.kind, FaultKind::clock_drift);
+  for (const Remark& fault : check_clock_offset(effort(swing, 60.0, 0.05), motion(swing, 60.0)))
+    EXPECT_NE(fault.code, RemarkCode::clock_drift);
 }
 
 TEST(ClockEvenness, OnlyVaryingIntervalsAreTold) {
@@ -130,7 +130,7 @@ TEST(ClockEvenness, OnlyVaryingIntervalsAreTold) {
   for (Eigen::Index i = 0; i < 100; i += 2) t[i] += 0.002;
   const auto fault = check_clock_evenness(t, "m.mot");
   ASSERT_TRUE(fault);
-  EXPECT_FALSE(fault->grave);
+  EXPECT_EQ(fault->severity, Severity::note);
 }
 
 }  // namespace

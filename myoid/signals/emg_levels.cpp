@@ -56,9 +56,9 @@ double time_above_s(const Eigen::Ref<const Eigen::VectorXd>& samples,
   return rate_hz > 0.0 ? static_cast<double>(count) / rate_hz : 0.0;
 }
 
-std::vector<Fault> check_emg_levels(std::span<const TrialEnvelope> trials,
-                                    const QualityLimits& limits) {
-  std::vector<Fault> faults;
+std::vector<Remark> check_emg_levels(std::span<const TrialEnvelope> trials,
+                                     const QualityLimits& limits) {
+  std::vector<Remark> faults;
   std::vector<std::string> names;
   for (const TrialEnvelope& trial : trials) {
     for (const Channel& channel : trial.envelope->channels()) {
@@ -87,13 +87,12 @@ std::vector<Fault> check_emg_levels(std::span<const TrialEnvelope> trials,
     const Levels& most = movement.greatest >= mvc.greatest ? movement : mvc;
     if (peak < limits.signal_to_rest * rest) {
       faults.push_back(
-          {.kind = FaultKind::emg_low_signal,
-           .grave = true,
-           .channel = channel,
-           .begin_s = most.greatest_s - 0.5 * kEffort_s,
-           .end_s = most.greatest_s + 0.5 * kEffort_s,
+          {.code = RemarkCode::emg_low_signal,
+           .severity = Severity::warning,
+           .about = channel,
+           .when = Stretch{most.greatest_s - 0.5 * kEffort_s, most.greatest_s + 0.5 * kEffort_s},
            .value = peak / rest,
-           .text = fmt::format("channel '{}' rises to only {:.2g} times its lowest level, in all "
+           .says = fmt::format("channel '{}' rises to only {:.2g} times its lowest level, in all "
                                "trials together",
                                channel, peak / rest),
            .remedy =
@@ -102,13 +101,12 @@ std::vector<Fault> check_emg_levels(std::span<const TrialEnvelope> trials,
     }
     if (!mvc_trial.empty() && movement.greatest > limits.over_reference * mvc.greatest) {
       faults.push_back(
-          {.kind = FaultKind::emg_over_reference,
-           .grave = true,
-           .channel = channel,
-           .begin_s = movement.greatest_s,
-           .end_s = movement.greatest_s,
+          {.code = RemarkCode::emg_over_reference,
+           .severity = Severity::warning,
+           .about = channel,
+           .when = Stretch{movement.greatest_s, movement.greatest_s},
            .value = movement.greatest / mvc.greatest,
-           .text = fmt::format("channel '{}' reaches {:.2f} times its maximal contraction ({}) in "
+           .says = fmt::format("channel '{}' reaches {:.2f} times its maximal contraction ({}) in "
                                "{} at {:.6g} s",
                                channel, movement.greatest / mvc.greatest, mvc_trial, movement_trial,
                                movement.greatest_s),

@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "myoid/core/fault.h"
+#include "myoid/core/remark.h"
 #include "myoid/signals/emg_envelope.h"
 #include "myoid/signals/quality_limits.h"
 
@@ -18,7 +18,7 @@ namespace myoid::signals {
 /// Looks at all trials together, channel by channel: does the signal rise from rest (largest 0.5 s
 /// mean over smallest 1 s mean), and does no movement exceed the maximal contractions? Channels
 /// that some trial does not have are looked at where they are.
-[[nodiscard]] std::vector<Fault> check_emg_levels(std::span<const TrialEnvelope> trials,
-                                                  const QualityLimits& limits = {});
+[[nodiscard]] std::vector<Remark> check_emg_levels(std::span<const TrialEnvelope> trials,
+                                                   const QualityLimits& limits = {});
 
 }  // namespace myoid::signals

@@ -30,8 +30,8 @@ TEST(EmgLevels, AChannelThatHardlyRisesIsNamed) {
   const std::vector<TrialEnvelope> trials{{"move", false, &movement}};
   const auto faults = check_emg_levels(trials);
   ASSERT_EQ(faults.size(), 1U);
-  EXPECT_EQ(faults[0].kind, FaultKind::emg_low_signal);
-  EXPECT_NEAR(faults[0].value, 3.0, 1e-9);
+  EXPECT_EQ(faults[0].code, RemarkCode::emg_low_signal);
+  EXPECT_NEAR(*faults[0].value, 3.0, 1e-9);
 }
 
 /// Bursts of 0.3 s in a cycle of 1.1 s: the second of lowest mean always holds most of one.
@@ -54,9 +54,9 @@ TEST(EmgLevels, AMovementAboveTheMaximalContractionIsNamedWithTrialAndTime) {
   const std::vector<TrialEnvelope> trials{{"move", false, &movement}, {"mvc", true, &mvc}};
   const auto faults = check_emg_levels(trials);
   ASSERT_EQ(faults.size(), 1U);
-  EXPECT_EQ(faults[0].kind, FaultKind::emg_over_reference);
-  EXPECT_NEAR(faults[0].value, 1.3, 1e-9);
-  EXPECT_NE(faults[0].text.find("(mvc) in move at "), std::string::npos) << faults[0].text;
+  EXPECT_EQ(faults[0].code, RemarkCode::emg_over_reference);
+  EXPECT_NEAR(*faults[0].value, 1.3, 1e-9);
+  EXPECT_NE(faults[0].says.find("(mvc) in move at "), std::string::npos) << faults[0].says;
 }
 
 TEST(EmgLevels, ASpikeIsShortAndPercentAreNot) {

@@ -57,12 +57,12 @@ class ChannelCheck {
         limits_(limits) {}
 
   /// What the pair checks compare; empty where there is nothing.
-  Eigen::VectorXd run(std::vector<Fault>& faults) {
+  Eigen::VectorXd run(std::vector<Remark>& faults) {
     amplitude(faults);
     const bool smoothed = is_envelope(x_, rate_hz_, limits_);
     x_.array() -= x_.mean();
     if (rms(x_) < limits_.flat_v) {
-      add(faults, FaultKind::emg_flat, true, 0, x_.size() - 1, rms(x_),
+      add(faults, RemarkCode::emg_flat, true, 0, x_.size() - 1, rms(x_),
           fmt::format("channel '{}' shows nothing: {:.2g} uV rms", name_, 1e6 * rms(x_)),
           "was the electrode connected? Leave its muscle out, or give it emg = { same_as = ... }");
       return {};
@@ -70,14 +70,14 @@ class ChannelCheck {
     const bool railed = clipping(faults);
     const Run flat = longest_run(x_);
     if (!railed && seconds(flat.length) >= limits_.flat_s) {
-      add(faults, FaultKind::emg_flat, true, flat.begin, flat.begin + flat.length - 1,
+      add(faults, RemarkCode::emg_flat, true, flat.begin, flat.begin + flat.length - 1,
           seconds(flat.length),
           fmt::format("channel '{}' does not change at all from {:.6g} to {:.6g} s", name_,
                       time_s_[flat.begin], time_s_[flat.begin + flat.length - 1]),
           "was the transmission lost? Cut that part off with start_s and end_s");
     }
     if (smoothed) {
-      add(faults, FaultKind::emg_envelope, true, 0, x_.size() - 1, 0.0,
+      add(faults, RemarkCode::emg_envelope, true, 0, x_.size() - 1, 0.0,
           fmt::format("channel '{}' is never negative and hardly goes up and down: it has been "
                       "rectified and smoothed",
                       name_),
@@ -98,30 +98,29 @@ class ChannelCheck {
     return static_cast<double>(samples) / rate_hz_;
   }
 
-  void add(std::vector<Fault>& faults,
-           FaultKind kind,
+  void add(std::vector<Remark>& faults,
+           RemarkCode code,
            bool grave,
            Eigen::Index begin,
            Eigen::Index last,
            double value,
            std::string text,
            std::string remedy) const {
-    faults.push_back({.kind = kind,
-                      .grave = grave,
-                      .channel = name_,
-                      .begin_s = time_s_[begin],
-                      .end_s = time_s_[last],
+    faults.push_back({.code = code,
+                      .severity = grave ? Severity::warning : Severity::note,
+                      .about = name_,
+                      .when = Stretch{time_s_[begin], time_s_[last]},
                       .value = value,
-                      .text = std::move(text),
+                      .says = std::move(text),
                       .remedy = std::move(remedy)});
   }
 
-  void amplitude(std::vector<Fault>& faults) const {
+  void amplitude(std::vector<Remark>& faults) const {
     Eigen::Index at = 0;
     const double most = x_.cwiseAbs().maxCoeff(&at);
     if (most <= limits_.amplitude_v) return;
     const auto beyond = (x_.array().abs() > limits_.amplitude_v).count();
-    add(faults, FaultKind::emg_amplitude, true, at, at, most,
+    add(faults, RemarkCode::emg_amplitude, true, at, at, most,
         fmt::format(
             "channel '{}' reaches {:.3g} V at {:.6g} s ({} of {} samples lie beyond {:g} V); "
             "skin gives millivolts, and no amplifier more than {:g} V",
@@ -131,7 +130,7 @@ class ChannelCheck {
             : "leave out what is no measurement: it becomes the greatest effort");
   }
 
-  bool clipping(std::vector<Fault>& faults) const {
+  bool clipping(std::vector<Remark>& faults) const {
     const double range = x_.maxCoeff() - x_.minCoeff();
     bool railed = false;
     for (const bool top : {true, false}) {
@@ -144,7 +143,7 @@ class ChannelCheck {
       railed = true;
       const char* side = top ? "largest" : "smallest";
       if (seconds(longest.length) >= limits_.saturated_s) {
-        add(faults, FaultKind::emg_saturated, true, longest.begin,
+        add(faults, RemarkCode::emg_saturated, true, longest.begin,
             longest.begin + longest.length - 1, seconds(longest.length),
             fmt::format("channel '{}' stays at its {} value for {:.3g} s at {:.6g} s", name_, side,
                         seconds(longest.length), time_s_[longest.begin]),
@@ -154,7 +153,7 @@ class ChannelCheck {
         while (x_[first] != extreme) ++first;
         Eigen::Index last = x_.size() - 1;
         while (x_[last] != extreme) --last;
-        add(faults, FaultKind::emg_clipped, true, first, last, share,
+        add(faults, RemarkCode::emg_clipped, true, first, last, share,
             fmt::format("channel '{}' is cut off at its {} value in {:.2g} % of the samples, first "
                         "at {:.6g} s",
                         name_, side, 100.0 * share, time_s_[first]),
@@ -164,13 +163,13 @@ class ChannelCheck {
     return railed;
   }
 
-  void hum(std::vector<Fault>& faults) {
+  void hum(std::vector<Remark>& faults) {
     const auto found = find_hum(emg_, rate_hz_);
     if (!found || found->share < limits_.hum_share) return;
     std::string lines;
     for (const double line : found->lines_hz)
       lines += fmt::format("{}{:.0f}", lines.empty() ? "" : ", ", line);
-    add(faults, FaultKind::emg_hum, true, 0, x_.size() - 1, found->share,
+    add(faults, RemarkCode::emg_hum, true, 0, x_.size() - 1, found->share,
         fmt::format("channel '{}': {:.0f} % of its power is hum, in lines at {} Hz", name_,
                     100.0 * found->share, lines),
         "it is taken out by a notch (unless [emg] notch = \"none\"); check the reference "
@@ -178,7 +177,7 @@ class ChannelCheck {
     emg_ = without_hum(emg_, rate_hz_, *found);
   }
 
-  void drift(std::vector<Fault>& faults) const {
+  void drift(std::vector<Remark>& faults) const {
     const auto width = static_cast<Eigen::Index>(rate_hz_);
     const Eigen::Index count = x_.size() / width;
     if (count < 3) return;
@@ -187,14 +186,14 @@ class ChannelCheck {
     means.array() -= means.mean();
     const double value = rms(means) / rms(emg_);
     if (value < limits_.drift_over_rms) return;
-    add(faults, FaultKind::emg_drift, !high_passed_, 0, x_.size() - 1, value,
+    add(faults, RemarkCode::emg_drift, !high_passed_, 0, x_.size() - 1, value,
         fmt::format("channel '{}': its baseline wanders by {:.3g} uV, {:.2g} times the EMG", name_,
                     1e6 * rms(means), value),
         high_passed_ ? "the high-pass takes it out; check the skin's preparation"
                      : "without a high-pass it becomes activation: set [emg] highpass_hz");
   }
 
-  void artifact(std::vector<Fault>& faults) const {
+  void artifact(std::vector<Remark>& faults) const {
     const Eigen::VectorXd slow = filtered(filtered(x_, FilterBand::high_pass, 1.0, rate_hz_),
                                           FilterBand::low_pass, 15.0, rate_hz_);
     const auto width = static_cast<Eigen::Index>(kEmgWindow_s * rate_hz_);
@@ -213,7 +212,7 @@ class ChannelCheck {
       }
     }
     if (count == 0) return;
-    add(faults, FaultKind::emg_artifact, true, worst, worst + width - 1, value,
+    add(faults, RemarkCode::emg_artifact, true, worst, worst + width - 1, value,
         fmt::format("channel '{}' has a movement artifact, {:.2g} times its largest EMG, at {:.6g} "
                     "s{}",
                     name_, value, time_s_[worst],
@@ -258,10 +257,12 @@ double common_share(const Eigen::VectorXd& a, const Eigen::VectorXd& b, double r
 
 }  // namespace
 
-std::vector<Fault> check_emg(const TimeSeries& raw, bool high_passed, const QualityLimits& limits) {
+std::vector<Remark> check_emg(const TimeSeries& raw,
+                              bool high_passed,
+                              const QualityLimits& limits) {
   require_unit(raw, Unit::volt, "EMG");
   require_finite(raw, "EMG");
-  std::vector<Fault> faults;
+  std::vector<Remark> faults;
   if (raw.sample_count() < 10) return faults;
   std::vector<Eigen::VectorXd> signals;
   for (Eigen::Index c = 0; c < raw.channel_count(); ++c)
@@ -275,13 +276,12 @@ std::vector<Fault> check_emg(const TimeSeries& raw, bool high_passed, const Qual
       const std::string& second = raw.channels()[b].name;
       constexpr double kSame = 0.98;
       faults.push_back(
-          {.kind = FaultKind::emg_crosstalk,
-           .grave = true,
-           .channel = fmt::format("{}, {}", first, second),
-           .begin_s = raw.time_s()[0],
-           .end_s = raw.time_s()[raw.sample_count() - 1],
+          {.code = RemarkCode::emg_crosstalk,
+           .severity = Severity::warning,
+           .about = fmt::format("{}, {}", first, second),
+           .when = Stretch{raw.time_s()[0], raw.time_s()[raw.sample_count() - 1]},
            .value = value,
-           .text =
+           .says =
                value > kSame
                    ? fmt::format("channels '{}' and '{}' are the same signal (correlation "
                                  "{:.3f})",

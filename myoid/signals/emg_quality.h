@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "myoid/core/fault.h"
+#include "myoid/core/remark.h"
 #include "myoid/core/time_series.h"
 #include "myoid/signals/quality_limits.h"
 
@@ -24,9 +24,9 @@ namespace myoid::signals {
 /// - artifact: rms between 1 and 15 Hz in some quarter second, over the largest rms above 20 Hz of
 ///   any quarter second;
 /// - crosstalk: the largest correlation of two channels above 20 Hz, without hum, within 10 ms.
-[[nodiscard]] std::vector<Fault> check_emg(const TimeSeries& raw,
-                                           bool high_passed = true,
-                                           const QualityLimits& limits = {});
+[[nodiscard]] std::vector<Remark> check_emg(const TimeSeries& raw,
+                                            bool high_passed = true,
+                                            const QualityLimits& limits = {});
 
 /// True if one channel's samples are never negative (a filter's swing of 5 % apart) and go through
 /// their median less than `raw_hz` times a second: rectified and smoothed EMG.

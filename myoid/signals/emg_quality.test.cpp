@@ -48,37 +48,37 @@ Eigen::ArrayXd seconds() {
 }
 
 /// The kinds found in one channel with this fault.
-std::set<FaultKind> kinds(const Eigen::VectorXd& x, bool high_passed = true) {
-  std::set<FaultKind> result;
-  for (const Fault& fault : check_emg(recording({x}), high_passed)) result.insert(fault.kind);
+std::set<RemarkCode> kinds(const Eigen::VectorXd& x, bool high_passed = true) {
+  std::set<RemarkCode> result;
+  for (const Remark& fault : check_emg(recording({x}), high_passed)) result.insert(fault.code);
   return result;
 }
 
-using Kinds = std::set<FaultKind>;
+using Kinds = std::set<RemarkCode>;
 
 TEST(EmgQuality, WhatNoElectrodeGivesIsNamedWithItsSize) {
   EXPECT_TRUE(kinds(muscle(3)).empty());
   EXPECT_TRUE(kinds(1e4 * muscle(3)).empty());  // an amplifier's output, some 8 V
-  const std::vector<Fault> faults = check_emg(recording({4e5 * muscle(3)}));
+  const std::vector<Remark> faults = check_emg(recording({4e5 * muscle(3)}));
   ASSERT_EQ(faults.size(), 1U);
-  EXPECT_EQ(faults[0].kind, FaultKind::emg_amplitude);
-  EXPECT_GT(faults[0].value, 100.0);
-  EXPECT_NE(faults[0].text.find(" V at "), std::string::npos) << faults[0].text;
+  EXPECT_EQ(faults[0].code, RemarkCode::emg_amplitude);
+  EXPECT_GT(*faults[0].value, 100.0);
+  EXPECT_NE(faults[0].says.find(" V at "), std::string::npos) << faults[0].says;
   Eigen::VectorXd spike = muscle(3);
   spike[7000] = 1e30;
-  EXPECT_TRUE(kinds(spike).contains(FaultKind::emg_amplitude));
+  EXPECT_TRUE(kinds(spike).contains(RemarkCode::emg_amplitude));
 }
 
 TEST(EmgQuality, AnEnvelopeIsToldFromRawEmgWhateverItsOffset) {
   Eigen::VectorXd envelope = 1e-4 * (1.0 - (1.3 * seconds()).cos());
-  EXPECT_EQ(kinds(envelope), Kinds{FaultKind::emg_envelope});
+  EXPECT_EQ(kinds(envelope), Kinds{RemarkCode::emg_envelope});
   envelope[100] = -2e-6;  // a filter's swing
-  EXPECT_EQ(kinds(envelope), Kinds{FaultKind::emg_envelope});
+  EXPECT_EQ(kinds(envelope), Kinds{RemarkCode::emg_envelope});
   // Of a converter that knows no negative numbers.
-  EXPECT_FALSE(kinds(muscle(3).array() + 2.5).contains(FaultKind::emg_envelope));
+  EXPECT_FALSE(kinds(muscle(3).array() + 2.5).contains(RemarkCode::emg_envelope));
   // A baseline that wanders far keeps raw EMG from its median for long.
   EXPECT_FALSE(
-      kinds(muscle(3).array() + 1e-3 * (0.3 * seconds()).sin()).contains(FaultKind::emg_envelope));
+      kinds(muscle(3).array() + 1e-3 * (0.3 * seconds()).sin()).contains(RemarkCode::emg_envelope));
 }
 
 TEST(EmgQuality, OfCleanRecordingsNothingIsSaid) {
@@ -88,37 +88,37 @@ TEST(EmgQuality, OfCleanRecordingsNothingIsSaid) {
 }
 
 TEST(EmgQuality, ADeadChannelIsFlatAndALostTransmissionForItsTime) {
-  EXPECT_EQ(kinds(Eigen::VectorXd::Constant(kSamples, 1e-3)), Kinds{FaultKind::emg_flat});
+  EXPECT_EQ(kinds(Eigen::VectorXd::Constant(kSamples, 1e-3)), Kinds{RemarkCode::emg_flat});
   Eigen::VectorXd x = muscle(1);
   x.segment(4000, 1000).setConstant(x[4000]);
   const auto faults = check_emg(recording({x}));
   ASSERT_EQ(faults.size(), 1U);
-  EXPECT_EQ(faults[0].kind, FaultKind::emg_flat);
-  EXPECT_NEAR(faults[0].begin_s, 2.0, 1e-9);
-  EXPECT_NEAR(faults[0].end_s, 2.4995, 1e-9);
+  EXPECT_EQ(faults[0].code, RemarkCode::emg_flat);
+  EXPECT_NEAR(faults[0].when->begin_s, 2.0, 1e-9);
+  EXPECT_NEAR(faults[0].when->end_s, 2.4995, 1e-9);
 }
 
 TEST(EmgQuality, FlatTopsAreClippingAndALongOneIsSaturation) {
   Eigen::VectorXd x = muscle(1);
   x = x.cwiseMin(2.5e-4).cwiseMax(-2.5e-4);
-  EXPECT_EQ(kinds(x), Kinds{FaultKind::emg_clipped});
+  EXPECT_EQ(kinds(x), Kinds{RemarkCode::emg_clipped});
   x = muscle(1);
   x.segment(9000, 100).setConstant(1.1 * x.maxCoeff());
-  EXPECT_EQ(kinds(x), Kinds{FaultKind::emg_saturated});
+  EXPECT_EQ(kinds(x), Kinds{RemarkCode::emg_saturated});
 }
 
 TEST(EmgQuality, HumIsHeard) {
   const Eigen::VectorXd x = muscle(1) + (1e-4 * (2.0 * kPi * 50.0 * seconds()).sin()).matrix();
-  EXPECT_EQ(kinds(x), Kinds{FaultKind::emg_hum});
+  EXPECT_EQ(kinds(x), Kinds{RemarkCode::emg_hum});
 }
 
 TEST(EmgQuality, AWanderingBaselineMattersWithoutAHighPassOnly) {
   const Eigen::VectorXd x = muscle(1) + (1e-3 * (0.6 * seconds()).sin()).matrix();
   const auto removed = check_emg(recording({x}), true);
   ASSERT_EQ(removed.size(), 1U);
-  EXPECT_EQ(removed[0].kind, FaultKind::emg_drift);
-  EXPECT_FALSE(removed[0].grave);
-  EXPECT_TRUE(check_emg(recording({x}), false)[0].grave);
+  EXPECT_EQ(removed[0].code, RemarkCode::emg_drift);
+  EXPECT_EQ(removed[0].severity, Severity::note);
+  EXPECT_EQ(check_emg(recording({x}), false)[0].severity, Severity::warning);
 }
 
 TEST(EmgQuality, AMovementOfTheCableIsAnArtifactAtItsTime) {
@@ -127,8 +127,8 @@ TEST(EmgQuality, AMovementOfTheCableIsAnArtifactAtItsTime) {
     x[10000 + i] += 3e-3 * std::sin(2.0 * kPi * static_cast<double>(i) / 250.0);
   const auto faults = check_emg(recording({x}));
   ASSERT_EQ(faults.size(), 1U) << sentence(faults[0]);
-  EXPECT_EQ(faults[0].kind, FaultKind::emg_artifact);
-  EXPECT_NEAR(faults[0].begin_s, 5.0, 0.26);
+  EXPECT_EQ(faults[0].code, RemarkCode::emg_artifact);
+  EXPECT_NEAR(faults[0].when->begin_s, 5.0, 0.26);
 }
 
 TEST(EmgQuality, WhatTwoChannelsHaveInCommonIsCrosstalk) {
@@ -139,11 +139,11 @@ TEST(EmgQuality, WhatTwoChannelsHaveInCommonIsCrosstalk) {
   mixed.tail(kSamples - 6) += 0.5 * a.head(kSamples - 6);
   const auto faults = check_emg(recording({a, mixed}));
   ASSERT_EQ(faults.size(), 1U);
-  EXPECT_EQ(faults[0].kind, FaultKind::emg_crosstalk);
-  EXPECT_EQ(faults[0].channel, "a, b");
+  EXPECT_EQ(faults[0].code, RemarkCode::emg_crosstalk);
+  EXPECT_EQ(faults[0].about, "a, b");
   const auto same = check_emg(recording({a, a}));
   ASSERT_EQ(same.size(), 1U);
-  EXPECT_NE(same[0].text.find("the same signal"), std::string::npos);
+  EXPECT_NE(same[0].says.find("the same signal"), std::string::npos);
 }
 
 }  // namespace

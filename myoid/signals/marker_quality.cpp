@@ -90,8 +90,8 @@ std::vector<MarkerGap> find_marker_gaps(const MarkerSeries& markers) {
   return gaps;
 }
 
-std::vector<Fault> check_marker_gaps(const MarkerSeries& markers, const QualityLimits& limits) {
-  std::vector<Fault> faults;
+std::vector<Remark> check_marker_gaps(const MarkerSeries& markers, const QualityLimits& limits) {
+  std::vector<Remark> faults;
   const std::vector<MarkerGap> gaps = find_marker_gaps(markers);
   const double interval_s = markers.frame_count() > 1
                                 ? (markers.time_s[markers.frame_count() - 1] - markers.time_s[0]) /
@@ -113,13 +113,13 @@ std::vector<Fault> check_marker_gaps(const MarkerSeries& markers, const QualityL
     const auto count = std::distance(it, next);
     const bool never = missing == markers.frame_count();
     faults.push_back(
-        {.kind = FaultKind::marker_gap,
-         .grave = longest_s > limits.gap_s || share > limits.missing_share,
-         .channel = marker,
-         .begin_s = begin_s,
-         .end_s = end_s,
+        {.code = RemarkCode::marker_gap,
+         .severity = (longest_s > limits.gap_s || share > limits.missing_share) ? Severity::warning
+                                                                                : Severity::note,
+         .about = marker,
+         .when = Stretch{begin_s, end_s},
          .value = longest_s,
-         .text = never ? fmt::format("marker '{}' is in no frame", marker)
+         .says = never ? fmt::format("marker '{}' is in no frame", marker)
                        : fmt::format("marker '{}' is missing in {:.1f} % of the frames, {} gap{}{} "
                                      "from {:.6g} to {:.6g} s",
                                      marker, 100.0 * share, count, count == 1 ? "" : "s",
@@ -133,8 +133,8 @@ std::vector<Fault> check_marker_gaps(const MarkerSeries& markers, const QualityL
   return faults;
 }
 
-std::vector<Fault> check_marker_jumps(const MarkerSeries& markers, const QualityLimits& limits) {
-  std::vector<Fault> faults;
+std::vector<Remark> check_marker_jumps(const MarkerSeries& markers, const QualityLimits& limits) {
+  std::vector<Remark> faults;
   const Eigen::Index frames = markers.frame_count();
   if (frames < 6) return faults;
   const double h =
@@ -170,13 +170,12 @@ std::vector<Fault> check_marker_jumps(const MarkerSeries& markers, const Quality
     const std::string& marker = markers.names[static_cast<std::size_t>(m)];
     const double worst_s = markers.time_s[at[static_cast<std::size_t>(worst - away.begin())]];
     faults.push_back(
-        {.kind = FaultKind::marker_jump,
-         .grave = true,
-         .channel = marker,
-         .begin_s = markers.time_s[begin],
-         .end_s = markers.time_s[last],
+        {.code = RemarkCode::marker_jump,
+         .severity = Severity::warning,
+         .about = marker,
+         .when = Stretch{markers.time_s[begin], markers.time_s[last]},
          .value = *worst,
-         .text = fmt::format("marker '{}' jumps {}, by {:.0f} mm at {:.6g} s", marker,
+         .says = fmt::format("marker '{}' jumps {}, by {:.0f} mm at {:.6g} s", marker,
                              count == 1 ? std::string("once") : fmt::format("{} times", count),
                              1000.0 * *worst, worst_s),
          .remedy = "a ghost or a wrong label? Remove it there from the file, or give it a small "
@@ -185,8 +184,8 @@ std::vector<Fault> check_marker_jumps(const MarkerSeries& markers, const Quality
   return faults;
 }
 
-std::optional<Fault> check_marker_unit(const MarkerSeries& markers,
-                                       const std::vector<ExpectedSegment>& expected) {
+std::optional<Remark> check_marker_unit(const MarkerSeries& markers,
+                                        const std::vector<ExpectedSegment>& expected) {
   constexpr double kFactor = 5.0;
   double ratio = 1.0;
   std::string text;
@@ -202,23 +201,22 @@ std::optional<Fault> check_marker_unit(const MarkerSeries& markers,
   }
   if (ratio < kFactor && ratio > 1.0 / kFactor) return std::nullopt;
   const std::string unit = probable_unit(ratio);
-  return Fault{.kind = FaultKind::marker_unit,
-               .grave = true,
-               .channel = "markers",
-               .begin_s = markers.time_s[0],
-               .end_s = markers.time_s[markers.frame_count() - 1],
-               .value = ratio,
-               .text = std::move(text),
-               .remedy = unit.empty() ? "correct the unit in the file, or choose another model"
-                                      : fmt::format("{}: correct the unit in the file", unit)};
+  return Remark{.code = RemarkCode::marker_unit,
+                .severity = Severity::warning,
+                .about = "markers",
+                .when = Stretch{markers.time_s[0], markers.time_s[markers.frame_count() - 1]},
+                .value = ratio,
+                .says = std::move(text),
+                .remedy = unit.empty() ? "correct the unit in the file, or choose another model"
+                                       : fmt::format("{}: correct the unit in the file", unit)};
 }
 
-std::vector<Fault> check_markers(const MarkerSeries& markers,
-                                 const std::vector<ExpectedSegment>& expected,
-                                 const QualityLimits& limits) {
-  std::vector<Fault> faults;
+std::vector<Remark> check_markers(const MarkerSeries& markers,
+                                  const std::vector<ExpectedSegment>& expected,
+                                  const QualityLimits& limits) {
+  std::vector<Remark> faults;
   if (markers.frame_count() < 2) return faults;
-  const auto append = [&](std::vector<Fault> more) {
+  const auto append = [&](std::vector<Remark> more) {
     std::move(more.begin(), more.end(), std::back_inserter(faults));
   };
   if (auto unit = check_marker_unit(markers, expected)) {

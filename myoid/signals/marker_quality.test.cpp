@@ -32,11 +32,11 @@ TEST(MarkerQuality, GapsAreCountedAndTheLongestIsNamed) {
   EXPECT_EQ(gaps[2].end, 240);
   const auto faults = check_marker_gaps(markers);
   ASSERT_EQ(faults.size(), 2U);
-  EXPECT_FALSE(faults[0].grave);  // A: 0.05 s
-  EXPECT_TRUE(faults[1].grave);   // C: 0.4 s
-  EXPECT_NEAR(faults[1].value, 0.4, 1e-9);
-  EXPECT_NE(faults[1].text.find("2 gaps, the longest from 2 to 2.39 s"), std::string::npos)
-      << faults[1].text;
+  EXPECT_EQ(faults[0].severity, Severity::note);     // A: 0.05 s
+  EXPECT_EQ(faults[1].severity, Severity::warning);  // C: 0.4 s
+  EXPECT_NEAR(*faults[1].value, 0.4, 1e-9);
+  EXPECT_NE(faults[1].says.find("2 gaps, the longest from 2 to 2.39 s"), std::string::npos)
+      << faults[1].says;
 }
 
 TEST(MarkerQuality, ASpikeAndAStepAreJumpsOfTheirMarkerAtTheirTime) {
@@ -45,12 +45,12 @@ TEST(MarkerQuality, ASpikeAndAStepAreJumpsOfTheirMarkerAtTheirTime) {
   markers.positions_m.block(250, 9, 150, 1).array() += 0.08;  // D, from there on
   const auto faults = check_marker_jumps(markers);
   ASSERT_EQ(faults.size(), 2U);
-  EXPECT_EQ(faults[0].channel, "B");
-  EXPECT_NEAR(faults[0].value, 0.05, 0.005);
-  EXPECT_NEAR(faults[0].begin_s, 1.5, 0.02);
-  EXPECT_EQ(faults[1].channel, "D");
-  EXPECT_NEAR(faults[1].value, 0.04, 0.005);  // half of a step
-  EXPECT_NEAR(faults[1].begin_s, 2.5, 0.02);
+  EXPECT_EQ(faults[0].about, "B");
+  EXPECT_NEAR(*faults[0].value, 0.05, 0.005);
+  EXPECT_NEAR(faults[0].when->begin_s, 1.5, 0.02);
+  EXPECT_EQ(faults[1].about, "D");
+  EXPECT_NEAR(*faults[1].value, 0.04, 0.005);  // half of a step
+  EXPECT_NEAR(faults[1].when->begin_s, 2.5, 0.02);
 }
 
 TEST(MarkerQuality, AWrongUnitIsGuessed) {
@@ -60,7 +60,7 @@ TEST(MarkerQuality, AWrongUnitIsGuessed) {
   markers.positions_m *= 1000.0;
   const auto fault = check_marker_unit(markers, expected());
   ASSERT_TRUE(fault);
-  EXPECT_NEAR(fault->value, 1000.0, 20.0);
+  EXPECT_NEAR(*fault->value, 1000.0, 20.0);
   EXPECT_NE(fault->remedy.find("millimeters that are declared as meters"), std::string::npos);
   EXPECT_TRUE(check_marker_unit(markers, {}));
   // Nothing else is concluded from lengths in a wrong unit.
@@ -76,7 +76,7 @@ TEST(MarkerQuality, ASwapIsToldAsASwapAndNotAsJumps) {
   markers.positions_m.block(100, 3, 50, 3).swap(markers.positions_m.block(100, 9, 50, 3));
   const auto faults = check_markers(markers, expected());
   ASSERT_EQ(faults.size(), 1U);
-  EXPECT_EQ(faults[0].kind, FaultKind::marker_swap);
+  EXPECT_EQ(faults[0].code, RemarkCode::marker_swap);
 }
 
 }  // namespace

@@ -133,20 +133,19 @@ MarkerSeries undo_swaps(MarkerSeries markers, const std::vector<MarkerSwap>& swa
   return markers;
 }
 
-std::vector<Fault> swap_faults(const MarkerSeries& markers, const std::vector<MarkerSwap>& swaps) {
-  std::vector<Fault> faults;
+std::vector<Remark> swap_faults(const MarkerSeries& markers, const std::vector<MarkerSwap>& swaps) {
+  std::vector<Remark> faults;
   for (const MarkerSwap& s : swaps) {
     const std::string& a = markers.names[static_cast<std::size_t>(s.first)];
     const std::string& b = markers.names[static_cast<std::size_t>(s.second)];
     const double begin_s = markers.time_s[s.begin];
     const double end_s = markers.time_s[s.end - 1];
-    faults.push_back({.kind = FaultKind::marker_swap,
-                      .grave = true,
-                      .channel = fmt::format("{}, {}", a, b),
-                      .begin_s = begin_s,
-                      .end_s = end_s,
+    faults.push_back({.code = RemarkCode::marker_swap,
+                      .severity = Severity::warning,
+                      .about = fmt::format("{}, {}", a, b),
+                      .when = Stretch{begin_s, end_s},
                       .value = end_s - begin_s,
-                      .text = fmt::format("markers '{}' and '{}' carry each other's label from "
+                      .says = fmt::format("markers '{}' and '{}' carry each other's label from "
                                           "{:.6g} to {:.6g} s",
                                           a, b, begin_s, end_s),
                       .remedy = "they are exchanged back; correct the file"});

@@ -4,7 +4,7 @@
 
 #include <Eigen/Core>
 
-#include "myoid/core/fault.h"
+#include "myoid/core/remark.h"
 #include "myoid/files/marker_series.h"
 #include "myoid/signals/quality_limits.h"
 
@@ -31,7 +31,7 @@ struct MarkerSwap {
                                                  const std::vector<MarkerSwap>& swaps);
 
 /// Each of them as a fault, for a reader.
-[[nodiscard]] std::vector<Fault> swap_faults(const recording::MarkerSeries& markers,
-                                             const std::vector<MarkerSwap>& swaps);
+[[nodiscard]] std::vector<Remark> swap_faults(const recording::MarkerSeries& markers,
+                                              const std::vector<MarkerSwap>& swaps);
 
 }  // namespace myoid::signals

@@ -47,8 +47,8 @@ TEST(MarkerSwaps, AreFoundWithTheirFramesAndUndone) {
   EXPECT_EQ(error_m(undo_swaps(swapped, swaps), truth), 0.0);
   const auto faults = swap_faults(swapped, swaps);
   ASSERT_EQ(faults.size(), 1U);
-  EXPECT_EQ(faults[0].channel, "B, D");
-  EXPECT_DOUBLE_EQ(faults[0].begin_s, truth.time_s[120]);
+  EXPECT_EQ(faults[0].about, "B, D");
+  EXPECT_DOUBLE_EQ(faults[0].when->begin_s, truth.time_s[120]);
 }
 
 TEST(MarkerSwaps, ThatLastToTheEndAreUndoneOnTheShorterSide) {

@@ -144,8 +144,8 @@ MendedMarkers mend_markers(MarkerSeries markers,
   MendedMarkers result;
   if (options.undo_swaps) {
     const std::vector<MarkerSwap> swaps = find_swaps(markers, options.limits);
-    for (const Fault& fault : swap_faults(markers, swaps))
-      result.repairs.push_back(fmt::format("{}: exchanged back", fault.text));
+    for (const Remark& fault : swap_faults(markers, swaps))
+      result.repairs.push_back(fmt::format("{}: exchanged back", fault.says));
     markers = undo_swaps(std::move(markers), swaps);
   }
   result.markers = markers;

@@ -20,7 +20,7 @@ void check_offset(const ForcePlate& plate,
                   const Eigen::VectorXd& normal_n,
                   const std::string& channel,
                   const QualityLimits& limits,
-                  std::vector<Fault>& faults) {
+                  std::vector<Remark>& faults) {
   constexpr double kWindow_s = 0.2;
   constexpr double kSteady_n = 5.0;
   constexpr double kPerson_n = 80.0;
@@ -40,13 +40,12 @@ void check_offset(const ForcePlate& plate,
     at = i;
   }
   if (at < 0 || least_n < limits.plate_offset_n) return;
-  faults.push_back({.kind = FaultKind::plate_offset,
-                    .grave = true,
-                    .channel = channel,
-                    .begin_s = plate.time_s[at],
-                    .end_s = plate.time_s[at + width - 1],
+  faults.push_back({.code = RemarkCode::plate_offset,
+                    .severity = Severity::warning,
+                    .about = channel,
+                    .when = Stretch{plate.time_s[at], plate.time_s[at + width - 1]},
                     .value = offset_n,
-                    .text = fmt::format("{} reads {:.1f} N at {:.6g} s, when it bears least",
+                    .says = fmt::format("{} reads {:.1f} N at {:.6g} s, when it bears least",
                                         channel, offset_n, plate.time_s[at]),
                     .remedy = "was it zeroed while empty? Subtract that from the file"});
 }
@@ -55,7 +54,7 @@ void check_pressure(const ForcePlate& plate,
                     const Eigen::VectorXd& normal_n,
                     const std::string& channel,
                     const QualityLimits& limits,
-                    std::vector<Fault>& faults) {
+                    std::vector<Remark>& faults) {
   const Eigen::Matrix<double, 3, 4> corners =
       plate.R_GP.transpose() * (plate.corners_m.colwise() - plate.p_GP_m);
   const double half_x_m = corners.row(0).cwiseAbs().maxCoeff();
@@ -81,13 +80,12 @@ void check_pressure(const ForcePlate& plate,
       static_cast<double>(outside) < limits.plate_outside_share * static_cast<double>(loaded))
     return;
   faults.push_back(
-      {.kind = FaultKind::plate_pressure_outside,
-       .grave = true,
-       .channel = channel,
-       .begin_s = plate.time_s[worst],
-       .end_s = plate.time_s[worst],
+      {.code = RemarkCode::plate_pressure_outside,
+       .severity = Severity::warning,
+       .about = channel,
+       .when = Stretch{plate.time_s[worst], plate.time_s[worst]},
        .value = static_cast<double>(outside) / static_cast<double>(loaded),
-       .text =
+       .says =
            fmt::format("{}: the center of pressure lies outside the plate in {:.1f} % of the "
                        "loaded time, by up to {:.0f} mm at {:.6g} s",
                        channel, 100.0 * static_cast<double>(outside) / static_cast<double>(loaded),
@@ -97,8 +95,8 @@ void check_pressure(const ForcePlate& plate,
 
 }  // namespace
 
-std::vector<Fault> check_force_plate(const ForcePlate& plate, const QualityLimits& limits) {
-  std::vector<Fault> faults;
+std::vector<Remark> check_force_plate(const ForcePlate& plate, const QualityLimits& limits) {
+  std::vector<Remark> faults;
   if (plate.time_s.size() < 2) return faults;
   const std::string channel = fmt::format("plate {}", plate.number);
   const Eigen::VectorXd normal_n = plate.force_n * plate.side.out_L;
@@ -106,13 +104,12 @@ std::vector<Fault> check_force_plate(const ForcePlate& plate, const QualityLimit
   if (plate.side.turn < 0.0) {
     Eigen::Index at = 0;
     normal_n.maxCoeff(&at);
-    faults.push_back({.kind = FaultKind::plate_sign,
-                      .grave = false,
-                      .channel = channel,
-                      .begin_s = plate.time_s[at],
-                      .end_s = plate.time_s[at],
+    faults.push_back({.code = RemarkCode::plate_sign,
+                      .severity = Severity::note,
+                      .about = channel,
+                      .when = Stretch{plate.time_s[at], plate.time_s[at]},
                       .value = -normal_n[at],
-                      .text = fmt::format(
+                      .says = fmt::format(
                           "{} pulls the person down, with {:.0f} N at {:.6g} s: the file holds the "
                           "force on the plate",
                           channel, normal_n[at], plate.time_s[at]),

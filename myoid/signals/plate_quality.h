@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "myoid/core/fault.h"
+#include "myoid/core/remark.h"
 #include "myoid/recording/force_plate.h"
 #include "myoid/signals/quality_limits.h"
 
@@ -15,7 +15,7 @@ namespace myoid::signals {
 ///   left;
 /// - sign: the file holds the force on the plate (a remark: whoever reads plates turns it round);
 /// - center of pressure outside the corners while loaded.
-[[nodiscard]] std::vector<Fault> check_force_plate(const recording::ForcePlate& plate,
-                                                   const QualityLimits& limits = {});
+[[nodiscard]] std::vector<Remark> check_force_plate(const recording::ForcePlate& plate,
+                                                    const QualityLimits& limits = {});
 
 }  // namespace myoid::signals

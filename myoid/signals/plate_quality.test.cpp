@@ -38,8 +38,8 @@ TEST(ForcePlateQuality, AnOffsetWhileEmptyIsSaid) {
   p.force_n.col(2).array() -= 23.0;
   const auto faults = check_force_plate(p);
   ASSERT_EQ(faults.size(), 1U);
-  EXPECT_EQ(faults[0].kind, FaultKind::plate_offset);
-  EXPECT_NEAR(faults[0].value, -23.0, 1e-9);
+  EXPECT_EQ(faults[0].code, RemarkCode::plate_offset);
+  EXPECT_NEAR(*faults[0].value, -23.0, 1e-9);
 }
 
 TEST(ForcePlateQuality, SomebodyWhoStandsOnItAllTheTimeIsNoOffset) {
@@ -53,9 +53,9 @@ TEST(ForcePlateQuality, AFileThatHoldsTheForceOnThePlateIsARemark) {
   p.side.turn = -1.0;
   const auto faults = check_force_plate(p);
   ASSERT_EQ(faults.size(), 1U);
-  EXPECT_EQ(faults[0].kind, FaultKind::plate_sign);
-  EXPECT_FALSE(faults[0].grave);
-  EXPECT_NEAR(faults[0].begin_s, 1.5, 0.01);
+  EXPECT_EQ(faults[0].code, RemarkCode::plate_sign);
+  EXPECT_EQ(faults[0].severity, Severity::note);
+  EXPECT_NEAR(faults[0].when->begin_s, 1.5, 0.01);
 }
 
 TEST(ForcePlateQuality, PressureBesideThePlateIsSaidWithItsDistance) {
@@ -63,9 +63,9 @@ TEST(ForcePlateQuality, PressureBesideThePlateIsSaidWithItsDistance) {
   p.pressure_center_m.col(1).array() += 0.25;  // up to 0.15 m beyond the edge at 0.4 m
   const auto faults = check_force_plate(p);
   ASSERT_EQ(faults.size(), 1U);
-  EXPECT_EQ(faults[0].kind, FaultKind::plate_pressure_outside);
-  EXPECT_NE(faults[0].text.find("mm"), std::string::npos);
-  EXPECT_GT(faults[0].value, 0.2);
+  EXPECT_EQ(faults[0].code, RemarkCode::plate_pressure_outside);
+  EXPECT_NE(faults[0].says.find("mm"), std::string::npos);
+  EXPECT_GT(*faults[0].value, 0.2);
 }
 
 }  // namespace

@@ -5,7 +5,7 @@
 namespace myoid::signals {
 
 std::vector<LimitRow> limit_rows(const QualityLimits& l) {
-  using enum FaultKind;
+  using enum RemarkCode;
   return {
       {marker_unit, "a factor of 5 or more"},
       {marker_gap, fmt::format("{} s, {:g} % of the frames", l.gap_s, 100.0 * l.missing_share)},

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "myoid/core/fault.h"
+#include "myoid/core/remark.h"
 
 namespace myoid::signals {
 
@@ -45,11 +45,11 @@ struct QualityLimits {
 
 /// One row of the documented table.
 struct LimitRow {
-  FaultKind kind;
+  RemarkCode code;
   std::string limit;  ///< "0.2 s", as the documentation writes it.
 };
 
-/// The limits as text, every kind once, in the order of FaultKind.
+/// The limits as text, every channel fault once, in the order of RemarkCode.
 [[nodiscard]] std::vector<LimitRow> limit_rows(const QualityLimits& limits = {});
 
 }  // namespace myoid::signals

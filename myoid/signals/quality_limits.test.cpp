@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "myoid/core/fault.h"
+#include "myoid/core/remark.h"
 
 #include "tests/support/places.h"
 
@@ -19,20 +19,12 @@ TEST(QualityLimits, AreTheOnesThatTheDocumentationLists) {
   text << stream.rdbuf();
   const std::vector<LimitRow> rows = limit_rows();
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    EXPECT_EQ(static_cast<std::size_t>(rows[i].kind), i);
-    const std::string begin = fmt::format("| `{}` | {} |", name(rows[i].kind), rows[i].limit);
+    EXPECT_EQ(static_cast<std::size_t>(rows[i].code), i);
+    const std::string begin = fmt::format("| `{}` | {} |", name(rows[i].code), rows[i].limit);
     EXPECT_NE(text.str().find(begin), std::string::npos) << "no row " << begin;
   }
   // The last kind has the last row.
-  EXPECT_EQ(rows.back().kind, FaultKind::plate_pressure_outside);
-}
-
-TEST(Fault, IsASentenceWithItsRemedy) {
-  Fault fault;
-  fault.text = "marker 'A' jumps";
-  EXPECT_EQ(sentence(fault), "marker 'A' jumps");
-  fault.remedy = "remove it";
-  EXPECT_EQ(sentence(fault), "marker 'A' jumps; remove it");
+  EXPECT_EQ(rows.back().code, RemarkCode::plate_pressure_outside);
 }
 
 }  // namespace

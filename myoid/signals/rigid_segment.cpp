@@ -95,10 +95,10 @@ Eigen::Matrix3Xd mean_shape(const MarkerSeries& markers, const RigidSegment& seg
   return first;
 }
 
-std::vector<Fault> check_rigid_segments(const MarkerSeries& markers,
-                                        const std::vector<RigidSegment>& segments,
-                                        const QualityLimits& limits) {
-  std::vector<Fault> faults;
+std::vector<Remark> check_rigid_segments(const MarkerSeries& markers,
+                                         const std::vector<RigidSegment>& segments,
+                                         const QualityLimits& limits) {
+  std::vector<Remark> faults;
   const auto marker = [&](Eigen::Index m) { return markers.names[static_cast<std::size_t>(m)]; };
   for (const RigidSegment& segment : segments) {
     std::vector<Pair> pairs;
@@ -134,14 +134,13 @@ std::vector<Fault> check_rigid_segments(const MarkerSeries& markers,
       }
       const Eigen::Index other = worst->first == culprit ? worst->second : worst->first;
       faults.push_back(
-          {.kind = FaultKind::segment_not_rigid,
-           .grave = true,
-           .channel = partners > 1 ? marker(culprit)
-                                   : fmt::format("{}, {}", marker(culprit), marker(other)),
-           .begin_s = markers.time_s[begin],
-           .end_s = markers.time_s[end],
+          {.code = RemarkCode::segment_not_rigid,
+           .severity = Severity::warning,
+           .about = partners > 1 ? marker(culprit)
+                                 : fmt::format("{}, {}", marker(culprit), marker(other)),
+           .when = Stretch{markers.time_s[begin], markers.time_s[end]},
            .value = worst->worst_m,
-           .text =
+           .says =
                fmt::format("marker '{}' of {}: its distance to '{}', {:.0f} mm, changes by "
                            "{:.0f} mm between {:.6g} and {:.6g} s",
                            marker(culprit), segment.name, marker(other), 1000.0 * worst->median_m,

@@ -5,8 +5,8 @@
 
 #include <Eigen/Core>
 
-#include "myoid/core/fault.h"
 #include "myoid/core/geometry.h"
+#include "myoid/core/remark.h"
 #include "myoid/files/marker_series.h"
 #include "myoid/signals/quality_limits.h"
 
@@ -40,8 +40,8 @@ struct RigidFit {
 
 /// Distances within a segment must stay. Complains of the markers that depart from their median
 /// distance to others of the segment for three frames or more, worst first, each once.
-[[nodiscard]] std::vector<Fault> check_rigid_segments(const recording::MarkerSeries& markers,
-                                                      const std::vector<RigidSegment>& segments,
-                                                      const QualityLimits& limits = {});
+[[nodiscard]] std::vector<Remark> check_rigid_segments(const recording::MarkerSeries& markers,
+                                                       const std::vector<RigidSegment>& segments,
+                                                       const QualityLimits& limits = {});
 
 }  // namespace myoid::signals

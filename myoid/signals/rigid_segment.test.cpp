@@ -44,11 +44,11 @@ TEST(RigidSegments, TheMarkerThatCameLooseIsNamedOnceWithItsTime) {
   markers.positions_m.block(200, 6, 100, 1).array() += 0.06;  // C, from 2 to 2.99 s
   const auto faults = check_rigid_segments(markers, {test::forearm()});
   ASSERT_EQ(faults.size(), 1U);
-  EXPECT_EQ(faults[0].kind, FaultKind::segment_not_rigid);
-  EXPECT_EQ(faults[0].channel, "C");
-  EXPECT_NEAR(faults[0].begin_s, 2.0, 0.2);
-  EXPECT_NEAR(faults[0].end_s, 2.99, 0.2);
-  EXPECT_GT(faults[0].value, 0.03);
+  EXPECT_EQ(faults[0].code, RemarkCode::segment_not_rigid);
+  EXPECT_EQ(faults[0].about, "C");
+  EXPECT_NEAR(faults[0].when->begin_s, 2.0, 0.2);
+  EXPECT_NEAR(faults[0].when->end_s, 2.99, 0.2);
+  EXPECT_GT(*faults[0].value, 0.03);
 }
 
 TEST(RigidSegments, OfTwoMarkersBothAreNamed) {
@@ -56,7 +56,7 @@ TEST(RigidSegments, OfTwoMarkersBothAreNamed) {
   markers.positions_m.block(200, 7, 50, 1).array() += 0.08;
   const auto faults = check_rigid_segments(markers, {{"forearm", {1, 2}}});
   ASSERT_EQ(faults.size(), 1U);
-  EXPECT_EQ(faults[0].channel, "B, C");
+  EXPECT_EQ(faults[0].about, "B, C");
 }
 
 }  // namespace

@@ -240,10 +240,8 @@ SimulationModel make_simulation_model(model::BodyModel body, const ModelSetup& s
           body.coordinates[static_cast<std::size_t>(c.independent)].name, c.name));
     }
   }
-  const std::size_t actuators = body.actuators.size() + body.point_actuators.size() +
-                                body.torque_actuators.size() + body.path_actuators.size();
-  if (actuators > 0)
-    result.notes.push_back(fmt::format("its {} actuators exert nothing", actuators));
+  result.idle_actuators = body.actuators.size() + body.point_actuators.size() +
+                          body.torque_actuators.size() + body.path_actuators.size();
   result.body = std::move(body);
   return result;
 }

@@ -46,7 +46,7 @@ struct SimulationModel {
   std::vector<ModelMuscle> muscles;
   std::vector<muscle::JointPassive<double>> joints;  ///< Per coordinate.
   std::vector<muscle::MillardShape> millard;         ///< Per muscle.
-  std::vector<std::string> notes;  ///< What of the model is left out, a sentence each.
+  std::size_t idle_actuators = 0;  ///< Actuators of the model; they exert nothing.
 };
 
 /// Parameters from the model: F_max, l0, l_t0, pennation, v_max, time constants; of Thelen's muscle
@@ -54,9 +54,9 @@ struct SimulationModel {
 /// the curves' numbers and damping, and with MuscleCurves::file what it says of a rigid tendon (in
 /// the mode `equilibrium`) and of no activation dynamics. A spring on a coordinate joins the
 /// joint's passive torque; the model's other passive forces act too, their work being counted as
-/// viscous. Actuators exert nothing, which `notes` says. Throws InvalidInput, naming the muscle, if
-/// its numbers make no unit, ModelError if joints form a closed loop or a coupled coordinate is
-/// prescribed.
+/// viscous. Actuators exert nothing; `idle_actuators` counts them. Throws InvalidInput, naming the
+/// muscle, if its numbers make no unit, ModelError if joints form a closed loop or a coupled
+/// coordinate is prescribed.
 [[nodiscard]] SimulationModel make_simulation_model(model::BodyModel body,
                                                     const ModelSetup& setup = {});
 

@@ -147,14 +147,14 @@ TEST(SimulationModel, WhatIsNotSimulatedIsRefusedOrSaid) {
   EXPECT_THROW((void)make_simulation_model(loop), ModelError);
   model::BodyModel motor = arm4();
   motor.actuators.push_back({.name = "motor", .coordinate = 3});
-  EXPECT_EQ(make_simulation_model(motor).notes.size(), 1u);
+  EXPECT_EQ(make_simulation_model(motor).idle_actuators, 1U);
   model::BodyModel sprung = arm4();
   sprung.passive_forces = {
       {.name = "s",
        .class_name = "SpringGeneralizedForce",
        .law = model::CoordinateSpring{.coordinate = 3, .stiffness = 2.0, .rest = 1.0}}};
   const SimulationModel model = make_simulation_model(sprung);
-  EXPECT_TRUE(model.notes.empty());
+  EXPECT_EQ(model.idle_actuators, 0U);
   EXPECT_EQ(model.joints[3].stiffness_nm_per_rad, 2.0);
 }
 

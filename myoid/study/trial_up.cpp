@@ -40,9 +40,9 @@ std::string up_note(const recording::LaboratoryUp& up, const model::BodyModel& m
              : fmt::format("laboratory turned from {} up to {} up ({})", from, to, up.because);
 }
 
-double upright(const model::BodyModel& model,
-               const recording::MarkerSeries& markers,
-               const Vec3& up_L) {
+std::optional<double> upright(const model::BodyModel& model,
+                              const recording::MarkerSeries& markers,
+                              const Vec3& up_L) {
   const recording::MarkerSeries turned = recording::rotated(markers, rotation_onto(model, up_L));
   model::BodyState state = model::make_state(model);
   model::compute_poses(model, model.default_q(), state);
@@ -66,7 +66,7 @@ double upright(const model::BodyModel& model,
     const Vec3 down = model.gravity_G.norm() > 0.0 ? model.gravity_G.normalized() : Vec3(0, -1, 0);
     return (R * down).dot(down);
   }
-  return -2.0;
+  return std::nullopt;
 }
 
 }  // namespace myoid

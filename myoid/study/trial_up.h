@@ -26,11 +26,11 @@ inline constexpr char kUpOfTheFile = 'a';
 [[nodiscard]] Mat3 rotation_onto(const model::BodyModel& model, const Vec3& up_L);
 
 /// How well the model's markers, at its default pose, lie on the first complete frame when `up`
-/// points up: cosine of the angle between its vertical and the laboratory's; -2 if fewer than four
-/// markers are known.
-[[nodiscard]] double upright(const model::BodyModel& model,
-                             const recording::MarkerSeries& markers,
-                             const Vec3& up_L);
+/// points up: cosine of the angle between its vertical and the laboratory's; empty if fewer than
+/// four markers are known.
+[[nodiscard]] std::optional<double> upright(const model::BodyModel& model,
+                                            const recording::MarkerSeries& markers,
+                                            const Vec3& up_L);
 
 /// Up in the laboratory of a file of the study: [markers] up, else as the file says, else
 /// `model_up`. Throws ReadError where the file contradicts itself.
