@@ -41,10 +41,10 @@ TEST(RecordingFindings, AMovementAboveTheMaximalContractionIsOfTheLevelsAndNotOf
   EXPECT_TRUE(found.dynamometers.empty());
 }
 
-Remark fault(const std::string& trial,
-             RemarkCode code,
-             const std::string& channel,
-             Severity severity = Severity::warning) {
+Remark bad_channel(const std::string& trial,
+                   RemarkCode code,
+                   const std::string& channel,
+                   Severity severity = Severity::warning) {
   return {.code = code,
           .severity = severity,
           .where = trial,
@@ -54,10 +54,11 @@ Remark fault(const std::string& trial,
 }
 
 TEST(FaultSummary, SaysTheSameOfSeveralTrialsOnce) {
-  const auto lines = fault_summary({fault("one", RemarkCode::emg_hum, "BIC"),
-                                    fault("one", RemarkCode::emg_drift, "BIC", Severity::note),
-                                    fault("two", RemarkCode::emg_hum, "BIC"),
-                                    fault("", RemarkCode::emg_low_signal, "TRI")});
+  const auto lines =
+      fault_summary({bad_channel("one", RemarkCode::emg_hum, "BIC"),
+                     bad_channel("one", RemarkCode::emg_drift, "BIC", Severity::note),
+                     bad_channel("two", RemarkCode::emg_hum, "BIC"),
+                     bad_channel("", RemarkCode::emg_low_signal, "TRI")});
   EXPECT_EQ(lines,
             (std::vector<std::string>{"trial one: BIC is bad (likewise in two)", "TRI is bad"}));
 }
@@ -65,7 +66,7 @@ TEST(FaultSummary, SaysTheSameOfSeveralTrialsOnce) {
 TEST(FaultSummary, EndsAfterSoManyLines) {
   std::vector<Remark> faults;
   for (int k = 0; k < 9; ++k)
-    faults.push_back(fault("t", RemarkCode::marker_gap, std::to_string(k)));
+    faults.push_back(bad_channel("t", RemarkCode::marker_gap, std::to_string(k)));
   const auto lines = fault_summary(faults, 5);
   ASSERT_EQ(lines.size(), 6U);
   EXPECT_EQ(lines.back(), "4 more faults: see `myoid check`");
