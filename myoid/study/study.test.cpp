@@ -1,3 +1,5 @@
+#include "myoid/study/study.h"
+
 #include <string>
 
 #include <gtest/gtest.h>

@@ -1,0 +1,31 @@
+#include "myoid/identify_files/identify_sources.h"
+
+#include <gtest/gtest.h>
+
+#include "myoid/core/error.h"
+
+namespace myoid {
+namespace {
+
+TEST(IdentifySources, ATrialIsCalledAsItsFileAndFilesOfOneNameAsTheirFolders) {
+  EXPECT_EQ(trial_label({"walk.sto"}, 0), "walk");
+  EXPECT_EQ(trial_label({"a/walk.sto", "a/run.sto"}, 1), "2 (run)");
+  EXPECT_EQ(trial_label({"fast/walk.sto", "slow/walk.sto"}, 0), "1 (fast/walk)");
+}
+
+TEST(IdentifySources, EveryTrialHasAFileOfEachKind) {
+  IdentifySources sources;
+  sources.activations = sources.lengths = sources.torques = {"1.sto", "2.sto"};
+  sources.moment_arms = {"1.sto"};
+  EXPECT_THROW(require_counts(sources), InvalidInput);
+  sources.moment_arms.emplace_back("2.sto");
+  EXPECT_NO_THROW(require_counts(sources));
+  sources.coordinates = {"knee", "ankle"};
+  EXPECT_THROW(require_counts(sources), InvalidInput);
+  sources.moment_arms = {"knee1.sto", "ankle1.sto", "knee2.sto", "ankle2.sto"};
+  EXPECT_NO_THROW(require_counts(sources));
+  EXPECT_EQ(files_of(sources, 1).moment_arms.at(1), "ankle2.sto");
+}
+
+}  // namespace
+}  // namespace myoid
