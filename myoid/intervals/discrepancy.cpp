@@ -83,6 +83,79 @@ std::vector<Discrepancy::Sizes> posterior_sizes(const Eigen::MatrixXd& c,
   return all;
 }
 
+bool on_bound(const FreeParameter& p, double z) {
+  const double margin = 1e-9 * (p.upper - p.lower);
+  return z <= p.lower + margin || z >= p.upper - margin;
+}
+
+/// Gradient of the prediction (p x n) and response of the estimates (p x p, A^-1), given the
+/// parameters on their bounds: these have not followed the data, and their part of an error is in
+/// the residual.
+struct Followed {
+  Eigen::MatrixXd gradient, response;
+};
+
+Followed given_bounds(const std::vector<FreeParameter>& free,
+                      const Eigen::VectorXd& z,
+                      Followed of) {
+  for (Eigen::Index j = 0; j < z.size(); ++j) {
+    if (!on_bound(free[static_cast<std::size_t>(j)], z[j])) continue;
+    of.gradient.row(j).setZero();
+    const double variance = of.response(j, j);
+    if (variance > 0.0) {
+      const Eigen::VectorXd column = of.response.col(j);
+      of.response -= column * column.transpose() / variance;
+    }
+    of.response.row(j).setZero();
+    of.response.col(j).setZero();
+  }
+  return of;
+}
+
+/// Mean of each shape's product with the residual that the noise of the EMG makes: it is in both.
+/// `root`: n, (nu W)^1/2.
+Eigen::VectorXd mean_by_emg_noise(const Estimator& estimator,
+                                  const Weighting& weighting,
+                                  const ErrorShapes& shapes,
+                                  const Eigen::MatrixXd& channel_torque,
+                                  const Eigen::VectorXd& root) {
+  Eigen::VectorXd mean = Eigen::VectorXd::Zero(shapes.shapes_nm.rows());
+  const Eigen::MatrixXd noisy = shapes.by_emg * shapes.unfiltered * root.asDiagonal();
+  for (Eigen::Index b = 0; b < mean.size(); ++b) {
+    const int channel = shapes.channel[static_cast<std::size_t>(b)];
+    if (channel < 0) continue;
+    mean[b] = estimator.channel_variance()[channel] *
+              (noisy.row(b)
+                   .transpose()
+                   .cwiseProduct(root)
+                   .cwiseProduct(weighting.emg_variance)
+                   .cwiseProduct(estimator.model().noise_gain().row(channel).transpose()))
+                  .dot(channel_torque.row(channel).transpose());
+  }
+  return mean;
+}
+
+/// A = J W J' + P with nothing taken out, invertible. `jacobian`: p x n, J W^1/2.
+Eigen::MatrixXd whole_information(const std::vector<FreeParameter>& free,
+                                  const Eigen::MatrixXd& jacobian) {
+  Eigen::MatrixXd a = jacobian * jacobian.transpose();
+  for (Eigen::Index j = 0; j < a.rows(); ++j) {
+    const double prior_sd = free[static_cast<std::size_t>(j)].prior_sd;
+    if (prior_sd > 0.0) a(j, j) += 1.0 / (prior_sd * prior_sd);
+    a(j, j) = a(j, j) > 0.0 ? a(j, j) * (1.0 + 1e-12) : 1.0;
+  }
+  return a;
+}
+
+/// Rows of `errors` that are not 0: combinations of shapes that are errors of the model.
+std::vector<Eigen::Index> rows_of_errors(const Eigen::MatrixXd& errors) {
+  std::vector<Eigen::Index> kept;
+  for (Eigen::Index b = 0; b < errors.rows(); ++b) {
+    if (errors.row(b).norm() > 1e-9) kept.push_back(b);
+  }
+  return kept;
+}
+
 }  // namespace
 
 double Discrepancy::reach(Eigen::Index j, double variance, double probability) const {
@@ -126,56 +199,18 @@ Discrepancy discrepancy(const Estimator& estimator,
   const Eigen::VectorXd root = std::sqrt(weighting.share) * weighting.sd_nm.cwiseInverse();
   const Eigen::VectorXd residual = (model.measured() - at.predicted).cwiseProduct(root);
   const Eigen::MatrixXd every = shapes.shapes_nm * root.asDiagonal();  // S W^1/2
-  // A parameter on its bound has not followed the data: what it would take out is in the residual.
-  Eigen::MatrixXd gradient = at.gradient;
-  Eigen::MatrixXd response = model_based;  // given those on their bound
-  for (Eigen::Index j = 0; j < z.size(); ++j) {
-    const FreeParameter& f = estimator.free()[static_cast<std::size_t>(j)];
-    const double margin = 1e-9 * (f.upper - f.lower);
-    if (z[j] <= f.lower + margin || z[j] >= f.upper - margin) {
-      gradient.row(j).setZero();
-      const double variance = response(j, j);
-      if (variance > 0.0) {
-        const Eigen::VectorXd column = response.col(j);
-        response -= column * column.transpose() / variance;
-      }
-      response.row(j).setZero();
-      response.col(j).setZero();
-    }
-  }
+  const auto [gradient, response] =
+      given_bounds(estimator.free(), z, {.gradient = at.gradient, .response = model_based});
   Eigen::VectorXd along = every * residual;
-  if (weighting.emg_variance.size() > 0) {
-    // The noise of the EMG is in the shapes and in the residual alike: that product has a mean.
-    const Eigen::MatrixXd noisy = shapes.by_emg * shapes.unfiltered * root.asDiagonal();
-    for (Eigen::Index b = 0; b < along.size(); ++b) {
-      const int channel = shapes.channel[static_cast<std::size_t>(b)];
-      if (channel < 0) continue;
-      along[b] += estimator.channel_variance()[channel] *
-                  (noisy.row(b)
-                       .transpose()
-                       .cwiseProduct(root)
-                       .cwiseProduct(weighting.emg_variance)
-                       .cwiseProduct(model.noise_gain().row(channel).transpose()))
-                      .dot(at.channel_torque.row(channel).transpose());
-    }
-  }
-  // Those that are errors, in directions of unit weight: from here S stands for D S.
+  if (weighting.emg_variance.size() > 0)
+    along += mean_by_emg_noise(estimator, weighting, shapes, at.channel_torque, root);
+  // Only errors are kept, in directions of unit weight: from here S stands for D S.
   const Eigen::MatrixXd errors = shapes.weight.asDiagonal() * shapes.contrast;
-  std::vector<Eigen::Index> kept;
-  for (Eigen::Index b = 0; b < errors.rows(); ++b) {
-    if (errors.row(b).norm() > 1e-9) kept.push_back(b);
-  }
+  const std::vector<Eigen::Index> kept = rows_of_errors(errors);
   const Eigen::MatrixXd s = errors(kept, Eigen::all) * every;
   const Eigen::VectorXd h = errors(kept, Eigen::all) * along;
   const Eigen::MatrixXd sj = s * root.asDiagonal() * gradient.transpose();
-  // Of the data as they are, A has nothing taken out.
-  const Eigen::MatrixXd jacobian = gradient * root.asDiagonal();
-  Eigen::MatrixXd a = jacobian * jacobian.transpose();
-  for (Eigen::Index j = 0; j < z.size(); ++j) {
-    const double prior_sd = estimator.free()[static_cast<std::size_t>(j)].prior_sd;
-    if (prior_sd > 0.0) a(j, j) += 1.0 / (prior_sd * prior_sd);
-    a(j, j) = a(j, j) > 0.0 ? a(j, j) * (1.0 + 1e-12) : 1.0;
-  }
+  const Eigen::MatrixXd a = whole_information(estimator.free(), gradient * root.asDiagonal());
   const Eigen::MatrixXd left = s * s.transpose() - sj * a.ldlt().solve(sj.transpose());
   std::vector<bool> of_muscle;
   for (const Eigen::Index b : kept)

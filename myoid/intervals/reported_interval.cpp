@@ -3,10 +3,90 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "myoid/math/statistics.h"
 
 namespace myoid::identification {
+namespace {
+
+/// One unknown of a fit and the scale of its row.
+struct RowOfFit {
+  const RowScale& row;
+  const Intervals& intervals;
+  Eigen::Index at = 0;
+  double z = 0.0;
+
+  /// The row's value of a solver's number. No interval reaches beyond the bounds: they are
+  /// knowledge, too.
+  [[nodiscard]] double clipped(double x) const {
+    return row.value(std::clamp(x, row.parameter->lower, row.parameter->upper));
+  }
+};
+
+double quantile() { return math::normal_quantile(0.5 + 0.5 * kReportedProbability); }
+
+/// Half width of the interval of a normal number of this variance.
+double reach(double variance) { return quantile() * std::sqrt(std::max(0.0, variance)); }
+
+std::vector<RouteInterval> routes_of(const RowOfFit& of) {
+  const Sandwich& s = of.intervals.sandwich;
+  std::vector<RouteInterval> routes;
+  const auto add_normal = [&](const std::string& route, double variance, double spread) {
+    const double sd = std::sqrt(std::max(0.0, variance));
+    if (!std::isfinite(sd)) return;
+    routes.push_back(
+        {route, of.clipped(of.z - quantile() * sd), of.clipped(of.z + quantile() * sd), spread});
+  };
+  const double by_trials = s.trial_spread.size() > of.at ? s.trial_spread[of.at] : 0.0;
+  add_normal("sandwich", s.newey_west(of.at, of.at), s.sample_spread);
+  if (s.cluster) add_normal("cluster", (*s.cluster)(of.at, of.at), by_trials);
+  if (s.jackknife) add_normal("jackknife", (*s.jackknife)(of.at, of.at), by_trials);
+  const auto add = [&](const std::string& route, const Interval& interval, double spread) {
+    RouteInterval r{route, {}, {}, spread};
+    if (interval.low) r.low = of.clipped(*interval.low);
+    if (interval.high) r.high = of.clipped(*interval.high);
+    if (r.low || r.high || route == "profile") routes.push_back(std::move(r));
+  };
+  const auto index = static_cast<std::size_t>(of.at);
+  if (const auto& bootstrap = of.intervals.bootstrap)
+    add("bootstrap", bootstrap->intervals[index], bootstrap->spread);
+  if (of.intervals.profiles) add("profile", (*of.intervals.profiles)[index], 0.0);
+  return routes;
+}
+
+/// Reaches of the noise below and above the estimate: the farther of sandwich and profile.
+std::pair<double, double> reaches_of_noise(const RowOfFit& of) {
+  const double normal = reach(of.intervals.sandwich.newey_west(of.at, of.at));
+  if (!of.intervals.profiles) return {normal, normal};
+  const Interval& profile = (*of.intervals.profiles)[static_cast<std::size_t>(of.at)];
+  const FreeParameter& p = *of.row.parameter;
+  return {std::max(normal, of.z - profile.low.value_or(p.lower)),
+          std::max(normal, profile.high.value_or(p.upper) - of.z)};
+}
+
+/// The reach that the differences between trials ask for at least; 0 with few trials. With fewer
+/// trials than clusters need the jackknife stands in, which is never too small.
+double reach_of_trials(const Sandwich& sandwich, Eigen::Index at) {
+  if (sandwich.cluster) return reach((*sandwich.cluster)(at, at));
+  return sandwich.jackknife ? reach((*sandwich.jackknife)(at, at)) : 0.0;
+}
+
+/// The reach `noise` with the errors of EMG noise, held tendons and the model on top.
+double whole_reach(const RowOfFit& of, double noise) {
+  const Intervals& intervals = of.intervals;
+  const double sd = noise / quantile();
+  const double of_tendons =
+      intervals.tendon_shift.cols() > 0 ? intervals.tendon_shift.row(of.at).squaredNorm() : 0.0;
+  const double variance = sd * sd + std::pow(intervals.sandwich.by_noise[of.at], 2) + of_tendons;
+  const double whole = intervals.model_error
+                           ? intervals.model_error->reach(of.at, variance, kReportedProbability)
+                           : quantile() * std::sqrt(variance);
+  return std::max(reach_of_trials(intervals.sandwich, of.at), whole);
+}
+
+}  // namespace
+
 double z_of(const RowScale& row, double value) {
   const double x = value / row.ratio;
   return row.parameter->field->logarithmic ? std::log(std::max(x, 1e-300)) : x;
@@ -17,62 +97,12 @@ void add_routes(ParameterEstimate& e,
                 const Intervals& intervals,
                 Eigen::Index at,
                 double z) {
-  const double quantile = math::normal_quantile(0.5 + 0.5 * kReportedProbability);
-  const FreeParameter& p = *row.parameter;
-  const auto clipped = [&](double x) { return row.value(std::clamp(x, p.lower, p.upper)); };
-  const auto normal = [&](const std::string& route, double variance, double spread) {
-    const double sd = std::sqrt(std::max(0.0, variance));
-    if (!std::isfinite(sd)) return;
-    // A bound is knowledge, too: no interval reaches where no muscle lives.
-    e.routes.push_back({route, clipped(z - quantile * sd), clipped(z + quantile * sd), spread});
-  };
-  const Sandwich& s = intervals.sandwich;
-  const double by_trials = s.trial_spread.size() > at ? s.trial_spread[at] : 0.0;
-  normal("sandwich", s.newey_west(at, at), s.sample_spread);
-  if (s.cluster) normal("cluster", (*s.cluster)(at, at), by_trials);
-  if (s.jackknife) normal("jackknife", (*s.jackknife)(at, at), by_trials);
-  const auto add = [&](const std::string& route, const Interval& interval, double spread) {
-    RouteInterval r{route, {}, {}, spread};
-    if (interval.low) r.low = clipped(*interval.low);
-    if (interval.high) r.high = clipped(*interval.high);
-    if (r.low || r.high || route == "profile") e.routes.push_back(r);
-  };
-  const auto index = static_cast<std::size_t>(at);
-  if (intervals.bootstrap) {
-    add("bootstrap", intervals.bootstrap->intervals[index], intervals.bootstrap->spread);
-  }
-  if (intervals.profiles) add("profile", (*intervals.profiles)[index], 0.0);
-
-  // The interval that is reported: to either side the farther of sandwich and profile, with the
-  // model's error on top, but never less than trials show that differ by both. Of few trials that
-  // is the jackknife, which is never too small.
-  const auto reach = [&](double variance) { return quantile * std::sqrt(std::max(0.0, variance)); };
-  double below = reach(intervals.sandwich.newey_west(at, at));
-  double above = below;
-  if (intervals.profiles) {
-    const Interval& profile = (*intervals.profiles)[index];
-    below = std::max(below, z - profile.low.value_or(p.lower));
-    above = std::max(above, profile.high.value_or(p.upper) - z);
-  }
-  double least = 0.0;
-  if (intervals.sandwich.cluster) {
-    least = reach((*intervals.sandwich.cluster)(at, at));
-  } else if (intervals.sandwich.jackknife) {
-    least = reach((*intervals.sandwich.jackknife)(at, at));
-  }
+  const RowOfFit of{.row = row, .intervals = intervals, .at = at, .z = z};
+  e.routes = routes_of(of);
+  const auto [below, above] = reaches_of_noise(of);
   if (!std::isfinite(below) || !std::isfinite(above)) return;
-  const auto whole = [&](double half) {
-    const double noise = half / quantile;
-    const double of_tendons =
-        intervals.tendon_shift.cols() > 0 ? intervals.tendon_shift.row(at).squaredNorm() : 0.0;
-    const double variance =
-        noise * noise + std::pow(intervals.sandwich.by_noise[at], 2) + of_tendons;
-    return std::max(least, intervals.model_error
-                               ? intervals.model_error->reach(at, variance, kReportedProbability)
-                               : quantile * std::sqrt(variance));
-  };
-  e.ci_low = clipped(z - whole(below));
-  e.ci_high = clipped(z + whole(above));
+  e.ci_low = of.clipped(z - whole_reach(of, below));
+  e.ci_high = of.clipped(z + whole_reach(of, above));
 }
 
 }  // namespace myoid::identification

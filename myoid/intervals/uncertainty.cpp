@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cmath>
 #include <cstdint>
+#include <utility>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
@@ -84,36 +85,47 @@ double quantile(std::vector<double> values, double share) {
   return values[below] + (at - static_cast<double>(below)) * (values[above] - values[below]);
 }
 
-}  // namespace
-
-Sandwich sandwich(const Estimator& estimator, const Estimator::Solution& solution) {
-  const ResidualModel& model = estimator.model();
-  const Eigen::VectorXd& z = solution.search.x;
-  const Estimator::Scores by_sample = estimator.scores(solution);
-  Sandwich result;
-  result.information = by_sample.information;
-  Eigen::MatrixXd a = result.information;
-  Eigen::VectorXd precision = Eigen::VectorXd::Zero(z.size());
-  for (Eigen::Index j = 0; j < z.size(); ++j) {
-    const double prior_sd = estimator.free()[static_cast<std::size_t>(j)].prior_sd;
-    if (prior_sd > 0.0) precision[j] = 1.0 / (prior_sd * prior_sd);
+/// Precision of the prior of every unknown; 0: none.
+Eigen::VectorXd prior_precision(const std::vector<FreeParameter>& free) {
+  Eigen::VectorXd precision = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(free.size()));
+  for (std::size_t j = 0; j < free.size(); ++j) {
+    const double prior_sd = free[j].prior_sd;
+    if (prior_sd > 0.0) precision[static_cast<Eigen::Index>(j)] = 1.0 / (prior_sd * prior_sd);
   }
-  a.diagonal() += precision;
-  result.model_based = inverse_of(a);
-  double unsure = 0.0;
-  for (const NoiseLevel& level : solution.weighting.noise)
-    unsure = std::max(unsure, level.log_variance_sd);
-  result.by_noise = unsure * result.model_based * by_sample.attenuation;
+  return precision;
+}
 
-  // What the data alone determine: eigenvectors of the unit-column information.
-  const Eigen::VectorXd norm = result.information.diagonal().cwiseSqrt();
+double largest_log_sd(const std::vector<NoiseLevel>& noise) {
+  double largest = 0.0;
+  for (const NoiseLevel& level : noise) largest = std::max(largest, level.log_variance_sd);
+  return largest;
+}
+
+Eigen::MatrixXd with_priors(Eigen::MatrixXd of_data, const Eigen::VectorXd& precision) {
+  of_data.diagonal() += precision;
+  return of_data;
+}
+
+/// The part of the parameters that the data alone determine: Sandwich's fields of the same names.
+struct Rank {
+  int rank = 0;
+  double condition = 0.0;
+  std::vector<bool> determined;
+  Eigen::MatrixXd undetermined;
+};
+
+/// Rank by the eigenvectors of the information scaled to unit columns.
+Rank rank_of(const Eigen::MatrixXd& information) {
+  const Eigen::Index p = information.rows();
+  const Eigen::VectorXd norm = information.diagonal().cwiseSqrt();
   const double largest_norm = norm.maxCoeff();
-  Eigen::VectorXd unit(z.size());
-  for (Eigen::Index j = 0; j < z.size(); ++j) unit[j] = norm[j] > 0.0 ? 1.0 / norm[j] : 0.0;
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(
-      unit.asDiagonal() * result.information * unit.asDiagonal());
+  Eigen::VectorXd unit(p);
+  for (Eigen::Index j = 0; j < p; ++j) unit[j] = norm[j] > 0.0 ? 1.0 / norm[j] : 0.0;
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(unit.asDiagonal() * information *
+                                                             unit.asDiagonal());
   const Eigen::VectorXd& values = eigen.eigenvalues();  // rising
   const double top = values[values.size() - 1];
+  Rank result;
   result.condition = values[0] > 0.0 ? std::sqrt(top / values[0]) : kInfinity;
   std::vector<Eigen::Index> open;
   for (Eigen::Index k = 0; k < values.size(); ++k) {
@@ -122,94 +134,183 @@ Sandwich sandwich(const Estimator& estimator, const Estimator::Solution& solutio
   }
   result.rank = static_cast<int>(values.size()) - static_cast<int>(open.size());
   result.undetermined = eigen.eigenvectors()(Eigen::all, open);
-  result.determined.assign(static_cast<std::size_t>(z.size()), true);
-  for (Eigen::Index j = 0; j < z.size(); ++j) {
+  result.determined.assign(static_cast<std::size_t>(p), true);
+  for (Eigen::Index j = 0; j < p; ++j) {
     result.determined[static_cast<std::size_t>(j)] =
         norm[j] > 0.0 && result.undetermined.row(j).norm() < 1e-3;
   }
+  return result;
+}
+
+/// The covariance of the scores' sum by the autocorrelation of all residuals together.
+Eigen::MatrixXd by_autocorrelation(const Estimator& estimator,
+                                   const Estimator::Scores& by_sample,
+                                   double share) {
+  const ResidualModel& model = estimator.model();
+  const double told_apart_hz = 8.0 * estimator.options().residual_cutoff_hz.value_or(6.25);
+  const auto stride =
+      static_cast<Eigen::Index>(std::max(1.0, std::floor(model.rate_hz() / told_apart_hz)));
+  return share * math::covariance_of_sum(
+                     by_sample.rows,
+                     math::positive_autocorrelation(by_sample.residual, model.piece_lengths()),
+                     model.piece_lengths(), stride);
+}
+
+/// The covariance with the correlations it has and with no variance below `least`.
+Eigen::MatrixXd at_least(Eigen::MatrixXd covariance, const Eigen::VectorXd& least) {
+  for (Eigen::Index j = 0; j < covariance.rows(); ++j) {
+    const double factor = std::sqrt(std::max(1.0, least[j] / std::max(covariance(j, j), 1e-300)));
+    if (factor > 1.0) {
+      covariance.row(j) *= factor;
+      covariance.col(j) *= factor;
+    }
+  }
+  return covariance;
+}
+
+/// The trials apart; p x trials.
+struct OverTrials {
+  std::vector<int> trials;  ///< Sandwich::trials.
+  Eigen::MatrixXd shift;    ///< Sandwich::trial_shift.
+  Eigen::MatrixXd sums;     ///< Sums of the scores, each as it would be spread outside the fit.
+  /// Expected share of each trial in the variance over trials, and its square, summed.
+  Eigen::VectorXd shares, squared_shares;
+};
+
+/// `scores`: n x p. `whole`: information of the data with nothing taken out, and of the priors.
+/// `prior_shares`: variances that are the priors'.
+OverTrials over_trials(const ResidualModel& model,
+                       const Eigen::MatrixXd& scores,
+                       const Eigen::MatrixXd& rows,
+                       const Eigen::MatrixXd& whole,
+                       const Eigen::MatrixXd& model_based,
+                       const Eigen::VectorXd& prior_shares) {
+  OverTrials result;
+  std::vector<int>& trials = result.trials;
+  for (const Piece& piece : model.pieces()) {
+    if (std::find(trials.begin(), trials.end(), piece.trial) == trials.end())
+      trials.push_back(piece.trial);
+  }
+  const Eigen::Index p = whole.rows();
+  result.sums.resize(p, static_cast<Eigen::Index>(trials.size()));
+  result.shift.resize(p, result.sums.cols());
+  result.shares = prior_shares;
+  result.squared_shares = Eigen::VectorXd::Zero(p);
+  const Eigen::LLT<Eigen::MatrixXd> factor(whole);
+  for (Eigen::Index k = 0; k < result.sums.cols(); ++k) {
+    Eigen::MatrixXd of_trial = Eigen::MatrixXd::Zero(p, p);
+    Eigen::VectorXd sum = Eigen::VectorXd::Zero(p);
+    for (const Piece& piece : model.pieces()) {
+      if (piece.trial != trials[static_cast<std::size_t>(k)]) continue;
+      sum += scores.middleRows(piece.first, piece.count).colwise().sum().transpose();
+      const auto part = rows.middleCols(piece.first, piece.count);
+      of_trial += part * part.transpose();
+    }
+    result.shift.col(k) = solve_positive(whole - of_trial, sum);
+    const Eigen::VectorXd share =
+        (model_based * of_trial).cwiseProduct(model_based).rowwise().sum();
+    result.shares += share;
+    result.squared_shares += share.cwiseAbs2();
+    result.sums.col(k) = factor.info() == Eigen::Success ? unfitted(factor, of_trial, sum) : sum;
+  }
+  return result;
+}
+
+Eigen::MatrixXd squares_about_mean(const Eigen::MatrixXd& columns) {
+  const Eigen::MatrixXd off = columns.colwise() - columns.rowwise().mean();
+  return off * off.transpose();
+}
+
+/// Intervals from the replicates that converged; the others are empty in `found`.
+BootstrapResult bootstrap_result(const std::vector<Eigen::VectorXd>& found,
+                                 std::size_t blocks,
+                                 Eigen::Index p) {
+  BootstrapResult result;
+  std::vector<std::size_t> good;
+  for (std::size_t k = 0; k < found.size(); ++k) {
+    if (found[k].size() > 0) {
+      good.push_back(k);
+    } else {
+      ++result.failed;
+    }
+  }
+  result.replicates.resize(static_cast<Eigen::Index>(good.size()), p);
+  for (std::size_t i = 0; i < good.size(); ++i)
+    result.replicates.row(static_cast<Eigen::Index>(i)) = found[good[i]].transpose();
+  result.intervals.resize(static_cast<std::size_t>(p));
+  // Both ends are quantiles of the replicates, sd sqrt(0.975 0.025 / R) / 0.0585 (density at 1.96)
+  // each; the blocks are a sample themselves.
+  if (!good.empty())
+    result.spread = std::hypot(0.96 / std::sqrt(static_cast<double>(good.size())),
+                               std::sqrt(0.5 / static_cast<double>(blocks)));
+  if (good.size() < 40) return result;
+  for (Eigen::Index j = 0; j < p; ++j) {
+    const std::vector<double> values(result.replicates.col(j).begin(),
+                                     result.replicates.col(j).end());
+    result.intervals[static_cast<std::size_t>(j)] = {quantile(values, 0.025),
+                                                     quantile(values, 0.975)};
+  }
+  return result;
+}
+
+}  // namespace
+
+Sandwich sandwich(const Estimator& estimator, const Estimator::Solution& solution) {
+  const ResidualModel& model = estimator.model();
+  const Estimator::Scores by_sample = estimator.scores(solution);
+  const Eigen::VectorXd precision = prior_precision(estimator.free());
+  Sandwich result;
+  result.information = by_sample.information;
+  result.model_based = inverse_of(with_priors(result.information, precision));
+  result.by_noise =
+      largest_log_sd(solution.weighting.noise) * result.model_based * by_sample.attenuation;
+  Rank rank = rank_of(result.information);
+  result.rank = rank.rank;
+  result.condition = rank.condition;
+  result.determined = std::move(rank.determined);
+  result.undetermined = std::move(rank.undetermined);
 
   const Eigen::MatrixXd scores = by_sample.scores.transpose();
   const auto lag = static_cast<Eigen::Index>(std::lround(0.4 * model.rate_hz()));
-  Eigen::MatrixXd b = math::newey_west(scores, model.piece_lengths(), lag);
-  b.diagonal() += precision;
+  const Eigen::MatrixXd b =
+      with_priors(math::newey_west(scores, model.piece_lengths(), lag), precision);
   result.newey_west = result.model_based * b * result.model_based;
   // Var(B) / B^2 = 4/3 L / n of the triangle of lags; the width goes with the root of B.
   result.sample_spread =
       0.5 * std::sqrt(4.0 / 3.0 * static_cast<double>(std::max<Eigen::Index>(1, lag)) /
                       static_cast<double>(model.sample_count()));
   if (estimator.options().weights) {
-    // Few effective samples make B itself unsure, and its lags are short: never below what the
-    // residuals' own autocorrelation, of all samples together, makes of these gradients.
-    const double told_apart_hz = 8.0 * estimator.options().residual_cutoff_hz.value_or(6.25);
-    const auto stride =
-        static_cast<Eigen::Index>(std::max(1.0, std::floor(model.rate_hz() / told_apart_hz)));
-    Eigen::MatrixXd expected =
-        solution.weighting.share *
-        math::covariance_of_sum(
-            by_sample.rows,
-            math::positive_autocorrelation(by_sample.residual, model.piece_lengths()),
-            model.piece_lengths(), stride);
-    expected.diagonal() += precision;
+    // Few effective samples make B itself unsure, and B counts only the autocovariances up to its
+    // longest lag. The autocorrelation of all samples together bounds it from below.
+    const Eigen::MatrixXd expected =
+        with_priors(by_autocorrelation(estimator, by_sample, solution.weighting.share), precision);
     const Eigen::VectorXd least =
         (result.model_based * expected).cwiseProduct(result.model_based).rowwise().sum();
-    for (Eigen::Index j = 0; j < a.rows(); ++j) {
-      const double factor =
-          std::sqrt(std::max(1.0, least[j] / std::max(result.newey_west(j, j), 1e-300)));
-      if (factor > 1.0) {
-        result.newey_west.row(j) *= factor;
-        result.newey_west.col(j) *= factor;
-      }
-    }
+    result.newey_west = at_least(std::move(result.newey_west), least);
   }
 
-  std::vector<int>& trials = result.trials;
-  for (const Piece& piece : model.pieces()) {
-    if (std::find(trials.begin(), trials.end(), piece.trial) == trials.end())
-      trials.push_back(piece.trial);
-  }
-  const auto clusters = static_cast<double>(trials.size());
-  Eigen::MatrixXd whole = by_sample.rows * by_sample.rows.transpose();
-  whole.diagonal() += precision;
-  Eigen::MatrixXd sums(z.size(), static_cast<Eigen::Index>(trials.size()));
-  result.trial_shift.resize(z.size(), sums.cols());
-  const Eigen::LLT<Eigen::MatrixXd> factor(whole);
+  const Eigen::MatrixXd whole = with_priors(by_sample.rows * by_sample.rows.transpose(), precision);
   const Eigen::MatrixXd of_priors =
       result.model_based * precision.asDiagonal() * result.model_based;
-  // Expected share of each trial in the variance over trials, and its square.
-  Eigen::VectorXd shares = of_priors.diagonal(), squared_shares = Eigen::VectorXd::Zero(z.size());
-  for (Eigen::Index k = 0; k < sums.cols(); ++k) {
-    Eigen::MatrixXd of_trial = Eigen::MatrixXd::Zero(z.size(), z.size());
-    Eigen::VectorXd sum = Eigen::VectorXd::Zero(z.size());
-    for (const Piece& piece : model.pieces()) {
-      if (piece.trial != trials[static_cast<std::size_t>(k)]) continue;
-      sum += scores.middleRows(piece.first, piece.count).colwise().sum().transpose();
-      const auto rows = by_sample.rows.middleCols(piece.first, piece.count);
-      of_trial += rows * rows.transpose();
-    }
-    result.trial_shift.col(k) = solve_positive(whole - of_trial, sum);
-    const Eigen::VectorXd share =
-        (result.model_based * of_trial).cwiseProduct(result.model_based).rowwise().sum();
-    shares += share;
-    squared_shares += share.cwiseAbs2();
-    sums.col(k) = factor.info() == Eigen::Success ? unfitted(factor, of_trial, sum) : sum;
-  }
+  OverTrials over =
+      over_trials(model, scores, by_sample.rows, whole, result.model_based, of_priors.diagonal());
   if (!estimator.options().weights) {
-    // No A^-1 that B could fall back to: few effective samples make Newey and West's too small by a
-    // third. Blocks that hold many correlation times, each as outside of the fit, with the quantile
-    // of their number (Bell & McCaffrey 2002).
+    // Without weights few effective samples make Newey and West's estimate too small by a third.
+    // Blocks that hold many correlation times, each as outside of the fit, with the quantile of
+    // their number, are not too small (Bell & McCaffrey 2002).
     if (const auto over_blocks = block_covariance(model, by_sample, whole, precision))
       result.newey_west = *over_blocks;
   }
-  const auto covariance_of = [](const Eigen::MatrixXd& columns) {
-    const Eigen::MatrixXd off = columns.colwise() - columns.rowwise().mean();
-    return Eigen::MatrixXd(off * off.transpose());
-  };
-  if (trials.size() >= 5)
-    result.jackknife = (clusters - 1.0) / clusters * covariance_of(result.trial_shift) + of_priors;
-  result.trial_spread = (0.5 * squared_shares.array()).sqrt() / shares.array().max(1e-300);
-  if (trials.size() >= 8) {
-    Eigen::MatrixXd sum = sums * sums.transpose();
-    sum.diagonal() += precision;
+  result.trials = std::move(over.trials);
+  result.trial_shift = std::move(over.shift);
+  const auto clusters = static_cast<double>(result.trials.size());
+  if (result.trials.size() >= 5)
+    result.jackknife =
+        (clusters - 1.0) / clusters * squares_about_mean(result.trial_shift) + of_priors;
+  result.trial_spread =
+      (0.5 * over.squared_shares.array()).sqrt() / over.shares.array().max(1e-300);
+  if (result.trials.size() >= 8) {
+    const Eigen::MatrixXd sum = with_priors(over.sums * over.sums.transpose(), precision);
     result.cluster = result.model_based * sum * result.model_based;
   }
   return result;
@@ -249,33 +350,7 @@ BootstrapResult bootstrap(const Estimator& estimator, const Estimator::Solution&
     estimator.options().progress.tell(static_cast<double>(++done) / static_cast<double>(count),
                                       "bootstrap");
   });
-  BootstrapResult result;
-  std::vector<std::size_t> good;
-  for (std::size_t k = 0; k < count; ++k) {
-    if (found[k].size() > 0) {
-      good.push_back(k);
-    } else {
-      ++result.failed;
-    }
-  }
-  result.replicates.resize(static_cast<Eigen::Index>(good.size()), p);
-  for (std::size_t i = 0; i < good.size(); ++i)
-    result.replicates.row(static_cast<Eigen::Index>(i)) = found[good[i]].transpose();
-  result.intervals.resize(static_cast<std::size_t>(p));
-  // Both ends are quantiles of the replicates, sd sqrt(0.975 0.025 / R) / 0.0585 (density at 1.96)
-  // each; blocks that are drawn anew are a sample themselves.
-  if (!good.empty())
-    result.spread = std::hypot(0.96 / std::sqrt(static_cast<double>(good.size())),
-                               std::sqrt(0.5 / static_cast<double>(blocks.size())));
-  if (good.size() >= 40) {
-    for (Eigen::Index j = 0; j < p; ++j) {
-      const std::vector<double> values(result.replicates.col(j).begin(),
-                                       result.replicates.col(j).end());
-      result.intervals[static_cast<std::size_t>(j)] = {quantile(values, 0.025),
-                                                       quantile(values, 0.975)};
-    }
-  }
-  return result;
+  return bootstrap_result(found, blocks.size(), p);
 }
 
 std::vector<CollinearSet> collinear_sets(const Eigen::MatrixXd& information,

@@ -61,8 +61,7 @@ IdentificationResult finish(const Estimator& estimator,
                             const StudyData& data,
                             std::chrono::steady_clock::time_point begin) {
   const TorqueOptions& options = estimator.options();
-  IdentificationResult result;
-  report_estimates(estimator, solution, data, {.method = "torque"}, result);
+  IdentificationResult result = report_estimates(estimator, solution, data);
   if (options.predictions) add_predictions(data, options, result);
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return result;
