@@ -14,17 +14,16 @@
 
 namespace myoid {
 
-using identification::FreeParameter;
 using identification::ParameterEstimate;
+using identification::Unknown;
 
-Knowledge knowledge_of(const std::vector<FreeParameter>& free,
-                       const std::optional<EarlierRun>& earlier) {
+Knowledge knowledge_of(const std::vector<Unknown>& free, const std::optional<EarlierRun>& earlier) {
   const auto p = static_cast<Eigen::Index>(free.size());
   Knowledge known{Eigen::VectorXd(p), Eigen::MatrixXd::Zero(p, p), {}};
   for (Eigen::Index j = 0; j < p; ++j) {
-    const FreeParameter& f = free[static_cast<std::size_t>(j)];
-    const double sd = f.prior_sd > 0.0 ? f.prior_sd : 0.25 * (f.upper - f.lower);
-    known.mean[j] = f.prior_sd > 0.0 ? f.prior_mean : f.start;
+    const Unknown& f = free[static_cast<std::size_t>(j)];
+    const double sd = f.prior.sd > 0.0 ? f.prior.sd : 0.25 * (f.bounds.upper - f.bounds.lower);
+    known.mean[j] = f.prior.sd > 0.0 ? f.prior.mean : f.start;
     known.covariance(j, j) = sd * sd;
   }
   const Eigen::VectorXd sd_before = known.covariance.diagonal().cwiseSqrt();
@@ -60,7 +59,7 @@ Knowledge knowledge_of(const std::vector<FreeParameter>& free,
   return known;
 }
 
-std::vector<Eigen::VectorXd> draw_persons(const std::vector<FreeParameter>& free,
+std::vector<Eigen::VectorXd> draw_persons(const std::vector<Unknown>& free,
                                           const Knowledge& known,
                                           int count,
                                           std::uint64_t seed) {
@@ -71,15 +70,15 @@ std::vector<Eigen::VectorXd> draw_persons(const std::vector<FreeParameter>& free
     Eigen::VectorXd z = known.mean;
     if (k > 0) z += factor.matrixL() * random.normals(z.size());
     for (Eigen::Index j = 0; j < z.size(); ++j) {
-      const FreeParameter& f = free[static_cast<std::size_t>(j)];
-      z[j] = std::clamp(z[j], f.lower, f.upper);
+      const Unknown& f = free[static_cast<std::size_t>(j)];
+      z[j] = std::clamp(z[j], f.bounds.lower, f.bounds.upper);
     }
     persons.push_back(std::move(z));
   }
   return persons;
 }
 
-std::vector<Eigen::Index> targets_of(const std::vector<FreeParameter>& free,
+std::vector<Eigen::Index> targets_of(const std::vector<Unknown>& free,
                                      const std::vector<std::string>& wanted) {
   std::vector<Eigen::Index> targets;
   for (std::size_t j = 0; j < free.size(); ++j) {
@@ -105,7 +104,7 @@ std::vector<Eigen::Index> targets_of(const std::vector<FreeParameter>& free,
         });
     if (known) continue;
     std::string names;
-    for (const FreeParameter& f : free) names += (names.empty() ? "" : ", ") + f.label;
+    for (const Unknown& f : free) names += (names.empty() ? "" : ", ") + f.label;
     throw InvalidInput(fmt::format(
         "target '{}' is no parameter, muscle or muscle.parameter that can be identified; there are "
         "{}",
@@ -114,8 +113,7 @@ std::vector<Eigen::Index> targets_of(const std::vector<FreeParameter>& free,
   return targets;
 }
 
-const ParameterEstimate* found_by(const std::optional<EarlierRun>& earlier,
-                                  const FreeParameter& f) {
+const ParameterEstimate* found_by(const std::optional<EarlierRun>& earlier, const Unknown& f) {
   if (!earlier) return nullptr;
   const std::size_t dot = f.label.find('.');
   const std::string owners = f.label.substr(0, dot);
@@ -128,7 +126,7 @@ const ParameterEstimate* found_by(const std::optional<EarlierRun>& earlier,
   return nullptr;
 }
 
-ParameterEstimate expected_estimate(const FreeParameter& f,
+ParameterEstimate expected_estimate(const Unknown& f,
                                     const Expectation& expectation,
                                     const std::vector<identification::MuscleSetup>& muscles) {
   const auto& [mean, sd, prior_sd, model_error, found, ratio] = expectation;
@@ -150,8 +148,8 @@ ParameterEstimate expected_estimate(const FreeParameter& f,
     below = expectation.ratio * (scaled(found->estimate) - scaled(*found->ci_low));
     above = expectation.ratio * (scaled(*found->ci_high) - scaled(found->estimate));
   }
-  e.ci_low = f.to_value(std::max(mean - below, f.lower));
-  e.ci_high = f.to_value(std::min(mean + above, f.upper));
+  e.ci_low = f.to_value(std::max(mean - below, f.bounds.lower));
+  e.ci_high = f.to_value(std::min(mean + above, f.bounds.upper));
   e.std_error = f.field->logarithmic ? e.estimate * sd : sd;
   e.prior_mean = e.estimate;
   e.prior_sd = f.field->logarithmic ? e.estimate * prior_sd : prior_sd;

@@ -9,19 +9,19 @@
 namespace myoid {
 namespace {
 
-using identification::FreeParameter;
+using identification::Unknown;
 
 /// F_max of two muscles, on a logarithmic scale, and a fiber length without prior.
-std::vector<FreeParameter> three() {
+std::vector<Unknown> three() {
   const auto of = [](const char* muscle, const char* name, double start, double sd) {
-    FreeParameter f;
+    Unknown f;
     f.field = &identification::parameter_field(name);
     f.owner = muscle;
     f.label = std::string(muscle) + "." + name;
-    f.start = f.prior_mean = start;
-    f.lower = start - 2.0;
-    f.upper = start + 2.0;
-    f.prior_sd = sd;
+    f.start = f.prior.mean = start;
+    f.bounds.lower = start - 2.0;
+    f.bounds.upper = start + 2.0;
+    f.prior.sd = sd;
     return f;
   };
   return {of("BIC", "max_isometric_force", std::log(1000.0), 0.25),
@@ -52,15 +52,15 @@ TEST(DesignKnowledge, ARunReplacesWhatItFittedAndLeavesTheRest) {
 }
 
 TEST(DesignKnowledge, ThePersonsSpreadAsTheKnowledgeDoesAndKeepToTheBounds) {
-  const std::vector<FreeParameter> free = three();
+  const std::vector<Unknown> free = three();
   const Knowledge known = knowledge_of(free, std::nullopt);
   const std::vector<Eigen::VectorXd> persons = draw_persons(free, known, 4001, 7);
   EXPECT_EQ(persons[0], known.mean);
   double square = 0.0;
   for (std::size_t k = 1; k < persons.size(); ++k) {
     square += std::pow(persons[k][0] - known.mean[0], 2);
-    EXPECT_LE(persons[k][2], free[2].upper);
-    EXPECT_GE(persons[k][2], free[2].lower);
+    EXPECT_LE(persons[k][2], free[2].bounds.upper);
+    EXPECT_GE(persons[k][2], free[2].bounds.lower);
   }
   // The variance of 4000 normal numbers is known to 2.2 % (one standard deviation).
   EXPECT_NEAR(square / 4000.0, 0.0625, 0.0625 * 0.09);
@@ -75,7 +75,7 @@ TEST(DesignKnowledge, TargetsAreNamedByOwnerParameterOrBoth) {
 }
 
 TEST(DesignKnowledge, AnIntervalOfARunNarrowsOnItsOwnScale) {
-  const std::vector<FreeParameter> free = three();
+  const std::vector<Unknown> free = three();
   std::optional<EarlierRun> run(std::in_place);
   identification::ParameterEstimate row;
   row.muscle = "BIC";

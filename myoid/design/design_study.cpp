@@ -21,11 +21,11 @@ namespace myoid {
 namespace {
 
 using identification::EstimatorOptions;
-using identification::FreeParameter;
 using identification::ParameterEstimate;
 using identification::ResidualModel;
 using identification::StudyData;
 using identification::TrialData;
+using identification::Unknown;
 
 /// J' W J nu of one trial at the truth: the estimator's weights and effective number of samples.
 Eigen::MatrixXd information_of(const StudyData& data,
@@ -130,7 +130,7 @@ DesignStudyResult design_study(const Study& study,
     result.too_hard = movements.size();
     return result;
   }
-  const std::vector<FreeParameter> free = shape->parameters().free();
+  const std::vector<Unknown> free = shape->parameters().free();
   const Knowledge known = knowledge_of(free, options.earlier);
   const std::vector<Eigen::VectorXd> persons =
       draw_persons(free, known, options.persons, options.seed);
@@ -143,7 +143,7 @@ DesignStudyResult design_study(const Study& study,
 
   options.progress.tell(0.2, "information");
   identification::DesignProblem problem;
-  for (const FreeParameter& f : free) problem.parameters.push_back(f.label);
+  for (const Unknown& f : free) problem.parameters.push_back(f.label);
   problem.prior_precision = known.precision;
   problem.targets = targets_of(free, options.targets);
   problem.catalogue.resize(movements.size());
@@ -189,8 +189,8 @@ DesignStudyResult design_study(const Study& study,
   const auto expected = [&](const Eigen::VectorXd& sd, bool now) {
     std::vector<ParameterEstimate> estimates;
     for (const Eigen::Index j : problem.targets) {
-      const FreeParameter& f = free[static_cast<std::size_t>(j)];
-      const double prior_sd = f.prior_sd > 0.0 ? f.prior_sd : choice.prior_sd[j];
+      const Unknown& f = free[static_cast<std::size_t>(j)];
+      const double prior_sd = f.prior.sd > 0.0 ? f.prior.sd : choice.prior_sd[j];
       const ParameterEstimate* found = found_by(options.earlier, f);
       const double ratio = choice.prior_sd[j] > 0.0 ? sd[j] / choice.prior_sd[j] : 1.0;
       estimates.push_back(

@@ -10,6 +10,29 @@
 #include "myoid/math/statistics.h"
 
 namespace myoid::identification {
+namespace {
+
+/// The power of each row averaged twice over a second of its piece. A weight that follows the noise
+/// of the EMG itself would favor the samples in which the noise happens to be small.
+Eigen::VectorXd averaged_over_a_second(Eigen::VectorXd power, const ResidualModel& model) {
+  const auto half = static_cast<Eigen::Index>(std::lround(0.5 * model.rate_hz()));
+  for (const Piece& piece : model.pieces()) {
+    auto segment = power.segment(piece.first, piece.count);
+    for (int pass = 0; pass < 2; ++pass) {
+      Eigen::VectorXd sum(piece.count + 1);
+      sum[0] = 0.0;
+      for (Eigen::Index i = 0; i < piece.count; ++i) sum[i + 1] = sum[i] + segment[i];
+      for (Eigen::Index i = 0; i < piece.count; ++i) {
+        const Eigen::Index reach = std::min({half, i, piece.count - 1 - i});
+        segment[i] = (sum[i + reach + 1] - sum[i - reach]) / static_cast<double>(2 * reach + 1);
+      }
+    }
+  }
+  return power;
+}
+
+}  // namespace
+
 Estimator::Estimator(const StudyData& data, const EstimatorOptions& options)
     : options_(options), model_(std::make_shared<const ResidualModel>(data, options)) {
   const auto n = static_cast<double>(model_->sample_count());
@@ -34,13 +57,11 @@ Estimator::Estimator(const StudyData& data, const EstimatorOptions& options)
   prior_mean_.setZero(p);
   prior_precision_.setZero(p);
   for (Eigen::Index j = 0; j < p; ++j) {
-    const FreeParameter& f = free()[static_cast<std::size_t>(j)];
-    lower_[j] = f.lower;
-    upper_[j] = f.upper;
-    if (f.prior_sd > 0.0) {
-      prior_mean_[j] = f.prior_mean;
-      prior_precision_[j] = 1.0 / (f.prior_sd * f.prior_sd);
-    }
+    const Unknown& f = free()[static_cast<std::size_t>(j)];
+    lower_[j] = f.bounds.lower;
+    upper_[j] = f.bounds.upper;
+    if (f.prior.sd > 0.0) prior_mean_[j] = f.prior.mean;
+    prior_precision_[j] = f.prior_precision();
   }
 }
 
@@ -99,53 +120,65 @@ Estimator::RowSums Estimator::weigh(const Weighting& weighting,
   return sums;
 }
 
+double Estimator::cost_of(const Weighting& weighting,
+                          const RowSums& sums,
+                          const PriorTerm& prior) const {
+  const double of_data = weighting.share * (weighting.offset + sums.loss) - sums.by_noise.sum();
+  return 0.5 * of_data + 0.5 * prior.off.dot(prior.slope);
+}
+
+Eigen::VectorXd Estimator::gradient_of(const Eigen::VectorXd& z,
+                                       const Weighting& weighting,
+                                       const RowSums& sums,
+                                       const RowSlopes& slopes,
+                                       const PriorTerm& prior) const {
+  Eigen::VectorXd gradient = slopes.by_prediction + prior.slope;
+  if (weighting.emg_variance.size() == 0) return gradient;
+  const Eigen::VectorXd exponent = exponents(z);
+  for (Eigen::Index j = 0; j < z.size(); ++j) {
+    const ChannelSlope s = channel_slope(j, exponent);
+    if (s.channel < 0) continue;
+    gradient[j] -= s.slope * slopes.by_channel[j];
+    if (s.adds) gradient[j] -= sums.by_noise[s.channel];
+  }
+  return gradient;
+}
+
+NormalEquations Estimator::cost_and_gradient(const Eigen::VectorXd& z,
+                                             const Weighting& weighting,
+                                             const PriorTerm& prior,
+                                             const Variant& variant) const {
+  std::vector<RowSums> of_piece(model_->pieces().size());
+  RowSlopes slopes;
+  model_->pull_back(
+      z,
+      [&](std::size_t piece, PullBack& rows) {
+        const auto [trial, joint, first, count] = model_->pieces()[piece];
+        Eigen::VectorXd scale(count);
+        of_piece[piece] = weigh(weighting, variant, first, rows.predicted.segment(first, count),
+                                rows.channel_torque.middleCols(first, count),
+                                rows.by_predicted.segment(first, count), scale);
+      },
+      slopes.by_prediction, slopes.by_channel);
+  RowSums sums = of_piece.front();
+  for (std::size_t piece = 1; piece < of_piece.size(); ++piece) {
+    sums.loss += of_piece[piece].loss;
+    sums.by_noise += of_piece[piece].by_noise;
+  }
+  NormalEquations result;
+  result.cost = cost_of(weighting, sums, prior);
+  result.gradient = gradient_of(z, weighting, sums, slopes, prior);
+  return result;
+}
+
 NormalEquations Estimator::normal_equations(const Eigen::VectorXd& z,
                                             const Weighting& weighting,
                                             Derivatives derivatives,
                                             const Variant& variant) const {
-  const Eigen::Index n = model_->sample_count();
-  const Eigen::VectorXd& mean = variant.prior_mean.size() > 0 ? variant.prior_mean : prior_mean_;
-  const Eigen::VectorXd off = z - mean;
-  const Eigen::VectorXd of_prior = prior_precision_.cwiseProduct(off);
-  NormalEquations result;
-  const auto set_cost = [&](const RowSums& sums) {
-    const double of_data = weighting.share * (weighting.offset + sums.loss) - sums.by_noise.sum();
-    result.cost = 0.5 * of_data + 0.5 * off.dot(of_prior);
-  };
-  const auto set_gradient = [&](const RowSums& sums, const Eigen::VectorXd& by_prediction,
-                                const Eigen::VectorXd& by_channel) {
-    result.gradient = by_prediction + of_prior;
-    if (weighting.emg_variance.size() == 0) return;
-    const Eigen::VectorXd exponent = exponents(z);
-    for (Eigen::Index j = 0; j < z.size(); ++j) {
-      const ChannelSlope s = channel_slope(j, exponent);
-      if (s.channel < 0) continue;
-      result.gradient[j] -= s.slope * by_channel[j];
-      if (s.adds) result.gradient[j] -= sums.by_noise[s.channel];
-    }
-  };
-  if (derivatives == Derivatives::gradient) {
-    std::vector<RowSums> of_piece(model_->pieces().size());
-    Eigen::VectorXd by_prediction, by_channel;
-    model_->pull_back(
-        z,
-        [&](std::size_t piece, PullBack& rows) {
-          const auto [trial, joint, first, count] = model_->pieces()[piece];
-          Eigen::VectorXd scale(count);
-          of_piece[piece] = weigh(weighting, variant, first, rows.predicted.segment(first, count),
-                                  rows.channel_torque.middleCols(first, count),
-                                  rows.by_predicted.segment(first, count), scale);
-        },
-        by_prediction, by_channel);
-    RowSums sums = of_piece.front();
-    for (std::size_t piece = 1; piece < of_piece.size(); ++piece) {
-      sums.loss += of_piece[piece].loss;
-      sums.by_noise += of_piece[piece].by_noise;
-    }
-    set_cost(sums);
-    set_gradient(sums, by_prediction, by_channel);
-    return result;
-  }
+  PriorTerm prior;
+  prior.off = z - (variant.prior_mean.size() > 0 ? variant.prior_mean : prior_mean_);
+  prior.slope = prior_precision_.cwiseProduct(prior.off);
+  if (derivatives == Derivatives::gradient) return cost_and_gradient(z, weighting, prior, variant);
   // Workspace of this thread: the gradient matrix is large, and allocating it anew costs more than
   // a pass over it.
   thread_local Evaluation at;
@@ -153,19 +186,22 @@ NormalEquations Estimator::normal_equations(const Eigen::VectorXd& z,
   std::swap(local, at);  // a task that this thread takes on meanwhile finds the shared one empty
   const bool curved = derivatives == Derivatives::curvature;
   model_->evaluate(z, curved ? ResidualModel::Depth::gradient : ResidualModel::Depth::value, local);
+  const Eigen::Index n = model_->sample_count();
   Eigen::VectorXd by_predicted(n), scale(n);
   const RowSums sums =
       weigh(weighting, variant, 0, local.predicted, local.channel_torque, by_predicted, scale);
-  set_cost(sums);
+  NormalEquations result;
+  result.cost = cost_of(weighting, sums, prior);
   if (curved) {
     const Eigen::Index p = z.size();
     const Eigen::MatrixXd by_all_channels = local.unfiltered * local.channel_torque.transpose();
-    Eigen::VectorXd by_channel = Eigen::VectorXd::Zero(p);
+    RowSlopes slopes{.by_prediction = local.gradient * by_predicted,
+                     .by_channel = Eigen::VectorXd::Zero(p)};
     for (Eigen::Index j = 0; j < p; ++j) {
       if (const int c = model_->channel_of_variable(j); c >= 0)
-        by_channel[j] = by_all_channels(j, c);
+        slopes.by_channel[j] = by_all_channels(j, c);
     }
-    set_gradient(sums, local.gradient * by_predicted, by_channel);
+    result.gradient = gradient_of(z, weighting, sums, slopes, prior);
     for (Eigen::Index i = 0; i < n; ++i) local.gradient.col(i) *= scale[i];
     result.curvature.setZero(p, p);
     result.curvature.selfadjointView<Eigen::Lower>().rankUpdate(local.gradient);
@@ -260,6 +296,35 @@ Estimator::Scores Estimator::scores(const Solution& solution) const {
   return result;
 }
 
+NoiseLevel Estimator::noise_of_joint(const std::vector<Eigen::Index>& rows,
+                                     const Eigen::VectorXd& residual,
+                                     const Eigen::VectorXd& power,
+                                     const Evaluation& at,
+                                     const Weighting& weighting) const {
+  const auto n = static_cast<double>(residual.size());
+  const double freedom =
+      std::max(0.2, 1.0 - static_cast<double>(free().size()) / std::max(10.0, weighting.share * n));
+  Eigen::ArrayXd squared = residual(rows).array().square();
+  if (options_.loss != Loss::square) {
+    for (Eigen::Index i = 0; i < squared.size(); ++i) {
+      const Eigen::Index row = rows[static_cast<std::size_t>(i)];
+      squared[i] *= loss(options_.loss, residual[row] / weighting.sd_nm[row]).weight;
+    }
+  }
+  // The part that errors of the motion explain is not torque noise.
+  squared = (squared / freedom - at.motion_variance(rows).array()).max(0.0);
+  NoiseLevel level = emg_noise_known_
+                         ? fit_known_noise(squared, power(rows).array(), weighting.share)
+                         : fit_unknown_noise(squared, power(rows).array());
+  // Muscles that start far too strong leave residuals larger than the torque itself. Taken for
+  // noise, these would silence the data, and the search would stay where it started.
+  const double most =
+      std::sqrt(model_->measured()(rows).squaredNorm() / static_cast<double>(rows.size()));
+  level.torque_sd_nm = std::max(std::min(level.torque_sd_nm, most), floor_nm_);
+  level.emg_cv = level.emg_factor * std::sqrt(channel_variance_.mean());
+  return level;
+}
+
 void Estimator::find_noise(const Eigen::VectorXd& z,
                            const Evaluation& at,
                            Weighting& weighting) const {
@@ -270,51 +335,13 @@ void Estimator::find_noise(const Eigen::VectorXd& z,
                          ((part / model_->noise_gain().array().square()).rowwise().sum() + 1e-300);
   const bool correct = options_.correct_attenuation && weighting.corrected;
   const Eigen::VectorXd residual = at.predicted - model_->measured();
-  const auto n = static_cast<double>(residual.size());
-  const double freedom =
-      std::max(0.2, 1.0 - static_cast<double>(free().size()) / std::max(10.0, weighting.share * n));
-  // The power is averaged over a second: a weight that follows the noise of the EMG itself would
-  // favor the samples in which it happens to be small.
-  Eigen::VectorXd power = at.channel_torque.cwiseAbs2().transpose() * channel_variance_;
-  const auto half = static_cast<Eigen::Index>(std::lround(0.5 * model_->rate_hz()));
-  for (const Piece& piece : model_->pieces()) {
-    auto segment = power.segment(piece.first, piece.count);
-    for (int pass = 0; pass < 2; ++pass) {
-      Eigen::VectorXd sum(piece.count + 1);
-      sum[0] = 0.0;
-      for (Eigen::Index i = 0; i < piece.count; ++i) sum[i + 1] = sum[i] + segment[i];
-      for (Eigen::Index i = 0; i < piece.count; ++i) {
-        const Eigen::Index reach = std::min({half, i, piece.count - 1 - i});
-        segment[i] = (sum[i + reach + 1] - sum[i - reach]) / static_cast<double>(2 * reach + 1);
-      }
-    }
-  }
+  const Eigen::VectorXd power = averaged_over_a_second(
+      at.channel_torque.cwiseAbs2().transpose() * channel_variance_, *model_);
   if (correct) weighting.emg_variance.setZero(residual.size());
   for (int joint = 0; joint < model_->joint_count(); ++joint) {
-    std::vector<Eigen::Index> rows;
-    for (const Piece& piece : model_->pieces()) {
-      if (piece.joint != joint) continue;
-      for (Eigen::Index i = 0; i < piece.count; ++i) rows.push_back(piece.first + i);
-    }
+    const std::vector<Eigen::Index> rows = model_->rows_of_joint(joint);
     if (rows.empty()) continue;
-    Eigen::ArrayXd squared = residual(rows).array().square();
-    if (options_.loss != Loss::square) {
-      for (Eigen::Index i = 0; i < squared.size(); ++i) {
-        const Eigen::Index row = rows[static_cast<std::size_t>(i)];
-        squared[i] *= loss(options_.loss, residual[row] / weighting.sd_nm[row]).weight;
-      }
-    }
-    // What motion is known to contribute is not torque noise.
-    squared = (squared / freedom - at.motion_variance(rows).array()).max(0.0);
-    NoiseLevel level = emg_noise_known_
-                           ? fit_known_noise(squared, power(rows).array(), weighting.share)
-                           : fit_unknown_noise(squared, power(rows).array());
-    // Noise larger than the torque itself is none: muscles that begin far too strong leave that,
-    // and taken for noise it would silence the data, and the search would stay there.
-    const double most =
-        std::sqrt(model_->measured()(rows).squaredNorm() / static_cast<double>(rows.size()));
-    level.torque_sd_nm = std::max(std::min(level.torque_sd_nm, most), floor_nm_);
-    level.emg_cv = level.emg_factor * std::sqrt(channel_variance_.mean());
+    const NoiseLevel level = noise_of_joint(rows, residual, power, at, weighting);
     weighting.noise[static_cast<std::size_t>(joint)] = level;
     const double variance = level.emg_factor * level.emg_factor;
     for (const Eigen::Index row : rows) {
@@ -325,7 +352,7 @@ void Estimator::find_noise(const Eigen::VectorXd& z,
   }
   weighting.share = math::effective_sample_size(residual.cwiseQuotient(weighting.sd_nm),
                                                 model_->piece_lengths()) /
-                    n;
+                    static_cast<double>(residual.size());
   if (correct) {
     weighting.offset =
         weighting.emg_variance.cwiseProduct(power).cwiseQuotient(weighting.sd_nm.cwiseAbs2()).sum();
@@ -394,9 +421,9 @@ Estimator::Solution Estimator::solve(const Eigen::VectorXd& start) const {
 Eigen::VectorXd Estimator::moved_start(const Eigen::VectorXd& start, int s) const {
   Eigen::VectorXd x = start;
   for (std::size_t j = 0; j < free().size(); ++j) {
-    const FreeParameter& f = free()[j];
+    const Unknown& f = free()[j];
     const auto at = static_cast<Eigen::Index>(j);
-    const double step = f.prior_sd > 0.0       ? f.prior_sd
+    const double step = f.prior.sd > 0.0       ? f.prior.sd
                         : f.field->logarithmic ? 0.3
                                                : 0.1 * std::abs(f.start);
     // Start s turns sign by the bits of a fixed mixing of its number and the parameter's: the same
@@ -404,7 +431,7 @@ Eigen::VectorXd Estimator::moved_start(const Eigen::VectorXd& start, int s) cons
     const std::uint64_t mixed =
         (static_cast<std::uint64_t>(s) * 0x9E3779B97F4A7C15ULL) ^ ((j + 1) * 0xD1B54A32D192ED03ULL);
     const double sign = ((mixed >> 33) & 1U) == 0 ? 1.0 : -1.0;
-    x[at] = std::clamp(x[at] + sign * step, f.lower, f.upper);
+    x[at] = std::clamp(x[at] + sign * step, f.bounds.lower, f.bounds.upper);
   }
   return x;
 }

@@ -17,15 +17,15 @@ struct Weighting {
   /// Per sample: emg_share emg_factor^2 of its joint; empty: no correction.
   Eigen::VectorXd emg_variance;
   double offset = 0.0;  ///< Keeps the corrected cost positive.
-  /// What the correction subtracts grows with the square of the torques. Where the data hardly
-  /// bound these, it would outgrow what it is subtracted from: false, and it is left out.
+  /// The correction's term grows with the square of the torques. Where the data hardly bound the
+  /// torques, the term would outgrow the cost: then this is false and the correction is left out.
   bool corrected = true;
   Eigen::VectorXd noise_gain;     ///< Square of the model's noise gain by EMG channel, in the mean.
   Eigen::VectorXd exponent;       ///< p of a = g u^p by EMG channel where the noise was found.
   std::vector<NoiseLevel> noise;  ///< Per joint.
 };
 
-/// What of NormalEquations is filled beside the cost: nothing, the gradient, or both.
+/// The derivatives that NormalEquations gets beside the cost: none, the gradient, or both.
 enum class Derivatives { none, gradient, curvature };
 
 /// Residual, weights and priors of one study: the cost that is minimized,
@@ -50,9 +50,7 @@ class Estimator {
   Estimator(const StudyData& data, const EstimatorOptions& options);
 
   [[nodiscard]] const ResidualModel& model() const { return *model_; }
-  [[nodiscard]] const std::vector<FreeParameter>& free() const {
-    return model_->parameters().free();
-  }
+  [[nodiscard]] const std::vector<Unknown>& free() const { return model_->parameters().free(); }
   [[nodiscard]] const EstimatorOptions& options() const { return options_; }
   /// Expected c_a^2 of each EMG channel, or 1 where nothing is known.
   [[nodiscard]] const Eigen::VectorXd& channel_variance() const { return channel_variance_; }
@@ -97,7 +95,7 @@ class Estimator {
     Eigen::MatrixXd information;
     Eigen::MatrixXd rows;         ///< p x n: (nu W)^1/2 J', nothing taken out.
     Eigen::VectorXd residual;     ///< n: predicted less measured, over the standard deviation.
-    Eigen::VectorXd attenuation;  ///< What the correction took out of the sum of the scores.
+    Eigen::VectorXd attenuation;  ///< The correction's part of the sum of the scores.
   };
   [[nodiscard]] Scores scores(const Solution& solution) const;
   /// Start number s: the given one moved by a spread of the prior in a fixed pattern of signs.
@@ -107,8 +105,14 @@ class Estimator {
   /// Share of the variance of an envelope's noise that the low-pass of the residuals leaves.
   [[nodiscard]] double kept_by_residual_filter() const;
   void find_noise(const Eigen::VectorXd& z, const Evaluation& at, Weighting& weighting) const;
-  /// Of the rows of a piece, or of all: sum of the loss, and what the noise of each channel makes
-  /// of it.
+  /// Noise of one joint from the residuals of its rows; `power`: expected EMG noise per row.
+  [[nodiscard]] NoiseLevel noise_of_joint(const std::vector<Eigen::Index>& rows,
+                                          const Eigen::VectorXd& residual,
+                                          const Eigen::VectorXd& power,
+                                          const Evaluation& at,
+                                          const Weighting& weighting) const;
+  /// Sums over the rows of one piece or of all: the loss, and its expected part by the noise of
+  /// each EMG channel.
   struct RowSums {
     double loss = 0.0;
     Eigen::VectorXd by_noise;
@@ -123,7 +127,28 @@ class Estimator {
                 Eigen::Ref<Eigen::MatrixXd> channel_torque,
                 Eigen::Ref<Eigen::VectorXd> by_predicted,
                 Eigen::Ref<Eigen::VectorXd> scale) const;
-  /// What an EMG channel's torque, T_ch = p T of an activation g u^p, changes by with a variable:
+  /// Distance from the priors' means, and that over the priors' variances: the slope of their cost.
+  struct PriorTerm {
+    Eigen::VectorXd off, slope;
+  };
+  /// ResidualModel::pull_back's sums over the rows; p each.
+  struct RowSlopes {
+    Eigen::VectorXd by_prediction, by_channel;
+  };
+  [[nodiscard]] double cost_of(const Weighting& weighting,
+                               const RowSums& sums,
+                               const PriorTerm& prior) const;
+  [[nodiscard]] Eigen::VectorXd gradient_of(const Eigen::VectorXd& z,
+                                            const Weighting& weighting,
+                                            const RowSums& sums,
+                                            const RowSlopes& slopes,
+                                            const PriorTerm& prior) const;
+  /// Cost and gradient without the matrix of the prediction's gradient.
+  [[nodiscard]] NormalEquations cost_and_gradient(const Eigen::VectorXd& z,
+                                                  const Weighting& weighting,
+                                                  const PriorTerm& prior,
+                                                  const Variant& variant) const;
+  /// The change of an EMG channel's torque with a variable, for T_ch = p T and an activation g u^p:
   /// `slope` times the change of T, plus T_ch if `adds`.
   struct ChannelSlope {
     int channel = -1;  ///< -1: none alone.

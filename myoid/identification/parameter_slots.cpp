@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -20,9 +21,9 @@ bool holds(const muscle::Range& range, double value) {
   return value >= range.lower && value <= range.upper;
 }
 
-/// Bounds of l_sh: with priors those of a muscle, of its optimal fiber length at the start. A
-/// recording that hardly tells draws curves together to a narrow peak at the few lengths it has,
-/// and l0 with them, where intervals no longer hold. A start that is no muscle's has its reasons.
+/// Bounds of l_sh in a fit with priors: the range of real muscles relative to the starting optimal
+/// fiber length. A recording that says little draws the curve together to a narrow peak at its few
+/// lengths, and l0 with it, where no interval holds. A start outside the range keeps `otherwise`.
 muscle::Range width_bounds(const muscle::HillParameters<double>& start,
                            const muscle::Range& otherwise) {
   const double l0_m = start.optimal_fiber_length_m;
@@ -36,11 +37,133 @@ void bound(ParameterSlot& slot, const muscle::Range& given) {
   slot.bounds_are_given = true;
 }
 
-/// A value that the study states may lie where the usual bounds do not reach.
+/// Widens the usual bounds to the field's where they do not reach a value that the study states.
 void make_room(ParameterSlot& slot, double stated) {
   if (holds(slot.usual, stated)) return;
   slot.usual = slot.field->bounds;
   if (!slot.bounds_are_given) slot.bounds = slot.usual;
+}
+
+bool contains(const std::vector<std::string>& names, std::string_view name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+/// The slope ratio of a muscle's start by which its product follows; 0: the product stands alone.
+double starting_slope_ratio(const MuscleSetup& setup, const EstimatorOptions& options) {
+  if (options.eccentric == Eccentric::smooth) return 1.0;
+  const bool by_ratio = options.eccentric == Eccentric::slope_ratio ||
+                        (options.eccentric == Eccentric::automatic && options.priors &&
+                         setup.priors.contains("eccentric_slope_ratio"));
+  const double start =
+      setup.start.eccentric_plateau > 1.0 ? muscle::slope_ratio(setup.start.velocity_law()) : 0.0;
+  return by_ratio && start > 0.0 ? start : 0.0;
+}
+
+bool product_is_held(const MuscleSetup& setup) {
+  return contains(setup.fixed, "eccentric_curvature_product");
+}
+
+/// Whether a muscle's number is an unknown unless the study says otherwise.
+bool usually_free(int field,
+                  const MuscleSetup& setup,
+                  const EstimatorOptions& options,
+                  double slope_ratio) {
+  if (field == kProduct) return slope_ratio == 0.0;
+  if (field == kSlopeRatio)
+    return slope_ratio > 0.0 && !product_is_held(setup) && options.eccentric != Eccentric::smooth;
+  return field <= kPlateau;
+}
+
+void decide_muscle(ParameterSlot& slot,
+                   const MuscleSetup& setup,
+                   const EstimatorOptions& options,
+                   const MuscleValues& values,
+                   double slope_ratio) {
+  const int field = slot.field->field;
+  const std::string name(slot.field->name);
+  slot.value = field == kSlopeRatio ? slope_ratio : values[static_cast<std::size_t>(field)];
+  const bool wanted = options.muscles.empty() || contains(options.muscles, setup.name);
+  slot.free =
+      wanted && !contains(setup.fixed, name) && usually_free(field, setup, options, slope_ratio);
+  if (const auto b = setup.bounds.find(name); b != setup.bounds.end()) bound(slot, b->second);
+  if (const auto p = setup.priors.find(name); p != setup.priors.end()) slot.prior = p->second;
+  slot.prior_is_given = contains(setup.given_priors, name);
+}
+
+/// One delay for all channels, unless each has its own: the first channel's is the unknown.
+void decide_delay(ParameterSlot& slot, const EstimatorOptions& options, std::size_t channels) {
+  slot.free = !options.delay_s;
+  slot.bounds.upper = options.delay_limit_s;
+  slot.prior = Prior{.mean = options.delay_prior_mean_s, .sd = options.delay_prior_sd_s};
+  if (options.delay_per_channel) return;
+  slot.follows = slot.owner > 0;
+  for (std::size_t c = 1; c < channels && !slot.follows; ++c)
+    slot.tied.push_back(static_cast<int>(c));
+}
+
+/// A gain is an unknown where something is known of it beforehand.
+void decide_gain(ParameterSlot& slot, const EstimatorOptions& options, const std::string& channel) {
+  const auto sd = options.gain_prior_sd.find(channel);
+  if (!options.priors || sd == options.gain_prior_sd.end() || !(sd->second > 0.0)) return;
+  const auto mean = options.gain_prior_mean.find(channel);
+  slot.free = true;
+  slot.value = mean != options.gain_prior_mean.end() ? mean->second : 1.0;
+  slot.prior = Prior{.mean = slot.value, .sd = sd->second, .logarithmic = true};
+}
+
+/// Positions of the owners that a rule names, of all where it names none.
+std::vector<int> owners_of(const ParameterRule& rule, const std::vector<std::string>& names) {
+  std::vector<int> owners;
+  for (const std::string& wanted : rule.owners) {
+    const auto it = std::find(names.begin(), names.end(), wanted);
+    if (it == names.end()) {
+      throw InvalidInput(fmt::format("parameter {}: there is no '{}'; there are {}", rule.parameter,
+                                     wanted, fmt::join(names, ", ")));
+    }
+    owners.push_back(static_cast<int>(it - names.begin()));
+  }
+  for (std::size_t k = 0; k < names.size() && rule.owners.empty(); ++k)
+    owners.push_back(static_cast<int>(k));
+  return owners;
+}
+
+/// Makes the slope ratio of a muscle the number from which its product follows.
+void use_slope_ratio(ParameterSlot& ratio, ParameterSlots& of_study) {
+  if (!(ratio.value > 0.0)) ratio.value = 1.0;
+  of_study.slope_ratio[static_cast<std::size_t>(ratio.owner)] = ratio.value;
+  for (ParameterSlot& other : of_study.slots) {
+    if (other.owner == ratio.owner && other.field->scope == muscle &&
+        other.field->field == kProduct)
+      other.free = false;
+  }
+}
+
+/// The rule's prior; for a number that the rule frees without one, the field's own spread.
+void set_prior(const ParameterRule& rule, ParameterSlot& slot) {
+  const ParameterField& field = *slot.field;
+  if (rule.prior_sd || rule.prior_mean) {
+    const double mean = rule.prior_mean.value_or(slot.prior ? slot.prior->mean : slot.value);
+    const double usual = field.logarithmic ? field.prior_sd * std::abs(mean) : field.prior_sd;
+    slot.prior = Prior{.mean = mean, .sd = rule.prior_sd.value_or(usual)};
+    slot.prior_is_given = !rule.usual;
+  } else if (!slot.prior && rule.free.value_or(false) && field.prior_sd > 0.0) {
+    slot.prior = Prior{.mean = slot.value, .sd = field.prior_sd, .logarithmic = field.logarithmic};
+  }
+}
+
+/// Sets value, bounds, freedom and prior of one number.
+void apply_rule(const ParameterRule& rule, ParameterSlot& slot, ParameterSlots& of_study) {
+  if (rule.value) slot.value = *rule.value;
+  for (const std::optional<double>& believed : {rule.value, rule.prior_mean}) {
+    if (believed) make_room(slot, *believed);
+  }
+  slot.start_is_given = slot.start_is_given || rule.value;
+  const bool is_ratio = slot.field->scope == muscle && slot.field->field == kSlopeRatio;
+  if (is_ratio && (rule.free || rule.value)) use_slope_ratio(slot, of_study);
+  if (rule.free) slot.free = *rule.free;
+  if (rule.lower || rule.upper)
+    bound(slot, {rule.lower.value_or(slot.bounds.lower), rule.upper.value_or(slot.bounds.upper)});
+  set_prior(rule, slot);
 }
 
 }  // namespace
@@ -54,19 +177,8 @@ ParameterSlots default_slots(const StudyData& data,
                              const ModelValues& values,
                              const OwnerNames& names) {
   ParameterSlots result;
-  std::vector<ParameterSlot>& slots = result.slots;
-  std::vector<double>& slope_ratio = result.slope_ratio;
-  slope_ratio.assign(data.muscles.size(), 0.0);
-  for (std::size_t k = 0; k < data.muscles.size(); ++k) {
-    const MuscleSetup& setup = data.muscles[k];
-    const double start =
-        setup.start.eccentric_plateau > 1.0 ? muscle::slope_ratio(setup.start.velocity_law()) : 0.0;
-    const bool by_ratio = options.eccentric == Eccentric::slope_ratio ||
-                          (options.eccentric == Eccentric::automatic && options.priors &&
-                           setup.priors.contains("eccentric_slope_ratio"));
-    if (by_ratio && start > 0.0) slope_ratio[k] = start;
-    if (options.eccentric == Eccentric::smooth) slope_ratio[k] = 1.0;
-  }
+  for (const MuscleSetup& setup : data.muscles)
+    result.slope_ratio.push_back(starting_slope_ratio(setup, options));
   for (const ParameterField& field : parameter_fields()) {
     for (std::size_t k = 0; k < names.of(field.scope).size(); ++k) {
       ParameterSlot slot;
@@ -76,115 +188,35 @@ ParameterSlots default_slots(const StudyData& data,
                        ? width_bounds(data.muscles[k].start, field.bounds)
                        : field.bounds;
       slot.bounds = slot.usual;
-      const auto f = static_cast<std::size_t>(field.field);
-      if (field.scope == muscle) {
-        const MuscleSetup& setup = data.muscles[k];
-        const std::string name(field.name);
-        const bool wanted = options.muscles.empty() ||
-                            std::find(options.muscles.begin(), options.muscles.end(), setup.name) !=
-                                options.muscles.end();
-        const bool held =
-            std::find(setup.fixed.begin(), setup.fixed.end(), name) != setup.fixed.end();
-        slot.value = field.field == kSlopeRatio ? slope_ratio[k] : values.muscles[k][f];
-        const bool usual = field.field <= kPlateau && field.field != kProduct;
-        const bool product_is_held = std::find(setup.fixed.begin(), setup.fixed.end(),
-                                               "eccentric_curvature_product") != setup.fixed.end();
-        const bool by_ratio = slope_ratio[k] > 0.0 && !product_is_held;
-        slot.free =
-            wanted && !held &&
-            (usual || (field.field == kProduct && slope_ratio[k] == 0.0) ||
-             (field.field == kSlopeRatio && by_ratio && options.eccentric != Eccentric::smooth));
-        if (field.field == kSlopeRatio && product_is_held && options.eccentric != Eccentric::smooth)
-          slope_ratio[k] = 0.0;
-        if (const auto b = setup.bounds.find(name); b != setup.bounds.end()) bound(slot, b->second);
-        if (const auto p = setup.priors.find(name); p != setup.priors.end()) slot.prior = p->second;
-        slot.prior_is_given = std::find(setup.given_priors.begin(), setup.given_priors.end(),
-                                        name) != setup.given_priors.end();
-      } else if (field.scope == channel) {
-        slot.value = values.channels[k][f];
-        if (field.field == kDelay) {
-          slot.free = !options.delay_s;
-          slot.bounds.upper = options.delay_limit_s;
-          slot.prior = Prior{.mean = options.delay_prior_mean_s, .sd = options.delay_prior_sd_s};
-          if (!options.delay_per_channel) {
-            if (k == 0) {
-              for (std::size_t c = 1; c < names.channels.size(); ++c)
-                slot.tied.push_back(static_cast<int>(c));
-            } else {
-              slot.follows = true;
-            }
-          }
-        }
-        if (field.field == kGain && options.priors) {
-          const auto it = options.gain_prior_sd.find(names.channels[k]);
-          if (it != options.gain_prior_sd.end() && it->second > 0.0) {
-            slot.free = true;
-            const auto mean = options.gain_prior_mean.find(names.channels[k]);
-            slot.prior = Prior{.mean = mean != options.gain_prior_mean.end() ? mean->second : 1.0,
-                               .sd = it->second,
-                               .logarithmic = true};
-            slot.value = slot.prior->mean;
-          }
-        }
+      if (field.scope == muscle)
+        decide_muscle(slot, data.muscles[k], options, values.muscles[k], result.slope_ratio[k]);
+      if (field.scope == channel) {
+        slot.value = values.channels[k][static_cast<std::size_t>(field.field)];
+        if (field.field == kDelay) decide_delay(slot, options, names.channels.size());
+        if (field.field == kGain) decide_gain(slot, options, names.channels[k]);
       }
-      slots.push_back(std::move(slot));
+      result.slots.push_back(std::move(slot));
     }
+  }
+  for (std::size_t k = 0; k < data.muscles.size(); ++k) {
+    if (product_is_held(data.muscles[k]) && options.eccentric != Eccentric::smooth)
+      result.slope_ratio[k] = 0.0;
   }
   return result;
 }
 
 void apply_rules(const std::vector<ParameterRule>& rules,
-                 const OwnerNames& owners_of,
+                 const OwnerNames& names,
                  ParameterSlots& of_study) {
-  std::vector<ParameterSlot>& slots = of_study.slots;
-  std::vector<double>& slope_ratio = of_study.slope_ratio;
   for (const ParameterRule& rule : rules) {
     const ParameterField& field = parameter_field(rule.parameter);
-    const std::vector<std::string>& names = owners_of.of(field.scope);
-    std::vector<int> owners;
-    for (const std::string& wanted : rule.owners) {
-      const auto it = std::find(names.begin(), names.end(), wanted);
-      if (it == names.end()) {
-        throw InvalidInput(fmt::format("parameter {}: there is no '{}'; there are {}",
-                                       rule.parameter, wanted, fmt::join(names, ", ")));
-      }
-      owners.push_back(static_cast<int>(it - names.begin()));
-    }
-    if (owners.empty()) {
-      for (std::size_t k = 0; k < names.size(); ++k) owners.push_back(static_cast<int>(k));
-    }
+    const std::vector<int> owners = owners_of(rule, names.of(field.scope));
     ParameterSlot* first = nullptr;
-    for (ParameterSlot& slot : slots) {
+    for (ParameterSlot& slot : of_study.slots) {
       if (slot.field != &field ||
           std::find(owners.begin(), owners.end(), slot.owner) == owners.end())
         continue;
-      if (rule.value) slot.value = *rule.value;
-      for (const std::optional<double>& believed : {rule.value, rule.prior_mean}) {
-        if (believed) make_room(slot, *believed);
-      }
-      slot.start_is_given = slot.start_is_given || rule.value;
-      if (field.field == kSlopeRatio && field.scope == muscle && (rule.free || rule.value)) {
-        if (!(slot.value > 0.0)) slot.value = 1.0;
-        slope_ratio[static_cast<std::size_t>(slot.owner)] = slot.value;
-        for (ParameterSlot& other : slots) {
-          if (other.owner == slot.owner && other.field->scope == muscle &&
-              other.field->field == kProduct)
-            other.free = false;
-        }
-      }
-      if (rule.free) slot.free = *rule.free;
-      if (rule.lower || rule.upper)
-        bound(slot,
-              {rule.lower.value_or(slot.bounds.lower), rule.upper.value_or(slot.bounds.upper)});
-      if (rule.prior_sd || rule.prior_mean) {
-        const double mean = rule.prior_mean.value_or(slot.prior ? slot.prior->mean : slot.value);
-        const double usual = field.logarithmic ? field.prior_sd * std::abs(mean) : field.prior_sd;
-        slot.prior = Prior{.mean = mean, .sd = rule.prior_sd.value_or(usual)};
-        slot.prior_is_given = !rule.usual;
-      } else if (!slot.prior && rule.free.value_or(false) && field.prior_sd > 0.0) {
-        slot.prior =
-            Prior{.mean = slot.value, .sd = field.prior_sd, .logarithmic = field.logarithmic};
-      }
+      apply_rule(rule, slot, of_study);
       if (rule.tie) {
         slot.tied.clear();
         slot.follows = first != nullptr;
@@ -195,7 +227,7 @@ void apply_rules(const std::vector<ParameterRule>& rules,
         }
       } else if (rule.free.value_or(false) && !rule.owners.empty()) {
         slot.follows = false;  // freed by name: an unknown of its own
-        for (ParameterSlot& other : slots) {
+        for (ParameterSlot& other : of_study.slots) {
           if (other.field == slot.field) std::erase(other.tied, slot.owner);
         }
       }

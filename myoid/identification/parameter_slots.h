@@ -10,44 +10,45 @@
 
 namespace myoid::identification {
 
-/// What is decided of one number before the unknowns are made.
+/// One number of a study with the decisions about it: free or held, value, bounds, prior. All
+/// figures are in the parameter's unit. `Unknown` is made of a slot that is free.
 struct ParameterSlot {
   const ParameterField* field = nullptr;
   int owner = 0;
   bool free = false;
   double value = 0.0;
-  bool start_is_given = false;  ///< By a rule; else an unknown begins at its prior's mean.
+  bool start_is_given = false;  ///< By a rule; otherwise an unknown starts at its prior's mean.
   muscle::Range usual;          ///< Bounds unless the study gives others.
   muscle::Range bounds;
   bool bounds_are_given = false;  ///< By the study.
   std::optional<Prior> prior;
-  bool prior_is_given = false;  ///< By the study: not the literature's.
-  std::vector<int> tied;        ///< Owners that go with it; empty: none.
+  bool prior_is_given = false;  ///< By the study, in place of the literature's.
+  std::vector<int> tied;        ///< Owners whose numbers this one moves too; empty: none.
   bool follows = false;         ///< Another owner's unknown moves it.
 };
 
-/// Names of those who own numbers, in order.
+/// Names of the owners of numbers, in order.
 struct OwnerNames {
   std::vector<std::string> muscles, channels, joints;
   [[nodiscard]] const std::vector<std::string>& of(Scope scope) const;
 };
 
-/// Of every number of a study: field by field, owner by owner.
+/// The slots of every number of a study: field by field, owner by owner.
 struct ParameterSlots {
   std::vector<ParameterSlot> slots;
   std::vector<double> slope_ratio;  ///< Per muscle; 0: the product is the parameter.
 };
 
-/// What is free and expected unless the study says otherwise; `values`: before the search.
+/// Decides every number by the options, the muscles' set-ups and `values`, the starting values.
 [[nodiscard]] ParameterSlots default_slots(const StudyData& data,
                                            const EstimatorOptions& options,
                                            const ModelValues& values,
                                            const OwnerNames& names);
 
-/// The study's rules, in order: later ones win. Throws InvalidInput for names that refer to
-/// nothing.
+/// Applies the study's rules in order; later ones win. Throws InvalidInput for an owner or
+/// parameter that does not exist.
 void apply_rules(const std::vector<ParameterRule>& rules,
-                 const OwnerNames& owners_of,
+                 const OwnerNames& names,
                  ParameterSlots& of_study);
 
 }  // namespace myoid::identification

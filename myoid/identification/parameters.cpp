@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
-#include "myoid/identification/parameter_slots.h"
 #include "myoid/muscle/force_velocity.h"
 
 namespace myoid::identification {
@@ -19,48 +18,173 @@ double scaled(const ParameterField& field, double value) {
   return field.logarithmic ? std::log(value) : value;
 }
 
-FreeParameter make_free(const ParameterSlot& slot, const std::string& owner, bool priors) {
+/// Throws InvalidInput where a number cannot start at this value.
+void check_start(const ParameterSlot& slot, const std::string& owner) {
   const ParameterField& field = *slot.field;
   if (field.logarithmic && !(slot.value > 0.0)) {
     throw InvalidInput(fmt::format("{} of {} starts at {}; give it a positive start to identify it",
                                    field.name, owner, slot.value));
   }
-  FreeParameter p;
-  p.field = &field;
-  p.owner = owner;
-  p.label = fmt::format("{}.{}", owner, field.name);
-  p.lower = field.logarithmic && slot.bounds.lower <= 0.0 ? std::log(1e-9)
-                                                          : scaled(field, slot.bounds.lower);
-  p.upper = scaled(field, slot.bounds.upper);
-  // Bounds that were given may be wider: a rat's muscle, say.
+  // Given bounds may be wider than the field's: a rat's muscle is smaller.
   const double least = std::min(field.bounds.lower, slot.bounds.lower);
   const double most = std::max(field.bounds.upper, slot.bounds.upper);
   if (slot.value < least || slot.value > most) {
-    throw InvalidInput(fmt::format("{} starts at {} {}, where no muscle can be: {} to {}", p.label,
-                                   slot.value, symbol(field.unit), least, most));
+    throw InvalidInput(fmt::format("{}.{} starts at {} {}, where no muscle can be: {} to {}", owner,
+                                   field.name, slot.value, symbol(field.unit), least, most));
   }
-  if (!(p.lower <= p.upper)) {
+}
+
+/// The prior in the solver's scale.
+Prior scaled_prior(const ParameterField& field, const Prior& prior) {
+  const double sd = prior.logarithmic == field.logarithmic ? prior.sd
+                    : field.logarithmic                    ? prior.sd / prior.mean
+                                                           : prior.sd * prior.mean;
+  return {.mean = scaled(field, prior.mean), .sd = sd, .logarithmic = field.logarithmic};
+}
+
+Unknown unknown_of(const ParameterSlot& slot, const std::string& owner, bool priors) {
+  check_start(slot, owner);
+  const ParameterField& field = *slot.field;
+  Unknown p;
+  p.field = &field;
+  p.owner = owner;
+  p.label = fmt::format("{}.{}", owner, field.name);
+  p.bounds.lower = field.logarithmic && slot.bounds.lower <= 0.0 ? std::log(1e-9)
+                                                                 : scaled(field, slot.bounds.lower);
+  p.bounds.upper = scaled(field, slot.bounds.upper);
+  if (!(p.bounds.lower <= p.bounds.upper)) {
     throw InvalidInput(fmt::format("{}: lower bound {} above upper bound {}", p.label,
                                    slot.bounds.lower, slot.bounds.upper));
   }
   p.lower_is_given = slot.bounds.lower > slot.usual.lower;
   p.upper_is_given = slot.bounds.upper < slot.usual.upper;
   p.prior_is_given = slot.prior_is_given;
-  p.start = std::clamp(scaled(field, slot.value), p.lower, p.upper);
-  if (priors && slot.prior) {
-    const Prior& prior = *slot.prior;
-    if (!slot.start_is_given) p.start = std::clamp(scaled(field, prior.mean), p.lower, p.upper);
-    p.prior_mean = scaled(field, prior.mean);
-    p.prior_sd = prior.logarithmic == field.logarithmic ? prior.sd
-                 : field.logarithmic                    ? prior.sd / prior.mean
-                                                        : prior.sd * prior.mean;
-  }
+  const bool with_prior = priors && slot.prior;
+  if (with_prior) p.prior = scaled_prior(field, *slot.prior);
+  const double start =
+      with_prior && !slot.start_is_given ? p.prior.mean : scaled(field, slot.value);
+  p.start = std::clamp(start, p.bounds.lower, p.bounds.upper);
   return p;
+}
+
+/// The muscles' slots, muscle by muscle, then the others.
+std::vector<const ParameterSlot*> in_order(const std::vector<ParameterSlot>& slots,
+                                           std::size_t muscles) {
+  std::vector<const ParameterSlot*> order;
+  for (std::size_t k = 0; k < muscles; ++k) {
+    for (const ParameterSlot& slot : slots) {
+      if (slot.field->scope == muscle && slot.owner == static_cast<int>(k)) order.push_back(&slot);
+    }
+  }
+  for (const ParameterSlot& slot : slots) {
+    if (slot.field->scope != muscle) order.push_back(&slot);
+  }
+  return order;
+}
+
+double value_of(const std::vector<ParameterSlot>& slots, const ParameterField& field, int owner) {
+  for (const ParameterSlot& slot : slots) {
+    if (slot.field == &field && slot.owner == owner) return slot.value;
+  }
+  return 0.0;
+}
+
+/// The unknowns of the slots that are free, in the solver's order.
+std::vector<Unknown> unknowns_of(const std::vector<ParameterSlot>& slots,
+                                 const OwnerNames& owners,
+                                 bool priors) {
+  std::vector<Unknown> free;
+  for (const ParameterSlot* slot : in_order(slots, owners.muscles.size())) {
+    if (!slot->free || slot->follows) continue;
+    const std::vector<std::string>& names = owners.of(slot->field->scope);
+    std::string owner = names[static_cast<std::size_t>(slot->owner)];
+    for (const int other : slot->tied) owner += "+" + names[static_cast<std::size_t>(other)];
+    if (slot->field->scope == channel && slot->tied.size() + 1 == names.size() &&
+        slot->field->field == kDelay)
+      owner = "subject";
+    Unknown p = unknown_of(*slot, owner, priors);
+    p.targets.push_back({slot->owner, 1.0});
+    for (const int other : slot->tied) {
+      const double value = value_of(slots, *slot->field, other);
+      p.targets.push_back({other, slot->value != 0.0 ? value / slot->value : 1.0});
+    }
+    free.push_back(std::move(p));
+  }
+  return free;
+}
+
+using Chains = std::vector<ParameterMap::Chain>;
+
+/// Variables that move a muscle's number, each with its slope.
+std::vector<std::pair<Eigen::Index, double>> slopes_of(const Chains& chains,
+                                                       int muscle,
+                                                       int field) {
+  std::vector<std::pair<Eigen::Index, double>> found;
+  for (const ParameterMap::Chain& chain : chains) {
+    if (chain.scope == Scope::muscle && chain.owner == muscle && chain.field == field)
+      found.emplace_back(chain.variable, chain.slope);
+  }
+  return found;
+}
+
+/// Scales width and v_max of a muscle with its fiber length, which starts at `held_length_m`.
+/// `chains` may be null.
+void scale_with_length(MuscleValues& m, int owner, double held_length_m, Chains* chains) {
+  const double grown = m[kFiberLength] / held_length_m;
+  for (const MuscleField field : {kWidth, kSpeed}) {
+    const double unscaled = m[static_cast<std::size_t>(field)];
+    if (chains != nullptr) {
+      for (ParameterMap::Chain& chain : *chains) {
+        if (chain.scope == Scope::muscle && chain.owner == owner && chain.field == field)
+          chain.slope *= grown;
+      }
+      for (const auto& [variable, slope] : slopes_of(*chains, owner, kFiberLength))
+        chains->push_back(
+            {Scope::muscle, owner, field, variable, unscaled / held_length_m * slope});
+    }
+    m[static_cast<std::size_t>(field)] = unscaled * grown;
+  }
+}
+
+/// A slope ratio S, and the variable that it is; -1: held.
+struct SlopeRatio {
+  double value = 0.0;
+  Eigen::Index variable = -1;
+};
+
+/// Sets the product V_sh V_shl of a muscle from its slope ratio. `chains` may be null.
+void set_product(MuscleValues& m, int owner, const SlopeRatio& ratio, Chains* chains) {
+  const double vsh = m[kCurvature];
+  const double rise = m[kPlateau] - 1.0;
+  m[kProduct] = muscle::curvature_product_from_slope_ratio(ratio.value, vsh, m[kPlateau]);
+  // A plateau at 1 would make the product 0, and 0/0 of the law at v = 0.
+  m[kProduct] = std::max(m[kProduct], 1e-12);
+  if (chains == nullptr) return;
+  for (const auto& [variable, slope] : slopes_of(*chains, owner, kCurvature)) {
+    chains->push_back(
+        {Scope::muscle, owner, kProduct, variable, slope * m[kProduct] / (vsh * (1.0 + vsh))});
+  }
+  for (const auto& [variable, slope] : slopes_of(*chains, owner, kPlateau)) {
+    chains->push_back(
+        {Scope::muscle, owner, kProduct, variable,
+         slope * (rise > 0.0 ? m[kProduct] / rise : vsh / (ratio.value * (1.0 + vsh)))});
+  }
+  if (ratio.variable >= 0)
+    chains->push_back({Scope::muscle, owner, kProduct, ratio.variable, -m[kProduct]});
 }
 
 }  // namespace
 
-double FreeParameter::to_value(double z) const { return field->logarithmic ? std::exp(z) : z; }
+double Unknown::to_value(double z) const { return field->logarithmic ? std::exp(z) : z; }
+
+bool Unknown::acts_on(int target_owner) const {
+  return std::any_of(targets.begin(), targets.end(),
+                     [&](const Target& target) { return target.owner == target_owner; });
+}
+
+double Unknown::prior_precision() const {
+  return prior.sd > 0.0 ? 1.0 / (prior.sd * prior.sd) : 0.0;
+}
 
 ParameterMap::ParameterMap(const StudyData& data, const EstimatorOptions& options)
     : normalised_(options.normalised) {
@@ -79,10 +203,19 @@ ParameterMap::ParameterMap(const StudyData& data, const EstimatorOptions& option
   for (const MuscleSetup& setup : data.muscles) owners.muscles.push_back(setup.name);
   ParameterSlots decided = default_slots(data, options, held_, owners);
   apply_rules(data.rules, owners, decided);
-  const std::vector<ParameterSlot>& slots = decided.slots;
   slope_ratio_ = std::move(decided.slope_ratio);
+  hold(decided.slots);
+  free_ = unknowns_of(decided.slots, owners, options.priors);
 
-  // Held values and unknowns.
+  for (std::size_t c = 0; c < channels_.size(); ++c)
+    longest_delay_s_ = std::max(longest_delay_s_, held_.channels[c][kDelay]);
+  for (const Unknown& p : free_) {
+    if (p.is(channel, kDelay)) longest_delay_s_ = std::max(longest_delay_s_, p.bounds.upper);
+  }
+  held_ = values(start());
+}
+
+void ParameterMap::hold(const std::vector<ParameterSlot>& slots) {
   for (const ParameterSlot& slot : slots) {
     const auto k = static_cast<std::size_t>(slot.owner);
     const auto f = static_cast<std::size_t>(slot.field->field);
@@ -93,44 +226,6 @@ ParameterMap::ParameterMap(const StudyData& data, const EstimatorOptions& option
     if (slot.field->scope == channel) held_.channels[k][f] = slot.value;
     if (slot.field->scope == joint) held_.joints[k][f] = slot.value;
   }
-  const auto value_of = [&](const ParameterField& field, int owner) {
-    for (const ParameterSlot& slot : slots) {
-      if (slot.field == &field && slot.owner == owner) return slot.value;
-    }
-    return 0.0;
-  };
-  std::vector<const ParameterSlot*> order;
-  for (std::size_t k = 0; k < data.muscles.size(); ++k) {
-    for (const ParameterSlot& slot : slots) {
-      if (slot.field->scope == muscle && slot.owner == static_cast<int>(k)) order.push_back(&slot);
-    }
-  }
-  for (const ParameterSlot& slot : slots) {
-    if (slot.field->scope != muscle) order.push_back(&slot);
-  }
-  for (const ParameterSlot* slot : order) {
-    if (!slot->free || slot->follows) continue;
-    const std::vector<std::string>& names = owners.of(slot->field->scope);
-    std::string owner = names[static_cast<std::size_t>(slot->owner)];
-    for (const int other : slot->tied) owner += "+" + names[static_cast<std::size_t>(other)];
-    if (slot->field->scope == channel && slot->tied.size() + 1 == names.size() &&
-        slot->field->field == kDelay)
-      owner = "subject";
-    FreeParameter p = make_free(*slot, owner, options.priors);
-    p.targets.push_back({slot->owner, 1.0});
-    for (const int other : slot->tied) {
-      const double value = value_of(*slot->field, other);
-      p.targets.push_back({other, slot->value != 0.0 ? value / slot->value : 1.0});
-    }
-    free_.push_back(std::move(p));
-  }
-  for (std::size_t c = 0; c < channels_.size(); ++c)
-    longest_delay_s_ = std::max(longest_delay_s_, held_.channels[c][kDelay]);
-  for (const FreeParameter& p : free_) {
-    if (p.field->scope == channel && p.field->field == kDelay)
-      longest_delay_s_ = std::max(longest_delay_s_, p.upper);
-  }
-  held_ = values(start());
 }
 
 Eigen::VectorXd ParameterMap::start() const {
@@ -141,78 +236,34 @@ Eigen::VectorXd ParameterMap::start() const {
 
 ModelValues ParameterMap::values(const Eigen::VectorXd& z, std::vector<Chain>* chains) const {
   ModelValues result = held_;
-  std::vector<double> ratio = slope_ratio_;
-  std::vector<Eigen::Index> ratio_variable(ratio.size(), -1);
+  std::vector<SlopeRatio> ratio;
+  for (const double value : slope_ratio_) ratio.push_back({.value = value});
   if (chains != nullptr) chains->clear();
   for (std::size_t j = 0; j < free_.size(); ++j) {
-    const FreeParameter& p = free_[j];
+    const Unknown& p = free_[j];
     const auto variable = static_cast<Eigen::Index>(j);
     const double value = p.to_value(z[variable]);
     const double slope = p.field->logarithmic ? value : 1.0;
     const auto f = static_cast<std::size_t>(p.field->field);
-    for (const FreeParameter::Target& target : p.targets) {
+    for (const Unknown::Target& target : p.targets) {
       const auto k = static_cast<std::size_t>(target.owner);
-      if (p.field->scope == channel) result.channels[k][f] = target.ratio * value;
-      if (p.field->scope == joint) result.joints[k][f] = target.ratio * value;
-      if (p.field->scope == muscle && p.field->field == kSlopeRatio) {
-        ratio[k] = target.ratio * value;
-        ratio_variable[k] = variable;
+      if (p.is(muscle, kSlopeRatio)) {
+        ratio[k] = {.value = target.ratio * value, .variable = variable};
         continue;
       }
+      if (p.field->scope == channel) result.channels[k][f] = target.ratio * value;
+      if (p.field->scope == joint) result.joints[k][f] = target.ratio * value;
       if (p.field->scope == muscle) result.muscles[k][f] = target.ratio * value;
       if (chains != nullptr)
         chains->push_back(
             {p.field->scope, target.owner, p.field->field, variable, target.ratio * slope});
     }
   }
-  const auto slopes_of = [&](std::size_t muscle, int field) {
-    std::vector<std::pair<Eigen::Index, double>> found;
-    for (const Chain& chain : *chains) {
-      if (chain.scope == Scope::muscle && chain.owner == static_cast<int>(muscle) &&
-          chain.field == field)
-        found.emplace_back(chain.variable, chain.slope);
-    }
-    return found;
-  };
   for (std::size_t k = 0; k < ratio.size(); ++k) {
     MuscleValues& m = result.muscles[k];
-    if (normalised_) {
-      const double grown = m[kFiberLength] / held_.muscles[k][kFiberLength];
-      for (const MuscleField field : {kWidth, kSpeed}) {
-        const double before = m[static_cast<std::size_t>(field)];
-        if (chains != nullptr) {
-          for (Chain& chain : *chains) {
-            if (chain.scope == Scope::muscle && chain.owner == static_cast<int>(k) &&
-                chain.field == field)
-              chain.slope *= grown;
-          }
-          for (const auto& [variable, slope] : slopes_of(k, kFiberLength)) {
-            chains->push_back({Scope::muscle, static_cast<int>(k), field, variable,
-                               before / held_.muscles[k][kFiberLength] * slope});
-          }
-        }
-        m[static_cast<std::size_t>(field)] = before * grown;
-      }
-    }
-    if (!(ratio[k] > 0.0)) continue;
-    const double vsh = m[kCurvature];
-    const double rise = m[kPlateau] - 1.0;
-    m[kProduct] = muscle::curvature_product_from_slope_ratio(ratio[k], vsh, m[kPlateau]);
-    // A plateau at 1 would make the product 0, and 0/0 of the law at v = 0.
-    m[kProduct] = std::max(m[kProduct], 1e-12);
-    if (chains == nullptr) continue;
     const int owner = static_cast<int>(k);
-    for (const auto& [variable, slope] : slopes_of(k, kCurvature)) {
-      chains->push_back(
-          {Scope::muscle, owner, kProduct, variable, slope * m[kProduct] / (vsh * (1.0 + vsh))});
-    }
-    for (const auto& [variable, slope] : slopes_of(k, kPlateau)) {
-      chains->push_back(
-          {Scope::muscle, owner, kProduct, variable,
-           slope * (rise > 0.0 ? m[kProduct] / rise : vsh / (ratio[k] * (1.0 + vsh)))});
-    }
-    if (ratio_variable[k] >= 0)
-      chains->push_back({Scope::muscle, owner, kProduct, ratio_variable[k], -m[kProduct]});
+    if (normalised_) scale_with_length(m, owner, held_.muscles[k][kFiberLength], chains);
+    if (ratio[k].value > 0.0) set_product(m, owner, ratio[k], chains);
   }
   return result;
 }

@@ -7,39 +7,46 @@
 
 #include "myoid/identification/options.h"
 #include "myoid/identification/parameter_fields.h"
+#include "myoid/identification/parameter_slots.h"
 #include "myoid/identification/study_data.h"
 
 namespace myoid::identification {
 
-/// One entry of the solver's vector.
-struct FreeParameter {
+/// One unknown of a fit: a number of one owner, or of several that are tied. Start, bounds and
+/// prior are in the solver's scale: natural logarithms where the field is logarithmic, SI units
+/// otherwise.
+struct Unknown {
   const ParameterField* field = nullptr;
-  std::string owner;  ///< Muscle, channel, joint; several joined by '+' when tied; "subject".
+  std::string owner;  ///< Muscle, channel or joint; tied owners joined by '+'; "subject" for all.
   std::string label;  ///< "BIC.max_isometric_force"
   struct Target {
     int owner = 0;
-    double ratio = 1.0;  ///< Its value over that of the unknown.
+    double ratio = 1.0;  ///< Value of this owner over the unknown's value.
   };
   std::vector<Target> targets;
-  double start = 0.0;  ///< In the solver's scale, like the next four.
-  double lower = 0.0;
-  double upper = 0.0;
-  double prior_mean = 0.0;
-  double prior_sd = 0.0;        ///< 0: no prior.
-  bool prior_is_given = false;  ///< By the study: not the literature's.
-  /// Tighter than what is physical: the study's.
-  bool lower_is_given = false, upper_is_given = false;
+  double start = 0.0;
+  muscle::Range bounds;
+  Prior prior;                  ///< Standard deviation 0: no prior.
+  bool prior_is_given = false;  ///< By the study, in place of the literature's.
+  bool lower_is_given = false;  ///< The study's bound, tighter than the usual one.
+  bool upper_is_given = false;
 
   [[nodiscard]] double to_value(double z) const;
+  [[nodiscard]] bool is(Scope scope, int number) const {
+    return field->scope == scope && field->field == number;
+  }
+  [[nodiscard]] bool acts_on(int target_owner) const;
+  /// 1 / sd² of the prior; 0 without one.
+  [[nodiscard]] double prior_precision() const;
 };
 
-/// From the solver's vector to the numbers of the model.
+/// Maps the solver's vector to the numbers of the model.
 class ParameterMap {
  public:
   /// Throws InvalidInput for names that refer to nothing and starts that cannot be.
   ParameterMap(const StudyData& data, const EstimatorOptions& options);
 
-  [[nodiscard]] const std::vector<FreeParameter>& free() const { return free_; }
+  [[nodiscard]] const std::vector<Unknown>& free() const { return free_; }
   [[nodiscard]] Eigen::Index size() const { return static_cast<Eigen::Index>(free_.size()); }
   [[nodiscard]] Eigen::VectorXd start() const;
   [[nodiscard]] const std::vector<std::string>& channels() const { return channels_; }
@@ -63,7 +70,10 @@ class ParameterMap {
   [[nodiscard]] const ModelValues& held() const { return held_; }
 
  private:
-  std::vector<FreeParameter> free_;
+  /// Takes over the values of the slots as held values and slope ratios.
+  void hold(const std::vector<ParameterSlot>& slots);
+
+  std::vector<Unknown> free_;
   ModelValues held_;
   std::vector<std::string> channels_, joints_;
   std::vector<int> channel_of_muscle_;

@@ -46,7 +46,7 @@ void ResidualModel::for_each_block(const std::function<void(std::size_t)>& one) 
 const std::vector<MuscleRows>& ResidualModel::evaluate_muscles(const Block& block,
                                                                const ModelValues& values,
                                                                const Chains& chains) const {
-  // Anew they would cost more than what is done with them.
+  // Allocating the rows anew would cost more than filling them.
   thread_local std::vector<MuscleRows> rows;
   rows.resize(values.muscles.size());
   std::vector<std::vector<Activation>> activations;
@@ -72,14 +72,14 @@ void ResidualModel::add_torques(const Block& block,
                                 Eigen::VectorXd& predicted,
                                 Eigen::MatrixXd& channel_torque) const {
   const Eigen::Index n = block.time_s.size();
-  for (const Block::Joint& joint : block.joints) {
+  for (const ResidualJoint& joint : block.joints) {
     auto torque = predicted.segment(joint.first, n);
     for (std::size_t k = 0; k < muscles.size(); ++k) {
       const auto arm = joint.arm_m.col(static_cast<Eigen::Index>(k));
       const Eigen::Index c = map_.channel_of_muscle(k);
       torque += arm.cwiseProduct(muscles[k].force_n);
-      // What a relative error of the envelope does to the torque; for a force proportional to the
-      // activation that is the torque itself.
+      // Effect of a relative error of the envelope on the torque; for a force proportional to the
+      // activation the effect is the torque itself.
       channel_torque.row(c).segment(joint.first, n) +=
           block.noise_gain[c] * arm.cwiseProduct(muscles[k].by_envelope_n).transpose();
     }
@@ -93,7 +93,7 @@ void ResidualModel::add_torques(const Block& block,
   }
 }
 
-Eigen::VectorXd ResidualModel::Block::Joint::by_field(int field, Eigen::Index n) const {
+Eigen::VectorXd ResidualJoint::by_field(int field, Eigen::Index n) const {
   if (field == kOffset) return Eigen::VectorXd::Ones(n);
   if (motion.size() == 0) return Eigen::VectorXd::Zero(n);
   return -motion.col(field == kViscosity ? 1 : field == kInertia ? 2 : 0);
@@ -104,7 +104,7 @@ void ResidualModel::add_gradient(const Block& block,
                                  const Chains& chains,
                                  Evaluation& out) const {
   const Eigen::Index n = block.time_s.size();
-  for (const Block::Joint& joint : block.joints) {
+  for (const ResidualJoint& joint : block.joints) {
     for (std::size_t k = 0; k < muscles.size(); ++k) {
       const MuscleRows& m = muscles[k];
       for (Eigen::Index i = 0; i < n; ++i) {
@@ -125,7 +125,7 @@ void ResidualModel::add_motion_variance(const Block& block,
                                         const std::vector<MuscleRows>& muscles,
                                         Evaluation& out) const {
   const Eigen::Index n = block.time_s.size();
-  for (const Block::Joint& joint : block.joints) {
+  for (const ResidualJoint& joint : block.joints) {
     for (std::size_t k = 0; k < muscles.size(); ++k) {
       // dq moves every length by -r dq.
       const Eigen::ArrayXd squared = joint.arm_m.col(static_cast<Eigen::Index>(k)).array().square();
@@ -156,7 +156,7 @@ void ResidualModel::evaluate(const Eigen::VectorXd& z, Depth depth, Evaluation& 
     if (gradient) add_gradient(block, muscles, chains, out);
     if (depth == Depth::noise) add_motion_variance(block, muscles, out);
     if (block.filter.empty()) return;
-    for (const Block::Joint& joint : block.joints) {
+    for (const ResidualJoint& joint : block.joints) {
       std::vector<SignalRow> rows{{out.predicted.data() + joint.first, 1}};
       for (Eigen::Index r = 0; gradient && r < out.gradient.rows(); ++r)
         rows.push_back(
@@ -188,7 +188,7 @@ void ResidualModel::pull_back(const Eigen::VectorXd& z,
     const std::vector<MuscleRows>& muscles = evaluate_muscles(block, values, chains);
     add_torques(block, values, muscles, rows.predicted, rows.channel_torque);
     std::vector<Eigen::VectorXd> by_torque;
-    for (const Block::Joint& joint : block.joints) {
+    for (const ResidualJoint& joint : block.joints) {
       filter_rows(block.filter, {{rows.predicted.data() + joint.first, 1}}, n);
       weigh(joint.piece, rows);
       by_torque.push_back(
@@ -203,7 +203,7 @@ void ResidualModel::pull_back(const Eigen::VectorXd& z,
       const Eigen::Index c = map_.channel_of_muscle(k);
       by_force.setZero();
       for (std::size_t j = 0; j < block.joints.size(); ++j) {
-        const Block::Joint& joint = block.joints[j];
+        const ResidualJoint& joint = block.joints[j];
         const auto arm = joint.arm_m.col(static_cast<Eigen::Index>(k));
         by_force.col(0) += arm.cwiseProduct(by_torque[j]);
         by_force.col(1) +=

@@ -10,6 +10,45 @@
 #include "myoid/identification/row_filter.h"
 
 namespace myoid::identification {
+namespace {
+
+/// noise_gain of every channel over the block, with the usual delay.
+Eigen::VectorXd noise_gains(const ResidualBlock& block,
+                            const std::vector<std::string>& channels,
+                            const EstimatorOptions& options) {
+  Eigen::VectorXd gains(static_cast<Eigen::Index>(channels.size()));
+  const double delay_s = options.delay_s.value_or(options.delay_prior_mean_s);
+  for (std::size_t c = 0; c < channels.size(); ++c) {
+    const auto rest = options.emg_rest.find(channels[c]);
+    // Nobody knows how much noise was taken from an envelope that was not made here.
+    const auto bandwidth = options.emg_bandwidth_hz.find(channels[c]);
+    const bool raw = bandwidth != options.emg_bandwidth_hz.end() && bandwidth->second > 0.0;
+    gains[static_cast<Eigen::Index>(c)] =
+        identification::noise_gain(block.envelopes[c], block.time_s[0] - delay_s,
+                                   block.time_s[block.time_s.size() - 1] - delay_s,
+                                   raw && rest != options.emg_rest.end() ? rest->second : 0.0,
+                                   envelope_spread(options, channels[c]));
+  }
+  return gains;
+}
+
+/// Throws InvalidInput if a joint's own viscosity, inertia or stiffness is unknown and its motion
+/// is not given.
+void check_motion(const ResidualBlock& block, const ParameterMap& map, const std::string& trial) {
+  for (const Unknown& p : map.free()) {
+    if (p.field->scope != Scope::joint || p.field->field == kOffset) continue;
+    for (const ResidualJoint& joint : block.joints) {
+      if (joint.motion.size() == 0) {
+        throw InvalidInput(fmt::format("{}: the motion of joint '{}' is not given for trial '{}'",
+                                       p.label, map.joints()[static_cast<std::size_t>(joint.joint)],
+                                       trial));
+      }
+    }
+  }
+}
+
+}  // namespace
+
 double envelope_spread(const EstimatorOptions& options, const std::string& channel) {
   const auto known = options.emg_bandwidth_hz.find(channel);
   const double bandwidth_hz = known != options.emg_bandwidth_hz.end() && known->second > 0.0
@@ -27,9 +66,9 @@ ResidualModel::ResidualModel(const StudyData& data, const EstimatorOptions& opti
   for (std::size_t i = 0; i < data.trials.size(); ++i) {
     if (data.trials[i].calibration) add_trial(data, static_cast<int>(i), options);
   }
-  for (const FreeParameter& p : map_.free()) {
+  for (const Unknown& p : map_.free()) {
     int channel = -1;
-    for (const FreeParameter::Target& target : p.targets) {
+    for (const Unknown::Target& target : p.targets) {
       const int here = p.field->scope == Scope::muscle
                            ? map_.channel_of_muscle(static_cast<std::size_t>(target.owner))
                        : p.field->scope == Scope::channel ? target.owner
@@ -81,12 +120,48 @@ void ResidualModel::add_trial(const StudyData& data, int index, const EstimatorO
   }
 }
 
+/// One joint of a trial as it was recorded: all samples.
+struct ResidualModel::JointRecording {
+  const std::string& name;
+  const Eigen::VectorXd& torque_nm;
+  const Eigen::MatrixXd& arm_m;
+  const Eigen::VectorXd &q, &qdot, &qddot;
+  const Eigen::VectorXd& resting_nm;
+};
+
+void ResidualModel::add_joint(Block& block,
+                              const JointRecording& of,
+                              const std::vector<Eigen::Index>& rows) {
+  const Eigen::Index all = of.torque_nm.size();
+  const auto n = static_cast<Eigen::Index>(rows.size());
+  ResidualJoint joint;
+  joint.joint = static_cast<int>(std::find(map_.joints().begin(), map_.joints().end(), of.name) -
+                                 map_.joints().begin());
+  joint.piece = pieces_.size();
+  joint.first = measured_.size();
+  joint.arm_m = of.arm_m(rows, Eigen::all);
+  if (of.q.size() == all && of.qdot.size() == all && of.qddot.size() == all) {
+    joint.motion.resize(n, 3);
+    joint.motion.col(0) = of.q(rows);
+    joint.motion.col(1) = of.qdot(rows);
+    joint.motion.col(2) = of.qddot(rows);
+  }
+  if (of.resting_nm.size() == all) joint.resting_nm = of.resting_nm(rows);
+  Eigen::MatrixXd target = of.torque_nm(rows).transpose();
+  filter_rows(block.filter, target);
+  measured_.conservativeResize(joint.first + n);
+  measured_.tail(n) = target.row(0).transpose();
+  noise_gain_.conservativeResize(block.noise_gain.size(), joint.first + n);
+  noise_gain_.rightCols(n) = block.noise_gain.replicate(1, n);
+  pieces_.push_back({block.trial, joint.joint, joint.first, n});
+  block.joints.push_back(std::move(joint));
+}
+
 void ResidualModel::add_block(const StudyData& data,
                               int index,
                               const std::vector<Eigen::Index>& rows,
                               const EstimatorOptions& options) {
   const TrialData& trial = data.trials[static_cast<std::size_t>(index)];
-  const Eigen::Index all = trial.time_s.size();
   const Eigen::VectorXd& clock = trial.activation.time_s();
   const auto n = static_cast<Eigen::Index>(rows.size());
   Block block;
@@ -108,61 +183,28 @@ void ResidualModel::add_block(const StudyData& data,
   const auto apart = static_cast<Eigen::Index>(std::lround(n > 1 ? emg_rate / rate : 1.0));
   for (const std::string& channel : map_.channels())
     block.envelopes.emplace_back(clock, trial.activation.column(channel), apart);
-  block.noise_gain.resize(static_cast<Eigen::Index>(map_.channels().size()));
-  for (std::size_t c = 0; c < map_.channels().size(); ++c) {
-    const auto rest = options.emg_rest.find(map_.channels()[c]);
-    // Of an envelope that others made nobody knows what noise was taken from it.
-    const auto bandwidth = options.emg_bandwidth_hz.find(map_.channels()[c]);
-    const bool raw = bandwidth != options.emg_bandwidth_hz.end() && bandwidth->second > 0.0;
-    const double delay_s = options.delay_s.value_or(options.delay_prior_mean_s);
-    block.noise_gain[static_cast<Eigen::Index>(c)] = identification::noise_gain(
-        block.envelopes[c], block.time_s[0] - delay_s, block.time_s[n - 1] - delay_s,
-        raw && rest != options.emg_rest.end() ? rest->second : 0.0,
-        envelope_spread(options, map_.channels()[c]));
-  }
+  block.noise_gain = noise_gains(block, map_.channels(), options);
 
-  const auto add_joint = [&](const std::string& name, const Eigen::VectorXd& torque,
-                             const Eigen::MatrixXd& arm, const Eigen::VectorXd& q,
-                             const Eigen::VectorXd& qdot, const Eigen::VectorXd& qddot,
-                             const Eigen::VectorXd& resting) {
-    Block::Joint joint;
-    joint.joint = static_cast<int>(std::find(map_.joints().begin(), map_.joints().end(), name) -
-                                   map_.joints().begin());
-    joint.piece = pieces_.size();
-    joint.first = measured_.size();
-    joint.arm_m = arm(rows, Eigen::all);
-    if (q.size() == all && qdot.size() == all && qddot.size() == all) {
-      joint.motion.resize(n, 3);
-      joint.motion.col(0) = q(rows);
-      joint.motion.col(1) = qdot(rows);
-      joint.motion.col(2) = qddot(rows);
-    }
-    if (resting.size() == all) joint.resting_nm = resting(rows);
-    Eigen::MatrixXd target = torque(rows).transpose();
-    filter_rows(block.filter, target);
-    measured_.conservativeResize(joint.first + n);
-    measured_.tail(n) = target.row(0).transpose();
-    noise_gain_.conservativeResize(block.noise_gain.size(), joint.first + n);
-    noise_gain_.rightCols(n) = block.noise_gain.replicate(1, n);
-    pieces_.push_back({index, joint.joint, joint.first, n});
-    block.joints.push_back(std::move(joint));
-  };
-  add_joint(trial.joint, trial.torque_nm, trial.moment_arm_m, trial.angle_rad, trial.velocity_radps,
-            trial.acceleration_radps2, trial.resting_nm);
+  add_joint(block,
+            {trial.joint, trial.torque_nm, trial.moment_arm_m, trial.angle_rad,
+             trial.velocity_radps, trial.acceleration_radps2, trial.resting_nm},
+            rows);
   for (const JointData& joint : trial.more_joints)
-    add_joint(joint.name, joint.torque_nm, joint.moment_arm_m, joint.angle_rad,
-              joint.velocity_radps, joint.acceleration_radps2, joint.resting_nm);
-  for (const FreeParameter& p : map_.free()) {
-    if (p.field->scope != Scope::joint || p.field->field == kOffset) continue;
-    for (const Block::Joint& joint : block.joints) {
-      if (joint.motion.size() == 0) {
-        throw InvalidInput(
-            fmt::format("{}: the motion of joint '{}' is not given for trial '{}'", p.label,
-                        map_.joints()[static_cast<std::size_t>(joint.joint)], trial.name));
-      }
-    }
-  }
+    add_joint(block,
+              {joint.name, joint.torque_nm, joint.moment_arm_m, joint.angle_rad,
+               joint.velocity_radps, joint.acceleration_radps2, joint.resting_nm},
+              rows);
+  check_motion(block, map_, trial.name);
   blocks_.push_back(std::move(block));
+}
+
+std::vector<Eigen::Index> ResidualModel::rows_of_joint(int joint) const {
+  std::vector<Eigen::Index> rows;
+  for (const Piece& piece : pieces_) {
+    for (Eigen::Index i = 0; piece.joint == joint && i < piece.count; ++i)
+      rows.push_back(piece.first + i);
+  }
+  return rows;
 }
 
 std::vector<Eigen::Index> ResidualModel::piece_lengths() const {

@@ -6,11 +6,10 @@
 
 #include <Eigen/Core>
 
-#include "myoid/identification/envelope.h"
 #include "myoid/identification/error_shapes.h"
 #include "myoid/identification/muscle_rows.h"
 #include "myoid/identification/parameters.h"
-#include "myoid/math/butterworth.h"
+#include "myoid/identification/residual_block.h"
 
 namespace myoid::identification {
 
@@ -26,19 +25,18 @@ struct Piece {
   Eigen::Index first = 0, count = 0;
 };
 
-/// What the model says at one point of the search; rows as in the pieces.
+/// The model's prediction at one point of the search; rows as in the pieces.
 struct Evaluation {
   Eigen::VectorXd predicted;   ///< Low-passed as `measured()`.
   Eigen::MatrixXd gradient;    ///< p x n: column i is d predicted_i / dz.
   Eigen::MatrixXd unfiltered;  ///< p x n: the gradient before it is low-passed.
-  /// C x n: what the relative spread of each channel's rectified EMG is multiplied by, not
-  /// low-passed: what is left of that noise behind a low-pass goes with the mean square of this,
-  /// not with the square of its mean.
+  /// C x n: the factor of the relative spread of each channel's rectified EMG, not low-passed. The
+  /// noise behind a low-pass goes with the mean square of the factor, not with its squared mean.
   Eigen::MatrixXd channel_torque;
   Eigen::VectorXd motion_variance;  ///< n: from the errors of angle and rate.
 };
 
-/// A cost of what the model says, on its way back to the parameters; rows as in the pieces.
+/// The slopes of a cost by the model's prediction; rows as in the pieces.
 struct PullBack {
   Eigen::VectorXd predicted;       ///< As Evaluation::predicted.
   Eigen::MatrixXd channel_torque;  ///< As Evaluation::channel_torque; in its place come weights.
@@ -54,6 +52,7 @@ class ResidualModel {
   [[nodiscard]] const ParameterMap& parameters() const { return map_; }
   [[nodiscard]] const std::vector<Piece>& pieces() const { return pieces_; }
   [[nodiscard]] std::vector<Eigen::Index> piece_lengths() const;
+  [[nodiscard]] std::vector<Eigen::Index> rows_of_joint(int joint) const;
   [[nodiscard]] Eigen::Index sample_count() const { return measured_.size(); }
   [[nodiscard]] const Eigen::VectorXd& measured() const { return measured_; }
   [[nodiscard]] double rate_hz() const { return rate_hz_; }
@@ -66,12 +65,12 @@ class ResidualModel {
   [[nodiscard]] const Eigen::MatrixXd& noise_gain() const { return noise_gain_; }
   [[nodiscard]] int joint_count() const { return static_cast<int>(map_.joints().size()); }
 
-  /// What of the Evaluation is filled: the prediction and the torque of the channels; also the
-  /// gradient; also the variance from motion.
+  /// The filled part of an Evaluation: prediction and torque of the channels; also the gradient;
+  /// also the variance from motion.
   enum class Depth { value, gradient, noise };
   void evaluate(const Eigen::VectorXd& z, Depth depth, Evaluation& out) const;
 
-  /// What Evaluation's matrices would be multiplied by, without them, in half of the time:
+  /// Computes two products with Evaluation's matrices without the matrices, in half of the time:
   /// `by_prediction` = gradient * by_predicted and, for a variable j with a channel c of its own,
   /// `by_channel`[j] = the sum over i of unfiltered(j, i) * channel_torque(c, i), else 0; p each.
   /// `weigh(piece, rows)` is called once for each of `pieces()`, from several threads: it reads
@@ -95,30 +94,15 @@ class ResidualModel {
   [[nodiscard]] ErrorShapes error_shapes(const Eigen::VectorXd& z) const;
 
  private:
-  struct Block {
-    int trial = 0;
-    Eigen::VectorXd time_s;
-    Eigen::MatrixXd length_m, velocity_mps;  ///< n x m
-    std::vector<Envelope> envelopes;         ///< Per channel.
-    Eigen::VectorXd noise_gain;              ///< Per channel.
-    struct Joint {
-      int joint = 0;
-      std::size_t piece = 0;  ///< In `pieces()`.
-      Eigen::Index first = 0;
-      Eigen::MatrixXd arm_m;
-      Eigen::MatrixXd motion;      ///< n x 3: angle, rate, acceleration; empty if not known.
-      Eigen::VectorXd resting_nm;  ///< n, or empty: none.
-      /// What the joint's own torque changes by with a field, over the slope of its chain; n.
-      [[nodiscard]] Eigen::VectorXd by_field(int field, Eigen::Index n) const;
-    };
-    std::vector<Joint> joints;
-    std::vector<math::SecondOrderSection> filter;
-  };
+  using Block = ResidualBlock;
   void add_trial(const StudyData& data, int trial, const EstimatorOptions& options);
   void add_block(const StudyData& data,
                  int trial,
                  const std::vector<Eigen::Index>& rows,
                  const EstimatorOptions& options);
+  /// Adds a joint's rows to the block, and to the measured torques.
+  struct JointRecording;
+  void add_joint(Block& block, const JointRecording& of, const std::vector<Eigen::Index>& rows);
   struct Chains;
   [[nodiscard]] Chains chains_by_owner(const std::vector<ParameterMap::Chain>& chains) const;
   /// Workspace of the calling thread: good until its next call.

@@ -27,11 +27,12 @@ void bound(StartBox& box, Eigen::Index j, double lower, double upper) {
 StartBox start_box(const Estimator& estimator) {
   StartBox box = box_about(estimator.model().parameters().start());
   for (Eigen::Index j = 0; j < box.given.size(); ++j) {
-    const FreeParameter& f = estimator.free()[static_cast<std::size_t>(j)];
-    box.spread[j] = f.prior_sd > 0.0       ? f.prior_sd
-                    : f.field->logarithmic ? 0.3
-                                           : 0.1 * std::max(std::abs(f.start), f.upper - f.lower);
-    bound(box, j, f.lower, f.upper);
+    const Unknown& f = estimator.free()[static_cast<std::size_t>(j)];
+    box.spread[j] = f.prior.sd > 0.0 ? f.prior.sd
+                    : f.field->logarithmic
+                        ? 0.3
+                        : 0.1 * std::max(std::abs(f.start), f.bounds.upper - f.bounds.lower);
+    bound(box, j, f.bounds.lower, f.bounds.upper);
   }
   return box;
 }

@@ -20,13 +20,13 @@ TEST(StartBox, IsTwoSpreadsOfThePriorWideOnEitherSideInsideTheBounds) {
   const StartBox box = start_box(estimator);
   bool clipped = false;
   for (Eigen::Index j = 0; j < box.given.size(); ++j) {
-    const FreeParameter& f = estimator.free()[static_cast<std::size_t>(j)];
+    const Unknown& f = estimator.free()[static_cast<std::size_t>(j)];
     SCOPED_TRACE(f.label);
-    ASSERT_GT(f.prior_sd, 0.0);
-    EXPECT_EQ(box.spread[j], f.prior_sd);
-    EXPECT_DOUBLE_EQ(box.lower[j], std::max(f.lower, f.start - 2.0 * f.prior_sd));
-    EXPECT_DOUBLE_EQ(box.upper[j], std::min(f.upper, f.start + 2.0 * f.prior_sd));
-    clipped = clipped || box.upper[j] == f.upper;
+    ASSERT_GT(f.prior.sd, 0.0);
+    EXPECT_EQ(box.spread[j], f.prior.sd);
+    EXPECT_DOUBLE_EQ(box.lower[j], std::max(f.bounds.lower, f.start - 2.0 * f.prior.sd));
+    EXPECT_DOUBLE_EQ(box.upper[j], std::min(f.bounds.upper, f.start + 2.0 * f.prior.sd));
+    clipped = clipped || box.upper[j] == f.bounds.upper;
   }
   EXPECT_TRUE(clipped);
 }

@@ -126,12 +126,12 @@ TEST(FreeSpeeds, AreThoseThatNobodyStates) {
   free_speeds(data, unstated_speeds(data));
   const ParameterMap map(data, {});
   std::vector<std::string> free;
-  for (const FreeParameter& p : map.free()) {
+  for (const Unknown& p : map.free()) {
     if (p.field->name != "max_shortening_speed") continue;
     free.push_back(p.owner);
     if (p.owner != "TRI") continue;
-    EXPECT_NEAR(p.to_value(p.lower), 20.0 / 3.0, 1e-9);
-    EXPECT_NEAR(p.to_value(p.upper), 3.0 * 20.0, 1e-9);
+    EXPECT_NEAR(p.to_value(p.bounds.lower), 20.0 / 3.0, 1e-9);
+    EXPECT_NEAR(p.to_value(p.bounds.upper), 3.0 * 20.0, 1e-9);
   }
   EXPECT_EQ(free, (std::vector<std::string>{"BIC", "TRI"}));
 }

@@ -83,9 +83,9 @@ std::vector<Discrepancy::Sizes> posterior_sizes(const Eigen::MatrixXd& c,
   return all;
 }
 
-bool on_bound(const FreeParameter& p, double z) {
-  const double margin = 1e-9 * (p.upper - p.lower);
-  return z <= p.lower + margin || z >= p.upper - margin;
+bool on_bound(const Unknown& p, double z) {
+  const double margin = 1e-9 * (p.bounds.upper - p.bounds.lower);
+  return z <= p.bounds.lower + margin || z >= p.bounds.upper - margin;
 }
 
 /// Gradient of the prediction (p x n) and response of the estimates (p x p, A^-1), given the
@@ -95,9 +95,7 @@ struct Followed {
   Eigen::MatrixXd gradient, response;
 };
 
-Followed given_bounds(const std::vector<FreeParameter>& free,
-                      const Eigen::VectorXd& z,
-                      Followed of) {
+Followed given_bounds(const std::vector<Unknown>& free, const Eigen::VectorXd& z, Followed of) {
   for (Eigen::Index j = 0; j < z.size(); ++j) {
     if (!on_bound(free[static_cast<std::size_t>(j)], z[j])) continue;
     of.gradient.row(j).setZero();
@@ -136,12 +134,11 @@ Eigen::VectorXd mean_by_emg_noise(const Estimator& estimator,
 }
 
 /// A = J W J' + P with nothing taken out, invertible. `jacobian`: p x n, J W^1/2.
-Eigen::MatrixXd whole_information(const std::vector<FreeParameter>& free,
+Eigen::MatrixXd whole_information(const std::vector<Unknown>& free,
                                   const Eigen::MatrixXd& jacobian) {
   Eigen::MatrixXd a = jacobian * jacobian.transpose();
   for (Eigen::Index j = 0; j < a.rows(); ++j) {
-    const double prior_sd = free[static_cast<std::size_t>(j)].prior_sd;
-    if (prior_sd > 0.0) a(j, j) += 1.0 / (prior_sd * prior_sd);
+    a(j, j) += free[static_cast<std::size_t>(j)].prior_precision();
     a(j, j) = a(j, j) > 0.0 ? a(j, j) * (1.0 + 1e-12) : 1.0;
   }
   return a;

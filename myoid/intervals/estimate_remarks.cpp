@@ -136,7 +136,7 @@ std::vector<ActiveMotion> active_motion(const StudyData& data, double delay_s) {
   return result;
 }
 
-std::string never_done(const FreeParameter& parameter, const ActiveMotion& motion, bool by_ratio) {
+std::string never_done(const Unknown& parameter, const ActiveMotion& motion, bool by_ratio) {
   const ParameterField& field = *parameter.field;
   if (field.scope != Scope::muscle) return "";
   const bool lengthening =
@@ -147,7 +147,7 @@ std::string never_done(const FreeParameter& parameter, const ActiveMotion& motio
   return "";
 }
 
-std::string known_beforehand(const FreeParameter& parameter, bool from_mvc) {
+std::string known_beforehand(const Unknown& parameter, bool from_mvc) {
   const ParameterField& field = *parameter.field;
   if (parameter.prior_is_given) return "what the study gave beforehand";
   if (field.scope != Scope::muscle || field.zero_by_nature) return "what is expected beforehand";
@@ -156,11 +156,11 @@ std::string known_beforehand(const FreeParameter& parameter, bool from_mvc) {
   return "the literature's value";
 }
 
-double distance_from_prior(const FreeParameter& parameter, double z) {
-  return std::abs(z - parameter.prior_mean) / parameter.prior_sd;
+double distance_from_prior(const Unknown& parameter, double z) {
+  return std::abs(z - parameter.prior.mean) / parameter.prior.sd;
 }
 
-std::vector<PriorDistance> prior_distances(const std::vector<FreeParameter>& free,
+std::vector<PriorDistance> prior_distances(const std::vector<Unknown>& free,
                                            const Eigen::VectorXd& z,
                                            const StudyData& data) {
   std::vector<PriorDistance> result;
@@ -169,9 +169,9 @@ std::vector<PriorDistance> prior_distances(const std::vector<FreeParameter>& fre
     double squares = 0.0;
     int count = 0;
     for (std::size_t j = 0; j < free.size(); ++j) {
-      const FreeParameter& p = free[j];
+      const Unknown& p = free[j];
       // What is tied between muscles is none of them's.
-      if (p.field->scope != Scope::muscle || p.targets.size() != 1 || !(p.prior_sd > 0.0) ||
+      if (p.field->scope != Scope::muscle || p.targets.size() != 1 || !(p.prior.sd > 0.0) ||
           p.targets.front().owner != static_cast<int>(k))
         continue;
       const double d = distance_from_prior(p, z[static_cast<Eigen::Index>(j)]);

@@ -44,18 +44,18 @@ struct ActiveMotion {
 
 /// What a muscle's number only acts in and it never did, for VerdictContext::never: "lengthened",
 /// "shortened"; empty: nothing is missing. `by_ratio`: V_sh acts in lengthening, too.
-[[nodiscard]] std::string never_done(const FreeParameter& parameter,
+[[nodiscard]] std::string never_done(const Unknown& parameter,
                                      const ActiveMotion& motion,
                                      bool by_ratio);
 
 /// What the prior of a number is, in words.
-[[nodiscard]] std::string known_beforehand(const FreeParameter& parameter, bool from_mvc);
+[[nodiscard]] std::string known_beforehand(const Unknown& parameter, bool from_mvc);
 
 /// |z - prior mean| / prior sd, of the logarithm where the solver has that.
-[[nodiscard]] double distance_from_prior(const FreeParameter& parameter, double z);
+[[nodiscard]] double distance_from_prior(const Unknown& parameter, double z);
 
 /// Of each muscle that has free parameters of its own with priors, at the solver's numbers `z`.
-[[nodiscard]] std::vector<PriorDistance> prior_distances(const std::vector<FreeParameter>& free,
+[[nodiscard]] std::vector<PriorDistance> prior_distances(const std::vector<Unknown>& free,
                                                          const Eigen::VectorXd& z,
                                                          const StudyData& data);
 

@@ -90,7 +90,7 @@ TEST(ActiveMotion, IsWhatAMuscleDidWhileItWasActive) {
   const ActiveMotion motion = active_motion(data, 0.0).at(0);
   EXPECT_TRUE(motion.shortened);
   EXPECT_FALSE(motion.lengthened);
-  FreeParameter plateau, curvature;
+  Unknown plateau, curvature;
   plateau.field = &parameter_field("eccentric_plateau");
   curvature.field = &parameter_field("concentric_curvature");
   EXPECT_EQ(never_done(plateau, motion, false), "lengthened");
@@ -100,13 +100,13 @@ TEST(ActiveMotion, IsWhatAMuscleDidWhileItWasActive) {
 }
 
 TEST(KnownBeforehand, IsTheStudysTheLiteraturesOrAnyEffort) {
-  FreeParameter strength;
+  Unknown strength;
   strength.field = &parameter_field("max_isometric_force");
   EXPECT_EQ(known_beforehand(strength, true), "the literature's value");
   EXPECT_NE(known_beforehand(strength, false).find("1/20 to 1"), std::string::npos);
   strength.prior_is_given = true;
   EXPECT_EQ(known_beforehand(strength, true), "what the study gave beforehand");
-  FreeParameter delay;
+  Unknown delay;
   delay.field = &parameter_field("emg_delay");
   EXPECT_EQ(known_beforehand(delay, true), "what is expected beforehand");
 }
@@ -155,9 +155,9 @@ TEST(PriorDistances, AboveThreeMakeALineThatNamesTheMuscleAndTheFarthestNumber) 
 }
 
 TEST(DistanceFromPrior, CountsInSpreadsOfWhatTheSolverSees) {
-  FreeParameter strength;
-  strength.prior_mean = std::log(1000.0);
-  strength.prior_sd = 0.25;
+  Unknown strength;
+  strength.prior.mean = std::log(1000.0);
+  strength.prior.sd = 0.25;
   EXPECT_NEAR(distance_from_prior(strength, std::log(400.0)), std::log(2.5) / 0.25, 1e-12);
   EXPECT_NEAR(distance_from_prior(strength, std::log(2500.0)), std::log(2.5) / 0.25, 1e-12);
 }

@@ -44,7 +44,7 @@ class RowMaker {
   [[nodiscard]] std::vector<ParameterEstimate> rows() const;
 
  private:
-  [[nodiscard]] const FreeParameter& unknown(Eigen::Index at) const {
+  [[nodiscard]] const Unknown& unknown(Eigen::Index at) const {
     return estimator_.free()[static_cast<std::size_t>(at)];
   }
   /// The solver's variable of a muscle's number; empty where the number is held.
@@ -52,8 +52,7 @@ class RowMaker {
   [[nodiscard]] bool plateau_is_flat(int muscle) const;
   /// The force-length width leans on a bound that physiology sets, not the study.
   [[nodiscard]] bool width_leans(int muscle) const;
-  [[nodiscard]] std::string owner_name(const FreeParameter& p,
-                                       const FreeParameter::Target& target) const;
+  [[nodiscard]] std::string owner_name(const Unknown& p, const Unknown::Target& target) const;
   /// The trial without which the value would leave its own interval and change by more than
   /// kSubstance; empty: none.
   [[nodiscard]] std::string rests_on(const RowScale& row,
@@ -61,11 +60,10 @@ class RowMaker {
                                      Eigen::Index at) const;
   [[nodiscard]] double standard_deviation(Eigen::Index at) const;
   [[nodiscard]] bool determined(Eigen::Index at) const;
-  [[nodiscard]] UnjudgedRow row_of_unknown(Eigen::Index at,
-                                           const FreeParameter::Target& target) const;
+  [[nodiscard]] UnjudgedRow row_of_unknown(Eigen::Index at, const Unknown::Target& target) const;
   [[nodiscard]] UnjudgedRow row_of_product(std::size_t muscle) const;
   /// The part of the context that concerns the muscle of the row.
-  void add_muscle(VerdictContext& v, const FreeParameter& p, int owner) const;
+  void add_muscle(VerdictContext& v, const Unknown& p, int owner) const;
   [[nodiscard]] VerdictContext context_of(const UnjudgedRow& row, Eigen::Index at, int owner) const;
   [[nodiscard]] ParameterEstimate judged(UnjudgedRow row, Eigen::Index at, int owner) const;
 
@@ -81,11 +79,7 @@ class RowMaker {
 
 std::optional<Eigen::Index> RowMaker::position(int field, int muscle) const {
   for (Eigen::Index at = 0; at < z_.size(); ++at) {
-    const FreeParameter& p = unknown(at);
-    if (p.field->scope == Scope::muscle && p.field->field == field &&
-        std::any_of(p.targets.begin(), p.targets.end(),
-                    [&](const auto& target) { return target.owner == muscle; }))
-      return at;
+    if (unknown(at).is(Scope::muscle, field) && unknown(at).acts_on(muscle)) return at;
   }
   return std::nullopt;
 }
@@ -101,14 +95,13 @@ bool RowMaker::plateau_is_flat(int muscle) const {
 bool RowMaker::width_leans(int muscle) const {
   const auto at = position(kWidth, muscle);
   if (!at || exact_) return false;
-  const FreeParameter& width = unknown(*at);
-  const bool low = z_[*at] - width.lower <= width.upper - z_[*at];
+  const Unknown& width = unknown(*at);
+  const bool low = z_[*at] - width.bounds.lower <= width.bounds.upper - z_[*at];
   return solution_.search.at_bound[static_cast<std::size_t>(*at)] &&
          !(low ? width.lower_is_given : width.upper_is_given);
 }
 
-std::string RowMaker::owner_name(const FreeParameter& p,
-                                 const FreeParameter::Target& target) const {
+std::string RowMaker::owner_name(const Unknown& p, const Unknown::Target& target) const {
   const auto k = static_cast<std::size_t>(target.owner);
   if (p.owner == "subject") return p.owner;
   const ParameterMap& parameters = estimator_.model().parameters();
@@ -138,11 +131,11 @@ double RowMaker::standard_deviation(Eigen::Index at) const {
 }
 
 bool RowMaker::determined(Eigen::Index at) const {
-  return intervals_.sandwich.determined[static_cast<std::size_t>(at)] || unknown(at).prior_sd > 0.0;
+  return intervals_.sandwich.determined[static_cast<std::size_t>(at)] || unknown(at).prior.sd > 0.0;
 }
 
-UnjudgedRow RowMaker::row_of_unknown(Eigen::Index at, const FreeParameter::Target& target) const {
-  const FreeParameter& p = unknown(at);
+UnjudgedRow RowMaker::row_of_unknown(Eigen::Index at, const Unknown::Target& target) const {
+  const Unknown& p = unknown(at);
   const double sd = standard_deviation(at);
   const RowScale row{&p, target.ratio};
   ParameterEstimate e;
@@ -159,11 +152,11 @@ UnjudgedRow RowMaker::row_of_unknown(Eigen::Index at, const FreeParameter::Targe
     e.std_error = p.field->logarithmic ? e.estimate * sd : std::abs(target.ratio) * sd;
     add_routes(e, row, intervals_, at, z_[at]);
   }
-  if (p.prior_sd > 0.0) {
-    e.prior_mean = row.value(p.prior_mean);
+  if (p.prior.sd > 0.0) {
+    e.prior_mean = row.value(p.prior.mean);
     e.prior_sd =
-        p.field->logarithmic ? *e.prior_mean * p.prior_sd : std::abs(target.ratio) * p.prior_sd;
-    e.shrinkage = 1.0 - sd * sd / (p.prior_sd * p.prior_sd);
+        p.field->logarithmic ? *e.prior_mean * p.prior.sd : std::abs(target.ratio) * p.prior.sd;
+    e.shrinkage = 1.0 - sd * sd / (p.prior.sd * p.prior.sd);
     e.prior_distance = distance_from_prior(p, z_[at]);
   }
   const double tendon_share =
@@ -195,7 +188,7 @@ UnjudgedRow RowMaker::row_of_product(std::size_t muscle) const {
   return {.estimate = std::move(e), .rests_on = {}};
 }
 
-void RowMaker::add_muscle(VerdictContext& v, const FreeParameter& p, int owner) const {
+void RowMaker::add_muscle(VerdictContext& v, const Unknown& p, int owner) const {
   const auto k = static_cast<std::size_t>(owner);
   const MuscleSetup& muscle = data_.muscles[k];
   for (const PriorDistance& of : fit_.prior_distances) {
@@ -221,7 +214,7 @@ void RowMaker::add_muscle(VerdictContext& v, const FreeParameter& p, int owner) 
 }
 
 VerdictContext RowMaker::context_of(const UnjudgedRow& row, Eigen::Index at, int owner) const {
-  const FreeParameter& p = unknown(at);
+  const Unknown& p = unknown(at);
   const ParameterEstimate& e = row.estimate;
   const EstimatorOptions& options = estimator_.options();
   VerdictContext v;
@@ -231,8 +224,8 @@ VerdictContext RowMaker::context_of(const UnjudgedRow& row, Eigen::Index at, int
   v.beforehand = known_beforehand(p, options.from_mvc);
   v.prior_is_given = p.prior_is_given;
   v.prior_of_logarithm = p.field->logarithmic;
-  const bool low =
-      std::abs(e.estimate - p.to_value(p.lower)) <= std::abs(e.estimate - p.to_value(p.upper));
+  const bool low = std::abs(e.estimate - p.to_value(p.bounds.lower)) <=
+                   std::abs(e.estimate - p.to_value(p.bounds.upper));
   v.given_bound = low ? p.lower_is_given : p.upper_is_given;
   v.model_error = fit_.model_error;
   v.r2 = fit_.r2;
@@ -248,8 +241,7 @@ ParameterEstimate RowMaker::judged(UnjudgedRow row, Eigen::Index at, int owner) 
   const VerdictContext context = context_of(row, at, owner);
   ParameterEstimate e = std::move(row.estimate);
   judge(e, context);
-  const ParameterField& field = *unknown(at).field;
-  if (field.scope == Scope::channel && field.field == kGain) {
+  if (unknown(at).is(Scope::channel, kGain)) {
     e.verdict = Verdict::prior_dominated;
     e.reason =
         "carries the uncertainty of the EMG normalisation into the intervals of F_max; the "
@@ -261,14 +253,14 @@ ParameterEstimate RowMaker::judged(UnjudgedRow row, Eigen::Index at, int owner) 
 std::vector<ParameterEstimate> RowMaker::rows() const {
   std::vector<ParameterEstimate> rows;
   for (Eigen::Index at = 0; at < z_.size(); ++at) {
-    const FreeParameter& p = unknown(at);
-    for (const FreeParameter::Target& target : p.targets) {
+    const Unknown& p = unknown(at);
+    for (const Unknown::Target& target : p.targets) {
       if (p.owner == "subject" && &target != &p.targets.front()) break;
       rows.push_back(judged(row_of_unknown(at, target), at, target.owner));
     }
     agree_on_tied(rows, p.targets.size());
-    if (p.field->scope != Scope::muscle || p.field->field != kSlopeRatio) continue;
-    for (const FreeParameter::Target& target : p.targets)
+    if (!p.is(Scope::muscle, kSlopeRatio)) continue;
+    for (const Unknown::Target& target : p.targets)
       rows.push_back(
           judged(row_of_product(static_cast<std::size_t>(target.owner)), at, target.owner));
   }

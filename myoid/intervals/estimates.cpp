@@ -26,11 +26,7 @@ double explained_share(const ResidualModel& model, const Eigen::VectorXd& z) {
   model.evaluate(z, ResidualModel::Depth::value, at);
   double least = 1.0;
   for (int joint = 0; joint < model.joint_count(); ++joint) {
-    std::vector<Eigen::Index> rows;
-    for (const Piece& piece : model.pieces()) {
-      for (Eigen::Index i = 0; piece.joint == joint && i < piece.count; ++i)
-        rows.push_back(piece.first + i);
-    }
+    const std::vector<Eigen::Index> rows = model.rows_of_joint(joint);
     if (rows.empty()) continue;
     const Eigen::VectorXd measured = model.measured()(rows);
     const Eigen::VectorXd off = measured.array() - measured.mean();
@@ -95,17 +91,16 @@ IdentificationResult summary_of(const Estimator& estimator,
     result.bootstrap_replicates = static_cast<int>(intervals.bootstrap->replicates.rows());
     result.bootstrap_failed = intervals.bootstrap->failed;
   }
-  for (const FreeParameter& p : estimator.free()) result.free_parameters.push_back(p.label);
+  for (const Unknown& p : estimator.free()) result.free_parameters.push_back(p.label);
   result.prior_distances = prior_distances(estimator.free(), z, data);
   return result;
 }
 
 /// Sets of parameters that the data hardly tell apart, as sentences.
-std::vector<std::string> collinear_sentences(const std::vector<FreeParameter>& free,
+std::vector<std::string> collinear_sentences(const std::vector<Unknown>& free,
                                              const Eigen::MatrixXd& information) {
   const auto is_gain = [&](Eigen::Index j) {
-    const ParameterField& field = *free[static_cast<std::size_t>(j)].field;
-    return field.scope == Scope::channel && field.field == kGain;
+    return free[static_cast<std::size_t>(j)].is(Scope::channel, kGain);
   };
   std::vector<std::string> sentences;
   for (const CollinearSet& set : collinear_sets(information)) {
@@ -121,7 +116,7 @@ std::vector<std::string> collinear_sentences(const std::vector<FreeParameter>& f
 }
 
 /// Directions that the data leave open, each as a sum of parameters.
-std::vector<std::string> undetermined_sums(const std::vector<FreeParameter>& free,
+std::vector<std::string> undetermined_sums(const std::vector<Unknown>& free,
                                            const Eigen::MatrixXd& directions) {
   std::vector<std::string> sums;
   for (Eigen::Index k = 0; k < directions.cols(); ++k) {

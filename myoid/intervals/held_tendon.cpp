@@ -19,10 +19,10 @@ bool concerns(const ParameterRule& rule, const std::string& muscle) {
           std::find(rule.owners.begin(), rule.owners.end(), muscle) != rule.owners.end());
 }
 
-bool is_slack_of(const FreeParameter& p, int muscle) {
+bool is_slack_of(const Unknown& p, int muscle) {
   return p.field->scope == Scope::muscle && p.field->field == kSlack &&
          std::any_of(p.targets.begin(), p.targets.end(),
-                     [&](const FreeParameter::Target& t) { return t.owner == muscle; });
+                     [&](const Unknown::Target& t) { return t.owner == muscle; });
 }
 
 /// Change of the fitted torques by a slack length that is held, n.
@@ -40,7 +40,7 @@ Eigen::RowVectorXd torque_by_slack(const Estimator& estimator,
   Eigen::VectorXd at = model.parameters().start();
   Eigen::Index slack = -1;
   for (std::size_t j = 0; j < model.parameters().free().size(); ++j) {
-    const FreeParameter& p = model.parameters().free()[j];
+    const Unknown& p = model.parameters().free()[j];
     const auto here = static_cast<Eigen::Index>(j);
     if (is_slack_of(p, static_cast<int>(muscle))) {
       slack = here;
@@ -85,7 +85,7 @@ Eigen::MatrixXd held_tendon_shift(const Estimator& estimator,
   for (std::size_t k = 0; k < data.muscles.size() && estimator.options().priors; ++k) {
     const bool unknown =
         std::any_of(estimator.free().begin(), estimator.free().end(),
-                    [&](const FreeParameter& p) { return is_slack_of(p, static_cast<int>(k)); });
+                    [&](const Unknown& p) { return is_slack_of(p, static_cast<int>(k)); });
     if (!unknown && held_slack_sd_m(data, k) > 0.0) unsure.push_back(k);
   }
   if (unsure.empty()) return shift;
@@ -103,7 +103,7 @@ Eigen::MatrixXd held_tendon_shift(const Estimator& estimator,
   const Eigen::MatrixXd weighted = at.gradient * weight.asDiagonal();
   Eigen::MatrixXd a = weighted * at.gradient.transpose();
   for (Eigen::Index j = 0; j < z.size(); ++j) {
-    const double prior_sd = estimator.free()[static_cast<std::size_t>(j)].prior_sd;
+    const double prior_sd = estimator.free()[static_cast<std::size_t>(j)].prior.sd;
     if (prior_sd > 0.0) a(j, j) += 1.0 / (prior_sd * prior_sd);
     a(j, j) = a(j, j) > 0.0 ? a(j, j) * (1.0 + 1e-12) : 1.0;
   }

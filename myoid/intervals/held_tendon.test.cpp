@@ -46,10 +46,10 @@ TEST(HeldTendon, TheShiftIsThatOfAFitWithALongerTendon) {
   };
   const Eigen::VectorXd difference = 0.5 * (refitted(kSd_m) - refitted(-kSd_m));
   for (Eigen::Index j = 0; j < shift.size(); ++j) {
-    const FreeParameter& p = estimator.free()[static_cast<std::size_t>(j)];
+    const Unknown& p = estimator.free()[static_cast<std::size_t>(j)];
     // Gauss and Newton's curvature leaves out second derivatives times residuals: a tenth, and
     // nothing beside what is known beforehand.
-    EXPECT_NEAR(shift[j], difference[j], 0.1 * std::abs(difference[j]) + 0.01 * p.prior_sd + 1e-4)
+    EXPECT_NEAR(shift[j], difference[j], 0.1 * std::abs(difference[j]) + 0.01 * p.prior.sd + 1e-4)
         << p.label;
     if (p.label == "BIC.optimal_fiber_length") {
       EXPECT_NEAR(shift[j], -kSd_m, 0.1 * kSd_m);

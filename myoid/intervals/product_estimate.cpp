@@ -59,7 +59,7 @@ std::vector<double> log_products(const Eigen::MatrixXd& draws) {
 
 void add_product_interval(ParameterEstimate& e,
                           const ProductPositions& where,
-                          const std::vector<FreeParameter>& free,
+                          const std::vector<Unknown>& free,
                           const Eigen::VectorXd& z,
                           const Eigen::MatrixXd& covariance,
                           const BootstrapResult* bootstrap) {
@@ -80,10 +80,10 @@ void add_product_interval(ParameterEstimate& e,
   Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
   bool all_priors = true;
   for (int i = 0; i < 3; ++i) {
-    const FreeParameter& f = free[static_cast<std::size_t>(three[static_cast<std::size_t>(i)])];
-    all_priors = all_priors && f.prior_sd > 0.0;
-    mean[i] = f.prior_mean;
-    spread(i, i) = f.prior_sd * f.prior_sd;
+    const Unknown& f = free[static_cast<std::size_t>(three[static_cast<std::size_t>(i)])];
+    all_priors = all_priors && f.prior.sd > 0.0;
+    mean[i] = f.prior.mean;
+    spread(i, i) = f.prior.sd * f.prior.sd;
   }
   if (all_priors) {
     const Spread prior = spread_of(log_products(draws_about(mean, spread, kDraws)));

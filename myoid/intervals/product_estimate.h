@@ -20,7 +20,7 @@ struct ProductPositions {
 /// one of them is none. `bootstrap` may be null.
 void add_product_interval(ParameterEstimate& e,
                           const ProductPositions& where,
-                          const std::vector<FreeParameter>& free,
+                          const std::vector<Unknown>& free,
                           const Eigen::VectorXd& z,
                           const Eigen::MatrixXd& covariance,
                           const BootstrapResult* bootstrap);

@@ -11,14 +11,14 @@ struct Muscle {
   Muscle() {
     for (const char* name :
          {"concentric_curvature", "eccentric_plateau", "eccentric_slope_ratio"}) {
-      FreeParameter f;
+      Unknown f;
       f.field = &parameter_field(name);
       free.push_back(f);
     }
     z << std::log(0.3), 1.5, std::log(2.0);
     e.estimate = 0.5 * 0.3 / (2.0 * 1.3);  // P = (V_ml - 1) V_sh / (S (1 + V_sh))
   }
-  std::vector<FreeParameter> free;
+  std::vector<Unknown> free;
   Eigen::Vector3d z;
   ParameterEstimate e;
 };
@@ -41,8 +41,8 @@ TEST(ProductEstimate, SmallErrorsPropagateThroughTheDerivativesOfP) {
 TEST(ProductEstimate, ItsPriorIsThatOfTheThree) {
   Muscle m;
   for (int i = 0; i < 3; ++i) {
-    m.free[static_cast<std::size_t>(i)].prior_mean = m.z[i];
-    m.free[static_cast<std::size_t>(i)].prior_sd = 0.01;
+    m.free[static_cast<std::size_t>(i)].prior.mean = m.z[i];
+    m.free[static_cast<std::size_t>(i)].prior.sd = 0.01;
   }
   add_product_interval(m.e, kAll, m.free, m.z, 0.25e-4 * Eigen::Matrix3d::Identity(), nullptr);
   EXPECT_NEAR(*m.e.prior_mean, m.e.estimate, 1e-12);

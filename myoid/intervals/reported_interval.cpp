@@ -20,7 +20,7 @@ struct RowOfFit {
   /// The row's value of a solver's number. No interval reaches beyond the bounds: they are
   /// knowledge, too.
   [[nodiscard]] double clipped(double x) const {
-    return row.value(std::clamp(x, row.parameter->lower, row.parameter->upper));
+    return row.value(std::clamp(x, row.parameter->bounds.lower, row.parameter->bounds.upper));
   }
 };
 
@@ -60,9 +60,9 @@ std::pair<double, double> reaches_of_noise(const RowOfFit& of) {
   const double normal = reach(of.intervals.sandwich.newey_west(of.at, of.at));
   if (!of.intervals.profiles) return {normal, normal};
   const Interval& profile = (*of.intervals.profiles)[static_cast<std::size_t>(of.at)];
-  const FreeParameter& p = *of.row.parameter;
-  return {std::max(normal, of.z - profile.low.value_or(p.lower)),
-          std::max(normal, profile.high.value_or(p.upper) - of.z)};
+  const Unknown& p = *of.row.parameter;
+  return {std::max(normal, of.z - profile.low.value_or(p.bounds.lower)),
+          std::max(normal, profile.high.value_or(p.bounds.upper) - of.z)};
 }
 
 /// The reach that the differences between trials ask for at least; 0 with few trials. With fewer

@@ -24,7 +24,7 @@ struct Intervals {
 
 /// Scale of a row: what a number of the solver is in the row's unit.
 struct RowScale {
-  const FreeParameter* parameter = nullptr;
+  const Unknown* parameter = nullptr;
   double ratio = 1.0;
   [[nodiscard]] double value(double z) const { return ratio * parameter->to_value(z); }
 };

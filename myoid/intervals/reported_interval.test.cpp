@@ -12,8 +12,8 @@ constexpr double kNormal95 = 1.959963984540054;
 struct OneNumber {
   OneNumber() {
     number.field = &parameter_field("emg_delay");  // not on a logarithm
-    number.lower = 0.0;
-    number.upper = 0.15;
+    number.bounds.lower = 0.0;
+    number.bounds.upper = 0.15;
     intervals.sandwich.newey_west = Eigen::MatrixXd::Constant(1, 1, 1e-6);
     intervals.sandwich.by_noise = Eigen::VectorXd::Zero(1);
   }
@@ -22,7 +22,7 @@ struct OneNumber {
     add_routes(e, {.parameter = &number}, intervals, 0, z);
     return e;
   }
-  FreeParameter number;
+  Unknown number;
   Intervals intervals;
 };
 
@@ -68,8 +68,8 @@ TEST(ReportedInterval, EndsAtTheBoundOfWhatIsPossible) {
 TEST(ReportedInterval, ANumberOnALogarithmIsReportedInItsUnitWithTheRatioOfATie) {
   OneNumber one;
   one.number.field = &parameter_field("max_isometric_force");
-  one.number.lower = std::log(10.0);
-  one.number.upper = std::log(1e4);
+  one.number.bounds.lower = std::log(10.0);
+  one.number.bounds.upper = std::log(1e4);
   const RowScale half{.parameter = &one.number, .ratio = 0.5};
   ParameterEstimate e;
   add_routes(e, half, one.intervals, 0, std::log(800.0));

@@ -86,12 +86,10 @@ double quantile(std::vector<double> values, double share) {
 }
 
 /// Precision of the prior of every unknown; 0: none.
-Eigen::VectorXd prior_precision(const std::vector<FreeParameter>& free) {
+Eigen::VectorXd prior_precision(const std::vector<Unknown>& free) {
   Eigen::VectorXd precision = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(free.size()));
-  for (std::size_t j = 0; j < free.size(); ++j) {
-    const double prior_sd = free[j].prior_sd;
-    if (prior_sd > 0.0) precision[static_cast<Eigen::Index>(j)] = 1.0 / (prior_sd * prior_sd);
-  }
+  for (std::size_t j = 0; j < free.size(); ++j)
+    precision[static_cast<Eigen::Index>(j)] = free[j].prior_precision();
   return precision;
 }
 
@@ -341,8 +339,8 @@ BootstrapResult bootstrap(const Estimator& estimator, const Estimator::Solution&
     }
     variant.prior_mean = Eigen::VectorXd::Zero(p);
     for (Eigen::Index j = 0; j < p; ++j) {
-      const FreeParameter& f = estimator.free()[static_cast<std::size_t>(j)];
-      if (f.prior_sd > 0.0) variant.prior_mean[j] = f.prior_mean + f.prior_sd * random.normal();
+      const Unknown& f = estimator.free()[static_cast<std::size_t>(j)];
+      if (f.prior.sd > 0.0) variant.prior_mean[j] = f.prior.mean + f.prior.sd * random.normal();
     }
     const NormalSearchResult fit =
         estimator.search(solution.search.x, solution.weighting, 1e-4, 1e-3, 30, variant);

@@ -63,7 +63,7 @@ BasinTable find_basins(const Estimator& estimator, const Weighting& weighting, i
 namespace {
 
 /// The estimate of an unknown, of its first owner; null: none.
-ParameterEstimate* estimate_of(const FreeParameter& p, IdentificationResult& result) {
+ParameterEstimate* estimate_of(const Unknown& p, IdentificationResult& result) {
   for (ParameterEstimate& e : result.estimates) {
     if (e.tied_to.empty() && e.parameter == p.field->name &&
         (p.owner == e.muscle || p.owner.starts_with(e.muscle + "+")))
@@ -75,7 +75,7 @@ ParameterEstimate* estimate_of(const FreeParameter& p, IdentificationResult& res
 }  // namespace
 
 void report_other_minima(const BasinTable& table,
-                         const std::vector<FreeParameter>& free,
+                         const std::vector<Unknown>& free,
                          double cost,
                          IdentificationResult& result) {
   constexpr double kRival = 2.0;  // a chi-square of 4, of which the cost is half

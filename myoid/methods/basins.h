@@ -37,7 +37,7 @@ void look_around(const StudyData& data,
 /// above it, put outside of the intervals that are reported; what of them is `identified` becomes
 /// `weak`.
 void report_other_minima(const BasinTable& table,
-                         const std::vector<FreeParameter>& free,
+                         const std::vector<Unknown>& free,
                          double cost,
                          IdentificationResult& result);
 

@@ -55,7 +55,7 @@ TEST(Basins, TellHowManyStartsEndedWhereAndHowFarFromTheBest) {
 }
 
 TEST(Basins, AMinimumAsGoodOutsideOfAnIntervalIsSaid) {
-  std::vector<FreeParameter> free(1);
+  std::vector<Unknown> free(1);
   free[0].field = &parameter_field("optimal_fiber_length");
   free[0].owner = "BRA";
   const auto reported = [&](double other_m, double other_cost, int converged) {

@@ -28,9 +28,10 @@ Eigen::VectorXd start_number(const Estimator& estimator, int s) {
   const Eigen::VectorXd start = estimator.model().parameters().start();
   Eigen::VectorXd x = s == 0 ? start : estimator.moved_start(start, s);
   for (std::size_t j = 0; j < estimator.free().size(); ++j) {
-    const FreeParameter& f = estimator.free()[j];
+    const Unknown& f = estimator.free()[j];
     if (f.field->scope == Scope::channel && f.field->field == kDelay)
-      x[static_cast<Eigen::Index>(j)] = f.lower + (f.upper - f.lower) * 0.2 * (s % 4);
+      x[static_cast<Eigen::Index>(j)] =
+          f.bounds.lower + (f.bounds.upper - f.bounds.lower) * 0.2 * (s % 4);
   }
   return x;
 }
