@@ -17,10 +17,10 @@ nlohmann::ordered_json to_json(const RunComparison& comparison) {
   nlohmann::ordered_json rows = nlohmann::ordered_json::array();
   for (const ComparedParameter& p : comparison.parameters) {
     rows.push_back({{"muscle", p.muscle},
-                    {"parameter", p.parameter},
-                    {"unit", p.unit},
-                    {"method", p.method},
-                    {"case", p.fit_case},
+                    {"parameter", p.first.parameter},
+                    {"unit", std::string(symbol(p.first.unit))},
+                    {"method", p.first.method},
+                    {"case", p.first.fit_case},
                     {"first", p.first.estimate},
                     {"second", p.second.estimate},
                     {"difference", p.difference},
@@ -39,10 +39,12 @@ void print(const RunComparison& comparison) {
   fmt::print("{:<10} {:<30} {:>10} {:>10} {:>11} {:>9}  {}\n", "muscle", "parameter [unit]",
              "first", "second", "difference", "p", "verdict");
   for (const ComparedParameter& p : comparison.parameters) {
-    if (p.method == "paper") continue;  // In the report; shared forces tell nothing of a person.
+    if (p.first.method == "paper")
+      continue;  // In the report; shared forces tell nothing of a person.
     fmt::print("{:<10} {:<30} {:>10} {:>10} {:>11} {:>9}  {}\n", p.muscle,
-               fmt::format("{} [{}]", p.parameter, p.unit), report::format_value(p.first.estimate),
-               report::format_value(p.second.estimate), report::format_value(p.difference),
+               fmt::format("{} [{}]", p.first.parameter, symbol(p.first.unit)),
+               report::format_value(p.first.estimate), report::format_value(p.second.estimate),
+               report::format_value(p.difference),
                p.p_value ? fmt::format("{:.2g}", *p.p_value) : "-", name(p.change));
   }
   for (const std::string& remark : comparison.remarks) fmt::print("{}\n", remark);

@@ -3,48 +3,17 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
-#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "myoid/core/error.h"
+#include "myoid/intervals/estimate_columns.h"
 
 namespace myoid {
 
 using identification::ParameterEstimate;
-
-namespace {
-
-/// A row of parameters.json; empty without a number.
-std::optional<ParameterEstimate> row_of(const nlohmann::json& row) {
-  const auto number = [&](const char* key) -> std::optional<double> {
-    const auto found = row.find(key);
-    return found != row.end() && found->is_number() ? std::optional<double>(found->get<double>())
-                                                    : std::nullopt;
-  };
-  const std::optional<double> estimate = number("estimate");
-  if (!estimate) return std::nullopt;
-  ParameterEstimate e;
-  e.muscle = row.at("muscle");
-  e.parameter = row.at("parameter");
-  e.estimate = *estimate;
-  e.std_error = number("std_error");
-  e.ci_low = number("ci_low");
-  e.ci_high = number("ci_high");
-  e.reason = row.value("reason", "");
-  const std::string verdict = row.value("verdict", "");
-  for (const auto known :
-       {identification::Verdict::identified, identification::Verdict::weak,
-        identification::Verdict::prior_dominated, identification::Verdict::not_identifiable,
-        identification::Verdict::non_physical}) {
-    if (verdict == identification::name(known)) e.verdict = known;
-  }
-  return e;
-}
-
-}  // namespace
 
 EarlierRun read_earlier_run(const std::filesystem::path& folder) {
   const std::filesystem::path file = folder / "parameters.json";
@@ -71,7 +40,8 @@ EarlierRun read_earlier_run(const std::filesystem::path& folder) {
       for (const nlohmann::json& e : method.at("estimates")) {
         const std::string label =
             e.at("muscle").get<std::string>() + "." + e.at("parameter").get<std::string>();
-        if (auto row = row_of(e)) run.estimates.push_back(std::move(*row));
+        if (auto row = identification::estimate_of_json(e))
+          run.estimates.push_back(std::move(*row));
         const auto it = std::find(run.parameters.begin(), run.parameters.end(), label);
         if (it == run.parameters.end()) continue;
         run.estimate[it - run.parameters.begin()] = e.at("estimate").get<double>();

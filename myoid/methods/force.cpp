@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <chrono>
+#include <iterator>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
 #include "myoid/methods/torque.h"
+#include "myoid/methods/trial_fit.h"
 
 namespace myoid::identification {
 
@@ -64,6 +67,73 @@ IdentificationResult identify_muscle_force(const StudyData& one, const ForceOpti
                               : identify_torque(one, once);
 }
 
+namespace {
+
+/// Takes the fit of muscle k over into the result of all muscles.
+void take_over(IdentificationResult fit,
+               const StudyData& data,
+               std::size_t k,
+               bool shared_forces,
+               IdentificationResult& all) {
+  const std::string& name = data.muscles[k].name;
+  const auto column = static_cast<Eigen::Index>(k);
+  all.muscles[k] = fit.muscles.front();
+  all.exact = all.exact && fit.exact;
+  all.r2 = std::min(all.r2, fit.r2);
+  if (fit.termination != math::Termination::converged) {
+    all.termination = fit.termination;
+    all.message += fmt::format("{}: {}. ", name, fit.message);
+  }
+  for (ParameterEstimate& e : fit.estimates) {
+    e.method = "force";
+    if (e.muscle == "subject" || e.muscle == data.muscles[k].emg_channel) e.muscle = name;
+    if (shared_forces && e.verdict == Verdict::identified) {
+      e.verdict = Verdict::weak;
+      e.reason +=
+          ", but about the forces that an optimizer assigned, which carry its assumptions and "
+          "no co-contraction; method torque does not need them";
+    }
+  }
+  for (BasinTable& table : fit.basins) table.fit = name;
+  const auto append = [](auto& to, auto& from) {
+    to.insert(to.end(), std::make_move_iterator(from.begin()), std::make_move_iterator(from.end()));
+  };
+  append(all.estimates, fit.estimates);
+  append(all.prior_distances, fit.prior_distances);
+  append(all.basins, fit.basins);
+  append(all.collinear, fit.collinear);
+  append(all.undetermined, fit.undetermined);
+  append(all.diagnoses, fit.diagnoses);
+  append(all.warnings, fit.warnings);
+  all.samples_used += fit.samples_used;
+  all.samples_dropped += fit.samples_dropped;
+  all.effective_samples += fit.effective_samples;
+  all.iterations += fit.iterations;
+  all.bootstrap_replicates = fit.bootstrap_replicates;
+  all.bootstrap_failed += fit.bootstrap_failed;
+  all.condition = std::max(all.condition, fit.condition);
+  for (std::size_t t = 0; t < all.trials.size() && t < fit.trials.size(); ++t) {
+    all.trials[t].literature_force_n.col(column) = fit.trials[t].literature_force_n.col(0);
+    all.trials[t].force_fit_n.col(column) = fit.trials[t].force_fit_n.col(0);
+  }
+}
+
+/// Predicts the forces of muscle k, which is not fitted, by its starting values.
+void predict_unfitted(const StudyData& one,
+                      std::size_t k,
+                      const EstimatorOptions& options,
+                      IdentificationResult& all) {
+  const auto column = static_cast<Eigen::Index>(k);
+  for (std::size_t t = 0; t < one.trials.size(); ++t) {
+    const Prediction p = predict(one, one.trials[t], {one.muscles.front().start},
+                                 options.delay_s.value_or(options.delay_prior_mean_s));
+    all.trials[t].literature_force_n.col(column) = p.force_n.col(0);
+    all.trials[t].force_fit_n.col(column) = p.force_n.col(0);
+  }
+}
+
+}  // namespace
+
 IdentificationResult identify_force(const StudyData& data, const ForceOptions& options) {
   validate(data);
   const auto begin = std::chrono::steady_clock::now();
@@ -74,76 +144,20 @@ IdentificationResult identify_force(const StudyData& data, const ForceOptions& o
   all.exact = true;
   all.lag = options.estimator.lag;
   for (const TrialData& trial : data.trials) {
-    TrialFit fit;
-    fit.trial = trial.name;
-    fit.calibration = trial.calibration;
-    fit.time_s = trial.time_s;
-    fit.joint = trial.joint;
-    fit.torque_nm = trial.torque_nm;
+    TrialFit fit = unfitted_trial(trial);
     fit.literature_force_n = Eigen::MatrixXd::Zero(trial.time_s.size(), trial.length_m.cols());
     fit.force_fit_n = fit.literature_force_n;
     all.trials.push_back(std::move(fit));
   }
   for (std::size_t k = 0; k < data.muscles.size(); ++k) {
     const StudyData one = force_study(data, k);
-    const auto column = static_cast<Eigen::Index>(k);
     all.muscles.push_back(data.muscles[k].start);
     const bool named = wanted.empty() || std::find(wanted.begin(), wanted.end(),
                                                    data.muscles[k].name) != wanted.end();
-    ModelValues values;
     if (named) {
-      IdentificationResult fit = identify_muscle_force(one, options);
-      values = fit.values;
-      all.muscles.back() = fit.muscles.front();
-      all.exact = all.exact && fit.exact;
-      all.r2 = std::min(all.r2, fit.r2);
-      if (fit.termination != math::Termination::converged) {
-        all.termination = fit.termination;
-        all.message += fmt::format("{}: {}. ", data.muscles[k].name, fit.message);
-      }
-      for (ParameterEstimate& e : fit.estimates) {
-        e.method = "force";
-        if (e.muscle == "subject" || e.muscle == data.muscles[k].emg_channel)
-          e.muscle = data.muscles[k].name;
-        if (options.shared_forces && e.verdict == Verdict::identified) {
-          e.verdict = Verdict::weak;
-          e.reason +=
-              ", but about the forces that an optimizer assigned, which carry its assumptions and "
-              "no co-contraction; method torque does not need them";
-        }
-        all.estimates.push_back(std::move(e));
-      }
-      const auto take = [&](std::vector<std::string>& to, const std::vector<std::string>& from) {
-        for (const std::string& text : from) to.push_back(text);
-      };
-      for (const PriorDistance& d : fit.prior_distances) all.prior_distances.push_back(d);
-      for (BasinTable& table : fit.basins) {
-        table.fit = data.muscles[k].name;
-        all.basins.push_back(std::move(table));
-      }
-      take(all.collinear, fit.collinear);
-      take(all.undetermined, fit.undetermined);
-      take(all.diagnoses, fit.diagnoses);
-      take(all.warnings, fit.warnings);
-      all.samples_used += fit.samples_used;
-      all.samples_dropped += fit.samples_dropped;
-      all.effective_samples += fit.effective_samples;
-      all.iterations += fit.iterations;
-      all.bootstrap_replicates = fit.bootstrap_replicates;
-      all.bootstrap_failed += fit.bootstrap_failed;
-      all.condition = std::max(all.condition, fit.condition);
-      for (std::size_t t = 0; t < all.trials.size() && t < fit.trials.size(); ++t) {
-        all.trials[t].literature_force_n.col(column) = fit.trials[t].literature_force_n.col(0);
-        all.trials[t].force_fit_n.col(column) = fit.trials[t].force_fit_n.col(0);
-      }
+      take_over(identify_muscle_force(one, options), data, k, options.shared_forces, all);
     } else {
-      for (std::size_t t = 0; t < data.trials.size(); ++t) {
-        const EstimatorOptions& common = options.estimator;
-        const Prediction p = predict(one, one.trials[t], {data.muscles[k].start},
-                                     common.delay_s.value_or(common.delay_prior_mean_s));
-        all.trials[t].literature_force_n.col(column) = p.force_n.col(0);
-        all.trials[t].force_fit_n.col(column) = p.force_n.col(0);
-      }
+      predict_unfitted(one, k, options.estimator, all);
     }
   }
   for (std::size_t t = 0; t < data.trials.size(); ++t) {
@@ -152,10 +166,7 @@ IdentificationResult identify_force(const StudyData& data, const ForceOptions& o
     if (trial.moment_arm_m.rows() != trial.time_s.size() ||
         trial.torque_nm.size() != trial.time_s.size())
       continue;
-    const Eigen::VectorXd resting = resting_torque_nm(trial);
-    fit.literature_torque_nm =
-        trial.moment_arm_m.cwiseProduct(fit.literature_force_n).rowwise().sum() + resting;
-    fit.torque_fit_nm = trial.moment_arm_m.cwiseProduct(fit.force_fit_n).rowwise().sum() + resting;
+    add_torques_of_forces(trial, fit);
     const std::vector<Eigen::Index> rows = included_rows(trial);
     const Eigen::VectorXd measured = trial.torque_nm(rows);
     const Eigen::VectorXd predicted = fit.torque_fit_nm(rows);

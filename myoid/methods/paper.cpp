@@ -7,6 +7,7 @@
 #include <limits>
 #include <optional>
 #include <string_view>
+#include <utility>
 
 #include <Eigen/LU>
 #include <fmt/format.h>
@@ -20,6 +21,7 @@
 #include "myoid/math/covariance.h"
 #include "myoid/math/statistics.h"
 #include "myoid/methods/basins.h"
+#include "myoid/methods/trial_fit.h"
 #include "myoid/muscle/hill_muscle.h"
 
 namespace myoid::identification {
@@ -35,15 +37,15 @@ struct CaseShape {
 };
 constexpr std::array<std::string_view, 2> kShared{"optimal_fiber_length", "force_length_width"};
 
-/// Where full steps find no minimum, damped ones may: no estimate, but it shows the signature of an
-/// error that the data carry. Empty where they find none either.
+/// Finds a minimum with damped steps where full steps find none. The minimum is no estimate, but it
+/// shows the signature of an error in the data. Empty where damped steps find none either.
 std::optional<Eigen::VectorXd> damped_minimum(const PaperCase& samples) {
   const auto p = static_cast<Eigen::Index>(samples.unknowns.size());
   if (static_cast<Eigen::Index>(samples.samples.size()) < 10 * p) return std::nullopt;
   if (!(samples.largest_force_n() > 0.0)) return std::nullopt;
   try {
     const math::LeastSquaresResult fit = math::minimize(samples.problem(), samples.start_vector());
-    // V_sh or P on their way to infinity never arrive, and change nothing any more.
+    // V_sh or P on their way to infinity never arrive; the cost stays the same.
     const std::vector<double>& costs = fit.cost_history;
     constexpr std::size_t kLast = 10;
     const bool settled =
@@ -55,140 +57,182 @@ std::optional<Eigen::VectorXd> damped_minimum(const PaperCase& samples) {
   return std::nullopt;
 }
 
-std::optional<CaseShape> fit_case(const StudyData& data,
-                                  std::size_t muscle,
-                                  bool shortening,
-                                  const PaperOptions& options,
-                                  IdentificationResult& result,
-                                  std::vector<ParameterEstimate>& minima) {
-  const MuscleSetup& setup = data.muscles[muscle];
-  const PaperCase samples = paper_case(data, muscle, shortening);
-  const std::vector<const muscle::HillField*>& list = samples.unknowns;
-  const auto p = static_cast<Eigen::Index>(list.size());
-  const auto n = static_cast<Eigen::Index>(samples.samples.size());
-  result.samples_dropped += samples.dropped;
-  result.samples_used += static_cast<int>(n);
-  result.muscles[muscle] = samples.start;
-  if (p == 0) return std::nullopt;
-  const Eigen::VectorXd start = samples.start_vector();
+/// One muscle in one branch: samples, search and covariance.
+struct CaseFit {
+  PaperCase samples;
+  math::LeastSquaresResult search;  ///< With the start as x where no search ran.
+  std::string failure;              ///< Empty: converged.
+  /// The minimum that plain or damped steps reach; empty: none.
+  std::optional<Eigen::VectorXd> minimum;
+  bool computed = false;  ///< Residuals and covariance are known.
+  math::CovarianceResult covariance;
+  double effective_samples = 0.0;
+  double widen = 1.0;  ///< Samples over effective samples.
+  double r2 = 1.0;
+  bool exact = false;  ///< The data are free of noise and the model is theirs.
+
+  [[nodiscard]] Eigen::Index size() const {
+    return static_cast<Eigen::Index>(samples.unknowns.size());
+  }
   /// Where an unknown is in x, or -1 if it is held.
-  const auto at = [&](std::string_view name) {
+  [[nodiscard]] Eigen::Index position(std::string_view name) const {
+    const std::vector<const muscle::HillField*>& list = samples.unknowns;
     const auto it = std::find_if(list.begin(), list.end(),
                                  [&](const muscle::HillField* u) { return u->name == name; });
     return it == list.end() ? Eigen::Index{-1} : static_cast<Eigen::Index>(it - list.begin());
-  };
-  const Eigen::Index length = at("optimal_fiber_length");
-  const Eigen::Index width = at("force_length_width");
-  const Eigen::Index plateau = at("eccentric_plateau");
-
-  math::LeastSquaresResult fit;
-  fit.x = start;
-  std::string failure = samples.obstacle();
-  if (failure.empty()) {
-    fit = search_as_published(samples, start);
-    if (fit.termination != math::Termination::converged) failure = fit.message;
   }
-  result.iterations += fit.iterations;
-  if (!failure.empty())
-    result.message +=
-        fmt::format("{}, {}: {}. ", setup.name, shortening ? "shortening" : "lengthening", failure);
-  const std::optional<Eigen::VectorXd> minimum =
-      failure.empty() ? std::optional(fit.x) : damped_minimum(samples);
-
-  math::CovarianceResult covariance;
-  double widen = 1.0;
-  const bool computed =
-      fit.residual.size() == n && fit.jacobian.allFinite() && fit.residual.allFinite() && n > p;
-  if (computed) {
-    covariance = math::covariance(fit.jacobian, fit.residual);
-    const double effective = math::effective_sample_size(fit.residual, samples.pieces);
-    widen = static_cast<double>(n) / std::max(effective, 1.0);
-    result.effective_samples += effective;
+  [[nodiscard]] double variance(Eigen::Index i, Eigen::Index j) const {
+    return covariance.unscaled(i, j) * covariance.residual_variance * widen;
   }
+  /// The search moved the value to where no muscle can be.
+  [[nodiscard]] bool unphysical(Eigen::Index j, const Eigen::VectorXd& start) const {
+    const muscle::Range bounds = samples.unknowns[static_cast<std::size_t>(j)]->bounds;
+    const double x = search.x[j];
+    return x != start[j] && std::isfinite(x) && (x < bounds.lower || x > bounds.upper);
+  }
+};
+
+/// Adds covariance, effective number of samples and R² where the residuals allow.
+void add_statistics(CaseFit& fit) {
+  const math::LeastSquaresResult& search = fit.search;
+  const auto n = static_cast<Eigen::Index>(fit.samples.samples.size());
+  fit.computed = search.residual.size() == n && search.jacobian.allFinite() &&
+                 search.residual.allFinite() && n > fit.size();
+  if (!fit.computed) return;
+  fit.covariance = math::covariance(search.jacobian, search.residual);
+  fit.effective_samples = math::effective_sample_size(search.residual, fit.samples.pieces);
+  fit.widen = static_cast<double>(n) / std::max(fit.effective_samples, 1.0);
+  Eigen::VectorXd force(n);
+  for (Eigen::Index i = 0; i < n; ++i)
+    force[i] = fit.samples.samples[static_cast<std::size_t>(i)].force_n;
+  fit.r2 = coefficient_of_determination(force, force + search.residual);
+  fit.exact = search.residual.norm() <= kExact * force.norm();
+}
+
+CaseFit search_case(PaperCase samples) {
+  CaseFit fit;
+  fit.samples = std::move(samples);
+  fit.search.x = fit.samples.start_vector();
+  fit.failure = fit.samples.obstacle();
+  if (fit.failure.empty()) {
+    fit.search = search_as_published(fit.samples, fit.samples.start_vector());
+    if (fit.search.termination != math::Termination::converged) fit.failure = fit.search.message;
+  }
+  fit.minimum = fit.failure.empty() ? std::optional(fit.search.x) : damped_minimum(fit.samples);
+  add_statistics(fit);
+  return fit;
+}
+
+/// The number j of a case, judged.
+ParameterEstimate estimate_of(const CaseFit& fit,
+                              Eigen::Index j,
+                              const MuscleSetup& setup,
+                              const PaperOptions& options) {
   const double quantile = math::normal_quantile(0.975);
-  const auto unphysical = [&](Eigen::Index j) {
-    const muscle::Range bounds = list[static_cast<std::size_t>(j)]->bounds;
-    return fit.x[j] != start[j] && std::isfinite(fit.x[j]) &&
-           (fit.x[j] < bounds.lower || fit.x[j] > bounds.upper);
-  };
-  double r2 = 1.0;
-  bool exact = false;
-  if (computed) {
-    Eigen::VectorXd force(n);
-    for (Eigen::Index i = 0; i < n; ++i)
-      force[i] = samples.samples[static_cast<std::size_t>(i)].force_n;
-    r2 = coefficient_of_determination(force, force + fit.residual);
-    exact = fit.residual.norm() <= kExact * force.norm();
-    result.r2 = std::min(result.r2, r2);
+  const Eigen::VectorXd start = fit.samples.start_vector();
+  const Eigen::VectorXd& x = fit.search.x;
+  const muscle::HillField& field = *fit.samples.unknowns[static_cast<std::size_t>(j)];
+  ParameterEstimate e;
+  e.muscle = setup.name;
+  e.parameter = std::string(field.name);
+  e.unit = field.unit;
+  e.method = "paper";
+  e.fit_case = fit.samples.shortening ? "shortening" : "lengthening";
+  e.initial = start[j];
+  e.estimate =
+      std::abs(x[j]) <= 1e3 * std::abs(start[j]) ? x[j] : std::numeric_limits<double>::quiet_NaN();
+  VerdictContext context;
+  for (Eigen::Index other = 0; other < fit.size(); ++other) {
+    if (fit.unphysical(other, start))
+      context.bad_company =
+          std::string(fit.samples.unknowns[static_cast<std::size_t>(other)]->name);
   }
-  std::string bad_company;
-  for (Eigen::Index j = 0; j < p; ++j) {
-    if (unphysical(j)) bad_company = std::string(list[static_cast<std::size_t>(j)]->name);
+  context.shared_forces = options.shared_forces;
+  context.given_strength = !options.shared_forces && !fit.exact;
+  context.r2 = fit.r2;
+  if (const auto prior = setup.priors.find(e.parameter);
+      prior != setup.priors.end() && !prior->second.logarithmic && options.shared_forces) {
+    context.prior_distance = std::abs(e.estimate - prior->second.mean) / prior->second.sd;
   }
-  for (Eigen::Index j = 0; j < p; ++j) {
-    const muscle::HillField& field = *list[static_cast<std::size_t>(j)];
-    ParameterEstimate e;
-    e.muscle = setup.name;
-    e.parameter = std::string(field.name);
-    e.unit = field.unit;
-    e.method = "paper";
-    e.fit_case = shortening ? "shortening" : "lengthening";
-    e.initial = start[j];
-    e.estimate = std::abs(fit.x[j]) <= 1e3 * std::abs(start[j])
-                     ? fit.x[j]
-                     : std::numeric_limits<double>::quiet_NaN();
-    VerdictContext context;
-    context.bad_company = bad_company;
-    context.shared_forces = options.shared_forces;
-    context.given_strength = !options.shared_forces && !exact;
-    context.r2 = r2;
-    if (const auto prior = setup.priors.find(e.parameter);
-        prior != setup.priors.end() && !prior->second.logarithmic && options.shared_forces) {
-      context.prior_distance = std::abs(e.estimate - prior->second.mean) / prior->second.sd;
-    }
-    context.converged = failure.empty();
-    context.failure = failure;
-    context.determined = computed && covariance.determined[static_cast<std::size_t>(j)];
-    if (context.determined && context.converged) {
-      e.std_error = std::sqrt(covariance.unscaled(j, j) * covariance.residual_variance * widen);
-      e.ci_low = e.estimate - quantile * *e.std_error;
-      e.ci_high = e.estimate + quantile * *e.std_error;
-    }
-    context.outside_physical = unphysical(j);
-    const double l0 = length >= 0 ? fit.x[length] : samples.start.optimal_fiber_length_m;
-    if (j == width && !exact && l0 > 0.0 && fit.x[j] != start[j])
-      context.relative_width = std::abs(fit.x[j]) / l0;
-    if (plateau >= 0 && std::isfinite(fit.x[plateau])) {
-      const double sd = computed ? std::sqrt(covariance.unscaled(plateau, plateau) *
-                                             covariance.residual_variance * widen)
-                                 : 0.0;
-      context.plateau_is_flat = std::abs(fit.x[plateau] - 1.0) < quantile * sd;
-    }
-    judge(e, context);
-    if (minimum) {
-      minima.push_back(e);
-      minima.back().estimate = j == width ? std::abs((*minimum)[j]) : (*minimum)[j];
-    }
-    result.estimates.push_back(std::move(e));
+  context.converged = fit.failure.empty();
+  context.failure = fit.failure;
+  context.determined = fit.computed && fit.covariance.determined[static_cast<std::size_t>(j)];
+  if (context.determined && context.converged) {
+    e.std_error = std::sqrt(fit.variance(j, j));
+    e.ci_low = e.estimate - quantile * *e.std_error;
+    e.ci_high = e.estimate + quantile * *e.std_error;
   }
-  if (!failure.empty() || !computed || covariance.rank < p) return std::nullopt;
-  CaseShape shape{{samples.start.optimal_fiber_length_m, samples.start.force_length_width_m}, {}};
-  shape.covariance.setZero();
-  const std::array<Eigen::Index, 2> where{length, width};
+  context.outside_physical = fit.unphysical(j, start);
+  const Eigen::Index length = fit.position(kShared[0]);
+  const double l0 = length >= 0 ? x[length] : fit.samples.start.optimal_fiber_length_m;
+  if (field.name == kShared[1] && !fit.exact && l0 > 0.0 && x[j] != start[j])
+    context.relative_width = std::abs(x[j]) / l0;
+  const Eigen::Index plateau = fit.position("eccentric_plateau");
+  if (plateau >= 0 && std::isfinite(x[plateau])) {
+    const double sd = fit.computed ? std::sqrt(fit.variance(plateau, plateau)) : 0.0;
+    context.plateau_is_flat = std::abs(x[plateau] - 1.0) < quantile * sd;
+  }
+  judge(e, context);
+  return e;
+}
+
+/// l0 and l_sh of a case; empty where the fit does not determine all its unknowns.
+std::optional<CaseShape> shape_of(const CaseFit& fit) {
+  if (!fit.failure.empty() || !fit.computed || fit.covariance.rank < fit.size())
+    return std::nullopt;
+  CaseShape shape;
+  shape.value = {fit.samples.start.optimal_fiber_length_m, fit.samples.start.force_length_width_m};
   for (Eigen::Index a = 0; a < 2; ++a) {
-    const Eigen::Index i = where[static_cast<std::size_t>(a)];
+    const Eigen::Index i = fit.position(kShared[static_cast<std::size_t>(a)]);
     if (i < 0) continue;
-    shape.value[a] = fit.x[i];
+    shape.value[a] = fit.search.x[i];
     for (Eigen::Index b = 0; b < 2; ++b) {
-      const Eigen::Index j = where[static_cast<std::size_t>(b)];
-      if (j >= 0)
-        shape.covariance(a, b) = covariance.unscaled(i, j) * covariance.residual_variance * widen;
+      const Eigen::Index j = fit.position(kShared[static_cast<std::size_t>(b)]);
+      if (j >= 0) shape.covariance(a, b) = fit.variance(i, j);
     }
   }
   return shape;
 }
 
-/// Wald test of what both cases share and neither holds; where it rejects, neither case is trusted.
+/// Both branches of a muscle or more: the result and the minima that show signatures of errors.
+struct PaperFit {
+  IdentificationResult result;
+  std::vector<ParameterEstimate> minima;
+};
+
+/// Fits a muscle in one branch into `all`. Returns its curve, or nothing where it is not
+/// determined.
+std::optional<CaseShape> fit_case(const StudyData& data,
+                                  std::size_t muscle,
+                                  bool shortening,
+                                  const PaperOptions& options,
+                                  PaperFit& all) {
+  const MuscleSetup& setup = data.muscles[muscle];
+  PaperCase samples = paper_case(data, muscle, shortening);
+  IdentificationResult& result = all.result;
+  result.samples_dropped += samples.dropped;
+  result.samples_used += static_cast<int>(samples.samples.size());
+  result.muscles[muscle] = samples.start;
+  if (samples.unknowns.empty()) return std::nullopt;
+  const CaseFit fit = search_case(std::move(samples));
+  result.iterations += fit.search.iterations;
+  if (!fit.failure.empty())
+    result.message += fmt::format("{}, {}: {}. ", setup.name,
+                                  shortening ? "shortening" : "lengthening", fit.failure);
+  result.effective_samples += fit.effective_samples;
+  result.r2 = std::min(result.r2, fit.r2);
+  for (Eigen::Index j = 0; j < fit.size(); ++j) {
+    result.estimates.push_back(estimate_of(fit, j, setup, options));
+    if (!fit.minimum) continue;
+    const double x = (*fit.minimum)[j];
+    all.minima.push_back(result.estimates.back());
+    all.minima.back().estimate = result.estimates.back().parameter == kShared[1] ? std::abs(x) : x;
+  }
+  return shape_of(fit);
+}
+
+/// Wald test of the numbers that both cases share and neither holds. Where the test rejects, no
+/// number of the muscle stays identified.
 void compare_branches(const std::string& muscle,
                       const CaseShape& shortening,
                       const CaseShape& lengthening,
@@ -229,7 +273,7 @@ void compare_branches(const std::string& muscle,
   }
 }
 
-/// The table, and a word where the given start missed the lowest minimum.
+/// Adds the table of minima, and a warning where the given start missed the lowest one.
 void add_basins(const StudyData& data,
                 std::size_t muscle,
                 bool shortening,
@@ -246,22 +290,60 @@ void add_basins(const StudyData& data,
   result.basins.push_back(std::move(table));
 }
 
+/// The numbers of a muscle in shortening and in lengthening.
+std::array<muscle::HillParameters<double>, 2> by_branch(
+    const IdentificationResult& result,
+    const std::string& muscle,
+    const muscle::HillParameters<double>& start) {
+  std::array<muscle::HillParameters<double>, 2> branches{start, start};
+  for (const ParameterEstimate& e : result.estimates) {
+    if (e.muscle != muscle || !std::isfinite(e.estimate)) continue;
+    branches[e.fit_case == "shortening" ? 0 : 1].*muscle::hill_field(e.parameter).member =
+        e.estimate;
+  }
+  return branches;
+}
+
+/// Predicts forces and torques of a trial by the starting and the identified numbers.
+TrialFit predicted(const StudyData& data,
+                   const TrialData& trial,
+                   const IdentificationResult& result) {
+  TrialFit fit = unfitted_trial(trial);
+  const Eigen::MatrixXd activation = muscle_activation(data, trial, trial.time_s, 0.0);
+  fit.literature_force_n.resize(trial.time_s.size(), trial.length_m.cols());
+  fit.force_fit_n = fit.literature_force_n;
+  for (std::size_t k = 0; k < data.muscles.size(); ++k) {
+    const auto column = static_cast<Eigen::Index>(k);
+    const MuscleSetup& setup = data.muscles[k];
+    const auto branches = by_branch(result, setup.name, result.muscles[k]);
+    for (Eigen::Index i = 0; i < trial.time_s.size(); ++i) {
+      const double l = trial.length_m(i, column) - setup.start.tendon_slack_length_m;
+      const double v = trial.velocity_mps(i, column);
+      const double a = activation(i, column);
+      fit.literature_force_n(i, column) = muscle::hill_force(a, l, v, setup.start);
+      fit.force_fit_n(i, column) = muscle::hill_force(a, l, v, branches[v <= 0.0 ? 0 : 1]);
+    }
+  }
+  add_torques_of_forces(trial, fit);
+  return fit;
+}
+
 }  // namespace
 
 IdentificationResult identify_paper(const StudyData& data, const PaperOptions& options) {
   validate(data);
   const auto begin = std::chrono::steady_clock::now();
-  IdentificationResult result;
+  PaperFit fit;
+  IdentificationResult& result = fit.result;
   result.method = "paper";
   result.termination = math::Termination::converged;
-  std::vector<ParameterEstimate> minima;
   for (std::size_t k = 0; k < data.muscles.size(); ++k) {
     result.muscles.push_back(data.muscles[k].start);
     if (!options.muscles.empty() && std::find(options.muscles.begin(), options.muscles.end(),
                                               data.muscles[k].name) == options.muscles.end())
       continue;
-    const auto shortening = fit_case(data, k, true, options, result, minima);
-    const auto lengthening = fit_case(data, k, false, options, result, minima);
+    const auto shortening = fit_case(data, k, true, options, fit);
+    const auto lengthening = fit_case(data, k, false, options, fit);
     if (options.multistart > 1) {
       for (const bool branch : {true, false}) add_basins(data, k, branch, options, result);
     }
@@ -269,46 +351,11 @@ IdentificationResult identify_paper(const StudyData& data, const PaperOptions& o
       compare_branches(data.muscles[k].name, *shortening, *lengthening, result);
   }
   if (!result.message.empty()) result.termination = math::Termination::no_descent;
-  result.diagnoses = signatures(minima);
-  for (const TrialData& trial : data.trials) {
-    TrialFit fit;
-    fit.trial = trial.name;
-    fit.calibration = trial.calibration;
-    fit.time_s = trial.time_s;
-    fit.joint = trial.joint;
-    fit.torque_nm = trial.torque_nm;
-    const Eigen::MatrixXd activation = muscle_activation(data, trial, trial.time_s, 0.0);
-    fit.literature_force_n.resize(trial.time_s.size(), trial.length_m.cols());
-    fit.force_fit_n = fit.literature_force_n;
-    for (std::size_t k = 0; k < data.muscles.size(); ++k) {
-      const auto column = static_cast<Eigen::Index>(k);
-      const MuscleSetup& setup = data.muscles[k];
-      muscle::HillParameters<double> by_case[2] = {result.muscles[k], result.muscles[k]};
-      for (const ParameterEstimate& e : result.estimates) {
-        if (e.muscle != setup.name || !std::isfinite(e.estimate)) continue;
-        by_case[e.fit_case == "shortening" ? 0 : 1].*muscle::hill_field(e.parameter).member =
-            e.estimate;
-      }
-      for (Eigen::Index i = 0; i < trial.time_s.size(); ++i) {
-        const double l = trial.length_m(i, column) - setup.start.tendon_slack_length_m;
-        const double v = trial.velocity_mps(i, column);
-        fit.literature_force_n(i, column) =
-            muscle::hill_force(activation(i, column), l, v, setup.start);
-        fit.force_fit_n(i, column) =
-            muscle::hill_force(activation(i, column), l, v, by_case[v <= 0.0 ? 0 : 1]);
-      }
-    }
-    if (trial.moment_arm_m.rows() == trial.time_s.size()) {
-      const Eigen::VectorXd resting = resting_torque_nm(trial);
-      fit.literature_torque_nm =
-          trial.moment_arm_m.cwiseProduct(fit.literature_force_n).rowwise().sum() + resting;
-      fit.torque_fit_nm =
-          trial.moment_arm_m.cwiseProduct(fit.force_fit_n).rowwise().sum() + resting;
-    }
-    result.trials.push_back(std::move(fit));
-  }
+  result.diagnoses = signatures(fit.minima);
+  for (const TrialData& trial : data.trials)
+    result.trials.push_back(predicted(data, trial, result));
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  return result;
+  return std::move(result);
 }
 
 }  // namespace myoid::identification

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <functional>
 #include <limits>
+#include <utility>
 
 #include "myoid/core/error.h"
 #include "myoid/identification/paper_case.h"
@@ -36,30 +37,38 @@ math::LocalMinimum searched(const Search& search, const Eigen::VectorXd& start) 
   }
 }
 
+using Solver = std::pair<const char*, Search>;
+
+/// The four solvers by name; they refer to the arguments.
+std::vector<Solver> solvers_of(const Contestants& who,
+                               const StartBox& box,
+                               const ContestOptions& options,
+                               const Progress& stop) {
+  const auto simplex = [&](const Eigen::VectorXd& x) {
+    return end_of(math::nelder_mead(
+        who.cost, x, {.max_evaluations = options.direct_evaluations, .progress = stop}));
+  };
+  const auto annealing = [&, seed = options.seed](const Eigen::VectorXd& x) mutable {
+    // The costs of the starts' box spread over many powers of ten: the temperature follows them.
+    return end_of(math::simulated_annealing(who.cost, x,
+                                            {.seed = seed++,
+                                             .max_evaluations = options.direct_evaluations,
+                                             .spread_cooling = 0.7,
+                                             .cycles = 10,
+                                             .adjustments = 1,
+                                             .reach = box.upper - box.lower,
+                                             .progress = stop}));
+  };
+  return {{"gauss_newton", who.gauss_newton},
+          {"levenberg_marquardt", who.levenberg_marquardt},
+          {"nelder_mead", simplex},
+          {"simulated_annealing", annealing}};
+}
+
 SolverContest contest(const Contestants& who, const StartBox& box, const ContestOptions& options) {
   const std::vector<Eigen::VectorXd> starts = starts_in(box, options.starts);
   const Progress stop{{}, options.progress.stop};
-  std::uint64_t seed = options.seed;
-  const std::vector<std::pair<const char*, Search>> solvers{
-      {"gauss_newton", who.gauss_newton},
-      {"levenberg_marquardt", who.levenberg_marquardt},
-      {"nelder_mead",
-       [&](const Eigen::VectorXd& x) {
-         return end_of(math::nelder_mead(
-             who.cost, x, {.max_evaluations = options.direct_evaluations, .progress = stop}));
-       }},
-      {"simulated_annealing", [&](const Eigen::VectorXd& x) {
-         return end_of(math::simulated_annealing(who.cost, x,
-                                                 // The costs of the starts' box spread over many
-                                                 // powers of ten: the temperature follows them.
-                                                 {.seed = seed++,
-                                                  .max_evaluations = options.direct_evaluations,
-                                                  .spread_cooling = 0.7,
-                                                  .cycles = 10,
-                                                  .adjustments = 1,
-                                                  .reach = box.upper - box.lower,
-                                                  .progress = stop}));
-       }}};
+  const std::vector<Solver> solvers = solvers_of(who, box, options, stop);
   SolverContest result;
   std::vector<Eigen::VectorXd> ends;
   // The searches for the basins count as one start more.

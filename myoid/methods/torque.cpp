@@ -9,6 +9,7 @@
 #include "myoid/intervals/estimates.h"
 #include "myoid/methods/basins.h"
 #include "myoid/methods/noise_free.h"
+#include "myoid/methods/trial_fit.h"
 #include "myoid/muscle/hill_muscle.h"
 
 namespace myoid::identification {
@@ -29,12 +30,7 @@ void add_predictions(const StudyData& data,
   for (const TrialData& whole : data.trials) {
     for (std::size_t j = 0; j < joint_count(whole); ++j) {
       const TrialData trial = of_joint(whole, j);
-      TrialFit fit;
-      fit.trial = trial.name;
-      fit.joint = trial.joint;
-      fit.calibration = trial.calibration;
-      fit.time_s = trial.time_s;
-      fit.torque_nm = trial.torque_nm;
+      TrialFit fit = unfitted_trial(trial);
       Prediction before = predict(data, trial, literature, options.lag);
       auto [after, smooth] = predict(data, trial, result, options.envelope_cutoff_hz);
       fit.smooth_hz = smooth.cutoff_hz;

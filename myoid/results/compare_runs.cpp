@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 #include <tuple>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -13,6 +14,7 @@
 
 #include "myoid/core/error.h"
 #include "myoid/files/text_file.h"
+#include "myoid/intervals/estimate_columns.h"
 #include "myoid/study/run_identity.h"
 
 namespace myoid {
@@ -23,6 +25,9 @@ using nlohmann::json;
 constexpr double kLevel = 0.05;
 constexpr double kNormal95 = 1.959963984540054;
 
+using identification::ParameterEstimate;
+using identification::Verdict;
+
 std::optional<double> number(const json& object, const char* key) {
   const auto found = object.find(key);
   if (found == object.end() || !found->is_number()) return std::nullopt;
@@ -31,43 +36,38 @@ std::optional<double> number(const json& object, const char* key) {
 
 /// Muscle, parameter, method, case.
 using Key = std::tuple<std::string, std::string, std::string, std::string>;
+using MethodAndTrial = std::pair<std::string, std::string>;
 
 struct Run {
-  json content;
   std::vector<Key> order;
-  std::map<Key, std::pair<SessionEstimate, std::string>> estimates;  ///< With unit.
+  std::map<Key, ParameterEstimate> estimates;
   std::map<Key, std::vector<std::string>> sharers;  ///< Further muscles of the same unknown.
-  std::vector<std::pair<std::string, std::string>> trial_order;  ///< Method, trial.
-  std::map<std::pair<std::string, std::string>, std::optional<double>> rmse_nm;
+  std::vector<MethodAndTrial> trial_order;
+  std::map<MethodAndTrial, std::optional<double>> rmse_nm;
 };
 
 Run read_run(const std::filesystem::path& folder) {
   const std::filesystem::path path = folder / "parameters.json";
   Run run;
   try {
-    run.content = json::parse(recording::read_text_file(path));
-    for (const json& method : run.content.at("methods")) {
-      const auto method_name = method.at("method").get<std::string>();
-      for (const json& e : method.at("estimates")) {
-        const Key key{e.at("muscle"), e.at("parameter"), e.at("method"), e.at("case")};
-        const std::optional<double> estimate = number(e, "estimate");
-        if (!estimate) continue;
+    const json content = json::parse(recording::read_text_file(path));
+    for (const json& method : content.at("methods")) {
+      for (const json& row : method.at("estimates")) {
+        std::optional<ParameterEstimate> e = identification::estimate_of_json(row);
+        if (!e) continue;
         // One unknown of several muscles is one number: the first owner's.
-        if (const auto tied = e.value("tied_to", std::string()); !tied.empty()) {
-          run.sharers[{tied, e.at("parameter"), e.at("method"), e.at("case")}].push_back(
-              e.at("muscle").get<std::string>());
+        const Key key{e->tied_to.empty() ? e->muscle : e->tied_to, e->parameter, e->method,
+                      e->fit_case};
+        if (!e->tied_to.empty()) {
+          run.sharers[key].push_back(e->muscle);
           continue;
         }
         run.order.push_back(key);
-        run.estimates[key] = {{.estimate = *estimate,
-                               .std_error = number(e, "std_error"),
-                               .ci_low = number(e, "ci_low"),
-                               .ci_high = number(e, "ci_high"),
-                               .verdict = e.at("verdict")},
-                              e.at("unit").get<std::string>()};
+        run.estimates[key] = std::move(*e);
       }
       for (const json& trial : method.at("trials")) {
-        const std::pair key{method_name, trial.at("trial").get<std::string>()};
+        const MethodAndTrial key{method.at("method").get<std::string>(),
+                                 trial.at("trial").get<std::string>()};
         run.trial_order.push_back(key);
         run.rmse_nm[key] = number(trial, "rmse_nm");
       }
@@ -81,8 +81,10 @@ Run read_run(const std::filesystem::path& folder) {
   return run;
 }
 
-bool told(const SessionEstimate& e) {
-  return (e.verdict == "identified" || e.verdict == "weak") && e.std_error && *e.std_error > 0.0;
+/// The session's recording determines the number.
+bool told(const ParameterEstimate& e) {
+  return (e.verdict == Verdict::identified || e.verdict == Verdict::weak) && e.std_error &&
+         *e.std_error > 0.0;
 }
 
 /// Holm (1979): the k-th smallest of n p-values times n - k + 1, never below an earlier one.
@@ -104,7 +106,7 @@ std::string text_of(const Key& key) {
                      fit_case == "both" ? std::string() : ", " + fit_case);
 }
 
-std::string interval_text(const SessionEstimate& e) {
+std::string interval_text(const ParameterEstimate& e) {
   const std::string value = report::format_value(e.estimate);
   if (!e.ci_low || !e.ci_high) return value;
   return fmt::format("{} ({})", value, report::format_interval(*e.ci_low, *e.ci_high));
@@ -128,10 +130,10 @@ std::string sentence(const ComparedParameter& p) {
       return fmt::format("differs: p = {:.2g}, adjusted for the number of parameters", *p.p_value);
     case Change::no_change:
       return fmt::format("no difference shows; one below {} {} would not have been seen",
-                         report::format_value(*p.smallest_detectable, 2), p.unit);
+                         report::format_value(*p.smallest_detectable, 2), symbol(p.first.unit));
     case Change::cannot_tell:
-      return fmt::format("not compared: {} in the first session, {} in the second", p.first.verdict,
-                         p.second.verdict);
+      return fmt::format("not compared: {} in the first session, {} in the second",
+                         name(p.first.verdict), name(p.second.verdict));
   }
   return {};
 }
@@ -152,23 +154,127 @@ report::Panel panel_of(const RunComparison& comparison,
   report::Series second = first;
   second.name = "second";
   for (const ComparedParameter& p : comparison.parameters) {
-    if (p.method != method || p.parameter != parameter || p.fit_case != fit_case) continue;
+    const ParameterEstimate& e = p.first;
+    if (e.method != method || e.parameter != parameter || e.fit_case != fit_case) continue;
     panel.y.label = parameter;
-    panel.y.unit = p.unit == "1" ? "" : p.unit;
+    panel.y.unit = e.unit == Unit::dimensionless ? "" : std::string(symbol(e.unit));
     const auto at = static_cast<double>(panel.x.categories.size() / 2);
     panel.x.categories.push_back(p.muscle + " 1");
     panel.x.categories.push_back(p.muscle + " 2");
-    const auto add = [](report::Series& series, double x, const SessionEstimate& e) {
+    const auto add = [](report::Series& series, double x, const ParameterEstimate& of) {
       series.x.push_back(x);
-      series.y.push_back(e.estimate);
-      series.y_lower.push_back(e.ci_low.value_or(e.estimate));
-      series.y_upper.push_back(e.ci_high.value_or(e.estimate));
+      series.y.push_back(of.estimate);
+      series.y_lower.push_back(of.ci_low.value_or(of.estimate));
+      series.y_upper.push_back(of.ci_high.value_or(of.estimate));
     };
     add(first, 2.0 * at, p.first);
     add(second, 2.0 * at + 1.0, p.second);
   }
   panel.series = {first, second};
   return panel;
+}
+
+/// A number of both sessions with its difference; not adjusted yet.
+ComparedParameter compared(const Run& run, const Key& key, const ParameterEstimate& second) {
+  ComparedParameter p{.muscle = std::get<0>(key), .first = run.estimates.at(key), .second = second};
+  if (const auto sharers = run.sharers.find(key); sharers != run.sharers.end())
+    p.muscle += fmt::format(", {}", fmt::join(sharers->second, ", "));
+  p.difference = p.second.estimate - p.first.estimate;
+  if (told(p.first) && told(p.second)) {
+    const double se = std::hypot(*p.first.std_error, *p.second.std_error);
+    p.smallest_detectable = kNormal95 * se;
+    p.p_value = std::erfc(std::abs(p.difference) / se / std::sqrt(2.0));
+  }
+  return p;
+}
+
+/// Methods of the compared numbers, in order of appearance.
+std::vector<std::string> methods_of(const RunComparison& comparison) {
+  std::vector<std::string> methods;
+  for (const ComparedParameter& p : comparison.parameters) {
+    if (std::find(methods.begin(), methods.end(), p.first.method) == methods.end())
+      methods.push_back(p.first.method);
+  }
+  return methods;
+}
+
+std::vector<ComparedTrial> compared_trials(const Run& a, const Run& b) {
+  const auto rmse = [](const Run& run, const MethodAndTrial& key) {
+    const auto found = run.rmse_nm.find(key);
+    return found == run.rmse_nm.end() ? std::nullopt : found->second;
+  };
+  std::vector<ComparedTrial> trials;
+  for (const MethodAndTrial& key : a.trial_order)
+    trials.push_back({key.second, key.first, rmse(a, key), rmse(b, key)});
+  for (const MethodAndTrial& key : b.trial_order) {
+    if (!a.rmse_nm.contains(key))
+      trials.push_back({key.second, key.first, std::nullopt, rmse(b, key)});
+  }
+  return trials;
+}
+
+std::string headline(const RunComparison& comparison) {
+  std::map<Change, int> count;
+  for (const ComparedParameter& p : comparison.parameters) ++count[p.change];
+  std::string text = fmt::format(
+      "Of {} numbers that both sessions hold, {} differ by more than chance explains, {} show no "
+      "difference, and {} cannot be compared because a recording does not determine them.",
+      comparison.parameters.size(), count[Change::differs], count[Change::no_change],
+      count[Change::cannot_tell]);
+  if (!comparison.unlike.empty())
+    text += fmt::format(" The two are not of one kind: {}.", fmt::join(comparison.unlike, "; "));
+  return text;
+}
+
+/// Table and figure of one method.
+report::Section method_section(const RunComparison& comparison, const std::string& method) {
+  report::Section section{.id = "method_" + method, .heading = "Method " + method};
+  report::Table table{
+      .id = "compared_" + method,
+      .title = "Parameters",
+      .caption = "Estimate with its 95 % interval. p-values are adjusted for their number (Holm).",
+      .columns = {"muscle", "parameter", "unit", "first", "second", "difference", "verdict"},
+      .rows = {}};
+  report::Figure figure{
+      .id = "intervals_" + method,
+      .title = "Both sessions",
+      .caption = "Estimates with 95 % intervals; 1 the first session, 2 the second.",
+      .panels = {},
+      .columns = 2};
+  std::set<std::pair<std::string, std::string>> shown;
+  for (const ComparedParameter& p : comparison.parameters) {
+    const ParameterEstimate& e = p.first;
+    if (e.method != method) continue;
+    table.rows.push_back({{p.muscle},
+                          {e.parameter + (e.fit_case == "both" ? "" : " (" + e.fit_case + ")")},
+                          {std::string(symbol(e.unit))},
+                          {interval_text(p.first)},
+                          {interval_text(p.second)},
+                          {report::format_value(p.difference)},
+                          {std::string(name(p.change)), badge(p.change), sentence(p)}});
+    if (shown.insert({e.parameter, e.fit_case}).second)
+      figure.panels.push_back(panel_of(comparison, method, e.parameter, e.fit_case));
+  }
+  section.tables.push_back(std::move(table));
+  section.figures.push_back(std::move(figure));
+  return section;
+}
+
+report::Section errors_section(const RunComparison& comparison) {
+  report::Table errors{.id = "trial_errors",
+                       .title = "Root mean square error of the torque",
+                       .caption = "",
+                       .columns = {"trial", "method", "first [N m]", "second [N m]"},
+                       .rows = {}};
+  const auto cell = [](const std::optional<double>& x) {
+    return report::Cell{x ? report::format_value(*x) : "-"};
+  };
+  for (const ComparedTrial& t : comparison.trials)
+    errors.rows.push_back({{t.trial}, {t.method}, cell(t.rmse_first_nm), cell(t.rmse_second_nm)});
+  report::Section trials{.id = "trials", .heading = "How well the trials are predicted"};
+  trials.tables.push_back(std::move(errors));
+  trials.paragraphs = comparison.remarks;
+  return trials;
 }
 
 }  // namespace
@@ -189,12 +295,7 @@ RunComparison compare_runs(const std::filesystem::path& first,
                            const std::filesystem::path& second) {
   const Run a = read_run(first);
   const Run b = read_run(second);
-  RunComparison comparison{.first = first,
-                           .second = second,
-                           .parameters = {},
-                           .trials = {},
-                           .unlike = {},
-                           .remarks = {}};
+  RunComparison comparison{.first = first, .second = second};
   IdentityDifferences unlike = differences(read_run_identity(first), read_run_identity(second));
   comparison.unlike = std::move(unlike.grave);
   std::move(unlike.other.begin(), unlike.other.end(), std::back_inserter(comparison.unlike));
@@ -202,49 +303,22 @@ RunComparison compare_runs(const std::filesystem::path& first,
     const auto other = b.estimates.find(key);
     if (other == b.estimates.end()) {
       comparison.remarks.push_back(text_of(key) + " is in the first session only");
-      continue;
+    } else {
+      comparison.parameters.push_back(compared(a, key, other->second));
     }
-    const auto& [estimate, unit] = a.estimates.at(key);
-    ComparedParameter p{.muscle = std::get<0>(key),
-                        .parameter = std::get<1>(key),
-                        .unit = unit,
-                        .method = std::get<2>(key),
-                        .fit_case = std::get<3>(key),
-                        .first = estimate,
-                        .second = other->second.first};
-    if (const auto sharers = a.sharers.find(key); sharers != a.sharers.end())
-      p.muscle += fmt::format(", {}", fmt::join(sharers->second, ", "));
-    p.difference = p.second.estimate - p.first.estimate;
-    if (told(p.first) && told(p.second)) {
-      const double se = std::hypot(*p.first.std_error, *p.second.std_error);
-      p.smallest_detectable = kNormal95 * se;
-      p.p_value = std::erfc(std::abs(p.difference) / se / std::sqrt(2.0));
-    }
-    comparison.parameters.push_back(std::move(p));
   }
   for (const Key& key : b.order) {
     if (!a.estimates.contains(key))
       comparison.remarks.push_back(text_of(key) + " is in the second session only");
   }
-  std::set<std::string> methods;
-  for (const ComparedParameter& p : comparison.parameters) methods.insert(p.method);
-  for (const std::string& method : methods) {
-    std::vector<ComparedParameter*> compared;
+  for (const std::string& method : methods_of(comparison)) {
+    std::vector<ComparedParameter*> of_method;
     for (ComparedParameter& p : comparison.parameters) {
-      if (p.method == method && p.p_value) compared.push_back(&p);
+      if (p.first.method == method && p.p_value) of_method.push_back(&p);
     }
-    adjust_p_values(std::move(compared));
+    adjust_p_values(std::move(of_method));
   }
-  const auto rmse = [](const Run& run, const std::pair<std::string, std::string>& key) {
-    const auto found = run.rmse_nm.find(key);
-    return found == run.rmse_nm.end() ? std::nullopt : found->second;
-  };
-  for (const auto& key : a.trial_order)
-    comparison.trials.push_back({key.second, key.first, rmse(a, key), rmse(b, key)});
-  for (const auto& key : b.trial_order) {
-    if (!a.rmse_nm.contains(key))
-      comparison.trials.push_back({key.second, key.first, std::nullopt, rmse(b, key)});
-  }
+  comparison.trials = compared_trials(a, b);
   return comparison;
 }
 
@@ -252,69 +326,10 @@ report::Report comparison_report(const RunComparison& comparison) {
   report::Report page;
   page.title = "Two sessions compared";
   page.subtitle = comparison.first.string() + " and " + comparison.second.string();
-  std::map<Change, int> count;
-  for (const ComparedParameter& p : comparison.parameters) ++count[p.change];
-  page.headline = fmt::format(
-      "Of {} numbers that both sessions hold, {} differ by more than chance explains, {} show no "
-      "difference, and {} cannot be compared because a recording does not determine them.",
-      comparison.parameters.size(), count[Change::differs], count[Change::no_change],
-      count[Change::cannot_tell]);
-  if (!comparison.unlike.empty())
-    page.headline +=
-        fmt::format(" The two are not of one kind: {}.", fmt::join(comparison.unlike, "; "));
-  std::vector<std::string> methods;
-  for (const ComparedParameter& p : comparison.parameters) {
-    if (std::find(methods.begin(), methods.end(), p.method) == methods.end())
-      methods.push_back(p.method);
-  }
-  for (const std::string& method : methods) {
-    report::Section section{.id = "method_" + method, .heading = "Method " + method};
-    report::Table table{
-        .id = "compared_" + method,
-        .title = "Parameters",
-        .caption =
-            "Estimate with its 95 % interval. p-values are adjusted for their number (Holm).",
-        .columns = {"muscle", "parameter", "unit", "first", "second", "difference", "verdict"},
-        .rows = {}};
-    std::vector<std::pair<std::string, std::string>> panels;
-    for (const ComparedParameter& p : comparison.parameters) {
-      if (p.method != method) continue;
-      table.rows.push_back({{p.muscle},
-                            {p.parameter + (p.fit_case == "both" ? "" : " (" + p.fit_case + ")")},
-                            {p.unit},
-                            {interval_text(p.first)},
-                            {interval_text(p.second)},
-                            {report::format_value(p.difference)},
-                            {std::string(name(p.change)), badge(p.change), sentence(p)}});
-      const std::pair panel{p.parameter, p.fit_case};
-      if (std::find(panels.begin(), panels.end(), panel) == panels.end()) panels.push_back(panel);
-    }
-    section.tables.push_back(std::move(table));
-    report::Figure figure{
-        .id = "intervals_" + method,
-        .title = "Both sessions",
-        .caption = "Estimates with 95 % intervals; 1 the first session, 2 the second.",
-        .panels = {},
-        .columns = 2};
-    for (const auto& [parameter, fit_case] : panels)
-      figure.panels.push_back(panel_of(comparison, method, parameter, fit_case));
-    section.figures.push_back(std::move(figure));
-    page.sections.push_back(std::move(section));
-  }
-  report::Section trials{.id = "trials", .heading = "How well the trials are predicted"};
-  report::Table errors{.id = "trial_errors",
-                       .title = "Root mean square error of the torque",
-                       .caption = "",
-                       .columns = {"trial", "method", "first [N m]", "second [N m]"},
-                       .rows = {}};
-  const auto cell = [](const std::optional<double>& x) {
-    return report::Cell{x ? report::format_value(*x) : "-"};
-  };
-  for (const ComparedTrial& t : comparison.trials)
-    errors.rows.push_back({{t.trial}, {t.method}, cell(t.rmse_first_nm), cell(t.rmse_second_nm)});
-  trials.tables.push_back(std::move(errors));
-  trials.paragraphs = comparison.remarks;
-  page.sections.push_back(std::move(trials));
+  page.headline = headline(comparison);
+  for (const std::string& method : methods_of(comparison))
+    page.sections.push_back(method_section(comparison, method));
+  page.sections.push_back(errors_section(comparison));
   page.assumptions = {
       "The two sessions are independent; where both used the same prior, the test is cautious.",
       "A number that a session calls prior_dominated, not_identifiable or non_physical is not "

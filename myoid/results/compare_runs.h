@@ -6,18 +6,12 @@
 #include <string_view>
 #include <vector>
 
+#include "myoid/intervals/result.h"
 #include "myoid/report/report.h"
 
 namespace myoid {
 
-/// One number as a session gave it.
-struct SessionEstimate {
-  double estimate = 0.0;
-  std::optional<double> std_error, ci_low, ci_high;
-  std::string verdict;
-};
-
-/// The answer to the question if a number differs between two sessions.
+/// The answer to the question whether a number differs between two sessions.
 enum class Change {
   differs,      ///< By more than chance explains.
   no_change,    ///< Both recordings can tell it, and no difference shows.
@@ -25,16 +19,17 @@ enum class Change {
 };
 [[nodiscard]] std::string_view name(Change change);
 
+/// One number of both sessions.
 struct ComparedParameter {
-  std::string muscle, parameter, unit, method, fit_case;
-  SessionEstimate first, second;
+  std::string muscle;  ///< All owners of the number, separated by commas.
+  identification::ParameterEstimate first, second;
   double difference = 0.0;                    ///< Second minus first.
   std::optional<double> smallest_detectable;  ///< 1.96 standard errors of the difference.
   std::optional<double> p_value;              ///< Two-sided, adjusted (Holm) within the method.
   Change change = Change::cannot_tell;
 };
 
-/// A trial that both sessions have under one name, or that one of them has.
+/// A trial of both sessions under one name, or of one session.
 struct ComparedTrial {
   std::string trial, method;
   std::optional<double> rmse_first_nm, rmse_second_nm;
@@ -45,7 +40,7 @@ struct RunComparison {
   std::vector<ComparedParameter> parameters;
   std::vector<ComparedTrial> trials;
   std::vector<std::string> unlike;   ///< Model, person, muscles that differ (run_identity.h).
-  std::vector<std::string> remarks;  ///< What only one of them has.
+  std::vector<std::string> remarks;  ///< Numbers that only one of them has.
 };
 
 /// Two finished runs, of one person on two days or of one recording by two studies, number by

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -19,7 +20,7 @@ using report::Panel;
 using report::Role;
 using report::to_vector;
 
-/// The literature's numbers with those of the truth in their place; empty without a truth.
+/// The literature's parameters with the true ones in their place; empty without a truth.
 std::optional<muscle::HillParameters<double>> true_muscle(
     const StudyResult& result, const identification::MuscleSetup& setup) {
   std::optional<muscle::HillParameters<double>> muscle;
@@ -34,80 +35,102 @@ std::optional<muscle::HillParameters<double>> true_muscle(
   return muscle;
 }
 
+using muscle::HillParameters;
+using Curve = std::function<double(double x, const HillParameters<double>& muscle)>;
+
+/// One muscle by every set of parameters: literature, identified and, of a virtual recording, true.
+struct MuscleVersions {
+  HillParameters<double> literature, identified;
+  std::optional<HillParameters<double>> truth;
+};
+
+report::Series sampled(std::string name,
+                       Role role,
+                       double from,
+                       double to,
+                       const Curve& curve,
+                       const HillParameters<double>& muscle) {
+  report::Series series{std::move(name), {}, {}, role, {}, {}};
+  for (int i = 0; i <= 160; ++i) {
+    const double x = from + (to - from) * i / 160.0;
+    series.x.push_back(x);
+    series.y.push_back(curve(x, muscle));
+  }
+  return series;
+}
+
+/// Adds the curve of every version of the muscle between two places.
+void add_curves(
+    Panel& panel, const MuscleVersions& of, double from, double to, const Curve& curve) {
+  panel.series.push_back(sampled("literature", Role::literature, from, to, curve, of.literature));
+  panel.series.push_back(sampled("identified", Role::identified, from, to, curve, of.identified));
+  if (of.truth) panel.series.push_back(sampled("truth", Role::truth, from, to, curve, *of.truth));
+}
+
+/// Fiber lengths and the greatest speed of one muscle over all trials.
+struct VisitedRange {
+  double low_m = 1e9, high_m = -1e9, fastest_mps = 0.05;
+};
+
+VisitedRange visited(const identification::StudyData& data, std::size_t m) {
+  const double slack_m = data.muscles[m].start.tendon_slack_length_m;
+  const auto c = static_cast<Eigen::Index>(m);
+  VisitedRange range;
+  for (const auto& trial : data.trials) {
+    range.low_m = std::min(range.low_m, trial.length_m.col(c).minCoeff() - slack_m);
+    range.high_m = std::max(range.high_m, trial.length_m.col(c).maxCoeff() - slack_m);
+    range.fastest_mps =
+        std::max(range.fastest_mps, trial.velocity_mps.col(c).cwiseAbs().maxCoeff());
+  }
+  return range;
+}
+
+Panel length_panel(const MuscleVersions& of, const VisitedRange& range) {
+  Panel panel{"", {"fiber length", "m", {}, {}, {}}, {"force / (a F_max)", "", {}, {}, {}}, {}};
+  panel.series.push_back(
+      {"visited", {range.low_m, range.high_m}, {0.0, 0.0}, Role::band, {}, {1.0, 1.0}});
+  const double l0 = of.literature.optimal_fiber_length_m;
+  const double span = 1.6 * of.literature.force_length_width_m;
+  add_curves(panel, of, l0 - span, l0 + span, [](double x, const auto& muscle) {
+    return muscle::force_length(x, muscle.optimal_fiber_length_m, muscle.force_length_width_m);
+  });
+  return panel;
+}
+
+Panel velocity_panel(const MuscleVersions& of, const VisitedRange& range) {
+  Panel panel{"",
+              {"fiber velocity (lengthening positive)", "m/s", {}, {}, {}},
+              {"force / isometric force", "", {}, {}, {}},
+              {}};
+  double highest = std::max(of.literature.eccentric_plateau, of.identified.eccentric_plateau);
+  if (of.truth) highest = std::max(highest, of.truth->eccentric_plateau);
+  panel.series.push_back({"visited",
+                          {-range.fastest_mps, range.fastest_mps},
+                          {0.0, 0.0},
+                          Role::band,
+                          {},
+                          {highest, highest}});
+  const double v = of.literature.max_shortening_speed_mps;
+  add_curves(panel, of, -v, v, [](double x, const auto& muscle) {
+    return muscle::force_velocity(muscle.velocity_law(), x / muscle.max_shortening_speed_mps).value;
+  });
+  return panel;
+}
+
 }  // namespace
 
 Figure muscle_curves(const StudyResult& result, const IdentificationResult& method, std::size_t m) {
   const auto& setup = result.fit_input.data.muscles[m];
-  const auto& found = method.muscles[m];
-  Figure figure{
-      "curves_" + setup.name,
-      fmt::format("{}: force-length and force-velocity relations", setup.name),
-      "Grey dotted: literature; orange dashed: identified; thin black: the truth of a virtual "
-      "recording. The shaded range is what the recording visited.",
-      {},
-      2};
-  double low = 1e9;
-  double high = -1e9;
-  double fastest = 0.05;
-  for (const auto& trial : result.fit_input.data.trials) {
-    const auto c = static_cast<Eigen::Index>(m);
-    low = std::min(low, trial.length_m.col(c).minCoeff() - setup.start.tendon_slack_length_m);
-    high = std::max(high, trial.length_m.col(c).maxCoeff() - setup.start.tendon_slack_length_m);
-    fastest = std::max(fastest, trial.velocity_mps.col(c).cwiseAbs().maxCoeff());
-  }
-  const auto sample = [](double from, double to, auto f) {
-    std::pair<std::vector<double>, std::vector<double>> xy;
-    for (int i = 0; i <= 160; ++i) {
-      const double x = from + (to - from) * i / 160.0;
-      xy.first.push_back(x);
-      xy.second.push_back(f(x));
-    }
-    return xy;
-  };
-  const double l0 = setup.start.optimal_fiber_length_m;
-  const double span = 1.6 * setup.start.force_length_width_m;
-  Panel length{"", {"fiber length", "m", {}, {}, {}}, {"force / (a F_max)", "", {}, {}, {}}, {}};
-  length.series.push_back({"visited", {low, high}, {0.0, 0.0}, Role::band, {}, {1.0, 1.0}});
-  const auto [lx, ly] = sample(l0 - span, l0 + span, [&](double x) {
-    return muscle::force_length(x, setup.start.optimal_fiber_length_m,
-                                setup.start.force_length_width_m);
-  });
-  length.series.push_back({"literature", lx, ly, Role::literature, {}, {}});
-  const auto [ix, iy] = sample(l0 - span, l0 + span, [&](double x) {
-    return muscle::force_length(x, found.optimal_fiber_length_m, found.force_length_width_m);
-  });
-  length.series.push_back({"identified", ix, iy, Role::identified, {}, {}});
-  const auto truth = true_muscle(result, setup);
-  if (truth) {
-    const auto [tx, ty] = sample(l0 - span, l0 + span, [&](double x) {
-      return muscle::force_length(x, truth->optimal_fiber_length_m, truth->force_length_width_m);
-    });
-    length.series.push_back({"truth", tx, ty, Role::truth, {}, {}});
-  }
-  const double v = setup.start.max_shortening_speed_mps;
-  Panel velocity{"",
-                 {"fiber velocity (lengthening positive)", "m/s", {}, {}, {}},
-                 {"force / isometric force", "", {}, {}, {}},
-                 {}};
-  double highest = std::max(setup.start.eccentric_plateau, found.eccentric_plateau);
-  if (truth) highest = std::max(highest, truth->eccentric_plateau);
-  velocity.series.push_back(
-      {"visited", {-fastest, fastest}, {0.0, 0.0}, Role::band, {}, {highest, highest}});
-  const auto multiplier = [&](const muscle::HillParameters<double>& p) {
-    return sample(-v, v, [&](double x) {
-      return muscle::force_velocity(p.velocity_law(), x / p.max_shortening_speed_mps).value;
-    });
-  };
-  const auto [vx, vy] = multiplier(setup.start);
-  velocity.series.push_back({"literature", vx, vy, Role::literature, {}, {}});
-  const auto [wx, wy] = multiplier(found);
-  velocity.series.push_back({"identified", wx, wy, Role::identified, {}, {}});
-  if (truth) {
-    const auto [tx, ty] = multiplier(*truth);
-    velocity.series.push_back({"truth", tx, ty, Role::truth, {}, {}});
-  }
-  figure.panels = {length, velocity};
-  return figure;
+  const MuscleVersions of{.literature = setup.start,
+                          .identified = method.muscles[m],
+                          .truth = true_muscle(result, setup)};
+  const VisitedRange range = visited(result.fit_input.data, m);
+  return {"curves_" + setup.name,
+          fmt::format("{}: force-length and force-velocity relations", setup.name),
+          "Grey dotted: literature; orange dashed: identified; thin black: the truth of a virtual "
+          "recording. The shaded range is what the recording visited.",
+          {length_panel(of, range), velocity_panel(of, range)},
+          2};
 }
 
 Figure emg_figure(const TrialResult& trial, const std::vector<std::string>& chain) {

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <set>
+#include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -130,69 +130,65 @@ std::string headline(const StudyResult& result) {
   return text;
 }
 
-}  // namespace
+std::vector<Table> tables_with_basins(std::vector<Table> tables,
+                                      const IdentificationResult& method) {
+  for (Table& table : basin_tables(method)) tables.push_back(std::move(table));
+  return tables;
+}
 
-report::Report study_report(const StudyResult& result, const Provenance& provenance) {
-  report::Report report;
-  report.title = fmt::format("Muscle parameters of {}", result.source.study.subject.name);
+std::string subtitle(const StudyResult& result) {
   std::vector<std::string> joints;
   for (const std::string& name : study_coordinates(result.source.study.model))
     joints.push_back(report::spelled(name));
-  report.subtitle = fmt::format("{} trial{}; joint coordinate{} {}; model {}", result.trials.size(),
-                                result.trials.size() == 1 ? "" : "s", joints.size() > 1 ? "s" : "",
-                                fmt::join(joints, ", "), result.source.model->name);
-  report.headline = headline(result);
-  if (has_motion_page(result))
-    report.links.push_back({"The model moving through every trial, in the browser", kMotionPage});
-  report.gates = quality_gates(result);
-  const IdentificationResult* torque = method_of(result, "torque");
-  const IdentificationResult* paper = method_of(result, "paper");
+  return fmt::format("{} trial{}; joint coordinate{} {}; model {}", result.trials.size(),
+                     result.trials.size() == 1 ? "" : "s", joints.size() > 1 ? "s" : "",
+                     fmt::join(joints, ", "), result.source.model->name);
+}
 
-  report.sections.push_back(recordings_section(result));
-  if (torque != nullptr) {
-    Section section{"parameters", "Parameters", {}, {}, {}, {}};
+Section parameters_section(const StudyResult& result, const IdentificationResult& torque) {
+  Section section{"parameters", "Parameters", {}, {}, {}, {}};
+  section.paragraphs.push_back(
+      fmt::format("{} samples, worth {:.0f} independent ones; torque noise {:.2f} N m; EMG noise "
+                  "{} of the torque of each channel; EMG delay {:.0f} ms.",
+                  torque.samples_used, torque.effective_samples, torque.torque_sd_nm,
+                  torque.emg_cv < 0.005 ? std::string("too small to be told from it, below 1 %")
+                                        : fmt::format("{:.0f} %", 100.0 * torque.emg_cv),
+                  1000.0 * torque.delay_s));
+  const std::string lag = identification::lag_remark(torque);
+  if (!lag.empty()) section.paragraphs.push_back(lag);
+  if (!torque.collinear.empty())
     section.paragraphs.push_back(
-        fmt::format("{} samples, worth {:.0f} independent ones; torque noise {:.2f} N m; EMG noise "
-                    "{} of the torque of each channel; EMG delay {:.0f} ms.",
-                    torque->samples_used, torque->effective_samples, torque->torque_sd_nm,
-                    torque->emg_cv < 0.005 ? std::string("too small to be told from it, below 1 %")
-                                           : fmt::format("{:.0f} %", 100.0 * torque->emg_cv),
-                    1000.0 * torque->delay_s));
-    const std::string lag = identification::lag_remark(*torque);
-    if (!lag.empty()) section.paragraphs.push_back(lag);
-    if (!torque->collinear.empty())
-      section.paragraphs.push_back(
-          fmt::format("Hardly told apart: {}.", fmt::join(torque->collinear, "; ")));
-    section.tables = estimate_tables(result, *torque);
-    for (Table& table : basin_tables(*torque)) section.tables.push_back(std::move(table));
-    for (std::size_t m = 0; m < result.fit_input.data.muscles.size(); ++m)
-      section.figures.push_back(muscle_curves(result, *torque, m));
-    report.sections.push_back(std::move(section));
-  }
-  if (const IdentificationResult* force = method_of(result, "force")) {
-    Section section{"force_method", "Muscle by muscle", {}, {}, {}, {}};
-    section.tables = estimate_tables(result, *force);
-    for (Table& table : basin_tables(*force)) section.tables.push_back(std::move(table));
-    report.sections.push_back(std::move(section));
-  }
-  for (Section& section : validation_sections(result))
-    report.sections.push_back(std::move(section));
-  if (result.next) report.sections.push_back(next_recording_section(*result.next));
-  if (paper != nullptr) {
-    Section section{"paper", "The source paper's method beside it", {}, {}, {}, {}};
-    section.paragraphs.push_back(
-        "Published in 2006: every muscle alone, shortening and lengthening apart, against forces "
-        "that an optimization assigned. Those forces know nothing of co-contraction or of the "
-        "person's own "
-        "strength, so that its numbers often leave physiology; the verdicts say where.");
-    section.tables = paper_tables(*paper);
-    for (Table& table : basin_tables(*paper)) section.tables.push_back(std::move(table));
-    report.sections.push_back(std::move(section));
-  }
+        fmt::format("Hardly told apart: {}.", fmt::join(torque.collinear, "; ")));
+  section.tables = tables_with_basins(estimate_tables(result, torque), torque);
+  for (std::size_t m = 0; m < result.fit_input.data.muscles.size(); ++m)
+    section.figures.push_back(muscle_curves(result, torque, m));
+  return section;
+}
+
+Section force_method_section(const StudyResult& result, const IdentificationResult& force) {
+  Section section{"force_method", "Muscle by muscle", {}, {}, {}, {}};
+  section.tables = tables_with_basins(estimate_tables(result, force), force);
+  return section;
+}
+
+Section paper_section(const IdentificationResult& paper) {
+  Section section{"paper", "The source paper's method beside it", {}, {}, {}, {}};
+  section.paragraphs.push_back(
+      "Published in 2006: every muscle alone, shortening and lengthening apart, against forces "
+      "that an optimization assigned. Those forces know nothing of co-contraction or of the "
+      "person's own "
+      "strength, so that its numbers often leave physiology; the verdicts say where.");
+  section.tables = tables_with_basins(paper_tables(paper), paper);
+  return section;
+}
+
+/// Muscle forces of the six trials with the most movement; all are in the trials' folders.
+Section forces_section(const StudyResult& result,
+                       const IdentificationResult* torque,
+                       const IdentificationResult* paper) {
   Section forces{"forces", "Muscle forces", {}, {}, {}, {}};
   std::vector<const identification::TrialData*> shown;
   for (const auto& data : result.fit_input.data.trials) shown.push_back(&data);
-  // Those with the most movement first; all are in the trials' folders.
   std::stable_sort(shown.begin(), shown.end(), [](const auto* a, const auto* b) {
     const auto range = [](const identification::TrialData* d) {
       return (d->length_m.colwise().maxCoeff() - d->length_m.colwise().minCoeff()).maxCoeff();
@@ -203,25 +199,25 @@ report::Report study_report(const StudyResult& result, const Provenance& provena
   if (torque != nullptr) {
     for (const auto* data : shown) forces.figures.push_back(force_figure(result, *data, *torque));
   }
-  if (paper != nullptr && !result.fit_input.data.trials.empty())
+  if (paper != nullptr && !shown.empty())
     forces.figures.push_back(force_figure(result, *shown.front(), *paper));
-  report.sections.push_back(std::move(forces));
+  return forces;
+}
+
+/// The EMG of the first calibration trial that has it; empty if none has.
+std::optional<Section> emg_section(const StudyResult& result) {
   const auto task = std::find_if(
       result.trials.begin(), result.trials.end(),
       [](const TrialResult& t) { return t.emg.stages && t.spec.use == Use::calibration; });
-  if (task != result.trials.end())
-    report.sections.push_back(
-        {"emg",
-         "EMG",
-         {},
-         {},
-         {},
-         {emg_figure(*task, signals::header_lines(emg_chain(result, nullptr)))}});
-  if (!result.fit.informed.empty() || result.fit.force_loop)
-    report.sections.push_back(informed_section(result));
-  if (!result.fit_input.phases.empty()) report.sections.push_back(phases_section(result));
+  if (task == result.trials.end()) return std::nullopt;
+  Section section{"emg", "EMG", {}, {}, {}, {}};
+  section.figures.push_back(emg_figure(*task, signals::header_lines(emg_chain(result, nullptr))));
+  return section;
+}
+
+Section trials_section(const StudyResult& result) {
   Section trials{"trials", "Trials", {}, {}, {trials_table(result)}, {}};
-  std::vector<std::string> notes;
+  std::vector<std::string>& notes = trials.paragraphs;
   for (const TrialResult& t : result.trials) {
     for (const std::string& note : sentences(t.remarks))
       notes.push_back(fmt::format("{}: {}", t.spec.name, note));
@@ -230,18 +226,52 @@ report::Report study_report(const StudyResult& result, const Provenance& provena
     notes.resize(12);
     notes.push_back("More remarks stand in run.json.");
   }
-  trials.paragraphs = notes;
-  report.sections.push_back(std::move(trials));
+  return trials;
+}
+
+std::vector<report::ProvenanceRow> provenance_rows(const StudyResult& result,
+                                                   const Provenance& provenance) {
+  std::vector<report::ProvenanceRow> rows{
+      {"program", fmt::format("{} {}", provenance.program, provenance.version)},
+      {"command", provenance.command}};
+  for (const InputFile& file : provenance.inputs)
+    rows.push_back({file.path, "sha256 " + file.sha256});
+  for (const StageTime& t : result.times)
+    rows.push_back({"time: " + t.stage, fmt::format("{:.2f} s", t.seconds)});
+  rows.push_back({"options", provenance.options_json});
+  return rows;
+}
+
+}  // namespace
+
+report::Report study_report(const StudyResult& result, const Provenance& provenance) {
+  report::Report report;
+  report.title = fmt::format("Muscle parameters of {}", result.source.study.subject.name);
+  report.subtitle = subtitle(result);
+  report.headline = headline(result);
+  if (has_motion_page(result))
+    report.links.push_back({"The model moving through every trial, in the browser", kMotionPage});
+  report.gates = quality_gates(result);
+  const IdentificationResult* torque = method_of(result, "torque");
+  const IdentificationResult* force = method_of(result, "force");
+  const IdentificationResult* paper = method_of(result, "paper");
+
+  std::vector<Section>& sections = report.sections;
+  sections.push_back(recordings_section(result));
+  if (torque != nullptr) sections.push_back(parameters_section(result, *torque));
+  if (force != nullptr) sections.push_back(force_method_section(result, *force));
+  for (Section& section : validation_sections(result)) sections.push_back(std::move(section));
+  if (result.next) sections.push_back(next_recording_section(*result.next));
+  if (paper != nullptr) sections.push_back(paper_section(*paper));
+  sections.push_back(forces_section(result, torque, paper));
+  if (auto emg = emg_section(result)) sections.push_back(std::move(*emg));
+  if (!result.fit.informed.empty() || result.fit.force_loop)
+    sections.push_back(informed_section(result));
+  if (!result.fit_input.phases.empty()) sections.push_back(phases_section(result));
+  sections.push_back(trials_section(result));
 
   report.assumptions = assumptions(result);
-  report.provenance.push_back(
-      {"program", fmt::format("{} {}", provenance.program, provenance.version)});
-  report.provenance.push_back({"command", provenance.command});
-  for (const InputFile& file : provenance.inputs)
-    report.provenance.push_back({file.path, "sha256 " + file.sha256});
-  for (const StageTime& t : result.times)
-    report.provenance.push_back({"time: " + t.stage, fmt::format("{:.2f} s", t.seconds)});
-  report.provenance.push_back({"options", provenance.options_json});
+  report.provenance = provenance_rows(result, provenance);
   return report;
 }
 
