@@ -27,20 +27,180 @@ using identification::StudyData;
 using identification::TrialData;
 using identification::Unknown;
 
+/// Noise of the recording that is planned.
+struct Noise {
+  double torque_sd_nm = 0.0, emg_cv = 0.0;
+};
+
+/// The earlier run's noise where a recording, not simulated data, gave it; else that of the
+/// options.
+Noise noise_of(const DesignStudyOptions& options) {
+  if (options.earlier && options.earlier->torque_sd_nm > 1e-3)
+    return {.torque_sd_nm = options.earlier->torque_sd_nm, .emg_cv = options.earlier->emg_cv};
+  return {.torque_sd_nm = options.torque_sd_nm, .emg_cv = options.emg_cv};
+}
+
 /// J' W J nu of one trial at the truth: the estimator's weights and effective number of samples.
 Eigen::MatrixXd information_of(const StudyData& data,
                                const EstimatorOptions& torque,
                                const Eigen::VectorXd& z,
-                               double torque_sd_nm,
-                               double emg_cv) {
+                               const Noise& noise) {
   const ResidualModel model(data, torque);
   identification::Evaluation at;
   model.evaluate(z, ResidualModel::Depth::noise, at);
   const Eigen::ArrayXd power = at.channel_torque.colwise().squaredNorm().transpose();
-  const Eigen::VectorXd weight = (torque_sd_nm * torque_sd_nm + emg_cv * emg_cv * power).inverse();
+  const Eigen::VectorXd weight =
+      (noise.torque_sd_nm * noise.torque_sd_nm + noise.emg_cv * noise.emg_cv * power).inverse();
   const double share = std::min(1.0, 2.0 * torque.residual_cutoff_hz.value() / model.rate_hz());
   return share * at.gradient * weight.asDiagonal() * at.gradient.transpose();
 }
+
+/// The study's muscles without trials; unstated v_max are free.
+StudyData muscles_of(const Study& study, const model::BodyModel& model) {
+  StudyData data;
+  data.muscles = muscle_setups(study, model);
+  if (data.muscles.empty()) throw InvalidInput("design: the study has no [[muscle]]");
+  identification::free_speeds(data, identification::unstated_speeds(data, study.identify.muscles));
+  return data;
+}
+
+EstimatorOptions estimator_of(const Study& study, const StudyData& data, double gain_sd) {
+  EstimatorOptions torque;
+  torque.muscles = study.identify.muscles;
+  torque.delay_s = study.emg.delay_s;
+  torque.max_rate_hz = 25.0;
+  for (const identification::MuscleSetup& m : data.muscles)
+    torque.gain_prior_sd[m.emg_channel] = gain_sd;
+  return torque;
+}
+
+/// The movements that the study's equipment allows.
+std::vector<Movement> catalogue_of(const Study& study,
+                                   const model::BodyModel& model,
+                                   CatalogueOptions options) {
+  const model::Coordinate& coordinate =
+      model.coordinates[static_cast<std::size_t>(model.coordinate_index(study.model.coordinate))];
+  options.coordinate = coordinate.name;
+  options.planes = options.planes && !study.model.file;
+  if (study.model.file && !study.model.held_mass) options.held_masses_kg = {0.0};
+  return movement_catalogue(coordinate.lower, coordinate.upper, options);
+}
+
+std::vector<MovementCourse> courses_of(const Study& study,
+                                       const model::BodyModel& model,
+                                       const std::vector<Movement>& movements,
+                                       const Progress& progress) {
+  const MovementModels models = movement_models(study, model);
+  std::vector<MovementCourse> courses(movements.size());
+  oneapi::tbb::parallel_for(std::size_t{0}, movements.size(), [&](std::size_t i) {
+    progress.check();
+    courses[i] = movement_course(study, models, movements[i]);
+  });
+  return courses;
+}
+
+/// Person k with these numbers.
+MovementPerson person_of(const identification::ModelValues& values,
+                         std::size_t k,
+                         std::uint64_t seed) {
+  MovementPerson person;
+  person.muscles = values.muscles;
+  if (!values.channels.empty())
+    person.emg_delay_s = values.channels.front()[identification::kDelay];
+  person.seed = simulation::seed_for(seed, fmt::format("person {}", k));
+  return person;
+}
+
+/// The estimator's parameters, from the first movement that a person of the starting values can do;
+/// empty: none can be done.
+std::optional<identification::ParameterMap> parameters_of(
+    const StudyData& muscles,
+    const EstimatorOptions& torque,
+    const std::vector<MovementCourse>& courses,
+    std::uint64_t seed) {
+  identification::ModelValues start;
+  for (const identification::MuscleSetup& m : muscles.muscles)
+    start.muscles.push_back(identification::muscle_values(m.start, m.extras));
+  for (const MovementCourse& course : courses) {
+    if (auto trial = perform(course, muscles.muscles, person_of(start, 0, seed))) {
+      StudyData data = muscles;
+      data.trials = {std::move(*trial)};
+      return ResidualModel(data, torque).parameters();
+    }
+  }
+  return std::nullopt;
+}
+
+/// One movement as every person performs it.
+struct Performance {
+  identification::MovementInformation information;
+  Effort effort;
+};
+
+/// `persons`: numbers of each person in the solver's scale.
+Performance performance_of(const MovementCourse& course,
+                           const StudyData& muscles,
+                           const EstimatorOptions& torque,
+                           const identification::ParameterMap& parameters,
+                           const std::vector<Eigen::VectorXd>& persons,
+                           const DesignStudyOptions& options) {
+  Performance result;
+  result.information.name = course.movement.description();
+  result.information.duration_s = course.movement.duration_s;
+  std::vector<std::optional<TrialData>> trials;
+  for (std::size_t k = 0; k < persons.size(); ++k) {
+    trials.push_back(perform(course, muscles.muscles,
+                             person_of(parameters.values(persons[k]), k, options.seed)));
+    Eigen::MatrixXd& information = result.information.per_person.emplace_back();
+    if (!trials.back()) continue;
+    StudyData one = muscles;
+    one.trials = {*trials.back()};
+    information = information_of(one, torque, persons[k], noise_of(options));
+  }
+  result.effort = effort_of(trials, muscles.muscles, course.movement.duration_s);
+  return result;
+}
+
+/// The targets as they are expected to be known with standard deviations `sd`.
+struct Expected {
+  const std::vector<Unknown>& free;
+  const Knowledge& known;
+  const std::vector<Eigen::Index>& targets;
+  const Eigen::VectorXd& prior_sd;
+  const std::vector<identification::MuscleSetup>& muscles;
+  const std::optional<EarlierRun>& earlier;
+
+  [[nodiscard]] std::vector<ParameterEstimate> with(const Eigen::VectorXd& sd) const {
+    std::vector<ParameterEstimate> estimates;
+    for (const Eigen::Index j : targets) {
+      const Unknown& f = free[static_cast<std::size_t>(j)];
+      estimates.push_back(
+          expected_estimate(f,
+                            {.mean = known.mean[j],
+                             .sd = sd[j],
+                             .prior_sd = f.prior.sd > 0.0 ? f.prior.sd : prior_sd[j],
+                             .model_error = earlier ? earlier->model_error : 0.0,
+                             .found = found_by(earlier, f),
+                             .ratio = prior_sd[j] > 0.0 ? sd[j] / prior_sd[j] : 1.0},
+                            muscles));
+    }
+    return estimates;
+  }
+
+  /// Before the recording. The earlier run has judged its numbers with all that it knows: profiles,
+  /// trials left out. Its verdicts stand.
+  [[nodiscard]] std::vector<ParameterEstimate> beforehand() const {
+    std::vector<ParameterEstimate> estimates = with(prior_sd);
+    for (std::size_t t = 0; t < targets.size(); ++t) {
+      const ParameterEstimate* found =
+          found_by(earlier, free[static_cast<std::size_t>(targets[t])]);
+      if (found == nullptr) continue;
+      estimates[t].verdict = found->verdict;
+      estimates[t].reason = found->reason;
+    }
+    return estimates;
+  }
+};
 
 }  // namespace
 
@@ -77,69 +237,23 @@ DesignStudyResult design_study(const Study& study, const DesignStudyOptions& opt
 DesignStudyResult design_study(const Study& study,
                                const model::BodyModel& model,
                                const DesignStudyOptions& options) {
-  StudyData data;
-  data.muscles = muscle_setups(study, model);
-  if (data.muscles.empty()) throw InvalidInput("design: the study has no [[muscle]]");
-  identification::free_speeds(data, identification::unstated_speeds(data, study.identify.muscles));
-  EstimatorOptions torque;
-  torque.muscles = study.identify.muscles;
-  torque.delay_s = study.emg.delay_s;
-  torque.max_rate_hz = 25.0;
-  for (const identification::MuscleSetup& m : data.muscles)
-    torque.gain_prior_sd[m.emg_channel] = options.gain_sd;
-
-  const model::Coordinate& coordinate =
-      model.coordinates[static_cast<std::size_t>(model.coordinate_index(study.model.coordinate))];
-  CatalogueOptions catalogue_options = options.catalogue;
-  catalogue_options.coordinate = coordinate.name;
-  catalogue_options.planes = catalogue_options.planes && !study.model.file;
-  if (study.model.file && !study.model.held_mass) catalogue_options.held_masses_kg = {0.0};
-  const std::vector<Movement> movements =
-      movement_catalogue(coordinate.lower, coordinate.upper, catalogue_options);
+  const StudyData data = muscles_of(study, model);
+  const EstimatorOptions torque = estimator_of(study, data, options.gain_sd);
+  const std::vector<Movement> movements = catalogue_of(study, model, options.catalogue);
 
   options.progress.tell(0.05, "movements");
-  const MovementModels models = movement_models(study, model);
-  std::vector<MovementCourse> courses(movements.size());
-  oneapi::tbb::parallel_for(std::size_t{0}, movements.size(), [&](std::size_t i) {
-    options.progress.check();
-    courses[i] = movement_course(study, models, movements[i]);
-  });
-
-  // The estimator's parameters: from any trial that someone can do.
-  const auto person_of = [&](const identification::ModelValues& values, int k) {
-    MovementPerson person;
-    person.muscles = values.muscles;
-    person.emg_delay_s = values.channels.empty() ? person.emg_delay_s
-                                                 : values.channels.front()[identification::kDelay];
-    person.seed = simulation::seed_for(options.seed, fmt::format("person {}", k));
-    return person;
-  };
-  identification::ModelValues start;
-  for (const identification::MuscleSetup& m : data.muscles)
-    start.muscles.push_back(identification::muscle_values(m.start, m.extras));
-  std::optional<ResidualModel> shape;
-  for (std::size_t i = 0; i < courses.size() && !shape; ++i) {
-    if (auto trial = perform(courses[i], data.muscles, person_of(start, 0))) {
-      data.trials = {std::move(*trial)};
-      shape.emplace(data, torque);
-    }
-  }
+  const std::vector<MovementCourse> courses = courses_of(study, model, movements, options.progress);
+  const auto parameters = parameters_of(data, torque, courses, options.seed);
   DesignStudyResult result;
   result.catalogue_size = movements.size();
-  if (!shape) {
+  if (!parameters) {
     result.too_hard = movements.size();
     return result;
   }
-  const std::vector<Unknown> free = shape->parameters().free();
+  const std::vector<Unknown>& free = parameters->free();
   const Knowledge known = knowledge_of(free, options.earlier);
   const std::vector<Eigen::VectorXd> persons =
       draw_persons(free, known, options.persons, options.seed);
-  const double torque_sd = options.earlier && options.earlier->torque_sd_nm > 1e-3
-                               ? options.earlier->torque_sd_nm
-                               : options.torque_sd_nm;
-  const double emg_cv = options.earlier && options.earlier->torque_sd_nm > 1e-3
-                            ? options.earlier->emg_cv
-                            : options.emg_cv;
 
   options.progress.tell(0.2, "information");
   identification::DesignProblem problem;
@@ -152,67 +266,28 @@ DesignStudyResult design_study(const Study& study,
   std::vector<char> tiring(movements.size(), 0);
   oneapi::tbb::parallel_for(std::size_t{0}, movements.size(), [&](std::size_t i) {
     options.progress.check();
-    identification::MovementInformation& information = problem.catalogue[i];
-    information.name = movements[i].description();
-    information.duration_s = movements[i].duration_s;
-    std::vector<std::optional<TrialData>> performances;
-    for (std::size_t k = 0; k < persons.size(); ++k) {
-      std::optional<TrialData> trial =
-          perform(courses[i], data.muscles,
-                  person_of(shape->parameters().values(persons[k]), static_cast<int>(k)));
-      if (trial) {
-        StudyData one;
-        one.muscles = data.muscles;
-        one.rules = data.rules;
-        one.trials = {*trial};
-        information.per_person.push_back(
-            information_of(one, torque, persons[k], torque_sd, emg_cv));
-      } else {
-        information.per_person.emplace_back();
-      }
-      performances.push_back(std::move(trial));
+    Performance performance =
+        performance_of(courses[i], data, torque, *parameters, persons, options);
+    tiring[i] = fatigued_share(performance.effort, rates) > options.fatigued_share ? 1 : 0;
+    if (tiring[i] != 0) {
+      for (Eigen::MatrixXd& m : performance.information.per_person) m.resize(0, 0);
     }
-    efforts[i] = effort_of(performances, data.muscles, movements[i].duration_s);
-    if (fatigued_share(efforts[i], rates) > options.fatigued_share) {
-      tiring[i] = 1;
-      for (Eigen::MatrixXd& m : information.per_person) m.resize(0, 0);
-    }
+    problem.catalogue[i] = std::move(performance.information);
+    efforts[i] = std::move(performance.effort);
   });
 
   options.progress.tell(0.6, "choice");
   const identification::DesignResult choice =
       identification::choose_movements(problem, options.choice);
-
   result.too_tiring = static_cast<std::size_t>(std::accumulate(tiring.begin(), tiring.end(), 0));
   result.too_hard = choice.infeasible.size() - result.too_tiring;
   result.exchanges = choice.exchanges;
-  const auto expected = [&](const Eigen::VectorXd& sd, bool now) {
-    std::vector<ParameterEstimate> estimates;
-    for (const Eigen::Index j : problem.targets) {
-      const Unknown& f = free[static_cast<std::size_t>(j)];
-      const double prior_sd = f.prior.sd > 0.0 ? f.prior.sd : choice.prior_sd[j];
-      const ParameterEstimate* found = found_by(options.earlier, f);
-      const double ratio = choice.prior_sd[j] > 0.0 ? sd[j] / choice.prior_sd[j] : 1.0;
-      estimates.push_back(
-          expected_estimate(f,
-                            {.mean = known.mean[j],
-                             .sd = sd[j],
-                             .prior_sd = prior_sd,
-                             .model_error = options.earlier ? options.earlier->model_error : 0.0,
-                             .found = found,
-                             .ratio = ratio},
-                            data.muscles));
-      if (found == nullptr || !now) continue;
-      // What is known now has been judged with all that a run knows: profiles, trials left out.
-      estimates.back().verdict = found->verdict;
-      estimates.back().reason = found->reason;
-    }
-    return estimates;
-  };
-  result.beforehand = expected(choice.prior_sd, true);
+  const Expected expected{free,         known,          problem.targets, choice.prior_sd,
+                          data.muscles, options.earlier};
+  result.beforehand = expected.beforehand();
   std::vector<const Effort*> chosen;
   for (const identification::DesignStep& step : choice.steps) {
-    result.plan.push_back({movements[step.movement], 0.0, 0.0, expected(step.sd, false)});
+    result.plan.push_back({movements[step.movement], 0.0, 0.0, expected.with(step.sd)});
     chosen.push_back(&efforts[step.movement]);
   }
   const std::vector<PlannedRest> rests = plan_rests(chosen, options.fatigued_share, rates);

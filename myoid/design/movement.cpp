@@ -135,24 +135,25 @@ std::string Movement::description() const {
   return "?";
 }
 
-std::vector<Movement> movement_catalogue(double lowest_rad,
-                                         double highest_rad,
-                                         const CatalogueOptions& options) {
-  if (!(highest_rad > lowest_rad))
-    throw InvalidInput(fmt::format("design: the joint's range is {} to {} rad: nothing can move",
-                                   lowest_rad, highest_rad));
-  const double margin = 0.1 * (highest_rad - lowest_rad);
-  const double low = lowest_rad + margin;
-  const double high = highest_rad - margin;
-  const double middle = 0.5 * (low + high);
-  std::vector<Movement> catalogue;
+namespace {
+
+/// A joint's range without a tenth at either end.
+struct UsedRange {
+  double low_rad = 0.0, high_rad = 0.0;
+  [[nodiscard]] double middle_rad() const { return 0.5 * (low_rad + high_rad); }
+};
+
+/// Swings, and slow lowerings of a held mass: movements that need no device.
+std::vector<Movement> free_movements(const UsedRange& range, const CatalogueOptions& options) {
+  const double low = range.low_rad, middle = range.middle_rad(), high = range.high_rad;
+  std::vector<Movement> movements;
   for (const bool horizontal : {false, true}) {
     if (horizontal && !options.planes) continue;
     for (const double mass : options.held_masses_kg) {
       for (const double f : options.frequencies_hz) {
         for (const auto& [from, to] :
              {std::pair{low, high}, std::pair{low, middle}, std::pair{middle, high}}) {
-          catalogue.push_back({.kind = MovementKind::swing,
+          movements.push_back({.kind = MovementKind::swing,
                                .horizontal = horizontal,
                                .held_mass_kg = mass,
                                .lowest_rad = from,
@@ -161,42 +162,67 @@ std::vector<Movement> movement_catalogue(double lowest_rad,
                                .duration_s = std::max(10.0, 3.0 / f)});
         }
       }
-      if (mass > 0.0 && !horizontal) {
-        for (const double from : {low, low + 0.3 * (high - low)}) {
-          catalogue.push_back({.kind = MovementKind::lowering,
-                               .held_mass_kg = mass,
-                               .lowest_rad = from,
-                               .highest_rad = high,
-                               .duration_s = 12.0});
-        }
+      if (!(mass > 0.0) || horizontal) continue;
+      for (const double from : {low, low + 0.3 * (high - low)}) {
+        movements.push_back({.kind = MovementKind::lowering,
+                             .held_mass_kg = mass,
+                             .lowest_rad = from,
+                             .highest_rad = high,
+                             .duration_s = 12.0});
       }
     }
   }
-  for (const bool positive : {true, false}) {
-    for (const double level : options.isometric_levels) {
-      for (int i = 0; i < options.angles; ++i) {
-        const double angle =
-            options.angles == 1 ? middle : low + (high - low) * i / (options.angles - 1);
-        catalogue.push_back({.kind = MovementKind::isometric,
-                             .lowest_rad = angle,
-                             .highest_rad = angle,
-                             .level = level,
-                             .positive = positive,
-                             .direction = direction_name(options.coordinate, positive),
-                             .duration_s = 11.0});
-      }
-    }
-    if (!options.dynamometer) continue;
-    for (const double speed : options.isokinetic_speeds_radps) {
-      catalogue.push_back({.kind = MovementKind::isokinetic,
-                           .lowest_rad = low,
-                           .highest_rad = high,
-                           .speed_radps = speed,
-                           .level = options.isokinetic_level,
+  return movements;
+}
+
+/// Isometric contractions and, with a dynamometer, movements of constant speed, in one direction.
+std::vector<Movement> movements_on_device(bool positive,
+                                          const UsedRange& range,
+                                          const CatalogueOptions& options) {
+  const double low = range.low_rad, high = range.high_rad;
+  const std::string direction = direction_name(options.coordinate, positive);
+  std::vector<Movement> movements;
+  for (const double level : options.isometric_levels) {
+    for (int i = 0; i < options.angles; ++i) {
+      const double angle =
+          options.angles == 1 ? range.middle_rad() : low + (high - low) * i / (options.angles - 1);
+      movements.push_back({.kind = MovementKind::isometric,
+                           .lowest_rad = angle,
+                           .highest_rad = angle,
+                           .level = level,
                            .positive = positive,
-                           .direction = direction_name(options.coordinate, positive),
-                           .duration_s = std::max(4.0, 2.0 * (high - low) / speed)});
+                           .direction = direction,
+                           .duration_s = 11.0});
     }
+  }
+  if (!options.dynamometer) return movements;
+  for (const double speed : options.isokinetic_speeds_radps) {
+    movements.push_back({.kind = MovementKind::isokinetic,
+                         .lowest_rad = low,
+                         .highest_rad = high,
+                         .speed_radps = speed,
+                         .level = options.isokinetic_level,
+                         .positive = positive,
+                         .direction = direction,
+                         .duration_s = std::max(4.0, 2.0 * (high - low) / speed)});
+  }
+  return movements;
+}
+
+}  // namespace
+
+std::vector<Movement> movement_catalogue(double lowest_rad,
+                                         double highest_rad,
+                                         const CatalogueOptions& options) {
+  if (!(highest_rad > lowest_rad))
+    throw InvalidInput(fmt::format("design: the joint's range is {} to {} rad: nothing can move",
+                                   lowest_rad, highest_rad));
+  const double margin = 0.1 * (highest_rad - lowest_rad);
+  const UsedRange range{.low_rad = lowest_rad + margin, .high_rad = highest_rad - margin};
+  std::vector<Movement> catalogue = free_movements(range, options);
+  for (const bool positive : {true, false}) {
+    for (Movement& movement : movements_on_device(positive, range, options))
+      catalogue.push_back(std::move(movement));
   }
   return catalogue;
 }
@@ -258,14 +284,113 @@ MovementCourse movement_course(const Study& study,
   return course;
 }
 
+namespace {
+
+/// The EMG channels at one sample of a movement.
+struct Demand {
+  std::vector<double> capacity_nm;  ///< Torque of each channel's muscles at full activation.
+  std::vector<double> share;        ///< Part of each channel in the effort.
+  double rest_nm = 0.0;             ///< Torque that is asked for beyond that of the co-contraction.
+  double total_nm = 0.0;            ///< Sum of |capacity|.
+  double most_share = 0.0;          ///< Largest share of the agonists.
+  double up = 0.0, down = 0.0;      ///< Sums of (share capacity)² in either direction.
+};
+
+/// Whether a channel pulls in the direction of the movement.
+bool is_agonist(double capacity_nm, const MovementCourse& course) {
+  return (capacity_nm > 0.0) == course.movement.positive;
+}
+
+/// Torque of every channel's muscles at full activation at sample i [N m].
+std::vector<double> capacities(const MovementCourse& course,
+                               const MovementPerson& person,
+                               const std::vector<std::size_t>& channel_of,
+                               std::size_t channels,
+                               Eigen::Index i) {
+  std::vector<double> capacity_nm(channels, 0.0);
+  for (std::size_t muscle = 0; muscle < channel_of.size(); ++muscle) {
+    const auto k = static_cast<Eigen::Index>(muscle);
+    capacity_nm[channel_of[muscle]] +=
+        course.muscles.moment_arm_m(i, k) *
+        identification::tension(1.0, course.muscles.length_m(i, k),
+                                course.muscles.velocity_mps(i, k), person.muscles[muscle])
+            .force_n;
+  }
+  return capacity_nm;
+}
+
+Demand demand_of(const MovementCourse& course,
+                 const MovementPerson& person,
+                 std::vector<double> capacity_nm,
+                 std::vector<double> share,
+                 Eigen::Index i) {
+  Demand d;
+  d.rest_nm = course.effort.size() > 0 ? 0.0 : course.required_torque_nm[i];
+  for (std::size_t c = 0; c < capacity_nm.size(); ++c) {
+    d.rest_nm -= person.co_contraction * capacity_nm[c];
+    d.total_nm += std::abs(capacity_nm[c]);
+    if (is_agonist(capacity_nm[c], course)) d.most_share = std::max(d.most_share, share[c]);
+    (capacity_nm[c] > 0.0 ? d.up : d.down) += std::pow(share[c] * capacity_nm[c], 2);
+  }
+  d.capacity_nm = std::move(capacity_nm);
+  d.share = std::move(share);
+  return d;
+}
+
+/// Activation of channel c at sample i that the demand asks for.
+double activation_of(const Demand& d,
+                     std::size_t c,
+                     const MovementCourse& course,
+                     const MovementPerson& person,
+                     Eigen::Index i) {
+  const double capacity = d.capacity_nm[c];
+  double a = person.co_contraction;
+  if (course.effort.size() > 0) {
+    if (is_agonist(capacity, course)) {
+      a += (course.movement.level - person.co_contraction) * course.effort[i] * d.share[c] /
+           d.most_share;
+    }
+    return a;
+  }
+  const double smoothness = d.up > 0.0 && d.down > 0.0 ? 0.01 * d.total_nm : 0.0;
+  const double pull =
+      capacity > 0.0 ? positive_part(d.rest_nm, smoothness) : positive_part(-d.rest_nm, smoothness);
+  const double power = capacity > 0.0 ? d.up : d.down;
+  if (power > 0.0) a += d.share[c] * d.share[c] * std::abs(capacity) * pull / power;
+  return a;
+}
+
+/// The samples from time 0 on as a trial; the EMG leads the torque by the person's delay.
+identification::TrialData recorded_trial(const MovementCourse& course,
+                                         const MovementPerson& person,
+                                         const std::vector<std::string>& channels,
+                                         const Eigen::MatrixXd& activation,
+                                         const Eigen::VectorXd& torque_nm) {
+  const Eigen::Index n = course.time_s.size();
+  const Eigen::Index first =
+      std::lower_bound(course.time_s.data(), course.time_s.data() + n, 0.0) - course.time_s.data();
+  const Eigen::Index length = n - first;
+  identification::TrialData trial;
+  trial.name = course.movement.description();
+  trial.time_s = course.time_s.tail(length);
+  trial.length_m = course.muscles.length_m.bottomRows(length);
+  trial.velocity_mps = course.muscles.velocity_mps.bottomRows(length);
+  trial.moment_arm_m = course.muscles.moment_arm_m.bottomRows(length);
+  trial.torque_nm = torque_nm.tail(length);
+  std::vector<Channel> columns;
+  for (const std::string& channel : channels) columns.push_back({channel, Unit::dimensionless});
+  trial.activation = TimeSeries(course.time_s.array() - person.emg_delay_s, columns, activation);
+  return trial;
+}
+
+}  // namespace
+
 std::optional<identification::TrialData> perform(
     const MovementCourse& course,
     const std::vector<identification::MuscleSetup>& muscles,
     const MovementPerson& person) {
   const Eigen::Index n = course.time_s.size();
-  const auto m = static_cast<Eigen::Index>(muscles.size());
   const std::vector<std::string> channels = channels_of(muscles);
-  const auto count = channels.size();
   std::vector<std::size_t> channel_of;
   for (const identification::MuscleSetup& setup : muscles) {
     channel_of.push_back(static_cast<std::size_t>(
@@ -275,71 +400,26 @@ std::optional<identification::TrialData> perform(
   const std::string description = course.movement.description();
   for (const std::string& channel : channels) shares.emplace_back(person, description + channel);
 
-  Eigen::MatrixXd activation(n, static_cast<Eigen::Index>(count));
-  Eigen::VectorXd torque = Eigen::VectorXd::Zero(n);
-  std::vector<double> capacity(count);  // torque of a channel at full activation [N m]
-  std::vector<double> share(count);
+  Eigen::MatrixXd activation(n, static_cast<Eigen::Index>(channels.size()));
+  Eigen::VectorXd torque_nm = Eigen::VectorXd::Zero(n);
   for (Eigen::Index i = 0; i < n; ++i) {
-    std::fill(capacity.begin(), capacity.end(), 0.0);
-    for (Eigen::Index k = 0; k < m; ++k) {
-      capacity[channel_of[static_cast<std::size_t>(k)]] +=
-          course.muscles.moment_arm_m(i, k) *
-          identification::tension(1.0, course.muscles.length_m(i, k),
-                                  course.muscles.velocity_mps(i, k),
-                                  person.muscles[static_cast<std::size_t>(k)])
-              .force_n;
-    }
-    double most_share = 0.0;
-    double up = 0.0;  // sum of squares of what the channels can do in either direction
-    double down = 0.0;
-    double rest = course.effort.size() > 0 ? 0.0 : course.required_torque_nm[i];
-    double total = 0.0;
-    for (std::size_t c = 0; c < count; ++c) {
-      share[c] = shares[c](course.time_s[i]);
-      rest -= person.co_contraction * capacity[c];
-      total += std::abs(capacity[c]);
-      const bool agonist = (capacity[c] > 0.0) == course.movement.positive;
-      if (agonist) most_share = std::max(most_share, share[c]);
-      (capacity[c] > 0.0 ? up : down) += std::pow(share[c] * capacity[c], 2);
-    }
-    const double smoothness = up > 0.0 && down > 0.0 ? 0.01 * total : 0.0;
-    for (std::size_t c = 0; c < count; ++c) {
-      double a = person.co_contraction;
-      if (course.effort.size() > 0) {
-        const bool agonist = (capacity[c] > 0.0) == course.movement.positive;
-        if (agonist) {
-          a += (course.movement.level - person.co_contraction) * course.effort[i] * share[c] /
-               most_share;
-        }
-      } else {
-        const double pull =
-            capacity[c] > 0.0 ? positive_part(rest, smoothness) : positive_part(-rest, smoothness);
-        const double power = capacity[c] > 0.0 ? up : down;
-        if (power > 0.0) a += share[c] * share[c] * std::abs(capacity[c]) * pull / power;
-      }
+    std::vector<double> share;
+    for (const Share& of : shares) share.push_back(of(course.time_s[i]));
+    const Demand demand =
+        demand_of(course, person, capacities(course, person, channel_of, channels.size(), i),
+                  std::move(share), i);
+    for (std::size_t c = 0; c < channels.size(); ++c) {
+      const double a = activation_of(demand, c, course, person, i);
       if (!(a <= person.most_activation + 1e-12)) return std::nullopt;
       activation(i, static_cast<Eigen::Index>(c)) = a;
-      torque[i] += a * capacity[c];
+      torque_nm[i] += a * demand.capacity_nm[c];
     }
-    // Without an antagonist or an agonist the torque asked for is not there.
+    // Without an antagonist or an agonist the muscles cannot make the torque asked for.
     if (course.effort.size() == 0 &&
-        std::abs(torque[i] - course.required_torque_nm[i]) > 1e-6 * (1.0 + total))
+        std::abs(torque_nm[i] - course.required_torque_nm[i]) > 1e-6 * (1.0 + demand.total_nm))
       return std::nullopt;
   }
-  const Eigen::Index first =
-      std::lower_bound(course.time_s.data(), course.time_s.data() + n, 0.0) - course.time_s.data();
-  const Eigen::Index length = n - first;
-  identification::TrialData trial;
-  trial.name = description;
-  trial.time_s = course.time_s.tail(length);
-  trial.length_m = course.muscles.length_m.bottomRows(length);
-  trial.velocity_mps = course.muscles.velocity_mps.bottomRows(length);
-  trial.moment_arm_m = course.muscles.moment_arm_m.bottomRows(length);
-  trial.torque_nm = torque.tail(length);
-  std::vector<Channel> columns;
-  for (const std::string& channel : channels) columns.push_back({channel, Unit::dimensionless});
-  trial.activation = TimeSeries(course.time_s.array() - person.emg_delay_s, columns, activation);
-  return trial;
+  return recorded_trial(course, person, channels, activation, torque_nm);
 }
 
 }  // namespace myoid
