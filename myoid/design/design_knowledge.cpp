@@ -86,7 +86,7 @@ std::vector<Eigen::Index> targets_of(const std::vector<Unknown>& free,
     const std::size_t dot = label.find('.');
     const std::string owner = label.substr(0, dot);
     const std::string parameter = label.substr(dot + 1);
-    // Freed so that the others carry what is not known of it; by name it is a target all the same.
+    // A nuisance is freed so that the others carry its uncertainty; named, it is a target too.
     const bool nuisance =
         free[j].field->name == "emg_gain" || free[j].field->name == "max_shortening_speed";
     for (const std::string& w : wanted) {

@@ -13,7 +13,7 @@
 
 namespace myoid {
 
-/// What is known of the free parameters before a recording, in the estimator's scale (logarithms
+/// Knowledge of the free parameters before a recording, in the estimator's scale (logarithms
 /// where it uses them).
 struct Knowledge {
   Eigen::VectorXd mean;
@@ -45,11 +45,11 @@ struct Knowledge {
 [[nodiscard]] const identification::ParameterEstimate* found_by(
     const std::optional<EarlierRun>& earlier, const identification::Unknown& parameter);
 
-/// What an interval of this width would be called.
+/// The verdict on an interval of this width.
 struct Expectation {
   double mean = 0.0, sd = 0.0, prior_sd = 0.0;  ///< In the estimator's scale.
   double model_error = 0.0;
-  /// What an earlier run says, whose interval becomes `ratio` times as wide; or nullptr.
+  /// An earlier run's estimate, whose interval becomes `ratio` times as wide; or nullptr.
   const identification::ParameterEstimate* found = nullptr;
   double ratio = 1.0;
 };

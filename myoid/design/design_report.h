@@ -5,7 +5,7 @@
 
 namespace myoid {
 
-/// What to record next: the plan, movement by movement, with the interval that may be expected
+/// The next recording: the plan, movement by movement, with the interval that may be expected
 /// after each, and every target before and after the whole plan.
 [[nodiscard]] report::Section next_recording_section(const DesignStudyResult& design);
 

@@ -13,12 +13,12 @@
 namespace myoid {
 
 /// Farther end of the 95 % interval (identification::half_width) as a percentage of the value; of
-/// the EMG delay in ms; of what is 0 by nature as a percentage of what it was beforehand.
+/// the EMG delay in ms; of a number that is 0 by nature as a percentage of its prior's half width.
 [[nodiscard]] double relative_half_width(const identification::ParameterEstimate& estimate);
-/// Their median over all that are percentages of a value; 0 if there are none.
+/// Median of relative_half_width over all that are percentages of a value; 0 if there are none.
 [[nodiscard]] double median_half_width(
     const std::vector<identification::ParameterEstimate>& estimates);
-/// How many have the verdict `identified`.
+/// Number of estimates with the verdict `identified`.
 [[nodiscard]] int identified_count(const std::vector<identification::ParameterEstimate>& estimates);
 
 struct DesignStudyOptions {
@@ -27,7 +27,7 @@ struct DesignStudyOptions {
   /// "all", a parameter ("max_isometric_force"), a muscle ("BIC") or both
   /// ("BIC.force_length_width").
   std::vector<std::string> targets = {"all"};
-  int persons = 12;              ///< Drawn from what is known beforehand.
+  int persons = 12;              ///< Number drawn from the priors or the earlier run.
   double torque_sd_nm = 0.3;     ///< Noise of the joint torque below 2 Hz.
   double emg_cv = 0.087;         ///< Relative noise of the EMG envelope below 2 Hz.
   double gain_sd = 0.05;         ///< Of ln(EMG gain), per channel: how well MVCs scale the EMG.
@@ -42,7 +42,7 @@ struct PlannedMovement {
   Movement movement;
   double rest_before_s = 0.0;   ///< So that fatigue stays within its budget.
   double fatigued_share = 0.0;  ///< Of the most tired muscle, at the end.
-  /// Per target: what the estimate and its interval are expected to be after this movement.
+  /// Per target: the estimate and interval expected after this movement.
   std::vector<identification::ParameterEstimate> expected;
 };
 

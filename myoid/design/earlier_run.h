@@ -10,17 +10,17 @@
 
 namespace myoid {
 
-/// What a finished run found (its parameters.json, method torque): what is known before the next
-/// recording.
+/// The results of a finished run (its parameters.json, method torque), which are known before the
+/// next recording.
 struct EarlierRun {
   std::vector<std::string> parameters;  ///< "BIC.max_isometric_force"
   Eigen::VectorXd estimate;             ///< SI.
   Eigen::MatrixXd covariance;  ///< In the estimator's scale (logarithms where it uses them).
   double torque_sd_nm = 0.0;
   double emg_cv = 0.0;
-  double model_error =
-      0.0;  ///< IdentificationResult::model_error: more recording does not mend it.
-  /// Its rows: what the run itself says of each number is what is known of it now.
+  /// IdentificationResult::model_error, which more recording does not reduce.
+  double model_error = 0.0;
+  /// The rows of the run, with their verdicts.
   std::vector<identification::ParameterEstimate> estimates;
 };
 

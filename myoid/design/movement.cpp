@@ -290,7 +290,7 @@ namespace {
 struct Demand {
   std::vector<double> capacity_nm;  ///< Torque of each channel's muscles at full activation.
   std::vector<double> share;        ///< Part of each channel in the effort.
-  double rest_nm = 0.0;             ///< Torque that is asked for beyond that of the co-contraction.
+  double rest_nm = 0.0;             ///< Required torque beyond the torque of the co-contraction.
   double total_nm = 0.0;            ///< Sum of |capacity|.
   double most_share = 0.0;          ///< Largest share of the agonists.
   double up = 0.0, down = 0.0;      ///< Sums of (share capacity)² in either direction.

@@ -36,7 +36,7 @@ struct Movement {
   [[nodiscard]] std::string description() const;
 };
 
-/// What a catalogue of movements varies.
+/// The variations of a catalogue of movements.
 struct CatalogueOptions {
   std::vector<double> held_masses_kg = {0.0, 1.0, 2.0, 4.0};
   std::vector<double> frequencies_hz = {0.3, 0.6, 1.0, 1.5, 2.0};

@@ -156,7 +156,8 @@ inline constexpr Belief kActivationTime{"activation_time", "the start", 0.0,    
 inline constexpr Belief kDeactivationTime{"deactivation_time", "the start", 0.0,       0.25,
                                           logarithm,           "s",         kWhenFree, "judgment"};
 
-// A joint's own torque beside the muscles': as a share of what its muscles could exert together
+// A joint's own torque beside the muscles': as a share of the greatest torque of its muscles
+// together
 // (`run`), and as numbers of an elbow (where a study frees one without a prior, and in the twin).
 inline constexpr std::string_view kJointSource =
     "a relaxed elbow's own torque: 1 N m/rad, 1 N m, 0.2 N m s/rad";

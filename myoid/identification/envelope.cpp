@@ -31,7 +31,7 @@ Lagged<D> lagged(const Envelope& envelope,
   double e_ne = 0.0;
   const Slopes by_excitation = directions.col(0);
   Slopes a_by = Slopes::Zero();
-  // What is kept over a step of h: most clocks have one h.
+  // Factor kept over a step of h: most clocks have one h.
   double h = 0.0, keep_e = 0.0, by_keep_e = 0.0;
   struct Branch {
     double per_tau = 0.0, keep = 0.0;
@@ -84,7 +84,7 @@ Cubic between(double y0, double y1, double slope0, double slope1, double h, doub
   return {y0 + x * (d0 + x * (c2 + x * c3)), (d0 + x * (2.0 * c2 + x * 3.0 * c3)) / h};
 }
 
-/// What activation() needs of the envelope at one instant, D directions as in Lagged.
+/// The envelope at one instant as activation() needs it, D directions as in Lagged.
 template <int D>
 struct Read {
   double value = 0.0, slope = 0.0;

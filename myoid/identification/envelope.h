@@ -78,7 +78,7 @@ struct Activation {
 /// integrated exactly for an input that is constant between the samples of the envelope. With
 /// `EmgLag::shared` the time constants are shares of the channel's d, and so is the delay that is
 /// left.
-/// `with_exponent`: false where nobody asks what p changes (then 0 is given where p = 1).
+/// `with_exponent`: false where nobody needs the derivative by p (0 is given where p = 1).
 [[nodiscard]] std::vector<Activation> activation(const Envelope& envelope,
                                                  const Eigen::Ref<const Eigen::VectorXd>& time_s,
                                                  const ChannelValues& channel,

@@ -21,7 +21,7 @@ struct MuscleRows {
 };
 
 /// From the channel's activation, musculotendon lengths and rates (n each), by the variables that
-/// `of_muscle` and `of_channel` tie to it. `rows` may be used again: what it holds is overwritten.
+/// `of_muscle` and `of_channel` tie to it. `rows` may be used again: its content is overwritten.
 void evaluate_muscle(const std::vector<Activation>& activation,
                      const Eigen::Ref<const Eigen::VectorXd>& length_m,
                      const Eigen::Ref<const Eigen::VectorXd>& velocity_mps,

@@ -2,7 +2,7 @@
 
 namespace myoid::identification {
 
-/// What is known of one muscle at one instant.
+/// One muscle at one instant of a recording.
 struct MuscleSample {
   double time_s = 0.0;
   double activation = 0.0;  ///< 0..1

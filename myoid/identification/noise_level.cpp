@@ -102,7 +102,7 @@ NoiseLevel fit_known_noise(const Eigen::ArrayXd& squared,
                    .emg_factor = factor,
                    .log_variance_sd = 1.0 / std::sqrt(std::max(curvature, least))};
   if (log_b > 0.0) {
-    // What is beyond the expected may yet be the EMG's, as far as that is uncertain.
+    // The excess over the expected level may be the EMG's too, within that level's uncertainty.
     level.emg_share = std::exp(-log_b);
     level.log_variance_sd = std::min(std::hypot(level.log_variance_sd, log_b), 2.0 * kLogSd);
   }

@@ -4,14 +4,14 @@
 
 namespace myoid::identification {
 
-/// Two noise levels of a joint: of the torque, and of what is multiplied by the EMG.
+/// Two noise levels of a joint: of the torque, and of the EMG that multiplies the muscles' forces.
 struct NoiseLevel {
   double torque_sd_nm = 1.0;
   double emg_cv = 0.0;      ///< Of a channel: root mean square over the channels.
   double emg_factor = 0.0;  ///< By which every channel's expected relative sd is multiplied; where
                             ///< nothing is expected, 1 is, and this is `emg_cv`.
-  /// Of emg_factor^2 what is noise of the EMG. Where that is expected from the EMG's bandwidth,
-  /// what goes with the muscles' torques beyond it is the model's error.
+  /// The part of emg_factor^2 that is noise of the EMG. Where the EMG's bandwidth makes a level
+  /// expected, residuals beyond it that go with the muscles' torques are the model's error.
   double emg_share = 1.0;
   double log_variance_sd = 0.0;  ///< Of ln(emg_share emg_factor^2): how well that is known.
 };

@@ -26,7 +26,7 @@ inline constexpr std::string_view kEccentricNames[] = {"automatic", "product", "
                                                        "smooth"};
 constexpr ChoiceNames choice_names(Eccentric) { return kEccentricNames; }
 
-/// What a large residual counts.
+/// The loss function of the residuals.
 enum class Loss {
   square,
   huber,   ///< Linear beyond 1.345 standard deviations.
@@ -63,7 +63,7 @@ struct IntervalOptions {
   std::uint64_t seed = 1;
 };
 
-/// What all estimators but `paper` have in common.
+/// Options of methods `torque` and `force`.
 struct EstimatorOptions {
   std::vector<std::string> muscles;  ///< To identify; the others keep their start. Empty: all.
   bool priors = true;
@@ -106,7 +106,7 @@ struct EstimatorOptions {
   bool normalised = false;     ///< l_sh and v_max keep their ratio to l0.
   EmgLag lag = EmgLag::delay;  ///< How a muscle follows its EMG.
   bool choose_lag = false;     ///< Method `torque`: `delay` or `shared`, whichever the data prefer.
-  bool measured_is_force = false;  ///< What is fitted is the force of one muscle, not a torque.
+  bool measured_is_force = false;  ///< The fit is to the force of one muscle, not to a torque.
   bool gauss_newton = false;       ///< Plain full steps instead of Levenberg-Marquardt.
   int passes = 4;                  ///< Of finding the noise and weighting by it.
   int starts = 3;                  ///< The given start and moved ones; the best is kept.

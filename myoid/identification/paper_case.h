@@ -12,12 +12,12 @@
 
 namespace myoid::identification {
 
-/// What the source paper's method fits at a time: one muscle in shortening (v <= 0) or lengthening.
+/// One fit of the source paper's method: one muscle in shortening (v <= 0) or lengthening.
 struct PaperCase {
   std::string muscle;
   bool shortening = true;
   muscle::HillParameters<double> start;
-  /// l0, l_sh, V_sh, or l0, l_sh, P, V_ml, without what is held at its start.
+  /// l0, l_sh, V_sh, or l0, l_sh, P, V_ml, without the numbers that are held at their start.
   std::vector<const muscle::HillField*> unknowns;
   std::vector<MuscleSample> samples;
   std::vector<Eigen::Index> pieces;  ///< Lengths of the stretches of consecutive samples.
@@ -25,8 +25,8 @@ struct PaperCase {
 
   [[nodiscard]] Eigen::VectorXd start_vector() const;
   [[nodiscard]] double largest_force_n() const;
-  /// Why it is not fitted, in a few words: fewer than ten samples per unknown, or no force at all.
-  /// Empty: it is.
+  /// The reason why the case is not fitted: fewer than ten samples per unknown, or no force at all.
+  /// Empty: it is fitted.
   [[nodiscard]] std::string obstacle() const;
   /// r_i = F_m(x) - F_i, without bounds; it refers to this case, which has to outlive it.
   [[nodiscard]] math::LeastSquaresProblem problem() const;

@@ -11,7 +11,7 @@
 
 namespace myoid::identification {
 
-/// Whose number a parameter is.
+/// The kind of owner of a parameter.
 enum class Scope { muscle, channel, joint };
 
 /// Unknown of the force-velocity relation from which V_sh V_shl follows; no MuscleValues entry.
@@ -30,12 +30,13 @@ enum ChannelField : int {
 };
 using ChannelValues = std::array<double, kChannelFieldCount>;
 
-/// Numbers of a joint, by which its torque is less than that of the muscles:
+/// Numbers of a joint's own torque, which is subtracted from the muscles' torque:
 ///   T = sum r F - viscosity qdot - inertia qddot - stiffness q + offset
 enum JointField : int { kViscosity, kInertia, kStiffness, kOffset, kJointFieldCount };
 using JointValues = std::array<double, kJointFieldCount>;
 
-/// One row per number that can be identified: the only place of its name, unit and bounds.
+/// A number that can be identified, with name, unit and bounds. `parameter_fields` is the table of
+/// all numbers.
 struct ParameterField {
   std::string_view name;
   Scope scope = Scope::muscle;
@@ -43,11 +44,11 @@ struct ParameterField {
   Unit unit = Unit::dimensionless;
   bool logarithmic = false;  ///< The solver sees ln(value).
   muscle::Range bounds;
-  double prior_sd = 0.0;  ///< About the start where a prior is wanted and none given: of ln(value)
-                          ///< if logarithmic; 0: none.
+  /// Spread of the usual prior about the start: of ln(value) if logarithmic; 0: none.
+  double prior_sd = 0.0;
   std::string_view meaning;
-  bool zero_by_nature =
-      false;  ///< Most have none of it: an error relative to its value says little.
+  /// Most people's value is near 0: an error relative to the value says little.
+  bool zero_by_nature = false;
 };
 [[nodiscard]] std::span<const ParameterField> parameter_fields();
 /// The row of this name; throws InvalidInput listing the names there are.

@@ -10,7 +10,7 @@
 
 namespace myoid::identification {
 
-/// Where searches begin: about the given start, as far as what is known beforehand spreads.
+/// The box in which searches begin: about the given start, two spreads of the priors wide.
 struct StartBox {
   Eigen::VectorXd given;
   Eigen::VectorXd spread;  ///< Of the prior; without one 0.3 of a logarithm, a tenth of a value.
@@ -18,13 +18,13 @@ struct StartBox {
   Eigen::VectorXd upper;
 };
 [[nodiscard]] StartBox start_box(const Estimator& estimator);
-/// Of the source paper's unknowns, each in its own unit; its bounds are what is physical.
+/// The box of the source paper's unknowns, each in its own unit and within its physical bounds.
 [[nodiscard]] StartBox start_box(const PaperCase& samples, const MuscleSetup& setup);
 
 /// The given start and Sobol points of the box.
 [[nodiscard]] std::vector<Eigen::VectorXd> starts_in(const StartBox& box, int count);
 
-/// Root mean square over the unknowns of what they differ by, in spreads.
+/// Root mean square of the unknowns' differences, in spreads.
 [[nodiscard]] double distance(const Eigen::VectorXd& a,
                               const Eigen::VectorXd& b,
                               const StartBox& box);

@@ -15,7 +15,7 @@
 
 namespace myoid::identification {
 
-/// One muscle to identify: where the search begins and what is known beforehand.
+/// One muscle to identify: start of the search, bounds and priors.
 struct MuscleSetup {
   std::string name;
   std::string emg_channel;               ///< Channel of TrialData::activation.
@@ -25,19 +25,19 @@ struct MuscleSetup {
   /// Absent: no prior for that parameter. With one for `eccentric_slope_ratio` that ratio is the
   /// unknown and V_sh V_shl follows from it.
   std::map<std::string, Prior> priors;
-  std::vector<std::string> given_priors;  ///< Those of `priors` that are not the literature's.
-  MuscleExtras extras;                    ///< What the source paper's law leaves out.
+  std::vector<std::string> given_priors;  ///< Names of `priors` that the study gave.
+  MuscleExtras extras;                    ///< Terms beyond the source paper's law.
 };
 
-/// What is asked of a parameter beyond the defaults; later rules win.
+/// A wish of the study for a parameter; later rules win.
 struct ParameterRule {
   std::string parameter;            ///< A name of `parameter_fields()`.
   std::vector<std::string> owners;  ///< Muscles, EMG channels or joints; empty: all.
   std::optional<bool> free;
-  std::optional<double> value;  ///< Start, or what it is held at.
+  std::optional<double> value;  ///< Start, or the value at which it is held.
   std::optional<double> lower, upper;
   std::optional<double> prior_mean, prior_sd;  ///< In the parameter's unit.
-  bool usual = false;  ///< Not asked for by the study: what is expected of every recording.
+  bool usual = false;  ///< Applied to every recording, not asked for by the study.
   bool tie = false;  ///< One unknown for all owners: their ratios to the starting values are equal.
   bool operator==(const ParameterRule&) const = default;
 };
@@ -62,7 +62,7 @@ struct TrialData {
                              ///< length (rigid tendon).
   Eigen::MatrixXd velocity_mps;  ///< n x m
   Eigen::MatrixXd moment_arm_m;  ///< n x m: r = -dl/dq.
-  Eigen::VectorXd torque_nm;     ///< n: what the muscles together must provide.
+  Eigen::VectorXd torque_nm;     ///< n: the sum that the muscles must provide.
   Eigen::MatrixXd force_n;  ///< n x m: from force sharing, for `paper` and `force`; may be empty.
   TimeSeries activation;    ///< Envelope of each EMG channel, 0..1, on its own clock.
   std::string joint = "joint";  ///< Name of the joint of `torque_nm`.
@@ -71,7 +71,7 @@ struct TrialData {
   /// none, or n. The muscles' activity has to make the rest.
   Eigen::VectorXd resting_nm;
   std::vector<JointData> more_joints;  ///< Method `torque` fits them too.
-  /// Predicted, but neither fitted nor scored: warm-up, fatigue, what a study's rule leaves out.
+  /// Predicted, but neither fitted nor scored: warm-up, fatigue, stretches that the study excludes.
   std::vector<Stretch> excluded;
 };
 

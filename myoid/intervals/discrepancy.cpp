@@ -54,7 +54,7 @@ double misfit(const Eigen::MatrixXd& c, const Eigen::VectorXd& h, const Eigen::V
   return 2.0 * factor.matrixLLT().diagonal().array().log().sum() - eh.dot(factor.solve(eh));
 }
 
-/// Pairs of sizes by their posterior probability, those below 1e-4 left out.
+/// Pairs of sizes with a posterior probability above 1e-4.
 std::vector<Discrepancy::Sizes> posterior_sizes(const Eigen::MatrixXd& c,
                                                 const Eigen::VectorXd& h,
                                                 const std::vector<bool>& of_muscle) {
@@ -165,8 +165,8 @@ double Discrepancy::reach(Eigen::Index j, double variance, double probability) c
     all += s.probability;
   }
   if (!(most > 0.0) || !std::isfinite(most)) return most;
-  // What was left out is shared among the rest. The probability within x is concave in x: Newton's
-  // steps from below come to the root from below.
+  // The pairs that were left out are shared among the rest. The probability within x is concave in
+  // x: Newton's steps from below come to the root from below.
   double x =
       math::normal_quantile(0.5 + 0.5 * probability) * *std::min_element(sd.begin(), sd.end());
   for (int count = 0; count < 60; ++count) {

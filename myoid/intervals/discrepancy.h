@@ -11,9 +11,9 @@ namespace myoid::identification {
 /// Systematic error of the model, as far as the residuals show it.
 struct Discrepancy {
   double relative_size = 0.0;  ///< Standard deviation, relative to the muscles' torques ...
-  double joint_size = 0.0;     ///< ... and of what is passive, relative to the torque's rms.
-  Eigen::MatrixXd covariance;  ///< What it adds to that of the estimates, in the solver's scale.
-  /// A pair of sizes and its posterior probability; those below 1e-4 are left out.
+  double joint_size = 0.0;     ///< ... and of passive torques, relative to the torque's rms.
+  Eigen::MatrixXd covariance;  ///< Addition to the estimates' covariance, in the solver's scale.
+  /// A pair of sizes and its posterior probability; pairs below 1e-4 are left out.
   struct Sizes {
     double muscle = 0.0, joint = 0.0, probability = 0.0;
   };
@@ -26,15 +26,16 @@ struct Discrepancy {
   [[nodiscard]] double reach(Eigen::Index j, double variance, double probability) const;
 };
 
-/// No muscle is as its model. The residuals then hold, beside noise, something that depends
-/// smoothly on posture, activation and speed (ErrorShapes), that no amount of data averages out,
-/// and that bends the estimates: a wrong moment arm becomes a wrong force-length curve. With shapes
-/// S (k x n; what ErrorShapes::contrast leaves of them), weights D and W = nu / s^2,
+/// Estimates the systematic error of the model. No muscle is as its model: the residuals hold,
+/// beside noise, a part that depends smoothly on posture, activation and speed (ErrorShapes). No
+/// amount of data averages that part out, and it bends the estimates: a wrong moment arm becomes a
+/// wrong force-length curve. With shapes
+/// S (k x n, after ErrorShapes::contrast), weights D and W = nu / s^2,
 ///
 ///   r = noise + S'x,   x ~ N(0, size^2 D^2),
 ///   h = S W r ~ N(0, C + size^2 C D^2 C),   C = S W S' - S W J' A^-1 J W S'
 ///
-/// is what of it the fit leaves. There are two sizes, of muscles and of joints, each 0 with
+/// is the part that the fit leaves. There are two sizes, of muscles and of joints, each 0 with
 /// a probability of one half, else half normal 0.1 (0 where nothing has it); taken is the root of
 /// its mean square over the posterior. The estimates then err by A^-1 J W S'x, with covariance
 ///

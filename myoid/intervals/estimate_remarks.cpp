@@ -16,9 +16,9 @@ namespace {
 
 /// Widths of two intervals that differ by more than this speak of different things.
 constexpr double kDisagreement = 1.5;
-/// Of what chance makes of their widths: of a hundred pairs none is farther apart.
+/// Spreads by chance that two widths may differ by: of a hundred pairs none is farther apart.
 constexpr double kDeviations = 3.0;
-/// Of what an identified number may be off: no verdict hangs on it.
+/// Share of an identified number's allowed error that no verdict depends on.
 constexpr double kNegligible = 0.1;
 
 double tolerance(const ParameterEstimate& e) {
@@ -170,7 +170,7 @@ std::vector<PriorDistance> prior_distances(const std::vector<Unknown>& free,
     int count = 0;
     for (std::size_t j = 0; j < free.size(); ++j) {
       const Unknown& p = free[j];
-      // What is tied between muscles is none of them's.
+      // A number that is tied between muscles belongs to none of them.
       if (p.field->scope != Scope::muscle || p.targets.size() != 1 || !(p.prior.sd > 0.0) ||
           p.targets.front().owner != static_cast<int>(k))
         continue;

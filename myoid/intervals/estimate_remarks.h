@@ -12,12 +12,12 @@
 
 namespace myoid::identification {
 
-/// What the routes to an interval disagree on, for few lines at the end.
+/// Collects disagreements between the routes to an interval, for a few lines at the end.
 class RouteRemarks {
  public:
   /// Fills `routes_disagree`: one interval is more than 1.5 times as wide as another, by more than
-  /// three times what chance makes of both (RouteInterval::spread; of a hundred pairs none), and
-  /// wider than a tenth of what an identified number may be off.
+  /// three times the spread that chance gives both (RouteInterval::spread; of a hundred pairs
+  /// none), and wider than a tenth of the error allowed to an identified number.
   void compare(ParameterEstimate& estimate);
 
   /// One line for all that disagree of `count` numbers, which says whether the reported interval is
@@ -26,14 +26,14 @@ class RouteRemarks {
 
  private:
   int disagree_ = 0;
-  int beyond_ = 0;  ///< Of these, where a route is wider than what is reported.
+  int beyond_ = 0;  ///< Of these, with a route wider than the reported interval.
   double worst_ = 0.0;
   std::string worst_text_;
   std::vector<std::string> open_;
 };
 
-/// What a muscle did while it was active (above 2 % of the greatest EMG) for a tenth of a second in
-/// all, faster than a hundredth of v_max, where f_v differs from 1 by a few percent.
+/// The motion of a muscle while it is active (above 2 % of the greatest EMG) for a tenth of a
+/// second in all, faster than a hundredth of v_max, where f_v differs from 1 by a few percent.
 struct ActiveMotion {
   bool shortened = false, lengthened = false;
   /// From the shortest to the longest musculotendon length, each but for a tenth of a second [m].
@@ -42,13 +42,14 @@ struct ActiveMotion {
 /// Of every muscle over the calibration trials, the activation `delay_s` late.
 [[nodiscard]] std::vector<ActiveMotion> active_motion(const StudyData& data, double delay_s);
 
-/// What a muscle's number only acts in and it never did, for VerdictContext::never: "lengthened",
-/// "shortened"; empty: nothing is missing. `by_ratio`: V_sh acts in lengthening, too.
+/// The motion in which alone a muscle's number acts, if the muscle never made it while active
+/// (VerdictContext::never): "lengthened", "shortened"; empty: nothing is missing. `by_ratio`: V_sh
+/// acts in lengthening, too.
 [[nodiscard]] std::string never_done(const Unknown& parameter,
                                      const ActiveMotion& motion,
                                      bool by_ratio);
 
-/// What the prior of a number is, in words.
+/// The source of a number's prior, in words.
 [[nodiscard]] std::string known_beforehand(const Unknown& parameter, bool from_mvc);
 
 /// |z - prior mean| / prior sd, of the logarithm where the solver has that.

@@ -11,7 +11,7 @@
 namespace myoid::identification {
 namespace {
 
-/// What a value outside physiology is the signature of; found by simulation of each single error.
+/// The likely error behind a value outside physiology; found by simulation of each single error.
 std::string diagnosis(const ParameterEstimate& e) {
   const std::string& p = e.parameter;
   if (p == "eccentric_plateau" && e.estimate < 1.0) {
@@ -50,7 +50,7 @@ std::string unit_text(Unit unit) {
   return unit == Unit::dimensionless ? "" : " " + std::string(symbol(unit));
 }
 
-/// What the recording adds to what is known beforehand.
+/// How much the recording narrows the prior, in words.
 std::string narrowing(double shrinkage) {
   return shrinkage > VerdictRules{}.any_shrinkage
              ? fmt::format("the recording narrows it by only {:.0f} %", 100.0 * shrinkage)

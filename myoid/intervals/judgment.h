@@ -8,7 +8,7 @@
 
 namespace myoid::identification {
 
-/// Context that a verdict needs beyond the estimate itself.
+/// Facts that a verdict needs beyond the estimate itself.
 struct VerdictContext {
   bool determined = true;  ///< Not in a direction that the data leave open.
   bool converged = true;
@@ -18,24 +18,24 @@ struct VerdictContext {
   bool outside_physical = false;  ///< Value outside the physical bounds of its field.
   double prior_distance =
       0.0;  ///< |estimate - prior mean| in spreads of the prior; 0 without a prior.
-  /// What the prior is: "the literature's value", "what the study gave", ...
+  /// The source of the prior in words: "the literature's value" or another.
   std::string beforehand = "the literature's value";
-  bool prior_of_logarithm = false;  ///< Its standard deviation is that of the logarithm.
+  bool prior_of_logarithm = false;  ///< Its standard deviation is of the logarithm.
   bool prior_is_given = false;      ///< By the study.
   bool given_bound = false;         ///< The bound that was reached is the study's, not physics'.
   bool speed_is_free = false;       ///< v_max of the same muscle is an unknown.
-  /// "lengthened" or "shortened": what the muscle never did while active, of a number that only
-  /// acts then; empty: it did.
+  /// "lengthened" or "shortened": the motion in which alone the number acts and which the muscle
+  /// never made while active; empty: the muscle made it.
   std::string never;
   /// Active lengths of the muscle over its optimal fiber length, of l0 and l_sh; empty: of another
   /// number, or the data are met exactly.
   std::optional<double> length_span;
-  /// Share of the variance that is that of a tendon slack length which nobody measured.
+  /// Share of the variance that comes from a tendon slack length that nobody measured.
   double tendon_share = 0.0;
   double muscle_distance = 0.0;  ///< PriorDistance::distance of the muscle.
   double relative_width = 0.0;   ///< Of l_sh: over l0 of the same fit; 0: of something else.
   double curve_width = 0.0;      ///< The same of the muscle that another number belongs to.
-  bool width_leans = false;      ///< l_sh of that muscle leans on the bound of what muscles have.
+  bool width_leans = false;      ///< l_sh of that muscle leans on a bound of real muscles.
   std::string
       shares_electrode_with;  ///< Another muscle that acts as the same EMG says; empty: none.
   double model_error = 0.0;   ///< IdentificationResult::model_error.

@@ -15,8 +15,8 @@ struct ProductPositions {
   Eigen::Index curvature = -1, plateau = -1, ratio = -1;
 };
 
-/// Fills what is known of P = V_sh V_shl where P follows from three unknowns: interval, standard
-/// error, prior and shrinkage, by draws of (ln V_sh, V_ml, ln S) about the solution `z`. Nothing if
+/// Fills interval, standard error, prior and shrinkage of P = V_sh V_shl, which follows from three
+/// unknowns, by draws of (ln V_sh, V_ml, ln S) about the solution `z`. Nothing if
 /// one of them is none. `bootstrap` may be null.
 void add_product_interval(ParameterEstimate& e,
                           const ProductPositions& where,

@@ -143,7 +143,7 @@ std::optional<double> profile_distance(const ProfileProblem& problem,
   const double reach = std::abs((above ? problem.upper[j] : problem.lower[j]) - minimum[j]);
   if (!(reach > 0.0)) return std::nullopt;
   Constrained others(problem, j, goal);
-  // What the others do when this one moves, to first order; those on a bound that holds them stay.
+  // The response of the others to this one, to first order; variables held by a bound stay.
   std::vector<Eigen::Index> following;
   for (Eigen::Index k = 0; k < minimum.size(); ++k) {
     const bool held = (minimum[k] <= problem.lower[k] && problem.gradient[k] > 0.0) ||

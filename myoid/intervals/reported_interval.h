@@ -22,7 +22,7 @@ struct Intervals {
   std::optional<std::vector<Interval>> profiles;
 };
 
-/// Scale of a row: what a number of the solver is in the row's unit.
+/// Scale of a row: converts a number of the solver into the row's unit.
 struct RowScale {
   const Unknown* parameter = nullptr;
   double ratio = 1.0;

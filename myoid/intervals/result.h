@@ -20,9 +20,9 @@ namespace myoid::identification {
 enum class Verdict {
   identified,        ///< The recording determines it.
   weak,              ///< It says something, but the interval is wide.
-  prior_dominated,   ///< The value is mostly what was known beforehand.
+  prior_dominated,   ///< The value is mostly the prior's.
   not_identifiable,  ///< The recording cannot tell.
-  non_physical,      ///< The fit left what a muscle can be: it describes something else.
+  non_physical,      ///< No muscle can have the value: the fit describes something else.
 };
 [[nodiscard]] std::string_view name(Verdict verdict);
 
@@ -60,7 +60,7 @@ struct ParameterEstimate {
 /// How well a trial is predicted.
 struct TrialFit {
   std::string trial;
-  std::string joint;  ///< Of the torque; the forces are those of the trial.
+  std::string joint;  ///< Of the torque; the forces belong to the trial.
   bool calibration = true;
   Eigen::VectorXd time_s;
   Eigen::VectorXd torque_nm;             ///< From inverse dynamics.
@@ -76,19 +76,19 @@ struct TrialFit {
   Score band;
 };
 
-/// Where searches from several starts ended together.
+/// A minimum at which searches from several starts end.
 struct BasinRow {
   Eigen::VectorXd x;      ///< Of its lowest end, in the solver's scale.
   double cost = 0.0;      ///< Of that end.
   int starts = 0;         ///< That ended here ...
   int converged = 0;      ///< ... and converged.
-  double distance = 0.0;  ///< From the best: root mean square over the unknowns, in spreads of what
-                          ///< is known beforehand (start_box.h).
+  double distance = 0.0;  ///< From the best: root mean square over the unknowns, in spreads of the
+                          ///< priors (start_box.h).
   bool rival = false;     ///< As good as the best: a chi-square of at most 4 worse.
   bool given = false;     ///< The given start ended here.
 };
 
-/// What the fit's search finds from the given start and from points spread about it.
+/// The ends of searches from the given start and from points spread about it.
 struct BasinTable {
   std::string fit;  ///< "all muscles", a muscle's name, or with its branch: "BIC shortening".
   int starts = 0;
@@ -107,7 +107,7 @@ struct BranchTest {
   double p_value = 1.0;
 };
 
-/// How far a muscle's numbers have left what is known beforehand.
+/// The distance of a muscle's numbers from their priors.
 ///
 ///   D^2 = sum_j ((z_j - prior_j) / sd_j)^2 over its own free parameters
 ///
@@ -121,8 +121,8 @@ struct PriorDistance {
 };
 
 /// True if a parameter is no muscle's and no person's, but freed so that its uncertainty enters the
-/// others: gain and exponent of an EMG channel, torque of the joint itself. Not counted among what
-/// a recording tells.
+/// others: gain and exponent of an EMG channel, torque of the joint itself. Nuisances do not count
+/// among the results of a recording.
 [[nodiscard]] inline bool is_nuisance(const ParameterEstimate& estimate) {
   return estimate.parameter == "emg_gain" || estimate.parameter == "emg_exponent" ||
          estimate.parameter.starts_with("joint_");
@@ -142,14 +142,14 @@ struct IdentificationResult {
   double delay_s = 0.0;      ///< Of the first channel.
   Eigen::VectorXd solution;  ///< In the solver's scale (torque).
   /// Of the free parameters in the solver's scale (logarithms where logarithmic), given the slack
-  /// lengths of the tendons. Standard errors and intervals add what is not known of these
+  /// lengths of the tendons. Standard errors and intervals add the uncertainty of these
   /// (`held_tendon_shift`).
   Eigen::MatrixXd covariance;
   std::vector<std::string> free_parameters;  ///< Its rows.
   std::vector<std::string> collinear;     ///< Sets that the data hardly tell apart, as sentences.
   std::vector<std::string> undetermined;  ///< Combinations that the data leave open, as sentences.
   std::vector<PriorDistance> prior_distances;  ///< Of each muscle with priors.
-  std::vector<std::string> diagnoses;          ///< What a pattern of values is the signature of.
+  std::vector<std::string> diagnoses;          ///< Errors whose signature the values show.
   std::vector<std::string> warnings;
   std::vector<BranchTest> branch_tests;  ///< Method paper.
   std::vector<BasinTable> basins;        ///< Of each fit, where several starts were asked for.
@@ -164,7 +164,7 @@ struct IdentificationResult {
   /// Square of the relative spread of each EMG channel's envelope, as it is (force, torque).
   Eigen::VectorXd envelope_variance;
   double model_error = 0.0;  ///< Systematic error, relative to the muscles' torques.
-  /// 1 - SSE/SST of what was fitted (both sides as the residual has them, below its cut-off), about
+  /// 1 - SSE/SST of the fitted samples (both sides below the residual's cut-off), about
   /// the mean over all trials; of several joints or muscles the least.
   double r2 = 1.0;
   double condition = 0.0;

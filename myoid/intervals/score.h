@@ -27,8 +27,9 @@ struct Score {
 [[nodiscard]] double coefficient_of_determination(const Eigen::VectorXd& reference,
                                                   const Eigen::VectorXd& predicted);
 
-/// A torque without what lies above `cutoff_hz` (-3 dB, two passes of second order, no delay), on
-/// an even clock; as it is if the clock is too slow or too short for that, or the cut-off is 0.
+/// A torque without the frequencies above `cutoff_hz` (-3 dB, two passes of second order, no
+/// delay), on an even clock; as it is if the clock is too slow or too short for that, or the
+/// cut-off is 0.
 [[nodiscard]] Eigen::VectorXd below(const Eigen::VectorXd& time_s,
                                     const Eigen::VectorXd& torque_nm,
                                     double cutoff_hz);

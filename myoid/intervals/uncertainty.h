@@ -10,7 +10,7 @@
 
 namespace myoid::identification {
 
-/// What the curvature at the minimum says; all in the solver's scale.
+/// Covariances from the curvature and the scores at the minimum, in the solver's scale.
 struct Sandwich {
   Eigen::MatrixXd newey_west;  ///< A^-1 B A^-1, B from autocovariances within trials up to 0.4 s;
                                ///< where weights are used never below what the autocorrelation

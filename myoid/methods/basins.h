@@ -18,31 +18,31 @@ namespace myoid::identification {
                                      Eigen::Index plain_samples = 0,
                                      const Progress& progress = {});
 
-/// Of the estimator's own search, with these weights.
+/// The minima of the estimator's own search, with these weights.
 [[nodiscard]] BasinTable find_basins(const Estimator& estimator,
                                      const Weighting& weighting,
                                      int starts);
 
-/// Starts from which a fit that is reported looks around for other minima.
+/// Number of starts from which a reported fit looks for other minima.
 inline constexpr int kUsualLook = 24;
 
-/// `report_other_minima` of a fit of method torque with these options: of its table where several
-/// starts were asked for, else of searches from `starts` points at the weights of its minimum.
+/// Calls `report_other_minima` for a fit of method torque with these options: with its table where
+/// several starts were asked for, else with searches from `starts` points at its minimum's weights.
 void look_around(const StudyData& data,
                  EstimatorOptions options,
                  IdentificationResult& result,
                  int starts = kUsualLook);
 
-/// Says which numbers other minima of the table, lower than `cost` or at most a chi-square of 4
-/// above it, put outside of the intervals that are reported; what of them is `identified` becomes
-/// `weak`.
+/// Warns of numbers that other minima of the table put outside their reported intervals. Such
+/// minima are lower than `cost` or at most a chi-square of 4 above it. Identified numbers among
+/// them become weak.
 void report_other_minima(const BasinTable& table,
                          const std::vector<Unknown>& free,
                          double cost,
                          IdentificationResult& result);
 
-/// Of the source paper's plain Gauss-Newton steps on one muscle in one branch; no basins where all
-/// is held or it is not fitted (PaperCase::obstacle).
+/// The minima of the source paper's plain Gauss-Newton steps on one muscle in one branch. None
+/// where every number is held or the case is not fitted (PaperCase::obstacle).
 [[nodiscard]] BasinTable find_paper_basins(const StudyData& data,
                                            std::size_t muscle,
                                            bool shortening,

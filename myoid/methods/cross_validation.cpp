@@ -30,7 +30,7 @@ TrialData used(TrialData trial, bool calibration) {
   return trial;
 }
 
-/// Adds block `b` of a trial to be predicted, and what is fitted on either side of it.
+/// Adds block `b` of a trial to be predicted, and the fitted parts on either side of the block.
 void cut(const TrialData& trial, int b, const CrossValidationOptions& how, Split& split) {
   const Eigen::Index n = trial.time_s.size();
   const Eigen::Index begin = n * b / how.blocks;
@@ -138,7 +138,7 @@ struct Predictors {
   bool paper = false;
 };
 
-/// What the trials that were fitted say to the baselines.
+/// The fitted trials as the baselines see them.
 struct Baselines {
   double gain = 0.0;       ///< Of the literature's muscles.
   Eigen::VectorXd slopes;  ///< Of torque on the regressors.
@@ -151,7 +151,7 @@ Baselines baselines(const std::vector<TrialData>& training, const Predictors& by
   Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(m, m);
   Eigen::VectorXd right = Eigen::VectorXd::Zero(m);
   for (const TrialData& t : training) {
-    // Whoever predicts knows what the joint was measured to do by itself.
+    // Every prediction includes the measured resting torque of the joint.
     const Eigen::VectorXd resting = resting_torque_nm(t);
     const Eigen::VectorXd active = t.torque_nm - resting;
     const Eigen::VectorXd torque =
@@ -250,7 +250,7 @@ void add_paper(const StudyData& data, const std::vector<std::string>& muscles, P
   }
 }
 
-/// Fits one split and scores what it left out, joint by joint.
+/// Fits one split and scores the trials that it left out, joint by joint.
 std::vector<Fold> score_split(Split split,
                               const SplitFit& fit_to,
                               const EstimatorOptions& options,
@@ -331,7 +331,7 @@ std::vector<Split> splits(const StudyData& data,
 }
 
 std::string generalises_badly(const std::vector<Fold>& folds) {
-  constexpr double kWorse = 2.0;     // times the error of what was fitted
+  constexpr double kWorse = 2.0;     // times the error of the fitted trials
   constexpr double kExplains = 0.5;  // of the squares: better is good enough
   double seen = 0.0, unseen = 0.0, spread = 0.0, worst = 0.0, count = 0.0;
   std::string where;

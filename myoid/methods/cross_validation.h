@@ -57,7 +57,7 @@ struct Fold {
   std::optional<Score> paper;  ///< Method paper on the others, where there are forces.
   double gain = 1.0;           ///< That gain.
   double lag_s = 0.0;          ///< Of the identified prediction.
-  UnseenEffort unseen;         ///< How far the EMG goes beyond that of the trials fitted.
+  UnseenEffort unseen;         ///< Effort beyond that of the fitted trials.
   Eigen::VectorXd time_s, measured_nm, predicted_nm,
       literature_nm;  ///< Trials one after the other.
 };

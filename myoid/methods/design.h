@@ -8,8 +8,8 @@
 
 namespace myoid::identification {
 
-/// What recording one movement would tell about the parameters, for each of several persons drawn
-/// from what is known beforehand.
+/// The information of one movement about the parameters, for each of several persons drawn from the
+/// priors.
 struct MovementInformation {
   std::string name;
   double duration_s = 0.0;
@@ -20,14 +20,14 @@ struct MovementInformation {
 
 struct DesignProblem {
   std::vector<std::string> parameters;  ///< p labels.
-  Eigen::MatrixXd prior_precision;      ///< p x p, positive definite: what is known beforehand.
+  Eigen::MatrixXd prior_precision;      ///< p x p, positive definite.
   std::vector<Eigen::Index> targets;    ///< The parameters that matter; the others are nuisance.
   std::vector<MovementInformation> catalogue;
 };
 
 enum class DesignCriterion {
   d_optimal,  ///< log det of the targets' covariance: the volume of their confidence ellipsoid.
-  a_optimal,  ///< Sum of the targets' variances, each as a share of what it is beforehand.
+  a_optimal,  ///< Sum of the targets' variances, each over its prior's.
 };
 
 struct DesignOptions {

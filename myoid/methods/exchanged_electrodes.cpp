@@ -57,7 +57,7 @@ LabelFit fit_of_labels(const StudyData& data,
       const TrialData trial = identification::of_joint(whole, j);
       const std::vector<Eigen::Index> rows = identification::included_rows(trial);
       if (rows.empty()) continue;
-      // What the joint makes by itself no electrode tells.
+      // No electrode shows the resting torque of the joint.
       const Eigen::VectorXd resting = identification::resting_torque_nm(trial);
       const Eigen::VectorXd active = trial.torque_nm - resting;
       const Eigen::VectorXd torque =

@@ -63,14 +63,14 @@ enum class LoopEnd {
 struct ForceLoopRound {
   double parameter_change = 0.0;  ///< Largest |ln(new / old)| over muscles and parameters.
   std::string parameter;          ///< Where: "BIC.optimal_fiber_length".
-  double force_change = 0.0;      ///< Root mean square over that of the forces.
+  double force_change = 0.0;      ///< Root mean square, relative to the forces' own.
   double reserve_nm = 0.0;        ///< Root mean square.
 };
 
 /// Forces <-> parameters.
 struct ForceLoop {
   LoopEnd end = LoopEnd::not_settled;
-  std::string message;  ///< A sentence: what happened and what it means.
+  std::string message;  ///< The end of the loop and its meaning, as a sentence.
   std::vector<ForceLoopRound> rounds;
   IdentificationResult fit;            ///< Of the last round.
   std::vector<InformedForces> forces;  ///< With its muscles, all trials.

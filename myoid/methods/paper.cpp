@@ -30,7 +30,7 @@ namespace {
 /// Residual over force below which the data are free of noise and the model is theirs.
 constexpr double kExact = 1e-6;
 
-/// l0 and l_sh of one case with their covariance, which is 0 of what is held.
+/// l0 and l_sh of one case with their covariance, which is 0 for a held number.
 struct CaseShape {
   Eigen::Vector2d value = Eigen::Vector2d::Zero();
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();

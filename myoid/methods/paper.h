@@ -24,7 +24,7 @@ struct PaperOptions {
 /// v <= -v_max are left out and counted. All calibration trials together. What a muscle's setup or
 /// a rule holds is held here too (paper_case.h); bounds, priors and ties do not exist in it.
 ///
-/// What the paper does not give is added: standard errors from the SVD of the Jacobian, widened for
+/// Beyond the paper this adds standard errors from the SVD of the Jacobian, widened for
 /// the correlation of the residuals in time (n over the effective number of samples), a Wald test
 /// of the l0 and l_sh that both cases found (where p < 0.01 nothing of that muscle is
 /// `identified`), and a verdict. Throws InvalidInput if the data have no forces.

@@ -8,7 +8,7 @@
 
 namespace myoid::identification {
 
-/// What a joint does by itself while its muscles are at rest, as it was measured: ligaments, skin
+/// The measured torque of a joint while its muscles are at rest: ligaments, skin
 /// and stretched fibers, the weight of limb and instrument (a dynamometer's plate and lever) as far
 /// as nothing else accounts for it, and the offset of the load cell. A muscle fitted without them
 /// would take them for its own.
@@ -27,7 +27,7 @@ struct RestingTorque {
   /// where it leaves more than a tenth of the torque's variance, or is more than 25 N m.
   double weight_sin_nm = 0.0, weight_cos_nm = 0.0;
   double viscosity_nms = 0.0;  ///< b; 0 where the joint was moved one way only, or not.
-  double residual_nm = 0.0;    ///< Root mean square of what is left.
+  double residual_nm = 0.0;    ///< Root mean square of the remainder.
 
   /// Without the viscous part [N m].
   [[nodiscard]] double at(double angle_rad) const;

@@ -16,7 +16,7 @@ double two_passes(double frequency_hz, double cutoff_hz) {
   return 1.0 / (1.0 + std::pow(frequency_hz / corrected, 4));
 }
 
-/// Power density of the noise, relative to that of the white noise that it was.
+/// Power density of the noise, relative to the white noise before the filters.
 double density(double frequency_hz, const EnvelopeNoise& noise) {
   double power = std::pow(two_passes(frequency_hz, noise.cutoff_hz), 2);
   for (const double tau_s : noise.lag_s)
@@ -24,7 +24,7 @@ double density(double frequency_hz, const EnvelopeNoise& noise) {
   return power;
 }
 
-/// Integral over all frequencies of the density times what `gain` keeps at each.
+/// Integral over all frequencies of the density times `gain`.
 template <typename Gain>
 double power(const EnvelopeNoise& noise, Gain gain) {
   double sum = 0.0;

@@ -63,11 +63,10 @@ IdentificationResult finish(const Estimator& estimator,
   return result;
 }
 
-/// By how much the data prefer lags to a delay: the sum of the squared residuals over what is
-/// expected of them, with a delay less that with lags, counted as often as samples are independent.
-/// Expected is the noise of the fit with a delay, that of the envelopes weakened by the lags: a
-/// prediction that is smoother comes closer to the torque by that alone, and would be preferred
-/// where muscles follow by a delay.
+/// The data's preference for lags over a delay: the difference of two sums of squared residuals
+/// over their expected variances, times the share of independent samples. The variance with lags is
+/// the variance with a delay, less the noise of the envelopes that the lags remove. Without that
+/// reduction the smoother prediction would win even where muscles follow by a delay.
 double preference_for_lags(const Estimator& by_delay,
                            const Estimator::Solution& delayed,
                            const Estimator& by_lags,

@@ -63,7 +63,7 @@ struct Prediction {
                                  const TrialData& trial,
                                  const ModelValues& values,
                                  EmgLag lag);
-/// With what a fit found; torque below the cut-off where the noise of the EMG does least harm.
+/// Predicts by the values of a fit; the torque is low-passed where the EMG's noise does least harm.
 struct FittedPrediction {
   Prediction of;
   SmoothPrediction smooth;

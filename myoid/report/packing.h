@@ -18,7 +18,7 @@ namespace myoid::report {
 [[nodiscard]] std::string base64(const std::vector<std::uint32_t>& numbers);
 [[nodiscard]] std::string base64(const std::vector<float>& numbers);
 
-/// 16-bit numbers for what is not a number.
+/// The 16-bit code of a value that is not a number.
 inline constexpr std::uint16_t kPackedMissing = 65535;
 
 /// A cube of space in 65535 steps along each axis: p = origin + step * number.

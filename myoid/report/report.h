@@ -9,9 +9,9 @@
 
 namespace myoid::report {
 
-/// What a curve stands for; decides how it is drawn, alike in every figure.
+/// The meaning of a curve. It decides how the curve is drawn, alike in every figure.
 enum class Role {
-  reference,   ///< Measured, or what the others are compared with: solid blue.
+  reference,   ///< Measured, or the reference of the others: solid blue.
   literature,  ///< Computed with the literature's parameters: dashed grey.
   identified,  ///< Computed with the identified parameters: dashed orange-red.
   truth,       ///< Known truth of a virtual recording: solid black, thin.
@@ -50,14 +50,14 @@ struct Panel {
 struct Figure {
   std::string id;  ///< Name of its files, "forces_flex_slow": letters, digits, '_' and '-'.
   std::string title;
-  std::string caption;  ///< What is to be seen, one or two sentences.
+  std::string caption;  ///< Description, one or two sentences.
   std::vector<Panel> panels;
   int columns = 1;  ///< Panels side by side.
   /// Lines on the making of its numbers, with which ID.csv begins, each behind "# ".
   std::vector<std::string> comments{};
 };
 
-/// How a value is to be taken; shown as a small colored word.
+/// The quality of a value, shown as a small colored word.
 enum class Badge { none, good, weak, bad, info };
 
 struct Cell {
@@ -82,7 +82,7 @@ struct Gate {
   GateStatus status = GateStatus::info;
   std::string value;      ///< "4.1 mm rms"
   std::string threshold;  ///< "below 10 mm"
-  std::string why;        ///< What follows from it, one sentence.
+  std::string why;        ///< Consequence of the answer, one sentence.
 };
 
 /// Another file of the run, by its name relative to the report.
@@ -105,7 +105,7 @@ struct ProvenanceRow {
   std::string value;
 };
 
-/// Everything that a person needs of a run, as a value without any formatting.
+/// All results of a run for a reader, as a value without any formatting.
 struct Report {
   std::string title;
   std::string subtitle;     ///< Who, when, which data.

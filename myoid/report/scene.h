@@ -62,7 +62,7 @@ struct SceneCoordinate {
   std::string unit;  ///< As shown: "deg", "m" or none.
 };
 
-/// What muscles are colored by.
+/// The quantity that colors the muscles.
 struct SceneValues {
   std::string name;         ///< "force", "activation"
   std::string unit;         ///< "N"; empty: dimensionless.
@@ -84,7 +84,7 @@ struct Scene {
   Eigen::VectorXd time_s{};                   ///< Of each frame.
   std::vector<std::vector<Pose>> poses = {};  ///< Frames x bodies, in ground.
   Eigen::MatrixXd coordinate_values{};        ///< Frames x coordinates, in the units shown.
-  std::vector<int> moving_muscles = {};       ///< Those with a line per frame.
+  std::vector<int> moving_muscles = {};       ///< Muscles with a line per frame.
   std::vector<std::vector<std::vector<Vec3>>> lines_m =
       {};  ///< Frames x moving muscles, in ground.
   std::vector<SceneValues> values = {};
@@ -92,7 +92,7 @@ struct Scene {
   Eigen::MatrixXd measured_m{};  ///< Frames x 3 measured markers, in ground; NaN: not seen.
 };
 
-/// Throws InvalidInput, naming what is wrong, unless all numbers of frames, bodies, muscles and
+/// Throws InvalidInput, naming the fault, unless all numbers of frames, bodies, muscles and
 /// coordinates agree, positions are finite and indices exist.
 void validate(const Scene& scene);
 

@@ -16,7 +16,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-/// Millimeters to two decimals are enough for what stands still.
+/// Millimeters to two decimals are enough for bodies that stand still.
 ordered_json vector_json(const Vec3& v) {
   const auto rounded = [](double x) { return std::round(x * 1e5) / 1e5; };
   return {rounded(v.x()), rounded(v.y()), rounded(v.z())};

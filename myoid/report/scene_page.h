@@ -19,7 +19,7 @@ struct ScenePage {
 };
 [[nodiscard]] std::string scene_page(const ScenePage& page);
 
-/// Whether this build has what `scene_page` needs.
+/// Whether this build includes the viewer that `scene_page` needs.
 [[nodiscard]] bool has_viewer();
 
 }  // namespace myoid::report

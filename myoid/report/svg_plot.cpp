@@ -235,7 +235,7 @@ class PanelDrawing {
       std::string there;
       std::string back;
       for (std::size_t i = k; i < end; i += step) {
-        // A coarser band must still hold what it stands for.
+        // A coarser band must still enclose the whole range.
         const std::size_t next = std::min(i + step, end);
         double low = series.y[i];
         double high = series.y_upper[i];

@@ -11,7 +11,7 @@ namespace myoid::report {
 /// column names first. Badges are left out.
 [[nodiscard]] std::string table_csv(const Table& table);
 
-/// What the figure shows, in full and not decimated: one row per sample, columns
+/// The samples of a figure, in full and not decimated: one row per sample, columns
 /// panel,series,role,x,y and, where a series has them, y_lower,y_upper. Gaps are empty cells.
 [[nodiscard]] std::string figure_csv(const Figure& figure);
 

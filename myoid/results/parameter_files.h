@@ -20,16 +20,16 @@ namespace myoid {
 [[nodiscard]] std::string parameters_csv(
     const std::vector<identification::IdentificationResult>& methods);
 
-/// The parameters by which every fold's prediction was made, one row per thing left out and
-/// parameter: of fits that did not see it. With muscles.csv or the model for what was held, the
+/// The parameters by which every fold was predicted, one row per fold and parameter: of fits that
+/// did not see the fold. With muscles.csv or the model for what was held, the
 /// lag, and nothing else, the left-out R2 can be computed anew (docs/theory/identification.md).
 [[nodiscard]] std::string fold_parameters_csv(const std::vector<identification::Fold>& folds);
 
-/// What parameters.json tells beside the estimates and the folds.
+/// The content of parameters.json beside the estimates and the folds.
 struct ParameterContext {
   std::vector<TrialPhases> phases;
   std::vector<identification::RestingJoint> resting;
-  std::string left_out = "trial";     ///< What a fold is: trial, condition, block, or none.
+  std::string left_out = "trial";     ///< Kind of a fold: trial, condition, block, or none.
   std::optional<double> max_rate_hz;  ///< Samples were thinned to at most this; empty: not told.
   std::string starting_values;  ///< Which of them are the literature's; empty: none is assumed.
   const identification::ForceLoop* force_loop = nullptr;  ///< Null: none was asked for.
@@ -43,7 +43,7 @@ struct ParameterContext {
     const Provenance& provenance,
     const ParameterContext& context = {});
 
-/// That of a finished study, whose result has to outlive it.
+/// The context of a finished study; `result` has to outlive it.
 [[nodiscard]] ParameterContext parameter_context(const StudyResult& result);
 
 }  // namespace myoid

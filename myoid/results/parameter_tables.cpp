@@ -84,7 +84,7 @@ Cell truth_cell(const StudyResult& result, const ParameterEstimate& e) {
   return {value_of(e, *truth), inside ? Badge::good : Badge::weak, {}};
 }
 
-/// What passive trials measured of the joints, for beneath the table of what is left to find.
+/// The resting torques that passive trials measured, as text beneath the table of nuisances.
 std::string measured_at_rest(const StudyResult& result) {
   constexpr double kDegrees = 180.0 / std::numbers::pi;
   std::string text;
@@ -103,7 +103,7 @@ std::string measured_at_rest(const StudyResult& result) {
 
 bool is_undetermined(const ParameterEstimate& e) {
   constexpr double kMeaningless = 1e3;
-  // What most have none of may well be 0: it is measured by how much some have.
+  // A number that is 0 by nature is compared with its usual spread between people.
   const double usual = identification::zero_by_nature(e.parameter)
                            ? identification::parameter_field(e.parameter).prior_sd
                            : 1e-12;

@@ -15,9 +15,9 @@ struct EstimateLine {
   std::string owners;  ///< "BIC", or "BIC, BRA, BRD, TRI"; "all muscles" where it is all of them.
 };
 
-/// The estimates in the order in which people read them: those of the muscles and the person
-/// first, then those that were freed only for the others' sake (`is_nuisance`). Tied numbers that
-/// are equal stand once. `muscle_count` is that of the study.
+/// The estimates in the order in which people read them: first of the muscles and the person, then
+/// the nuisances, which were freed only for the others' sake (`is_nuisance`). Tied numbers that
+/// are equal stand once. `muscle_count` counts the study's muscles.
 [[nodiscard]] std::vector<EstimateLine> estimate_lines(
     const identification::IdentificationResult& method, std::size_t muscle_count);
 

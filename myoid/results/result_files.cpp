@@ -113,7 +113,7 @@ ordered_json faults_json(const std::vector<Remark>& faults) {
   return list;
 }
 
-/// What was computed from what, how long it took, and what was remarked on the way.
+/// The record of a run: inputs, results, times and remarks.
 ordered_json run_json(const StudyResult& result, const Provenance& provenance) {
   ordered_json run = report::provenance_json(provenance);
   run["study"] = std::filesystem::absolute(result.source.study.file).string();

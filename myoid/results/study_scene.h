@@ -18,7 +18,7 @@ inline constexpr const char* kMotionPage = "motion.html";
 /// True if `write_motion_page` writes one: there is a motion, and the program has a viewer.
 [[nodiscard]] bool has_motion_page(const StudyResult& result);
 
-/// Writes the page into the run's folder, or removes that of an earlier run.
+/// Writes the page into the run's folder, or removes the page of an earlier run.
 void write_motion_page(const StudyResult& result, const std::filesystem::path& folder);
 
 }  // namespace myoid

@@ -12,7 +12,7 @@ namespace myoid {
 /// for each trial and joint; empty if there were none.
 [[nodiscard]] std::vector<report::Section> validation_sections(const StudyResult& result);
 
-/// What was recorded and how it went: duration, held mass, range of every joint and of its torque.
+/// The recordings: duration, held mass, range of every joint and of its torque.
 [[nodiscard]] report::Table trials_table(const StudyResult& result);
 
 }  // namespace myoid

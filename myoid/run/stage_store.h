@@ -40,7 +40,7 @@ class StageStore {
   std::set<std::string> used_;
 };
 
-/// What inverse kinematics of a trial depends on, as 64 hexadecimal digits.
+/// The fingerprint of all inputs of a trial's inverse kinematics, as 64 hexadecimal digits.
 [[nodiscard]] std::string ik_key(const Study& study,
                                  std::string_view model_text,
                                  const recording::MarkerSeries& markers);

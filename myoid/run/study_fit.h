@@ -11,7 +11,7 @@
 
 namespace myoid {
 
-/// The parameters of a study and what follows from them.
+/// The parameters of a study and the forces that follow from them.
 struct StudyFit {
   std::vector<identification::IdentificationResult> methods;
   /// Labels that fit better the other way round.

@@ -155,7 +155,7 @@ StudyForces study_forces(const StudyInputs& inputs,
   if (!share) return found;
   for_each_trial(motion, found.trials, progress, [&](std::size_t i) {
     TrialForces& trial = found.trials[i];
-    // The resting joints are what the passive trials show: there all of it is shared.
+    // The resting torques come from the passive trials themselves: there all torque is shared.
     const bool passive = study.trials[i].use == Use::passive;
     trial.shared = shared_forces(
         study, inputs.trials[i], motion[i], trial.muscles,

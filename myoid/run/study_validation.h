@@ -9,7 +9,7 @@
 
 namespace myoid {
 
-/// The predictions of what was left out of the fit.
+/// The predictions of trials that were left out of the fit.
 struct StudyValidation {
   std::vector<identification::Fold> folds;
   std::vector<std::string> warnings;  ///< About method torque.

@@ -30,7 +30,8 @@ void add_attached(const OsimReading& r,
   }
 }
 
-/// <VisibleObject> of a body in documents before 30500; its own scale multiplies that of each part.
+/// <VisibleObject> of a body in documents before 30500; its own scale multiplies the scale of each
+/// part.
 void add_visible(const OsimReading& r,
                  pugi::xml_node body,
                  model::BodyIndex index,

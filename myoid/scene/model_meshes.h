@@ -32,7 +32,7 @@ struct BodyMesh {
 
 struct LoadedMeshes {
   std::vector<BodyMesh> meshes;
-  std::vector<std::string> notes;  ///< What was not found, could not be read or was simplified.
+  std::vector<std::string> notes;  ///< Meshes not found, unreadable or simplified.
 };
 
 struct MeshOptions {

@@ -147,7 +147,7 @@ void place(const model::BodyModel& model, const Eigen::MatrixXd& q, report::Scen
   }
 }
 
-/// True if a column of a result or states file is that of the muscle.
+/// True if a column of a result or states file belongs to the muscle.
 bool belongs_to(std::string_view column, std::string_view muscle, std::string_view quantity) {
   const auto without_suffix = [&](std::string_view text) {
     for (const char mark : {'/', '.', '|'}) {

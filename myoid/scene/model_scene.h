@@ -10,7 +10,7 @@
 
 namespace myoid {
 
-/// What muscles may be colored by. A muscle's column is the one of its name, or
+/// Quantities that may color the muscles. A muscle's column is the one of its name, or
 /// "<name>.<quantity>",
 /// "<name>|<quantity>", ".../<name>/<quantity>", ".../<name>".
 struct MuscleColoring {
