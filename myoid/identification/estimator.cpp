@@ -10,28 +10,6 @@
 #include "myoid/math/statistics.h"
 
 namespace myoid::identification {
-namespace {
-
-/// The power of each row averaged twice over a second of its piece. A weight that follows the noise
-/// of the EMG itself would favor the samples in which the noise happens to be small.
-Eigen::VectorXd averaged_over_a_second(Eigen::VectorXd power, const ResidualModel& model) {
-  const auto half = static_cast<Eigen::Index>(std::lround(0.5 * model.rate_hz()));
-  for (const Piece& piece : model.pieces()) {
-    auto segment = power.segment(piece.first, piece.count);
-    for (int pass = 0; pass < 2; ++pass) {
-      Eigen::VectorXd sum(piece.count + 1);
-      sum[0] = 0.0;
-      for (Eigen::Index i = 0; i < piece.count; ++i) sum[i + 1] = sum[i] + segment[i];
-      for (Eigen::Index i = 0; i < piece.count; ++i) {
-        const Eigen::Index reach = std::min({half, i, piece.count - 1 - i});
-        segment[i] = (sum[i + reach + 1] - sum[i - reach]) / static_cast<double>(2 * reach + 1);
-      }
-    }
-  }
-  return power;
-}
-
-}  // namespace
 
 Estimator::Estimator(const StudyData& data, const EstimatorOptions& options)
     : options_(options), model_(std::make_shared<const ResidualModel>(data, options)) {
@@ -335,8 +313,11 @@ void Estimator::find_noise(const Eigen::VectorXd& z,
                          ((part / model_->noise_gain().array().square()).rowwise().sum() + 1e-300);
   const bool correct = options_.correct_attenuation && weighting.corrected;
   const Eigen::VectorXd residual = at.predicted - model_->measured();
-  const Eigen::VectorXd power = averaged_over_a_second(
-      at.channel_torque.cwiseAbs2().transpose() * channel_variance_, *model_);
+  // A weight that follows the noise of the EMG itself would favor the samples in which the noise
+  // happens to be small: the power is averaged over a second.
+  const Eigen::VectorXd power = averaged_twice(
+      at.channel_torque.cwiseAbs2().transpose() * channel_variance_, model_->piece_lengths(),
+      static_cast<Eigen::Index>(std::lround(0.5 * model_->rate_hz())));
   if (correct) weighting.emg_variance.setZero(residual.size());
   for (int joint = 0; joint < model_->joint_count(); ++joint) {
     const std::vector<Eigen::Index> rows = model_->rows_of_joint(joint);

@@ -139,4 +139,24 @@ NoiseLevel fit_unknown_noise(const Eigen::ArrayXd& squared, const Eigen::ArrayXd
   return {.torque_sd_nm = std::sqrt(std::max(a, 0.0)), .emg_cv = factor, .emg_factor = factor};
 }
 
+Eigen::VectorXd averaged_twice(Eigen::VectorXd power,
+                               const std::vector<Eigen::Index>& piece_lengths,
+                               Eigen::Index half) {
+  Eigen::Index first = 0;
+  for (const Eigen::Index count : piece_lengths) {
+    auto segment = power.segment(first, count);
+    for (int pass = 0; pass < 2; ++pass) {
+      Eigen::VectorXd sum(count + 1);
+      sum[0] = 0.0;
+      for (Eigen::Index i = 0; i < count; ++i) sum[i + 1] = sum[i] + segment[i];
+      for (Eigen::Index i = 0; i < count; ++i) {
+        const Eigen::Index reach = std::min({half, i, count - 1 - i});
+        segment[i] = (sum[i + reach + 1] - sum[i - reach]) / static_cast<double>(2 * reach + 1);
+      }
+    }
+    first += count;
+  }
+  return power;
+}
+
 }  // namespace myoid::identification

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include <Eigen/Core>
 
 namespace myoid::identification {
@@ -27,5 +29,10 @@ struct NoiseLevel {
 /// negative.
 [[nodiscard]] NoiseLevel fit_unknown_noise(const Eigen::ArrayXd& squared,
                                            const Eigen::ArrayXd& power);
+
+/// Averages twice over 2 `half` + 1 samples, fewer at the ends, within each of consecutive pieces.
+[[nodiscard]] Eigen::VectorXd averaged_twice(Eigen::VectorXd power,
+                                             const std::vector<Eigen::Index>& piece_lengths,
+                                             Eigen::Index half);
 
 }  // namespace myoid::identification
