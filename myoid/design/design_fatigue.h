@@ -13,13 +13,13 @@ struct Effort {
   std::vector<std::vector<double>> activation;  ///< Per muscle.
 };
 
-/// Of a movement's performances; nothing stands for a person who cannot do it.
+/// Returns the effort of a movement's performances; an empty one is of a person who cannot do it.
 [[nodiscard]] Effort effort_of(
     const std::vector<std::optional<identification::TrialData>>& performances,
     const std::vector<identification::MuscleSetup>& muscles,
     double duration_s);
 
-/// Share of the most tired muscle that is fatigued after doing this movement alone, from rest.
+/// Returns the fatigued share of the most tired muscle after this movement alone, from rest.
 [[nodiscard]] double fatigued_share(const Effort& effort,
                                     const muscle::FatigueRates<double>& rates);
 
@@ -29,8 +29,8 @@ struct PlannedRest {
   double fatigued_share = 0.0;
 };
 
-/// Rests before movements that are done one after the other, by steps of 15 s, so that no muscle
-/// ends one with more than `budget` fatigued, or the rest has become half an hour.
+/// Plans rests before movements that are done one after the other, by steps of 15 s, so that no
+/// muscle ends a movement with more than `budget` fatigued. No rest is longer than half an hour.
 [[nodiscard]] std::vector<PlannedRest> plan_rests(const std::vector<const Effort*>& efforts,
                                                   double budget,
                                                   const muscle::FatigueRates<double>& rates);

@@ -21,27 +21,28 @@ struct Knowledge {
   Eigen::MatrixXd precision;  ///< Its inverse.
 };
 
-/// The priors, and of the parameters that an earlier run fitted, its estimate and covariance. A
-/// direction that the run left undetermined stays as unknown as it was. Throws InvalidInput if the
-/// run's covariance is not finite.
+/// Returns the priors, replaced by estimate and covariance of an earlier run for the parameters
+/// that it fitted. A direction that the run left undetermined keeps its prior. Throws InvalidInput
+/// if the run's covariance is not finite.
 [[nodiscard]] Knowledge knowledge_of(const std::vector<identification::Unknown>& free,
                                      const std::optional<EarlierRun>& earlier);
 
-/// Persons drawn from the knowledge, within the bounds; the first is its mean. The same for the
-/// same seed.
+/// Draws persons from the knowledge, within the bounds; the first is the mean. One seed gives the
+/// same persons.
 [[nodiscard]] std::vector<Eigen::VectorXd> draw_persons(
     const std::vector<identification::Unknown>& free,
     const Knowledge& known,
     int count,
     std::uint64_t seed);
 
-/// The places of the parameters that `wanted` names: "all" (but the EMG gains), an owner ("BIC"), a
-/// parameter, or both ("BIC.optimal_fiber_length"). Throws InvalidInput for a name that is none.
+/// Returns the places of the parameters that `wanted` names: "all" (but the EMG gains), an owner
+/// ("BIC"), a parameter, or both ("BIC.optimal_fiber_length"). Throws InvalidInput for an unknown
+/// name.
 [[nodiscard]] std::vector<Eigen::Index> targets_of(const std::vector<identification::Unknown>& free,
                                                    const std::vector<std::string>& wanted);
 
-/// The run's own row of an unknown (of its first owner, where it is tied), if it has an interval;
-/// else nullptr.
+/// Returns the run's row of an unknown (of the first owner where it is tied) if the row has an
+/// interval; else nullptr.
 [[nodiscard]] const identification::ParameterEstimate* found_by(
     const std::optional<EarlierRun>& earlier, const identification::Unknown& parameter);
 

@@ -6,8 +6,8 @@
 
 namespace myoid::report {
 
-/// The report as one HTML page that needs nothing else: style and drawings are inside, no scripts,
-/// no network. Quality gates come first. Fit for the screen and for print.
+/// Returns the report as one HTML page for screen and print. Style and drawings are inside; the
+/// page needs no scripts and no network. Quality gates come first.
 [[nodiscard]] std::string html(const Report& report);
 
 }  // namespace myoid::report

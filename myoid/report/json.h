@@ -6,7 +6,7 @@
 
 namespace myoid::report {
 
-/// The report for machines: the same structure and names as `Report`, indented by two blanks.
+/// Returns the report as JSON with the structure and names of `Report`, indented by two blanks.
 /// Figures carry id, title and caption only; their numbers are in figures/ID.csv.
 [[nodiscard]] std::string report_json(const Report& report);
 

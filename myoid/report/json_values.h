@@ -8,10 +8,10 @@
 
 namespace myoid::report {
 
-/// A number as JSON; null where it is absent or not finite, which JSON cannot write.
+/// Returns a number as JSON; null where it is absent or not finite, which JSON cannot write.
 [[nodiscard]] nlohmann::ordered_json number_or_null(const std::optional<double>& value);
 
-/// Program, version, command, inputs with their SHA-256, and options.
+/// Returns program, version, command, inputs with their SHA-256, and options.
 [[nodiscard]] nlohmann::ordered_json provenance_json(const Provenance& provenance);
 
 }  // namespace myoid::report

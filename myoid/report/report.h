@@ -23,7 +23,7 @@ enum class Role {
 /// A curve. x and y have one length; NaN in y is a gap. `y_upper` (and `y_lower` for points) have
 /// the same length where used.
 struct Series {
-  std::string name;  ///< In the legend; empty: not there.
+  std::string name;  ///< In the legend; empty: no entry.
   std::vector<double> x;
   std::vector<double> y;
   Role role = Role::reference;
@@ -35,7 +35,7 @@ struct Series {
 struct Axis {
   std::string label;            ///< "elbow flexion"
   std::string unit;             ///< "deg", "N m"; empty: dimensionless
-  std::optional<double> lower;  ///< Else from the data.
+  std::optional<double> lower;  ///< Empty: from the data.
   std::optional<double> upper;
   std::vector<std::string> categories;  ///< Names at x = 0, 1, 2, ...: instead of numbers.
 };
@@ -53,7 +53,7 @@ struct Figure {
   std::string caption;  ///< Description, one or two sentences.
   std::vector<Panel> panels;
   int columns = 1;  ///< Panels side by side.
-  /// Lines on the making of its numbers, with which ID.csv begins, each behind "# ".
+  /// First lines of ID.csv, each behind "# ": the origin of the numbers.
   std::vector<std::string> comments{};
 };
 
@@ -63,7 +63,7 @@ enum class Badge { none, good, weak, bad, info };
 struct Cell {
   std::string text;
   Badge badge = Badge::none;
-  std::string hint;  ///< A sentence shown when pointing at it, and in print after the table.
+  std::string hint;  ///< A sentence shown when pointing at the cell, and in print after the table.
 };
 
 struct Table {
@@ -121,17 +121,18 @@ struct Report {
 /// numbers of cells, or ids are empty, odd or used twice.
 void validate(const Report& report);
 
-/// Samples as a curve's.
+/// Returns the samples as a curve's values.
 [[nodiscard]] std::vector<double> to_vector(const Eigen::Ref<const Eigen::VectorXd>& samples);
 
-/// A number for people: `digits` significant ones, no exponent between 1e-4 and 1e6.
+/// Formats a number for people: `digits` significant ones, no exponent between 1e-4 and 1e6.
 [[nodiscard]] std::string format_value(double value, int digits = 3);
 
-/// A number with the decimals that show two digits of `width`, that of its interval, say: "0.140"
-/// beside a width of 0.017; zeros at the end are kept, so that a column can be compared.
+/// Formats a number with the decimals that show two digits of `width`, for example of its interval:
+/// "0.140" beside a width of 0.017. Zeros at the end are kept, so that a column can be compared.
 [[nodiscard]] std::string format_rounded(double value, double width);
 
-/// "0.1363 to 0.1371": both ends with the decimals that show two digits of the width.
+/// Formats an interval, "0.1363 to 0.1371": both ends with the decimals that show two digits of the
+/// width.
 [[nodiscard]] std::string format_interval(double lower,
                                           double upper,
                                           std::string_view between = " to ");

@@ -49,11 +49,11 @@ struct SceneSurface {
   Vec3 size_m = Vec3::Zero();
 };
 
-/// A muscle, drawn as a line. One that runs through the same points of bodies at all times has them
-/// here; the others' lines are in each frame.
+/// A muscle, drawn as a line. The points of a muscle that always runs through the same points of
+/// bodies are here; the lines of other muscles are in each frame.
 struct SceneMuscle {
   std::string name;
-  double max_isometric_force_n = 0.0;  ///< Makes it thick or thin.
+  double max_isometric_force_n = 0.0;  ///< Decides the line's width.
   std::vector<ScenePoint> points = {};
 };
 

@@ -7,7 +7,7 @@
 
 namespace myoid::report {
 
-/// Scenes, of one model or of several, as one HTML file that works offline: the viewer with a
+/// Returns scenes of one or several models as one HTML file that works offline: the viewer with a
 /// choice of the scene, and the scenes as JSON with their arrays in base64 (packing.h). Calls
 /// `validate`. Throws InvalidInput without a scene, for a mesh that is not there or has corners
 /// without vertices, or if the program was built without three.js.

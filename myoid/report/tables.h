@@ -7,15 +7,15 @@
 
 namespace myoid::report {
 
-/// The table as comma-separated values (RFC 4180: CRLF is not used, quotes where needed); a row of
-/// column names first. Badges are left out.
+/// Returns the table as comma-separated values (RFC 4180: CRLF is not used, quotes where needed); a
+/// row of column names first. Badges are left out.
 [[nodiscard]] std::string table_csv(const Table& table);
 
-/// The samples of a figure, in full and not decimated: one row per sample, columns
+/// Returns the samples of a figure, in full and not decimated: one row per sample, columns
 /// panel,series,role,x,y and, where a series has them, y_lower,y_upper. Gaps are empty cells.
 [[nodiscard]] std::string figure_csv(const Figure& figure);
 
-/// The word that stands for it in files: "reference", "literature", ...
+/// Returns the word for the role in files: "reference", "literature", ...
 [[nodiscard]] std::string_view name(Role role);
 [[nodiscard]] std::string_view name(Badge badge);
 [[nodiscard]] std::string_view name(GateStatus status);

@@ -5,15 +5,14 @@
 
 namespace myoid::report {
 
-/// Plain text as it is set in print: "R2" as a word becomes R², "+-" becomes ±. The same sentences
+/// Sets plain text for print: "R2" as a word becomes R², "+-" becomes ±. The same sentences
 /// go to terminals, where plain characters are safer.
 [[nodiscard]] std::string typographic(std::string_view text);
 
-/// The same as HTML: escaped, and what stands between backticks as code. A backtick without its
-/// partner stays.
+/// Sets plain text as HTML: escaped, and text between backticks as code. A single backtick stays.
 [[nodiscard]] std::string typeset(std::string_view text);
 
-/// A name of the files as words: "max_isometric_force" becomes "max isometric force".
+/// Spells a name of the files as words: "max_isometric_force" becomes "max isometric force".
 [[nodiscard]] std::string spelled(std::string_view name);
 
 }  // namespace myoid::report

@@ -43,16 +43,16 @@ struct RunComparison {
   std::vector<std::string> remarks;  ///< Numbers that only one of them has.
 };
 
-/// Two finished runs, of one person on two days or of one recording by two studies, number by
-/// number: z = (second - first) / sqrt(se1^2 + se2^2) against the normal distribution, the p-values
-/// adjusted for their number by Holm's method. A parameter that either verdict calls
-/// prior_dominated, not_identifiable or non_physical is not compared: both may agree on what was
-/// known beforehand. The sessions count as independent; a shared prior makes the test cautious.
+/// Compares two finished runs number by number, of one person on two days or of one recording by
+/// two studies: z = (second - first) / sqrt(se1^2 + se2^2) against the normal distribution, the
+/// p-values adjusted for their number by Holm's method. A parameter that either verdict calls
+/// prior_dominated, not_identifiable or non_physical is not compared: both may agree on the
+/// prior alone. The sessions count as independent; a shared prior makes the test cautious.
 /// Throws ReadError if a folder holds no parameters.json of a run.
 [[nodiscard]] RunComparison compare_runs(const std::filesystem::path& first,
                                          const std::filesystem::path& second);
 
-/// The comparison for people: table, and both intervals of every parameter side by side.
+/// Returns the comparison as a report: table, and both intervals of every parameter side by side.
 [[nodiscard]] report::Report comparison_report(const RunComparison& comparison);
 
 }  // namespace myoid

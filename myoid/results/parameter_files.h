@@ -14,15 +14,15 @@
 
 namespace myoid {
 
-/// Table of all estimates, one row per muscle x parameter x method x case, with the columns
-/// promised in docs/guide/run.md. Numbers are the shortest text that reads back the same; an absent
-/// number is an empty cell.
+/// Returns the table of all estimates, one row per muscle x parameter x method x case, with the
+/// columns promised in docs/guide/run.md. Numbers are the shortest text that reads back the same;
+/// an absent number is an empty cell.
 [[nodiscard]] std::string parameters_csv(
     const std::vector<identification::IdentificationResult>& methods);
 
-/// The parameters by which every fold was predicted, one row per fold and parameter: of fits that
-/// did not see the fold. With muscles.csv or the model for what was held, the
-/// lag, and nothing else, the left-out R2 can be computed anew (docs/theory/identification.md).
+/// Returns the parameters by which every fold was predicted, one row per fold and parameter: of
+/// fits that did not see the fold. With the held values (muscles.csv or the model) and the lag the
+/// left-out R2 can be computed anew (docs/theory/identification.md).
 [[nodiscard]] std::string fold_parameters_csv(const std::vector<identification::Fold>& folds);
 
 /// The content of parameters.json beside the estimates and the folds.
@@ -31,19 +31,20 @@ struct ParameterContext {
   std::vector<identification::RestingJoint> resting;
   std::string left_out = "trial";     ///< Kind of a fold: trial, condition, block, or none.
   std::optional<double> max_rate_hz;  ///< Samples were thinned to at most this; empty: not told.
-  std::string starting_values;  ///< Which of them are the literature's; empty: none is assumed.
-  const identification::ForceLoop* force_loop = nullptr;  ///< Null: none was asked for.
+  std::string
+      starting_values;  ///< Starting values from the literature, as a sentence; empty: none.
+  const identification::ForceLoop* force_loop = nullptr;  ///< Null: no loop.
 };
 
-/// The same with covariance, diagnostics, folds, phases, resting torques and how the loop of forces
-/// and parameters ended.
+/// Returns all estimates with covariance, diagnostics, folds, phases, resting torques and the end
+/// of the loop of forces and parameters.
 [[nodiscard]] std::string parameters_json(
     const std::vector<identification::IdentificationResult>& methods,
     const std::vector<identification::Fold>& folds,
     const Provenance& provenance,
     const ParameterContext& context = {});
 
-/// The context of a finished study; `result` has to outlive it.
+/// Returns the context of a finished study; `result` has to outlive it.
 [[nodiscard]] ParameterContext parameter_context(const StudyResult& result);
 
 }  // namespace myoid

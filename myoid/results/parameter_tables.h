@@ -12,32 +12,32 @@ namespace myoid {
 /// An estimate and the owners that share it: tied numbers are one unknown, and one line.
 struct EstimateLine {
   const identification::ParameterEstimate* estimate = nullptr;
-  std::string owners;  ///< "BIC", or "BIC, BRA, BRD, TRI"; "all muscles" where it is all of them.
+  std::string owners;  ///< "BIC", or "BIC, BRA, BRD, TRI"; "all muscles" where all share it.
 };
 
-/// The estimates in the order in which people read them: first of the muscles and the person, then
+/// Returns the estimates in reading order: first of the muscles and the person, then
 /// the nuisances, which were freed only for the others' sake (`is_nuisance`). Tied numbers that
 /// are equal stand once. `muscle_count` counts the study's muscles.
 [[nodiscard]] std::vector<EstimateLine> estimate_lines(
     const identification::IdentificationResult& method, std::size_t muscle_count);
 
-/// True if the 95 % interval is a thousand times as wide as the number is large (or, of what most
-/// have none of, as it is in some): the fit does not hold it at all, and the interval is printed as
-/// "not determined".
+/// Returns true if the 95 % interval is a thousand times as wide as the number, or as the usual
+/// spread of a number that is 0 by nature. The fit does not bound such a number, and the interval
+/// is printed as "not determined".
 [[nodiscard]] bool is_undetermined(const identification::ParameterEstimate& e);
 
-/// What the recording tells by method torque or force: first the muscles' and the person's
-/// parameters with prior, estimate, 95 % interval, truth (of a virtual recording), verdict and
+/// Returns the tables of method torque or force: first the muscles' and the person's parameters
+/// with prior, estimate, 95 % interval, truth (of a virtual recording), verdict and
 /// reason; then, if there are any, gains and exponents of the channels and the joint's own torque.
 [[nodiscard]] std::vector<report::Table> estimate_tables(
     const StudyResult& result, const identification::IdentificationResult& method);
 
-/// The source paper's tables I and II: shortening, lengthening.
+/// Returns the source paper's tables I and II: shortening, lengthening.
 [[nodiscard]] std::vector<report::Table> paper_tables(
     const identification::IdentificationResult& method);
 
-/// Where searches from several starts ended, of every fit for which they were asked; no table
-/// where none were.
+/// Returns a table of the minima at which searches from several starts ended; none without such
+/// searches.
 [[nodiscard]] std::vector<report::Table> basin_tables(
     const identification::IdentificationResult& method);
 

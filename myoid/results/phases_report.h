@@ -5,12 +5,12 @@
 
 namespace myoid {
 
-/// What was found of warm-up, fatigue, standing still: a table of all phases that are not one whole
-/// regular trial, and the torque of each trial with a phase that was left out.
+/// Returns the section on warm-up, fatigue and rest: a table of all phases but whole regular
+/// trials, and the torque of each trial with an excluded phase.
 [[nodiscard]] report::Section phases_section(const StudyResult& result);
 
-/// Forces and activations with the identified muscles, informed by the EMG, and how the loop of
-/// forces and parameters ended, if the study asked for it.
+/// Returns the section on forces and activations with the identified muscles, informed by the EMG,
+/// and on the end of the loop of forces and parameters.
 [[nodiscard]] report::Section informed_section(const StudyResult& result);
 
 }  // namespace myoid

@@ -12,7 +12,7 @@
 
 namespace myoid {
 
-/// Coordinates that the simulation did not have, with their values [rad | m].
+/// Coordinates outside the simulation, with their values [rad | m].
 using HeldCoordinates = std::vector<std::pair<std::string, double>>;
 
 /// Writes motion.mot, speeds.sto, accelerations.sto, excitation.sto, activation.sto, forces.sto,
@@ -25,16 +25,17 @@ void write_simulation(const simulation::Simulation& simulation,
                       const Provenance& provenance,
                       const std::filesystem::path& folder);
 
-/// How it ended, statistics and the balance of energies, as JSON with the provenance.
+/// Returns the end of the simulation, statistics and the balance of energies as JSON with
+/// provenance.
 [[nodiscard]] std::string simulation_json(const simulation::Simulation& simulation,
                                           const Provenance& provenance);
 
-/// Excitation, activation, angles, torques, forces and fiber lengths over time.
+/// Returns figures of excitation, activation, angles, torques, forces and fiber lengths over time.
 [[nodiscard]] report::Figure movement_figure(const simulation::Simulation& simulation);
 
-/// The source paper's figures 2 and 4: the curves of force over length and velocity with its
-/// initial values, and a flexion and extension of the elbow in the horizontal plane under steps of
-/// neural input, of the built-in arm with muscle mass.
+/// Returns the source paper's figures 2 and 4: the curves of force over length and velocity with
+/// its initial values, and a flexion and extension of the elbow in the horizontal plane under steps
+/// of neural input, of the built-in arm with muscle mass.
 [[nodiscard]] std::vector<report::Figure> paper_figures();
 
 /// Writes figures/ID.svg and figures/ID.csv.

@@ -12,22 +12,23 @@
 
 namespace myoid {
 
-/// Coordinates as ik.mot: rotations in degrees, translations in meters.
+/// Writes coordinates as ik.mot: rotations in degrees, translations in meters.
 void write_motion(const model::BodyModel& model,
                   const TimeSeries& q,
                   const std::filesystem::path& path,
                   const std::vector<std::string>& comments);
 
-/// ik_marker_errors.sto: the frames that have a marker, and of the markers those that are there in
-/// all of these frames.
+/// Writes ik_marker_errors.sto: frames with at least one marker, and markers that are in all of
+/// these frames.
 void write_marker_errors(const kinematics::IkResult& ik, const std::filesystem::path& path);
 
-/// MuscleAnalysis_Length.sto, _MuscleTendonVelocity.sto and a _MomentArm_ file for each coordinate.
+/// Writes MuscleAnalysis_Length.sto, _MuscleTendonVelocity.sto and a _MomentArm_ file for each
+/// coordinate.
 void write_muscle_kinematics(const kinematics::MuscleKinematics& muscles,
                              const std::filesystem::path& folder);
 
-/// StaticOptimization_force.sto with the reserves, _activation.sto and _status.csv: how each
-/// frame's search ended.
+/// Writes StaticOptimization_force.sto with the reserves, _activation.sto and _status.csv, the end
+/// of each frame's search.
 void write_shared_forces(const forces::MuscleForces& shared, const std::filesystem::path& folder);
 
 }  // namespace myoid

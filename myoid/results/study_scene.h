@@ -7,15 +7,16 @@
 
 namespace myoid {
 
-/// Where a run's page with its moving trials is, in its folder.
+/// Name of the page with the moving trials in the run's folder.
 inline constexpr const char* kMotionPage = "motion.html";
 
-/// The model in every trial of a run that has a motion, with its measured markers, the shared
-/// forces and the activation by EMG of each muscle that the study names; no scene if none has one.
-/// All trials together have at most `most_frames` frames.
+/// Returns the model in every trial of a run that has a motion, with its measured markers, the
+/// shared forces and the activation by EMG of each muscle that the study names; no scene if none
+/// has one. All trials together have at most `most_frames` frames.
 [[nodiscard]] report::ScenePage study_scenes(const StudyResult& result, int most_frames = 6000);
 
-/// True if `write_motion_page` writes one: there is a motion, and the program has a viewer.
+/// Returns true if there is a motion and the program has a viewer, so that `write_motion_page`
+/// writes a page.
 [[nodiscard]] bool has_motion_page(const StudyResult& result);
 
 /// Writes the page into the run's folder, or removes the page of an earlier run.

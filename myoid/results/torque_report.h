@@ -7,12 +7,13 @@
 
 namespace myoid {
 
-/// Joint torques predicted by the identified muscles for trials that took no part in the fit: those
-/// left out in turn, with every baseline beside them, and those held back. One row and one panel
-/// for each trial and joint; empty if there were none.
+/// Returns the sections on joint torques predicted for trials outside the fit: trials left out in
+/// turn, with every baseline, and validation trials. One row and one panel for each trial and
+/// joint; empty without such trials.
 [[nodiscard]] std::vector<report::Section> validation_sections(const StudyResult& result);
 
-/// The recordings: duration, held mass, range of every joint and of its torque.
+/// Returns the section on the recordings: duration, held mass, range of every joint and of its
+/// torque.
 [[nodiscard]] report::Table trials_table(const StudyResult& result);
 
 }  // namespace myoid

@@ -10,19 +10,20 @@
 
 namespace myoid {
 
-/// The data of the estimators: the muscles, every trial that moves and has EMG (but MVC, static and
-/// passive ones) over the time that has EMG, and the rules of the parameters: the nuisances' first,
-/// so that the study's own win.
+/// Makes the data of the estimators: the muscles, every moving trial with EMG (no MVC, static or
+/// passive trial) over the time with EMG, and the rules of the parameters. The nuisances' rules
+/// come first, so that the study's own win.
 [[nodiscard]] identification::StudyData estimator_data(const FitSource& source);
 
-/// The study's choices about the estimator.
+/// Returns the study's choices about the estimator.
 [[nodiscard]] identification::EstimatorSettings estimator_settings(const Study& study);
 
-/// The facts about the activations that the normalisation of the EMG tells, with the gains' priors.
+/// Returns the facts about the activations that follow from the EMG's normalisation, with the
+/// gains' priors.
 [[nodiscard]] identification::ActivationSource activation_source(
     const Study& study, const std::vector<signals::ChannelNormalisation>& normalisation);
 
-/// The estimator's options from both. Of `progress` only the stop is passed on.
+/// Makes the estimator's options from both. Only the stop of `progress` is passed on.
 [[nodiscard]] identification::EstimatorOptions torque_options(
     const Study& study,
     const std::vector<signals::ChannelNormalisation>& normalisation,

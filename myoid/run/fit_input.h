@@ -10,14 +10,14 @@
 
 namespace myoid {
 
-/// The data and the options that a fit begins with.
+/// The data and the options of a fit.
 struct FitInput {
   identification::StudyData data;  ///< Without the phases that the study excludes.
   identification::EstimatorOptions options;
   std::vector<TrialPhases> phases;  ///< Of the trials of `data`; empty: not searched.
 };
 
-/// The data of the estimators, their options and the phases of the trials.
+/// Makes the data of the estimators, their options and the phases of the trials.
 [[nodiscard]] FitInput fit_input(const FitSource& source, const Progress& progress);
 
 }  // namespace myoid

@@ -12,7 +12,7 @@
 
 namespace myoid {
 
-/// The findings that the data of a fit are made from; nothing is owned.
+/// The findings from which the data of a fit are made; the struct owns nothing.
 struct FitSource {
   const Study& study;  ///< With the uses of the trials.
   const model::BodyModel& model;
@@ -22,7 +22,7 @@ struct FitSource {
   const EmgScale& scale;                      ///< Of these activations.
 };
 
-/// The source that a run's own trials are.
+/// Returns a run's own trials as a source.
 [[nodiscard]] FitSource fit_source(const StudySource& source,
                                    const std::vector<TrialResult>& trials,
                                    const std::vector<identification::RestingJoint>& resting,

@@ -7,8 +7,9 @@
 
 namespace myoid {
 
-/// What a study finds beside its muscles' parameters unless it says otherwise ([[parameter]]), each
-/// with a prior about "not there". Left out, the fit takes it for something else:
+/// Returns the nuisances: unknowns beside the muscles' parameters, each with a prior about its
+/// absence.
+/// [[parameter]] tables of the study override them. A fit without them would blame the muscles.
 ///
 /// - `length_activation`, one for all muscles, 0 +- 0.1: fibers that are little active are at their
 ///   best when longer (Lloyd & Besier 2003: 15 %);

@@ -13,7 +13,7 @@
 
 namespace myoid {
 
-/// A passive trial of a study; nothing is owned.
+/// A passive trial of a study; the struct owns nothing.
 struct RelaxedTrial {
   std::size_t index = 0;  ///< In the study.
   const TrialSpec* spec = nullptr;
@@ -29,20 +29,20 @@ struct RestingJoints {
   std::vector<Remark> remarks;  ///< `where` is the trial.
 };
 
-/// The torques that the joints of a study make by themselves, from its passive trials that a
-/// dynamometer measured: all of them together, joint by joint. The muscles must have been at rest:
-/// a trial is left out, with a warning of its own, if an EMG channel is on average above 2 % of its
-/// maximal contraction (5 % of its greatest EMG where none was recorded), or if the torque beside a
+/// Finds the resting torques of the study's joints from the passive trials that a dynamometer
+/// measured, all trials together, joint by joint. The muscles must have been at rest: a trial is
+/// left out, with a warning of its own, if an EMG channel is on average above 2 % of its maximal
+/// contraction (5 % of its greatest EMG where none was recorded), or if the torque beside a
 /// weight's (`identification::beside_weight`) exceeds a quarter of what the joint's muscles could
-/// exert, sum of the largest |r| times F_max, or all of it that quarter and 25 N m of weight: no
-/// relaxed joint resists that much within its range. A trial without EMG is taken at the study's
-/// word, with a note. A trial whose torque nobody measured tells nothing.
+/// exert (sum of the largest |r| times F_max), or the whole torque exceeds that quarter and 25 N m
+/// of weight: no relaxed joint resists that much within its range. A trial without EMG counts as
+/// relaxed, with a note. A trial without measured torque is not used.
 [[nodiscard]] RestingJoints resting_joints(const Study& study,
                                            const model::BodyModel& model,
                                            const std::vector<RelaxedTrial>& trials);
 
-/// The resting torque of a coordinate at these angles, one a sample; empty where it was not
-/// measured.
+/// Returns the resting torque of a coordinate at these angles, one per sample; empty where nobody
+/// measured it.
 [[nodiscard]] Eigen::VectorXd resting_torque_nm(
     const std::vector<identification::RestingJoint>& joints,
     const std::string& coordinate,

@@ -13,19 +13,18 @@ namespace myoid {
 struct RunOptions {
   std::optional<double> start_s, end_s;  ///< Of every trial [s]; empty: as the study says.
   Progress progress;
-  /// Forces of static optimization, which methods `paper` and `force` need; the torque method does
-  /// not.
+  /// Compute forces by static optimization, which methods `paper` and `force` need.
   bool share_forces = true;
   bool inform_forces = true;  ///< Forces with the identified muscles, informed by the EMG.
   /// Folder that keeps inverse kinematics between runs; empty: none.
   std::optional<std::filesystem::path> store;
 };
 
-/// All stages after reading, on inputs that may never have been files (`in_memory`). As `run_study`
-/// otherwise.
+/// Runs all stages after reading, on inputs that need not come from files (`in_memory`). Otherwise
+/// as `run_study`.
 [[nodiscard]] StudyResult analyse(StudyInputs inputs, const RunOptions& options = {});
 
-/// All stages in order: reading, activation, motion, forces, data, fit, validation, findings;
+/// Runs all stages in order: reading, activation, motion, forces, data, fit, validation, findings;
 /// trials in parallel, the same numbers for every number of threads. Throws ReadError or
 /// InvalidInput for input that cannot be used (nothing is computed then: all files are read first),
 /// Interrupted when stopped. A trial whose computation fails is marked and left out.

@@ -13,11 +13,11 @@
 
 namespace myoid {
 
-/// Results of the slow stage, inverse kinematics, kept in a folder between runs, so that a run that
-/// was interrupted, or whose later settings were changed, goes on from there. An entry is found by
+/// Keeps results of inverse kinematics, the slow stage, in a folder between runs. An interrupted
+/// run, or a run with other settings of later stages, continues from there. An entry is found by
 /// the SHA-256 of everything it depends on (program as built, model, settings, the markers as
-/// numbers), so it is never out of date; a damaged entry is as good as none. Safe for several
-/// threads.
+/// numbers), so it is never out of date; a damaged entry counts as absent. Several
+/// threads may use one store.
 class StageStore {
  public:
   explicit StageStore(std::filesystem::path folder) : folder_(std::move(folder)) {}

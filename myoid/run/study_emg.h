@@ -5,9 +5,8 @@
 
 namespace myoid {
 
-/// Steps by which the activations of a study were made, for the headers of files; without steps
-/// where there is no EMG. `method`: of its forces, with the delay that it found; null: before any
-/// delay.
+/// Returns the steps from EMG to the activations of a study, for the headers of files; none without
+/// EMG. `method`: adds the delay that the method found; null: no delay.
 [[nodiscard]] signals::EmgChain emg_chain(const StudyResult& result,
                                           const identification::IdentificationResult* method);
 

@@ -17,7 +17,7 @@ struct TrueValue {
   double value = 0.0;
 };
 
-/// A study as it was read, but for its trials' recordings.
+/// A study without its trials' recordings.
 struct StudySource {
   Study study;  ///< A trial that pauses is replaced by its parts.
   std::string model_text;
@@ -27,7 +27,7 @@ struct StudySource {
   std::vector<InputFile> files;
 };
 
-/// All that a study is computed from, as values.
+/// All inputs of a study, as values.
 struct StudyInputs {
   StudySource source;
   std::vector<TrialInput> trials;  ///< In the study's order.

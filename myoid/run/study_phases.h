@@ -8,16 +8,16 @@
 
 namespace myoid {
 
-/// Phases of every trial of the study's data that is fitted or predicted: `find_phases` on the
+/// Finds the phases of every trial that is fitted or predicted: `find_phases` on the
 /// torque that a first, robust fit of all trials predicts from the EMG (Huber's loss, one start, no
 /// intervals), and on the median frequency of the raw EMG where there is one. Trials that are too
-/// short to search get one phase; the fit is spared when all are.
+/// short to search get one phase; if all are, no fit is made.
 [[nodiscard]] std::vector<TrialPhases> study_phases(const FitSource& source,
                                                     const identification::StudyData& data,
                                                     identification::EstimatorOptions options);
 
 /// Marks the phases of the kinds that `rule` names and takes their time out of the data. A phase of
-/// fatigue that only the torque shows (no raw EMG) stays: it may be the law that is wrong.
+/// fatigue that only the torque shows (no raw EMG) stays, because the law may be wrong instead.
 void exclude_phases(const std::vector<PhaseKind>& rule,
                     std::vector<TrialPhases>& phases,
                     identification::StudyData& data);

@@ -15,8 +15,8 @@ struct StudyValidation {
   std::vector<std::string> warnings;  ///< About method torque.
 };
 
-/// Leaves trials, conditions or blocks out (`[identify] folds`), with a fit that is the reported
-/// one on the others: from the EMG on nothing rests on a trial that is left out.
+/// Leaves trials, conditions or blocks out (`[identify] folds`) and predicts them by the reported
+/// kind of fit to the others. From the EMG on no step uses a trial that is left out.
 [[nodiscard]] StudyValidation study_validation(const FitSource& source,
                                                const FitInput& input,
                                                const Progress& progress);

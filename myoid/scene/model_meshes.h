@@ -11,7 +11,7 @@
 
 namespace myoid {
 
-/// A mesh file that a model draws a body with.
+/// A mesh file with which a model draws a body.
 struct MeshUse {
   std::string file;  ///< As the model names it: "femur.vtp".
   model::BodyIndex body = 0;
@@ -19,7 +19,7 @@ struct MeshUse {
   Vec3 scale = Vec3::Ones();
 };
 
-/// The meshes that a model file attaches to its bodies and to frames fixed on them (Mesh of
+/// Returns the meshes that a model file attaches to its bodies and to frames fixed on them (Mesh of
 /// documents since 30500, DisplayGeometry before). Throws ReadError if the text is no model.
 [[nodiscard]] std::vector<MeshUse> list_meshes(std::string_view osim,
                                                const std::filesystem::path& path);
@@ -36,7 +36,7 @@ struct LoadedMeshes {
 };
 
 struct MeshOptions {
-  /// Looked through after the model's folder and its subfolder Geometry.
+  /// Folders searched after the model's folder and its subfolder Geometry.
   std::vector<std::filesystem::path> folders = {};
   int most_triangles = 60000;  ///< Of all meshes together; beyond, they are simplified.
 };
@@ -44,8 +44,8 @@ struct MeshOptions {
 /// Gives the scenes of a page the model's meshes, and the notes.
 void add_meshes(const LoadedMeshes& loaded, report::ScenePage& page);
 
-/// Those of them whose files are there, in the body. A model without any of its files gives no
-/// note: that is how models come.
+/// Reads the meshes whose files exist, in the body. A model without any of its files gives no note,
+/// because models usually come without them.
 [[nodiscard]] LoadedMeshes load_meshes(std::string_view osim,
                                        const std::filesystem::path& path,
                                        const MeshOptions& options = {});

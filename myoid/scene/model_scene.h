@@ -10,9 +10,8 @@
 
 namespace myoid {
 
-/// Quantities that may color the muscles. A muscle's column is the one of its name, or
-/// "<name>.<quantity>",
-/// "<name>|<quantity>", ".../<name>/<quantity>", ".../<name>".
+/// Quantities that may color the muscles. A muscle's column has its name, or
+/// "<name>.<quantity>", "<name>|<quantity>", ".../<name>/<quantity>", ".../<name>".
 struct MuscleColoring {
   std::string name;  ///< "force", "activation"
   std::string unit;  ///< "N"; empty: dimensionless.
@@ -31,8 +30,8 @@ struct SceneOptions {
   int most_frames = 1500;
 };
 
-/// The model along a motion, ready to be drawn; frames beyond the options' are left out, and a note
-/// says so.
+/// Returns the model along a motion, ready to be drawn. Frames beyond the options' number are left
+/// out, with a note.
 ///
 /// Bones are sticks from each body's own joint to the joints of its children (where these are in
 /// the default posture), and of a body without children to its mass center, or on to the farthest
