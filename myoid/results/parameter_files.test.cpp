@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "myoid/files/atomic_file.h"
+#include "myoid/intervals/estimate_columns.h"
 #include "myoid/tables/csv_reader.h"
 
 #include "tests/support/temporary_folder.h"
@@ -49,6 +50,33 @@ TEST(ParametersCsv, ANumberReadsBackTheSameAndWhatIsAbsentOrInfiniteIsAnEmptyCel
   EXPECT_EQ(cell("ci_low_profile"), "");
   EXPECT_EQ(cell("routes_disagree"), "false");
   EXPECT_EQ(cell("reason"), "known to \"12 %\", about");
+}
+
+TEST(ParametersJson, ARowReadsBackTheSameInEveryColumn) {
+  identification::IdentificationResult result = one_estimate();
+  identification::ParameterEstimate& e = result.estimates.front();
+  e.std_error = 0.01;
+  e.prior_mean = 0.11;
+  e.prior_distance = 1.0 / 3.0;
+  e.at_bound = true;
+  e.verdict = identification::Verdict::prior_dominated;
+  e.tied_to = "BRA";
+  const auto json = nlohmann::json::parse(parameters_json({result}, {}, {}));
+  const nlohmann::json& row = json.at("methods").at(0).at("estimates").at(0);
+  const auto read = identification::estimate_of_json(row);
+  ASSERT_TRUE(read);
+  for (const identification::EstimateColumn& column : identification::estimate_columns()) {
+    std::visit([&](const auto member) { EXPECT_EQ(*read.*member, e.*member) << column.name; },
+               column.member);
+  }
+  EXPECT_EQ(read->tied_to, "BRA");
+  nlohmann::json without = row;
+  without["estimate"] = nullptr;
+  EXPECT_FALSE(identification::estimate_of_json(without));
+  without = row;
+  without.erase("verdict");
+  EXPECT_THROW(static_cast<void>(identification::estimate_of_json(without)),
+               nlohmann::json::exception);
 }
 
 TEST(ParametersJson, MethodPaperHasNoNoiseAndNoDelay) {
