@@ -41,8 +41,8 @@ struct StudyForces {
 
 /// The torques of the study's joints shared among the model's muscles, as `myoid so` does
 /// (forces::sharing_input): the curves of each muscle's own class, the model's passive forces
-/// counted. The torque of a dynamometer and what the joints do by themselves (`resting`) are
-/// no muscle's. Notes on the sharing go to `remarks`.
+/// counted. The torque of a dynamometer and the joints' resting torques (`resting`) are no
+/// muscle's. Notes on the sharing go to `remarks`.
 [[nodiscard]] forces::MuscleForces shared_forces(
     const Study& study,
     const TrialInput& input,
