@@ -203,16 +203,18 @@ SharingSolution solve_sharing(
   return solution;
 }
 
-MuscleForces share(const std::vector<TimeSeries>& moment_arms,
-                   const TimeSeries& torques,
-                   const Eigen::MatrixXd& optimal_force_n,
-                   const Eigen::VectorXd& max_isometric_force_n,
-                   const SharingOptions& options) {
+namespace {
+
+/// Throws InvalidInput unless the tables are on one clock and of the same muscles.
+void check_tables(const std::vector<TimeSeries>& moment_arms,
+                  const TimeSeries& torques,
+                  const Eigen::MatrixXd& optimal_force_n,
+                  const Eigen::VectorXd& max_isometric_force_n) {
   const Eigen::Index frames = torques.sample_count();
-  const Eigen::Index coordinates = torques.channel_count();
-  if (static_cast<Eigen::Index>(moment_arms.size()) != coordinates || moment_arms.empty()) {
+  if (static_cast<Eigen::Index>(moment_arms.size()) != torques.channel_count() ||
+      moment_arms.empty()) {
     throw InvalidInput(fmt::format("force sharing: {} moment-arm tables for {} torques",
-                                   moment_arms.size(), coordinates));
+                                   moment_arms.size(), torques.channel_count()));
   }
   const Eigen::Index muscles = moment_arms[0].channel_count();
   for (const TimeSeries& arms : moment_arms) {
@@ -224,15 +226,57 @@ MuscleForces share(const std::vector<TimeSeries>& moment_arms,
       max_isometric_force_n.size() != muscles) {
     throw InvalidInput("force sharing: forces and moment arms disagree in size");
   }
-  Eigen::MatrixXd emg;
-  if (!options.emg.empty() && options.emg_weight > 0.0) {
-    std::vector<std::string> names;
-    for (const Channel& channel : moment_arms[0].channels()) names.push_back(channel.name);
-    emg = options.emg.select(names).values();
-    if (emg.rows() != frames)
-      throw InvalidInput(
-          "force sharing: the EMG is not on the clock of the motion; resample it first");
+}
+
+/// The EMG of these muscles, frames x muscles; empty without an EMG term.
+Eigen::MatrixXd emg_of(const std::vector<Channel>& muscles,
+                       Eigen::Index frames,
+                       const SharingOptions& options) {
+  if (options.emg.empty() || !(options.emg_weight > 0.0)) return {};
+  std::vector<std::string> names;
+  for (const Channel& channel : muscles) names.push_back(channel.name);
+  Eigen::MatrixXd emg = options.emg.select(names).values();
+  if (emg.rows() != frames)
+    throw InvalidInput(
+        "force sharing: the EMG is not on the clock of the motion; resample it first");
+  return emg;
+}
+
+/// Weights of the objectives `force` and `stress`: (F_i)^p or (F_i / F_max)^p instead of
+/// (F_i / F_opt)^p, relative to the mean so that reserves weigh alike.
+Eigen::VectorXd sharing_weights(const Eigen::VectorXd& optimal_force_n,
+                                const Eigen::VectorXd& max_isometric_force_n,
+                                const SharingOptions& options) {
+  const Eigen::VectorXd weight = options.objective == SharingObjective::force
+                                     ? optimal_force_n
+                                     : optimal_force_n.cwiseQuotient(max_isometric_force_n).eval();
+  const double mean = std::max(weight.mean(), 1e-12);
+  return (weight / mean).cwiseMax(1e-6).array().pow(options.exponent);
+}
+
+std::vector<Channel> reserve_channels(const TimeSeries& torques) {
+  std::vector<Channel> channels = torques.channels();
+  for (Channel& channel : channels) {
+    for (const std::string_view suffix : {"_moment", "_force"}) {
+      if (channel.name.ends_with(suffix)) channel.name.resize(channel.name.size() - suffix.size());
+    }
+    channel.name += "_reserve";
   }
+  return channels;
+}
+
+}  // namespace
+
+MuscleForces share(const std::vector<TimeSeries>& moment_arms,
+                   const TimeSeries& torques,
+                   const Eigen::MatrixXd& optimal_force_n,
+                   const Eigen::VectorXd& max_isometric_force_n,
+                   const SharingOptions& options) {
+  const Eigen::Index frames = torques.sample_count();
+  const Eigen::Index coordinates = torques.channel_count();
+  check_tables(moment_arms, torques, optimal_force_n, max_isometric_force_n);
+  const Eigen::Index muscles = moment_arms[0].channel_count();
+  const Eigen::MatrixXd emg = emg_of(moment_arms[0].channels(), frames, options);
   Eigen::MatrixXd activation(frames, muscles);
   Eigen::MatrixXd force(frames, muscles);
   Eigen::MatrixXd reserve(frames, coordinates);
@@ -251,15 +295,8 @@ MuscleForces share(const std::vector<TimeSeries>& moment_arms,
       problem.upper = Eigen::VectorXd::Constant(muscles, options.max_activation);
       problem.reserve = Eigen::VectorXd::Constant(coordinates, options.reserve_nm);
       problem.exponent = options.exponent;
-      if (options.objective != SharingObjective::activation) {
-        // (F_i)^p or (F_i / F_max)^p instead of (F_i / F_opt)^p, relative to the mean so that
-        // reserves weigh alike.
-        problem.weight = options.objective == SharingObjective::force
-                             ? problem.optimal_force
-                             : problem.optimal_force.cwiseQuotient(max_isometric_force_n).eval();
-        const double mean = std::max(problem.weight.mean(), 1e-12);
-        problem.weight = (problem.weight / mean).cwiseMax(1e-6).array().pow(options.exponent);
-      }
+      if (options.objective != SharingObjective::activation)
+        problem.weight = sharing_weights(problem.optimal_force, max_isometric_force_n, options);
       if (emg.size() > 0) {
         problem.emg = emg.row(frame).transpose();
         problem.emg_weight = options.emg_weight;
@@ -297,17 +334,10 @@ MuscleForces share(const std::vector<TimeSeries>& moment_arms,
     for (Channel& channel : list) channel.unit = unit;
     return list;
   };
-  std::vector<Channel> reserve_channels = torques.channels();
-  for (Channel& channel : reserve_channels) {
-    for (const std::string_view suffix : {"_moment", "_force"}) {
-      if (channel.name.ends_with(suffix)) channel.name.resize(channel.name.size() - suffix.size());
-    }
-    channel.name += "_reserve";
-  }
   result.force = TimeSeries(torques.time_s(), channels(Unit::newton), std::move(force));
   result.activation =
       TimeSeries(torques.time_s(), channels(Unit::dimensionless), std::move(activation));
-  result.reserve = TimeSeries(torques.time_s(), std::move(reserve_channels), std::move(reserve));
+  result.reserve = TimeSeries(torques.time_s(), reserve_channels(torques), std::move(reserve));
   return result;
 }
 
