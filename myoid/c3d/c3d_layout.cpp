@@ -1,7 +1,6 @@
 #include "myoid/c3d/c3d_layout.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -13,8 +12,6 @@
 
 namespace myoid::recording {
 namespace {
-
-bool is_rate(double rate) { return std::isfinite(rate) && rate > 1e-3 && rate < 1e7; }
 
 /// A count in a parameter: 16 bits without sign, or a real.
 std::optional<std::size_t> count_in(const C3dParameter* parameter) {
@@ -74,7 +71,8 @@ std::vector<Shape> analog_shapes(const C3dHeader& header, const C3dFile& file) {
     if (ratio > 0) add_new(list, Shape{*used, ratio});
     const double analog = number_at(file.find("ANALOG", "RATE"), 0).value_or(0.0);
     const double point = number_at(file.find("POINT", "RATE"), 0).value_or(0.0);
-    if (is_rate(analog) && is_rate(point) && analog / point < 65536.0 && analog >= 0.5 * point)
+    if (is_c3d_rate(analog) && is_c3d_rate(point) && analog / point < 65536.0 &&
+        analog >= 0.5 * point)
       add_new(list, Shape{*used, static_cast<std::size_t>(std::lround(analog / point))});
     if (*used == 0) add_new(list, Shape{0, 1});
   }
@@ -150,205 +148,273 @@ std::string rotations_text(const C3dFile& file, std::size_t count) {
       count, names);
 }
 
-}  // namespace
-
-C3dHeader read_c3d_header(std::span<const std::byte> head, const C3dBytes& number) {
-  const auto word = [&](std::size_t n) { return number.u16(&head[2 * (n - 1)]); };
-  C3dHeader header;
-  header.points = word(2);
-  header.analog_total = word(3);
-  header.first_frame = word(4);
-  header.last_frame = word(5);
-  header.scale = number.real(&head[12]);
-  header.data_block = word(9);
-  header.analog_per_frame = word(10);
-  header.rate_hz = number.real(&head[20]);
-  return header;
+/// A file of segment poses alone is refused with the remedy.
+void refuse_poses_alone(const C3dHeader& header,
+                        const C3dFile& file,
+                        std::size_t rotations,
+                        const std::filesystem::path& path) {
+  const bool nothing_else = header.points == 0 && header.analog_total == 0 &&
+                            count_in(file.find("POINT", "USED")).value_or(0) == 0 &&
+                            count_in(file.find("ANALOG", "USED")).value_or(0) == 0;
+  if (rotations == 0 || !nothing_else) return;
+  throw ReadError(path, 0,
+                  fmt::format("{}, and the file holds neither markers nor analog channels. In "
+                              "Visual3D make landmarks of the segments and export them as .trc "
+                              "or C3D, or export the joint angles as .mot or .csv",
+                              rotations_text(file, rotations)));
 }
 
-std::optional<C3dProcessor> guess_processor(std::span<const std::byte> head,
-                                            std::uint64_t file_size) {
-  for (const C3dProcessor p : {C3dProcessor::intel, C3dProcessor::sgi, C3dProcessor::dec}) {
-    const C3dHeader h = read_c3d_header(head, {p});
-    const double scale = std::abs(static_cast<double>(h.scale));
-    if (is_rate(static_cast<double>(h.rate_hz)) && h.rate_hz >= 1.0F && scale > 1e-6 &&
-        scale < 1e4 && h.data_block >= 2 && (h.data_block - 1) * kC3dBlock < file_size &&
-        h.points + h.analog_total > 0 && h.points < 10000)
-      return p;
+bool is_block_inside(std::size_t block, std::uint64_t file_size) {
+  return block >= 2 && (block - 1) * kC3dBlock < file_size;
+}
+
+/// The block, counted from 1, at which the data begin.
+std::size_t data_block(const C3dHeader& header,
+                       const C3dFile& file,
+                       std::uint64_t file_size,
+                       const std::filesystem::path& path,
+                       std::vector<Repair>& repairs) {
+  const auto data_start = count_in(file.find("POINT", "DATA_START"));
+  const std::size_t block = header.data_block;
+  if (is_block_inside(block, file_size)) {
+    if (data_start && *data_start != block)
+      repairs.push_back({0, fmt::format("POINT:DATA_START says block {}, the header block {}; the "
+                                        "header is taken",
+                                        *data_start, block)});
+    return block;
+  }
+  if (!data_start || !is_block_inside(*data_start, file_size)) {
+    throw ReadError(path, 0,
+                    fmt::format("the data should begin at block {}, which the file of {} bytes "
+                                "does not have; it is cut off: copy or export it again",
+                                block, file_size));
+  }
+  repairs.push_back({0, fmt::format("the header says the data begin at block {}, which the file "
+                                    "does not have; taken from POINT:DATA_START = {}",
+                                    block, *data_start)});
+  return *data_start;
+}
+
+/// The scale of the points; its sign says if the samples are integers (positive) or reals.
+struct Scale {
+  double taken = 0.0;
+  double in_parameters = 0.0;  ///< POINT:SCALE; 0 if there is none.
+  bool header_is_good = false;
+};
+
+Scale point_scale(const C3dHeader& header,
+                  const C3dFile& file,
+                  const std::filesystem::path& path,
+                  std::vector<Repair>& repairs) {
+  Scale scale;
+  scale.in_parameters = number_at(file.find("POINT", "SCALE"), 0).value_or(0.0);
+  scale.header_is_good = std::isfinite(header.scale) && header.scale != 0.0F;
+  scale.taken = scale.header_is_good ? static_cast<double>(header.scale) : scale.in_parameters;
+  if (scale.header_is_good || (header.points == 0 && header.analog_total == 0)) return scale;
+  if (scale.taken == 0.0)
+    throw ReadError(path, 0,
+                    fmt::format("the scale of the points is {} in the header and not in "
+                                "POINT:SCALE either: neither the kind nor the size of the "
+                                "samples is known",
+                                header.scale));
+  repairs.push_back({0, fmt::format("the header's scale is {}; taken from POINT:SCALE = {}",
+                                    header.scale, scale.in_parameters)});
+  return scale;
+}
+
+/// Everything that header and parameters say of the samples. The size of the file decides between
+/// them.
+struct Claims {
+  std::vector<bool> integer;
+  std::vector<std::size_t> points;
+  std::vector<Shape> shapes;
+  std::vector<Frames> frames;
+};
+
+/// One choice from the claims.
+struct Story {
+  bool integer = false;
+  std::size_t points = 0;
+  Shape shape{};
+  const Frames* frames = nullptr;
+
+  [[nodiscard]] std::uint64_t bytes() const {
+    return (4 * points + shape.channels * shape.analog_per_frame) * (integer ? 2U : 4U) *
+           static_cast<std::uint64_t>(frames->count);
+  }
+};
+
+Claims claims_of(const C3dHeader& header,
+                 const C3dFile& file,
+                 const Scale& scale,
+                 const std::filesystem::path& path) {
+  Claims claims{{scale.taken > 0.0},
+                point_counts(header, file),
+                analog_shapes(header, file),
+                frame_counts(header, file)};
+  if (scale.in_parameters != 0.0 && (scale.in_parameters > 0.0) != (scale.taken > 0.0))
+    claims.integer.push_back(!claims.integer[0]);
+  if (claims.frames.empty())
+    throw ReadError(path, 0, "the file holds no frames; record or export it again");
+  return claims;
+}
+
+/// The first story that fills the `available` bytes but for less than `padding`.
+std::optional<Story> story_with_padding(const Claims& claims,
+                                        std::uint64_t available,
+                                        std::uint64_t padding) {
+  for (const bool integer : claims.integer) {
+    for (const Shape& shape : claims.shapes) {
+      for (const std::size_t points : claims.points) {
+        for (const Frames& frames : claims.frames) {
+          const Story story{integer, points, shape, &frames};
+          const std::uint64_t needed = story.bytes();
+          if (needed > 0 && needed <= available && available - needed < padding) return story;
+        }
+      }
+    }
   }
   return std::nullopt;
 }
+
+/// The first story that the size of the file confirms. Up to a whole block behind the data is
+/// likelier than more.
+std::optional<Story> confirmed_story(const Claims& claims, std::uint64_t available) {
+  if (const auto story = story_with_padding(claims, available, kC3dBlock)) return story;
+  return story_with_padding(claims, available, 2 * kC3dBlock);
+}
+
+/// The story of a file whose size confirms none. Throws ReadError where the claims disagree in more
+/// than the number of frames.
+Story unconfirmed_story(const Claims& claims,
+                        const C3dHeader& header,
+                        const C3dFile& file,
+                        std::uint64_t available,
+                        std::uint64_t file_size,
+                        const std::filesystem::path& path) {
+  const std::optional<std::size_t> used = count_in(file.find("ANALOG", "USED"));
+  const bool one_story = claims.points.size() == 1 && claims.integer.size() == 1 &&
+                         used.value_or(claims.shapes[0].channels) == claims.shapes[0].channels;
+  if (!one_story) {
+    throw ReadError(
+        path, 0,
+        fmt::format("header and parameters disagree ({} or {} points, {} analog samples a frame "
+                    "or {} channels) and the file's size of {} bytes confirms neither; export "
+                    "the file again",
+                    claims.points.front(), claims.points.back(), header.analog_total,
+                    used.value_or(0), file_size));
+  }
+  Story best{claims.integer[0], claims.points[0], claims.shapes[0], claims.frames.data()};
+  // A count that wrapped at 65536 is too small by a multiple of it; one that fits is better than
+  // one that does not.
+  for (const Frames& frames : claims.frames) {
+    Story other = best;
+    other.frames = &frames;
+    const bool fits = other.bytes() <= available;
+    if (fits && (best.bytes() > available || frames.count > best.frames->count)) best = other;
+  }
+  return best;
+}
+
+/// Says where header and parameters tell another number of points, channels or another kind of
+/// samples than the story that the size confirms.
+void say_other_claims(const C3dHeader& header,
+                      const C3dFile& file,
+                      const Claims& claims,
+                      const Story& story,
+                      std::vector<Repair>& repairs) {
+  const auto [channels, analog_per_frame] = story.shape;
+  const bool as_header = story.points == header.points &&
+                         (channels == 0 || analog_per_frame == header.analog_per_frame) &&
+                         channels * analog_per_frame == header.analog_total;
+  const auto used = count_in(file.find("ANALOG", "USED"));
+  if (!as_header) {
+    repairs.push_back({0, fmt::format("the header says {} points and {} analog samples in a frame; "
+                                      "the file's size confirms {} points, {} channels, {} samples "
+                                      "a frame, as the parameters say",
+                                      header.points, header.analog_total, story.points, channels,
+                                      analog_per_frame)});
+  } else if (claims.points.size() > 1) {
+    repairs.push_back({0, fmt::format("POINT:USED says {} points, the header {}; the file's size "
+                                      "confirms the header",
+                                      claims.points[1], claims.points[0])});
+  } else if (used && *used != channels) {
+    repairs.push_back({0, fmt::format("ANALOG:USED says {} channels, the header {}; the file's "
+                                      "size confirms the header",
+                                      *used, channels)});
+  }
+  if (story.integer != claims.integer[0])
+    repairs.push_back({0, fmt::format("the header's scale {} says the samples are {}, the file's "
+                                      "size that they are {}, as POINT:SCALE does",
+                                      header.scale, claims.integer[0] ? "integers" : "reals",
+                                      story.integer ? "integers" : "reals")});
+}
+
+/// The number of frames that the bytes hold, at most `said`.
+std::int64_t whole_frames(std::int64_t said,
+                          std::uint64_t frame_bytes,
+                          std::uint64_t available,
+                          std::uint64_t file_size,
+                          const std::filesystem::path& path,
+                          std::vector<Repair>& repairs) {
+  if (frame_bytes == 0)
+    throw ReadError(path, 0, "the file holds neither points nor analog channels");
+  const auto whole = static_cast<std::int64_t>(
+      std::min<std::uint64_t>(available / frame_bytes, std::uint64_t{1} << 40U));
+  if (whole >= said) return said;
+  if (whole == 0)
+    throw ReadError(path, 0,
+                    fmt::format("the file is cut off at byte {}, inside its first frame; copy or "
+                                "export it again",
+                                file_size));
+  repairs.push_back({0, fmt::format("the file is cut off at byte {}: {} of {} frames are there "
+                                    "and taken",
+                                    file_size, whole, said)});
+  return whole;
+}
+
+}  // namespace
 
 C3dLayout find_c3d_layout(const C3dHeader& header,
                           const C3dFile& file,
                           std::uint64_t file_size,
                           const std::filesystem::path& path,
                           std::vector<Repair>& repairs) {
-  C3dLayout layout;
   const std::size_t rotations = count_in(file.find("ROTATION", "USED")).value_or(0);
-  const bool nothing_else = header.points == 0 && header.analog_total == 0 &&
-                            count_in(file.find("POINT", "USED")).value_or(0) == 0 &&
-                            count_in(file.find("ANALOG", "USED")).value_or(0) == 0;
-  if (rotations > 0 && nothing_else)
-    throw ReadError(path, 0,
-                    fmt::format("{}, and the file holds neither markers nor analog channels. In "
-                                "Visual3D make landmarks of the segments and export them as .trc "
-                                "or C3D, or export the joint angles as .mot or .csv",
-                                rotations_text(file, rotations)));
-
-  // Where the data begin.
-  const auto data_start = count_in(file.find("POINT", "DATA_START"));
-  std::size_t block = header.data_block;
-  const auto inside = [&](std::size_t b) { return b >= 2 && (b - 1) * kC3dBlock < file_size; };
-  if (!inside(block)) {
-    if (!data_start || !inside(*data_start)) {
-      throw ReadError(path, 0,
-                      fmt::format("the data should begin at block {}, which the file of {} bytes "
-                                  "does not have; it is cut off: copy or export it again",
-                                  block, file_size));
-    }
-    repairs.push_back({0, fmt::format("the header says the data begin at block {}, which the file "
-                                      "does not have; taken from POINT:DATA_START = {}",
-                                      block, *data_start)});
-    block = *data_start;
-  } else if (data_start && *data_start != block) {
-    repairs.push_back({0, fmt::format("POINT:DATA_START says block {}, the header block {}; the "
-                                      "header is taken",
-                                      *data_start, block)});
-  }
+  refuse_poses_alone(header, file, rotations, path);
+  const std::size_t block = data_block(header, file, file_size, path, repairs);
+  C3dLayout layout;
   layout.data_offset = (block - 1) * kC3dBlock;
   std::uint64_t available = file_size - layout.data_offset;
   if (rotations > 0) {
     repairs.push_back(
         {0, rotations_text(file, rotations) + "; export landmarks of them to use them as markers"});
     const auto at = count_in(file.find("ROTATION", "DATA_START"));
-    if (at && inside(*at) && *at > block) available = (*at - block) * kC3dBlock;
+    if (at && is_block_inside(*at, file_size) && *at > block) available = (*at - block) * kC3dBlock;
   }
-
-  // Integers or reals.
-  const double point_scale = number_at(file.find("POINT", "SCALE"), 0).value_or(0.0);
-  const bool header_scale_good = std::isfinite(header.scale) && header.scale != 0.0F;
-  const double scale = header_scale_good ? static_cast<double>(header.scale) : point_scale;
-  if (!header_scale_good && (header.points > 0 || header.analog_total > 0)) {
-    if (scale == 0.0)
-      throw ReadError(path, 0,
-                      fmt::format("the scale of the points is {} in the header and not in "
-                                  "POINT:SCALE either: neither the kind nor the size of the "
-                                  "samples is known",
-                                  header.scale));
-    repairs.push_back({0, fmt::format("the header's scale is {}; taken from POINT:SCALE = {}",
-                                      header.scale, point_scale)});
-  }
-  std::vector<bool> kinds{scale > 0.0};
-  if (point_scale != 0.0 && (point_scale > 0.0) != (scale > 0.0)) kinds.push_back(!kinds[0]);
-
-  // The first of the stories that the size of the file confirms, up to the padding of its end.
-  const auto points = point_counts(header, file);
-  const auto shapes = analog_shapes(header, file);
-  const auto frames = frame_counts(header, file);
-  if (frames.empty())
-    throw ReadError(path, 0, "the file holds no frames; record or export it again");
-  const auto bytes = [&](bool integer, std::size_t p, const Shape& s, std::int64_t n) {
-    return (4 * p + s.channels * s.analog_per_frame) * (integer ? 2U : 4U) *
-           static_cast<std::uint64_t>(n);
-  };
-  const auto confirmed = [&](std::uint64_t needed, std::uint64_t padding) {
-    return needed > 0 && needed <= available && available - needed < padding;
-  };
-  bool found = false;
-  const Frames* chosen = frames.data();
-  const auto take = [&](bool integer, std::size_t p, const Shape& s, const Frames& f) {
-    layout.integer = integer;
-    layout.points = p;
-    layout.channels = s.channels;
-    layout.analog_per_frame = s.analog_per_frame;
-    chosen = &f;
-    found = true;
-  };
-  // Up to a whole block behind the data first: what needs more of it is less likely.
-  for (const std::uint64_t padding : {kC3dBlock, 2 * kC3dBlock}) {
-    for (const bool kind : kinds) {
-      for (const Shape& s : shapes) {
-        for (const std::size_t p : points) {
-          for (const Frames& f : frames) {
-            if (!found && confirmed(bytes(kind, p, s, f.count), padding)) take(kind, p, s, f);
-          }
-        }
-      }
-    }
-  }
-  const bool as_header =
-      layout.points == header.points &&
-      (layout.channels == 0 || layout.analog_per_frame == header.analog_per_frame) &&
-      layout.channels * layout.analog_per_frame == header.analog_total;
-  if (found && !as_header) {
-    repairs.push_back({0, fmt::format("the header says {} points and {} analog samples in a frame; "
-                                      "the file's size confirms {} points, {} channels, {} samples "
-                                      "a frame, as the parameters say",
-                                      header.points, header.analog_total, layout.points,
-                                      layout.channels, layout.analog_per_frame)});
-  } else if (found && points.size() > 1) {
-    repairs.push_back({0, fmt::format("POINT:USED says {} points, the header {}; the file's size "
-                                      "confirms the header",
-                                      points[1], points[0])});
-  } else if (found &&
-             count_in(file.find("ANALOG", "USED")).value_or(layout.channels) != layout.channels) {
-    repairs.push_back({0, fmt::format("ANALOG:USED says {} channels, the header {}; the file's "
-                                      "size confirms the header",
-                                      *count_in(file.find("ANALOG", "USED")), layout.channels)});
-  }
-  if (found && layout.integer != kinds[0])
-    repairs.push_back({0, fmt::format("the header's scale {} says the samples are {}, the file's "
-                                      "size that they are {}, as POINT:SCALE does",
-                                      header.scale, kinds[0] ? "integers" : "reals",
-                                      layout.integer ? "integers" : "reals")});
-  if (!found) {
-    const bool one_story =
-        points.size() == 1 && kinds.size() == 1 &&
-        count_in(file.find("ANALOG", "USED")).value_or(shapes[0].channels) == shapes[0].channels;
-    if (!one_story) {
-      throw ReadError(
-          path, 0,
-          fmt::format("header and parameters disagree ({} or {} points, {} analog samples a frame "
-                      "or {} channels) and the file's size of {} bytes confirms neither; export "
-                      "the file again",
-                      points.front(), points.back(), header.analog_total,
-                      count_in(file.find("ANALOG", "USED")).value_or(0), file_size));
-    }
-    take(kinds[0], points[0], shapes[0], frames[0]);
-    // A count that wrapped at 65536 is too small by a multiple of it; one that fits is better than
-    // one that does not.
-    for (const Frames& f : frames) {
-      const bool fits = bytes(kinds[0], points[0], shapes[0], f.count) <= available;
-      const bool now_fits = bytes(kinds[0], points[0], shapes[0], chosen->count) <= available;
-      if (fits && (!now_fits || f.count > chosen->count)) chosen = &f;
-    }
-  }
-  say_other_frame_counts(header, file, frames, *chosen, repairs);
-  layout.scale = std::abs(static_cast<float>(scale));
-  if (layout.integer && header_scale_good && point_scale != 0.0 &&
-      std::abs(std::abs(point_scale) - std::abs(scale)) > 1e-6 * std::abs(scale)) {
+  const Scale scale = point_scale(header, file, path, repairs);
+  const Claims claims = claims_of(header, file, scale, path);
+  const std::optional<Story> confirmed = confirmed_story(claims, available);
+  if (confirmed) say_other_claims(header, file, claims, *confirmed, repairs);
+  const Story story =
+      confirmed ? *confirmed : unconfirmed_story(claims, header, file, available, file_size, path);
+  say_other_frame_counts(header, file, claims.frames, *story.frames, repairs);
+  layout.integer = story.integer;
+  layout.points = story.points;
+  layout.channels = story.shape.channels;
+  layout.analog_per_frame = story.shape.analog_per_frame;
+  layout.first_frame = story.frames->first;
+  layout.scale = std::abs(static_cast<float>(scale.taken));
+  if (layout.integer && scale.header_is_good && scale.in_parameters != 0.0 &&
+      std::abs(std::abs(scale.in_parameters) - std::abs(scale.taken)) >
+          1e-6 * std::abs(scale.taken)) {
     repairs.push_back({0, fmt::format("POINT:SCALE = {:.6g}, the header says {:.6g}; the header is "
                                       "taken: compare a known distance",
-                                      point_scale, scale)});
+                                      scale.in_parameters, scale.taken)});
   }
-  layout.frames = chosen->count;
-  layout.first_frame = chosen->first;
-  if (layout.frame_bytes() == 0)
-    throw ReadError(path, 0, "the file holds neither points nor analog channels");
-  const auto whole = static_cast<std::int64_t>(
-      std::min<std::uint64_t>(available / layout.frame_bytes(), std::uint64_t{1} << 40U));
-  if (whole < layout.frames) {
-    if (whole == 0)
-      throw ReadError(path, 0,
-                      fmt::format("the file is cut off at byte {}, inside its first frame; copy or "
-                                  "export it again",
-                                  file_size));
-    repairs.push_back({0, fmt::format("the file is cut off at byte {}: {} of {} frames are there "
-                                      "and taken",
-                                      file_size, whole, layout.frames)});
-    layout.frames = whole;
-  } else if (!found && rotations == 0) {
+  layout.frames =
+      whole_frames(story.frames->count, layout.frame_bytes(), available, file_size, path, repairs);
+  if (layout.frames == story.frames->count && !confirmed && rotations == 0) {
     repairs.push_back(
         {0, fmt::format(
                 "{} bytes behind the last frame are not understood and left out",

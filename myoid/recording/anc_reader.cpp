@@ -1,7 +1,6 @@
 #include "myoid/recording/anc_reader.h"
 
 #include <cmath>
-#include <set>
 #include <string>
 #include <utility>
 
@@ -50,22 +49,89 @@ TableLayout anc_layout(const TableText& table,
   return layout;
 }
 
+/// The index of the row of names, with the rows Rate and Range below it.
+std::size_t find_names(const std::vector<std::string_view>& lines,
+                       const std::filesystem::path& path) {
+  const auto begins_with = [&](std::size_t n, std::string_view word) {
+    return equal_ignoring_case(trim(split(lines[n], '\t')[0]), word);
+  };
+  std::size_t at = 0;
+  while (at < lines.size() && !begins_with(at, "Name")) ++at;
+  if (at + 2 >= lines.size() || !begins_with(at + 1, "Rate") || !begins_with(at + 2, "Range")) {
+    throw ReadError(path, 0,
+                    "expected the rows Name, Rate and Range behind each other; this is no .anc "
+                    "file, or it is cut off");
+  }
+  return at;
+}
+
+std::vector<Channel> read_channels(const std::vector<std::string_view>& lines,
+                                   std::size_t names_at,
+                                   const std::filesystem::path& path,
+                                   std::vector<Repair>& repairs) {
+  std::vector<std::string> names;
+  for (const std::string_view cell : values_of(lines[names_at])) {
+    const std::string name = to_utf8(cell);
+    names.push_back(name.empty() ? fmt::format("channel_{}", names.size() + 1) : name);
+  }
+  if (names.empty()) throw ReadError(path, names_at + 1, "there are no channel names");
+  std::vector<Channel> channels;
+  for (const std::string& name : unique_names(names, "channel", names_at + 1, repairs))
+    channels.push_back({name, Unit::volt});
+  if (const auto said = header_number(lines, names_at, "#Channels:");
+      said && *said != static_cast<double>(channels.size())) {
+    repairs.push_back({0, fmt::format("the header says {} channels, there are {} names", *said,
+                                      channels.size())});
+  }
+  return channels;
+}
+
+/// Volts per count of each channel: 2 range / (2^bits - 1), the range in mV on either side of 0.
+std::vector<double> volts_per_count(const std::vector<std::string_view>& lines,
+                                    std::size_t names_at,
+                                    double bits,
+                                    const std::vector<Channel>& channels,
+                                    const std::filesystem::path& path) {
+  std::vector<double> to_volt;
+  const auto ranges = values_of(lines[names_at + 2]);
+  for (std::size_t c = 0; c < channels.size(); ++c) {
+    const auto range = c < ranges.size() ? parse_number(ranges[c]) : std::nullopt;
+    if (!range || !(*range > 0.0))
+      throw ReadError(path, names_at + 3,
+                      fmt::format("channel '{}' has no range in mV, so its counts cannot be scaled",
+                                  channels[c].name));
+    to_volt.push_back(2e-3 * *range / (std::exp2(bits) - 1.0));
+  }
+  return to_volt;
+}
+
+/// Says where the header's rate or length is not the one of the rows.
+void compare_clock(const std::vector<std::string_view>& lines,
+                   std::size_t names_at,
+                   const Eigen::VectorXd& time_s,
+                   std::vector<Repair>& repairs) {
+  const Eigen::Index count = time_s.size();
+  const double rate = static_cast<double>(count - 1) / (time_s[count - 1] - time_s[0]);
+  if (const auto said = header_number(lines, names_at, "PreciseRate:");
+      said && std::abs(*said - rate) > 1e-3 * rate) {
+    repairs.push_back(
+        {0, fmt::format("the header says {} Hz, the times {:.6g} Hz; the times are taken", *said,
+                        rate)});
+  }
+  if (const auto said = header_number(lines, names_at, "Duration(Sec.):");
+      said && std::abs(*said - static_cast<double>(count) / rate) > 2.0 / rate) {
+    repairs.push_back(
+        {0, fmt::format("the header says {} s, the rows cover {:.6g} s: the file may be cut off",
+                        *said, static_cast<double>(count) / rate)});
+  }
+}
+
 }  // namespace
 
 AncFile parse_anc(std::string_view text, const std::filesystem::path& path) {
   const TableText table(text);
   const auto& lines = table.lines;
-  std::size_t names_at = 0;
-  const auto begins_with = [&](std::size_t n, std::string_view word) {
-    return equal_ignoring_case(trim(split(lines[n], '\t')[0]), word);
-  };
-  while (names_at < lines.size() && !begins_with(names_at, "Name")) ++names_at;
-  if (names_at + 2 >= lines.size() || !begins_with(names_at + 1, "Rate") ||
-      !begins_with(names_at + 2, "Range")) {
-    throw ReadError(path, 0,
-                    "expected the rows Name, Rate and Range behind each other; this is no .anc "
-                    "file, or it is cut off");
-  }
+  const std::size_t names_at = find_names(lines, path);
   const auto bits = header_number(lines, names_at, "BitDepth:");
   if (!bits || !(*bits >= 1.0 && *bits <= 64.0)) {
     throw ReadError(path, 0,
@@ -73,59 +139,16 @@ AncFile parse_anc(std::string_view text, const std::filesystem::path& path) {
                     "again or use its C3D file");
   }
   AncFile file;
-  std::vector<Channel> channels;
-  std::set<std::string> seen;
-  for (const std::string_view cell : values_of(lines[names_at])) {
-    const std::string base =
-        to_utf8(cell).empty() ? fmt::format("channel_{}", channels.size() + 1) : to_utf8(cell);
-    std::string name = base;
-    for (int k = 2; !seen.insert(name).second; ++k) {
-      const std::string other = fmt::format("{}_{}", base, k);
-      file.repairs.push_back(
-          {names_at + 1,
-           fmt::format("two channels are named '{}'; the later one is '{}' here", base, other)});
-      name = other;
-    }
-    channels.push_back({name, Unit::volt});
-  }
-  const std::size_t width = channels.size();
-  if (width == 0) throw ReadError(path, names_at + 1, "there are no channel names");
-  if (const auto said = header_number(lines, names_at, "#Channels:");
-      said && *said != static_cast<double>(width)) {
-    file.repairs.push_back(
-        {0, fmt::format("the header says {} channels, there are {} names", *said, width)});
-  }
-  std::vector<double> to_volt;
-  const auto ranges = values_of(lines[names_at + 2]);
-  for (std::size_t c = 0; c < width; ++c) {
-    const auto range = c < ranges.size() ? parse_number(ranges[c]) : std::nullopt;
-    if (!range || !(*range > 0.0))
-      throw ReadError(path, names_at + 3,
-                      fmt::format("channel '{}' has no range in mV, so its counts cannot be scaled",
-                                  channels[c].name));
-    to_volt.push_back(2e-3 * *range / (std::exp2(*bits) - 1.0));
-  }
+  std::vector<Channel> channels = read_channels(lines, names_at, path, file.repairs);
+  const std::vector<double> to_volt = volts_per_count(lines, names_at, *bits, channels, path);
   const TableLayout layout = anc_layout(table, names_at, channels);
   TableNumbers numbers = read_rows(table, rows_of(layout), path);
   file.repairs.insert(file.repairs.end(), numbers.repairs.begin(), numbers.repairs.end());
   const Eigen::VectorXd time = row_times(layout, numbers, path, file.repairs);
-  const Eigen::Index count = time.size();
-  if (count < 2) throw ReadError(path, 0, "there are fewer than two rows of numbers");
-  for (std::size_t c = 0; c < width; ++c)
+  if (time.size() < 2) throw ReadError(path, 0, "there are fewer than two rows of numbers");
+  for (std::size_t c = 0; c < channels.size(); ++c)
     numbers.values.col(static_cast<Eigen::Index>(c)) *= to_volt[c];
-  const double rate = static_cast<double>(count - 1) / (time[count - 1] - time[0]);
-  if (const auto said = header_number(lines, names_at, "PreciseRate:");
-      said && std::abs(*said - rate) > 1e-3 * rate) {
-    file.repairs.push_back(
-        {0, fmt::format("the header says {} Hz, the times {:.6g} Hz; the times are taken", *said,
-                        rate)});
-  }
-  if (const auto said = header_number(lines, names_at, "Duration(Sec.):");
-      said && std::abs(*said - static_cast<double>(count) / rate) > 2.0 / rate) {
-    file.repairs.push_back(
-        {0, fmt::format("the header says {} s, the rows cover {:.6g} s: the file may be cut off",
-                        *said, static_cast<double>(count) / rate)});
-  }
+  compare_clock(lines, names_at, time, file.repairs);
   file.repairs.push_back(
       {0, "volts at the board's input: the amplifier's gain is not in the file"});
   file.data = TimeSeries(time, std::move(channels), std::move(numbers.values));

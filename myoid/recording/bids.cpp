@@ -90,6 +90,107 @@ double rate_of(const std::filesystem::path& path) {
   return rate;
 }
 
+/// SI units per number of a channel. Throws ReadError unless its unit is one of `expected`.
+double to_si(const BidsChannel& channel, Unit expected, const std::filesystem::path& path) {
+  const auto unit = parse_file_unit(channel.unit);
+  if (!unit || unit->unit != expected)
+    throw ReadError(path, 0,
+                    fmt::format("channel '{}' of type {}: its unit '{}' is not one of [{}]",
+                                channel.name, channel.type, channel.unit, symbol(expected)));
+  return unit->to_si;
+}
+
+/// A tracked point with the columns of its x, y and z.
+struct Point {
+  std::string name;
+  std::array<std::optional<std::size_t>, 3> columns;
+};
+
+/// The use of each column of a `_motion.tsv`.
+struct MotionColumns {
+  std::vector<Point> points;
+  std::vector<std::size_t> angles;
+  std::size_t others = 0;
+};
+
+MotionColumns motion_columns(const std::vector<BidsChannel>& channels) {
+  MotionColumns columns;
+  std::map<std::string, std::size_t> place;
+  for (std::size_t c = 0; c < channels.size(); ++c) {
+    const BidsChannel& channel = channels[c];
+    const std::size_t axis =
+        channel.component.size() == 1
+            ? std::string_view("xyz").find(static_cast<char>(channel.component[0] | 0x20))
+            : std::string_view::npos;
+    if (equal_ignoring_case(channel.type, "POS") && axis < 3) {
+      const std::string& name =
+          channel.tracked_point.empty() ? channel.name : channel.tracked_point;
+      const auto [it, is_new] = place.try_emplace(name, columns.points.size());
+      if (is_new) columns.points.push_back({name, {}});
+      columns.points[it->second].columns[axis] = c;
+    } else if (equal_ignoring_case(channel.type, "JNTANG")) {
+      columns.angles.push_back(c);
+    } else {
+      ++columns.others;
+    }
+  }
+  return columns;
+}
+
+/// The points that have x, y and z, in meters; a point that lacks one of them in a frame is a gap
+/// there.
+MarkerSeries markers_of(const std::vector<Point>& points,
+                        const std::vector<BidsChannel>& channels,
+                        const Eigen::VectorXd& time_s,
+                        const Eigen::MatrixXd& values,
+                        const std::filesystem::path& path,
+                        std::vector<Repair>& repairs) {
+  MarkerSeries markers;
+  markers.time_s = time_s;
+  Eigen::MatrixXd positions(values.rows(), static_cast<Eigen::Index>(3 * points.size()));
+  Eigen::Index width = 0;
+  for (const Point& point : points) {
+    if (!point.columns[0] || !point.columns[1] || !point.columns[2]) {
+      repairs.push_back(
+          {0, fmt::format("point '{}' does not have x, y and z; left out", point.name)});
+      continue;
+    }
+    markers.names.push_back(point.name);
+    for (const auto& column : point.columns)
+      positions.col(width++) = to_si(channels[*column], Unit::meter, path) *
+                               values.col(static_cast<Eigen::Index>(*column));
+  }
+  markers.positions_m = positions.leftCols(width);
+  for (Eigen::Index k = 0; k < values.rows(); ++k) {
+    for (Eigen::Index m = 0; m < markers.marker_count(); ++m) {
+      if (markers.missing(k, m))
+        markers.positions_m.block<1, 3>(k, 3 * m).setConstant(
+            std::numeric_limits<double>::quiet_NaN());
+    }
+  }
+  return markers;
+}
+
+TimeSeries angles_of(const std::vector<std::size_t>& columns,
+                     const std::vector<BidsChannel>& channels,
+                     const Eigen::VectorXd& time_s,
+                     const Eigen::MatrixXd& values,
+                     const std::filesystem::path& path) {
+  if (columns.empty()) return {};
+  std::vector<Channel> named;
+  Eigen::MatrixXd angles(values.rows(), static_cast<Eigen::Index>(columns.size()));
+  for (const std::size_t column : columns) {
+    angles.col(static_cast<Eigen::Index>(named.size())) =
+        to_si(channels[column], Unit::radian, path) * values.col(static_cast<Eigen::Index>(column));
+    named.push_back({channels[column].name, Unit::radian});
+  }
+  try {
+    return {time_s, std::move(named), std::move(angles)};
+  } catch (const InvalidInput& error) {
+    throw ReadError(path, 0, error.what());
+  }
+}
+
 }  // namespace
 
 std::optional<std::vector<BidsChannel>> bids_channels_of(const std::filesystem::path& data) {
@@ -110,87 +211,20 @@ BidsMotion read_bids_motion(const std::filesystem::path& path) {
   }
   const double rate = rate_of(std::filesystem::path(path).replace_extension(".json"));
   TableNumbers numbers = motion_rows(path, *channels);
-  const Eigen::MatrixXd& values = numbers.values;
-  const Eigen::Index rows = values.rows();
+  const Eigen::Index rows = numbers.values.rows();
+  Eigen::VectorXd time(rows);
+  for (Eigen::Index i = 0; i < rows; ++i) time[i] = static_cast<double>(i) / rate;
 
   BidsMotion motion;
   motion.repairs = std::move(numbers.repairs);
-  Eigen::VectorXd time(rows);
-  for (Eigen::Index i = 0; i < rows; ++i) time[i] = static_cast<double>(i) / rate;
-  const auto unit_of = [&](const BidsChannel& channel, Unit expected) {
-    const auto unit = parse_file_unit(channel.unit);
-    if (!unit || unit->unit != expected)
-      throw ReadError(path, 0,
-                      fmt::format("channel '{}' of type {}: its unit '{}' is not one of [{}]",
-                                  channel.name, channel.type, channel.unit, symbol(expected)));
-    return unit->to_si;
-  };
-  std::vector<std::string> points;
-  std::map<std::string, std::array<int, 3>> axes;
-  std::vector<Channel> angle_channels;
-  std::vector<std::pair<std::size_t, double>> angle_columns;
-  std::size_t others = 0;
-  for (std::size_t c = 0; c < channels->size(); ++c) {
-    const BidsChannel& channel = (*channels)[c];
-    const std::size_t axis =
-        channel.component.size() == 1
-            ? std::string_view("xyz").find(static_cast<char>(channel.component[0] | 0x20))
-            : std::string_view::npos;
-    if (equal_ignoring_case(channel.type, "POS") && axis < 3) {
-      const std::string& point =
-          channel.tracked_point.empty() ? channel.name : channel.tracked_point;
-      if (!axes.contains(point)) {
-        points.push_back(point);
-        axes[point] = {-1, -1, -1};
-      }
-      axes[point][axis] = static_cast<int>(c);
-    } else if (equal_ignoring_case(channel.type, "JNTANG")) {
-      angle_channels.push_back({channel.name, Unit::radian});
-      angle_columns.emplace_back(c, unit_of(channel, Unit::radian));
-    } else {
-      ++others;
-    }
-  }
-  if (others > 0)
+  const MotionColumns columns = motion_columns(*channels);
+  if (columns.others > 0)
     motion.repairs.push_back(
-        {0, fmt::format("{} channels are neither positions nor joint angles; left out", others)});
-  motion.markers.time_s = time;
-  Eigen::MatrixXd positions(rows, static_cast<Eigen::Index>(3 * points.size()));
-  Eigen::Index width = 0;
-  for (const std::string& point : points) {
-    const auto& column = axes[point];
-    if (column[0] < 0 || column[1] < 0 || column[2] < 0) {
-      motion.repairs.push_back(
-          {0, fmt::format("point '{}' does not have x, y and z; left out", point)});
-      continue;
-    }
-    motion.markers.names.push_back(point);
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      positions.col(width++) =
-          unit_of((*channels)[static_cast<std::size_t>(column[axis])], Unit::meter) *
-          values.col(column[axis]).head(rows);
-    }
-  }
-  motion.markers.positions_m = positions.leftCols(width);
-  for (Eigen::Index k = 0; k < rows; ++k) {
-    for (Eigen::Index m = 0; m < motion.markers.marker_count(); ++m) {
-      if (motion.markers.missing(k, m))
-        motion.markers.positions_m.block<1, 3>(k, 3 * m).setConstant(
-            std::numeric_limits<double>::quiet_NaN());
-    }
-  }
-  if (!angle_channels.empty()) {
-    Eigen::MatrixXd angles(rows, static_cast<Eigen::Index>(angle_columns.size()));
-    for (std::size_t c = 0; c < angle_columns.size(); ++c)
-      angles.col(static_cast<Eigen::Index>(c)) =
-          angle_columns[c].second *
-          values.col(static_cast<Eigen::Index>(angle_columns[c].first)).head(rows);
-    try {
-      motion.angles = TimeSeries(time, std::move(angle_channels), std::move(angles));
-    } catch (const InvalidInput& error) {
-      throw ReadError(path, 0, error.what());
-    }
-  }
+        {0, fmt::format("{} channels are neither positions nor joint angles; left out",
+                        columns.others)});
+  motion.angles = angles_of(columns.angles, *channels, time, numbers.values, path);
+  motion.markers =
+      markers_of(columns.points, *channels, time, numbers.values, path, motion.repairs);
   if (motion.markers.names.empty()) {
     motion.markers = {};
     if (motion.angles.empty())

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <set>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -16,6 +15,7 @@
 #include "myoid/files/byte_source.h"
 #include "myoid/files/event.h"
 #include "myoid/files/file_words.h"
+#include "myoid/tables/table_layout.h"
 
 namespace myoid::recording {
 namespace {
@@ -57,6 +57,56 @@ std::optional<double> number(const std::string& text, std::vector<Repair>& repai
   return value;
 }
 
+/// A number in the header at this byte. Throws ReadError if the field holds none.
+double required_number(std::span<const std::byte> head,
+                       std::size_t at,
+                       std::size_t length,
+                       const char* what,
+                       const std::filesystem::path& path,
+                       std::vector<Repair>& repairs) {
+  const std::string text = field(head, at, length);
+  const auto value = number(text, repairs);
+  if (!value)
+    throw ReadError(path, 0,
+                    fmt::format("byte {}: {}: expected a number, found '{}'", at, what, text));
+  return *value;
+}
+
+/// The fields of one signal. All signals have a field one after the other before the next field
+/// begins.
+Signal read_signal(std::span<const std::byte> head,
+                   std::size_t signals,
+                   std::size_t s,
+                   const std::filesystem::path& path,
+                   std::vector<Repair>& repairs) {
+  const auto of = [&](std::size_t before, std::size_t length) {
+    return field(head, kHead + before * signals + length * s, length);
+  };
+  Signal signal;
+  signal.label = of(0, 16);
+  signal.annotations = signal.label == "EDF Annotations" || signal.label == "BDF Annotations";
+  signal.dimension = of(96, 8);
+  const auto value = [&](std::size_t before, const char* what) {
+    const std::string text = of(before, 8);
+    const auto v = number(text, repairs);
+    if (!v || !std::isfinite(*v))
+      throw ReadError(
+          path, 0,
+          fmt::format("signal '{}': {}: expected a number, found '{}'", signal.label, what, text));
+    return *v;
+  };
+  signal.physical_min = value(104, "physical minimum");
+  signal.physical_max = value(112, "physical maximum");
+  signal.digital_min = value(120, "digital minimum");
+  signal.digital_max = value(128, "digital maximum");
+  const double per_record = value(216, "samples in a record");
+  if (!(per_record >= 0.0 && per_record <= 1e7) || per_record != std::floor(per_record))
+    throw ReadError(path, 0,
+                    fmt::format("signal '{}': {} samples in a record", signal.label, per_record));
+  signal.per_record = static_cast<std::size_t>(per_record);
+  return signal;
+}
+
 Header read_header(ByteSource& source,
                    const std::filesystem::path& path,
                    std::vector<Repair>& repairs) {
@@ -80,16 +130,8 @@ Header read_header(ByteSource& source,
   const std::string kind = field(head, 192, 44);
   header.plus = kind.starts_with("EDF+") || kind.starts_with("BDF+");
   header.gaps = kind.starts_with("EDF+D") || kind.starts_with("BDF+D");
-  const auto required = [&](std::size_t at, std::size_t length, const char* what) {
-    const std::string text = field(head, at, length);
-    const auto value = number(text, repairs);
-    if (!value)
-      throw ReadError(path, 0,
-                      fmt::format("byte {}: {}: expected a number, found '{}'", at, what, text));
-    return *value;
-  };
-  const double count = required(252, 4, "number of signals");
-  header.record_s = required(244, 8, "duration of a record [s]");
+  const double count = required_number(head, 252, 4, "number of signals", path, repairs);
+  header.record_s = required_number(head, 244, 8, "duration of a record [s]", path, repairs);
   const double records = number(field(head, 236, 8), repairs).value_or(-1.0);
   header.records = std::abs(records) < 1e15 ? static_cast<std::int64_t>(records) : -1;
   if (!(count >= 1.0 && count <= 4096.0) || count != std::floor(count))
@@ -101,38 +143,13 @@ Header read_header(ByteSource& source,
                     fmt::format("{} signals need a header of {} bytes, the file has {}: it is cut "
                                 "off",
                                 signals, header.bytes, source.size()));
-  if (const double said = required(184, 8, "bytes of the header");
+  if (const double said = required_number(head, 184, 8, "bytes of the header", path, repairs);
       said != static_cast<double>(header.bytes))
     repairs.push_back({0, fmt::format("the header says it has {} bytes; with {} signals it has {}",
                                       said, signals, header.bytes)});
   const auto rest = source.view(0, header.bytes);
-  // The fields stand signal by signal, one kind after the other.
-  const auto of = [&](std::size_t before, std::size_t length, std::size_t s) {
-    return field(rest, kHead + before * signals + length * s, length);
-  };
   for (std::size_t s = 0; s < signals; ++s) {
-    Signal signal;
-    signal.label = of(0, 16, s);
-    signal.annotations = signal.label == "EDF Annotations" || signal.label == "BDF Annotations";
-    signal.dimension = of(96, 8, s);
-    const auto value = [&](std::size_t before, const char* what) {
-      const std::string text = of(before, 8, s);
-      const auto v = number(text, repairs);
-      if (!v || !std::isfinite(*v))
-        throw ReadError(path, 0,
-                        fmt::format("signal '{}': {}: expected a number, found '{}'", signal.label,
-                                    what, text));
-      return *v;
-    };
-    signal.physical_min = value(104, "physical minimum");
-    signal.physical_max = value(112, "physical maximum");
-    signal.digital_min = value(120, "digital minimum");
-    signal.digital_max = value(128, "digital maximum");
-    const double per_record = value(216, "samples in a record");
-    if (!(per_record >= 0.0 && per_record <= 1e7) || per_record != std::floor(per_record))
-      throw ReadError(path, 0,
-                      fmt::format("signal '{}': {} samples in a record", signal.label, per_record));
-    signal.per_record = static_cast<std::size_t>(per_record);
+    Signal signal = read_signal(rest, signals, s, path, repairs);
     signal.offset = static_cast<std::size_t>(header.record_bytes);
     header.record_bytes += signal.per_record * header.sample_bytes;
     header.signals.push_back(std::move(signal));
@@ -242,109 +259,161 @@ void take_samples(const Header& header,
       counts.values);
 }
 
+/// The number of records to read: those that the file holds whole, at most as many as the header
+/// says.
+std::int64_t record_count(const Header& header,
+                          std::uint64_t file_bytes,
+                          const std::filesystem::path& path,
+                          std::vector<Repair>& repairs) {
+  const std::uint64_t available = file_bytes - header.bytes;
+  auto records = static_cast<std::int64_t>(available / header.record_bytes);
+  if (header.records >= 0 && header.records < records) {
+    repairs.push_back({0, fmt::format("the header says {} records, the file has {}; {} are taken",
+                                      header.records, records, header.records)});
+    records = header.records;
+  } else if (header.records != records || available % header.record_bytes != 0) {
+    repairs.push_back({0, fmt::format("the header says {} records, the file has {} whole ones, "
+                                      "which are taken",
+                                      header.records, records)});
+  }
+  if (records <= 0) throw ReadError(path, 0, "the file holds no whole record of samples");
+  return records;
+}
+
+/// The channels of the chosen signals: names, units and the scales from counts to SI.
+struct Scaled {
+  std::vector<Channel> channels;
+  std::vector<CountScale> scales;
+  std::vector<bool> has_unit;
+};
+
+Scaled scaled_channels(const Header& header,
+                       const std::vector<std::size_t>& chosen,
+                       std::vector<Repair>& repairs) {
+  std::vector<std::string> names;
+  for (const std::size_t s : chosen) {
+    const std::string& label = header.signals[s].label;
+    names.push_back(label.empty() ? fmt::format("signal_{}", s + 1) : label);
+  }
+  names = unique_names(names, "signal", 0, repairs);
+  Scaled scaled;
+  for (std::size_t c = 0; c < chosen.size(); ++c) {
+    const Signal& signal = header.signals[chosen[c]];
+    const auto unit = parse_file_unit(signal.dimension);
+    const double to_si = unit ? unit->to_si : 1.0;
+    const double gain = to_si * (signal.physical_max - signal.physical_min) /
+                        (signal.digital_max - signal.digital_min);
+    scaled.scales.push_back(
+        {.scale = gain, .base = to_si * signal.physical_min - gain * signal.digital_min});
+    scaled.has_unit.push_back(unit.has_value());
+    scaled.channels.push_back({names[c], unit ? unit->unit : Unit::dimensionless});
+  }
+  return scaled;
+}
+
+/// The begin of each record, from the header's length of a record or, in a recording with gaps,
+/// from the time stamps in the annotations.
+class RecordTimes {
+ public:
+  RecordTimes(const Header& header, double interval_s, const std::filesystem::path& path)
+      : header_(header), interval_s_(interval_s), path_(path) {}
+
+  /// The begin of record `r` (counted from 0), whose time stamp is `onset`.
+  double begin_s(std::int64_t r, const std::optional<double>& onset, std::vector<Repair>& repairs) {
+    const double counted = static_cast<double>(r) * header_.record_s;
+    if (onset && !zero_s_) zero_s_ = header_.gaps ? *onset : *onset - counted;
+    if (header_.gaps) return stamped(r, onset, repairs);
+    if (onset && stamps_agree_ &&
+        std::abs(*onset - *zero_s_ - counted) > 0.5 * interval_s_ + 1e-6) {
+      stamps_agree_ = false;
+      repairs.push_back(
+          {0, fmt::format("record {} says it begins {:.6g} s after the first, by the header's {} s "
+                          "for a record it is {:.6g} s, which is taken: compare the length of the "
+                          "recording",
+                          r + 1, *onset - *zero_s_, header_.record_s, counted)});
+    }
+    return counted;
+  }
+
+  /// The first sample on the clock of the stamps.
+  [[nodiscard]] double zero_s() const { return zero_s_.value_or(0.0); }
+
+ private:
+  double stamped(std::int64_t r, const std::optional<double>& onset, std::vector<Repair>& repairs) {
+    if (!onset)
+      throw ReadError(path_, 0,
+                      fmt::format("record {} does not say its time, as EDF+D must", r + 1));
+    const double begin = *onset - *zero_s_;
+    if (end_s_ && begin < *end_s_ - 0.5 * interval_s_)
+      throw ReadError(
+          path_, 0,
+          fmt::format("record {} begins at {} s, before the one before it ends", r + 1, begin));
+    if (end_s_ && begin > *end_s_ + 0.5 * interval_s_)
+      repairs.push_back(
+          {0, fmt::format("the recording pauses from {:.6g} s to {:.6g} s", *end_s_, begin)});
+    end_s_ = begin + header_.record_s;
+    return begin;
+  }
+
+  const Header& header_;
+  double interval_s_;
+  const std::filesystem::path& path_;
+  std::optional<double> zero_s_;
+  std::optional<double> end_s_;  ///< Of the record before.
+  bool stamps_agree_ = true;
+};
+
+/// Adds the events of a record and returns its time stamp.
+std::optional<double> read_record_annotations(const Header& header,
+                                              std::span<const std::byte> record,
+                                              std::vector<Event>& events) {
+  std::optional<double> onset;
+  for (const Signal& signal : header.signals) {
+    if (!signal.annotations) continue;
+    const auto* text = reinterpret_cast<const char*>(record.data() + signal.offset);
+    const auto stamp = read_annotations({text, signal.per_record * header.sample_bytes}, events);
+    if (!onset) onset = stamp;
+  }
+  return onset;
+}
+
 EdfFile read_edf_source(ByteSource& source, const std::filesystem::path& path) {
   EdfFile file;
   const Header header = read_header(source, path, file.repairs);
-  const std::uint64_t available = source.size() - header.bytes;
-  auto records = static_cast<std::int64_t>(available / header.record_bytes);
-  if (header.records >= 0 && header.records < records) {
-    file.repairs.push_back({0, fmt::format("the header says {} records, the file has {}; {} are "
-                                           "taken",
-                                           header.records, records, header.records)});
-    records = header.records;
-  } else if (header.records != records || available % header.record_bytes != 0) {
-    file.repairs.push_back(
-        {0, fmt::format("the header says {} records, the file has {} whole ones, "
-                        "which are taken",
-                        header.records, records)});
-  }
-  if (records <= 0) throw ReadError(path, 0, "the file holds no whole record of samples");
+  const std::int64_t records = record_count(header, source.size(), path, file.repairs);
   const std::vector<std::size_t> chosen = choose(header, file.repairs);
   if (chosen.empty()) throw ReadError(path, 0, "the file holds no signals with samples");
   if (!(header.record_s > 0.0))
     throw ReadError(
         path, 0,
         fmt::format("byte 244: a record lasts {} s, so there is no rate", header.record_s));
-
-  std::vector<Channel> channels;
-  AnalogCounts counts;
-  std::set<std::string> seen;
-  for (const std::size_t s : chosen) {
-    const Signal& signal = header.signals[s];
-    const auto unit = parse_file_unit(signal.dimension);
-    const double to_si = unit ? unit->to_si : 1.0;
-    file.has_unit.push_back(unit.has_value());
-    const double gain = to_si * (signal.physical_max - signal.physical_min) /
-                        (signal.digital_max - signal.digital_min);
-    counts.scales.push_back(
-        {.scale = gain, .base = to_si * signal.physical_min - gain * signal.digital_min});
-    const std::string stem = signal.label.empty() ? fmt::format("signal_{}", s + 1) : signal.label;
-    std::string name = stem;
-    for (int k = 2; !seen.insert(name).second; ++k) {
-      const std::string other = fmt::format("{}_{}", stem, k);
-      file.repairs.push_back(
-          {0, fmt::format("two signals are named '{}'; the later one is '{}' here", stem, other)});
-      name = other;
-    }
-    channels.push_back({name, unit ? unit->unit : Unit::dimensionless});
-  }
+  Scaled scaled = scaled_channels(header, chosen, file.repairs);
+  file.has_unit = std::move(scaled.has_unit);
 
   const auto per_record = static_cast<Eigen::Index>(header.signals[chosen[0]].per_record);
   const double dt = header.record_s / static_cast<double>(per_record);
+  AnalogCounts counts;
+  counts.scales = std::move(scaled.scales);
   counts.values = room_for(header, records * per_record, chosen.size());
   counts.records = RecordClock{.per_record = per_record, .interval_s = dt};
-  std::optional<double> previous;
-  std::optional<double> zero_s;  // On the clock of the stamps: the begin of the first record.
-  bool stamps_agree = true;
+  RecordTimes times(header, dt, path);
   for (std::int64_t r = 0; r < records; ++r) {
     const auto record =
         source.view(header.bytes + static_cast<std::uint64_t>(r) * header.record_bytes,
                     static_cast<std::size_t>(header.record_bytes));
-    std::optional<double> onset;
-    for (const Signal& signal : header.signals) {
-      if (!signal.annotations) continue;
-      const auto* text = reinterpret_cast<const char*>(record.data() + signal.offset);
-      const auto time_of_record =
-          read_annotations({text, signal.per_record * header.sample_bytes}, file.events);
-      if (!onset) onset = time_of_record;
-    }
-    double begin = static_cast<double>(r) * header.record_s;
-    if (onset && !zero_s) zero_s = header.gaps ? *onset : *onset - begin;
-    if (!header.gaps && onset && stamps_agree &&
-        std::abs(*onset - *zero_s - begin) > 0.5 * dt + 1e-6) {
-      stamps_agree = false;
-      file.repairs.push_back(
-          {0, fmt::format("record {} says it begins {:.6g} s after the first, by the header's {} s "
-                          "for a record it is {:.6g} s, which is taken: compare the length of the "
-                          "recording",
-                          r + 1, *onset - *zero_s, header.record_s, begin)});
-    }
-    if (header.gaps) {
-      if (!onset)
-        throw ReadError(path, 0,
-                        fmt::format("record {} does not say its time, as EDF+D must", r + 1));
-      begin = *onset - *zero_s;
-      if (previous && begin < *previous - 0.5 * dt)
-        throw ReadError(
-            path, 0,
-            fmt::format("record {} begins at {} s, before the one before it ends", r + 1, begin));
-      if (previous && begin > *previous + 0.5 * dt)
-        file.repairs.push_back(
-            {0, fmt::format("the recording pauses from {:.6g} s to {:.6g} s", *previous, begin)});
-      previous = begin + header.record_s;
-    }
-    counts.records->begin_s.push_back(begin);
+    const auto onset = read_record_annotations(header, record, file.events);
+    counts.records->begin_s.push_back(times.begin_s(r, onset, file.repairs));
     take_samples(header, chosen, record, r * per_record, counts);
   }
-  if (zero_s.value_or(0.0) != 0.0) {
-    for (Event& event : file.events) event.time_s -= *zero_s;
+  if (const double zero_s = times.zero_s(); zero_s != 0.0) {
+    for (Event& event : file.events) event.time_s -= zero_s;
     file.repairs.push_back(
         {0, fmt::format("the first record begins {:.6g} s after the header's start of the "
                         "recording; here its first sample is at 0 s, and so count the events",
-                        *zero_s)});
+                        zero_s)});
   }
   try {
-    file.data = AnalogChannels(std::move(channels), std::move(counts));
+    file.data = AnalogChannels(std::move(scaled.channels), std::move(counts));
   } catch (const InvalidInput& error) {
     throw ReadError(path, 0, error.what());
   }

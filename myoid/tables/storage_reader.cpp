@@ -4,13 +4,14 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
-#include <set>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
-#include "myoid/files/file_format.h"
+#include "myoid/tables/storage_header.h"
+#include "myoid/tables/table_layout.h"
+#include "myoid/tables/text_table.h"
 
 namespace myoid::recording {
 namespace {
@@ -50,62 +51,11 @@ std::string_view word_at(const char* at, const char* end) {
   return {at, static_cast<std::size_t>(stop - at)};
 }
 
-/// The value of a header key, whatever its case.
-const std::string* value_of(const std::map<std::string, std::string>& header,
-                            std::string_view key) {
-  for (const auto& [name, value] : header) {
-    if (equal_ignoring_case(name, key)) return &value;
-  }
-  return nullptr;
+std::string_view text_between(const char* begin, const char* end) {
+  return trim({begin, static_cast<std::size_t>(end - begin)});
 }
 
-std::optional<double> count_of(const std::map<std::string, std::string>& header,
-                               std::initializer_list<const char*> keys) {
-  for (const char* key : keys) {
-    if (const std::string* text = value_of(header, key)) {
-      if (const auto value = parse_number(*text)) return value;
-    }
-  }
-  return std::nullopt;
-}
-
-bool is_one_of(std::string_view word, std::initializer_list<std::string_view> words) {
-  return std::any_of(words.begin(), words.end(),
-                     [&](std::string_view w) { return equal_ignoring_case(w, word); });
-}
-
-/// "key=value", "key = value", and "key value" for the keys of the old kind; empty if the line is
-/// free text.
-std::optional<std::pair<std::string, std::string>> key_and_value(std::string_view line) {
-  const std::size_t equal = line.find('=');
-  if (equal != std::string_view::npos) {
-    const std::string_view key = trim(line.substr(0, equal));
-    if (key.empty() || split_words(key).size() != 1) return std::nullopt;
-    return std::pair(std::string(key), std::string(trim(line.substr(equal + 1))));
-  }
-  const auto words = split_words(line);
-  if (words.size() != 2 || !is_one_of(words[0], {"datacolumns", "datarows", "name", "nRows",
-                                                 "nColumns", "inDegrees", "version"})) {
-    return std::nullopt;
-  }
-  return std::pair(std::string(words[0]), std::string(words[1]));
-}
-
-/// NAME and unit of a line "channel NAME [unit]".
-std::optional<std::pair<std::string, std::string>> channel_unit(std::string_view line) {
-  constexpr std::string_view kStart = "channel ";
-  const std::size_t open = line.rfind('[');
-  if (!line.starts_with(kStart) || !line.ends_with(']') || open == std::string_view::npos ||
-      open < kStart.size())
-    return std::nullopt;
-  const std::string_view name = trim(line.substr(kStart.size(), open - kStart.size()));
-  const std::string_view unit = trim(line.substr(open + 1, line.size() - open - 2));
-  if (name.empty() || unit.empty()) return std::nullopt;
-  return std::pair(std::string(name), std::string(unit));
-}
-
-/// Comma decimals: "1,5<tab>2,25" without any decimal point. Only when the file has one number a
-/// cell.
+/// A row with decimal commas has commas and no point: "1,5<tab>2,25".
 bool looks_like_comma_decimals(std::string_view line) {
   return line.find(',') != std::string_view::npos && line.find('.') == std::string_view::npos;
 }
@@ -125,227 +75,248 @@ bool is_comma_row(std::string_view line, std::size_t width) {
                      [](std::string_view cell) { return parse_number(cell).has_value(); });
 }
 
-}  // namespace
+std::size_t next_filled(const std::vector<std::string_view>& lines, std::size_t line) {
+  while (line < lines.size() && trim(lines[line]).empty()) ++line;
+  return line;
+}
 
-Storage parse_storage(std::string_view text, const std::filesystem::path& path) {
-  const std::vector<std::string_view> lines = split_lines(text);
-  if (lines.empty()) throw ReadError(path, 0, "the file has no lines; export it again");
-  Storage storage;
-  std::size_t line = 0;
-  bool found = false;
-  for (; line < lines.size(); ++line) {
-    const std::string_view content = trim(lines[line]);
-    if (equal_ignoring_case(content, "endheader")) {
-      found = true;
-      break;
-    }
-    if (auto channel = channel_unit(content); channel && line > 0) {
-      storage.units.insert(std::move(*channel));
-    } else if (const auto pair = key_and_value(content)) {
-      storage.header[pair->first] = pair->second;
-      if (equal_ignoring_case(pair->first, "inDegrees")) {
-        storage.in_degrees = is_one_of(pair->second, {"yes", "y", "true", "1"});
-        if (!storage.in_degrees && !is_one_of(pair->second, {"no", "n", "false", "0"})) {
-          throw ReadError(path, line + 1,
-                          fmt::format("inDegrees: found '{}', expected yes or no", pair->second));
-        }
-      }
-    } else if (line == 0) {
-      storage.title = std::string(content);
-    }
-    if (line > 2000) break;
-  }
-  if (!found) {
-    const std::string other = wrong_kind(path, {FileFormat::storage}, "a time series (.mot, .sto)");
-    if (!other.empty()) throw ReadError(path, 0, other);
-    throw ReadError(path, 0,
-                    "no line 'endheader': this is not a .mot or .sto file, or it is cut off; for a "
-                    "plain table use .csv");
-  }
-  if (value_of(storage.header, "inDegrees") == nullptr &&
-      equal_ignoring_case(path.extension().string(), ".mot") &&
-      count_of(storage.header, {"version"}).value_or(0.0) < 1.0) {
-    storage.in_degrees = true;
-    storage.repairs.push_back(
-        {0, "no version in the header: taken as SIMM's kind, angles in degrees"});
-  }
-  std::size_t elements = 1;
-  if (const std::string* type = value_of(storage.header, "DataType")) {
-    elements = is_one_of(*type, {"Vec3", "UnitVec3"})     ? 3
-               : is_one_of(*type, {"Vec2"})               ? 2
-               : is_one_of(*type, {"Quaternion", "Vec4"}) ? 4
-               : is_one_of(*type, {"Vec6", "SpatialVec"}) ? 6
-                                                          : 1;
-  }
+/// The columns of a storage file: the line of labels between header and rows.
+struct Columns {
+  std::vector<Channel> channels;  ///< One for each element of a cell, without the time.
+  std::size_t labels = 0;         ///< As they stand in the line, with the time.
+  std::size_t line = 0;           ///< Counts from 1.
+  std::size_t first_row = 0;      ///< Index of the first row of numbers.
+  bool comma_cells = false;       ///< Commas separate the cells.
+  std::vector<Repair> repairs;
 
-  // Column labels.
-  do ++line;
-  while (line < lines.size() && trim(lines[line]).empty());
-  if (line >= lines.size())
-    throw ReadError(path, line, "the file ends after its header: expected the column labels");
+  [[nodiscard]] std::size_t width() const { return channels.size() + 1; }
+};
+
+std::vector<std::string> labels_of(std::string_view line, bool comma_cells) {
   std::vector<std::string> names;
-  const std::size_t label_line = line + 1;
-  const bool tabbed = lines[line].find('\t') != std::string_view::npos;
-  bool comma_cells = elements == 1 && are_comma_labels(lines[line]);
-  for (const std::string_view label : tabbed        ? split(trim(lines[line]), '\t')
-                                      : comma_cells ? split(trim(lines[line]), ',')
-                                                    : split_words(lines[line])) {
+  for (const std::string_view label : line.find('\t') != std::string_view::npos
+                                          ? split(trim(line), '\t')
+                                      : comma_cells ? split(trim(line), ',')
+                                                    : split_words(line))
     names.emplace_back(trim(label));
-  }
   while (!names.empty() && names.back().empty()) names.pop_back();
+  return names;
+}
+
+Columns read_columns(const std::vector<std::string_view>& lines,
+                     const StorageHeader& header,
+                     const std::filesystem::path& path) {
+  const std::size_t at = next_filled(lines, header.end + 1);
+  if (at >= lines.size())
+    throw ReadError(path, at, "the file ends after its header: expected the column labels");
+  Columns columns;
+  columns.line = at + 1;
+  columns.comma_cells = header.elements == 1 && are_comma_labels(lines[at]);
+  std::vector<std::string> names = labels_of(lines[at], columns.comma_cells);
+  columns.labels = names.size();
   if (names.empty() || !equal_ignoring_case(names[0], "time")) {
-    throw ReadError(path, label_line,
+    throw ReadError(path, columns.line,
                     fmt::format("expected the first column to be 'time', found '{}'",
                                 names.empty() ? "" : names[0]));
   }
   if (names[0] != "time")
-    storage.repairs.push_back({label_line, fmt::format("column '{}' read as 'time'", names[0])});
-  std::vector<Channel> channels;
-  std::set<std::string> seen;
-  for (std::size_t c = 1; c < names.size(); ++c) {
-    std::string name = names[c].empty() ? fmt::format("column_{}", c + 1) : names[c];
-    for (int k = 2; !seen.insert(name).second; ++k) {
-      const std::string other = fmt::format("{}_{}", names[c], k);
-      storage.repairs.push_back(
-          {label_line,
-           fmt::format("two columns are named '{}'; the later one is '{}' here", names[c], other)});
-      name = other;
-    }
-    if (elements == 1) {
-      channels.push_back({name, Unit::dimensionless});
-    } else {
-      for (std::size_t e = 1; e <= elements; ++e)
-        channels.push_back({fmt::format("{}_{}", name, e), Unit::dimensionless});
-    }
+    columns.repairs.push_back({columns.line, fmt::format("column '{}' read as 'time'", names[0])});
+  for (std::size_t c = 1; c < names.size(); ++c)
+    if (names[c].empty()) names[c] = fmt::format("column_{}", c + 1);
+  names.erase(names.begin());
+  for (const std::string& name : unique_names(names, "column", columns.line, columns.repairs)) {
+    if (header.elements == 1) columns.channels.push_back({name, Unit::dimensionless});
+    for (std::size_t e = 1; header.elements > 1 && e <= header.elements; ++e)
+      columns.channels.push_back({fmt::format("{}_{}", name, e), Unit::dimensionless});
   }
-  const std::size_t width = channels.size() + 1;
-  if (const auto said = count_of(storage.header, {"nColumns", "datacolumns"});
-      said && *said != static_cast<double>(names.size()) && elements == 1) {
-    storage.repairs.push_back(
-        {0, fmt::format("the header says {} columns, there are {}", *said, names.size())});
+  if (header.elements == 1)
+    compare_count(header.count({"nColumns", "datacolumns"}), columns.labels, "columns",
+                  columns.repairs);
+  columns.first_row = next_filled(lines, at + 1);
+  if (header.elements == 1 && columns.first_row < lines.size() &&
+      is_comma_row(lines[columns.first_row], columns.width()))
+    columns.comma_cells = true;
+  if (columns.comma_cells)
+    columns.repairs.push_back({columns.line, "separated by commas instead of tabs"});
+  return columns;
+}
+
+/// Reads the rows of numbers, and keeps the first line of each kind of mending.
+class StorageRows {
+ public:
+  StorageRows(const Columns& columns,
+              const StorageHeader& header,
+              const std::filesystem::path& path)
+      : columns_(columns),
+        path_(path),
+        elements_(header.elements),
+        width_(columns.width()),
+        rows_said_(header.count({"nRows", "datarows"})),
+        row_(width_) {}
+
+  void read(const TableText& text, std::size_t bytes) {
+    const auto& lines = text.lines;
+    const std::size_t most =
+        std::min(lines.size() - std::min(lines.size(), columns_.first_row),
+                 bytes / (2 * width_ - 1) + 1);  // a number and a separator per cell
+    values_.resize(static_cast<Eigen::Index>(most), static_cast<Eigen::Index>(width_ - 1));
+    for (std::size_t line = columns_.first_row; line < lines.size(); ++line) {
+      if (trim(lines[line]).empty()) continue;
+      if (line + 1 == lines.size() && !text.ends_with_line && !keeps_last(text)) break;
+      read_row(lines[line], line + 1);
+      keep_row(line + 1);
+    }
+    if (time_.empty())
+      throw ReadError(path_, 0, "there are no rows of numbers after the column labels");
+    state_what_was_mended();
   }
 
-  // Rows.
-  const std::size_t most =
-      std::min(lines.size() - line - 1,
-               text.size() / (2 * width - 1) + 1);  // a number and a separator per cell
-  std::vector<double> time;
-  Eigen::MatrixXd values(static_cast<Eigen::Index>(most), static_cast<Eigen::Index>(width - 1));
-  std::vector<double> row(width);
-  std::size_t repeated = 0;
-  std::size_t extra_line = 0;
-  std::size_t nan_line = 0;
-  std::size_t comma_line = 0;
-  std::size_t doubled_line = 0;
-  std::string mended;
-  const auto rows_said = count_of(storage.header, {"nRows", "datarows"});
-  while (line + 1 < lines.size() && trim(lines[line + 1]).empty()) ++line;
-  if (elements == 1 && line + 1 < lines.size() && is_comma_row(lines[line + 1], width))
-    comma_cells = true;
-  if (comma_cells) storage.repairs.push_back({label_line, "separated by commas instead of tabs"});
-  for (++line; line < lines.size(); ++line) {
-    std::string_view content = lines[line];
-    if (trim(content).empty()) continue;
-    if (line + 1 == lines.size() && !ends_with_line(text)) {
-      const bool complete = rows_said &&
-                            *rows_said == static_cast<double>(time.size() + repeated + 1) &&
-                            !looks_cut(content, lines[line - 1]);
-      if (!complete && !time.empty()) {
-        storage.repairs.push_back({line + 1, std::string(kLastRowLeftOut)});
-        break;
-      }
-      storage.repairs.push_back({line + 1, std::string(kLastRowKept)});
-    }
-    if (comma_cells || (elements == 1 && looks_like_comma_decimals(content))) {
-      mended.assign(content);
-      std::replace(mended.begin(), mended.end(), ',', comma_cells ? '\t' : '.');
-      content = mended;
-      if (!comma_cells && comma_line == 0) comma_line = line + 1;
+  [[nodiscard]] const std::vector<Repair>& repairs() const { return repairs_; }
+
+  [[nodiscard]] TimeSeries series() && {
+    const auto count = static_cast<Eigen::Index>(time_.size());
+    values_.conservativeResize(count, Eigen::NoChange);
+    return {Eigen::Map<const Eigen::VectorXd>(time_.data(), count), columns_.channels,
+            std::move(values_)};
+  }
+
+ private:
+  [[nodiscard]] std::size_t count() const { return time_.size() + repeated_; }
+
+  bool keeps_last(const TableText& text) {
+    const LastRow last = last_row_without_end(
+        text, rows_said_ && *rows_said_ == static_cast<double>(count() + 1), time_.empty());
+    repairs_.push_back(last.note);
+    return last.kept;
+  }
+
+  /// Fills `row_`. Throws ReadError for a number that is missing or wrong.
+  void read_row(std::string_view content, std::size_t line) {
+    if (columns_.comma_cells || (elements_ == 1 && looks_like_comma_decimals(content))) {
+      mended_.assign(content);
+      std::replace(mended_.begin(), mended_.end(), ',', columns_.comma_cells ? '\t' : '.');
+      content = mended_;
+      if (!columns_.comma_cells) mark(comma_line_, line);
     }
     const char* at = content.data();
     const char* const end = at + content.size();
-    for (std::size_t c = 0; c < width; ++c) {
+    for (std::size_t c = 0; c < width_; ++c) {
+      const bool element = c > 0 && (c - 1) % elements_ != 0;
       double value = 0.0;
       const Cell cell =
-          next_number(at, end, c > 0 && (c - 1) % elements != 0 ? Before::comma : Before::blank,
-                      elements > 1, value);
-      if (cell == Cell::none) {
-        throw ReadError(
-            path, line + 1,
-            fmt::format("expected {} numbers, found {}; the row is cut off or a cell is empty",
-                        width, c));
-      }
-      if (cell == Cell::wrong) {
-        throw ReadError(path, line + 1,
-                        fmt::format("expected a number in column {} ('{}'), found '{}'", c + 1,
-                                    c == 0 ? "time" : channels[c - 1].name, word_at(at, end)));
-      }
+          next_number(at, end, element ? Before::comma : Before::blank, elements_ > 1, value);
+      if (cell != Cell::number) refuse(cell, c, line, word_at(at, end));
       if (!std::isfinite(value)) {
-        if (c == 0) throw ReadError(path, line + 1, "the time is not a number");
-        if (nan_line == 0) nan_line = line + 1;
+        if (c == 0) throw ReadError(path_, line, "the time is not a number");
+        mark(nan_line_, line);
         value = std::numeric_limits<double>::quiet_NaN();
       }
-      row[c] = value;
+      row_[c] = value;
     }
-    const bool doubled =
-        trim({content.data(), static_cast<std::size_t>(at - content.data())}).find("\t\t") !=
-        std::string_view::npos;
-    if (doubled && doubled_line == 0) doubled_line = line + 1;
-    if (!trim({at, static_cast<std::size_t>(end - at)}).empty()) {
-      if (comma_cells)
-        throw ReadError(path, line + 1,
-                        fmt::format("more than {} numbers; decimal commas in a file separated by "
-                                    "commas?",
-                                    width));
-      if (doubled) {
-        throw ReadError(path, line + 1,
-                        fmt::format("a cell is empty and there are more than {} numbers: which "
-                                    "belongs to which column?",
-                                    width));
-      }
-      if (extra_line == 0) extra_line = line + 1;
-    }
-    // Times that differ by their rounding alone are one.
-    constexpr double kSameTime_s = 1e-10;
-    if (!time.empty() && row[0] <= time.back() + kSameTime_s) {
-      if (row[0] < time.back() - kSameTime_s) {
+    const bool doubled = text_between(content.data(), at).find("\t\t") != std::string_view::npos;
+    if (doubled) mark(doubled_line_, line);
+    if (!text_between(at, end).empty()) judge_surplus(doubled, line);
+  }
+
+  [[noreturn]] void refuse(Cell cell,
+                           std::size_t column,
+                           std::size_t line,
+                           std::string_view found) const {
+    if (cell == Cell::none)
+      throw ReadError(
+          path_, line,
+          fmt::format("expected {} numbers, found {}; the row is cut off or a cell is empty",
+                      width_, column));
+    throw ReadError(path_, line,
+                    fmt::format("expected a number in column {} ('{}'), found '{}'", column + 1,
+                                column == 0 ? "time" : columns_.channels[column - 1].name, found));
+  }
+
+  /// Numbers behind the last column are ignored unless a cell of the row may be lost.
+  void judge_surplus(bool doubled, std::size_t line) {
+    if (columns_.comma_cells)
+      throw ReadError(path_, line,
+                      fmt::format("more than {} numbers; decimal commas in a file separated by "
+                                  "commas?",
+                                  width_));
+    if (doubled)
+      throw ReadError(path_, line,
+                      fmt::format("a cell is empty and there are more than {} numbers: which "
+                                  "belongs to which column?",
+                                  width_));
+    mark(extra_line_, line);
+  }
+
+  /// Appends `row_` unless its time is that of the row before.
+  void keep_row(std::size_t line) {
+    constexpr double kSameTime_s = 1e-10;  // Closer times differ by their rounding alone.
+    if (!time_.empty() && row_[0] <= time_.back() + kSameTime_s) {
+      if (row_[0] < time_.back() - kSameTime_s)
         throw ReadError(
-            path, line + 1,
+            path_, line,
             fmt::format("time goes backwards: {} s after {} s; sort the rows or split the file",
-                        row[0], time.back()));
-      }
-      if (++repeated == 1)
-        storage.repairs.push_back(
-            {line + 1, fmt::format("the time {} s stands twice; the first row is kept", row[0])});
-      continue;
+                        row_[0], time_.back()));
+      if (++repeated_ == 1)
+        repairs_.push_back(
+            {line, fmt::format("the time {} s stands twice; the first row is kept", row_[0])});
+      return;
     }
-    const auto index = static_cast<Eigen::Index>(time.size());
-    time.push_back(row[0]);
-    for (std::size_t c = 1; c < width; ++c)
-      values(index, static_cast<Eigen::Index>(c - 1)) = row[c];
+    const auto index = static_cast<Eigen::Index>(time_.size());
+    time_.push_back(row_[0]);
+    for (std::size_t c = 1; c < width_; ++c)
+      values_(index, static_cast<Eigen::Index>(c - 1)) = row_[c];
   }
-  if (time.empty())
-    throw ReadError(path, 0, "there are no rows of numbers after the column labels");
-  if (repeated > 1)
-    storage.repairs.push_back(
-        {0, fmt::format("{} rows in all repeat a time and were dropped", repeated)});
-  if (comma_line > 0)
-    storage.repairs.push_back({comma_line, "comma decimals read as decimal points"});
-  if (doubled_line > 0)
-    storage.repairs.push_back(
-        {doubled_line,
-         "two tabs in a row taken as one, since the numbers are as many as the columns"});
-  if (extra_line > 0)
-    storage.repairs.push_back({extra_line, "more numbers than columns; the surplus is ignored"});
-  if (nan_line > 0) storage.repairs.push_back({nan_line, "a value is not a number; kept as a gap"});
-  if (rows_said && *rows_said != static_cast<double>(time.size() + repeated)) {
-    storage.repairs.push_back({0, fmt::format("the header says {} rows, there are {}", *rows_said,
-                                              time.size() + repeated)});
+
+  void state_what_was_mended() {
+    if (repeated_ > 1)
+      repairs_.push_back(
+          {0, fmt::format("{} rows in all repeat a time and were dropped", repeated_)});
+    note(comma_line_, "comma decimals read as decimal points");
+    note(doubled_line_,
+         "two tabs in a row taken as one, since the numbers are as many as the columns");
+    note(extra_line_, "more numbers than columns; the surplus is ignored");
+    note(nan_line_, "a value is not a number; kept as a gap");
+    compare_count(rows_said_, count(), "rows", repairs_);
   }
-  const auto count = static_cast<Eigen::Index>(time.size());
-  values.conservativeResize(count, Eigen::NoChange);
-  storage.data = TimeSeries(Eigen::Map<const Eigen::VectorXd>(time.data(), count),
-                            std::move(channels), std::move(values));
+
+  static void mark(std::size_t& first, std::size_t line) {
+    if (first == 0) first = line;
+  }
+  void note(std::size_t line, const char* message) {
+    if (line > 0) repairs_.push_back({line, message});
+  }
+
+  const Columns& columns_;
+  const std::filesystem::path& path_;
+  std::size_t elements_, width_;
+  std::optional<double> rows_said_;
+  std::vector<double> row_, time_;
+  Eigen::MatrixXd values_;
+  std::string mended_;
+  std::vector<Repair> repairs_;
+  std::size_t repeated_ = 0;
+  std::size_t extra_line_ = 0, nan_line_ = 0, comma_line_ = 0, doubled_line_ = 0;
+};
+
+}  // namespace
+
+Storage parse_storage(std::string_view text, const std::filesystem::path& path) {
+  const TableText table(text);
+  if (table.lines.empty()) throw ReadError(path, 0, "the file has no lines; export it again");
+  StorageHeader header = read_storage_header(table.lines, path);
+  const Columns columns = read_columns(table.lines, header, path);
+  StorageRows rows(columns, header, path);
+  rows.read(table, text.size());
+  Storage storage;
+  using Repairs = std::vector<Repair>;
+  for (const Repairs* repairs :
+       std::initializer_list<const Repairs*>{&header.repairs, &columns.repairs, &rows.repairs()})
+    storage.repairs.insert(storage.repairs.end(), repairs->begin(), repairs->end());
+  storage.title = std::move(header.title);
+  storage.header = std::move(header.keys);
+  storage.units = std::move(header.units);
+  storage.in_degrees = header.in_degrees;
+  storage.data = std::move(rows).series();
   return storage;
 }
 

@@ -144,8 +144,11 @@ std::vector<std::string> unique_names(const std::vector<std::string>& names,
           {line, fmt::format("{} {} has no name; it is '{}' here", kind, i + 1, name)});
     }
     const std::string base = name;
-    for (int k = 2; !taken.insert(name).second || (k > 2 && seen.contains(name)); ++k)
-      name = fmt::format("{}_{}", base, k);
+    const auto is_free = [&] {
+      return !taken.contains(name) && (name == base || !seen.contains(name));
+    };
+    for (int k = 2; !is_free(); ++k) name = fmt::format("{}_{}", base, k);
+    taken.insert(name);
     if (name != base)
       repairs.push_back({line, fmt::format("two {}s are named '{}'; the later one is '{}' here",
                                            kind, base, name)});

@@ -224,14 +224,11 @@ class RowReader {
     const bool last = i + 1 == scans_.size();
     const bool without_end = last && line == text_.lines.size() && !text_.ends_with_line;
     if (without_end) {
-      const bool complete = rows_.rows_said && *rows_.rows_said == static_cast<double>(kept + 1) &&
-                            row.cells == width() && kept > 0 &&
-                            !looks_cut(line_of(i), line_of(i - 1));
-      if (!complete && kept > 0) {
-        note(line, std::string(kLastRowLeftOut));
-        return false;
-      }
-      note(line, std::string(kLastRowKept));
+      const bool counted = rows_.rows_said && row.cells == width() &&
+                           *rows_.rows_said == static_cast<double>(kept + 1);
+      LastRow judged = last_row_without_end(text_, counted, kept == 0);
+      numbers_.repairs.push_back(std::move(judged.note));
+      if (!judged.kept) return false;
     }
     if (row.filled > width())
       throw ReadError(
@@ -370,6 +367,14 @@ bool has_no_cell(std::string_view line, char separator) {
   return std::all_of(line.begin(), line.end(), [&](char c) {
     return c == separator || c == ' ' || c == '\t' || c == '\r' || c == '"';
   });
+}
+
+LastRow last_row_without_end(const TableText& text, bool counted, bool only_row) {
+  const std::size_t line = text.lines.size();
+  const bool complete =
+      counted && line > 1 && !looks_cut(text.lines[line - 1], text.lines[line - 2]);
+  const bool kept = only_row || complete;
+  return {kept, {line, std::string(kept ? kLastRowKept : kLastRowLeftOut)}};
 }
 
 TableNumbers read_rows(const TableText& text,

@@ -29,6 +29,16 @@ struct TableText {
 /// True for a line of nothing but separators and blanks.
 [[nodiscard]] bool has_no_cell(std::string_view line, char separator);
 
+/// The last row of a text that stops inside it.
+struct LastRow {
+  bool kept = false;
+  Repair note;
+};
+
+/// Keeps the last row, with a note, if it is the only one, or if the header counts it (`counted`)
+/// and its last number has as many decimals as the row above; else leaves it out.
+[[nodiscard]] LastRow last_row_without_end(const TableText& text, bool counted, bool only_row);
+
 /// What a row with fewer cells than the header is.
 enum class ShortRow {
   refused,  ///< An error.

@@ -4,13 +4,14 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <set>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
 #include "myoid/core/units.h"
+#include "myoid/tables/table_layout.h"
+#include "myoid/tables/text_table.h"
 
 namespace myoid::recording {
 namespace {
@@ -19,7 +20,7 @@ constexpr double kGap = std::numeric_limits<double>::quiet_NaN();
 
 /// Key line and value line of the header as pairs: word by word where there are as many values as
 /// keys, however they are separated (real files have two tabs between values), else cell by cell.
-std::map<std::string, std::string> read_header(std::string_view keys,
+std::map<std::string, std::string> read_fields(std::string_view keys,
                                                std::string_view values,
                                                char separator) {
   std::map<std::string, std::string> header;
@@ -105,20 +106,12 @@ std::vector<std::string> read_names(const std::vector<std::string_view>& lines,
     if (!placed.empty()) names = std::move(placed);
   }
   std::size_t made_up = 0;
-  std::set<std::string> seen;
   for (std::size_t m = 0; m < names.size(); ++m) {
-    if (names[m].empty()) {
-      names[m] = fmt::format("marker_{}", m + 1);
-      ++made_up;
-    }
-    const std::string name = names[m];
-    for (int k = 2; !seen.insert(names[m]).second; ++k) {
-      names[m] = fmt::format("{}_{}", name, k);
-      repairs.push_back(
-          {kNumber,
-           fmt::format("two markers are named '{}'; the later one is '{}' here", name, names[m])});
-    }
+    if (!names[m].empty()) continue;
+    names[m] = fmt::format("marker_{}", m + 1);
+    ++made_up;
   }
+  names = unique_names(names, "marker", kNumber, repairs);
   if (made_up > 0)
     repairs.push_back({kNumber, fmt::format("{} of {} markers have no name; called 'marker_N' by "
                                             "their place, marker 1 in the columns behind Time",
@@ -126,10 +119,22 @@ std::vector<std::string> read_names(const std::vector<std::string_view>& lines,
   return names;
 }
 
-}  // namespace
+/// The five lines above the frames.
+struct Header {
+  char separator = '\t';
+  std::map<std::string, std::string> fields;
+  ScaledUnit unit;  ///< Of the coordinates.
+  std::vector<std::string> names;
+  std::size_t first_frame = 5;  ///< Index of the first line of numbers.
+  std::vector<Repair> repairs;
 
-TrcFile parse_trc(std::string_view text, const std::filesystem::path& path) {
-  const std::vector<std::string_view> lines = split_lines(text);
+  [[nodiscard]] std::string field(const std::string& key) const {
+    const auto it = fields.find(key);
+    return it == fields.end() ? std::string() : it->second;
+  }
+};
+
+Header read_header(const std::vector<std::string_view>& lines, const std::filesystem::path& path) {
   if (lines.empty() || !trim(lines[0]).starts_with("PathFileType")) {
     throw ReadError(
         path, 1,
@@ -139,158 +144,219 @@ TrcFile parse_trc(std::string_view text, const std::filesystem::path& path) {
   }
   if (lines.size() < 5)
     throw ReadError(path, lines.size(), "the file is cut off: its header has five lines");
-  TrcFile file;
-  const char separator =
-      lines[1].find('\t') == std::string_view::npos && lines[1].find(',') != std::string_view::npos
-          ? ','
-          : '\t';
-  if (separator == ',') file.repairs.push_back({2, "separated by commas instead of tabs"});
-  const auto header = read_header(lines[1], lines[2], separator);
-  const auto field = [&](const std::string& key) {
-    const auto it = header.find(key);
-    return it == header.end() ? std::string() : it->second;
-  };
-  file.unit = field("Units");
-  const auto unit = parse_unit(file.unit);
+  Header header;
+  if (lines[1].find('\t') == std::string_view::npos &&
+      lines[1].find(',') != std::string_view::npos) {
+    header.separator = ',';
+    header.repairs.push_back({2, "separated by commas instead of tabs"});
+  }
+  header.fields = read_fields(lines[1], lines[2], header.separator);
+  const auto unit = parse_unit(header.field("Units"));
   if (!unit || unit->unit != Unit::meter) {
-    throw ReadError(
-        path, 3, fmt::format("Units: found '{}', expected mm or m; correct the header", file.unit));
+    throw ReadError(path, 3,
+                    fmt::format("Units: found '{}', expected mm or m; correct the header",
+                                header.field("Units")));
   }
-  file.rate_hz = parse_number(field("DataRate")).value_or(0.0);
-  MarkerSeries& markers = file.markers;
-  markers.names = read_names(lines, separator, path, file.repairs);
-  if (markers.names.empty()) throw ReadError(path, 4, "there are no markers after Frame# and Time");
-  if (const auto said = parse_number(field("NumMarkers"));
-      said && *said != static_cast<double>(markers.names.size())) {
-    file.repairs.push_back(
-        {3, fmt::format("the header says {} markers, there are {}", *said, markers.names.size())});
+  header.unit = *unit;
+  header.names = read_names(lines, header.separator, path, header.repairs);
+  if (header.names.empty()) throw ReadError(path, 4, "there are no markers after Frame# and Time");
+  if (const auto said = parse_number(header.field("NumMarkers"));
+      said && *said != static_cast<double>(header.names.size())) {
+    header.repairs.push_back(
+        {3, fmt::format("the header says {} markers, there are {}", *said, header.names.size())});
   }
-  if (trim(lines[4]).starts_with("X0")) file.repairs.push_back({5, "coordinates numbered from 0"});
-
+  if (trim(lines[4]).starts_with("X0"))
+    header.repairs.push_back({5, "coordinates numbered from 0"});
   // Some exporters leave out the line X1 Y1 Z1 ...: then the fifth line is a frame already.
-  const auto fifth = split(lines[4], separator);
-  const bool no_axes = fifth.size() > 2 && parse_number(fifth[0]) && parse_number(fifth[1]);
-  if (no_axes) file.repairs.push_back({5, "the line X1 Y1 Z1 ... is missing"});
+  const auto fifth = split(lines[4], header.separator);
+  if (fifth.size() > 2 && parse_number(fifth[0]) && parse_number(fifth[1])) {
+    header.first_frame = 4;
+    header.repairs.push_back({5, "the line X1 Y1 Z1 ... is missing"});
+  }
+  return header;
+}
 
-  const std::size_t width = 3 * markers.names.size();
-  std::vector<double> time;
-  Eigen::MatrixXd values(static_cast<Eigen::Index>(lines.size()), static_cast<Eigen::Index>(width));
-  std::size_t zero_line = 0;
-  std::size_t repeated_line = 0;
-  std::size_t short_line = 0;
-  std::size_t surplus_line = 0;
-  std::size_t comma_line = 0;
-  std::size_t partial_line = 0;
-  const auto frames_said = parse_number(field("NumFrames"));
-  const auto number_of = [&](std::string_view cell, std::size_t line) {
+/// Reads the frames, and keeps the first line of each kind of mending.
+class TrcFrames {
+ public:
+  TrcFrames(const Header& header, const std::filesystem::path& path)
+      : header_(header),
+        path_(path),
+        width_(3 * header.names.size()),
+        frames_said_(parse_number(header.field("NumFrames"))) {}
+
+  void read(const TableText& text) {
+    const auto& lines = text.lines;
+    values_.resize(static_cast<Eigen::Index>(lines.size()), static_cast<Eigen::Index>(width_));
+    for (std::size_t n = header_.first_frame; n < lines.size(); ++n) {
+      if (lines[n].find_first_not_of(" \t,\r") == std::string_view::npos) continue;
+      const auto cells = split(lines[n], header_.separator);
+      const bool last = n + 1 == lines.size();
+      if (last && !text.ends_with_line && !keeps_last(text, cells.size())) break;
+      const double time = time_of(cells, lines[n], n + 1);
+      if (repeats(time, n + 1)) continue;
+      if (cells.size() < width_ + 2) {
+        if (last) {
+          leave_out_last(cells.size(), n + 1);
+          break;
+        }
+        mark(short_line_, n + 1);
+      }
+      read_coordinates(cells, n + 1);
+      mark_missing(n + 1);
+      time_.push_back(time);
+    }
+    if (time_.empty())
+      throw ReadError(path_, lines.size(),
+                      "there are no frames after the header; export the file again");
+    state_what_was_mended();
+  }
+
+  [[nodiscard]] const std::vector<Repair>& repairs() const { return repairs_; }
+
+  [[nodiscard]] MarkerSeries markers() const {
+    const auto frames = static_cast<Eigen::Index>(time_.size());
+    MarkerSeries markers;
+    markers.names = header_.names;
+    markers.time_s = Eigen::Map<const Eigen::VectorXd>(time_.data(), frames);
+    markers.positions_m = values_.topRows(frames);
+    return markers;
+  }
+
+ private:
+  std::optional<double> number_of(std::string_view cell, std::size_t line) {
     auto number = parse_number(cell);
-    if (!number && separator != ',') {
+    if (!number && header_.separator != ',') {
       number = parse_comma_number(cell);
-      if (number && comma_line == 0) comma_line = line;
+      if (number) mark(comma_line_, line);
     }
     return number;
-  };
-  for (std::size_t n = no_axes ? 4 : 5; n < lines.size(); ++n) {
-    if (trim(lines[n]).empty()) continue;
-    if (lines[n].find_first_not_of(" \t,\r") == std::string_view::npos) continue;
-    const auto cells = split(lines[n], separator);
-    if (n + 1 == lines.size() && !ends_with_line(text)) {
-      const bool complete = frames_said && *frames_said == static_cast<double>(time.size() + 1) &&
-                            cells.size() >= width + 2 && !looks_cut(lines[n], lines[n - 1]);
-      if (!complete && !time.empty()) {
-        file.repairs.push_back({n + 1, std::string(kLastRowLeftOut)});
-        break;
-      }
-      file.repairs.push_back({n + 1, std::string(kLastRowKept)});
-    }
+  }
+
+  bool keeps_last(const TableText& text, std::size_t cells) {
+    const bool complete = frames_said_ && cells >= width_ + 2 &&
+                          *frames_said_ == static_cast<double>(time_.size() + 1);
+    const LastRow last = last_row_without_end(text, complete, time_.empty());
+    repairs_.push_back(last.note);
+    return last.kept;
+  }
+
+  /// A last row that ends early belongs to a file that was cut off: its last number may be cut too.
+  void leave_out_last(std::size_t cells, std::size_t line) {
+    repairs_.push_back(
+        {line, fmt::format("the last row has {} of {} cells and is left out", cells, width_ + 2)});
+  }
+
+  double time_of(const std::vector<std::string_view>& cells,
+                 std::string_view row,
+                 std::size_t line) {
     if (cells.size() < 2)
-      throw ReadError(path, n + 1,
-                      fmt::format("expected frame, time and {} coordinates, found '{}'", width,
-                                  trim(lines[n])));
-    const auto now = number_of(cells[1], n + 1);
-    if (!now || !std::isfinite(*now))
-      throw ReadError(path, n + 1,
+      throw ReadError(
+          path_, line,
+          fmt::format("expected frame, time and {} coordinates, found '{}'", width_, trim(row)));
+    const auto time = number_of(cells[1], line);
+    if (!time || !std::isfinite(*time))
+      throw ReadError(path_, line,
                       fmt::format("expected the time as a number, found '{}'", trim(cells[1])));
-    if (!time.empty() && *now <= time.back()) {
-      if (*now < time.back()) {
-        throw ReadError(
-            path, n + 1,
-            fmt::format("time goes backwards: {} s after {} s; sort the rows or split the file",
-                        *now, time.back()));
-      }
-      if (repeated_line == 0) repeated_line = n + 1;
-      continue;
-    }
-    if (cells.size() < width + 2) {
-      if (n + 1 == lines.size()) {
-        // The last row of a file that was cut off: its last number may be cut off too.
-        file.repairs.push_back(
-            {n + 1, fmt::format("the last row has {} of {} cells and is left out", cells.size(),
-                                width + 2)});
-        break;
-      }
-      if (short_line == 0) short_line = n + 1;
-    }
-    const auto row = static_cast<Eigen::Index>(time.size());
-    for (std::size_t c = 0; c < width; ++c) {
+    return *time;
+  }
+
+  /// True for the time of the row before. Throws ReadError for an earlier one.
+  bool repeats(double time, std::size_t line) {
+    if (time_.empty() || time > time_.back()) return false;
+    if (time < time_.back())
+      throw ReadError(
+          path_, line,
+          fmt::format("time goes backwards: {} s after {} s; sort the rows or split the file", time,
+                      time_.back()));
+    mark(repeated_line_, line);
+    return true;
+  }
+
+  /// Fills the next row; a cell that is empty or not there is a gap.
+  void read_coordinates(const std::vector<std::string_view>& cells, std::size_t line) {
+    const auto row = static_cast<Eigen::Index>(time_.size());
+    for (std::size_t c = 0; c < width_; ++c) {
+      const std::string_view cell = c + 2 < cells.size() ? trim(cells[c + 2]) : std::string_view();
       double value = kGap;
-      if (c + 2 < cells.size()) {
-        const std::string_view cell = trim(cells[c + 2]);
-        if (!cell.empty()) {
-          const auto number = number_of(cell, n + 1);
-          if (!number) {
-            throw ReadError(path, n + 1,
-                            fmt::format("expected a number for {} of marker '{}', found '{}'",
-                                        "XYZ"[c % 3], markers.names[c / 3], cell));
-          }
-          value = *number * unit->to_si;
-        }
+      if (!cell.empty()) {
+        const auto number = number_of(cell, line);
+        if (!number)
+          throw ReadError(path_, line,
+                          fmt::format("expected a number for {} of marker '{}', found '{}'",
+                                      "XYZ"[c % 3], header_.names[c / 3], cell));
+        value = *number * header_.unit.to_si;
       }
-      values(row, static_cast<Eigen::Index>(c)) = value;
+      values_(row, static_cast<Eigen::Index>(c)) = value;
     }
-    for (std::size_t m = 0; m < markers.names.size(); ++m) {
-      auto position = values.block<1, 3>(row, static_cast<Eigen::Index>(3 * m));
+    for (std::size_t c = width_ + 2; c < cells.size() && surplus_line_ == 0; ++c) {
+      if (!trim(cells[c]).empty()) surplus_line_ = line;
+    }
+  }
+
+  /// Makes a marker of the next row a gap where it stands at 0 0 0 or lacks a coordinate.
+  void mark_missing(std::size_t line) {
+    const auto row = static_cast<Eigen::Index>(time_.size());
+    for (std::size_t m = 0; m < header_.names.size(); ++m) {
+      auto position = values_.block<1, 3>(row, static_cast<Eigen::Index>(3 * m));
       const bool zero = (position.array() == 0.0).all();
-      if (zero && zero_line == 0) zero_line = n + 1;
-      if (position.hasNaN() && !position.array().isNaN().all() && partial_line == 0)
-        partial_line = n + 1;
+      if (zero) mark(zero_line_, line);
+      if (position.hasNaN() && !position.array().isNaN().all()) mark(partial_line_, line);
       if (zero || !position.allFinite()) position.setConstant(kGap);
     }
-    for (std::size_t c = width + 2; c < cells.size() && surplus_line == 0; ++c) {
-      if (!trim(cells[c]).empty()) surplus_line = n + 1;
-    }
-    time.push_back(*now);
   }
-  if (time.empty())
-    throw ReadError(path, lines.size(),
-                    "there are no frames after the header; export the file again");
-  if (zero_line > 0)
-    file.repairs.push_back({zero_line, "a marker at exactly 0 0 0 is taken as missing"});
-  if (comma_line > 0) file.repairs.push_back({comma_line, "comma decimals read as decimal points"});
-  if (short_line > 0)
-    file.repairs.push_back(
-        {short_line, "a row ends early; the markers behind its end are taken as missing"});
-  if (partial_line > 0)
-    file.repairs.push_back(
-        {partial_line, "a marker has only some of its coordinates; taken as missing"});
-  if (surplus_line > 0)
-    file.repairs.push_back(
-        {surplus_line, "a row has more numbers than there are markers; the surplus is ignored"});
-  if (repeated_line > 0)
-    file.repairs.push_back({repeated_line, "a time stands twice; the first row is kept"});
-  const auto frames = static_cast<Eigen::Index>(time.size());
-  if (frames_said && *frames_said != static_cast<double>(frames)) {
-    file.repairs.push_back(
-        {3, fmt::format("the header says {} frames, there are {}", *frames_said, frames)});
+
+  void state_what_was_mended() {
+    note(zero_line_, "a marker at exactly 0 0 0 is taken as missing");
+    note(comma_line_, "comma decimals read as decimal points");
+    note(short_line_, "a row ends early; the markers behind its end are taken as missing");
+    note(partial_line_, "a marker has only some of its coordinates; taken as missing");
+    note(surplus_line_, "a row has more numbers than there are markers; the surplus is ignored");
+    note(repeated_line_, "a time stands twice; the first row is kept");
+    const std::size_t frames = time_.size();
+    if (frames_said_ && *frames_said_ != static_cast<double>(frames))
+      repairs_.push_back(
+          {3, fmt::format("the header says {} frames, there are {}", *frames_said_, frames)});
+    const double rate =
+        frames < 2 ? 0.0 : static_cast<double>(frames - 1) / (time_.back() - time_[0]);
+    const double said = parse_number(header_.field("DataRate")).value_or(0.0);
+    if (rate > 0.0 && said > 0.0 && std::abs(rate - said) > 0.05 * said)
+      repairs_.push_back(
+          {3, fmt::format("the header says {} Hz, the times {:.6g} Hz; the times are taken", said,
+                          rate)});
   }
-  const double rate = frames < 2 ? 0.0 : static_cast<double>(frames - 1) / (time.back() - time[0]);
-  if (rate > 0.0 && file.rate_hz > 0.0 && std::abs(rate - file.rate_hz) > 0.05 * file.rate_hz) {
-    file.repairs.push_back({3, fmt::format("the header says {} Hz, the times {:.6g} Hz; the times "
-                                           "are taken",
-                                           file.rate_hz, rate)});
+
+  static void mark(std::size_t& first, std::size_t line) {
+    if (first == 0) first = line;
   }
-  markers.time_s = Eigen::Map<const Eigen::VectorXd>(time.data(), frames);
-  markers.positions_m = values.topRows(frames);
+  void note(std::size_t line, const char* message) {
+    if (line > 0) repairs_.push_back({line, message});
+  }
+
+  const Header& header_;
+  const std::filesystem::path& path_;
+  std::size_t width_;
+  std::optional<double> frames_said_;
+  std::vector<double> time_;
+  Eigen::MatrixXd values_;
+  std::vector<Repair> repairs_;
+  std::size_t zero_line_ = 0, repeated_line_ = 0, short_line_ = 0;
+  std::size_t surplus_line_ = 0, comma_line_ = 0, partial_line_ = 0;
+};
+
+}  // namespace
+
+TrcFile parse_trc(std::string_view text, const std::filesystem::path& path) {
+  const TableText table(text);
+  const Header header = read_header(table.lines, path);
+  TrcFrames frames(header, path);
+  frames.read(table);
+  TrcFile file;
+  file.markers = frames.markers();
+  file.rate_hz = parse_number(header.field("DataRate")).value_or(0.0);
+  file.unit = header.field("Units");
+  for (const auto* repairs : {&header.repairs, &frames.repairs()})
+    file.repairs.insert(file.repairs.end(), repairs->begin(), repairs->end());
   return file;
 }
 

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <initializer_list>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "myoid/files/text_file.h"
+
+namespace myoid::recording {
+
+/// The lines of a .mot or .sto file up to `endheader`.
+struct StorageHeader {
+  std::string title;                         ///< First line, if it is free text.
+  std::map<std::string, std::string> keys;   ///< key=value pairs.
+  std::map<std::string, std::string> units;  ///< Of columns with a line "channel NAME [unit]".
+  bool in_degrees = false;                   ///< `inDegrees=yes`, or a .mot of the old SIMM kind.
+  std::size_t elements = 1;                  ///< Numbers in a cell, by DataType: 3 for Vec3.
+  std::size_t end = 0;                       ///< Index of the line `endheader`.
+  std::vector<Repair> repairs;
+
+  /// The number of the first of these keys that is there, whatever its case.
+  [[nodiscard]] std::optional<double> count(std::initializer_list<const char*> names) const;
+};
+
+/// Throws ReadError if there is no `endheader` or `inDegrees` is neither yes nor no.
+[[nodiscard]] StorageHeader read_storage_header(const std::vector<std::string_view>& lines,
+                                                const std::filesystem::path& path);
+
+}  // namespace myoid::recording
