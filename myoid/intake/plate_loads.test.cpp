@@ -181,10 +181,10 @@ TEST_F(PlateLoads, ComeFromTheFileThatTheTrialNames) {
                         "[[trial]]\nname = \"t\"\nmotion = \"m.mot\"\nemg = \"e.sto\"\n"
                         "force_plates = { file = \"walk.c3d\", bodies = [\"forearm_hand\"] }\n",
                     folder / "study.toml");
-    std::vector<std::string> notes;
+    std::vector<Remark> remarks;
     int files = 0;
     const auto given = read_trial_loads(
-        study, study.trials[0], arm, std::nullopt, [&](const auto&) { ++files; }, notes);
+        study, study.trials[0], arm, std::nullopt, [&](const auto&) { ++files; }, remarks);
     ASSERT_TRUE(given);
     expect_the_load(*given, 1.0, 1e-3);
     EXPECT_EQ(files, 1);

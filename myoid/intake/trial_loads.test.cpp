@@ -54,7 +54,7 @@ class LoadCellTrial : public ::testing::Test {
 
   [[nodiscard]] std::optional<dynamics::ExternalLoads> loads(const Study& study) {
     return read_trial_loads(
-        study, study.trials[0], arm, std::nullopt, [&](const auto&) { ++files; }, notes);
+        study, study.trials[0], arm, std::nullopt, [&](const auto&) { ++files; }, remarks);
   }
 
   std::string refusal(const Study& study) {
@@ -68,7 +68,7 @@ class LoadCellTrial : public ::testing::Test {
 
   test::TemporaryFolder folder;
   model::BodyModel arm = model::parse_osim(model::arm4_osim(), "arm4.osim");
-  std::vector<std::string> notes;
+  std::vector<Remark> remarks;
   int files = 0;
 };
 
