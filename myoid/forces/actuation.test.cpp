@@ -22,14 +22,11 @@ model::BodyModel driven_tree() {
                         {.name = "b", .body = 2, .p_BP = u.vec()},
                         {.name = "c", .body = 3, .p_BP = u.vec()}};
   m.muscles.push_back(muscle);
-  m.actuators.push_back({.name = "motor", .coordinate = 4});
+  m.actuators.push_back({{.name = "motor"}, 4});
+  const Vec3 rocket_point = u.vec();
   m.point_actuators.push_back(
-      {.name = "rocket", .body = 3, .point = u.vec(), .direction = u.vec().normalized()});
-  m.torque_actuators.push_back({.name = "wheel",
-                                .body_a = 4,
-                                .body_b = 2,
-                                .axis = u.vec().normalized(),
-                                .torque_is_global = false});
+      {{.name = "rocket"}, 3, rocket_point, false, u.vec().normalized(), false});
+  m.torque_actuators.push_back({{.name = "wheel"}, 4, 2, u.vec().normalized(), false});
   m.force_order = {"muscle", "motor", "rocket", "wheel"};
   return model::finalize(m);
 }

@@ -109,7 +109,7 @@ TEST(JointReactions, CouplersShapeTheAccelerations) {
   m.gravity_G.setZero();
   m.couplers.push_back(
       {.name = "c", .dependent = 1, .independent = 0, .function = model::Linear{2.0, 0.0}});
-  m.actuators.push_back({.name = "motor", .coordinate = 0, .optimal_force = 1.0});
+  m.actuators.push_back({{.name = "motor"}, 0});
   m.force_order = {"motor"};
   m = model::finalize(m);
   const auto loads = joint_reactions(
@@ -147,7 +147,7 @@ TEST(JointReactions, WhatClosesALoopCarriesItsShare) {
 // A motor turns a hinge whose tip ground guides along y, so that nothing moves.
 TEST(JointReactions, AGuideOfTheTipAnswersAMotorInTheHinge) {
   model::BodyModel m = pendulum(1);
-  m.actuators.push_back({.name = "motor", .coordinate = 0, .optimal_force = 1.0});
+  m.actuators.push_back({{.name = "motor"}, 0});
   m.force_order = {"motor"};
   m.constraints = {{"guide", "PointOnLineConstraint",
                     model::LineConstraint{.body1 = 0,

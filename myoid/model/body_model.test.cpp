@@ -6,6 +6,9 @@
 #include <gtest/gtest.h>
 
 #include "myoid/core/error.h"
+#include "myoid/model/force_laws.h"
+#include "myoid/model/muscle_properties.h"
+#include "myoid/model/path_geometry.h"
 
 namespace myoid::model {
 namespace {

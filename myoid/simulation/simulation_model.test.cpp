@@ -146,7 +146,7 @@ TEST(SimulationModel, WhatIsNotSimulatedIsRefusedOrSaid) {
   loop.constraints = {{.name = "grip", .class_name = "PointConstraint", .law = {}}};
   EXPECT_THROW((void)make_simulation_model(loop), ModelError);
   model::BodyModel motor = arm4();
-  motor.actuators.push_back({.name = "motor", .coordinate = 3});
+  motor.actuators.push_back({{.name = "motor"}, 3});
   EXPECT_EQ(make_simulation_model(motor).idle_actuators, 1U);
   model::BodyModel sprung = arm4();
   sprung.passive_forces = {
