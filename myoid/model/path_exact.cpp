@@ -11,19 +11,56 @@
 namespace myoid::model {
 namespace {
 
-/// Whether the way over the object is the shortest, so that the tangent points' own motion does not
+/// True if the way over the object is the shortest: motion of the tangent points then does not
 /// change the length.
 bool is_shortest(const WrapObject& object) {
   return std::holds_alternative<CylinderShape>(object.shape) ||
          std::holds_alternative<SphereShape>(object.shape);
 }
 
-/// What a pass knows of an object: without contact, in contact, or left out for good.
+/// State of an object in the passes: without contact, in contact, or left out for good.
 enum ContactState : char { kFree = 0, kTouching = 1, kLeftOut = 2 };
 
-/// Puts the contact of one wrap, if there is any, where it was in the pass before, else where it
-/// lengthens the path least. Returns how far its tangent points are from where they were.
-/// `final_loss`: an object that loses its contact now has lost it for good.
+/// The search for the segment over which an object lengthens a path least.
+class SegmentSearch {
+ public:
+  SegmentSearch(const WrapObject& object,
+                WrapMethod method,
+                const Pose& X_GW,
+                const std::vector<PathStation>& stations)
+      : object_(object), method_(method), X_WG_(X_GW.inverse()), stations_(stations) {}
+
+  /// Compares segment i with the best one; false: the segment has no contact.
+  bool consider(int i) {
+    if (stations_[at(i)].on_wrap_after) return false;
+    const Vec3 p_W = X_WG_ * stations_[at(i)].p_G;
+    const Vec3 q_W = X_WG_ * stations_[at(i + 1)].p_G;
+    const auto contact = contact_over(object_, method_, p_W, q_W);
+    if (!contact) return false;
+    const double change = (contact->first_W - p_W).norm() + contact->arc_length_m +
+                          (q_W - contact->second_W).norm() - (q_W - p_W).norm();
+    if (change < best_change_) {
+      best_change_ = change;
+      segment = i;
+      best = *contact;
+    }
+    return true;
+  }
+
+  int segment = -1;  ///< The best one; -1 without contact.
+  WrapContact best;  ///< Its contact.
+
+ private:
+  const WrapObject& object_;
+  WrapMethod method_;
+  Pose X_WG_;
+  const std::vector<PathStation>& stations_;
+  double best_change_ = std::numeric_limits<double>::infinity();
+};
+
+/// Puts the contact of one wrap on its segment of the previous pass or, without contact there, on
+/// the segment that lengthens the path least. Returns how far its tangent points have moved.
+/// `final_loss`: an object that loses its contact in this pass is left out of all further passes.
 double insert_wrap(const BodyModel& model,
                    const MusclePath& path,
                    int number,
@@ -44,58 +81,32 @@ double insert_wrap(const BodyModel& model,
   if (!object.active || known == kLeftOut) return 0.0;
   const auto [begin, end] = station_range(path, wrap, stations);
   const Pose X_GW = state.X_GB[at(object.body)] * object.X_BW;
-  const Pose X_WG = X_GW.inverse();
-  int best = -1;
-  double best_change = std::numeric_limits<double>::infinity();
-  WrapContact best_contact;
-  const auto consider = [&](int i) {
-    if (stations[at(i)].on_wrap_after) return false;
-    const Vec3 p_W = X_WG * stations[at(i)].p_G;
-    const Vec3 q_W = X_WG * stations[at(i + 1)].p_G;
-    const auto contact = contact_over(object, wrap.method, p_W, q_W);
-    if (!contact) return false;
-    const double change = (contact->first_W - p_W).norm() + contact->arc_length_m +
-                          (q_W - contact->second_W).norm() - (q_W - p_W).norm();
-    if (change < best_change) {
-      best_change = change;
-      best = i;
-      best_contact = *contact;
-    }
-    return true;
-  };
+  SegmentSearch search(object, wrap.method, X_GW, stations);
   const bool was_there = known == kTouching;
-  const bool stays = was_there && former >= begin && former < end && consider(former);
+  const bool stays = was_there && former >= begin && former < end && search.consider(former);
   if (!stays && !(was_there && final_loss)) {
     for (int i = begin; i < end; ++i) {
-      // The first piece that cuts an ellipsoid takes it.
-      if (consider(i) && std::holds_alternative<EllipsoidShape>(object.shape)) break;
+      // An ellipsoid wraps the first segment that cuts the surface.
+      if (search.consider(i) && std::holds_alternative<EllipsoidShape>(object.shape)) break;
     }
   }
-  known = best >= 0 ? kTouching : was_there && final_loss ? kLeftOut : kFree;
-  if (best < 0) return was_there ? std::numeric_limits<double>::infinity() : 0.0;
-  PathStation first;
-  first.body = object.body;
-  first.wrap = number;
-  first.p_B = object.X_BW * best_contact.first_W;
-  first.p_G = X_GW * best_contact.first_W;
-  PathStation second = first;
-  second.p_B = object.X_BW * best_contact.second_W;
-  second.p_G = X_GW * best_contact.second_W;
-  first.on_wrap_after = true;
-  first.arc_after_m = best_contact.arc_length_m;
-  // Another segment is no rest, even at the same place: two objects may change places for ever.
+  known = search.segment >= 0 ? kTouching : was_there && final_loss ? kLeftOut : kFree;
+  if (search.segment < 0) return was_there ? std::numeric_limits<double>::infinity() : 0.0;
+  const auto contact = contact_stations(object, number, X_GW, search.best.first_W,
+                                        search.best.second_W, search.best.arc_length_m);
+  const auto& [first, second] = contact;
+  // A change of segment counts as motion, even to the same place: two objects may change places.
   const double moved =
       stays ? std::max((first.p_G - before[0]).norm(), (second.p_G - before[1]).norm())
             : std::numeric_limits<double>::infinity();
   before = {first.p_G, second.p_G};
-  const auto where = stations.begin() + best + 1;
-  stations.insert(stations.insert(where, second), first);
+  insert_behind(stations, search.segment, contact);
   return moved;
 }
 
-/// Each object in turn against its neighbors as they stand, until the tangent points rest. Objects
-/// may push the path off each other in a circle, each in contact only without the other: then the
-/// one that loses its contact first after some passes is left out. False: they do not rest.
+/// Fits each object in turn to its current neighbors until the tangent points rest. Two objects may
+/// push the path off each other, each in contact only without the other: the object that first
+/// loses its contact after some passes is then left out. False: the tangent points do not rest.
 bool wrap_all(const BodyModel& model,
               const MusclePath& path,
               const BodyState& state,
@@ -107,7 +118,7 @@ bool wrap_all(const BodyModel& model,
   constexpr int kPatientPasses = 8;
   const int passes = path.wraps.size() == 1 ? 1 : kMostPasses;
   for (int pass = 0; pass < passes; ++pass) {
-    // Where the passes creep, a step of Newton's method on all tangent points at once.
+    // Slow passes: a step of Newton's method on all tangent points at once.
     if (pass >= kPatientPasses && pass % 3 == 0) refine_contacts(model, path, state, workspace);
     double moved = 0.0;
     for (std::size_t w = 0; w < path.wraps.size(); ++w)
@@ -143,16 +154,7 @@ void compute_exact_path(const BodyModel& model,
     const Vec3 u = straight_direction(a, b);
     if (u.isZero(0.0)) continue;
     add_pair_moment(model, state, a.body, a.p_G, b.body, b.p_G, u, result.moment_arm_m);
-    const auto add_moving = [&](const PathStation& s, double sign) {
-      if (s.source < 0) return;
-      const PathPoint& point = path.points[at(s.source)];
-      if (point.moving && point.moving->coordinate >= 0) {
-        result.moment_arm_m[point.moving->coordinate] -=
-            sign * u.dot(moving_rate(model, point, state, false));
-      }
-    };
-    add_moving(b, 1.0);
-    add_moving(a, -1.0);
+    add_moving_moments(model, path, state, a, b, u, false, result.moment_arm_m);
   }
   if (!shortest) add_contact_motion(model, path, state, stations, result.moment_arm_m);
   result.speed_mps = -result.moment_arm_m.dot(state.qdot);

@@ -116,4 +116,49 @@ Vec3 moving_rate(const BodyModel& model,
   return state.X_GB[at(point.body)].R * (moving.X_BF.R * rate);
 }
 
+std::array<PathStation, 2> contact_stations(const WrapObject& object,
+                                            int number,
+                                            const Pose& X_GW,
+                                            const Vec3& first_W,
+                                            const Vec3& second_W,
+                                            double arc_length_m) {
+  PathStation first;
+  first.body = object.body;
+  first.wrap = number;
+  first.p_B = object.X_BW * first_W;
+  first.p_G = X_GW * first_W;
+  PathStation second = first;
+  second.p_B = object.X_BW * second_W;
+  second.p_G = X_GW * second_W;
+  first.on_wrap_after = true;
+  first.arc_after_m = arc_length_m;
+  return {first, second};
+}
+
+void insert_behind(std::vector<PathStation>& stations,
+                   int station,
+                   const std::array<PathStation, 2>& contact) {
+  const auto where = stations.begin() + station + 1;
+  stations.insert(stations.insert(where, contact[1]), contact[0]);
+}
+
+void add_moving_moments(const BodyModel& model,
+                        const MusclePath& path,
+                        const BodyState& state,
+                        const PathStation& a,
+                        const PathStation& b,
+                        const Vec3& u,
+                        bool beyond_range,
+                        Eigen::VectorXd& arm) {
+  const auto add = [&](const PathStation& s, double sign) {
+    if (s.source < 0) return;
+    const PathPoint& point = path.points[at(s.source)];
+    if (point.moving && point.moving->coordinate >= 0) {
+      arm[point.moving->coordinate] -= sign * u.dot(moving_rate(model, point, state, beyond_range));
+    }
+  };
+  add(b, 1.0);
+  add(a, -1.0);
+}
+
 }  // namespace myoid::model

@@ -10,15 +10,15 @@
 
 namespace myoid::model {
 
-/// A point the path runs through at this posture.
+/// A point of the path at this posture.
 struct PathStation {
   BodyIndex body = 0;
   Vec3 p_B = Vec3::Zero();
   Vec3 p_G = Vec3::Zero();
   int source = -1;             ///< Number in the path's points, or -1 for a tangent point.
   int wrap = -1;               ///< Number in the path's wraps for a tangent point.
-  bool on_wrap_after = false;  ///< From here to the next station the path lies on the object,
-  double arc_after_m = 0.0;    ///< for this length.
+  bool on_wrap_after = false;  ///< True: the path to the next station lies on the object.
+  double arc_after_m = 0.0;    ///< Length of that arc.
 };
 
 /// Space for computing paths, reused from call to call without allocation; one per thread. After a
@@ -35,9 +35,9 @@ struct PathResult {
   double length_m = 0.0;         ///< Musculotendon length.
   double speed_mps = 0.0;        ///< dl/dt at state.qdot, lengthening positive.
   Eigen::VectorXd moment_arm_m;  ///< r = -dl/dq per coordinate; torque = r times tendon force.
-  bool wrapped = false;          ///< It lies on a wrap object.
-  /// The tangent points on several objects have come to rest. Where they cannot (objects that push
-  /// the path off each other), the length is that of the last of many passes and may jump.
+  bool wrapped = false;          ///< True if the path touches a wrap object.
+  /// True if the tangent points on several objects came to rest. Objects that push the path off
+  /// each other prevent rest; the length is then taken after the last pass and may jump.
   bool settled = true;
 };
 
@@ -47,8 +47,8 @@ void place_points(const BodyModel& model,
                   const BodyState& state,
                   PathWorkspace& workspace);
 
-/// First and last station between which a wrap may act: its range counts all points, 1-based, and
-/// is drawn in to the active ones. {0, -1} if there is none.
+/// First and last station between which a wrap may act: the wrap's range counts all points from 1
+/// and shrinks to the active points. {0, -1} if the range holds none.
 struct StationRange {
   int begin = 0;
   int end = -1;
@@ -60,9 +60,9 @@ struct StationRange {
 /// Sum of the straight pieces and of the arcs.
 [[nodiscard]] double length_of(const std::vector<PathStation>& stations);
 
-/// Adds to `arm` minus the derivative by each coordinate of u . (p_b - p_a), where the points are
-/// fixed in bodies a and b: exactly zero for coordinates that do not move one against the other,
-/// where u points from one to the other.
+/// Adds to `arm` minus the derivative of u . (p_b - p_a) by each coordinate. The points are fixed
+/// in the bodies a and b, and u is the direction from a to b. Coordinates that do not move the
+/// bodies against each other get exactly zero.
 void add_pair_moment(const BodyModel& model,
                      const BodyState& state,
                      BodyIndex a,
@@ -72,11 +72,36 @@ void add_pair_moment(const BodyModel& model,
                      const Vec3& u_G,
                      Eigen::VectorXd& arm);
 
-/// Derivative of a moving point's location by its coordinate, in ground; `beyond_range`: also where
-/// the coordinate has left its range (as OpenSim).
+/// The two stations of the contact of wrap `number` with an object, whose frame W has the pose X_GW
+/// in ground: tangent points and arc.
+[[nodiscard]] std::array<PathStation, 2> contact_stations(const WrapObject& object,
+                                                          int number,
+                                                          const Pose& X_GW,
+                                                          const Vec3& first_W,
+                                                          const Vec3& second_W,
+                                                          double arc_length_m);
+
+/// Inserts two stations behind a station.
+void insert_behind(std::vector<PathStation>& stations,
+                   int station,
+                   const std::array<PathStation, 2>& contact);
+
+/// Derivative of a moving point's location by its coordinate, in ground. `beyond_range`: nonzero
+/// also outside the coordinate's range, as in OpenSim.
 [[nodiscard]] Vec3 moving_rate(const BodyModel& model,
                                const PathPoint& point,
                                const BodyState& state,
                                bool beyond_range);
+
+/// Adds to `arm` the moments of two moving points, a and b, by the coordinates that they follow; u
+/// is the direction from a to b. Other stations have none.
+void add_moving_moments(const BodyModel& model,
+                        const MusclePath& path,
+                        const BodyState& state,
+                        const PathStation& a,
+                        const PathStation& b,
+                        const Vec3& u,
+                        bool beyond_range,
+                        Eigen::VectorXd& arm);
 
 }  // namespace myoid::model

@@ -39,7 +39,7 @@ class Wrapping {
       const double length = length_of(w_.stations);
       if (std::abs(length - last) < kSettled_m) return;
       last = length;
-      // An object that had no contact because the next has a point inside it comes after it.
+      // The first object has no contact because the second has a point inside: their order changes.
       if (pass == 0 && passes > 1 && first == WrapAction::none && second == WrapAction::inside) {
         w_.order[0] = 1;
         w_.order[1] = 0;
@@ -59,8 +59,8 @@ class Wrapping {
            path_.wraps[at(a.wrap)].wrap_object == path_.wraps[at(b.wrap)].wrap_object;
   }
 
-  /// One object against the path as it stands. False: the range holds no active point, and OpenSim
-  /// leaves the path as it is.
+  /// Wraps the current path around one object. False: the range holds no active point, and OpenSim
+  /// changes nothing.
   bool apply(int number, WrapAction& action) {
     const PathWrap& wrap = path_.wraps[at(number)];
     const WrapObject& object = model_.wrap_objects[at(wrap.wrap_object)];
@@ -109,16 +109,9 @@ class Wrapping {
               const Pose& X_GW,
               const OpenSimContact& contact,
               int segment) {
-    PathStation first;
-    first.body = object.body;
-    first.wrap = number;
-    first.p_B = object.X_BW * contact.first_W;
-    first.p_G = X_GW * contact.first_W;
-    PathStation second = first;
-    second.p_B = object.X_BW * contact.second_W;
-    second.p_G = X_GW * contact.second_W;
-    first.on_wrap_after = true;
-    first.arc_after_m = contact.arc_length_m;
+    auto stations = contact_stations(object, number, X_GW, contact.first_W, contact.second_W,
+                                     contact.arc_length_m);
+    auto& [first, second] = stations;
     auto& seen = w_.first_seen_G[at(number)];
     if (w_.is_seen[at(number)] == 0) {
       seen = {first.p_G, second.p_G};
@@ -128,8 +121,7 @@ class Wrapping {
       first.p_G = seen[0];
       second.p_G = seen[1];
     }
-    const auto where = w_.stations.begin() + segment + 1;
-    w_.stations.insert(w_.stations.insert(where, second), first);
+    insert_behind(w_.stations, segment, stations);
   }
 
   const BodyModel& model_;
@@ -181,16 +173,7 @@ void compute_opensim_path(const BodyModel& model,
       add_pair_moment(model, state, a.body, state.X_GB[at(a.body)] * a.p_B, b.body,
                       state.X_GB[at(b.body)] * b.p_B, u, result.moment_arm_m);
     }
-    const auto add_moving = [&](const PathStation& s, double sign) {
-      if (s.source < 0) return;
-      const PathPoint& point = path.points[at(s.source)];
-      if (point.moving && point.moving->coordinate >= 0) {
-        result.moment_arm_m[point.moving->coordinate] -=
-            sign * u.dot(moving_rate(model, point, state, true));
-      }
-    };
-    add_moving(b, 1.0);
-    add_moving(a, -1.0);
+    add_moving_moments(model, path, state, a, b, u, true, result.moment_arm_m);
   }
 }
 
