@@ -71,8 +71,8 @@ std::vector<Pair> pair_markers(const model::BodyModel& model,
   return pairs;
 }
 
-/// Postures to begin with where there is no better one: the default posture, that moved a little,
-/// and that turned about the vertical by the root joint.
+/// Postures to begin with without a previous frame: the default posture, a posture near it, and the
+/// default posture turned about the vertical by the root joint.
 std::vector<Eigen::VectorXd> fresh_starts(const model::BodyModel& model) {
   const Eigen::VectorXd rest = model.default_q();
   std::vector<Eigen::VectorXd> starts{rest, Eigen::VectorXd(rest.array() + 0.3)};
@@ -105,10 +105,111 @@ bool better(const PoseFit::Pose& a, const PoseFit::Pose& b) {
          a.cost < b.cost * (1.0 - 1e-9);
 }
 
-/// Another minimum is preferred to the one nearest to the start only where it is plainly the
-/// better.
+/// True if a pose replaces the minimum nearest to the start: at half of its cost or less.
 bool much_better(const PoseFit::Pose& a, const PoseFit::Pose& b) {
   return a.converged && a.cost < 0.5 * b.cost;
+}
+
+void check_tasks(const model::BodyModel& model,
+                 const std::vector<CoordinateTask>& tasks,
+                 Eigen::Index frames) {
+  for (const CoordinateTask& task : tasks) {
+    (void)model.coordinate_index(task.coordinate);
+    if (!(task.weight >= 0.0))
+      throw InvalidInput(fmt::format("coordinate '{}': weight {}, expected 0 or more",
+                                     task.coordinate, task.weight));
+    if (task.values.size() != 0 && task.values.size() != frames)
+      throw InvalidInput(fmt::format("coordinate '{}': {} target values for {} frames",
+                                     task.coordinate, task.values.size(), frames));
+  }
+}
+
+/// The frames of one recording in their order; each begins at the posture of the one before.
+class FrameSequence {
+ public:
+  FrameSequence(const model::BodyModel& model, const IkOptions& options, PoseFit& fit)
+      : barrier_(options.range_barrier),
+        fit_(fit),
+        posture_(model.default_q()),
+        fresh_(fresh_starts(model)) {}
+
+  /// The posture of the latest frame.
+  [[nodiscard]] const Eigen::VectorXd& posture() const { return posture_; }
+
+  /// The pose for the targets of `fit`; other starts are tried in the first frame, after a jump of
+  /// the cost, and where the search fails.
+  PoseFit::Pose next() {
+    PoseFit::Pose pose = solve_from(posture_);
+    const bool jumped = pose.cost > 4.0 * cost_before_ + 1e-8;
+    if (!std::isfinite(cost_before_) || !pose.converged || jumped) {
+      for (const Eigen::VectorXd& start : fresh_) {
+        PoseFit::Pose again = solve_from(start);
+        if (pose.converged ? much_better(again, pose) : better(again, pose))
+          pose = std::move(again);
+      }
+    }
+    pose.cost = fit_.place(pose.q);
+    if (!std::isfinite(cost_before_)) fit_.unwind(pose);
+    cost_before_ = pose.cost;
+    fit_.place(pose.q);
+    posture_ = pose.q;
+    return pose;
+  }
+
+ private:
+  PoseFit::Pose solve_from(const Eigen::VectorXd& start) {
+    return barrier_ > 0.0 ? fit_.solve_inside(start, barrier_) : fit_.solve(start);
+  }
+
+  double barrier_;
+  PoseFit& fit_;
+  Eigen::VectorXd posture_;
+  std::vector<Eigen::VectorXd> fresh_;
+  double cost_before_ = std::numeric_limits<double>::infinity();
+};
+
+/// Squared error, its root mean square, the largest error, then the error of each pair.
+Eigen::RowVectorXd error_row(const PoseFit& fit) {
+  const auto pairs = static_cast<Eigen::Index>(fit.pairs().size());
+  Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(3 + pairs);
+  double total = 0.0;
+  double largest = 0.0;
+  for (Eigen::Index i = 0; i < pairs; ++i) {
+    const double error = fit.error(at(i));
+    row[3 + i] = error;
+    if (!std::isfinite(error)) continue;
+    total += error * error;
+    largest = std::max(largest, error);
+  }
+  row[0] = total;
+  row[1] = std::sqrt(total / fit.seen_count());
+  row[2] = largest;
+  return row;
+}
+
+std::vector<Channel> coordinate_channels(const model::BodyModel& model) {
+  std::vector<Channel> channels;
+  for (const model::Coordinate& coordinate : model.coordinates)
+    channels.push_back({coordinate.name, coordinate_unit(coordinate, 0)});
+  return channels;
+}
+
+std::vector<Channel> error_channels(const model::BodyModel& model, const std::vector<Pair>& pairs) {
+  std::vector<Channel> channels{{"total_squared_error", Unit::dimensionless},
+                                {"marker_error_RMS", Unit::meter},
+                                {"marker_error_max", Unit::meter}};
+  for (const Pair& pair : pairs) channels.push_back({model.markers[pair.model].name, Unit::meter});
+  return channels;
+}
+
+std::vector<Channel> location_channels(const model::BodyModel& model,
+                                       const std::vector<Pair>& pairs) {
+  std::vector<Channel> channels;
+  for (const Pair& pair : pairs) {
+    for (const char* axis : {"_tx", "_ty", "_tz"})
+      channels.push_back({model.markers[pair.model].name + axis, Unit::meter});
+  }
+  return channels;
 }
 
 }  // namespace
@@ -117,32 +218,17 @@ IkResult inverse_kinematics(const model::BodyModel& model,
                             const recording::MarkerSeries& markers,
                             const IkOptions& options) {
   IkResult result;
-  for (const CoordinateTask& task : options.tasks) {
-    (void)model.coordinate_index(task.coordinate);
-    if (!(task.weight >= 0.0))
-      throw InvalidInput(fmt::format("coordinate '{}': weight {}, expected 0 or more",
-                                     task.coordinate, task.weight));
-    if (task.values.size() != 0 && task.values.size() != markers.frame_count())
-      throw InvalidInput(fmt::format("coordinate '{}': {} target values for {} frames",
-                                     task.coordinate, task.values.size(), markers.frame_count()));
-  }
+  const Eigen::Index frames = markers.frame_count();
+  check_tasks(model, options.tasks, frames);
   PoseFit fit(model, options, pair_markers(model, markers, options, result.notes));
   if (fit.free().empty())
     throw ModelError("inverse kinematics: every coordinate of the model is locked");
-  const Eigen::Index frames = markers.frame_count();
-  const auto coordinates = static_cast<Eigen::Index>(model.coordinates.size());
   const auto pairs = static_cast<Eigen::Index>(fit.pairs().size());
-  Eigen::MatrixXd q(frames, coordinates);
+  Eigen::MatrixXd q(frames, static_cast<Eigen::Index>(model.coordinates.size()));
   Eigen::MatrixXd errors = Eigen::MatrixXd::Zero(frames, 3 + pairs);
   Eigen::MatrixXd locations(frames, 3 * pairs);
-  Eigen::VectorXd posture = model.default_q();
   std::vector<bool> undetermined(fit.free().size(), false);
-  const std::vector<Eigen::VectorXd> fresh = fresh_starts(model);
-  double cost_before = std::numeric_limits<double>::infinity();
-  const auto solve_from = [&](const Eigen::VectorXd& start) {
-    return options.range_barrier > 0.0 ? fit.solve_inside(start, options.range_barrier)
-                                       : fit.solve(start);
-  };
+  FrameSequence sequence(model, options, fit);
   for (Eigen::Index frame = 0; frame < frames; ++frame) {
     if (frame % 256 == 0) {
       options.progress.check();
@@ -154,62 +240,25 @@ IkResult inverse_kinematics(const model::BodyModel& model,
       result.status.push_back(FrameStatus::no_markers);
       result.objective.push_back(0.0);
       ++result.frames_without_markers;
-      q.row(frame) = posture;
+      q.row(frame) = sequence.posture();
       errors.row(frame).setConstant(std::numeric_limits<double>::quiet_NaN());
-      fit.place(posture);
+      fit.place(sequence.posture());
       fit.locate(locations, frame);
       continue;
     }
-    PoseFit::Pose pose = solve_from(posture);
-    const bool jumped = pose.cost > 4.0 * cost_before + 1e-8;
-    if (!std::isfinite(cost_before) || !pose.converged || jumped) {
-      for (const Eigen::VectorXd& start : fresh) {
-        PoseFit::Pose again = solve_from(start);
-        if (pose.converged ? much_better(again, pose) : better(again, pose))
-          pose = std::move(again);
-      }
-    }
-    pose.cost = fit.place(pose.q);
-    if (!std::isfinite(cost_before)) fit.unwind(pose);
-    cost_before = pose.cost;
-    fit.place(pose.q);
+    const PoseFit::Pose pose = sequence.next();
     if (frame % 16 == 0 || frame + 1 == frames) fit.collect_undetermined(undetermined);
-    posture = pose.q;
-    q.row(frame) = posture;
+    q.row(frame) = pose.q;
     result.status.push_back(pose.converged ? FrameStatus::converged : FrameStatus::not_converged);
     if (!pose.converged) ++result.frames_not_converged;
     result.objective.push_back(0.5 * pose.cost);
-    double total = 0.0;
-    double largest = 0.0;
-    for (Eigen::Index i = 0; i < pairs; ++i) {
-      const double error = fit.error(at(i));
-      errors(frame, 3 + i) = error;
-      if (!std::isfinite(error)) continue;
-      total += error * error;
-      largest = std::max(largest, error);
-    }
+    errors.row(frame) = error_row(fit);
     fit.locate(locations, frame);
-    errors(frame, 0) = total;
-    errors(frame, 1) = std::sqrt(total / fit.seen_count());
-    errors(frame, 2) = largest;
   }
-  std::vector<Channel> channels;
-  for (const model::Coordinate& coordinate : model.coordinates)
-    channels.push_back({coordinate.name, coordinate_unit(coordinate, 0)});
-  result.q = TimeSeries(markers.time_s, std::move(channels), std::move(q));
-  std::vector<Channel> error_channels{{"total_squared_error", Unit::dimensionless},
-                                      {"marker_error_RMS", Unit::meter},
-                                      {"marker_error_max", Unit::meter}};
-  std::vector<Channel> location_channels;
-  for (const Pair& pair : fit.pairs()) {
-    const std::string& name = model.markers[pair.model].name;
-    error_channels.push_back({name, Unit::meter});
-    for (const char* axis : {"_tx", "_ty", "_tz"})
-      location_channels.push_back({name + axis, Unit::meter});
-  }
-  result.errors = TimeSeries(markers.time_s, std::move(error_channels), std::move(errors));
+  result.q = TimeSeries(markers.time_s, coordinate_channels(model), std::move(q));
+  result.errors = TimeSeries(markers.time_s, error_channels(model, fit.pairs()), std::move(errors));
   result.marker_locations =
-      TimeSeries(markers.time_s, std::move(location_channels), std::move(locations));
+      TimeSeries(markers.time_s, location_channels(model, fit.pairs()), std::move(locations));
   for (std::size_t k = 0; k < undetermined.size(); ++k) {
     if (undetermined[k]) result.undetermined.push_back(model.coordinates[at(fit.free()[k])].name);
   }

@@ -12,6 +12,79 @@
 #include "myoid/model/muscle_path.h"
 
 namespace myoid::kinematics {
+namespace {
+
+/// Lengths, velocities and moment arms of all muscles, frames x muscles.
+struct MuscleTables {
+  MuscleTables(Eigen::Index frames, const model::BodyModel& model)
+      : length(frames, std::ssize(model.muscles)),
+        velocity(frames, std::ssize(model.muscles)),
+        arms(model.coordinates.size(), Eigen::MatrixXd(frames, std::ssize(model.muscles))) {}
+
+  Eigen::MatrixXd length, velocity;
+  std::vector<Eigen::MatrixXd> arms;  ///< Per coordinate.
+};
+
+/// The muscles of one thread, frame by frame.
+class MuscleFrames {
+ public:
+  MuscleFrames(const model::BodyModel& model,
+               const std::vector<PathSurrogate>* surrogates,
+               MuscleTables& tables)
+      : model_(model),
+        surrogates_(surrogates),
+        tables_(tables),
+        state_(model::make_state(model)),
+        is_coupled_(!model.couplers.empty() || !model.constraints.empty()) {}
+
+  void compute(const JointMotion& motion, Eigen::Index frame) {
+    model::compute_poses(model_, motion.q.values().row(frame).transpose(), state_);
+    model::compute_velocities(model_, motion.qdot.values().row(frame).transpose(), state_);
+    if (is_coupled_) coupling_ = model::coupling_matrix(model_, state_);
+    for (std::size_t m = 0; m < model_.muscles.size(); ++m) {
+      compute_path(m);
+      if (is_coupled_) path_.moment_arm_m = (coupling_.transpose() * path_.moment_arm_m).eval();
+      const auto column = static_cast<Eigen::Index>(m);
+      tables_.length(frame, column) = path_.length_m;
+      tables_.velocity(frame, column) = path_.speed_mps;
+      for (std::size_t c = 0; c < tables_.arms.size(); ++c)
+        tables_.arms[c](frame, column) = path_.moment_arm_m[static_cast<Eigen::Index>(c)];
+    }
+  }
+
+  /// Number of paths computed by polynomials.
+  [[nodiscard]] long from_surrogates() const { return from_surrogates_; }
+
+ private:
+  void compute_path(std::size_t muscle) {
+    const PathSurrogate* surrogate = surrogates_ ? &(*surrogates_)[muscle] : nullptr;
+    if (surrogate && surrogate->within_tolerance && covers(model_, *surrogate, state_.q)) {
+      evaluate(*surrogate, state_.q, state_.qdot, surrogate_workspace_, path_);
+      ++from_surrogates_;
+    } else {
+      model::compute_path(model_, model_.muscles[muscle].path, state_, workspace_, path_);
+    }
+  }
+
+  const model::BodyModel& model_;
+  const std::vector<PathSurrogate>* surrogates_;
+  MuscleTables& tables_;
+  model::BodyState state_;
+  bool is_coupled_;
+  Eigen::MatrixXd coupling_;
+  model::PathWorkspace workspace_;
+  model::PathResult path_;
+  SurrogateWorkspace surrogate_workspace_;
+  long from_surrogates_ = 0;
+};
+
+std::vector<Channel> muscle_channels(const model::BodyModel& model, Unit unit) {
+  std::vector<Channel> channels;
+  for (const model::Muscle& muscle : model.muscles) channels.push_back({muscle.name, unit});
+  return channels;
+}
+
+}  // namespace
 
 MuscleKinematics muscle_kinematics(const model::BodyModel& model,
                                    const JointMotion& motion,
@@ -21,62 +94,29 @@ MuscleKinematics muscle_kinematics(const model::BodyModel& model,
                                    model.muscles.size(), options.surrogates->size()));
   }
   const Eigen::Index frames = motion.sample_count();
-  const auto muscles = static_cast<Eigen::Index>(model.muscles.size());
-  const auto coordinates = static_cast<Eigen::Index>(model.coordinates.size());
-  Eigen::MatrixXd length(frames, muscles);
-  Eigen::MatrixXd velocity(frames, muscles);
-  std::vector<Eigen::MatrixXd> arms(static_cast<std::size_t>(coordinates),
-                                    Eigen::MatrixXd(frames, muscles));
+  MuscleTables tables(frames, model);
   std::atomic<long> from_surrogates = 0;
   std::atomic<Eigen::Index> done = 0;
   parallel_ranges<Eigen::Index>(frames, 64, [&](const auto& range) {
-    model::BodyState state = model::make_state(model);
-    model::PathWorkspace workspace;
-    model::PathResult path;
-    SurrogateWorkspace surrogate_workspace;
-    long replaced = 0;
+    MuscleFrames muscles(model, options.surrogates, tables);
     options.progress.check();
-    const bool is_coupled = !model.couplers.empty() || !model.constraints.empty();
-    Eigen::MatrixXd coupling;
-    for (Eigen::Index frame = range.begin(); frame != range.end(); ++frame) {
-      model::compute_poses(model, motion.q.values().row(frame).transpose(), state);
-      model::compute_velocities(model, motion.qdot.values().row(frame).transpose(), state);
-      if (is_coupled) coupling = model::coupling_matrix(model, state);
-      for (Eigen::Index m = 0; m < muscles; ++m) {
-        const auto number = static_cast<std::size_t>(m);
-        const PathSurrogate* surrogate =
-            options.surrogates ? &(*options.surrogates)[number] : nullptr;
-        if (surrogate && surrogate->within_tolerance && covers(model, *surrogate, state.q)) {
-          evaluate(*surrogate, state.q, state.qdot, surrogate_workspace, path);
-          ++replaced;
-        } else {
-          model::compute_path(model, model.muscles[number].path, state, workspace, path);
-        }
-        if (is_coupled) path.moment_arm_m = (coupling.transpose() * path.moment_arm_m).eval();
-        length(frame, m) = path.length_m;
-        velocity(frame, m) = path.speed_mps;
-        for (Eigen::Index c = 0; c < coordinates; ++c)
-          arms[static_cast<std::size_t>(c)](frame, m) = path.moment_arm_m[c];
-      }
-    }
-    from_surrogates += replaced;
+    for (Eigen::Index frame = range.begin(); frame != range.end(); ++frame)
+      muscles.compute(motion, frame);
+    from_surrogates += muscles.from_surrogates();
     done += static_cast<Eigen::Index>(range.size());
     options.progress.tell(static_cast<double>(done) / static_cast<double>(frames), "muscle paths");
   });
-  const auto channels = [&](Unit unit) {
-    std::vector<Channel> result;
-    for (const model::Muscle& muscle : model.muscles) result.push_back({muscle.name, unit});
-    return result;
-  };
   const Eigen::VectorXd& time = motion.q.time_s();
-  MuscleKinematics result{TimeSeries(time, channels(Unit::meter), std::move(length)),
-                          TimeSeries(time, channels(Unit::meter_per_second), std::move(velocity)),
-                          {},
-                          from_surrogates};
+  const std::vector<Channel> meters = muscle_channels(model, Unit::meter);
+  MuscleKinematics result{
+      TimeSeries(time, meters, std::move(tables.length)),
+      TimeSeries(time, muscle_channels(model, Unit::meter_per_second), std::move(tables.velocity)),
+      {},
+      from_surrogates};
   for (std::size_t c = 0; c < model.coordinates.size(); ++c) {
     if (model.coordinates[c].locked) continue;
     result.moment_arm.emplace(model.coordinates[c].name,
-                              TimeSeries(time, channels(Unit::meter), std::move(arms[c])));
+                              TimeSeries(time, meters, std::move(tables.arms[c])));
   }
   return result;
 }

@@ -148,7 +148,7 @@ double PoseFit::cost_at(const Eigen::VectorXd& q) {
   return cost;
 }
 
-/// How the point of a chain's body that lies at the origin of ground moves with a coordinate.
+/// Velocity per rate of a coordinate of the point of a chain's body at the origin of ground.
 Vec3 PoseFit::origin_rate(const Chain& chain, std::size_t place) const {
   const std::size_t c = at(chain.coordinates[place]);
   return state_.H_v_G[c] + state_.X_GB[chain.body_of[place]].p.cross(state_.H_w_G[c]);
@@ -163,14 +163,8 @@ PoseFit::Pull& PoseFit::Pull::operator+=(const Pull& other) {
   return *this;
 }
 
-/// Derivatives of J at the posture of the last cost_at(q).
-void PoseFit::linearize(const Eigen::VectorXd& q) {
-  const auto n = static_cast<Eigen::Index>(free_.size());
-  update_gains(q);
-  gradient_.setZero(n);
-  gauss_.setZero(n, n);
-  bend_.setZero(n, n);
-  // All about the origin of ground: what the markers outboard of a coordinate ask for adds up.
+/// Sums up the pulls of the markers on each body, all about the origin of ground.
+void PoseFit::gather_pulls() {
   std::fill(pulls_.begin(), pulls_.end(), Pull{});
   for (std::size_t i = 0; i < pairs_.size(); ++i) {
     if (!seen_[i]) continue;
@@ -184,6 +178,47 @@ void PoseFit::linearize(const Eigen::VectorXd& q) {
     pull.force += force;
     pull.lever += p_G * force.transpose();
   }
+}
+
+/// Adds the derivatives by the coordinate at place b of a chain, also mixed with those before it.
+void PoseFit::add_coordinate(const Chain& chain, std::size_t b, const Pull& pull) {
+  const int cb = chain.coordinates[b];
+  const int kb = reduced_[at(cb)];
+  if (kb < 0) return;
+  // A marker at r moves by v + w x r.
+  const Vec3 w = gain_[cb] * state_.H_w_G[at(cb)];
+  const Vec3 v = gain_[cb] * origin_rate(chain, b);
+  const Vec3 moved = pull.weight * v + w.cross(pull.first);
+  const Vec3 turned = pull.first.cross(v) + pull.second.trace() * w - pull.second * w;
+  const Vec3 bent = v.cross(pull.force) + pull.lever * w - pull.lever.trace() * w;
+  const Vec3 torque(pull.lever(1, 2) - pull.lever(2, 1), pull.lever(2, 0) - pull.lever(0, 2),
+                    pull.lever(0, 1) - pull.lever(1, 0));
+  gradient_[kb] += v.dot(pull.force) + w.dot(torque);
+  for (std::size_t a = 0; a <= b; ++a) {
+    const int ca = chain.coordinates[a];
+    const int ka = reduced_[at(ca)];
+    if (ka < 0) continue;
+    const Vec3& w_a = state_.H_w_G[at(ca)];
+    const double first = gain_[ca] * (origin_rate(chain, a).dot(moved) + w_a.dot(turned));
+    // The column of an outer coordinate turns with a: it changes by w_a x column.
+    const double second = gain_[ca] * w_a.dot(bent);
+    gauss_(ka, kb) += first;
+    bend_(ka, kb) += second;
+    if (a != b) {
+      gauss_(kb, ka) += first;
+      bend_(kb, ka) += second;
+    }
+  }
+}
+
+/// Derivatives of J at the posture of the last cost_at(q).
+void PoseFit::linearize(const Eigen::VectorXd& q) {
+  const auto n = static_cast<Eigen::Index>(free_.size());
+  update_gains(q);
+  gradient_.setZero(n);
+  gauss_.setZero(n, n);
+  bend_.setZero(n, n);
+  gather_pulls();
   for (std::size_t j = model_.joints.size(); j-- > 0;) {
     const model::Joint& joint = model_.joints[j];
     const Chain& chain = chains_[at(joint.child)];
@@ -192,33 +227,7 @@ void PoseFit::linearize(const Eigen::VectorXd& q) {
     if (pull.weight == 0.0) continue;
     for (std::size_t b = chain.coordinates.size(); b-- > 0;) {
       if (chain.body_of[b] != at(joint.child)) break;
-      const int cb = chain.coordinates[b];
-      const int kb = reduced_[at(cb)];
-      if (kb < 0) continue;
-      // A marker at r moves by v + w x r.
-      const Vec3 w = gain_[cb] * state_.H_w_G[at(cb)];
-      const Vec3 v = gain_[cb] * origin_rate(chain, b);
-      const Vec3 moved = pull.weight * v + w.cross(pull.first);
-      const Vec3 turned = pull.first.cross(v) + pull.second.trace() * w - pull.second * w;
-      const Vec3 bent = v.cross(pull.force) + pull.lever * w - pull.lever.trace() * w;
-      const Vec3 torque(pull.lever(1, 2) - pull.lever(2, 1), pull.lever(2, 0) - pull.lever(0, 2),
-                        pull.lever(0, 1) - pull.lever(1, 0));
-      gradient_[kb] += v.dot(pull.force) + w.dot(torque);
-      for (std::size_t a = 0; a <= b; ++a) {
-        const int ca = chain.coordinates[a];
-        const int ka = reduced_[at(ca)];
-        if (ka < 0) continue;
-        const Vec3& w_a = state_.H_w_G[at(ca)];
-        const double first = gain_[ca] * (origin_rate(chain, a).dot(moved) + w_a.dot(turned));
-        // What is farther out turns with a: its column changes by w_a x column.
-        const double second = gain_[ca] * w_a.dot(bent);
-        gauss_(ka, kb) += first;
-        bend_(ka, kb) += second;
-        if (a != b) {
-          gauss_(kb, ka) += first;
-          bend_(kb, ka) += second;
-        }
-      }
+      add_coordinate(chain, b, pull);
     }
   }
   for (std::size_t j = 0; j < task_index_.size(); ++j) {
@@ -265,6 +274,94 @@ Eigen::MatrixXd PoseFit::allowed_directions(const Eigen::VectorXd& q) const {
   return basis.rightCols(n - qr.rank());
 }
 
+/// Free coordinates at an end of their range whose descent leads beyond: they stay.
+std::vector<bool> PoseFit::held_at_ends(const Eigen::VectorXd& q) const {
+  std::vector<bool> held(free_.size(), false);
+  for (std::size_t k = 0; k < free_.size(); ++k) {
+    const auto& coordinate = model_.coordinates[at(free_[k])];
+    const double value = q[free_[k]];
+    const double slope = gradient_[static_cast<Eigen::Index>(k)];
+    held[k] = coordinate.clamped && ((value <= coordinate.lower && slope > 0.0) ||
+                                     (value >= coordinate.upper && slope < 0.0));
+  }
+  return held;
+}
+
+/// The damped step of the free coordinates from q; empty where the matrix is not positive definite.
+/// `N` spans the allowed steps (no columns: all). Held coordinates get no step and no gradient.
+std::optional<Eigen::VectorXd> PoseFit::damped_step(const Eigen::VectorXd& q,
+                                                    const std::vector<bool>& held,
+                                                    const Eigen::MatrixXd& N,
+                                                    bool second_order,
+                                                    double shift) {
+  Eigen::MatrixXd hessian = second_order ? Eigen::MatrixXd(gauss_ + bend_) : gauss_;
+  for (Eigen::Index k = 0; k < hessian.rows(); ++k) {
+    if (!held[at(k)]) continue;
+    gradient_[k] = 0.0;
+    hessian.row(k).setZero();
+    hessian.col(k).setZero();
+    hessian(k, k) = 1.0;
+  }
+  Eigen::VectorXd right = -gradient_;
+  if (N.size() > 0) {
+    hessian = (N.transpose() * hessian * N).eval();
+    right = (N.transpose() * right).eval();
+  }
+  hessian.diagonal().array() += shift;
+  const Eigen::LLT<Eigen::MatrixXd> factor(hessian);
+  if (factor.info() != Eigen::Success) return std::nullopt;
+  Eigen::VectorXd step = factor.solve(right);
+  if (N.size() > 0) step = (N * step).eval();
+  // Two nearly parallel axes determine only the sum of their angles: a full step would turn them
+  // against each other by any number of turns.
+  const double farthest = farthest_turn(step);
+  if (farthest > kLongestTurn_rad) step *= kLongestTurn_rad / farthest;
+  if (barrier_.acts()) step *= barrier_.longest_share(q, step);
+  return step;
+}
+
+/// One iteration: increases the damping until the cost falls or no step changes the pose.
+void PoseFit::descend(Pose& pose, double& damping) {
+  linearize(pose.q);
+  const std::vector<bool> held = held_at_ends(pose.q);
+  const Eigen::MatrixXd N =
+      model_.constraints.empty() ? Eigen::MatrixXd() : allowed_directions(pose.q);
+  const double size = std::max(gauss_.diagonal().maxCoeff(), 1e-300);
+  bool second_order = true;
+  for (;;) {
+    const auto step = damped_step(pose.q, held, N, second_order, (damping + 1e-13) * size);
+    if (!step) {
+      // Not convex here: the first-order part is, with some damping.
+      if (second_order) {
+        second_order = false;
+      } else {
+        damping = std::max(10.0 * damping, 1e-10);
+      }
+      continue;
+    }
+    Eigen::VectorXd q = moved(pose.q, *step);
+    const double distance = (q - pose.q).cwiseAbs().maxCoeff();
+    const double cost = cost_at(q);
+    if (cost <= pose.cost) {
+      // A full Newton step leaves an error of the order of its square.
+      const bool newton = second_order && damping == 0.0 && N.size() == 0 && !barrier_.acts();
+      pose.converged = distance <= (newton ? kLastNewton : kSame);
+      pose.q = std::move(q);
+      pose.cost = cost;
+      damping = damping < 1e-9 ? 0.0 : 0.1 * damping;
+      return;
+    }
+    if (distance <= 1e-8 || damping > 1e12) {
+      // Round-off decides between equal costs.
+      pose.converged = true;
+      (void)cost_at(pose.q);
+      return;
+    }
+    if (second_order && damping > 1e-6) second_order = false;
+    damping = std::max(10.0 * damping, 1e-8);
+  }
+}
+
 PoseFit::Pose PoseFit::solve(Eigen::VectorXd start) {
   obey(start);
   if (barrier_.acts()) {
@@ -273,78 +370,9 @@ PoseFit::Pose PoseFit::solve(Eigen::VectorXd start) {
   }
   Pose pose{std::move(start), 0.0, false};
   pose.cost = cost_at(pose.q);
-  const auto n = static_cast<Eigen::Index>(free_.size());
   double damping = 0.0;
   for (int iteration = 0; iteration < options_.max_iterations; ++iteration) {
-    linearize(pose.q);
-    // Clamped coordinates at their end that are pushed beyond stay.
-    std::vector<bool> held(free_.size(), false);
-    for (Eigen::Index k = 0; k < n; ++k) {
-      const auto& coordinate = model_.coordinates[at(free_[at(k)])];
-      const double value = pose.q[free_[at(k)]];
-      held[at(k)] = coordinate.clamped && ((value <= coordinate.lower && gradient_[k] > 0.0) ||
-                                           (value >= coordinate.upper && gradient_[k] < 0.0));
-    }
-    const auto hold = [&](Eigen::MatrixXd& matrix) {
-      for (Eigen::Index k = 0; k < n; ++k) {
-        if (!held[at(k)]) continue;
-        gradient_[k] = 0.0;
-        matrix.row(k).setZero();
-        matrix.col(k).setZero();
-        matrix(k, k) = 1.0;
-      }
-    };
-    const Eigen::MatrixXd N =
-        model_.constraints.empty() ? Eigen::MatrixXd() : allowed_directions(pose.q);
-    const double size = std::max(gauss_.diagonal().maxCoeff(), 1e-300);
-    bool second_order = true;
-    for (;;) {
-      Eigen::MatrixXd hessian = second_order ? Eigen::MatrixXd(gauss_ + bend_) : gauss_;
-      hold(hessian);
-      Eigen::VectorXd right = -gradient_;
-      if (N.size() > 0) {
-        hessian = (N.transpose() * hessian * N).eval();
-        right = (N.transpose() * right).eval();
-      }
-      hessian.diagonal().array() += (damping + 1e-13) * size;
-      const Eigen::LLT<Eigen::MatrixXd> factor(hessian);
-      if (factor.info() != Eigen::Success) {
-        // Not convex here: the first-order part is, with some damping.
-        if (second_order) {
-          second_order = false;
-        } else {
-          damping = std::max(10.0 * damping, 1e-10);
-        }
-        continue;
-      }
-      Eigen::VectorXd step = factor.solve(right);
-      if (N.size() > 0) step = (N * step).eval();
-      // Where two axes nearly coincide only the sum of their angles is determined: a full step
-      // would turn them against each other by any number of turns.
-      const double farthest = farthest_turn(step);
-      if (farthest > kLongestTurn_rad) step *= kLongestTurn_rad / farthest;
-      if (barrier_.acts()) step *= barrier_.longest_share(pose.q, step);
-      Eigen::VectorXd q = moved(pose.q, step);
-      const double distance = (q - pose.q).cwiseAbs().maxCoeff();
-      const double cost = cost_at(q);
-      if (cost <= pose.cost) {
-        // A full Newton step leaves an error of the order of its square.
-        const bool newton = second_order && damping == 0.0 && N.size() == 0 && !barrier_.acts();
-        pose.converged = distance <= (newton ? kLastNewton : kSame);
-        pose.q = std::move(q);
-        pose.cost = cost;
-        damping = damping < 1e-9 ? 0.0 : 0.1 * damping;
-        break;
-      }
-      if (distance <= 1e-8 || damping > 1e12) {
-        // Round-off decides between equal costs.
-        pose.converged = true;
-        (void)cost_at(pose.q);
-        break;
-      }
-      if (second_order && damping > 1e-6) second_order = false;
-      damping = std::max(10.0 * damping, 1e-8);
-    }
+    descend(pose, damping);
     if (pose.converged) return pose;
   }
   (void)cost_at(pose.q);

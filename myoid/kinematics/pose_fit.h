@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include <Eigen/Core>
@@ -12,8 +13,8 @@
 namespace myoid::kinematics {
 
 /// The least-squares problem of one frame of inverse kinematics, set up once per model and solved
-/// for frame after frame without much allocation. The unknowns are the free coordinates: those that
-/// are neither locked nor prescribed nor the dependent one of a coupler.
+/// frame after frame without much allocation. The unknowns are the free coordinates, which are not
+/// locked, not prescribed and not dependent in a coupler.
 class PoseFit {
  public:
   /// One marker that both the model and the file have.
@@ -24,7 +25,7 @@ class PoseFit {
   };
   struct Pose {
     Eigen::VectorXd q;
-    double cost = 0.0;  ///< 2 J, with the barrier where there is one
+    double cost = 0.0;  ///< 2 J, with the barrier if one acts.
     bool converged = false;
   };
 
@@ -36,23 +37,23 @@ class PoseFit {
   [[nodiscard]] const std::vector<Pair>& pairs() const { return pairs_; }
   [[nodiscard]] const std::vector<Eigen::Index>& free() const { return free_; }
 
-  /// The nearest minimum of J; the start is made to obey locks, ranges and constraints first.
+  /// The nearest minimum of J. The start is first moved to obey locks, ranges and constraints.
   [[nodiscard]] Pose solve(Eigen::VectorXd start);
-  /// The minimum of J and of a barrier at the ends of the ranges (range_barrier.h), reached from
-  /// the minima with stronger ones: they lead to it from the middle of the ranges, along no end.
+  /// The minimum of J plus a barrier at the ends of the ranges (range_barrier.h), reached through
+  /// the minima with stronger barriers, whose path keeps to the middle of the ranges.
   [[nodiscard]] Pose solve_inside(Eigen::VectorXd start, double barrier);
 
-  /// Turns coordinates that lie outside their range back into it, or nearer, by whole turns, where
-  /// that leaves the pose and the cost as they are.
+  /// Brings coordinates outside their range back into it, or nearer, by whole turns that leave pose
+  /// and cost unchanged.
   void unwind(Pose& pose);
 
-  /// Makes q the posture that the functions below speak of; returns 2 J there.
+  /// Sets the posture for the functions below; returns 2 J there.
   double place(const Eigen::VectorXd& q);
   /// Marks the free coordinates with a part in directions that markers and tasks leave open.
   void collect_undetermined(std::vector<bool>& undetermined);
-  /// Distance of a marker from its target; NaN if it was not seen.
+  /// Distance of a marker from its target; NaN for a marker that was not seen.
   [[nodiscard]] double error(std::size_t pair) const;
-  /// Writes where the model's markers lie into a row of a table, x y z of each.
+  /// Writes the places of the model's markers into a row of a table, x y z of each.
   void locate(Eigen::MatrixXd& table, Eigen::Index row) const;
 
  private:
@@ -62,8 +63,8 @@ class PoseFit {
     std::vector<std::size_t> body_of;  ///< Child body of each one's joint.
   };
 
-  /// Sums over the markers of a body and of all that it carries: weights times 1, p and p p', and
-  /// the pulls f = weight (p - target) and p f', about the origin of ground.
+  /// Sums over the markers of a body and of the bodies that it carries: weights times 1, p and p
+  /// p', the pulls f = weight (p - target), and p f', about the origin of ground.
   struct Pull {
     double weight = 0.0;
     Vec3 first = Vec3::Zero(), force = Vec3::Zero();
@@ -74,7 +75,16 @@ class PoseFit {
   void obey(Eigen::VectorXd& q) const;
   double cost_at(const Eigen::VectorXd& q);
   [[nodiscard]] Vec3 origin_rate(const Chain& chain, std::size_t place) const;
+  void gather_pulls();
+  void add_coordinate(const Chain& chain, std::size_t b, const Pull& pull);
   void linearize(const Eigen::VectorXd& q);
+  [[nodiscard]] std::vector<bool> held_at_ends(const Eigen::VectorXd& q) const;
+  [[nodiscard]] std::optional<Eigen::VectorXd> damped_step(const Eigen::VectorXd& q,
+                                                           const std::vector<bool>& held,
+                                                           const Eigen::MatrixXd& N,
+                                                           bool second_order,
+                                                           double shift);
+  void descend(Pose& pose, double& damping);
   void update_gains(const Eigen::VectorXd& q);
   [[nodiscard]] Eigen::VectorXd moved(const Eigen::VectorXd& q, const Eigen::VectorXd& step) const;
   [[nodiscard]] double farthest_turn(const Eigen::VectorXd& step) const;
@@ -88,7 +98,7 @@ class PoseFit {
   std::vector<Eigen::Index> free_;
   RangeBarrier barrier_;
   std::vector<int> reduced_;  ///< Per coordinate: the free coordinate that moves it, or -1.
-  Eigen::VectorXd gain_;      ///< Per coordinate: its rate per rate of that one.
+  Eigen::VectorXd gain_;      ///< Per coordinate: its rate per rate of that free coordinate.
   std::vector<int> coupler_of_;
   std::vector<Chain> chains_;  ///< Per body.
   std::vector<int> task_index_;
@@ -101,7 +111,7 @@ class PoseFit {
   int seen_count_ = 0;
   Eigen::VectorXd gradient_;  ///< Of J, by the free coordinates.
   Eigen::MatrixXd gauss_;     ///< First-order part of the second derivatives of J.
-  Eigen::MatrixXd bend_;      ///< Its rest, from the turning of the chains.
+  Eigen::MatrixXd bend_;      ///< Remaining second derivatives, from the turning of the chains.
   std::vector<Pull> pulls_;   ///< Per body.
 };
 
