@@ -277,7 +277,6 @@ ExternalLoads read_external_loads(const model::BodyModel& model,
   Clock clock;
   if (data.sample_count() > 1) clock.emplace(data.time_s(), data.sample_count() >= 4 ? 3 : 1);
   for (const auto node : OsimXml::objects(set)) {
-    if (node.type() != pugi::node_element) continue;
     const std::string_view kind = node.name();
     const bool is_old = kind == "PrescribedForce";
     if (kind != "ExternalForce" && !is_old)

@@ -69,10 +69,8 @@ void read_coupler(OsimReading& r, pugi::xml_node node, const std::string& name) 
 }  // namespace
 
 void read_constraints(OsimReading& r, pugi::xml_node set) {
-  for (const auto node : OsimXml::objects(set)) {
-    if (node.type() == pugi::node_element)
-      read_constraint(r, node, "/constraintset/" + OsimXml::name_of(node));
-  }
+  for (const auto node : OsimXml::objects(set))
+    read_constraint(r, node, "/constraintset/" + OsimXml::name_of(node));
 }
 
 void read_constraint(OsimReading& r, pugi::xml_node node, const std::string& owner) {

@@ -111,7 +111,6 @@ std::vector<Contact> read_contacts(OsimReading& r, pugi::xml_node force) {
   auto set = force.child("HuntCrossleyForce::ContactParametersSet");
   if (!set) set = force.child("contact_parameters");
   for (const auto parameters : OsimXml::objects(set)) {
-    if (parameters.type() != pugi::node_element) continue;
     for (const std::string& name : r.xml.words(parameters, "geometry")) {
       if (auto surface = read_surface(r, force, name)) {
         surface->material = material_of(r, parameters);

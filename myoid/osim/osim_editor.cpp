@@ -179,7 +179,6 @@ Vec3 OsimEditor::factor_of(const Factors& factors, BodyIndex body) const {
 
 void OsimEditor::scale_wraps(pugi::xml_node holder, const FixedFrame& frame, const Vec3& factor) {
   for (const auto node : OsimXml::objects(holder.child("WrapObjectSet"))) {
-    if (node.type() != pugi::node_element) continue;
     // Factors along the axes of the object itself.
     const Pose X_FW = pose_of(*reading_, node, "translation", "xyz_body_rotation");
     const Vec3 along = stretch((frame.X_BF * X_FW).R, factor);
@@ -225,7 +224,6 @@ void OsimEditor::scale_points(pugi::xml_node force, const Factors& factors) {
     auto points = path.child("PathPointSet");
     if (!points) points = path.child("MusclePointSet");
     for (const auto point : OsimXml::objects(points)) {
-      if (point.type() != pugi::node_element) continue;
       const FixedFrame frame = frame_of(*reading_, point, "parent_frame", owner);
       const Vec3 factor = factor_of(factors, frame.body);
       multiply(xml_, point, "location", factor);

@@ -15,9 +15,7 @@
 namespace myoid::model {
 namespace {
 
-/// Name, strength, bounds and switch that all actuators have.
-template <typename Actuator>
-void read_common(const OsimReading& r, pugi::xml_node node, Actuator& actuator) {
+void read_common(const OsimReading& r, pugi::xml_node node, ActuatorBase& actuator) {
   actuator.name = OsimXml::name_of(node);
   actuator.optimal_force = r.xml.number(node, "optimal_force", 1.0);
   actuator.min_control = r.xml.number(node, "min_control", actuator.min_control);
@@ -135,51 +133,53 @@ Function default_ligament_curve() {
       {0.0, 0.0, 0.0, 0.0, 0.035, 0.12, 0.26, 0.55, 1.17, 2.0, 2.0, 2.0, 2.0});
 }
 
-void read_law(OsimReading& r, pugi::xml_node node) {
-  const std::string kind = node.name();
-  const std::string name = OsimXml::name_of(node);
-  const auto passive = [&](auto law) {
-    if (is_enabled(r, node, "appliesForce"))
-      r.model.passive_forces.push_back({name, kind, std::move(law)});
+int coordinate_of(const OsimReading& r, pugi::xml_node node) {
+  std::string target = r.xml.word(node, "coordinate");
+  if (target.empty()) target = socket(r, node, "coordinate");
+  return coordinate_named(r, node, target);
+}
+
+PointActuator read_point_actuator(const OsimReading& r, pugi::xml_node node) {
+  PointActuator actuator;
+  read_common(r, node, actuator);
+  actuator.body = resolve_frame(r, node, r.xml.word(node, "body"), "").body;
+  actuator.point = r.xml.vec3(node, "point", Vec3::Zero());
+  actuator.point_is_global = r.xml.flag(node, "point_is_global", false);
+  actuator.direction = direction_of(r, node, "direction", Vec3::UnitX());
+  actuator.force_is_global = r.xml.flag(node, "force_is_global", false);
+  return actuator;
+}
+
+TorqueActuator read_torque_actuator(const OsimReading& r, pugi::xml_node node) {
+  TorqueActuator actuator;
+  read_common(r, node, actuator);
+  const auto body = [&](const char* new_name, const char* old_name) {
+    std::string target = r.xml.word(node, new_name);
+    if (target.empty()) target = r.xml.word(node, old_name);
+    return target.empty() ? 0 : resolve_frame(r, node, target, "").body;
   };
-  const auto coordinate = [&] {
-    std::string target = r.xml.word(node, "coordinate");
-    if (target.empty()) target = socket(r, node, "coordinate");
-    return coordinate_named(r, node, target);
-  };
-  if (const std::string path = foreign_path(r, node); !path.empty()) {
-    r.model.unsupported.push_back(fmt::format(
-        "{} '{}' has a path of kind {}, which is not supported: it is left out", kind, name, path));
-  } else if (is_muscle(node)) {
+  actuator.body_a = body("bodyA", "body_A");
+  actuator.body_b = body("bodyB", "body_B");
+  actuator.axis = direction_of(r, node, "axis", Vec3::UnitZ());
+  actuator.torque_is_global = r.xml.flag(node, "torque_is_global", true);
+  return actuator;
+}
+
+/// Reads a muscle or an actuator; false for another class.
+bool read_driven(OsimReading& r, pugi::xml_node node) {
+  const std::string_view kind = node.name();
+  if (is_muscle(node)) {
     r.model.muscles.push_back(read_muscle(r, node));
   } else if (kind == "CoordinateActuator" || kind == "GeneralizedForce" ||
              kind == "ActivationCoordinateActuator") {
     CoordinateActuator actuator;
     read_common(r, node, actuator);
-    actuator.coordinate = coordinate();
+    actuator.coordinate = coordinate_of(r, node);
     r.model.actuators.push_back(std::move(actuator));
   } else if (kind == "PointActuator" || kind == "Force") {
-    PointActuator actuator;
-    read_common(r, node, actuator);
-    actuator.body = resolve_frame(r, node, r.xml.word(node, "body"), "").body;
-    actuator.point = r.xml.vec3(node, "point", Vec3::Zero());
-    actuator.point_is_global = r.xml.flag(node, "point_is_global", false);
-    actuator.direction = direction_of(r, node, "direction", Vec3::UnitX());
-    actuator.force_is_global = r.xml.flag(node, "force_is_global", false);
-    r.model.point_actuators.push_back(std::move(actuator));
+    r.model.point_actuators.push_back(read_point_actuator(r, node));
   } else if (kind == "TorqueActuator" || kind == "Torque") {
-    TorqueActuator actuator;
-    read_common(r, node, actuator);
-    const auto body = [&](const char* new_name, const char* old_name) {
-      std::string target = r.xml.word(node, new_name);
-      if (target.empty()) target = r.xml.word(node, old_name);
-      return target.empty() ? 0 : resolve_frame(r, node, target, "").body;
-    };
-    actuator.body_a = body("bodyA", "body_A");
-    actuator.body_b = body("bodyB", "body_B");
-    actuator.axis = direction_of(r, node, "axis", Vec3::UnitZ());
-    actuator.torque_is_global = r.xml.flag(node, "torque_is_global", true);
-    r.model.torque_actuators.push_back(std::move(actuator));
+    r.model.torque_actuators.push_back(read_torque_actuator(r, node));
   } else if (kind == "PathActuator") {
     PathActuator actuator;
     read_common(r, node, actuator);
@@ -187,50 +187,83 @@ void read_law(OsimReading& r, pugi::xml_node node) {
     r.model.path_actuators.push_back(std::move(actuator));
   } else if (kind == "BodyActuator") {
     // Six controls without bounds: none of OpenSim's tools that solve for controls has them.
-    r.model.notes.push_back(fmt::format(
-        "BodyActuator '{}' makes no force: its six controls are zero in every tool here", name));
-  } else if (kind == "CoordinateLimitForce") {
-    passive(read_limit(r, node, coordinate()));
+    r.model.notes.push_back(
+        fmt::format("BodyActuator '{}' makes no force: every tool keeps its six controls at zero",
+                    OsimXml::name_of(node)));
+  } else {
+    return false;
+  }
+  return true;
+}
+
+/// The law of a ligament; empty, with a note in `unsupported`, without a resting length.
+std::optional<Ligament> read_ligament(OsimReading& r, pugi::xml_node node) {
+  Ligament ligament{read_path(r, node), r.xml.number(node, "resting_length", 0.0),
+                    r.xml.number(node, "pcsa_force", 0.0), default_ligament_curve()};
+  if (!(ligament.rest_length_m > 0.0)) {
+    r.model.unsupported.push_back(
+        fmt::format("Ligament '{}' has no <resting_length> above 0; it is left out of inverse "
+                    "dynamics",
+                    OsimXml::name_of(node)));
+    return std::nullopt;
+  }
+  if (auto curve = function_property(r, node, "force_length_curve"))
+    ligament.force_length = std::move(*curve);
+  return ligament;
+}
+
+/// Reads a passive force; false for another class.
+bool read_passive(OsimReading& r, pugi::xml_node node) {
+  const std::string kind = node.name();
+  const auto add = [&](auto law) {
+    if (is_enabled(r, node, "appliesForce"))
+      r.model.passive_forces.push_back({OsimXml::name_of(node), kind, std::move(law)});
+  };
+  if (kind == "CoordinateLimitForce") {
+    add(read_limit(r, node, coordinate_of(r, node)));
   } else if (kind == "SpringGeneralizedForce") {
-    passive(CoordinateSpring{coordinate(), r.xml.number(node, "stiffness", 0.0),
-                             r.xml.number(node, "rest_length", 0.0),
-                             r.xml.number(node, "viscosity", 0.0)});
+    add(CoordinateSpring{coordinate_of(r, node), r.xml.number(node, "stiffness", 0.0),
+                         r.xml.number(node, "rest_length", 0.0),
+                         r.xml.number(node, "viscosity", 0.0)});
   } else if (kind == "ExpressionBasedCoordinateForce") {
-    passive(CoordinateFormula{coordinate(), formula_of(r, node, "expression", {"q", "qdot"})});
+    add(CoordinateFormula{coordinate_of(r, node),
+                          formula_of(r, node, "expression", {"q", "qdot"})});
   } else if (kind == "BushingForce") {
-    passive(read_bushing(r, node));
+    add(read_bushing(r, node));
   } else if (kind == "FunctionBasedBushingForce" || kind == "ExpressionBasedBushingForce") {
-    passive(read_shaped_bushing(r, node));
+    add(read_shaped_bushing(r, node));
   } else if (kind == "ExpressionBasedPointToPointForce") {
     const PointSpring ends = read_point_spring(r, node);
-    passive(PointFormula{ends.body1, ends.body2, ends.p_B1, ends.p_B2,
-                         formula_of(r, node, "expression", {"d", "ddot"})});
+    add(PointFormula{ends.body1, ends.body2, ends.p_B1, ends.p_B2,
+                     formula_of(r, node, "expression", {"d", "ddot"})});
   } else if (kind == "PrescribedForce") {
-    passive(read_prescribed(r, node));
+    add(read_prescribed(r, node));
   } else if (kind == "HuntCrossleyForce" || kind == "SmoothSphereHalfSpaceForce") {
     if (is_enabled(r, node, "appliesForce")) {
-      for (Contact& contact : read_contacts(r, node))
-        r.model.passive_forces.push_back({name, kind, std::move(contact)});
+      for (Contact& contact : read_contacts(r, node)) add(std::move(contact));
     }
   } else if (kind == "PointToPointSpring") {
-    passive(read_point_spring(r, node));
+    add(read_point_spring(r, node));
   } else if (kind == "PathSpring") {
-    passive(PathSpring{read_path(r, node), r.xml.number(node, "stiffness", 0.0),
-                       r.xml.number(node, "resting_length", 0.0),
-                       r.xml.number(node, "dissipation", 0.0)});
+    add(PathSpring{read_path(r, node), r.xml.number(node, "stiffness", 0.0),
+                   r.xml.number(node, "resting_length", 0.0),
+                   r.xml.number(node, "dissipation", 0.0)});
   } else if (kind == "Ligament") {
-    Ligament ligament{read_path(r, node), r.xml.number(node, "resting_length", 0.0),
-                      r.xml.number(node, "pcsa_force", 0.0), default_ligament_curve()};
-    if (!(ligament.rest_length_m > 0.0)) {
-      r.model.unsupported.push_back(fmt::format(
-          "Ligament '{}' has no <resting_length> above 0; it is left out of inverse dynamics",
-          name));
-      return;
-    }
-    if (auto curve = function_property(r, node, "force_length_curve"))
-      ligament.force_length = std::move(*curve);
-    passive(std::move(ligament));
-  } else if (is_enabled(r, node, "appliesForce")) {
+    if (auto ligament = read_ligament(r, node)) add(std::move(*ligament));
+  } else {
+    return false;
+  }
+  return true;
+}
+
+void read_law(OsimReading& r, pugi::xml_node node) {
+  const std::string kind = node.name();
+  const std::string name = OsimXml::name_of(node);
+  if (const std::string path = foreign_path(r, node); !path.empty()) {
+    r.model.unsupported.push_back(fmt::format(
+        "{} '{}' has a path of kind {}, which is not supported: it is left out", kind, name, path));
+  } else if (!read_driven(r, node) && !read_passive(r, node) &&
+             is_enabled(r, node, "appliesForce")) {
     r.model.unsupported.push_back(
         fmt::format("force '{}' of kind {} is not part of inverse dynamics here", name, kind));
   }
@@ -250,8 +283,7 @@ void read_force(OsimReading& r, pugi::xml_node node) {
 }
 
 void read_forces(OsimReading& r, pugi::xml_node set) {
-  for (const auto node : OsimXml::objects(set))
-    if (node.type() == pugi::node_element) read_force(r, node);
+  for (const auto node : OsimXml::objects(set)) read_force(r, node);
 }
 
 void read_component_force(OsimReading& r, pugi::xml_node node) {

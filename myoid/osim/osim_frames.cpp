@@ -230,10 +230,8 @@ std::vector<ModelComponent> components_of(pugi::xml_node model,
                                           const char* set,
                                           std::string_view kind) {
   std::vector<ModelComponent> found;
-  for (const auto node : OsimXml::objects(model.child(set))) {
-    if (node.type() == pugi::node_element)
-      found.push_back({node, path_of_set(set) + "/" + OsimXml::name_of(node)});
-  }
+  for (const auto node : OsimXml::objects(model.child(set)))
+    found.push_back({node, path_of_set(set) + "/" + OsimXml::name_of(node)});
   const auto add = [&](pugi::xml_node holder, const std::string& owner) {
     for (const auto node : holder.children())
       if (std::string_view(node.name()).ends_with(kind))

@@ -67,58 +67,53 @@ pugi::xml_node transform_axis(const OsimReading& r, pugi::xml_node node, std::si
   std::size_t rotations = 0;
   std::size_t translations = 3;
   for (const auto axis : OsimXml::objects(node.child("TransformAxisSet"))) {
-    if (axis.type() != pugi::node_element) continue;
     if ((r.xml.flag(axis, "is_rotation", false) ? rotations++ : translations++) == slot)
       return axis;
   }
   return {};
 }
 
-/// Reads the six axes; orders the joint's coordinates by their first use, as OpenSim does.
-void set_custom_axes(OsimReading& r, pugi::xml_node node, Joint& joint) {
-  std::vector<int> order;
-  for (std::size_t k = 0; k < 6; ++k) {
-    TransformAxis& axis = k < 3 ? joint.rotation[k] : joint.translation[k - 3];
-    axis.axis = Vec3::Unit(static_cast<Eigen::Index>(k % 3));
-    const auto slot = transform_axis(r, node, k);
-    if (!slot) continue;
-    axis.axis = r.xml.vec3(slot, "axis", axis.axis);
-    if (!(axis.axis.norm() > 0.0) || !axis.axis.allFinite())
-      r.xml.fail(slot, "<axis>: the direction is zero");
-    axis.axis.normalize();
-    const auto names = slot.child("coordinates") ? r.xml.words(slot, "coordinates")
-                                                 : r.xml.words(slot, "coordinate");
-    if (names.size() > 1) {
-      r.xml.fail(slot,
-                 fmt::format("<coordinates>: an axis of joint '{}' depends on {} coordinates; "
-                             "only one is supported",
-                             joint.name, names.size()));
-    }
-    if (!names.empty()) {
-      // In some files by its path.
-      const std::string own = names[0].substr(names[0].find_last_of('/') + 1);
-      const auto index = r.find_coordinate(model_name(r, joint.name, own));
-      if (!index || std::find(joint.coordinates.begin(), joint.coordinates.end(), *index) ==
-                        joint.coordinates.end()) {
-        r.xml.fail(slot, fmt::format("<coordinates>: joint '{}' has no coordinate '{}'", joint.name,
-                                     names[0]));
-      }
-      axis.coordinate = *index;
-      if (std::find(order.begin(), order.end(), *index) == order.end()) order.push_back(*index);
-    }
-    pugi::xml_node function = OsimXml::first_element(
-        slot, {"coordinates", "coordinate", "axis", "is_rotation", "VisibleObject"});
-    if (function && std::string_view(function.name()) == "function")
-      function = OsimXml::first_element(function);
-    if (function) {
-      axis.function = read_function(r, function);
-    } else if (axis.coordinate >= 0) {
-      axis.function = Linear{1.0, 0.0};
-    }
+/// The coordinate of a joint that an axis names; -1 if it names none.
+int coordinate_of_axis(const OsimReading& r, pugi::xml_node slot, const Joint& joint) {
+  const auto names = slot.child("coordinates") ? r.xml.words(slot, "coordinates")
+                                               : r.xml.words(slot, "coordinate");
+  if (names.empty()) return -1;
+  if (names.size() > 1) {
+    r.xml.fail(slot, fmt::format("<coordinates>: an axis of joint '{}' depends on {} coordinates; "
+                                 "only one is supported",
+                                 joint.name, names.size()));
   }
-  for (const int index : joint.coordinates) {
-    if (std::find(order.begin(), order.end(), index) == order.end()) order.push_back(index);
+  // Some files give the path of the coordinate.
+  const std::string own = names[0].substr(names[0].find_last_of('/') + 1);
+  const auto index = r.find_coordinate(model_name(r, joint.name, own));
+  if (!index || std::find(joint.coordinates.begin(), joint.coordinates.end(), *index) ==
+                    joint.coordinates.end()) {
+    r.xml.fail(slot, fmt::format("<coordinates>: joint '{}' has no coordinate '{}'", joint.name,
+                                 names[0]));
   }
+  return *index;
+}
+
+/// Reads an axis of a CustomJoint.
+void read_axis(OsimReading& r, pugi::xml_node slot, const Joint& joint, TransformAxis& axis) {
+  axis.axis = r.xml.vec3(slot, "axis", axis.axis);
+  if (!(axis.axis.norm() > 0.0) || !axis.axis.allFinite())
+    r.xml.fail(slot, "<axis>: the direction is zero");
+  axis.axis.normalize();
+  axis.coordinate = coordinate_of_axis(r, slot, joint);
+  pugi::xml_node function = OsimXml::first_element(
+      slot, {"coordinates", "coordinate", "axis", "is_rotation", "VisibleObject"});
+  if (function && std::string_view(function.name()) == "function")
+    function = OsimXml::first_element(function);
+  if (function) {
+    axis.function = read_function(r, function);
+  } else if (axis.coordinate >= 0) {
+    axis.function = Linear{1.0, 0.0};
+  }
+}
+
+/// Gives the coordinates of a joint a new order: `order` holds their indices in the model.
+void reorder_coordinates(OsimReading& r, Joint& joint, const std::vector<int>& order) {
   std::vector<Coordinate> sorted;
   std::map<int, int> moved;
   for (std::size_t k = 0; k < order.size(); ++k) {
@@ -134,6 +129,25 @@ void set_custom_axes(OsimReading& r, pugi::xml_node node, Joint& joint) {
       if (axis.coordinate >= 0) axis.coordinate = moved.at(axis.coordinate);
     }
   }
+}
+
+/// Reads the six axes; orders the joint's coordinates by their first use, as OpenSim does.
+void set_custom_axes(OsimReading& r, pugi::xml_node node, Joint& joint) {
+  std::vector<int> order;
+  const auto append = [&](int coordinate) {
+    if (std::find(order.begin(), order.end(), coordinate) == order.end())
+      order.push_back(coordinate);
+  };
+  for (std::size_t k = 0; k < 6; ++k) {
+    TransformAxis& axis = k < 3 ? joint.rotation[k] : joint.translation[k - 3];
+    axis.axis = Vec3::Unit(static_cast<Eigen::Index>(k % 3));
+    const auto slot = transform_axis(r, node, k);
+    if (!slot) continue;
+    read_axis(r, slot, joint, axis);
+    if (axis.coordinate >= 0) append(axis.coordinate);
+  }
+  for (const int index : joint.coordinates) append(index);
+  reorder_coordinates(r, joint, order);
   const Mat3 axes =
       (Mat3() << joint.rotation[0].axis, joint.rotation[1].axis, joint.rotation[2].axis).finished();
   if (axes.col(0).cross(axes.col(1)).norm() < 1e-5 ||
@@ -150,6 +164,23 @@ void need_coordinates(const OsimReading& r,
   if (joint.coordinates.size() == count) return;
   r.xml.fail(node, fmt::format("joint '{}' ({}): expected {} coordinates, found {}", joint.name,
                                joint.class_name, count, joint.coordinates.size()));
+}
+
+/// Reads the length of a ConstantCurvatureJoint; returns its neutral angles about x, z, y [rad].
+Vec3 read_rod(OsimReading& r, pugi::xml_node node, Joint& joint) {
+  const Vec3 neutral_rad = r.xml.vec3(node, "neutral_angle_x_z_y", Vec3::Zero());
+  joint.rod_length_m = r.xml.number(node, "length", 1.0);
+  if (!std::isfinite(*joint.rod_length_m) || !neutral_rad.allFinite())
+    r.xml.fail(node, fmt::format("joint '{}': length or neutral angle is not finite", joint.name));
+  for (const int c : joint.coordinates)
+    r.model.coordinates[static_cast<std::size_t>(c)].clamped = true;
+  r.model.notes.push_back(fmt::format(
+      "joint '{}' (ConstantCurvatureJoint): its speeds are the rates of its coordinates and move "
+      "its end along the arc; OpenSim gives its velocities in the axes of the child and leaves a "
+      "part of its accelerations out, so that moment arms, inverse dynamics and static "
+      "optimization differ there",
+      joint.name));
+  return neutral_rad;
 }
 
 /// Gives a joint of a fixed kind its axes; false if the kind is not known.
@@ -196,31 +227,19 @@ bool set_axes(OsimReading& r, pugi::xml_node node, Joint& joint) {
       joint.ellipsoid_radii_m = r.xml.vec3(node, "radii_x_y_z", Vec3::Ones());
   } else if (kind == "ConstantCurvatureJoint") {
     need_coordinates(r, node, joint, 3);
-    const Vec3 neutral_rad = r.xml.vec3(node, "neutral_angle_x_z_y", Vec3::Zero());
-    joint.rod_length_m = r.xml.number(node, "length", 1.0);
-    if (!std::isfinite(*joint.rod_length_m) || !neutral_rad.allFinite())
-      r.xml.fail(node,
-                 fmt::format("joint '{}': length or neutral angle is not finite", joint.name));
+    const Vec3 neutral_rad = read_rod(r, node, joint);
     constexpr std::array<Eigen::Index, 3> kOrder{0, 2, 1};  // x, z, y
     for (std::size_t k = 0; k < 3; ++k) {
       drive(joint.rotation[k], kOrder[k]);
       joint.rotation[k].function = Linear{1.0, neutral_rad[static_cast<Eigen::Index>(k)]};
-      r.model.coordinates[static_cast<std::size_t>(joint.coordinates[k])].clamped = true;
     }
-    r.model.notes.push_back(fmt::format(
-        "joint '{}' (ConstantCurvatureJoint): its speeds are the rates of its coordinates and move "
-        "its end along the arc; OpenSim gives its velocities in the axes of the child and leaves a "
-        "part of its accelerations out, so that moment arms, inverse dynamics and static "
-        "optimization differ there",
-        joint.name));
   } else {
     return false;
   }
   if (kind == "BallJoint" || kind == "FreeJoint" || kind == "EllipsoidJoint") {
     r.model.notes.push_back(
         fmt::format("joint '{}' ({}): its speeds are the rates of its coordinates; OpenSim's tools "
-                    "take them for "
-                    "angular velocities, which --compat opensim reproduces",
+                    "take them for angular velocities, which --compat opensim reproduces",
                     joint.name, kind));
   }
   return true;

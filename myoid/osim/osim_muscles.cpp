@@ -15,37 +15,65 @@
 namespace myoid::model {
 namespace {
 
+/// A property of an object and the field that holds its number.
+template <typename Object>
+using Field = std::pair<const char*, double Object::*>;
+
+constexpr Field<MillardCurves> kActiveCurve[] = {
+    {"min_norm_active_fiber_length", &MillardCurves::active_min_length},
+    {"transition_norm_fiber_length", &MillardCurves::active_transition_length},
+    {"max_norm_active_fiber_length", &MillardCurves::active_max_length},
+    {"shallow_ascending_slope", &MillardCurves::active_shallow_slope},
+    {"minimum_value", &MillardCurves::active_minimum}};
+
+constexpr Field<MillardCurves> kVelocityCurve[] = {
+    {"concentric_slope_at_vmax", &MillardCurves::concentric_slope_at_vmax},
+    {"concentric_slope_near_vmax", &MillardCurves::concentric_slope_near_vmax},
+    {"isometric_slope", &MillardCurves::isometric_slope},
+    {"eccentric_slope_at_vmax", &MillardCurves::eccentric_slope_at_vmax},
+    {"eccentric_slope_near_vmax", &MillardCurves::eccentric_slope_near_vmax},
+    {"max_eccentric_velocity_force_multiplier", &MillardCurves::eccentric_force},
+    {"concentric_curviness", &MillardCurves::concentric_curviness},
+    {"eccentric_curviness", &MillardCurves::eccentric_curviness}};
+
+constexpr Field<MillardCurves> kFiberCurve[] = {
+    {"strain_at_zero_force", &MillardCurves::fiber_strain_at_zero_force},
+    {"strain_at_one_norm_force", &MillardCurves::fiber_strain_at_one_force},
+    {"stiffness_at_low_force", &MillardCurves::fiber_stiffness_at_low_force},
+    {"stiffness_at_one_norm_force", &MillardCurves::fiber_stiffness_at_one_force},
+    {"curviness", &MillardCurves::fiber_curviness}};
+
+constexpr Field<MillardCurves> kTendonCurve[] = {
+    {"strain_at_one_norm_force", &MillardCurves::tendon_strain_at_one_force},
+    {"stiffness_at_one_norm_force", &MillardCurves::tendon_stiffness_at_one_force},
+    {"norm_force_at_toe_end", &MillardCurves::tendon_force_at_toe_end},
+    {"curviness", &MillardCurves::tendon_curviness}};
+
+constexpr Field<MuscleProperties> kProperties[] = {
+    {"max_contraction_velocity", &MuscleProperties::max_contraction_velocity},
+    {"KshapeActive", &MuscleProperties::active_shape},
+    {"KshapePassive", &MuscleProperties::passive_shape},
+    {"FmaxTendonStrain", &MuscleProperties::max_tendon_strain},
+    {"FmaxMuscleStrain", &MuscleProperties::max_muscle_strain},
+    {"Af", &MuscleProperties::concentric_shape},
+    {"Flen", &MuscleProperties::eccentric_plateau},
+    {"fv_linear_extrap_threshold", &MuscleProperties::force_velocity_extrapolation},
+    {"maximum_pennation_angle", &MuscleProperties::max_pennation_rad},
+    {"activation_time_constant", &MuscleProperties::activation_time_s},
+    {"deactivation_time_constant", &MuscleProperties::deactivation_time_s},
+    {"minimum_activation", &MuscleProperties::minimum_activation},
+    {"default_activation", &MuscleProperties::default_activation}};
+
 MillardCurves millard_curves(const OsimReading& r, pugi::xml_node node) {
   MillardCurves c;
-  const auto set = [&](pugi::xml_node curve, const char* name, double& value) {
-    value = r.xml.number(curve, name, value);
+  const auto read = [&](const char* curve_name, const auto& fields) {
+    const auto curve = r.xml.property(node, curve_name);
+    for (const auto& [name, field] : fields) c.*field = r.xml.number(curve, name, c.*field);
   };
-  const auto active = r.xml.property(node, "ActiveForceLengthCurve");
-  set(active, "min_norm_active_fiber_length", c.active_min_length);
-  set(active, "transition_norm_fiber_length", c.active_transition_length);
-  set(active, "max_norm_active_fiber_length", c.active_max_length);
-  set(active, "shallow_ascending_slope", c.active_shallow_slope);
-  set(active, "minimum_value", c.active_minimum);
-  const auto velocity = r.xml.property(node, "ForceVelocityCurve");
-  set(velocity, "concentric_slope_at_vmax", c.concentric_slope_at_vmax);
-  set(velocity, "concentric_slope_near_vmax", c.concentric_slope_near_vmax);
-  set(velocity, "isometric_slope", c.isometric_slope);
-  set(velocity, "eccentric_slope_at_vmax", c.eccentric_slope_at_vmax);
-  set(velocity, "eccentric_slope_near_vmax", c.eccentric_slope_near_vmax);
-  set(velocity, "max_eccentric_velocity_force_multiplier", c.eccentric_force);
-  set(velocity, "concentric_curviness", c.concentric_curviness);
-  set(velocity, "eccentric_curviness", c.eccentric_curviness);
-  const auto fiber = r.xml.property(node, "FiberForceLengthCurve");
-  set(fiber, "strain_at_zero_force", c.fiber_strain_at_zero_force);
-  set(fiber, "strain_at_one_norm_force", c.fiber_strain_at_one_force);
-  set(fiber, "stiffness_at_low_force", c.fiber_stiffness_at_low_force);
-  set(fiber, "stiffness_at_one_norm_force", c.fiber_stiffness_at_one_force);
-  set(fiber, "curviness", c.fiber_curviness);
-  const auto tendon = r.xml.property(node, "TendonForceLengthCurve");
-  set(tendon, "strain_at_one_norm_force", c.tendon_strain_at_one_force);
-  set(tendon, "stiffness_at_one_norm_force", c.tendon_stiffness_at_one_force);
-  set(tendon, "norm_force_at_toe_end", c.tendon_force_at_toe_end);
-  set(tendon, "curviness", c.tendon_curviness);
+  read("ActiveForceLengthCurve", kActiveCurve);
+  read("ForceVelocityCurve", kVelocityCurve);
+  read("FiberForceLengthCurve", kFiberCurve);
+  read("TendonForceLengthCurve", kTendonCurve);
   c.fiber_damping = r.xml.number(node, "fiber_damping", 0.1);
   c.ignore_tendon_compliance = r.xml.flag(node, "ignore_tendon_compliance", false);
   c.ignore_activation_dynamics = r.xml.flag(node, "ignore_activation_dynamics", false);
@@ -141,19 +169,7 @@ Muscle read_muscle(OsimReading& r, pugi::xml_node node) {
   set("pennation_angle_at_optimal", p.pennation_at_optimal_rad);
   if (!r.xml.property(node, "pennation_angle_at_optimal"))
     set("pennation_angle", p.pennation_at_optimal_rad);
-  set("max_contraction_velocity", p.max_contraction_velocity);
-  set("KshapeActive", p.active_shape);
-  set("KshapePassive", p.passive_shape);
-  set("FmaxTendonStrain", p.max_tendon_strain);
-  set("FmaxMuscleStrain", p.max_muscle_strain);
-  set("Af", p.concentric_shape);
-  set("Flen", p.eccentric_plateau);
-  set("fv_linear_extrap_threshold", p.force_velocity_extrapolation);
-  set("maximum_pennation_angle", p.max_pennation_rad);
-  set("activation_time_constant", p.activation_time_s);
-  set("deactivation_time_constant", p.deactivation_time_s);
-  set("minimum_activation", p.minimum_activation);
-  set("default_activation", p.default_activation);
+  for (const auto& [name, field] : kProperties) set(name, p.*field);
   // OpenSim takes its classes' own 0.1 m for every muscle.
   if (!r.compat.class_fiber_length) p.default_fiber_length_m = p.optimal_fiber_length_m;
   set("default_fiber_length", p.default_fiber_length_m);

@@ -28,7 +28,6 @@ Quadrant read_quadrant(const OsimReading& r, pugi::xml_node node) {
 
 void read_wraps_of(OsimReading& r, pugi::xml_node holder, const FixedFrame& frame) {
   for (const auto node : OsimXml::objects(holder.child("WrapObjectSet"))) {
-    if (node.type() != pugi::node_element) continue;
     WrapObject wrap;
     wrap.name = OsimXml::name_of(node);
     wrap.body = frame.body;
@@ -222,12 +221,10 @@ MusclePath read_path(OsimReading& r, pugi::xml_node node) {
   if (!geometry && (node.child("MusclePointSet") || node.child("PathPointSet"))) geometry = node;
   if (!geometry) r.xml.fail(node, fmt::format("{} '{}' has no <GeometryPath>", node.name(), owner));
   MusclePath path;
-  for (const auto point : OsimXml::objects(either(geometry, "PathPointSet", "MusclePointSet"))) {
-    if (point.type() == pugi::node_element) path.points.push_back(read_point(r, point, owner));
-  }
-  for (const auto wrap : OsimXml::objects(either(geometry, "PathWrapSet", "MuscleWrapSet"))) {
-    if (wrap.type() == pugi::node_element) path.wraps.push_back(read_path_wrap(r, wrap, owner));
-  }
+  for (const auto point : OsimXml::objects(either(geometry, "PathPointSet", "MusclePointSet")))
+    path.points.push_back(read_point(r, point, owner));
+  for (const auto wrap : OsimXml::objects(either(geometry, "PathWrapSet", "MuscleWrapSet")))
+    path.wraps.push_back(read_path_wrap(r, wrap, owner));
   if (path.points.size() < 2) {
     r.xml.fail(geometry, fmt::format("{} '{}' has {} path points; at least two are needed",
                                      node.name(), owner, path.points.size()));

@@ -142,7 +142,6 @@ BodyModel with_force_set(BodyModel model, const std::filesystem::path& path) {
   OsimReading r{xml, model.compat, std::move(model), {}};
   std::string repeated;
   for (const auto node : OsimXml::objects(set)) {
-    if (node.type() != pugi::node_element) continue;
     const std::string name = OsimXml::name_of(node);
     const auto& names = r.model.force_order;
     if (std::find(names.begin(), names.end(), name) == names.end()) {

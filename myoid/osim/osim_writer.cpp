@@ -106,8 +106,7 @@ std::optional<Place> place_of(const OsimXml& xml, const OsimChange& change) {
 
 pugi::xml_node object_at(const RawText& raw, const std::string& set, const Place& place) {
   const auto holder = place.in_model ? raw.root().child("Model") : raw.root();
-  const auto objects = OsimXml::objects(holder.child(set.c_str()));
-  return *std::next(objects.begin(), place.number);
+  return OsimXml::objects(holder.child(set.c_str())).at(static_cast<std::size_t>(place.number));
 }
 
 /// The blanks between a start tag and what follows it: the indentation of the children.

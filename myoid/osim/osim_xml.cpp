@@ -146,6 +146,13 @@ bool OsimXml::flag(pugi::xml_node object, const char* name, bool otherwise) cons
   fail(node, fmt::format("<{}>: expected true or false, found '{}'", name, text));
 }
 
+std::vector<pugi::xml_node> OsimXml::objects(pugi::xml_node set) {
+  std::vector<pugi::xml_node> elements;
+  for (const auto child : set.child("objects").children())
+    if (child.type() == pugi::node_element) elements.push_back(child);
+  return elements;
+}
+
 pugi::xml_node OsimXml::first_element(pugi::xml_node parent,
                                       std::initializer_list<const char*> except) {
   for (const auto child : parent.children()) {
