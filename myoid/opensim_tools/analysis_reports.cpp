@@ -13,9 +13,8 @@
 #include "myoid/forces/muscle_analysis.h"
 #include "myoid/kinematics/angular_speeds.h"
 #include "myoid/model/constraints.h"
-#include "myoid/model/kinematic_tree.h"
 #include "myoid/model/muscle_path.h"
-#include "myoid/opensim_tools/opensim_files.h"
+#include "myoid/opensim_tools/moving_bodies.h"
 #include "myoid/opensim_tools/tool_stages.h"
 #include "myoid/recording/recording.h"
 #include "myoid/tables/storage_reader.h"
@@ -28,12 +27,8 @@ struct KnownAnalysis {
   void (*run)(AnalysisRun&, pugi::xml_node);
 };
 
-constexpr const char* kUnits =
-    "Units are S.I. units (second, meters, Newtons, ...)\nIf the header above contains a line with "
-    "'inDegrees', this indicates whether rotational values are in degrees (yes) or radians "
-    "(no).\n\n";
-
-/// Positions in `names` of the wanted objects; "all" is every one. What is unknown is noted.
+/// Indices of the objects that a list names; an empty list and "all" name every one. Unknown names
+/// are noted.
 std::vector<int> chosen(const AnalysisRun& run,
                         pugi::xml_node node,
                         const char* property,
@@ -71,27 +66,23 @@ void report_kinematics(AnalysisRun& run, pugi::xml_node node) {
   const auto columns = chosen(run, node, "coordinates", model.coordinates.size(),
                               [&](const std::string& name) { return model.find_coordinate(name); });
   const bool in_degrees = xml.flag(node, "in_degrees", true);
+  std::vector<Channel> channels;
+  for (const int c : columns) {
+    const auto& coordinate = model.coordinates[at(c)];
+    channels.push_back({coordinate.name, coordinate.motion == model::MotionType::rotational
+                                             ? Unit::radian
+                                             : Unit::dimensionless});
+  }
   const auto write = [&](const char* suffix, const char* title, const Eigen::MatrixXd& values) {
-    std::vector<Channel> channels;
-    for (const int c : columns) {
-      const auto& coordinate = model.coordinates[at(c)];
-      channels.push_back({coordinate.name, coordinate.motion == model::MotionType::rotational
-                                               ? Unit::radian
-                                               : Unit::dimensionless});
-    }
-    write_opensim_storage(
-        claim_result(run, analysis_name(node) + suffix),
-        {run.motion.q.time_s(), std::move(channels), Eigen::MatrixXd(values(Eigen::all, columns))},
-        {.title = title,
-         .in_degrees = in_degrees,
-         .description = std::string("\n") + kUnits,
-         .decimals = run.decimals});
+    write_result(
+        run, analysis_name(node) + suffix,
+        {run.motion.q.time_s(), channels, Eigen::MatrixXd(values(Eigen::all, columns))},
+        {.title = title, .in_degrees = in_degrees, .description = std::string("\n") + kUnitsNote});
   };
   write("_q.sto", "Coordinates", assembled(model, run.motion.q.values()));
   write("_u.sto", "Speeds", run.motion.qdot.values());
   if (const Eigen::MatrixXd* qddot = accelerations_of(run))
     write("_dudt.sto", "Accelerations", *qddot);
-  run.result.frames = static_cast<int>(run.motion.sample_count());
 }
 
 void report_muscles(AnalysisRun& run, pugi::xml_node node) {
@@ -123,16 +114,15 @@ void report_muscles(AnalysisRun& run, pugi::xml_node node) {
   }
   const forces::MuscleAnalysis analysis = forces::muscle_analysis(model, run.motion, options);
   run.result.notes.insert(run.result.notes.end(), analysis.notes.begin(), analysis.notes.end());
-  const std::string description = std::string(
-                                      "\nThis analysis gathers basic information about muscles "
-                                      "during a simulation (e.g., forces, "
-                                      "tendon lengths, moment arms, etc).\n") +
-                                  kUnits;
+  const std::string description =
+      std::string(
+          "\nThis analysis gathers basic information about muscles during a simulation (e.g., "
+          "forces, tendon lengths, moment arms, etc).\n") +
+      kUnitsNote;
   for (const auto& [name, table] : analysis.tables) {
-    write_opensim_storage(claim_result(run, analysis_name(node) + "_" + name + ".sto"), table,
-                          {.title = name, .description = description, .decimals = run.decimals});
+    write_result(run, analysis_name(node) + "_" + name + ".sto", table,
+                 {.title = name, .description = description});
   }
-  run.result.frames = static_cast<int>(run.motion.sample_count());
 }
 
 /// One output of the model that a report asks for.
@@ -170,82 +160,91 @@ std::optional<Output> output_named(const model::BodyModel& model, const std::str
   return {};
 }
 
-std::string table_text(const std::vector<Output>& outputs,
-                       const Eigen::VectorXd& times,
-                       const std::vector<std::vector<Vec3>>& values,
-                       bool three) {
+/// Outputs of one type: numbers (of one component) or points (of three).
+struct OutputTable {
+  Eigen::Index components = 1;
+  std::vector<Output> outputs{};
+  Eigen::MatrixXd values{};  ///< Frames x (outputs x components).
+};
+
+std::string text_of(const OutputTable& table, const Eigen::VectorXd& times) {
   std::string text =
       fmt::format("inDegrees=no\nnumColumns={}\nDataType={}\nversion=3\nendheader\ntime",
-                  outputs.size(), three ? "Vec3" : "double");
-  for (const Output& output : outputs) text += "\t" + output.path;
+                  table.outputs.size(), table.components == 3 ? "Vec3" : "double");
+  for (const Output& output : table.outputs) text += "\t" + output.path;
   text += '\n';
   for (Eigen::Index i = 0; i < times.size(); ++i) {
     text += recording::format_number(times[i]);
-    for (const Vec3& v : values[at(i)]) {
-      for (Eigen::Index k = 0; k < (three ? 3 : 1); ++k) {
-        text += k == 0 ? '\t' : ',';
-        text += recording::format_number(v[k]);
-      }
+    for (Eigen::Index c = 0; c < table.values.cols(); ++c) {
+      text += c % table.components == 0 ? '\t' : ',';
+      text += recording::format_number(table.values(i, c));
     }
     text += '\n';
   }
   return text;
 }
 
-void report_outputs(AnalysisRun& run, pugi::xml_node node) {
-  const auto& model = run.model;
-  std::vector<Output> wanted[2];  // numbers, points
+/// The outputs that an analysis asks for: numbers, then points. Others are noted.
+std::array<OutputTable, 2> wanted_outputs(AnalysisRun& run, pugi::xml_node node) {
+  std::array<OutputTable, 2> tables{OutputTable{.components = 1}, OutputTable{.components = 3}};
   std::string missing;
   for (const std::string& path : run.setup.xml().words(node, "output_paths")) {
-    if (const auto output = output_named(model, path)) {
+    if (const auto output = output_named(run.model, path)) {
       const bool point = output->kind == Output::Kind::marker || output->kind == Output::Kind::body;
-      wanted[point ? 1 : 0].push_back(*output);
+      tables[point ? 1 : 0].outputs.push_back(*output);
     } else {
       missing += (missing.empty() ? "" : ", ") + path;
     }
   }
   if (!missing.empty()) {
     run.result.notes.push_back(fmt::format(
-        "{}: lengths and lengthening speeds of paths, locations of markers and positions of "
-        "bodies are reported; not so {}",
+        "{}: outputs {} are left out; lengths and lengthening speeds of paths, locations of "
+        "markers and positions of bodies are reported",
         analysis_name(node), missing));
   }
+  return tables;
+}
+
+void report_outputs(AnalysisRun& run, pugi::xml_node node) {
+  const auto& model = run.model;
+  auto tables = wanted_outputs(run, node);
+  auto& [numbers, points] = tables;
   const Eigen::Index frames = run.motion.sample_count();
-  std::vector<std::vector<Vec3>> values[2];
-  values[0].resize(at(frames));
-  values[1].resize(at(frames));
-  model::BodyState state = model::make_state(model);
+  for (OutputTable& table : tables)
+    table.values.resize(frames, table.components * std::ssize(table.outputs));
+  MovingBodies moving(model, run.motion);
   model::PathWorkspace workspace;
   model::PathResult path;
   const auto paths = paths_of(model);
-  const Eigen::MatrixXd q = assembled(model, run.motion.q.values());
   for (Eigen::Index i = 0; i < frames; ++i) {
-    model::compute_poses(model, q.row(i).transpose(), state);
-    model::compute_velocities(model, run.motion.qdot.values().row(i).transpose(), state);
-    int computed = -1;  // whose path that is: two outputs of one stand together
-    for (const int k : {0, 1}) {
-      for (const Output& output : wanted[k]) {
-        Vec3 value = Vec3::Zero();
-        if (output.kind == Output::Kind::marker) {
-          const model::Marker& marker = model.markers[at(output.index)];
-          value = state.X_GB[at(marker.body)] * marker.p_BM;
-        } else if (output.kind == Output::Kind::body) {
-          value = state.X_GB[at(output.index)].p;
-        } else {
-          if (output.index != computed)
-            model::compute_path(model, *paths[at(output.index)].second, state, workspace, path);
-          computed = output.index;
-          value[0] = output.kind == Output::Kind::length ? path.length_m : path.speed_mps;
-        }
-        values[k][at(i)].push_back(value);
+    moving.set(i);
+    int computed = -1;  // the index of `path`: length and speed of one path often follow each other
+    for (std::size_t k = 0; k < numbers.outputs.size(); ++k) {
+      const Output& output = numbers.outputs[k];
+      if (output.index != computed)
+        model::compute_path(model, *paths[at(output.index)].second, moving.state(), workspace,
+                            path);
+      computed = output.index;
+      numbers.values(i, static_cast<Eigen::Index>(k)) =
+          output.kind == Output::Kind::length ? path.length_m : path.speed_mps;
+    }
+    for (std::size_t k = 0; k < points.outputs.size(); ++k) {
+      const Output& output = points.outputs[k];
+      const auto column = static_cast<Eigen::Index>(3 * k);
+      if (output.kind == Output::Kind::body) {
+        points.values.row(i).segment<3>(column) = moving.pose(at(output.index)).p.transpose();
+      } else {
+        const model::Marker& marker = model.markers[at(output.index)];
+        points.values.row(i).segment<3>(column) =
+            (moving.pose(at(marker.body)) * marker.p_BM).transpose();
       }
     }
   }
-  for (const int k : {0, 1}) {
-    if (wanted[k].empty()) continue;
-    recording::write_file(claim_result(run, k == 0 ? "Outputs.sto" : "OutputsVec3.sto"),
-                          table_text(wanted[k], run.motion.q.time_s(), values[k], k == 1),
-                          recording::Flush::later);
+  for (const OutputTable& table : tables) {
+    if (table.outputs.empty()) continue;
+    recording::write_file(
+        claim_result(run, table.components == 1 ? "Outputs.sto" : "OutputsVec3.sto"),
+        text_of(table, run.motion.q.time_s()), recording::Flush::later);
   }
 }
 
@@ -285,17 +284,26 @@ std::string known_analyses() {
 
 void run_analysis(AnalysisRun& run, pugi::xml_node node) {
   const std::string_view kind = node.name();
-  // Their velocities are those of the bodies.
+  // These analyses report velocities of bodies, which follow from the speeds as angular velocities.
   for (const char* moving :
        {"BodyKinematics", "JointReaction", "OutputReporter", "PointKinematics"})
     if (kind == moving) run.motion = kinematics::moved_by_speeds(run.model, run.motion);
   find_analysis(kind)->run(run, node);
+  run.result.frames = static_cast<int>(run.motion.sample_count());
 }
 
 std::filesystem::path claim_result(AnalysisRun& run, const std::string& name) {
   const auto path = run.setup.results_folder() / (run.setup.name() + "_" + name);
   claim_file(run.options, path, run.result);
   return path;
+}
+
+void write_result(AnalysisRun& run,
+                  const std::string& name,
+                  const TimeSeries& table,
+                  OpensimFormat format) {
+  format.decimals = run.decimals;
+  write_opensim_storage(claim_result(run, name), table, format);
 }
 
 std::optional<TimeSeries> read_speeds(const model::BodyModel& model,

@@ -6,12 +6,13 @@
 
 #include "myoid/dynamics/external_loads.h"
 #include "myoid/kinematics/joint_motion.h"
+#include "myoid/opensim_tools/opensim_files.h"
 #include "myoid/opensim_tools/opensim_setup.h"
 #include "myoid/opensim_tools/tool_result.h"
 
 namespace myoid {
 
-/// What the analyses of one AnalyzeTool share.
+/// The inputs and results that all analyses of one AnalyzeTool share.
 struct AnalysisRun {
   const OpensimSetup& setup;
   const ToolOptions& options;
@@ -24,7 +25,7 @@ struct AnalysisRun {
   bool equilibrium = false;
   /// From a states file, all rows x muscles; empty where it has none.
   Eigen::MatrixXd activation{}, fiber_length_m{};
-  /// What analyses of the same rows share (forces_of_states, accelerations_of).
+  /// Kept for further analyses of the same rows (forces_of_states, accelerations_of).
   std::optional<TimeSeries> state_forces{};
   std::optional<Eigen::MatrixXd> accelerations{};
 };
@@ -36,36 +37,37 @@ struct AnalysisRun {
 [[nodiscard]] bool is_known_analysis(std::string_view class_name);
 /// Their names, for messages.
 [[nodiscard]] std::string known_analyses();
-/// Runs one and writes its files: <results>/<tool>_<analysis>_<quantity>.sto.
+/// Runs an analysis and writes its files: <results>/<tool>_<analysis>_<quantity>.sto.
 void run_analysis(AnalysisRun& run, pugi::xml_node node);
 void run_static_optimization(AnalysisRun& run, pugi::xml_node node);
-/// The model with, instead of its muscles, an actuator of unit strength on every coordinate that
-/// takes a value of its own, named like it.
+/// The model without muscles. Every coordinate that takes a value of its own has an actuator of
+/// unit strength with the coordinate's name instead.
 [[nodiscard]] model::BodyModel with_coordinate_actuators(model::BodyModel model);
 /// Actuation: forces, speeds and powers of muscles (by their states) and actuators.
 void report_actuation(AnalysisRun& run, pugi::xml_node node);
-/// InverseDynamics: the forces of least sum of squares, each relative to its strength, that make
-/// the motion's accelerations: of muscles and actuators, without bounds, or of an actuator on every
-/// coordinate.
+/// InverseDynamics: the forces that make the motion's accelerations, with the least sum of squares
+/// of force by strength. They act without bounds, in muscles and actuators or in an actuator on
+/// every coordinate.
 void report_inverse_dynamics(AnalysisRun& run, pugi::xml_node node);
 /// ForceReporter: muscles by their states, passive forces and external loads.
 void report_forces(AnalysisRun& run, pugi::xml_node node);
-/// JointReaction: what joints carry.
+/// JointReaction: forces and moments that the joints carry.
 void report_reactions(AnalysisRun& run, pugi::xml_node node);
 /// BodyKinematics: centers of mass, orientations, their velocities and accelerations.
 void report_bodies(AnalysisRun& run, pugi::xml_node node);
-/// PointKinematics: place, velocity and acceleration of a point of a body, in the axes of another.
+/// PointKinematics: place, velocity and acceleration of a point of a body, in the axes of another
+/// body.
 void report_point(AnalysisRun& run, pugi::xml_node node);
 
-/// The forces of all actuators at the motion's rows: tendons' of muscles by their states, others'
-/// by the set-up's controls, else 0. Computed once for the rows.
+/// The forces of all actuators at the motion's rows: tendon forces of muscles by their states,
+/// forces of other actuators by the set-up's controls, else 0. Computed once for the rows.
 [[nodiscard]] const TimeSeries& forces_of_states(AnalysisRun& run);
-/// Accelerations of all coordinates that these forces, passive forces, gravity and external loads
-/// make at the motion's rows, as OpenSim's analyses report them: rows x coordinates [rad/s^2,
-/// m/s^2]. Null, with a note, where a body without mass keeps them unknown.
+/// Accelerations that these forces, passive forces, gravity and external loads make at the motion's
+/// rows, as OpenSim's analyses report them: rows x coordinates [rad/s^2, m/s^2]. Null, with a note,
+/// where a body without mass leaves them undetermined.
 [[nodiscard]] const Eigen::MatrixXd* accelerations_of(AnalysisRun& run);
-/// Writes what OpenSim's force reporter records: these forces of actuators and the passive ones, in
-/// the order of the force set, and the external loads.
+/// Writes the file of OpenSim's force reporter: the forces of `actuators` and the passive forces in
+/// the order of the force set, then the external loads.
 void write_forces(AnalysisRun& run,
                   const model::BodyModel& model,
                   const std::filesystem::path& path,
@@ -73,10 +75,15 @@ void write_forces(AnalysisRun& run,
 
 /// <results>/<tool>_<name>, announced as a file of the run.
 [[nodiscard]] std::filesystem::path claim_result(AnalysisRun& run, const std::string& name);
+/// Claims <results>/<tool>_<name> and writes the table there with the run's decimals.
+void write_result(AnalysisRun& run,
+                  const std::string& name,
+                  const TimeSeries& table,
+                  OpensimFormat format);
 
-/// Speeds in a file, in the model's order, zero where a coordinate has none; nothing if it has none
-/// at all. Columns "<path>/speed" or "<coordinate>_u", in a file of speeds only the coordinate's
-/// own name too.
+/// Speeds of a file in the model's order, zero for a coordinate without a column; empty for a file
+/// without any speed. Columns are named "<path>/speed" or "<coordinate>_u", in a file of speeds
+/// only also by the coordinate alone.
 [[nodiscard]] std::optional<TimeSeries> read_speeds(const model::BodyModel& model,
                                                     const std::filesystem::path& path,
                                                     bool only_speeds,

@@ -18,7 +18,7 @@ namespace {
 
 using model::OsimXml;
 
-/// The task set within the set-up, or in the file it names; the document must outlive the node.
+/// The task set of a set-up, inside it or in a separate file; the document must outlive the node.
 struct TaskFile {
   std::string text;
   std::unique_ptr<OsimXml> xml;
@@ -78,7 +78,7 @@ void add_coordinate_task(const OpensimSetup& setup,
   ik.tasks.push_back(std::move(task));
 }
 
-/// Names the markers that tasks weigh and the recording lacks, and what they may be called there.
+/// Notes the markers that tasks weigh and the recording lacks, with similar names of the recording.
 void note_unseen_markers(const kinematics::IkOptions& ik,
                          const recording::MarkerSeries& markers,
                          std::vector<std::string>& notes) {
@@ -113,7 +113,6 @@ kinematics::IkOptions read_ik_tasks(const OpensimSetup& setup,
   const OsimXml& xml = tasks.xml ? *tasks.xml : setup.xml();
   std::set<std::string> named;
   for (const auto node : OsimXml::objects(tasks.set)) {
-    if (node.type() != pugi::node_element) continue;
     const std::string_view kind = node.name();
     const bool marker_task = kind == "IKMarkerTask";
     if (!marker_task && kind != "IKCoordinateTask")

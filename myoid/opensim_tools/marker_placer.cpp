@@ -90,8 +90,8 @@ std::string join_names(const std::vector<std::string>& names) {
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
-/// A static pose that leans on the end of a coordinate's range is not the person's: the markers
-/// that do not fit are then placed into the model for good.
+/// Notes coordinates at an end of their range: the static pose is then not the person's, and the
+/// model takes over the misfit of the markers.
 void note_limits(const model::BodyModel& model,
                  const Eigen::VectorXd& q,
                  bool held_inside,
@@ -115,7 +115,8 @@ void note_limits(const model::BodyModel& model,
       held_inside ? " (the pose is held off there as in OpenSim's search)" : ""));
 }
 
-/// What no marker of the static pose determines, and which markers are placed by it all the same.
+/// Notes the coordinates that no marker of the static pose determines, and the markers that are
+/// placed by these coordinates.
 void note_undetermined(const model::BodyModel& model,
                        const std::vector<std::string>& undetermined,
                        const kinematics::IkOptions& ik,
@@ -149,9 +150,9 @@ void note_undetermined(const model::BodyModel& model,
                      : fmt::format("; markers placed by that: {}", join_names(placed))));
 }
 
-/// The barrier that OpenSim's search for the static pose leaves: its optimizer is an interior-point
-/// method where the model has constraints (locked coordinates are), whose tolerance of 1e-4 (of J,
-/// m^2) is met with a barrier of tolerance / 11 (Waechter and Biegler 2006, eq. 7: error below ten
+/// The barrier at which OpenSim's search for the static pose stops. For a model with constraints
+/// (locked coordinates count) OpenSim uses an interior-point method with a tolerance of 1e-4 (of J,
+/// m^2), which a barrier of tolerance / 11 meets (Waechter and Biegler 2006, eq. 7: error below ten
 /// barriers).
 double barrier_of(const model::BodyModel& model) {
   const bool constrained =

@@ -19,17 +19,17 @@ struct Scaling {
   ToolResult& result;
 };
 
-/// Markers of a file. Measuring and placing usually read one file: what its reader mended is noted
+/// Reads the markers of a file. Measuring and placing usually read one file: each repair is noted
 /// once.
 [[nodiscard]] recording::MarkerSeries markers_of(const Scaling& scaling,
                                                  const std::filesystem::path& file);
 
-/// First and last frame of a time range; all frames where it says nothing.
+/// First and last frame of a time range; all frames for a range without a frame.
 [[nodiscard]] std::pair<Eigen::Index, Eigen::Index> frames_in(
     const recording::MarkerSeries& markers, std::pair<double, double> range);
 
-/// The step <MarkerPlacer>: fits the model to the mean of the static trial and moves its markers
-/// that are not fixed to where they were measured; writes the pose and the marker set if asked for.
+/// The step <MarkerPlacer>: fits the model to the mean of the static trial, moves all markers but
+/// the fixed ones to their measured places, and writes the pose and the marker set if asked for.
 void place_markers(const Scaling& scaling, pugi::xml_node placer, model::OsimEditor& editor);
 
 }  // namespace myoid

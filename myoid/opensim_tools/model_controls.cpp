@@ -14,7 +14,7 @@ namespace {
 using model::OsimXml;
 using simulation::Signal;
 
-/// The actuator that a column or control means.
+/// The name of the actuator of a column or control.
 std::string actuator_of(std::string name) {
   if (name.ends_with(".excitation")) name.resize(name.size() - 11);
   if (const auto slash = name.rfind('/'); slash != std::string::npos) name.erase(0, slash + 1);
@@ -59,7 +59,6 @@ void read_control_set(const std::filesystem::path& path, ModelControls& controls
   if (!set) xml.fail(xml.root(), "expected a <ControlSet>");
   if (const auto defaults = set.child("defaults")) xml.set_prototypes(defaults);
   for (const auto node : OsimXml::objects(set)) {
-    if (node.type() != pugi::node_element) continue;
     const std::string_view kind = node.name();
     const std::string name = actuator_of(OsimXml::name_of(node));
     if (kind == "ControlLinear") {
@@ -81,7 +80,6 @@ ModelControls read_model_controls(const OpensimSetup& setup, std::vector<std::st
   const auto& xml = setup.xml();
   ModelControls controls;
   for (const auto node : OsimXml::objects(xml.property(setup.tool(), "ControllerSet"))) {
-    if (node.type() != pugi::node_element) continue;
     if (!xml.flag(node, "enabled", !xml.flag(node, "isDisabled", false))) continue;
     if (std::string_view(node.name()) != "ControlSetController") {
       const std::string message = fmt::format(

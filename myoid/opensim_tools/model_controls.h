@@ -14,8 +14,9 @@ using ModelControls = std::map<std::string, simulation::Signal>;
 
 /// The controls that the set-up's <ControllerSet> gives: of ControlSetControllers with a
 /// <controls_file>, a table (.sto) or a <ControlSet> (.xml) of ControlLinear and ControlConstant.
-/// "<name>.excitation" and ".../<name>" are the muscle's. Another controller that is enabled is
-/// named in `notes` or, without them, throws ReadError; so does a file that is no controls.
+/// "<name>.excitation" and ".../<name>" control the muscle of that name. An enabled controller of
+/// another class is named in `notes` or, without `notes`, throws ReadError. A file without controls
+/// throws ReadError.
 [[nodiscard]] ModelControls read_model_controls(const OpensimSetup& setup,
                                                 std::vector<std::string>* notes = nullptr);
 

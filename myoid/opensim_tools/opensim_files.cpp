@@ -11,6 +11,7 @@
 
 #include "myoid/core/angle_unit.h"
 #include "myoid/core/error.h"
+#include "myoid/core/index.h"
 #include "myoid/files/atomic_file.h"
 #include "myoid/files/text_file.h"
 #include "myoid/recording/recording.h"
@@ -45,19 +46,18 @@ TimeSeries read_coordinates(const model::BodyModel& model,
   std::vector<Channel> channels;
   std::vector<bool> found(model.coordinates.size(), false);
   for (Eigen::Index k = 0; k < count; ++k) {
-    const model::Coordinate& c = model.coordinates[static_cast<std::size_t>(k)];
+    const model::Coordinate& c = model.coordinates[at(k)];
     channels.push_back({c.name, kinematics::coordinate_unit(c, 0)});
     q.col(k).setConstant(missing == MissingCoordinate::zero ? 0.0 : c.default_value);
   }
   bool any = false;
   for (std::size_t column = 0; column < file.data.channels().size(); ++column) {
     const int k = coordinate_of(model, file.data.channels()[column].name);
-    if (k < 0 || found[static_cast<std::size_t>(k)]) continue;
-    const bool angle =
-        model.coordinates[static_cast<std::size_t>(k)].motion == model::MotionType::rotational;
+    if (k < 0 || found[at(k)]) continue;
+    const bool angle = model.coordinates[at(k)].motion == model::MotionType::rotational;
     q.col(k) = file.data.values().col(static_cast<Eigen::Index>(column)) *
                (angle && file.in_degrees ? kDegree : 1.0);
-    found[static_cast<std::size_t>(k)] = true;
+    found[at(k)] = true;
     any = true;
   }
   if (!any) {
@@ -91,11 +91,17 @@ TimeSeries rows_of(const TimeSeries& series, Eigen::Index first, Eigen::Index la
           series.values().middleRows(first, count)};
 }
 
+TimeSeries ColumnTable::at_times(const Eigen::VectorXd& times_s) const {
+  Eigen::MatrixXd values(times_s.size(), static_cast<Eigen::Index>(columns_.size()));
+  for (Eigen::Index c = 0; c < values.cols(); ++c) values.col(c) = columns_[at(c)];
+  return {times_s, channels_, std::move(values)};
+}
+
 TimeSeries with_file_units(const model::BodyModel& model, const TimeSeries& q) {
   std::vector<Channel> channels = q.channels();
   for (Channel& channel : channels) {
     const auto c = model.find_coordinate(channel.name);
-    if (c && model.coordinates[static_cast<std::size_t>(*c)].motion == model::MotionType::coupled)
+    if (c && model.coordinates[at(*c)].motion == model::MotionType::coupled)
       channel.unit = Unit::dimensionless;
   }
   return {q.time_s(), std::move(channels), q.values()};
@@ -148,8 +154,7 @@ void write_opensim_storage(const std::filesystem::path& path,
   for (Eigen::Index row = 0; row < series.sample_count(); ++row) {
     write(series.time_s()[row], columns > 0 ? '\t' : '\n');
     for (Eigen::Index c = 0; c < columns; ++c) {
-      write(series.values()(row, c) / factor[static_cast<std::size_t>(c)],
-            c + 1 < columns ? '\t' : '\n');
+      write(series.values()(row, c) / factor[at(c)], c + 1 < columns ? '\t' : '\n');
     }
   }
   recording::write_file(path, {buffer.get(), used}, recording::Flush::later);

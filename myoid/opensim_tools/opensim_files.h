@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "myoid/core/time_series.h"
@@ -10,26 +11,58 @@
 
 namespace myoid {
 
-/// Coordinates of a motion or states file in the model's order [rad, m]; what the file calls
-/// "joint/coordinate/value" or "/jointset/joint/coordinate/value" is the coordinate. `missing` says
-/// what a coordinate without a column takes: its default value (inverse dynamics) or 0 (the
-/// analyses of AnalyzeTool). Only angles are converted from degrees. Throws ReadError as
-/// read_storage, and InvalidInput if no column is a coordinate.
+/// The value of a coordinate without a column: its default value (inverse dynamics) or 0 (the
+/// analyses of AnalyzeTool).
 enum class MissingCoordinate { default_value, zero };
+
+/// Reads the coordinates of a motion or states file, in the model's order [rad, m]. Columns have
+/// the name of the coordinate, "joint/coordinate/value" or "/jointset/joint/coordinate/value". Only
+/// angles are converted from degrees. Throws ReadError as read_storage, and InvalidInput if no
+/// column is a coordinate.
 [[nodiscard]] TimeSeries read_coordinates(const model::BodyModel& model,
                                           const std::filesystem::path& path,
                                           MissingCoordinate missing,
                                           std::vector<std::string>& notes);
 
-/// Row of the greatest time that is not after `time_s`; the first row if all are.
+/// Row of the greatest time that is not after `time_s`; the first row if all times are later.
 [[nodiscard]] Eigen::Index row_at(const Eigen::VectorXd& times_s, double time_s);
 
 /// Rows `first` to `last`, both included.
 [[nodiscard]] TimeSeries rows_of(const TimeSeries& series, Eigen::Index first, Eigen::Index last);
 
-/// The series of coordinates with only its angles in radians: what OpenSim calls coupled has no
-/// unit in files, and is never converted to degrees.
+/// The series of coordinates with only its angles in radians. OpenSim gives coupled coordinates no
+/// unit in files and never converts them to degrees.
 [[nodiscard]] TimeSeries with_file_units(const model::BodyModel& model, const TimeSeries& q);
+
+/// A table of which `fill(i, row)` writes row i, one for each time.
+template <typename Fill>
+[[nodiscard]] TimeSeries frame_table(const Eigen::VectorXd& times_s,
+                                     std::vector<Channel> channels,
+                                     const Fill& fill) {
+  Eigen::MatrixXd values(times_s.size(), static_cast<Eigen::Index>(channels.size()));
+  for (Eigen::Index i = 0; i < values.rows(); ++i) fill(i, values.row(i));
+  return {times_s, std::move(channels), std::move(values)};
+}
+
+/// A table that grows column by column.
+class ColumnTable {
+ public:
+  void add(std::string name, Unit unit, Eigen::VectorXd values) {
+    channels_.push_back({std::move(name), unit});
+    columns_.push_back(std::move(values));
+  }
+  [[nodiscard]] TimeSeries at_times(const Eigen::VectorXd& times_s) const;
+
+ private:
+  std::vector<Channel> channels_;
+  std::vector<Eigen::VectorXd> columns_;
+};
+
+/// The lines on units in the headers of OpenSim's result files.
+inline constexpr const char* kUnitsNote =
+    "Units are S.I. units (second, meters, Newtons, ...)\nIf the header above contains a line with "
+    "'inDegrees', this indicates whether rotational values are in degrees (yes) or radians "
+    "(no).\n\n";
 
 struct OpensimFormat {
   std::string title{};
@@ -38,8 +71,9 @@ struct OpensimFormat {
   int decimals = 8;
 };
 
-/// Writes a storage file as OpenSim's tools do: version 1, fixed decimals in columns eight wider
-/// than them, NaN for what is not known. Whole or not at all.
+/// Writes a storage file as OpenSim's tools do: version 1, fixed decimals in columns eight
+/// characters wider than the decimals, NaN for unknown values. The file appears whole or not at
+/// all.
 void write_opensim_storage(const std::filesystem::path& path,
                            const TimeSeries& series,
                            const OpensimFormat& format);

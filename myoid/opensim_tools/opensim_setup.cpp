@@ -19,7 +19,7 @@ constexpr const char* kTools[] = {
     "InverseKinematicsTool", "IKTool",    "InverseDynamicsTool",     "AnalyzeTool", "ScaleTool",
     "ForwardTool",           "IMUPlacer", "IMUInverseKinematicsTool"};
 
-/// What answers the question of a tool that is not run.
+/// Advice on the tools that serve in place of a tool that is not run.
 std::string in_place_of(std::string_view tool) {
   if (tool == "CMCTool") {
     return "; in place of computed muscle control: AnalyzeTool with StaticOptimization gives the "
@@ -32,8 +32,8 @@ std::string in_place_of(std::string_view tool) {
   return "";
 }
 
-/// The name of a result that cannot be here: a path of Windows, or an absolute one whose folder
-/// does not exist.
+/// True if the name of a result is from another computer: a Windows path, or an absolute path whose
+/// folder does not exist.
 bool is_elsewhere(const std::filesystem::path& folder, const std::string& name) {
   if (name.empty()) return false;
   if (recording::is_windows_path(name)) return true;
@@ -142,7 +142,7 @@ std::vector<std::filesystem::path> OpensimSetup::files(pugi::xml_node object,
                                                        const char* name) const {
   const std::string text = named_in(object, name);
   if (text.empty()) return {};
-  // A name may hold blanks: all of it first, then word by word.
+  // A name may hold blanks: the whole text is tried first, then each word.
   const auto folder = path_.parent_path();
   if (recording::find_named_file(folder, text).exists)
     return {recording::find_named_file(folder, text).path};
@@ -252,8 +252,8 @@ void OpensimSetup::check_range(std::pair<double, double> asked_s,
   const bool late = end_s > last_s + interval_s && std::isfinite(end_s);
   if (early || late) {
     notes.push_back(
-        fmt::format("the set-up asks for {} to {} s; {} holds {} to {} s, and what it "
-                    "holds is used, as in OpenSim",
+        fmt::format("the set-up asks for {} to {} s; {} holds {} to {} s, and these "
+                    "times are used, as in OpenSim",
                     start_s, end_s, file.string(), first_s, last_s));
   }
 }

@@ -12,8 +12,8 @@
 
 namespace myoid {
 
-/// A set-up file of one of OpenSim's tools. Names of files in it are relative to its own folder;
-/// names from another computer are looked for beside it and one folder up (find_named_file).
+/// A set-up file of one of OpenSim's tools. Its names of files are relative to its folder; files
+/// named on another computer are searched for in that folder and one folder up (find_named_file).
 class OpensimSetup {
  public:
   /// Throws ReadError (with line and remedy) if the file is missing, cut off, no XML, or holds no
@@ -33,8 +33,8 @@ class OpensimSetup {
 
   /// True if an element names a file.
   [[nodiscard]] bool names_file(pugi::xml_node object, const char* name) const;
-  /// The file that an element names, to be read; empty where it is absent, empty or "Unassigned".
-  /// Throws ReadError, naming the element, if there is no such file.
+  /// The input file that an element names; empty for an element that is absent, empty or
+  /// "Unassigned". Throws ReadError, naming the element, if there is no such file.
   [[nodiscard]] std::optional<std::filesystem::path> file(pugi::xml_node object,
                                                           const char* name) const;
   /// The same; throws ReadError if the element names none.
@@ -44,26 +44,26 @@ class OpensimSetup {
   /// Files that a list in an element names.
   [[nodiscard]] std::vector<std::filesystem::path> files(pugi::xml_node object,
                                                          const char* name) const;
-  /// The file that an element names, to be written; empty as for `file`.
+  /// The output file that an element names; empty as for `file`.
   [[nodiscard]] std::optional<std::filesystem::path> output_file(pugi::xml_node object,
                                                                  const char* name) const;
-  /// The files that the set-up reads, as far as it names them and they exist.
+  /// The existing files that the set-up names as inputs.
   [[nodiscard]] std::vector<std::filesystem::path> inputs() const;
-  /// Folder of the results; the set-up's own if none is given, or one of another computer.
+  /// Folder of the results; the set-up's own if no folder, or one of another computer, is given.
   [[nodiscard]] std::filesystem::path results_folder() const;
-  /// A sentence for each file that is read or written elsewhere than the set-up says.
+  /// A sentence for each file whose place differs from the name in the set-up.
   [[nodiscard]] std::vector<std::string> notes() const;
   /// Two numbers; (-inf, inf) where absent. Throws ReadError unless they increase.
   [[nodiscard]] std::pair<double, double> time_range(pugi::xml_node object, const char* name) const;
-  /// Throws ReadError where the times asked for have nothing in common with those recorded in
-  /// `file`; adds a note where they reach more than a sample beyond.
+  /// Throws ReadError if the times asked for and the times recorded in `file` are disjoint; adds a
+  /// note if the former reach more than a sample beyond the latter.
   void check_range(std::pair<double, double> asked_s,
                    const Eigen::VectorXd& recorded_s,
                    const std::filesystem::path& file,
                    std::vector<std::string>& notes) const;
 
  private:
-  /// What stands in for the file of an element; empty where nothing does.
+  /// The file that replaces the file of an element; empty without a replacement.
   [[nodiscard]] std::filesystem::path replacement(std::string_view name) const;
   /// The text of an element that names a file; empty for "Unassigned".
   [[nodiscard]] std::string named_in(pugi::xml_node object, const char* name) const;
@@ -78,8 +78,8 @@ class OpensimSetup {
 };
 
 /// The model that a set-up names, with the actuators of its <force_set_files>; without the forces
-/// named in `excluded` ("all", "muscles", "actuators", or names; case does not matter). What the
-/// model has that is not supported is added to `notes`.
+/// named in `excluded` ("all", "muscles", "actuators", or names; case does not matter). Unsupported
+/// parts of the model are added to `notes`.
 [[nodiscard]] model::BodyModel setup_model(const OpensimSetup& setup,
                                            const model::Compat& compat,
                                            const std::vector<std::string>& excluded,

@@ -9,12 +9,11 @@
 #include "myoid/forces/actuator_columns.h"
 #include "myoid/forces/static_optimization.h"
 #include "myoid/opensim_tools/analysis_reports.h"
-#include "myoid/opensim_tools/opensim_files.h"
 
 namespace myoid {
 namespace {
 
-/// The model with muscles and actuators that can push and pull as much as they must.
+/// The model with muscles and actuators of unbounded control.
 model::BodyModel without_bounds(model::BodyModel model) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   const auto free = [](auto& force) {
@@ -56,19 +55,17 @@ void report_actuation(AnalysisRun& run, pugi::xml_node node) {
                         {.speeds_of_opensim = run.options.compat == model::kOpenSim452,
                          .progress = run.options.progress});
   const auto write = [&](const char* quantity, const char* title, const TimeSeries& table) {
-    write_opensim_storage(
-        claim_result(run, analysis_name(node) + quantity), table,
+    write_result(
+        run, analysis_name(node) + quantity, table,
         {.title = title,
          .description = "\nThis file contains the forces, the speeds or the powers of the "
                         "actuators.\nSpeeds of muscles and other paths are rates of lengthening; "
                         "a positive power does work on the model.\nUnits are S.I. units (seconds, "
-                        "meters, Newtons, radians, Watts)\n\n",
-         .decimals = run.decimals});
+                        "meters, Newtons, radians, Watts)\n\n"});
   };
   write("_force.sto", "ActuatorForces", forces);
   write("_speed.sto", "ActuatorSpeeds", result.speed);
   write("_power.sto", "ActuatorPowers", result.power_w);
-  run.result.frames = static_cast<int>(run.motion.sample_count());
 }
 
 void report_inverse_dynamics(AnalysisRun& run, pugi::xml_node node) {
@@ -102,7 +99,6 @@ void report_inverse_dynamics(AnalysisRun& run, pugi::xml_node node) {
                         {.title = "Inverse Dynamics",
                          .description = "This file contains inverse dynamics results.\n\n",
                          .decimals = run.decimals});
-  run.result.frames = static_cast<int>(run.motion.sample_count());
   run.result.frames_failed += solved.frames_failed;
 }
 

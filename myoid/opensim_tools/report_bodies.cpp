@@ -8,18 +8,15 @@
 #include "myoid/core/error.h"
 #include "myoid/core/index.h"
 #include "myoid/files/text_file.h"
-#include "myoid/model/body_accelerations.h"
-#include "myoid/model/constraints.h"
-#include "myoid/model/kinematic_tree.h"
 #include "myoid/opensim_tools/analysis_reports.h"
-#include "myoid/opensim_tools/opensim_files.h"
+#include "myoid/opensim_tools/moving_bodies.h"
 
 namespace myoid {
 namespace {
 
 constexpr const char* kWholeBody = "center_of_mass";
 
-/// Body-fixed X-Y-Z angles.
+/// Body-fixed X-Y-Z angles [rad].
 Vec3 angles_of(const Mat3& R) {
   return {std::atan2(-R(1, 2), R(2, 2)), std::asin(std::clamp(R(0, 2), -1.0, 1.0)),
           std::atan2(-R(0, 1), R(0, 0))};
@@ -56,58 +53,6 @@ Wanted wanted_bodies(AnalysisRun& run, pugi::xml_node node) {
   }
   return wanted;
 }
-
-/// Place, velocity and acceleration of a point, in ground.
-struct PointMotion {
-  Vec3 p = Vec3::Zero(), v = Vec3::Zero(), a = Vec3::Zero();
-};
-
-/// The bodies of a run, frame by frame. Accelerations are zero where `qddot` is not known.
-class MovingBodies {
- public:
-  MovingBodies(const AnalysisRun& run, const Eigen::MatrixXd* qddot)
-      : run_(run), qddot_(qddot), state_(model::make_state(run.model)) {}
-
-  void set(Eigen::Index row) {
-    const model::BodyModel& model = run_.model;
-    const auto& q = run_.motion.q.values();
-    model::compute_poses(model, model::assemble(model, q.row(row).transpose()).q, state_);
-    model::compute_velocities(model, run_.motion.qdot.values().row(row).transpose(), state_);
-    const Eigen::VectorXd qddot = qddot_ != nullptr ? Eigen::VectorXd(qddot_->row(row).transpose())
-                                                    : Eigen::VectorXd::Zero(q.cols());
-    model::compute_accelerations(model, qddot, state_, acceleration_);
-  }
-  [[nodiscard]] const Pose& pose(std::size_t body) const { return state_.X_GB[body]; }
-  [[nodiscard]] const Vec3& angular_velocity(std::size_t body) const { return state_.w_GB[body]; }
-  [[nodiscard]] const Vec3& angular_acceleration(std::size_t body) const {
-    return acceleration_.alpha_GB[body];
-  }
-  [[nodiscard]] PointMotion point(std::size_t body, const Vec3& p_B) const {
-    const Pose& X_GB = state_.X_GB[body];
-    return {X_GB * p_B, state_.v_GB[body] + state_.w_GB[body].cross(Vec3(X_GB.R * p_B)),
-            acceleration_.of_station(state_, static_cast<model::BodyIndex>(body), p_B)};
-  }
-  [[nodiscard]] PointMotion center(std::size_t body) const {
-    return point(body, run_.model.bodies[body].p_BBcm_B);
-  }
-  [[nodiscard]] PointMotion center_of_all() const {
-    double mass_kg = 0.0;
-    PointMotion sum;
-    for (std::size_t b = 1; b < run_.model.bodies.size(); ++b) {
-      const double m = run_.model.bodies[b].mass_kg;
-      const PointMotion c = center(b);
-      mass_kg += m;
-      sum = {sum.p + m * c.p, sum.v + m * c.v, sum.a + m * c.a};
-    }
-    return {sum.p / mass_kg, sum.v / mass_kg, sum.a / mass_kg};
-  }
-
- private:
-  const AnalysisRun& run_;
-  const Eigen::MatrixXd* qddot_;
-  model::BodyState state_;
-  model::BodyAccelerations acceleration_;
-};
 
 std::vector<Channel> body_channels(const model::BodyModel& model, const Wanted& wanted) {
   std::vector<Channel> channels;
@@ -172,7 +117,7 @@ void report_bodies(AnalysisRun& run, pugi::xml_node node) {
   const std::vector<Channel> channels = body_channels(run.model, wanted);
   if (channels.empty()) xml.fail(node, "BodyKinematics: there are no bodies to report");
   const Eigen::MatrixXd* qddot = accelerations_of(run);
-  MovingBodies moving(run, qddot);
+  MovingBodies moving(run.model, run.motion, qddot);
   MotionTables tables = body_tables(moving, wanted, local, run.motion.sample_count(),
                                     static_cast<Eigen::Index>(channels.size()));
   const std::string name = analysis_name(node);
@@ -182,18 +127,14 @@ void report_bodies(AnalysisRun& run, pugi::xml_node node) {
       "frame.\n\nUnits are S.I. units (seconds, meters, Newtons, ...)\nAngles are in {}.\n\n",
       local ? "body's own" : "global", in_degrees ? "degrees" : "radians");
   const auto write = [&](const std::string& quantity, const char* title, Eigen::MatrixXd& values) {
-    write_opensim_storage(claim_result(run, name + quantity + ".sto"),
-                          {run.motion.q.time_s(), channels, std::move(values)},
-                          {.title = title,
-                           .in_degrees = in_degrees,
-                           .description = description,
-                           .decimals = run.decimals});
+    write_result(run, name + quantity + ".sto",
+                 {run.motion.q.time_s(), channels, std::move(values)},
+                 {.title = title, .in_degrees = in_degrees, .description = description});
   };
   const std::string frame = local ? "_bodyLocal" : "_global";
   write("_pos_global", "Positions", tables[0]);  // places stay in ground
   write("_vel" + frame, "Velocities", tables[1]);
   if (qddot != nullptr) write("_acc" + frame, "Accelerations", tables[2]);
-  run.result.frames = static_cast<int>(run.motion.sample_count());
 }
 
 void report_point(AnalysisRun& run, pugi::xml_node node) {
@@ -214,12 +155,12 @@ void report_point(AnalysisRun& run, pugi::xml_node node) {
   const Eigen::Index frames = run.motion.sample_count();
   Eigen::MatrixXd position(frames, 3), velocity(frames, 3), acceleration(frames, 3);
   const Eigen::MatrixXd* qddot = accelerations_of(run);
-  MovingBodies moving(run, qddot);
+  MovingBodies moving(run.model, run.motion, qddot);
   for (Eigen::Index i = 0; i < frames; ++i) {
     moving.set(i);
     const PointMotion motion = moving.point(body, point);
     const Pose& X_GR = moving.pose(relative);
-    // Of velocity and acceleration only the axes are those of the other body.
+    // The other body gives velocity and acceleration its axes only.
     position.row(i) = (X_GR.inverse() * motion.p).transpose();
     velocity.row(i) = (X_GR.R.transpose() * motion.v).transpose();
     acceleration.row(i) = (X_GR.R.transpose() * motion.a).transpose();
@@ -232,17 +173,15 @@ void report_point(AnalysisRun& run, pugi::xml_node node) {
       point[0], point[1], point[2], model.bodies[body].name, model.name);
   const auto write = [&](const char* quantity, const char* title, Unit unit,
                          Eigen::MatrixXd& values) {
-    write_opensim_storage(
-        claim_result(run, fmt::format("{}_{}_{}.sto", name, point_name, quantity)),
-        {run.motion.q.time_s(),
-         {{point_name + "_X", unit}, {point_name + "_Y", unit}, {point_name + "_Z", unit}},
-         std::move(values)},
-        {.title = title, .description = description, .decimals = run.decimals});
+    write_result(run, fmt::format("{}_{}_{}.sto", name, point_name, quantity),
+                 {run.motion.q.time_s(),
+                  {{point_name + "_X", unit}, {point_name + "_Y", unit}, {point_name + "_Z", unit}},
+                  std::move(values)},
+                 {.title = title, .description = description});
   };
   write("pos", "PointPosition", Unit::meter, position);
   write("vel", "PointVelocity", Unit::meter_per_second, velocity);
   if (qddot != nullptr) write("acc", "PointAcceleration", Unit::meter_per_second2, acceleration);
-  run.result.frames = static_cast<int>(frames);
 }
 
 }  // namespace myoid

@@ -1,3 +1,4 @@
+#include <array>
 #include <utility>
 
 #include <fmt/format.h>
@@ -8,90 +9,98 @@
 #include "myoid/forces/actuator_columns.h"
 #include "myoid/forces/driven_frame.h"
 #include "myoid/forces/muscle_analysis.h"
-#include "myoid/model/constraints.h"
-#include "myoid/model/kinematic_tree.h"
 #include "myoid/opensim_tools/analysis_reports.h"
 #include "myoid/opensim_tools/model_controls.h"
-#include "myoid/opensim_tools/opensim_files.h"
+#include "myoid/opensim_tools/moving_bodies.h"
 
 namespace myoid {
 namespace {
 
-struct ForceColumns {
-  std::vector<Channel> channels;
-  std::vector<Eigen::VectorXd> columns;
-  void add(std::string name, Eigen::VectorXd values) {
-    channels.push_back({std::move(name), Unit::dimensionless});
-    columns.push_back(std::move(values));
+/// The force of a coordinate's limits at every time.
+Eigen::VectorXd limit_forces(const AnalysisRun& run, const model::CoordinateLimitForce& limit) {
+  Eigen::VectorXd values(run.motion.sample_count());
+  for (Eigen::Index i = 0; i < values.size(); ++i) {
+    values[i] = dynamics::limit_force(limit, run.motion.q.values()(i, limit.coordinate),
+                                      run.motion.qdot.values()(i, limit.coordinate));
   }
-};
+  return values;
+}
 
-/// What OpenSim's force reporter records: actuators and passive forces in the order of the force
-/// set, then nine columns for each external force: force and torque in ground, the point in its
-/// body.
+/// Adds the columns of the passive forces of a name. Only limit forces have one.
+void add_passive(const AnalysisRun& run,
+                 const model::BodyModel& model,
+                 const std::string& name,
+                 ColumnTable& table) {
+  for (const model::PassiveForce& force : model.passive_forces) {
+    if (force.name != name) continue;
+    if (const auto* limit = std::get_if<model::CoordinateLimitForce>(&force.law)) {
+      table.add(name, Unit::dimensionless, limit_forces(run, *limit));
+    } else {
+      run.result.notes.push_back(
+          fmt::format("force '{}' of class {} acts, but has no column among the forces", name,
+                      force.class_name));
+    }
+  }
+}
+
+/// Force, point and torque of an external force: force and torque in ground, the point in the body
+/// that the force acts on, as OpenSim reports them. Zero where the force has none.
+Eigen::Matrix<double, 1, 9> load_row(const dynamics::ExternalForce& load,
+                                     const MovingBodies& moving,
+                                     double time_s) {
+  const Mat3& R = moving.pose(at(load.force_frame)).R;
+  const Vec3 zero = Vec3::Zero();
+  const Vec3 f = load.force ? Vec3(R * load.force->at(time_s)) : zero;
+  const Vec3 t = load.torque ? Vec3(R * load.torque->at(time_s)) : zero;
+  const Pose X_BG = moving.pose(at(load.body)).inverse();
+  const Vec3 p =
+      load.point ? Vec3(X_BG * (moving.pose(at(load.point_frame)) * load.point->at(time_s))) : zero;
+  Eigen::Matrix<double, 1, 9> row;
+  row << f.transpose(), p.transpose(), t.transpose();
+  return row;
+}
+
+/// Adds the columns of the external forces.
+void add_loads(const std::vector<dynamics::ExternalForce>& loads,
+               const model::BodyModel& model,
+               const kinematics::JointMotion& motion,
+               ColumnTable& table) {
+  const Eigen::VectorXd& times = motion.q.time_s();
+  std::vector<Eigen::MatrixXd> values(loads.size(), Eigen::MatrixXd(times.size(), 9));
+  MovingBodies moving(model, motion);
+  for (Eigen::Index i = 0; i < times.size(); ++i) {
+    moving.set(i);
+    for (std::size_t k = 0; k < loads.size(); ++k)
+      values[k].row(i) = load_row(loads[k], moving, times[i]);
+  }
+  for (std::size_t k = 0; k < loads.size(); ++k) {
+    const dynamics::ExternalForce& load = loads[k];
+    const std::string stem = model.bodies[at(load.body)].name + "_" + load.name + "_";
+    const auto add = [&](bool known, Eigen::Index column, std::array<const char*, 3> names) {
+      if (!known) return;
+      for (const char* name : names)
+        table.add(stem + name, Unit::dimensionless, values[k].col(column++));
+    };
+    add(load.force.has_value(), 0, {"Fx", "Fy", "Fz"});
+    add(load.force && load.point, 3, {"px", "py", "pz"});
+    add(load.torque.has_value(), 6, {"Tx", "Ty", "Tz"});
+  }
+}
+
+/// The table of OpenSim's force reporter.
 TimeSeries force_table(const AnalysisRun& run,
                        const model::BodyModel& model,
                        const TimeSeries& forces) {
-  std::vector<std::string>& notes = run.result.notes;
-  ForceColumns table;
-  const Eigen::VectorXd& times = run.motion.q.time_s();
+  ColumnTable table;
   for (const std::string& name : model.force_order) {
     if (const auto column = forces.find(name)) {
-      table.add(name, forces.values().col(*column));
-      continue;
-    }
-    for (const model::PassiveForce& force : model.passive_forces) {
-      if (force.name != name) continue;
-      if (const auto* limit = std::get_if<model::CoordinateLimitForce>(&force.law)) {
-        Eigen::VectorXd values(times.size());
-        for (Eigen::Index i = 0; i < values.size(); ++i) {
-          values[i] = dynamics::limit_force(*limit, run.motion.q.values()(i, limit->coordinate),
-                                            run.motion.qdot.values()(i, limit->coordinate));
-        }
-        table.add(name, std::move(values));
-      } else {
-        notes.push_back(
-            fmt::format("force '{}' of class {} acts, but has no column among the forces", name,
-                        force.class_name));
-      }
+      table.add(name, Unit::dimensionless, forces.values().col(*column));
+    } else {
+      add_passive(run, model, name, table);
     }
   }
-  if (run.loads) {
-    model::BodyState state = model::make_state(model);
-    std::vector<Eigen::MatrixXd> all(run.loads->forces.size(), Eigen::MatrixXd(times.size(), 9));
-    for (Eigen::Index i = 0; i < times.size(); ++i) {
-      Eigen::VectorXd q = run.motion.q.values().row(i).transpose();
-      if (!model.couplers.empty() || !model.constraints.empty()) q = model::assemble(model, q).q;
-      model::compute_poses(model, q, state);
-      for (std::size_t k = 0; k < all.size(); ++k) {
-        const dynamics::ExternalForce& load = run.loads->forces[k];
-        const Mat3& R = state.X_GB[at(load.force_frame)].R;
-        const Vec3 zero = Vec3::Zero();
-        const Vec3 f = load.force ? Vec3(R * load.force->at(times[i])) : zero;
-        const Vec3 t = load.torque ? Vec3(R * load.torque->at(times[i])) : zero;
-        // OpenSim reports the point in the frame of the body it acts on.
-        const Pose X_BG = state.X_GB[at(load.body)].inverse();
-        const Vec3 p =
-            load.point ? Vec3(X_BG * (state.X_GB[at(load.point_frame)] * load.point->at(times[i])))
-                       : zero;
-        all[k].row(i) << f.transpose(), p.transpose(), t.transpose();
-      }
-    }
-    for (std::size_t k = 0; k < all.size(); ++k) {
-      const dynamics::ExternalForce& load = run.loads->forces[k];
-      const std::string stem = model.bodies[at(load.body)].name + "_" + load.name + "_";
-      const char* names[] = {"Fx", "Fy", "Fz", "px", "py", "pz", "Tx", "Ty", "Tz"};
-      for (Eigen::Index c = 0; c < 9; ++c) {
-        const bool force = c < 6;
-        if ((force && !load.force) || (!force && !load.torque)) continue;
-        if (c >= 3 && c < 6 && !load.point) continue;
-        table.add(stem + names[c], all[k].col(c));
-      }
-    }
-  }
-  Eigen::MatrixXd values(times.size(), static_cast<Eigen::Index>(table.columns.size()));
-  for (Eigen::Index c = 0; c < values.cols(); ++c) values.col(c) = table.columns[at(c)];
-  return {times, std::move(table.channels), std::move(values)};
+  if (run.loads) add_loads(run.loads->forces, model, run.motion, table);
+  return table.at_times(run.motion.q.time_s());
 }
 
 }  // namespace
@@ -144,9 +153,9 @@ const Eigen::MatrixXd* accelerations_of(AnalysisRun& run) {
           run.model, run.motion, forces_of_states(run),
           {.loads = run.loads ? &*run.loads : nullptr, .progress = run.options.progress});
       notes.emplace_back(
-          "accelerations are those that the forces make, as in OpenSim: muscles pull by their "
-          "states, other actuators by their controls; they are not the motion's second "
-          "derivatives");
+          "accelerations follow from the forces, as in OpenSim, and differ from the motion's "
+          "second "
+          "derivatives: muscles pull by their states, other actuators by their controls");
     } catch (const ModelError& error) {
       run.accelerations.emplace();
       notes.push_back(fmt::format("accelerations are not written: {}", error.what()));
@@ -163,14 +172,11 @@ void write_forces(AnalysisRun& run,
       path, force_table(run, model, actuators),
       {.title = "ModelForces",
        .description =
-           "\nThis file contains the forces exerted on a model during a simulation.\n\nA force is "
-           "a "
-           "generalized force, meaning that it can be either a force (N) or a torque "
-           "(Nm).\n\nUnits "
-           "are S.I. units (second, meters, Newtons, ...)\nIf the header above contains a line "
-           "with "
-           "'inDegrees', this indicates whether rotational values are in degrees (yes) or radians "
-           "(no).\n\n",
+           std::string(
+               "\nThis file contains the forces exerted on a model during a simulation.\n\nA force "
+               "is a generalized force, meaning that it can be either a force (N) or a torque "
+               "(Nm).\n\n") +
+           kUnitsNote,
        .decimals = run.decimals});
 }
 
@@ -178,10 +184,9 @@ void report_forces(AnalysisRun& run, pugi::xml_node node) {
   const std::string name = analysis_name(node);
   if (run.setup.xml().flag(node, "include_constraint_forces", false)) {
     run.result.notes.push_back(
-        fmt::format("{}: forces of constraints are not known here and not written", name));
+        fmt::format("{}: forces of constraints are not computed and not written", name));
   }
   write_forces(run, run.model, claim_result(run, name + "_forces.sto"), forces_of_states(run));
-  run.result.frames = static_cast<int>(run.motion.sample_count());
 }
 
 }  // namespace myoid

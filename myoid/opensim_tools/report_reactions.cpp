@@ -105,23 +105,21 @@ std::vector<Asked> asked_joints(AnalysisRun& run, pugi::xml_node node) {
   return asked;
 }
 
-/// Between two rows along a line, beyond the ends the outer row.
+/// The rows at other times, along the line between two rows; beyond the ends the outer row.
 TimeSeries linear_at(const TimeSeries& file, const Eigen::VectorXd& times) {
-  Eigen::MatrixXd values(times.size(), file.channel_count());
   const Eigen::VectorXd& t = file.time_s();
-  for (Eigen::Index i = 0; i < times.size(); ++i) {
+  return frame_table(times, file.channels(), [&](Eigen::Index i, auto&& row) {
     const Eigen::Index before = row_at(t, times[i]);
     const Eigen::Index after = std::min(before + 1, t.size() - 1);
     const double share = after > before
                              ? std::clamp((times[i] - t[before]) / (t[after] - t[before]), 0.0, 1.0)
                              : 0.0;
-    values.row(i) = (1.0 - share) * file.values().row(before) + share * file.values().row(after);
-  }
-  return {times, file.channels(), std::move(values)};
+    row = (1.0 - share) * file.values().row(before) + share * file.values().row(after);
+  });
 }
 
-/// The actuators' forces at the motion's times: from the file or, where that lacks one, as the
-/// muscles have them at their states, other actuators at rest.
+/// The actuators' forces at the motion's times: from the file or, where the file lacks an actuator,
+/// from the states of the muscles, with the other actuators at rest.
 TimeSeries actuator_forces(AnalysisRun& run, pugi::xml_node node) {
   auto& notes = run.result.notes;
   const Eigen::VectorXd& times = run.motion.q.time_s();
@@ -146,6 +144,42 @@ TimeSeries actuator_forces(AnalysisRun& run, pugi::xml_node node) {
   return forces_of_states(run);
 }
 
+std::vector<Channel> reaction_channels(const std::vector<Asked>& asked) {
+  std::vector<Channel> channels;
+  for (const Asked& a : asked) {
+    for (const char* part : {"_fx", "_fy", "_fz"})
+      channels.push_back({a.label + part, Unit::newton});
+    for (const char* part : {"_mx", "_my", "_mz"})
+      channels.push_back({a.label + part, Unit::newton_meter});
+    for (const char* part : {"_px", "_py", "_pz"})
+      channels.push_back({a.label + part, Unit::meter});
+  }
+  return channels;
+}
+
+/// Force, moment and point of a joint's load on the child or the parent, in the frame asked for.
+Eigen::Matrix<double, 1, 9> reaction(const model::BodyModel& model,
+                                     const forces::JointLoads& frame,
+                                     const Asked& asked) {
+  const model::Joint& joint = model.joints[asked.joint];
+  const Vec3 child_G = frame.X_GB[at(joint.child)] * joint.X_BM.p;
+  const Vec3 parent_G = frame.X_GB[at(joint.parent)] * joint.X_PF.p;
+  Vec3 force = frame.on_child[asked.joint].f_G;
+  Vec3 moment = frame.on_child[asked.joint].m_G;
+  Vec3 point = child_G;
+  if (!asked.on_child) {
+    point = parent_G;
+    moment = -(moment + (child_G - parent_G).cross(force));
+    force = -force;
+  }
+  const Pose X_GE = frame.X_GB[at(asked.expressed_in.body)] * asked.expressed_in.X_BF;
+  Eigen::Matrix<double, 1, 9> row;
+  row.segment<3>(0) = (X_GE.R.transpose() * force).transpose();
+  row.segment<3>(3) = (X_GE.R.transpose() * moment).transpose();
+  row.segment<3>(6) = (X_GE.inverse() * point).transpose();
+  return row;
+}
+
 }  // namespace
 
 void report_reactions(AnalysisRun& run, pugi::xml_node node) {
@@ -163,46 +197,20 @@ void report_reactions(AnalysisRun& run, pugi::xml_node node) {
           name, force.name, force.class_name));
     }
   }
-  std::vector<Channel> channels;
-  for (const Asked& a : asked) {
-    for (const char* part : {"_fx", "_fy", "_fz"})
-      channels.push_back({a.label + part, Unit::newton});
-    for (const char* part : {"_mx", "_my", "_mz"})
-      channels.push_back({a.label + part, Unit::newton_meter});
-    for (const char* part : {"_px", "_py", "_pz"})
-      channels.push_back({a.label + part, Unit::meter});
-  }
-  Eigen::MatrixXd values(run.motion.sample_count(), static_cast<Eigen::Index>(channels.size()));
-  for (Eigen::Index i = 0; i < values.rows(); ++i) {
-    const forces::JointLoads& frame = loads[at(i)];
-    for (std::size_t k = 0; k < asked.size(); ++k) {
-      const model::Joint& joint = run.model.joints[asked[k].joint];
-      const Vec3 child_G = frame.X_GB[at(joint.child)] * joint.X_BM.p;
-      const Vec3 parent_G = frame.X_GB[at(joint.parent)] * joint.X_PF.p;
-      Vec3 force = frame.on_child[asked[k].joint].f_G;
-      Vec3 moment = frame.on_child[asked[k].joint].m_G;
-      Vec3 point = child_G;
-      if (!asked[k].on_child) {
-        point = parent_G;
-        moment = -(moment + (child_G - parent_G).cross(force));
-        force = -force;
-      }
-      const Pose X_GE = frame.X_GB[at(asked[k].expressed_in.body)] * asked[k].expressed_in.X_BF;
-      const auto column = static_cast<Eigen::Index>(9 * k);
-      values.row(i).segment<3>(column) = (X_GE.R.transpose() * force).transpose();
-      values.row(i).segment<3>(column + 3) = (X_GE.R.transpose() * moment).transpose();
-      values.row(i).segment<3>(column + 6) = (X_GE.inverse() * point).transpose();
-    }
-  }
+  const TimeSeries table =
+      frame_table(run.motion.q.time_s(), reaction_channels(asked), [&](Eigen::Index i, auto&& row) {
+        for (std::size_t k = 0; k < asked.size(); ++k)
+          row.template segment<9>(static_cast<Eigen::Index>(9 * k)) =
+              reaction(run.model, loads[at(i)], asked[k]);
+      });
   write_opensim_storage(
-      path, {run.motion.q.time_s(), std::move(channels), std::move(values)},
+      path, table,
       {.title = "Joint Reaction Loads",
        .description = "\nThis file contains the reaction forces and moments\napplied to the "
                       "specified body of a joint pair and expressed  in the specified "
                       "reference frame.\n\nUnits are S.I. units (seconds, meters, Newtons, "
                       "...)\n\n",
        .decimals = run.decimals});
-  run.result.frames = static_cast<int>(run.motion.sample_count());
 }
 
 }  // namespace myoid

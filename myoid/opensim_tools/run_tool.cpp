@@ -44,7 +44,7 @@ ToolResult run_tool(const std::filesystem::path& path, const ToolOptions& option
   try {
     run_named_tool(setup, options, result);
   } catch (const InvalidInput& error) {
-    // A misspelt element is often the cause: the one that was meant is missing.
+    // A misspelt element is often the cause: the intended element is missing.
     if (unknown.empty()) throw;
     throw InvalidInput(fmt::format("{}; {}", error.what(), fmt::join(unknown, "; ")));
   }

@@ -18,8 +18,8 @@ namespace myoid {
 ///   ForwardTool
 ///   IMUPlacer, IMUInverseKinematicsTool
 ///
-/// `notes` names everything that the set-up asks for and that is not done, elements that OpenSim
-/// does not know among them. Throws ReadError with the line for what cannot be read or run.
+/// `notes` names every request of the set-up that is not done, and elements unknown to OpenSim.
+/// Throws ReadError with the line for a set-up that cannot be read or run.
 [[nodiscard]] ToolResult run_tool(const std::filesystem::path& setup,
                                   const ToolOptions& options = {});
 

@@ -4,7 +4,7 @@
 
 namespace myoid {
 
-/// Files that stand in for those a set-up names; an empty one leaves the set-up's own.
+/// Files that replace the files named in a set-up; an empty path leaves the set-up's own.
 struct SetupFiles {
   std::filesystem::path model;
   /// The recorded motion: coordinates or states, for inverse kinematics and scaling the markers.

@@ -23,7 +23,7 @@ using model::OsimXml;
 /// Derivatives of every channel at its samples, by the natural quintic spline.
 TimeSeries derivative(const TimeSeries& series, const std::vector<Channel>& channels) {
   Eigen::MatrixXd values(series.sample_count(), series.channel_count());
-  // Fewer samples than a spline needs: postures, at rest.
+  // Fewer samples than a spline needs are postures at rest.
   if (series.sample_count() < 4)
     return {series.time_s(), channels, Eigen::MatrixXd::Zero(values.rows(), values.cols())};
   const math::SplineKnots knots(series.time_s());
@@ -39,9 +39,9 @@ std::vector<Channel> channels_of(const model::BodyModel& model, int order) {
   return channels;
 }
 
-/// Positions, speeds and accelerations as OpenSim forms them: speeds are the derivative of the
-/// spline through the positions (or given), accelerations that of the spline through the speeds;
-/// zero where nobody asks for them.
+/// Forms positions, speeds and accelerations as OpenSim does: given speeds, or derivatives of the
+/// spline through the positions; accelerations are derivatives of the spline through the speeds, or
+/// zero if no analysis uses them.
 kinematics::JointMotion motion_of(const model::BodyModel& model,
                                   TimeSeries q,
                                   std::optional<TimeSeries> speeds,
@@ -54,7 +54,8 @@ kinematics::JointMotion motion_of(const model::BodyModel& model,
   return {std::move(q), std::move(u), std::move(udot)};
 }
 
-/// The range is compared with the times of the file: a filter adds some at both ends.
+/// Reads the motion. The range is compared with the times of the file, for a filter adds times at
+/// both ends.
 kinematics::JointMotion read_motion(AnalysisRun& run,
                                     const OpensimSetup& setup,
                                     std::pair<double, double> range_s,
@@ -101,7 +102,8 @@ TimeSeries chosen_rows(const TimeSeries& series, const std::vector<Eigen::Index>
   return {series.time_s()(rows), series.channels(), series.values()(rows, Eigen::all)};
 }
 
-/// The rows that an analysis records: the first, those whose number its interval divides, the last.
+/// The rows that an analysis records: the first, every row whose number the interval divides, the
+/// last.
 std::vector<Eigen::Index> recorded_rows(Eigen::Index first, Eigen::Index last, int interval) {
   std::vector<Eigen::Index> rows;
   for (Eigen::Index i = first; i <= last; ++i) {
@@ -118,8 +120,8 @@ void read_loads(AnalysisRun& run, const OpensimSetup& setup) {
   notes.insert(notes.end(), run.loads->notes.begin(), run.loads->notes.end());
 }
 
-/// Throws ReadError for a class that no analysis of OpenSim has: a misspelt one would leave its
-/// files out unseen.
+/// Throws ReadError for an unknown class: the user would not notice the missing files of a misspelt
+/// analysis.
 void require_opensim_analysis(const OsimXml& xml, pugi::xml_node node) {
   static const std::vector<std::string> kOfOpensim{
       "Actuation",       "BodyKinematics",       "ForceReporter",
@@ -150,7 +152,7 @@ void run_analyses(const OpensimSetup& setup, const ToolOptions& options, ToolRes
   const auto set = xml.property(tool, "AnalysisSet");
   std::vector<pugi::xml_node> analyses;
   for (const auto node : OsimXml::objects(set)) {
-    if (node.type() == pugi::node_element && xml.flag(node, "on", true)) analyses.push_back(node);
+    if (xml.flag(node, "on", true)) analyses.push_back(node);
   }
   if (analyses.empty()) xml.fail(tool, "no analysis is on: there is nothing to do");
   for (const auto node : analyses) {

@@ -11,7 +11,6 @@
 #include "myoid/forces/actuator_columns.h"
 #include "myoid/opensim_tools/analysis_reports.h"
 #include "myoid/opensim_tools/model_controls.h"
-#include "myoid/opensim_tools/opensim_files.h"
 #include "myoid/opensim_tools/tool_stages.h"
 #include "myoid/simulation/simulation_model.h"
 
@@ -54,7 +53,8 @@ SimulationStart start_of(AnalysisRun& run, const SimulationModel& model, double&
   return start;
 }
 
-/// Every muscle's own control, kept within its bounds as OpenSim keeps it; without one it rests.
+/// The control of every muscle, clamped to its bounds as in OpenSim; a muscle without control
+/// rests.
 std::vector<Signal> excitations_of(const SimulationModel& model,
                                    const ModelControls& controls,
                                    std::vector<std::string>& notes) {
@@ -125,49 +125,40 @@ std::vector<Signal> coordinate_forces(const OpensimSetup& setup,
 
 /// States by the paths that OpenSim gives them.
 TimeSeries states_table(const SimulationModel& model, const simulation::Simulation& s) {
-  std::vector<Channel> channels;
-  std::vector<Eigen::VectorXd> columns;
-  const auto add = [&](std::string name, Unit unit, Eigen::VectorXd values) {
-    channels.push_back({std::move(name), unit});
-    columns.push_back(std::move(values));
-  };
+  ColumnTable table;
   for (const model::Coordinate& c : model.body.coordinates) {
     const std::string path =
         fmt::format("/jointset/{}/{}/", model.body.joints[at(c.joint)].name, c.name);
     const bool turns = c.motion == model::MotionType::rotational;
     const Unit unit = turns ? Unit::radian : Unit::dimensionless;
-    add(path + "value", unit, s.motion.column(c.name));
-    add(path + "speed", unit, s.motion.column(c.name + "_speed"));
+    table.add(path + "value", unit, s.motion.column(c.name));
+    table.add(path + "speed", unit, s.motion.column(c.name + "_speed"));
   }
   for (const simulation::ModelMuscle& muscle : model.muscles) {
     const std::string path = "/forceset/" + muscle.name + "/";
-    add(path + "activation", Unit::dimensionless, s.activation.column(muscle.name));
-    add(path + "fiber_length", Unit::dimensionless, s.fiber_length.column(muscle.name));
+    table.add(path + "activation", Unit::dimensionless, s.activation.column(muscle.name));
+    table.add(path + "fiber_length", Unit::dimensionless, s.fiber_length.column(muscle.name));
   }
-  Eigen::MatrixXd values(s.motion.sample_count(), static_cast<Eigen::Index>(columns.size()));
-  for (Eigen::Index c = 0; c < values.cols(); ++c) values.col(c) = columns[at(c)];
-  return {s.motion.time_s(), std::move(channels), std::move(values)};
+  return table.at_times(s.motion.time_s());
 }
 
 TimeSeries controls_table(const model::BodyModel& model,
                           const ModelControls& controls,
                           const simulation::Simulation& s) {
-  std::vector<Channel> channels;
-  const std::vector<forces::Actuator> actuators = forces::actuators_of(model);
+  ColumnTable table;
   const Eigen::VectorXd& times = s.motion.time_s();
-  Eigen::MatrixXd values =
-      Eigen::MatrixXd::Zero(times.size(), static_cast<Eigen::Index>(actuators.size()));
-  for (std::size_t k = 0; k < actuators.size(); ++k) {
-    channels.push_back({actuators[k].name, Unit::dimensionless});
-    const auto control = controls.find(actuators[k].name);
-    if (control == controls.end()) continue;
-    for (Eigen::Index i = 0; i < times.size(); ++i)
-      values(i, static_cast<Eigen::Index>(k)) = simulation::value_at(control->second, times[i]);
+  for (const forces::Actuator& actuator : forces::actuators_of(model)) {
+    Eigen::VectorXd values = Eigen::VectorXd::Zero(times.size());
+    if (const auto control = controls.find(actuator.name); control != controls.end()) {
+      for (Eigen::Index i = 0; i < times.size(); ++i)
+        values[i] = simulation::value_at(control->second, times[i]);
+    }
+    table.add(actuator.name, Unit::dimensionless, std::move(values));
   }
-  return {times, std::move(channels), std::move(values)};
+  return table.at_times(times);
 }
 
-/// What the set-up asks for that is not done here.
+/// Throws ReadError for external loads; notes the analyses that are not run.
 void refuse_and_note(const OpensimSetup& setup, std::vector<std::string>& notes) {
   const auto& xml = setup.xml();
   const std::string loads = xml.word(setup.tool(), "external_loads_file");
@@ -177,7 +168,7 @@ void refuse_and_note(const OpensimSetup& setup, std::vector<std::string>& notes)
              "InverseDynamicsTool and StaticOptimization for a motion that is known");
   }
   for (const auto node : model::OsimXml::objects(xml.property(setup.tool(), "AnalysisSet"))) {
-    if (node.type() != pugi::node_element || !xml.flag(node, "on", true)) continue;
+    if (!xml.flag(node, "on", true)) continue;
     notes.push_back(
         fmt::format("analysis {} is not done: run an AnalyzeTool with it and "
                     "<states_file> {}_states.sto",

@@ -15,8 +15,8 @@
 namespace myoid {
 namespace {
 
-/// Generalized forces less the moments of the muscles whose fibers have their default lengths at
-/// their default activations. Every coordinate is on its own, as everywhere in inverse dynamics.
+/// Subtracts the moments of the muscles at their default fiber lengths and activations from the
+/// generalized forces. Every coordinate counts alone, as everywhere in inverse dynamics.
 TimeSeries without_muscles(const model::BodyModel& model,
                            const kinematics::JointMotion& motion,
                            const TimeSeries& tau,
@@ -39,8 +39,8 @@ TimeSeries without_muscles(const model::BodyModel& model,
   return {tau.time_s(), tau.channels(), std::move(values)};
 }
 
-/// Says how far OpenSim's moments are from right ones where it takes rates of angles for angular
-/// velocities.
+/// Notes the difference between OpenSim's moments, computed with rates of angles as angular
+/// velocities, and the exact ones.
 void note_angular_speeds(const model::BodyModel& model,
                          const kinematics::JointMotion& motion,
                          const dynamics::InverseDynamicsOptions& options,
@@ -68,8 +68,8 @@ void note_angular_speeds(const model::BodyModel& model,
       tau.channels()[static_cast<std::size_t>(column)].name, tau.time_s()[row]));
 }
 
-/// Where the result goes: a folder in its name does not count, and without an extension it is .sto,
-/// as in OpenSim.
+/// The file of the result. As in OpenSim a folder in its name does not count, and the default
+/// extension is .sto.
 std::filesystem::path force_file(const OpensimSetup& setup, std::vector<std::string>& notes) {
   const std::string text = setup.xml().word(setup.tool(), "output_gen_force_file");
   std::filesystem::path name = recording::last_part(text.empty() ? "inverse_dynamics" : text);

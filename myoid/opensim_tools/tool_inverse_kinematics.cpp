@@ -1,7 +1,9 @@
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "myoid/core/error.h"
 #include "myoid/kinematics/inverse_kinematics.h"
@@ -14,12 +16,6 @@ namespace myoid {
 namespace {
 
 using model::OsimXml;
-
-constexpr const char* kMotionDescription =
-    "\nUnits are S.I. units (second, meters, Newtons, ...)\nIf the header above contains a line "
-    "with "
-    "'inDegrees', this indicates whether rotational values are in degrees (yes) or radians "
-    "(no).\n\n";
 
 recording::MarkerSeries within(recording::MarkerSeries markers, double start_s, double end_s) {
   // The rows nearest to the ends of the range, as OpenSim takes them.
@@ -35,7 +31,8 @@ recording::MarkerSeries within(recording::MarkerSeries markers, double start_s, 
   return markers;
 }
 
-/// What is solved: the tool itself or, in documents before 20300, the first trial of its set.
+/// The element with the task: the tool itself or, in documents before 20300, the first trial of its
+/// set.
 pugi::xml_node trial_of(const OpensimSetup& setup, std::vector<std::string>& notes) {
   pugi::xml_node trial = setup.tool();
   int count = 0;
@@ -48,25 +45,71 @@ pugi::xml_node trial_of(const OpensimSetup& setup, std::vector<std::string>& not
   return trial;
 }
 
+/// The files that the set-up asks for; empty where it does not ask for one.
+struct IkFiles {
+  std::optional<std::filesystem::path> motion, errors, locations;
+};
+
+IkFiles claimed_files(const OpensimSetup& setup,
+                      pugi::xml_node trial,
+                      const ToolOptions& options,
+                      ToolResult& result) {
+  const auto report = [&](const char* flag, bool otherwise, const char* ending) {
+    return setup.xml().flag(setup.tool(), flag, otherwise)
+               ? std::optional(setup.results_folder() / (setup.name() + ending))
+               : std::nullopt;
+  };
+  const IkFiles files{setup.output_file(trial, "output_motion_file"),
+                      report("report_errors", true, "_ik_marker_errors.sto"),
+                      report("report_marker_locations", false, "_ik_model_marker_locations.sto")};
+  for (const auto& file : {files.motion, files.errors, files.locations})
+    if (file) claim_file(options, *file, result);
+  if (!files.motion)
+    result.notes.push_back("the set-up has no <output_motion_file>: no motion is written");
+  return files;
+}
+
+void write_files(const IkFiles& files,
+                 const model::BodyModel& model,
+                 const kinematics::IkResult& solved) {
+  if (files.motion) {
+    write_opensim_storage(*files.motion, with_file_units(model, solved.q),
+                          {.title = "Coordinates",
+                           .in_degrees = true,
+                           .description = std::string("\n") + kUnitsNote});
+  }
+  if (files.errors) {
+    write_opensim_storage(
+        *files.errors,
+        solved.errors.select({"total_squared_error", "marker_error_RMS", "marker_error_max"}),
+        {.title = "Model Marker Errors from IK"});
+  }
+  if (files.locations) {
+    write_opensim_storage(*files.locations, solved.marker_locations,
+                          {.title = "Model Marker Locations from IK"});
+  }
+}
+
+/// Notes the frames without a converged solution and the coordinates that no marker determines.
+void note_unsolved(const kinematics::IkResult& solved, std::vector<std::string>& notes) {
+  for (std::size_t i = 0; i < solved.status.size(); ++i) {
+    if (solved.status[i] == kinematics::FrameStatus::not_converged)
+      notes.push_back(fmt::format("no converged solution at {} s",
+                                  solved.q.time_s()[static_cast<Eigen::Index>(i)]));
+  }
+  if (!solved.undetermined.empty()) {
+    notes.push_back(
+        fmt::format("not determined by the markers: {}", fmt::join(solved.undetermined, ", ")));
+  }
+}
+
 }  // namespace
 
 void run_inverse_kinematics(const OpensimSetup& setup,
                             const ToolOptions& options,
                             ToolResult& result) {
-  const auto& xml = setup.xml();
-  const auto tool = setup.tool();
   const auto trial = trial_of(setup, result.notes);
-  const auto out = setup.output_file(trial, "output_motion_file");
-  const bool report_errors = xml.flag(tool, "report_errors", true);
-  const bool report_locations = xml.flag(tool, "report_marker_locations", false);
-  const auto errors_file = setup.results_folder() / (setup.name() + "_ik_marker_errors.sto");
-  const auto locations_file =
-      setup.results_folder() / (setup.name() + "_ik_model_marker_locations.sto");
-  if (out) claim_file(options, *out, result);
-  if (report_errors) claim_file(options, errors_file, result);
-  if (report_locations) claim_file(options, locations_file, result);
-  if (!out) result.notes.push_back("the set-up has no <output_motion_file>: no motion is written");
-
+  const IkFiles files = claimed_files(setup, trial, options, result);
   const model::BodyModel model = setup_model(setup, options.compat, {}, result.notes);
   const auto marker_path = setup.required_file(trial, "marker_file");
   recording::MarkerFile file = recording::read_markers(marker_path);
@@ -77,39 +120,16 @@ void run_inverse_kinematics(const OpensimSetup& setup,
   const recording::MarkerSeries markers =
       within(std::move(file.markers), range_s.first, range_s.second);
 
-  kinematics::IkOptions ik = read_ik_tasks(setup, tool, model, markers, result.notes);
+  kinematics::IkOptions ik = read_ik_tasks(setup, setup.tool(), model, markers, result.notes);
   ik.progress = options.progress;
   const kinematics::IkResult solved = kinematics::inverse_kinematics(model, markers, ik);
-  // What no task asks for need not be said.
+  // Tasks name the markers that count: markers without counterpart are no news then.
   if (!ik.only_named_markers)
     result.notes.insert(result.notes.end(), solved.notes.begin(), solved.notes.end());
-  if (out) {
-    write_opensim_storage(
-        *out, with_file_units(model, solved.q),
-        {.title = "Coordinates", .in_degrees = true, .description = kMotionDescription});
-  }
-  if (report_errors) {
-    write_opensim_storage(
-        errors_file,
-        solved.errors.select({"total_squared_error", "marker_error_RMS", "marker_error_max"}),
-        {.title = "Model Marker Errors from IK"});
-  }
-  if (report_locations) {
-    write_opensim_storage(locations_file, solved.marker_locations,
-                          {.title = "Model Marker Locations from IK"});
-  }
+  write_files(files, model, solved);
   result.frames = static_cast<int>(solved.status.size());
   result.frames_failed = solved.frames_not_converged;
-  for (std::size_t i = 0; i < solved.status.size(); ++i) {
-    if (solved.status[i] == kinematics::FrameStatus::not_converged)
-      result.notes.push_back(fmt::format("no converged solution at {} s",
-                                         markers.time_s[static_cast<Eigen::Index>(i)]));
-  }
-  if (!solved.undetermined.empty()) {
-    std::string names;
-    for (const std::string& name : solved.undetermined) names += (names.empty() ? "" : ", ") + name;
-    result.notes.push_back("not determined by the markers: " + names);
-  }
+  note_unsolved(solved, result.notes);
   const kinematics::MarkerMisfit misfit = kinematics::marker_misfit(model, markers, solved);
   if (!misfit.warning.empty()) result.notes.push_back(misfit.warning);
   result.wrong_unit = misfit.wrong_unit;

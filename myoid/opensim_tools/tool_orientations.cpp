@@ -26,7 +26,7 @@ namespace {
 
 using recording::OrientationSeries;
 
-/// Turns about the axes of ground, x first: R = Rz Ry Rx.
+/// The rotation about the axes of ground, x first: R = Rz Ry Rx.
 Mat3 sensor_to_ground(const OpensimSetup& setup) {
   const Vec3 angles = setup.xml().vec3(setup.tool(), "sensor_to_opensim_rotations", Vec3::Zero());
   return (Eigen::AngleAxisd(angles.z(), Vec3::UnitZ()) *
@@ -61,7 +61,7 @@ OrientationSeries rows_between(const OrientationSeries& series,
   return {series.time_s(rows), series.names, series.quaternions(rows, Eigen::all)};
 }
 
-/// Reads orientations; adds what the reader mended to `notes`.
+/// Reads orientations; adds the repairs of the reader to `notes`.
 OrientationSeries orientations_of(const std::filesystem::path& path,
                                   std::vector<std::string>& notes) {
   OrientationSeries series = recording::read_orientations(path);
@@ -81,8 +81,8 @@ Vec3 heading_axis(const OpensimSetup& setup, const std::string& name) {
   return (name.front() == '-' ? -1.0 : 1.0) * Vec3::Unit(letter - 'x');
 }
 
-/// The turn about the vertical that brings the heading of the base sensor onto the x axis of the
-/// body that stands on ground: by the angle between the two, as OpenSim has it.
+/// The rotation about the vertical by the angle between the heading of the base sensor and the x
+/// axis of the body that stands on ground, as in OpenSim.
 Mat3 heading_correction(const OpensimSetup& setup,
                         const model::BodyModel& model,
                         const model::BodyState& state,
@@ -153,7 +153,6 @@ Sensors sensors_of(const OpensimSetup& setup,
   if (!set) set = setup.tool().child("OrientationWeightSet");
   if (const auto inner = set.child("OrientationWeightSet")) set = inner;
   for (const auto node : model::OsimXml::objects(set)) {
-    if (node.type() != pugi::node_element) continue;
     const double weight = setup.xml().number(node, "weight", 1.0);
     if (!(weight >= 0.0))
       setup.xml().fail(node, fmt::format("<weight> {}, expected 0 or more", weight));
@@ -173,8 +172,8 @@ Sensors sensors_of(const OpensimSetup& setup,
   return sensors;
 }
 
-/// Where OpenSim's tool writes: the name of <output_motion_file> (or "ik_<orientations>") in the
-/// results folder (or in the folder that it names).
+/// The file that OpenSim's tool writes: the name of <output_motion_file> (or "ik_<orientations>")
+/// in the results folder or, without one, in the folder of <output_motion_file>.
 std::filesystem::path motion_file(const OpensimSetup& setup,
                                   const std::filesystem::path& orientations) {
   const auto wanted = setup.output_file(setup.tool(), "output_motion_file");

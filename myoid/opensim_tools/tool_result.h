@@ -14,7 +14,7 @@ namespace myoid {
 
 struct ToolOptions {
   model::Compat compat = model::kOpenSim452;
-  SetupFiles files{};  ///< Instead of those that the set-up names.
+  SetupFiles files{};  ///< Replacements of the files named in the set-up.
   Progress progress{};
   /// Called with each file before it is computed; throws to refuse it.
   std::function<void(const std::filesystem::path&)> claim{};
@@ -25,8 +25,8 @@ struct ToolResult {
   std::vector<std::filesystem::path> inputs;  ///< Read; never replaced.
   std::string tool;                           ///< "InverseKinematicsTool", ...
   std::vector<std::filesystem::path> files;   ///< Written, in order.
-  int replaced = 0;                           ///< Of these, results of an earlier run.
-  std::vector<std::string> notes;             ///< What a user must know, a sentence each.
+  int replaced = 0;                           ///< Number of files that replaced earlier results.
+  std::vector<std::string> notes;             ///< Repairs and omissions, a sentence each.
   std::string summary;                        ///< One line.
   int frames = 0;
   int frames_failed = 0;    ///< Without a converged or certified solution.

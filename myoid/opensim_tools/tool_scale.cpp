@@ -29,7 +29,7 @@ model::BodyState default_state(const model::BodyModel& model) {
   return state;
 }
 
-/// Factor of one measurement: the mean over its pairs of measured by model distance.
+/// Factor of one measurement: the mean over its pairs of measured distance / model distance.
 std::optional<double> measured_factor(const Scaling& scaling,
                                       pugi::xml_node measurement,
                                       const model::BodyModel& model,
@@ -45,7 +45,6 @@ std::optional<double> measured_factor(const Scaling& scaling,
   };
   const auto [first, last] = frames_in(markers, range);
   for (const auto pair : OsimXml::objects(measurement.child("MarkerPairSet"))) {
-    if (pair.type() != pugi::node_element) continue;
     const auto names = scaling.setup.xml().words(pair, "markers");
     if (names.size() != 2)
       scaling.setup.xml().fail(
@@ -98,14 +97,13 @@ model::OsimEditor::Factors factors_of(const Scaling& scaling,
       std::optional<recording::MarkerSeries> markers;
       const model::BodyState state = default_state(model);
       for (const auto node : OsimXml::objects(scaler.child("MeasurementSet"))) {
-        if (node.type() != pugi::node_element || !xml.flag(node, "apply", true)) continue;
+        if (!xml.flag(node, "apply", true)) continue;
         if (!markers)
           markers = markers_of(scaling, scaling.setup.required_file(scaler, "marker_file"));
         const auto factor = measured_factor(scaling, node, model, state, *markers,
                                             scaling.setup.time_range(scaler, "time_range"));
         if (!factor) continue;
         for (const auto body : OsimXml::objects(node.child("BodyScaleSet"))) {
-          if (body.type() != pugi::node_element) continue;
           const std::string name = OsimXml::name_of(body);
           if (!known(node, name)) continue;
           for (const std::string& axis : xml.words(body, "axes")) {
@@ -118,7 +116,7 @@ model::OsimEditor::Factors factors_of(const Scaling& scaling,
       }
     } else if (method == "manualScale") {
       for (const auto node : OsimXml::objects(scaler.child("ScaleSet"))) {
-        if (node.type() != pugi::node_element || !xml.flag(node, "apply", true)) continue;
+        if (!xml.flag(node, "apply", true)) continue;
         const std::string name = xml.word(node, "segment");
         if (known(node, name)) factors[name] = xml.vec3(node, "scales", Vec3::Ones());
       }
@@ -174,8 +172,8 @@ std::string scale_set_text(const model::OsimEditor::Factors& factors,
   return text + "\t\t</objects>\n\t\t<groups />\n\t</ScaleSet>\n</OpenSimDocument>\n";
 }
 
-/// As in OpenSim a result may take the place of the model that is scaled; the model is kept beside
-/// it. A second run would scale what is scaled already: it is refused.
+/// Keeps the scaled model's original beside a result that replaces it, which OpenSim allows too.
+/// Refuses a second run, which would scale a scaled model.
 void keep_model(const std::filesystem::path& file,
                 const std::filesystem::path& model_file,
                 ToolResult& result) {

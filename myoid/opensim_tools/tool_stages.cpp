@@ -13,8 +13,8 @@ void note_missing_loads(const dynamics::ExternalLoads& loads,
   const double first_s = times_s[0], last_s = times_s[times_s.size() - 1];
   if (first_s >= loads.start_s - 1e-3 && last_s <= loads.end_s + 1e-3) return;
   notes.push_back(fmt::format(
-      "{}: the loads are known from {} to {} s, the motion goes from {} to {} s; beyond, they are "
-      "guessed by straight lines",
+      "{}: the loads are known from {} to {} s, the motion goes from {} to {} s; straight lines "
+      "continue the loads beyond",
       file.string(), loads.start_s, loads.end_s, first_s, last_s));
 }
 

@@ -26,7 +26,7 @@ void run_scale(const OpensimSetup& setup, const ToolOptions& options, ToolResult
                                                   const recording::MarkerSeries& markers,
                                                   std::vector<std::string>& notes);
 
-/// Adds a note where the loads of `file` are not known over all of these times.
+/// Adds a note if the loads of `file` do not cover all of these times.
 void note_missing_loads(const dynamics::ExternalLoads& loads,
                         const std::filesystem::path& file,
                         const Eigen::VectorXd& times_s,

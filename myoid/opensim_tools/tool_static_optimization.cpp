@@ -9,7 +9,6 @@
 #include "myoid/files/text_file.h"
 #include "myoid/forces/static_optimization.h"
 #include "myoid/opensim_tools/analysis_reports.h"
-#include "myoid/opensim_tools/opensim_files.h"
 
 namespace myoid {
 namespace {
@@ -97,17 +96,16 @@ void run_static_optimization(AnalysisRun& run, pugi::xml_node node) {
   if (infeasible > 0) {
     notes.push_back(fmt::format(
         "in {} frames, from {} s, muscles and actuators cannot make the accelerations; the "
-        "controls "
-        "that come nearest are written. Append stronger reserve actuators (<force_set_files>)",
+        "controls that come nearest are written. Append stronger reserve actuators "
+        "(<force_set_files>)",
         infeasible,
         run.motion.q
             .time_s()[std::find(solved.is_feasible.begin(), solved.is_feasible.end(), false) -
                       solved.is_feasible.begin()]));
   }
-  run.result.frames = static_cast<int>(run.motion.sample_count());
   run.result.frames_failed = solved.frames_failed;
   run.result.summary = fmt::format(
-      "{} frames, {} without certificate; largest KKT residual {:.1e}", run.result.frames,
+      "{} frames, {} without certificate; largest KKT residual {:.1e}", run.motion.sample_count(),
       solved.frames_failed, solved.kkt_residual.size() > 0 ? solved.kkt_residual.maxCoeff() : 0.0);
 }
 
