@@ -20,10 +20,10 @@ struct LoadColumns {
   [[nodiscard]] Vec3 at(double time_s) const;
 };
 
-/// What is measured of one force that acts on a body.
+/// One measured force on a body.
 struct ExternalForce {
   std::string name;
-  model::BodyIndex body = 0;          ///< On which it acts.
+  model::BodyIndex body = 0;          ///< The body on which the force acts.
   model::BodyIndex force_frame = 0;   ///< Force and torque are expressed in this body's frame.
   model::BodyIndex point_frame = 0;   ///< The point is given in this body's frame.
   std::optional<LoadColumns> force;   ///< [N]
@@ -33,11 +33,12 @@ struct ExternalForce {
 
 struct ExternalLoads {
   std::vector<ExternalForce> forces;
-  double start_s = 0.0, end_s = 0.0;  ///< Of the data; beyond, the splines go on as lines.
+  double start_s = 0.0,
+         end_s = 0.0;  ///< First and last time of the data; lines continue the splines.
   /// Time of the motion = time of the data + offset_s + 1e-6 drift_ppm x time of the data.
   /// `start_s` and `end_s` are times of the motion.
   double offset_s = 0.0, drift_ppm = 0.0;
-  std::vector<std::string> notes;  ///< What was mended or left out, a sentence each.
+  std::vector<std::string> notes;  ///< Repairs and omissions, a sentence each.
 
   /// Time of the data at a time of the motion.
   [[nodiscard]] double data_time_s(double motion_time_s) const;
@@ -51,12 +52,12 @@ struct ExternalLoads {
                        std::vector<model::BodyWrench>& wrenches) const;
 };
 
-/// Reads OpenSim's <ExternalLoads> and the data file that it names (relative to itself). Each
-/// ExternalForce takes all columns that begin with its identifier: three for each of force, point
-/// and torque. A point that is not a number, or kilometers away, while no force acts is replaced by
-/// straight lines between the points under load, with a note. Throws ReadError with the line for
-/// bad XML, an unknown body or an identifier without its three columns; InvalidInput for a force
-/// that is not a number.
+/// Reads <ExternalLoads> of OpenSim and the data file that the element names (relative to its own
+/// file). Each ExternalForce takes the columns that begin with its identifier: three for each of
+/// force, point and torque. Straight lines between the points under load replace points that are
+/// NaN or kilometers away while no force acts, with a note. Throws ReadError with the line for bad
+/// XML, an unknown body or an identifier without its three columns; InvalidInput for a force that
+/// is NaN.
 [[nodiscard]] ExternalLoads read_external_loads(const model::BodyModel& model,
                                                 const std::filesystem::path& path);
 

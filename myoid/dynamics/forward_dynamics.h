@@ -14,14 +14,14 @@ namespace myoid::dynamics {
 ///   M qddot + C - gravity = tau + external + A' lambda,   A qddot = b
 ///
 /// A and b as in model::acceleration_constraints: couplers, closed loops, locks, prescribed
-/// coordinates. Where constraints say the same twice, lambda is the shortest that will do, as in
-/// Simbody. One per thread.
+/// coordinates. For redundant constraints lambda is the shortest solution, as in Simbody. One
+/// object per thread.
 class ForwardDynamics {
  public:
   explicit ForwardDynamics(const model::BodyModel& model)
       : model_(&model), state_(model::make_state(model)) {}
 
-  /// Everything below is for this state; q must meet the constraints. Throws ModelError, naming a
+  /// Sets the state for `solve`; q must meet the constraints. Throws ModelError, naming a
   /// coordinate, if a motion that the constraints allow moves no mass.
   void set(const Eigen::VectorXd& q, const Eigen::VectorXd& qdot, double time_s);
 

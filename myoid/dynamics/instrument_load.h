@@ -8,11 +8,11 @@
 
 namespace myoid::dynamics {
 
-/// What an instrumented object (a handle with a load cell) exerts on a body of the person, as a
-/// load for inverse dynamics. The object has a model of its own, whose coordinates `object_q` [rad
-/// | m] follow its markers; the cell is `frame` of it. `wrench` has Fx, Fy, Fz [N], Mx, My, Mz [N
-/// m] in the cell's axes about its origin; it is interpolated to the clock of `object_q`, so
-/// low-pass it first. In ground, with the cell's pose (R, p) of each instant:
+/// The load that an instrumented object (a handle with a load cell) exerts on a body of the person,
+/// for inverse dynamics. The object has a separate model, whose coordinates `object_q` [rad | m]
+/// follow the object's markers; the cell is the body `frame` of that model. `wrench` has Fx, Fy, Fz
+/// [N], Mx, My, Mz [N m] in the cell's axes about its origin. The wrench is interpolated to the
+/// clock of `object_q`: low-pass it first. In ground, with the cell's pose (R, p) of each instant:
 ///
 ///   force R F at the point p, moment R M
 ///
@@ -25,7 +25,7 @@ namespace myoid::dynamics {
                                             model::BodyIndex applied_to,
                                             const std::string& name);
 
-/// The same where the cell's frame is a body of the person's own model.
+/// As above for a cell whose frame is a body of the person's own model.
 [[nodiscard]] ExternalForce instrument_load(model::BodyIndex frame,
                                             const TimeSeries& wrench,
                                             model::BodyIndex applied_to,

@@ -6,16 +6,18 @@
 
 namespace myoid::dynamics {
 
-/// What the muscles of a joint can do, and what it can feel.
+/// Limits of a joint's torque: strength of its muscles, lever and body weight.
 struct JointCapacity {
-  double positive_nm = 0.0;  ///< All muscles that turn it so at F_max, where they do most together.
-  double negative_nm = 0.0;  ///< Likewise the other way, as a magnitude.
-  double lever_m = 0.0;      ///< From the joint to the farthest body or marker that it moves, at
-                             ///< most kLongestLever_m.
-  double body_mass_kg = 0.0;  ///< As given, or of the model's bodies, at least kLightBody_kg.
+  /// Torque of all muscles of the positive direction at F_max, at the angle of its maximum.
+  double positive_nm = 0.0;
+  double negative_nm = 0.0;  ///< Same for the negative direction, as a magnitude.
+  /// Distance from the joint to the farthest body or marker that the joint moves, at most
+  /// kLongestLever_m.
+  double lever_m = 0.0;
+  double body_mass_kg = 0.0;  ///< Given mass or mass of the model's bodies, at least kLightBody_kg.
 
   [[nodiscard]] double isometric_nm() const;
-  /// More than any person's muscles and weight make at this joint:
+  /// A torque above the muscles and the weight of any person at this joint [N m]:
   ///
   ///   2.5 x 1.5 x isometric + body weight x lever
   ///
@@ -24,19 +26,19 @@ struct JointCapacity {
   [[nodiscard]] double greatest_nm() const;
 };
 
-/// Body weight is never taken to be less: models of one arm weigh little.
+/// Lower bound of the body mass: models of one arm have a small mass.
 inline constexpr double kLightBody_kg = 50.0;
 
-/// No lever is taken to be longer, whatever the model: a tall person's hip stands 1.1 m high.
+/// Upper bound of the lever: a tall person's hip stands 1.1 m high.
 inline constexpr double kLongestLever_m = 1.2;
 
-/// Over the range of the coordinate, half a turn either way of its default at most, all others at
-/// their default. Throws ModelError if there is no such coordinate.
+/// Searches the range of the coordinate, at most half a turn to either side of its default, with
+/// all other coordinates at their default. Throws ModelError for an unknown coordinate.
 [[nodiscard]] JointCapacity joint_capacity(const model::BodyModel& model,
                                            const std::string& coordinate,
                                            double body_mass_kg = 0.0);
 
-/// Bodies that the coordinate's joint moves: its child and all that hangs on it.
+/// Bodies that a joint moves: its child and all bodies that the child carries.
 [[nodiscard]] std::vector<bool> moved_bodies(const model::BodyModel& model, int joint);
 
 }  // namespace myoid::dynamics

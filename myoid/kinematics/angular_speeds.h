@@ -15,27 +15,26 @@ namespace myoid::kinematics {
 /// bodies move by qdot = N(q) u, where N^-1 has the axes of the three rotations as its columns, and
 /// generalized forces and moment arms belong to u: N^T times those that belong to the rates.
 ///
-/// The joints of that kind that are not turned round; empty in a model without.
+/// Returns the joints of these classes that are not reversed.
 [[nodiscard]] std::vector<int> angular_speed_joints(const model::BodyModel& model);
 
-/// N(q) over all coordinates; the unit matrix but for those joints. Not finite where the second
-/// rotation is a right angle.
+/// N(q) over all coordinates; the unit matrix for coordinates of other joints. Not finite if the
+/// second rotation is a right angle.
 [[nodiscard]] Eigen::MatrixXd rates_of_speeds(const model::BodyModel& model,
                                               const Eigen::Ref<const Eigen::VectorXd>& q);
 
-/// Generalized forces that belong to the coordinates' rates, of forces that belong to the speeds
-/// (of actuators and springs on a coordinate): N^-T times those if takes_rates_for_speeds, else
-/// unchanged.
+/// Converts generalized forces on the speeds (of actuators and springs on a coordinate) to forces
+/// on the coordinates' rates: N^-T times the forces if takes_rates_for_speeds, else unchanged.
 [[nodiscard]] Eigen::VectorXd on_rates(const model::BodyModel& model,
                                        const Eigen::Ref<const Eigen::VectorXd>& q,
                                        Eigen::VectorXd on_speeds);
 
-/// Whether the model is to behave as OpenSim's (Compat) and has such joints.
+/// True if the model has such joints and behaves as OpenSim's (Compat).
 [[nodiscard]] bool takes_rates_for_speeds(const model::BodyModel& model);
 
-/// The motion in which the bodies of OpenSim's model move when its speeds and their derivatives are
-/// set to the rates of `motion`: the same q, qdot = N u, qddot = N du/dt + dN/dt u. The motion
-/// itself unless takes_rates_for_speeds.
+/// The motion of OpenSim's model when its speeds and their derivatives are set to the rates of
+/// `motion`: the same q, qdot = N u, qddot = N du/dt + dN/dt u. Returns `motion` unchanged unless
+/// takes_rates_for_speeds.
 [[nodiscard]] JointMotion moved_by_speeds(const model::BodyModel& model, const JointMotion& motion);
 
 }  // namespace myoid::kinematics

@@ -13,7 +13,7 @@
 
 namespace myoid::kinematics {
 
-/// A wish for a coordinate's value: adds W (q - q*)^2 / 2 to the objective.
+/// A wish for a coordinate's value. The task adds W (q - q*)^2 / 2 to the objective.
 struct CoordinateTask {
   std::string coordinate;
   double value = 0.0;        ///< q* [rad or m]
@@ -22,12 +22,14 @@ struct CoordinateTask {
 };
 
 struct IkOptions {
-  std::map<std::string, double> marker_weights{};  ///< By name; markers that are not named weigh 1.
+  std::map<std::string, double> marker_weights{};  ///< By name; other markers have weight 1.
   std::vector<CoordinateTask> tasks{};
-  /// Markers that are not named in `marker_weights` do not count, as with OpenSim's marker tasks.
+  /// True: markers without an entry in `marker_weights` do not count, as with OpenSim's marker
+  /// tasks.
   bool only_named_markers = false;
-  /// Above 0: clamped coordinates are kept inside their ranges by a barrier of this weight added
-  /// to J (range_barrier.h) [m^2]; one that the markers do not determine comes to the middle.
+  /// Above 0: a barrier of this weight, added to J (range_barrier.h) [m^2], keeps clamped
+  /// coordinates inside their ranges. A coordinate that no marker determines goes to the middle of
+  /// its range.
   double range_barrier = 0.0;
   int max_iterations = 200;
   Progress progress{};
@@ -36,37 +38,37 @@ struct IkOptions {
 enum class FrameStatus {
   converged,
   not_converged,
-  no_markers,  ///< No marker of the model was seen: the pose of the frame before is kept.
+  no_markers,  ///< The frame shows no marker of the model and keeps the pose of the frame before.
 };
 
 struct IkResult {
   TimeSeries q;                     ///< All coordinates, in the model's order [rad | m].
   std::vector<FrameStatus> status;  ///< Per frame.
-  TimeSeries errors;  ///< total_squared_error [m^2, dimensionless channel], marker_error_RMS,
-                      ///< marker_error_max [m], then the distance of each marker [m]; NaN where it
-                      ///< was missing.
+  /// total_squared_error [m^2, dimensionless channel], marker_error_RMS, marker_error_max [m], then
+  /// the distance of each marker [m]; NaN for a missing marker.
+  TimeSeries errors;
   std::vector<double> objective;  ///< J, per frame.
-  /// Where the model's markers lie: "<marker>_tx", "_ty", "_tz" [m], of those that count.
+  /// Places of the model markers that count: "<marker>_tx", "_ty", "_tz" [m].
   TimeSeries marker_locations;
   int frames_not_converged = 0;
   int frames_without_markers = 0;
-  std::vector<std::string>
-      undetermined;  ///< Free coordinates that the markers leave open in the frames seen.
+  /// Free coordinates that the markers leave open in the frames seen.
+  std::vector<std::string> undetermined;
   std::vector<std::string> notes;  ///< Markers without counterpart.
 };
 
-/// Pose of the model that fits the measured markers best, frame by frame from the solution before:
+/// Fits the pose of the model to the measured markers, frame by frame from the previous solution:
 ///
 ///   J(q) = sum w_i |x_i - m_i(q)|^2 / (2 sum w_i) + sum W_j (q_j - q_j*)^2 / 2
 ///
-/// over the markers seen in the frame (a missing one is left out). Newton's method, damped as by
-/// Levenberg and Marquardt, with analytic Jacobians and the second derivatives of the chains of
-/// rotations. In the first frame, and where it stalls or J jumps, again from other postures (the
-/// default one and that turned about the vertical), whose solution is taken if J is half or less.
-/// Locked coordinates stay at their default value, prescribed ones follow their function, clamped
-/// ones stay within their range. Couplers are eliminated, other constraints met in every step
-/// (model/constraints.h). Throws InvalidInput if no marker of the file is in the model, or a weight
-/// is negative or of no marker of the model; ModelError if the model cannot be posed.
+/// over the markers seen in the frame. Newton's method with the damping of Levenberg and Marquardt
+/// uses analytic Jacobians and the second derivatives of the chains of rotations. The first frame
+/// and every frame in which the method stalls or J jumps are solved again from other postures (the
+/// default posture, also turned about the vertical); a solution with J of half or less wins. Locked
+/// coordinates stay at their default value, prescribed coordinates follow their function, clamped
+/// coordinates stay within their range. Couplers are eliminated; every step meets the other
+/// constraints (model/constraints.h). Throws InvalidInput if no marker of the file is in the model,
+/// or a weight is negative or of an unknown marker; ModelError if the model cannot be posed.
 [[nodiscard]] IkResult inverse_kinematics(const model::BodyModel& model,
                                           const recording::MarkerSeries& markers,
                                           const IkOptions& options = {});

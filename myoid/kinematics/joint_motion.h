@@ -29,8 +29,8 @@ struct MotionOptions {
 
 struct MotionResult {
   JointMotion motion;
-  std::vector<std::string> notes;  ///< Coordinates that were missing and take their default,
-                                   ///< columns that are no coordinate.
+  /// Missing coordinates, which take their default, and columns that are no coordinate.
+  std::vector<std::string> notes;
 };
 
 /// Values and two derivatives of every coordinate by a quintic spline. `q` has radians and meters;

@@ -18,7 +18,7 @@ struct MuscleGroup {
 /// Lumped muscles along a motion: the weighted means over their heads, n x m each.
 struct LumpedMuscles {
   Eigen::MatrixXd length_m;      ///< Musculotendon length.
-  Eigen::MatrixXd velocity_mps;  ///< Of it, lengthening positive.
+  Eigen::MatrixXd velocity_mps;  ///< dl/dt, lengthening positive.
   Eigen::MatrixXd moment_arm_m;  ///< By one coordinate, r = -dl/dq.
 };
 

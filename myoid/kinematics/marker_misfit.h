@@ -8,15 +8,14 @@
 namespace myoid::kinematics {
 
 struct MarkerMisfit {
-  double rms_m = 0.0;       ///< Of all distances, over the frames in which markers were seen.
+  double rms_m = 0.0;       ///< Over all markers of the frames in which markers were seen.
   bool wrong_unit = false;  ///< The recording is not in the unit that its file says.
-  /// What to tell a person where the markers lie more than 4 cm off; a unit that was probably meant
-  /// is named, from distances within the segments of the model, and a shift that all have in
-  /// common. Empty where they fit.
+  /// A warning if the markers lie more than 4 cm off, else empty. Names the unit that was probably
+  /// meant, from distances within the model's segments, and a shift that all markers share.
   std::string warning;
 };
 
-/// How far the markers lie from the model's after inverse kinematics.
+/// Distances of the measured markers from the model's markers after inverse kinematics.
 [[nodiscard]] MarkerMisfit marker_misfit(const model::BodyModel& model,
                                          const recording::MarkerSeries& markers,
                                          const kinematics::IkResult& solved);

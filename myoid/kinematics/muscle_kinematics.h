@@ -15,15 +15,15 @@ namespace myoid::kinematics {
 struct MuscleKinematics {
   TimeSeries length;    ///< Musculotendon length [m].
   TimeSeries velocity;  ///< dl/dt [m/s], lengthening positive.
-  /// By coordinate, for every one that is not locked: r = -dl/dq [m], where coordinates that a
-  /// constraint couples move along, as OpenSim defines it (coupling_matrix in model/constraints.h).
+  /// r = -dl/dq [m] by the name of every coordinate that is not locked. Coordinates that
+  /// constraints couple move along, as in OpenSim (coupling_matrix in model/constraints.h).
   std::map<std::string, TimeSeries> moment_arm;
-  long from_surrogates = 0;  ///< Of frames x muscles.
+  long from_surrogates = 0;  ///< Number of paths (frames x muscles) computed by polynomials.
 };
 
 struct MuscleKinematicsOptions {
-  /// Polynomials in the place of paths, one per muscle in the model's order; not owned. Where one
-  /// is not within its tolerance, or a frame is not where it was fitted, the path itself counts.
+  /// Polynomials instead of paths, one per muscle in the model's order; not owned. The path itself
+  /// is computed for a polynomial beyond its tolerance and for a frame beyond its range.
   const std::vector<PathSurrogate>* surrogates = nullptr;
   Progress progress;
 };

@@ -10,7 +10,7 @@ namespace myoid::kinematics {
 
 /// A sensor fixed to a body of the model.
 struct SensorOnBody {
-  std::size_t column = 0;  ///< Its place in the series.
+  std::size_t column = 0;  ///< Column of the sensor in the series.
   model::BodyIndex body = 0;
   Mat3 R_BS = Mat3::Identity();
   double weight = 1.0;
@@ -18,7 +18,7 @@ struct SensorOnBody {
 
 struct OrientationFit {
   TimeSeries q;                     ///< All coordinates, in the model's order [rad | m].
-  TimeSeries errors_rad;            ///< Per sensor, the angle to its measured orientation; or NaN.
+  TimeSeries errors_rad;            ///< Angle of each sensor to its measured orientation, or NaN.
   std::vector<FrameStatus> status;  ///< Per frame.
   int frames_not_converged = 0, frames_without_sensors = 0;
   std::vector<std::string> undetermined;  ///< Free coordinates that the sensors leave open.

@@ -17,18 +17,18 @@ namespace myoid::kinematics {
 ///   l(q) = sum_k c_k prod_i T_{e_ki}(x_i),   x_i = (2 q_i - lower_i - upper_i) / (upper_i -
 ///   lower_i)
 ///
-/// T Chebyshev polynomials, the sum over all exponents with sum_i e_ki <= degree. Moment arms are
-/// its exact derivatives, r_i = -dl/dq_i. Where couplers drive coordinates, q are the independent
-/// ones, and r_i counts what they take along.
+/// with Chebyshev polynomials T, summed over all exponents with sum_i e_ki <= degree. Moment arms
+/// are the exact derivatives, r_i = -dl/dq_i. With couplers q are the independent coordinates, and
+/// r_i includes the motion of the dependent coordinates.
 struct PathSurrogate {
   std::string muscle;
   std::vector<int> coordinates;  ///< Indices in the model; none: the length is constant.
-  Eigen::VectorXd lower, upper;  ///< Where it was fitted [rad | m].
-  std::vector<int> held;         ///< Coordinates that act too, but were held (locked ones),
-  Eigen::VectorXd held_at;       ///< at these values.
+  Eigen::VectorXd lower, upper;  ///< Range of the fit [rad | m].
+  std::vector<int> held;         ///< Coordinates that change the path and were held (locked ones).
+  Eigen::VectorXd held_at;       ///< Their values.
   int degree = 0;
   Eigen::VectorXd coefficient_m;  ///< In the order of `exponents(coordinates, degree)`.
-  /// Greatest and root mean square errors at postures that the fit has not seen.
+  /// Greatest and root mean square errors at postures outside of the fit.
   double length_error_m = 0.0, length_rms_m = 0.0;
   double arm_error_m = 0.0, arm_rms_m = 0.0;
   bool within_tolerance = false;
@@ -49,16 +49,18 @@ struct SurrogateOptions {
 /// Exponents of the terms, one row each, in order of their sum: terms x coordinates.
 [[nodiscard]] Eigen::MatrixXi exponents(int coordinates, int degree);
 
-/// Coordinates that may change the path: those of the joints between its bodies, and those that its
-/// moving and conditional points follow, dependent ones replaced by what drives them.
+/// Coordinates that may change the path: the coordinates of the joints between its bodies and of
+/// its moving and conditional points, dependent ones replaced by the coordinates that drive them.
 [[nodiscard]] std::vector<int> acting_coordinates(const model::BodyModel& model,
                                                   const model::MusclePath& path);
 
-/// One surrogate per muscle, in the model's order, in the mode of `model.compat`: length and moment
-/// arms together by least squares at Sobol points of the coordinates' ranges (at most +-3 rad, +-1
-/// m about the default), locked coordinates at their default. The degree rises from 1 until both
-/// greatest errors are within tolerance; where they never are, the best degree stays, marked so. A
-/// path that jumps cannot be met. Parallel over muscles; the same for every number of threads.
+/// Fits one surrogate per muscle, in the model's order and the mode of `model.compat`: length and
+/// moment arms together by least squares at Sobol points of the coordinates' ranges (at most +-3
+/// rad,
+/// +-1 m about the default), with locked coordinates at their default. The degree rises from 1
+/// until both greatest errors are within tolerance; otherwise the best degree stays and is marked.
+/// No polynomial follows a path that jumps. Parallel over muscles; the same for every number of
+/// threads.
 [[nodiscard]] std::vector<PathSurrogate> fit_surrogates(const model::BodyModel& model,
                                                         const SurrogateOptions& options = {});
 
@@ -69,8 +71,8 @@ struct SurrogateWorkspace {
   int degree = -1, dimensions = -1;
 };
 
-/// Whether q lies where the surrogate was fitted: within the ranges, held coordinates at their
-/// values (1e-12), dependent ones as their couplers say (1e-6).
+/// True if q lies in the range of the fit, held coordinates have their values (1e-12), and
+/// dependent coordinates obey their couplers (1e-6).
 [[nodiscard]] bool covers(const model::BodyModel& model,
                           const PathSurrogate& surrogate,
                           const Eigen::Ref<const Eigen::VectorXd>& q);

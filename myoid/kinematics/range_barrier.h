@@ -8,19 +8,19 @@
 
 namespace myoid::kinematics {
 
-/// Keeps the clamped coordinates inside their ranges by a term of the objective
+/// Keeps the clamped coordinates inside their ranges by a term of the objective,
 ///
 ///   B(q) = -weight sum ln(4 (q - lower) (upper - q) / (upper - lower)^2),
 ///
-/// which is 0 where all of them are in the middle and infinite at an end (the logarithmic barrier
-/// of interior-point methods: Nocedal and Wright, Numerical Optimization, 2006, ch. 19).
+/// which is 0 in the middle of all ranges and infinite at an end (the logarithmic barrier of
+/// interior-point methods: Nocedal and Wright, Numerical Optimization, 2006, ch. 19).
 class RangeBarrier {
  public:
   RangeBarrier() = default;
-  /// For those coordinates of `free` that are clamped to a range.
+  /// The barrier acts on the coordinates of `free` that are clamped to a range.
   RangeBarrier(const model::BodyModel& model, const std::vector<Eigen::Index>& free);
 
-  /// None at 0.
+  /// A weight of 0 switches the barrier off.
   void set_weight(double weight) { weight_ = weight; }
   [[nodiscard]] bool acts() const { return weight_ > 0.0 && !ranges_.empty(); }
 
@@ -30,7 +30,7 @@ class RangeBarrier {
   void add_derivatives(const Eigen::VectorXd& q,
                        Eigen::VectorXd& gradient,
                        Eigen::MatrixXd& hessian) const;
-  /// Moves what lies nearer to an end than `share` of its range, or beyond, to there.
+  /// Moves coordinates nearer to an end than `share` of the range, or beyond, to that distance.
   void move_inside(Eigen::VectorXd& q, double share) const;
   /// Share of a step of the free coordinates that goes at most 0.99 of the way to any end; <= 1.
   [[nodiscard]] double longest_share(const Eigen::VectorXd& q, const Eigen::VectorXd& step) const;

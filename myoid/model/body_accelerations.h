@@ -22,7 +22,7 @@ struct BodyAccelerations {
 ///   alpha_B = alpha_P + w_P x w_rel + alpha_rel,
 ///   a_M = a_P + alpha_P x r + w_P x (w_P x r) + 2 w_P x v_rel + a_rel.
 /// `compute_poses` and `compute_velocities` must have been called on `state`. `a_ground` is added
-/// to every body: minus gravity makes the accelerations that a body feels.
+/// to every body; minus gravity gives the accelerations that an accelerometer measures.
 void compute_accelerations(const BodyModel& model,
                            const Eigen::Ref<const Eigen::VectorXd>& qddot,
                            const BodyState& state,

@@ -7,24 +7,23 @@
 
 namespace myoid::model {
 
-/// Sets the dependent coordinates of all couplers to what their independent ones say; chains of
-/// couplers included. Throws ModelError if couplers depend on each other in a circle.
+/// Sets the dependent coordinates of all couplers, chains of couplers included, to their functions
+/// of the independent coordinates. Throws ModelError if couplers depend on each other in a circle.
 void apply_couplers(const BodyModel& model, Eigen::VectorXd& q);
 
-/// How far the constraints other than couplers are from being met, [m] and (sine of) [rad], one row
-/// each; empty without such constraints. `compute_poses` must have been called.
+/// Errors of the constraints other than couplers, [m] and (sine of) [rad], one row each; empty
+/// without such constraints. `compute_poses` must have been called.
 [[nodiscard]] Eigen::VectorXd constraint_errors(const BodyModel& model, const BodyState& state);
 
 /// Rows: every coupler, then every other constraint; columns: coordinates. Rates qdot obey the
 /// constraints if A qdot = 0. `compute_poses` must have been called.
 [[nodiscard]] Eigen::MatrixXd constraint_jacobian(const BodyModel& model, const BodyState& state);
 
-/// Column c: the rates of all coordinates when coordinate c moves at rate 1 and the constraints
-/// hold, the others moving as little as possible; other locked coordinates stay, c itself is taken
-/// as unlocked. The unit matrix without constraints. The moment arms that OpenSim reports are
-/// C^T r, with r by every coordinate on its own (muscle_path.h): a coordinate takes along what is
-/// coupled with it, and a dependent one its independent one. A coordinate that the constraints do
-/// not let move has a column of zeros. `compute_poses` must have been called.
+/// Column c holds the rates of all coordinates when coordinate c moves at rate 1, the constraints
+/// hold and the other coordinates move as little as possible. Other locked coordinates stay; c
+/// counts as unlocked. A coordinate that the constraints hold still has a column of zeros. Without
+/// constraints C is the unit matrix. The moment arms that OpenSim reports are C^T r, with the arms
+/// r by every coordinate alone (muscle_path.h). `compute_poses` must have been called.
 [[nodiscard]] Eigen::MatrixXd coupling_matrix(const BodyModel& model, const BodyState& state);
 
 struct AssemblyResult {
@@ -34,8 +33,8 @@ struct AssemblyResult {
 };
 
 /// The posture nearest to q (over the coordinates that are not dependent) that meets every
-/// constraint within `accuracy`; locked and prescribed coordinates keep their values in q. With
-/// couplers only it is exact at once.
+/// constraint within `accuracy`; locked and prescribed coordinates keep their values in q. Couplers
+/// alone are met exactly.
 [[nodiscard]] AssemblyResult assemble(const BodyModel& model,
                                       const Eigen::Ref<const Eigen::VectorXd>& q,
                                       double accuracy = 1e-9);

@@ -7,7 +7,7 @@
 
 namespace myoid::model {
 
-/// A formula in named variables, as OpenSim's expression-based forces have it: numbers, + - * / ^
+/// A formula in named variables, as in OpenSim's expression-based forces: numbers, + - * / ^
 /// (^ first, from the right; then the sign, so that -x^2 is -(x^2)), parentheses, and the functions
 /// sqrt exp log sin cos sec csc tan cot asin acos atan sinh cosh tanh erf erfc step (0 below 0,
 /// else 1) delta (1 at 0, else 0) square cube recip abs floor ceil, min max atan2 of two and select
@@ -17,10 +17,10 @@ class Expression {
  public:
   /// Zero.
   Expression() = default;
-  /// Throws InvalidInput that names what is not understood and where (counted from 1).
+  /// Throws InvalidInput that names the place of an error (counted from 1) and what is wrong there.
   Expression(std::string_view text, const std::vector<std::string>& variables);
 
-  /// The value; `variables` in the order of the names. Not a number where a function has none.
+  /// The value; `variables` in the order of the names. NaN outside the domain of a function.
   [[nodiscard]] double operator()(std::span<const double> variables) const;
 
   enum class Operation {
@@ -64,7 +64,7 @@ class Expression {
   };
 
  private:
-  /// Operands first: the way a stack machine reads it.
+  /// Steps of a stack machine: operands precede their operation.
   struct Step {
     Operation operation = Operation::number;
     double number = 0.0;

@@ -28,7 +28,7 @@ struct PiecewiseLinear {
 struct SimmSpline {
   std::vector<double> x, y, b, c, d;
 };
-/// The value at the knot before x; beyond the ends the first and last.
+/// The value at the last knot that x has reached; beyond the ends the first and last value.
 struct PiecewiseConstant {
   std::vector<double> x, y;
 };
@@ -36,8 +36,9 @@ struct PiecewiseConstant {
 struct Sine {
   double amplitude = 1.0, omega = 1.0, phase = 0.0, offset = 0.0;
 };
-/// Polynomials between knots, by rising power of x - left knot: a column each, the first before the
-/// first knot (about it), the last after the last.
+/// Polynomials between knots. Each column holds the coefficients of one interval by rising power of
+/// x - left knot; the first column is for x below the first knot (powers of x - first knot), the
+/// last for x above the last knot.
 struct PiecewisePolynomial {
   std::vector<double> x;
   Eigen::MatrixXd coefficients;
@@ -46,7 +47,7 @@ struct PiecewisePolynomial {
 struct SmoothStep {
   double start = 0.0, end = 1.0, start_value = 0.0, end_value = 1.0;
 };
-/// Any of them times a factor (OpenSim's MultiplierFunction is folded into `scale`).
+/// A function of one of these forms times a factor (OpenSim's MultiplierFunction).
 struct Function {
   std::variant<Constant,
                Linear,
@@ -90,7 +91,7 @@ struct FunctionValue {
   double second = 0.0;
 };
 
-/// Value and first two derivatives at x. No clamping; beyond the data as each form says.
+/// Value and first two derivatives at x. Each form defines its values beyond the data.
 [[nodiscard]] FunctionValue evaluate(const Function& function, double x);
 
 }  // namespace myoid::model

@@ -28,8 +28,8 @@ struct RelativeMotion {
   Vec3 a = Vec3::Zero();      ///< Acceleration of M's origin [m/s^2].
 };
 
-/// `by_coordinates`: the axes of rotation are carried as OpenSim takes it
-/// (Compat::axes_carried_by_coordinates), else by the rotations before them.
+/// With `by_coordinates` the axes of rotation turn by OpenSim's rule
+/// (Compat::axes_carried_by_coordinates), otherwise with the rotations before them.
 [[nodiscard]] RelativeMotion relative_motion(const Joint& joint,
                                              bool by_coordinates,
                                              const JointPosture& p,

@@ -9,7 +9,7 @@
 
 namespace myoid::model {
 
-/// What a posture makes of a model: one per thread, reused from frame to frame without allocation.
+/// A model at one posture: one per thread, reused from frame to frame without allocation.
 struct BodyState {
   Eigen::VectorXd q;       ///< Coordinates [rad | m].
   Eigen::VectorXd qdot;    ///< Their rates.
@@ -50,8 +50,8 @@ struct BodyWrench {
 
 /// Generalized forces tau that produce qddot at (q, qdot) under gravity and `external`, by
 /// recursive Newton-Euler: tau = M qddot + C - gravity - external. Coordinates in model order, [N
-/// m] or [N]. `carried`, if given, gets for every body what its joint carries: the wrench on the
-/// body from its parent, that of forces along the joint's coordinates included.
+/// m] or [N]. `carried`, if given, receives for every body the wrench that its joint transmits from
+/// the parent, with the forces along the joint's coordinates.
 [[nodiscard]] Eigen::VectorXd inverse_dynamics(const BodyModel& model,
                                                const Eigen::Ref<const Eigen::VectorXd>& q,
                                                const Eigen::Ref<const Eigen::VectorXd>& qdot,

@@ -9,8 +9,8 @@
 
 namespace myoid::model {
 
-/// Two unit vectors at right angles to a unit vector and to each other: along them a point may not
-/// leave a line (LineConstraint).
+/// Two unit vectors at right angles to u and to each other: a LineConstraint stops motion along
+/// them.
 [[nodiscard]] std::array<Vec3, 2> directions_across(const Vec3& u);
 
 /// Conditions on the accelerations at one state: A qddot = b. The rows are those of
@@ -21,9 +21,9 @@ struct AccelerationConstraints {
   Eigen::VectorXd b;
 };
 
-/// Differentiates the constraints twice with respect to time: b holds the part that the rates make,
-/// of a prescribed coordinate its function's second derivative at `time_s`. `compute_poses` and
-/// `compute_velocities` must have been called on `state`.
+/// Differentiates the constraints twice with respect to time. b holds the terms of the rates and,
+/// for a prescribed coordinate, the second derivative of its function at `time_s`. `compute_poses`
+/// and `compute_velocities` must have been called on `state`.
 [[nodiscard]] AccelerationConstraints acceleration_constraints(const BodyModel& model,
                                                                const BodyState& state,
                                                                double time_s);

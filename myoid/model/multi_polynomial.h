@@ -8,16 +8,16 @@ namespace myoid::model {
 
 /// A polynomial of several variables up to a total degree (OpenSim's
 /// MultivariatePolynomialFunction; a LinearFunction of several variables has degree 1). Terms in
-/// the order of their exponents, those of the last variable changing fastest: for two variables up
-/// to degree 2, the coefficients of 1, y, y^2, x, x y, x^2.
+/// the order of their exponents, the exponent of the last variable changing fastest: for two
+/// variables up to degree 2, the coefficients of 1, y, y^2, x, x y, x^2.
 struct MultiPolynomial {
   int dimension = 1;
   int degree = 0;
   std::vector<double> coefficients;
-  double scale = 1.0;  ///< Of a MultiplierFunction around it.
+  double scale = 1.0;  ///< Factor of an enclosing MultiplierFunction.
 };
 
-/// How many terms there are: (dimension + degree)! / (dimension! degree!).
+/// Number of terms: (dimension + degree)! / (dimension! degree!).
 [[nodiscard]] double term_count(int dimension, int degree);
 
 struct MultiPolynomialValue {
@@ -25,7 +25,8 @@ struct MultiPolynomialValue {
   Eigen::VectorXd gradient;
 };
 
-/// Value and gradient at x, one number a variable. `coefficients` must be as many as terms.
+/// Value and gradient at x, one number for each variable. `coefficients` must have one for each
+/// term.
 [[nodiscard]] MultiPolynomialValue evaluate(const MultiPolynomial& polynomial,
                                             const Eigen::Ref<const Eigen::VectorXd>& x);
 

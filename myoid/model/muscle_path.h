@@ -5,16 +5,17 @@
 namespace myoid::model {
 
 /// Length of a path from its first point to its last through the points that are active at this
-/// posture and around its wrap objects, with the derivatives by every coordinate on its own.
+/// posture and around its wrap objects, with the derivatives by every coordinate alone.
 ///
-/// `exact` (BodyModel::compat without switches): r = -dl/dq of this very length. Over cylinders and
-/// spheres the path is the shortest, and r the moment of the unit tension along the straight
-/// pieces; over an ellipsoid or a torus it is OpenSim's construction, which is not the shortest,
-/// and the tangent points' own motion counts too. A moving point's location is taken within its
-/// coordinate's range, where its derivative is zero beyond. `speed_mps` is -r . qdot.
+/// `exact` (BodyModel::compat without switches): r = -dl/dq of this length. Over cylinders and
+/// spheres the path is the shortest, and r is the moment of the unit tension along the straight
+/// pieces. Over an ellipsoid or a torus the path follows OpenSim's construction, which is not the
+/// shortest, and r also counts the motion of the tangent points on the object. A moving point's
+/// location is taken within the range of its coordinate; its derivative is zero beyond. `speed_mps`
+/// is -r . qdot.
 ///
-/// With Compat::opensim_paths all is as OpenSim 4.5.2 computes it (compat.h): r the moments of the
-/// unit tension, speed from the velocities of the points.
+/// Compat::opensim_paths: as in OpenSim 4.5.2 (compat.h), r is the moment of the unit tension, and
+/// the speed follows from the velocities of the points.
 ///
 /// A path given by functions has no stations; its speed is -r . qdot.
 ///

@@ -7,23 +7,23 @@
 
 namespace myoid::model {
 
-/// The contact of a straight piece from p to q with a wrap object, in the object's frame; empty if
-/// it stays free.
+/// The contact of a straight piece from p to q with a wrap object, in the object's frame; empty
+/// without contact.
 [[nodiscard]] std::optional<WrapContact> contact_over(const WrapObject& object,
                                                       WrapMethod method,
                                                       const Vec3& p_W,
                                                       const Vec3& q_W);
 
-/// One step of Newton's method towards where every tangent point is what its neighbors make of it;
-/// `workspace.stations` hold the path. Nothing changes if a contact has been lost or the step is
-/// not finite.
+/// One Newton step towards tangent points that each fit their neighbors. `workspace.stations` hold
+/// the path; they stay unchanged if a contact is lost or the step is not finite.
 void refine_contacts(const BodyModel& model,
                      const MusclePath& path,
                      const BodyState& state,
                      PathWorkspace& workspace);
 
-/// Adds to `arm` what the tangent points' own motion on their objects contributes to -dl/dq; the
-/// path has come to rest. Zero where every contact is the shortest way over its object.
+/// Adds to `arm` the share of -dl/dq that comes from the tangent points' motion on their objects.
+/// The path must be at rest. The share is zero if every contact is the shortest way over its
+/// object.
 void add_contact_motion(const BodyModel& model,
                         const MusclePath& path,
                         const BodyState& state,

@@ -10,17 +10,15 @@
 
 namespace myoid::model {
 
-/// The path of a muscle as a line to draw: its stations in ground [m], and along each wrap object
-/// points of the curve that the path's length counts, so close that the line turns by at most
-/// `most_turn_rad` from one piece to the next (measured where the object is a circle or a sphere of
-/// radius one). The line's length approaches the path's from below as `most_turn_rad` goes to zero,
-/// with its square.
+/// The path of a muscle as a line to draw: its stations in ground [m] and points of its arcs over
+/// the wrap objects. The line turns by at most `most_turn_rad` from one piece to the next (measured
+/// on a circle or sphere of radius one). Its length approaches the length of the path from below,
+/// with the square of `most_turn_rad`.
 ///
-/// `stations` is what `compute_path` left in its workspace for this posture. Over a cylinder the
-/// curve is the helix, over a sphere the great circle, over an ellipsoid the cut by the plane of
-/// the adjoining straight pieces, through a torus the helix around the tube. Where OpenSim's way to
-/// compute paths (compat.h) leaves tangent points that are on no such curve, a straight piece
-/// stands in for it.
+/// `stations` come from the workspace of `compute_path` at this posture. Over a cylinder the curve
+/// is the helix, over a sphere the great circle, over an ellipsoid the cut by the plane of the
+/// adjoining straight pieces, through a torus the helix around the tube. A straight piece replaces
+/// the curve between tangent points of OpenSim's paths (compat.h) that lie on no such curve.
 [[nodiscard]] std::vector<Vec3> path_polyline(const BodyModel& model,
                                               const MusclePath& path,
                                               const BodyState& state,

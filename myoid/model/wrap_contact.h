@@ -20,19 +20,19 @@ using Vector3 = Eigen::Matrix<T, 3, 1>;
 [[nodiscard]] inline Vec3 value_of(const Vec3& v) { return v; }
 [[nodiscard]] inline Vec3 value_of(const Vector3<Jet6>& v) { return {v[0].a, v[1].a, v[2].a}; }
 
-/// An angle between 0 and 2 pi that differs by whole turns.
+/// The angle plus the whole turns that bring it between 0 and 2 pi.
 template <typename T>
 [[nodiscard]] T within_one_turn(const T& angle) {
   return angle - T(2.0 * kPi * std::floor(value_of(angle) / (2.0 * kPi)));
 }
 
-/// Where a path touches a wrap object, and how long it lies on it; in the wrap object's frame. `T`
-/// is double, or Jet6 for the derivatives by both ends.
+/// Contact of a path with a wrap object, in the object's frame: tangent points and arc. `T` is
+/// double or, with the derivatives by both ends, Jet6.
 template <typename T>
 struct ContactOf {
   Vector3<T> first_W = Vector3<T>::Zero();   ///< Tangent point on the side of the path's start [m].
   Vector3<T> second_W = Vector3<T>::Zero();  ///< Tangent point on the side of its end [m].
-  T arc_length_m = T(0.0);                   ///< Of the way between them over the object.
+  T arc_length_m = T(0.0);                   ///< Length of the arc between them.
 };
 using WrapContact = ContactOf<double>;
 

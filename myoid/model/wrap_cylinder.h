@@ -7,17 +7,17 @@
 
 namespace myoid::model {
 
-/// Shortest path from p to q around a cylinder whose axis is z of its frame: straight to a tangent
-/// point, a helix, straight again. Unrolled it is one line, so that z falls evenly along it:
+/// Shortest path from p to q around a cylinder about the axis z of its frame: a straight piece to a
+/// tangent point, a helix, a straight piece. The unrolled path is one line, so z changes evenly:
 ///
 ///   s = t1 + R theta + t2,  z(s) linear,  length = sqrt(s^2 + (z_q - z_p)^2)
 ///
-/// and dl/dq of a path over it is that of the straight pieces with the tangent points held on the
-/// object. With quadrant 0 the path wraps only if the straight line would cut the cylinder, and on
-/// the shorter side. Otherwise the arc lies on the side that the quadrant names (+-1 x, +-2 y),
-/// also where the straight line passes the axis on the other side; if either end is on that side
-/// and the line neither cuts nor passes wrongly, there is no contact. Empty: no contact (also when
-/// an end lies inside, or both tangent points lie beyond the ends of the cylinder).
+/// dl/dq of a path over a cylinder is dl/dq of the straight pieces with the tangent points fixed to
+/// the object. Quadrant 0: the path wraps only if the straight line cuts the cylinder, and on the
+/// shorter side. Other quadrants: the arc lies on the named side (+-1 x, +-2 y), also if the
+/// straight line passes the axis on the other side. An end on that side and a line that neither
+/// cuts the cylinder nor passes on the wrong side mean no contact. Empty: no contact, an end
+/// inside, or both tangent points beyond the ends of the cylinder.
 template <typename T>
 [[nodiscard]] std::optional<ContactOf<T>> wrap_cylinder(const CylinderShape& cylinder,
                                                         Quadrant quadrant,

@@ -7,26 +7,26 @@
 
 namespace myoid::model {
 
-/// Point of the surface x^2/a^2 + y^2/b^2 + z^2/c^2 = 1 nearest to p. With `plane` 0, 1 or 2 both
-/// are taken in the plane where that coordinate is zero. On a plane of symmetry inside the focal
-/// curve, where two points are equally near, one in that plane is returned.
+/// Point of the surface x^2/a^2 + y^2/b^2 + z^2/c^2 = 1 nearest to p. `plane` 0, 1 or 2 restricts
+/// both points to the plane in which that coordinate is zero. Inside the focal curve of a plane of
+/// symmetry two points are equally near; the returned one lies in the plane.
 [[nodiscard]] Vec3 closest_point_on_ellipsoid(const Vec3& radii_m, const Vec3& p, int plane = -1);
 
-/// Path from p to q over an ellipsoid as OpenSim defines it: it lies in one plane, through p, q and
-/// a point c of the surface, and consists of two tangents of the ellipse in which the plane cuts
-/// the ellipsoid and the arc between them on the side of c. Empty: the straight line does not pass
-/// through the ellipsoid, an end lies inside, or the ends lie in one direction from the center.
+/// Path from p to q over an ellipsoid by OpenSim's definition: the path lies in the plane through
+/// p, q and a point c of the surface, and consists of two tangents of the ellipse in which the
+/// plane cuts the ellipsoid and the arc between them on the side of c. Empty: the straight line
+/// misses the ellipsoid, an end lies inside, or the ends lie in one direction from the center.
 ///
-/// c is, `midpoint`: nearest to the middle of the chord inside the ellipsoid; `axial`: nearest,
-/// within the plane of symmetry across the axis that is most parallel to the line, to where the
-/// line crosses this plane; `hybrid`: a blend of `axial` with the mean direction from points along
-/// the chord to the surface, the latter alone where no axis is nearly parallel. A quadrant mirrors
-/// c to its side. The arc's length is exact (OpenSim's is a polyline of 1 mm chords, up to 1e-5 m
-/// shorter).
+/// `midpoint`: c is nearest to the middle of the chord inside the ellipsoid. `axial`: the line
+/// crosses the plane of symmetry across the axis most parallel to the line; c is the point of the
+/// surface within that plane that is nearest to the crossing. `hybrid`: c blends `axial` with the
+/// mean direction from points along the chord to the surface, and follows the mean direction alone
+/// if no axis is nearly parallel. A quadrant mirrors c to its side. The length of the arc is exact
+/// (OpenSim uses a polyline of 1 mm chords, up to 1e-5 m shorter).
 ///
-/// Such a path is not the shortest over the surface: -dl/dq differs from the moment of the unit
-/// tension along its straight pieces by some tenths of a millimeter. With `T` = Jet6 the
-/// derivatives by both ends come along.
+/// The path is not the shortest over the surface: -dl/dq differs from the moment of the unit
+/// tension along the straight pieces by some tenths of a millimeter. `T` = Jet6 gives the
+/// derivatives by both ends. derivatives by both ends come along.
 template <typename T>
 [[nodiscard]] std::optional<ContactOf<T>> wrap_ellipsoid(const EllipsoidShape& ellipsoid,
                                                          Quadrant quadrant,

@@ -4,10 +4,10 @@
 
 namespace myoid::model {
 
-/// Reads the enforced constraints; those of an unknown kind are listed in `unsupported`.
+/// Reads the enforced constraints; constraints of an unknown kind are listed in `unsupported`.
 void read_constraints(OsimReading& reading, pugi::xml_node set);
 
-/// Reads one constraint, `owner` being its path in the model; one that is not enforced is left out.
+/// Reads a constraint if it is enforced; `owner` is its path in the model.
 void read_constraint(OsimReading& reading, pugi::xml_node node, const std::string& owner);
 
 }  // namespace myoid::model

@@ -14,11 +14,11 @@
 
 namespace myoid::model {
 
-/// A model file that is being changed as OpenSim's Scale tool changes it. The document keeps its
-/// version; what is not changed stays, comments do not.
+/// Changes a model file as OpenSim's Scale tool does. The document keeps its version and all
+/// unchanged elements, and loses its comments.
 class OsimEditor {
  public:
-  /// Factors along the axes of a body, by its name; a body that is not named keeps its size.
+  /// Factors along the axes of a body, by its name; other bodies keep their size.
   using Factors = std::map<std::string, Vec3>;
 
   /// Throws as read_osim.
@@ -30,27 +30,28 @@ class OsimEditor {
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
   void set_name(const std::string& name);
 
-  /// Takes the markers of a file with a <MarkerSet>: those of known names replace the model's.
+  /// Takes the markers of a file with a <MarkerSet>; they replace the model's markers of their
+  /// names.
   void add_markers(const std::filesystem::path& file);
   void remove_markers(const std::function<bool(const std::string&)>& is_removed);
-  /// True if marker placement leaves the marker where it is.
+  /// True if marker placement does not move the marker.
   [[nodiscard]] bool is_fixed(const std::string& marker) const;
   /// A new place in the frame of the marker's body.
   void move_marker(const std::string& marker, const Vec3& p_B);
-  /// The model's markers as a document of their own.
+  /// The model's markers as a separate document.
   [[nodiscard]] std::string marker_set_text() const;
 
-  /// Scales what lies on the bodies: mass centers, frames, points of paths, wrap objects, markers,
-  /// meshes, and the translations of joints by the factors of the parent. Masses and the lengths of
-  /// muscles are left: see below.
+  /// Scales mass centers, frames, points of paths, wrap objects, markers and meshes of the bodies,
+  /// and the translations of joints by the factors of the parent. Masses and lengths of muscles
+  /// stay: see scale_masses and scale_lengths.
   void scale_geometry(const Factors& factors);
-  /// Inertias follow the factors (exactly where the three are equal, else as of a cylinder), the
-  /// masses too unless they are kept; then all are brought to a total of `total_kg`, if above 0.
+  /// Scales inertias by the factors (exactly for equal factors, else as of a cylinder) and masses
+  /// unless they are kept; then brings all masses to a total of `total_kg`, if above 0.
   void scale_masses(const Factors& factors, bool keep_masses, double total_kg);
   /// Multiplies the lengths of a muscle, ligament or spring (optimal fiber, tendon slack, rest).
   void scale_lengths(const std::string& force, double factor);
 
-  /// What was left as it is although it has a size, a sentence each.
+  /// Parts with a size that are not scaled, a sentence each.
   [[nodiscard]] const std::vector<std::string>& notes() const { return notes_; }
 
  private:
@@ -64,8 +65,9 @@ class OsimEditor {
   std::string text_;
   std::filesystem::path path_;
   OsimXml xml_;
-  pugi::xml_node model_;     ///< <Model>
-  pugi::xml_node skeleton_;  ///< What holds the bodies: the model or, in old documents, its engine.
+  pugi::xml_node model_;  ///< <Model>
+  pugi::xml_node
+      skeleton_;  ///< The parent of the bodies: the model or, in old documents, its engine.
   std::unique_ptr<OsimReading> reading_;
   std::vector<std::string> notes_;
 };

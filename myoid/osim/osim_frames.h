@@ -20,8 +20,8 @@ struct FixedFrame {
   Pose X_BF;
 };
 
-/// What the parts of the reader share: the document, the model as far as it is read, and the frames
-/// by their paths.
+/// State that the parts of the reader share: the document, the model read so far and the frames by
+/// their paths.
 struct OsimReading {
   const OsimXml& xml;
   Compat compat;
@@ -29,17 +29,17 @@ struct OsimReading {
 
   struct OffsetFrame {
     pugi::xml_node node;
-    std::string owner;  ///< Path of the component that holds it.
+    std::string owner;  ///< Path of the component that holds the frame.
   };
   using Frames = std::map<std::string, OffsetFrame, std::less<>>;
   Frames frames;  ///< By absolute path.
 
-  /// Places in the model by name; of one name twice the first.
+  /// Indices in the model by name; the first of several with one name.
   std::map<std::string, int, std::less<>> body_places, coordinate_places;
-  /// Names that coordinates of several joints share; each is told apart by its joint.
+  /// Names that coordinates of several joints share; the name of the joint distinguishes them.
   std::set<std::string, std::less<>> shared_coordinate_names;
 
-  /// With what is known of the model already.
+  /// Starts from a model that is partly read.
   explicit OsimReading(const OsimXml& document,
                        const Compat& as = {},
                        BodyModel known = {},
@@ -47,10 +47,10 @@ struct OsimReading {
   int add(Body body);
   int add(Coordinate coordinate);
   [[nodiscard]] std::optional<int> find_body(std::string_view name) const;
-  /// By name, or by a path that ends in joint/coordinate.
+  /// Finds a coordinate by its name or by a path that ends in joint/coordinate.
   [[nodiscard]] std::optional<int> find_coordinate(std::string_view name) const;
 
-  /// Documents before this have joints inside bodies and name bodies instead of sockets.
+  /// True for documents that have joints inside bodies and names of bodies instead of sockets.
   [[nodiscard]] bool is_old() const { return xml.version() < 30500; }
 };
 
@@ -60,8 +60,8 @@ struct ModelComponent {
   std::string path;
 };
 
-/// The objects of a set ("/bodyset/x"), then those that stand outside of it: among the model's
-/// <components> ("/x") or in its <ComponentSet>, of a class whose name ends in `kind`.
+/// The objects of a set ("/bodyset/x"), then the components outside of the set whose class name
+/// ends in `kind`: in <components> ("/x") or <ComponentSet> of the model.
 [[nodiscard]] std::vector<ModelComponent> components_of(pugi::xml_node model,
                                                         const char* set,
                                                         std::string_view kind);
@@ -70,8 +70,8 @@ struct ModelComponent {
 [[nodiscard]] pugi::xml_node skeleton_of(pugi::xml_node model);
 
 /// Reads the bodies (with the inertia of old documents) and collects the offset frames of ground,
-/// bodies, joints and the model. Throws ReadError for a body without a name, with the name of
-/// another or without a mass.
+/// bodies, joints and the model. Throws ReadError for a body without a name or a mass, and for two
+/// bodies of one name.
 void read_bodies(OsimReading& reading, pugi::xml_node model);
 
 /// The target of a socket in any of its spellings (<socket_x>, <socket_x_connectee_name>,
@@ -82,8 +82,8 @@ void read_bodies(OsimReading& reading, pugi::xml_node model);
                                  std::string_view name,
                                  const char* old_name = nullptr);
 
-/// The frame a name stands for, seen from the component `owner`: a body, ground or an offset frame,
-/// chained as they may be. Throws ReadError if there is none or it refers to itself.
+/// The frame that a name means from the component `owner`: a body, ground or an offset frame, also
+/// in a chain. Throws ReadError for an unknown frame and for a frame that refers to itself.
 [[nodiscard]] FixedFrame resolve_frame(const OsimReading& reading,
                                        pugi::xml_node where,
                                        std::string name,
@@ -97,22 +97,22 @@ void read_bodies(OsimReading& reading, pugi::xml_node model);
                                   const char* old_name = "body");
 
 /// The frame of that path or name in a model file: a body, an offset frame of the model, of a body
-/// or of a joint, also those that OpenSim gives to the joints of old documents
-/// ("/jointset/knee_r/tibia_r_offset"). Empty if there is none.
+/// or of a joint, or a frame that OpenSim gives to the joints of old documents
+/// ("/jointset/knee_r/tibia_r_offset"). Empty for an unknown name.
 [[nodiscard]] std::optional<FixedFrame> find_frame(const BodyModel& model,
                                                    const std::filesystem::path& path,
                                                    const std::string& name);
 
 /// The pose that two properties of an element give: location (translation) and body-fixed X-Y-Z
-/// angles. With `rounded` as OpenSim converts old documents, to six digits.
+/// angles. `rounded` rounds to six digits, as OpenSim's conversion of old documents.
 [[nodiscard]] Pose pose_of(const OsimReading& reading,
                            pugi::xml_node node,
                            const char* location,
                            const char* orientation,
                            bool rounded = false);
 
-/// The coordinate that a socket or a text names, of several with one name the first joint's; throws
-/// ReadError if there is none.
+/// The coordinate that a socket or a text names; of several with one name the coordinate of the
+/// first joint. Throws ReadError for an unknown name.
 [[nodiscard]] int coordinate_named(const OsimReading& reading,
                                    pugi::xml_node where,
                                    std::string_view text);

@@ -4,7 +4,8 @@
 
 namespace myoid::model {
 
-/// Notes, by class, the muscles whose curves are not Thelen's, and who takes which.
+/// Adds a note for each class of muscles with curves other than Thelen's, with the commands that
+/// use them.
 void note_classes(BodyModel& model);
 
 /// True if an element is a muscle of a kind that is read.

@@ -6,17 +6,17 @@
 
 namespace myoid::model {
 
-/// Reads the wrap objects of ground and of the bodies, in the order of the tree, so that the first
-/// of a name is the one a path finds.
+/// Reads the wrap objects of ground and of the bodies in the order of the tree: a path finds the
+/// first object of a name.
 void read_wrap_objects(OsimReading& reading, pugi::xml_node model);
 
-/// Reads the path of a muscle or another force (in any version: <GeometryPath>,
-/// <path><GeometryPath>, the point and wrap sets themselves; or a FunctionBasedPath of
-/// polynomials). Throws ReadError if there is none.
+/// Reads the path of a muscle or another force in any version: <GeometryPath>,
+/// <path><GeometryPath>, the bare point and wrap sets, or a FunctionBasedPath of polynomials.
+/// Throws ReadError without a path.
 [[nodiscard]] MusclePath read_path(OsimReading& reading, pugi::xml_node node);
 
-/// The kind of a path that is not read (Scholz2015GeometryPath, a FunctionBasedPath of other
-/// functions than polynomials); empty for others.
+/// The class of an unsupported path (Scholz2015GeometryPath, a FunctionBasedPath of functions other
+/// than polynomials); empty for a supported path.
 [[nodiscard]] std::string foreign_path(const OsimReading& reading, pugi::xml_node node);
 
 }  // namespace myoid::model

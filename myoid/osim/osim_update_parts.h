@@ -7,18 +7,18 @@
 
 namespace myoid::model {
 
-/// Gives every element of a document its present form where that does not depend on others: names
-/// of classes and properties, switches, sockets of markers, path points, forces and constraints.
-/// `version`: of the old document.
+/// Brings every element of a document of version `version` to its present form, as far as the form
+/// does not depend on other elements: names of classes and properties, switches, sockets of
+/// markers, path points, forces and constraints.
 void update_parts(pugi::xml_node document, int version);
 
-/// Names a child anew if there is one, and none of the new name.
+/// Renames a child unless a child of the new name exists.
 void rename_child(pugi::xml_node object, const char* old_name, const char* new_name);
 /// The path of a body by its name in an old document: "/bodyset/x", "/ground".
 [[nodiscard]] std::string body_path(std::string_view name);
 /// Appends <name>text</name>.
 pugi::xml_node append_text(pugi::xml_node parent, const char* name, const std::string& text);
-/// Text of a child without blanks around it; empty if there is none.
+/// Text of a child without blanks around it; empty without such a child.
 [[nodiscard]] std::string child_text(pugi::xml_node parent, const char* name);
 /// Appends <PhysicalOffsetFrame name=...> with its parent and place.
 pugi::xml_node append_frame(pugi::xml_node parent,

@@ -12,14 +12,14 @@ struct OsimChange {
   std::string set;             ///< "ForceSet", "BodySet", "MarkerSet", "JointSet", ...
   std::string object;          ///< Name of the object in the set.
   std::string property;        ///< Element of the object, e.g. "max_isometric_force".
-  std::vector<double> values;  ///< SI and radians, as the file has them.
+  std::vector<double> values;  ///< In the units of the file: SI and radians.
 };
 
-/// The text of an .osim in which only these numbers differ; all else stays byte for byte, and a
-/// number that is the same already keeps its digits. New numbers have the fewest digits that read
-/// back the same. An element that the object omits is added after its opening tag, indented as its
-/// siblings. Throws ReadError if the text is no model, ModelError if there is no such object or a
-/// value is not finite.
+/// The text of an .osim with these numbers; every other byte stays, and a number that is already
+/// equal keeps its digits. New numbers have the fewest digits that read back the same. An element
+/// that the object omits is added after the object's opening tag with the indentation of its
+/// siblings. Throws ReadError if the text is no model, ModelError for an unknown object or a value
+/// that is not finite.
 [[nodiscard]] std::string changed_osim(std::string_view text,
                                        const std::filesystem::path& path,
                                        const std::vector<OsimChange>& changes);

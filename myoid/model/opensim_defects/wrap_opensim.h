@@ -5,8 +5,8 @@
 
 namespace myoid::model {
 
-/// How OpenSim judges one segment against one object: `wrapped` competes with the other segments by
-/// the change in length, `mandatory` is taken at once.
+/// OpenSim's verdict on one segment and one object: `wrapped` competes with the other segments by
+/// the change in length, `mandatory` wins at once.
 enum class WrapAction { none, inside, wrapped, mandatory };
 
 /// OpenSim's contact of one segment with one object, in the object's frame.

@@ -12,8 +12,8 @@ inline Vec3 unit_or_zero(const Vec3& v) {
   return n > 0.0 ? Vec3(v / n) : Vec3::Zero();
 }
 
-/// Which side of a wrap object counts: axis 0..2 and sign, sign 0 for all sides. A coordinate of
-/// zero is on the positive side, as OpenSim has it.
+/// Side of a wrap object on which paths may lie: axis 0..2 and sign, sign 0 for every side. OpenSim
+/// counts a coordinate of zero to the positive side.
 struct Side {
   Eigen::Index axis = 0;
   int sign = 0;
