@@ -136,9 +136,6 @@ Vector3<T> plane_point(const Vec3& radii,
                        WrapMethod method,
                        const Vector3<T>& along,
                        const Chord<T>& chord) {
-  constexpr double kBlendMin = 0.7073;
-  constexpr double kBlendMax = 0.9;
-  constexpr double kBoundary = 0.3;
   T fan_weight(0.0);
   Vector3<T> c(T(0.0), T(0.0), T(0.0));
   if (method == WrapMethod::midpoint) {

@@ -7,6 +7,11 @@
 
 namespace myoid::model {
 
+/// Method `hybrid`, with OpenSim's numbers: the cosine between the line and the nearest axis at
+/// which `axial` begins to count and counts alone, and the margin at each end of the chord in which
+/// `axial` loses its weight (share of the chord).
+inline constexpr double kBlendMin = 0.7073, kBlendMax = 0.9, kBoundary = 0.3;
+
 /// Point of the surface x^2/a^2 + y^2/b^2 + z^2/c^2 = 1 nearest to p. `plane` 0, 1 or 2 restricts
 /// both points to the plane in which that coordinate is zero. Inside the focal curve of a plane of
 /// symmetry two points are equally near; the returned one lies in the plane.

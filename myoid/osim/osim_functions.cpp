@@ -116,8 +116,7 @@ std::vector<Function> functions_property(OsimReading& r,
   if (!set) set = object.find_child_by_attribute("name", property);
   if (const auto inner = set.child("FunctionSet")) set = inner;
   std::vector<Function> functions;
-  for (const auto node : OsimXml::objects(set))
-    functions.push_back(read_function(r, node));
+  for (const auto node : OsimXml::objects(set)) functions.push_back(read_function(r, node));
   return functions;
 }
 

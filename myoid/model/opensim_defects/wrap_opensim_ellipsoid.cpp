@@ -8,14 +8,12 @@
 #include <Eigen/LU>
 
 #include "myoid/core/units.h"
+#include "myoid/model/wrap_ellipsoid.h"
 
 namespace myoid::model {
 namespace {
 
 constexpr double kNearZero = 2e-13;
-constexpr double kBlendMin = 0.7073;
-constexpr double kBlendMax = 0.9;
-constexpr double kBoundary = 0.3;
 constexpr int kFanSamples = 300;
 using Vec4 = Eigen::Vector4d;
 using Mat4 = Eigen::Matrix4d;
