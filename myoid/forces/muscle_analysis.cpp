@@ -71,6 +71,38 @@ std::array<double, kQuantities.size()> quantities(const OpensimMuscle& muscle,
           -s.tendon_force_n * path.speed_mps};
 }
 
+void check_states(const MuscleAnalysisOptions& options,
+                  Eigen::Index frames,
+                  const model::BodyModel& model) {
+  for (const Eigen::MatrixXd* table : {&options.activation, &options.fiber_length_m}) {
+    if (table->size() > 0 && (table->rows() != frames ||
+                              table->cols() != static_cast<Eigen::Index>(model.muscles.size()))) {
+      throw InvalidInput(
+          fmt::format("muscle analysis: states of {} frames and {} muscles, expected "
+                      "{} and {}",
+                      table->rows(), table->cols(), frames, model.muscles.size()));
+    }
+  }
+}
+
+/// A sentence for each muscle whose path or balance fails in some of the frames.
+void note_failures(const std::string& muscle,
+                   int pathless,
+                   int unbalanced,
+                   Eigen::Index frames,
+                   std::vector<std::string>& notes) {
+  if (pathless > 0) {
+    notes.push_back(
+        fmt::format("muscle '{}': its path has no length in {} of {} frames (NaN stands there)",
+                    muscle, pathless, frames));
+  }
+  if (unbalanced > 0) {
+    notes.push_back(
+        fmt::format("muscle '{}': fiber and tendon could not be balanced in {} of {} frames",
+                    muscle, unbalanced, frames));
+  }
+}
+
 }  // namespace
 
 MuscleAnalysis muscle_analysis(const model::BodyModel& model,
@@ -95,15 +127,7 @@ MuscleAnalysis muscle_analysis(const model::BodyModel& model,
     }
   }
   const Eigen::Index frames = motion.sample_count();
-  for (const Eigen::MatrixXd* table : {&options.activation, &options.fiber_length_m}) {
-    if (table->size() > 0 && (table->rows() != frames ||
-                              table->cols() != static_cast<Eigen::Index>(model.muscles.size()))) {
-      throw InvalidInput(
-          fmt::format("muscle analysis: states of {} frames and {} muscles, expected "
-                      "{} and {}",
-                      table->rows(), table->cols(), frames, model.muscles.size()));
-    }
-  }
+  check_states(options, frames, model);
   const auto count = static_cast<Eigen::Index>(chosen.size());
   const std::size_t arms = options.coordinates.size();
   std::vector<Eigen::MatrixXd> tables(2 * arms + kQuantities.size(),
@@ -159,18 +183,9 @@ MuscleAnalysis muscle_analysis(const model::BodyModel& model,
       }
     }
   });
-  for (std::size_t k = 0; k < chosen.size(); ++k) {
-    if (pathless[k] > 0) {
-      result.notes.push_back(
-          fmt::format("muscle '{}': its path has no length in {} of {} frames (NaN stands there)",
-                      model.muscles[at(chosen[k])].name, pathless[k].load(), frames));
-    }
-    if (unbalanced[k] > 0) {
-      result.notes.push_back(
-          fmt::format("muscle '{}': fiber and tendon could not be balanced in {} of {} frames",
-                      model.muscles[at(chosen[k])].name, unbalanced[k].load(), frames));
-    }
-  }
+  for (std::size_t k = 0; k < chosen.size(); ++k)
+    note_failures(model.muscles[at(chosen[k])].name, pathless[k], unbalanced[k], frames,
+                  result.notes);
   const auto add = [&](const std::string& name, Unit unit, Eigen::MatrixXd& values) {
     std::vector<Channel> channels;
     for (const int m : chosen) channels.push_back({model.muscles[at(m)].name, unit});
