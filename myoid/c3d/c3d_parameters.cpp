@@ -312,6 +312,49 @@ class ParameterReader {
   std::vector<int> order_;
 };
 
+/// Appends a number of this kind; false if the kind cannot hold the number.
+bool put_number(std::vector<std::byte>& out, double value, C3dType type, const C3dBytes& number) {
+  const std::size_t at = out.size();
+  out.resize(at + size_of(type));
+  if (type == C3dType::real) return number.put_real(&out[at], static_cast<float>(value));
+  const double low = type == C3dType::byte ? 0.0 : -32768.0;
+  const double high = type == C3dType::byte ? 255.0 : 65535.0;
+  if (!(value >= low && value <= high && value == std::floor(value))) return false;
+  const auto whole = static_cast<std::uint16_t>(static_cast<int>(value));
+  if (type == C3dType::byte) {
+    out[at] = static_cast<std::byte>(whole);
+  } else {
+    number.put_u16(&out[at], whole);
+  }
+  return true;
+}
+
+void put_parameter(std::vector<std::byte>& out,
+                   const C3dGroup& group,
+                   const C3dParameter& p,
+                   const C3dBytes& number) {
+  const std::size_t distance_at = put_head(out, p.name, p.locked, group.id);
+  out.push_back(static_cast<std::byte>(p.type));
+  if (p.dimensions.size() > 7)
+    throw InvalidInput(fmt::format("C3D parameter '{}': more than 7 dimensions", p.name));
+  out.push_back(static_cast<std::byte>(p.dimensions.size()));
+  for (const std::uint8_t d : p.dimensions) out.push_back(static_cast<std::byte>(d));
+  const std::size_t count = element_count(p.dimensions);
+  const std::size_t have = p.type == C3dType::text ? p.text.size() : p.numbers.size();
+  if (have != count) {
+    throw InvalidInput(fmt::format("C3D parameter '{}:{}': {} elements, its dimensions say {}",
+                                   group.name, p.name, have, count));
+  }
+  if (p.type == C3dType::text) put_text(out, p.text);
+  for (std::size_t i = 0; p.type != C3dType::text && i < count; ++i) {
+    if (!put_number(out, p.numbers[i], p.type, number))
+      throw InvalidInput(fmt::format("C3D parameter '{}:{}': {} does not fit its kind", group.name,
+                                     p.name, p.numbers[i]));
+  }
+  put_description(out, p.name, p.description);
+  close_record(out, distance_at, p.name, number);
+}
+
 }  // namespace
 
 std::vector<C3dGroup> parse_c3d_parameters(std::span<const std::byte> bytes,
@@ -335,47 +378,7 @@ std::vector<std::byte> format_c3d_parameters(const std::vector<C3dGroup>& groups
     const std::size_t at = put_head(out, group.name, group.locked, -group.id);
     put_description(out, group.name, group.description);
     close_record(out, at, group.name, number);
-    for (const C3dParameter& p : group.parameters) {
-      const std::size_t distance_at = put_head(out, p.name, p.locked, group.id);
-      out.push_back(static_cast<std::byte>(p.type));
-      if (p.dimensions.size() > 7)
-        throw InvalidInput(fmt::format("C3D parameter '{}': more than 7 dimensions", p.name));
-      out.push_back(static_cast<std::byte>(p.dimensions.size()));
-      for (const std::uint8_t d : p.dimensions) out.push_back(static_cast<std::byte>(d));
-      const std::size_t count = element_count(p.dimensions);
-      const std::size_t have = p.type == C3dType::text ? p.text.size() : p.numbers.size();
-      if (have != count) {
-        throw InvalidInput(fmt::format("C3D parameter '{}:{}': {} elements, its dimensions say {}",
-                                       group.name, p.name, have, count));
-      }
-      if (p.type == C3dType::text) {
-        put_text(out, p.text);
-      } else {
-        for (const double value : p.numbers) {
-          const std::size_t end = out.size();
-          out.resize(end + size_of(p.type));
-          bool fits = true;
-          if (p.type == C3dType::real) {
-            fits = number.put_real(&out[end], static_cast<float>(value));
-          } else {
-            const double low = p.type == C3dType::byte ? 0.0 : -32768.0;
-            const double high = p.type == C3dType::byte ? 255.0 : 65535.0;
-            fits = value >= low && value <= high && value == std::floor(value);
-            const auto whole = static_cast<std::uint16_t>(fits ? static_cast<int>(value) : 0);
-            if (p.type == C3dType::byte) {
-              out[end] = static_cast<std::byte>(whole);
-            } else {
-              number.put_u16(&out[end], whole);
-            }
-          }
-          if (!fits)
-            throw InvalidInput(fmt::format("C3D parameter '{}:{}': {} does not fit its kind",
-                                           group.name, p.name, value));
-        }
-      }
-      put_description(out, p.name, p.description);
-      close_record(out, distance_at, p.name, number);
-    }
+    for (const C3dParameter& p : group.parameters) put_parameter(out, group, p, number);
   }
   out.resize((out.size() + 2 + kC3dBlock - 1) / kC3dBlock * kC3dBlock);  // ends with a zero length
   const std::size_t blocks = out.size() / kC3dBlock;

@@ -251,67 +251,95 @@ void read_rates(C3dFile& file,
   }
 }
 
-}  // namespace
-
-C3dHead read_c3d_head(ByteSource& source, const std::filesystem::path& path) {
+/// The first 512 bytes. Throws ReadError if they are not those of a C3D file.
+std::vector<std::byte> read_head_block(ByteSource& source, const std::filesystem::path& path) {
   if (source.size() < kC3dBlock)
     throw ReadError(path, 0,
                     fmt::format("the file has {} bytes; a C3D file begins with a header of 512: it "
                                 "is cut off or none",
                                 source.size()));
   const auto first = source.view(0, kC3dBlock);
-  const std::vector<std::byte> head(first.begin(), first.end());
-  if (head[1] != std::byte{0x50}) {
+  if (first[1] != std::byte{0x50}) {
     throw ReadError(path, 0,
                     fmt::format("the second byte is 0x{:02x}, in a C3D file it is 0x50; this is "
                                 "another format",
-                                static_cast<unsigned>(head[1])));
+                                static_cast<unsigned>(first[1])));
   }
-  C3dFile file;
+  return {first.begin(), first.end()};
+}
 
-  // The parameter section, wherever it is.
-  const auto block = static_cast<std::size_t>(head[0]);
-  std::size_t begin = block == 0 ? 0 : (block - 1) * kC3dBlock;
-  bool known = false;
-  for (const std::size_t candidate : {begin, kC3dBlock}) {
-    if (known || candidate < kC3dBlock || candidate + 4 > source.size()) continue;
-    const auto code = static_cast<std::uint8_t>(source.view(candidate, 4)[3]);
+/// The place of the parameter section and the processor that it names.
+struct ParameterSection {
+  std::size_t begin = 0;
+  C3dProcessor processor = C3dProcessor::intel;
+};
+
+/// The section at the block that the header names, else at block 2; empty if neither begins one.
+std::optional<ParameterSection> find_parameters(std::size_t block,
+                                                ByteSource& source,
+                                                std::vector<Repair>& repairs) {
+  const std::size_t named = block == 0 ? 0 : (block - 1) * kC3dBlock;
+  for (const std::size_t begin : {named, kC3dBlock}) {
+    if (begin < kC3dBlock || begin + 4 > source.size()) continue;
+    const auto code = static_cast<std::uint8_t>(source.view(begin, 4)[3]);
     if (code < 84 || code > 86) continue;
-    known = true;
-    file.processor = static_cast<C3dProcessor>(code);
-    if (candidate != begin)
-      file.repairs.push_back({0, fmt::format("no parameters at block {}, where the header says; "
-                                             "found at block 2",
-                                             block)});
-    begin = candidate;
+    if (begin != named)
+      repairs.push_back({0, fmt::format("no parameters at block {}, where the header says; "
+                                        "found at block 2",
+                                        block)});
+    return ParameterSection{begin, static_cast<C3dProcessor>(code)};
   }
-  if (!known) {
-    const auto guess = guess_processor(head, source.size());
-    if (!guess)
-      throw ReadError(path, 0,
-                      fmt::format("no parameter section at block {}, and the header makes no sense "
-                                  "for any of the three processors; the file is damaged",
-                                  block));
-    file.processor = *guess;
-    file.repairs.push_back(
-        {0, fmt::format("there is no parameter section (byte 1 says block {}); the header is read "
-                        "as {}'s, and points and channels have no names, units or scales",
-                        block,
-                        *guess == C3dProcessor::intel ? "Intel"
-                        : *guess == C3dProcessor::sgi ? "SGI"
-                                                      : "DEC")});
-  }
+  return std::nullopt;
+}
+
+/// The processor of a file without a parameter section.
+C3dProcessor processor_of_header(std::span<const std::byte> head,
+                                 std::size_t block,
+                                 std::uint64_t file_size,
+                                 const std::filesystem::path& path,
+                                 std::vector<Repair>& repairs) {
+  const auto guess = guess_processor(head, file_size);
+  if (!guess)
+    throw ReadError(path, 0,
+                    fmt::format("no parameter section at block {}, and the header makes no sense "
+                                "for any of the three processors; the file is damaged",
+                                block));
+  repairs.push_back(
+      {0, fmt::format("there is no parameter section (byte 1 says block {}); the header is read "
+                      "as {}'s, and points and channels have no names, units or scales",
+                      block,
+                      *guess == C3dProcessor::intel ? "Intel"
+                      : *guess == C3dProcessor::sgi ? "SGI"
+                                                    : "DEC")});
+  return *guess;
+}
+
+/// The groups of a section that ends at the data, at most 32 MiB behind its begin.
+std::vector<C3dGroup> read_groups(const ParameterSection& section,
+                                  const C3dHeader& header,
+                                  ByteSource& source,
+                                  std::vector<Repair>& repairs) {
+  constexpr std::uint64_t kMost = std::uint64_t{1} << 25U;
+  const std::uint64_t data =
+      header.data_block == 0 ? 0 : (header.data_block - 1) * std::uint64_t{kC3dBlock};
+  const std::uint64_t end = data > section.begin ? std::min(data, source.size()) : source.size();
+  const auto limit = static_cast<std::size_t>(std::min(end, section.begin + kMost));
+  return parse_c3d_parameters(source.view(0, limit), section.begin + 4, limit,
+                              C3dBytes{section.processor}, repairs);
+}
+
+}  // namespace
+
+C3dHead read_c3d_head(ByteSource& source, const std::filesystem::path& path) {
+  const std::vector<std::byte> head = read_head_block(source, path);
+  const auto block = static_cast<std::size_t>(head[0]);
+  C3dFile file;
+  const auto section = find_parameters(block, source, file.repairs);
+  file.processor = section ? section->processor
+                           : processor_of_header(head, block, source.size(), path, file.repairs);
   const C3dBytes number{file.processor};
   const C3dHeader header = read_c3d_header(head, number);
-  if (known) {
-    constexpr std::uint64_t kMost = std::uint64_t{1} << 25U;
-    const std::uint64_t data =
-        header.data_block == 0 ? 0 : (header.data_block - 1) * std::uint64_t{kC3dBlock};
-    const std::uint64_t limit =
-        std::min(data > begin ? std::min(data, source.size()) : source.size(), begin + kMost);
-    file.groups = parse_c3d_parameters(source.view(0, static_cast<std::size_t>(limit)), begin + 4,
-                                       static_cast<std::size_t>(limit), number, file.repairs);
-  }
+  if (section) file.groups = read_groups(*section, header, source, file.repairs);
 
   const C3dLayout layout = find_c3d_layout(header, file, source.size(), path, file.repairs);
   file.integer = layout.integer;

@@ -80,6 +80,45 @@ class SampleWriter {
   double scale_;
 };
 
+/// Fills the first 512 bytes.
+void put_header(const C3dFile& file,
+                double scale,
+                std::size_t analog,
+                std::size_t data_block,
+                const C3dBytes& number,
+                std::byte* out) {
+  const auto word = [&](std::size_t n, std::size_t value) {
+    number.put_u16(&out[2 * (n - 1)], static_cast<std::uint16_t>(value));
+  };
+  const auto real = [&](std::size_t n, double value) {
+    if (!number.put_real(&out[2 * (n - 1)], static_cast<float>(value)))
+      throw InvalidInput(fmt::format("C3D header: {} cannot be written", value));
+  };
+  out[0] = std::byte{2};
+  out[1] = std::byte{0x50};
+  word(2, file.point_labels.size());
+  word(3, analog);
+  const std::int64_t last = file.first_frame + file.frame_count() - 1;
+  word(4, static_cast<std::size_t>(std::clamp<std::int64_t>(file.first_frame, 0, 65535)));
+  word(5, static_cast<std::size_t>(std::clamp<std::int64_t>(last, 0, 65535)));
+  word(6, 10);
+  real(7, scale);
+  word(9, data_block);
+  word(10, static_cast<std::size_t>(file.channels.empty() ? 1 : file.analog_per_frame));
+  real(11, file.point_rate_hz);
+  word(150, 12345);
+}
+
+/// True if integer samples are written without sign.
+bool writes_unsigned(const C3dFile& file) {
+  const C3dParameter* said = file.find("ANALOG", "FORMAT");
+  if (said != nullptr && !texts(*said).empty() && equal_ignoring_case(texts(*said)[0], "UNSIGNED"))
+    return std::none_of(file.channels.begin(), file.channels.end(),
+                        [](const C3dChannel& c) { return c.offset < 0.0; });
+  return std::any_of(file.channels.begin(), file.channels.end(),
+                     [](const C3dChannel& c) { return c.offset > 32767; });
+}
+
 }  // namespace
 
 std::vector<std::byte> format_c3d(const C3dFile& file, const C3dFormat& format) {
@@ -106,38 +145,10 @@ std::vector<std::byte> format_c3d(const C3dFile& file, const C3dFormat& format) 
   const std::size_t size = data + frames * frame_bytes;
   std::vector<std::byte> out((size + kC3dBlock - 1) / kC3dBlock * kC3dBlock);
 
-  // Header.
-  const auto word = [&](std::size_t n, std::size_t value) {
-    number.put_u16(&out[2 * (n - 1)], static_cast<std::uint16_t>(value));
-  };
-  const auto real = [&](std::size_t n, double value) {
-    if (!number.put_real(&out[2 * (n - 1)], static_cast<float>(value)))
-      throw InvalidInput(fmt::format("C3D header: {} cannot be written", value));
-  };
-  out[0] = std::byte{2};
-  out[1] = std::byte{0x50};
-  word(2, points);
-  word(3, analog);
-  const std::int64_t last = file.first_frame + file.frame_count() - 1;
-  word(4, static_cast<std::size_t>(std::clamp<std::int64_t>(file.first_frame, 0, 65535)));
-  word(5, static_cast<std::size_t>(std::clamp<std::int64_t>(last, 0, 65535)));
-  word(6, 10);
-  real(7, scale);
-  word(9, data_block);
-  word(10, static_cast<std::size_t>(file.channels.empty() ? 1 : file.analog_per_frame));
-  real(11, file.point_rate_hz);
-  word(150, 12345);
+  put_header(file, scale, analog, data_block, number, out.data());
   std::copy(section.begin(), section.end(), out.begin() + kC3dBlock);
 
-  // Samples.
-  bool is_unsigned = false;
-  for (const C3dChannel& channel : file.channels)
-    is_unsigned = is_unsigned || channel.offset > 32767;
-  if (const C3dParameter* said = file.find("ANALOG", "FORMAT");
-      said != nullptr && !texts(*said).empty() && equal_ignoring_case(texts(*said)[0], "UNSIGNED"))
-    is_unsigned = std::none_of(file.channels.begin(), file.channels.end(),
-                               [](const C3dChannel& c) { return c.offset < 0.0; });
-  SampleWriter writer(&out[data], file, format, is_unsigned);
+  SampleWriter writer(&out[data], file, format, writes_unsigned(file));
   for (Eigen::Index k = 0; k < file.frame_count(); ++k) {
     for (Eigen::Index p = 0; p < static_cast<Eigen::Index>(points); ++p)
       writer.point(&file.points(k, 4 * p));

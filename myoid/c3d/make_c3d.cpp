@@ -10,52 +10,53 @@
 
 namespace myoid::recording {
 
-C3dFile make_c3d(const MarkerSeries& markers, const TimeSeries& analog) {
-  if (markers.frame_count() == 0 && analog.empty())
-    throw InvalidInput("a C3D file needs markers or analog channels");
-  C3dFile file;
-  file.point_unit = "mm";
-  const auto rate_of = [](const Eigen::VectorXd& time_s, const char* what) {
-    const Eigen::Index n = time_s.size();
-    if (n < 2) throw InvalidInput(fmt::format("{}: a C3D file needs at least two samples", what));
-    const double dt = (time_s[n - 1] - time_s[0]) / static_cast<double>(n - 1);
-    for (Eigen::Index i = 1; i < n; ++i) {
-      if (std::abs(time_s[i] - time_s[0] - static_cast<double>(i) * dt) > 0.05 * dt)
-        throw InvalidInput(
-            fmt::format("{}: the samples are not evenly spaced ({} s to {} s), as a C3D file needs "
-                        "them; resample first",
-                        what, time_s[i - 1], time_s[i]));
-    }
-    // Rates are whole or have few decimals; times were rounded when they were written.
-    const double rate = 1.0 / dt;
-    const double rounded = std::round(rate * 100.0) / 100.0;
-    return std::abs(rate - rounded) < 1e-4 * rate ? rounded : rate;
-  };
-  const bool has_markers = markers.frame_count() > 0;
-  const Eigen::VectorXd& clock = has_markers ? markers.time_s : analog.time_s();
-  file.point_rate_hz = rate_of(clock, has_markers ? "markers" : "analog");
-  file.first_frame = 1 + std::llround(clock[0] * file.point_rate_hz);
-  file.point_labels = markers.names;
-  Eigen::Index frames = clock.size();
-  if (!analog.empty()) {
-    const double ratio = rate_of(analog.time_s(), "analog") / file.point_rate_hz;
-    file.analog_per_frame = static_cast<int>(std::lround(ratio));
-    if (file.analog_per_frame < 1 || std::abs(ratio - file.analog_per_frame) > 1e-3 * ratio) {
+namespace {
+
+/// The rate of an even clock. Throws InvalidInput for a clock that is not even.
+double rate_of(const Eigen::VectorXd& time_s, const char* what) {
+  const Eigen::Index n = time_s.size();
+  if (n < 2) throw InvalidInput(fmt::format("{}: a C3D file needs at least two samples", what));
+  const double dt = (time_s[n - 1] - time_s[0]) / static_cast<double>(n - 1);
+  for (Eigen::Index i = 1; i < n; ++i) {
+    if (std::abs(time_s[i] - time_s[0] - static_cast<double>(i) * dt) > 0.05 * dt)
       throw InvalidInput(
-          fmt::format("{} analog samples for each frame: a C3D file needs a whole number; resample "
-                      "the analog channels to a multiple of {} Hz",
-                      ratio, file.point_rate_hz));
-    }
-    const double lag = analog.time_s()[0] - clock[0];
-    if (std::abs(lag) * ratio * file.point_rate_hz > 0.5) {
-      throw InvalidInput(
-          fmt::format("markers begin at {} s, analog channels at {} s; a C3D file "
-                      "needs one beginning: cut the longer one",
-                      clock[0], analog.time_s()[0]));
-    }
-    frames = std::min(frames, analog.sample_count() / file.analog_per_frame);
-    if (frames == 0) throw InvalidInput("the analog channels are shorter than one frame");
+          fmt::format("{}: the samples are not evenly spaced ({} s to {} s), as a C3D file needs "
+                      "them; resample first",
+                      what, time_s[i - 1], time_s[i]));
   }
+  // Rates are whole or have few decimals; times were rounded when they were written.
+  const double rate = 1.0 / dt;
+  const double rounded = std::round(rate * 100.0) / 100.0;
+  return std::abs(rate - rounded) < 1e-4 * rate ? rounded : rate;
+}
+
+/// Analog samples in a frame. Throws InvalidInput unless they are a whole number and both clocks
+/// begin together.
+int samples_per_frame(const Eigen::VectorXd& analog_s,
+                      const Eigen::VectorXd& frames_s,
+                      double frame_rate_hz) {
+  const double ratio = rate_of(analog_s, "analog") / frame_rate_hz;
+  const auto whole = static_cast<int>(std::lround(ratio));
+  if (whole < 1 || std::abs(ratio - whole) > 1e-3 * ratio) {
+    throw InvalidInput(
+        fmt::format("{} analog samples for each frame: a C3D file needs a whole number; resample "
+                    "the analog channels to a multiple of {} Hz",
+                    ratio, frame_rate_hz));
+  }
+  const double lag_s = analog_s[0] - frames_s[0];
+  if (std::abs(lag_s) * ratio * frame_rate_hz > 0.5) {
+    throw InvalidInput(
+        fmt::format("markers begin at {} s, analog channels at {} s; a C3D file "
+                    "needs one beginning: cut the longer one",
+                    frames_s[0], analog_s[0]));
+  }
+  return whole;
+}
+
+/// Four numbers a marker: x, y, z in millimeters and the residual, -1 in a gap.
+void add_points(const MarkerSeries& markers, Eigen::Index frames, C3dFile& file) {
+  file.point_unit = "mm";
+  file.point_labels = markers.names;
   file.points.resize(frames, 4 * markers.marker_count());
   for (Eigen::Index k = 0; k < frames; ++k) {
     for (Eigen::Index m = 0; m < markers.marker_count(); ++m) {
@@ -66,7 +67,10 @@ C3dFile make_c3d(const MarkerSeries& markers, const TimeSeries& analog) {
       file.points(k, 4 * m + 3) = gap ? -1.0F : 0.0F;
     }
   }
-  const Eigen::Index samples = analog.empty() ? 0 : frames * file.analog_per_frame;
+}
+
+/// Channels in SI; moments in N mm, as C3D files have them.
+void add_channels(const TimeSeries& analog, Eigen::Index samples, C3dFile& file) {
   file.analog.resize(samples, analog.channel_count());
   for (Eigen::Index c = 0; c < analog.channel_count(); ++c) {
     const Channel& channel = analog.channels()[static_cast<std::size_t>(c)];
@@ -80,6 +84,26 @@ C3dFile make_c3d(const MarkerSeries& markers, const TimeSeries& analog) {
     for (Eigen::Index i = 0; i < samples; ++i)
       file.analog(i, c) = static_cast<float>(analog.values()(i, c) * (moment ? 1000.0 : 1.0));
   }
+}
+
+}  // namespace
+
+C3dFile make_c3d(const MarkerSeries& markers, const TimeSeries& analog) {
+  const bool has_markers = markers.frame_count() > 0;
+  if (!has_markers && analog.empty())
+    throw InvalidInput("a C3D file needs markers or analog channels");
+  const Eigen::VectorXd& clock = has_markers ? markers.time_s : analog.time_s();
+  C3dFile file;
+  file.point_rate_hz = rate_of(clock, has_markers ? "markers" : "analog");
+  file.first_frame = 1 + std::llround(clock[0] * file.point_rate_hz);
+  Eigen::Index frames = clock.size();
+  if (!analog.empty()) {
+    file.analog_per_frame = samples_per_frame(analog.time_s(), clock, file.point_rate_hz);
+    frames = std::min(frames, analog.sample_count() / file.analog_per_frame);
+    if (frames == 0) throw InvalidInput("the analog channels are shorter than one frame");
+  }
+  add_points(markers, frames, file);
+  add_channels(analog, analog.empty() ? 0 : frames * file.analog_per_frame, file);
   return file;
 }
 

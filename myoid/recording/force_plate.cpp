@@ -17,7 +17,93 @@ using Wrench = Eigen::Matrix<double, Eigen::Dynamic, 6>;
 
 std::size_t channels_of_type(int type) { return type == 3 ? 8 : 6; }
 
-/// Empty if something is missing or cannot be; the note says what.
+/// One plate of the group FORCE_PLATFORM.
+class PlateParameters {
+ public:
+  PlateParameters(const C3dFile& file, std::size_t plate, double to_m)
+      : file_(file), plate_(plate), to_m_(to_m) {}
+
+  [[nodiscard]] std::optional<double> number(const char* name, std::size_t index) const {
+    return number_at(file_.find("FORCE_PLATFORM", name), index);
+  }
+  [[nodiscard]] int type() const { return static_cast<int>(number("TYPE", plate_).value_or(0.0)); }
+
+  [[nodiscard]] std::optional<Eigen::Matrix<double, 3, 4>> corners_m() const {
+    Eigen::Matrix<double, 3, 4> corners_m;
+    for (Eigen::Index i = 0; i < 12; ++i) {
+      const auto value = number("CORNERS", 12 * plate_ + static_cast<std::size_t>(i));
+      if (!value) return std::nullopt;
+      corners_m(i % 3, i / 3) = to_m_ * *value;
+    }
+    return corners_m;
+  }
+
+  [[nodiscard]] std::optional<Vec3> origin_m() const {
+    Vec3 origin_m;
+    for (Eigen::Index axis = 0; axis < 3; ++axis) {
+      const auto value = number("ORIGIN", 3 * plate_ + static_cast<std::size_t>(axis));
+      if (!value) return std::nullopt;
+      origin_m[axis] = to_m_ * *value;
+    }
+    return origin_m;
+  }
+
+  [[nodiscard]] std::optional<Eigen::Matrix<double, 6, 6>> calibration() const {
+    Eigen::Matrix<double, 6, 6> matrix;
+    for (Eigen::Index i = 0; i < 36; ++i) {
+      const auto value = number("CAL_MATRIX", 36 * plate_ + static_cast<std::size_t>(i));
+      if (!value) return std::nullopt;
+      matrix(i % 6, i / 6) = *value;
+    }
+    return matrix;
+  }
+
+  /// The channels of a plate as numbers from 1; 0 where the file names none.
+  [[nodiscard]] std::vector<double> channels(std::size_t count) const {
+    const C3dParameter* channel = file_.find("FORCE_PLATFORM", "CHANNEL");
+    const std::size_t stride =
+        channel != nullptr && !channel->dimensions.empty() ? channel->dimensions[0] : count;
+    std::vector<double> list;
+    for (std::size_t c = 0; c < count; ++c)
+      list.push_back(c < stride ? number_at(channel, stride * plate_ + c).value_or(0.0) : 0.0);
+    return list;
+  }
+
+ private:
+  const C3dFile& file_;
+  std::size_t plate_;
+  double to_m_;
+};
+
+bool is_quadrangle(const Eigen::Matrix<double, 3, 4>& corners_m) {
+  const Vec3 a = corners_m.col(0) - corners_m.col(1);
+  const Vec3 b = corners_m.col(0) - corners_m.col(3);
+  return a.cross(b).norm() > 1e-3 * (a.squaredNorm() + b.squaredNorm()) && a.norm() > 0.01 &&
+         b.norm() > 0.01;
+}
+
+/// The origin of a plate; of type 3 the distances a, b in its first two numbers.
+Vec3 plate_origin_m(const PlateParameters& parameters,
+                    const PlateSetup& d,
+                    std::vector<Repair>& repairs) {
+  const auto stated = parameters.origin_m();
+  if (!stated) {
+    repairs.push_back({0, fmt::format("force plate {}: FORCE_PLATFORM:ORIGIN is missing; the "
+                                      "moments are taken about the surface",
+                                      d.number)});
+    return Vec3::Zero();
+  }
+  Vec3 origin_m = *stated;
+  if (d.type == 3 && (origin_m[0] < 0.0 || origin_m[1] < 0.0)) {
+    repairs.push_back({0, fmt::format("force plate {}: the distances a, b of FORCE_PLATFORM:ORIGIN "
+                                      "are negative; taken as positive",
+                                      d.number)});
+    origin_m.head<2>() = origin_m.head<2>().cwiseAbs().eval();
+  }
+  return origin_m;
+}
+
+/// The plate as its parameters describe it; empty, with a note, if one is missing or impossible.
 std::optional<PlateSetup> describe(const C3dFile& file,
                                    std::size_t plate,
                                    double to_m,
@@ -26,69 +112,28 @@ std::optional<PlateSetup> describe(const C3dFile& file,
     repairs.push_back({0, fmt::format("force plate {} is left out: {}", plate + 1, why)});
     return std::nullopt;
   };
-  const auto number = [&](const char* name, std::size_t index) {
-    return number_at(file.find("FORCE_PLATFORM", name), index);
-  };
+  const PlateParameters parameters(file, plate, to_m);
   PlateSetup d;
   d.number = static_cast<int>(plate) + 1;
   d.to_m = to_m;
-  d.type = static_cast<int>(number("TYPE", plate).value_or(0.0));
+  d.type = parameters.type();
   if (d.type < 1 || d.type > 4)
     return refuse(fmt::format("FORCE_PLATFORM:TYPE is {}, types 1 to 4 are understood", d.type));
-  for (Eigen::Index corner = 0; corner < 4; ++corner) {
-    for (Eigen::Index axis = 0; axis < 3; ++axis) {
-      const auto value = number("CORNERS", 12 * plate + 3 * static_cast<std::size_t>(corner) +
-                                               static_cast<std::size_t>(axis));
-      if (!value) return refuse("FORCE_PLATFORM:CORNERS is missing or too short");
-      d.corners_m(axis, corner) = to_m * *value;
-    }
-  }
-  const Vec3 a = d.corners_m.col(0) - d.corners_m.col(1);
-  const Vec3 b = d.corners_m.col(0) - d.corners_m.col(3);
-  if (!(a.cross(b).norm() > 1e-3 * (a.squaredNorm() + b.squaredNorm())) ||
-      !(a.norm() > 0.01 && b.norm() > 0.01))
-    return refuse("FORCE_PLATFORM:CORNERS are no quadrangle");
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const auto value = number("ORIGIN", 3 * plate + axis);
-    if (!value) {
-      repairs.push_back({0, fmt::format("force plate {}: FORCE_PLATFORM:ORIGIN is missing; the "
-                                        "moments are taken about the surface",
-                                        plate + 1)});
-      d.origin_m.setZero();
-      break;
-    }
-    d.origin_m[static_cast<Eigen::Index>(axis)] = to_m * *value;
-  }
-  if (d.type == 3) {
-    if (d.origin_m[0] < 0.0 || d.origin_m[1] < 0.0) {
-      repairs.push_back(
-          {0, fmt::format("force plate {}: the distances a, b of FORCE_PLATFORM:ORIGIN "
-                          "are negative; taken as positive",
-                          plate + 1)});
-      d.origin_m.head<2>() = d.origin_m.head<2>().cwiseAbs().eval();
-    }
-  }
-
-  const C3dParameter* channel = file.find("FORCE_PLATFORM", "CHANNEL");
-  const std::size_t count = channels_of_type(d.type);
-  const std::size_t stride =
-      channel != nullptr && !channel->dimensions.empty() ? channel->dimensions[0] : count;
-  for (std::size_t c = 0; c < count; ++c) {
-    const double value = c < stride ? number_at(channel, stride * plate + c).value_or(0.0) : 0.0;
-    if (!(value >= 1.0 && value <= static_cast<double>(file.channels.size())))
-      return refuse(fmt::format("FORCE_PLATFORM:CHANNEL names channel {}; there are {}", value,
+  const auto corners_m = parameters.corners_m();
+  if (!corners_m) return refuse("FORCE_PLATFORM:CORNERS is missing or too short");
+  d.corners_m = *corners_m;
+  if (!is_quadrangle(d.corners_m)) return refuse("FORCE_PLATFORM:CORNERS are no quadrangle");
+  d.origin_m = plate_origin_m(parameters, d, repairs);
+  for (const double channel : parameters.channels(channels_of_type(d.type))) {
+    if (!(channel >= 1.0 && channel <= static_cast<double>(file.channels.size())))
+      return refuse(fmt::format("FORCE_PLATFORM:CHANNEL names channel {}; there are {}", channel,
                                 file.channels.size()));
-    d.channels.push_back(static_cast<Eigen::Index>(value) - 1);
+    d.channels.push_back(static_cast<Eigen::Index>(channel) - 1);
   }
   if (d.type == 4) {
-    for (Eigen::Index column = 0; column < 6; ++column) {
-      for (Eigen::Index row = 0; row < 6; ++row) {
-        const auto value =
-            number("CAL_MATRIX", 36 * plate + static_cast<std::size_t>(6 * column + row));
-        if (!value) return refuse("FORCE_PLATFORM:CAL_MATRIX is missing or too short");
-        d.calibration(row, column) = *value;
-      }
-    }
+    const auto calibration = parameters.calibration();
+    if (!calibration) return refuse("FORCE_PLATFORM:CAL_MATRIX is missing or too short");
+    d.calibration = *calibration;
   }
   return d;
 }
