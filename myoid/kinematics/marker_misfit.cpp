@@ -63,7 +63,7 @@ MarkerMisfit marker_misfit(const model::BodyModel& model,
   if (misfit.rms_m <= kFar_m) return misfit;
   if (const auto fault = signals::check_marker_unit(markers, segments_of(model, markers))) {
     misfit.wrong_unit = true;
-    misfit.warning = fmt::format("{}: {}", fault->text, fault->remedy);
+    misfit.warning = fmt::format("{}: {}", fault->says, fault->remedy);
   } else if (const auto shift = common_shift(markers, solved.marker_locations)) {
     misfit.warning = fmt::format(
         "all markers lie about ({:.3f}, {:.3f}, {:.3f}) m from the model's: the laboratory's "

@@ -321,36 +321,36 @@ class RecordTimes {
   /// The begin of record `r` (counted from 0), whose time stamp is `onset`.
   double begin_s(std::int64_t r, const std::optional<double>& onset, std::vector<Repair>& repairs) {
     const double counted = static_cast<double>(r) * header_.record_s;
-    if (onset && !zero_s_) zero_s_ = header_.gaps ? *onset : *onset - counted;
+    if (onset && std::isnan(zero_s_)) zero_s_ = header_.gaps ? *onset : *onset - counted;
     if (header_.gaps) return stamped(r, onset, repairs);
-    if (onset && stamps_agree_ &&
-        std::abs(*onset - *zero_s_ - counted) > 0.5 * interval_s_ + 1e-6) {
+    if (onset && stamps_agree_ && std::abs(*onset - zero_s_ - counted) > 0.5 * interval_s_ + 1e-6) {
       stamps_agree_ = false;
       repairs.push_back(
           {0, fmt::format("record {} says it begins {:.6g} s after the first, by the header's {} s "
                           "for a record it is {:.6g} s, which is taken: compare the length of the "
                           "recording",
-                          r + 1, *onset - *zero_s_, header_.record_s, counted)});
+                          r + 1, *onset - zero_s_, header_.record_s, counted)});
     }
     return counted;
   }
 
   /// The first sample on the clock of the stamps.
-  [[nodiscard]] double zero_s() const { return zero_s_.value_or(0.0); }
+  [[nodiscard]] double zero_s() const { return std::isnan(zero_s_) ? 0.0 : zero_s_; }
 
  private:
   double stamped(std::int64_t r, const std::optional<double>& onset, std::vector<Repair>& repairs) {
     if (!onset)
       throw ReadError(path_, 0,
                       fmt::format("record {} does not say its time, as EDF+D must", r + 1));
-    const double begin = *onset - *zero_s_;
-    if (end_s_ && begin < *end_s_ - 0.5 * interval_s_)
+    const double begin = *onset - zero_s_;
+    const double expected = std::isnan(end_s_) ? begin : end_s_;
+    if (begin < expected - 0.5 * interval_s_)
       throw ReadError(
           path_, 0,
           fmt::format("record {} begins at {} s, before the one before it ends", r + 1, begin));
-    if (end_s_ && begin > *end_s_ + 0.5 * interval_s_)
+    if (begin > expected + 0.5 * interval_s_)
       repairs.push_back(
-          {0, fmt::format("the recording pauses from {:.6g} s to {:.6g} s", *end_s_, begin)});
+          {0, fmt::format("the recording pauses from {:.6g} s to {:.6g} s", expected, begin)});
     end_s_ = begin + header_.record_s;
     return begin;
   }
@@ -358,8 +358,8 @@ class RecordTimes {
   const Header& header_;
   double interval_s_;
   const std::filesystem::path& path_;
-  std::optional<double> zero_s_;
-  std::optional<double> end_s_;  ///< Of the record before.
+  double zero_s_ = std::numeric_limits<double>::quiet_NaN();  ///< NaN before the first stamp.
+  double end_s_ = std::numeric_limits<double>::quiet_NaN();   ///< Of the record before.
   bool stamps_agree_ = true;
 };
 
