@@ -68,7 +68,7 @@ TEST(IdentifyOptions, LagsToBeIdentifiedLeaveNoOtherWayToFollowTheEmg) {
   Remarks remarks(o.call);
   (void)estimator_options(o, data, remarks);
   ASSERT_EQ(remarks.list().size(), 1U);
-  EXPECT_THAT(remarks.list()[0].text, HasSubstr("lags of equation (1)"));
+  EXPECT_THAT(remarks.list()[0].says, HasSubstr("lags of equation (1)"));
   o.lag = "shared";
   EXPECT_THROW((void)estimator_options(o, data, remarks), InvalidInput);
 }
