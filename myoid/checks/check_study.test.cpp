@@ -53,7 +53,7 @@ struct WrittenStudy {
     const std::vector<Remark> all = findings();
     return all.empty() || all.front().severity != Severity::error
                ? "(no error)"
-               : all.front().where + ": " + all.front().says;
+               : all.front().where + ": " + sentence(all.front());
   }
 };
 

@@ -38,9 +38,10 @@ TEST(RecordingsIn, AFolderAreThoseWithAKnownEndingInItAndItsFolders) {
   const auto files = recordings_in({folder.path()}, beside);
   ASSERT_EQ(beside.external_loads.size(), 1U);
   EXPECT_EQ(loads_data_file(beside.external_loads[0]), folder / "grf/walk.mot");
-  ASSERT_EQ(files.size(), 3U);
+  ASSERT_EQ(files.size(), 4U);
   EXPECT_EQ(files[0].filename(), "a.sto");
-  EXPECT_EQ(files[2].filename(), "d.edf");
+  EXPECT_EQ(files[2].filename(), "c.txt");
+  EXPECT_EQ(files[3].filename(), "d.edf");
   EXPECT_EQ(beside.models.size(), 1U);
 }
 

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "myoid/identification/paper_case.h"
+#include "myoid/methods/paper_case.h"
 
 namespace myoid::identification {
 

@@ -2,9 +2,9 @@
 
 #include "myoid/core/progress.h"
 #include "myoid/identification/estimator.h"
-#include "myoid/identification/start_box.h"
 #include "myoid/intervals/result.h"
 #include "myoid/math/multistart.h"
+#include "myoid/methods/start_box.h"
 
 namespace myoid::identification {
 

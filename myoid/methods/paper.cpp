@@ -14,13 +14,13 @@
 
 #include "myoid/core/error.h"
 #include "myoid/identification/muscle_activation.h"
-#include "myoid/identification/paper_case.h"
 #include "myoid/intervals/identifiability.h"
 #include "myoid/intervals/score.h"
 #include "myoid/intervals/signatures.h"
 #include "myoid/math/covariance.h"
 #include "myoid/math/statistics.h"
 #include "myoid/methods/basins.h"
+#include "myoid/methods/paper_case.h"
 #include "myoid/methods/trial_fit.h"
 #include "myoid/muscle/hill_muscle.h"
 

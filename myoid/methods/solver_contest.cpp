@@ -6,10 +6,10 @@
 #include <utility>
 
 #include "myoid/core/error.h"
-#include "myoid/identification/paper_case.h"
 #include "myoid/math/direct_search.h"
 #include "myoid/math/nelder_mead.h"
 #include "myoid/math/simulated_annealing.h"
+#include "myoid/methods/paper_case.h"
 
 namespace myoid::identification {
 namespace {

@@ -9,7 +9,7 @@
 namespace myoid::twin {
 namespace {
 
-TrueArm drawn(double spread, std::uint64_t seed) {
+TrueArm spread_arm(double spread, std::uint64_t seed) {
   TruthSpec spec;
   spec.spread = spread;
   simulation::Random random(seed);
@@ -20,7 +20,7 @@ TEST(EffectiveTruth, TwiceAsStrongIsTwiceTheStrengthAndNothingElse) {
   // All forces of a person scale with F_max (tendon and passive force too), so that the fit of the
   // torques scales exactly; the search ends at relative steps of 1e-8.
   const VirtualArm modelled{VirtualSubject{}};
-  TrueArm person = drawn(1.0, 7);
+  TrueArm person = spread_arm(1.0, 7);
   PerMuscle misfit = {};
   const HillSet once = effective_muscles(person, modelled, &misfit);
   for (TrueHead& head : person.heads) head.parameters.hill.max_isometric_force_n *= 2.0;
@@ -40,7 +40,7 @@ TEST(EffectiveTruth, OfThePublishedArmItIsNearThePublishedMuscles) {
   // What remains is what the levels differ in: curves, elastic tendons, passive force, pennation.
   const VirtualArm modelled{VirtualSubject{}};
   PerMuscle misfit = {};
-  const HillSet effective = effective_muscles(drawn(0.0, 1), modelled, &misfit);
+  const HillSet effective = effective_muscles(spread_arm(0.0, 1), modelled, &misfit);
   for (std::size_t m = 0; m < effective.size(); ++m) {
     const muscle::HillParameters<double>& literature = modelled.literature()[m];
     EXPECT_NEAR(effective[m].max_isometric_force_n / literature.max_isometric_force_n, 1.0, 0.25)
@@ -53,7 +53,7 @@ TEST(EffectiveTruth, OfThePublishedArmItIsNearThePublishedMuscles) {
 }
 
 TEST(EffectiveTruth, AnatomicalStrengthAddsTheHeadsAlongTheTendon) {
-  const TrueArm person = drawn(0.0, 1);
+  const TrueArm person = spread_arm(0.0, 1);
   const PerMuscle strength_n = anatomical_strength_n(person);
   EXPECT_NEAR(strength_n[kBiceps], 624.30 + 435.56, 1e-9);
   EXPECT_NEAR(strength_n[kTriceps], 798.52 * std::cos(0.2094) + 2.0 * 624.30 * std::cos(0.1571),

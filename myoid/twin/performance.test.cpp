@@ -20,7 +20,7 @@ TrialProtocol swing() {
   return trial;
 }
 
-TrueArm drawn(std::uint64_t seed) {
+TrueArm arm_of_seed(std::uint64_t seed) {
   simulation::Random random(seed);
   return draw_true_arm({}, VirtualSubject{}, random);
 }
@@ -93,7 +93,7 @@ TEST(Performance, WhatIsBesideTheMusclesHasItsPartInTheEquationOfMotion) {
 }
 
 TEST(Performance, ASimulatedPersonFollowsTheMotionAboutAndIsNeverTheSameAsPlanned) {
-  const TrueArm arm = drawn(5);
+  const TrueArm arm = arm_of_seed(5);
   Tiredness<7> tireless;
   const TrialScript script = make_script(swing(), {}, 4);
   const SimulatedPerformance performance(arm, script, {1.0, 1.0, 1.0, 1.0}, 0.05, tireless, 9);
@@ -106,7 +106,7 @@ TEST(Performance, ASimulatedPersonFollowsTheMotionAboutAndIsNeverTheSameAsPlanne
 }
 
 TEST(Performance, TheMotionThatCameOutIsThatOfTheAdaptiveIntegrator) {
-  const TrueArm arm = drawn(5);
+  const TrueArm arm = arm_of_seed(5);
   Tiredness<7> tireless;
   const SimulatedPerformance performance(arm, make_script(swing(), {}, 4), {1.0, 1.0, 1.0, 1.0},
                                          0.05, tireless, 9);
@@ -156,7 +156,7 @@ TEST(Performance, TheMotionThatCameOutIsThatOfTheAdaptiveIntegrator) {
 }
 
 TEST(Performance, WhoeverIsTooWeakFails) {
-  const TrueArm arm = drawn(5);
+  const TrueArm arm = arm_of_seed(5);
   TrialProtocol heavy = swing();
   heavy.held_mass_kg = 60.0;
   const TrialScript script = make_script(heavy, {}, 4);

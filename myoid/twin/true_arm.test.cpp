@@ -12,7 +12,7 @@
 namespace myoid::twin {
 namespace {
 
-TrueArm drawn(const TruthSpec& spec, std::uint64_t seed) {
+TrueArm drawn_from(const TruthSpec& spec, std::uint64_t seed) {
   simulation::Random random(seed);
   return draw_true_arm(spec, VirtualSubject{}, random);
 }
@@ -20,7 +20,7 @@ TrueArm drawn(const TruthSpec& spec, std::uint64_t seed) {
 TEST(TrueArm, WithoutSpreadItIsThePublishedOneWithStretchedTendons) {
   TruthSpec spec;
   spec.spread = 0.0;
-  const TrueArm arm = drawn(spec, 3);
+  const TrueArm arm = drawn_from(spec, 3);
   const auto published = model::arm7_heads();
   const model::PlanarElbow elbow = model::planar_elbow(arm_options({}));
   EXPECT_DOUBLE_EQ(arm.inertia_kgm2, elbow.inertia_kgm2);
@@ -54,7 +54,7 @@ TEST(TrueArm, PeopleSpreadAsThePriorsSay) {
   Eigen::VectorXd arm_length(kPeople);
   int millard = 0;
   for (int k = 0; k < kPeople; ++k) {
-    const TrueArm arm = drawn({}, static_cast<std::uint64_t>(k));
+    const TrueArm arm = drawn_from({}, static_cast<std::uint64_t>(k));
     const muscle::HillParameters<double>& hill = arm.heads[2].parameters.hill;
     strength(k) = std::log(hill.max_isometric_force_n);
     length(k) = hill.optimal_fiber_length_m / 0.0858;
@@ -75,7 +75,7 @@ TEST(TrueArm, PeopleSpreadAsThePriorsSay) {
 }
 
 TEST(TrueArm, AMusclesDriveIsTheMeanOfItsHeadsByStrength) {
-  const TrueArm arm = drawn({}, 12);
+  const TrueArm arm = drawn_from({}, 12);
   for (std::size_t m = 0; m < kArmMuscles.size(); ++m) {
     double strength = 0.0;
     double driven = 0.0;
@@ -92,7 +92,7 @@ TEST(TrueArm, AMusclesDriveIsTheMeanOfItsHeadsByStrength) {
 }
 
 TEST(TrueArm, RequiredTorqueIsThatOfAPendulum) {
-  const TrueArm arm = drawn({}, 12);
+  const TrueArm arm = drawn_from({}, 12);
   // Held out straight to the side of gravity with 2 kg and no motion: weight times lever.
   EXPECT_NEAR(required_torque_nm(arm, 0.5 * kPi, 0.0, Plane::vertical, 2.0),
               9.80665 * (arm.static_moment_kgm + 2.0 * arm.held_at_m), 1e-12);

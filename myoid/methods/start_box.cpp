@@ -1,4 +1,4 @@
-#include "myoid/identification/start_box.h"
+#include "myoid/methods/start_box.h"
 
 #include <algorithm>
 #include <cmath>

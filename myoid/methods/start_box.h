@@ -5,8 +5,8 @@
 #include <Eigen/Core>
 
 #include "myoid/identification/estimator.h"
-#include "myoid/identification/paper_case.h"
 #include "myoid/identification/study_data.h"
+#include "myoid/methods/paper_case.h"
 
 namespace myoid::identification {
 

@@ -1,4 +1,4 @@
-#include "myoid/identification/paper_case.h"
+#include "myoid/methods/paper_case.h"
 
 #include <cmath>
 #include <string>
