@@ -1,14 +1,16 @@
-# Sourced by run-tests --ci: every fuzz target for some seconds, from the seeds. A crash fails the run; no clang, or no
-# time left for the build, is said and does not. Longer runs: tests/fuzz/run.sh
+# Sourced by run-tests --ci: every fuzz target for some seconds, from the seeds, with the build's time bounded by
+# MYOID_CI_END. A crash fails the run; no clang, or no time left for the build, is said and does not. Longer runs:
+# tests/fuzz/run.sh
 (
   cd "$MYOID_ROOT"
-  limit=600
   seconds=10
+  limit=$((MYOID_CI_END - SECONDS - 16 * seconds))
+  if [ "$limit" -lt 60 ]; then myoid_log "fuzzing: no time left"; exit 0; fi
   if ! command -v clang++ >/dev/null; then
     myoid_log "No clang++: the readers are not fuzzed (apt-get install clang)"
     exit 0
   fi
-  myoid_log "Fuzzing (build of at most $((limit / 60)) minutes, then $seconds s for each reader)"
+  myoid_log "Fuzzing (build of at most $limit s, then $seconds s for each reader)"
   status=0
   timeout "$limit" tests/fuzz/run.sh build || status=$?
   if [ "$status" -eq 124 ]; then myoid_log "fuzzing: out of time while building"; exit 0; fi
