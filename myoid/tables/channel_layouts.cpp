@@ -36,7 +36,7 @@ std::optional<TableLayout> nexus_devices(const TableText& text, const std::files
   return layout;
 }
 
-/// Line of the first row of numbers among the first `most`, from `begin` on.
+/// Finds the first row of numbers among the first `most` lines from `begin` on.
 std::optional<std::size_t> first_numbers(const TableText& text,
                                          std::size_t begin,
                                          std::size_t most,
@@ -48,7 +48,7 @@ std::optional<std::size_t> first_numbers(const TableText& text,
   return std::nullopt;
 }
 
-/// Qualisys: CHANNEL_NAMES, then perhaps a row "SAMPLE, TIME, names".
+/// Qualisys: a line CHANNEL_NAMES, then perhaps a row "SAMPLE, TIME, names".
 std::optional<TableLayout> qualisys_channels(const TableText& text,
                                              const std::filesystem::path& path) {
   if (text.lines.empty() || !trim(text.lines[0]).starts_with("NO_OF_SAMPLES")) return std::nullopt;
@@ -94,7 +94,7 @@ std::optional<TableLayout> qualisys_channels(const TableText& text,
   return layout;
 }
 
-/// Samples per second of "0.5 msec/sample", "2000 samples/second", "2 kHz".
+/// Returns the samples per second of "0.5 msec/sample", "2000 samples/second" or "2 kHz".
 std::optional<double> biopac_rate(std::string_view line) {
   const auto words = split_words(line);
   const auto amount = words.size() > 1 ? parse_number(words[0]) : std::nullopt;
@@ -106,7 +106,8 @@ std::optional<double> biopac_rate(std::string_view line) {
   return std::nullopt;
 }
 
-/// BIOPAC: file, "0.5 msec/sample", "2 channels", name and unit of each, "CH1 CH2", counts, rows.
+/// BIOPAC: a file name, "0.5 msec/sample", "2 channels", name and unit of each channel, "CH1 CH2",
+/// counts, rows.
 std::optional<TableLayout> biopac_channels(const TableText& text,
                                            const std::filesystem::path& path) {
   if (text.lines.size() < 8) return std::nullopt;
@@ -124,7 +125,7 @@ std::optional<TableLayout> biopac_channels(const TableText& text,
   layout.separator = text.lines[head].find('\t') != std::string_view::npos ? '\t' : ',';
   auto cells = cells_of(text.lines[head], layout.separator);
   while (!cells.empty() && cells.back().empty()) cells.pop_back();
-  // A column of times before the channels, in any unit: the interval says the same more exactly.
+  // A time column before the channels is ignored: the stated interval is more exact.
   if (cells.size() < channels || cells.size() > channels + 1)
     throw ReadError(
         path, head + 1,
@@ -147,7 +148,7 @@ std::optional<TableLayout> biopac_channels(const TableText& text,
   return layout;
 }
 
-/// BTS: "Measure unit:" for all tracks.
+/// BTS: "Measure unit:" holds for all tracks.
 std::optional<TableLayout> bts_tracks(const TableText& text, const std::filesystem::path& path) {
   if (text.lines.empty() || !trim(text.lines[0]).starts_with("BTS ASCII")) return std::nullopt;
   constexpr std::size_t kHeader = 40;

@@ -15,7 +15,7 @@ namespace {
 
 using Kind = TableColumn::Kind;
 
-/// The first line that is neither blank nor a remark, from `n` on.
+/// Finds the first line, from `n` on, that is neither blank nor a remark.
 std::size_t next_line(const TableText& text, std::size_t n) {
   while (n < text.lines.size() &&
          (trim(text.lines[n]).empty() || trim(text.lines[n]).starts_with('#')))
@@ -23,7 +23,7 @@ std::size_t next_line(const TableText& text, std::size_t n) {
   return n;
 }
 
-/// What separates the cells of a header row.
+/// Returns the separator of a header row.
 char separator_of(std::string_view head) {
   const auto count = [&](char c) { return std::count(head.begin(), head.end(), c); };
   return count(';') > 0 && count(';') >= count(',') ? ';' : count('\t') > count(',') ? '\t' : ',';
@@ -35,7 +35,7 @@ bool is_time(std::string_view name) {
          equal_ignoring_case(name, "time_ms");
 }
 
-/// "name [unit]" or "name (unit)" taken apart.
+/// Splits "name [unit]" or "name (unit)".
 TableColumn take_apart(const std::string& label) {
   for (const auto& [open, close] : {std::pair{'[', ']'}, std::pair{'(', ')'}}) {
     const std::size_t begin = label.rfind(open);
@@ -47,8 +47,8 @@ TableColumn take_apart(const std::string& label) {
   return {Kind::channel, label};
 }
 
-/// The units of a row that holds them instead of numbers ("s", "mV", ...), for the columns that
-/// have none.
+/// Reads a row of units ("s", "mV", ...) for the columns that have none; false if the row holds
+/// numbers.
 bool take_units_row(const std::vector<std::string>& cells, std::vector<TableColumn>& columns) {
   bool any = false;
   for (const std::string& cell : cells) {
@@ -62,7 +62,7 @@ bool take_units_row(const std::vector<std::string>& cells, std::vector<TableColu
   return any;
 }
 
-/// The layout of a header row with a time column and rows of numbers below.
+/// Returns the layout of a header row with a time column and rows of numbers below.
 TableLayout plain_layout(const TableText& text, const std::filesystem::path& path) {
   TableLayout layout;
   layout.plain = true;

@@ -14,21 +14,22 @@ namespace myoid::recording {
 struct CsvTable {
   std::vector<std::string> names;
   std::vector<std::vector<std::string>> rows;
-  std::vector<std::size_t> lines;  ///< Line of each row.
+  std::vector<std::size_t> lines;  ///< Line number of each row.
   std::size_t header_line = 0;
   char separator = ',';
-  bool last_row_has_end = true;  ///< False: the text stops inside its last row.
+  bool last_row_has_end = true;  ///< False: the file ends in the middle of its last row.
 };
 
-/// Reads a table: separator , ; or tab as the header row has it, quotes as in RFC 4180, blanks
-/// around cells dropped. Throws ReadError if a row has another number of cells than the header.
+/// Reads a table. The header row decides the separator (comma, semicolon or tab); quotes follow RFC
+/// 4180; blanks around cells are dropped. Throws ReadError if a row has another number of cells
+/// than the header.
 [[nodiscard]] CsvTable read_csv_table(const std::filesystem::path& path);
 [[nodiscard]] CsvTable parse_csv_table(std::string_view text, const std::filesystem::path& path);
 
-/// A table with a time column (`time`, `Time [s]`, `t`, `time (ms)`, ...) as a series. Comma
-/// decimals are read where ; or tab separates; an empty cell is a gap. Throws ReadError when there
-/// is no time column, a cell is no number or time does not increase, two columns have one name, or
-/// the time's unit is none.
+/// Reads a table with a time column (`time`, `Time [s]`, `t`, `time (ms)`, ...) as a series.
+/// Decimal commas are read where a semicolon or tab separates; an empty cell is a gap. Throws
+/// ReadError if there is no time column, a cell is no number, time does not increase, two columns
+/// share a name, or the time's unit is unknown.
 [[nodiscard]] CsvSeries read_csv_series(const std::filesystem::path& path);
 [[nodiscard]] CsvSeries parse_csv_series(std::string_view text, const std::filesystem::path& path);
 

@@ -29,7 +29,7 @@ std::optional<double> cell_number(const std::string& cell, char separator) {
   return separator == ',' ? std::nullopt : parse_comma_number(cell);
 }
 
-/// A row of nothing but numbers and empty cells, at least one of the former.
+/// True for a row that holds at least one number and otherwise only numbers and empty cells.
 bool is_numbers(const Cells& cells, char separator) {
   std::size_t numbers = 0;
   for (const std::string& cell : cells) {
@@ -46,7 +46,7 @@ std::size_t filled(const Cells& cells) {
   return n;
 }
 
-/// "Label: EMG 1 Sampling frequency: 1925.926 Unit: V Domain: Time": name and unit.
+/// Reads name and unit from "Label: EMG 1 Sampling frequency: 1925.926 Unit: V Domain: Time".
 std::optional<TableColumn> label_line(std::string_view line) {
   const std::string text = lower(line);
   const std::size_t begin = text.find("label:");
@@ -61,7 +61,7 @@ std::optional<TableColumn> label_line(std::string_view line) {
   return column;
 }
 
-/// Looks for a table whose cells one separator parts.
+/// Looks for a table with one given separator.
 class TableFinder {
  public:
   TableFinder(const TableText& text, char separator) : text_(text) {
@@ -103,7 +103,8 @@ class TableFinder {
       if (text_.lines[n].find(layout_.separator) == std::string_view::npos) continue;
       const Cells cells = row(n);
       if (!numbers(cells)) continue;
-      // Numbers below each other: the next row that is not empty is as wide and of numbers too.
+      // A table begins where the next row that is not empty has the same width and holds numbers
+      // too.
       std::size_t next = n + 1;
       while (next < text_.lines.size() && blank(next)) ++next;
       width_ = filled(cells);
@@ -119,7 +120,7 @@ class TableFinder {
     return false;
   }
 
-  /// A row that begins with a number and has text in one cell.
+  /// True for a row that begins with a number and has text in one cell.
   [[nodiscard]] bool has_remark(const Cells& cells) const {
     const auto texts = std::count_if(cells.begin(), cells.end(), [&](const std::string& cell) {
       return !cell.empty() && !cell_number(cell, layout_.separator);
@@ -127,7 +128,7 @@ class TableFinder {
     return texts == 1 && cell_number(cells[0], layout_.separator);
   }
 
-  /// Rows of numbers with a remark in one cell, above the first row that has none.
+  /// Takes in rows with a remark in one cell that stand above the first row without one.
   void take_rows_with_remarks() {
     for (std::size_t n = layout_.first_row; n-- > 1;) {
       const Cells cells = row(n);
@@ -143,7 +144,8 @@ class TableFinder {
     return true;
   }
 
-  /// The row at hand, if all its cells are of one kind: then `names` is the row above it.
+  /// Takes the row `names` if `is` holds for all its cells (units, rates); `names` becomes the row
+  /// above it.
   template <typename Is>
   Cells take_row(Cells& names, const Is& is) {
     std::size_t count = 0;
@@ -184,7 +186,7 @@ class TableFinder {
     if (const auto devices = device_row()) put_devices_before_names(layout_, *devices);
   }
 
-  /// Numbers of frames that do not count the rows are no clock.
+  /// Drops frame numbers that do not count the rows: they are no clock.
   void leave_out_counters(bool several_clocks) {
     const Cells first = row(layout_.first_row);
     const std::size_t next = layout_.first_row + 1;
@@ -218,7 +220,7 @@ class TableFinder {
                        fmt::join(left_out, ", "))});
   }
 
-  /// The row of sensors: the one above their modes.
+  /// Returns the row of sensor names, which stands above the row of their modes.
   [[nodiscard]] std::optional<Cells> device_row() const {
     for (std::size_t n = 1; n < layout_.names_line; ++n) {
       if (lower(trim(text_.lines[n])).starts_with("sensor mode")) return row(n - 1);
@@ -226,7 +228,7 @@ class TableFinder {
     return std::nullopt;
   }
 
-  /// What the lines above the names say of the channels and of the table.
+  /// Reads the statements about channels and table in the lines above the names.
   void read_head() {
     std::map<std::string, std::optional<ScaledUnit>> known;
     std::optional<double> rate;
@@ -263,8 +265,8 @@ class TableFinder {
   std::size_t above_ = 0;
 };
 
-/// The first line that is no remark is the header, with one time column and no other line of text
-/// below.
+/// True if the first line that is no remark is a header with one time column, and no other line of
+/// text follows.
 bool is_plain(const TableText& text, const TableLayout& layout) {
   std::size_t n = 0;
   while (n < text.lines.size() &&
@@ -284,7 +286,7 @@ bool is_plain(const TableText& text, const TableLayout& layout) {
   return times == 1;
 }
 
-/// The widest table that a separator gives.
+/// Tries all separators and returns the widest table.
 std::optional<TableLayout> find_table(const TableText& text) {
   std::optional<TableLayout> layout;
   for (const char separator : {'\t', ';', ','}) {
@@ -295,8 +297,8 @@ std::optional<TableLayout> find_table(const TableText& text) {
   return layout;
 }
 
-/// Throws ReadError where a comma stands between cells and inside numbers: "-88,9,15,4" below two
-/// names has twice their cells, and every second one is digits alone.
+/// Throws ReadError where commas both separate cells and mark decimals: "-88,9,15,4" below two
+/// names has twice as many cells as names, and every second cell holds digits only.
 void refuse_two_commas(const TableText& text,
                        const TableLayout& layout,
                        const std::filesystem::path& path) {

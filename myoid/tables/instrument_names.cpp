@@ -12,7 +12,7 @@ namespace myoid::recording {
 
 namespace {
 
-/// Words of letters or of digits, in small letters.
+/// Splits a name into words of letters or of digits, in small letters.
 std::vector<std::string> words_of(std::string_view name) {
   std::vector<std::string> words;
   int last = 0;
@@ -26,7 +26,7 @@ std::vector<std::string> words_of(std::string_view name) {
   return words;
 }
 
-/// Signals that the sensors of electrodes record too: motion and pressure ("Sensor 1: ACC.X 1",
+/// True for signals that electrodes record beside EMG: motion and pressure ("Sensor 1: ACC.X 1",
 /// "GYRO Y", "FSR.A"), the heart ("EKG 1").
 bool named_as_other_sensor(std::string_view name) {
   const std::vector<std::string> words = words_of(name);
@@ -44,7 +44,8 @@ bool named_as_other_sensor(std::string_view name) {
 
 bool named_as_no_emg(std::string_view name) {
   if (named_as_other_sensor(name)) return true;
-  // Letters and digits alone: instrument, then quantity, axis and number in either order.
+  // Matches the letters and digits of a name: instrument, then quantity, axis and number in either
+  // order.
   static const std::regex kForce(
       "(force|moment|torque|grf|amti|bertec|kistler|forceplate|plate|fp|[0-9])*"
       "(f|m|cop|p)[0-9]*[xyz][0-9]*");

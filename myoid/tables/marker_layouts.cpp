@@ -17,7 +17,7 @@ namespace {
 using Kind = TableColumn::Kind;
 using Cells = std::vector<std::string>;
 
-constexpr std::size_t kHeaderLines = 40;  // lines that a header has at most
+constexpr std::size_t kHeaderLines = 40;  // more lines than any header has
 
 Cells filled_cells(std::string_view line, char separator) {
   Cells cells = cells_of(line, separator);
@@ -31,8 +31,8 @@ void add_marker(const std::string& name, MarkerLayout& layout) {
     layout.table.columns.push_back({Kind::channel, name.empty() ? axis : name + " " + axis});
 }
 
-/// "Wrist X", "Wrist.x", "Wrist_x", "Wrist:X": the name if the ending is this axis; "X" or ".X": an
-/// empty name.
+/// Returns the name in "Wrist X", "Wrist.x", "Wrist_x" or "Wrist:X" if the ending is this axis; an
+/// empty name for "X" or ".X".
 std::optional<std::string> name_before_axis(const std::string& cell, char axis) {
   if (cell.empty() || static_cast<char>(cell.back() | 0x20) != axis) return std::nullopt;
   if (cell.size() == 1) return "";
@@ -48,8 +48,8 @@ bool is_triple(const Cells& header, std::size_t c) {
          name_before_axis(header[c + 2], 'z') == name;
 }
 
-/// Columns NAME x, NAME y, NAME z after up to two columns of frames and times; false if they do not
-/// begin so.
+/// Takes columns NAME x, NAME y, NAME z that follow up to two columns of frames and times; false if
+/// there are none.
 bool take_triples(const Cells& header, MarkerLayout& layout) {
   std::size_t c = 0;
   for (; c < header.size() && c < 3 && !is_triple(header, c); ++c) {
@@ -64,7 +64,7 @@ bool take_triples(const Cells& header, MarkerLayout& layout) {
   return !layout.names.empty();
 }
 
-/// All columns behind frame and time belong to a marker, or an error names the first that does not.
+/// Throws ReadError naming the first column behind frame and time that belongs to no marker.
 void require_triples(const MarkerLayout& layout, const std::filesystem::path& path) {
   const auto& columns = layout.table.columns;
   for (std::size_t c = 2; c < columns.size(); ++c) {
@@ -143,7 +143,7 @@ std::optional<MarkerLayout> qualisys_markers(const TableText& text,
     if (cells.empty() ? !names.empty()
                       : parse_number(cells[0]) || parse_comma_number(cells[0]) ||
                             (cells[0].empty() && !names.empty()))
-      break;  // the first frame; of a cell or more that is empty where a marker was not seen
+      break;  // the first frame: its row may have empty cells where a marker was not seen
     if (cells.empty()) continue;
     if (cells[0] == "MARKER_NAMES") {
       table.names_line = n;
@@ -174,7 +174,7 @@ std::optional<MarkerLayout> qualisys_markers(const TableText& text,
   table.rate_hz = stated_number(text, n, '\t', {"frequency"}).value_or(0.0);
   table.rows_said = stated_number(text, n, '\t', {"no_of_frames"});
   table.channels_said = stated_number(text, n, '\t', {"no_of_markers"});
-  // A tab behind the last name is no marker, unless the header counts it.
+  // A tab behind the last name is no marker, unless the header counts one more.
   while (!names.empty() && names.back().empty() &&
          !(table.channels_said && static_cast<double>(names.size()) <= *table.channels_said))
     names.pop_back();
@@ -221,7 +221,7 @@ std::optional<MarkerLayout> first_principles(const TableText& text,
       if (cells.size() < 4 || !equal_ignoring_case(cells[0], "Frame") ||
           !take_triples(cells, layout))
         continue;
-      // Nothing else beside them: other tables with such columns are no markers.
+      // A table with further columns beside such triples is no table of markers.
       const bool others =
           std::any_of(layout.table.columns.begin() + 1, layout.table.columns.end(),
                       [](const TableColumn& c) { return c.kind == Kind::left_out; });
@@ -259,7 +259,7 @@ bool all_of_words(const Cells& cells, std::initializer_list<std::string_view> wo
   return any;
 }
 
-/// Numbers of columns, in decimals or as 32 digits.
+/// True for a row of column identifiers: decimal numbers or 32 hexadecimal digits.
 bool are_numbers_of_columns(const Cells& cells) {
   constexpr std::size_t kDigits = 32;
   return std::all_of(cells.begin(), cells.end(), [](const std::string& cell) {
@@ -303,7 +303,7 @@ std::optional<MotiveHeader> motive_header(const TableText& text,
   return header;
 }
 
-/// Motive: the markers as they were seen, or else as its rigid bodies have them.
+/// Motive: takes the markers as measured, or, without these, the markers of its rigid bodies.
 std::optional<MarkerLayout> motive_markers(const TableText& text,
                                            const std::filesystem::path& path) {
   if (text.lines.empty() || !trim(text.lines[0]).starts_with("Format Version")) return std::nullopt;

@@ -19,7 +19,7 @@
 namespace myoid::recording {
 namespace {
 
-/// To meters by the unit that is stated, or mm.
+/// Returns the factor to meters of the stated unit, or of mm.
 double to_meters(const std::string& stated, const std::filesystem::path& path, MarkerFile& file) {
   file.unit = stated;
   if (file.unit.empty()) {
@@ -50,7 +50,8 @@ void require_unique(const std::vector<std::string>& names,
   }
 }
 
-/// A marker without one of its coordinates, or at 0 0 0 where that means so, is not seen.
+/// Makes a gap of a marker that lacks a coordinate, and of 0 0 0 in formats where that means "not
+/// seen".
 void make_gaps(const TableNumbers& numbers, bool zero_is_missing, MarkerFile& file) {
   constexpr double kUnseen = std::numeric_limits<double>::quiet_NaN();
   Eigen::MatrixXd& positions = file.markers.positions_m;
@@ -80,7 +81,7 @@ bool is_marker_table(std::string_view text) {
   try {
     return marker_layout(TableText(text), "").has_value();
   } catch (const ReadError&) {
-    return true;  // one whose header is damaged
+    return true;  // a table of markers with a damaged header
   }
 }
 

@@ -13,10 +13,11 @@ namespace myoid::recording {
 /// a collection frequency).
 [[nodiscard]] bool is_marker_table(std::string_view text);
 
-/// Its markers. An empty cell, and in Qualisys' files 0 0 0, is a gap. Time is the file's own
-/// column in seconds, else (frame - 1) / rate; the unit is stated, or mm by the format (Qualisys),
-/// or mm with a note. Throws ReadError with the line: no rate, a cell that is no number, a row that
-/// is too short, frames that do not increase, a name twice.
+/// Reads the markers of such a table. An empty cell is a gap; in Qualisys' files 0 0 0 is one too.
+/// Time is the file's own column in seconds, otherwise (frame - 1) / rate. The unit is the stated
+/// one, otherwise mm: by definition in Qualisys' files, with a note in others. Throws ReadError
+/// with the line: no rate, a cell that is no number, a row that is too short, frames that do not
+/// increase, a repeated name.
 [[nodiscard]] MarkerFile parse_marker_table(std::string_view text,
                                             const std::filesystem::path& path);
 

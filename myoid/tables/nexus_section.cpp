@@ -11,7 +11,7 @@
 namespace myoid::recording {
 namespace {
 
-/// The word that stands alone in a line, if there is one.
+/// Returns the word of a line that holds one word only.
 std::string_view lone_word(std::string_view line) {
   line = trim(line);
   const std::size_t end = line.find_first_of(",\t;");
@@ -30,7 +30,7 @@ std::optional<std::size_t> title_line(const TableText& text, std::string_view ti
   return std::nullopt;
 }
 
-/// The separator behind the word "Frame" at the beginning of a line; 0 if it does not begin so.
+/// Returns the separator after "Frame" at the beginning of a line, 0 if the line does not begin so.
 char separator_behind_frame(std::string_view line) {
   line = trim(line);
   if (line.starts_with('"')) line.remove_prefix(1);
@@ -47,7 +47,7 @@ void drop_empty_end(std::vector<std::string>& cells) {
   while (!cells.empty() && cells.back().empty()) cells.pop_back();
 }
 
-/// Titles of sections that no reader takes.
+/// Notes the titles of sections that no reader takes.
 void state_other_sections(const TableText& text, NexusSection& section) {
   std::vector<std::string> others;
   for (std::size_t n = 0; n + 1 < text.lines.size(); ++n) {

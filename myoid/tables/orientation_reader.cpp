@@ -21,7 +21,7 @@ bool holds_quaternions(const Storage& file) {
   });
 }
 
-/// The sensors of the columns NAME_1 to NAME_4.
+/// Returns the sensors of the columns NAME_1 to NAME_4.
 std::vector<std::string> sensors_of(const std::vector<Channel>& channels) {
   constexpr std::size_t kEnding = 2;
   std::vector<std::string> names;

@@ -9,19 +9,19 @@
 
 namespace myoid::recording {
 
-/// A series of either kind of file, and what its reader mended or left out.
+/// A series from a table or a storage file, with the notes of its reader.
 struct SeriesFile {
   TimeSeries data;
   std::vector<Repair> repairs;
 };
 
-/// A series from a table (.csv, .tsv, .txt) or a storage file (any other name), units as the file
-/// gives them. Throws as `read_csv_series` and `read_storage`.
+/// Reads a series from a table (.csv, .tsv, .txt) or a storage file (any other name), in the file's
+/// units. Throws as `read_csv_series` and `read_storage`.
 [[nodiscard]] SeriesFile read_series(const std::filesystem::path& path);
 
-/// Writes a series in the format that the file's name asks for: .csv a table ("name [V]" in the
-/// header row, the remarks before it as lines "# ..."), .sto or .mot a storage file of this title
-/// with the remarks in its header. Throws InvalidInput for other names.
+/// Writes a series in the format of the file's extension. A .csv becomes a table ("name [V]" in the
+/// header row, the remarks above as lines "# ..."); a .sto or .mot becomes a storage file of this
+/// title with the remarks in its header. Throws InvalidInput for other extensions.
 void write_series(const std::filesystem::path& path,
                   const TimeSeries& series,
                   const std::string& title,

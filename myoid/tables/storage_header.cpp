@@ -13,10 +13,10 @@ namespace {
 
 using Pair = std::pair<std::string, std::string>;
 
-/// A header is short: a table without `endheader` is not searched to its end.
+/// A header is short: the search for `endheader` stops here.
 constexpr std::size_t kMostLines = 2000;
 
-/// The value of a header key, whatever its case.
+/// Returns the value of a header key, ignoring case.
 const std::string* value_of(const std::map<std::string, std::string>& header,
                             std::string_view key) {
   for (const auto& [name, value] : header) {
@@ -30,8 +30,8 @@ bool is_one_of(std::string_view word, std::initializer_list<std::string_view> wo
                      [&](std::string_view w) { return equal_ignoring_case(w, word); });
 }
 
-/// "key=value", "key = value", and "key value" for the keys of the old kind; empty if the line is
-/// free text.
+/// Splits "key=value", "key = value", and for the keys of the old kind "key value"; empty if the
+/// line is free text.
 std::optional<Pair> key_and_value(std::string_view line) {
   const std::size_t equal = line.find('=');
   if (equal != std::string_view::npos) {
@@ -47,7 +47,7 @@ std::optional<Pair> key_and_value(std::string_view line) {
   return Pair(words[0], words[1]);
 }
 
-/// NAME and unit of a line "channel NAME [unit]".
+/// Returns NAME and unit of a line "channel NAME [unit]".
 std::optional<Pair> channel_unit(std::string_view line) {
   constexpr std::string_view kStart = "channel ";
   const std::size_t open = line.rfind('[');

@@ -17,13 +17,13 @@ namespace myoid::recording {
 struct StorageHeader {
   std::string title;                         ///< First line, if it is free text.
   std::map<std::string, std::string> keys;   ///< key=value pairs.
-  std::map<std::string, std::string> units;  ///< Of columns with a line "channel NAME [unit]".
+  std::map<std::string, std::string> units;  ///< From lines "channel NAME [unit]".
   bool in_degrees = false;                   ///< `inDegrees=yes`, or a .mot of the old SIMM kind.
-  std::size_t elements = 1;                  ///< Numbers in a cell, by DataType: 3 for Vec3.
+  std::size_t elements = 1;                  ///< Numbers per cell, by DataType: 3 for Vec3.
   std::size_t end = 0;                       ///< Index of the line `endheader`.
   std::vector<Repair> repairs;
 
-  /// The number of the first of these keys that is there, whatever its case.
+  /// Returns the number of the first of these keys that the header has, ignoring case.
   [[nodiscard]] std::optional<double> count(std::initializer_list<const char*> names) const;
 };
 

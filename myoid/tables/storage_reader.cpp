@@ -20,8 +20,8 @@ enum class Cell { number, none, wrong };
 
 enum class Before { blank, comma };
 
-/// Reads the next number of a row; moves `at` behind it. Tabs and blanks separate cells, a comma
-/// the elements of one cell.
+/// Reads the next number of a row and moves `at` behind it. Tabs and blanks separate cells, a comma
+/// the elements of a cell.
 Cell next_number(const char*& at, const char* end, Before before, bool elements, double& value) {
   const auto is_blank = [](char c) { return c == ' ' || c == '\t'; };
   while (at != end && is_blank(*at)) ++at;
@@ -34,7 +34,8 @@ Cell next_number(const char*& at, const char* end, Before before, bool elements,
   const auto [stop, error] = std::from_chars(begin, end, value);
   if (error == std::errc::result_out_of_range) {
     const auto tiny = parse_number(
-        {begin, static_cast<std::size_t>(stop - begin)});  // 0 below the smallest double
+        {begin,
+         static_cast<std::size_t>(stop - begin)});  // below the smallest double the value is 0
     if (!tiny) return Cell::wrong;
     value = *tiny;
   } else if (error != std::errc()) {
@@ -55,18 +56,18 @@ std::string_view text_between(const char* begin, const char* end) {
   return trim({begin, static_cast<std::size_t>(end - begin)});
 }
 
-/// A row with decimal commas has commas and no point: "1,5<tab>2,25".
+/// True for a row with commas and no point, such as "1,5<tab>2,25".
 bool looks_like_comma_decimals(std::string_view line) {
   return line.find(',') != std::string_view::npos && line.find('.') == std::string_view::npos;
 }
 
-/// Labels as other programs write them, with commas between: no tab, and more cells than words.
+/// True for labels that commas separate: the line has no tab, and more cells than words.
 bool are_comma_labels(std::string_view line) {
   return line.find('\t') == std::string_view::npos &&
          split(line, ',').size() >= std::max<std::size_t>(2, split_words(line).size());
 }
 
-/// A row of `width` numbers with commas between them.
+/// True for a row of `width` numbers that commas separate.
 bool is_comma_row(std::string_view line, std::size_t width) {
   if (line.find('\t') != std::string_view::npos) return false;
   const auto cells = split(line, ',');
@@ -82,9 +83,9 @@ std::size_t next_filled(const std::vector<std::string_view>& lines, std::size_t 
 
 /// The columns of a storage file: the line of labels between header and rows.
 struct Columns {
-  std::vector<Channel> channels;  ///< One for each element of a cell, without the time.
-  std::size_t labels = 0;         ///< As they stand in the line, with the time.
-  std::size_t line = 0;           ///< Counts from 1.
+  std::vector<Channel> channels;  ///< One for each element of a cell, time excluded.
+  std::size_t labels = 0;         ///< As written in the line, time included.
+  std::size_t line = 0;           ///< Counted from 1.
   std::size_t first_row = 0;      ///< Index of the first row of numbers.
   bool comma_cells = false;       ///< Commas separate the cells.
   std::vector<Repair> repairs;
@@ -141,7 +142,7 @@ Columns read_columns(const std::vector<std::string_view>& lines,
   return columns;
 }
 
-/// Reads the rows of numbers, and keeps the first line of each kind of mending.
+/// Reads the rows of numbers and keeps the first line of each kind of repair.
 class StorageRows {
  public:
   StorageRows(const Columns& columns,
@@ -158,7 +159,7 @@ class StorageRows {
     const auto& lines = text.lines;
     const std::size_t most =
         std::min(lines.size() - std::min(lines.size(), columns_.first_row),
-                 bytes / (2 * width_ - 1) + 1);  // a number and a separator per cell
+                 bytes / (2 * width_ - 1) + 1);  // a number and a separator for each cell
     values_.resize(static_cast<Eigen::Index>(most), static_cast<Eigen::Index>(width_ - 1));
     for (std::size_t line = columns_.first_row; line < lines.size(); ++line) {
       if (trim(lines[line]).empty()) continue;
@@ -232,7 +233,7 @@ class StorageRows {
                                 column == 0 ? "time" : columns_.channels[column - 1].name, found));
   }
 
-  /// Numbers behind the last column are ignored unless a cell of the row may be lost.
+  /// Ignores numbers behind the last column, unless a cell of the row may be missing.
   void judge_surplus(bool doubled, std::size_t line) {
     if (columns_.comma_cells)
       throw ReadError(path_, line,
@@ -247,9 +248,9 @@ class StorageRows {
     mark(extra_line_, line);
   }
 
-  /// Appends `row_` unless its time is that of the row before.
+  /// Appends `row_` unless its time equals that of the row before.
   void keep_row(std::size_t line) {
-    constexpr double kSameTime_s = 1e-10;  // Closer times differ by their rounding alone.
+    constexpr double kSameTime_s = 1e-10;  // Times that differ by less differ only by rounding.
     if (!time_.empty() && row_[0] <= time_.back() + kSameTime_s) {
       if (row_[0] < time_.back() - kSameTime_s)
         throw ReadError(

@@ -16,7 +16,7 @@ namespace {
 
 using Kind = TableColumn::Kind;
 
-/// The column of numbers.clock that holds the first column of a kind.
+/// Finds the column of numbers.clock that holds the first column of a kind.
 std::optional<Eigen::Index> clock_column(const TableLayout& layout, Kind kind) {
   Eigen::Index k = 0;
   for (const TableColumn& column : layout.columns) {
@@ -33,7 +33,6 @@ const TableColumn& first_of(const TableLayout& layout, Kind kind) {
   throw InvalidInput("a table's layout lacks a column of its clock");
 }
 
-/// The clock of one table.
 class RowClock {
  public:
   RowClock(const TableLayout& layout,
@@ -78,7 +77,7 @@ class RowClock {
     }
   }
 
-  /// True if a frame ends within the table: only then the number of its sub-frames is known.
+  /// True if a frame ends within the table: only then is its number of sub-frames known.
   [[nodiscard]] bool shows_a_whole_frame() const {
     for (Eigen::Index i = 1; i < rows(); ++i) {
       if (numbers_.clock(i, *frame_) != numbers_.clock(i - 1, *frame_)) return true;
@@ -86,7 +85,7 @@ class RowClock {
     return false;
   }
 
-  /// Rows of a frame: the number behind which most frames end.
+  /// Returns the rows per frame: the most frequent number of rows.
   [[nodiscard]] double per_frame() const {
     if (!sub_frame_) return 1.0;
     const auto sub = numbers_.clock.col(*sub_frame_);
@@ -100,7 +99,7 @@ class RowClock {
     return 1.0 + (usual == ends.end() ? sub.maxCoeff() : usual->first);
   }
 
-  /// A row's place in a recording without holes.
+  /// Returns the place that a row would have in a recording without gaps.
   [[nodiscard]] double place(Eigen::Index i, double per_frame) const {
     const double frame = numbers_.clock(i, *frame_);
     return sub_frame_ ? frame * per_frame + numbers_.clock(i, *sub_frame_) : frame;
@@ -115,7 +114,7 @@ class RowClock {
   void check_order() {
     if (sub_frame_ && numbers_.clock.col(*sub_frame_).minCoeff() < 0.0)
       throw ReadError(path_, line(0), "the number of a sub-frame is below 0");
-    // Where the rates have no whole ratio, frames have one sub-frame more or less in turn.
+    // Where the ratio of the rates is no whole number, the number of sub-frames alternates by one.
     const double ratio =
         layout_.frame_rate_hz > 0.0 ? layout_.rate_hz / layout_.frame_rate_hz : 0.0;
     const bool uneven = ratio > 0.0 && std::abs(ratio - std::round(ratio)) > 1e-6 * ratio;
@@ -212,7 +211,8 @@ class RowClock {
 
 namespace {
 
-/// The power of ten that all times are multiples of: the last decimal with which they are written.
+/// Returns the last decimal with which the times are written: the power of ten of which all are
+/// multiples.
 double last_decimal(const Eigen::VectorXd& time_s) {
   constexpr double kFinest = 1e-9;
   double unit = 0.1;
@@ -242,7 +242,7 @@ void state_uneven_step(const Eigen::VectorXd& time_s,
   const double usual = quantile(step, 0.5);
   const Eigen::ArrayXd off = (step - usual).abs();
   double most = std::max(10.0 * quantile(off, 0.8), 1e-6 * usual);
-  // Steps that often differ by the last decimal are rounded; a digit that is wrong makes two.
+  // Rounding makes many steps differ by the last decimal; one wrong digit changes two steps.
   constexpr Eigen::Index kOften = 3;
   const double rounding = 1.01 * last_decimal(time_s);
   if ((off > most && off <= rounding).count() >= kOften) most = std::max(most, rounding);

@@ -10,14 +10,17 @@
 
 namespace myoid::recording {
 
-/// The time [s] of every row of a table. The clock is
+/// Returns the time [s] of every row of a table. The clock is the first of these that the table
+/// has:
 ///
-///   the time column; else with frame f and sub-frame s (f - first frame) / frame rate + s / rate;
-///   else with a frame alone (f - first frame) / rate; else row / rate.
+///   - the time column;
+///   - frame f and sub-frame s: (f - first frame) / frame rate + s / rate;
+///   - frame f alone: (f - first frame) / rate;
+///   - the row: row / rate.
 ///
-/// A frame rate that is not stated is the rate over the number of sub-frames of a frame. States as
-/// repairs: rows that are missing between two frames or sub-frames, a stated rate that is not the
-/// one of the times. Throws ReadError with the line where a row stands twice or goes back, where a
+/// A frame rate that is not stated is the rate divided by the number of sub-frames per frame. Two
+/// repairs are noted: rows missing between two frames or sub-frames, and a stated rate that the
+/// times contradict. Throws ReadError with the line where a row is repeated or goes back, where a
 /// frame is no whole number, where the rates contradict the sub-frames, and where there is no
 /// clock.
 [[nodiscard]] Eigen::VectorXd row_times(const TableLayout& layout,
@@ -25,9 +28,10 @@ namespace myoid::recording {
                                         const std::filesystem::path& path,
                                         std::vector<Repair>& repairs);
 
-/// States a step of an otherwise even clock that is not as the others: by more than
-/// ten times the departure that eight in ten steps stay below, and by more than the last decimal of
-/// the times where that is the difference often. `lines` are those of the times.
+/// Notes a step that stands out of an otherwise even clock. Its departure from the median step must
+/// exceed ten times the 80th percentile of all departures. Where steps often differ by the last
+/// decimal, because times are rounded, it must exceed that decimal too. `lines` are the line
+/// numbers of the times.
 void state_uneven_step(const Eigen::VectorXd& time_s,
                        const std::vector<std::size_t>& lines,
                        std::string_view name,

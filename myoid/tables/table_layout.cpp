@@ -9,7 +9,7 @@
 namespace myoid::recording {
 namespace {
 
-/// The number that a cell begins with: "2000 Hz", "100.5".
+/// Reads the number at the beginning of a cell: "2000 Hz", "100.5".
 std::optional<double> leading_number(std::string_view cell) {
   cell = trim(cell);
   std::size_t end = 0;
@@ -77,7 +77,7 @@ std::size_t end_of_block(const TableText& text, std::size_t first, char separato
     }
     std::size_t next = n;
     while (next < text.lines.size() && has_no_cell(text.lines[next], separator)) ++next;
-    // A section's rate stands alone in its row: rows that go on have more cells.
+    // The rate of a new section stands alone in its row; rows of the same table have more cells.
     if (next == text.lines.size() || !is_row_of_numbers(text.lines[next], separator)) return n;
     n = next;
   }

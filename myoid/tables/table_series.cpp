@@ -20,11 +20,11 @@ namespace {
 
 using Kind = TableColumn::Kind;
 
-/// A channel: where its samples stand, and how many there are before nothing but gaps follow.
+/// The place of a channel's samples and their number up to the last one that is no gap.
 struct TableChannel {
   std::string name;
   std::optional<ScaledUnit> unit;
-  Eigen::Index column = 0;  ///< Of TableNumbers::values.
+  Eigen::Index column = 0;  ///< Column of TableNumbers::values.
   Eigen::Index samples = 0;
   std::size_t clock = 0;
 };
@@ -109,7 +109,7 @@ class TableSeries {
 
   // --- a time column for each channel ---
 
-  /// Seconds of a time column up to its end; each later than the one before.
+  /// Returns the seconds of a time column up to its end; throws if they do not increase.
   [[nodiscard]] Eigen::VectorXd times_of(const TableColumn& column, Eigen::Index k) const {
     const auto cells = numbers_.clock.col(k);
     Eigen::Index count = cells.size();
@@ -127,7 +127,7 @@ class TableSeries {
     return time;
   }
 
-  /// Same clock: the same times, give or take some at the end.
+  /// True for equal times; one clock may have a few more at the end.
   static bool same_clock(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
     const Eigen::Index n = std::min(a.size(), b.size());
     if (n < 2) return a.size() == b.size();
@@ -155,7 +155,7 @@ class TableSeries {
       end = time.size();
       clock = clock_for(std::move(time));
     };
-    // Channels before the first time column have its clock.
+    // Channels before the first time column use its clock.
     for (const TableColumn& column : layout_.columns) {
       if (column.kind == Kind::time) {
         next_clock(column);
@@ -205,7 +205,8 @@ class TableSeries {
     }
   }
 
-  /// Wireless sensors send packets, so that a channel may be longer or shorter by a few of them.
+  /// Notes a length that the rate contradicts. Wireless sensors send packets, so that a channel may
+  /// be longer or shorter by a few of them.
   void compare_length(const TableChannel& channel, double rate) {
     constexpr double kPackets_s = 0.06;
     if (!layout_.length_s || channel.samples == 0) return;
@@ -215,7 +216,7 @@ class TableSeries {
                           *layout_.length_s, channel.name, length));
   }
 
-  // --- together ---
+  // --- channels and clocks together ---
 
   void drop_empty_channels() {
     if (layout_.plain) return;
@@ -233,7 +234,8 @@ class TableSeries {
       throw ReadError(path_, 0, "there are no columns of numbers beside the time");
   }
 
-  /// The clock that most channels called EMG have comes first, then by most in volts.
+  /// Sorts the clocks by the number of channels called EMG, then by the number of channels in
+  /// volts.
   [[nodiscard]] std::vector<std::size_t> clocks_in_order() const {
     std::vector<std::pair<int, int>> worth;
     std::vector<std::size_t> order;
@@ -266,7 +268,7 @@ class TableSeries {
       note(0, fmt::format("the channels differ in length; all are cut to {} samples", samples));
     ClockedChannels group;
     std::vector<Channel> channels;
-    // All that was read is one series: it is not copied.
+    // Moves the numbers if one series takes all of them, so that they need not be copied.
     const bool all = clock.channels.size() == channels_.size() && samples == numbers_.values.rows();
     Eigen::MatrixXd values =
         all ? std::move(numbers_.values)

@@ -22,7 +22,7 @@ std::string storage_header(const RowSource& source, const StorageFormat& format)
   return text + "\n";
 }
 
-/// Rows of a source as lines, `cell` writes a value of a column.
+/// Writes the rows of a source as lines; `cell` writes one value.
 template <typename Cell>
 void put_lines(const RowSource& source, char separator, const Cell& cell, const TextSink& sink) {
   const auto columns = static_cast<Eigen::Index>(source.channels.size());

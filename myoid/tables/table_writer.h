@@ -9,15 +9,15 @@
 
 namespace myoid::recording {
 
-/// A storage file (format_storage) of rows that are asked for block by block, to `sink` or, whole
-/// or not at all, to a file. Throws InvalidInput, naming channel and time, for the first row with a
-/// value that is not finite.
+/// Writes a storage file (format_storage) to `sink`, or to a file completely or not at all. Rows
+/// are asked for block by block. Throws InvalidInput, naming channel and time, for the first row
+/// with a value that is not finite.
 void put_storage(const RowSource& source, const StorageFormat& format, const TextSink& sink);
 void write_storage(const std::filesystem::path& path,
                    const RowSource& source,
                    const StorageFormat& format);
 
-/// A plain table (write_csv) of such rows.
+/// Writes a plain table (write_csv) of such rows.
 void write_csv(const std::filesystem::path& path,
                const RowSource& source,
                const std::vector<std::string>& remarks = {});

@@ -16,7 +16,7 @@ namespace {
 constexpr Eigen::Index kBlockNumbers = 16'384;
 constexpr std::size_t kBlocksUnderWay = 8;
 
-/// A block on its way from the thread that makes it to the sink.
+/// A block between the thread that makes it and the sink.
 struct Block {
   std::unique_ptr<char[]> text;
   std::size_t size = 0;

@@ -13,33 +13,32 @@
 
 namespace myoid::recording {
 
-/// Where pieces of a text go, one after the other.
+/// Receives the pieces of a text in order.
 using TextSink = std::function<void(std::string_view)>;
 
-/// Text of the rows [first, first + count), written at `at`; returns the place behind it.
+/// Writes the text of the rows [first, first + count) to `at` and returns the place behind it.
 using RowText =
     std::function<char*(Eigen::Index first, Eigen::Index count, NumberText& numbers, char* at)>;
 
-/// Writes the text of `rows` rows of `cells` numbers each, in blocks that are made on as many
-/// threads as there may be and go to `sink` in order. There is room for NumberText::kRoom bytes a
-/// number and a separator behind it. What is thrown for a block comes from the first block that
-/// throws.
+/// Writes `rows` rows of `cells` numbers each. Blocks of rows are made on as many threads as the
+/// program may use and go to `sink` in order. A block has room for NumberText::kRoom bytes and a
+/// separator per number. If blocks throw, the exception of the first one is rethrown.
 void write_rows(Eigen::Index rows, Eigen::Index cells, const RowText& text, const TextSink& sink);
 
-/// A table that is asked for in blocks of rows, so that it need not stand in memory as doubles.
+/// A table that is asked for in blocks of rows, so that it need not fit into memory as doubles.
 struct RowSource {
   Eigen::Index rows = 0;
   std::vector<Channel> channels;
-  /// Times and values (a column for each channel) of the rows [first, first + count).
+  /// Returns times and values (one column a channel) of the rows [first, first + count).
   std::function<void(
       Eigen::Index first, Eigen::Index count, Eigen::VectorXd& time_s, Eigen::MatrixXd& values)>
       read;
 };
 
-/// The rows of a series or of channels, to which the source refers: they must outlive it.
+/// Returns the rows of a series or of channels. The source refers to them: they must outlive it.
 [[nodiscard]] RowSource rows_of(const TimeSeries& series);
 [[nodiscard]] RowSource rows_of(const AnalogChannels& channels);
-/// Of the named channels alone. Throws InvalidInput listing the names there are.
+/// Returns the rows of the named channels. Throws InvalidInput listing the available names.
 [[nodiscard]] RowSource rows_of(const AnalogChannels& channels,
                                 const std::vector<std::string>& names);
 

@@ -18,13 +18,13 @@ namespace {
 
 constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
 
-/// Copies a row of a matrix that may have no columns, whose data a row of Eigen would point behind.
+/// Copies a row. A matrix without columns is skipped: a row of it would refer to memory behind its
+/// data.
 void copy_row(Eigen::Index from, Eigen::Index to, Eigen::MatrixXd& matrix) {
   for (Eigen::Index c = 0; c < matrix.cols(); ++c) matrix(to, c) = matrix(from, c);
 }
 
-/// One cell as it stands in its line, from `at` on; moves `at` to the separator behind it, or to
-/// the end.
+/// Returns the next cell as written and moves `at` to the separator behind it, or to the end.
 std::string_view raw_cell(const char*& at, const char* end, char separator) {
   const char* const begin = at;
   bool quoted = false;
@@ -50,7 +50,7 @@ std::string unquoted(std::string_view cell) {
 
 enum class CellKind : std::uint8_t { number, comma_number, gap, wrong };
 
-/// What stands in a cell of a column of numbers.
+/// Reads a cell of a column of numbers.
 CellKind read_cell(std::string_view cell, char separator, double& value) {
   if (cell.size() >= 2 && cell.front() == '"' && cell.back() == '"')
     cell = trim(cell.substr(1, cell.size() - 2));
@@ -68,24 +68,23 @@ CellKind read_cell(std::string_view cell, char separator, double& value) {
   return CellKind::comma_number;
 }
 
-/// What one line gave.
+/// Summary of one line.
 struct RowScan {
   std::uint32_t cells = 0;   ///< Number of cells.
-  std::uint32_t filled = 0;  ///< Cells up to the last one that is not empty.
-  bool blank = true;         ///< No cell has anything in it.
+  std::uint32_t filled = 0;  ///< Cells up to the last filled one.
+  bool blank = true;         ///< All cells are empty.
   bool comma = false;
   bool gap = false;
   bool wrong = false;
   bool remark = false;
 };
 
-/// What is done with the cell of a column.
+/// Use of a column.
 struct ColumnUse {
   enum class Kind : std::uint8_t { none, clock, value, remark } kind = Kind::none;
   Eigen::Index target = 0;
 };
 
-/// Reads the rows of one table.
 class RowReader {
  public:
   RowReader(const TableText& text, const TableRows& rows, const std::filesystem::path& path)
@@ -125,7 +124,7 @@ class RowReader {
     return text_.lines[rows_.first + i];
   }
 
-  /// Blank lines, remarks and rows of nothing at the end of a table.
+  /// True for blank lines, remarks and empty rows at the end of a table.
   [[nodiscard]] bool is_left_out(std::size_t n) const {
     const std::string_view line = text_.lines[n];
     if (line.find(rows_.separator) == std::string_view::npos) return trim(line).empty();
@@ -137,7 +136,7 @@ class RowReader {
     if (use.kind == ColumnUse::Kind::value) numbers_.values(row, use.target) = value;
   }
 
-  /// A number that ends at the separator, the usual cell; moves `at` behind it.
+  /// Reads a number that ends at the separator, which is the usual cell, and moves `at` behind it.
   [[nodiscard]] bool plain_number(const char*& at, const char* end, double& value) const {
     const char* begin = at;
     while (begin != end && *begin == ' ') ++begin;
@@ -183,7 +182,7 @@ class RowReader {
     for (std::size_t c = row.cells; c < uses_.size(); ++c) put(uses_[c], index, kNoNumber);
   }
 
-  /// Decides row by row what is kept, and moves the kept rows together.
+  /// Decides row by row which rows are kept, and moves these together.
   void judge() {
     Eigen::Index kept = 0;
     for (std::size_t i = 0; i < scans_.size(); ++i) {
@@ -217,7 +216,7 @@ class RowReader {
     }
   }
 
-  /// False: the row is the last one, cut off, and left out. Throws if its width is wrong.
+  /// True if the row is kept; false for a last row that is cut off. Throws if its width is wrong.
   bool keeps(std::size_t i, Eigen::Index kept) {
     const RowScan& row = scans_[i];
     const std::size_t line = rows_.first + i + 1;
@@ -255,15 +254,16 @@ class RowReader {
     return true;
   }
 
-  /// A file that writes the separators of empty cells at the end of a row cuts none off.
+  /// True if the file writes separators of empty cells at the end of a row: then no row is cut off
+  /// by missing cells.
   [[nodiscard]] bool pads() const {
     return std::any_of(scans_.begin(), scans_.end(), [&](const RowScan& row) {
       return row.cells >= width() && row.filled < width() && !row.blank;
     });
   }
 
-  /// Channels that have ended do not begin again: a later row with more cells says that this one
-  /// lost some.
+  /// A channel that has ended does not begin again: throws if a later row has more cells than this
+  /// one.
   void require_that_none_follows(std::size_t i) {
     if (i < checked_end_) return;
     for (std::size_t k = scans_.size(); k-- > i + 1;) {
@@ -274,7 +274,7 @@ class RowReader {
                         "line {} below has {}",
                         scans_[i].cells, width(), rows_.first + k + 1, scans_[k].cells));
     }
-    // Rows below are compared with their own followers only where they are narrower still.
+    // Rows below need a check of their own only where they are narrower still.
     checked_end_ = i + 1;
     while (checked_end_ < scans_.size() && scans_[checked_end_].cells >= scans_[i].cells)
       ++checked_end_;
@@ -300,8 +300,7 @@ class RowReader {
     }
   }
 
-  /// Decimal commas hold for the whole table: a point beside them is either a mark of thousands or
-  /// another hand's.
+  /// Throws for a point beside decimal commas: it may mark thousands or come from another program.
   void refuse_points() const {
     for (std::size_t i = 0; i < scans_.size(); ++i) {
       if (line_of(i).find('.') == std::string_view::npos) continue;

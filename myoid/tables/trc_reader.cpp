@@ -18,8 +18,8 @@ namespace {
 
 constexpr double kGap = std::numeric_limits<double>::quiet_NaN();
 
-/// Key line and value line of the header as pairs: word by word where there are as many values as
-/// keys, however they are separated (real files have two tabs between values), else cell by cell.
+/// Pairs the keys of one header line with the values of the next. Real files have two tabs between
+/// values, so words are paired if their counts match; otherwise cells are.
 std::map<std::string, std::string> read_fields(std::string_view keys,
                                                std::string_view values,
                                                char separator) {
@@ -38,7 +38,7 @@ std::map<std::string, std::string> read_fields(std::string_view keys,
   return header;
 }
 
-/// How many markers stand in the columns behind Frame# and Time: by the line X1 Y1 Z1 ..., else by
+/// Counts the markers in the columns behind Frame# and Time: by the line X1 Y1 Z1 ..., otherwise by
 /// the filled cells of the first row.
 std::size_t markers_in_columns(const std::vector<std::string_view>& lines, char separator) {
   const auto axes = split_words(lines[4]);
@@ -53,9 +53,9 @@ std::size_t markers_in_columns(const std::vector<std::string_view>& lines, char 
   return 0;
 }
 
-/// The names of the label line, each over the first of its marker's three columns, where fewer than
-/// `count` stand there: an empty one for every marker without a name. Empty if they stand
-/// elsewhere.
+/// Returns the names of a label line in which each stands over the first of its marker's three
+/// columns and some are missing: an empty name for every marker without one. Empty if the names
+/// stand elsewhere.
 std::vector<std::string> names_over_columns(const std::vector<std::string_view>& cells,
                                             std::size_t count) {
   std::vector<std::string> names(count);
@@ -67,7 +67,7 @@ std::vector<std::string> names_over_columns(const std::vector<std::string_view>&
   return names;
 }
 
-/// The label line without Frame# and Time. Throws ReadError if its second word is no time.
+/// Returns the label line without Frame# and Time. Throws ReadError if its second word is no time.
 std::vector<std::string> label_words(std::string_view line,
                                      char separator,
                                      const std::filesystem::path& path,
@@ -92,8 +92,8 @@ std::vector<std::string> label_words(std::string_view line,
   return names;
 }
 
-/// Marker names, one for each three columns: every word of the label line wherever the tabs stand,
-/// and made-up ones for markers that have none.
+/// Returns one marker name for each three columns: every word of the label line, wherever the tabs
+/// are, and made-up names for markers that have none.
 std::vector<std::string> read_names(const std::vector<std::string_view>& lines,
                                     char separator,
                                     const std::filesystem::path& path,
@@ -123,7 +123,7 @@ std::vector<std::string> read_names(const std::vector<std::string_view>& lines,
 struct Header {
   char separator = '\t';
   std::map<std::string, std::string> fields;
-  ScaledUnit unit;  ///< Of the coordinates.
+  ScaledUnit unit;  ///< Unit of the coordinates.
   std::vector<std::string> names;
   std::size_t first_frame = 5;  ///< Index of the first line of numbers.
   std::vector<Repair> repairs;
@@ -167,7 +167,7 @@ Header read_header(const std::vector<std::string_view>& lines, const std::filesy
   }
   if (trim(lines[4]).starts_with("X0"))
     header.repairs.push_back({5, "coordinates numbered from 0"});
-  // Some exporters leave out the line X1 Y1 Z1 ...: then the fifth line is a frame already.
+  // Some exporters leave out the line X1 Y1 Z1 ...: then the fifth line is a frame.
   const auto fifth = split(lines[4], header.separator);
   if (fifth.size() > 2 && parse_number(fifth[0]) && parse_number(fifth[1])) {
     header.first_frame = 4;
@@ -176,7 +176,7 @@ Header read_header(const std::vector<std::string_view>& lines, const std::filesy
   return header;
 }
 
-/// Reads the frames, and keeps the first line of each kind of mending.
+/// Reads the frames and keeps the first line of each kind of repair.
 class TrcFrames {
  public:
   TrcFrames(const Header& header, const std::filesystem::path& path)
@@ -241,7 +241,7 @@ class TrcFrames {
     return last.kept;
   }
 
-  /// A last row that ends early belongs to a file that was cut off: its last number may be cut too.
+  /// Leaves out a last row that ends early: the file was cut off, perhaps within a number.
   void leave_out_last(std::size_t cells, std::size_t line) {
     repairs_.push_back(
         {line, fmt::format("the last row has {} of {} cells and is left out", cells, width_ + 2)});
@@ -261,7 +261,7 @@ class TrcFrames {
     return *time;
   }
 
-  /// True for the time of the row before. Throws ReadError for an earlier one.
+  /// True if the time equals that of the row before. Throws ReadError for an earlier one.
   bool repeats(double time, std::size_t line) {
     if (time_.empty() || time > time_.back()) return false;
     if (time < time_.back())
@@ -273,7 +273,7 @@ class TrcFrames {
     return true;
   }
 
-  /// Fills the next row; a cell that is empty or not there is a gap.
+  /// Fills the next row; an empty or missing cell is a gap.
   void read_coordinates(const std::vector<std::string_view>& cells, std::size_t line) {
     const auto row = static_cast<Eigen::Index>(time_.size());
     for (std::size_t c = 0; c < width_; ++c) {
@@ -294,7 +294,7 @@ class TrcFrames {
     }
   }
 
-  /// Makes a marker of the next row a gap where it stands at 0 0 0 or lacks a coordinate.
+  /// Makes a gap of a marker at 0 0 0 or without one of its coordinates.
   void mark_missing(std::size_t line) {
     const auto row = static_cast<Eigen::Index>(time_.size());
     for (std::size_t m = 0; m < header_.names.size(); ++m) {

@@ -12,12 +12,13 @@
 namespace myoid::recording {
 namespace {
 
-/// In millimeters, with the fewest digits that read back to the same meters: 15 where these do.
+/// Writes millimeters with 15 digits if these read back to the same meters, otherwise with the
+/// fewest that do.
 char* put_millimeters(char* at, double meters) {
   const double exact = 1000.0 * meters;
   char* const end = put_number(at, exact);
   const auto digits = std::count_if(at, end, [](char c) { return c >= '0' && c <= '9'; });
-  if (digits <= 15) return end;  // 15 digits are these
+  if (digits <= 15) return end;
   char text[NumberText::kRoom];
   const char* const stop =
       std::to_chars(text, text + sizeof text, exact, std::chars_format::general, 15).ptr;
