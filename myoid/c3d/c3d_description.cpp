@@ -74,8 +74,8 @@ void set_texts(C3dGroup& group,
   }
 }
 
-/// NAME, NAME2, ... for more than 255 elements or 65535 bytes; earlier ones of the name are
-/// removed.
+/// Splits more than 255 elements or 65535 bytes over NAME, NAME2, ...; earlier parameters of these
+/// names are removed.
 void set_long_texts(C3dGroup& group,
                     const std::string& name,
                     const std::vector<std::string>& list) {
@@ -93,7 +93,7 @@ void set_long_texts(C3dGroup& group,
   }
 }
 
-/// NAME, NAME2, ... likewise, of elements of `rows` numbers each.
+/// Splits numbers over NAME, NAME2, ... likewise; each element has `rows` numbers.
 void set_long_numbers(C3dGroup& group,
                       const std::string& name,
                       C3dType type,
@@ -152,7 +152,7 @@ void describe_channels(std::vector<C3dGroup>& groups, const C3dFile& file) {
   std::vector<std::string> units;
   std::vector<double> scales;
   std::vector<double> offsets;
-  // SCALE is what is left of the factor without GEN_SCALE, and exact if the file came from one.
+  // SCALE is the channel's factor divided by GEN_SCALE; for a channel of a C3D file it is exact.
   const double general = number_at(file.find("ANALOG", "GEN_SCALE"), 0).value_or(1.0);
   const double divide = general != 0.0 ? general : 1.0;
   bool is_unsigned = false;

@@ -14,9 +14,9 @@
 namespace myoid::recording {
 namespace {
 
-constexpr unsigned kPresent = 12345;  ///< In a header word: the section it speaks of is there.
+constexpr unsigned kPresent = 12345;  ///< Header word that says: this section is present.
 
-/// The parameters NAME, NAME2, NAME3, ... of a group.
+/// Returns the parameters NAME, NAME2, NAME3, ... of a group.
 std::vector<const C3dParameter*> blocks_of(const C3dGroup& group, std::string_view name) {
   std::vector<const C3dParameter*> list;
   for (int block = 1;; ++block) {
@@ -43,7 +43,7 @@ std::vector<std::string> texts_of(const C3dGroup& group, std::string_view name) 
   return list;
 }
 
-/// The events of one place. Those without a time are left out, with a note.
+/// The events of one place; an event without a time is left out, with a note.
 class EventList {
  public:
   EventList(C3dFile& file, std::string place) : file_(file), place_(std::move(place)) {}
@@ -58,7 +58,7 @@ class EventList {
     }
   }
 
-  /// Adds to the file those that no earlier place holds.
+  /// Adds the events to the file that no earlier place holds.
   void merge() {
     constexpr double kSame_s = 1e-4;
     const auto earlier = static_cast<std::ptrdiff_t>(file_.events.size());
@@ -78,7 +78,8 @@ class EventList {
   std::size_t count_ = 0;
 };
 
-/// The number of events that USED tells, 16 bits without sign; all times where it is missing.
+/// Returns the number of events in USED, an unsigned 16-bit number; without it, the number of
+/// times.
 std::size_t used_events(const C3dGroup& group, std::size_t times) {
   const auto used = numbers_of(group, "USED");
   if (used.empty()) return times / 2;
@@ -110,8 +111,8 @@ void read_group(C3dFile& file, const C3dGroup& group, bool of_kinarm) {
   events.merge();
 }
 
-/// The section behind the data that holds any number of events: a key, counts and widths of labels,
-/// and for each event its label, its time as a real, a switch and four bytes more.
+/// Reads the section behind the data, which may hold any number of events: a key, counts and widths
+/// of labels, and for each event its label, its time as a real, a switch and four further bytes.
 void read_new_events(C3dFile& file,
                      ByteSource& source,
                      std::span<const std::byte> head,
@@ -144,7 +145,7 @@ void read_new_events(C3dFile& file,
   list.merge();
 }
 
-/// Events of the header: up to 18 times with labels of four characters.
+/// Reads the events of the header: up to 18 times with labels of four characters.
 void read_header_events(C3dFile& file, std::span<const std::byte> head, const C3dBytes& number) {
   const auto at = [&](std::size_t word) { return &head[2 * (word - 1)]; };
   if (number.u16(at(150)) != kPresent) return;

@@ -18,9 +18,9 @@ namespace myoid::recording {
 /// | new event section (header words 148 and 149, key 90), more than 255 events of KINARM | [s] |
 /// | header (word 150), where no other place holds an event | [s] |
 ///
-/// An event with the label of one of an earlier place and within 0.1 ms of it is the same one.
-/// Times that are no numbers are left out, with a note in `file.repairs`. `head` is the header's
-/// block. Sources: the C3D user guide; the MATLAB reader that BKIN publishes for Dexterit-E (2012).
+/// Two events are the same if their labels agree and their times differ by less than 0.1 ms. Times
+/// that are no numbers are left out, with a note in `file.repairs`. `head` is the header's block.
+/// Sources: the C3D user guide; the MATLAB reader that BKIN publishes for Dexterit-E (2012).
 void read_c3d_events(C3dFile& file,
                      ByteSource& source,
                      std::span<const std::byte> head,

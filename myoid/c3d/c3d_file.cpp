@@ -9,7 +9,7 @@
 namespace myoid::recording {
 namespace {
 
-/// Group and parameter names that mean the same.
+/// True for names of groups and parameters that mean the same.
 bool same_name(std::string_view stored, std::string_view wanted) {
   if (equal_ignoring_case(trim(stored), wanted)) return true;
   if (wanted == "FORCE_PLATFORM") {
@@ -43,7 +43,7 @@ std::vector<std::string> texts(const C3dParameter& parameter) {
       parameter.dimensions.empty() ? 1 : std::size_t{parameter.dimensions.front()};
   std::size_t count = 1;
   for (std::size_t d = 1; d < parameter.dimensions.size(); ++d) count *= parameter.dimensions[d];
-  count = std::min<std::size_t>(count, 65535);  // texts of no length may claim to be any number
+  count = std::min<std::size_t>(count, 65535);  // texts of length 0 may state any count
   for (std::size_t i = 0; i < count; ++i) {
     std::string_view text = parameter.text;
     text = i * width < text.size() ? text.substr(i * width, width) : std::string_view();

@@ -15,21 +15,22 @@
 
 namespace myoid::recording {
 
-/// The machine a C3D file was written for: byte order and kind of real number.
+/// The processor a C3D file was written for: it decides byte order and kind of real.
 enum class C3dProcessor : std::uint8_t { intel = 84, dec = 85, sgi = 86 };
 
-/// The four kinds of parameter, with their code in the file; its size is the size of an element.
+/// The four kinds of parameter with their code in the file. The code's size is the bytes per
+/// element.
 enum class C3dType : std::int8_t { text = -1, byte = 1, integer = 2, real = 4 };
 
-/// A parameter as stored. `dimensions` is empty for a single value.
+/// A parameter as stored; a single value has no `dimensions`.
 struct C3dParameter {
   std::string name;
   std::string description;
   bool locked = false;
   C3dType type = C3dType::integer;
   std::vector<std::uint8_t> dimensions;
-  std::string text;             ///< Of kind text: all bytes, the first dimension running fastest.
-  std::vector<double> numbers;  ///< Of the other kinds; a double holds each of them exactly.
+  std::string text;             ///< For kind text: all bytes, the first dimension running fastest.
+  std::vector<double> numbers;  ///< For the other kinds; a double holds each of them exactly.
 
   friend bool operator==(const C3dParameter&, const C3dParameter&) = default;
 };
@@ -46,32 +47,34 @@ struct C3dGroup {
 
 /// An analog channel. A sample is (count - offset) * scale, in `unit_text`.
 struct C3dChannel {
-  std::string name;       ///< Unique, UTF-8; as written but for blanks at its end.
-  std::string unit_text;  ///< As written: "V", "Nmm", "nt"; may be empty or no unit at all.
+  std::string name;       ///< Unique, UTF-8; as written, without blanks at its end.
+  std::string unit_text;  ///< As written: "V", "Nmm", "nt"; may be empty or no unit.
   double offset = 0.0;
   double scale = 1.0;  ///< SCALE * GEN_SCALE.
 
   friend bool operator==(const C3dChannel&, const C3dChannel&) = default;
 };
 
-/// A C3D file as it is: numbers in the file's own 32 bits, every parameter kept. What a stage needs
-/// comes from `c3d_markers`, `c3d_analog` and `force_plates`, in SI.
+/// A C3D file with the numbers in the file's own 32 bits and every parameter. `c3d_markers`,
+/// `c3d_analog` and `force_plates` convert to SI.
 struct C3dFile {
   using Rows = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
   C3dProcessor processor = C3dProcessor::intel;
-  bool integer = false;      ///< Samples were 16-bit integers; `points` are scaled already.
-  float point_scale = 0.1F;  ///< Of integer coordinates and of residuals [point_unit].
+  bool integer = false;      ///< The samples are 16-bit integers in the file; `points` are scaled.
+  float point_scale = 0.1F;  ///< Step of integer coordinates and of residuals [point_unit].
   std::vector<C3dGroup> groups;
 
   double point_rate_hz = 0.0;
-  std::int64_t first_frame = 1;           ///< Its time is (first_frame - 1) / point_rate_hz.
+  std::int64_t first_frame =
+      1;  ///< Frame of the first sample, at (first_frame - 1) / point_rate_hz.
   std::vector<std::string> point_labels;  ///< Unique, UTF-8.
   std::string point_unit;                 ///< As written: "mm".
-  Rows points;  ///< Frames x (4 points): x, y, z [point_unit] and the fourth word: -1 is "not
-                ///< measured", else 256 * cameras + residual / scale. Rows also without points.
+  Rows points;  ///< Frames x (4 points): x, y, z [point_unit] and a fourth word, -1 for "not
+                ///< measured", else 256 * cameras + residual / scale. Has a row for each frame even
+                ///< without points.
 
-  int analog_per_frame = 1;  ///< Analog samples in a frame.
+  int analog_per_frame = 1;  ///< Analog samples per frame.
   std::vector<C3dChannel> channels;
   Rows analog;  ///< (frames * analog_per_frame) x channels: counts as stored.
 
@@ -84,15 +87,16 @@ struct C3dFile {
   }
   [[nodiscard]] double analog_rate_hz() const { return point_rate_hz * analog_per_frame; }
 
-  /// The parameter of this group and name, without regard to case and with the misspellings that
-  /// old programs are known for (FORCE_PLATEFORM, OFFSETS); nullptr if there is none.
+  /// Finds the parameter of this group and name, ignoring case and known misspellings of old
+  /// programs (FORCE_PLATEFORM, OFFSETS); nullptr if there is none.
   [[nodiscard]] const C3dParameter* find(std::string_view group, std::string_view name) const;
 };
 
-/// A text parameter as its single texts, blanks and zero bytes at their ends removed, as UTF-8.
+/// Splits a text parameter into its texts, as UTF-8 and without blanks and zero bytes at their
+/// ends.
 [[nodiscard]] std::vector<std::string> texts(const C3dParameter& parameter);
 
-/// The number at `index`, if the parameter is there, has it and it is finite.
+/// Returns the number at `index` if the parameter exists and this number is finite.
 [[nodiscard]] std::optional<double> number_at(const C3dParameter* parameter, std::size_t index);
 
 }  // namespace myoid::recording

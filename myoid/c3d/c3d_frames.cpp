@@ -7,8 +7,8 @@
 namespace myoid::recording {
 namespace {
 
-constexpr std::uint64_t kPartBytes = std::uint64_t{1} << 20U;  ///< Taken from the file at a time.
-constexpr std::size_t kRows = 64;  ///< Turned into columns at a time, to stay in the cache.
+constexpr std::uint64_t kPartBytes = std::uint64_t{1} << 20U;  ///< Read from the file at once.
+constexpr std::size_t kRows = 64;  ///< Turned into columns at once, so that they stay in the cache.
 
 }  // namespace
 
@@ -27,12 +27,12 @@ void C3dFrames::each_part(
 
 namespace {
 
-// The byte order is decided outside of the loops.
+// The byte order is a template parameter, so that the loops do not test it.
 template <C3dProcessor kProcessor>
 void scaled_points(const std::byte* p, std::size_t points, double scale, float* out) {
   constexpr C3dBytes kNumber{kProcessor};
   for (std::size_t i = 0; i < points; ++i, p += 8, out += 4) {
-    // The product in double and then rounded: what a file of reals of the same data holds.
+    // The product is formed in double and then rounded, as a file of reals of the same data has it.
     out[0] = static_cast<float>(static_cast<double>(kNumber.i16(p)) * scale);
     out[1] = static_cast<float>(static_cast<double>(kNumber.i16(p + 2)) * scale);
     out[2] = static_cast<float>(static_cast<double>(kNumber.i16(p + 4)) * scale);
@@ -55,7 +55,7 @@ void integers(const std::byte* p, std::size_t count, bool is_unsigned, float* ou
 void C3dFrames::points(const std::byte* frame, float* out) const {
   if (!layout_.integer) return reals(frame, out, 4 * layout_.points);
   const auto scale = static_cast<double>(layout_.scale);
-  // DEC's integers are Intel's.
+  // DEC and Intel store integers alike.
   if (number_.processor == C3dProcessor::sgi)
     return scaled_points<C3dProcessor::sgi>(frame, layout_.points, scale, out);
   scaled_points<C3dProcessor::intel>(frame, layout_.points, scale, out);
@@ -123,7 +123,7 @@ void C3dFrames::counts(const std::byte* bytes,
                        std::int64_t first,
                        std::int64_t count,
                        AnalogCounts& columns) const {
-  // The byte order is decided outside of the loops.
+  // The byte order is a template parameter, so that the loops do not test it.
   const auto in_order = [&]<C3dProcessor kProcessor>() {
     constexpr C3dBytes number{kProcessor};
     if (auto* reals = std::get_if<AnalogCounts::Columns<float>>(&columns.values)) {

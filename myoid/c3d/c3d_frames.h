@@ -11,28 +11,29 @@
 
 namespace myoid::recording {
 
-/// The samples of a C3D file as numbers, part by part: some frames of bytes at a time, so that a
-/// large file never stands in memory beside what is made of it.
+/// Reads the samples of a C3D file some frames at a time, so that a large file need not be in
+/// memory together with the result.
 class C3dFrames {
  public:
   C3dFrames(const C3dLayout& layout, C3dProcessor processor, bool is_unsigned)
       : layout_(layout), number_{processor}, is_unsigned_(is_unsigned) {}
 
   /// Calls `part(first, count, bytes)` for consecutive frames [first, first + count) of the data.
-  /// Throws ReadError if the file cannot be read any more.
+  /// Throws ReadError if reading fails.
   void each_part(
       ByteSource& source,
       const std::function<void(std::int64_t, std::int64_t, const std::byte*)>& part) const;
 
-  /// The points of the frame that begins at `frame`: x, y, z [POINT:UNITS] and the fourth word, for
-  /// each. An integer times the scale is rounded to what a file of reals of the same data holds.
+  /// Returns the points of the frame at `frame`: x, y, z [POINT:UNITS] and the fourth word of each.
+  /// An integer times the scale is rounded as in a file of reals of the same data.
   void points(const std::byte* frame, float* out) const;
-  /// Its analog samples as stored, channel by channel, then the next sample of all channels.
+  /// Returns the frame's analog samples as stored: the first sample of all channels, then the
+  /// second of all, ....
   void analog(const std::byte* frame, float* out) const;
 
-  /// Columns for all samples, in the file's own kind of number.
+  /// Returns columns with room for all samples, in the file's own kind of number.
   [[nodiscard]] AnalogCounts empty_counts() const;
-  /// Writes the samples of `count` frames into those columns, from frame `first` of the data on.
+  /// Writes the samples of `count` frames into such columns, from frame `first` of the data on.
   void counts(const std::byte* bytes,
               std::int64_t first,
               std::int64_t count,

@@ -26,7 +26,8 @@ struct C3dHeader {
 /// True for a rate in Hz that a recording can have.
 [[nodiscard]] bool is_c3d_rate(double rate_hz);
 
-/// The processor under which the header makes sense, for a file without a parameter section.
+/// Returns the processor under which the header makes sense, for a file without a parameter
+/// section.
 [[nodiscard]] std::optional<C3dProcessor> guess_processor(std::span<const std::byte> head,
                                                           std::uint64_t file_size);
 

@@ -13,7 +13,7 @@
 namespace myoid::recording {
 namespace {
 
-/// A count in a parameter: 16 bits without sign, or a real.
+/// Returns the count in a parameter: 16 bits without sign, or a real.
 std::optional<std::size_t> count_in(const C3dParameter* parameter) {
   const auto value = number_at(parameter, 0);
   if (!value) return std::nullopt;
@@ -22,7 +22,7 @@ std::optional<std::size_t> count_in(const C3dParameter* parameter) {
   return static_cast<std::size_t>(count);
 }
 
-/// Two 16-bit words, the lower first, as TRIAL:ACTUAL_START_FIELD holds them.
+/// Joins two 16-bit words, the lower first, as in TRIAL:ACTUAL_START_FIELD.
 std::optional<std::int64_t> long_count(const C3dParameter* parameter) {
   const auto low = number_at(parameter, 0);
   const auto high = number_at(parameter, 1);
@@ -49,14 +49,15 @@ void add_new(std::vector<T>& list, const T& value) {
   if (std::find(list.begin(), list.end(), value) == list.end()) list.push_back(value);
 }
 
-/// Every number of points that header or parameters name, the header's first.
+/// Collects every number of points that header and parameters state, the header's first.
 std::vector<std::size_t> point_counts(const C3dHeader& header, const C3dFile& file) {
   std::vector<std::size_t> list{header.points};
   if (const auto used = count_in(file.find("POINT", "USED"))) add_new(list, *used);
   return list;
 }
 
-/// The same for the analog samples.
+/// Collects every number of channels and samples that header and parameters state, the header's
+/// first.
 std::vector<Shape> analog_shapes(const C3dHeader& header, const C3dFile& file) {
   std::vector<Shape> list;
   const std::size_t total = header.analog_total;
@@ -80,7 +81,7 @@ std::vector<Shape> analog_shapes(const C3dHeader& header, const C3dFile& file) {
   return list;
 }
 
-/// The same for the frames.
+/// Collects every range of frames that header and parameters state, the header's first.
 std::vector<Frames> frame_counts(const C3dHeader& header, const C3dFile& file) {
   std::vector<Frames> list;
   const auto add = [&](std::int64_t count, std::int64_t first, const char* source) {
@@ -94,7 +95,7 @@ std::vector<Frames> frame_counts(const C3dHeader& header, const C3dFile& file) {
     if (start && end)
       add(*end - *start + 1, *start, "TRIAL:ACTUAL_START_FIELD and ACTUAL_END_FIELD");
   };
-  // Frames beyond the header's 16 bits stand there as the largest number or wrapped around.
+  // The header has 16 bits for a frame: a larger number stands there as 65535 or modulo 65536.
   if (end && *end >= 65535 && (header.last_frame >= 65535 || header.last_frame == *end % 65536))
     add_actual();
   add(header.last_frame - header.first_frame + 1, header.first_frame, "the header");
@@ -106,7 +107,7 @@ std::vector<Frames> frame_counts(const C3dHeader& header, const C3dFile& file) {
   return list;
 }
 
-/// Header and parameters that do not tell of the same frames, whichever the size confirms.
+/// Notes that header and parameters state different frames, whichever the size confirms.
 void say_other_frame_counts(const C3dHeader& header,
                             const C3dFile& file,
                             const std::vector<Frames>& frames,
@@ -132,7 +133,8 @@ void say_other_frame_counts(const C3dHeader& header,
   }
 }
 
-/// Poses of segments, which Theia3D, Visual3D and others write as 4 x 4 matrices, and the remedy.
+/// Describes poses of segments, which Theia3D, Visual3D and others write as 4 x 4 matrices, and the
+/// remedy.
 std::string rotations_text(const C3dFile& file, std::size_t count) {
   constexpr std::size_t kMost = 6;
   std::string names;
@@ -148,7 +150,7 @@ std::string rotations_text(const C3dFile& file, std::size_t count) {
       count, names);
 }
 
-/// A file of segment poses alone is refused with the remedy.
+/// Throws ReadError, with the remedy, for a file that holds only segment poses.
 void refuse_poses_alone(const C3dHeader& header,
                         const C3dFile& file,
                         std::size_t rotations,
@@ -168,7 +170,7 @@ bool is_block_inside(std::size_t block, std::uint64_t file_size) {
   return block >= 2 && (block - 1) * kC3dBlock < file_size;
 }
 
-/// The block, counted from 1, at which the data begin.
+/// Returns the block, counted from 1, at which the data begin.
 std::size_t data_block(const C3dHeader& header,
                        const C3dFile& file,
                        std::uint64_t file_size,
@@ -195,7 +197,7 @@ std::size_t data_block(const C3dHeader& header,
   return *data_start;
 }
 
-/// The scale of the points; its sign says if the samples are integers (positive) or reals.
+/// The scale of the points; its sign says whether the samples are integers (positive) or reals.
 struct Scale {
   double taken = 0.0;
   double in_parameters = 0.0;  ///< POINT:SCALE; 0 if there is none.
@@ -222,7 +224,7 @@ Scale point_scale(const C3dHeader& header,
   return scale;
 }
 
-/// Everything that header and parameters say of the samples. The size of the file decides between
+/// All statements of header and parameters about the samples. The size of the file decides between
 /// them.
 struct Claims {
   std::vector<bool> integer;
@@ -231,7 +233,7 @@ struct Claims {
   std::vector<Frames> frames;
 };
 
-/// One choice from the claims.
+/// One choice of statements.
 struct Story {
   bool integer = false;
   std::size_t points = 0;
@@ -259,7 +261,7 @@ Claims claims_of(const C3dHeader& header,
   return claims;
 }
 
-/// The first story that fills the `available` bytes but for less than `padding`.
+/// Returns the first choice that fills the `available` bytes up to a rest of less than `padding`.
 std::optional<Story> story_with_padding(const Claims& claims,
                                         std::uint64_t available,
                                         std::uint64_t padding) {
@@ -277,15 +279,15 @@ std::optional<Story> story_with_padding(const Claims& claims,
   return std::nullopt;
 }
 
-/// The first story that the size of the file confirms. Up to a whole block behind the data is
-/// likelier than more.
+/// Returns the first choice that the size of the file confirms. A rest of up to one block is
+/// likelier than a larger one.
 std::optional<Story> confirmed_story(const Claims& claims, std::uint64_t available) {
   if (const auto story = story_with_padding(claims, available, kC3dBlock)) return story;
   return story_with_padding(claims, available, 2 * kC3dBlock);
 }
 
-/// The story of a file whose size confirms none. Throws ReadError where the claims disagree in more
-/// than the number of frames.
+/// Returns a choice for a file whose size confirms none. Throws ReadError where the statements
+/// disagree about more than the number of frames.
 Story unconfirmed_story(const Claims& claims,
                         const C3dHeader& header,
                         const C3dFile& file,
@@ -305,8 +307,8 @@ Story unconfirmed_story(const Claims& claims,
                     used.value_or(0), file_size));
   }
   Story best{claims.integer[0], claims.points[0], claims.shapes[0], claims.frames.data()};
-  // A count that wrapped at 65536 is too small by a multiple of it; one that fits is better than
-  // one that does not.
+  // A count that wrapped at 65536 is too small by a multiple of 65536; a count that fits into the
+  // file is preferred.
   for (const Frames& frames : claims.frames) {
     Story other = best;
     other.frames = &frames;
@@ -316,8 +318,8 @@ Story unconfirmed_story(const Claims& claims,
   return best;
 }
 
-/// Says where header and parameters tell another number of points, channels or another kind of
-/// samples than the story that the size confirms.
+/// Notes where header and parameters state a number of points, of channels or a kind of samples
+/// that differs from the confirmed choice.
 void say_other_claims(const C3dHeader& header,
                       const C3dFile& file,
                       const Claims& claims,
@@ -350,7 +352,7 @@ void say_other_claims(const C3dHeader& header,
                                       story.integer ? "integers" : "reals")});
 }
 
-/// The number of frames that the bytes hold, at most `said`.
+/// Returns the number of frames that the bytes hold, at most `said`.
 std::int64_t whole_frames(std::int64_t said,
                           std::uint64_t frame_bytes,
                           std::uint64_t available,

@@ -10,11 +10,11 @@
 
 namespace myoid::recording {
 
-/// Where the samples stand and how many there are.
+/// Place, number and kind of the samples.
 struct C3dLayout {
   std::uint64_t data_offset = 0;
   bool integer = false;
-  float scale = 1.0F;  ///< Of integer coordinates.
+  float scale = 1.0F;  ///< Scale of integer coordinates.
   std::size_t points = 0;
   std::size_t channels = 0;
   std::size_t analog_per_frame = 1;
@@ -26,8 +26,8 @@ struct C3dLayout {
   }
 };
 
-/// The layout that header, parameters and file size agree on, by the rules of `read_c3d`. Throws
-/// ReadError where they cannot be reconciled.
+/// Finds the layout on which header, parameters and file size agree, by the rules of `read_c3d`.
+/// Throws ReadError where they cannot be reconciled.
 [[nodiscard]] C3dLayout find_c3d_layout(const C3dHeader& header,
                                         const C3dFile& parameters,
                                         std::uint64_t file_size,

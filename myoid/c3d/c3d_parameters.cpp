@@ -40,7 +40,7 @@ std::size_t size_of(C3dType type) {
   return type == C3dType::real ? 4 : type == C3dType::integer ? 2 : 1;
 }
 
-/// A length and so many bytes of text; the bytes taken.
+/// Reads a length and as many bytes of text; returns the number of bytes read.
 std::size_t read_description(std::span<const std::byte> body, std::string& description) {
   if (body.empty()) return 0;
   const std::size_t length = std::min(static_cast<std::size_t>(body[0]), body.size() - 1);
@@ -48,8 +48,8 @@ std::size_t read_description(std::span<const std::byte> body, std::string& descr
   return 1 + length;
 }
 
-/// Kind, dimensions, values and description of a parameter, and the bytes they take; 0 if they do
-/// not fit into `body`. A description that does not fit is cut.
+/// Reads kind, dimensions, values and description of a parameter and returns their bytes; 0 if they
+/// do not fit into `body`. A description that does not fit is cut.
 std::size_t read_value(std::span<const std::byte> body,
                        const C3dBytes& number,
                        C3dParameter& parameter) {
@@ -87,7 +87,8 @@ void put_text(std::vector<std::byte>& out, std::string_view text) {
   for (const char c : text) out.push_back(static_cast<std::byte>(c));
 }
 
-/// Head of a record; the returned index is that of the distance, to be filled in at its end.
+/// Writes the head of a record and returns the index of its distance, which is filled in at the
+/// record's end.
 std::size_t put_head(std::vector<std::byte>& out, std::string_view name, bool locked, int id) {
   if (name.empty() || name.size() > 127) {
     throw InvalidInput(
@@ -127,10 +128,11 @@ struct RecordHead {
   int id = 0;  ///< Below 0 for a group.
   bool locked = false;
   std::size_t body = 0;  ///< Byte where kind and values begin, or a group's description.
-  std::size_t next = 0;  ///< Byte where the next record begins, as the distance says; 0: the last.
+  std::size_t next =
+      0;  ///< Byte where the next record begins, by the distance; 0: this is the last one.
 };
 
-/// Reads records, and finds the next one where a distance or a head is damaged.
+/// Reads records; where a distance or a head is damaged, finds the next record.
 class ParameterReader {
  public:
   ParameterReader(std::span<const std::byte> bytes,
@@ -149,7 +151,7 @@ class ParameterReader {
   }
 
  private:
-  /// Empty, and the reason, if no record can begin here.
+  /// Reads the head at this byte; empty, with the reason, if no record can begin here.
   std::optional<RecordHead> head_at(std::size_t at, std::string& reason) const {
     const int length = static_cast<std::int8_t>(bytes_[at]);
     const auto size = static_cast<std::size_t>(std::abs(length));
@@ -171,8 +173,8 @@ class ParameterReader {
     return head;
   }
 
-  /// The byte behind the record as its own values tell, wherever its distance leads; 0 if they
-  /// cannot be values.
+  /// Returns the byte behind the record by its own values, whatever its distance says; 0 if these
+  /// are no values.
   std::size_t own_end(const RecordHead& head) const {
     const auto body = bytes_.subspan(head.body, limit_ - head.body);
     std::string description;
@@ -182,7 +184,7 @@ class ParameterReader {
     return taken == 0 ? 0 : head.body + taken;
   }
 
-  /// True for a record beyond doubt: a name of letters and digits, and a distance that is the
+  /// True for a record beyond doubt: its name has letters and digits, and its distance is the
   /// length of its values.
   bool surely_begins(std::size_t at) const {
     if (at + 4 > limit_) return false;
@@ -198,7 +200,7 @@ class ParameterReader {
     return head && head->next != 0 && head->next <= limit_ && own_end(*head) == head->next;
   }
 
-  /// True for the end of the list, and for every head that can be read.
+  /// True for the end of the list and for every readable head.
   bool may_begin(std::size_t at) const {
     std::string reason;
     return at + 2 > limit_ || bytes_[at] == std::byte{0} || head_at(at, reason).has_value();
@@ -231,7 +233,7 @@ class ParameterReader {
     return next;
   }
 
-  /// The next byte behind `at` where surely a record begins, or the limit, with a note.
+  /// Returns the next byte behind `at` where surely a record begins, or the limit, with a note.
   std::size_t behind_damage(std::size_t at, const std::string& reason) {
     std::size_t next = at + 1;
     while (next < limit_ && !surely_begins(next)) ++next;
@@ -380,11 +382,12 @@ std::vector<std::byte> format_c3d_parameters(const std::vector<C3dGroup>& groups
     close_record(out, at, group.name, number);
     for (const C3dParameter& p : group.parameters) put_parameter(out, group, p, number);
   }
-  out.resize((out.size() + 2 + kC3dBlock - 1) / kC3dBlock * kC3dBlock);  // ends with a zero length
+  out.resize((out.size() + 2 + kC3dBlock - 1) / kC3dBlock *
+             kC3dBlock);  // the section ends with a zero length
   const std::size_t blocks = out.size() / kC3dBlock;
   if (blocks > 32000)
     throw InvalidInput("the C3D parameters are too many: at most 16 million bytes");
-  // One byte for the number of blocks: readers go by the records where it does not suffice.
+  // The number of blocks has one byte; readers follow the records where it does not suffice.
   out[2] = static_cast<std::byte>(std::min<std::size_t>(blocks, 255));
   return out;
 }

@@ -21,7 +21,7 @@
 namespace myoid::recording {
 namespace {
 
-/// The texts of NAME, NAME2, NAME3, ... one after the other.
+/// Joins the texts of NAME, NAME2, NAME3, ....
 std::vector<std::string> all_texts(const C3dFile& file, std::string_view group, std::string name) {
   std::vector<std::string> list;
   for (int block = 1;; ++block) {
@@ -31,7 +31,7 @@ std::vector<std::string> all_texts(const C3dFile& file, std::string_view group, 
   }
 }
 
-/// The numbers of NAME, NAME2, ...
+/// Joins the numbers of NAME, NAME2, ....
 std::vector<double> all_numbers(const C3dFile& file, std::string_view group, std::string name) {
   std::vector<double> list;
   for (int block = 1;; ++block) {
@@ -41,7 +41,7 @@ std::vector<double> all_numbers(const C3dFile& file, std::string_view group, std
   }
 }
 
-/// `count` names, none empty, none twice.
+/// Returns `count` names, none empty, all unique.
 std::vector<std::string> unique_names(std::vector<std::string> names,
                                       std::size_t count,
                                       std::string_view parameter,
@@ -137,8 +137,8 @@ void read_channels(C3dFile& file, const C3dLayout& layout) {
   }
 }
 
-/// How far the points of a frame lie apart along an axis, in the file's unit: the median of some
-/// frames over the whole file. 0 where no frame has two points.
+/// Returns the usual distance between the points of a frame along an axis, in the file's unit: the
+/// median of frames spread over the whole file. 0 where no frame has two points.
 double usual_extent(const C3dFrames& frames, const C3dLayout& layout, ByteSource& source) {
   constexpr std::int64_t kFrames = 25;
   const std::int64_t count = std::min(kFrames, layout.frames);
@@ -167,8 +167,8 @@ double usual_extent(const C3dFrames& frames, const C3dLayout& layout, ByteSource
   return extents.empty() ? 0.0 : extents[extents.size() / 2];
 }
 
-/// The unit of length whose English word begins with this text of at least two letters, which is
-/// all that a short field holds of it ("millim", "mete"). Empty if there is none.
+/// Returns the unit of length whose English word begins with this text of at least two letters
+/// ("millim", "mete"), since a short field cuts the word. Empty if there is none.
 std::optional<std::string> length_unit_of_prefix(std::string_view text) {
   constexpr std::array<std::pair<std::string_view, const char*>, 6> kWords{{{"millimeters", "mm"},
                                                                             {"millimetres", "mm"},
@@ -184,8 +184,8 @@ std::optional<std::string> length_unit_of_prefix(std::string_view text) {
   return std::nullopt;
 }
 
-/// POINT:UNITS; a word that its field cuts short is completed. "m" may be all that is left of "mm":
-/// then the points of a frame seem to be farther apart than any laboratory is long.
+/// Reads POINT:UNITS and completes a word that its field cuts short. "m" may be a cut "mm": then
+/// the points of a frame seem farther apart than a laboratory is long.
 void read_point_unit(C3dFile& file,
                      const C3dFrames& frames,
                      const C3dLayout& layout,
@@ -251,7 +251,7 @@ void read_rates(C3dFile& file,
   }
 }
 
-/// The first 512 bytes. Throws ReadError if they are not those of a C3D file.
+/// Reads the first 512 bytes. Throws ReadError if they do not belong to a C3D file.
 std::vector<std::byte> read_head_block(ByteSource& source, const std::filesystem::path& path) {
   if (source.size() < kC3dBlock)
     throw ReadError(path, 0,
@@ -274,7 +274,8 @@ struct ParameterSection {
   C3dProcessor processor = C3dProcessor::intel;
 };
 
-/// The section at the block that the header names, else at block 2; empty if neither begins one.
+/// Finds the section at the block that the header names, else at block 2; empty if neither block
+/// begins one.
 std::optional<ParameterSection> find_parameters(std::size_t block,
                                                 ByteSource& source,
                                                 std::vector<Repair>& repairs) {
@@ -292,7 +293,7 @@ std::optional<ParameterSection> find_parameters(std::size_t block,
   return std::nullopt;
 }
 
-/// The processor of a file without a parameter section.
+/// Returns the processor of a file without a parameter section.
 C3dProcessor processor_of_header(std::span<const std::byte> head,
                                  std::size_t block,
                                  std::uint64_t file_size,
@@ -314,7 +315,7 @@ C3dProcessor processor_of_header(std::span<const std::byte> head,
   return *guess;
 }
 
-/// The groups of a section that ends at the data, at most 32 MiB behind its begin.
+/// Reads the groups of a section that ends at the data, at most 32 MiB after its beginning.
 std::vector<C3dGroup> read_groups(const ParameterSection& section,
                                   const C3dHeader& header,
                                   ByteSource& source,

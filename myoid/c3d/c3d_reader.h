@@ -11,9 +11,9 @@
 
 namespace myoid::recording {
 
-/// Everything of a C3D file but its samples, and where these are.
+/// A C3D file without its samples, and the place of these.
 struct C3dHead {
-  C3dFile file;  ///< Without `points` and `analog`.
+  C3dFile file;  ///< `points` and `analog` are empty.
   C3dLayout layout;
   bool is_unsigned = false;
 
@@ -25,16 +25,15 @@ struct C3dHead {
 
 /// Reads a .c3d file: Intel, DEC and SGI, integers and reals, parameters and data at any block,
 /// LABELS2 and so on, unsigned samples, more than 65535 frames (POINT:LONG_FRAMES,
-/// TRIAL:ACTUAL_START_FIELD). Header, parameters and size of the file must tell one story; where
-/// they do not, the one that the size confirms is taken. Mended with a note that names the
-/// parameter, byte or frame: counts, rates and scales that disagree, a damaged end of the parameter
-/// section, a missing one (Intel, DEC or SGI found from the header), labels that are missing or
-/// twice there, a last frame that is cut off. Data of a ROTATION group are left out, with a note.
-/// Throws ReadError if this is no C3D file, if the counts cannot be reconciled, if there is no rate
-/// or no whole frame. A frame of reals is copied as it is.
+/// TRIAL:ACTUAL_START_FIELD). Where header and parameters disagree, the size of the file decides.
+/// Repairs are noted with the parameter, byte or frame: counts, rates and scales that disagree, a
+/// damaged end of the parameter section, a missing section (the header then tells the processor),
+/// missing or repeated labels, a last frame that is cut off. Data of a ROTATION group are left out,
+/// with a note. A frame of reals is copied bit by bit. Throws ReadError if the file is no C3D file,
+/// if the counts cannot be reconciled, or if there is no rate or no whole frame.
 [[nodiscard]] C3dFile read_c3d(const std::filesystem::path& path);
 
-/// The same from memory; `path` stands in the messages.
+/// Reads a file from memory; `path` stands in the messages.
 [[nodiscard]] C3dFile parse_c3d(std::span<const std::byte> bytes,
                                 const std::filesystem::path& path);
 

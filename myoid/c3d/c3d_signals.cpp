@@ -16,9 +16,9 @@ namespace myoid::recording {
 namespace {
 
 constexpr Eigen::Index kBlockRows =
-    64;  ///< Rows turned into columns at a time, to stay in the cache.
+    64;  ///< Rows turned into columns at once, so that they stay in the cache.
 
-/// Where the name without its subject's prefix begins; 0 if it has none.
+/// Returns the index behind a subject's prefix in a name, 0 if there is none.
 std::size_t bare_begin(const std::string& name) {
   const std::size_t colon = name.rfind(':');
   return colon != std::string::npos && colon > 0 && colon + 1 < name.size() ? colon + 1 : 0;
@@ -64,7 +64,7 @@ C3dMarkerBuilder::C3dMarkerBuilder(const C3dFile& file, Eigen::Index frames)
   for (Eigen::Index k = 0; k < frames; ++k)
     markers_.time_s[k] = static_cast<double>(file.first_frame - 1 + k) / file.point_rate_hz;
 
-  // Names without the subject's prefix, if that keeps them apart.
+  // The subject's prefix is dropped if the names stay unique.
   std::set<std::string> bare;
   bool prefixed = false;
   for (const Eigen::Index c : columns_) {

@@ -12,23 +12,23 @@
 
 namespace myoid::recording {
 
-/// Indices of the points that are markers, in the order of the file: all but those that
-/// POINT:ANGLES, FORCES, MOMENTS, POWERS or SCALARS name, which are results of another program.
+/// Returns the indices of the points that are markers, in the order of the file. Points that
+/// POINT:ANGLES, FORCES, MOMENTS, POWERS or SCALARS name are results of another program.
 [[nodiscard]] std::vector<Eigen::Index> marker_columns(const C3dFile& file);
 
-/// Makes markers in meters of the points of a file, given some frames at a time. A point that is
-/// not measured, no number or exactly 0 0 0 is NaN. A subject's prefix ("name:") is removed if the
+/// Converts the points of a file to markers in meters, some frames at a time. A point that is not
+/// measured, no number or exactly 0 0 0 is NaN. A subject's prefix ("name:") is removed if the
 /// names stay unique.
 class C3dMarkerBuilder {
  public:
   /// Throws InvalidInput if there is no marker or frame, or if the unit is no length.
   C3dMarkerBuilder(const C3dFile& file, Eigen::Index frames);
 
-  /// Frames [first, first + count), each a row of four numbers for every point, as in
+  /// Adds the frames [first, first + count), each a row of four numbers for every point, as in
   /// `C3dFile::points`.
   void add(Eigen::Index first, Eigen::Index count, const float* rows);
 
-  /// What was done is added to `repairs`.
+  /// Returns the markers and adds notes to `repairs`.
   [[nodiscard]] MarkerSeries finish(std::vector<Repair>& repairs);
 
  private:
@@ -42,18 +42,19 @@ class C3dMarkerBuilder {
   Eigen::Index zero_frame_ = 0;
 };
 
-/// All markers of a file. Throws like `C3dMarkerBuilder`.
+/// Returns all markers of a file. Throws like `C3dMarkerBuilder`.
 [[nodiscard]] MarkerSeries c3d_markers(const C3dFile& file, std::vector<Repair>& repairs);
 
-/// What makes SI of each channel; one whose unit is unknown keeps its numbers and is dimensionless.
+/// The factors to SI of the channels; a channel of unknown unit keeps its numbers and is
+/// dimensionless.
 struct C3dChannelUnits {
   std::vector<Channel> channels;
   std::vector<CountScale> scales;
 };
 [[nodiscard]] C3dChannelUnits c3d_channel_units(const C3dFile& file);
 
-/// Analog channels in SI: those of `columns`, or all if it is empty. Throws InvalidInput if there
-/// are none.
+/// Returns the analog channels `columns` in SI, or all if `columns` is empty. Throws InvalidInput
+/// if there are none.
 [[nodiscard]] TimeSeries c3d_analog(const C3dFile& file,
                                     const std::vector<Eigen::Index>& columns = {});
 

@@ -26,7 +26,7 @@ std::int16_t whole(double value, bool is_unsigned, const std::string& what) {
   return static_cast<std::int16_t>(static_cast<std::uint16_t>(static_cast<int>(value)));
 }
 
-/// The data of one frame behind each other.
+/// Writes the data of a frame in sequence.
 class SampleWriter {
  public:
   SampleWriter(std::byte* at, const C3dFile& file, const C3dFormat& format, bool is_unsigned)
@@ -133,7 +133,8 @@ std::vector<std::byte> format_c3d(const C3dFile& file, const C3dFormat& format) 
   const double scale = static_cast<double>(file.point_scale) * (format.integer ? 1.0 : -1.0);
   const C3dBytes number{format.processor};
 
-  // Parameters: once to know their length, then with the block at which the data begin.
+  // The parameters are formatted twice: first for their length, then with the block at which the
+  // data begin.
   std::vector<C3dGroup> groups = c3d_description(file, scale);
   std::vector<std::byte> section = format_c3d_parameters(groups, number);
   const std::size_t data_block = 2 + section.size() / kC3dBlock;

@@ -12,7 +12,7 @@ namespace myoid::recording {
 
 namespace {
 
-/// The rate of an even clock. Throws InvalidInput for a clock that is not even.
+/// Returns the rate of an even clock. Throws InvalidInput for an uneven one.
 double rate_of(const Eigen::VectorXd& time_s, const char* what) {
   const Eigen::Index n = time_s.size();
   if (n < 2) throw InvalidInput(fmt::format("{}: a C3D file needs at least two samples", what));
@@ -24,14 +24,14 @@ double rate_of(const Eigen::VectorXd& time_s, const char* what) {
                       "them; resample first",
                       what, time_s[i - 1], time_s[i]));
   }
-  // Rates are whole or have few decimals; times were rounded when they were written.
+  // Rates are whole or have few decimals; the times are rounded.
   const double rate = 1.0 / dt;
   const double rounded = std::round(rate * 100.0) / 100.0;
   return std::abs(rate - rounded) < 1e-4 * rate ? rounded : rate;
 }
 
-/// Analog samples in a frame. Throws InvalidInput unless they are a whole number and both clocks
-/// begin together.
+/// Returns the analog samples per frame. Throws InvalidInput unless their number is whole and both
+/// clocks begin together.
 int samples_per_frame(const Eigen::VectorXd& analog_s,
                       const Eigen::VectorXd& frames_s,
                       double frame_rate_hz) {
@@ -53,7 +53,7 @@ int samples_per_frame(const Eigen::VectorXd& analog_s,
   return whole;
 }
 
-/// Four numbers a marker: x, y, z in millimeters and the residual, -1 in a gap.
+/// Adds four numbers a marker: x, y, z in millimeters and the residual, -1 in a gap.
 void add_points(const MarkerSeries& markers, Eigen::Index frames, C3dFile& file) {
   file.point_unit = "mm";
   file.point_labels = markers.names;
@@ -69,7 +69,7 @@ void add_points(const MarkerSeries& markers, Eigen::Index frames, C3dFile& file)
   }
 }
 
-/// Channels in SI; moments in N mm, as C3D files have them.
+/// Adds channels in SI, but moments in N mm, as in C3D files of laboratories.
 void add_channels(const TimeSeries& analog, Eigen::Index samples, C3dFile& file) {
   file.analog.resize(samples, analog.channel_count());
   for (Eigen::Index c = 0; c < analog.channel_count(); ++c) {

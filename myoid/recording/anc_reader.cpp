@@ -13,7 +13,7 @@
 namespace myoid::recording {
 namespace {
 
-/// The number behind a key somewhere in the header: "BitDepth:<tab>12".
+/// Returns the number behind a key anywhere in the header: "BitDepth:<tab>12".
 std::optional<double> header_number(const std::vector<std::string_view>& lines,
                                     std::size_t count,
                                     std::string_view key) {
@@ -26,7 +26,7 @@ std::optional<double> header_number(const std::vector<std::string_view>& lines,
   return std::nullopt;
 }
 
-/// Cells of a row without its first one and without empty ones at its end.
+/// Returns the cells of a row without the first one and without empty ones at its end.
 std::vector<std::string_view> values_of(std::string_view line) {
   auto cells = split(line, '\t');
   while (!cells.empty() && trim(cells.back()).empty()) cells.pop_back();
@@ -34,7 +34,7 @@ std::vector<std::string_view> values_of(std::string_view line) {
   return cells;
 }
 
-/// Below Name, Rate and Range: the time and a count for each channel.
+/// Returns the layout of the rows below Name, Rate and Range: a time and one count a channel.
 TableLayout anc_layout(const TableText& table,
                        std::size_t names_line,
                        const std::vector<Channel>& channels) {
@@ -49,7 +49,7 @@ TableLayout anc_layout(const TableText& table,
   return layout;
 }
 
-/// The index of the row of names, with the rows Rate and Range below it.
+/// Returns the index of the row of names, above the rows Rate and Range.
 std::size_t find_names(const std::vector<std::string_view>& lines,
                        const std::filesystem::path& path) {
   const auto begins_with = [&](std::size_t n, std::string_view word) {
@@ -86,7 +86,8 @@ std::vector<Channel> read_channels(const std::vector<std::string_view>& lines,
   return channels;
 }
 
-/// Volts per count of each channel: 2 range / (2^bits - 1), the range in mV on either side of 0.
+/// Returns the volts per count of each channel: 2 range / (2^bits - 1), with the range in mV to
+/// either side of 0.
 std::vector<double> volts_per_count(const std::vector<std::string_view>& lines,
                                     std::size_t names_at,
                                     double bits,
@@ -105,7 +106,7 @@ std::vector<double> volts_per_count(const std::vector<std::string_view>& lines,
   return to_volt;
 }
 
-/// Says where the header's rate or length is not the one of the rows.
+/// Notes where the header's rate or length differs from that of the rows.
 void compare_clock(const std::vector<std::string_view>& lines,
                    std::size_t names_at,
                    const Eigen::VectorXd& time_s,

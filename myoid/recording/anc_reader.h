@@ -10,16 +10,17 @@
 namespace myoid::recording {
 
 struct AncFile {
-  TimeSeries data;  ///< Volts at the board's input: amplification before it is not in the file.
+  TimeSeries data;  ///< Volts at the board's input; the file does not state earlier amplification.
   std::vector<Repair> repairs;
 };
 
-/// Reads an .anc file (analog channels as text). A count c of a board of b bits, range ±R mV, is
+/// Reads an .anc file (analog channels as text). A count c of a board of b bits and range ±R mV
+/// means
 ///
-///   V = c · 2 R / (2^b − 1) / 1000
+///   V = c · 2 R / (2^b − 1) / 1000,
 ///
-/// as the maker's own C3D files scale it. Mended with a note: counts of channels that disagree,
-/// names that stand twice, a last row that is cut off, rates that differ from the times. Throws
+/// the scale that the maker's own C3D files have. Repairs with a note: counts of channels that
+/// disagree, repeated names, a last row that is cut off, rates that differ from the times. Throws
 /// ReadError with the line where a cell is no number, time goes backwards, or the header has no
 /// names, ranges or bits.
 [[nodiscard]] AncFile read_anc(const std::filesystem::path& path);

@@ -16,7 +16,7 @@
 namespace myoid::recording {
 namespace {
 
-/// "sub-01_task-elbow_emg.edf" without its last part.
+/// Returns "sub-01_task-elbow" for "sub-01_task-elbow_emg.edf".
 std::string stem_without_suffix(const std::filesystem::path& data) {
   const std::string stem = data.stem().string();
   const std::size_t bar = stem.rfind('_');
@@ -62,7 +62,7 @@ std::vector<BidsChannel> read_channels(const std::filesystem::path& path) {
   return channels;
 }
 
-/// The rows of a `_motion.tsv`: no header, a column for each channel.
+/// Reads the rows of a `_motion.tsv`: no header, one column a channel.
 TableNumbers motion_rows(const std::filesystem::path& path,
                          const std::vector<BidsChannel>& channels) {
   const std::string text = read_text_file(path);
@@ -78,7 +78,7 @@ TableNumbers motion_rows(const std::filesystem::path& path,
   return read_rows(table, rows, path);
 }
 
-/// SamplingFrequency of a sidecar.
+/// Returns SamplingFrequency of a sidecar.
 double rate_of(const std::filesystem::path& path) {
   const auto json = nlohmann::json::parse(read_text_file(path), nullptr, false);
   if (!json.is_object()) throw ReadError(path, 0, "this is no JSON object");
@@ -90,7 +90,7 @@ double rate_of(const std::filesystem::path& path) {
   return rate;
 }
 
-/// SI units per number of a channel. Throws ReadError unless its unit is one of `expected`.
+/// Returns the channel's factor to SI. Throws ReadError unless its unit is one of `expected`.
 double to_si(const BidsChannel& channel, Unit expected, const std::filesystem::path& path) {
   const auto unit = parse_file_unit(channel.unit);
   if (!unit || unit->unit != expected)
@@ -137,8 +137,8 @@ MotionColumns motion_columns(const std::vector<BidsChannel>& channels) {
   return columns;
 }
 
-/// The points that have x, y and z, in meters; a point that lacks one of them in a frame is a gap
-/// there.
+/// Returns the points that have x, y and z, in meters; a frame without one of them is a gap of the
+/// point.
 MarkerSeries markers_of(const std::vector<Point>& points,
                         const std::vector<BidsChannel>& channels,
                         const Eigen::VectorXd& time_s,
@@ -196,7 +196,7 @@ TimeSeries angles_of(const std::vector<std::size_t>& columns,
 std::optional<std::vector<BidsChannel>> bids_channels_of(const std::filesystem::path& data) {
   const std::string stem = stem_without_suffix(data);
   const auto path = data.parent_path() / (stem + "_channels.tsv");
-  std::error_code ignored;  // a name that no file can have is none that exists
+  std::error_code ignored;  // a name that no file can have does not exist
   if (stem.empty() || !std::filesystem::exists(path, ignored)) return std::nullopt;
   return read_channels(path);
 }

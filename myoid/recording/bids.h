@@ -14,29 +14,29 @@ namespace myoid::recording {
 /// A row of a BIDS `_channels.tsv`; "n/a" is read as empty.
 struct BidsChannel {
   std::string name, type, unit;
-  std::string component, tracked_point;  ///< Motion-BIDS: x, y, z of what.
-  std::string target_muscle;             ///< EMG-BIDS.
-  bool bad = false;                      ///< status
+  std::string component,
+      tracked_point;          ///< Motion-BIDS: axis (x, y, z) and the point it belongs to.
+  std::string target_muscle;  ///< EMG-BIDS.
+  bool bad = false;           ///< Column "status".
 };
 
-/// The `_channels.tsv` that belongs to a data file: same name up to the suffix, in its folder. EMG
-/// data without one give nothing; motion data need theirs. Throws ReadError with the line where
-/// name, type or units are missing.
+/// Reads the `_channels.tsv` of a data file, which has the same folder and the same name up to the
+/// suffix. Returns nothing for EMG data without such a file; motion data need one. Throws ReadError
+/// with the line where name, type or units are missing.
 [[nodiscard]] std::optional<std::vector<BidsChannel>> bids_channels_of(
     const std::filesystem::path& data);
 
-/// A `_motion.tsv`: no header row, a column for each row of its channels, rate from the
-/// `_motion.json`.
+/// A `_motion.tsv`: no header row, one column for each row of its `_channels.tsv`, the rate from
+/// the `_motion.json`.
 struct BidsMotion {
-  MarkerSeries
-      markers;        ///< Of the POS channels, in meters; a point without x, y and z is left out.
-  TimeSeries angles;  ///< Of the JNTANG channels, in radians.
+  MarkerSeries markers;  ///< POS channels in meters; a point without x, y and z is left out.
+  TimeSeries angles;     ///< JNTANG channels in radians.
   std::vector<Repair> repairs;
 };
 
-/// Reads a Motion-BIDS recording. "n/a" and NaN are gaps. Throws ReadError where the columns are
-/// not as many as the channels, a cell is no number, a unit is no length or angle, or the rate is
-/// missing.
+/// Reads a Motion-BIDS recording. "n/a" and NaN are gaps. Throws ReadError where the numbers of
+/// columns and channels differ, a cell is no number, a unit is neither length nor angle, or the
+/// rate is missing.
 [[nodiscard]] BidsMotion read_bids_motion(const std::filesystem::path& path);
 
 }  // namespace myoid::recording

@@ -14,7 +14,8 @@
 namespace myoid::recording {
 namespace {
 
-/// What is not wanted stays empty. `head` keeps what the file says but its notes and events.
+/// Reads the selected parts; the others stay empty. `head` keeps the file's statements without
+/// notes and events.
 Recording read(const std::filesystem::path& path,
                bool with_markers,
                bool with_analog,
@@ -30,7 +31,7 @@ Recording read(const std::filesystem::path& path,
   std::optional<C3dMarkerBuilder> markers;
   AnalogCounts counts;
   try {
-    // Who wants the channels alone is not told what is odd about the plates.
+    // Notes about the plates do not concern a caller who reads only the channels.
     std::vector<Repair> unsaid;
     if (with_analog)
       recording.plates = plate_setups(head.file, with_markers ? recording.repairs : unsaid);

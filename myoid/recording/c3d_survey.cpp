@@ -12,7 +12,7 @@
 namespace myoid::recording {
 namespace {
 
-/// The largest force in rows of counts as stored.
+/// Returns the largest force in rows of counts as stored.
 double largest_force_n(const PlateSetup& plate,
                        const C3dFile& file,
                        const C3dFile::Rows& counts,
@@ -64,7 +64,7 @@ C3dSurvey survey_c3d(const std::filesystem::path& path) {
       for (Eigen::Index r = k * ratio; r < (k + 1) * ratio; ++r) {
         const float* const row = counts.row(r).data();
         for (Eigen::Index c = 0; c < channels; ++c) {
-          low[c] = std::min(low[c], row[c]);  // a NaN changes neither
+          low[c] = std::min(low[c], row[c]);  // a NaN leaves both unchanged
           high[c] = std::max(high[c], row[c]);
         }
       }

@@ -10,19 +10,19 @@
 
 namespace myoid::recording {
 
-/// What a C3D file says and holds, without its samples.
+/// The statements of a C3D file and the ranges of its samples.
 struct C3dSurvey {
   C3dFile file;  ///< `points` and `analog` are empty.
   Eigen::Index frames = 0;
-  std::vector<Eigen::Index> missing_frames;  ///< Of each point.
-  Eigen::VectorXd lowest, highest;           ///< Of each channel, in the unit as written.
+  std::vector<Eigen::Index> missing_frames;  ///< For each point.
+  Eigen::VectorXd lowest, highest;           ///< For each channel, in the unit as written.
   std::vector<PlateSetup> plates;
-  std::vector<double> largest_force_n;  ///< Of each plate.
-  std::vector<Repair> repairs;          ///< Those of the file and of its plates.
+  std::vector<double> largest_force_n;  ///< For each plate.
+  std::vector<Repair> repairs;          ///< Notes on the file and on its plates.
 };
 
-/// Looks through all samples, some frames at a time: needs hardly any memory, and the time of
-/// reading the file once. Throws like `read_c3d`.
+/// Looks through all samples, some frames at a time, with little memory and in one pass over the
+/// file. Throws like `read_c3d`.
 [[nodiscard]] C3dSurvey survey_c3d(const std::filesystem::path& path);
 
 }  // namespace myoid::recording

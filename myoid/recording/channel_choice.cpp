@@ -18,7 +18,7 @@ namespace {
 
 struct Found {
   std::size_t clock = 0;
-  std::string name;  ///< As the file has it.
+  std::string name;  ///< As written in the file.
 };
 
 std::vector<std::string> names_of(const AnalogChannels& channels) {

@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::string_view kInDegrees = "inDegrees=yes";
 
-/// True if a remark above a table says so; the table itself is not read.
+/// True if a remark above a table says that angles are in degrees; the table itself is not read.
 bool remarks_degrees(const std::filesystem::path& file) {
   std::ifstream stream(file);
   for (std::string line; std::getline(stream, line);) {
@@ -86,7 +86,7 @@ void write_channels(const std::filesystem::path& out,
         format.comments.push_back(fmt::format("channel {} [{}]", named[c].name, said.units[c]));
     }
   }
-  // Column labels are separated by tabs: none inside a name.
+  // Tabs separate column labels: none may be inside a name.
   for (Channel& c : named) {
     std::replace(c.name.begin(), c.name.end(), '\t', ' ');
     c.unit = Unit::dimensionless;

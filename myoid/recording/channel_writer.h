@@ -10,28 +10,27 @@
 
 namespace myoid::recording {
 
-/// What a file says of its numbers beside the names of their columns.
+/// The statements of a file about its numbers beside the names of their columns.
 struct ChannelStatement {
-  std::string title;  ///< Of a storage file.
+  std::string title;  ///< Title of a storage file.
   bool in_degrees =
-      false;  ///< Its angles are in degrees; which columns are angles it does not say.
-  std::vector<std::string> units;  ///< As written, a column each; empty where it is not known.
+      false;  ///< Angles are in degrees; the file does not say which columns are angles.
+  std::vector<std::string> units;  ///< As written, one for each column; empty if unknown.
 };
 
-/// Of a storage file, whose numbers stay as they are: units from lines "channel NAME [unit]" or,
-/// for all columns, a voltage (stated_voltage).
+/// Returns the statements of a storage file, whose numbers stay unchanged: units from lines
+/// "channel NAME [unit]" or, for all columns, a voltage (stated_voltage).
 [[nodiscard]] ChannelStatement statement_of(const Storage& file);
 
-/// Of channels that were read from a file in SI. A table may have the remark of write_channels on
-/// degrees.
+/// Returns the statements about channels that were read from a file in SI. A table may have
+/// write_channels' remark on degrees.
 [[nodiscard]] ChannelStatement statement_of(const std::vector<Channel>& channels,
                                             const std::filesystem::path& file);
 
-/// Writes channels with what was said of them, so that reading brings back the same: a .csv with
-/// units in its header cells and, if so, the remark "# inDegrees=yes", or a storage file with its
-/// title, inDegrees and units: "unit=uV" where all columns have one voltage, else "channel NAME
-/// [unit]". It says that the units are S.I. only where all of them are. The numbers are written as
-/// they are.
+/// Writes channels with their statements, so that reading gives the same again. A .csv has units in
+/// its header cells and, for degrees, the remark "# inDegrees=yes". A storage file has its title,
+/// inDegrees and units: "unit=uV" where all columns have one voltage, else "channel NAME [unit]";
+/// its header states S.I. units only where all are. The numbers are written unchanged.
 void write_channels(const std::filesystem::path& out, RowSource rows, const ChannelStatement& said);
 
 }  // namespace myoid::recording

@@ -26,13 +26,13 @@ struct Signal {
   std::string label, dimension;
   double physical_min = 0.0, physical_max = 0.0, digital_min = 0.0, digital_max = 0.0;
   std::size_t per_record = 0;
-  std::size_t offset = 0;  ///< Of its samples in a record [bytes].
+  std::size_t offset = 0;  ///< Place of its samples in a record [bytes].
   bool annotations = false;
 };
 
 struct Header {
   bool bdf = false;
-  bool gaps = false;  ///< EDF+D: each record says its own time.
+  bool gaps = false;  ///< EDF+D: each record states its own time.
   bool plus = false;
   std::size_t bytes = 0;
   std::int64_t records = -1;
@@ -48,7 +48,7 @@ std::string field(std::span<const std::byte> bytes, std::size_t at, std::size_t 
   return to_utf8(text.substr(0, text.find('\0')));
 }
 
-/// A number of the header; a decimal comma is noted.
+/// Reads a number of the header and notes a decimal comma.
 std::optional<double> number(const std::string& text, std::vector<Repair>& repairs) {
   if (const auto value = parse_number(text)) return value;
   const auto value = parse_comma_number(text);
@@ -57,7 +57,7 @@ std::optional<double> number(const std::string& text, std::vector<Repair>& repai
   return value;
 }
 
-/// A number in the header at this byte. Throws ReadError if the field holds none.
+/// Reads the number in the header at this byte. Throws ReadError if the field holds none.
 double required_number(std::span<const std::byte> head,
                        std::size_t at,
                        std::size_t length,
@@ -72,7 +72,7 @@ double required_number(std::span<const std::byte> head,
   return *value;
 }
 
-/// The fields of one signal. All signals have a field one after the other before the next field
+/// Reads the fields of one signal. The header lists a field for all signals before the next field
 /// begins.
 Signal read_signal(std::span<const std::byte> head,
                    std::size_t signals,
@@ -165,8 +165,8 @@ std::int32_t sample(const std::byte* p, bool bdf) {
   return static_cast<std::int16_t>(static_cast<std::uint16_t>((byte(1) << 8U) | byte(0)));
 }
 
-/// Time-stamped annotation lists: "+onset[\x15duration]\x14text\x14...\x14\0". The first list of a
-/// record without a text is the record's own time.
+/// Reads time-stamped annotation lists: "+onset[\x15duration]\x14text\x14...\x14\0". The first list
+/// of a record has no text and states the record's own time.
 std::optional<double> read_annotations(std::string_view bytes, std::vector<Event>& events) {
   std::optional<double> record_time;
   bool first = true;
@@ -193,7 +193,7 @@ std::optional<double> read_annotations(std::string_view bytes, std::vector<Event
   return record_time;
 }
 
-/// The signals to take: those of one rate.
+/// Returns the signals of one rate.
 std::vector<std::size_t> choose(const Header& header, std::vector<Repair>& repairs) {
   std::map<std::size_t, std::vector<std::size_t>> by_rate;
   std::size_t best = 0;
@@ -230,7 +230,7 @@ std::vector<std::size_t> choose(const Header& header, std::vector<Repair>& repai
   return by_rate[best];
 }
 
-/// 16 bits stay 16 bits; a real holds 24 bits.
+/// Returns storage for the samples: 16-bit samples stay 16 bits; a 32-bit real holds 24 bits.
 decltype(AnalogCounts::values) room_for(const Header& header,
                                         Eigen::Index rows,
                                         std::size_t signals) {
@@ -239,7 +239,7 @@ decltype(AnalogCounts::values) room_for(const Header& header,
   return AnalogCounts::Columns<std::int16_t>(rows, columns);
 }
 
-/// The samples that a record holds of the chosen signals, from row `first` on.
+/// Copies the samples of the chosen signals in a record, from row `first` on.
 void take_samples(const Header& header,
                   const std::vector<std::size_t>& chosen,
                   std::span<const std::byte> record,
@@ -259,8 +259,8 @@ void take_samples(const Header& header,
       counts.values);
 }
 
-/// The number of records to read: those that the file holds whole, at most as many as the header
-/// says.
+/// Returns the number of records to read: the complete ones in the file, at most as many as the
+/// header states.
 std::int64_t record_count(const Header& header,
                           std::uint64_t file_bytes,
                           const std::filesystem::path& path,
@@ -311,14 +311,14 @@ Scaled scaled_channels(const Header& header,
   return scaled;
 }
 
-/// The begin of each record, from the header's length of a record or, in a recording with gaps,
+/// The begin of each record: from the header's length of a record or, in a recording with gaps,
 /// from the time stamps in the annotations.
 class RecordTimes {
  public:
   RecordTimes(const Header& header, double interval_s, const std::filesystem::path& path)
       : header_(header), interval_s_(interval_s), path_(path) {}
 
-  /// The begin of record `r` (counted from 0), whose time stamp is `onset`.
+  /// Returns the begin of record `r` (counted from 0), whose time stamp is `onset`.
   double begin_s(std::int64_t r, const std::optional<double>& onset, std::vector<Repair>& repairs) {
     const double counted = static_cast<double>(r) * header_.record_s;
     if (onset && std::isnan(zero_s_)) zero_s_ = header_.gaps ? *onset : *onset - counted;
@@ -334,7 +334,7 @@ class RecordTimes {
     return counted;
   }
 
-  /// The first sample on the clock of the stamps.
+  /// Returns the time of the first sample on the clock of the stamps.
   [[nodiscard]] double zero_s() const { return std::isnan(zero_s_) ? 0.0 : zero_s_; }
 
  private:
@@ -359,7 +359,7 @@ class RecordTimes {
   double interval_s_;
   const std::filesystem::path& path_;
   double zero_s_ = std::numeric_limits<double>::quiet_NaN();  ///< NaN before the first stamp.
-  double end_s_ = std::numeric_limits<double>::quiet_NaN();   ///< Of the record before.
+  double end_s_ = std::numeric_limits<double>::quiet_NaN();   ///< End of the previous record.
   bool stamps_agree_ = true;
 };
 

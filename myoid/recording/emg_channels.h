@@ -9,8 +9,8 @@
 
 namespace myoid::recording {
 
-/// The channels that may be EMG: in volts, none of a force plate's (`plates`, with the columns that
-/// FORCE_PLATFORM:CHANNEL names), and not called like another instrument's.
+/// Returns the channels that may be EMG: in volts, not in a column that FORCE_PLATFORM:CHANNEL
+/// names (`plates`), and not named like another instrument's.
 [[nodiscard]] std::vector<std::string> emg_channels(const std::vector<Channel>& channels,
                                                     const std::vector<PlateSetup>& plates);
 

@@ -28,7 +28,7 @@
 namespace myoid::recording {
 namespace {
 
-/// A voltage word in free text: "microvolt", "uV", "[mV]".
+/// Reads a word for a voltage in free text: "microvolt", "uV", "[mV]".
 std::optional<double> voltage_in(std::string_view text) {
   std::string word;
   for (std::size_t i = 0; i <= text.size(); ++i) {
@@ -53,7 +53,7 @@ TimeSeries with_unit(const TimeSeries& series, Unit unit, double factor) {
   return {series.time_s(), std::move(channels), factor * series.values()};
 }
 
-/// Says which columns are left out because their unit is another than volt.
+/// Notes the columns that are left out because their unit is another than volt.
 void state_other_units(const std::map<std::string, std::vector<std::string>>& by_unit,
                        std::vector<Repair>& repairs) {
   for (const auto& [unit, names] : by_unit)
@@ -61,8 +61,8 @@ void state_other_units(const std::map<std::string, std::vector<std::string>>& by
         {0, fmt::format("no EMG since in {}, left out: {}", unit, fmt::join(names, ", "))});
 }
 
-/// Columns in volts as they are, those without a unit times `to_volt`; those in another unit are no
-/// EMG and left out. Empty if a factor is needed and there is none.
+/// Returns columns in volts unchanged and columns without a unit times `to_volt`; columns in
+/// another unit are no EMG and are left out. Empty if a factor is needed and there is none.
 std::optional<TimeSeries> volts_of(const CsvSeries& series,
                                    std::optional<double> to_volt,
                                    std::vector<Repair>& repairs) {
@@ -100,7 +100,7 @@ std::optional<TimeSeries> volts_of(const CsvSeries& series,
   return TimeSeries(chosen.time_s(), chosen.channels(), std::move(values));
 }
 
-/// Columns in SI where a line of the header names their unit.
+/// Converts columns to SI where a line of the header names their unit.
 CsvSeries with_named_units(Storage storage) {
   CsvSeries series;
   std::vector<Channel> channels = storage.data.channels();
@@ -126,8 +126,8 @@ CsvSeries channels_of_table(const std::filesystem::path& path) {
   return parse_emg_table(text, path);
 }
 
-/// The analog channels of a C3D file; with `voltages_only` without those in another unit than volt
-/// and those of force plates.
+/// Reads the analog channels of a C3D file; with `voltages_only`, leaves out force plates and
+/// channels in another unit than volt.
 CsvSeries channels_of_c3d(const std::filesystem::path& path, bool voltages_only) {
   std::vector<bool> has_unit;
   Recording file = read_c3d_channels(path, has_unit);
@@ -162,8 +162,8 @@ CsvSeries channels_of_c3d(const std::filesystem::path& path, bool voltages_only)
   return series;
 }
 
-/// The channels of a format that can name their units; empty for storage files, which cannot, and
-/// for formats without channels.
+/// Reads the channels of a format that can name their units; empty for storage files, which cannot,
+/// and for formats without channels.
 std::optional<CsvSeries> read_channels(const std::filesystem::path& path, bool voltages_only) {
   const auto format = format_of(path);
   if (!format) return std::nullopt;
@@ -197,8 +197,8 @@ std::optional<CsvSeries> read_channels(const std::filesystem::path& path, bool v
   return std::nullopt;
 }
 
-/// EMG-BIDS: only the EMG channels that are not bad, with the unit of the table where the file has
-/// none, and the muscle each is for.
+/// EMG-BIDS: keeps the EMG channels that are not bad, takes their unit from `_channels.tsv` where
+/// the file has none, and the muscle of each.
 void apply_bids(const std::filesystem::path& path, CsvSeries& series, EmgFile& file) {
   const auto channels = bids_channels_of(path);
   if (!channels) return;
@@ -247,7 +247,7 @@ void apply_bids(const std::filesystem::path& path, CsvSeries& series, EmgFile& f
   series.has_unit = std::move(has_unit);
 }
 
-/// The channels asked for, with what is known of their units.
+/// Keeps the channels asked for and whether their units are known.
 void restrict_to(const std::vector<std::string>& wanted,
                  const std::filesystem::path& path,
                  CsvSeries& series) {
@@ -270,7 +270,7 @@ void restrict_to(const std::vector<std::string>& wanted,
   series.has_unit = std::move(has_unit);
 }
 
-/// Names the channels that may be EMG and have another clock than the first one's.
+/// Notes the channels that may be EMG and are not on the first clock.
 void state_other_clocks(CsvSeries& series) {
   std::vector<std::string> names;
   for (const ClockedChannels& clock : series.other_clocks) {

@@ -14,24 +14,24 @@ namespace myoid::recording {
 
 struct EmgFile {
   TimeSeries data;  ///< Volts, or dimensionless if `dimensionless` was asked for.
-  std::map<std::string, std::string> target_muscle;  ///< By channel; of EMG-BIDS.
+  std::map<std::string, std::string> target_muscle;  ///< By channel; from EMG-BIDS.
   std::vector<Repair> repairs;
-  std::string unit_conflict;  ///< Empty, or that the `unit` given is not the one the file states.
+  std::string unit_conflict;  ///< Empty, or a note that the given `unit` differs from the file's.
 };
 
-/// Volts per number of a storage file, if a word of its title or a header key `unit` says it
-/// ("microvolt": 1e-6).
+/// Returns the volts per number of a storage file if a word of its title or a header key `unit`
+/// states them ("microvolt": 1e-6).
 [[nodiscard]] std::optional<double> stated_voltage(const Storage& storage);
-/// "uV" for 1e-6.
+/// Returns "uV" for 1e-6.
 [[nodiscard]] std::string voltage_name(double to_volt);
 
-/// EMG from .c3d, .edf, .bdf, .anc, .sto, .mot or a table (.csv, .tsv, .txt; see `read_emg_table`).
-/// Raw EMG must have a unit: that of its channel ("name [mV]") or of the file (`stated_voltage`),
-/// else `unit` if given ("uV"); where there is none, ReadError says how to give it. Channels in
-/// newtons or the like, those of force plates (FORCE_PLATFORM:CHANNEL) and those called like
-/// another instrument's (`named_as_no_emg`) are left out, with a note. With `dimensionless`
-/// (envelopes, activations) no unit is looked for. With `wanted`, only those channels are looked
-/// at, as `choose_channels` finds them: the others need no unit.
+/// Reads EMG from .c3d, .edf, .bdf, .anc, .sto, .mot or a table (.csv, .tsv, .txt; see
+/// `read_emg_table`). Raw EMG must have a unit: of its channel ("name [mV]"), of the file
+/// (`stated_voltage`), or else `unit` ("uV"). Without one, ReadError says how to give it. Left out
+/// with a note are channels in newtons or the like, channels of force plates
+/// (FORCE_PLATFORM:CHANNEL) and channels named like another instrument's (`named_as_no_emg`). With
+/// `dimensionless` (envelopes, activations) no unit is needed. With `wanted`, only the channels
+/// that `choose_channels` finds are read: the others need no unit.
 [[nodiscard]] EmgFile read_emg(const std::filesystem::path& path,
                                const std::string& unit,
                                bool dimensionless,

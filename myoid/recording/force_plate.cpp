@@ -58,7 +58,7 @@ class PlateParameters {
     return matrix;
   }
 
-  /// The channels of a plate as numbers from 1; 0 where the file names none.
+  /// Returns the channels of a plate as numbers from 1; 0 where the file names none.
   [[nodiscard]] std::vector<double> channels(std::size_t count) const {
     const C3dParameter* channel = file_.find("FORCE_PLATFORM", "CHANNEL");
     const std::size_t stride =
@@ -82,7 +82,7 @@ bool is_quadrangle(const Eigen::Matrix<double, 3, 4>& corners_m) {
          b.norm() > 0.01;
 }
 
-/// The origin of a plate; of type 3 the distances a, b in its first two numbers.
+/// Returns the origin of a plate; type 3 has the distances a, b in its first two numbers.
 Vec3 plate_origin_m(const PlateParameters& parameters,
                     const PlateSetup& d,
                     std::vector<Repair>& repairs) {
@@ -103,7 +103,7 @@ Vec3 plate_origin_m(const PlateParameters& parameters,
   return origin_m;
 }
 
-/// The plate as its parameters describe it; empty, with a note, if one is missing or impossible.
+/// Reads the plate's parameters; empty, with a note, if one is missing or impossible.
 std::optional<PlateSetup> describe(const C3dFile& file,
                                    std::size_t plate,
                                    double to_m,
@@ -138,13 +138,13 @@ std::optional<PlateSetup> describe(const C3dFile& file,
   return d;
 }
 
-/// The factor of each channel to SI; a force in volts or of unknown unit keeps its number.
+/// Finds each channel's factor to SI; a force in volts or of unknown unit keeps its number.
 void find_factors(const C3dFile& file, PlateSetup& d, std::vector<Repair>& repairs) {
   std::vector<std::string> assumed;
   for (std::size_t c = 0; c < d.channels.size(); ++c) {
     const C3dChannel& channel = file.channels[static_cast<std::size_t>(d.channels[c])];
     d.factors.push_back(1.0);
-    if (d.type == 4) continue;  // a calibration matrix takes the numbers as they are
+    if (d.type == 4) continue;  // a calibration matrix applies to the numbers as they are
     const bool length = d.type == 1 && (c == 3 || c == 4);
     const bool moment = (d.type == 2 && c >= 3) || (d.type == 1 && c == 5);
     const Unit expected = length ? Unit::meter : moment ? Unit::newton_meter : Unit::newton;
@@ -163,7 +163,7 @@ void find_factors(const C3dFile& file, PlateSetup& d, std::vector<Repair>& repai
                                       d.number, assumed.size(), assumed[0])});
 }
 
-/// Force and moment about the middle of the surface, in the plate's frame.
+/// Returns force and moment about the middle of the surface, in the plate's frame.
 Wrench surface_wrench(const PlateSetup& d, const Eigen::MatrixXd& v) {
   Wrench w(v.rows(), 6);
   if (d.type == 1) {

@@ -10,13 +10,15 @@
 
 namespace myoid::recording {
 
-/// How a plate faces the person, as `stand_plates` finds it. Before that: as the C3D guide has it,
-/// z of the plate pointing away from the person, and the force being that on the person.
+/// The side of a plate on which the person is. The defaults are the C3D guide's: z of the plate
+/// points away from the person, and the channels hold the force on the person. `stand_plates` sets
+/// the true values.
 struct PlateSide {
   Vec3 out_L = Vec3::UnitZ();  ///< Normal of the surface towards the person.
-  bool is_floor = true;        ///< Within 60 degrees of horizontal; else a wall or a handle.
-  double turn = 1.0;           ///< -1 where the channels hold the force on the plate; 0 where they
-                               ///< never change, so that nothing is taken from the plate.
+  bool is_floor =
+      true;  ///< The plate is within 60 degrees of horizontal; otherwise a wall or a handle.
+  double turn = 1.0;  ///< 1: the channels hold the force on the person; -1: the force on the plate;
+                      ///< 0: they never change, and the plate is not used.
 };
 
 /// One force plate over time, in the laboratory's frame, at the rate of the analog channels. Force
@@ -25,7 +27,7 @@ struct PlateSide {
 /// The plate's own frame P has its origin in the middle of the surface (mean of the corners), x
 /// from corner 2 to 1, z = x × (corner 1 − corner 4), which points down in most laboratories.
 struct ForcePlate {
-  int number = 0;  ///< Counts from 1, as in the file.
+  int number = 0;  ///< Counted from 1, as in the file.
   int type = 0;
   PlateSide side;
   Eigen::Matrix<double, 3, 4> corners_m;
@@ -34,14 +36,15 @@ struct ForcePlate {
   std::vector<Eigen::Index> channels;
   Eigen::VectorXd time_s;
   Eigen::MatrixXd force_n;    ///< Samples x 3.
-  Eigen::MatrixXd moment_nm;  ///< About the middle of the surface.
-  /// Where the force cuts the surface: x = −M_y/F_z, y = M_x/F_z in P. NaN where |F_z| is below the
-  /// threshold.
+  Eigen::MatrixXd moment_nm;  ///< Moment about the middle of the surface.
+  /// Point where the line of force cuts the surface: x = −M_y/F_z, y = M_x/F_z in P. NaN where
+  /// |F_z| is below the threshold.
   Eigen::MatrixXd pressure_center_m;
-  Eigen::MatrixXd free_moment_nm;  ///< About the normal through that point; 0 where there is none.
+  Eigen::MatrixXd free_moment_nm;  ///< Moment about the normal through that point; 0 without a
+                                   ///< center of pressure.
 };
 
-/// What FORCE_PLATFORM says about one plate: how its channels become a force.
+/// The parameters in FORCE_PLATFORM that turn a plate's channels into a force.
 struct PlateSetup {
   int number = 0;
   int type = 0;
@@ -51,49 +54,51 @@ struct PlateSetup {
   Vec3 p_GP_m = Vec3::Zero();
   Vec3 origin_m = Vec3::Zero();
   std::vector<Eigen::Index> channels;
-  std::vector<double> factors;  ///< Of each channel, from the unit as written to SI.
+  std::vector<double> factors;  ///< For each channel: the factor from the unit as written to SI.
   Eigen::Matrix<double, 6, 6> calibration = Eigen::Matrix<double, 6, 6>::Identity();
-  double to_m = 1.0;  ///< POINT:UNITS.
+  double to_m = 1.0;  ///< Factor of POINT:UNITS to meters.
 };
 
-inline constexpr double kLeastForce_n = 10.0;  ///< Below it there is no center of pressure.
+inline constexpr double kLeastForce_n =
+    10.0;  ///< Smaller normal forces give no center of pressure.
 
-/// The plates of types 1 to 4 that FORCE_PLATFORM describes:
+/// Reads the plates of types 1 to 4 that FORCE_PLATFORM describes:
 ///
 /// - 1: F_x F_y F_z, p_x p_y, T_z: center of pressure and free moment as measured.
 /// - 2: F_x F_y F_z M_x M_y M_z about the transducer; M_surface = M − o × F with ORIGIN o.
 /// - 3: F_x12 F_x34 F_y14 F_y23 F_z1..F_z4: eight sensors; ORIGIN = a, b, a_z0.
 /// - 4: as 2 after F = CAL_MATRIX V.
 ///
-/// Other types and plates whose corners or channels make no sense are left out with a note; a and b
-/// below 0 are taken as positive with a note. Forces in volts or without a unit are taken as N and
+/// Other types and plates with impossible corners or channels are left out with a note; a and b
+/// below 0 are taken as positive with a note. Forces in volts or without a unit are taken as N, and
 /// moments as N times POINT:UNITS, with a note. Source: the C3D user guide, force plate types.
 [[nodiscard]] std::vector<PlateSetup> plate_setups(const C3dFile& file,
                                                    std::vector<Repair>& repairs);
 
-/// Turns an ORIGIN round, with a note, that does not point from the transducer to the person's side
-/// of the surface.
+/// Inverts an ORIGIN that does not point from the transducer to the person's side of the surface,
+/// with a note.
 void turn_origin(PlateSetup& setup, std::vector<Repair>& repairs);
 
-/// The force [N] of each row of channels in the unit as written, in the laboratory, with the sign
-/// of the channels.
+/// Returns the force [N] in the laboratory for each row of channels in the unit as written, with
+/// the sign of the channels.
 [[nodiscard]] Eigen::MatrixX3d channel_forces(const PlateSetup& setup,
                                               Eigen::MatrixXd channel_values);
 
-/// The plate over time, from its channels in the unit as written (samples x channels).
+/// Returns the plate over time from its channels (samples x channels) in the unit as written.
 /// `least_force_n` is the threshold of the center of pressure.
 [[nodiscard]] ForcePlate force_plate(const PlateSetup& setup,
                                      Eigen::VectorXd time_s,
                                      Eigen::MatrixXd channel_values,
                                      double least_force_n = kLeastForce_n);
-/// From the samples [first, first + count) of the file that describes it.
+/// Returns the plate over the samples [first, first + count) of its file.
 [[nodiscard]] ForcePlate force_plate(const PlateSetup& setup,
                                      const C3dFile& file,
                                      Eigen::Index first,
                                      Eigen::Index count,
                                      double least_force_n = kLeastForce_n);
 
-/// All plates of a file over all of its time, each facing the person as the C3D guide has it.
+/// Returns all plates of a file over its whole time, each facing the person as the C3D guide
+/// defines.
 [[nodiscard]] std::vector<ForcePlate> force_plates(const C3dFile& file,
                                                    std::vector<Repair>& repairs,
                                                    double least_force_n = kLeastForce_n);
@@ -104,10 +109,11 @@ struct PlateAction {
   Vec3 force_n, point_m, moment_nm;
 };
 
-/// Empty where the plate does not bear the person or a channel is no number. A floor bears where
-/// the force along the normal reaches the threshold; it acts at the center of pressure. A wall or a
-/// handle bears where the force as a whole does; where it does not press inside the corners, it
-/// acts at the middle of the surface.
+/// Returns the action of a plate that bears the person; empty if the plate bears nothing or a
+/// channel is no number. A floor bears where the force along the normal reaches the threshold; its
+/// force acts at the center of pressure. A wall or a handle bears where the whole force reaches the
+/// threshold; if its center of pressure is outside the corners, its force acts at the middle of the
+/// surface.
 [[nodiscard]] std::optional<PlateAction> action_on_person(const ForcePlate& plate,
                                                           Eigen::Index sample,
                                                           double least_force_n);

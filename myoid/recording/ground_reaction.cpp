@@ -28,8 +28,8 @@ std::string escaped(const std::string& text) {
   return out;
 }
 
-/// Fills the rows that are NaN straight between their neighbors, and constant at the ends; with
-/// `fallback` where there are no others.
+/// Fills rows that are NaN linearly between their neighbors and constantly at the ends; with
+/// `fallback` if all rows are NaN.
 void bridge(Eigen::Ref<Eigen::MatrixXd> points, const Vec3& fallback) {
   Eigen::Index last = -1;
   const Eigen::Index n = points.rows();

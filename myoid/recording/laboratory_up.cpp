@@ -15,15 +15,15 @@
 namespace myoid::recording {
 namespace {
 
-constexpr double kFloor = 0.5;        ///< Cosine of 60 degrees: a steeper plate is a wall.
-constexpr double kFaces = 0.8;        ///< Cosine of 37 degrees: a ramp still says which axis is up.
-constexpr double kAlong = 0.5;        ///< A person's mean force is less oblique than 60 degrees.
-constexpr double kOutweighs = 3.0;    ///< The load of the floor against that of a wall.
+constexpr double kFloor = 0.5;  ///< Cosine of 60 degrees: a steeper plate is a wall.
+constexpr double kFaces = 0.8;  ///< Cosine of 37 degrees: a ramp still shows which axis is up.
+constexpr double kAlong = 0.5;  ///< Cosine of 60 degrees: a person's mean force is less oblique.
+constexpr double kOutweighs = 3.0;    ///< Least ratio of the floor's load to a wall's.
 constexpr double kClearly = 0.95;     ///< Share of the markers on one side.
 constexpr Eigen::Index kSeveral = 8;  ///< Fewer markers are no person.
-constexpr double kHigh_m = 0.3;       ///< Their median height, at least.
+constexpr double kHigh_m = 0.3;       ///< Least median height of the markers.
 
-/// Heights of the markers above a point along a direction, of some 200 frames.
+/// Returns the heights of the markers above a point along a direction, in some 200 frames.
 std::vector<double> heights(const MarkerSeries& markers, const Vec3& from_m, const Vec3& along) {
   std::vector<double> found;
   const Eigen::Index step = std::max<Eigen::Index>(1, markers.frame_count() / 200);
@@ -35,7 +35,7 @@ std::vector<double> heights(const MarkerSeries& markers, const Vec3& from_m, con
   return found;
 }
 
-/// The axes that a text names one after the other: "+X", "-Z" of "+X-Z".
+/// Splits a text into the axes it names: "+X", "-Z" of "+X-Z".
 std::vector<Vec3> axes_of(std::string_view text) {
   std::vector<Vec3> axes;
   double sign = 1.0;
@@ -50,12 +50,12 @@ std::vector<Vec3> axes_of(std::string_view text) {
       return {};
     }
   }
-  // "Z-" is as good as "-Z".
+  // "Z-" means "-Z".
   if (axes.size() == 1 && sign < 0.0) axes[0] = -axes[0];
   return axes;
 }
 
-/// All axes of a text parameter; empty where it is absent or holds other words.
+/// Returns all axes of a text parameter; empty if it is absent or holds other words.
 std::vector<Vec3> axes_of(const C3dParameter* parameter) {
   std::string all;
   if (parameter == nullptr || parameter->type != C3dType::text) return {};
@@ -63,7 +63,7 @@ std::vector<Vec3> axes_of(const C3dParameter* parameter) {
   return axes_of(std::string_view(all));
 }
 
-/// The evidence of one recording, and what follows from it.
+/// The evidence of one recording and the conclusion from it.
 class Evidence {
  public:
   Evidence(const Recording& recording, const std::vector<PlateLoad>& loads)
@@ -109,7 +109,8 @@ class Evidence {
     return 0;
   }
 
-  /// Some plate is a floor by the screen; an axis that comes from the plates has one.
+  /// Throws unless some plate is a floor for the axis that the screen names. An axis that comes
+  /// from the plates always has one.
   void require_floor(const Vec3& axis) const {
     const bool any = std::any_of(loads_.begin(), loads_.end(),
                                  [&](const PlateLoad& load) { return is_floor(load, axis); });
@@ -121,7 +122,7 @@ class Evidence {
                            facing(0)));
   }
 
-  /// The load [N] of the plates that face each axis.
+  /// Returns the load [N] of the plates that face each axis.
   [[nodiscard]] std::array<double, 3> loads_by_axis() const {
     std::array<double, 3> sum{};
     for (const PlateLoad& load : loads_) {
@@ -146,7 +147,7 @@ class Evidence {
     return axis_without_loads();
   }
 
-  /// Of plates that are never loaded, or all stand obliquely.
+  /// Returns the axis of plates that are never loaded or all stand obliquely.
   [[nodiscard]] Vec3 axis_without_loads() const {
     Vec3 pushed = Vec3::Zero();
     for (const PlateLoad& load : loads_) pushed += load.push_n.cwiseAbs();
@@ -177,7 +178,7 @@ class Evidence {
     return "a plate";
   }
 
-  /// The floor bears its load across its surface, not along it.
+  /// Throws unless the floor's load is across its surface.
   void require_push(const Vec3& axis) const {
     Vec3 sum = Vec3::Zero();
     double normal = 0.0;

@@ -20,13 +20,13 @@ namespace {
 
 constexpr std::string_view kBlank = " \t\r\n";
 
-/// Words of a text, with the line of the last one.
+/// Splits a text into words and counts lines.
 class Words {
  public:
   Words(std::string_view text, const std::filesystem::path& path, std::size_t line = 1)
       : text_(text), path_(path), line_(line) {}
 
-  /// The next word; empty at the end.
+  /// Returns the next word; empty at the end.
   std::string_view next() {
     while (at_ < text_.size() && kBlank.find(text_[at_]) != std::string_view::npos) {
       if (text_[at_] == '\n') ++line_;
@@ -71,7 +71,7 @@ void add_fan(const std::vector<int>& polygon, TriangleMesh& mesh) {
     mesh.triangles.push_back({polygon[0], polygon[k - 1], polygon[k]});
 }
 
-/// An element of the XML: where it begins, its tag's text, and what stands in it.
+/// An XML element: its place, the text of its tag, its content.
 struct Element {
   std::size_t at = std::string_view::npos;
   std::string_view tag, content;
@@ -86,7 +86,8 @@ struct Element {
   }
 };
 
-/// The next element of this name at or after `from`; these files do not nest one in its like.
+/// Returns the next element of this name at or after `from`; these files never nest an element in
+/// one of the same name.
 Element find_element(std::string_view text, std::string_view name, std::size_t from) {
   Element element;
   const std::string open = fmt::format("<{}", name);
@@ -108,7 +109,7 @@ Element find_element(std::string_view text, std::string_view name, std::size_t f
   return element;
 }
 
-/// The numbers of a <DataArray>, or an empty list where there is none of this name.
+/// Returns the numbers of a <DataArray>, or an empty list if none has this name.
 std::vector<double> data_array(std::string_view whole,
                                std::string_view part,
                                std::string_view name,
@@ -176,7 +177,7 @@ TriangleMesh parse_vtp(std::string_view text, const std::filesystem::path& path)
   return mesh;
 }
 
-/// Gathers the equal corners of triangles.
+/// Joins the equal corners of triangles.
 class Corners {
  public:
   explicit Corners(TriangleMesh& mesh) : mesh_(mesh) {}
@@ -255,7 +256,7 @@ TriangleMesh parse_obj(std::string_view text, const std::filesystem::path& path)
     if (kind != "f") continue;
     std::vector<int> polygon;
     for (std::string_view word = words.next(); !word.empty(); word = words.next()) {
-      // vertex/texture/normal; from 1, or from the end where negative.
+      // The word is vertex/texture/normal; indices count from 1, or from the end if negative.
       const auto index = parse_number(word.substr(0, word.find('/')));
       if (!index || !(std::abs(*index) < 2e9))
         words.fail(fmt::format("expected the number of a vertex, found '{}'", word));

@@ -13,19 +13,19 @@ namespace myoid::recording {
 struct TriangleMesh {
   std::vector<Vec3> vertices;
   std::vector<std::array<int, 3>>
-      triangles;  ///< Indices of vertices, counterclockwise from outside.
+      triangles;  ///< Indices of vertices, counterclockwise seen from outside.
 };
 
 /// Reads the mesh files that OpenSim models name: .vtp (VTK's XML PolyData, ASCII), .stl (ASCII and
-/// binary) and .obj. Polygons become fans of triangles, strips are taken apart, vertices that
-/// several triangles of an .stl repeat become one. Throws ReadError, with the line where there is
-/// one, for other endings, encodings of .vtp other than ASCII, indices that do not exist and
-/// numbers that are none.
+/// binary) and .obj. Polygons become fans of triangles, strips are split, vertices that several
+/// triangles of an .stl repeat become one. Throws ReadError, with the line if known, for other
+/// extensions, encodings of .vtp other than ASCII, indices that do not exist and numbers that
+/// cannot be read.
 [[nodiscard]] TriangleMesh read_mesh(const std::filesystem::path& path);
 [[nodiscard]] TriangleMesh parse_mesh(std::string_view bytes, const std::filesystem::path& path);
 
-/// The mesh with its vertices gathered in cells of a cube grid, one for each cell (their mean), and
-/// without the triangles that vanish by that. No vertex moves farther than the cell's diagonal.
+/// Returns a coarser mesh: vertices in the same cell of a cubic grid become one (their mean), and
+/// triangles that collapse are dropped. No vertex moves farther than the cell's diagonal.
 [[nodiscard]] TriangleMesh simplified(const TriangleMesh& mesh, double cell);
 
 }  // namespace myoid::recording

@@ -39,7 +39,8 @@ void stand_floor(Recording& recording, const std::vector<PlateLoad>& loads, cons
   }
 }
 
-/// The sign on which the loaded plates of the floor agree; 0 where there are none or they differ.
+/// Returns the sign on which the loaded plates of the floor agree; 0 if there are none or they
+/// differ.
 double turn_of_floor(Recording& recording, const std::vector<PlateLoad>& loads) {
   double turn = 0.0;
   for (std::size_t k = 0; k < loads.size(); ++k) {
@@ -57,7 +58,7 @@ double turn_of_floor(Recording& recording, const std::vector<PlateLoad>& loads) 
   return turn;
 }
 
-/// Walls and handles, which may be pulled.
+/// Sets the side of walls and handles, which a person may also pull.
 void stand_walls(Recording& recording,
                  const std::vector<PlateLoad>& loads,
                  const Vec3& up_L,
@@ -83,7 +84,7 @@ void stand_walls(Recording& recording,
   }
 }
 
-/// Nothing is taken from a plate whose force never changes.
+/// Leaves out plates whose force never changes.
 void leave_out_dead(Recording& recording, const std::vector<PlateLoad>& loads) {
   for (std::size_t k = 0; k < loads.size(); ++k) {
     if (!loads[k].constant_n) continue;
@@ -96,7 +97,7 @@ void leave_out_dead(Recording& recording, const std::vector<PlateLoad>& loads) {
   }
 }
 
-/// Up as told, with a note where the file says otherwise.
+/// Takes the stated upward axis, with a note where the file contradicts it.
 LaboratoryUp as_told(Recording& recording,
                      const std::vector<PlateLoad>& loads,
                      const Vec3& stated_up_L) {
@@ -106,7 +107,7 @@ LaboratoryUp as_told(Recording& recording,
       add_note(recording, fmt::format("up is taken as {}, as told; by the file it is {}: {}",
                                       axis_name(stated_up_L), axis_name(*own.up_L), own.because));
   } catch (const InvalidInput&) {
-    // The person who tells knows better than a file that contradicts itself.
+    // A stated axis overrides a file that contradicts itself.
   }
   return {stated_up_L, "as told"};
 }

@@ -29,7 +29,7 @@ std::string to_string(const std::filesystem::path& path, const Repair& repair) {
 
 namespace {
 
-/// Nexus writes its devices and the markers into one file: both are read.
+/// Nexus writes devices and markers into one file: both are read.
 Recording read_text_table(const std::filesystem::path& path) {
   Recording recording;
   const std::string text = read_text_file(path);
@@ -81,7 +81,7 @@ void refuse_folder(const std::filesystem::path& path) {
                       : "this is a folder; name a file inside it");
 }
 
-/// The channels, events and repairs of a file that has no markers.
+/// Takes the channels, events and repairs of a file without markers.
 template <typename File>
 Recording of_channels(File file) {
   Recording recording;
