@@ -16,7 +16,7 @@ Eigen::Index rows_of(const AnalogCounts& counts) {
   return std::visit([](const auto& values) { return values.rows(); }, counts.values);
 }
 
-/// Rows [first, first + count) of one column.
+/// Converts rows [first, first + count) of one column.
 template <typename Out>
 void convert(const AnalogCounts& counts,
              Eigen::Index column,
@@ -68,7 +68,7 @@ AnalogChannels::AnalogChannels(std::vector<Channel> channels, AnalogCounts count
                                    channels_.size(), counts_->scales.size(), counts_->rate_hz));
   }
   if (counts_->records) require_times(*counts_->records, rows_of(*counts_));
-  // The names must be as a TimeSeries has them.
+  // Names follow the rules of a TimeSeries.
   static_cast<void>(
       TimeSeries(Eigen::VectorXd::Zero(1), channels_,
                  Eigen::MatrixXd::Zero(1, static_cast<Eigen::Index>(channels_.size()))));
@@ -140,7 +140,7 @@ std::vector<Eigen::Index> AnalogChannels::columns_of(const std::vector<std::stri
     if (!column) {
       const TimeSeries list(Eigen::VectorXd::Zero(1), channels(),
                             Eigen::MatrixXd::Zero(1, channel_count()));
-      columns.push_back(list.index(name));  // throws, with the names there are
+      columns.push_back(list.index(name));  // throws, listing the available names
     } else {
       columns.push_back(*column);
     }

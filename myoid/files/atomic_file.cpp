@@ -27,7 +27,7 @@ bool is_temporary(const std::filesystem::path& name) {
 
 std::size_t sweep_temporaries(const std::filesystem::path& folder) {
   namespace fs = std::filesystem;
-  constexpr int kDeepest = 3;  // person, trial, figures: results lie no deeper
+  constexpr int kDeepest = 3;  // person, trial, figures: results are no deeper
   std::error_code error;
   std::vector<fs::path> found;
   for (auto it = fs::recursive_directory_iterator(

@@ -9,7 +9,8 @@
 
 namespace myoid::recording {
 
-/// Bytes of a file, or of memory, part by part: large recordings need not stand in memory twice.
+/// Reads the bytes of a file, or of memory, part by part, so that large recordings need not be in
+/// memory twice.
 class ByteSource {
  public:
   /// Throws ReadError with the remedy if the file is missing, a folder, unreadable or empty.
@@ -21,8 +22,8 @@ class ByteSource {
 
   [[nodiscard]] std::uint64_t size() const { return size_; }
 
-  /// `count` bytes from `offset`, valid until the next call. Precondition: they lie inside the
-  /// file. Throws ReadError if the file became shorter meanwhile or cannot be read.
+  /// Returns `count` bytes from `offset`, valid until the next call. Precondition: they lie inside
+  /// the file. Throws ReadError if the file became shorter meanwhile or cannot be read.
   [[nodiscard]] std::span<const std::byte> view(std::uint64_t offset, std::size_t count);
 
  private:
@@ -33,7 +34,7 @@ class ByteSource {
   int descriptor_ = -1;
 };
 
-/// The whole file, whatever it holds, for its hash. Throws like ByteSource.
+/// Reads the whole file, whatever its content, for its hash. Throws like ByteSource.
 [[nodiscard]] std::string read_bytes(const std::filesystem::path& path);
 
 }  // namespace myoid::recording

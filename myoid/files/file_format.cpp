@@ -28,7 +28,7 @@ std::vector<std::string_view> written_endings() {
   return endings;
 }
 
-/// The longest ending of a name that the table holds, with its row; the row is null if none fits.
+/// The longest ending of a name that the table has, with its row; without one the row is null.
 struct NamedEnding {
   const FormatEntry* entry = nullptr;
   std::string_view ending;

@@ -9,7 +9,7 @@
 namespace myoid::recording {
 
 /// The formats of files that Myoid reads. A switch over them has no default, so that the compiler
-/// names each place that a new format concerns.
+/// reports each place that a new format concerns.
 enum class FileFormat {
   c3d,
   trc,
@@ -29,12 +29,12 @@ enum class FileFormat {
 /// A row of the table of formats.
 struct FormatEntry {
   FileFormat format;
-  std::vector<std::string_view> endings;  ///< Of file names, in small letters.
+  std::vector<std::string_view> endings;  ///< Endings of file names, in small letters.
   std::vector<std::string_view> written;  ///< The endings under which Myoid writes the format.
   std::string_view kind;                  ///< A file of the format in messages: "a model".
   std::string_view holds;                 ///< Contents, for the documentation.
-  std::string_view reader;                ///< The unit that reads it: "c3d/c3d_reader".
-  std::string_view writer;                ///< The unit that writes it; empty: none.
+  std::string_view reader;                ///< The unit that reads the format: "c3d/c3d_reader".
+  std::string_view writer;                ///< The unit that writes the format, or empty.
   bool markers = false;                   ///< A file may hold markers.
   bool channels = false;                  ///< A file may hold channels over time.
 };
@@ -45,33 +45,34 @@ struct FormatEntry {
 /// The row of one format.
 [[nodiscard]] const FormatEntry& format_entry(FileFormat format);
 
-/// The format of a file by the ending of its name, in any case of letters: the longest ending that
-/// fits decides ("_motion.tsv" before ".tsv"). Empty for an unknown ending.
+/// Returns the format of a file by the ending of its name, ignoring case. The longest matching
+/// ending decides ("_motion.tsv" before ".tsv"). Empty for an unknown ending.
 [[nodiscard]] std::optional<FileFormat> format_of(const std::filesystem::path& path);
 
 /// True if files of this format hold markers or channels over time.
 [[nodiscard]] bool is_recording(FileFormat format);
 
-/// The ending of a name in small letters, with its point: ".c3d".
+/// Returns the ending of a name in small letters with its point: ".c3d".
 [[nodiscard]] std::string extension_of(const std::filesystem::path& path);
 
-/// ".c3d, .trc and .sto": the endings of all formats that `listed` accepts, in the order of the
-/// table.
+/// Returns the endings of all formats that `listed` accepts, in the order of the table: ".c3d, .trc
+/// and .sto".
 [[nodiscard]] std::string endings_text(bool (*listed)(const FormatEntry&));
 
-/// ".c3d, .trc, .sto, .mot and .csv": the endings of recordings that Myoid writes.
+/// Returns the endings of recordings that Myoid writes: ".c3d, .trc, .sto, .mot and .csv".
 [[nodiscard]] std::string written_endings_text();
 
 /// True if Myoid writes recordings under this ending (in small letters).
 [[nodiscard]] bool is_written_ending(std::string_view ending);
 
-/// Empty if the ending of the name belongs to one of the formats `wanted` or to no format; else
-/// "this is a .trc file (markers), but EXPECTED is expected here: were two options mixed up?".
+/// Returns an empty text if the name's ending belongs to one of the formats `wanted` or to no
+/// format; else "this is a .trc file (markers), but EXPECTED is expected here: were two options
+/// mixed up?".
 [[nodiscard]] std::string wrong_kind(const std::filesystem::path& path,
                                      const std::vector<FileFormat>& wanted,
                                      std::string_view expected);
 
-/// The table in Markdown, for docs/guide/file-formats.md.
+/// Returns the table in Markdown, for docs/guide/file-formats.md.
 [[nodiscard]] std::string file_formats_markdown();
 
 }  // namespace myoid::recording

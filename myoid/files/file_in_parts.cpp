@@ -16,8 +16,8 @@
 namespace myoid::recording {
 namespace {
 
-/// The pattern of the temporary file beside a target. A name that is as long as the system allows
-/// is cut, so that the pattern fits too.
+/// Returns the pattern of the temporary file beside a target. A name at the system's limit is cut,
+/// so that the pattern fits.
 std::string temporary_pattern(const std::filesystem::path& target) {
   constexpr std::size_t kLongest = 200;
   const std::string name = "." + target.filename().string().substr(0, kLongest) +
@@ -25,7 +25,8 @@ std::string temporary_pattern(const std::filesystem::path& target) {
   return (target.parent_path() / name).string();
 }
 
-/// An open temporary file, locked so that no other process sweeps it away; -1 with errno.
+/// Opens a temporary file and locks it, so that no other process sweeps it away; returns -1 with
+/// errno on failure.
 int open_temporary(const std::filesystem::path& target, std::string& name) {
   for (;;) {
     name = temporary_pattern(target);
@@ -39,7 +40,7 @@ int open_temporary(const std::filesystem::path& target, std::string& name) {
   }
 }
 
-/// 0, or what went wrong.
+/// Returns 0, or the error number.
 int write_all(int descriptor, std::string_view content) {
   for (std::size_t done = 0; done < content.size();) {
     const ssize_t written = write(descriptor, content.data() + done, content.size() - done);
@@ -49,7 +50,7 @@ int write_all(int descriptor, std::string_view content) {
   return 0;
 }
 
-/// Where a chain of symbolic links ends, whether a file is there or not.
+/// Follows a chain of symbolic links to its end, whether a file is there or not.
 std::filesystem::path behind_links(std::filesystem::path path) {
   std::error_code ignored;
   for (int links = 0; links < 40 && std::filesystem::is_symlink(path, ignored); ++links) {
@@ -65,7 +66,7 @@ std::filesystem::path behind_links(std::filesystem::path path) {
 FileInParts::FileInParts(std::filesystem::path path, Flush flush)
     : path_(std::move(path)), flush_(flush) {
   if (path_.empty()) throw InvalidInput("the name of the file to write is empty");
-  // What neither exists nor is a link is where it says.
+  // A path that neither exists nor is a link is its own end.
   struct stat existing {};
   bool exists = lstat(path_.c_str(), &existing) == 0;
   const bool is_link = exists && S_ISLNK(existing.st_mode);
@@ -119,9 +120,9 @@ void FileInParts::finish() {
   }
   if (fchmod(descriptor, permissions_) != 0 || (flush_ == Flush::now && fsync(descriptor) != 0))
     cause = errno;
-  // A close tells of what the disk refused late; the lock stays with the other descriptor.
+  // A close reports late errors of the disk; the other descriptor keeps the lock.
   if (close(dup(descriptor)) != 0 && cause == 0) cause = errno;
-  // Some file systems flush what replaces another file; what takes a free name, they do not.
+  // Some file systems flush a file that replaces another, but not a file under a free name.
   if (cause == 0 && replaces_ && flush_ == Flush::later) unlink(target_.c_str());
   if (cause == 0 && rename(temporary_.c_str(), target_.c_str()) != 0) cause = errno;
   if (cause != 0) unlink(temporary_.c_str());

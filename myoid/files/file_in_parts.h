@@ -8,20 +8,18 @@
 
 namespace myoid::recording {
 
-/// The name of a temporary file ends in both: ".ik.mot.myoid-part.a1B2c3".
+/// The end of a temporary file's name is this mark and six random characters:
+/// ".ik.mot.myoid-part.a1B2c3".
 inline constexpr std::string_view kTemporaryMark = ".myoid-part.";
 inline constexpr std::string_view kTemporaryRandom = "XXXXXX";  ///< For mkostemp.
 
-/// A file that is written piece by piece and is there whole or not at all: the pieces go into a
-/// temporary file of the same folder, which `finish` flushes to the disk and renames. Missing
-/// parent folders are made. Through a symbolic link the file it points to is replaced and the link
-/// stays; an existing file keeps its permissions. What is no file (a pipe, a device such as
-/// /dev/stdout) is written to as it is. Throws InvalidInput with the cause (disk full, no
-/// permission, a folder of that name) and leaves an existing file as it was.
+/// A file that is written piece by piece and appears completely or not at all. The pieces go into a
+/// temporary file of the same folder, which `finish` flushes to the disk and renames. Links,
+/// permissions, pipes and errors are handled as in `write_file`.
 class FileInParts {
  public:
   explicit FileInParts(std::filesystem::path path, Flush flush = Flush::now);
-  /// Takes the pieces away unless they were finished.
+  /// Removes the temporary file unless it was finished.
   ~FileInParts();
   FileInParts(const FileInParts&) = delete;
   FileInParts& operator=(const FileInParts&) = delete;
@@ -33,7 +31,7 @@ class FileInParts {
   [[noreturn]] void fail(std::string_view what, int cause);
 
   std::filesystem::path path_, target_;
-  std::string temporary_;  ///< Empty where the path is written to as it is.
+  std::string temporary_;  ///< Empty if the path is written to directly.
   Flush flush_;
   bool replaces_ = false;
   unsigned permissions_ = 0644;

@@ -39,7 +39,7 @@ std::string now_utc() {
   return text.data();
 }
 
-/// The owner as `sign` wrote it; empty for a file without one.
+/// Reads the owner that `sign` wrote; empty for a file without one.
 std::optional<FolderOwner> parse_owner(std::string_view text) {
   FolderOwner owner;
   for (const std::string_view line : split_lines(text)) {
@@ -64,8 +64,8 @@ std::optional<FolderOwner> read_owner(int descriptor) {
   return parse_owner({text.data(), static_cast<std::size_t>(size)});
 }
 
-/// The owner of a file that another process holds: between its lock and its signature lies an
-/// instant.
+/// Waits for the owner of a file that another process holds: the owner locks the file an instant
+/// before it signs.
 std::optional<FolderOwner> await_owner(int descriptor) {
   std::optional<FolderOwner> owner = read_owner(descriptor);
   for (int i = 0; i < 50 && !owner; ++i) {
@@ -81,14 +81,14 @@ std::optional<FolderOwner> await_owner(int descriptor) {
       folder.string(), owner ? " (" + owner->sentence() + ")" : ""));
 }
 
-/// For file systems without locks: the process is on another host, or still there.
+/// For file systems without locks: true if the process is on another host or still runs.
 bool may_live(const std::optional<FolderOwner>& owner) {
   if (!owner) return false;
   if (owner->host != this_host()) return true;
   return kill(static_cast<pid_t>(owner->process), 0) == 0 || errno == EPERM;
 }
 
-/// True if the open file is still the one of that name: its owner removes it when it ends.
+/// True if the name still belongs to the open file: an owner that ends removes the file.
 bool is_still(const fs::path& path, int descriptor) {
   struct stat opened {};
   struct stat named {};
@@ -104,7 +104,7 @@ std::string FolderOwner::sentence() const {
 
 FolderLock::FolderLock(fs::path folder) : folder_(std::move(folder)) {
   const fs::path path = folder_ / kFile;
-  constexpr int kTries = 100;  // each lost to an owner that ended meanwhile
+  constexpr int kTries = 100;  // each is lost to an owner that ends meanwhile
   for (int i = 0; i < kTries; ++i) {
     const int descriptor = open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
     if (descriptor < 0) {
@@ -130,7 +130,7 @@ FolderLock::FolderLock(fs::path folder) : folder_(std::move(folder)) {
 }
 
 FolderLock::~FolderLock() {
-  // The name goes first, so that nobody takes a lock on a file that is about to vanish.
+  // The name goes first, so that no process locks a file that is about to vanish.
   const bool unfinished = from_empty_ && !finished_ && holds_content(folder_);
   if (!unfinished && (signed_ || !left_behind_)) unlink((folder_ / kFile).c_str());
   close(descriptor_);

@@ -7,45 +7,45 @@
 
 namespace myoid::recording {
 
-/// The process that writes into a folder, as the lock in the folder names it.
+/// The process that writes into a folder, as named by the folder's lock.
 struct FolderOwner {
   long process = 0;
   std::string host;
   std::string since;        ///< UTC, "2026-05-07 14:03:22".
   std::string command;      ///< The command line.
-  bool from_empty = false;  ///< The folder held nothing when the command began.
+  bool from_empty = false;  ///< The folder was empty when the command began.
 
   /// "process 4711 on 'lab3' since 2026-05-07 14:03:22 UTC: myoid run study.toml --out results".
   [[nodiscard]] std::string sentence() const;
 };
 
-/// Keeps a folder for one process: a second one that asks for the folder is refused. The lock is
-/// the kernel's (flock on a file in the folder), so it ends with the process however the process
-/// ends; the file names the owner. Where the file system knows no such locks, the owner's process
+/// Reserves a folder for one process: a second process that asks for the folder is refused. The
+/// lock is the kernel's (flock on a file in the folder), so that it ends with the process in every
+/// case; the file names the owner. Where the file system has no such locks, the owner's process
 /// number and host decide.
 ///
-/// A folder that was empty belongs to the command that began to fill it until that command says
-/// `finish`: where it was killed, or stopped by an error such as a full disk, the file stays, and
-/// `left_behind` tells the next one.
+/// A folder that was empty belongs to the command that began to fill it until that command calls
+/// `finish`. If the command is killed, or stopped by an error such as a full disk, the file stays,
+/// and `left_behind` tells the next command.
 class FolderLock {
  public:
   static constexpr std::string_view kFile = ".myoid.lock";
 
-  /// Takes the folder, which exists. Throws InvalidInput, naming the owner, while another process
-  /// holds it, and if the folder cannot be written.
+  /// Takes an existing folder. Throws InvalidInput if another process holds it, naming the owner,
+  /// or if the folder cannot be written.
   explicit FolderLock(std::filesystem::path folder);
-  /// Gives the folder back and removes the file, but for unfinished results in a folder that was
+  /// Releases the folder and removes the file, except after unfinished results in a folder that was
   /// empty.
   ~FolderLock();
   FolderLock(const FolderLock&) = delete;
   FolderLock& operator=(const FolderLock&) = delete;
 
   [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
-  /// The owner that did not finish, if there is one.
+  /// Returns the owner that did not finish, if there is one.
   [[nodiscard]] const std::optional<FolderOwner>& left_behind() const { return left_behind_; }
   /// Writes this process into the file as the owner.
   void sign(std::string_view command, bool from_empty);
-  /// The results are whole: nothing is left behind.
+  /// States that the results are complete.
   void finish() { finished_ = true; }
 
  private:
@@ -57,7 +57,7 @@ class FolderLock {
   bool finished_ = false;
 };
 
-/// True if the folder holds anything but locks, what a killed process left half-written, and an
+/// True if the folder holds anything but locks, half-written files of killed processes, and an
 /// entry named `unless_only`.
 [[nodiscard]] bool holds_content(const std::filesystem::path& folder,
                                  std::string_view unless_only = "");

@@ -23,7 +23,7 @@ LabelMatch match_labels(const std::vector<std::string>& found,
   const std::set<std::string> has(found.begin(), found.end());
   const std::set<std::string> wants(wanted.begin(), wanted.end());
   std::map<std::string, std::vector<std::string>> spare;    // names of the file, by plain label
-  std::map<std::string, std::vector<std::string>> missing;  // wanted ones
+  std::map<std::string, std::vector<std::string>> missing;  // wanted names, by plain label
   for (const std::string& name : has) {
     if (!wants.contains(name)) spare[plain_label(name)].push_back(name);
   }

@@ -7,21 +7,21 @@
 
 namespace myoid::recording {
 
-/// How the names of a file belong to those that are wanted.
+/// Pairs of names in a file and wanted names.
 struct LabelMatch {
-  /// From the file's name to the wanted one, where they differ in nothing but capitals, blanks,
-  /// '_', '-', '.', or a subject's prefix "name:", and both ways only one fits.
+  /// From the file's name to the wanted name where both differ only in capitals, blanks, '_', '-',
+  /// '.', or a subject's prefix "name:", and no other name fits either of them.
   std::map<std::string, std::string> same;
-  /// From a name of the file that is not wanted to the wanted name, missing in the file, that it
-  /// resembles (`nearest_word`): to be asked, not to be taken.
+  /// From an unwanted name of the file to the missing wanted name that it resembles
+  /// (`nearest_word`): a question to the user, not a match.
   std::map<std::string, std::string> similar;
 };
 
-/// Names that the file already has as wanted take no part.
+/// Pairs `found` with `wanted`; names that are equal take no part.
 [[nodiscard]] LabelMatch match_labels(const std::vector<std::string>& found,
                                       const std::vector<std::string>& wanted);
 
-/// The letters and digits alone, small, without what precedes the last ':'.
+/// Returns the letters and digits of a label in small letters, without the part up to the last ':'.
 [[nodiscard]] std::string plain_label(std::string_view label);
 
 }  // namespace myoid::recording

@@ -30,12 +30,11 @@ struct MarkerSeries {
   }
 };
 
-/// The same markers with every position turned by R: p_new = R p. For a laboratory whose vertical
-/// is not y.
+/// Turns every position by R: p_new = R p. For a laboratory whose vertical is not y.
 [[nodiscard]] MarkerSeries rotated(MarkerSeries markers, const Mat3& R);
 
-/// The rotation that brings the laboratory's vertical ('x', 'y' or 'z') to y, turning about the
-/// axis that stays: z up becomes y up by x -> x, y -> -z, z -> y.
+/// Returns the rotation that turns the laboratory's vertical ('x', 'y' or 'z') to y about a
+/// coordinate axis: for z it maps x -> x, y -> -z, z -> y.
 [[nodiscard]] Mat3 rotation_to_y_up(char up);
 
 }  // namespace myoid::recording

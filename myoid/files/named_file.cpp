@@ -24,7 +24,7 @@ bool is_file(const fs::path& path) {
   return fs::exists(path, ignored) && !fs::is_directory(path, ignored);
 }
 
-/// The entry of a folder with that name or, if there is none, the only one that differs in case.
+/// Returns the entry of a folder with that name or else the only entry that differs in case alone.
 std::optional<fs::path> entry_of(const fs::path& folder, const std::string& name) {
   std::error_code ignored;
   if (fs::exists(folder / name, ignored)) return folder / name;
@@ -37,7 +37,7 @@ std::optional<fs::path> entry_of(const fs::path& folder, const std::string& name
   return alike.size() == 1 ? std::optional(alike[0]) : std::nullopt;
 }
 
-/// The file at folder/first/.../last, the case of letters aside.
+/// Returns the file at folder/first/.../last, ignoring case.
 std::optional<fs::path> file_at(fs::path place, const std::vector<std::string>& parts) {
   for (const std::string& part : parts) {
     const auto next = entry_of(place, part);
@@ -47,7 +47,7 @@ std::optional<fs::path> file_at(fs::path place, const std::vector<std::string>& 
   return is_file(place) ? std::optional(place) : std::nullopt;
 }
 
-/// Folders and file of a path, without drive, server's slashes, "." and "..".
+/// Splits a path into folders and file, without drive, server's slashes, "." and "..".
 std::vector<std::string> parts_of(const std::string& name) {
   std::vector<std::string> parts;
   for (const std::string_view part : split(name, '/')) {

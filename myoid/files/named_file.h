@@ -6,28 +6,28 @@
 
 namespace myoid::recording {
 
-/// A file that a document names, where it lies on this computer.
+/// The place on this computer of a file that a document names.
 struct NamedFile {
-  std::filesystem::path path;  ///< Where it lies; where it should lie, if it was not found.
+  std::filesystem::path path;  ///< Its place; its expected place, if it was not found.
   bool exists = false;
-  std::string note{};  ///< A sentence, if it lies elsewhere than the document says.
+  std::string note{};  ///< A sentence, if the place differs from the document's statement.
 };
 
-/// Finds the file that a document in `folder` names by `name`, which is relative to the folder or
-/// absolute, with / or \ between folders. A name from another computer ("C:\trial\ik.mot",
-/// "\\server\ik.mot", "../old/ik.mot") stands for the file at the longest end of that path which
-/// lies in the folder or one folder up; the case of letters may differ if one file fits. Throws
-/// nothing for files that are not there.
+/// Finds the file that a document in `folder` names by `name`: relative to the folder or absolute,
+/// with / or \ between folders. A name from another computer ("C:\trial\ik.mot", "\\server\ik.mot",
+/// "../old/ik.mot") stands for the file with the longest end of that path in the folder or one
+/// folder up. Case is ignored if only one file fits. Does not throw for missing files.
 [[nodiscard]] NamedFile find_named_file(const std::filesystem::path& folder, std::string_view name);
 
-/// The name with / between folders, and relative to `folder` unless it is absolute here.
+/// Returns the name with / between folders, relative to `folder` unless it is absolute on this
+/// system.
 [[nodiscard]] std::filesystem::path native_path(const std::filesystem::path& folder,
                                                 std::string_view name);
 
-/// The last part of a name with / or \ between folders.
+/// Returns the last part of a name with / or \ between folders.
 [[nodiscard]] std::string last_part(std::string_view name);
 
-/// "C:\trial" or "\\server\trial": absolute on Windows, wherever this program runs.
+/// True for "C:\trial" or "\\server\trial", which are absolute on Windows; tested on every system.
 [[nodiscard]] bool is_windows_path(std::string_view name);
 
 }  // namespace myoid::recording

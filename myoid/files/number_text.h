@@ -9,21 +9,22 @@
 
 namespace myoid::recording {
 
-/// Writes the shortest text that reads back to the same double (format_number) at a place with
+/// Writes the shortest text that reads back to the same double (format_number) to a place with
 /// NumberText::kRoom bytes; returns the place behind it.
 [[nodiscard]] char* put_number(char* at, double value);
 
-/// Shortest decimal texts that read back to the same double, as format_number gives them. Numbers
-/// of a recording repeat, because an A/D converter has 65,536 values or fewer: the texts of the
-/// latest numbers are kept and copied. Not for several threads at once.
+/// Writes the shortest decimal texts that read back to the same double, as format_number does.
+/// Numbers of a recording repeat, because an A/D converter has 65,536 values or fewer: the texts of
+/// the latest numbers are kept and copied. Not safe for several threads at once.
 class NumberText {
  public:
   static constexpr std::size_t kRoom = 32;
 
-  /// For about `count` numbers: few are not worth keeping.
+  /// Prepares for about `count` numbers: a small count does not justify the memory.
   explicit NumberText(std::size_t count);
 
-  /// A number that is put soon: its text is fetched meanwhile, which takes longer than copying it.
+  /// Announces a number that is put soon: fetching its text from memory takes longer than copying
+  /// it.
   void announce(double value) const {
     if (unasked_ == 0 && !kept_.empty())
       __builtin_prefetch(&kept_[index_of(std::bit_cast<std::uint64_t>(value))]);
@@ -46,7 +47,7 @@ class NumberText {
   static constexpr int kIndexBits = 17;  // 65,536 numbers seldom meet in one place
   static constexpr int kWindow = 1000;
   struct alignas(32) Kept {  // two to a line of the processor's cache
-    std::uint64_t bits = 0;  ///< Of the number; of an entry that is not used, those of 0.
+    std::uint64_t bits = 0;  ///< Bits of the number; 0 for an unused entry.
     std::array<char, 23> text{'0'};
     std::uint8_t size = 1;
   };
@@ -55,12 +56,12 @@ class NumberText {
   }
   [[nodiscard]] char* put_unasked(char* at, double value);
   [[nodiscard]] static char* put_and_keep(char* at, double value, Kept& kept);
-  /// Of a window of numbers some must have been there; else the next ones are not looked up.
+  /// Stops looking up numbers for a while if too few of the current window were kept.
   void judge();
 
   std::vector<Kept> kept_;
   int asked_ = 0, found_ = 0;  ///< Within the current window.
-  int unasked_ = 0;            ///< Numbers to come for which asking is not worth it.
+  int unasked_ = 0;            ///< Coming numbers that are not looked up.
 };
 
 }  // namespace myoid::recording

@@ -22,9 +22,9 @@ namespace {
 
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
 
-/// The eight decimal digits of a number below 10^8, leading zeros too, as text: halves, then
-/// quarters, then single digits in the bytes of one word (c / 100 = c * 10486 >> 20 for c < 10^4,
-/// c / 10 = c * 103 >> 10 for c < 100).
+/// Writes the eight decimal digits of a number below 10^8 with leading zeros: halves, then
+/// quarters, then single digits in the bytes of one word (c / 100 = c * 10486 >> 20 for c < 10^4, c
+/// / 10 = c * 103 >> 10 for c < 100).
 inline void put_eight(char* at, std::uint32_t number) {
   std::uint64_t v = number / 10000 | std::uint64_t{number % 10000} << 32U;
   const std::uint64_t hundreds = ((v * 10486) >> 20U) & 0x7F0000007FU;
@@ -37,10 +37,10 @@ inline void put_eight(char* at, std::uint32_t number) {
 
 char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 
-/// UTF-8 of a text in UTF-16 that begins with its byte-order mark; empty if it cannot be one.
+/// Converts a UTF-16 text with a byte-order mark to UTF-8; empty if the bytes are invalid.
 std::optional<std::string> from_utf16(std::string_view bytes) {
   if (bytes.size() % 2 != 0) return std::nullopt;
-  const std::size_t low = bytes[0] == '\xFF' ? 0 : 1;  // which byte of a pair is the lower one
+  const std::size_t low = bytes[0] == '\xFF' ? 0 : 1;  // place of the lower byte in a pair
   std::string text;
   text.reserve(bytes.size() / 2);
   const auto unit = [&](std::size_t i) {
@@ -88,7 +88,7 @@ std::string read_text_file(const std::filesystem::path& path) {
   }
   if (std::filesystem::is_directory(status))
     throw ReadError(path, 0, "this is a folder; name a file inside it");
-  // A pipe ends; a device may not.
+  // A pipe ends; a device may not end.
   if (!std::filesystem::is_regular_file(status) && !std::filesystem::is_fifo(status))
     throw ReadError(path, 0, "this is no regular file; save it to the disk first");
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"),
@@ -119,7 +119,7 @@ std::string read_text_file(const std::filesystem::path& path) {
 
 std::vector<std::string_view> split_lines(std::string_view text) {
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
-  // The next of either character is looked for only when it has been passed.
+  // A character is searched for again only once its last place is passed.
   const auto next = [&](char c, std::size_t from) {
     return std::min(text.find(c, from), text.size());
   };
@@ -189,7 +189,7 @@ std::optional<double> parse_number(std::string_view text) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (end != text.data() + text.size() || text.empty()) return std::nullopt;
   if (error == std::errc::result_out_of_range) {
-    // Too small is 0, too large is not a number that a laboratory writes.
+    // A number too small for a double is 0; a number too large is an error.
     return text.find("e-") != std::string_view::npos || text.find("E-") != std::string_view::npos
                ? std::optional<double>(0.0)
                : std::nullopt;
@@ -218,12 +218,13 @@ char* write_fixed(char* at, double value, int decimals, std::size_t width) {
                                           1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14};
   constexpr std::array<std::int64_t, 9> kTens{1,      10,      100,      1000,     10000,
                                               100000, 1000000, 10000000, 100000000};
-  constexpr std::size_t kWidest = 64;  // written in one piece; there is room behind the number
+  constexpr std::size_t kWidest =
+      64;  // the text is written at once; there is room behind the number
   const double size = std::abs(value);
   if (decimals >= 0 && decimals <= 14 && size < 1e15 && width <= kWidest) {
-    // Whole part and fraction apart: the one is exact, the other times the power is off by less
-    // than 2e-16 of the power, so that its rounding is certain unless it ends that close to one
-    // half.
+    // Whole part and fraction are separate: the whole part is exact. The product of the fraction
+    // and the power is off by less than 2e-16 of the power, so that its rounding is certain unless
+    // it ends that close to one half.
     const double power = kPower[static_cast<std::size_t>(decimals)];
     auto whole = static_cast<std::int64_t>(size);
     const double fraction = (size - static_cast<double>(whole)) * power;
@@ -242,7 +243,8 @@ char* write_fixed(char* at, double value, int decimals, std::size_t width) {
       char* const end = at + std::max(needed, width);
       std::memset(at, ' ', 16);
       if (width > 16) std::memset(at + 16, ' ', kWidest - 16);
-      // The fraction from its first digit, in eights; what is too much goes behind the end.
+      // The fraction is written from its first digit in groups of eight; the surplus goes behind
+      // the end.
       char* begin = end - decimals;
       if (decimals <= 8) {
         put_eight(begin, static_cast<std::uint32_t>(count * kTens[8 - decimals]));

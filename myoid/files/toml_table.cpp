@@ -168,10 +168,10 @@ void TomlTable::finish() const {
 
 namespace {
 
-/// Tells if a key or a value stands at the present place of a TOML text.
+/// Tracks whether a key or a value stands at the present place of a TOML text.
 struct Place {
   bool in_value = false;
-  std::string brackets;  ///< Of lists and tables in values that are open.
+  std::string brackets;  ///< Open brackets of lists and tables in values.
 
   void pass(char c) {
     if (c == '=') in_value = true;
@@ -187,8 +187,8 @@ struct Place {
   }
 };
 
-/// TOML has letters beyond ASCII only inside quotes and remarks. toml++ 3.3 asks a table of blanks
-/// about the others whose end it never expects to reach: they are refused before it sees them.
+/// Refuses letters beyond ASCII outside quotes and remarks, where TOML has none. toml++ 3.3 looks
+/// such letters up in a table of blanks without reaching its end, so that they must not get there.
 void refuse_letters_outside_quotes(std::string_view text, const std::filesystem::path& file) {
   enum class In { plain, remark, quotes };
   In in = In::plain;
@@ -196,7 +196,7 @@ void refuse_letters_outside_quotes(std::string_view text, const std::filesystem:
   bool many_lines = false;
   std::size_t line = 1;
   Place place;
-  char before = '\n';  // the last character that is no blank, of what is outside of quotes
+  char before = '\n';  // the last character outside of quotes that is no blank
   for (std::size_t i = text.starts_with("\xEF\xBB\xBF") ? 3 : 0; i < text.size(); ++i) {
     const char c = text[i];
     const bool ascii = static_cast<unsigned char>(c) < 0x80U;
@@ -210,8 +210,7 @@ void refuse_letters_outside_quotes(std::string_view text, const std::filesystem:
       if (in == In::remark || (in == In::quotes && !many_lines)) in = In::plain;
     } else if (in == In::quotes) {
       const bool escape = quote == '"' && c == '\\';
-      // Blanks and line ends behind a backslash are skipped by toml++, and what follows asked
-      // about.
+      // toml++ skips blanks and line ends behind a backslash and looks up the character after them.
       const std::size_t after = escape ? text.find_first_not_of(" \t\r\n", i + 1) : text.npos;
       if (after != text.npos && after > i + 1 && static_cast<unsigned char>(text[after]) >= 0x80U)
         throw ReadError(file, line,
@@ -236,12 +235,13 @@ void refuse_letters_outside_quotes(std::string_view text, const std::filesystem:
                         fmt::format("not valid TOML: a byte {:#04x}, which is no text",
                                     static_cast<unsigned>(c)));
       if (c == '#') in = In::remark;
-      // toml++ looks through a number to its end, which these are not.
+      // toml++ looks through a number to its end; these characters are no numbers.
       const bool opens = std::string_view("\n=[,{").find(before) != std::string_view::npos;
       if (place.in_value && (c == '=' || ((c == '[' || c == '{') && !opens)))
         throw ReadError(file, line,
                         fmt::format("not valid TOML: a '{}' in the middle of a value", c));
-      // Elsewhere a quote is a mistake, and begins nothing: after a point only in a dotted key.
+      // Elsewhere a quote is a mistake and opens no text; after a point it opens one only in a
+      // dotted key.
       const bool begins = opens || (before == '.' && !place.in_value);
       place.pass(c);
       if (c != ' ' && c != '\t' && c != '\r') before = c;

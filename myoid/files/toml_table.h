@@ -7,50 +7,51 @@
 #include <string_view>
 #include <vector>
 
-// toml++ asserts that a name follows "[", which is for the writer of the file to get wrong
-// ("[=emg]"): without its assertions it reports the error like any other.
+// toml++ asserts that a name follows "[", but the file's author may get this wrong ("[=emg]").
+// Without its assertions toml++ reports this like any other error.
 #define TOML_ASSERT(expr) static_assert(true)
 #include <toml++/toml.h>
 
 namespace myoid::recording {
 
 /// Reads one table of a TOML file strictly: every key is asked for by name and type, and `finish`
-/// refuses the keys nobody asked for, with the nearest known one. All errors are ReadError with the
-/// line.
+/// refuses all other keys, naming the nearest known one. All errors are ReadErrors with the line.
 class TomlTable {
  public:
-  /// `where` is the table's name in messages, "[emg]".
+  /// `where` is the table's name in messages: "[emg]".
   TomlTable(const toml::table& table, std::filesystem::path file, std::string where);
 
   [[nodiscard]] bool has(std::string_view key) const { return table_->contains(key); }
-  /// Makes the key a known one; whether the table has it.
+  /// Makes the key a known one and returns whether the table has it.
   bool asked(std::string_view key) { return find(key) != nullptr; }
   [[nodiscard]] std::optional<std::string> text(std::string_view key);
-  [[nodiscard]] std::optional<double> number(std::string_view key);  ///< Integers too; finite.
+  [[nodiscard]] std::optional<double> number(
+      std::string_view key);  ///< A finite number; integers are accepted.
   [[nodiscard]] std::optional<bool> flag(std::string_view key);
-  /// A string, or an array of strings.
+  /// Returns a string or an array of strings as a list.
   [[nodiscard]] std::optional<std::vector<std::string>> texts(std::string_view key);
   [[nodiscard]] std::optional<std::vector<double>> numbers(std::string_view key);
   [[nodiscard]] std::optional<TomlTable> table(std::string_view key);
   [[nodiscard]] std::vector<TomlTable> tables(std::string_view key);  ///< [[key]]
   [[nodiscard]] std::vector<std::string> keys() const;
 
-  /// Like the above, but throws if the key is missing; `what` says what to write there.
+  /// Like `text`, but throws if the key is missing; `what` says what to write.
   [[nodiscard]] std::string require_text(std::string_view key, std::string_view what);
 
-  /// One of `allowed`; throws listing them.
+  /// Returns one of `allowed`; throws listing them.
   [[nodiscard]] std::string choice(std::string_view key,
                                    std::string_view otherwise,
                                    const std::vector<std::string>& allowed);
 
-  /// A number, `otherwise` if absent; throws unless it lies from `lower` to `upper` [unit].
+  /// Returns a number, or `otherwise` without the key; throws unless it is within `lower` to
+  /// `upper` [unit].
   [[nodiscard]] double number_within(
       std::string_view key, double otherwise, double lower, double upper, std::string_view unit);
 
-  /// A number, `otherwise` if absent; throws unless it is above zero.
+  /// Returns a number, or `otherwise` without the key; throws unless it is positive.
   [[nodiscard]] double positive_number(std::string_view key, double otherwise);
 
-  /// True if the key holds a string (and not a number or a table).
+  /// True if the key holds a string.
   [[nodiscard]] bool is_text(std::string_view key) const;
   [[nodiscard]] bool is_table(std::string_view key) const;
 
@@ -72,7 +73,8 @@ class TomlTable {
 /// Parses a TOML text. Throws ReadError with the line of the first syntax error.
 [[nodiscard]] toml::table parse_toml(std::string_view text, const std::filesystem::path& file);
 
-/// The candidate nearest to `word` by edit distance, if it is near enough to be a slip.
+/// Returns the candidate nearest to `word` by edit distance if it is near enough for a slip of the
+/// pen.
 [[nodiscard]] std::optional<std::string> nearest_word(std::string_view word,
                                                       const std::vector<std::string>& candidates);
 

@@ -5,10 +5,10 @@
 
 namespace myoid::recording {
 
-/// A TOML basic string in quotes; any text may stand in it.
+/// Returns any text as a TOML basic string in quotes.
 [[nodiscard]] std::string toml_text(std::string_view text);
 
-/// A TOML float: always with a point or an exponent, and read back to the same bits.
+/// Returns a TOML float: with a point or an exponent, and read back to the same bits.
 [[nodiscard]] std::string toml_number(double value);
 
 }  // namespace myoid::recording

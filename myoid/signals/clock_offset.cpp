@@ -25,13 +25,16 @@ constexpr double kLeastLength_s = 3.0;
 constexpr double kLeastCorrelation = 0.6;
 constexpr double kMostSd_s = 0.1;
 constexpr int kBlocks = 8;
-constexpr Eigen::Index kMostEmg = 4;     ///< Principal components of the envelopes ...
-constexpr Eigen::Index kMostMotion = 2;  ///< ... and of the motion, each with its acceleration.
+constexpr Eigen::Index kMostEmg = 4;  ///< Principal components of the envelopes.
+constexpr Eigen::Index kMostMotion =
+    2;  ///< Principal components of the motion, each with its acceleration.
 constexpr int kMostRows = 1 + kMostEmg + 2 * kMostMotion;
-constexpr double kLeastSpeed_hz = 0.5;  ///< Slower, posture holds at any delay and misleads.
-constexpr double kLeastMotion = 0.03;   ///< rad or m, standard deviation: less is not a movement.
+constexpr double kLeastSpeed_hz =
+    0.5;  ///< In slower movements posture correlates with EMG at any delay.
+constexpr double kLeastMotion = 0.03;  ///< Standard deviation [rad or m]; less is no movement.
 
-/// The first `most` principal components of the columns. `standardized`: every column counts alike.
+/// Returns the first `most` principal components of the columns. `standardized`: every column has
+/// the same weight.
 Eigen::MatrixXd principal(Eigen::MatrixXd x, Eigen::Index most, bool standardized) {
   x = (x.rowwise() - x.colwise().mean()).eval();
   if (standardized) {
@@ -53,7 +56,7 @@ Eigen::MatrixXd principal(Eigen::MatrixXd x, Eigen::Index most, bool standardize
   return result;
 }
 
-/// Position and acceleration of the motion's largest components.
+/// Returns position and acceleration of the motion's largest components.
 Eigen::MatrixXd demand(const Eigen::MatrixXd& motion) {
   const auto sections =
       math::design_butterworth(math::FilterBand::low_pass, 2, kMotionBelow_hz, kRate_hz);
@@ -70,8 +73,8 @@ Eigen::MatrixXd demand(const Eigen::MatrixXd& motion) {
   return result;
 }
 
-/// The frequency of a sine with the movement's ratio of velocity to position [Hz]; empty where
-/// inertia cannot be felt: a movement that is too small or too slow.
+/// Returns the frequency [Hz] of a sine with the movement's ratio of velocity to position; empty
+/// for a movement so small or slow that inertia does not show.
 std::optional<double> quickness_hz(const Eigen::MatrixXd& motion) {
   const Eigen::MatrixXd centered = motion.rowwise() - motion.colwise().mean();
   const auto n = static_cast<double>(motion.rows());
@@ -89,21 +92,22 @@ std::optional<double> quickness_hz(const Eigen::MatrixXd& motion) {
 /// Sums of products of [1, x(t - d), y(t)] over one block.
 using Moments = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostRows, kMostRows>;
 
-/// By lag -reach..reach, by block of the `usable` samples after the first `reach`.
+/// Returns the sums by lag -reach..reach and by block of the `usable` samples after the first
+/// `reach`.
 std::vector<std::vector<Moments>> moments_by_lag(const Eigen::MatrixXd& x,
                                                  const Eigen::MatrixXd& y,
                                                  Eigen::Index reach,
                                                  Eigen::Index usable) {
   const Eigen::Index nx = 1 + x.cols(), ny = y.cols();
   const auto first_of = [&](int block) { return reach + block * usable / kBlocks; };
-  // Of [1, x]: a sum over any block is the difference of two running ones.
+  // Running sums of [1, x]: a sum over any block is the difference of two of them.
   Eigen::MatrixXd running = Eigen::MatrixXd::Zero(nx * nx, x.rows() + 1);
   Eigen::VectorXd row(nx);
   for (Eigen::Index i = 0; i < x.rows(); ++i) {
     row << 1.0, x.row(i).transpose();
     running.col(i + 1) = running.col(i) + (row * row.transpose()).reshaped();
   }
-  std::vector<Moments> of_y;  // no lag moves these
+  std::vector<Moments> of_y;  // independent of the lag
   for (int k = 0; k < kBlocks; ++k) {
     const auto rows = y.middleRows(first_of(k), first_of(k + 1) - first_of(k));
     Moments& m = of_y.emplace_back(Moments::Zero(nx + ny, nx + ny));
@@ -147,10 +151,10 @@ struct Peak {
   double lead_s = 0.0;
   double correlation = 0.0;
   bool inside = false;
-  double elsewhere = 0.0;  ///< The largest of the other maxima, 0.25 s away or more.
+  double elsewhere = 0.0;  ///< The largest other maximum, at least 0.25 s away.
 };
 
-/// The largest correlation over the lags, its place by a parabola through three.
+/// Finds the largest correlation over the lags; a parabola through three lags gives its place.
 Peak peak_of(const std::vector<Moments>& by_lag, Eigen::Index nx, double reach_s) {
   std::vector<double> values;
   for (const Moments& m : by_lag) values.push_back(canonical_correlation(m, nx));
@@ -209,7 +213,7 @@ std::optional<ClockOffset> estimate_clock_offset(const TimeSeries& envelopes,
   }
   const Peak peak = peak_of(whole, x.cols(), reach_s);
   if (!peak.inside || peak.correlation < kLeastCorrelation) return std::nullopt;
-  // A movement that repeats itself fits a period later as well.
+  // A periodic movement fits at a lag of one period as well.
   if (reach_s > kUsualReach_s && peak.elsewhere > kUnique * peak.correlation) return std::nullopt;
   std::array<double, kBlocks> leads{};
   double mean = 0.0;
@@ -221,7 +225,7 @@ std::optional<ClockOffset> estimate_clock_offset(const TimeSeries& envelopes,
   }
   double squares = 0.0;
   for (const double lead : leads) squares += (lead - mean) * (lead - mean);
-  // A jackknife's variance; the grid cannot tell less than a tenth of its step.
+  // The variance is the jackknife's; the grid resolves at best a tenth of its step.
   const double scatter_s = std::max(std::sqrt(squares * (kBlocks - 1) / kBlocks), 0.1 / kRate_hz);
   if (scatter_s > kMostSd_s) return std::nullopt;
   const double phase_s = 0.25 / *frequency_hz;
@@ -244,7 +248,7 @@ std::vector<Remark> check_clock_offset(const TimeSeries& envelopes,
   const double unsure_s = offset->phase_s + 2.0 * offset->scatter_s;
   const bool grave = offset->lead_s - unsure_s > limits.latest_offset_s ||
                      offset->lead_s + unsure_s < limits.earliest_offset_s;
-  // What may be anywhere in the range that is expected says nothing.
+  // An offset as uncertain as the expected range says nothing.
   const bool tells = 2.0 * offset->sd_s < limits.latest_offset_s - limits.earliest_offset_s;
   if (grave || tells)
     faults.push_back(

@@ -16,7 +16,7 @@ namespace {
 constexpr double kMostDrift_ppm = 5e4;
 constexpr double kMostSigmas = 5.0;
 
-/// The line through the differences of paired instants, and what is left of them.
+/// A line through the differences of paired instants, and its residuals.
 struct Line {
   ClockMap clock;
   double rms_s = 0.0;
@@ -37,7 +37,7 @@ Line fit_line(const std::vector<double>& file_s,
     spread += (file_s[i] - mean_t) * (file_s[i] - mean_t);
     product += (file_s[i] - mean_t) * (study_s[i] - file_s[i] - mean_d);
   }
-  // Least squares with a prior of the slope: both precisions add.
+  // Least squares with a prior of the slope: the precisions add.
   const double prior = with_prior ? std::pow(sd_s / (1e-6 * kClockPrior_ppm), 2) : 0.0;
   Line line;
   line.clock.pivot_s = mean_t;
@@ -60,7 +60,7 @@ std::vector<double> part(const std::vector<double>& values, std::size_t first, s
   return {begin, begin + static_cast<std::ptrdiff_t>(count)};
 }
 
-/// Mean removed, length 1; empty if it does not vary.
+/// Removes the mean and scales to length 1; empty if all values are equal.
 Eigen::VectorXd normalised(Eigen::VectorXd x) {
   x.array() -= x.mean();
   const double size = x.norm();
@@ -68,20 +68,20 @@ Eigen::VectorXd normalised(Eigen::VectorXd x) {
   return x / size;
 }
 
-/// Correlation of x, from `first` on, with as many samples of y from `at` on.
+/// Returns the correlation of x, from `first` on, with as many samples of y from `at` on.
 double correlation(const Eigen::VectorXd& x, const Eigen::VectorXd& y, Eigen::Index at) {
   const Eigen::VectorXd other = normalised(y.segment(at, x.size()));
   return other.size() == 0 ? 0.0 : x.dot(other);
 }
 
 struct Shift {
-  double lag = 0.0;  ///< In samples, between them by a parabola.
+  double lag = 0.0;  ///< In samples; a parabola interpolates between samples.
   double correlation = -1.0;
   bool inside = false;
-  double second = -1.0;  ///< Correlation of the best other maximum.
+  double second = -1.0;  ///< Correlation of the second-best maximum.
 };
 
-/// The lag in [low, high] at which y(i + lag) is most like x(i).
+/// Returns the lag in [low, high] at which y(i + lag) is most similar to x(i).
 Shift best_shift(const Eigen::VectorXd& x_raw,
                  const Eigen::VectorXd& y,
                  Eigen::Index first,
@@ -126,7 +126,8 @@ Instants trigger_edges(const TimeSeries& series, const std::string& channel, boo
   bool armed = x[0] < lowest + 0.25 * height;
   for (Eigen::Index i = 1; i < x.size(); ++i) {
     if (armed && x[i] >= middle) {
-      // A ramp over several samples crosses where the line does; a step, in the middle.
+      // A ramp over several samples crosses where the straight line does; a step crosses in the
+      // middle.
       const double share = x[i] > x[i - 1] ? (middle - x[i - 1]) / (x[i] - x[i - 1]) : 1.0;
       const double t = series.time_s()[i - 1];
       edges.time_s.push_back(t + std::clamp(share, 0.0, 1.0) * (series.time_s()[i] - t));
@@ -185,7 +186,8 @@ ClockMap match_shape(const TimeSeries& file, const TimeSeries& study, double sea
   constexpr double kFine_hz = 1000.0;
   constexpr double kLeastCommon_s = 4.0;
   constexpr double kLeastCorrelation = 0.8;
-  constexpr double kUnique = 0.97;  ///< Of the best correlation: nearly as good.
+  constexpr double kUnique =
+      0.97;  ///< Share of the best correlation from which another shift counts as equally good.
   const double begin_s = std::max(file.time_s()[0] - search_s, study.time_s()[0]);
   const double end_s = std::min(file.time_s()[file.sample_count() - 1] + search_s,
                                 study.time_s()[study.sample_count() - 1]);
@@ -197,7 +199,7 @@ ClockMap match_shape(const TimeSeries& file, const TimeSeries& study, double sea
         Eigen::VectorXd::LinSpaced(n, from_s, from_s + static_cast<double>(n - 1) / rate_hz);
     return Eigen::VectorXd(resample(s, clock).values().col(0));
   };
-  // The part of the file that every shift keeps inside the study's recording.
+  // Every shift keeps this part of the file inside the study's recording.
   const auto keep = [&](double rate_hz, double lag_s, double reach_s) {
     const double from_s = std::max(file.time_s()[0], study.time_s()[0] - lag_s + reach_s);
     const double to_s = std::min(file.time_s()[file.sample_count() - 1],
@@ -248,7 +250,7 @@ ClockMap match_shape(const TimeSeries& file, const TimeSeries& study, double sea
     throw InvalidInput("the two signals are alike as a whole, but not in their parts");
   const Line free = fit_line(file_s, study_s, 1.0, false);
   const auto n = static_cast<double>(file_s.size());
-  // What is left, with two degrees of freedom gone; a tenth of a sample is the least.
+  // The residuals have n - 2 degrees of freedom; a tenth of a sample is the least.
   const double sd_s = std::max(free.rms_s * std::sqrt(n / (n - 2.0)), 0.1 / fine_hz);
   return fit_line(file_s, study_s, sd_s, true).clock;
 }

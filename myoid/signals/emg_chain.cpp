@@ -13,7 +13,7 @@ namespace {
 constexpr const char* kTwoPasses =
     "Butterworth, 2nd order in each of two passes, forwards and backwards (4th order, zero lag)";
 
-/// "BIC at 50, 150 Hz; TRI at 50 Hz": of all trials together.
+/// Returns "BIC at 50, 150 Hz; TRI at 50 Hz" for all trials together.
 std::string lines_of(std::span<const EmgStages* const> trials) {
   std::map<std::string, std::set<double>> lines;
   for (const EmgStages* trial : trials) {
@@ -126,7 +126,8 @@ std::vector<std::string> header_lines(const EmgChain& chain) {
     lines.push_back(fmt::format("  {}. {}", i + 1, chain.steps[i]));
   lines.emplace_back("For a methods section:");
   for (const std::string& sentence : chain.methods) lines.push_back("  " + sentence);
-  // A header of lines "key=value" must not find one here, nor a table a column.
+  // No line may look like "key=value" to a reader of the header, or like a column to a reader of
+  // tables.
   for (std::string& line : lines) {
     std::replace(line.begin(), line.end(), '=', ':');
     std::replace(line.begin(), line.end(), '\t', ' ');

@@ -17,27 +17,28 @@ namespace myoid::signals {
 namespace {
 
 constexpr double kSpectrumSegment_s = 0.25;
-constexpr double kUsualBandwidth_hz = 150.0;  ///< Of surface EMG where the raw signal is not known.
+constexpr double kUsualBandwidth_hz = 150.0;  ///< Of surface EMG whose raw signal is not available.
 constexpr double kRest_s = 1.0;
-/// Greatest level over the quietest second, at the least, for that second to be rest. Efforts that
-/// are held spread by less; EMG that rises no higher above noise is none to work with.
+/// Least ratio of the greatest level to the quietest second for that second to be rest. Sustained
+/// efforts vary by less, and EMG that rises no higher above noise is useless.
 constexpr double kRises = 1.5;
-constexpr double kRectifiedSpread = 0.7555;  ///< sqrt(pi/2 - 1): of rectified Gaussian noise.
+constexpr double kRectifiedSpread =
+    0.7555;  ///< sqrt(pi/2 - 1): coefficient of variation of rectified Gaussian noise.
 
 Eigen::Index window_samples(const TimeSeries& series, double window_s) {
   const auto wanted = static_cast<Eigen::Index>(std::lround(window_s * series.mean_rate_hz()));
   return std::clamp<Eigen::Index>(wanted, 1, series.sample_count());
 }
 
-/// Mean of the windows at one extreme, and how many they are.
+/// Mean and number of the windows at one extreme.
 struct Extreme {
   double level = 0.0;
   std::size_t count = 0;
 };
 
-/// The lowest windows (`side` +1) or the greatest (-1): those at most `margin` of their mean away
-/// from it, found from the extreme one on. Of equally strong windows the extreme one lies far from
-/// their mean, the farther the more there are.
+/// Returns the lowest windows (`side` +1) or the greatest (-1): those at most `margin` of their
+/// mean away from it, counted from the extreme one on. Among equally strong windows the extreme one
+/// lies the farther from their mean, the more windows there are.
 Extreme extreme_level(std::vector<double> means, double margin, double side) {
   std::sort(means.begin(), means.end(), [&](double a, double b) { return side * a < side * b; });
   Extreme e{.level = means.front(), .count = 0};
@@ -54,7 +55,7 @@ Extreme extreme_level(std::vector<double> means, double margin, double side) {
   return e;
 }
 
-/// Bandwidth of a channel's raw EMG; 0: not known.
+/// Returns the bandwidth of a channel's raw EMG; 0 if unknown.
 double bandwidth_of(const TrialEnvelope& trial, const std::string& channel) {
   const auto c = trial.envelope->find(channel);
   return c && *c < trial.bandwidth_hz.size() ? trial.bandwidth_hz[*c] : 0.0;
@@ -62,13 +63,13 @@ double bandwidth_of(const TrialEnvelope& trial, const std::string& channel) {
 
 /// Moving means of one channel over all trials.
 struct Means {
-  std::vector<double> of_a_second;  ///< Where it may rest.
-  std::vector<double> of_a_window;  ///< Where it may be at its greatest.
+  std::vector<double> of_a_second;  ///< Means over a second, for the resting level.
+  std::vector<double> of_a_window;  ///< Means over the window, for the greatest level.
   double samples_per_window = 0.0;
 };
 
-/// The means, and in `n` the place of the greatest. Throws InvalidInput if no trial is as long as
-/// the window.
+/// Computes the means and sets in `n` the place of the greatest. Throws InvalidInput if no trial is
+/// as long as the window.
 Means moving_means(std::span<const TrialEnvelope> trials,
                    double window_s,
                    ChannelNormalisation& n) {
@@ -104,14 +105,14 @@ Means moving_means(std::span<const TrialEnvelope> trials,
   return result;
 }
 
-/// To round-off the same throughout, which no noise of an electrode is.
+/// True if all means agree to round-off: an electrode always has some noise.
 bool is_flat(const Means& means) {
   const double least = *std::min_element(means.of_a_second.begin(), means.of_a_second.end());
   const double most = *std::max_element(means.of_a_window.begin(), means.of_a_window.end());
   return !(most > least * (1.0 + 1e-6));
 }
 
-/// Hum is said; with `notch` it is gone afterwards.
+/// Reports hum and, with `notch`, removes it.
 void take_out_hum(bool notch, EmgStages& stages) {
   const double rate_hz = stages.filtered.mean_rate_hz();
   Eigen::MatrixXd values = stages.filtered.values();
@@ -224,7 +225,8 @@ std::vector<ChannelNormalisation> find_normalisation(std::span<const TrialEnvelo
           "EMG channel '{}' never rises above its resting level: was the electrode connected?",
           channel.name));
     }
-    // Rectified Gaussian noise of bandwidth B averaged over the window: CV = 0.7555 / sqrt(2 B T).
+    // Rectified Gaussian noise of bandwidth B averaged over a window T has CV = 0.7555 / sqrt(2 B
+    // T).
     const double bandwidth_hz = n.bandwidth_hz > 0.0 ? n.bandwidth_hz : kUsualBandwidth_hz;
     const auto spread_over = [&](double window_s) {
       return kRectifiedSpread / std::sqrt(2.0 * bandwidth_hz * window_s);

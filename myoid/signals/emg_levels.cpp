@@ -10,8 +10,8 @@
 namespace myoid::signals {
 namespace {
 
-/// Smallest and largest mean over 0.2 s, shorter than a burst of walking, and the largest over 0.5
-/// s of an envelope.
+/// Extreme means of an envelope: smallest and largest over 0.2 s, shorter than a burst of walking,
+/// and largest over 0.5 s.
 struct Levels {
   double least = std::numeric_limits<double>::infinity();
   double peak = 0.0;

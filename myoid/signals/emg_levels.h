@@ -9,15 +9,15 @@
 
 namespace myoid::signals {
 
-/// How long the samples are above `level` in all [s]: a spike of an artefact is short, a signal in
-/// percent is above 2 for as long as the muscle works.
+/// Returns the total time [s] of samples above `level`. The spike of an artefact is short; a signal
+/// in percent is above 2 as long as the muscle works.
 [[nodiscard]] double time_above_s(const Eigen::Ref<const Eigen::VectorXd>& samples,
                                   double rate_hz,
                                   double level);
 
-/// Looks at all trials together, channel by channel: does the signal rise from rest (largest 0.5 s
-/// mean over smallest 1 s mean), and does no movement exceed the maximal contractions? Channels
-/// that some trial does not have are looked at where they are.
+/// Checks each channel over all trials: the signal must rise from rest (largest 0.5 s mean over
+/// smallest 1 s mean), and no movement may exceed the maximal contractions. A channel that some
+/// trials lack is checked in the others.
 [[nodiscard]] std::vector<Remark> check_emg_levels(std::span<const TrialEnvelope> trials,
                                                    const QualityLimits& limits = {});
 

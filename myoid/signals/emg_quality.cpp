@@ -27,13 +27,13 @@ Eigen::VectorXd filtered(const Eigen::VectorXd& x, FilterBand band, double cutof
   return math::zero_phase(math::design_butterworth(band, 2, cutoff_hz, rate), x, math::Ends::even);
 }
 
-/// Samples i .. i + length - 1 all have the same value.
+/// Samples i .. i + length - 1, which have the same value.
 struct Run {
   Eigen::Index begin = 0;
   Eigen::Index length = 0;
 };
 
-/// The longest run of equal samples, of this value if it is given.
+/// Returns the longest run of equal samples, of this value if one is given.
 Run longest_run(const Eigen::VectorXd& x, std::optional<double> value = std::nullopt) {
   Run best;
   for (Eigen::Index i = 0; i < x.size();) {
@@ -45,7 +45,7 @@ Run longest_run(const Eigen::VectorXd& x, std::optional<double> value = std::nul
   return best;
 }
 
-/// Everything about one channel; the filtered signal is kept for the pairs.
+/// Runs all checks of one channel and keeps the filtered signal for the pairs.
 class ChannelCheck {
  public:
   ChannelCheck(const TimeSeries& raw, Eigen::Index c, bool high_passed, const QualityLimits& limits)
@@ -56,7 +56,7 @@ class ChannelCheck {
         high_passed_(high_passed),
         limits_(limits) {}
 
-  /// What the pair checks compare; empty where there is nothing.
+  /// Returns the signal for the pair checks; empty if the channel has none.
   Eigen::VectorXd run(std::vector<Remark>& faults) {
     amplitude(faults);
     const bool smoothed = is_envelope(x_, rate_hz_, limits_);
@@ -229,7 +229,7 @@ class ChannelCheck {
   const QualityLimits& limits_;
 };
 
-/// The largest correlation within 10 ms either way, over at most 20 one-second blocks.
+/// Returns the largest correlation within 10 ms to either side, over at most 20 one-second blocks.
 double common_share(const Eigen::VectorXd& a, const Eigen::VectorXd& b, double rate_hz) {
   constexpr Eigen::Index kMostBlocks = 20;
   const auto lags = static_cast<Eigen::Index>(0.01 * rate_hz);
@@ -301,14 +301,14 @@ std::vector<Remark> check_emg(const TimeSeries& raw,
 bool is_envelope(const Eigen::Ref<const Eigen::VectorXd>& x,
                  double rate_hz,
                  const QualityLimits& limits) {
-  constexpr double kRinging = 0.05;  // of the maximum, that a filter may swing below zero
+  constexpr double kRinging = 0.05;  // share of the maximum by which a filter may swing below zero
   const Eigen::Index n = x.size();
   if (n < 3 || x.minCoeff() < -kRinging * x.maxCoeff() || !(x.maxCoeff() > x.minCoeff()))
     return false;
   std::vector<double> sorted(x.begin(), x.end());
   std::nth_element(sorted.begin(), sorted.begin() + n / 2, sorted.end());
   const double median = sorted[static_cast<std::size_t>(n / 2)];
-  // Of few steps the median may be the highest or the lowest of all.
+  // With few different values the median may be the highest or the lowest of all.
   Eigen::Index above = 0;
   Eigen::Index not_below = 0;
   for (Eigen::Index i = 1; i < n; ++i) {

@@ -18,9 +18,9 @@ constexpr double kStandsOut = 8.0;
 constexpr double kHighestLine_hz = 450.0;
 constexpr double kNotchWidth_hz = 4.0;
 constexpr double kExtension_s = 1.0;  ///< The notch rings for 1 / (pi 4 Hz) = 0.08 s.
-constexpr double kHumFit_s = 0.5;     ///< The mains drift by less than a tenth of a turn.
+constexpr double kHumFit_s = 0.5;  ///< The mains drift by less than a tenth of a turn in this time.
 
-/// Power of a line above its neighbors; 0 where it does not stand out.
+/// Returns the power of a line above its neighbors; 0 if it does not stand out.
 double line_power(const PowerSpectrum& s, double line_hz) {
   std::vector<double> neighbors;
   double peak = 0.0;
@@ -38,9 +38,9 @@ double line_power(const PowerSpectrum& s, double line_hz) {
                            2.0 * kHalfWidth_hz * *middle);
 }
 
-/// `count` samples after the last one: the lines go on as sines (least squares over the last half
-/// second), the rest is mirrored. Mirrored lines would turn their phase, and a notch lets that
-/// turn pass for a tenth of a second.
+/// Extrapolates `count` samples beyond the last one: the lines continue as sines (least squares
+/// over the last half second), the rest is mirrored. Mirroring would turn the phase of the lines,
+/// and a notch passes such a turn for a tenth of a second.
 Eigen::VectorXd beyond_the_end(const Eigen::VectorXd& x,
                                double rate_hz,
                                const Hum& hum,
@@ -95,7 +95,7 @@ Eigen::VectorXd without_hum(const Eigen::Ref<const Eigen::VectorXd>& x,
   std::vector<math::SecondOrderSection> notches;
   for (const double line_hz : hum.lines_hz) {
     const double w = 2.0 * kPi * line_hz / rate_hz;
-    // H(s) = (s^2 + w0^2) / (s^2 + B s + w0^2), brought over by the bilinear transform at w.
+    // H(s) = (s^2 + w0^2) / (s^2 + B s + w0^2), by the bilinear transform exact at w.
     const double half_width = std::tan(kPi * kNotchWidth_hz / rate_hz);
     const double a0 = 1.0 + half_width;
     notches.push_back({.b0 = 1.0 / a0,

@@ -15,12 +15,13 @@ namespace {
 
 using recording::MarkerSeries;
 
-/// Frames whose distance is worth measuring: some hundred, evenly spread.
+/// Returns the step that selects some hundred frames, evenly spread.
 Eigen::Index stride_of(const MarkerSeries& markers) {
   return std::max<Eigen::Index>(1, markers.frame_count() / 100);
 }
 
-/// Median over pairs of (distance seen) / (distance in the model); empty if no pair is seen.
+/// Returns the median over pairs of (measured distance) / (distance in the model); empty if no pair
+/// is seen.
 std::optional<double> size_ratio(const MarkerSeries& markers,
                                  const std::vector<ExpectedSegment>& expected) {
   std::vector<double> ratios;
@@ -45,7 +46,7 @@ std::optional<double> size_ratio(const MarkerSeries& markers,
   return math::upper_median(ratios);
 }
 
-/// Median over frames of the largest distance between two markers.
+/// Returns the median over frames of the largest distance between two markers.
 std::optional<double> extent_m(const MarkerSeries& markers) {
   std::vector<double> extents;
   for (Eigen::Index f = 0; f < markers.frame_count(); f += stride_of(markers)) {
@@ -139,7 +140,7 @@ std::vector<Remark> check_marker_jumps(const MarkerSeries& markers, const Qualit
   if (frames < 6) return faults;
   const double h =
       (markers.time_s[frames - 1] - markers.time_s[0]) / static_cast<double>(frames - 1);
-  // Fourth difference of 0.2 m at 4 Hz, over 6.
+  // Fourth difference of 0.2 m at 4 Hz, divided by 6.
   const double fast_m = 0.2 * std::pow(2.0 * kPi * 4.0 * h, 4) / 6.0;
   for (Eigen::Index m = 0; m < markers.marker_count(); ++m) {
     std::vector<double> away;
@@ -157,7 +158,8 @@ std::vector<Remark> check_marker_jumps(const MarkerSeries& markers, const Qualit
     const double limit = std::max({limits.jump_m, fast_m, 10.0 * math::upper_median(away)});
     const auto worst = std::max_element(away.begin(), away.end());
     if (*worst <= limit) continue;
-    // Neighbors of a jump are off their path too: separate jumps are five frames apart.
+    // The neighbors of a jump depart from their path too: separate jumps are at least five frames
+    // apart.
     int count = 0;
     Eigen::Index last = -10;
     Eigen::Index begin = -1;
@@ -220,7 +222,7 @@ std::vector<Remark> check_markers(const MarkerSeries& markers,
     std::move(more.begin(), more.end(), std::back_inserter(faults));
   };
   if (auto unit = check_marker_unit(markers, expected)) {
-    // In a wrong unit no length means anything.
+    // In a wrong unit no other check of lengths is meaningful.
     faults.push_back(std::move(*unit));
     append(check_marker_gaps(markers, limits));
     return faults;

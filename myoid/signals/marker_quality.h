@@ -19,34 +19,34 @@ struct MarkerGap {
   Eigen::Index begin = 0, end = 0;
 };
 
-/// All gaps, by marker and then by time.
+/// Finds all gaps, by marker and then by time.
 [[nodiscard]] std::vector<MarkerGap> find_marker_gaps(const recording::MarkerSeries& markers);
 
-/// One fault per marker that is missing somewhere; grave beyond the limits.
+/// Reports one fault for each marker that is missing in a frame; grave beyond the limits.
 [[nodiscard]] std::vector<Remark> check_marker_gaps(const recording::MarkerSeries& markers,
                                                     const QualityLimits& limits = {});
 
-/// A marker that leaves the path through its neighbors in time:
-///   |p_i - (-p_{i-2} + 4 p_{i-1} + 4 p_{i+1} - p_{i+2}) / 6|,
-/// which vanishes on a cubic, is 0 to 1 mm for people at 100 Hz and the height of a spike (half
-/// that of a step) else. Below ten times the marker's own median, or what 4 Hz of 0.2 m give at
-/// this rate, nothing is said. One fault per marker, at its worst.
+/// Reports markers that leave the path through their neighbors in time. The departure
+///   |p_i - (-p_{i-2} + 4 p_{i-1} + 4 p_{i+1} - p_{i+2}) / 6|
+/// vanishes on a cubic. It is 0 to 1 mm for people at 100 Hz, the height of a spike, and half the
+/// height of a step. A departure below ten times the marker's own median, or below that of a
+/// movement of 0.2 m at 4 Hz, is no fault. One fault for each marker, at its worst frame.
 [[nodiscard]] std::vector<Remark> check_marker_jumps(const recording::MarkerSeries& markers,
                                                      const QualityLimits& limits = {});
 
-/// Where the markers sit on the model's segments, to compare with.
+/// Positions of a segment's markers in the model.
 struct ExpectedSegment {
   RigidSegment segment;
-  Eigen::Matrix3Xd local_m;  ///< One column per marker of it.
+  Eigen::Matrix3Xd local_m;  ///< One column for each of its markers.
 };
 
-/// Are these meters? Compares the distances within segments with the model's, or without segments
-/// the distance of the two outermost markers with that of a person (3 cm to 5 m). A power of ten
-/// names the unit that was probably meant.
+/// Checks the unit of length. Compares the distances within segments with the model's, or without
+/// segments the distance of the two outermost markers with that of a person (3 cm to 5 m). A factor
+/// of a power of ten names the probable unit.
 [[nodiscard]] std::optional<Remark> check_marker_unit(const recording::MarkerSeries& markers,
                                                       const std::vector<ExpectedSegment>& expected);
 
-/// All checks of markers, swaps first, the jumps in what is left of them.
+/// Runs all checks of markers: swaps first, then jumps in the frames without swaps.
 [[nodiscard]] std::vector<Remark> check_markers(const recording::MarkerSeries& markers,
                                                 const std::vector<ExpectedSegment>& expected = {},
                                                 const QualityLimits& limits = {});

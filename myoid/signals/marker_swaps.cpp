@@ -12,9 +12,9 @@ namespace myoid::signals {
 namespace {
 
 using recording::MarkerSeries;
-using Labels = std::vector<Eigen::Index>;  ///< Which marker a column really shows.
+using Labels = std::vector<Eigen::Index>;  ///< The marker that each column shows.
 
-/// What is known of a marker's path so far.
+/// The end of a marker's path so far.
 struct Path {
   std::optional<Vec3> last, before;
   double last_s = 0.0, before_s = 0.0;
@@ -22,7 +22,7 @@ struct Path {
   [[nodiscard]] std::optional<Vec3> expected(double time_s, double longest_s) const {
     if (!last || time_s - last_s > longest_s) return std::nullopt;
     if (!before) return last;
-    // Over a long gap the velocity is trusted for its first half only.
+    // Over a long gap the velocity is extrapolated for the first half only.
     const double ahead = std::min(time_s - last_s, std::max(0.5 * longest_s, last_s - before_s));
     return *last + (*last - *before) / (last_s - before_s) * ahead;
   }
@@ -43,7 +43,7 @@ struct Candidate {
   Vec3 seen, expected;
 };
 
-/// The pair whose crossing explains this frame best; empty if none does.
+/// Returns the pair of markers whose exchange explains this frame best; empty if none does.
 std::optional<std::pair<Eigen::Index, Eigen::Index>> crossing(const std::vector<Candidate>& off,
                                                               double apart_m) {
   std::optional<std::pair<Eigen::Index, Eigen::Index>> best;
@@ -99,7 +99,7 @@ std::vector<MarkerSwap> find_swaps(const MarkerSeries& markers, const QualityLim
   }
   if (since.size() == 1) return {};
 
-  // The labels that hold longest are the right ones.
+  // The labels of the longest part are the right ones.
   std::map<Labels, Eigen::Index> held;
   for (std::size_t i = 0; i < since.size(); ++i) {
     const Eigen::Index end = i + 1 < since.size() ? since[i + 1].first : markers.frame_count();

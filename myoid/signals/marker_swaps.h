@@ -12,25 +12,25 @@ namespace myoid::signals {
 
 /// Frames begin <= f < end in which two markers carry each other's label.
 struct MarkerSwap {
-  Eigen::Index first = 0, second = 0;  ///< Markers.
-  Eigen::Index begin = 0, end = 0;     ///< Frames.
+  Eigen::Index first = 0, second = 0;  ///< Indices of the markers.
+  Eigen::Index begin = 0, end = 0;     ///< Indices of the frames.
 };
 
-/// Two markers changed labels where each is found on the path of the other: with p the position in
-/// a frame and e what the last two positions lead to expect (over gaps of up to
-/// `QualityLimits::gap_s` too),
-///   |p_a - e_b| + |p_b - e_a| < (|p_a - e_a| + |p_b - e_b|) / 4,
-/// markers nearer than `swap_m` left alone. The labels of the greater part of the recording are
-/// taken for the right ones. Rows of more than two that change at once are found as a chain of
-/// pairs where they are one. In the order to undo them.
+/// Finds the times in which two markers have exchanged labels. Each marker is then on the path of
+/// the other: with p the position in a frame and e its extrapolation from the last two positions
+/// (across gaps of up to `QualityLimits::gap_s`),
+///   |p_a - e_b| + |p_b - e_a| < (|p_a - e_a| + |p_b - e_b|) / 4.
+/// Markers nearer than `swap_m` are skipped. The labels of the greater part of the recording are
+/// taken as right. An exchange of more than two labels at once is found if it is a chain of pairs.
+/// The result is in the order in which to undo the swaps.
 [[nodiscard]] std::vector<MarkerSwap> find_swaps(const recording::MarkerSeries& markers,
                                                  const QualityLimits& limits = {});
 
-/// The series with these labels put right.
+/// Returns the series with these swaps undone.
 [[nodiscard]] recording::MarkerSeries undo_swaps(recording::MarkerSeries markers,
                                                  const std::vector<MarkerSwap>& swaps);
 
-/// Each of them as a fault, for a reader.
+/// Returns each swap as a fault for a reader.
 [[nodiscard]] std::vector<Remark> swap_faults(const recording::MarkerSeries& markers,
                                               const std::vector<MarkerSwap>& swaps);
 

@@ -19,9 +19,9 @@ namespace {
 using recording::MarkerSeries;
 
 constexpr int kNeighbors = 4;
-constexpr double kApart_s = 0.03;  ///< Nearer frames tell the slope less well than their noise.
+constexpr double kApart_s = 0.03;  ///< The noise of nearer frames would spoil the slope.
 
-/// Up to `kNeighbors` frames on each side of a gap that show the marker, `kApart_s` apart.
+/// Returns up to `kNeighbors` frames on each side of a gap that show the marker, `kApart_s` apart.
 std::vector<Eigen::Index> neighbors(const MarkerSeries& markers, const MarkerGap& gap) {
   std::vector<Eigen::Index> frames;
   const auto walk = [&](Eigen::Index from, Eigen::Index step) {
@@ -62,14 +62,14 @@ bool fill_by_spline(const MarkerSeries& seen, const MarkerGap& gap, MarkerSeries
   return true;
 }
 
-/// A segment, where its markers sit on it, and which of them is asked for.
+/// A segment, the places of its markers, and the index of the sought marker.
 struct Shape {
   const RigidSegment* segment = nullptr;
   Eigen::Matrix3Xd local_m;
 };
 
-/// Where the segment's other markers put this one; empty with fewer than three of them or where
-/// they lie on a line (then the turn about it is not known).
+/// Returns the position of the marker by the segment's other markers; empty if fewer than three are
+/// seen or they lie on a line, because the turn about that line is then unknown.
 std::optional<Vec3> from_segment(const MarkerSeries& seen,
                                  const Shape& shape,
                                  Eigen::Index marker,
@@ -129,7 +129,7 @@ bool fill_from_segment(const MarkerSeries& seen,
   return false;
 }
 
-/// What was filled of one marker, one way.
+/// The frames of one marker that were filled by one method.
 struct Filled {
   int gaps = 0;
   Eigen::Index frames = 0;

@@ -15,20 +15,19 @@ struct MendOptions {
   QualityLimits limits;
 };
 
-/// Markers as they are used from here on, and every change in a sentence.
+/// Repaired markers, with a sentence for every change.
 struct MendedMarkers {
   recording::MarkerSeries markers;
   std::vector<std::string> repairs;
 };
 
-/// Swapped labels are exchanged back (`find_swaps`). Then gaps, where the marker is seen before and
-/// after:
+/// Undoes swaps (`find_swaps`), then fills gaps before and after which the marker is seen:
 ///
-/// - of up to `limits.gap_s`: a cubic spline through four frames on either side, 0.03 s apart;
-/// - longer ones: from the segment, where three other markers of it are seen: the segment's mean
-///   shape laid on them, shifted so that both ends of the gap are met.
+/// - up to `limits.gap_s`: a cubic spline through four frames on either side, 0.03 s apart;
+/// - longer: from the segment, if three other markers of it are seen. The segment's mean shape is
+///   laid on these markers and shifted so that both ends of the gap match.
 ///
-/// All others stay gaps: nothing is known there. A segment whose markers lie on a line is left out.
+/// All other gaps stay. A segment whose markers lie on a line fills none.
 [[nodiscard]] MendedMarkers mend_markers(recording::MarkerSeries markers,
                                          const std::vector<RigidSegment>& segments,
                                          const MendOptions& options = {});

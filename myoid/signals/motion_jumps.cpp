@@ -15,7 +15,7 @@ struct Jump {
   int count = 0;
 };
 
-/// Speeds of a channel, one for each interval between samples.
+/// Returns the speed of a channel for each interval between samples.
 Eigen::VectorXd speeds(const Eigen::VectorXd& time_s, const Eigen::VectorXd& x) {
   const Eigen::Index n = x.size() - 1;
   return (x.tail(n) - x.head(n)).cwiseQuotient(time_s.tail(n) - time_s.head(n)).cwiseAbs();

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kMostSamples = 1e7;
 
-/// Half of the samples added at each end, reflected about the end sample.
+/// Adds half of the samples at each end, reflected about the end sample.
 Eigen::VectorXd padded(const Eigen::Ref<const Eigen::VectorXd>& x) {
   const Eigen::Index n = x.size();
   const Eigen::Index pad = n / 2;
@@ -28,7 +28,7 @@ Eigen::VectorXd padded(const Eigen::Ref<const Eigen::VectorXd>& x) {
   return y;
 }
 
-/// s = (z - 1)/(z + 1) in w^3 / ((s + w)(s^2 + w s + w^2)).
+/// Third-order filter w^3 / ((s + w)(s^2 + w s + w^2)) with s = (z - 1)/(z + 1).
 struct ThirdOrder {
   double b = 0.0, a1 = 0.0, a2 = 0.0, a3 = 0.0;
 };
@@ -41,7 +41,8 @@ ThirdOrder design(double cutoff_hz, double interval_s) {
   return {w * w * w / a0, (p1 * r1 + p0 * r2) / a0, (p1 * r0 + p0 * r1) / a0, p0 * r0 / a0};
 }
 
-/// One pass; the result is reversed in time, so that two calls are a forward and a backward pass.
+/// Filters once and reverses the result in time, so that two calls are a forward and a backward
+/// pass.
 Eigen::VectorXd pass(const ThirdOrder& f, const Eigen::VectorXd& x) {
   Eigen::VectorXd y = x;
   for (Eigen::Index i = 3; i < x.size(); ++i) {

@@ -7,24 +7,25 @@
 
 namespace myoid::signals {
 
-/// Above (or below) these a recording is complained of. docs/guide/check.md has the same table; a
-/// test compares the two.
+/// Limits beyond which a recording is at fault. docs/guide/check.md has the same table; a test
+/// compares the two.
 struct QualityLimits {
   // Markers.
   double gap_s = 0.2;           ///< Longest gap that a spline may fill.
-  double missing_share = 0.25;  ///< Of a marker's frames.
-  double jump_m = 0.02;         ///< Away from the path through the neighboring frames.
+  double missing_share = 0.25;  ///< Share of a marker's frames.
+  double jump_m = 0.02;         ///< Distance from the path through the neighboring frames.
   double swap_m = 0.02;         ///< Two markers nearer than this cannot be told apart.
-  double rigid_m = 0.03;      ///< Change of a distance within a segment (skin moves 1 to 2 cm) ...
-  double rigid_share = 0.15;  ///< ... and of its own size.
+  double rigid_m = 0.03;        ///< Change of a distance within a segment (skin moves 1 to 2 cm).
+  double rigid_share = 0.15;    ///< Change of a distance relative to itself.
   // EMG.
   double amplitude_v = 10.0;  ///< Skin gives 10 mV at most, converters take +-10 V.
-  double raw_hz = 30.0;  ///< Goes through its median less often and is never negative: an envelope.
-  double flat_s = 0.25;  ///< Without any change.
+  double raw_hz = 30.0;  ///< Crossings of the median per second: EMG that has fewer and is never
+                         ///< negative is an envelope.
+  double flat_s = 0.25;  ///< Time without any change.
   double flat_v = 1e-7;  ///< Rms below the noise of every amplifier.
-  double clipped_share = 1e-4;  ///< Of the samples, on flat tops.
-  double saturated_s = 0.02;    ///< On one flat top.
-  double hum_share = 0.10;      ///< Of the power above 20 Hz, in lines of the mains.
+  double clipped_share = 1e-4;  ///< Share of the samples that are on flat tops.
+  double saturated_s = 0.02;    ///< Length of one flat top.
+  double hum_share = 0.10;      ///< Share of the power above 20 Hz in lines of the mains.
   double signal_to_rest = 4.0;  ///< Largest over smallest rms, 12 dB.
   double crosstalk = 0.5;       ///< Correlation of two raw channels.
   double drift_over_rms = 2.0;  ///< Wander of the baseline below 1 Hz over the rms above 20 Hz.
@@ -32,24 +33,26 @@ struct QualityLimits {
       3.0;                      ///< Amplitude between 1 and 15 Hz over the loudest EMG above 20 Hz.
   double over_reference = 1.1;  ///< A movement's effort over that of the maximal contraction.
   // Clocks.
-  double uneven_share = 0.05;       ///< Standard deviation of the intervals over their mean.
-  double earliest_offset_s = -0.1;  ///< EMG leads the motion by 10 to 150 ms in people ...
-  double latest_offset_s = 0.30;    ///< ... and by 300 ms after much smoothing.
-  double drift_s = 0.05;            ///< Change of that lead from the first to the last third.
+  double uneven_share = 0.05;  ///< Standard deviation of the intervals over their mean.
+  double earliest_offset_s =
+      -0.1;  ///< Least lead of EMG over motion; in people the lead is 10 to 150 ms.
+  double latest_offset_s = 0.30;  ///< Greatest lead; heavy smoothing adds up to 300 ms.
+  double drift_s = 0.05;          ///< Change of that lead from the first to the last third.
   // Force plates.
-  double plate_offset_n = 10.0;       ///< Vertical force while nobody stands on it.
-  double plate_loaded_n = 50.0;       ///< Above it the center of pressure is looked at ...
-  double plate_margin_m = 0.02;       ///< ... and may be this far outside ...
-  double plate_outside_share = 0.01;  ///< ... for this share of the loaded time.
+  double plate_offset_n = 10.0;  ///< Vertical force on an empty plate.
+  double plate_loaded_n = 50.0;  ///< Vertical force from which the center of pressure is checked.
+  double plate_margin_m = 0.02;  ///< Distance that it may be outside the corners.
+  double plate_outside_share =
+      0.01;  ///< Share of the loaded time for which it may be farther outside.
 };
 
 /// One row of the documented table.
 struct LimitRow {
   RemarkCode code;
-  std::string limit;  ///< "0.2 s", as the documentation writes it.
+  std::string limit;  ///< As the documentation writes it: "0.2 s".
 };
 
-/// The limits as text, every channel fault once, in the order of RemarkCode.
+/// Returns the limits as text, every fault once, in the order of RemarkCode.
 [[nodiscard]] std::vector<LimitRow> limit_rows(const QualityLimits& limits = {});
 
 }  // namespace myoid::signals

@@ -19,12 +19,13 @@ namespace {
 /// fifth of half the rate, (100 - 8) / (2.285 * 0.2 pi) / 2.
 constexpr double kReach = 32.0;
 constexpr double kBeta = 0.1102 * (100.0 - 8.7);
-constexpr double kCutoff = 0.9;      ///< Of half the new rate: the middle of the transition.
-constexpr double kTableStep = 1e-3;  ///< In samples of the new clock; straight lines between.
+constexpr double kCutoff =
+    0.9;  ///< Cut-off relative to half the new rate: the middle of the transition.
+constexpr double kTableStep = 1e-3;  ///< In samples of the new clock; linear between.
 constexpr double kSamePhase = 1e-7;  ///< In samples of the given clock.
-constexpr double kSlower = 0.99;     ///< A clock that is slower than this share is "slower".
-constexpr double kUneven = 0.02;     ///< More of the interval: not even.
-constexpr Eigen::Index kFewest = 4;  ///< Samples of a stretch of markers.
+constexpr double kSlower = 0.99;  ///< A clock below this share of the given rate counts as slower.
+constexpr double kUneven = 0.02;  ///< Clocks whose intervals vary by more are uneven.
+constexpr Eigen::Index kFewest = 4;  ///< Least samples of a stretch of markers.
 
 /// Modified Bessel function of the first kind, order 0.
 double bessel_i0(double x) {
@@ -38,7 +39,7 @@ double bessel_i0(double x) {
   return sum;
 }
 
-/// Kernel over its distance in samples of the new clock, from 0 to kReach.
+/// Returns the kernel over its distance in samples of the new clock, from 0 to kReach.
 const std::vector<double>& kernel_table() {
   static const std::vector<double> table = [] {
     const auto count = static_cast<std::size_t>(kReach / kTableStep) + 2;
@@ -73,8 +74,8 @@ Eigen::MatrixXd splined(const TimeSeries& series, const Eigen::VectorXd& inside)
   return values;
 }
 
-/// The low-passed series at any times inside it. The weights of each time are scaled to sum 1, so
-/// that a constant stays one.
+/// Returns the low-passed series at times inside it. The weights of each time are scaled to sum 1,
+/// so that a constant stays unchanged.
 Eigen::MatrixXd low_passed(const TimeSeries& given, const Eigen::VectorXd& inside, double rate_hz) {
   require_finite(given, "resampling");
   const Eigen::Index n = given.sample_count();
@@ -86,7 +87,7 @@ Eigen::MatrixXd low_passed(const TimeSeries& given, const Eigen::VectorXd& insid
   const Eigen::MatrixXd& x = even ? given.values() : made_even;
   const double step_s = (last_s - first_s) / static_cast<double>(n - 1);
   const double reach_s = kReach / rate_hz;
-  // Clocks that go together meet in few phases: the weights of one are kept.
+  // Clocks with a common ratio have few phases: the weights of the last phase are kept.
   Eigen::VectorXd weights;
   double phase = -1.0;
   Eigen::MatrixXd result(inside.size(), x.cols());
@@ -175,7 +176,7 @@ recording::MarkerSeries resample(const recording::MarkerSeries& markers,
       if (end - first >= kFewest) {
         const TimeSeries stretch(markers.time_s.segment(first, end - first), axes,
                                  markers.positions_m.block(first, 3 * m, end - first, 3));
-        // Half a frame beyond the ends counts as inside.
+        // Times up to half a frame beyond the ends count as inside.
         const double slack_s = 0.5 * stretch.mean_interval_s();
         Eigen::Index a = 0;
         while (a < time_s.size() && time_s[a] < markers.time_s[first] - slack_s) ++a;

@@ -17,7 +17,7 @@ using recording::MarkerSeries;
 
 constexpr Eigen::Index kLeastFrames = 3;
 
-/// Positions of the segment's markers in one frame, NaN where missing.
+/// Returns the positions of the segment's markers in one frame, NaN for missing ones.
 Eigen::Matrix3Xd seen(const MarkerSeries& markers, const RigidSegment& segment, Eigen::Index f) {
   Eigen::Matrix3Xd points(3, static_cast<Eigen::Index>(segment.markers.size()));
   for (Eigen::Index k = 0; k < points.cols(); ++k)
@@ -25,7 +25,7 @@ Eigen::Matrix3Xd seen(const MarkerSeries& markers, const RigidSegment& segment, 
   return points;
 }
 
-/// Two markers of one segment and the frames in which their distance is not theirs.
+/// Two markers of one segment and the frames in which their distance departs from its median.
 struct Pair {
   Eigen::Index first = 0, second = 0;
   std::vector<Eigen::Index> frames;
@@ -109,7 +109,8 @@ std::vector<Remark> check_rigid_segments(const MarkerSeries& markers,
           pairs.push_back(std::move(pair));
       }
     }
-    // The marker that most of it is about is named first; what it explains is not said again.
+    // The marker with the most departures comes first; departures that it explains are not counted
+    // again.
     while (!pairs.empty()) {
       Eigen::Index culprit = -1;
       std::size_t most = 0;

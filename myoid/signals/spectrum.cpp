@@ -16,7 +16,8 @@
 namespace myoid::signals {
 namespace {
 
-/// Next number at or above n without prime factors above 5, and even: quick to transform.
+/// Returns the next even number at or above n without prime factors above 5, for which the
+/// transform is fast.
 Eigen::Index quick_length(Eigen::Index n) {
   for (Eigen::Index m = std::max<Eigen::Index>(2, n + n % 2);; m += 2) {
     Eigen::Index rest = m;
@@ -27,7 +28,7 @@ Eigen::Index quick_length(Eigen::Index n) {
   }
 }
 
-/// The part of bin k (half a bin to both sides) that lies in low..high, 0..1.
+/// Returns the part of bin k (half a bin to both sides) within low..high, 0..1.
 double part_within(const PowerSpectrum& s, Eigen::Index k, double low_hz, double high_hz) {
   const double width = s.frequency_hz[1];
   const double begin = std::max(0.0, s.frequency_hz[k] - 0.5 * width);
@@ -57,7 +58,7 @@ PowerSpectrum power_spectrum(const Eigen::VectorXd& x, double rate_hz, double se
   }
   const Eigen::Index bins = padded / 2 + 1;
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(bins);
-  // Keeps the roots of unity of the lengths that this thread has met.
+  // Keeps the roots of unity for the lengths of this thread.
   thread_local Eigen::FFT<double> fft(Eigen::FFT<double>::impl_type(),
                                       Eigen::FFT<double>::HalfSpectrum);
   std::vector<double> segment(static_cast<std::size_t>(padded), 0.0);
@@ -72,7 +73,7 @@ PowerSpectrum power_spectrum(const Eigen::VectorXd& x, double rate_hz, double se
     for (Eigen::Index k = 0; k < bins; ++k)
       sum[k] += std::norm(transform[static_cast<std::size_t>(k)]);
   }
-  // Two sides in one, except where there is no other side.
+  // Both sides are added, except at the ends of the spectrum, which have one.
   Eigen::VectorXd density = 2.0 * sum / (count * rate_hz * window.squaredNorm());
   density[0] *= 0.5;
   density[bins - 1] *= 0.5;

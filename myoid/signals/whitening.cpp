@@ -19,15 +19,19 @@ namespace {
 
 constexpr double kShortSegment_s = 0.25;
 constexpr double kQuiet_s = 1.0;
-constexpr double kQuiet = 1.5;  ///< Power of a segment over that of the quietest second ...
-constexpr double kLoud = 3.0;   ///< ... and over the mean of the quiet ones.
+constexpr double kQuiet =
+    1.5;  ///< Ratio to the quietest second's power below which a segment is quiet.
+constexpr double kLoud =
+    3.0;  ///< Ratio to the mean power of the quiet segments above which a segment is active.
 constexpr std::size_t kFewestSegments = 20;
 constexpr double kSmooth_hz = 10.0;   ///< Half width of the smoothing of a spectrum.
-constexpr double kMostGain = 1000.0;  ///< Of the power; 30 dB.
+constexpr double kMostGain = 1000.0;  ///< Of power; 30 dB.
 constexpr double kHalfLength_s = 0.016;
-constexpr double kWorthIt = 1.1;  ///< Growth of the bandwidth, geometric mean of the channels.
+constexpr double kWorthIt =
+    1.1;  ///< Least growth of the bandwidth, geometric mean over the channels.
 constexpr double kSlowest_hz = 500.0;
-constexpr double kFaintNoise = 0.01;  ///< Of the power density in the band, where nothing rests.
+constexpr double kFaintNoise =
+    0.01;  ///< Share of the mean power density in the band, if the muscle never rests.
 
 /// Periodograms of all segments of one channel, one column each.
 struct Segments {
@@ -76,7 +80,7 @@ Segments segments_of(std::span<const TimeSeries* const> trials, const std::strin
   return result;
 }
 
-/// Running median, which neither a notch nor a line moves, then running mean.
+/// Applies a running median, which neither a notch nor a line moves, then a running mean.
 Eigen::VectorXd smoothed(const Eigen::VectorXd& density, double bin_hz) {
   const auto reach =
       std::max<Eigen::Index>(1, static_cast<Eigen::Index>(std::lround(kSmooth_hz / bin_hz)));
@@ -94,8 +98,8 @@ Eigen::VectorXd smoothed(const Eigen::VectorXd& density, double bin_hz) {
   return running(median, [](const auto& x) { return x.mean(); });
 }
 
-/// Bandwidth that a mean square has after a filter of power gain w, as an estimate of the power of
-/// a signal s in noise n.
+/// Returns the bandwidth of a mean square after a filter of power gain w, as an estimate of the
+/// power of a signal s in noise n.
 double bandwidth_hz(const Eigen::VectorXd& w,
                     const Eigen::VectorXd& s,
                     const Eigen::VectorXd& n,
@@ -105,8 +109,8 @@ double bandwidth_hz(const Eigen::VectorXd& w,
   return spread > 0.0 ? bin_hz * sensitivity * sensitivity / spread : 0.0;
 }
 
-/// Taps whose amplitude response follows the root of `gain`: inverse Fourier sum under a Hann
-/// window.
+/// Returns taps whose amplitude response follows the root of `gain`: the inverse Fourier sum under
+/// a Hann window.
 Eigen::VectorXd taps_of(const Eigen::VectorXd& gain, double bin_hz, double rate_hz) {
   const auto count = static_cast<Eigen::Index>(std::lround(kHalfLength_s * rate_hz));
   Eigen::VectorXd half(count + 1);
@@ -125,7 +129,7 @@ Eigen::VectorXd taps_of(const Eigen::VectorXd& gain, double bin_hz, double rate_
   return half;
 }
 
-/// Power gain of symmetric taps at the bins.
+/// Returns the power gain of symmetric taps at the bins.
 Eigen::VectorXd gain_of(const Eigen::VectorXd& half,
                         Eigen::Index bins,
                         double bin_hz,
@@ -148,13 +152,13 @@ struct Band {
   Eigen::Index low = 0, high = 0;
 };
 
-/// Power densities of the contracting muscle at a small effort and of the noise.
+/// Power densities of the muscle at a small effort and of the noise.
 struct Spectra {
   Eigen::VectorXd signal, noise;
 };
 
-/// What stands out less than three times its standard error counts as noise: a periodogram's bin
-/// spreads by its own size, and smoothing averages some bins.
+/// Sets a signal below three times its standard error to noise: a periodogram's bin spreads by its
+/// own size, and smoothing averages some bins.
 Eigen::VectorXd significant(const Eigen::VectorXd& signal,
                             const Eigen::VectorXd& noise,
                             double segments) {
@@ -162,8 +166,7 @@ Eigen::VectorXd significant(const Eigen::VectorXd& signal,
   return (signal.array() > least.array()).select(signal, 0.0);
 }
 
-/// Muscle and noise where the segments differ: those that stand out, and the quiet ones. Absent if
-/// fewer than 20 stand out.
+/// Returns muscle and noise from active and quiet segments; empty if fewer than 20 are active.
 std::optional<Spectra> from_rest(const Segments& segments, double bin_hz) {
   std::vector<double> active;
   Eigen::VectorXd shape = Eigen::VectorXd::Zero(segments.frequency_hz.size());
@@ -181,10 +184,10 @@ std::optional<Spectra> from_rest(const Segments& segments, double bin_hz) {
   return Spectra{significant(power * smoothed(shape / count, bin_hz), noise, count), noise};
 }
 
-/// Muscle and noise where no segment stands out and none is quiet, such as an effort held from the
-/// first sample to the last: the noise is taken for white, of the least density in the band, but at
-/// most a hundredth of the mean one, since else EMG of a level spectrum would all be noise. Absent
-/// if some segment stands out or there are fewer than 20.
+/// Returns muscle and noise if no segment is active and none is quiet, as in an effort sustained
+/// from the first sample to the last. The noise is taken as white, with the least density in the
+/// band, but at most a hundredth of the mean density: otherwise EMG of a flat spectrum would all be
+/// noise. Empty if some segment is active or there are fewer than 20.
 std::optional<Spectra> without_rest(const Segments& segments, const Band& band, double bin_hz) {
   if (segments.power.size() < kFewestSegments) return std::nullopt;
   Eigen::VectorXd mean = Eigen::VectorXd::Zero(segments.frequency_hz.size());
@@ -200,7 +203,7 @@ std::optional<Spectra> without_rest(const Segments& segments, const Band& band, 
   return Spectra{significant(total - noise, noise, count), noise};
 }
 
-/// Why no channel of these trials can be whitened; empty: nothing speaks against it.
+/// Returns the reason why no channel of these trials can be whitened; empty if there is none.
 std::string unfit(std::span<const TimeSeries* const> trials) {
   const double rate_hz = trials.front()->mean_rate_hz();
   if (rate_hz < kSlowest_hz) return fmt::format("sampled at {:.0f} Hz", rate_hz);
@@ -211,7 +214,7 @@ std::string unfit(std::span<const TimeSeries* const> trials) {
   return {};
 }
 
-/// Filter of these spectra, with the bandwidths before and after.
+/// Sets the filter for these spectra, and the bandwidths before and after.
 void set_filter(const Spectra& spectra, const Band& band, double bin_hz, WhiteningFilter& filter) {
   const Eigen::VectorXd& signal = spectra.signal;
   const Eigen::VectorXd& noise = spectra.noise;
@@ -220,7 +223,7 @@ void set_filter(const Spectra& spectra, const Band& band, double bin_hz, Whiteni
       (signal + noise).cwiseAbs2().cwiseMax(std::numeric_limits<double>::min()));
   gain.head(band.low).setConstant(gain[band.low]);
   gain.tail(bins - band.high).setConstant(gain[band.high]);
-  // Least where muscle prevails: relative to there, no more than the limit.
+  // The gain is limited relative to its least value, where the muscle prevails.
   Eigen::Index top = 0;
   signal.maxCoeff(&top);
   gain = gain.cwiseMin(kMostGain * gain[top]);
@@ -257,7 +260,7 @@ WhiteningFilter design_one(std::span<const TimeSeries* const> trials,
   return filter;
 }
 
-/// The filters of the channels that are EMG by their names; all where none is.
+/// Returns the filters of the channels whose names mean EMG; all if there are none.
 std::vector<const WhiteningFilter*> voters(const std::vector<WhiteningFilter>& filters) {
   std::vector<const WhiteningFilter*> emg, all;
   for (const WhiteningFilter& filter : filters) {
