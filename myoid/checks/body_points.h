@@ -10,8 +10,8 @@
 
 namespace myoid {
 
-/// Where the bodies of a model are in the frames of a trial: its markers, or, of a motion without
-/// markers, the joints, centers of mass and markers of the model. One of the two is given.
+/// Positions of a model's bodies in the frames of a trial: by its markers, or, for a motion without
+/// markers, by the joints, centers of mass and markers of the model. One of the two is given.
 class BodyPoints {
  public:
   BodyPoints(const model::BodyModel& model,
@@ -21,15 +21,16 @@ class BodyPoints {
   [[nodiscard]] Eigen::Index frame_count() const;
   [[nodiscard]] double time_s(Eigen::Index frame) const;
 
-  /// The points of this frame, for what follows.
+  /// Computes the points of this frame for the calls that follow.
   void pose(Eigen::Index frame);
   [[nodiscard]] const std::vector<Vec3>& of(model::BodyIndex body) const {
     return points_[static_cast<std::size_t>(body)];
   }
-  /// From the nearest point of the body or of its neighbors across a joint: a foot may have its
-  /// markers on the toes, and a marker of the ankle may be the shank's. Infinite without points.
+  /// Returns the distance from the nearest point of the body or of its neighbors across a joint. A
+  /// foot may have its markers on the toes, and a marker of the ankle may belong to the shank.
+  /// Infinite without points.
   [[nodiscard]] double distance(const Vec3& p_G, model::BodyIndex body) const;
-  /// From the nearest point of the body alone.
+  /// Returns the distance from the nearest point of the body alone.
   [[nodiscard]] double of_one(const Vec3& p_G, model::BodyIndex body) const;
 
  private:

@@ -37,7 +37,7 @@
 namespace myoid {
 namespace {
 
-/// The message of an error without the file and the line that it begins with.
+/// Returns the message of an error without the file and the line at its beginning.
 std::string without_place(const ReadError& error) {
   const std::size_t colons = error.line() == 0 ? 2 : 3 + std::to_string(error.line()).size();
   return std::string(error.what()).substr(error.path().string().size() + colons);
@@ -99,7 +99,7 @@ class StudyCheck {
 
   template <typename Work>
   void attempt(const std::string& where, Work work) {
-    // Errors that differ in their file alone are of one kind.
+    // Errors that differ only in their file are of one kind.
     try {
       work();
     } catch (const ReadError& error) {
@@ -109,7 +109,7 @@ class StudyCheck {
     }
   }
 
-  /// What `init` left to be answered.
+  /// Reports the questions that `init` left open.
   void check_todos() {
     std::error_code error;
     if (!std::filesystem::is_regular_file(study_.file, error)) return;
@@ -178,7 +178,7 @@ class StudyCheck {
 
   void check_markers(const recording::MarkerSeries& markers) {
     if (study_.ik.calibrate) (void)calibration_window(*study_.ik.calibrate, markers);
-    // Names and weights are compared as the real thing does it, on one frame and without a step.
+    // Names and weights are compared as inverse kinematics does, on one frame and without a step.
     recording::MarkerSeries first = markers;
     first.time_s = markers.time_s.head(1);
     first.positions_m = markers.positions_m.topRows(1);
@@ -186,8 +186,8 @@ class StudyCheck {
         *model_, first, {.marker_weights = study_.markers.weight, .max_iterations = 0});
   }
 
-  /// The EMG as `run` processes it, then what `run` says of the recordings; what it would refuse: a
-  /// channel that never rises, a window longer than every trial.
+  /// Processes the EMG as `run` does and reports the findings of `run` on recordings, and its
+  /// errors: a channel that never rises, a window longer than every trial.
   void check_recordings() {
     Study study = study_;
     study.trials = specs_;
@@ -200,7 +200,7 @@ class StudyCheck {
       if (stages)
         for (const std::string& text : stages->findings)
           add(RemarkCode::emg_processing, Severity::note, specs_[i].name, text);
-      // Without a reference the levels alone tell.
+      // Without a reference only the levels are available.
       if (emg[i] != nullptr) activation.trials[i].activation = stages ? stages->envelope : *emg[i];
     }
     const bool all_read = all_read_;
@@ -214,8 +214,8 @@ class StudyCheck {
   const Study& study_;
   std::optional<model::BodyModel> model_;
   std::optional<StudyPlausibility> together_;
-  std::vector<TrialSpec> specs_;    ///< Of the trials that could be read, or their parts.
-  std::vector<TrialInput> inputs_;  ///< Theirs.
+  std::vector<TrialSpec> specs_;    ///< The trials, or parts of trials, that could be read.
+  std::vector<TrialInput> inputs_;  ///< The inputs of `specs_`.
   std::vector<Remark> remarks_;
   bool all_read_ = true;
 };
@@ -224,8 +224,9 @@ class StudyCheck {
 
 namespace {
 
-/// The channels that may be EMG, of them those named so if there are such (others may be a load
-/// cell's); of a storage file, which has no units of its own, all of them if its title states one.
+/// Returns the channels that may be EMG, or only those named so if there are some, since others may
+/// be a load cell's. A storage file has no units of channels: all of them count if its title states
+/// a voltage.
 std::optional<TimeSeries> voltages(const std::filesystem::path& path,
                                    const recording::AnalogChannels& analog,
                                    const std::vector<recording::PlateSetup>& plates) {
@@ -241,9 +242,9 @@ std::optional<TimeSeries> voltages(const std::filesystem::path& path,
   return recording::read_emg(path, "", false).data;
 }
 
-/// Faults of a recording whose EMG does not rise from rest.
+/// Reports channels of a recording whose EMG does not rise from rest.
 std::vector<Remark> levels_alone(const TimeSeries& emg, bool raw, const std::string& where) {
-  constexpr double kSlowest_hz = 100.0;  // twice what the high-pass needs
+  constexpr double kSlowest_hz = 100.0;  // twice the rate that the high-pass needs
   if (raw && emg.mean_rate_hz() < kSlowest_hz) return {};
   signals::EnvelopeOptions options;
   options.whitening = false;

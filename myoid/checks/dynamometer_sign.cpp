@@ -18,10 +18,10 @@
 namespace myoid {
 namespace {
 
-constexpr double kActive = 0.1;   ///< Of a channel's largest.
-constexpr double kLargest = 0.5;  ///< Of a trial's largest torque.
+constexpr double kActive = 0.1;   ///< Share of a channel's largest value.
+constexpr double kLargest = 0.5;  ///< Share of a trial's largest torque.
 
-/// F_max r of each muscle of the study [N m], r the mean over the coordinate's range.
+/// Returns F_max r of each muscle of the study [N m], r the mean over the coordinate's range.
 Eigen::VectorXd strengths_nm(const Study& study,
                              const model::BodyModel& model,
                              const std::string& coordinate) {
@@ -50,7 +50,8 @@ Eigen::VectorXd strengths_nm(const Study& study,
   return strength;
 }
 
-/// What the weight of all that the coordinate moves makes at most: each body straight out [N m].
+/// Returns the largest possible torque by the weight of all bodies that the coordinate moves, each
+/// stretched out [N m].
 double weight_nm(const model::BodyModel& model, const std::string& coordinate) {
   const int index = model.coordinate_index(coordinate);
   const auto joint =
@@ -69,7 +70,7 @@ double weight_nm(const model::BodyModel& model, const std::string& coordinate) {
   return sum;
 }
 
-/// Sums for the cosine of what the muscles pull and what they must provide.
+/// Sums for the cosine between the muscles' torque and the torque they must provide.
 struct Products {
   double both = 0.0, pull = 0.0, need = 0.0;
   void add(const Products& other) {

@@ -10,20 +10,20 @@
 
 namespace myoid {
 
-/// A trial as its EMG and its dynamometer see it.
+/// The EMG and the dynamometer's torque of a trial.
 struct EffortTrial {
   const TrialSpec* spec = nullptr;
-  const TimeSeries* external_torque = nullptr;  ///< `<coordinate>_moment` [N m]; nullptr: none.
-  TimeSeries envelopes;                         ///< Of the study's EMG channels, any scale.
+  const TimeSeries* external_torque = nullptr;  ///< `<coordinate>_moment` [N m], or nullptr.
+  TimeSeries envelopes;                         ///< The study's EMG channels, in any scale.
 };
 
-/// Tells if the dynamometers push against the muscles that are active, or, with the sign reversed,
-/// with them. What the muscles pull is taken as a F_max r with r the mean over the coordinate's
-/// range and a relative to the channel's largest of all trials; it is compared with minus the
+/// Tells whether the dynamometers push against the active muscles or, with a reversed sign, with
+/// them. The muscles' torque is a F_max r, with r the mean over the coordinate's range and a
+/// relative to the channel's largest value over all trials. It is compared with minus the
 /// dynamometer's torque, by the cosine of both, in the half of a trial's torque that is largest. A
-/// trial below -0.5 is a warning; an error where all trials are and the cosine of all is below
-/// -0.8. Torques below a tenth of what the muscles can hold or four times what the limb weighs,
-/// in which that and its inertia count, tell nothing, nor do passive trials.
+/// trial below -0.5 is a warning; it is an error if all trials are and the cosine of all is below
+/// -0.8. Skipped are passive trials and torques below a tenth of the muscles' strength or below
+/// four times the limb's weight, where weight and inertia count.
 [[nodiscard]] std::vector<Remark> dynamometer_signs(const Study& study,
                                                     const model::BodyModel& model,
                                                     const std::vector<EffortTrial>& trials);

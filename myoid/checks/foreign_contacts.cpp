@@ -18,20 +18,21 @@ namespace {
 
 constexpr double kLeast_n = 20.0;
 constexpr double kMergedContact_s = 0.025;  ///< A shorter pause does not end a contact.
-constexpr double kLevel_m = 0.04;           ///< Both feet on the ground.
+constexpr double kLevel_m = 0.04;  ///< Feet at equal height within this both stand on the ground.
 constexpr double kStill_m_per_s = 0.25;
-constexpr double kFloorPush = 0.5;   ///< Cosine of 60 degrees, as `recording::is_floor`.
-constexpr double kTwoSteps_m = 0.5;  ///< Of stairs: the other foot may stand so much lower.
+constexpr double kFloorPush = 0.5;  ///< Cosine of 60 degrees, as `recording::is_floor`.
+constexpr double kTwoSteps_m =
+    0.5;  ///< Height of two steps of stairs: the other foot may stand so much lower.
 constexpr Eigen::Index kContactFrames = 1500;
 constexpr double kNoDistance = std::numeric_limits<double>::infinity();
 
-/// One frame in which a force is loaded.
+/// One frame with a load.
 struct LoadedFrame {
   double time_s = 0.0;
-  double own_m = kNoDistance;    ///< From the body of the force, or its neighbors.
-  double other_m = kNoDistance;  ///< From the nearest other body.
+  double own_m = kNoDistance;    ///< Distance from the force's body or its neighbors.
+  double other_m = kNoDistance;  ///< Distance from the nearest other body.
   model::BodyIndex other = 0;
-  model::BodyIndex second = 0;  ///< A second foot on the ground beside; 0 is none.
+  model::BodyIndex second = 0;  ///< A second foot on the ground nearby, or 0.
   double second_m = kNoDistance;
   Vec3 force_n = Vec3::Zero();
   double above_m = 0.0;  ///< Height of the center of pressure above the lowest point of all bodies.
@@ -43,7 +44,7 @@ struct GroundContact {
   [[nodiscard]] double end_s() const { return frames.back().time_s; }
 };
 
-/// Some frames of a contact that are not the body's own.
+/// Consecutive frames of a contact that belong to another body.
 struct ForeignStretch {
   double begin_s = 0.0, end_s = 0.0;
   std::size_t frames = 0;
@@ -56,14 +57,14 @@ Vec3 against_gravity(const model::BodyModel& model) {
   return model.gravity_G.norm() > 0.0 ? Vec3(-model.gravity_G.normalized()) : Vec3::UnitY();
 }
 
-/// Where the force acts on the ground; empty where that means nothing.
+/// Returns the center of pressure on the ground; empty if the force defines none.
 std::optional<Vec3> pressure_center(const dynamics::ExternalForce& force,
                                     double data_time_s,
                                     const Vec3& up) {
   const Vec3 at = force.point->at(data_time_s);
   if (!force.point->splines.empty() || !force.torque) return at;
   const Vec3 f = force.force->at(data_time_s);
-  constexpr double kSteep = 0.3;  // a flatter force cuts the plane anywhere
+  constexpr double kSteep = 0.3;  // a flatter force cuts the plane too far away
   if (!(f.dot(up) > kSteep * f.norm())) return std::nullopt;
   return at + up.cross(force.torque->at(data_time_s)) / f.dot(up);
 }
@@ -80,7 +81,7 @@ bool are_neighbors(const model::BodyModel& model, model::BodyIndex a, model::Bod
   });
 }
 
-/// The lowest point of each body and how fast it moves, frame by frame.
+/// The lowest point of each body and its speed, frame by frame.
 struct Lowest {
   std::vector<std::optional<Vec3>> point_m;
   std::vector<double> speed_m_per_s;
@@ -218,14 +219,14 @@ class GroundContacts {
     return height;
   }
 
-  /// Still, and as low as the body that bears the force.
+  /// True for a body that does not move and is as low as the body of the force.
   [[nodiscard]] bool stands(std::size_t body, model::BodyIndex own, const Lowest& lowest) const {
     const auto& mine = lowest.point_m[static_cast<std::size_t>(own)];
     return mine && lowest.point_m[body] && lowest.speed_m_per_s[body] < kStill_m_per_s &&
            std::abs((*lowest.point_m[body] - *mine).dot(up_)) < kLevel_m;
   }
 
-  /// Another force acts on the body, or under it.
+  /// True if another force acts on the body, or under it.
   [[nodiscard]] bool has_a_force(std::size_t but,
                                  std::size_t body,
                                  const std::vector<std::optional<Vec3>>& centers) const {
@@ -254,7 +255,7 @@ double usual_distance(const std::vector<LoadedFrame>& frames) {
   return own.empty() ? kNoDistance : math::median(std::move(own));
 }
 
-/// What a frame shows: 0 the body's own, 1 a foreign foot, 2 a second foot.
+/// Classifies a frame: 0 the body's own, 1 a foreign foot, 2 a second foot.
 int frame_kind(const LoadedFrame& m, bool others_are_near) {
   if (!std::isfinite(m.own_m)) return 0;
   if (m.own_m > kLimits.off_body_m && m.other_m <= kLimits.much_nearer * m.own_m) return 1;
@@ -278,7 +279,7 @@ void close_stretch(std::vector<ForeignStretch>& found,
   found.push_back(s);
 }
 
-/// The stretches of a contact that are another foot's.
+/// Returns the stretches of a contact that belong to another foot.
 std::vector<ForeignStretch> foreign_stretches(const GroundContact& contact, bool others_are_near) {
   std::vector<ForeignStretch> found;
   std::vector<LoadedFrame> part;

@@ -10,21 +10,21 @@
 
 namespace myoid {
 
-/// Tells if each contact with the ground belongs to the body that its force is applied to. A
-/// contact is a time of 50 ms or more in which a force on a body bears a twentieth of its largest.
-/// Only forces of floor plates are looked at: they push up, within 60 degrees, and their center of
-/// pressure is at most 0.5 m above the lowest point of the person. A load cell in a hand is none.
-/// The distance of the center of pressure from the body is compared for each contact, frame by
-/// frame:
+/// Tells whether each contact with the ground belongs to the body to which its force is applied. A
+/// contact is a time of 50 ms or more in which a force on a body exceeds a twentieth of its largest
+/// value. Only forces of floor plates are checked: they push up, within 60 degrees, and their
+/// center of pressure is at most 0.5 m above the lowest point of the person; the force of a load
+/// cell in a hand is neither. For each contact, the distance of the center of pressure from the
+/// body is compared frame by frame:
 ///
 /// - a foreign foot: the center of pressure is more than 0.2 m from the body and half as far from
-///   another body, or 0.3 m from it while the force's other contacts are nearer than 0.2 m;
+///   another body, or 0.3 m from the body while the force's other contacts are nearer than 0.2 m;
 /// - a second foot: the center of pressure is more than 0.1 m from the body, while another foot
 ///   without a force of its own stands still at the same height within 0.4 m.
 ///
-/// One warning for each force, with the times, their share of the loaded time, the distances and
-/// the remedy. A plate's force at the middle of its surface has its center of pressure where its
-/// moment puts it in the plane across gravity.
+/// Gives one warning for each force, with the times, their share of the loaded time, the distances
+/// and the remedy. If a plate's force is given at the middle of its surface, the center of pressure
+/// follows from its moment, in the horizontal plane through that point.
 [[nodiscard]] std::vector<Remark> foreign_contacts(const model::BodyModel& model,
                                                    const std::string& trial,
                                                    const dynamics::ExternalLoads& loads,

@@ -13,11 +13,11 @@
 namespace myoid {
 namespace {
 
-constexpr double kLoaded = 0.2;  ///< Of the largest force.
+constexpr double kLoaded = 0.2;  ///< Share of the largest force.
 constexpr int kFrames = 200;
 constexpr double kNone = std::numeric_limits<double>::infinity();
 
-/// A force on a body through a center of pressure that moves over the ground.
+/// True for a force on a body whose center of pressure moves over the ground.
 bool is_under_a_foot(const dynamics::ExternalForce& force) {
   return force.body != 0 && force.force_frame == 0 && force.point_frame == 0 && force.force &&
          force.point && !force.force->splines.empty() && !force.point->splines.empty();
@@ -25,8 +25,8 @@ bool is_under_a_foot(const dynamics::ExternalForce& force) {
 
 struct Load {
   const dynamics::ExternalForce* force = nullptr;
-  std::vector<double> distance_m;  ///< Median, by body with its neighbors.
-  std::vector<double> alone_m;     ///< Median, by body.
+  std::vector<double> distance_m;  ///< Median distance from each body with its neighbors.
+  std::vector<double> alone_m;     ///< Median distance from each body alone.
 };
 
 double median_of(std::vector<double> values) {

@@ -24,7 +24,7 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 8> kSides{{{
                                                                                {"R", "L"},
                                                                                {"L", "R"}}};
 
-/// True if a letter for the side at the begin stands apart: before a sign or another capital.
+/// True if a letter for the side at the beginning stands apart: before a sign or another capital.
 bool stands_apart(const std::string& label, std::size_t length) {
   if (label.size() <= length) return false;
   const auto next = static_cast<unsigned char>(label[length]);
@@ -106,7 +106,7 @@ std::optional<Remark> exchanged_sides(const model::BodyModel& model,
                             trial.markers ? trial.markers->filename().string() : "the markers",
                             1e3 * now, 1e3 * then)};
   } catch (const InvalidInput&) {
-    return std::nullopt;  // said where the markers are compared with the model's
+    return std::nullopt;  // the comparison of markers with the model reports this
   }
 }
 

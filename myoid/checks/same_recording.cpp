@@ -14,8 +14,8 @@ namespace {
 
 constexpr Eigen::Index kStretch = 32;
 constexpr std::uint64_t kOneIn = 4;
-constexpr std::size_t kFewestStretches = 8;  ///< Stretches that tell anything.
-/// Windows of one file that meet may share their edges.
+constexpr std::size_t kFewestStretches = 8;  ///< Fewer stretches allow no comparison.
+/// Adjacent windows of one file may share their edges.
 constexpr double kEdges = kLimits.same_samples;
 
 /// The finalizer of SplitMix64 (Steele, Lea and Flood 2014).
@@ -83,7 +83,7 @@ TrialPrint print_of(const TrialSpec& spec, const TrialInput& input) {
   const TimeSeries movement = movement_of(input);
   if (!movement.empty()) print.movement = stretches_of(movement);
   if (input.emg) {
-    // What the EMG begins earlier for the sake of its delay belongs to the trial before.
+    // The EMG before the movement, which the delay requires, belongs to the previous trial.
     const double begin_s = movement.empty() ? input.emg->time_s()[0] : movement.time_s()[0];
     print.emg = stretches_of(input.emg->slice(begin_s, 1e300));
   }

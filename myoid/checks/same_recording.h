@@ -11,19 +11,19 @@
 
 namespace myoid {
 
-/// Hashes of short stretches of a recording's samples, sorted: the same samples give the same
-/// hashes in whatever file, format, window or clock they come.
+/// Hashes of short stretches of a recording's samples, sorted. The same samples give the same
+/// hashes in any file, format, window or clock.
 using Stretches = std::vector<std::uint64_t>;
 
-/// Of the stretches of 32 samples of all channels together those that a rule of their own content
-/// picks, a quarter of them; none of samples that do not change. A single channel may be alike in
-/// two trials where nothing is noisy, as of muscles that rest in both.
+/// Hashes stretches of 32 samples of all channels together. A rule on their own content selects a
+/// quarter of them; stretches that do not change are skipped. All channels take part because a
+/// single noiseless channel, such as one of a resting muscle, may be equal in two trials.
 [[nodiscard]] Stretches stretches_of(const TimeSeries& series);
 
-/// Share of the shorter recording that is in the other, too.
+/// Returns the share of the shorter recording that is in the other, too.
 [[nodiscard]] double common_share(const Stretches& a, const Stretches& b);
 
-/// What a trial consists of.
+/// The files and stretches of a trial.
 struct TrialPrint {
   std::string trial;
   Use use = Use::calibration;
@@ -32,10 +32,10 @@ struct TrialPrint {
 };
 [[nodiscard]] TrialPrint print_of(const TrialSpec& spec, const TrialInput& input);
 
-/// The same recording in two trials: an error where one EMG is said to have driven two movements,
-/// or one effort is counted twice; a warning where two EMGs are said to have driven one movement,
-/// or a maximal contraction is only a trial once more. The same file may serve several trials with
-/// windows that do not overlap, and several maximal contractions.
+/// Finds the same recording in two trials. It is an error if one EMG is combined with two movements
+/// or one effort counts twice. It is a warning if two EMGs are combined with one movement, or if a
+/// maximal contraction repeats a trial. One file may serve several trials with windows that do not
+/// overlap, and several maximal contractions.
 [[nodiscard]] std::vector<Remark> same_recordings(const std::vector<TrialPrint>& trials);
 
 }  // namespace myoid

@@ -16,7 +16,7 @@
 namespace myoid {
 namespace {
 
-/// A coordinate that carries the body in a trial without any measured force.
+/// Finds a coordinate that carries the body in a trial without any measured force.
 std::optional<Remark> check_support(const Study& study,
                                     const model::BodyModel& model,
                                     const TrialSpec& trial,
@@ -65,7 +65,7 @@ void StudyPlausibility::look_at(const TrialSpec& trial, const TrialInput& input)
   auto sides = input.markers
                    ? exchanged_sides(*model_, trial, *input.markers, study_->markers.weight)
                    : std::nullopt;
-  // Exchanged labels put every force under the other foot.
+  // Exchanged labels would put every force under the other foot.
   found = sides ? std::vector<Remark>{*sides} : misplaced_loads(*model_, trial, input);
   if (found.empty() && input.loads && (input.markers || input.motion))
     found = foreign_contacts(*model_, trial.name, *input.loads,
@@ -79,7 +79,7 @@ void StudyPlausibility::look_at(const TrialSpec& trial, const TrialInput& input)
 std::vector<Remark> StudyPlausibility::findings() const {
   std::vector<Remark> found = grouped(of_trials_);
   std::vector<Remark> same = same_recordings(prints_);
-  // Activations may be computed, and then alike for good.
+  // Computed activations may be equal for good reason.
   if (study_->emg.kind == EmgKind::activation) {
     for (Remark& f : same) f.severity = Severity::warning;
     if (largest_emg_ > 0.0 && largest_emg_ < kFlatActivation) {
@@ -110,7 +110,7 @@ void require_plausible(const Study& study,
         throw InvalidInput(f.where == "study"
                                ? sentence(f)
                                : fmt::format("{} (trial '{}')", sentence(f), f.where));
-      // What is said of the whole study stands with its first trial.
+      // Findings on the whole study are listed with its first trial.
       std::size_t at = 0;
       while (at < inputs.size() && study.trials[at].name != f.where) ++at;
       inputs[at < inputs.size() ? at : 0].remarks.push_back(std::move(f));

@@ -13,16 +13,16 @@
 
 namespace myoid {
 
-/// Looks at the trials of a study one by one, then at all of them together. `check` says what it
-/// finds; `run` refuses its errors and says its warnings.
+/// Checks the trials of a study one by one, then all of them together. `check` reports the
+/// findings; `run` stops at errors and reports warnings.
 class StudyPlausibility {
  public:
   /// The study and the model must outlive this.
   StudyPlausibility(const Study& study, const model::BodyModel& model);
 
   void look_at(const TrialSpec& trial, const TrialInput& input);
-  /// What is wrong with the trials seen so far, one by one and together; what several have alike is
-  /// said of the first, and the others are named.
+  /// Returns the findings on the trials so far, one by one and together. A finding of several
+  /// trials is given for the first, and names the others.
   [[nodiscard]] std::vector<Remark> findings() const;
 
  private:
@@ -32,10 +32,11 @@ class StudyPlausibility {
   std::vector<Remark> of_trials_;
   std::vector<TrialPrint> prints_;
   std::vector<TrialLengths> lengths_;
-  double largest_emg_ = 0.0;  ///< Of all trials.
+  double largest_emg_ = 0.0;  ///< Over all trials.
 };
 
-/// All of it: throws InvalidInput for the first error, adds the warnings to the trials'.
+/// Runs all these checks: throws InvalidInput for the first error and adds the warnings to the
+/// trials'.
 void require_plausible(const Study& study,
                        const model::BodyModel& model,
                        std::vector<TrialInput>& inputs);

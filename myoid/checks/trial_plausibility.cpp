@@ -36,7 +36,7 @@ void check_angles(const Study& study,
     if (outside == 0) continue;
     const double share = static_cast<double>(outside) / static_cast<double>(q.size());
     const double far = std::max(c.lower - q.minCoeff(), q.maxCoeff() - c.upper);
-    // Where it lies outside most of the time it is not a posture but another convention.
+    // A coordinate that is outside most of the time follows another convention.
     const bool wrong = share > kLimits.angle_share && c.clamped;
     const bool negated =
         (-q.maxCoeff() >= c.lower - kBeyond_rad) && (-q.minCoeff() <= c.upper + kBeyond_rad);
@@ -74,7 +74,7 @@ void check_held_mass(const Study& study,
                              trial.held_mass_kg, *study.subject.mass_kg)});
     return;
   }
-  if (!study.model.held_mass && study.model.file) return;  // an error of its own
+  if (!study.model.held_mass && study.model.file) return;  // reported as an error elsewhere
   const auto body =
       study.model.held_mass ? model.find_body(study.model.held_mass->body) : std::nullopt;
   model::BodyState state = model::make_state(model);
@@ -109,8 +109,8 @@ void check_held_mass(const Study& study,
   }
 }
 
-/// The markers of the body that stands on the ground joint, if the study's joints do not turn about
-/// that: a trunk, which is upright in most movements, not a limb.
+/// Checks the vertical by the markers of the body on the ground joint, unless the study's joints
+/// turn it: a trunk is upright in most movements, a limb is not.
 void check_vertical(const Study& study,
                     const model::BodyModel& model,
                     const TrialInput& input,
@@ -140,7 +140,8 @@ void check_vertical(const Study& study,
       trunk.positions_m.rightCols(3) = input.markers->positions_m.middleCols(3 * m, 3);
     }
   }
-  const Mat3 back = rotation_onto(model, input.up_L).transpose();  // the markers are turned already
+  const Mat3 back =
+      rotation_onto(model, input.up_L).transpose();  // the markers were turned on reading
   const std::string told = recording::axis_name(input.up_L);
   const recording::MarkerSeries laboratory = recording::rotated(trunk, back);
   const std::optional<double> now = upright(model, laboratory, input.up_L);

@@ -14,27 +14,27 @@
 
 namespace myoid {
 
-/// Of each of the study's coordinates that turns.
+/// For each of the study's coordinates that turns.
 using Capacities = std::map<std::string, dynamics::JointCapacity>;
 [[nodiscard]] Capacities joint_capacities(const Study& study, const model::BodyModel& model);
 
-/// What no person can have done or held: an external torque that no joint makes (N mm?), a held
-/// mass that no muscle holds, angles far outside the model's range (sign or convention?), the
-/// laboratory's vertical lying across the trunk. Each with numbers and remedy.
+/// Finds impossible inputs: an external torque beyond any joint's capacity (N mm?), a held mass
+/// beyond the muscles' strength, angles far outside the model's range (sign or convention?), the
+/// laboratory's vertical across the trunk. Each finding has numbers and a remedy.
 [[nodiscard]] std::vector<Remark> implausible(const Study& study,
                                               const model::BodyModel& model,
                                               const Capacities& capacities,
                                               const TrialSpec& trial,
                                               const TrialInput& input);
 
-/// The activation that a trial must exceed somewhere to count as one with active muscles.
+/// A trial has active muscles if its activation exceeds this somewhere.
 inline constexpr double kFlatActivation = kLimits.flat_activation;
 
-/// The share of samples by whose size a torque is judged: what one in a hundred exceeds, so that a
-/// spike does not.
+/// Returns the size that one sample in a hundred exceeds, so that a spike does not decide.
 [[nodiscard]] double usual_peak(const Eigen::Ref<const Eigen::VectorXd>& values);
 
-/// "16194 N m at elbow_flexion is more than ...; N mm?" if it is, else empty.
+/// Returns "16194 N m at elbow_flexion is more than ...; N mm?" for too large a torque, else an
+/// empty text.
 [[nodiscard]] std::string too_much_torque(const std::string& coordinate,
                                           double peak_nm,
                                           double greatest_nm,

@@ -13,7 +13,7 @@
 namespace myoid {
 namespace {
 
-/// Mean height of what is seen in every frame, or of the joint to the ground.
+/// Returns the mean height of the markers that all frames show, or of the joint to the ground.
 std::optional<Eigen::VectorXd> height_of(const model::BodyModel& model, const TrialInput& input) {
   if (!input.markers) {
     const auto root = dynamics::unsupported_weight(model);
@@ -35,7 +35,7 @@ std::optional<Eigen::VectorXd> height_of(const model::BodyModel& model, const Tr
   return sum / count;
 }
 
-/// Acceleration of the parabola through these samples.
+/// Returns the acceleration of the parabola through these samples.
 double acceleration_of(const Eigen::VectorXd& time_s, const Eigen::VectorXd& height_m) {
   Eigen::MatrixX3d terms(time_s.size(), 3);
   const Eigen::ArrayXd t = time_s.array() - time_s.mean();
@@ -67,14 +67,14 @@ std::vector<Remark> unloaded_times(const model::BodyModel& model,
     }
     share[i] = sum / weight->weight_n;
   }
-  if (share.maxCoeff() < kLimits.bears) return {};  // held in the hands, not stood upon
+  if (share.maxCoeff() < kLimits.bears) return {};  // forces on the hands do not carry the body
   std::vector<std::string> times;
   double sum_s = 0.0;
   for (Eigen::Index i = 0; i < t.size(); ++i) {
     const Eigen::Index first = i;
     while (i < t.size() && share[i] < kLimits.bears_nothing) ++i;
     if (i == first || t[i - 1] - t[first] < kLimits.unloaded_s || i - first < 4) continue;
-    // A body in the air falls, and no plate carries it.
+    // A body in the air falls without any plate.
     if (acceleration_of(t.segment(first, i - first), height->segment(first, i - first)) <
         -kLimits.falls * g)
       continue;

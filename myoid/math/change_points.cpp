@@ -46,7 +46,7 @@ Eigen::VectorXd noise_from_differences(const Eigen::MatrixXd& x) {
   return sd;
 }
 
-/// Costs of segments from running sums; columns are centered first, which keeps their digits.
+/// Costs of segments from running sums; centering the columns first keeps their digits.
 class Costs {
  public:
   Costs(const Eigen::MatrixXd& x, SegmentCost kind, const Eigen::VectorXd& noise_sd)
@@ -72,7 +72,7 @@ class Costs {
       if (kind_ == SegmentCost::mean) {
         cost += squares / (noise_sd_[j] * noise_sd_[j]);
       } else {
-        // The least over all variances v >= floor: pruning needs a minimum over parameters.
+        // The least cost over all variances v >= floor: pruning needs a minimum over parameters.
         const double v = std::max(squares / count, floor_[j]);
         cost += count * std::log(2.0 * std::numbers::pi * v) + squares / v;
       }
@@ -91,13 +91,13 @@ class Costs {
  private:
   SegmentCost kind_;
   Eigen::VectorXd noise_sd_, mean_, floor_;
-  Eigen::MatrixXd sums_, squares_;  // Of the first i samples in column i.
+  Eigen::MatrixXd sums_, squares_;  // Column i: sums over the first i samples.
 };
 
 /// A start of the last segment that may still be the best.
 struct Candidate {
   Eigen::Index begin;
-  Eigen::Index useless_from;  ///< From this end on another start is never worse.
+  Eigen::Index useless_from;  ///< From this end on another start is at least as good.
 };
 
 }  // namespace
@@ -115,7 +115,8 @@ ChangePoints change_points(const Eigen::MatrixXd& x, const ChangePointOptions& o
       (parameters + 1.0) * std::log(static_cast<double>(std::max<Eigen::Index>(n, 2)));
   result.penalty = options.penalty.value_or(criterion) * options.samples_per_independent;
 
-  // best[t]: least cost of the first t samples; best[0] cancels the penalty of the first segment.
+  // best[t] is the least cost of the first t samples; best[0] cancels the penalty of the first
+  // segment.
   const Costs costs(x, options.cost, result.noise_sd);
   std::vector<double> best(static_cast<std::size_t>(n + 1), kInfinity);
   std::vector<Eigen::Index> last(static_cast<std::size_t>(n + 1), 0);
@@ -136,7 +137,7 @@ ChangePoints change_points(const Eigen::MatrixXd& x, const ChangePointOptions& o
         last[static_cast<std::size_t>(end)] = c.begin;
       }
     }
-    // A start that is worse here even without the penalty stays behind once a segment fits after
+    // A start that is worse here even without the penalty remains worse once a segment fits after
     // it.
     for (std::size_t k = 0; k < candidates.size(); ++k) {
       if (through[k] >= least)

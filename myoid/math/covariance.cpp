@@ -44,7 +44,7 @@ CovarianceResult covariance(const Eigen::MatrixXd& jacobian,
   const Eigen::Index freedom = jacobian.rows() - result.rank;
   result.residual_variance =
       freedom > 0 ? residual.squaredNorm() / static_cast<double>(freedom) : 0.0;
-  // The full V is needed when J has fewer rows than columns: complete the determined directions.
+  // If J has fewer rows than columns, its thin SVD lacks undetermined directions: J'J has all.
   const Eigen::JacobiSVD<Eigen::MatrixXd> square(
       (scale.asDiagonal() * jacobian.transpose() * jacobian * scale.asDiagonal()).eval(),
       Eigen::ComputeFullV);

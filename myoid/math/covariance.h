@@ -11,21 +11,23 @@ struct CovarianceOptions {
       1e-8;  ///< Singular values of the column-scaled J below this share of the largest are zero.
 };
 
-/// What a Jacobian at the minimum says about the parameters. J = dr/dx is n x p.
+/// Covariance and identifiability of parameters by the Jacobian at the minimum. J = dr/dx is n x p.
 struct CovarianceResult {
   int rank = 0;
-  Eigen::VectorXd singular_values;  ///< Of J with unit columns, falling; p entries.
-  double condition = 0.0;           ///< Largest over smallest of them; +inf if the smallest is 0.
-  Eigen::MatrixXd unscaled;         ///< (J'J)^+ over the determined directions only; p x p.
-  double residual_variance = 0.0;   ///< s^2 = |r|^2 / (n - rank); 0 when n == rank.
+  Eigen::VectorXd singular_values;  ///< Of J with its columns scaled to unit length; p entries in
+                                    ///< decreasing order.
+  double condition = 0.0;    ///< Largest over smallest singular value; +inf if the smallest is 0.
+  Eigen::MatrixXd unscaled;  ///< (J'J)^+ over the determined directions only; p x p.
+  double residual_variance = 0.0;  ///< s^2 = |r|^2 / (n - rank); 0 when n == rank.
   Eigen::MatrixXd
-      undetermined;  ///< p x (p - rank): unit columns, combinations that the data leave free.
+      undetermined;  ///< p x (p - rank), unit columns: combinations that the data do not determine.
   std::vector<bool>
-      determined;  ///< Per parameter: it has no part (above 1e-6) in an undetermined direction.
+      determined;  ///< For each parameter: it has no part above 1e-6 in an undetermined direction.
 };
 
-/// From the SVD of J with columns scaled to unit length, never from J'J. Throws InvalidInput if J
-/// or r is not finite or their rows disagree.
+/// Computes these from the SVD of J with columns scaled to unit length. J'J, which would square the
+/// condition, serves only to complete the undetermined directions of a J with fewer rows than
+/// columns. Throws InvalidInput if J or r is not finite or their rows disagree.
 [[nodiscard]] CovarianceResult covariance(const Eigen::MatrixXd& jacobian,
                                           const Eigen::VectorXd& residual,
                                           const CovarianceOptions& options = {});

@@ -10,30 +10,31 @@
 
 namespace myoid::math {
 
-/// A cost to be minimized without derivatives. Where it is not finite it counts as +inf: a wall.
+/// A cost to be minimized without derivatives. Values that are not finite count as +inf.
 using CostFunction = std::function<double(const Eigen::VectorXd& x)>;
 
 struct DirectSearchProblem {
   CostFunction cost;
-  Eigen::VectorXd lower;  ///< One per parameter; -inf, or all empty, where there is none.
+  Eigen::VectorXd lower;  ///< One per parameter, -inf without a bound; or empty.
   Eigen::VectorXd upper;
 };
 
 struct DirectSearchResult {
   Termination termination = Termination::no_descent;
-  std::string message;  ///< One sentence for a person: which rule stopped the search.
-  Eigen::VectorXd x;    ///< The best point met.
+  std::string message;  ///< Names the rule that stopped the search, in one sentence.
+  Eigen::VectorXd x;    ///< The best point found.
   double cost = std::numeric_limits<double>::infinity();
   int evaluations = 0;
-  int iterations = 0;  ///< Simplex moves, or temperatures.
-  int restarts = 0;    ///< New simplices at the end of the one before; 0 in annealing.
+  int iterations = 0;  ///< Moves of the simplex, or temperatures.
+  int restarts = 0;    ///< Simplices started where another shrank; 0 in annealing.
 };
 
-/// 1/2 |r(x)|^2 of a least-squares problem with its bounds: the same minimum for rival solvers.
+/// Returns 1/2 |r(x)|^2 of a least-squares problem with its bounds, so that other solvers find the
+/// same minimum.
 [[nodiscard]] DirectSearchProblem direct_search_problem(const LeastSquaresProblem& problem);
 
-/// The problem as the searches use it: bounds filled in, evaluations counted, x clipped.
-/// Throws InvalidInput if sizes disagree, lower > upper, or a bound is NaN.
+/// The problem as the searches see it: with all bounds, counted evaluations, and x clipped. Throws
+/// InvalidInput if sizes disagree, lower > upper, or a bound is NaN.
 class CountedCost {
  public:
   CountedCost(const DirectSearchProblem& problem, Eigen::Index parameters);

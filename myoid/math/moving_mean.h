@@ -9,8 +9,8 @@ namespace myoid::math {
 [[nodiscard]] Eigen::VectorXd moving_mean(const Eigen::Ref<const Eigen::VectorXd>& x,
                                           Eigen::Index width);
 
-/// Finds the greatest of these means over `window_s` of samples at `rate_hz`; over all samples
-/// where they last less.
+/// Finds the greatest of these means over `window_s` of samples at `rate_hz`; the mean of all
+/// samples if they last less.
 [[nodiscard]] double greatest_mean(const Eigen::Ref<const Eigen::VectorXd>& x,
                                    double rate_hz,
                                    double window_s);

@@ -47,7 +47,7 @@ void validate(const MultistartOptions& options) {
   }
 }
 
-/// The box with its logarithmic sides unrolled: maps parameters to shares of the width and back.
+/// Maps parameters to shares of the box's width and back, logarithmic sides in their logarithm.
 struct Box {
   const MultistartOptions& options;
 
@@ -74,7 +74,8 @@ struct Box {
   }
 };
 
-/// Lowest first, so that a basin is named by its best member; ties by index.
+/// Gathers the minima into basins, lowest first, so that the best member names the basin; ties go
+/// by index.
 void gather(const Box& box, MultistartResult& result) {
   std::vector<Eigen::Index> order(result.minima.size());
   std::iota(order.begin(), order.end(), 0);
@@ -113,9 +114,11 @@ MultistartResult multistart(const LocalSearch& search, const MultistartOptions& 
   MultistartResult result;
   result.starts = options.given;
   const Eigen::Index p = options.lower.size();
-  const Eigen::MatrixXd cube =
-      sobol_points(options.starts, static_cast<int>(std::min<Eigen::Index>(p, 1000)),
-                   {.first = 1, .scramble_seed = options.scramble_seed});  // 1: the center first
+  const Eigen::MatrixXd cube = sobol_points(
+      options.starts, static_cast<int>(std::min<Eigen::Index>(p, 1000)),
+      {.first = 1,
+       .scramble_seed =
+           options.scramble_seed});  // 1 skips the origin: the first point is the center
   for (Eigen::Index i = 0; i < cube.rows(); ++i) {
     Eigen::VectorXd start(p);
     for (Eigen::Index j = 0; j < p; ++j) start[j] = box.inside(j, cube(i, j));
@@ -146,7 +149,7 @@ MultistartResult multistart(const LeastSquaresProblem& problem,
         if (problem.upper.size() == start.size()) inside = inside.cwiseMin(problem.upper).eval();
         LocalMinimum end;
         end.x = inside;
-        // Ask first whether the start is in the domain: minimize() throws if it is not.
+        // minimize() throws for a start outside the domain: test it first.
         Eigen::VectorXd r = Eigen::VectorXd::Zero(problem.residual_count);
         Eigen::MatrixXd jacobian = Eigen::MatrixXd::Zero(problem.residual_count, start.size());
         problem.evaluate(inside, r, &jacobian);

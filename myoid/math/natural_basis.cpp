@@ -7,18 +7,18 @@
 namespace myoid::math {
 namespace {
 
-using Polynomial = std::array<double, 3>;  ///< By rising power.
+using Polynomial = std::array<double, 3>;  ///< Coefficients of increasing powers.
 
 /// (a + b u) p
 Polynomial times_line(const Polynomial& p, double a, double b) {
   return {a * p[0], a * p[1] + b * p[0], a * p[2] + b * p[1]};
 }
 
-/// The B-splines of orders 1 .. m on interval i, by the recursion
+/// Returns the B-splines of orders 1 .. m on interval i, by the recursion
 ///   M_(j,k) = k / (k - 1) ((t - t_j) M_(j,k-1) + (t_(j+k) - t) M_(j+1,k-1)) / (t_(j+k) - t_j).
 /// Element j - i + m - 1; zero where M_j does not exist.
 std::array<Polynomial, 3> pieces_on(const Eigen::VectorXd& t, int m, Eigen::Index i) {
-  std::array<Polynomial, 4> M{};  // of the order so far; the last stays zero
+  std::array<Polynomial, 4> M{};  // of the present order; the last stays zero
   const auto place = [&](Eigen::Index j) { return static_cast<std::size_t>(j - i + m - 1); };
   M[place(i)] = {1.0 / (t[i + 1] - t[i]), 0.0, 0.0};
   for (int k = 2; k <= m; ++k) {

@@ -38,7 +38,8 @@ Eigen::VectorXd first_edges(const CountedCost& cost, const Eigen::VectorXd& x, d
 
 class Simplex {
  public:
-  /// Right-angled at `corner`, edges pointing inward (and, by `sign`, left or right).
+  /// Builds a right-angled simplex at `corner`, with edges to the side of `sign`, or inward
+  /// at a bound.
   Simplex(CountedCost& cost, Vertex corner, const Eigen::VectorXd& edges, double sign)
       : cost_(cost) {
     vertices_.push_back(std::move(corner));
@@ -155,7 +156,7 @@ DirectSearchResult nelder_mead(const DirectSearchProblem& problem,
           fmt::format("still improving after {} restarts of the simplex", result.restarts);
       break;
     }
-    sign = -sign;  // the next simplex looks the other way
+    sign = -sign;  // the next simplex points the other way
   }
   result.x = best.x;
   result.cost = best.cost;

@@ -6,26 +6,28 @@
 
 namespace myoid::math {
 
-/// How an integration ended. Only `done` is an answer; up to the time reached, the rest holds too.
+/// The end of an integration. Only `done` is an answer; the results up to the time reached are
+/// valid in all cases.
 enum class OdeStatus {
   done,
-  too_many_steps,  ///< `OdeOptions::max_steps` were not enough.
-  step_too_small,  ///< The tolerance cannot be met with steps that still move the time.
-  not_finite,      ///< The rate is NaN or infinite, however short the step.
+  too_many_steps,  ///< `OdeOptions::max_steps` did not suffice.
+  step_too_small,  ///< The tolerance needs steps too small to change the time.
+  not_finite,      ///< The rate is NaN or infinite even for the shortest steps.
   rate_failed,     ///< The rate reported that it cannot be evaluated.
   stopped,         ///< The caller asked to stop.
-  solver_failed,   ///< The implicit solver gave up.
+  solver_failed,   ///< The implicit solver failed.
 };
 
-/// One sentence for a person.
+/// Explains a status in one sentence.
 [[nodiscard]] std::string_view explain(OdeStatus status);
 
 struct OdeOptions {
   double relative_tolerance = 1e-8;
-  double absolute_tolerance = 1e-10;        ///< Of every state ...
-  std::vector<double> absolute_tolerances;  ///< ... or, if not empty, of each.
+  double absolute_tolerance = 1e-10;        ///< Absolute tolerance of all states.
+  std::vector<double> absolute_tolerances;  ///< Absolute tolerance of each state; overrides the
+                                            ///< common one unless empty.
   double max_step_s = std::numeric_limits<double>::infinity();
-  double first_step_s = 0.0;  ///< 0: chosen.
+  double first_step_s = 0.0;  ///< 0: chosen automatically.
   long max_steps = 5'000'000;
 };
 
@@ -33,11 +35,11 @@ struct OdeOptions {
 void validate(const OdeOptions& options, long state_count);
 
 struct OdeStatistics {
-  long steps = 0;             ///< Accepted.
-  long rejected = 0;          ///< Tried again, shorter.
-  long rate_evaluations = 0;  ///< Of the right-hand side.
+  long steps = 0;             ///< Accepted steps.
+  long rejected = 0;          ///< Steps that were repeated with a shorter length.
+  long rate_evaluations = 0;  ///< Evaluations of the right-hand side.
   long jacobians = 0;         ///< Implicit solver only.
-  long events = 0;            ///< Kinks located, and the integration restarted there.
+  long events = 0;            ///< Kinks that were located and at which the integration restarted.
 };
 
 }  // namespace myoid::math

@@ -10,9 +10,9 @@
 
 namespace myoid::math {
 
-/// Finds where the signs of `events` change, so that no step crosses a kink of the right-hand side.
-/// A quantity counts as changed once it is beyond its zero by more than `kEventDeadband`; until it
-/// has left its zero for the first time it has no sign.
+/// Finds sign changes of `events`, so that no step crosses a kink of the right-hand side. A
+/// quantity has changed once it is beyond zero by more than `kEventDeadband`; it has no sign until
+/// it first leaves zero.
 inline constexpr double kEventDeadband = 1e-10;
 class EventSigns {
  public:
@@ -23,21 +23,21 @@ class EventSigns {
     std::fill(sign_.begin(), sign_.end(), 0);
     learn(g);
   }
-  /// True if one of them is on the other side of zero.
+  /// True if a quantity is on the other side of zero.
   [[nodiscard]] bool crossed(std::span<const double> g) const {
     for (std::size_t i = 0; i < sign_.size(); ++i) {
       if (g[i] * sign_[i] < -kEventDeadband) return true;
     }
     return false;
   }
-  /// Takes the signs of what is clearly off zero.
+  /// Takes the signs of all quantities clearly off zero.
   void learn(std::span<const double> g) {
     for (std::size_t i = 0; i < sign_.size(); ++i) {
       if (std::abs(g[i]) > kEventDeadband) sign_[i] = g[i] > 0.0 ? 1 : -1;
     }
   }
-  /// Here one of them has crossed: it gets its new sign, and those at their zeros too have none
-  /// until they have left them.
+  /// Passes a crossing: the quantity gets its new sign, and quantities at zero have none until they
+  /// leave it.
   void pass(std::span<const double> g) {
     for (std::size_t i = 0; i < sign_.size(); ++i) {
       if (g[i] * sign_[i] < -kEventDeadband) {
@@ -52,9 +52,9 @@ class EventSigns {
   std::vector<int> sign_;
 };
 
-/// Integrates to `end_s`, through located events. `events(t, y, g)` writes what changes sign at the
-/// kinks; `on_step(stepper)` sees every step, and ends the integration by returning false.
-/// `rate` goes on to those steppers that want it: `integrate(stepper, ..., rate)`.
+/// Integrates to `end_s`, through located events. `events(t, y, g)` writes the quantities that
+/// change sign at kinks; `on_step(stepper)` receives every step and ends the integration by
+/// returning false. `rate` is passed on to steppers that need it: `integrate(stepper, ..., rate)`.
 template <typename Stepper, typename Events, typename OnStep, typename... Rate>
 OdeStatus integrate(Stepper& stepper,
                     double end_s,
@@ -79,7 +79,7 @@ OdeStatus integrate(Stepper& stepper,
           events(middle, y.data(), g.data());
           (signs.crossed(g) ? high : low) = middle;
         }
-        // Done again, the step ends a little before or behind; either way the kink is passed.
+        // A repeated step ends slightly before or after the kink; either is accepted.
         stepper.interpolate(high, y);
         events(high, y.data(), g.data());
         signs.pass(g);

@@ -11,19 +11,19 @@
 
 namespace myoid::math {
 
-/// The plain number in a scalar that carries derivatives in a member `v` (ceres::Jet).
+/// Returns the value of a scalar that carries derivatives in a member `v` (ceres::Jet).
 inline double plain(double x) { return x; }
 template <typename T>
 requires requires(const T& x) { x.a; }
 double plain(const T& x) { return plain(x.a); }
 
 /// The explicit method of Dormand and Prince (1980), order 5 with an embedded order 4, for problems
-/// that are not stiff; between the ends of a step, a continuously differentiable polynomial of
-/// order 4. `T` is double, or ceres::Jet: then derivatives by whatever was seeded are carried
-/// exactly through the steps, whose sizes follow the plain numbers.
+/// that are not stiff. Within a step a continuously differentiable polynomial of order 4
+/// interpolates. `T` is double or ceres::Jet; a Jet carries derivatives exactly through the steps,
+/// whose sizes follow the values alone.
 ///
-/// `rate(t, y, ydot)` writes dy/dt: void, or bool where false means that it cannot be evaluated.
-/// After `start` nothing is allocated.
+/// `rate(t, y, ydot)` writes dy/dt. It returns void, or a bool that is false where it cannot be
+/// evaluated. Nothing is allocated after `start`.
 template <typename T>
 class RungeKutta {
  public:
@@ -36,7 +36,7 @@ class RungeKutta {
     for (auto& c : dense_) c.assign(n_, T(0.0));
   }
 
-  /// Begins at y(t). The size of the first step is chosen, unless one is known from before.
+  /// Begins at y(t). Chooses the first step's size unless an earlier integration gives one.
   template <typename Rate>
   OdeStatus start(double time_s, std::span<const T> y, Rate&& rate) {
     time_ = previous_ = time_s;
@@ -49,8 +49,7 @@ class RungeKutta {
     return OdeStatus::done;
   }
 
-  /// One accepted step, shortened to end at `limit_s` at the latest (exactly there, if it gets
-  /// near).
+  /// Makes one accepted step, at most to `limit_s` (exactly to it, if it gets near).
   template <typename Rate>
   OdeStatus step(double limit_s, Rate&& rate) {
     bool rejected = false;
@@ -82,7 +81,7 @@ class RungeKutta {
       double grow = 0.9 * std::pow(least, -0.17) * std::pow(error_before_, 0.04);
       grow = std::clamp(grow, 0.2, rejected ? 1.0 : 5.0);
       error_before_ = std::max(error, 1e-4);
-      // A step cut short by the limit says nothing against longer ones.
+      // A step cut short by the limit is no reason for shorter steps later.
       step_ = at_limit ? std::max(step_, h * grow) : h * grow;
       accept(h);
       if (at_limit) time_ = limit_s;
@@ -91,7 +90,7 @@ class RungeKutta {
     }
   }
 
-  /// Takes the last step back and does it again, to end at `time_s` within it: an event.
+  /// Repeats the last step so that it ends at `time_s` within it: an event.
   template <typename Rate>
   OdeStatus shorten(double time_s, Rate&& rate) {
     const double h = time_s - previous_;
@@ -104,7 +103,7 @@ class RungeKutta {
     return OdeStatus::done;
   }
 
-  /// The right-hand side has changed by a jump at the present time.
+  /// Restarts after a jump of the right-hand side at the present time.
   template <typename Rate>
   OdeStatus renew(Rate&& rate) {
     return evaluate(rate, time_, y_, k_[0]) ? OdeStatus::done : OdeStatus::rate_failed;
@@ -116,7 +115,7 @@ class RungeKutta {
   [[nodiscard]] const OdeStatistics& statistics() const { return statistics_; }
   [[nodiscard]] std::size_t size() const { return n_; }
 
-  /// y at a time within the last step.
+  /// Returns y at a time within the last step.
   void interpolate(double time_s, std::span<T> y) const {
     const double h = time_ - previous_;
     const double s = h > 0.0 ? (time_s - previous_) / h : 0.0;
@@ -127,7 +126,8 @@ class RungeKutta {
     }
   }
 
-  /// The same as a polynomial of s = time - previous_time_s(), rising powers up to the fourth.
+  /// Returns the same as a polynomial of s = time - previous_time_s(), increasing powers up to the
+  /// fourth.
   [[nodiscard]] std::array<T, 5> polynomial(std::size_t i) const {
     const double h = time_ - previous_;
     const T& b = dense_[1][i];
@@ -217,7 +217,8 @@ class RungeKutta {
     time_ += h;
   }
 
-  /// After Hairer, Norsett & Wanner: small enough that the first two terms of the series agree.
+  /// Returns a first step after Hairer, Norsett & Wanner: so small that the first two terms of the
+  /// series agree.
   double first_step() const {
     double y_norm = 0.0;
     double rate_norm = 0.0;

@@ -10,8 +10,8 @@
 namespace myoid::math {
 namespace {
 
-/// The slope at an end from the two nearest intervals: of the parabola through three samples,
-/// unless that would lose the shape.
+/// Returns the slope at an end from the two nearest intervals: of the parabola through three
+/// samples, limited so that the shape is preserved.
 double end_slope(double h0, double h1, double s0, double s1) {
   const double slope = ((2.0 * h0 + h1) * s0 - h0 * s1) / (h0 + h1);
   if (slope * s0 <= 0.0) return 0.0;

@@ -36,7 +36,7 @@ double uniform_between(Random& random, double low, double high) {
   return std::clamp(low + random.uniform() * (high - low), low, high);
 }
 
-/// Mean and spread as they come in (Welford): safe for huge costs. Walls are left out.
+/// Running mean and spread (Welford), safe for huge costs. Infinite costs are left out.
 class Spread {
  public:
   void add(double value) {
@@ -52,7 +52,7 @@ class Spread {
   int count_ = 0;
 };
 
-/// Spread of the cost over a box.
+/// Returns the spread of the cost over a box.
 double spread_of_costs(CountedCost& cost,
                        const Eigen::VectorXd& lower,
                        const Eigen::VectorXd& upper,
@@ -68,15 +68,16 @@ double spread_of_costs(CountedCost& cost,
   return std::isfinite(spread) && spread > 0.0 ? spread : 1.0;
 }
 
-/// Temperature over the one before, `spread` the costs' at that.
+/// Returns the ratio of the next temperature to the present one; `spread` is that of the costs at
+/// the present one.
 double cooling(const AnnealingOptions& options, double temperature, double spread) {
   if (!(options.spread_cooling > 0.0)) return options.cooling;
   const double slowest = options.cooling * options.cooling;
-  if (!(spread > 0.0)) return slowest;  // nothing moved
+  if (!(spread > 0.0)) return slowest;  // no point was kept
   return std::max(slowest, std::exp(-options.spread_cooling * temperature / spread));
 }
 
-/// One temperature's walk: the point, the steps, and the best point met.
+/// The walk at one temperature: the point, the steps, and the best point found.
 struct Walk {
   CountedCost& cost;
   Random& random;
@@ -84,11 +85,11 @@ struct Walk {
   Eigen::VectorXd reach;  ///< Largest steps.
   Eigen::VectorXd x, best, step;
   double current = 0.0, lowest = 0.0;
-  Spread met;  ///< Costs of the points that were kept, at this temperature.
+  Spread met;  ///< Costs of the points that were kept at this temperature.
 
   bool spent() const { return cost.evaluations() >= options.max_evaluations; }
 
-  /// Returns whether the move of parameter j was accepted.
+  /// Tries a move of parameter j and returns whether it was accepted.
   bool try_move(Eigen::Index j, double temperature) {
     const double low = cost.lower()[j], high = cost.upper()[j];
     Eigen::VectorXd next = x;
@@ -98,7 +99,8 @@ struct Walk {
                                 std::isfinite(high) ? high : x[j] + step[j]);
     }
     const double value = cost(next);
-    const double luck = random.uniform();  // always drawn: the stream does not depend on the cost
+    const double luck =
+        random.uniform();  // drawn in every case, so that the stream does not depend on the cost
     if (!(value <= current) && !(luck < std::exp((current - value) / temperature))) return false;
     x = next;
     current = value;

@@ -95,7 +95,7 @@ std::array<double, 3> integrate(const std::array<double, 3>& p, int m) {
   return result;
 }
 
-/// The polynomial of column `i` at u.
+/// Evaluates the polynomial of column `i` at u.
 SplineValue horner(const Eigen::MatrixXd& coefficients, Eigen::Index i, double u) {
   SplineValue v;
   const double* a = &coefficients(0, i);
@@ -122,13 +122,14 @@ Spline::Spline(const NaturalBasis& basis, const Eigen::VectorXd& g, const Eigen:
     a[0] = g[i];
     for (int k = 0; k < m; ++k) a[m + k] = here[static_cast<std::size_t>(k)];
     const double h = t[i + 1] - t[i];
-    // What the highest derivative alone would add until the next knot.
+    // The part of the highest derivative at the next knot.
     const double particular = horner(coefficients_, i + 1, h).value - g[i];
     const std::array<double, 3> next = i + 2 < n ? tail(i + 1) : std::array<double, 3>{};
     if (m == 2) {
       a[1] = (g[i + 1] - g[i] - particular) / h;
     } else if (m == 3 && i + 2 < n) {
-      // Slope and curvature from the values at the next two knots; s''' is known on both intervals.
+      // Slope and curvature follow from the values at the next two knots, since s''' is known on
+      // both intervals.
       const double h2 = t[i + 2] - t[i + 1];
       const SplineValue end = horner(coefficients_, i + 1, h);
       const double onward = ((next[2] * h2 + next[1]) * h2 + next[0]) * h2 * h2 * h2;
@@ -214,7 +215,7 @@ Spline Spline::smooth(const Eigen::Ref<const Eigen::VectorXd>& t,
       throw InvalidInput(fmt::format("smoothing spline: found a noise of {}, expected 0 or more",
                                      *options.noise_sd));
     }
-    // The residual rises with lambda: bisect its logarithm between cut-offs of the whole record and
+    // The residual rises with lambda: bisect log(lambda) between cut-offs of the whole record and
     // half the rate.
     double low = std::log(lambda_of(0.5 / h));
     double high = std::log(lambda_of(0.1 / (h * static_cast<double>(times.size()))));
@@ -234,8 +235,7 @@ SplineValue Spline::at(double t) const {
   const double* begin = knots_.data();
   const Eigen::Index interval = std::upper_bound(begin, begin + knots_.size(), t) - begin;
   const double left = knots_[std::max<Eigen::Index>(0, interval - 1)];
-  // The last knot itself belongs to the last interval's polynomial as well as to the one beyond:
-  // same value.
+  // At the last knot the polynomials on both sides have the same value.
   return horner(coefficients_, interval, t - left);
 }
 

@@ -104,8 +104,9 @@ Eigen::MatrixXd covariance_of_sum(const Eigen::MatrixXd& weights,
 Eigen::MatrixXd newey_west(const Eigen::MatrixXd& scores,
                            const std::vector<Eigen::Index>& pieces,
                            Eigen::Index lag) {
-  // The Bartlett-weighted sum of all products of samples up to `lag` apart is that of the squares
-  // of all sums over lag + 1 samples in a row, over lag + 1; windows reach beyond both ends.
+  // The Bartlett-weighted sum of all products of samples up to `lag` apart equals the sum of the
+  // squares of all sums over lag + 1 consecutive samples, divided by lag + 1; windows extend beyond
+  // both ends.
   const Eigen::Index p = scores.cols();
   Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(p, p);
   Eigen::Index begin = 0;

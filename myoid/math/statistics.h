@@ -6,45 +6,46 @@
 
 namespace myoid::math {
 
-/// Quantile of the standard normal distribution, 0 < p < 1; to round-off. Throws InvalidInput
-/// outside.
+/// Returns the quantile of the standard normal distribution, 0 < p < 1, to round-off. Throws
+/// InvalidInput outside.
 [[nodiscard]] double normal_quantile(double p);
 
-/// Quantile of Student's t with `freedom` > 0 degrees of freedom, 0 < p < 1. Throws InvalidInput
-/// outside.
+/// Returns the quantile of Student's t with `freedom` > 0 degrees of freedom, 0 < p < 1. Throws
+/// InvalidInput outside.
 [[nodiscard]] double student_quantile(double p, double freedom);
 
-/// Probability that chi-squared with `freedom` > 0 degrees of freedom exceeds x >= 0. Throws
-/// InvalidInput outside.
+/// Returns the probability that chi-squared with `freedom` > 0 degrees of freedom exceeds x >= 0.
+/// Throws InvalidInput outside.
 [[nodiscard]] double chi_squared_tail(double x, double freedom);
 
-/// The middle value, or the mean of the two middle ones; NaN of none.
+/// Returns the middle value, or the mean of the two middle ones; NaN for no values.
 [[nodiscard]] double median(std::vector<double> values);
 
-/// The middle value, or the larger of the two middle ones: always one of them. NaN of none.
+/// Returns the middle value, or the larger of the two middle ones, so that the result is one of the
+/// values; NaN for no values.
 [[nodiscard]] double upper_median(std::vector<double> values);
 
-/// Autocorrelation rho_0 = 1, rho_1, ... of x about its mean, up to the last lag before the first
-/// that is not positive. Sums run within `pieces` (lengths of consecutive stretches), never across.
+/// Returns the autocorrelation rho_0 = 1, rho_1, ... of x about its mean, up to the last lag before
+/// the first that is not positive. Sums stay within `pieces` (lengths of consecutive stretches).
 [[nodiscard]] Eigen::VectorXd positive_autocorrelation(const Eigen::Ref<const Eigen::VectorXd>& x,
                                                        const std::vector<Eigen::Index>& pieces);
 
-/// Independent samples that n correlated ones are worth: n / (1 + 2 sum_k rho_k), with rho as
-/// `positive_autocorrelation` gives it. At least 1.
+/// Returns the number of independent samples with the information of n correlated ones: n / (1 + 2
+/// sum_k rho_k), with rho as `positive_autocorrelation` gives it. At least 1.
 [[nodiscard]] double effective_sample_size(const Eigen::Ref<const Eigen::VectorXd>& x,
                                            const std::vector<Eigen::Index>& pieces);
 
-/// Covariance of sum_t g_t e_t, with weights g_t (the columns, p x n) that are known and e of unit
+/// Returns the covariance of sum_t g_t e_t for known weights g_t (the columns, p x n) and e of unit
 /// variance with this autocorrelation: sum_t sum_s g_t rho(t - s) g_s', within `pieces`. Every
-/// `stride`-th t stands for those about it: exact for 1, else for weights that change little
-/// meanwhile.
+/// `stride`-th t stands for its neighbors: exact for 1, otherwise for weights that change slowly.
 [[nodiscard]] Eigen::MatrixXd covariance_of_sum(const Eigen::MatrixXd& weights,
                                                 const Eigen::VectorXd& autocorrelation,
                                                 const std::vector<Eigen::Index>& pieces,
                                                 Eigen::Index stride = 1);
 
-/// Long-run covariance of a sum of scores (n x p), Newey and West (1987): G_0 + sum_l (1 - l/(L+1))
-/// (G_l + G_l'), with G_l = sum_t g_t g_{t-l}', lags within `pieces` only. Positive semidefinite.
+/// Returns the long-run covariance of a sum of scores (n x p) after Newey and West (1987): G_0 +
+/// sum_l (1 - l/(L+1)) (G_l + G_l'), with G_l = sum_t g_t g_{t-l}', lags within `pieces` only.
+/// Positive semidefinite.
 [[nodiscard]] Eigen::MatrixXd newey_west(const Eigen::MatrixXd& scores,
                                          const std::vector<Eigen::Index>& pieces,
                                          Eigen::Index lag);

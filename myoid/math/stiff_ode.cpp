@@ -18,7 +18,7 @@ namespace myoid::math {
 namespace {
 
 void must(int flag) {
-  if (flag < 0) throw std::bad_alloc();  // set-up calls fail only without memory
+  if (flag < 0) throw std::bad_alloc();  // set-up calls fail only for lack of memory
 }
 
 OdeStatus status_of(int flag) {
@@ -70,7 +70,7 @@ struct StiffIntegrator::Parts {
   using Solver = std::unique_ptr<std::remove_pointer_t<SUNLinearSolver>, SolverDeleter>;
   using Memory = std::unique_ptr<void, CvodeDeleter>;
 
-  /// Vectors that belong together, with the array of pointers that the solver wants.
+  /// Vectors of one group, with the array of pointers that the solver needs.
   struct Vectors {
     std::vector<Vector> owned;
     std::vector<N_Vector> raw;
@@ -98,9 +98,9 @@ struct StiffIntegrator::Parts {
   double time = 0.0, previous = 0.0;
   bool restart = false;
   bool begun = false;
-  bool failed = false;   ///< The rate, since the last step of a length.
-  int creeping = 0;      ///< Steps in a row that hardly move the time.
-  OdeStatistics before;  ///< Of the integrations before the last restart.
+  bool failed = false;   ///< The rate failed after the last step with a length.
+  int creeping = 0;      ///< Successive steps that hardly change the time.
+  OdeStatistics before;  ///< Counts of the integrations up to the last restart.
   long events = 0;
 
   static int rate(double t, N_Vector y, N_Vector ydot, void* data) {
@@ -256,7 +256,7 @@ OdeStatus StiffIntegrator::step(double limit_s) {
   Parts& p = *parts_;
   void* memory = p.memory.get();
   if (limit_s - p.time < 1e-13 * std::max(1.0, std::abs(p.time))) {
-    // Too near for a step: two limits that differ by round-off.
+    // Too near for a step: the limits differ by round-off.
     renew();
     p.previous = p.time;
     p.time = limit_s;
@@ -276,7 +276,7 @@ OdeStatus StiffIntegrator::step(double limit_s) {
   const int flag = CVode(memory, limit_s, p.y.get(), &reached, CV_ONE_STEP);
   if (flag < 0) return status_of(flag);
   p.time = reached;
-  // A solver that creeps towards a wall would do so for ever.
+  // A solver that creeps towards a singularity would never end.
   const bool creeps = p.time - p.previous < 1e-12 * std::max(1.0, std::abs(p.time));
   p.creeping = creeps ? p.creeping + 1 : 0;
   if (p.creeping > 200) return p.failed ? OdeStatus::rate_failed : OdeStatus::step_too_small;

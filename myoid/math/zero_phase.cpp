@@ -10,9 +10,10 @@
 namespace myoid::math {
 namespace {
 
-constexpr Eigen::Index kLongestExtension = 100'000;  ///< Samples; for absurdly low cut-offs.
+constexpr Eigen::Index kLongestExtension =
+    100'000;  ///< In samples; limits the work for absurdly low cut-offs.
 
-/// Samples until the slowest pole has decayed to 1e-8.
+/// Returns the number of samples after which the slowest pole has decayed to 1e-8.
 Eigen::Index impulse_length(const std::vector<SecondOrderSection>& sections) {
   double radius = 0.0;
   for (const SecondOrderSection& s : sections) {
@@ -28,7 +29,7 @@ Eigen::Index impulse_length(const std::vector<SecondOrderSection>& sections) {
 
 void run(const std::vector<SecondOrderSection>& sections, std::vector<double>& x) {
   for (const SecondOrderSection& s : sections) {
-    // Transposed direct form II; the states are those of a constant input x[0] forever.
+    // Transposed direct form II, started in the steady state of a constant input x[0].
     const double constant = x.front();
     const double out = constant * (s.b0 + s.b1 + s.b2) / (1.0 + s.a1 + s.a2);
     double z2 = s.b2 * constant - s.a2 * out;
@@ -42,12 +43,12 @@ void run(const std::vector<SecondOrderSection>& sections, std::vector<double>& x
   }
 }
 
-/// x with `pad` samples more on either side.
+/// Returns x with `pad` more samples on either side.
 std::vector<double> extended(const Eigen::Ref<const Eigen::VectorXd>& x,
                              Eigen::Index pad,
                              Ends ends) {
   const Eigen::Index n = x.size();
-  // Sample i of the signal that goes to and fro between its ends.
+  // Sample i of the signal reflected to and fro between its ends.
   const auto mirrored = [&](Eigen::Index i) {
     const Eigen::Index period = 2 * (n - 1);
     const Eigen::Index k = ((i % period) + period) % period;

@@ -11,21 +11,22 @@
 
 namespace myoid::simulation {
 
-/// The activation that follows an excitation, as a function of time that costs a polynomial:
-/// activation does not depend on the motion, so that its equations are solved once, beforehand.
-/// Between two nodes of the excitation u is linear; steps end at the nodes and at the law's kinks;
-/// the local error is below `kActivationTolerance`. Continuous with its first derivative where u
+/// The activation that follows an excitation, as a piecewise polynomial of time. Activation does
+/// not depend on the motion, so that its equations can be solved beforehand. The excitation u is
+/// linear between its nodes; steps end at the nodes and at the law's kinks; the local error is
+/// below `kActivationTolerance`. The signal is continuous, and so is its first derivative where u
 /// does not jump. `T`: double, or ceres::Jet for derivatives by the time constants.
 template <typename T = double>
 class ActivationSignal {
  public:
-  /// Begins at `start_s` with this state, and goes on as far as it is extended.
+  /// Begins at `start_s` with this state; `extend` continues it.
   ActivationSignal(const muscle::ActivationDynamics<T>& dynamics,
                    double start_s,
                    const muscle::ActivationPoint<T>& state)
       : dynamics_(dynamics), stepper_(2, options()), signs_(1), end_(start_s), state_(state) {}
 
-  /// The whole way under `excitation`; begins settled on its first value unless a state is given.
+  /// Solves all times of `excitation`; begins in the steady state of its first value unless a state
+  /// is given.
   ActivationSignal(const muscle::ActivationDynamics<T>& dynamics,
                    const Signal& excitation,
                    double start_s,
@@ -35,7 +36,7 @@ class ActivationSignal {
     extend(excitation, end_s);
   }
 
-  /// Goes on to `end_s` under the excitation's part of that time.
+  /// Continues to `end_s` under the excitation's part of that time.
   void extend(const Signal& excitation, double end_s) {
     const auto& t = excitation.time_s;
     std::size_t next =
@@ -44,7 +45,7 @@ class ActivationSignal {
     while (end_ < end_s) {
       const bool inside = next < t.size() && t[next] < end_s;
       const double until = inside ? t[next] : end_s;
-      // The value on the left of a jump.
+      // The value to the left of a jump.
       const double to = inside ? excitation.value[next] : value_left_of(excitation, until);
       extend(until, from, to);
       if (inside) {
@@ -55,11 +56,11 @@ class ActivationSignal {
     }
   }
 
-  /// Goes on to `end_s` while the excitation goes linearly `from` .. `to`.
+  /// Continues to `end_s` under an excitation that goes linearly from `from` to `to`.
   void extend(double end_s, double from, double to) {
     if (!(end_s > end_)) return;
     const double begin = end_;
-    if (end_s - begin < 1e-12) {  // two nodes that differ by round-off
+    if (end_s - begin < 1e-12) {  // the nodes differ by round-off
       end_ = end_s;
       return;
     }
@@ -98,8 +99,8 @@ class ActivationSignal {
     end_ = end_s;
   }
 
-  /// a at this time; held before the beginning and after the end. `hint` remembers the piece, for
-  /// times that follow one another; each user has its own, 0 at first.
+  /// Returns the activation at this time; constant before the beginning and after the end. `hint`
+  /// remembers the piece for increasing times; each user has its own, 0 at first.
   [[nodiscard]] T at(double time_s, std::size_t& hint) const {
     if (piece_.empty() || time_s >= end_) return state_.activation;
     if (time_s <= start_.front()) return piece_.front()[0];
@@ -121,8 +122,10 @@ class ActivationSignal {
   }
 
   [[nodiscard]] double end_s() const { return end_; }
-  [[nodiscard]] const muscle::ActivationPoint<T>& state() const { return state_; }  ///< At the end.
-  /// Not `done`: the times are not as the law needs them; what follows is not to be used.
+  [[nodiscard]] const muscle::ActivationPoint<T>& state() const {
+    return state_;
+  }  ///< The state at the end.
+  /// Not `done`: the times contradict the law, and the signal must not be used.
   [[nodiscard]] math::OdeStatus status() const { return status_; }
   [[nodiscard]] std::size_t piece_count() const { return piece_.size(); }
 

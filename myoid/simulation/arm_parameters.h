@@ -45,7 +45,7 @@ void visit_arm_parameters(ArmType& arm, F&& f) {
   f("arm_gravity", Unit::meter_per_second2, arm.gravity_mps2);
 }
 
-/// The same arm in another scalar, without derivatives: seed them afterwards.
+/// Returns the same arm in another scalar, without derivatives: seed them afterwards.
 template <typename T>
 [[nodiscard]] Arm<T> lifted_arm(const Arm<double>& arm) {
   Arm<T> result;
@@ -65,10 +65,11 @@ template <typename T>
   return result;
 }
 
-/// Their names. ("arm_static_moment" is in kg m; there is no unit for that.)
+/// Returns the names of the parameters. ("arm_static_moment" is in kg m, for which there is no
+/// Unit.)
 [[nodiscard]] std::vector<std::string> arm_parameter_names(const Arm<double>& arm);
 
-/// One of them. Throws InvalidInput listing the names if there is none.
+/// Returns one parameter. Throws InvalidInput listing the names if there is none of this name.
 [[nodiscard]] double& arm_parameter(Arm<double>& arm, std::string_view name);
 
 }  // namespace myoid::simulation

@@ -6,9 +6,9 @@
 namespace myoid::simulation {
 
 /// Integrates the arm's equations of motion from `start` to `options.end_s`; its one coordinate is
-/// elbow_flexion. Muscles with rigid tendons alone make a problem for an explicit method, all
-/// others for an implicit one. Same input, same result. Throws InvalidInput if arm, inputs or
-/// options cannot be used, and Interrupted on request; a numerical failure is said by `status`.
+/// elbow_flexion. If all tendons are rigid, the method is explicit, otherwise implicit. Same input,
+/// same result. Throws InvalidInput if arm, inputs or options cannot be used, and Interrupted on
+/// request; `status` reports a numerical failure.
 [[nodiscard]] Simulation simulate(const Arm<double>& arm,
                                   const SimulationInput& input,
                                   const SimulationStart& start,

@@ -6,18 +6,18 @@
 
 namespace myoid::simulation {
 
-/// Of the muscles whose force is shared.
+/// Options of muscles between which force is shared.
 struct MuscleForceOptions {
-  bool elastic_tendon = false;  ///< Else rigid: its length is the slack length.
+  bool elastic_tendon = false;  ///< Elastic tendon; a rigid one has its slack length.
   bool passive_force = false;   ///< The fiber's passive spring and damper pull too.
 };
 
-/// F(x) of every muscle along a motion, by the curves of its class (muscle/musculotendon.h): the
-/// tendon's force where fiber and tendon pull alike, and dF/dx exactly. With an elastic tendon the
-/// length of the fiber follows from the force by the tendon's law; its velocity is what the path
-/// leaves it while the tendon's own length rests, dl_m/dt = v cos(alpha), so that every frame
-/// stands for itself. Muscles that apply no force have none. Throws InvalidInput, naming the
-/// muscle, if its numbers make no unit.
+/// Returns F(x) of every muscle along a motion with exact dF/dx, by the curves of its class
+/// (muscle/musculotendon.h). F is the tendon's force in the equilibrium of fiber and tendon. With
+/// an elastic tendon the length of the fiber follows from the force by the tendon's law. Its
+/// velocity is dl_m/dt = v cos(alpha), as if the tendon's length were constant, so that frames are
+/// independent. Muscles that apply no force have none. Throws InvalidInput, naming the muscle, if
+/// its parameters are impossible.
 [[nodiscard]] forces::MuscleForceLaw muscle_force_law(const model::BodyModel& model,
                                                       const kinematics::MuscleKinematics& muscles,
                                                       const MuscleForceOptions& options);

@@ -24,13 +24,14 @@ namespace {
 constexpr int kChunk = 8;
 using Jet = ceres::Jet<double, kChunk>;
 
-/// What the derivatives by a parameter are multiplied with while they are integrated, so that they
-/// are of the size of the states: its value, or one where that is zero.
+/// Returns the factor of the derivatives by a parameter during integration, which makes them as
+/// large as the states: the parameter's size, or 1 for zero.
 double scale_of(double value) { return value != 0.0 ? std::abs(value) : 1.0; }
 
 constexpr std::string_view kStart[] = {"start_angle", "start_speed"};
 
-/// The arm in dual numbers, with the derivatives by (scaled) parameters begin, begin + 1, ...
+/// Returns the arm in dual numbers, with the derivatives by (scaled) parameters begin, begin + 1,
+/// ....
 Arm<Jet> seeded(const Arm<double>& arm, std::span<const std::string> chunk) {
   Arm<Jet> dual = lifted_arm<Jet>(arm);
   visit_arm_parameters(dual, [&](const auto& name, Unit, Jet& field) {
@@ -40,7 +41,7 @@ Arm<Jet> seeded(const Arm<double>& arm, std::span<const std::string> chunk) {
   return dual;
 }
 
-/// One integration, with the derivatives by at most kChunk parameters.
+/// One integration with the derivatives by at most kChunk parameters.
 class Chunk {
  public:
   Chunk(const Arm<double>& arm,
@@ -166,7 +167,7 @@ class Chunk {
     return breaks;
   }
 
-  /// Fibers in equilibrium, with the derivatives of that.
+  /// Puts the fibers in equilibrium, with the derivatives of that.
   void begin(const SimulationStart& start, std::span<const std::string> parameters) {
     dual_y_[0] = Jet(start.q[0]);
     dual_y_[1] = Jet(start.qdot.empty() ? 0.0 : start.qdot[0]);

@@ -66,7 +66,7 @@ EnergyBalance energy_balance(const Simulation& simulation) {
   gaps.emplace_back("joints", elastic + change("joint_elastic_energy"));
   gaps.emplace_back("skeleton", muscles + gravity + elastic + change("joint_viscous_work") +
                                     change("external_work") - change("skeleton_kinetic_energy"));
-  // Without muscles: what gravity and the joints have done.
+  // Without muscles the works of gravity and the joints are the scale.
   if (balance.turned_over_j == 0.0) {
     balance.turned_over_j = std::abs(gravity) + std::abs(elastic) +
                             std::abs(change("joint_viscous_work")) +

@@ -15,7 +15,7 @@
 namespace myoid::simulation {
 namespace {
 
-/// The laws that the setup asks for. Where these are the class's own, the class has its say.
+/// Returns the laws that the setup asks for; with MuscleCurves::file the muscle's class decides.
 muscle::MusculotendonLaws laws_of(const model::MuscleProperties& p,
                                   MuscleCurves curves,
                                   muscle::TendonMode mode) {
@@ -46,7 +46,7 @@ ModelMuscle muscle_of(const model::Muscle& m, int index, const ModelSetup& setup
       p, setup.curves,
       as_file && equilibrium && states.rigid_tendon ? muscle::TendonMode::rigid : setup.mode);
   result.parameters = model::musculotendon_parameters(p, result.laws);
-  // Only Thelen's equilibrium does without damping; other units take the published one.
+  // Only Thelen's equilibrium works without damping; other units take the published damping.
   const bool undamped = equilibrium && result.laws.velocity == muscle::VelocityLaw::thelen;
   if (!(result.parameters.damping > 0.0) && !undamped)
     result.parameters.damping =
@@ -65,8 +65,8 @@ ModelMuscle muscle_of(const model::Muscle& m, int index, const ModelSetup& setup
   return result;
 }
 
-/// Millard's curves as the file shapes them. A simulated unit of Millard's is damped, so that f_l
-/// is never divided by and needs no minimum.
+/// Returns Millard's curves with the file's shape. A simulated unit of Millard's is damped: f_l is
+/// never a divisor and needs no minimum.
 muscle::MillardShape shape_of(const model::Muscle& m) {
   muscle::MillardShape shape = model::millard_shape(m.properties);
   shape.active_minimum = 0.0;
@@ -88,7 +88,7 @@ muscle::JointPassive<double> joint_of(const model::Coordinate& coordinate,
   return joint;
 }
 
-/// A model as `SimulationRun` moves it; see HingeSkeleton.
+/// A model in the form that `SimulationRun` moves; see HingeSkeleton.
 class TreeSkeleton {
  public:
   explicit TreeSkeleton(const SimulationModel& model)
@@ -162,7 +162,7 @@ class TreeSkeleton {
     return dynamics_.gravity()[static_cast<Eigen::Index>(k)];
   }
   [[nodiscard]] double joint_elastic(std::size_t k) const { return passive_[k].elastic_torque_nm; }
-  /// With the model's other passive forces, of whose energies no account is kept.
+  /// Includes the model's other passive forces, whose energies are not counted.
   [[nodiscard]] double joint_viscous(std::size_t k) const {
     return passive_[k].viscous_torque_nm + other(k);
   }
@@ -218,7 +218,7 @@ SimulationModel make_simulation_model(model::BodyModel body, const ModelSetup& s
                       force.name));
     }
   }
-  // One spring on a coordinate joins the joint, whose stored energy is known.
+  // A single spring on a coordinate joins the joint, whose stored energy is known.
   std::vector<char> sprung(body.coordinates.size(), 0);
   std::erase_if(body.passive_forces, [&](const model::PassiveForce& force) {
     const auto* spring = std::get_if<model::CoordinateSpring>(&force.law);
@@ -273,7 +273,7 @@ std::vector<Device> default_devices(const SimulationModel& model) {
     }
     devices.push_back(std::move(device));
   }
-  // What follows another coordinate is held by holding that.
+  // A coordinate that follows another one is held by holding that one.
   for (std::size_t pass = 0; pass < model.body.couplers.size(); ++pass) {
     for (const model::CoordinateCoupler& c : model.body.couplers) {
       Device& dependent = devices[static_cast<std::size_t>(c.dependent)];

@@ -1,7 +1,7 @@
 #pragma once
 
-// How a skeleton with muscles is integrated and what is recorded; included by the sources that
-// simulate. HingeSkeleton shows what a skeleton must answer.
+// Integrates a skeleton with muscles and records the result; included by the sources that simulate.
+// HingeSkeleton shows the interface of a skeleton.
 
 #include <algorithm>
 #include <cmath>
@@ -30,7 +30,7 @@ void check_simulation(std::span<const std::string> muscles,
 [[nodiscard]] std::vector<double> output_times(const SimulationStart& start,
                                                const SimulationOptions& options);
 
-/// One simulation under way. States: q, qdot, for each muscle those of its tendon mode.
+/// One running simulation. States: q, qdot, and for each muscle the states of its tendon mode.
 template <typename Skeleton>
 class SimulationRun {
  public:
@@ -151,7 +151,7 @@ class SimulationRun {
     return {activation_[i], skeleton_.length_m(i), skeleton_.velocity_mps(i)};
   }
 
-  /// Inputs are those of the stretch that ends at the present limit, where they may jump.
+  /// Inputs may jump at the present limit: they are taken from the stretch before it.
   [[nodiscard]] double clamped(double t) const { return std::min(t, limit_left_); }
   void set_limit(double t) {
     limit_ = t;
@@ -191,7 +191,7 @@ class SimulationRun {
     }
   }
 
-  /// Powers that the elements give, in the order of the energy's columns.
+  /// Computes the powers of the elements, in the order of the energy's columns.
   void powers(double t, const double* y, double* p) {
     set(t, y);
     for (std::size_t i = 0; i < n_; ++i) {
@@ -228,13 +228,13 @@ class SimulationRun {
     return options_.locate_kinks ? n_ * muscle::kMusculotendonEventCount : 0;
   }
 
-  /// The next time up to which inputs are smooth, with the activations known so far.
+  /// Returns the next time up to which inputs are smooth, with the activations known so far.
   double next_limit(const double* y) {
     double next = *std::upper_bound(breaks_.begin(), breaks_.end(), now_);
     if (controlled()) {
       const double interval = options_.controller.interval_s;
       const double tick = times_.front() + static_cast<double>(ticks_) * interval;
-      if (ticks_ > 0 && now_ >= tick) ask_controller(now_, y);  // the first answer is there already
+      if (ticks_ > 0 && now_ >= tick) ask_controller(now_, y);  // the first answer exists already
       if (now_ >= tick) ++ticks_;
       next = std::min(next, times_.front() + static_cast<double>(ticks_) * interval);
       for (std::size_t i = 0; i < n_; ++i) signals_[i].extend(next, excitation_[i], excitation_[i]);
@@ -242,7 +242,7 @@ class SimulationRun {
     return next;
   }
 
-  /// Rows of the result within the last step; `sample(t)` fills y_ and work_.
+  /// Records the rows of the result within the last step; `sample(t)` fills y_ and work_.
   template <typename Sample>
   bool emit(double until, Sample&& sample) {
     while (row_ < times_.size() && times_[row_] <= until) {
@@ -300,7 +300,7 @@ class SimulationRun {
     work_.assign(works_, 0.0);
     const auto on_step = [&](const math::StiffIntegrator& s) {
       return emit(s.time_s(), [&](double t) {
-        const double known = std::max(t, s.previous_time_s());  // t may lie within a hop
+        const double known = std::max(t, s.previous_time_s());  // t may be within a hop
         s.interpolate(known, y_);
         if (works_ > 0) s.interpolate_quadrature(known, work_);
       });

@@ -49,7 +49,7 @@ void TreeDynamics::set(const Eigen::Ref<const Eigen::VectorXd>& q,
     q_[coupler.dependent] = coupled_[c].value;
     qdot_[coupler.dependent] = coupled_[c].first * qdot_[coupler.independent];
   }
-  // C - gravity; leaves poses and velocities in the state.
+  // C - gravity; sets poses and velocities in the state.
   coriolis_ = model::inverse_dynamics(model, q_, qdot_, rest_, {}, state_);
 
   potential_ = 0.0;
@@ -148,7 +148,7 @@ bool TreeDynamics::accelerate(const double* tau,
     result.noalias() += jacobian_ * rhs_;
     balance_.noalias() -= mass_jacobian_ * rhs_;
   }
-  // What is left over acts on what is prescribed, through the couplers too.
+  // The rest acts on prescribed coordinates, also through the couplers.
   for (std::size_t c = couplers_.size(); c-- > 0;) {
     const model::CoordinateCoupler& coupler = model.couplers[couplers_[c]];
     balance_[coupler.independent] += coupled_[couplers_[c]].first * balance_[coupler.dependent];

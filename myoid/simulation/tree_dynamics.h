@@ -22,8 +22,8 @@ class TreeDynamics {
  public:
   explicit TreeDynamics(const model::BodyModel& model);
 
-  /// Everything below is for this state. Dependent coordinates of couplers take the values and
-  /// rates that their couplers say, whatever is given.
+  /// Sets the state for the functions below. Dependent coordinates of couplers follow their
+  /// couplers, whatever is given.
   void set(const Eigen::Ref<const Eigen::VectorXd>& q,
            const Eigen::Ref<const Eigen::VectorXd>& qdot);
 
@@ -39,12 +39,12 @@ class TreeDynamics {
   /// Adds to `tau` the generalized forces of a force and moment on a body.
   void add(const model::BodyWrench& wrench, Eigen::VectorXd& tau) const;
 
-  /// Accelerations under generalized forces `tau` besides gravity. Where `prescribed` is not 0,
-  /// qddot is taken as it is and `device` gets the force this takes; else device is 0. With
-  /// couplers qddot = J x + b, x the accelerations of the free coordinates that depend on no other,
-  /// and
+  /// Computes the accelerations under generalized forces `tau` besides gravity. Where `prescribed`
+  /// is not 0, qddot is given and `device` receives the necessary force; elsewhere device is 0.
+  /// With couplers qddot = J x + b, where x are the accelerations of the free independent
+  /// coordinates, and
   ///   J' M J x = J' (tau + gravity - C - M b).
-  /// False if that matrix is not positive.
+  /// Returns false if that matrix is not positive definite.
   [[nodiscard]] bool accelerate(const double* tau,
                                 const char* prescribed,
                                 double* qddot,
@@ -55,9 +55,9 @@ class TreeDynamics {
   model::BodyState state_;
   Eigen::MatrixXd mass_, reduced_, jacobian_, mass_jacobian_;
   Eigen::VectorXd gravity_, coriolis_, rest_, rhs_, q_, qdot_, bias_, balance_;
-  /// Couplers, each after that on which its independent coordinate depends.
+  /// Couplers, each after the one that determines its independent coordinate.
   std::vector<std::size_t> couplers_;
-  std::vector<model::FunctionValue> coupled_;  ///< Per coupler, its function here.
+  std::vector<model::FunctionValue> coupled_;  ///< Value of each coupler's function.
   std::vector<char> dependent_;
   std::vector<double> composite_mass_;
   std::vector<Vec3> moment_;
