@@ -61,7 +61,7 @@ std::string joint(std::string_view name,
             "<range>{} {}</range><clamped>true</clamped><locked>{}</locked></Coordinate>\n",
             c.name, c.default_value, c.lower, c.upper, c.locked ? "true" : "false");
       } else if (kind == "rotation") {
-        // Axes that turn nothing must still differ from those that do: go on in a circle.
+        // Unused axes must differ from the used ones: permute the last axis.
         axis = Vec3(last_axis.z(), last_axis.x(), last_axis.y());
       }
       last_axis = axis;
@@ -129,12 +129,12 @@ std::string path_points(const PlanarMuscle& muscle,
     return point(name + "-P1", "upper_arm", Vec3(x_m, top_m, 0.0)) +
            sliding_point(name + "-P2", Vec3(x_m, top_m - muscle.constant_m, 0.0), -muscle.pulley_m);
   }
-  // Half of what psi0 lacks to a straight line on either side of the elbow.
+  // Half of the angle that psi0 lacks to a straight line, on either side of the elbow.
   const double lean_rad = 0.5 * (kPi - muscle.straight_rad);
   const Vec3 up(std::sin(lean_rad), std::cos(lean_rad), 0.0);
   const Vec3 down(std::sin(lean_rad), -std::cos(lean_rad), 0.0);
   const Vec3 elbow(0.0, -upper_arm_m, 0.0);
-  // The constant part goes on along the line of its segment.
+  // The constant part continues along the line of its segment.
   const bool distal = muscle.name == "BRD";
   std::string points;
   if (!distal) {
@@ -192,7 +192,7 @@ std::string markers(const Arm4Options& options) {
                      marker("r_acromion", "trunk", shoulder + Vec3(0.0, 0.05, 0.0)) +
                      marker("r_upper_arm_front", "upper_arm", Vec3(0.045, -0.45 * upper_m, 0.02)) +
                      marker("r_upper_arm_side", "upper_arm", Vec3(0.0, -0.60 * upper_m, 0.05));
-  // Landmarks that are the elbow's, on the segment that carries them in this recording.
+  // Landmarks of the elbow, on the segment that carries them in this recording.
   const std::string_view elbow_on = options.forearm_rotations ? "forearm_hand" : "upper_arm";
   const Vec3 elbow(0.0, options.forearm_rotations ? 0.0 : -upper_m, 0.0);
   text += marker("r_elbow", elbow_on, elbow) + marker("r_elbow_center", elbow_on, elbow) +

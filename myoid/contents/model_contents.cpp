@@ -33,8 +33,9 @@ ordered_json jumps_json(const model::BodyModel& m) {
   return list;
 }
 
-/// What a coordinate's values in files are in. One that turns a body by another law than its own
-/// angle, or follows an angle, is in radians there, whatever OpenSim calls its motion.
+/// Returns the unit of a coordinate's values in files. A coordinate that turns a body by another
+/// law than its own angle, or that follows an angle, is in radians there, whatever OpenSim calls
+/// its motion.
 std::string unit_of(const model::BodyModel& m, int index) {
   const model::Coordinate& c = m.coordinates[static_cast<std::size_t>(index)];
   if (c.motion == model::MotionType::rotational) return "deg";

@@ -36,7 +36,7 @@ ordered_json repairs_json(const std::vector<recording::Repair>& repairs) {
   return list;
 }
 
-/// Start, duration and rate as far as there are any; `of` precedes the keys of a second clock.
+/// Returns start, duration and rate if there are any; `of` precedes the keys of a second clock.
 ordered_json clock_json(const ClockFacts& facts, std::string_view of = "") {
   ordered_json j;
   const auto add = [&](const char* key, const std::optional<double>& value) {
@@ -118,8 +118,8 @@ ordered_json events_json(const std::vector<recording::Event>& events) {
   return list;
 }
 
-/// The upward direction and the parts of the file that say so; "not known" where nothing does,
-/// "contradictory" where two things in the file do not agree.
+/// Adds the upward direction and its sources in the file; "not known" without any, "contradictory"
+/// where two sources disagree.
 void add_up(const std::filesystem::path& path,
             const recording::C3dSurvey& survey,
             ordered_json& j) {
@@ -135,7 +135,7 @@ void add_up(const std::filesystem::path& path,
   if (up.up_L) j["up_from"] = up.because;
 }
 
-/// Everything a C3D file says, with the numbers of its channels in the unit as written.
+/// Returns all statements of a C3D file, with its channels in the unit as written.
 ordered_json c3d_json(const std::filesystem::path& path) {
   const recording::C3dSurvey survey = recording::survey_c3d(path);
   const recording::C3dFile& file = survey.file;
@@ -220,7 +220,7 @@ ordered_json recording_json(const std::filesystem::path& path, const char* serie
 ordered_json storage_json(const std::filesystem::path& path) {
   const recording::Storage file = recording::read_storage(path);
   ordered_json j{{"kind", "storage (.mot, .sto)"}, {"title", file.title}};
-  // An EMG file has no angles; one that does not speak of them may have none either.
+  // An EMG file has no angles; a file that does not mention them may have none either.
   if (const auto to_volt = recording::stated_voltage(file)) {
     j["emg_unit"] = recording::voltage_name(*to_volt) + ", as the header says";
   } else if (std::any_of(file.header.begin(), file.header.end(), [](const auto& entry) {

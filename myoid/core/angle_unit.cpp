@@ -32,7 +32,7 @@ std::string check_angle_unit(const std::filesystem::path& path,
                                 "header",
                                 largest_name, largest_rad));
   }
-  // A small joint may move little; one of a whole motion turns by more.
+  // A small joint may move little, but over a whole motion some joint exceeds 3.5 degrees.
   if (says_degrees && largest_rad < 3.5 * kDegree && widest_rad > 0.2 * kDegree) {
     return fmt::format(
         "{}: no angle reaches 3.5 degrees (the largest is '{}') although the header says "

@@ -12,7 +12,7 @@ namespace myoid {
 namespace {
 
 std::string identity() {
-  // Inside a shared library that library counts, not the program that loaded it.
+  // Inside a shared library, the library's file counts, not the program that loaded it.
   std::string file = "/proc/self/exe";
   Dl_info info{};
   if (dladdr(reinterpret_cast<const void*>(&build_identity), &info) != 0 &&

@@ -17,7 +17,7 @@ struct Family {
   bool several = false;  ///< Of several muscles that have families of their own.
 };
 
-// Longer and more special names stand before those that they contain.
+// Longer and more specific names come before names that they contain.
 const std::vector<Family>& families() {
   static const std::vector<Family> list{
       {"biceps femoris",
@@ -74,7 +74,7 @@ const std::vector<Family>& families() {
 }
 
 struct Name {
-  std::string letters;  ///< Small letters and digits, side and words of no meaning taken out.
+  std::string letters;  ///< Small letters and digits, without the side and meaningless words.
   char side = ' ';      ///< 'l', 'r', or ' ' where it is not stated.
 };
 
@@ -133,8 +133,8 @@ const Family* family_of(const std::string& letters, bool channel) {
   return nullptr;
 }
 
-/// The head or part of a muscle that a name states: 'l'ateral, l'o'ng, 'm'edial, 's'hort; ' ' if
-/// none.
+/// Returns the head or part of a muscle that a name states: 'l'ateral, l'o'ng, 'm'edial, 's'hort; '
+/// ' if none.
 char head_of(const std::string& letters, const std::string& family) {
   const auto has = [&](const char* word) { return letters.find(word) != std::string::npos; };
   const bool biceps = family == "biceps brachii";
@@ -166,7 +166,7 @@ std::vector<ChannelMuscles> match_channels(const std::vector<std::string>& chann
     std::vector<std::string> of_head;
     for (const std::string& muscle : muscles) {
       const Name other = name_of(muscle);
-      // A model of both sides calls them by a last letter: "soleus_r".
+      // Models of both sides mark them by a last letter: "soleus_r".
       if (name.side != ' ' && other.side != ' ' && name.side != other.side) continue;
       const bool same = wanted != nullptr && wanted->several
                             ? begins_with_any(other.letters, wanted->in_models, false)
@@ -179,7 +179,7 @@ std::vector<ChannelMuscles> match_channels(const std::vector<std::string>& chann
       const char head = head_of(name.letters, pair.family);
       if (head != ' ' && head == head_of(other.letters, pair.family)) of_head.push_back(muscle);
     }
-    // One electrode stands for all heads; several, each for its own.
+    // A single electrode stands for all heads, several each for their own.
     if (of_family[pair.family + name.side] > 1 && !of_head.empty()) pair.muscles = of_head;
   }
   return result;

@@ -115,7 +115,7 @@ class TrialWriter {
     out_.line("");
   }
 
-  /// A maximal contraction if its name says so; else a question.
+  /// Writes a maximal contraction if the name says so, otherwise a question.
   void emg_trial(const FoundRecording& f) {
     const bool mvc = guessed_use(f.stem) == "mvc";
     if (!mvc)

@@ -130,7 +130,7 @@ class Draft {
       draft_.notes.push_back(fmt::format("not read: {}", error.what()));
       return;
     }
-    if (loads_data_.contains(path.lexically_normal())) return;  // goes with its ExternalLoads
+    if (loads_data_.contains(path.lexically_normal())) return;  // its ExternalLoads file names it
     if (f.markers.frame_count() == 0 && f.angles.empty() && f.channels.empty()) {
       draft_.notes.push_back(
           fmt::format("{}: no markers, no coordinate of the model, no EMG; not used",
@@ -337,7 +337,7 @@ class Draft {
     }
   }
 
-  /// A table to fill in, where no channel is called like a muscle.
+  /// Writes a table to fill in, where no channel is named like a muscle.
   void unknown_pairs(const std::vector<std::string>& channels,
                      const std::vector<std::string>& able) {
     todo(fmt::format("no channel's name is that of a muscle that moves {}; name the pairs",
@@ -398,7 +398,8 @@ class Draft {
   std::map<std::string, std::string> similar_;
   Eigen::Index most_known_ = 0;
   char up_ = ' ';
-  std::string file_up_, file_up_because_;  ///< "z", and the sentence of the file that states it.
+  std::string file_up_, file_up_because_;  ///< The upward axis, such as "z", and the sentence of
+                                           ///< the file that states it.
   double up_cosine_ = 0.0;
   DraftText out_;
   StudyDraft draft_;

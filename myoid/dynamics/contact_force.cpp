@@ -9,7 +9,7 @@ namespace myoid::dynamics {
 namespace {
 
 struct Touch {
-  double depth_m = 0.0;  ///< Above 0 where the surfaces overlap.
+  double depth_m = 0.0;  ///< Positive where the surfaces overlap.
   Vec3 normal_G;         ///< From the sphere into the other.
   Vec3 p_G;              ///< Midway between the surfaces.
   double radius_m = 0.0;
@@ -38,7 +38,7 @@ Vec3 velocity_at(const model::BodyState& state, model::BodyIndex body, const Vec
   return state.v_GB[at(body)] + state.w_GB[at(body)].cross(p_G - state.X_GB[at(body)].p);
 }
 
-/// Two coefficients of friction make their harmonic mean.
+/// Combines two coefficients of friction by their harmonic mean.
 double together(double a, double b) { return a != 0.0 || b != 0.0 ? 2.0 * a * b / (a + b) : 0.0; }
 
 }  // namespace
@@ -49,7 +49,7 @@ void append_contact(const model::Contact& c,
   Touch t = touch_of(c, state);
   if (!c.smoothing && t.depth_m <= 0.0) return;
   const auto& [first, second] = c.materials;
-  // Moduli to the power 2/3 are in series: the softer one takes the larger part of the depth.
+  // Moduli to the power 2/3 act in series: the softer surface takes the larger part of the depth.
   const double k1 = std::pow(first.stiffness, 2.0 / 3.0);
   const double k2 = std::pow(second.stiffness, 2.0 / 3.0);
   const double share = k2 / (k1 + k2);

@@ -19,7 +19,7 @@ using model::OsimXml;
 
 constexpr double kFarAway_m = 1000.0;
 
-/// The columns whose names begin with the identifier, in the file's order.
+/// Returns the columns whose names begin with the identifier, in the file's order.
 std::vector<Eigen::Index> columns_of(const TimeSeries& data, const std::string& identifier) {
   std::vector<Eigen::Index> columns;
   for (std::size_t c = 0; c < data.channels().size(); ++c) {
@@ -29,8 +29,9 @@ std::vector<Eigen::Index> columns_of(const TimeSeries& data, const std::string& 
   return columns;
 }
 
-/// What the columns of a force, point or torque begin with. A <PrescribedForce>, the form of
-/// documents before 20301, names them by its functions: the column of x, or "#" and its number.
+/// Returns the beginning of the names of a force's, point's or torque's columns. A
+/// <PrescribedForce>, the form of documents before 20301, names columns by its functions: the
+/// column of x, or "#" and its number.
 std::string identifier_of(const OsimXml& xml,
                           pugi::xml_node node,
                           const std::string& quantity,
@@ -77,7 +78,8 @@ Eigen::MatrixX3d values_of(const OsimXml& xml,
   return values;
 }
 
-/// Points without meaning, where no load acts, become straight lines between those under load.
+/// Replaces points without meaning, where no load acts, by straight lines between points under
+/// load.
 Eigen::Index mend_points(Eigen::MatrixX3d& point, const std::vector<bool>& is_loaded) {
   const auto bad = [&](Eigen::Index i) {
     return !point.row(i).allFinite() ||
@@ -105,7 +107,7 @@ Eigen::Index mend_points(Eigen::MatrixX3d& point, const std::vector<bool>& is_lo
   return mended;
 }
 
-/// The clock of the data file; none if it has one row.
+/// The clock of the data file; empty if the file has one row.
 using Clock = std::optional<math::SplineKnots>;
 
 LoadColumns fit(const Clock& clock, const Eigen::MatrixX3d& values) {
@@ -174,7 +176,7 @@ ExternalForce read_force(const OsimXml& xml,
     std::vector<bool> is_loaded(static_cast<std::size_t>(p.rows()), false);
     if (f.rows() > 0) {
       const Eigen::VectorXd size = f.rowwise().norm();
-      // A thousandth of the peak is the noise of an empty plate.
+      // An empty plate's noise is up to a thousandth of the peak.
       const double least = 1e-3 * size.maxCoeff();
       for (Eigen::Index i = 0; i < size.size(); ++i)
         is_loaded[static_cast<std::size_t>(i)] = size[i] > least;

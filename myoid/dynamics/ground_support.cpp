@@ -20,7 +20,7 @@ struct Root {
   double weight_n = 0.0;
 };
 
-/// The free translation of a joint to the ground that goes along gravity; -1: none.
+/// Returns the free translation along gravity of a joint to the ground; -1 if there is none.
 Root root_of(const model::BodyModel& model) {
   Root root;
   const double g = model.gravity_G.norm();
@@ -28,7 +28,7 @@ Root root_of(const model::BodyModel& model) {
   const Vec3 down = model.gravity_G / g;
   model::BodyState state = model::make_state(model);
   model::compute_poses(model, model.default_q(), state);
-  double best = 0.7;  // of its axis along gravity: nearer than 45 degrees
+  double best = 0.7;  // cosine of the axis with gravity: nearer than 45 degrees
   for (const model::Joint& joint : model.joints) {
     if (joint.parent != 0) continue;
     for (const int c : joint.coordinates) {
@@ -130,9 +130,9 @@ bool bears_the_body(const model::BodyModel& model,
                     const std::string& coordinate,
                     const Eigen::VectorXd& q,
                     double body_mass_kg) {
-  // Head, arms and trunk are 0.68 of a person (Winter 2009): a model that stands has more.
+  // Head, arms and trunk are 0.68 of a person's mass (Winter 2009): a standing model has more.
   constexpr double kMostOfABody = 0.75;
-  constexpr double kGenericBody_kg = 75.0;  // where nobody says what the person weighs
+  constexpr double kGenericBody_kg = 75.0;  // if the person's mass is not stated
   double mass = 0.0;
   for (const model::Body& body : model.bodies) mass += body.mass_kg;
   if (mass < kMostOfABody * (body_mass_kg > 0.0 ? body_mass_kg : kGenericBody_kg)) return false;

@@ -21,7 +21,7 @@ std::vector<bool> moved_bodies(const model::BodyModel& model, int joint) {
   std::vector<bool> moved(model.bodies.size(), false);
   const auto first = static_cast<std::size_t>(model.joints[static_cast<std::size_t>(joint)].child);
   moved[first] = true;
-  // A parent's joint stands before its child's.
+  // A parent's joint comes before its child's.
   for (const model::Joint& j : model.joints) {
     if (moved[static_cast<std::size_t>(j.parent)]) moved[static_cast<std::size_t>(j.child)] = true;
   }

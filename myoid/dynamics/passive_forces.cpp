@@ -15,7 +15,7 @@ double smooth_step(double s) {
   return s * s * s * (10.0 + s * (-15.0 + 6.0 * s));
 }
 
-/// A force at a point of ground, acting on a body.
+/// Returns the wrench on a body of a force at a point of ground.
 model::BodyWrench wrench_at(const model::BodyState& state,
                             model::BodyIndex body,
                             const Vec3& p_G,
@@ -27,7 +27,8 @@ Vec3 point_velocity(const model::BodyState& state, model::BodyIndex body, const 
   return state.v_GB[at(body)] + state.w_GB[at(body)].cross(p_G - state.X_GB[at(body)].p);
 }
 
-/// By virtual work on the body-fixed X-Y-Z angles and the translation of frame 2 in frame 1.
+/// Adds a bushing's force by virtual work on the body-fixed X-Y-Z angles and the translation of
+/// frame 2 in frame 1.
 void append(const model::Bushing& b,
             const model::BodyState& state,
             std::vector<model::BodyWrench>& wrenches) {
@@ -69,7 +70,7 @@ void append(const model::Bushing& b,
   wrenches.push_back(second);
 }
 
-/// Two points pulled together by `pull(distance, its rate)`.
+/// Adds the forces of two points that `pull(distance, its rate)` draws together.
 void append_pull(const model::BodyState& state,
                  model::BodyIndex body1,
                  const Vec3& p_B1,

@@ -27,7 +27,7 @@ const model::MusclePath& path_of(const model::BodyModel& model, const Actuator& 
                                           : model.path_actuators[a.index].path;
 }
 
-/// Where a point actuator acts, in its body, and its direction in ground.
+/// Returns a point actuator's point in its body and its direction in ground.
 std::pair<Vec3, Vec3> line_of(const model::PointActuator& p, const model::BodyState& state) {
   const Pose& X_GB = state.X_GB[at(p.body)];
   return {p.point_is_global ? Vec3(X_GB.inverse() * p.point) : p.point,

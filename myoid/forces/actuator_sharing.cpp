@@ -13,7 +13,8 @@
 namespace myoid::forces {
 namespace {
 
-constexpr double kSteepest = 1e8;  ///< Greatest slope of a control over its pull, for p > 2 near 0.
+constexpr double kSteepest =
+    1e8;  ///< Limits the slope of a control by its pull, which is infinite at 0 for p > 2.
 
 /// The dual problem with its rows scaled to unit length.
 class Dual {
@@ -28,7 +29,7 @@ class Dual {
     slope_.resize(a_.cols());
   }
 
-  /// Controls, gap and value at lambda.
+  /// Computes controls, gap and value at lambda.
   void evaluate(const Eigen::VectorXd& lambda) {
     pull_.noalias() = a_.transpose() * lambda;
     value_ = lambda.dot(b_);
@@ -97,7 +98,7 @@ Maximum maximize(Dual& dual, Eigen::VectorXd lambda) {
   for (; best.iterations < 200; ++best.iterations) {
     const double gap = dual.gap().cwiseAbs().maxCoeff();
     if (gap <= tolerance) break;
-    if (best.lambda.cwiseAbs().maxCoeff() > 1e12) break;  // without limit: no solution
+    if (best.lambda.cwiseAbs().maxCoeff() > 1e12) break;  // unbounded: the problem has no solution
     Eigen::MatrixXd h = dual.curvature(false);
     h.diagonal().array() += damping * size;
     const Eigen::LDLT<Eigen::MatrixXd> factor(h);
@@ -194,7 +195,7 @@ ActuatorSolution solve_actuators(const ActuatorProblem& problem, const Eigen::Ve
   if (start != nullptr && start->size() == m) {
     lambda = start->cwiseQuotient(scale);
   } else {
-    // The controls of least square without bounds.
+    // The least-squares controls without bounds.
     Eigen::MatrixXd h = dual.curvature(true);
     h.diagonal().array() += 1e-12;
     lambda = h.selfadjointView<Eigen::Lower>().ldlt().solve(dual.b());
@@ -211,7 +212,7 @@ ActuatorSolution solve_actuators(const ActuatorProblem& problem, const Eigen::Ve
   solution.kkt_residual = certificate(problem, solution);
   solution.solved = best.balanced && solution.kkt_residual <= 1e-9;
   if (!best.balanced) {
-    // What the actuators cannot make is made by others that cost much.
+    // Costly extra actuators take the part that the actuators cannot make.
     const double strength = 1e-3;
     const double infinity = std::numeric_limits<double>::infinity();
     Eigen::MatrixXd a(m, n + m);

@@ -25,8 +25,8 @@ DrivenState DrivenFrame::at_state(const Eigen::VectorXd& q,
   if (loads_ != nullptr) loads_->append_wrenches(state, time_s, result.wrenches);
   dynamics::append_passive_forces(model_, state, tau, result.wrenches, time_s);
   tau = kinematics::on_rates(model_, result.q, std::move(tau));
-  // Actuators accelerate by their moment arms, and press joints by their wrenches: OpenSim's paths
-  // have the two not quite the same.
+  // Actuators accelerate by their moment arms and load joints by their wrenches: in OpenSim's paths
+  // these differ slightly.
   const std::vector<model::BodyWrench> others = result.wrenches;
   for (std::size_t k = 0; k < actuators_.size(); ++k) {
     const double f = force[static_cast<Eigen::Index>(k)];

@@ -35,7 +35,7 @@ void check(const SharingProblem& problem) {
     throw InvalidInput("force sharing: an EMG term needs exponent 2");
 }
 
-/// x(lambda) and its slope; the optimum for given multipliers, one muscle at a time.
+/// x(lambda) of one muscle and its slope: the optimum for given multipliers.
 struct Response {
   double x = 0.0;
   double slope = 0.0;  ///< dx / d(pull)
@@ -53,8 +53,7 @@ Response respond(
   } else {
     const double size = std::pow(std::abs(pull) / (p * w), 1.0 / (p - 1.0));
     r.x = std::copysign(size, pull);
-    // The slope grows without bound towards 0 for p > 2; there it is cut, which only shortens
-    // steps.
+    // For p > 2 the slope is unbounded near 0. The limit only shortens steps.
     r.slope = std::min(size / ((p - 1.0) * std::max(std::abs(pull), 1e-300)), 1e6);
   }
   if (r.x <= lower) return {lower, 0.0};
@@ -121,7 +120,7 @@ SharingSolution solve_sharing(const SharingProblem& problem) {
     point.gap -= a * point.x + problem.reserve.cwiseProduct(point.y);
     return point;
   };
-  // A first guess away from 0, where the response of p > 2 has no finite slope.
+  // A first guess away from 0, where the response for p > 2 has no finite slope.
   Eigen::VectorXd lambda = Eigen::VectorXd::Zero(m);
   if (p != 2.0) {
     for (Eigen::Index k = 0; k < m; ++k) {
@@ -191,7 +190,7 @@ SharingSolution solve_sharing(
     solution = solve_sharing(tangent);
     if (solution.status == SharingStatus::not_finite) return solution;
     moved = (solution.activation - x).cwiseAbs().maxCoeff();
-    // Whole steps converge where the laws bend little; half steps also where they swing.
+    // Full steps converge where the laws bend little; half steps also where full steps oscillate.
     x = count < 10 || moved <= 1e-11 ? solution.activation
                                      : (0.5 * (x + solution.activation)).eval();
     tangent = tangent_at(x);
@@ -205,7 +204,7 @@ SharingSolution solve_sharing(
 
 namespace {
 
-/// Throws InvalidInput unless the tables are on one clock and of the same muscles.
+/// Throws InvalidInput unless the tables have one clock and the same muscles.
 void check_tables(const std::vector<TimeSeries>& moment_arms,
                   const TimeSeries& torques,
                   const Eigen::MatrixXd& optimal_force_n,
@@ -228,7 +227,7 @@ void check_tables(const std::vector<TimeSeries>& moment_arms,
   }
 }
 
-/// The EMG of these muscles, frames x muscles; empty without an EMG term.
+/// Returns the EMG of these muscles, frames x muscles; empty without an EMG term.
 Eigen::MatrixXd emg_of(const std::vector<Channel>& muscles,
                        Eigen::Index frames,
                        const SharingOptions& options) {
@@ -242,8 +241,8 @@ Eigen::MatrixXd emg_of(const std::vector<Channel>& muscles,
   return emg;
 }
 
-/// Weights of the objectives `force` and `stress`: (F_i)^p or (F_i / F_max)^p instead of
-/// (F_i / F_opt)^p, relative to the mean so that reserves weigh alike.
+/// Returns the weights of the objectives `force` and `stress`: (F_i)^p or (F_i / F_max)^p instead
+/// of (F_i / F_opt)^p, divided by their mean so that reserves keep their weight.
 Eigen::VectorXd sharing_weights(const Eigen::VectorXd& optimal_force_n,
                                 const Eigen::VectorXd& max_isometric_force_n,
                                 const SharingOptions& options) {

@@ -28,7 +28,7 @@ std::vector<JointLoads> joint_reactions(const model::BodyModel& model,
       loads.X_GB = state.X_GB;
       for (const model::Joint& joint : model.joints) {
         model::BodyWrench wrench = carried[at(joint.child)];
-        // From the origin of the body to that of the joint's frame in it.
+        // From the origin of the body to the origin of the joint's frame in it.
         const Vec3 arm_G = state.X_GB[at(joint.child)].R * joint.X_BM.p;
         wrench.m_G -= arm_G.cross(wrench.f_G);
         loads.on_child.push_back(wrench);

@@ -85,7 +85,7 @@ void check_states(const MuscleAnalysisOptions& options,
   }
 }
 
-/// A sentence for each muscle whose path or balance fails in some of the frames.
+/// Adds a sentence for each muscle whose path or balance fails in some frames.
 void note_failures(const std::string& muscle,
                    int pathless,
                    int unbalanced,

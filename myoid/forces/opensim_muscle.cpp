@@ -8,7 +8,8 @@
 namespace myoid::forces {
 namespace {
 
-/// The class's curves with the file's numbers. Thelen's velocity law can be inverted everywhere.
+/// Returns the class's curves with the file's numbers. Thelen's velocity law is invertible
+/// everywhere.
 muscle::NormalizedCurves<double> class_curves(const model::MuscleProperties& p) {
   const muscle::MusculotendonLaws laws = model::class_laws(p, muscle::TendonMode::equilibrium);
   muscle::CurveShape<double> shape =
@@ -51,7 +52,8 @@ OpensimMuscle::Curve OpensimMuscle::active_length(double l) const {
   return {point.value, point.slope / width_};
 }
 
-/// Thelen's muscle does not push where it shortens faster than v_max.
+/// Thelen's muscle pulls with at least zero force: it does not push where it shortens faster than
+/// v_max.
 double OpensimMuscle::velocity(double activation, double v) const {
   const double f = curves_.velocity(activation, v).value;
   return is_thelen() ? std::max(0.0, f) : f;
@@ -70,7 +72,7 @@ double OpensimMuscle::optimal_force(double length_m, double velocity_mps) const 
          (normalized_pennation_ ? cos_pennation(l) : cosine);
 }
 
-/// A fiber between the ends of its path, which the search for the equilibrium moves.
+/// A musculotendon unit between the ends of its path, whose fiber length the search varies.
 class OpensimMuscle::Balance {
  public:
   Balance(const OpensimMuscle& muscle, double activation, double length_m, double velocity_mps)
@@ -80,14 +82,14 @@ class OpensimMuscle::Balance {
         velocity_mps_(velocity_mps),
         v_max_mps_(muscle.p_.max_contraction_velocity * muscle.p_.optimal_fiber_length_m) {}
 
-  /// Stiffnesses of the fiber along the tendon and of the tendon [N/m].
+  /// Stiffness of the fiber along the tendon and of the tendon [N/m].
   struct Stiffness {
     double fiber_by_length = 0.0, fiber_along = 0.0, tendon = 0.0, tendon_by_fiber = 0.0;
-    /// Of the mismatch, by the fiber's length.
+    /// Derivative of the mismatch by the fiber's length.
     [[nodiscard]] double slope() const { return fiber_by_length - tendon_by_fiber; }
   };
 
-  /// Gives the fiber a length; its velocity stays.
+  /// Sets the fiber's length; its velocity stays.
   void place(double fiber_length_m) {
     l_ = fiber_length_m;
     cosine_ = m_.cos_pennation(l_);
@@ -98,7 +100,7 @@ class OpensimMuscle::Balance {
     tendon_ = m_.curves_.tendon(tendon_length_m_ / m_.p_.tendon_slack_length_m - 1.0);
   }
 
-  /// Pull of the fiber along the tendon less the tendon's [N].
+  /// Returns the fiber's pull along the tendon minus the tendon's [N].
   double mismatch_n() {
     const double f_max = m_.p_.max_isometric_force_n;
     fiber_force_n_ = f_max * activation_ * active_.value * f_v_ +
@@ -106,12 +108,12 @@ class OpensimMuscle::Balance {
     return fiber_force_n_ * cosine_ - f_max * tendon_.value;
   }
 
-  /// At the forces of the last mismatch.
+  /// Returns the stiffnesses at the forces of the last mismatch.
   [[nodiscard]] Stiffness stiffness() const {
     const double f_max = m_.p_.max_isometric_force_n;
     Stiffness k;
     const double sine = std::sqrt(std::max(0.0, 1.0 - cosine_ * cosine_));
-    // Without pennation the fiber may be squeezed to no length at all.
+    // Without pennation the fiber's length may become zero.
     const double angle_by_length = sine > 0.0 && cosine_ > 0.0 ? -sine / (l_ * cosine_) : 0.0;
     const double fiber = f_max * (activation_ * active_.slope * f_v_ + passive_.slope) /
                          m_.p_.optimal_fiber_length_m;
@@ -124,7 +126,7 @@ class OpensimMuscle::Balance {
     return k;
   }
 
-  /// Shares the path's velocity between fiber and tendon. Millard's muscle balances at rest.
+  /// Divides the path's velocity between fiber and tendon. Millard's muscle is balanced at rest.
   void share_velocity(const Stiffness& k) {
     if (m_.is_millard() || std::abs(velocity_mps_) < 1e-15) return;
     double tendon_speed = velocity_mps_;
@@ -139,7 +141,7 @@ class OpensimMuscle::Balance {
   const OpensimMuscle& m_;
   double activation_, length_m_, velocity_mps_, v_max_mps_;
   double l_ = 0.0, cosine_ = 1.0, tendon_length_m_ = 0.0;
-  double speed_ = 0.0, f_v_ = 1.0;  ///< Of the fiber, over v_max.
+  double speed_ = 0.0, f_v_ = 1.0;  ///< Speed of the fiber, relative to v_max.
   double fiber_force_n_ = 0.0;
   Curve active_, passive_, tendon_;
 };
@@ -160,7 +162,8 @@ OpensimMuscle::State OpensimMuscle::equilibrium(double activation,
   for (int i = 0; std::abs(error) > tolerance && i < 200; ++i) {
     const double before = error;
     const double from = l;
-    if (from <= shortest_m_ && before / k.slope() > 0.0) break;  // it would shorten further
+    if (from <= shortest_m_ && before / k.slope() > 0.0)
+      break;  // the fiber is at its shortest, and the balance asks for less
     for (double part = 1.0;; part *= 0.5) {
       const double step = -part * before / k.slope();
       l = std::max(std::abs(step) > 1e-15 ? from + step : from - std::copysign(1.5e-8, step),
@@ -223,7 +226,7 @@ OpensimMuscle::State OpensimMuscle::at_fiber_length(double activation,
   s.fiber_force_n = s.active_force_n + s.passive_force_n;
   if (rigid_tendon_) {
     if (s.fiber_force_n < 0.0) {
-      // Damping does not push the tendon.
+      // The damper does not push the tendon.
       s.passive_force_n = -s.active_force_n;
       s.fiber_force_n = 0.0;
     }

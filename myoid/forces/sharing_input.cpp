@@ -68,7 +68,7 @@ SharingInput sharing_input(const model::BodyModel& model,
   model::BodyState state = model::make_state(model);
   for (Eigen::Index i = 0; i < frames; ++i) {
     state.q = motion.q.values().row(i).transpose();
-    // Rates of all coordinates per rate of each: only couplers count here.
+    // Derivatives of all coordinates by each: only through couplers here.
     for (Eigen::Index k = 0; k < rows; ++k) {
       Eigen::VectorXd rate = Eigen::VectorXd::Unit(state.q.size(), chosen[at(k)]);
       for (std::size_t round = 0; round < model.couplers.size(); ++round) {
@@ -82,7 +82,7 @@ SharingInput sharing_input(const model::BodyModel& model,
   std::vector<Channel> channels;
   for (const Eigen::Index c : chosen) {
     channels.push_back(tau.channels()[at(c)]);
-    // They follow the couplers already.
+    // These moment arms include the couplers.
     input.moment_arms.push_back(input.muscles.moment_arm.at(model.coordinates[at(c)].name));
   }
   input.torques = TimeSeries(tau.time_s(), std::move(channels), std::move(torque));

@@ -21,7 +21,7 @@
 namespace myoid::forces {
 namespace {
 
-/// What a frame needs, reused from frame to frame; one per thread.
+/// Work space of a frame, reused for the next; one per thread.
 class SharedFrame {
  public:
   SharedFrame(const model::BodyModel& model,
@@ -39,7 +39,8 @@ class SharedFrame {
     }
   }
 
-  /// The problem at one instant; `strength` gets the force of each actuator at control 1.
+  /// Returns the problem at one instant; `strength` receives the force of each actuator at control
+  /// 1.
   ActuatorProblem problem(Eigen::VectorXd q,
                           const Eigen::VectorXd& u,
                           Eigen::VectorXd udot,
@@ -75,7 +76,7 @@ class SharedFrame {
   }
 
  private:
-  /// Basis of the speeds that the constraints allow; makes udot obey them.
+  /// Returns a basis of the speeds that the constraints allow, and adapts udot to the constraints.
   Eigen::MatrixXd constrain(const Eigen::VectorXd& q,
                             const Eigen::VectorXd& u,
                             double time_s,
@@ -87,7 +88,7 @@ class SharedFrame {
       Eigen::MatrixXd T = Eigen::MatrixXd::Zero(nq, static_cast<Eigen::Index>(free_.size()));
       for (std::size_t k = 0; k < free_.size(); ++k)
         T(free_[k], static_cast<Eigen::Index>(k)) = 1.0;
-      // Chains of couplers settle in as many rounds as there are couplers.
+      // Chains of couplers need as many rounds as there are couplers.
       for (std::size_t round = 0; round < model_.couplers.size(); ++round) {
         for (const model::CoordinateCoupler& c : model_.couplers) {
           const model::FunctionValue f = evaluate(c.function, q[c.independent]);
@@ -98,7 +99,7 @@ class SharedFrame {
       }
       return T;
     }
-    // A udot = b, the other accelerations as near to their targets as that allows.
+    // A udot = b, with the other accelerations as near to their targets as possible.
     model::compute_poses(model_, q, state_);
     model::compute_velocities(model_, u, state_);
     const auto [A, b] = model::acceleration_constraints(model_, state_, time_s);
@@ -109,7 +110,7 @@ class SharedFrame {
     return basis.rightCols(nq - qr.rank());
   }
 
-  /// Generalized force of an actuator at control 1; returns its force.
+  /// Computes the generalized force of an actuator at control 1; returns its force.
   double column(const Actuator& a, Eigen::MatrixXd& columns, Eigen::Index i) {
     double force = actuator_strength(model_, a);
     columns.col(i) = columns_.of_unit_force(a, state_);
@@ -119,7 +120,7 @@ class SharedFrame {
     }
     columns.col(i) *= force;
     if (std::isfinite(force) && columns.col(i).allFinite()) return force;
-    columns.col(i).setZero();  // what has no path does not pull
+    columns.col(i).setZero();  // an actuator without a path does not pull
     return 0.0;
   }
 

@@ -18,7 +18,7 @@ const Eigen::VectorXd* motion_clock(const TrialInput& input) {
   return input.markers ? &input.markers->time_s : input.motion ? &input.motion->time_s() : nullptr;
 }
 
-/// The ratio 2, 3, 4, 5, 10 or its reciprocal that this one is.
+/// Returns the ratio 2, 3, 4, 5, 10 or its reciprocal that equals this one.
 std::optional<double> whole_factor(double ratio) {
   for (const double factor : {2.0, 3.0, 4.0, 5.0, 10.0}) {
     for (const double f : {factor, 1.0 / factor}) {
@@ -128,12 +128,12 @@ std::vector<Remark> unlike_lengths(const std::vector<TrialLengths>& trials) {
                              lasts(t), sure ? "so" : "is", sure ? " is" : "", sure ? "." : "?",
                              which_rate(t))});
   }
-  // Stopped by hand, recordings end so many seconds apart, not by one factor.
+  // Recordings stopped by hand differ by some seconds, not by one factor.
   if (trials.empty() || !found.empty() || !all || most > (1.0 + kLimits.same_factor) * least)
     return found;
   const TrialLengths& first = trials.front();
   if (trials.size() == 1) {
-    // One trial alone must be longer by more than people forget to stop.
+    // A single trial must be longer by more than a late stop explains.
     if (most < kLimits.alone_longer) return found;
     found.push_back(
         {.code = RemarkCode::emg_length,

@@ -21,8 +21,9 @@ constexpr double kMerged_s = 0.02;    ///< A shorter pause does not end a contac
 
 /// Samples of a plate in the model's ground.
 struct Wrench {
-  Eigen::MatrixX3d force_n, moment_nm;  ///< About the middle of the surface; 0 where unloaded.
-  Eigen::MatrixX3d point_m;             ///< Center of pressure; NaN where unloaded.
+  Eigen::MatrixX3d force_n,
+      moment_nm;             ///< Moment about the middle of the surface; both are 0 without load.
+  Eigen::MatrixX3d point_m;  ///< Center of pressure; NaN without load.
   std::vector<bool> loaded;
 };
 
@@ -63,7 +64,8 @@ std::vector<Contact> contacts_of(const Wrench& w, const Eigen::VectorXd& time_s)
   return contacts;
 }
 
-/// Mean distance of the center of pressure from the nearest marker of each body, over the frames.
+/// Returns the mean distance of the center of pressure from the nearest marker of each body, over
+/// the frames.
 std::map<model::BodyIndex, double> distances(const model::BodyModel& model,
                                              const recording::MarkerSeries& markers,
                                              const Wrench& w,
@@ -118,7 +120,7 @@ dynamics::LoadColumns splined(const TimeSeries& series, Eigen::Index first) {
   return columns;
 }
 
-/// The samples of these contacts as a force on a body.
+/// Returns the samples of these contacts as a force on a body.
 dynamics::ExternalForce force_of(const recording::ForcePlate& plate,
                                  const Wrench& w,
                                  const std::vector<Contact>& contacts,
@@ -140,7 +142,7 @@ dynamics::ExternalForce force_of(const recording::ForcePlate& plate,
                     std::move(values));
   if (cutoff_hz && *cutoff_hz < 0.45 * series.mean_rate_hz()) {
     series = signals::zero_phase_filter(series, math::FilterBand::low_pass, *cutoff_hz);
-    // Enough for what is left, and lighter.
+    // Enough for the remaining frequencies, and less data.
     const double enough_hz = 20.0 * *cutoff_hz;
     const Eigen::VectorXd& t = series.time_s();
     if (series.mean_rate_hz() > 2.0 * enough_hz)

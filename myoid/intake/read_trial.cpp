@@ -18,7 +18,7 @@
 namespace myoid {
 namespace {
 
-/// Throws ReadError that names the trial and its key for a file that is not there.
+/// Throws ReadError, naming the trial and its key, for a missing file.
 void require_files(const Study& study, const TrialSpec& trial) {
   using Key = std::pair<const char*, const std::optional<std::filesystem::path>*>;
   for (const auto& [key, path] :
@@ -93,7 +93,7 @@ TimeSeries read_external_torque(const Study& study,
         *trial.external_torque, 0,
         fmt::format("no column '{}' [N m]; found {}", columns[0].name, channel_names(file.data)));
   }
-  // A dynamometer acts on one joint: on the others nothing does.
+  // A dynamometer acts on one joint only.
   const TimeSeries found = file.data.select(there);
   Eigen::MatrixXd torque =
       Eigen::MatrixXd::Zero(found.sample_count(), static_cast<Eigen::Index>(columns.size()));
@@ -154,7 +154,7 @@ std::vector<TrialPart> read_trial_parts(const Study& study,
       spec.start_s = std::max(trial.start_s.value_or(stretch.begin_s), stretch.begin_s);
       spec.end_s = std::min(trial.end_s.value_or(stretch.end_s), stretch.end_s);
       if (*spec.end_s - *spec.start_s < kShortestPart_s) continue;
-      // The other recording may pause elsewhere.
+      // The other recording may have pauses elsewhere.
       for (TrialPart& part : read_trial_parts(study, spec, model)) parts.push_back(std::move(part));
     }
     if (parts.empty()) throw;

@@ -10,8 +10,8 @@
 namespace myoid {
 namespace {
 
-/// The envelope at no more than `rate_hz`, low-passed for it: splines through it are quicker.
-/// Negative values of the filter's undershoot are set to 0.
+/// Returns the envelope at no more than `rate_hz`, after a low-pass: splines through fewer samples
+/// are faster. Negative values of the filter's undershoot are set to 0.
 TimeSeries thinned(const TimeSeries& series, double rate_hz) {
   if (series.mean_rate_hz() < 2.0 * rate_hz) return series;
   const Eigen::VectorXd& t = series.time_s();
@@ -19,8 +19,8 @@ TimeSeries thinned(const TimeSeries& series, double rate_hz) {
   return {slow.time_s(), slow.channels(), slow.values().cwiseMax(0.0)};
 }
 
-/// The trials that filters and levels of the EMG may rest on: all but those held back for
-/// validation, unless that is all of them.
+/// Returns the trials on which filters and levels of the EMG may depend: all but the trials held
+/// back for validation, or all if every trial is held back.
 std::vector<bool> seen_trials(const Study& study) {
   std::vector<bool> seen;
   for (const TrialSpec& trial : study.trials) seen.push_back(trial.use != Use::validation);
@@ -35,7 +35,7 @@ void for_each_trial(std::size_t count, const Work& work) {
   });
 }
 
-/// From clean EMG to envelopes.
+/// Computes envelopes of clean EMG.
 void add_envelopes(const Study& study, StudyActivation& clean) {
   const signals::EnvelopeOptions options = envelope_options(study);
   const std::vector<bool> seen = seen_trials(study);

@@ -68,7 +68,7 @@ double interval_s(const Recording& file) {
                   near ? fmt::format(" (did you mean '{}'?)", *near) : ""));
 }
 
-/// The instants that a trigger names: edges of a channel, events of that label, or the start.
+/// Returns the instants of a trigger: edges of a channel, events of that label, or the start.
 Instants instants_of(const std::filesystem::path& path,
                      const Recording& file,
                      const std::string& name,

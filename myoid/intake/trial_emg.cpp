@@ -24,7 +24,7 @@
 namespace myoid {
 namespace {
 
-/// A muscle of the study may name its EMG by the muscle that the electrode is on (EMG-BIDS).
+/// Renames channels by the muscle under the electrode (EMG-BIDS), where the study names its EMG so.
 void name_by_target_muscle(const Study& study,
                            const std::filesystem::path& path,
                            recording::EmgFile& file,
@@ -49,8 +49,8 @@ void name_by_target_muscle(const Study& study,
   if (renamed) file.data = TimeSeries(file.data.time_s(), std::move(channels), file.data.values());
 }
 
-/// Channels that the study names and that have another clock than the others of their file, each
-/// clock once.
+/// Returns the channels of the study that are not on the first clock of their file, each clock
+/// once.
 std::vector<TimeSeries> on_other_clocks(const Study& study,
                                         const std::filesystem::path& path,
                                         const recording::EmgFile& file) {
@@ -64,14 +64,14 @@ std::vector<TimeSeries> on_other_clocks(const Study& study,
               .data;
       if (has(one)) found.push_back(std::move(one));
     } catch (const ReadError&) {
-      continue;  // require_channels says what there is
+      continue;  // require_channels lists the available channels
     }
   }
   return found;
 }
 
-/// Puts the channels that the study names on one clock, that of the fastest of them, over the time
-/// that all have.
+/// Puts the study's channels on one clock, that of the fastest channel, over the time that all
+/// have.
 void join_clocks(const Study& study,
                  const std::filesystem::path& path,
                  recording::EmgFile& file,
@@ -133,8 +133,8 @@ void require_channels(const Study& study,
   }
 }
 
-/// What the study calls raw must not be envelopes, of which a high-pass leaves hardly anything but
-/// noise, nor what no electrode gives.
+/// Refuses raw EMG that is an envelope, of which a high-pass leaves little but noise, or that is no
+/// electrode's signal.
 void require_raw(const Study& study, const std::filesystem::path& path, const TimeSeries& emg) {
   int envelopes = 0;
   int others = 0;
@@ -157,8 +157,8 @@ void require_raw(const Study& study, const std::filesystem::path& path, const Ti
                     "envelopes; set [emg] kind = \"envelope\"");
 }
 
-/// What the study calls an envelope or an activation has to be one: raw EMG, which swings about
-/// zero, and signals in other units would give muscle forces a hundred times too large, in silence.
+/// Refuses envelopes and activations that are none: raw EMG, which swings about zero, and signals
+/// in other units would silently give muscle forces a hundred times too large.
 void require_kind(const Study& study,
                   const std::filesystem::path& path,
                   const TimeSeries& emg,
@@ -202,7 +202,7 @@ void require_kind(const Study& study,
   }
 }
 
-/// The EMG on the clock of the motion, and how it came there.
+/// Returns the EMG on the clock of the motion, and describes the steps.
 TimeSeries on_clock_of_motion(const Study& study,
                               const TrialSpec& trial,
                               TimeSeries emg,
@@ -210,7 +210,7 @@ TimeSeries on_clock_of_motion(const Study& study,
                               TrialInput& input) {
   const auto envelopes = [&] {
     signals::EnvelopeOptions options = envelope_options(study);
-    options.whitening = false;  // one trial, and for its clock alone
+    options.whitening = false;  // this pass serves only the clock of one trial
     return study.emg.kind == EmgKind::raw ? signals::process_emg(emg, options).envelope : emg;
   };
   input.emg_clock = trial_clock(study, trial, movement_of(input), envelopes, remember);
@@ -254,7 +254,7 @@ TimeSeries read_trial_emg(const Study& study,
     if (std::find(wanted.begin(), wanted.end(), muscle.emg) == wanted.end())
       wanted.push_back(muscle.emg);
   }
-  // The EMG may begin earlier than the motion: the delay reaches back.
+  // The EMG may begin earlier than the motion, because of the delay.
   TimeSeries emg = on_clock_of_motion(study, trial, file.data.select(wanted), remember, input)
                        .slice(start - 0.5, end);
   require_finite(emg, trial.emg->string());

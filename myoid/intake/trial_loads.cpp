@@ -23,7 +23,7 @@
 namespace myoid {
 namespace {
 
-/// Six rows of six numbers; commas, semicolons, tabs or blanks between them.
+/// Reads six rows of six numbers, separated by commas, semicolons, tabs or blanks.
 signals::LoadCell::Matrix read_calibration(const std::filesystem::path& path) {
   const std::string text = recording::read_text_file(path);
   const auto lines = recording::split_lines(text);

@@ -19,8 +19,8 @@
 namespace myoid {
 namespace {
 
-/// Labels that differ from the model's in their writing only become the model's; of others that
-/// resemble one it is asked.
+/// Renames labels that differ from the model's only in their writing; asks about other labels that
+/// resemble one.
 void match_labels(const model::BodyModel& model,
                   const std::filesystem::path& path,
                   std::vector<std::string>& names,
@@ -66,7 +66,7 @@ recording::MarkerSeries read_markers(const Study& study,
   return std::move(file.markers);
 }
 
-/// What is wrong with the markers, then as much of it put right as can be.
+/// Notes the faults of the markers and repairs as many as possible.
 recording::MarkerSeries mended(const Study& study,
                                const model::BodyModel& model,
                                recording::MarkerSeries markers,
@@ -79,7 +79,7 @@ recording::MarkerSeries mended(const Study& study,
     const bool used =
         std::any_of(model.markers.begin(), model.markers.end(),
                     [&](const model::Marker& marker) { return fault.about == marker.name; });
-    // A marker that the model does not have harms nobody.
+    // A fault of a marker that the model lacks has no effect.
     const bool of_one =
         std::find(markers.names.begin(), markers.names.end(), fault.about) != markers.names.end();
     if (of_one && !used) fault.severity = Severity::note;

@@ -21,7 +21,7 @@ bool turns_about_axes(const model::Joint& joint) {
   return true;
 }
 
-/// The axes of the three rotations in F, by which angular velocity = E qdot.
+/// Returns the axes of the three rotations in F: angular velocity = E qdot.
 Mat3 axes_in_parent(const Vec3& q) {
   const Mat3 first = Eigen::AngleAxisd(q[0], Vec3::UnitX()).toRotationMatrix();
   const Mat3 second = Eigen::AngleAxisd(q[1], Vec3::UnitY()).toRotationMatrix();
@@ -34,8 +34,8 @@ Vec3 angles_of(const model::Joint& joint, const Eigen::Ref<const Eigen::VectorXd
   return {q[joint.coordinates[0]], q[joint.coordinates[1]], q[joint.coordinates[2]]};
 }
 
-/// Part of the angular acceleration that stays when the second derivatives of the angles are zero:
-/// each axis is carried by the rotations before it.
+/// Returns the angular acceleration for zero second derivatives of the angles: each axis moves with
+/// the rotations before it.
 Vec3 carried(const Mat3& E, const Vec3& rates) {
   const Vec3 after_first = rates[0] * E.col(0);
   const Vec3 after_second = after_first + rates[1] * E.col(1);

@@ -71,8 +71,8 @@ std::vector<Pair> pair_markers(const model::BodyModel& model,
   return pairs;
 }
 
-/// Postures to begin with without a previous frame: the default posture, a posture near it, and the
-/// default posture turned about the vertical by the root joint.
+/// Returns postures to start from without a previous frame: the default posture, a posture near it,
+/// and the default posture turned about the vertical by the root joint.
 std::vector<Eigen::VectorXd> fresh_starts(const model::BodyModel& model) {
   const Eigen::VectorXd rest = model.default_q();
   std::vector<Eigen::VectorXd> starts{rest, Eigen::VectorXd(rest.array() + 0.3)};
@@ -83,7 +83,7 @@ std::vector<Eigen::VectorXd> fresh_starts(const model::BodyModel& model) {
   for (const model::Joint& joint : model.joints) {
     if (joint.parent != 0 || joint.coordinates.size() < 6) continue;
     int best = -1;
-    double most = 0.8;  // of a unit turn about the vertical
+    double most = 0.8;  // cosine of the axis with the vertical
     for (const int c : joint.coordinates) {
       const double share = std::abs(state.H_w_G[at(c)].dot(up));
       if (share > most) {
@@ -136,8 +136,8 @@ class FrameSequence {
   /// The posture of the latest frame.
   [[nodiscard]] const Eigen::VectorXd& posture() const { return posture_; }
 
-  /// The pose for the targets of `fit`; other starts are tried in the first frame, after a jump of
-  /// the cost, and where the search fails.
+  /// Returns the pose for the targets of `fit`. Tries other starts in the first frame, after a jump
+  /// of the cost, and where the search fails.
   PoseFit::Pose next() {
     PoseFit::Pose pose = solve_from(posture_);
     const bool jumped = pose.cost > 4.0 * cost_before_ + 1e-8;

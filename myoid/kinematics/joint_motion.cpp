@@ -33,7 +33,7 @@ MotionResult joint_motion(const model::BodyModel& model,
   Eigen::MatrixXd second = Eigen::MatrixXd::Zero(time.size(), count);
   std::vector<Channel> channels[3];
   int found = 0;
-  std::optional<math::SplineKnots> knots;  // all columns have them in common
+  std::optional<math::SplineKnots> knots;  // shared by all columns
   if (!options.cutoff_hz) knots.emplace(q.time_s());
   for (Eigen::Index c = 0; c < count; ++c) {
     const model::Coordinate& coordinate = model.coordinates[static_cast<std::size_t>(c)];

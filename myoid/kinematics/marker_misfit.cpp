@@ -17,11 +17,11 @@ constexpr double kFar_m = 0.04;
 
 struct Shift {
   Vec3 mean_m = Vec3::Zero();
-  double left_m = 0.0;  ///< Of the distances without it, rms.
+  double left_m = 0.0;  ///< RMS of the distances after the shift.
 };
 
-/// The mean of all distances as vectors, if it makes more than 90 % of their mean square: what all
-/// markers have in common is no matter of angles.
+/// Returns the mean of all distances as vectors if it makes more than 90 % of their mean square:
+/// angles cannot explain a displacement that all markers share.
 std::optional<Shift> common_shift(const recording::MarkerSeries& markers,
                                   const TimeSeries& model_places) {
   Vec3 sum = Vec3::Zero();

@@ -19,8 +19,8 @@ std::string axis_name(const std::string& sensor, std::size_t axis) {
   return fmt::format("{}|{}", sensor, "xyz"[axis]);
 }
 
-/// The model with all bodies at the origin of ground, turning as before, and a marker at the end of
-/// every axis of every sensor.
+/// Returns the model with all bodies at the origin of ground, free to turn as before, and a marker
+/// at the end of every axis of every sensor.
 model::BodyModel turning_only(const model::BodyModel& model,
                               const recording::OrientationSeries& series,
                               const std::vector<SensorOnBody>& sensors) {
@@ -72,7 +72,7 @@ recording::MarkerSeries axis_ends(const recording::OrientationSeries& series,
   return markers;
 }
 
-/// Steps of Gauss and Newton on the angles of the sensors, in the free coordinates.
+/// Gauss-Newton steps on the angles of the sensors, in the free coordinates.
 class AngleFit {
  public:
   AngleFit(const model::BodyModel& model,
@@ -89,7 +89,7 @@ class AngleFit {
     }
   }
 
-  /// The nearest minimum; false where the steps do not end.
+  /// Moves q to the nearest minimum; false if the steps do not converge.
   [[nodiscard]] bool improve(Eigen::VectorXd& q, Eigen::Index frame) {
     double cost = linearize(q, frame);
     for (int iteration = 0; iteration < 50 && !free_.empty(); ++iteration) {
@@ -108,7 +108,7 @@ class AngleFit {
         break;
       }
       if (share > 1e-6) continue;
-      return longest < 1e-6;  // the cost is known to round-off
+      return longest < 1e-6;  // the cost has no more digits
     }
     return free_.empty();
   }
@@ -116,7 +116,7 @@ class AngleFit {
  private:
   static constexpr double kFar = 0.3;  ///< Longest step [rad].
 
-  /// How all coordinates move with the free ones.
+  /// Returns the derivatives of all coordinates by the free ones.
   [[nodiscard]] Eigen::MatrixXd rates(const Eigen::VectorXd& q) const {
     Eigen::MatrixXd T = Eigen::MatrixXd::Zero(q.size(), static_cast<Eigen::Index>(free_.size()));
     for (std::size_t k = 0; k < free_.size(); ++k) T(free_[k], static_cast<Eigen::Index>(k)) = 1.0;
@@ -145,7 +145,7 @@ class AngleFit {
     return J;
   }
 
-  /// The cost at q, and the pull of the sensors on the free coordinates.
+  /// Returns the cost at q and computes its gradient by the free coordinates.
   double linearize(const Eigen::VectorXd& q, Eigen::Index frame) {
     model::compute_poses(model_, q, state_);
     const Eigen::MatrixXd T = rates(q);
@@ -165,7 +165,7 @@ class AngleFit {
     return cost;
   }
 
-  /// Clamped coordinates that are pulled out of their range stay.
+  /// Holds clamped coordinates at the end of their range that the gradient pulls outside.
   void hold_at_ends(const Eigen::VectorXd& q) {
     for (std::size_t k = 0; k < free_.size(); ++k) {
       const model::Coordinate& c = model_.coordinates[at(free_[k])];
@@ -185,7 +185,7 @@ class AngleFit {
       double& value = q[free_[k]];
       const double before = value;
       value += step[static_cast<Eigen::Index>(k)];
-      // One that begins outside its range by round-off may stay there.
+      // A coordinate that begins outside its range by round-off may stay there.
       if (c.clamped)
         value = std::clamp(value, std::min(c.lower, before), std::max(c.upper, before));
     }

@@ -15,11 +15,12 @@
 namespace myoid::kinematics {
 namespace {
 
-constexpr double kLongestTurn_rad = 0.5;  ///< Of any coordinate in one step.
-/// The strongest barrier, in units of J [m^2]: that of markers 0.4 m off.
+constexpr double kLongestTurn_rad = 0.5;  ///< Largest change of a coordinate in one step.
+/// The strongest barrier, in units of J [m^2]: as strong as markers 0.4 m off.
 constexpr double kFirstBarrier = 0.1;
-constexpr double kSame = 1e-9;        ///< rad or m: a step that changes nothing ...
-constexpr double kLastNewton = 1e-6;  ///< ... and one after which the next would not.
+constexpr double kSame = 1e-9;  ///< A smaller step [rad or m] changes nothing.
+constexpr double kLastNewton =
+    1e-6;  ///< After a smaller Newton step [rad or m] the next one changes nothing.
 
 bool turns(const model::Joint& joint, int coordinate) {
   return std::any_of(joint.rotation.begin(), joint.rotation.end(),
@@ -103,7 +104,7 @@ Vec3 PoseFit::marker_position(std::size_t pair) const {
   return state_.X_GB[at(marker.body)] * marker.p_BM;
 }
 
-/// Locks, prescriptions, ranges, couplers and constraints.
+/// Applies locks, prescriptions, ranges, couplers and constraints.
 void PoseFit::obey(Eigen::VectorXd& q) const {
   for (std::size_t c = 0; c < model_.coordinates.size(); ++c) {
     const model::Coordinate& coordinate = model_.coordinates[c];
@@ -148,7 +149,8 @@ double PoseFit::cost_at(const Eigen::VectorXd& q) {
   return cost;
 }
 
-/// Velocity per rate of a coordinate of the point of a chain's body at the origin of ground.
+/// Returns the velocity, per rate of a coordinate, of the chain body's point at the origin of
+/// ground.
 Vec3 PoseFit::origin_rate(const Chain& chain, std::size_t place) const {
   const std::size_t c = at(chain.coordinates[place]);
   return state_.H_v_G[c] + state_.X_GB[chain.body_of[place]].p.cross(state_.H_w_G[c]);
@@ -185,7 +187,7 @@ void PoseFit::add_coordinate(const Chain& chain, std::size_t b, const Pull& pull
   const int cb = chain.coordinates[b];
   const int kb = reduced_[at(cb)];
   if (kb < 0) return;
-  // A marker at r moves by v + w x r.
+  // A marker at r has the velocity v + w x r.
   const Vec3 w = gain_[cb] * state_.H_w_G[at(cb)];
   const Vec3 v = gain_[cb] * origin_rate(chain, b);
   const Vec3 moved = pull.weight * v + w.cross(pull.first);
@@ -200,7 +202,7 @@ void PoseFit::add_coordinate(const Chain& chain, std::size_t b, const Pull& pull
     if (ka < 0) continue;
     const Vec3& w_a = state_.H_w_G[at(ca)];
     const double first = gain_[ca] * (origin_rate(chain, a).dot(moved) + w_a.dot(turned));
-    // The column of an outer coordinate turns with a: it changes by w_a x column.
+    // The column of an outer coordinate turns with a: its derivative is w_a x column.
     const double second = gain_[ca] * w_a.dot(bent);
     gauss_(ka, kb) += first;
     bend_(ka, kb) += second;
@@ -274,7 +276,8 @@ Eigen::MatrixXd PoseFit::allowed_directions(const Eigen::VectorXd& q) const {
   return basis.rightCols(n - qr.rank());
 }
 
-/// Free coordinates at an end of their range whose descent leads beyond: they stay.
+/// Returns the free coordinates at an end of their range whose descent leads outside: they are
+/// held.
 std::vector<bool> PoseFit::held_at_ends(const Eigen::VectorXd& q) const {
   std::vector<bool> held(free_.size(), false);
   for (std::size_t k = 0; k < free_.size(); ++k) {
@@ -287,8 +290,9 @@ std::vector<bool> PoseFit::held_at_ends(const Eigen::VectorXd& q) const {
   return held;
 }
 
-/// The damped step of the free coordinates from q; empty where the matrix is not positive definite.
-/// `N` spans the allowed steps (no columns: all). Held coordinates get no step and no gradient.
+/// Returns the damped step of the free coordinates from q; empty where the matrix is not positive
+/// definite. `N` spans the allowed steps (no columns: all). Held coordinates have no step and no
+/// gradient.
 std::optional<Eigen::VectorXd> PoseFit::damped_step(const Eigen::VectorXd& q,
                                                     const std::vector<bool>& held,
                                                     const Eigen::MatrixXd& N,
@@ -312,15 +316,15 @@ std::optional<Eigen::VectorXd> PoseFit::damped_step(const Eigen::VectorXd& q,
   if (factor.info() != Eigen::Success) return std::nullopt;
   Eigen::VectorXd step = factor.solve(right);
   if (N.size() > 0) step = (N * step).eval();
-  // Two nearly parallel axes determine only the sum of their angles: a full step would turn them
-  // against each other by any number of turns.
+  // Two nearly parallel axes determine only the sum of their angles: a full step could turn them
+  // against each other by many turns.
   const double farthest = farthest_turn(step);
   if (farthest > kLongestTurn_rad) step *= kLongestTurn_rad / farthest;
   if (barrier_.acts()) step *= barrier_.longest_share(q, step);
   return step;
 }
 
-/// One iteration: increases the damping until the cost falls or no step changes the pose.
+/// Makes one iteration: increases the damping until the cost falls or no step changes the pose.
 void PoseFit::descend(Pose& pose, double& damping) {
   linearize(pose.q);
   const std::vector<bool> held = held_at_ends(pose.q);
@@ -331,7 +335,7 @@ void PoseFit::descend(Pose& pose, double& damping) {
   for (;;) {
     const auto step = damped_step(pose.q, held, N, second_order, (damping + 1e-13) * size);
     if (!step) {
-      // Not convex here: the first-order part is, with some damping.
+      // J is not convex here: its first-order part is, with some damping.
       if (second_order) {
         second_order = false;
       } else {
@@ -352,7 +356,7 @@ void PoseFit::descend(Pose& pose, double& damping) {
       return;
     }
     if (distance <= 1e-8 || damping > 1e12) {
-      // Round-off decides between equal costs.
+      // The costs are equal to round-off.
       pose.converged = true;
       (void)cost_at(pose.q);
       return;
@@ -404,7 +408,8 @@ void PoseFit::unwind(Pose& pose) {
     step[static_cast<Eigen::Index>(k)] = turns * kTurn;
     const Eigen::VectorXd q = moved(pose.q, step);
     const double back = q[free_[k]];
-    // Curves of the coordinate, couplers or tasks may tell a turn from none: then it stays.
+    // Whole turns may change the cost through the coordinate's functions, couplers or tasks: then
+    // the coordinate stays.
     const bool same = std::abs(cost_at(q) - pose.cost) <= 1e-9 * pose.cost + 1e-15;
     const auto outside = [&](double x) {
       return std::max({0.0, coordinate.lower - x, x - coordinate.upper});
@@ -421,7 +426,8 @@ void PoseFit::collect_undetermined(std::vector<bool>& undetermined) {
   const double largest =
       eigen.eigenvalues().size() > 0 ? eigen.eigenvalues()[eigen.eigenvalues().size() - 1] : 0.0;
   for (Eigen::Index k = 0; k < gauss_.cols(); ++k) {
-    // Squares of the singular values of the Jacobian: 1e-7 of the largest.
+    // Eigenvalues are squared singular values of the Jacobian: the limit is 1e-7 of the largest
+    // singular value.
     if (eigen.eigenvalues()[k] > 1e-14 * largest) continue;
     for (Eigen::Index j = 0; j < gauss_.cols(); ++j) {
       if (std::abs(eigen.eigenvectors()(j, k)) > 1e-3) undetermined[at(j)] = true;

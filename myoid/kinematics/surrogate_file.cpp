@@ -24,7 +24,7 @@ ordered_json json_numbers(const Eigen::VectorXd& values) {
   return std::vector<double>(values.begin(), values.end());
 }
 
-/// JSON knows no infinity: null.
+/// Reads null as infinity, which JSON lacks.
 double number_of(const ordered_json& value) {
   return value.is_null() ? std::numeric_limits<double>::infinity() : value.get<double>();
 }
@@ -65,7 +65,7 @@ kinematics::PathSurrogate surrogate_of(const model::BodyModel& model, const orde
   return s;
 }
 
-/// What a corrupted file could have wrong although it is JSON of the right shape.
+/// Checks the numbers of a file that is JSON of the right shape.
 void check(const kinematics::PathSurrogate& s,
            const std::string& muscle,
            const std::filesystem::path& path) {

@@ -20,7 +20,7 @@ constexpr double kLeftByWeight = 0.1;  ///< Of the variance.
 /// independent samples: over some 40 degrees mean, sine and cosine can hardly be told apart.
 constexpr double kIndependent = 30.0;
 constexpr Eigen::Index kFewest = 20;
-/// Slower than this, in both directions, there is no viscosity to be seen.
+/// At lower speeds in both directions no viscosity shows.
 constexpr double kMoving_radps = 0.05;
 
 /// P_0 to P_(size-1) at x.
@@ -42,7 +42,7 @@ double position(const RestingTorque& torque, double angle_rad) {
   return std::clamp(2.0 * (angle_rad - torque.lowest_rad) / range - 1.0, -1.0, 1.0);
 }
 
-/// Mean, sine and cosine of the angle that come nearest to the torque.
+/// Returns mean, sine and cosine coefficients of the angle that fit the torque best.
 Eigen::Vector3d nearest_sine(const Eigen::VectorXd& angle_rad, const Eigen::VectorXd& torque_nm) {
   if (angle_rad.maxCoeff() - angle_rad.minCoeff() < kWeightRange_rad)
     return {torque_nm.mean(), 0.0, 0.0};
@@ -59,7 +59,7 @@ Eigen::Vector3d nearest_sine(const Eigen::VectorXd& angle_rad, const Eigen::Vect
   return columns.colPivHouseholderQr().solve(right);
 }
 
-/// Sets the weight, where the torque is one.
+/// Sets the weight if the torque is that of a weight.
 void find_weight(const Eigen::VectorXd& angle_rad,
                  const Eigen::VectorXd& torque_nm,
                  RestingTorque& result) {

@@ -55,8 +55,8 @@ std::vector<Eigen::VectorXd> starts_in(const StartBox& box, int count) {
   std::vector<Eigen::VectorXd> starts{box.given};
   if (count < 2 || box.given.size() == 0) return starts;
   Eigen::MatrixXd points(count - 1, box.given.size());
-  // Points 0 and 1 of the sequence are a corner and the center. Beyond its dimensions: the sequence
-  // again, scrambled in another way for each further set of them.
+  // Points 0 and 1 of the sequence are a corner and the center. Parameters beyond its dimensions
+  // use the sequence again, each further set with another scramble.
   for (Eigen::Index at = 0, set = 0; at < points.cols(); at += math::kSobolMaxDimensions, ++set) {
     const Eigen::Index width =
         std::min<Eigen::Index>(math::kSobolMaxDimensions, points.cols() - at);

@@ -97,12 +97,12 @@ double preference_for_lags(const Estimator& by_delay,
   return delayed.weighting.share * sum;
 }
 
-/// The best of the minima at which searches from many starts end, and the table of them all, at its
-/// weights.
+/// Returns the best of the minima from many starts and the table of all minima, at the weights of
+/// the best.
 Estimator::Solution best_of_basins(const Estimator& estimator,
                                    const Eigen::VectorXd& start,
                                    BasinTable& table) {
-  constexpr double kLower = 1e-3;  // of the cost: the same minimum is found to less
+  constexpr double kLower = 1e-3;  // of the cost; the same minimum is reproduced more exactly
   Estimator::Solution best = estimator.solve(start);
   for (bool again = true; again;) {
     table = find_basins(estimator, best.weighting, estimator.options().multistart);
@@ -119,7 +119,8 @@ Estimator::Solution best_of_basins(const Estimator& estimator,
   return best;
 }
 
-/// The best minimum from all starts that the options ask for; with `multistart` also the table.
+/// Returns the best minimum from all starts that the options ask for; with `multistart` also the
+/// table.
 Estimator::Solution best_solution(const Estimator& estimator,
                                   const Eigen::VectorXd& start,
                                   std::vector<BasinTable>& tables) {
@@ -230,7 +231,7 @@ FittedPrediction predict(const StudyData& data,
     const Eigen::VectorXd variance_nm2 =
         torque.cwiseAbs2().colwise().mean().transpose().cwiseProduct(fit.envelope_variance);
     noise.variance_nm2 = variance_nm2.sum();
-    // Channels may lag differently: as the one that brings most of the noise.
+    // Channels may lag differently: take the channel with the most noise.
     Eigen::Index loudest = 0;
     variance_nm2.maxCoeff(&loudest);
     noise.lag_s = lag_times_s(fit.values.channels[static_cast<std::size_t>(loudest)], fit.lag);

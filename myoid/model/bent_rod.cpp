@@ -12,7 +12,7 @@ struct Curve {
   double value = 0.0, first = 0.0, second = 0.0;
 };
 
-/// Power series in tau = theta^2, and tau as one in e = 1 - c.
+/// Evaluates a power series with its derivatives: of tau = theta^2, or of e = 1 - c.
 template <std::size_t N>
 Curve series(const std::array<double, N>& coefficients, double x) {
   Curve v;
@@ -29,13 +29,13 @@ struct Rod {
   Curve along;   ///< sin(theta)/theta.
 };
 
-/// By c, of f(tau(e)) with e = 1 - c.
+/// Returns the derivatives by c of f(tau(e)), where e = 1 - c: the chain rule with de/dc = -1.
 Curve chained(const Curve& outer, const Curve& tau) {
   return {outer.value, -outer.first * tau.first,
           outer.second * tau.first * tau.first + outer.first * tau.second};
 }
 
-/// By c, of a function given by theta.
+/// Converts derivatives by theta to derivatives by c = cos(theta).
 Curve by_cosine(double value, double by_theta, double by_theta2, double c, double s) {
   return {value, -by_theta / s, (by_theta2 * s - by_theta * c) / (s * s * s)};
 }

@@ -91,7 +91,7 @@ std::optional<int> BodyModel::find_coordinate(std::string_view n) const {
   if (const auto found = find_by_name(coordinates, n)) return found;
   const std::size_t slash = n.rfind('/');
   if (slash == std::string_view::npos) return std::nullopt;
-  // A path: the joint stands before the coordinate.
+  // In a path, the joint stands before the coordinate.
   const std::string_view last = n.substr(slash + 1);
   std::string_view owner = n.substr(0, slash);
   if (const std::size_t s = owner.rfind('/'); s != std::string_view::npos)
@@ -144,8 +144,8 @@ Eigen::VectorXd BodyModel::default_q() const {
 
 namespace {
 
-/// A second copy of body `b`, for a joint that closes a loop: the mass is shared among the copies,
-/// which a weld constraint keeps together.
+/// Adds a second copy of body `b` for a joint that closes a loop. The copies share the mass, and a
+/// weld constraint keeps them together.
 BodyIndex add_copy(BodyModel& model, BodyIndex b, int number) {
   Body copy = model.bodies[static_cast<std::size_t>(b)];
   copy.name += fmt::format("_slave_{}", number);
@@ -159,8 +159,8 @@ BodyIndex add_copy(BodyModel& model, BodyIndex b, int number) {
   return index;
 }
 
-/// Joints in the order in which OpenSim builds the tree: level by level, in the order of the file;
-/// a body without mass at once with the heaviest that hangs on it.
+/// Returns the joints in the order in which OpenSim builds the tree: level by level, in the order
+/// of the file. After a body without mass its heaviest child follows at once.
 std::vector<std::size_t> tree_order(const BodyModel& model) {
   std::vector<std::vector<std::size_t>> hanging_on(model.bodies.size());  // joints by their parent
   for (std::size_t j = 0; j < model.joints.size(); ++j)
@@ -204,7 +204,8 @@ std::vector<std::size_t> tree_order(const BodyModel& model) {
   return ordered;
 }
 
-/// Cuts loops: a joint whose child another joint has placed first gets a copy of the child.
+/// Cuts loops: if another joint has placed the child of a joint, this joint gets a copy of the
+/// child.
 void cut_loops(BodyModel& model) {
   const std::vector<std::size_t> placed = tree_order(model);
   std::vector<bool> in_tree(model.joints.size(), false);

@@ -25,7 +25,7 @@ Eigen::Index loop_rows(const BodyModel& model) {
   return rows;
 }
 
-/// Angular velocity of a body by each coordinate: 3 x nq.
+/// Returns the angular velocity of a body per rate of each coordinate: 3 x nq.
 Eigen::Matrix3Xd angular_jacobian(const BodyModel& model, const BodyState& state, BodyIndex body) {
   Eigen::Matrix3Xd J =
       Eigen::Matrix3Xd::Zero(3, static_cast<Eigen::Index>(model.coordinates.size()));
@@ -44,7 +44,7 @@ MultiPolynomialValue function_value(const FunctionConstraint& f, const Eigen::Ve
   return evaluate(f.function, x);
 }
 
-/// Errors and, if asked, their Jacobian.
+/// Computes the errors and, if asked, their Jacobian.
 void evaluate_loops(const BodyModel& model,
                     const BodyState& state,
                     Eigen::VectorXd& errors,
@@ -95,7 +95,7 @@ void evaluate_loops(const BodyModel& model,
       const auto& line = std::get<LineConstraint>(constraint.law);
       const Pose& X_GB1 = state.X_GB[at(line.body1)];
       const Vec3 p_G = state.X_GB[at(line.body2)] * line.p_B2;
-      // The follower as a point of body 1, which moves with it.
+      // The follower as a point that moves with body 1.
       const Vec3 p_B1 = X_GB1.inverse() * p_G;
       const auto directions = directions_across(line.direction);
       for (int k = 0; k < 2; ++k) {
@@ -172,7 +172,7 @@ Eigen::MatrixXd coupling_matrix(const BodyModel& model, const BodyState& state) 
       rows.bottomRows<1>().setZero();
       rows(rows.rows() - 1, j) = 1.0;
     }
-    // The nearest rates to the unit rate that obey all rows.
+    // The rates nearest to the unit rate that obey all rows.
     const Eigen::VectorXd unit = Eigen::VectorXd::Unit(n, k);
     const Eigen::VectorXd rates = unit - rows.completeOrthogonalDecomposition().solve(rows * unit);
     const Eigen::Index c = involved[static_cast<std::size_t>(k)];
@@ -208,7 +208,7 @@ Movable movable(const BodyModel& model) {
   return free;
 }
 
-/// From q to the wished posture, in scaled coordinates.
+/// Returns the step from q to the desired posture, in scaled coordinates.
 Eigen::VectorXd way_to(const Movable& free,
                        const Eigen::VectorXd& wished,
                        const Eigen::VectorXd& q) {
@@ -220,7 +220,7 @@ Eigen::VectorXd way_to(const Movable& free,
   return way;
 }
 
-/// A posture that meets the constraints and is nearest to the wished one among its neighbors.
+/// Returns a posture that meets the constraints and is locally nearest to the desired one.
 AssemblyResult approach(const BodyModel& model,
                         const Movable& free,
                         const Eigen::VectorXd& wished,
@@ -247,7 +247,7 @@ AssemblyResult approach(const BodyModel& model,
     }
     const Eigen::MatrixXd A = J * T;
     const Eigen::VectorXd back = way_to(free, wished, result.q);
-    // Nearest point to the wish on the linearized constraints.
+    // The point nearest to the desired posture on the linearized constraints.
     const Eigen::VectorXd step =
         back - A.completeOrthogonalDecomposition().solve(Eigen::VectorXd(A * back + errors));
     const double longest = step.cwiseAbs().maxCoeff();
@@ -269,7 +269,7 @@ AssemblyResult assemble(const BodyModel& model,
   AssemblyResult result{q, 0.0, true};
   apply_couplers(model, result.q);
   if (model.constraints.empty()) return result;
-  // What depends on several coordinates has no wish of its own.
+  // A coordinate that depends on several others has no desired value of its own.
   for (std::size_t round = 0; round < model.constraints.size(); ++round) {
     for (const LoopConstraint& constraint : model.constraints) {
       if (const auto* f = std::get_if<FunctionConstraint>(&constraint.law))
@@ -281,7 +281,7 @@ AssemblyResult assemble(const BodyModel& model,
   const Movable free = movable(model);
   if (free.coordinate.empty()) return approach(model, free, wished, wished, accuracy);
   result = approach(model, free, wished, wished, accuracy);
-  // A far one may be nearest among its neighbors only: from the default posture another is found.
+  // A distant solution may be only locally nearest: try again from the default posture.
   constexpr double kFar = 0.1;
   const double distance = way_to(free, wished, result.q).norm();
   if (result.converged && distance < kFar) return result;

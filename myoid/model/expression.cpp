@@ -40,7 +40,7 @@ constexpr Named kFunctions[] = {
     {"select", Operation::select_, 3},
 };
 
-/// Values before the operation on the stack.
+/// Returns the number of values that the operation takes from the stack.
 int arguments_of(Operation operation) {
   switch (operation) {
     case Operation::number:
@@ -146,11 +146,11 @@ bool is_digit(char c) { return c >= '0' && c <= '9'; }
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
 
 constexpr int kDeepest = 200;            // parentheses and signs within each other
-constexpr std::size_t kLongest = 20000;  // steps, definitions put in where they are named
+constexpr std::size_t kLongest = 20000;  // steps; definitions are inserted where they are named
 
 }  // namespace
 
-/// Recursive descent over one text; definitions are read where their names are met.
+/// Parses one text by recursive descent; definitions are read where they are named.
 class ExpressionParser {
  public:
   ExpressionParser(std::string_view text, const std::vector<std::string>& variables)
@@ -262,7 +262,7 @@ class ExpressionParser {
   void power() {
     primary();
     if (!take('^')) return;
-    sign();  // from the right; the exponent may have a sign
+    sign();  // from right to left; the exponent may have a sign
     put(Operation::power);
   }
 

@@ -28,7 +28,7 @@ FunctionValue form_value(const Polynomial& f, double x) {
   return v;
 }
 
-/// Interval that holds x, 0 .. n-2; the outer ones also take what lies beyond.
+/// Returns the interval that holds x, 0 .. n-2; the outer intervals extend to infinity.
 std::size_t interval(const std::vector<double>& knots, double x) {
   const auto upper = std::upper_bound(knots.begin(), knots.end(), x);
   const auto index =
@@ -218,7 +218,7 @@ PiecewisePolynomial make_septic_spline(const std::vector<double>& x, const std::
   std::vector<Eigen::Triplet<double>> terms;
   Eigen::VectorXd right = Eigen::VectorXd::Zero(unknowns);
   Eigen::Index row = 0;
-  // sign times the derivative of order d over d! of interval i at u.
+  // Adds `sign` times the derivative of order d, divided by d!, of interval i at u.
   const auto add = [&](Eigen::Index i, int d, double u, double sign) {
     double power = sign;
     for (int k = d; k < 8; ++k) {
@@ -246,13 +246,13 @@ PiecewisePolynomial make_septic_spline(const std::vector<double>& x, const std::
   matrix.setFromTriplets(terms.begin(), terms.end());
   Eigen::SparseLU<Eigen::SparseMatrix<double>> factor(matrix);
   Eigen::VectorXd c = factor.solve(right);
-  c += factor.solve(Eigen::VectorXd(right - matrix * c));  // what rounding left
+  c += factor.solve(Eigen::VectorXd(right - matrix * c));  // corrects rounding errors
   if (!c.allFinite()) throw InvalidInput("spline of degree 7: its knots are too uneven");
   PiecewisePolynomial s{x, Eigen::MatrixXd::Zero(8, n + 1)};
   for (Eigen::Index i = 0; i + 1 < n; ++i)
     for (Eigen::Index k = 0; k < 8; ++k)
       s.coefficients(k, i + 1) = c[8 * i + k] / std::pow(unit, static_cast<double>(k));
-  // Beyond the ends the first and the last piece go on, of which the higher powers are zero there.
+  // Beyond the ends the first and the last piece continue; their higher powers are zero there.
   s.coefficients.col(0).head(4) = s.coefficients.col(1).head(4);
   const double h = x.back() - x[x.size() - 2];
   for (int d = 0; d < 4; ++d) {

@@ -22,7 +22,7 @@ bool uses(const std::array<TransformAxis, 3>& axes, int coordinate) {
                      [&](const TransformAxis& axis) { return axis.coordinate == coordinate; });
 }
 
-/// R(a1,f1) R(a2,f2) R(a3,f3) the other way.
+/// Returns the inverse of R(a1,f1) R(a2,f2) R(a3,f3).
 std::array<TransformAxis, 3> turned_back(std::array<TransformAxis, 3> rotation) {
   std::swap(rotation[0], rotation[2]);
   for (TransformAxis& axis : rotation) axis.function.scale = -axis.function.scale;
@@ -34,7 +34,7 @@ std::array<TransformAxis, 3> shifted_back(std::array<TransformAxis, 3> translati
   return translation;
 }
 
-/// The axes of a joint that does not move so.
+/// Returns the axes of a joint that does not move in this way.
 std::array<TransformAxis, 3> at_rest(std::array<TransformAxis, 3> axes) {
   for (TransformAxis& axis : axes) {
     axis.coordinate = -1;
@@ -61,7 +61,7 @@ void turn_round(BodyModel& model, std::size_t number) {
   back.X_PF = joint.X_BM;
   back.child = joint.parent;
   back.X_BM = joint.X_PF;
-  // X_FM^-1 is the rotation back and then, in its frame, the translation back.
+  // X_FM^-1 is the inverse rotation and then, in its frame, the inverse translation.
   back.rotation = turned_back(joint.rotation);
   back.translation = shifted_back(joint.translation);
   if (rests(joint.translation) || rests(joint.rotation)) {

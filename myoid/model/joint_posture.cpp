@@ -9,9 +9,9 @@ double argument(const TransformAxis& axis, const Eigen::Ref<const Eigen::VectorX
   return axis.coordinate < 0 ? 0.0 : q[axis.coordinate];
 }
 
-/// Angular velocity that is taken to carry axis i: that of the axes before it or, as OpenSim has it
-/// (Compat::axes_carried_by_coordinates), of all axes under the first coordinate (for the second)
-/// or under any but the third coordinate (for the third).
+/// Returns the angular velocity that OpenSim assumes to carry axis i
+/// (Compat::axes_carried_by_coordinates): of all axes of the first coordinate for the second axis,
+/// of all axes but the third coordinate's for the third axis. In truth the axes before it carry it.
 Vec3 carrying_rate(const Joint& joint,
                    const JointPosture& p,
                    const Eigen::Ref<const Eigen::VectorXd>& qdot,
@@ -58,7 +58,7 @@ RelativeMotion relative_motion(const Joint& joint,
     const int c = joint.rotation[i].coordinate;
     if (c < 0) continue;
     const double rate = p.angle[i].first * qdot[c];
-    // The axis is carried by the rotations before it, whose angular velocity so far is m.w.
+    // The axis moves with the rotations before it, whose angular velocity is m.w.
     m.alpha +=
         (p.angle[i].second * qdot[c] * qdot[c] + p.angle[i].first * qddot[c]) * p.axis_F[i] +
         rate *

@@ -10,12 +10,13 @@
 namespace myoid::model {
 namespace {
 
-/// A point of a body: place, velocity and acceleration in ground, the last without qddot.
+/// A point of a body: position, velocity and acceleration in ground; the acceleration is that for
+/// qddot = 0.
 struct MovingPoint {
   Vec3 p = Vec3::Zero(), v = Vec3::Zero(), a = Vec3::Zero();
 };
 
-/// The acceleration that each row of the constraints other than couplers has without qddot.
+/// The acceleration of each row of the constraints other than couplers, for qddot = 0.
 class LoopRows {
  public:
   LoopRows(const BodyModel& model, const BodyState& state) : state_(state) {
@@ -41,7 +42,7 @@ class LoopRows {
   [[nodiscard]] Eigen::VectorXd bias(const LineConstraint& line) const {
     const MovingPoint two = point(line.body2, line.p_B2);
     const Pose& X_GB1 = state_.X_GB[at(line.body1)];
-    // The point of body 1 at the same place; the rest is motion seen from body 1.
+    // The point of body 1 at the same place; the remaining motion is relative to body 1.
     const MovingPoint here = point(line.body1, X_GB1.inverse() * two.p);
     const Vec3 a = two.a - here.a - 2.0 * state_.w_GB[at(line.body1)].cross(Vec3(two.v - here.v));
     Eigen::VectorXd rows(2);

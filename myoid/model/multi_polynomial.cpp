@@ -27,7 +27,7 @@ MultiPolynomialValue evaluate(const MultiPolynomial& polynomial,
       term *= power(k, exponent[k]);
     }
     result.value += term;
-    // The next exponents: the last that may still grow does, those behind it begin anew.
+    // The next exponents: the last one that may grow does, and the ones behind it restart at zero.
     Eigen::Index k = n - 1;
     for (int sum = exponent.sum(); k >= 0 && sum >= polynomial.degree; --k) {
       sum -= exponent[k];

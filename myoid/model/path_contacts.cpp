@@ -28,19 +28,21 @@ std::optional<ContactOf<T>> contact_with(const WrapObject& object,
                            q_W);
 }
 
-/// One contact, and how its tangent points and its arc change with the ends of its straight pieces.
+/// One contact, and the derivatives of its tangent points and arc by the ends of its straight
+/// pieces.
 struct Sensitivity {
-  std::size_t station = 0;  ///< Of the first tangent point.
+  std::size_t station = 0;  ///< Station of the first tangent point.
   Pose X_GW;
-  Vec6 place;    ///< Tangent points that the ends make, in the wrap's frame.
+  Vec6 place;    ///< Tangent points for these ends, in the wrap's frame.
   Mat6 points;   ///< Their derivatives by (end before, end after), all in the wrap's frame.
-  Vec6 arc;      ///< Of the arc's length by the ends.
-  Vec6 tension;  ///< dl by the tangent points, the straight pieces alone.
-  Vec6 total;    ///< dl by the tangent points, with what follows at the neighboring contacts.
-  Vec6 effect;   ///< dl by the ends, through this contact.
+  Vec6 arc;      ///< Derivatives of the arc's length by the ends.
+  Vec6 tension;  ///< Derivatives of the straight pieces' length by the tangent points.
+  Vec6 total;  ///< Derivatives of the length by the tangent points, effects on neighboring contacts
+               ///< included.
+  Vec6 effect;  ///< Derivatives of the length by the ends, through this contact.
 };
 
-/// Every contact of the path, in its order; a contact that is lost (at the very edge of touching)
+/// Returns every contact of the path, in order; a contact that is lost at the very edge of touching
 /// is left out.
 std::vector<Sensitivity> contacts_of(const BodyModel& model,
                                      const MusclePath& path,
@@ -79,7 +81,7 @@ std::vector<Sensitivity> contacts_of(const BodyModel& model,
   return contacts;
 }
 
-/// Whether contact k + 1 follows k without a point in between, so that each is the other's end.
+/// True if contact k + 1 follows k without a point in between, so that each is the other's end.
 bool are_neighbors(const std::vector<Sensitivity>& contacts, Eigen::Index k) {
   return contacts[at(k)].station + 2 == contacts[at(k + 1)].station;
 }
@@ -140,14 +142,14 @@ void add_contact_motion(const BodyModel& model,
                         const std::vector<PathStation>& stations,
                         Eigen::VectorXd& arm) {
   std::vector<Sensitivity> contacts = contacts_of(model, path, state, stations);
-  // A contact's tangent points are the ends of its neighbors' straight pieces: the derivatives by
-  // all of them together.
+  // The tangent points of a contact are the ends of its neighbors' straight pieces: all derivatives
+  // are solved together.
   const auto n = static_cast<Eigen::Index>(contacts.size());
   if (n > 1) {
     Eigen::MatrixXd left = Eigen::MatrixXd::Identity(6 * n, 6 * n);
     Eigen::VectorXd right(6 * n);
     for (Eigen::Index k = 0; k < n; ++k) right.segment<6>(6 * k) = contacts[at(k)].tension;
-    // Contact `of` sees its neighbor `by` through what the neighbor's effect on its near end is.
+    // The neighbor `by` acts on contact `of` through the effect on their common end.
     const auto couple = [&](Eigen::Index of, Eigen::Index by, int end_of, int end_by) {
       const Sensitivity& a = contacts[at(of)];
       const Sensitivity& b = contacts[at(by)];

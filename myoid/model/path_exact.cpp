@@ -11,14 +11,15 @@
 namespace myoid::model {
 namespace {
 
-/// True if the way over the object is the shortest: motion of the tangent points then does not
-/// change the length.
+/// True if the path over the object is the shortest: then motion of the tangent points does not
+/// change the length to first order.
 bool is_shortest(const WrapObject& object) {
   return std::holds_alternative<CylinderShape>(object.shape) ||
          std::holds_alternative<SphereShape>(object.shape);
 }
 
-/// State of an object in the passes: without contact, in contact, or left out for good.
+/// State of an object in the passes: without contact, in contact, or left out of all further
+/// passes.
 enum ContactState : char { kFree = 0, kTouching = 1, kLeftOut = 2 };
 
 /// The search for the segment over which an object lengthens a path least.
@@ -47,7 +48,7 @@ class SegmentSearch {
     return true;
   }
 
-  int segment = -1;  ///< The best one; -1 without contact.
+  int segment = -1;  ///< The best segment; -1 without contact.
   WrapContact best;  ///< Its contact.
 
  private:
@@ -59,8 +60,9 @@ class SegmentSearch {
 };
 
 /// Puts the contact of one wrap on its segment of the previous pass or, without contact there, on
-/// the segment that lengthens the path least. Returns how far its tangent points have moved.
-/// `final_loss`: an object that loses its contact in this pass is left out of all further passes.
+/// the segment that lengthens the path least. Returns the distance that its tangent points have
+/// moved. `final_loss`: an object that loses its contact in this pass is left out of all further
+/// passes.
 double insert_wrap(const BodyModel& model,
                    const MusclePath& path,
                    int number,
@@ -70,7 +72,7 @@ double insert_wrap(const BodyModel& model,
   const PathWrap& wrap = path.wraps[at(number)];
   const WrapObject& object = model.wrap_objects[at(wrap.wrap_object)];
   auto& stations = workspace.stations;
-  // Objects that look for a new place in every pass can change places with each other for ever.
+  // Objects that look for a new place in every pass could exchange places without end.
   const auto is_ours = [number](const PathStation& s) { return s.wrap == number; };
   const int former =
       static_cast<int>(std::find_if(stations.begin(), stations.end(), is_ours) - stations.begin()) -

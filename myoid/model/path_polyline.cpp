@@ -22,8 +22,8 @@ struct Turn {
   double turned = 0.0;
 };
 
-/// The way round from `first` to `second` whose direction continues the longer of the straight
-/// pieces. All in the plane of the circle, its center the origin.
+/// Returns the way from `first` to `second` whose direction continues the longer of the straight
+/// pieces. All points are in the plane of the circle, whose center is the origin.
 Turn turn_of(const Eigen::Vector2d& before,
              const Eigen::Vector2d& first,
              const Eigen::Vector2d& second,
@@ -69,7 +69,7 @@ std::vector<Vec3> on_ellipsoid(const Vec3& radii, const Arc& arc, double most_tu
   const Vec3 F = scaled(arc.first);
   const Vec3 S = scaled(arc.second);
   const Vec3 Q = scaled(arc.after);
-  // The plane, from whichever three points lie farthest from a line.
+  // The plane through the three points that are farthest from a line.
   Vec3 normal = (F - P).cross(S - F);
   for (const Vec3& other : {Vec3((S - F).cross(Q - S)), Vec3((F - P).cross(Q - S))})
     if (other.norm() > normal.norm()) normal = other;
@@ -112,7 +112,7 @@ std::vector<Vec3> on_object(const WrapObject& object, const Arc& arc, double mos
   return points;
 }
 
-/// Whether the points from first to second are as long as the arc, but for their corners.
+/// True if the points from first to second have the length of the arc, apart from their corners.
 bool is_the_arc(const std::vector<Vec3>& points, const Arc& arc, double most_turn_rad) {
   double length = 0.0;
   Vec3 last = arc.first;
@@ -121,8 +121,8 @@ bool is_the_arc(const std::vector<Vec3>& points, const Arc& arc, double most_tur
     last = p;
   }
   length += (arc.second - last).norm();
-  // Chord over arc is 1 - turn^2 / 24 on a circle, and on an ellipse by at most its axes' ratio
-  // worse; OpenSim's own arcs are sums of chords.
+  // Chord over arc is 1 - turn^2 / 24 on a circle, and on an ellipse worse by at most its axes'
+  // ratio; OpenSim's arcs are sums of chords.
   const double slack = 0.02 + most_turn_rad * most_turn_rad;
   return std::abs(length - arc.length_m) <= slack * arc.length_m + 1e-6;
 }

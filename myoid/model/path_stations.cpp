@@ -78,8 +78,8 @@ void add_pair_moment(const BodyModel& model,
                      const Vec3& p_GB,
                      const Vec3& u_G,
                      Eigen::VectorXd& arm) {
-  // Up both branches to where they meet, and from there on only if the pair makes a moment; joints
-  // stand in tree order.
+  // Follows both branches to their common body, and from there on only if the pair makes a moment;
+  // joints are in tree order.
   const Vec3 along = p_GB - p_GA;
   const Vec3 moment = along.cross(u_G);
   for (bool is_couple = moment.norm() > 1e-12 * along.norm(); a != b || (is_couple && a != 0);) {

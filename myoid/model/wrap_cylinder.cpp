@@ -8,7 +8,7 @@
 namespace myoid::model {
 namespace {
 
-/// The way around in one sense of rotation about z (+1 or -1), in the plane.
+/// The way around the cylinder in one sense of rotation about z (+1 or -1), in the plane.
 template <typename T>
 struct WayRound {
   T first_angle = T(0.0);
@@ -37,7 +37,7 @@ WayRound<T> way_round(double radius, const Vector3<T>& p, const Vector3<T>& q, i
   return way;
 }
 
-/// The sense in which the path goes round, if it does.
+/// Returns the sense in which the path goes round; empty if it does not.
 std::optional<int> sense_of(double radius, Quadrant quadrant, const Vec3& p, const Vec3& q) {
   const double d1 = std::hypot(p.x(), p.y());
   const double d2 = std::hypot(q.x(), q.y());
@@ -63,7 +63,7 @@ std::optional<int> sense_of(double radius, Quadrant quadrant, const Vec3& p, con
         first_active != second_active && along > 0.0 && along < 1.0 && side * nearest[axis] < 0.0;
     if (!cuts && !wrong_side) return std::nullopt;
   }
-  // A turn of nearly a whole circle belongs to a way on which the straight line lies free of the
+  // A turn of nearly a whole circle belongs to a path whose straight line does not touch the
   // cylinder.
   const auto activity = [&](int s) {
     const WayRound<double> way = way_round(radius, p, q, s);

@@ -10,10 +10,11 @@
 namespace myoid::model {
 namespace {
 
-/// x_i = a_i^2 p_i / (t + a_i^2) is the nearest point, with t the largest root of
+/// The nearest point of the surface, x_i = a_i^2 p_i / (t + a_i^2), where t is the largest root of
 ///   g(t) = sum (a_i p_i / (t + a_i^2))^2 - 1.
 struct Nearest {
-  bool is_center = false;  ///< p is the center: the end of the shortest axis instead.
+  bool is_center =
+      false;  ///< p is the center; the end of the shortest axis stands for the nearest point.
   Eigen::Index shortest = 0;
   std::array<bool, 3> used{};
   double t = 0.0;
@@ -87,7 +88,7 @@ Vector3<T> times(const Vector3<T>& v, const Vec3& by) {
   return {v[0] * T(by[0]), v[1] * T(by[1]), v[2] * T(by[2])};
 }
 
-/// Where the straight line runs inside the ellipsoid.
+/// Returns the part of the straight line inside the ellipsoid.
 template <typename T>
 struct Chord {
   Vector3<T> begin, end;
@@ -100,7 +101,7 @@ std::optional<Chord<T>> chord_inside(const Vec3& radii, const Vector3<T>& p, con
   // In coordinates where the ellipsoid is the unit sphere, |p + t (q - p)| = 1.
   const Vector3<T> P = divided(p, radii);
   const Vector3<T> d = divided(Vector3<T>(q - p), radii);
-  constexpr double kInside = -1e-4;  // OpenSim's: ends may touch the surface
+  constexpr double kInside = -1e-4;  // OpenSim's limit: ends may touch the surface
   if (P.squaredNorm() - T(1.0) < T(kInside) || (P + d).squaredNorm() - T(1.0) < T(kInside))
     return std::nullopt;
   if (std::abs(value_of(p).normalized().dot(value_of(q).normalized()) - 1.0) < 1e-4)
@@ -115,8 +116,8 @@ std::optional<Chord<T>> chord_inside(const Vec3& radii, const Vector3<T>& p, con
   return Chord<T>{p + enter * (q - p), p + leave * (q - p)};
 }
 
-/// Nearest to the chord's middle moved out by the mean radius in the mean direction from the chord
-/// to the surface.
+/// Returns the surface point nearest to the chord's middle, moved out by the mean radius in the
+/// mean direction from the chord to the surface.
 template <typename T>
 Vector3<T> fan_point(const Vec3& radii, const Chord<T>& chord) {
   constexpr int kBlades = 300;
@@ -129,7 +130,7 @@ Vector3<T> fan_point(const Vec3& radii, const Chord<T>& chord) {
   return closest_point(radii, out);
 }
 
-/// The point c of the surface that the wrapping plane goes through.
+/// Returns the point c of the surface through which the wrapping plane goes.
 template <typename T>
 Vector3<T> plane_point(const Vec3& radii,
                        Quadrant quadrant,
@@ -147,7 +148,7 @@ Vector3<T> plane_point(const Vec3& radii,
     if (parallel < T(0.0)) parallel = -parallel;
     const T t = -chord.begin[axis] / (chord.end[axis] - chord.begin[axis]);
     if (method == WrapMethod::hybrid) {
-      // The crossing must lie well within the chord; towards its ends the axial point fades out.
+      // The crossing must be well within the chord; towards its ends the axial point fades out.
       if (parallel > T(kBlendMin)) {
         const T to_end = t < T(1.0) - t ? t : T(1.0) - t;
         T inside = to_end / T(kBoundary);
@@ -171,7 +172,7 @@ Vector3<T> plane_point(const Vec3& radii,
     const Eigen::Index axis = std::abs(quadrant) - 1;
     const double side = quadrant > 0 ? 1.0 : -1.0;
     if ((value_of(c[axis]) >= 0.0 ? 1.0 : -1.0) != side) {
-      // Mirrored, then drawn back towards the plane of symmetry by the share of the fan.
+      // Mirrored, then drawn back towards the plane of symmetry by the weight of the fan.
       c[axis] *= fan_weight - T(1.0);
       if (fan_weight > T(0.0)) c = closest_point(radii, c);
     }
@@ -201,14 +202,14 @@ std::optional<ContactOf<T>> wrap_ellipsoid(const EllipsoidShape& ellipsoid,
   if (!chord) return std::nullopt;
   const Vector3<T> c = plane_point(radii, quadrant, method, Vector3<T>(q_W - p_W), *chord);
 
-  // Where the ellipsoid is the unit sphere, planes stay planes and tangents stay tangents, and the
-  // cut is a circle.
+  // A scaling makes the ellipsoid the unit sphere. Planes stay planes, tangents stay tangents, and
+  // the cut is a circle.
   const Vector3<T> P = divided(p_W, radii);
   const Vector3<T> Q = divided(q_W, radii);
   const Vector3<T> C = divided(c, radii);
   const Vector3<T> u = Vector3<T>(Q - P).normalized();
   Vector3<T> v = (C - P) - (C - P).dot(u) * u;
-  if (!(v.norm() > T(1e-12))) return std::nullopt;  // c on the line: no plane
+  if (!(v.norm() > T(1e-12))) return std::nullopt;  // c is on the line, which defines no plane
   v.normalize();  // towards c: the path bulges to +v and turns from v to u
   const Vector3<T> normal = u.cross(v);
   const Vector3<T> center = P.dot(normal) * normal;

@@ -9,8 +9,8 @@
 namespace myoid::model {
 namespace {
 
-/// Half the square of the distance from p + s (q - p) to the circle of radius R about z, less what
-/// does not depend on s, and its derivatives by s.
+/// Half the square of the distance from p + s (q - p) to the circle of radius R about z, without
+/// terms independent of s, and its derivatives by s.
 template <typename T>
 struct Distance {
   T first, second;
@@ -26,8 +26,8 @@ Distance<T> slope_at(const Vector3<T>& p, const Vector3<T>& d, double R, const T
   return {p.dot(d) + s * d.squaredNorm() - T(R) * rho_first, d.squaredNorm() - T(R) * rho_second};
 }
 
-/// Where between p and q (0 .. 1) the straight piece is nearest to the circle, on the side that
-/// counts.
+/// Returns the place between p and q (0 .. 1) at which the straight piece is nearest to the circle,
+/// on the side that counts.
 std::optional<double> nearest_share(const Vec3& p, const Vec3& q, double R, Quadrant quadrant) {
   constexpr int kSamples = 64;
   const Vec3 d = q - p;
@@ -43,7 +43,7 @@ std::optional<double> nearest_share(const Vec3& p, const Vec3& q, double R, Quad
   double best = std::numeric_limits<double>::infinity();
   std::optional<double> share;
   for (int i = 0; i <= kSamples; ++i) {
-    // A sample that is lower than its neighbors has a minimum beside it: Newton, held between them.
+    // A sample below its neighbors has a minimum nearby: Newton, held between them.
     const double step = 1.0 / kSamples;
     double s = step * i;
     const double here = distance(s);
@@ -68,8 +68,8 @@ std::optional<double> nearest_share(const Vec3& p, const Vec3& q, double R, Quad
   return share;
 }
 
-/// The cylinder that stands for the tube where the straight piece is nearest to the ring's circle;
-/// its x axis points to the middle of the ring.
+/// Returns the cylinder that replaces the tube where the straight piece is nearest to the ring's
+/// circle; its x axis points to the middle of the ring.
 template <typename T>
 struct Tube {
   Vector3<T> center, ex, ey, ez;

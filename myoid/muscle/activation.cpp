@@ -35,7 +35,8 @@ Point two_lags(double u, const Point& from, double tau_e, double tau_a, double t
   return {e, e - decay_a * lead - c * share};
 }
 
-/// When e - a changes sign, if ever; infinity else. d = 0 <=> d0 + c (1 - exp(-k t)) / k = 0.
+/// Returns the time at which e - a changes sign, or infinity. d = 0 <=> d0 + c (1 - exp(-k t)) / k
+/// = 0.
 double switch_time(double u, const Point& from, double tau_e, double tau_a) {
   const double c = (u - from.filtered_excitation) / tau_e;
   const double lead = from.filtered_excitation - from.activation;
@@ -47,9 +48,9 @@ double switch_time(double u, const Point& from, double tau_e, double tau_a) {
   return argument <= -1.0 ? kNever : -std::log1p(argument) / k;
 }
 
-/// Thelen's lag, u held. Falling, w = a - u is logistic. Rising, s = ln((u - a) / (u - a0)) solves
-/// k s - 3/2 w0 (exp(s) - 1) = -t / tau,  k = 1/2 + 3/2 u: concave, so that Newton from the left
-/// never passes the root.
+/// Thelen's lag under constant u. Falling, w = a - u is logistic. Rising, s = ln((u - a) / (u -
+/// a0)) solves k s - 3/2 w0 (exp(s) - 1) = -t / tau, k = 1/2 + 3/2 u. The left side is concave, so
+/// that Newton from the left never passes the root.
 double thelen(double u, double a, const Dynamics& d, double t) {
   const double k = 0.5 + 1.5 * u;
   if (u <= a) {
@@ -117,7 +118,7 @@ Point step_activation(const Dynamics& d, double u, const Point& from, double int
     case ActivationLaw::recursive:
       return two_lags(u, from, d.excitation_time_s, d.activation_time_s, interval_s);
     case ActivationLaw::two_lags: {
-      // e goes to u without passing it, so that e - a changes sign once at most.
+      // e approaches u monotonically, so that e - a changes sign at most once.
       const double lead = from.filtered_excitation - from.activation;
       const bool rises = lead > 0.0 || (lead == 0.0 && u >= from.filtered_excitation);
       const double tau = rises ? d.activation_time_s : d.deactivation_time_s;

@@ -19,7 +19,7 @@ double derivative(const Quintic& c, double u) {
   return c[1] + u * (2.0 * c[2] + u * (3.0 * c[3] + u * (4.0 * c[4] + u * 5.0 * c[5])));
 }
 
-/// Powers of u from control points p0, p1, p1, p3, p3, p5.
+/// Returns the powers of u from control points p0, p1, p1, p3, p3, p5.
 Quintic quintic(double p0, double p1, double p3, double p5) {
   return {p0,
           5.0 * (p1 - p0),
@@ -29,7 +29,7 @@ Quintic quintic(double p0, double p1, double p3, double p5) {
           -p0 - 5.0 * p1 + 5.0 * p3 + p5};
 }
 
-/// u in 0..1 with a x(u) + b y(u) = target, where that rises with u: Newton within a bracket.
+/// Solves a x(u) + b y(u) = target, rising in u, for u in 0..1: Newton within a bracket.
 double solve_parameter(const Quintic& x, const Quintic& y, double a, double b, double target) {
   Quintic q;
   for (std::size_t k = 0; k < 6; ++k) q[k] = a * x[k] + b * y[k];
@@ -53,7 +53,8 @@ double solve_parameter(const Quintic& x, const Quintic& y, double a, double b, d
   return u;
 }
 
-/// The integral of y dx from 0 to u: Gauss-Legendre with five points, exact for its degree, nine.
+/// Returns the integral of y dx from 0 to u by Gauss-Legendre with five points, which is exact for
+/// degree nine.
 double area(const Quintic& x, const Quintic& y, double u) {
   constexpr std::array<double, 5> node{-0.9061798459386639928, -0.5384693101056830910, 0.0,
                                        0.5384693101056830910, 0.9061798459386639928};
@@ -117,9 +118,9 @@ const BezierCurve::Segment& BezierCurve::segment_at(double x) const {
   return segments_[static_cast<std::size_t>(k)];
 }
 
-/// u where x(u) = x: a cubic through the neighboring cells' ends is off by a few 1e-3 at most, in
-/// sharp corners, and three Newton steps square that three times; should they not, the bracket
-/// decides.
+/// Returns u where x(u) = x. A cubic through the ends of the neighboring cells is off by a few 1e-3
+/// at most, in sharp corners, and three Newton steps each square the error. If they fail, the
+/// bracket decides.
 double BezierCurve::parameter_at(const Segment& s, double x) {
   const double position = (x - s.from.x) * s.cells_per_x;
   const int cell = std::min(static_cast<int>(position), kCells - 1);

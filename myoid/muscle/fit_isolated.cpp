@@ -118,7 +118,8 @@ IsolatedFit fit_isolated_muscle(const IsolatedModel& start,
   problem.evaluate = [&](const Eigen::VectorXd& x, Eigen::VectorXd& r, Eigen::MatrixXd* jacobian) {
     residual(x, r);
     if (jacobian == nullptr) return;
-    // Truncation h^2 = 1e-6, the integrator's noise tolerance / h = 1e-4 of the derivative.
+    // Relative to the derivative: truncation h^2 = 1e-6, the integrator's noise tolerance / h =
+    // 1e-4.
     constexpr double kStep = 1e-3;
     Eigen::VectorXd up(n), down(n);
     for (Eigen::Index j = 0; j < p; ++j) {

@@ -17,7 +17,7 @@ namespace {
 
 using math::OdeStatus;
 
-/// The drive: straight between samples, constant outside.
+/// The drive: linear between samples, constant outside.
 class Drive {
  public:
   Drive(const Eigen::VectorXd& time_s, const Eigen::VectorXd& values)
@@ -57,7 +57,7 @@ class Drive {
   Eigen::VectorXd time_, value_;
 };
 
-/// States: of the activation (0 to 2), then of the unit (0 to 2).
+/// States: first of the activation (0 to 2), then of the unit (0 to 2).
 class Experiment {
  public:
   Experiment(const Musculotendon<double>& unit, const IsolatedMuscleInput& input)
@@ -191,7 +191,7 @@ IsolatedMuscleResult simulate_isolated_muscle(const Musculotendon<double>& unit,
   if (y0.empty()) {
     for (; done < times.size(); ++done) rows.row(done) = experiment.row(times(done), nullptr);
   } else {
-    // Where length and drive have corners a step ends, so that each one sees smooth functions.
+    // Steps end at corners of length and drive, so that functions are smooth within a step.
     std::vector<double> corners(input.time_s.data(), input.time_s.data() + input.time_s.size());
     const Eigen::VectorXd& drive = experiment.drive().time_s();
     corners.insert(corners.end(), drive.data(), drive.data() + drive.size());

@@ -7,8 +7,8 @@
 namespace myoid::model {
 namespace {
 
-/// Exponent k of the passive force whose slope at its unit force is `slope` over that of a straight
-/// line: k / (1 - exp(-k)) = slope.
+/// Returns the exponent k of the passive force whose slope at its unit force is `slope` times that
+/// of a straight line: k / (1 - exp(-k)) = slope.
 double passive_shape(double slope) {
   double k = slope;
   for (int i = 0; i < 60; ++i) k = slope * -std::expm1(-k);
@@ -68,7 +68,7 @@ muscle::MusculotendonParameters<double> musculotendon_parameters(
   if (millard != nullptr && laws.tendon == muscle::TendonLaw::millard) {
     result.tendon_strain = millard->tendon_strain_at_one_force;
     result.passive_strain = millard->fiber_strain_at_one_force;
-    // The class's own stiffness at F_max is twice that of the line from zero strain.
+    // The class's default stiffness at F_max is twice that of the line from zero strain.
     const double stiffness = millard->fiber_stiffness_at_one_force;
     result.passive_shape = passive_shape(stiffness > 0.0 ? stiffness * result.passive_strain : 2.0);
     result.damping = millard->fiber_damping;

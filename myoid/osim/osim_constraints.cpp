@@ -10,7 +10,7 @@
 namespace myoid::model {
 namespace {
 
-/// A coordinate that depends on several others.
+/// Reads a coordinate that depends on several others.
 void read_function_constraint(OsimReading& r,
                               pugi::xml_node node,
                               const std::string& name,
@@ -36,7 +36,7 @@ void read_function_constraint(OsimReading& r,
   r.model.constraints.push_back({name, node.name(), std::move(law)});
 }
 
-/// A coordinate that depends on one other.
+/// Reads a coordinate that depends on one other.
 void read_coupler(OsimReading& r, pugi::xml_node node, const std::string& name) {
   const auto independent = r.xml.words(node, "independent_coordinate_names");
   if (independent.size() > 1) return read_function_constraint(r, node, name, independent);

@@ -13,11 +13,11 @@ struct Surface {
   std::string name;
   BodyIndex body = 0;
   Pose X_BS;
-  std::optional<double> radius_m;  ///< A sphere's; none: a half-space.
+  std::optional<double> radius_m;  ///< Radius of a sphere; empty for a half-space.
   Contact::Material material;
 };
 
-/// The contact geometry of a name, in the model's set or among its components.
+/// Returns the contact geometry of a name, from the model's set or its components.
 pugi::xml_node geometry_named(const OsimReading& r, std::string_view name) {
   const auto model = r.xml.root().child("Model");
   const auto is_it = [&](pugi::xml_node node) {
@@ -30,7 +30,8 @@ pugi::xml_node geometry_named(const OsimReading& r, std::string_view name) {
   return {};
 }
 
-/// Empty where it is neither a sphere nor a half-space; that is listed.
+/// Returns the surface; empty, with an entry in the list of unsupported parts, if it is neither a
+/// sphere nor a half-space.
 std::optional<Surface> read_surface(OsimReading& r, pugi::xml_node force, const std::string& name) {
   const auto node = geometry_named(r, name);
   const std::string_view kind = node.name();
@@ -90,7 +91,7 @@ std::vector<Contact> read_contacts(OsimReading& r, pugi::xml_node force) {
   std::vector<Contact> contacts;
   if (std::string_view(force.name()) == "SmoothSphereHalfSpaceForce") {
     const auto last_part = [](std::string path) {
-      return path.substr(path.find_last_of('/') + 1);  // all of it where there is no slash
+      return path.substr(path.find_last_of('/') + 1);  // the whole path if it has no slash
     };
     auto sphere = read_surface(r, force, last_part(socket(r, force, "sphere")));
     auto plane = read_surface(r, force, last_part(socket(r, force, "half_space")));

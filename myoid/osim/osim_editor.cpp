@@ -23,7 +23,7 @@ void set_vec3(pugi::xml_node object, const char* name, const Vec3& v) {
   set_text(object, name, fmt::format("{} {} {}", v[0], v[1], v[2]));
 }
 
-/// Multiplies a vector or a number that the object (or its prototype) has.
+/// Multiplies a vector or a number that the object or its prototype has.
 void multiply(const OsimXml& xml, pugi::xml_node object, const char* name, const Vec3& factor) {
   if (!xml.property(object, name)) return;
   set_vec3(object, name, xml.vec3(object, name, Vec3::Zero()).cwiseProduct(factor));
@@ -34,8 +34,7 @@ void multiply(const OsimXml& xml, pugi::xml_node object, const char* name, doubl
   set_text(object, name, fmt::format("{}", xml.number(object, name, 0.0) * factor));
 }
 
-/// Multiplies the function that stands in `holder`, by wrapping it where it has no scale of its
-/// own.
+/// Multiplies the function in `holder`, by wrapping it if it has no scale of its own.
 void multiply_function(const OsimXml& xml, pugi::xml_node holder, double factor, bool freedom) {
   if (const auto inner = holder.child("function"); inner && OsimXml::first_element(inner))
     holder = inner;
@@ -65,7 +64,7 @@ void scale_meshes(const OsimXml& xml, pugi::xml_node holder, const Vec3& factor)
     if (const auto object = holder.child(name)) multiply(xml, object, "scale_factors", factor);
 }
 
-/// How much longer unit vectors along the axes of a frame become.
+/// Returns the factors by which unit vectors along the axes of a frame become longer.
 Vec3 stretch(const Mat3& R, const Vec3& factor) {
   Vec3 result;
   for (int k = 0; k < 3; ++k) result[k] = R.col(k).cwiseProduct(factor).norm();
@@ -179,7 +178,7 @@ Vec3 OsimEditor::factor_of(const Factors& factors, BodyIndex body) const {
 
 void OsimEditor::scale_wraps(pugi::xml_node holder, const FixedFrame& frame, const Vec3& factor) {
   for (const auto node : OsimXml::objects(holder.child("WrapObjectSet"))) {
-    // Factors along the axes of the object itself.
+    // Factors along the object's own axes.
     const Pose X_FW = pose_of(*reading_, node, "translation", "xyz_body_rotation");
     const Vec3 along = stretch((frame.X_BF * X_FW).R, factor);
     multiply(xml_, node, "translation", factor);
@@ -237,7 +236,7 @@ void OsimEditor::scale_points(pugi::xml_node force, const Factors& factors) {
       }
     }
   };
-  scale_path(force);  // before 20000 the points stood in the muscle
+  scale_path(force);  // before 20000 the muscle held the points
   if (const auto path = force.child("GeometryPath")) scale_path(path);
   for (const auto path : force.child("path").children()) scale_path(path);
   for (const auto frame : force.child("frames").children()) {
@@ -248,7 +247,7 @@ void OsimEditor::scale_points(pugi::xml_node force, const Factors& factors) {
 }
 
 void OsimEditor::scale_geometry(const Factors& factors) {
-  // What refers to frames is scaled before the frames are.
+  // Objects that refer to frames are scaled before the frames.
   for (const auto node : OsimXml::objects(marker_set())) {
     if (std::string_view(node.name()) != "Marker") continue;
     const FixedFrame frame =

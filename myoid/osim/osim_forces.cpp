@@ -51,7 +51,7 @@ Bushing read_bushing(const OsimReading& r, pugi::xml_node node) {
   return b;
 }
 
-/// The formula of a property; one that is not understood is an error.
+/// Reads the formula of a property; throws for a formula that cannot be read.
 Expression formula_of(const OsimReading& r,
                       pugi::xml_node node,
                       const char* name,
@@ -65,7 +65,7 @@ Expression formula_of(const OsimReading& r,
   }
 }
 
-/// A bushing whose forces are functions or formulas of its deflections.
+/// Reads a bushing whose forces are functions or formulas of its deflections.
 Bushing read_shaped_bushing(OsimReading& r, pugi::xml_node node) {
   constexpr const char* kComponents[] = {"m_x_theta_x_function", "m_y_theta_y_function",
                                          "m_z_theta_z_function", "f_x_delta_x_function",
@@ -126,7 +126,7 @@ PointSpring read_point_spring(const OsimReading& r, pugi::xml_node node) {
           r.xml.number(node, "rest_length", 0.0)};
 }
 
-/// The class's own curve of force (over pcsa_force) by length (over resting length).
+/// Returns the class's default curve of force (over pcsa_force) by length (over resting length).
 Function default_ligament_curve() {
   return make_simm_spline(
       {-5.0, 0.998, 0.999, 1.0, 1.1, 1.2, 1.3, 1.4, 1.5, 1.6, 1.601, 1.602, 5.0},
@@ -186,7 +186,7 @@ bool read_driven(OsimReading& r, pugi::xml_node node) {
     actuator.path = read_path(r, node);
     r.model.path_actuators.push_back(std::move(actuator));
   } else if (kind == "BodyActuator") {
-    // Six controls without bounds: none of OpenSim's tools that solve for controls has them.
+    // Six controls without bounds: OpenSim's tools that solve for controls ignore them.
     r.model.notes.push_back(
         fmt::format("BodyActuator '{}' makes no force: every tool keeps its six controls at zero",
                     OsimXml::name_of(node)));

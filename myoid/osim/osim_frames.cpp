@@ -14,7 +14,7 @@
 namespace myoid::model {
 namespace {
 
-/// As a number is after a text with six significant digits.
+/// Rounds a number as a text with six significant digits does.
 double six_digits(double value) {
   if (!std::isfinite(value)) return value;
   char text[32];
@@ -22,7 +22,7 @@ double six_digits(double value) {
   return std::strtod(text, nullptr);
 }
 
-/// A frame fixed to a body, or a point fixed in one.
+/// True for a frame fixed to a body, or a point fixed in one.
 bool is_frame(pugi::xml_node node) {
   for (const char* kind : {"PhysicalOffsetFrame", "StationDefinedFrame", "Station"})
     if (std::strcmp(node.name(), kind) == 0) return true;
@@ -71,8 +71,8 @@ FixedFrame resolve(const OsimReading& r,
                    const std::string& owner,
                    int depth);
 
-/// The frame that four stations of one body span: its origin, an axis from a to b, another along
-/// ab x ac (StationDefinedFrame of OpenSim 4.5).
+/// Returns the frame that four stations of one body span: its origin, an axis from a to b, another
+/// along ab x ac (StationDefinedFrame of OpenSim 4.5).
 FixedFrame station_defined(const OsimReading& r,
                            pugi::xml_node node,
                            const std::string& owner,
@@ -128,7 +128,7 @@ FixedFrame resolve(const OsimReading& r,
   if (depth > 32) r.xml.fail(where, fmt::format("frame '{}' refers to itself", name));
   const auto found = [&](const std::string& path) -> std::optional<FixedFrame> {
     if (path == "/ground") return FixedFrame{};
-    // Bodies stand in their set or among the components; their names are unique.
+    // Bodies are in their set or among the components; their names are unique.
     for (const std::string_view set : {"/bodyset/", "/componentset/", "/"}) {
       if (!path.starts_with(set)) continue;
       if (const auto body = r.find_body(std::string_view(path).substr(set.size())))
@@ -174,7 +174,7 @@ namespace {
 
 using Places = std::map<std::string, int, std::less<>>;
 
-/// "/bodyset" of "BodySet".
+/// Returns "/bodyset" for "BodySet".
 std::string path_of_set(std::string_view name) {
   std::string path = "/";
   for (const char c : name) path += c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c;
@@ -333,7 +333,7 @@ Pose pose_of(const OsimReading& r,
 
 int coordinate_named(const OsimReading& r, pugi::xml_node where, std::string_view text) {
   if (const auto index = r.find_coordinate(text)) return *index;
-  // Of several with that name the first joint's, as in OpenSim.
+  // If several coordinates have that name, the first joint's counts, as in OpenSim.
   if (r.shared_coordinate_names.contains(text)) {
     for (const Joint& joint : r.model.joints)
       if (const auto index = r.find_coordinate(fmt::format("{}/{}", joint.name, text)))
@@ -378,7 +378,7 @@ std::optional<FixedFrame> find_frame(const BodyModel& model,
   try {
     return resolve_frame(r, xml.root(), name, "/jointset");
   } catch (const ReadError&) {
-    // The joints of old documents have their frames by name alone.
+    // The joints of old documents name their frames without a path.
   }
   const std::size_t slash = name.find_last_of('/');
   if (slash == std::string::npos) return std::nullopt;

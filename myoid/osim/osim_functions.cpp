@@ -28,7 +28,7 @@ std::string named(pugi::xml_node node) {
                       : fmt::format("<{}> '{}'", node.name(), name);
 }
 
-/// The element that holds the function, and what that belongs to.
+/// Describes the element that holds the function, and the element's owner.
 std::string place_of(pugi::xml_node node) {
   std::string place;
   int levels = 0;
@@ -78,7 +78,7 @@ Function read_knots(OsimReading& r, pugi::xml_node node, double scale) {
   }
 }
 
-/// Goes from MultiplierFunctions to the function inside; their scales multiply.
+/// Replaces MultiplierFunctions by the function inside; returns the product of their scales.
 double unwrap(const OsimReading& r, pugi::xml_node& node) {
   double scale = 1.0;
   for (int depth = 0; std::string_view(node.name()) == "MultiplierFunction"; ++depth) {
@@ -138,7 +138,7 @@ std::optional<MultiPolynomial> multi_function(const OsimReading& r,
   const std::string_view kind = node.name();
   MultiPolynomial f{.dimension = dimension, .degree = 1, .scale = scale};
   if (kind == "LinearFunction") {
-    // Slopes in the order of the variables, then the intercept: the other way round.
+    // Slopes in the order of the variables, then the intercept: reverse the order.
     f.coefficients = coefficients_of(r, node);
     std::reverse(f.coefficients.begin(), f.coefficients.end());
   } else if (kind == "MultivariatePolynomialFunction") {

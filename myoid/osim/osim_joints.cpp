@@ -18,14 +18,15 @@ namespace {
 constexpr const char* kSlots[6] = {"rotation1",    "rotation2",    "rotation3",
                                    "translation1", "translation2", "translation3"};
 
-/// The coordinate elements of a joint, of any version.
+/// Returns the coordinate elements of a joint, in documents of any version.
 auto coordinates_of(pugi::xml_node joint) {
   auto coordinates = joint.child("coordinates");
   if (!coordinates) coordinates = joint.child("CoordinateSet").child("objects");
   return coordinates.children("Coordinate");
 }
 
-/// A coordinate's name in the model: with its joint's where several joints have one of that name.
+/// Returns a coordinate's name in the model, with its joint's name if several joints have a
+/// coordinate of that name.
 std::string model_name(const OsimReading& r, const std::string& joint, const std::string& name) {
   return r.shared_coordinate_names.contains(name) ? fmt::format("{}_{}", joint, name) : name;
 }
@@ -63,7 +64,7 @@ pugi::xml_node transform_axis(const OsimReading& r, pugi::xml_node node, std::si
     }
     return {};
   }
-  // Documents before 10901: the axes in a set, rotations and translations in any order.
+  // Documents before 10901 hold the axes in a set, rotations and translations in any order.
   std::size_t rotations = 0;
   std::size_t translations = 3;
   for (const auto axis : OsimXml::objects(node.child("TransformAxisSet"))) {
@@ -73,7 +74,7 @@ pugi::xml_node transform_axis(const OsimReading& r, pugi::xml_node node, std::si
   return {};
 }
 
-/// The coordinate of a joint that an axis names; -1 if it names none.
+/// Returns the coordinate of a joint that an axis names; -1 if the axis names none.
 int coordinate_of_axis(const OsimReading& r, pugi::xml_node slot, const Joint& joint) {
   const auto names = slot.child("coordinates") ? r.xml.words(slot, "coordinates")
                                                : r.xml.words(slot, "coordinate");
@@ -338,7 +339,7 @@ void read_joint(OsimReading& r, pugi::xml_node node, const std::string& path, Bo
     if (node.child("location_in_child"))
       joint.X_BM = joint.X_BM * pose_of(r, node, "location_in_child", "orientation_in_child");
   }
-  // Before 30514 a joint could be told to move its parent on its child.
+  // Before 30514 a joint could be declared to move its parent on its child.
   if (r.xml.version() < 30514 && r.xml.flag(node, "reverse", false)) {
     std::swap(joint.parent, joint.child);
     std::swap(joint.X_PF, joint.X_BM);
@@ -385,7 +386,8 @@ void add_free_joint(OsimReading& r, BodyIndex body) {
   r.model.joints.push_back(std::move(joint));
 }
 
-/// The names that coordinates of several joints share; OpenSim tells them apart by their paths.
+/// Finds the names that coordinates of several joints share; OpenSim tells these coordinates apart
+/// by their paths.
 void find_shared_names(OsimReading& r, pugi::xml_node model) {
   std::map<std::string, std::vector<std::string>> joints_of;
   const auto add = [&](pugi::xml_node joint) {
@@ -422,7 +424,7 @@ void read_joints(OsimReading& r, pugi::xml_node model) {
       const auto index = r.find_body(OsimXml::name_of(body));
       if (!index || *index == 0) continue;
       read_joint(r, node, {}, *index);
-      has_joint[static_cast<std::size_t>(*index)] = true;  // a reversed one has it as the parent
+      has_joint[static_cast<std::size_t>(*index)] = true;  // a reversed joint has it as the parent
     }
   }
   if (!r.is_old()) return;

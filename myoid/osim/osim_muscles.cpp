@@ -15,7 +15,7 @@
 namespace myoid::model {
 namespace {
 
-/// A property of an object and the field that holds its number.
+/// A property of an object and the field for its value.
 template <typename Object>
 using Field = std::pair<const char*, double Object::*>;
 
@@ -170,7 +170,7 @@ Muscle read_muscle(OsimReading& r, pugi::xml_node node) {
   if (!r.xml.property(node, "pennation_angle_at_optimal"))
     set("pennation_angle", p.pennation_at_optimal_rad);
   for (const auto& [name, field] : kProperties) set(name, p.*field);
-  // OpenSim takes its classes' own 0.1 m for every muscle.
+  // OpenSim starts every muscle at its classes' default of 0.1 m.
   if (!r.compat.class_fiber_length) p.default_fiber_length_m = p.optimal_fiber_length_m;
   set("default_fiber_length", p.default_fiber_length_m);
   set("min_control", p.min_control);

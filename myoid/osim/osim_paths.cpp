@@ -155,7 +155,7 @@ PathWrap read_path_wrap(OsimReading& r, pugi::xml_node node, const std::string& 
   return wrap;
 }
 
-/// Empty if a function is of another kind than polynomials of all coordinates.
+/// Returns a path by functions; empty if one of them is no polynomial of all coordinates.
 std::optional<FunctionPath> function_path(const OsimReading& r, pugi::xml_node node) {
   FunctionPath path;
   for (const std::string& name : r.xml.words(node, "coordinates"))
@@ -182,7 +182,7 @@ std::optional<FunctionPath> function_path(const OsimReading& r, pugi::xml_node n
 
 void read_wrap_objects(OsimReading& r, pugi::xml_node model) {
   read_wraps_of(r, model.child("Ground"), {});
-  // A path finds the first object of a name over the bodies in tree order.
+  // A path refers to the first object of a name over the bodies in tree order.
   std::vector<pugi::xml_node> nodes(r.model.bodies.size());
   for (const auto& [node, path] : components_of(model, "BodySet", "Body")) {
     if (const auto body = r.find_body(OsimXml::name_of(node)))

@@ -37,7 +37,7 @@ void read_markers(OsimReading& r, pugi::xml_node set) {
   }
 }
 
-/// Markers, constraints and forces that stand outside of their sets.
+/// Reads markers, constraints and forces outside of their sets.
 void read_loose_components(OsimReading& r, pugi::xml_node model) {
   for (const auto& [node, path] : components_of(model, "", "Marker")) read_marker(r, node, path);
   for (const auto& [node, path] : components_of(model, "", "Constraint"))
@@ -45,14 +45,16 @@ void read_loose_components(OsimReading& r, pugi::xml_node model) {
   for (const auto& [node, path] : components_of(model, "", "")) read_component_force(r, node);
 }
 
-/// The name of the file in which a set stands instead of in the model; empty if it does not.
+/// Returns the name of the file that holds a set in place of the model; empty if the model holds
+/// it.
 std::string file_of(pugi::xml_node set) {
   std::string file = set.attribute("file").value();
   std::replace(file.begin(), file.end(), '\\', '/');
   return file == "Unassigned" ? std::string() : file;
 }
 
-/// A set of markers or forces in the model or in a file that it names, relative to itself.
+/// Reads a set of markers or forces in the model or in a file that the set names, relative to the
+/// model.
 template <typename Read>
 void read_set(OsimReading& r, pugi::xml_node set, const Read& read) {
   const std::string file = file_of(set);
@@ -71,7 +73,7 @@ void read_set(OsimReading& r, pugi::xml_node set, const Read& read) {
     r.model.notes.push_back(fmt::format("{}: {}", path.string(), sentence));
 }
 
-/// Other sets that a model may refer to in a file of its own; leaving them out would be silent.
+/// Lists other sets in files of their own, so that their absence is reported.
 void list_external_sets(OsimReading& r, pugi::xml_node model) {
   for (const auto node : model.children()) {
     const std::string file = file_of(node);

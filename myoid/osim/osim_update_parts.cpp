@@ -13,7 +13,7 @@ namespace {
 
 using Renaming = std::pair<std::string_view, const char*>;
 
-/// Classes and sets that have other names by now, wherever they stand.
+/// Renamed classes and sets, wherever they stand.
 constexpr Renaming kClasses[] = {
     {"NaturalCubicSpline", "SimmSpline"},
     {"natCubicSpline", "SimmSpline"},
@@ -44,7 +44,7 @@ bool is_path_point(std::string_view kind) {
   return kind == "PathPoint" || kind == "ConditionalPathPoint" || kind == "MovingPathPoint";
 }
 
-/// <isDisabled> tells the opposite of the present switch.
+/// <isDisabled> is the negation of the newer switch.
 void update_switch(pugi::xml_node object) {
   const auto old = object.child("isDisabled");
   if (!old) return;
@@ -143,7 +143,7 @@ void update_constraint(pugi::xml_node object) {
   }
 }
 
-/// Muscles of before 10900 held their points themselves.
+/// Before 10900 muscles held their points themselves.
 void update_path_holder(pugi::xml_node force) {
   if (!force.child("GeometryPath") && force.child("PathPointSet")) {
     auto path = force.append_child("GeometryPath");
@@ -162,7 +162,7 @@ void update_force(pugi::xml_node object, int version) {
   update_path_holder(object);
   if (kind.find("Muscle") != std::string_view::npos) {
     rename_child(object, "pennation_angle", "pennation_angle_at_optimal");
-    // A bound of 0 meant none: the class's own holds.
+    // A bound of 0 meant no bound: the class's default holds.
     if (version < 30513 && object.child("min_control") &&
         object.child("min_control").text().as_double() == 0.0)
       object.remove_child("min_control");

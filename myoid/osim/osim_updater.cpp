@@ -18,7 +18,7 @@
 namespace myoid::model {
 namespace {
 
-/// A model of an old document while its bodies and joints are brought into the newest form.
+/// A model of an old document while its bodies and joints take the newest form.
 class ModelUpdate {
  public:
   ModelUpdate(const OsimXml& source, pugi::xml_node model, const OsimUpdateOptions& options)
@@ -49,7 +49,7 @@ class ModelUpdate {
  private:
   [[nodiscard]] bool is_old() const { return source_.version() < 30500; }
 
-  /// Before 10700 the bodies stood in an engine.
+  /// Before 10700 an engine held the bodies.
   void leave_engine() {
     const auto holder = model_.child("DynamicsEngine");
     const auto engine = OsimXml::first_element(holder);
@@ -84,7 +84,7 @@ class ModelUpdate {
     return recording::equal_ignoring_case(text, "true") || text == "1";
   }
 
-  /// Until 30514 a joint could be told to move its parent on its child.
+  /// Until 30514 a joint could be declared to move its parent on its child.
   static void reverse_sockets(pugi::xml_node joint) {
     auto parent = joint.child("socket_parent_frame"), child = joint.child("socket_child_frame");
     if (is_true(child_text(joint, "reverse")) && parent && child) {
@@ -169,12 +169,12 @@ class ModelUpdate {
     joint.remove_child("VisibleObject");
   }
 
-  /// A name alone is a body's.
+  /// Returns the path of a frame; a name without a path is a body's.
   [[nodiscard]] static std::string frame_path(const std::string& name) {
     return name.find('/') == std::string::npos ? body_path(name) : name;
   }
 
-  /// Before 10901 the axes stood in a set, rotations and translations in any order.
+  /// Before 10901 a set held the axes, rotations and translations in any order.
   static void update_axes(pugi::xml_node joint) {
     const auto set = joint.child("TransformAxisSet");
     if (!set) return;
@@ -208,7 +208,7 @@ class ModelUpdate {
     joint.remove_child(set);
   }
 
-  /// A body that no joint carried was free to move.
+  /// A body that no joint carried could move freely.
   void free_bodies(const std::vector<pugi::xml_node>& bodies) {
     for (const auto joint : joints_.children()) {
       for (const auto frame : joint.child("frames").children()) {
@@ -249,7 +249,7 @@ class ModelUpdate {
     body.parent().remove_child(body);
   }
 
-  /// Meshes of a body; one with a place of its own hangs on a frame.
+  /// Adds the meshes of a body; a mesh with a place of its own gets a frame.
   void update_visible(pugi::xml_node body, const std::string& name) {
     const auto visible = body.child("VisibleObject");
     if (!visible) return;
@@ -314,7 +314,8 @@ class ModelUpdate {
   std::set<std::string> has_joint_;
 };
 
-/// Objects take what they omit from the prototype of their class; then there are no prototypes.
+/// Objects take properties that they omit from the prototype of their class; afterwards the
+/// prototypes are removed.
 void spread_defaults(pugi::xml_node holder) {
   const auto defaults = holder.child("defaults");
   if (!defaults) return;
@@ -329,7 +330,7 @@ void spread_defaults(pugi::xml_node holder) {
     for (const auto value : prototype.children()) {
       const std::string_view name = value.name();
       if (value.type() != pugi::node_element || node.child(value.name())) continue;
-      // Functions and sets of objects are the object's own.
+      // Functions and sets of objects belong to the object itself.
       if (name.ends_with("Set") || name == "VisibleObject" || name == "Joint") continue;
       if (std::string_view(node.name()) == "TransformAxis" && OsimXml::first_element(value))
         continue;

@@ -28,7 +28,7 @@ std::string text_of(const std::vector<double>& values) {
   return text;
 }
 
-/// Position after the '>' of the tag whose name stands at `at`.
+/// Returns the position after the '>' of the tag whose name begins at `at`.
 std::size_t after_tag(std::string_view text, std::size_t at) {
   char quote = 0;
   for (; at < text.size(); ++at) {
@@ -44,14 +44,14 @@ std::size_t after_tag(std::string_view text, std::size_t at) {
   return text.size();
 }
 
-/// Where an element's start tag lies in the text.
+/// The place of an element's start tag in the text.
 struct StartTag {
-  std::size_t name = 0;   ///< Of its first letter.
-  std::size_t after = 0;  ///< After its '>'.
-  bool is_whole = false;  ///< <x/>: there is no more of the element.
+  std::size_t name = 0;   ///< Place of its first letter.
+  std::size_t after = 0;  ///< Place after its '>'.
+  bool is_whole = false;  ///< <x/>: the start tag is the whole element.
 };
 
-/// The objects of a set as they stand in the bytes, whatever the file's character set: the same
+/// The objects of a set by their places in the bytes, whatever the file's character set: the same
 /// parser without conversion, so that its offsets count bytes.
 class RawText {
  public:
@@ -62,7 +62,7 @@ class RawText {
                       "UTF-8",
                       path.string()));
     }
-    // The byte-order mark is not part of what the parser counts.
+    // The parser's offsets do not count the byte-order mark.
     if (text.starts_with("\xEF\xBB\xBF")) mark_ = 3;
     const auto parsed = document_.load_buffer(text.data() + mark_, text.size() - mark_,
                                               pugi::parse_default, pugi::encoding_utf8);
@@ -109,14 +109,14 @@ pugi::xml_node object_at(const RawText& raw, const std::string& set, const Place
   return OsimXml::objects(holder.child(set.c_str())).at(static_cast<std::size_t>(place.number));
 }
 
-/// The blanks between a start tag and what follows it: the indentation of the children.
+/// Returns the blanks between a start tag and the next character: the indentation of the children.
 std::string_view indentation(std::string_view text, std::size_t after) {
   const std::size_t next = std::min(text.find_first_not_of(kBlank, after), text.size());
   return next < text.size() && text[next] == '<' ? text.substr(after, next - after) : "";
 }
 
-/// Puts `values` in the place of what the element holds; blanks around it and comments before and
-/// after it stay.
+/// Replaces the content of an element by `values`; blanks around it and comments before and after
+/// it stay.
 Edit fill(const RawText& raw, pugi::xml_node element, const std::string& values) {
   const std::string_view text = raw.text();
   std::optional<std::size_t> first, last;
@@ -135,7 +135,7 @@ Edit fill(const RawText& raw, pugi::xml_node element, const std::string& values)
   return {tag.after - 2, 2, fmt::format(">{}</{}>", values, element.name())};
 }
 
-/// Adds an element that the object does not have.
+/// Adds an element that the object lacks.
 Edit add(const RawText& raw,
          pugi::xml_node object,
          const std::string& property,
@@ -196,7 +196,7 @@ std::string changed_osim(std::string_view text,
     }
     const auto object = object_at(raw, change.set, *place);
     const auto element = object.child(change.property.c_str());
-    // A number that is the same already keeps its digits; so does one that a <defaults> gives.
+    // An equal number keeps its digits, also one from <defaults>.
     if (element && xml.numbers(element) == change.values) continue;
     edits.push_back(element ? fill(raw, element, text_of(change.values))
                             : add(raw, object, change.property, text_of(change.values)));

@@ -20,7 +20,7 @@ using recording::trim;
 
 namespace {
 
-/// Neither text nor elements inside, and no other file that holds them.
+/// True if there is neither text nor an element inside, nor a file that holds them.
 bool is_empty(pugi::xml_node node) {
   return trim(node.text().get()).empty() && !OsimXml::first_element(node) &&
          !node.attribute("file");
@@ -55,7 +55,8 @@ OsimXml::OsimXml(std::string_view text, std::filesystem::path path, Root root)
 }
 
 std::size_t OsimXml::line_of(pugi::xml_node where) const {
-  // Elements made while upgrading an old document have no place in the text: their parents have.
+  // Elements made while upgrading an old document have no place in the text: the place of a parent
+  // serves.
   std::ptrdiff_t offset = where.offset_debug();
   for (pugi::xml_node n = where; offset < 0 && n; n = n.parent()) offset = n.offset_debug();
   return line_at(text_, offset);

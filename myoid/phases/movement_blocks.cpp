@@ -130,8 +130,9 @@ double long_run_sd(const Eigen::VectorXd& x, Eigen::Index batch) {
   if (count < 4) return kNan;
   Eigen::VectorXd mean(count);
   for (Eigen::Index j = 0; j < count; ++j) mean[j] = x.segment(j * batch, batch).mean();
-  const Eigen::VectorXd second = mean.head(count - 2) - 2.0 * mean.segment(1, count - 2) +
-                                 mean.tail(count - 2);  // variance 6 of that of a mean
+  const Eigen::VectorXd second =
+      mean.head(count - 2) - 2.0 * mean.segment(1, count - 2) +
+      mean.tail(count - 2);  // x[i] - 2 x[i+1] + x[i+2] has six times the variance
   return std::sqrt(second.squaredNorm() / static_cast<double>(count - 2) / 6.0 *
                    static_cast<double>(batch));
 }

@@ -50,7 +50,7 @@ code { font: 12px/1.4 Menlo, Consolas, monospace; overflow-wrap: anywhere; }
   .badge { print-color-adjust: exact; -webkit-print-color-adjust: exact; } @page { margin: 16mm; } }
 )";
 
-/// Cells up to this long are not broken into lines.
+/// Longer cells may be broken into lines.
 constexpr std::size_t kShortCell = 30;
 
 std::string_view word(GateStatus status) {
@@ -67,7 +67,7 @@ std::string_view word(GateStatus status) {
   return "";
 }
 
-/// Worst first, else in the order given.
+/// Writes the gates worst first, otherwise in the order given.
 std::string gates_html(std::vector<Gate> gates) {
   if (gates.empty()) return "";
   const auto rank = [](GateStatus status) {
@@ -117,7 +117,7 @@ std::string table_html(const Table& table) {
       const std::string hint =
           cell.hint.empty() ? "" : fmt::format(" title=\"{}\"", escape_xml(cell.hint));
       if (!cell.hint.empty()) {
-        // Rows are known by their first two cells: muscle and parameter.
+        // The first two cells name a row: muscle and parameter.
         const std::string row_name =
             row.size() > 2 ? row[0].text + ' ' + row[1].text : row.front().text;
         const std::string line = fmt::format("{}: {}", row_name, cell.hint);
@@ -134,7 +134,7 @@ std::string table_html(const Table& table) {
   }
   text += "</tbody></table></div>\n";
   if (!hints.empty()) {
-    // Pointing does not work on paper.
+    // On paper there is no pointer: the hints become a list.
     text += "<ul class=\"hints\">\n";
     for (const std::string& hint : hints) text += fmt::format("<li>{}</li>\n", typeset(hint));
     text += "</ul>\n";

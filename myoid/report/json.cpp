@@ -73,7 +73,8 @@ std::string report_json(const Report& report) {
                      {"sections", sections},
                      {"assumptions", report.assumptions},
                      {"provenance", provenance}};
-  // Text that is not UTF-8 (a file name, say) is shown with a replacement, not refused.
+  // Invalid UTF-8 (in a file name, for instance) is shown with a replacement character, not
+  // refused.
   return json_text(json) + '\n';
 }
 

@@ -79,7 +79,7 @@ std::string format_value(double value, int digits) {
   const int magnitude = static_cast<int>(std::floor(std::log10(std::abs(value))));
   if (magnitude < -4 || magnitude >= 6) return fmt::format("{:.{}e}", value, digits - 1);
   std::string text = fmt::format("{:.{}f}", value, std::max(0, digits - 1 - magnitude));
-  // Trailing zeros say nothing here: precision is the interval's to tell.
+  // Trailing zeros say nothing here: the interval states the precision.
   if (text.find('.') != std::string::npos) {
     text.erase(text.find_last_not_of('0') + 1);
     if (text.back() == '.') text.pop_back();

@@ -16,7 +16,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-/// Millimeters to two decimals are enough for bodies that stand still.
+/// Two decimals of a millimeter suffice for bodies at rest.
 ordered_json vector_json(const Vec3& v) {
   const auto rounded = [](double x) { return std::round(x * 1e5) / 1e5; };
   return {rounded(v.x()), rounded(v.y()), rounded(v.z())};
@@ -81,7 +81,7 @@ ordered_json model_json(const Scene& scene) {
   return j;
 }
 
-/// Every point that is given in ground.
+/// Returns every point that is given in ground.
 std::vector<Vec3> points_of(const Scene& scene) {
   std::vector<Vec3> points;
   for (const auto& frame : scene.poses)
@@ -171,7 +171,7 @@ ordered_json mesh_json(const SceneMesh& mesh) {
   const PackingBox box = packing_box(mesh.vertices_m);
   std::vector<std::uint16_t> vertices;
   for (const Vec3& p : mesh.vertices_m) pack(box, p, vertices);
-  // Few meshes need more than 16 bits for a corner.
+  // Few meshes need more than 16 bits for an index.
   const bool is_wide = mesh.vertices_m.size() > 65535;
   std::vector<std::uint16_t> narrow;
   std::vector<std::uint32_t> wide;
@@ -215,7 +215,7 @@ void validate_meshes(const ScenePage& page) {
   }
 }
 
-/// JSON that may stand inside a <script> element.
+/// Returns JSON that may stand inside a <script> element.
 std::string embedded(const ordered_json& j) {
   const std::string text = json_text(j, -1);
   std::string safe;

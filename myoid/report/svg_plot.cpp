@@ -58,7 +58,7 @@ struct Range {
   void take(const std::vector<double>& values) {
     for (const double value : values) take(value);
   }
-  /// Something to draw in any case, with a margin of this share.
+  /// Makes the range not empty and adds a margin of this share.
   void open(double margin) {
     if (!(lower <= upper)) {
       lower = 0.0;
@@ -216,7 +216,7 @@ class PanelDrawing {
         path, style.color, style.width, dash);
   }
 
-  /// Stretches without gaps, each a closed area.
+  /// Returns the stretches without gaps, each as a closed area.
   [[nodiscard]] std::string band(const Series& series) const {
     std::string path;
     std::size_t k = 0;
@@ -287,7 +287,7 @@ struct LegendEntry {
   Role role;
 };
 
-/// Every name once, in order of appearance.
+/// Returns every name once, in order of appearance.
 std::vector<LegendEntry> legend_of(const Figure& figure) {
   std::vector<LegendEntry> entries;
   for (const Panel& panel : figure.panels) {
@@ -384,7 +384,7 @@ std::vector<std::size_t> decimate(const std::vector<double>& y, std::size_t bins
     std::size_t highest = begin;
     for (std::size_t k = begin; k < end; ++k) {
       if (!std::isfinite(y[k])) {
-        // One sample is enough to part the curve.
+        // A single gap is enough to split the curve.
         if (k == begin || std::isfinite(y[k - 1])) chosen.push_back(k);
         continue;
       }
@@ -407,7 +407,7 @@ std::string svg_plot(const Figure& figure) {
   const double plot_height = columns == 1 ? 220.0 : columns == 2 ? 180.0 : 150.0;
   const double cell_height = kTop + plot_height + kBottom;
 
-  // The legend above all panels, in as many rows as it needs.
+  // The legend stands above all panels, in as many rows as necessary.
   std::string legend;
   double x = kLeft;
   double y = 14.0;

@@ -55,7 +55,7 @@ Run read_run(const std::filesystem::path& folder) {
       for (const json& row : method.at("estimates")) {
         std::optional<ParameterEstimate> e = identification::estimate_of_json(row);
         if (!e) continue;
-        // One unknown of several muscles is one number: the first owner's.
+        // One unknown of several muscles is one number, listed under its first owner.
         const Key key{e->tied_to.empty() ? e->muscle : e->tied_to, e->parameter, e->method,
                       e->fit_case};
         if (!e->tied_to.empty()) {
@@ -81,13 +81,13 @@ Run read_run(const std::filesystem::path& folder) {
   return run;
 }
 
-/// The session's recording determines the number.
+/// True if the session's recording determines the number.
 bool told(const ParameterEstimate& e) {
   return (e.verdict == Verdict::identified || e.verdict == Verdict::weak) && e.std_error &&
          *e.std_error > 0.0;
 }
 
-/// Holm (1979): the k-th smallest of n p-values times n - k + 1, never below an earlier one.
+/// Holm (1979): the k-th smallest of n p-values times n - k + 1, never below an earlier result.
 void adjust_p_values(std::vector<ComparedParameter*> compared) {
   std::sort(compared.begin(), compared.end(),
             [](const auto* a, const auto* b) { return *a->p_value < *b->p_value; });
@@ -174,7 +174,7 @@ report::Panel panel_of(const RunComparison& comparison,
   return panel;
 }
 
-/// A number of both sessions with its difference; not adjusted yet.
+/// Returns a number of both sessions with its difference, before the adjustment.
 ComparedParameter compared(const Run& run, const Key& key, const ParameterEstimate& second) {
   ComparedParameter p{.muscle = std::get<0>(key), .first = run.estimates.at(key), .second = second};
   if (const auto sharers = run.sharers.find(key); sharers != run.sharers.end())
@@ -188,7 +188,7 @@ ComparedParameter compared(const Run& run, const Key& key, const ParameterEstima
   return p;
 }
 
-/// Methods of the compared numbers, in order of appearance.
+/// Returns the methods of the compared numbers, in order of appearance.
 std::vector<std::string> methods_of(const RunComparison& comparison) {
   std::vector<std::string> methods;
   for (const ComparedParameter& p : comparison.parameters) {

@@ -48,7 +48,7 @@ struct CsvCell {
   }
 };
 
-/// The same as a value of parameters.json.
+/// A member of an estimate as a value of parameters.json.
 struct JsonValue {
   ordered_json operator()(const std::optional<double>& value) const {
     return report::number_or_null(value);
@@ -148,7 +148,7 @@ ordered_json branch_test_json(const identification::BranchTest& test) {
           {"p_value", report::number_or_null(test.p_value)}};
 }
 
-/// `number` writes a number that method paper does not know.
+/// `number` writes a number that method paper does not have.
 template <typename Number>
 ordered_json trial_json(const identification::TrialFit& t, Number number) {
   return {{"trial", t.trial},
@@ -165,7 +165,7 @@ ordered_json trial_json(const identification::TrialFit& t, Number number) {
 }
 
 ordered_json method_json(const IdentificationResult& method) {
-  // Method paper knows neither noise nor delay, and predicts forces, not torque.
+  // Method paper has neither noise nor delay, and predicts forces, not torque.
   const bool paper = method.method == "paper";
   const auto unless_paper = [&](double value) {
     return paper ? ordered_json(nullptr) : report::number_or_null(value);
@@ -206,7 +206,7 @@ ordered_json method_json(const IdentificationResult& method) {
   return m;
 }
 
-/// The parameters by which a fold was predicted.
+/// Returns the parameters by which a fold was predicted.
 ordered_json fold_values(const identification::Fold& fold) {
   ordered_json values = ordered_json::array();
   for (const ParameterEstimate& e : fold.parameters)

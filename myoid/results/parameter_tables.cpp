@@ -40,7 +40,7 @@ Badge badge(Verdict verdict) {
   return Badge::none;
 }
 
-/// Rounded as the ends of its interval are, so that all three can be compared.
+/// Rounds a value to the digits of its interval's ends, so that all three can be compared.
 std::string value_of(const ParameterEstimate& e, double value) {
   if (!std::isfinite(value)) return "-";
   return e.ci_low && e.ci_high && !is_undetermined(e)
@@ -123,7 +123,7 @@ std::vector<EstimateLine> estimate_lines(const IdentificationResult& method,
       if (identification::is_nuisance(e) != nuisance) continue;
       const auto same = std::find_if(groups.begin(), groups.end(), [&](const Group& group) {
         const ParameterEstimate& first = *group.first;
-        // Tied by a ratio, each is a number of its own.
+        // Parameters tied by a ratio have different values.
         return !e.tied_to.empty() && first.muscle == e.tied_to && first.parameter == e.parameter &&
                first.estimate == e.estimate && first.verdict == e.verdict;
       });
@@ -133,7 +133,7 @@ std::vector<EstimateLine> estimate_lines(const IdentificationResult& method,
         same->owners.push_back(e.muscle);
     }
   }
-  // One unknown of all muscles belongs to none of them: after theirs.
+  // An unknown shared by all muscles comes after the unknowns of single muscles.
   std::stable_partition(groups.begin(), groups.end(), [](const Group& group) {
     return group.owners.size() == 1 && !identification::is_nuisance(*group.first) &&
            group.first->muscle != "subject";

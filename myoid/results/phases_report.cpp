@@ -30,7 +30,7 @@ Badge badge(PhaseKind kind) {
   return Badge::none;
 }
 
-/// Measured and predicted torque, with the phases that were left out behind them.
+/// Draws measured and predicted torque over the phases that were left out.
 report::Panel torque_panel(const StudyResult& result, const TrialPhases& trial) {
   report::Panel panel{
       .title = trial.trial,

@@ -27,7 +27,7 @@ using identification::IdentificationResult;
 using identification::ParameterEstimate;
 using nlohmann::ordered_json;
 
-/// reference, literature and identified force of every muscle, on the clock of the motion.
+/// Returns reference, literature and identified force of every muscle, on the clock of the motion.
 TimeSeries identified_forces(const StudyResult& result,
                              const identification::TrialData& data,
                              const IdentificationResult& method) {
@@ -69,8 +69,8 @@ void write_informed_forces(const StudyResult& result,
                            {.title = "Activations informed by the EMG", .comments = comments});
 }
 
-/// Only numbers that are `identified`; F_max only if it means the maximum (EMG relative to an MVC);
-/// no model at all if the motion failed its gates, or nothing is to be changed in it.
+/// Writes only numbers that are `identified`, and F_max only if EMG is relative to an MVC. Writes
+/// no model if the motion failed its gates or no number changes.
 void write_identified_model(const StudyResult& result, const std::filesystem::path& folder) {
   if (motion_is_unreliable(result.source.study, result.trials)) return;
   const bool from_mvc = from_maximal_effort(result.source.study.emg);
@@ -169,7 +169,7 @@ void remove_results(const std::filesystem::path& folder) {
                         file.starts_with("StaticOptimization_");
       if (ours) fs::remove(entry.path(), ignored);
     }
-    fs::remove(folder / name, ignored);  // only if nothing else is in it
+    fs::remove(folder / name, ignored);  // only an empty folder
   }
   for (const char* place : {"figures", "tables"}) {
     for (const auto& entry : fs::directory_iterator(folder / place, ignored)) {

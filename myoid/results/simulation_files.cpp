@@ -35,7 +35,7 @@ std::string coordinate_name(const Simulation& s, std::size_t k) {
   return s.motion.channels()[3 * k].name;
 }
 
-/// Columns first, first + stride, ... under names without `ending`.
+/// Returns columns first, first + stride, ... under names without `ending`.
 TimeSeries every(const TimeSeries& series,
                  Eigen::Index first,
                  Eigen::Index stride,
@@ -65,7 +65,7 @@ TimeSeries with_held(const TimeSeries& q, const HeldCoordinates& held) {
   return {q.time_s(), std::move(channels), std::move(values)};
 }
 
-/// First what inverse dynamics of the motion gives: muscles, joint, external, device together.
+/// Puts first the torques of inverse dynamics: muscles, joint, external and device together.
 TimeSeries torques(const Simulation& s) {
   const auto n = static_cast<Eigen::Index>(coordinate_count(s));
   std::vector<Channel> channels;
@@ -130,7 +130,7 @@ void add(report::Panel& target,
 constexpr report::Role kRoles[] = {report::Role::reference, report::Role::identified,
                                    report::Role::literature, report::Role::truth};
 
-/// One panel per quantity, of at most four muscles: the roles are told apart by color and dashes.
+/// Adds one panel per quantity, of at most four muscles: colors and dashes tell the roles apart.
 void add_muscles(report::Panel& target, const TimeSeries& series, double scale = 1.0) {
   for (Eigen::Index i = 0; i < std::min<Eigen::Index>(series.channel_count(), 4); ++i) {
     const auto k = static_cast<std::size_t>(i);
@@ -177,7 +177,8 @@ report::Figure curves_figure() {
   return figure;
 }
 
-/// Flexors and extensor in turn, half a second each, so that the elbow goes there and back.
+/// Simulates flexors and extensor in turn, half a second each, so that the elbow flexes and
+/// extends.
 Simulation paper_movement() {
   simulation::ArmSetup setup;
   setup.horizontal = true;

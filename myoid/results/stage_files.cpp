@@ -12,9 +12,9 @@
 namespace myoid {
 namespace {
 
-/// Marker errors may hold gaps, which other tools do not read: a missing marker is written as a
-/// distance of 0 would lie, so its column is left to the frames that have it; frames without any
-/// marker are left out.
+/// Returns marker errors without gaps, which other tools do not read. A distance of 0 for a missing
+/// marker would be wrong: frames without any marker are left out, then the columns of markers that
+/// are missing in a frame.
 TimeSeries without_gaps(const TimeSeries& series) {
   std::vector<Eigen::Index> rows;
   for (Eigen::Index r = 0; r < series.sample_count(); ++r) {

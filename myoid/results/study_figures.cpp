@@ -20,7 +20,7 @@ using report::Panel;
 using report::Role;
 using report::to_vector;
 
-/// The literature's parameters with the true ones in their place; empty without a truth.
+/// Returns the literature's parameters with the true ones in their place; empty without a truth.
 std::optional<muscle::HillParameters<double>> true_muscle(
     const StudyResult& result, const identification::MuscleSetup& setup) {
   std::optional<muscle::HillParameters<double>> muscle;
@@ -38,7 +38,8 @@ std::optional<muscle::HillParameters<double>> true_muscle(
 using muscle::HillParameters;
 using Curve = std::function<double(double x, const HillParameters<double>& muscle)>;
 
-/// One muscle by every set of parameters: literature, identified and, of a virtual recording, true.
+/// One muscle by every set of parameters: literature, identified and, for a virtual recording,
+/// true.
 struct MuscleVersions {
   HillParameters<double> literature, identified;
   std::optional<HillParameters<double>> truth;

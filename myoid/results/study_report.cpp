@@ -182,7 +182,8 @@ Section paper_section(const IdentificationResult& paper) {
   return section;
 }
 
-/// Muscle forces of the six trials with the most movement; all are in the trials' folders.
+/// Shows the muscle forces of the six trials with the most movement; the trials' folders hold all
+/// forces.
 Section forces_section(const StudyResult& result,
                        const IdentificationResult* torque,
                        const IdentificationResult* paper) {

@@ -12,7 +12,7 @@
 namespace myoid {
 namespace {
 
-/// The EMG's activation of every muscle of the model that a [[muscle]] of the study lumps.
+/// Returns the EMG's activation of every muscle of the model that a [[muscle]] table lumps.
 TimeSeries muscle_activation(const Study& study, const TrialResult& trial) {
   const TimeSeries& emg = trial.emg.activation;
   const std::vector<kinematics::MuscleGroup> groups = muscle_groups(study, *trial.motion.model);

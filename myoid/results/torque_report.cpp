@@ -21,8 +21,8 @@ using report::Section;
 using report::Table;
 using report::to_vector;
 
-/// Predicted values as a curve; a gap at the beginning, where the EMG of a delay earlier was not
-/// recorded.
+/// Returns predicted values as a curve, with a gap at the beginning, where the recording lacks the
+/// earlier EMG that the delay needs.
 std::vector<double> after_delay(const Eigen::VectorXd& predicted,
                                 const Eigen::VectorXd& time_s,
                                 double delay_s) {
@@ -34,7 +34,7 @@ std::vector<double> after_delay(const Eigen::VectorXd& predicted,
   return curve;
 }
 
-/// The trial, and the joint if there are several.
+/// Returns the name of the trial, and of the joint if there are several.
 std::string title_of(const StudyResult& result,
                      const std::string& trial,
                      const std::string& joint) {
@@ -135,7 +135,7 @@ Table folds_table(const StudyResult& result) {
   return table;
 }
 
-/// Trials that were held back for validation.
+/// Returns the table of trials that were held back for validation.
 Table held_back_table(const StudyResult& result,
                       const identification::IdentificationResult& method) {
   Table table{"validation_trials",

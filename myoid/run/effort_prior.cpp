@@ -11,7 +11,7 @@ bool from_maximal_effort(const EmgSpec& emg) {
 }
 
 void expect_any_effort(std::vector<identification::MuscleSetup>& muscles) {
-  // The spread of a logarithm that is uniform from ln(least) to 0.
+  // Mean and spread of a logarithm that is uniform from ln(least) to 0.
   const double least = identification::beliefs::kLeastEffort.value;
   const double mean = 0.5 * std::log(least);
   const double sd = -std::log(least) / std::sqrt(12.0);

@@ -17,7 +17,7 @@ using identification::TrialData;
 
 constexpr double kStrained = 0.5;  // of the greatest EMG
 
-/// The belief as a rule, its spread in as many of these units.
+/// Returns the belief as a rule, with its spread in units of `unit`.
 ParameterRule rule(const identification::Belief& belief, double unit = 1.0) {
   ParameterRule r;
   r.parameter = belief.name;
@@ -28,8 +28,7 @@ ParameterRule rule(const identification::Belief& belief, double unit = 1.0) {
   return r;
 }
 
-/// A joint's largest moment arm of every muscle, and whether every trial that is fitted knows its
-/// motion.
+/// A joint's largest moment arm of every muscle, and whether every fitted trial has its motion.
 struct JointReach {
   Eigen::VectorXd arm_m;
   bool motion = true;
@@ -48,7 +47,7 @@ void widen(const Eigen::MatrixXd& arm_m,
   joint.arm_m = joint.arm_m.size() == 0 ? here : Eigen::VectorXd(joint.arm_m.cwiseMax(here));
 }
 
-/// EMG channels that reach kStrained of the maximum in a trial that is fitted.
+/// Returns the EMG channels that exceed kStrained of the maximum in a fitted trial.
 std::vector<std::string> strained_channels(const identification::StudyData& data) {
   std::vector<std::string> channels;
   for (const identification::MuscleSetup& muscle : data.muscles) {

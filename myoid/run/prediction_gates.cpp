@@ -49,7 +49,8 @@ class Pool {
 
  private:
   struct Joint {
-    double n = 0.0, first = 0.0, second = 0.0;  ///< Samples, sum and sum of squares of the torque.
+    double n = 0.0, first = 0.0,
+           second = 0.0;  ///< Number of samples, sum and sum of squares of the torque.
   };
   std::map<std::string, Joint> joints_;
   double errors_ = 0.0;
@@ -177,7 +178,7 @@ std::vector<Gate> fold_gates(const std::vector<Fold>& folds) {
   std::vector<Gate> gates;
   if (folds.empty()) return gates;
   const Explained all = explained(folds);
-  // Both as they are: below 1.5 Hz the literature's prediction has no score.
+  // Errors without smoothing: below 1.5 Hz the literature's prediction has no score.
   double literature = 0.0, identified = 0.0, count = 0.0;
   int better = 0;
   for (const Fold& f : folds) {

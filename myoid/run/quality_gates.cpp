@@ -25,8 +25,8 @@ using identification::Verdict;
 using report::Gate;
 using report::GateStatus;
 
-/// The range of the study's coordinate in the trial that moves it most; empty if no trial is meant
-/// to.
+/// Returns the range of the study's coordinate in the trial that moves it most; empty if no trial
+/// is a movement.
 std::optional<double> largest_range_deg(const Study& study,
                                         const std::vector<TrialResult>& trials) {
   std::optional<double> largest;
@@ -40,8 +40,8 @@ std::optional<double> largest_range_deg(const Study& study,
   return largest;
 }
 
-/// Muscles of the model that pull at the study's joints but belong to no [[muscle]], and the
-/// largest share that they have of a joint's summed strength F_max |r|.
+/// Muscles of the model that act on the study's joints but belong to no [[muscle]] table, and their
+/// largest share of a joint's summed strength F_max |r|.
 struct MissingMuscles {
   std::vector<std::string> names;
   double share = 0.0;
@@ -81,7 +81,7 @@ MissingMuscles missing_muscles(const StudyResult& result) {
   return missing;
 }
 
-/// A trial whose torque no joint can make; empty if there is none.
+/// Returns a gate for a trial whose torque exceeds any joint's capacity; empty if there is none.
 std::optional<Gate> torque_gate(const StudyResult& result) {
   const Capacities capacities = joint_capacities(result.source.study, *result.source.model);
   for (const TrialResult& t : result.trials) {
@@ -104,8 +104,8 @@ std::optional<Gate> torque_gate(const StudyResult& result) {
   return std::nullopt;
 }
 
-/// A trial in which nothing, or not all the time something, carries a body that the study's joint
-/// bears; empty if there is none.
+/// Returns a gate for a trial in which, at some times or always, no force carries a body whose
+/// weight the study's joint bears; empty if there is none.
 std::optional<Gate> support_gate(const StudyResult& result) {
   for (const TrialResult& t : result.trials) {
     if (t.forces.uncarried)
@@ -132,7 +132,8 @@ std::optional<Gate> support_gate(const StudyResult& result) {
   return std::nullopt;
 }
 
-/// The warnings of `check`: faults of channels, and remarks on files that may make numbers wrong.
+/// Returns the warnings of `check`: faults of channels, and remarks on files that may make numbers
+/// wrong.
 Gate recordings_gate(const StudyResult& result) {
   std::set<std::string_view> codes;
   std::size_t grave = 0;
@@ -159,7 +160,7 @@ Gate recordings_gate(const StudyResult& result) {
           "Each is listed below with its channel, its time and what to do."};
 }
 
-/// Does inverse kinematics stand? Empty where no trial has markers.
+/// Judges inverse kinematics. Empty if no trial has markers.
 std::vector<Gate> marker_gates(const std::vector<TrialResult>& trials) {
   int frames = 0;
   int unconverged = 0;
@@ -226,7 +227,7 @@ std::vector<Gate> motion_gates(const Study& study, const std::vector<TrialResult
   return list;
 }
 
-/// Are all muscles of the joint in the study? Empty: they are.
+/// Tests whether the study has all muscles of the joint. Empty if so.
 std::vector<Gate> model_gates(const StudyResult& result) {
   std::vector<Gate> list;
   if (const MissingMuscles missing = missing_muscles(result); !missing.names.empty()) {
@@ -241,7 +242,7 @@ std::vector<Gate> model_gates(const StudyResult& result) {
   return list;
 }
 
-/// Do the shared forces make the torque?
+/// Tests whether the shared forces make the torque.
 std::vector<Gate> sharing_gates(const std::vector<TrialResult>& trials) {
   int sharing_frames = 0;
   int unsolved = 0;
@@ -265,7 +266,7 @@ std::vector<Gate> sharing_gates(const std::vector<TrialResult>& trials) {
   return list;
 }
 
-/// Is activation 1 a maximal contraction? Empty for EMG that came as activation.
+/// Tests whether activation 1 is a maximal contraction. Empty for EMG that is given as activation.
 std::vector<Gate> reference_gates(const EmgScale& emg) {
   if (emg.normalisation.empty()) return {};
   const bool mvc = std::all_of(emg.normalisation.begin(), emg.normalisation.end(),
@@ -280,7 +281,7 @@ std::vector<Gate> reference_gates(const EmgScale& emg) {
                  "muscle's maximum; forces and torques do not depend on it."}};
 }
 
-/// Is the fit of method torque an answer, and to how many questions?
+/// Tests whether the fit of method torque is an answer, and how many parameters it determines.
 std::vector<Gate> parameter_gates(const IdentificationResult& torque) {
   std::vector<Gate> list{
       {"Fit converged",
@@ -314,7 +315,7 @@ Gate loop_gate(const identification::ForceLoop& loop) {
 }
 
 Gate electrode_gate(const identification::ExchangedElectrodes& exchanged) {
-  // Synergists may also differ by more than usual in strength.
+  // The strengths of synergists, too, may differ by more than usual.
   return {"Electrodes on the muscles that they are named for",
           exchanged.as_named.r2 > kGateLimits.explains ? GateStatus::warn : GateStatus::fail,
           exchanged.sentence(),

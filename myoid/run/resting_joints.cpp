@@ -17,7 +17,7 @@ namespace {
 constexpr double kRelaxed = 0.02, kRelaxedWithoutMvc = 0.05;
 constexpr double kLargestShare = 0.25;
 
-/// Torque that the joint's muscles could exert together, sum of the largest |r| times F_max.
+/// Returns the torque of all the joint's muscles together: sum of the largest |r| times F_max.
 double strength_nm(const Study& study,
                    const model::BodyModel& model,
                    const RelaxedTrial& trial,
@@ -32,8 +32,8 @@ double strength_nm(const Study& study,
   return sum;
 }
 
-/// Why the torques of a passive trial are no relaxed joint's; empty: they are. The weight of limb
-/// and instrument is no resistance.
+/// Returns the reason why the torques of a passive trial exceed a relaxed joint's; empty if they do
+/// not. The weight of limb and instrument is no resistance.
 std::string too_strong(const Study& study,
                        const model::BodyModel& model,
                        const RelaxedTrial& trial) {
@@ -56,7 +56,7 @@ std::string too_strong(const Study& study,
   return {};
 }
 
-/// Why a passive trial does not show a relaxed joint; empty: it does.
+/// Returns the reason why a passive trial does not show a relaxed joint; empty if it does.
 std::string not_at_rest(const Study& study,
                         const model::BodyModel& model,
                         const RelaxedTrial& trial) {

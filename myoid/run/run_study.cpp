@@ -24,12 +24,12 @@ namespace {
 
 using identification::IdentificationResult;
 
-/// Measures the stages and tells how far the run is.
+/// Measures the time of the stages and reports the progress of the run.
 class Stages {
  public:
   explicit Stages(const Progress& progress) : progress_(progress) {}
 
-  /// The result of a stage, which stands for the shares `from` to `to` of the run.
+  /// Runs a stage, which takes the run from share `from` to share `to`.
   template <typename Work>
   auto run(const std::string& name, double from, double to, Work work) {
     progress_.check();
@@ -108,8 +108,8 @@ std::vector<TrialResult> joined(const Study& study,
   return trials;
 }
 
-/// Movements that would tell more than this recording did; without a dynamometer's movements, with
-/// the masses that the laboratory has. Empty if the fit is none to go on from.
+/// Returns movements that would determine more than this recording; without a dynamometer the
+/// movements use the laboratory's masses. Empty if the fit gives no basis for that.
 std::optional<DesignStudyResult> next_recording(const StudySource& source,
                                                 const StudyFit& fit,
                                                 const Progress& progress) {

@@ -18,7 +18,7 @@ namespace {
 using nlohmann::json;
 using Bytes = std::vector<std::uint8_t>;
 
-/// The bytes of the doubles themselves: NaN and the last bit survive.
+/// Packs the bytes of the doubles, so that NaN and the last bit survive.
 json packed(const double* values, Eigen::Index count) {
   Bytes bytes(static_cast<std::size_t>(count) * sizeof(double));
   if (count > 0) std::memcpy(bytes.data(), values, bytes.size());

@@ -11,7 +11,7 @@
 namespace myoid {
 namespace {
 
-/// Says by which lag a method's muscles follow their EMG: "delay 43 ms".
+/// Returns the lag of a method's muscles behind their EMG: "delay 43 ms".
 std::string delays(const identification::IdentificationResult& method) {
   std::vector<std::string> found;
   for (const identification::ParameterEstimate& e : method.estimates) {

@@ -17,7 +17,7 @@
 namespace myoid {
 namespace {
 
-/// The times in which a leg's torque lacks the ground reaction; empty: none.
+/// Returns the times in which a leg's torque lacks the ground reaction; empty if there are none.
 std::optional<dynamics::UncarriedTime> uncarried_time(const Study& study,
                                                       const TrialSpec& spec,
                                                       const TrialMotion& motion,
@@ -96,7 +96,7 @@ TrialForces trial_torques(const StudySource& source,
         {dynamics::generalized_force_name(model.coordinates[index]), Unit::newton_meter});
     torque.col(column) = found.generalized.column(columns.back().name);
   }
-  // The muscles need not make the torque that the surroundings exert.
+  // The muscles need not make torque that acts from outside.
   if (input.external_torque)
     torque -= signals::resample(*input.external_torque, motion.joints.q.time_s()).values();
   found.muscle_torque = TimeSeries(motion.joints.q.time_s(), std::move(columns), std::move(torque));
@@ -155,7 +155,7 @@ StudyForces study_forces(const StudyInputs& inputs,
   if (!share) return found;
   for_each_trial(motion, found.trials, progress, [&](std::size_t i) {
     TrialForces& trial = found.trials[i];
-    // The resting torques come from the passive trials themselves: there all torque is shared.
+    // The passive trials give the resting torques: there the muscles share all torque.
     const bool passive = study.trials[i].use == Use::passive;
     trial.shared = shared_forces(
         study, inputs.trials[i], motion[i], trial.muscles,

@@ -16,7 +16,7 @@
 namespace myoid {
 namespace {
 
-/// Shorter trials hold fewer than the 8 blocks that find_phases wants.
+/// Shorter trials hold fewer than the 8 blocks that find_phases needs.
 constexpr double kShortest_s = 16.0;
 
 double duration_s(const identification::TrialData& trial) {
@@ -28,7 +28,7 @@ TimeSeries frequency_of(const EmgScale& scale, const TrialResult& trial, double 
   const TimeSeries& raw = trial.emg.stages->raw;
   signals::MedianFrequencyOptions options{.window_s = window_s};
   if (raw.mean_rate_hz() < 4.0 * options.low_hz || !raw.is_uniform()) return {};
-  // The envelope of noise is sqrt(2 / pi) of its root mean square.
+  // The envelope of noise is sqrt(2 / pi) times its root mean square.
   Eigen::VectorXd resting = Eigen::VectorXd::Zero(raw.channel_count());
   for (const signals::ChannelNormalisation& n : scale.normalisation) {
     if (const auto column = raw.find(n.channel))
@@ -44,10 +44,10 @@ const TrialResult* result_of(const std::vector<TrialResult>& trials, const std::
   return found == trials.end() ? nullptr : &*found;
 }
 
-/// What the estimator sees, but for two things that would hide fatigue. Whitening, made for a fresh
-/// muscle, takes out of the EMG's amplitude what tiring adds to it, since its frequencies fall at
-/// the same time: activations are those without. And only strengths, the delay and the joint are
-/// found: by a bent law of the EMG a fit would make one of fresh and tired muscles.
+/// Returns the estimator's data without two effects that would hide fatigue. Fatigue lowers the
+/// EMG's frequencies while it raises the amplitude, so that whitening designed for a fresh muscle
+/// removes that rise: activations here are not whitened. Only strengths, the delay and the joint
+/// are free: a nonlinear law of the EMG could make fresh and tired muscles equal.
 identification::StudyData plain_data(const FitSource& source, identification::StudyData data) {
   const Study& study = source.study;
   for (const identification::ParameterField& field : identification::parameter_fields()) {

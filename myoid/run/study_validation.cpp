@@ -8,7 +8,7 @@
 namespace myoid {
 namespace {
 
-/// The study with the trials that a split leaves out held back for validation.
+/// Returns the study with the trials that a split leaves out held back for validation.
 Study with_uses_of(const identification::StudyData& split, Study study) {
   for (TrialSpec& trial : study.trials) {
     for (const identification::TrialData& data : split.trials) {
@@ -18,7 +18,7 @@ Study with_uses_of(const identification::StudyData& split, Study study) {
   return study;
 }
 
-/// The data of a fold as if the trials that it leaves out had been held back for validation.
+/// Returns the data of a fold as if its left-out trials had been held back for validation.
 FitInput without_left_out(const FitSource& source,
                           const identification::StudyData& split,
                           const Progress& progress) {

@@ -17,7 +17,7 @@
 namespace myoid {
 namespace {
 
-/// Coordinates that are the same throughout a trial: found where the posture is known, then held.
+/// Finds coordinates that are constant in a trial where the posture is known, and then holds them.
 void calibrate(const CalibrationSpec& spec,
                const recording::MarkerSeries& markers,
                model::BodyModel& model) {
@@ -37,7 +37,7 @@ void calibrate(const CalibrationSpec& spec,
   }
 }
 
-/// The model of a trial: a copy of its own only where it differs from the study's.
+/// Returns the model of a trial: a copy only where it differs from the study's.
 std::shared_ptr<const model::BodyModel> trial_model(const StudySource& source,
                                                     const TrialSpec& spec,
                                                     const TrialInput& input) {
@@ -56,7 +56,7 @@ std::shared_ptr<const model::BodyModel> trial_model(const StudySource& source,
   return own ? std::make_shared<const model::BodyModel>(std::move(*own)) : source.model;
 }
 
-/// Inverse kinematics, or the result that an earlier run found from the same input.
+/// Solves inverse kinematics, or takes the result of an earlier run from the same input.
 void solve_ik(const StudySource& source,
               const recording::MarkerSeries& markers,
               StageStore* store,
@@ -71,7 +71,7 @@ void solve_ik(const StudySource& source,
   if (store != nullptr) store->keep(key, *motion.ik);
 }
 
-/// The coordinates on the clock of the analysis, smoothed as the study says, with derivatives.
+/// Adds the coordinates on the clock of the analysis, smoothed as the study says, with derivatives.
 void add_joint_motion(const Study& study, TimeSeries q, TrialMotion& motion) {
   kinematics::MotionOptions options;
   options.cutoff_hz = motion_cutoff_hz(study);
@@ -86,8 +86,8 @@ void add_joint_motion(const Study& study, TimeSeries q, TrialMotion& motion) {
   const Eigen::VectorXd& clock = q.time_s();
   if (std::abs(wanted - rate) > 0.01 * rate || !q.is_uniform())
     options.time_s = signals::even_clock(clock[0], clock[clock.size() - 1], wanted);
-  // What a slower clock cannot hold goes first, where the smoothing spline, whose gain is
-  // 1 / (1 + (f/f_c)^6), leaves more than a thousandth of it at half the new rate.
+  // Frequencies that a slower clock cannot hold are removed first, if the smoothing spline, whose
+  // gain is 1 / (1 + (f/f_c)^6), leaves more than a thousandth of them at half the new rate.
   const bool smoothed_away =
       options.cutoff_hz && std::pow(0.5 * wanted / *options.cutoff_hz, 6) >= 999.0;
   if (options.time_s && !smoothed_away && q.is_uniform()) q = signals::anti_aliased(q, wanted);

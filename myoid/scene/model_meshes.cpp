@@ -17,7 +17,7 @@ using model::FixedFrame;
 using model::OsimReading;
 using model::OsimXml;
 
-/// <attached_geometry> of a body or a frame.
+/// Adds <attached_geometry> of a body or a frame.
 void add_attached(const OsimReading& r,
                   pugi::xml_node owner,
                   const FixedFrame& frame,
@@ -30,7 +30,7 @@ void add_attached(const OsimReading& r,
   }
 }
 
-/// <VisibleObject> of a body in documents before 30500; its own scale multiplies the scale of each
+/// Adds <VisibleObject> of a body in documents before 30500; its scale multiplies the scale of each
 /// part.
 void add_visible(const OsimReading& r,
                  pugi::xml_node body,
@@ -73,7 +73,7 @@ std::optional<fs::path> find_file(const std::string& file,
 
 recording::TriangleMesh in_body(recording::TriangleMesh mesh, const MeshUse& use) {
   for (Vec3& p : mesh.vertices) p = use.X_BM * Vec3(p.cwiseProduct(use.scale));
-  // A mirrored mesh would be seen from inside.
+  // A mirrored mesh would show its inside: its triangles are turned over.
   if (use.scale.prod() < 0.0)
     for (auto& triangle : mesh.triangles) std::swap(triangle[1], triangle[2]);
   return mesh;
@@ -85,7 +85,7 @@ std::size_t triangles_of(const std::vector<BodyMesh>& meshes) {
   return count;
 }
 
-/// Coarser and coarser, until there are few enough.
+/// Simplifies the meshes until they have few enough triangles.
 void simplify(const MeshOptions& options, LoadedMeshes& loaded) {
   const std::size_t before = triangles_of(loaded.meshes);
   const auto most = static_cast<std::size_t>(options.most_triangles);
@@ -125,7 +125,7 @@ std::vector<MeshUse> list_meshes(std::string_view osim, const fs::path& path) {
     try {
       add_attached(r, frame.node, model::resolve_frame(r, frame.node, name, ""), uses);
     } catch (const ReadError&) {
-      // A frame that leads nowhere carries nothing; the reader complains where it matters.
+      // A frame that leads nowhere has no geometry; the reader reports errors that matter.
     }
   }
   return uses;

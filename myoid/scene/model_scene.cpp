@@ -23,7 +23,7 @@ namespace {
 
 constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 
-/// Rows of the clock that are at least 1 / rate apart, at most `most_frames`.
+/// Returns rows of the clock that are at least 1 / rate apart, at most `most_frames`.
 std::vector<Eigen::Index> chosen_frames(const Eigen::VectorXd& time_s,
                                         const SceneOptions& options) {
   const Eigen::Index count = time_s.size();
@@ -31,7 +31,7 @@ std::vector<Eigen::Index> chosen_frames(const Eigen::VectorXd& time_s,
   double step = 1.0 / options.most_frames_per_s;
   if (duration / step > options.most_frames - 1) step = duration / (options.most_frames - 1);
   std::vector<Eigen::Index> rows;
-  // Frame k is the first sample from k steps on: as even as the samples allow.
+  // Frame k is the first sample after k steps: as even as the samples allow.
   double next = time_s[0];
   for (Eigen::Index i = 0; i < count; ++i) {
     if (time_s[i] < next - 1e-3 * step) continue;
@@ -41,7 +41,7 @@ std::vector<Eigen::Index> chosen_frames(const Eigen::VectorXd& time_s,
   return rows;
 }
 
-/// Where between two samples a time lies; empty outside the clock.
+/// The place of a time between two samples; empty outside the clock.
 struct Between {
   Eigen::Index before = 0, after = 0;
   double share = 0.0;
@@ -81,7 +81,7 @@ bool is_fixed(const model::MusclePath& path) {
          });
 }
 
-/// Everything that does not depend on the posture.
+/// Returns all parts that do not depend on the posture.
 report::Scene still_scene(const model::BodyModel& model) {
   report::Scene scene;
   if (!model.gravity_G.isZero(0.0)) scene.up = -model.gravity_G.normalized();
@@ -118,7 +118,7 @@ report::Scene still_scene(const model::BodyModel& model) {
   return scene;
 }
 
-/// Poses and moving lines in every frame; parallel, one state per piece of work.
+/// Adds poses and moving lines in every frame, in parallel with one state per piece of work.
 void place(const model::BodyModel& model, const Eigen::MatrixXd& q, report::Scene& scene) {
   const Eigen::Index frames = q.rows();
   scene.poses.resize(at(frames));

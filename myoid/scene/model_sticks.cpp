@@ -8,13 +8,13 @@
 namespace myoid {
 namespace {
 
-/// A child's joint, in the parent.
+/// The joint of a child, in the parent.
 struct ChildJoint {
   Vec3 p_B = Vec3::Zero();
-  double carried_kg = 0.0;  ///< The child and all that hangs on it.
+  double carried_kg = 0.0;  ///< Mass of the child and of all bodies beyond it.
 };
 
-/// Mass of every body with all that hangs on it; joints stand in tree order.
+/// Returns the mass of every body and of all bodies beyond it; joints are in tree order.
 std::vector<double> carried_masses(const model::BodyModel& model) {
   std::vector<double> carried_kg;
   for (const model::Body& body : model.bodies) carried_kg.push_back(body.mass_kg);
@@ -43,7 +43,7 @@ BodySticks to_children(const Vec3& own, std::vector<ChildJoint> children) {
       ends.push_back(here);
     }
   }
-  // Far ends that lie side by side share a stem.
+  // Distant ends close to each other share a stem.
   Vec3 fork = own;
   Vec3 middle = Vec3::Zero();
   for (const Vec3& end : ends) middle += end / static_cast<double>(ends.size());

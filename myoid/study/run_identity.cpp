@@ -73,7 +73,7 @@ RunIdentity read_run_identity(const std::filesystem::path& folder) {
       if (!identity.model.empty() && text(input, "path") == identity.model)
         identity.model_sha256 = text(input, "sha256");
     }
-    // A result of `identify` names muscles in its rows alone.
+    // A result of `identify` names its muscles only in its rows.
     if (!identity.known) {
       for (const json& method : content.value("methods", json::array())) {
         for (const json& e : method.value("estimates", json::array())) {
@@ -114,7 +114,7 @@ IdentityDifferences differences(const RunIdentity& here, const RunIdentity& ther
           fmt::format("the subject is '{}' here, '{}' there", here.subject, there.subject));
     if (here.sex != there.sex && !here.sex.empty() && !there.sex.empty())
       found.other.push_back(fmt::format("the subject is {} here, {} there", here.sex, there.sex));
-    constexpr double kSameMass_kg = 5.0;  // of one person over the months
+    constexpr double kSameMass_kg = 5.0;  // variation of one person over months
     if (here.mass_kg && there.mass_kg && std::abs(*here.mass_kg - *there.mass_kg) > kSameMass_kg)
       found.other.push_back(fmt::format("the subject's mass is {:.4g} kg here, {:.4g} kg there",
                                         *here.mass_kg, *there.mass_kg));

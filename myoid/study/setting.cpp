@@ -12,7 +12,7 @@ namespace myoid {
 
 namespace {
 
-/// "; is it in mm? Divide by 1000" where that would make an allowed number.
+/// Returns "; is it in mm? Divide by 1000" if that would make an allowed number.
 std::string other_unit(double value, const SettingLimits& limits) {
   struct Slip {
     std::string_view meant, written;

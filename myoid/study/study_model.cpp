@@ -19,7 +19,8 @@
 namespace myoid {
 namespace {
 
-/// Mean distance from the elbow (or the middle of the epicondyles) to the middle of the styloids.
+/// Returns the mean distance from the elbow (or the middle of the epicondyles) to the middle of the
+/// styloids.
 std::optional<double> forearm_length(const recording::MarkerSeries& markers) {
   const auto find = [&](std::string_view name) -> Eigen::Index {
     const auto it = std::find(markers.names.begin(), markers.names.end(), name);
@@ -243,9 +244,9 @@ std::string identified_model(const Study& study,
             old.properties.optimal_fiber_length_m *
                 (muscle.identified.optimal_fiber_length_m / muscle.start.optimal_fiber_length_m));
       }
-      // The shapes are Thelen's; other classes have curves of their own.
+      // The shape parameters are Thelen's; other classes have curves of their own.
       if (!old.class_name.starts_with("Thelen2003Muscle")) continue;
-      // (l_sh / l0)^2 needs both to be identified.
+      // The file's (l_sh / l0)^2 needs both numbers to be identified.
       if (changed("force_length_width") && changed("optimal_fiber_length")) {
         const double ratio =
             muscle.identified.force_length_width_m / muscle.identified.optimal_fiber_length_m;

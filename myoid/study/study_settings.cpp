@@ -34,7 +34,7 @@ void visit(HeldMassSpec& held, SettingVisitor& v) {
                                 .count = 3});
   held.p_BP_m = Vec3(at_m[0], at_m[1], at_m[2]);
   v.must(given, "at_m", "expected the point's three coordinates in the body [m]");
-  constexpr double kFarthest_m = 2.0;  // the end of a pole that a person holds
+  constexpr double kFarthest_m = 2.0;  // the end of a pole in a person's hands
   v.must(held.p_BP_m.norm() <= kFarthest_m, "at_m",
          fmt::format("found a point {:.3g} m from the body's origin, expected less than {} m; is "
                      "it in cm or mm?",
@@ -43,7 +43,7 @@ void visit(HeldMassSpec& held, SettingVisitor& v) {
 
 namespace {
 
-/// The joints of a study stand in one list, the main one first.
+/// The joints of a study form one list, the main joint first.
 void visit_coordinates(ModelSpec& model, SettingVisitor& v) {
   std::vector<std::string> names = study_coordinates(model);
   v.texts("coordinate", names,
@@ -63,7 +63,7 @@ void visit_coordinates(ModelSpec& model, SettingVisitor& v) {
 void visit(ModelSpec& model, SettingVisitor& v) {
   static constexpr std::string_view kBuiltIn[] = {"", "arm4"};
   static constexpr std::string_view kPlanes[] = {"vertical", "horizontal"};
-  constexpr SettingLimits kArms = within(0.08, 0.5, "m");  // of people, children too
+  constexpr SettingLimits kArms = within(0.08, 0.5, "m");  // arms of people, including children
   v.path("file", model.file, {.says = "The model, `.osim`."});
   v.text("builtin", model.builtin,
          {.says = "`arm4`: trunk, upper arm, forearm with hand; BIC, BRA, BRD, TRI.",
