@@ -158,10 +158,11 @@ std::vector<Remark> dynamometer_signs(const Study& study,
            .where = trial->spec->name,
            .about = name,
            .says = fmt::format(
-               "{}: the torque on {} pushes the way that the active muscles pull (cosine with what "
-               "they have to provide {:.2f}, expected above 0): is its sign reversed? "
-               "external_torque is what the surroundings exert on the body, positive in the "
-               "coordinate's direction; negate the column if it is what the person exerts",
+               "{}: the torque on {} acts in the direction of the active muscles (cosine with "
+               "their "
+               "necessary torque {:.2f}, expected above 0): is its sign reversed? "
+               "external_torque is the torque of the surroundings on the body, positive in the "
+               "coordinate's direction; negate the column if it is the person's torque",
                trial->spec->external_torque->filename().string(), name, cosine)});
     }
   }

@@ -85,7 +85,7 @@ report::Section next_recording_section(const DesignStudyResult& design) {
     return section;
   }
   section.paragraphs.push_back(
-      "With the noise of this recording, and with what it tells already. Errors of the model "
+      "Expected with the noise and the results of this recording. Errors of the model "
       "itself "
       "are not in these expectations. Isometric efforts need a measured torque (a dynamometer, or "
       "a "

@@ -122,7 +122,7 @@ MuscleAnalysis muscle_analysis(const model::BodyModel& model,
     muscles.emplace_back(muscle, model.compat);
     if (!muscles.back().has_own_curves()) {
       result.notes.push_back(
-          fmt::format("muscle '{}' of class {}: its fiber and tendon are those of Thelen's curves",
+          fmt::format("muscle '{}' of class {}: its fiber and tendon follow Thelen's curves",
                       muscle.name, muscle.class_name));
     }
   }

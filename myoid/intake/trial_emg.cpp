@@ -143,11 +143,10 @@ void require_raw(const Study& study, const std::filesystem::path& path, const Ti
     if (!column || !emg.values().col(*column).allFinite()) continue;
     const auto x = emg.values().col(*column);
     if (x.cwiseAbs().maxCoeff() > kLimits.no_converter_v)
-      throw ReadError(
-          path, 0,
-          fmt::format("channel '{}' reaches {:.3g} V, which no converter gives; correct "
-                      "[emg] unit, or leave out what is no measurement",
-                      muscle.emg, x.cwiseAbs().maxCoeff()));
+      throw ReadError(path, 0,
+                      fmt::format("channel '{}' reaches {:.3g} V, beyond any converter; correct "
+                                  "[emg] unit, or leave out samples that are no measurement",
+                                  muscle.emg, x.cwiseAbs().maxCoeff()));
     if (x.maxCoeff() > x.minCoeff())
       ++(signals::is_envelope(x, emg.mean_rate_hz()) ? envelopes : others);
   }

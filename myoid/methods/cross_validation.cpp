@@ -350,10 +350,11 @@ std::string generalises_badly(const std::vector<Fold>& folds) {
       count > 0.0 && unseen > kWorse * kWorse * seen && unseen > (1.0 - kExplains) * spread;
   if (!bad) return "";
   return fmt::format(
-      "what a fit does not see it predicts {:.1f} times worse than what it sees ({:.3g} N m rms "
-      "instead of {:.3g}; most in '{}'): the samples of one movement share the model's error, and "
-      "the more there are of them the farther the numbers follow it, away from what is known "
-      "beforehand. Record other movements (angles, speeds, loads) rather than more of the same, "
+      "left-out data are predicted {:.1f} times worse than fitted data ({:.3g} N m rms instead of "
+      "{:.3g}; most in '{}'). The samples of one movement share the model's error, and many of "
+      "them "
+      "pull the numbers along with this error, away from the priors. Record other movements "
+      "(angles, speeds, loads) rather than more of the same, "
       "and trust neither numbers nor predictions beyond the movements that were fitted",
       std::sqrt(unseen / seen), std::sqrt(unseen / count), std::sqrt(seen / count), where);
 }

@@ -284,8 +284,8 @@ void add_basins(const StudyData& data,
   const BasinRow& best = table.basins.front();
   if (!best.given && best.converged > 0)
     result.warnings.push_back(fmt::format(
-        "{}: {} of {} starts end at a lower sum of squares than the given one; its numbers are "
-        "those of the given start, as published",
+        "{}: {} of {} starts end at a lower sum of squares than the given one; its numbers "
+        "come from the given start, as published",
         table.fit, best.starts, table.starts));
   result.basins.push_back(std::move(table));
 }

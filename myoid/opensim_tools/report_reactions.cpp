@@ -133,8 +133,8 @@ TimeSeries actuator_forces(AnalysisRun& run, pugi::xml_node node) {
       return linear_at(file, times);
     }
     notes.push_back(
-        fmt::format("{}: no column for {}; as in OpenSim all forces are those of the "
-                    "muscles' states, and other actuators do nothing",
+        fmt::format("{}: no column for {}; as in OpenSim all forces follow from "
+                    "the muscles' states, and other actuators exert nothing",
                     path->string(), missing));
   } else {
     notes.push_back(
@@ -192,9 +192,9 @@ void report_reactions(AnalysisRun& run, pugi::xml_node node) {
   for (const model::PassiveForce& force : run.model.passive_forces) {
     if (std::holds_alternative<model::PathSpring>(force.law) ||
         std::holds_alternative<model::Ligament>(force.law)) {
-      run.result.notes.push_back(fmt::format(
-          "{}: the pull of '{}' ({}) moves the model, but is not part of what the joints carry",
-          name, force.name, force.class_name));
+      run.result.notes.push_back(
+          fmt::format("{}: the pull of '{}' ({}) moves the model, but does not load the joints",
+                      name, force.name, force.class_name));
     }
   }
   const TimeSeries table =

@@ -90,7 +90,7 @@ kinematics::JointMotion read_motion(AnalysisRun& run,
     }
     if (speeds->time_s() != q.time_s()) {
       throw InvalidInput(
-          fmt::format("{}: its times are not those of the coordinates ({} and {} rows); use "
+          fmt::format("{}: its times differ from the coordinates' times ({} and {} rows); use "
                       "<lowpass_cutoff_frequency_for_coordinates> -1 with speeds of the same rows",
                       file->string(), speeds->sample_count(), q.sample_count()));
     }

@@ -89,7 +89,7 @@ std::optional<TimeSeries> volts_of(const CsvSeries& series,
   state_other_units(other_units, repairs);
   if (!other_instruments.empty())
     repairs.push_back(
-        {0, fmt::format("no EMG by what they are called, left out: {}", other_instruments)});
+        {0, fmt::format("left out, because their names are no EMG's: {}", other_instruments)});
   if (stated && to_volt)
     repairs.push_back(
         {0, "columns that name their unit keep it; the unit given is for the others"});

@@ -167,8 +167,8 @@ std::vector<Table> estimate_tables(const StudyResult& result, const Identificati
   if (known) muscles.columns.insert(muscles.columns.begin() + 6, "truth");
   Table others{"nuisances_" + method.method,
                "Numbers of the electrodes and of the joint",
-               "Freed so that not knowing them widens the muscles' intervals as it must; nobody's "
-               "muscle, and not counted above." +
+               "Free, so that their uncertainty widens the muscles' intervals; they belong to no "
+               "muscle and are not counted above." +
                    measured_at_rest(result) + truth,
                muscles.columns,
                {}};
@@ -222,10 +222,10 @@ std::vector<Table> basin_tables(const IdentificationResult& method) {
   Table table{"basins_" + method.method,
               fmt::format("Where the searches from {} starts ended (method {})",
                           method.basins.front().starts, method.method),
-              "The given start and points spread evenly over two standard deviations of what is "
-              "known beforehand. Distance: from the best minimum, root mean square over the "
-              "unknowns, in those standard deviations. A second minimum as good as the best is as "
-              "good an answer.",
+              "The given start and points spread evenly over two standard deviations of the "
+              "priors. Distance: from the best minimum, root mean square over the unknowns, in "
+              "these standard deviations. A second minimum of equal cost is an equally good "
+              "answer.",
               {"fit", "cost", "starts", "of them converged", "distance", "the given start"},
               {}};
   for (const identification::BasinTable& searches : method.basins) {

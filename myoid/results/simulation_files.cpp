@@ -197,8 +197,8 @@ report::Figure movement_figure(const Simulation& s) {
   report::Figure figure{.id = "movement",
                         .title = "Simulated movement",
                         .caption =
-                            "What drives the muscles, how the joints move, and what the "
-                            "muscles do; of each quantity the first four.",
+                            "Excitations of the muscles, motion of the joints, and lengths and "
+                            "forces of the muscles; at most four of each quantity.",
                         .panels = {},
                         .columns = 2};
   report::Panel excitation = panel("Neural input", "excitation", "");

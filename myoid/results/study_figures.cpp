@@ -129,7 +129,7 @@ Figure muscle_curves(const StudyResult& result, const IdentificationResult& meth
   return {"curves_" + setup.name,
           fmt::format("{}: force-length and force-velocity relations", setup.name),
           "Grey dotted: literature; orange dashed: identified; thin black: the truth of a virtual "
-          "recording. The shaded range is what the recording visited.",
+          "recording. The recording covers the shaded range.",
           {length_panel(of, range), velocity_panel(of, range)},
           2};
 }

@@ -47,15 +47,15 @@ std::vector<std::string> assumptions(const StudyResult& result) {
   list.push_back(fmt::format(
       "{}; the muscles are effective ones that stand for all heads lumped into them.",
       result.source.study.identify.model_muscles
-          ? "Pennation and passive muscle force are those of the model"
+          ? "Pennation and passive muscle force come from the model"
           : "Pennation and passive muscle force are neglected, as in the source paper"));
   const bool freed = std::any_of(
       result.fit.methods.begin(), result.fit.methods.end(), [](const IdentificationResult& method) {
         return std::any_of(method.estimates.begin(), method.estimates.end(),
                            [](const auto& e) { return e.parameter == "max_shortening_speed"; });
       });
-  list.push_back(freed ? "v_max is found with the other numbers where nobody states it; where it "
-                         "is held, as always in method paper, an error in it goes into V_sh."
+  list.push_back(freed ? "v_max is identified with the other numbers unless the study states it; "
+                         "where it is held, as always in method paper, its error goes into V_sh."
                        : "v_max is held at its starting value; an error in it goes into V_sh.");
   list.push_back(
       "At low activation the optimal length is longer than at full activation (about 15 %); the l0 "
@@ -85,8 +85,8 @@ std::vector<std::string> assumptions(const StudyResult& result) {
     list.push_back(
         emg.mvc_effort_sd > 0.0 || emg.mvc_effort < 1.0
             ? fmt::format(
-                  "F_max is what a muscle could exert if all of it were active: the maximal "
-                  "contractions are taken to reach {:.0f} +- {:.0f} % of that.",
+                  "F_max is the force of a completely active muscle: the maximal contractions "
+                  "are taken to reach {:.0f} +- {:.0f} % of it.",
                   100.0 * emg.mvc_effort, 100.0 * emg.mvc_effort_sd)
             : std::string("F_max is the force at the greatest effort that was recorded. Untrained "
                           "people reach some 80 to 100 % of what their muscles could exert; "

@@ -95,11 +95,10 @@ Table folds_table(const StudyResult& result) {
       fmt::format("Leave-one-{}-out prediction of the joint torque", left_out),
       fmt::format("R2 = 1 - SSE/SST, negative when worse than the {}'s own mean. ", left_out) +
           "NRMSE is RMSE over the "
-          "range. The prediction is the muscles' law with the parameters of a fit that did not see "
-          "it (fold_parameters.csv); smoothed, it is low-passed where the noise of its EMG does "
-          "least harm. Below 1.5 Hz both torques are compared without what is faster, which in the "
-          "prediction "
-          "is above all the noise of the EMG. Lag: positive if the prediction comes late. "
+          "range. The prediction uses the muscles' law with the parameters of a fit without this "
+          "part (fold_parameters.csv); smoothed, it is low-passed where the noise of its EMG does "
+          "least harm. Below 1.5 Hz both torques are compared without faster changes, which in the "
+          "prediction are mostly noise of the EMG. Lag: positive if the prediction comes late. "
           "Baselines, "
           "RMSE in N m and R2 in "
           "brackets: the literature's parameters with the one gain that fits the others best; "
@@ -116,7 +115,7 @@ Table folds_table(const StudyResult& result) {
         [&](const OutlyingFold& o) { return o.trial == f.trial && o.joint == f.joint; });
     const std::string title = title_of(result, f.trial, f.joint);
     table.rows.push_back(
-        {stands_out ? Cell{title, Badge::bad, "its error stands out from those of the others"}
+        {stands_out ? Cell{title, Badge::bad, "its error stands out from the others' errors"}
                     : Cell{title},
          {fmt::format("{:.2f}", f.identified.rmse_nm())},
          {fmt::format("{:.1f} %", 100.0 * f.identified.nrmse_range())},

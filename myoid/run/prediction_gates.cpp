@@ -212,7 +212,7 @@ std::vector<Gate> fold_gates(const std::vector<Fold>& folds) {
       texts.push_back(fmt::format("{}: {:.2f} N m rms (R2 {:.2f}), the others about {:.2f}",
                                   f.trial, f.rms_nm, f.r2, f.usual_rms_nm));
     gates.push_back({"Trials alike", GateStatus::warn, fmt::format("{}", fmt::join(texts, "; ")),
-                     "none whose error stands out from those of the others",
+                     "no error stands out from the others",
                      "Is a file, a label, the held mass or the clock of that trial wrong? Mend it, "
                      "or leave it out."});
   }

@@ -374,8 +374,8 @@ report::Section recordings_section(const StudyResult& result) {
   sort_by_severity(faults);
   constexpr std::size_t kMost = 40;
   report::Table table{"recordings",
-                      "What the recordings themselves show",
-                      "As they came, before anything was mended. The limits stand in the guide to "
+                      "Faults of the recordings",
+                      "As recorded, before repairs. The limits stand in the guide to "
                       "`myoid check`.",
                       {"level", "trial", "time", "what was found", "what to do"},
                       std::move(warnings)};

@@ -95,7 +95,7 @@ RestingJoints resting_joints(const Study& study,
       found.remarks.push_back(
           {.code = RemarkCode::resting_torque,
            .where = trial.spec->name,
-           .says = "what the joint does by itself is not taken from this trial: " + why});
+           .says = "the joint's resting torque is not taken from this trial: " + why});
       continue;
     }
     relaxed.push_back(&trial);

@@ -127,7 +127,7 @@ class ChannelCheck {
             name_, most, time_s_[at], beyond, x_.size(), limits_.amplitude_v, limits_.amplitude_v),
         2 * beyond > x_.size()
             ? "is the unit wrong (an activation does not depend on it), or is it no EMG?"
-            : "leave out what is no measurement: it becomes the greatest effort");
+            : "leave out samples that are no measurement: they become the greatest effort");
   }
 
   bool clipping(std::vector<Remark>& faults) const {

@@ -59,9 +59,9 @@ std::optional<Jump> find_jump(const Eigen::VectorXd& time_s,
 
 std::string MotionJump::sentence() const {
   return fmt::format(
-      "'{}' moves at {} at {:.3f} s{}: no movement is that fast for that short a time, and its "
-      "acceleration makes a torque that nobody made; mend the markers or angles there, or leave "
-      "that time out",
+      "'{}' moves at {} at {:.3f} s{}: no movement is so fast for so short a time, and its "
+      "acceleration would mean a torque that does not exist; mend the markers or angles there, or "
+      "leave that time out",
       channel,
       unit == Unit::radian ? fmt::format("{:.0f} deg/s", speed / kDegree)
                            : fmt::format("{:.2g} m/s", speed),

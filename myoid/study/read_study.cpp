@@ -86,9 +86,8 @@ void check_trials(const Study& study) {
     if (!names.insert(trial.name).second)
       refuse(study, fmt::format("two [[trial]] are named '{}'", trial.name));
     if (trial.load_cell && !study.load_cell)
-      refuse(study,
-             fmt::format("trial '{}' has a load_cell; a table [load_cell] must say what it is",
-                         trial.name));
+      refuse(study, fmt::format("trial '{}' has a load_cell; a table [load_cell] must describe it",
+                                trial.name));
   }
 }
 

@@ -89,7 +89,7 @@ std::optional<TableLayout> qualisys_channels(const TableText& text,
   if (named) {
     set_kinds(layout.columns);
   } else {
-    layout.repairs.push_back({layout.names_line + 1, "names are those of CHANNEL_NAMES"});
+    layout.repairs.push_back({layout.names_line + 1, "the names come from CHANNEL_NAMES"});
   }
   return layout;
 }

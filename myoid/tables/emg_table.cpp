@@ -175,7 +175,7 @@ class TableFinder {
     if (!rounded.empty())
       layout_.repairs.push_back(
           {layout_.names_line + 1,
-           fmt::format("rates in whole Hz are those of packets of 27 ms: {:.7g} Hz",
+           fmt::format("rates in whole Hz stand for whole samples in 27 ms: {:.7g} Hz",
                        fmt::join(rounded, ", "))});
     const auto times = std::count_if(layout_.columns.begin(), layout_.columns.end(),
                                      [](const TableColumn& c) { return c.kind == Kind::time; });

@@ -240,7 +240,7 @@ TEST(MeasuredJoints, AMinuteOfOneSpeedIsToldThatItPredictsAnotherWorseThanFiveSe
                   .exit_code,
               0);
   }
-  const std::string warning = "what a fit does not see it predicts";
+  const std::string warning = "left-out data are predicted";
   const Walks minute = leave_out_walks(data, folder, {});
   const Walks seconds = leave_out_walks(data, folder, {"--start", "19", "--end", "24"});
   ASSERT_EQ(minute.r2.size(), 2U);
