@@ -23,8 +23,8 @@
 namespace myoid::recording {
 namespace {
 
-/// A small file of our own: 3 markers, of which one is missing in frame 2, 2 channels at twice the
-/// rate. Numbers are multiples of the integer step, so that integers hold them too.
+/// A small file: 3 markers, one of them missing in frame 2, and 2 channels at twice the rate.
+/// Numbers are multiples of the integer step, so that integers hold them too.
 C3dFile small_file() {
   C3dFile file;
   file.point_rate_hz = 50.0;
@@ -143,7 +143,7 @@ TEST(C3d, EveryFileOfTheCollectionGivesDataAndSurvivesWriting) {
     C3dFile file = read_c3d(entry.path());
     EXPECT_GT(file.frame_count(), 0);
     const C3dFile back = parse_c3d(format_c3d(file), "back.c3d");
-    // A position that is no number is written as missing: the only change.
+    // A position that is no number becomes a missing one: the only change.
     for (Eigen::Index k = 0; k < file.points.rows(); ++k) {
       for (Eigen::Index p = 0; p < file.points.cols(); p += 4) {
         if (!file.points.block<1, 3>(k, p).allFinite())
@@ -221,7 +221,7 @@ TEST(C3d, AnyNumberOfEventsComesBack) {
     if (count == 256U) {
       EXPECT_EQ(second->dimensions, (std::vector<std::uint8_t>{2, 1}));
     }
-    // Fewer events leave no parameter of the many.
+    // With fewer events no parameter of the long list remains.
     file.groups = back.groups;
     file.events.resize(3);
     EXPECT_EQ(parse_c3d(format_c3d(file), "fewer.c3d").find("EVENT", "TIMES2"), nullptr);
@@ -298,7 +298,7 @@ TEST(C3d, NoBytesWhateverMakeAnythingButAReadError) {
     auto bytes = good;
     const int flips = 1 + static_cast<int>(random() % 8);
     for (int i = 0; i < flips; ++i) {
-      // Mostly in header and parameters, where the structure is.
+      // Mostly in header and parameters, which hold the structure.
       const std::size_t at = random() % (random() % 4 == 0 ? bytes.size() : 1200);
       bytes[at] = static_cast<std::byte>(random());
     }
@@ -374,7 +374,7 @@ TEST(C3d, ParametersComeBackAndDamageCostsNoneThatCanBeRead) {
           << distance;
       EXPECT_TRUE(noted(repairs, "damaged at byte")) << distance;
     }
-    // A name that is no text: YEAR alone is lost.
+    // A name that is no text: only YEAR is lost.
     auto changed = bytes;
     changed[year] = std::byte{1};
     repairs.clear();
@@ -425,7 +425,7 @@ TEST(C3d, PosesOfSegmentsAloneAreToldByNameWithTheRemedy) {
   const C3dFile beside = parse_c3d(format_c3d(file), "both.c3d");
   EXPECT_EQ(beside.points, file.points);
   EXPECT_TRUE(noted(beside.repairs, "2 segments (group ROTATION: pelvis_4X4, r_arm_4X4)"));
-  // Without points and channels there is nothing else to read.
+  // Without points and channels the file holds nothing else.
   C3dFile poses;
   poses.groups = {rotation};
   const C3dHeader header{.first_frame = 1, .last_frame = 4, .data_block = 3, .rate_hz = 100.0F};

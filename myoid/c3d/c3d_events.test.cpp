@@ -35,7 +35,7 @@ TEST(C3dEvents, EventsOfEveryPlaceAreReadOnce) {
   const std::vector<Event> kinarm{{0.25, "TARGET_ON", "", ""}, {1.5, "GO", "", ""}};
   const C3dFile alone = parse_c3d(format_c3d(file), "kinarm.c3d");
   EXPECT_EQ(alone.events, kinarm);
-  // Written, they stand in EVENT too, and are not doubled by reading them again.
+  // Written events are in EVENT too; reading does not double them.
   EXPECT_EQ(parse_c3d(format_c3d(alone), "again.c3d").events, kinarm);
   // Beside a group EVENT, in minutes and seconds.
   file.events = {{90.0, "Lift", "Left", ""}, {0.25, "TARGET_ON", "Right", ""}};

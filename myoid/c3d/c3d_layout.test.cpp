@@ -9,7 +9,7 @@
 namespace myoid::recording {
 namespace {
 
-/// One point; few frames, so that the padding of the last block hides how many there are.
+/// One point and few frames, so that the padding of the last block hides the number of frames.
 C3dFile frames_from(std::int64_t first, Eigen::Index count) {
   C3dFile file;
   file.point_rate_hz = 100.0;

@@ -239,8 +239,8 @@ TEST(CheckRecording, OneSampleIsNoRecording) {
   }
 }
 
-/// Recordings of three laboratories. What may be said of them is known: markers that were hidden
-/// for long, electrodes that were not worn.
+/// Recordings of three laboratories with known faults: markers hidden for a long time, electrodes
+/// that were not worn.
 TEST(CheckRecording, OfRealRecordingsOnlyWhatIsTrueIsSaid) {
   const std::filesystem::path data = test::data_folder();
   MYOID_REQUIRE_DATA(data / "elbow-emg" / "load5p5_T1_emg_raw_uV.sto");

@@ -72,7 +72,7 @@ void turn_after(Push& push, double share) {
 }
 
 TEST(DynamometerSigns, AreAnErrorOnlyWhereAllTrialsAndAllOfThemSaySo) {
-  // A torque that is half against the muscles and half with them says nothing.
+  // A torque half against and half with the muscles says nothing.
   std::vector<Push> half{{"both", true, 1.0, -50.0}};
   turn_after(half[0], 0.5);
   EXPECT_TRUE(findings(half).empty());
@@ -83,7 +83,7 @@ TEST(DynamometerSigns, AreAnErrorOnlyWhereAllTrialsAndAllOfThemSaySo) {
   const std::vector<Remark> unsure = findings(most);
   ASSERT_EQ(unsure.size(), 1U);
   EXPECT_EQ(unsure[0].severity, Severity::warning);
-  // A small one that is right, beside a large one that is not.
+  // A small torque of the right sign beside a large one of the wrong sign.
   const std::vector<Remark> one =
       findings({{"large", true, 1.0, -50.0}, {"small", true, 0.3, 15.0}});
   ASSERT_EQ(one.size(), 1U);

@@ -88,8 +88,8 @@ struct PlateTrial {
     }
   }
 
-  /// A force on a body that is the ground's under the `foot` at each time (0: none); as a plate has
-  /// it, about a point that stays, or with its center of pressure.
+  /// A force of the ground on the body of `foot` at each time (0: none), in the form of a plate's
+  /// force: about a fixed point, or with its center of pressure.
   template <typename Foot>
   void load(const char* name, model::BodyIndex body, bool about_a_point, Foot foot_at) {
     const Vec3 middle(2.0, 0.0, 0.0);
@@ -203,8 +203,9 @@ TEST(ForeignContacts, ASecondFootOnThePlateIsSaid) {
                     HasSubstr("a second foot stands beside"), HasSubstr("from calcn_l")));
 }
 
-// A load cell that a hand pushes up against 1.1 m above the floor, and a weight of 80 N that hangs
-// from a foot: neither is a plate in the floor. The same force up on the floor is another foot's.
+// A load cell 1.1 m above the floor that a hand pushes up against, and a weight of 80 N that hangs
+// from a foot: neither is a plate in the floor. The same force upward on the floor belongs to
+// another foot.
 TEST(ForeignContacts, AreLookedForOnPlatesInTheFloorAlone) {
   for (const bool hand : {true, false}) {
     PlateTrial trial;

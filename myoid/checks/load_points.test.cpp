@@ -145,7 +145,7 @@ TEST(MisplacedLoads, APointInMillimetersIsAnError) {
   EXPECT_NE(found[0].says.find("is it in mm"), std::string::npos) << found[0].says;
 }
 
-/// Its points from here on, or while its force is below a newton.
+/// Moves the points of a force, always or only while the force is below a newton.
 void move_points(Walk& walk, std::size_t load, const Vec3& by, bool unloaded_only) {
   dynamics::ExternalForce& force = walk.input.loads->forces[load];
   const Eigen::VectorXd t = Eigen::VectorXd::LinSpaced(200, 0.0, 2.0);
@@ -161,7 +161,7 @@ TEST(MisplacedLoads, WhereNothingIsLoadedThePointMeansNothing) {
   Walk walk;
   for (const std::size_t load : {0U, 1U}) move_points(walk, load, Vec3(-30.0, 0.0, 4.0), true);
   EXPECT_TRUE(walk.findings().empty());
-  // Nor does that of a plate on which nobody stepped.
+  // A plate on which nobody stepped says nothing either.
   Eigen::MatrixX3d none = Eigen::MatrixX3d::Zero(200, 3);
   walk.input.loads->forces[1].force = columns(walk.input.motion->time_s(), none);
   move_points(walk, 1, Vec3(-30.0, 0.0, 4.0), false);
@@ -201,8 +201,8 @@ TEST(MisplacedLoads, AreLookedForAtTheLoadsOwnTime) {
 }
 
 TEST(MisplacedLoads, ABodyHasThePointsOfItsNeighbors) {
-  // The toes are a body of their own, and one marker of the foot is 0.4 m up: the force is on the
-  // body that has this one, the marker beside it on the other.
+  // The toes are a body of their own, and one marker of the foot is 0.4 m up. The force acts on the
+  // body of that marker; the marker near the force belongs to the other body.
   for (const bool on_toes : {false, true}) {
     Walk walk;
     model::Marker& heel = walk.model.markers[0];

@@ -75,12 +75,12 @@ TEST(ExchangedSides, AreFoundAndRightOnesAreNot) {
   ASSERT_TRUE(found);
   EXPECT_EQ(found->severity, Severity::error);
   EXPECT_NE(found->says.find("walk.trc"), std::string::npos) << found->says;
-  // A model that does not fit either way says nothing.
+  // A model that fits neither way says nothing.
   markers.positions_m *= 1.5;
   EXPECT_FALSE(exchanged_sides(model, trial, markers, {}));
 }
 
-/// What is said of markers of this model whose labels of left and right are exchanged.
+/// Returns the finding for markers of this model with left and right labels exchanged.
 struct Exchanged {
   model::BodyModel model;
   recording::MarkerSeries markers;

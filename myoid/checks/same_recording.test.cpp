@@ -49,7 +49,7 @@ TEST(CommonShare, IsOfTheSamplesOfAllChannelsWhateverTheClock) {
   const TimeSeries whole = noise(1);
   const TimeSeries later(whole.time_s().array() + 5.0, whole.channels(), whole.values());
   EXPECT_EQ(common_share(stretches_of(whole), stretches_of(later)), 1.0);
-  // The 31 stretches over the window's edge are another's.
+  // The 31 stretches across the window's edge belong to the other trial.
   EXPECT_NEAR(common_share(stretches_of(whole), stretches_of(noise(1, 2000, 4000))), 0.5, 0.03);
   EXPECT_EQ(common_share(stretches_of(whole), stretches_of(noise(1, 4000, 4000))), 0.0);
   Eigen::MatrixXd mixed = whole.values();

@@ -82,7 +82,7 @@ TEST(Implausible, AnAngleOfAnotherConventionIsOnlyAWarningWhereTheRangeIsNoLimit
           .coordinates[static_cast<std::size_t>(elbow.model.coordinate_index("elbow_flexion"))];
   c.clamped = false;
   EXPECT_EQ(elbow.findings()[0].severity, Severity::warning);
-  c.lower = c.upper = 0.0;  // nobody wrote a range
+  c.lower = c.upper = 0.0;  // the model has no range
   EXPECT_TRUE(elbow.findings().empty());
 }
 
@@ -95,11 +95,11 @@ TEST(Implausible, AHeldMassCountsWhereItIsHeld) {
   EXPECT_TRUE(elbow.findings().empty());
   elbow.study.model.held_mass->p_BP_m = Vec3(0.0, -2.5, 0.0);  // 135 N m
   EXPECT_EQ(elbow.findings().size(), 1U);
-  // What the elbow does not move, its muscles need not hold.
+  // Muscles need not hold a mass that their joint does not move.
   elbow.trial.held_mass_kg = 60.0;
   elbow.study.model.held_mass->body = "ground";
   EXPECT_TRUE(elbow.findings().empty());
-  // Nor is anything known of a file's model that does not say where.
+  // A model file without the place of the mass gives no load either.
   elbow.study.model.held_mass.reset();
   EXPECT_EQ(elbow.findings().size(), 1U);
   elbow.study.model.file = "arm.osim";
@@ -122,7 +122,7 @@ TEST(Implausible, AHeldMassThatNoMuscleHoldsIsAWarningAndOneBeyondThePersonsAnEr
   elbow.input.motion = angle(10.0, 130.0);
   elbow.trial.held_mass_kg = 5.5;
   EXPECT_TRUE(elbow.findings().empty());
-  // What may be held is too much for a movement.
+  // A mass that can be held may be too much for a movement.
   elbow.trial.held_mass_kg = 27.0;
   EXPECT_EQ(elbow.findings().size(), 1U);
   elbow.trial.use = Use::isometric;
@@ -193,7 +193,7 @@ TEST(Implausible, AVerticalThatLiesAcrossTheTrunkIsAWarning) {
   }
 }
 
-/// What is said of a trunk whose long axis points there, in a laboratory whose y points up.
+/// Returns the finding for a trunk whose long axis points there, in a laboratory whose y points up.
 std::vector<Remark> of_a_trunk_along(const Vec3& axis, const std::string& coordinate = "") {
   Elbow elbow;
   elbow.model = trunk_with_arm();
@@ -218,9 +218,9 @@ TEST(Implausible, ALeaningTrunkOrALimbIsNoWrongVertical) {
   };
   EXPECT_EQ(of_a_trunk_along(leaning(65.0)).size(), 1U);
   EXPECT_TRUE(of_a_trunk_along(leaning(57.0)).empty());
-  // Across, but upright by no other axis either.
+  // Across, but not upright by another axis either.
   EXPECT_TRUE(of_a_trunk_along(Vec3(0.65, 0.4, 0.65)).empty());
-  // A body that the study's own joint moves may lie as it will.
+  // A body that the study's joint moves may have any orientation.
   EXPECT_TRUE(of_a_trunk_along(leaning(90.0), "tilt").empty());
   EXPECT_TRUE(of_a_trunk_along(leaning(90.0), "shoulder").empty());
 }

@@ -64,7 +64,7 @@ struct WalkWithGap {
                                    .force = upward(kWeight_n * share),
                                    .point = upward(0.0 * share),
                                    .torque = {}});
-    // What the person does to the ground bears nobody.
+    // A force of the person on the ground carries no weight.
     input.loads->forces.push_back({.name = "ground",
                                    .body = 0,
                                    .force = upward(Eigen::VectorXd::Constant(n, kWeight_n)),

@@ -57,7 +57,7 @@ TEST_F(NamedFiles, AFileThatIsNowhereStaysWhereItIsNamed) {
   for (const char* name : {"none.mot", "C:\\trial\\none.mot", "data", "", "//", long_name.c_str()})
     EXPECT_FALSE(find(name).exists) << name;
   EXPECT_EQ(find("sub\\none.mot").path, folder_ / "setup" / "sub/none.mot");
-  // Two files differ by case alone: neither is meant.
+  // Two files differ only in case: neither is meant.
   std::ofstream(folder_ / "setup" / "WALK.trc") << "x";
   EXPECT_FALSE(find("walk.trc").exists);
 }

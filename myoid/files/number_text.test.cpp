@@ -31,8 +31,8 @@ TEST(NumberText, OfANumberThatComesAgainIsAsOfOneThatIsNew) {
 }
 
 TEST(NumberText, ReadsBackWhetherNumbersRepeatOrNot) {
-  // Counts of a converter, then numbers that never come again, then counts anew: looking up pauses
-  // and begins again.
+  // Counts of a converter, then numbers that never repeat, then counts again: the look-up pauses
+  // and resumes.
   std::mt19937_64 engine(7);
   NumberText numbers(1'000'000);
   for (int i = 0; i < 60'000; ++i) {

@@ -39,7 +39,7 @@ TEST(FormatNumber, ReadsBackToTheSameDouble) {
     EXPECT_EQ(parse_number(format_number(x)), x);
 }
 
-// The C library rounds correctly, too: the same text for every number, halves included.
+// The C library rounds correctly too: both texts agree for every number, halves included.
 TEST(AppendFixed, WritesWhatTheCLibraryWrites) {
   math::Random random(3);
   std::vector<double> values{0.0,    -0.0,          0.5,  1.5,  2.5,   0.125, -0.375,

@@ -104,7 +104,7 @@ TEST(NelderMead, CountsEveryEvaluationAndStopsAtTheLimit) {
       nelder_mead(problem, Eigen::Vector2d(-1.2, 1.0), {.max_evaluations = 50});
   EXPECT_EQ(cut.termination, Termination::iteration_limit);
   EXPECT_EQ(cut.evaluations, calls);
-  EXPECT_LE(calls, 53);  // the last move may need three: reflect, contract, shrink one
+  EXPECT_LE(calls, 53);  // the last move may need three evaluations: reflect, contract, shrink one
   EXPECT_LT(cut.cost, 24.2);
 }
 

@@ -22,7 +22,7 @@ TEST(EventSigns, WhatRestsAtZeroHasNoSign) {
   signs.start(std::array{0.0});
   EXPECT_FALSE(signs.crossed(std::array{-1.0}));
   signs.learn(std::array{-1.0});
-  signs.learn(std::array{1e-12});  // round-off about zero is no crossing, and teaches nothing
+  signs.learn(std::array{1e-12});  // round-off about zero is no crossing and sets no sign
   EXPECT_FALSE(signs.crossed(std::array{1e-12}));
   EXPECT_TRUE(signs.crossed(std::array{1.0}));
 }

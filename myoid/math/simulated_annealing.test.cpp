@@ -136,7 +136,7 @@ TEST(SimulatedAnnealing, StaysInTheBoxAndTakesNotANumberForAWall) {
 }
 
 TEST(SimulatedAnnealing, GoesBeyondItsReachWhereNoBoundIs) {
-  // From 0 with steps of at most 1 to a lowest point 5 away; what lies below -2 is out of bounds.
+  // From 0 with steps of at most 1 to a lowest point 5 away; points below -2 are out of bounds.
   const DirectSearchResult result = simulated_annealing(
       {.cost =
            [](const Eigen::VectorXd& x) { return (x - Eigen::Vector2d(5.0, -3.0)).squaredNorm(); },

@@ -110,7 +110,7 @@ TEST(Sobol, APieceOfTheSequenceIsThatPiece) {
     if (scrambled) all.scramble_seed = piece.scramble_seed = 9;
     EXPECT_EQ(sobol_points(20, 7, piece), sobol_points(57, 7, all).bottomRows(20));
   }
-  // The very last point exists.
+  // The last point exists.
   EXPECT_EQ(sobol_points(1, 1, {.first = (Eigen::Index{1} << 32) - 1}).rows(), 1);
 }
 

@@ -119,7 +119,7 @@ TEST(CovarianceOfSum, OfFewSamplesOfSmoothWeightsIsThatOfAll) {
   Eigen::VectorXd rho(40);
   for (Eigen::Index k = 0; k < 40; ++k) rho[k] = std::exp(-0.1 * static_cast<double>(k));
   const double all = covariance_of_sum(g, rho, {n})(0, 0);
-  // What a stride leaves out of a sine is at its ends: a share of 4 / 4000.
+  // The part of a sine that a stride leaves out is at its ends: a share of 4 / 4000.
   EXPECT_NEAR(covariance_of_sum(g, rho, {n}, 4)(0, 0) / all, 1.0, 2e-3);
 }
 

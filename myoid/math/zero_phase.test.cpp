@@ -33,7 +33,7 @@ TEST(ZeroPhase, ASineKeepsItsPhaseAndHasTheSquaredGain) {
     x[i] = std::sin(2.0 * M_PI * f * static_cast<double>(i) / 100.0);
   const Eigen::VectorXd y = zero_phase(low_pass(), x);
   const double g = gain(low_pass(), f, 100.0);
-  // Away from the ends; what is left of the end transients decays below 1e-6 within 3 s.
+  // Away from the ends; end transients decay below 1e-6 within 3 s.
   EXPECT_LT((y - g * g * x).segment(300, 1400).cwiseAbs().maxCoeff(), 1e-6);
 }
 
@@ -62,7 +62,7 @@ TEST(ZeroPhase, WithEvenEndsTheSignalIsItsOwnMirrorImage) {
   longer << x.reverse().head(400), x, x.reverse().tail(400);
   const Eigen::VectorXd y = zero_phase(low_pass(), longer).segment(400, 401);
   EXPECT_LT((zero_phase(low_pass(), x, Ends::even) - y).cwiseAbs().maxCoeff(), 1e-8);
-  // A recording that is shorter than the filter's memory goes to and fro.
+  // A recording shorter than the filter's memory is reflected to and fro.
   const Eigen::VectorXd brief = Eigen::VectorXd::Constant(5, -2.5);
   EXPECT_LT((zero_phase(low_pass(), brief, Ends::even) - brief).cwiseAbs().maxCoeff(), 1e-12);
 }

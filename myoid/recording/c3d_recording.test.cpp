@@ -12,7 +12,7 @@
 namespace myoid::recording {
 namespace {
 
-/// Larger than a part (1 MB), with gaps, a plate's worth of odd counts and another first frame.
+/// A file larger than a part (1 MB), with gaps, an odd number of channels and a late first frame.
 C3dFile large_file() {
   C3dFile file;
   file.point_rate_hz = 200.0;
@@ -37,7 +37,7 @@ C3dFile large_file() {
   return file;
 }
 
-/// Against the numbers that were written, worked out here.
+/// Compares with the numbers that were written, computed here.
 TEST(C3dRecording, PartByPartEverySampleIsInItsPlace) {
   const test::TemporaryFolder folder;
   const C3dFile large = large_file();

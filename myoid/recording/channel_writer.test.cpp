@@ -19,7 +19,7 @@ class ChannelWriter : public ::testing::Test {
  protected:
   std::filesystem::path file(const std::string& name) const { return folder_.path() / name; }
 
-  /// A storage text written to another file, and what stands there.
+  /// Writes a storage text to another file and returns that file's text.
   std::string written(const std::string& text, const std::string& name) {
     const Storage storage = parse_storage(text, "in.sto");
     write_channels(file(name), rows_of(storage.data), statement_of(storage));
@@ -39,7 +39,7 @@ TEST_F(ChannelWriter, MicrovoltsStayMicrovoltsAndAreNeverCalledSI) {
   EXPECT_THAT(text, HasSubstr("\nunit=uV\n"));
   EXPECT_THAT(text, HasSubstr("\n0\t-1.01\t2.49\n"));
   EXPECT_THAT(text, Not(HasSubstr("S.I.")));
-  // To a reader of EMG both files are the same voltages.
+  // A reader of EMG finds the same voltages in both files.
   const EmgFile emg = read_emg(file("b.sto"), "", false);
   EXPECT_EQ(emg.data.channels()[0].unit, Unit::volt);
   EXPECT_DOUBLE_EQ(emg.data.values()(0, 0), -1.01e-6);

@@ -1,6 +1,5 @@
-// Good files, damaged on purpose by a seeded generator, over two hundred of them. Whatever a reader
-// makes of one: a number that it gives is the one that was written, what is missing is stated, and
-// an error names the file.
+// A seeded generator damages over two hundred good files. Each number that a reader gives must be
+// the written one, missing values must be noted, and an error must name the file.
 
 #include <algorithm>
 #include <cmath>
@@ -53,7 +52,7 @@ struct Kind {
 
 int damaged_files = 0;
 
-/// A number given is the one written for that instant, in its column; anything less is stated.
+/// A number must be the one written for that instant in its column; anything missing must be noted.
 void examine(const Kind& kind, const std::string& bytes, const std::string& what) {
   ++damaged_files;
   SCOPED_TRACE(kind.name + ", " + what);
@@ -85,7 +84,7 @@ void examine(const Kind& kind, const std::string& bytes, const std::string& what
       } else {
         if (i + 1 == found.time_s.size() &&
             test::repair_lines(found.repairs).find(kLastRowKept) != std::string::npos)
-          continue;  // the only row there is, and said to be doubtful
+          continue;  // the only row, noted as doubtful
         ASSERT_NEAR(value, written, 1e-12 * std::abs(written))
             << "row " << i << ", column " << c << "; said: " << test::repair_lines(found.repairs);
       }
@@ -315,7 +314,7 @@ TEST(DamagedFiles, NoneGivesAWrongNumberInSilence) {
       }
     }
     std::string flipped = kind.good;
-    for (int k = 0; k < 8; ++k) {  // in the labels and the header, where no number of a sample is
+    for (int k = 0; k < 8; ++k) {  // in the labels and the header, which hold no sample
       const std::size_t at = below(kind.good.size() - kind.good.size() / 2);
       if (at > kind.good.find(lines[first])) continue;
       std::string text = kind.good;

@@ -18,8 +18,8 @@ struct TestSignal {
   int digital_min, digital_max, per_record;
 };
 
-/// A file written from the specification's table of fields; `digital(signal, sample)` gives the
-/// numbers, `notes` the annotation bytes of each record (the last signal then holds them).
+/// Writes a file by the specification's table of fields. `digital(signal, sample)` gives the
+/// numbers, `notes` the annotation bytes of each record, which are the last signal.
 std::string make_edf(bool bdf,
                      const std::string& reserved,
                      const std::vector<TestSignal>& signals,

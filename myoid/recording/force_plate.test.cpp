@@ -165,7 +165,7 @@ TEST(ForcePlate, WhatMakesNoSenseIsLeftOutOrTurnedWithANote) {
     if (p.name == "CHANNEL") p.numbers[3] = 77;
   EXPECT_TRUE(force_plates(missing, repairs).empty());
   EXPECT_EQ(repairs.size(), 3U);
-  // The transducer above the surface cannot be; the vector was written the other way round.
+  // The transducer cannot be above the surface: the vector has the opposite sign.
   repairs.clear();
   const auto turned = force_plates(plate_file(2, v, -kOrigin, units), repairs);
   ASSERT_EQ(turned.size(), 1U);
@@ -206,7 +206,8 @@ TEST(ForcePlate, AgreesWithTheForcesOfAnotherProgramInARealFile) {
   ASSERT_GT(pairs.size(), 30U);
   const double mass = sum / square;
   EXPECT_NEAR(mass, 60.0, 2.0);
-  // Theirs is low-pass filtered, ours is not: they part at impacts, by 2 % of the weight rms.
+  // Their data are low-pass filtered, ours are not: they differ at impacts, by 2 % of the weight
+  // rms.
   double residual = 0.0;
   for (const auto& [ours, theirs] : pairs) residual += (ours - mass * theirs).squaredNorm();
   EXPECT_LT(std::sqrt(residual / static_cast<double>(pairs.size())), 12.0);

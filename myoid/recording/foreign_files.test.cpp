@@ -1,4 +1,4 @@
-// Files as other makers write them, made here by hand after the makers' conventions.
+// Files as other programs write them, made here by hand after their conventions.
 #include <cmath>
 #include <string>
 #include <vector>
@@ -77,7 +77,8 @@ TEST(ForeignC3d, OnlyAnalogChannelsWithoutARateOfPoints) {
   auto bytes = format_c3d(file);
   const C3dFile found = parse_c3d(bytes, "f.c3d");
   EXPECT_EQ(found.analog.rows(), 50);
-  // POINT:RATE (the first parameter of that name) and the header's rate are gone: ANALOG:RATE says.
+  // POINT:RATE (the first parameter of that name) and the header's rate are missing: ANALOG:RATE
+  // decides.
   bytes = with_parameter(changed(changed(bytes, 11, 0), 12, 0), "RATE", "NONE");
   const C3dFile rated = parse_c3d(bytes, "f.c3d");
   EXPECT_DOUBLE_EQ(rated.analog_rate_hz(), 100.0);
@@ -87,7 +88,7 @@ TEST(ForeignC3d, OnlyAnalogChannelsWithoutARateOfPoints) {
 TEST(ForeignC3d, MoreThan65535FramesWhateverTheHeaderSays) {
   const C3dFile longest = c3d_of(70000, 1, 0);
   const auto bytes = format_c3d(longest);
-  // Programs write the last frame as 65535, wrapped at 16 bits, or 0.
+  // Programs write the last frame as 65535, modulo 65536, or as 0.
   for (const int last : {65535, 70000 - 65536, 0}) {
     const C3dFile file = parse_c3d(changed(bytes, 5, static_cast<std::uint16_t>(last)), "f.c3d");
     EXPECT_EQ(file.frame_count(), 70000) << last << test::repair_lines(file.repairs);

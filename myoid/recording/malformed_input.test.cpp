@@ -1,5 +1,5 @@
-// What files may do to the readers: cut off anywhere, one byte changed, numbers that would be
-// understood wrongly.
+// Damaged input for the readers: files cut off anywhere, one byte changed, and numbers that could
+// be misunderstood.
 
 #include <algorithm>
 #include <clocale>
@@ -119,7 +119,7 @@ std::string with(std::string text, const std::string& old, const std::string& re
   return text.replace(at, old.size(), replacement);
 }
 
-/// Found by fuzzing: a name longer than the system takes ended the program.
+/// Found by fuzzing: a name longer than the system allows must not end the program.
 TEST(AnyReader, ANameTooLongForTheSystemIsAReadErrorThatNamesIt) {
   for (const std::size_t length : {300U, 5000U}) {
     for (const char* ending :
@@ -142,7 +142,7 @@ TEST(AnyReader, ANameTooLongForTheSystemIsAReadErrorThatNamesIt) {
 
 TEST(AnyReader, CutOffAtAnyByteGivesDataOrAnErrorThatNamesTheFile) {
   for (const Format& format : formats()) {
-    format.read(format.text);  // whole, it is good
+    format.read(format.text);  // the whole file is good
     for (std::size_t n = 0; n < format.text.size(); ++n)
       expect_data_or_error(format, format.text.substr(0, n), "cut at " + std::to_string(n));
   }
@@ -266,7 +266,7 @@ TEST(ParseTrc, ARowThatEndsEarlyIsSaidAndTheLastOneOfACutFileLeftOut) {
   EXPECT_EQ(test::repair_lines(inside.repairs),
             "7: a row ends early; the markers behind its end are taken as missing\n");
   const TrcFile cut =
-      parse_trc(kTrc.substr(0, kTrc.size() - 4), "f.trc");  // "... 4 5" and the 6 is gone
+      parse_trc(kTrc.substr(0, kTrc.size() - 4), "f.trc");  // "... 4 5" without the 6
   EXPECT_EQ(cut.markers.frame_count(), 2);
   EXPECT_EQ(test::repair_lines(cut.repairs),
             "9: the last row has no line end and may be cut off; left out\n3: the header says 3 "
@@ -365,7 +365,7 @@ TEST(AnyReader, AGermanLocaleChangesNothing) {
 TEST(AnyReader, EveryRecordingOfTheSharedDataReads) {
   const auto root = test::data_folder();
   MYOID_REQUIRE_DATA(root / "trc");
-  // Refused, and rightly: no content, or no marker in it.
+  // Rightly refused: no content, or no marker in it.
   const std::vector<std::string> refused{"Empty.trc", "Truncated.trc",
                                          "10002-20130626160334-Unnamed.trc"};
   int count = 0;

@@ -105,7 +105,7 @@ TEST(MeshReader, RefusesBrokenFilesWithThePlace) {
       {"m.vtp", replaced(kCubeVtp, "1 1 1  -1", "1 one 1  -1"), "m.vtp:8"},
       {"m.vtp", replaced(kCubeVtp, " 4 7 3 0 ", " 4 7 3 9 "), "vertex 10 of 8"},
       {"m.vtp", replaced(kCubeVtp, "20 24", "20 99"), "offset 99"},
-      // Found by fuzzing: an array without content had no place in the file.
+      // Found by fuzzing: an array without content.
       {"m.vtp", "<PolyData><Points>\n<DataArray type=\"Float32\"/></Points></PolyData>", "m.vtp:2"},
       {"m.vtp", replaced(kCubeVtp, " 4 7 3 0 ", " 4 7 3 1e300 "), "no vertex"},
       {"m.vtp", replaced(kCubeVtp, "20 24", "20 1e300"), "1e+300"},

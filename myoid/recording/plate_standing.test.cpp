@@ -25,7 +25,7 @@ using test::PlateLoad;
 using testing::AllOf;
 using testing::HasSubstr;
 
-/// As it comes back from the disk.
+/// Writes the file and reads it back.
 Recording from_disk(const C3dFile& file) {
   const test::TemporaryFolder folder;
   write_c3d(folder / "plate.c3d", file);
@@ -225,7 +225,7 @@ TEST(StandPlates, AWallHasTheSignOfTheFloorWhetherItPushesOrPulls) {
       std::vector<Repair> notes;
       const TimeSeries grf = ground_reaction(recording.force_plates(), {}, notes);
       EXPECT_LT((grf.values().block<1, 3>(500, 9).transpose() - force).norm(), 1e-4);
-      // Without a moment about the middle the force acts there, wherever it points.
+      // Without a moment about the middle, the force acts there, whatever its direction.
       EXPECT_LT((grf.values().block<1, 3>(500, 12).transpose() - Vec3(1.0, 1.2, 1.0)).norm(), 1e-6);
       EXPECT_EQ(grf.values().block(100, 9, 1, 3).norm(), 0.0);
       EXPECT_THAT(notes_of(recording),

@@ -71,7 +71,8 @@ TEST(ClockOffset, IsFoundWithinItsUncertainty) {
       EXPECT_LT(offset->phase_s, 0.25 / 0.4);
     }
   }
-  // Two standard deviations hold 95 % of 30; the model (a linear mixture) is not quite the truth.
+  // Two standard deviations hold 95 % of 30; the fitted model (a linear mixture) only approximates
+  // the truth.
   EXPECT_LE(missed, 5);
 }
 
@@ -101,7 +102,7 @@ TEST(ClockOffset, OfASlowOrATinyMovementNothingIsSaid) {
 
 TEST(ClockOffset, OutsideWhatABodyCanDoItIsAWarning) {
   const Swing swing{2};
-  // Within what is usual, and to a quarter of a second: that says nothing.
+  // Within the usual range and uncertain by a quarter of a second, an offset says nothing.
   EXPECT_TRUE(check_clock_offset(effort(swing, 20.0, 0.08), motion(swing, 20.0)).empty());
   const auto late = check_clock_offset(effort(swing, 20.0, -0.55), motion(swing, 20.0));
   ASSERT_EQ(late.size(), 1U);

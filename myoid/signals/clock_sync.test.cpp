@@ -149,7 +149,7 @@ TEST(MatchShape, FindsOffsetAndDriftOfACommonSignal) {
     const ClockMap found =
         match_shape(wandering(truth, 2000.0, 0.0, 60.0), wandering({}, 100.0, 0.0, 60.0), 1.5);
     ASSERT_TRUE(found.offset_sd_s && found.drift_sd_ppm);
-    // Both recordings hold the signal exactly: what is left is interpolation.
+    // Both recordings hold the signal exactly: the error is interpolation.
     EXPECT_LT(*found.offset_sd_s, 5e-4);
     EXPECT_NEAR(found.study_time_s(found.pivot_s), truth.study_time_s(found.pivot_s),
                 4.0 * *found.offset_sd_s)

@@ -51,7 +51,7 @@ TEST(EmgChain, NamesEveryStepWithItsNumbers) {
   EXPECT_THAT(lines, Contains(HasSubstr("low-pass filter 4 Hz")));
   EXPECT_THAT(lines, Contains(HasSubstr("from press at")));
   EXPECT_THAT(lines, Contains(HasSubstr("maximal voluntary contractions (MVC)")));
-  // A storage file's header takes "key=value" for its own.
+  // In a storage file's header, "key=value" would be read as a key.
   for (const std::string& line : lines) EXPECT_THAT(line, Not(HasSubstr("="))) << line;
   EXPECT_THAT(lines, Contains(HasSubstr("right:TA")));
 }

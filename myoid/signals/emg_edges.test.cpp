@@ -1,4 +1,4 @@
-// EMG that begins or ends at full effort, as maximal contractions and treadmill trials do.
+// EMG that begins or ends at full effort, as in maximal contractions and treadmill trials.
 #include <algorithm>
 #include <random>
 
@@ -18,7 +18,7 @@ constexpr int kEdgeSeeds = 40;
 enum class Held { first_seven_seconds, last_seven_seconds, throughout };
 
 /// Noise of 150 uV between 20 and 450 Hz, a tenth of it outside of the effort, cut out of a longer
-/// signal, so that nothing is special about its ends.
+/// signal, so that its ends are like any other sample.
 Eigen::VectorXd held_effort(Held held, unsigned seed) {
   std::mt19937_64 engine(seed);
   std::normal_distribution<double> normal;

@@ -47,7 +47,7 @@ Eigen::ArrayXd seconds() {
   return Eigen::ArrayXd::LinSpaced(kSamples, 0.0, (kSamples - 1) / kEmgRate_hz);
 }
 
-/// The kinds found in one channel with this fault.
+/// Returns the kinds of fault found in one channel.
 std::set<RemarkCode> kinds(const Eigen::VectorXd& x, bool high_passed = true) {
   std::set<RemarkCode> result;
   for (const Remark& fault : check_emg(recording({x}), high_passed)) result.insert(fault.code);
@@ -74,9 +74,9 @@ TEST(EmgQuality, AnEnvelopeIsToldFromRawEmgWhateverItsOffset) {
   EXPECT_EQ(kinds(envelope), Kinds{RemarkCode::emg_envelope});
   envelope[100] = -2e-6;  // a filter's swing
   EXPECT_EQ(kinds(envelope), Kinds{RemarkCode::emg_envelope});
-  // Of a converter that knows no negative numbers.
+  // From a converter without negative numbers.
   EXPECT_FALSE(kinds(muscle(3).array() + 2.5).contains(RemarkCode::emg_envelope));
-  // A baseline that wanders far keeps raw EMG from its median for long.
+  // A large drift of the baseline keeps raw EMG from crossing its median for a long time.
   EXPECT_FALSE(
       kinds(muscle(3).array() + 1e-3 * (0.3 * seconds()).sin()).contains(RemarkCode::emg_envelope));
 }

@@ -53,7 +53,7 @@ TEST(MainsHum, TheNotchTakesTheLineAndLeavesTheRest) {
   const Eigen::Index cut = 2000;  // the notch rings for 1/(pi 4 Hz) = 0.08 s
   const Eigen::VectorXd line = without_hum(sine(40000, 50.0, 1.0), kHumRate_hz, hum);
   EXPECT_LT(line.segment(cut, 36000).cwiseAbs().maxCoeff(), 1e-3);
-  // At its ends too, where the line is made to go on.
+  // Also at the ends, where the line is extrapolated.
   EXPECT_LT(line.cwiseAbs().maxCoeff(), 1e-3);
   const Eigen::VectorXd rest = without_hum(emg, kHumRate_hz, hum);
   // Two passes of 4 Hz at -3 dB take the share pi/2 * 4 * 3/2 / 2 ... of 500 Hz: about 2 %.

@@ -63,7 +63,7 @@ TEST(MarkerQuality, AWrongUnitIsGuessed) {
   EXPECT_NEAR(*fault->value, 1000.0, 20.0);
   EXPECT_NE(fault->remedy.find("millimeters that are declared as meters"), std::string::npos);
   EXPECT_TRUE(check_marker_unit(markers, {}));
-  // Nothing else is concluded from lengths in a wrong unit.
+  // In a wrong unit no other check of lengths runs.
   EXPECT_EQ(check_markers(markers, expected()).size(), 1U);
   markers.positions_m *= 1e-6;
   EXPECT_NE(check_marker_unit(markers, expected())

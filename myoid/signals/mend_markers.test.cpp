@@ -47,7 +47,7 @@ TEST(MendMarkers, LeavesWhatNobodyKnows) {
   const MendedMarkers mended = mend_markers(markers, {});
   EXPECT_TRUE(mended.repairs.empty());
   EXPECT_TRUE(mended.markers.missing(200, 1));
-  // Two of the others gone as well: three are left at most, in places two.
+  // Two of the others are missing as well: at most three remain, in places two.
   test::hide(markers, 0, 200, 210);
   test::hide(markers, 4, 200, 210);
   EXPECT_TRUE(mend_markers(markers, {test::forearm()}).markers.missing(205, 1));

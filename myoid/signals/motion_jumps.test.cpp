@@ -49,7 +49,7 @@ TEST(MotionJumps, FastMovementsAreNone) {
     return 90.0 * kDegree * s * s * s * (10.0 - 15.0 * s + 6.0 * s * s);
   };
   EXPECT_TRUE(find_motion_jumps(swing(reach)).empty());
-  // Something else than angles and lengths.
+  // A channel other than angles and lengths.
   EXPECT_TRUE(find_motion_jumps(swing([](double t) { return t > 6.0 ? 10.0 : 0.0; }, Unit::newton))
                   .empty());
 }

@@ -7,7 +7,7 @@
 namespace myoid::signals {
 namespace {
 
-/// A plate of 0.6 m x 0.4 m in a z-up laboratory; somebody of 700 N crosses it between 1 and 2 s.
+/// A plate of 0.6 m x 0.4 m in a z-up laboratory; a person of 700 N crosses it between 1 and 2 s.
 recording::ForcePlate plate() {
   recording::ForcePlate p;
   p.number = 1;

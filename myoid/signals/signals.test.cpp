@@ -124,7 +124,7 @@ TEST(Normalisation, TakesTheMaximumOverTheStudyAndSaysWhereItStood) {
   const auto n = find_normalisation(trials);
   EXPECT_EQ(n[0].source_trial, "mvc");
   EXPECT_TRUE(n[0].from_mvc);
-  // Of the seconds that reach into an effort those count that chance could have made: some of
+  // Seconds that reach slightly into the effort count if chance could explain their mean: some in
   // thousands.
   EXPECT_NEAR(n[0].resting_level_v, 1e-6, 1e-9);
   // Powers add: 101^2 - 1 and 20^2 - 1, in millionths of a volt squared.
@@ -138,9 +138,9 @@ TEST(Normalisation, TakesTheMaximumOverTheStudyAndSaysWhereItStood) {
 }
 
 TEST(Normalisation, FindsTheActivationUnderTheNoiseOfTheElectrode) {
-  // Gaussian EMG of known amplitude and independent noise: what is left is the amplitude. Means of
-  // 20 s at 1 kHz, white up to the filters' 20 Hz: 0.7555 / sqrt(2 x 480 Hz x 20 s) = 0.5 % of each
-  // mean; four of them, and those of rest and reference.
+  // Gaussian EMG of known amplitude and independent noise: the result is the amplitude. Means of 20
+  // s at 1 kHz, white up to the filters' 20 Hz: 0.7555 / sqrt(2 x 480 Hz x 20 s) = 0.5 % of each
+  // mean; there are four of them, and the means of rest and reference.
   std::mt19937_64 engine(11);
   std::normal_distribution<double> normal;
   const Eigen::Index n = 60000;
@@ -175,7 +175,7 @@ TEST(Normalisation, TheLowestOfManyNoisySecondsIsNotTaken) {
   const auto found = find_normalisation(trials, {.window_s = 4.0});
   const double truth = emg.envelope.values().col(0).segment(1000, 198000).mean();
   EXPECT_NEAR(found[0].resting_level_v / truth, 1.0, 0.005);
-  // At rest the root of what chance leaves above: 0.4 sqrt(2 x 0.08) of the noise.
+  // At rest the root of the part that chance leaves above: 0.4 sqrt(2 x 0.08) of the noise.
   const Eigen::VectorXd activation = normalise(emg.envelope, found).values().col(0);
   EXPECT_LT(activation.segment(1000, 198000).mean(), 0.2 * 0.03);
 }
@@ -185,7 +185,7 @@ TEST(Normalisation, AWindowLongerThanEveryRecordingIsRefused) {
   const TimeSeries mvc = steps({1e-6, 1.01e-4});      // 4 s
   const std::vector<TrialEnvelope> trials{{"task", false, &task}, {"mvc", true, &mvc}};
   EXPECT_THROW((void)find_normalisation(trials, {.window_s = 100.0}), InvalidInput);
-  // Between the two lengths only the longer one can have such a mean.
+  // Between the two lengths, only the longer trial can have such a mean.
   EXPECT_EQ(find_normalisation(trials, {.window_s = 5.0})[0].source_trial, "task");
 }
 
@@ -202,10 +202,10 @@ TEST(Normalisation, OfAnEffortThatIsHeldTheReferenceIsItsLevel) {
         TimeSeries(Eigen::VectorXd::LinSpaced(20000, 0.0, 19.999), {{"m", Unit::volt}}, x));
     const std::vector<TrialEnvelope> trials{{"a", true, &emg.envelope, emg.bandwidth_hz}};
     const ChannelNormalisation n = find_normalisation(trials)[0];
-    // Nothing rests, so nothing is subtracted.
+    // The muscle never rests, so nothing is subtracted.
     EXPECT_FALSE(n.rests);
     EXPECT_EQ(n.resting_level_v, 0.0);
-    // 20 s of 480 Hz: 0.5 %; the fifth of the windows that is left out is worth another.
+    // 20 s of 480 Hz: 0.5 %; leaving out a fifth of the windows costs as much again.
     EXPECT_NEAR(n.reference_v / (1e-3 * std::sqrt(2.0 / kPi) * std::sqrt(0.96)), 1.0, 0.02) << seed;
     EXPECT_LT(n.relative_sd, 0.01);
   }

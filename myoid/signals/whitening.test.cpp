@@ -102,8 +102,8 @@ TEST(Whitening, TheEnvelopeSpreadsByTheRootOfTheBandwidthLess) {
 }
 
 TEST(Whitening, DoesNotRaiseNoiseAboveTheMuscle) {
-  // Ten times fainter than the noise above 250 Hz: a filter without regard to the noise would let
-  // it through there.
+  // Ten times fainter than the noise above 250 Hz: a filter that ignores the noise would pass it
+  // there.
   const TimeSeries x = volts(effort(1.0, 0.7, 3));
   const TimeSeries* one = &x;
   const WhiteningFilter f = design_whitening(std::span(&one, 1), 20.0).front();
@@ -159,7 +159,8 @@ TEST(Whitening, AnEffortThatNeverRestsHasTheInverseSpectrumToo) {
 }
 
 TEST(Whitening, IsOneAnswerForAllChannels) {
-  // The second channel stands out for 3 s alone: no spectrum to go by. Neither is whitened.
+  // The second channel is active for only 3 s, which gives no spectrum. Neither channel is
+  // whitened.
   Eigen::MatrixXd both(60000, 2);
   both.col(0) = effort(1.0, 0.01, 11);
   both.col(1) = effort(1.0, 0.01, 12);
@@ -170,11 +171,11 @@ TEST(Whitening, IsOneAnswerForAllChannels) {
   EXPECT_FALSE(decision.applied);
   EXPECT_NE(decision.reason.find("m2"), std::string::npos) << decision.reason;
   EXPECT_EQ((whiten(x, decision).values() - x.values()).cwiseAbs().maxCoeff(), 0.0);
-  // Asked for, it is refused with the channel's name rather than done for one of them.
+  // On request, whitening is refused with the channel's name, not done for one channel.
   EXPECT_THROW((void)decide_whitening(std::span(&one, 1), 20.0, true), InvalidInput);
-  // Not asked for, nothing is designed.
+  // Without a request, nothing is designed.
   EXPECT_TRUE(decide_whitening(std::span(&one, 1), 20.0, false).filters.empty());
-  // Both strong: both are whitened, each by its own filter.
+  // Both are strong: each is whitened by its own filter.
   both.col(1) = effort(0.5, 0.01, 12);
   const TimeSeries strong = volts(both);
   one = &strong;
@@ -185,8 +186,7 @@ TEST(Whitening, IsOneAnswerForAllChannels) {
     EXPECT_GT((even.values() - strong.values()).col(c).cwiseAbs().maxCoeff(), 0.0);
 }
 
-// A switch at a spare input has no spectrum to go by; the muscle beside it is whitened all the
-// same.
+// A switch at a spare input gives no spectrum; the muscle beside it is whitened nevertheless.
 TEST(Whitening, IsNotForASpareInputToRefuse) {
   Eigen::MatrixXd both(60000, 2);
   both.col(0) = effort(1.0, 0.01, 11);

@@ -35,7 +35,7 @@ SimulationInput held(double excitation, std::size_t muscles) {
   return {.excitation = std::vector<Signal>(muscles, constant(excitation)), .device = {locked()}};
 }
 
-/// A measured figure for whoever asks with --gtest_output=json:FILE.
+/// Records a measured figure for --gtest_output=json:FILE.
 void say(const std::string& what, TendonMode mode, double value) {
   constexpr const char* kNames[] = {"rigid", "equilibrium", "mass"};
   ::testing::Test::RecordProperty(what + "_" + kNames[static_cast<int>(mode)],
@@ -91,7 +91,7 @@ TEST(ForwardSimulation, TheTorqueThatTheMotionRequiresIsThatOfTheMuscles) {
   }
 }
 
-// Every element by itself, and all together: what goes in comes out again.
+// Every element alone, and all together: work in equals work out.
 TEST(ForwardSimulation, EnergyClosesInEveryTendonMode) {
   for (const TendonMode mode : kModes) {
     ArmSetup setup{.held_mass_kg = 0.5};
@@ -103,7 +103,7 @@ TEST(ForwardSimulation, EnergyClosesInEveryTendonMode) {
         simulate(arm, in, {.q = {1.0}}, {.end_s = 10.0, .output_rate_hz = 1.0, .energy = true});
     ASSERT_EQ(s.status, math::OdeStatus::done) << s.message;
     const EnergyBalance balance = energy_balance(s);
-    EXPECT_GT(balance.turned_over_j, 10.0);  // that something happened
+    EXPECT_GT(balance.turned_over_j, 10.0);  // energy was exchanged
     EXPECT_LT(balance.worst, 1e-6) << balance.where;
     say("energy_gap", mode, balance.worst);
     EXPECT_GT(std::abs(last(s.energy, "external_work")), 0.1);
@@ -122,7 +122,7 @@ TEST(ForwardSimulation, EnergyClosesAgainstADevice) {
     // 1 rad/s for a second, the rise and the slowing down of 50 ms as much as one of them in full.
     EXPECT_NEAR(last(s.motion, "elbow_flexion"), 0.5 + 1.0, 1e-9);
     EXPECT_NEAR(last(s.motion, "elbow_flexion_speed"), 0.0, 1e-9);
-    // What the device must exert to hold a posture.
+    // The device's torque to hold a posture.
     EXPECT_NEAR(last(s.torque, "device"),
                 -last(s.torque, "muscles") - last(s.torque, "gravity") - last(s.torque, "joint"),
                 1e-12);
@@ -196,8 +196,8 @@ TEST(ForwardSimulation, AMuscleWithMassRingsAtTheFrequencyOfItsTendon) {
                 .ode = {.relative_tolerance = 1e-11, .absolute_tolerance = 1e-13}});
   ASSERT_EQ(s.status, math::OdeStatus::done) << s.message;
   const double rest = fiber.fiber_length_m - 1e-6;
-  // After whole periods it is where it began, smaller by exp(-decay t); the passive curve's bend
-  // over a micrometer changes that by 1e-4.
+  // After whole periods the displacement is that of the start times exp(-decay t); the passive
+  // curve's bend over a micrometer changes it by 1e-4.
   for (Eigen::Index k = 0; k < 2; ++k) {
     const double t = s.motion.time_s()[k];
     EXPECT_NEAR(s.fiber_length.values()(k, 0) - rest, 1e-6 * std::exp(-decay * t), 2e-9);
@@ -277,8 +277,8 @@ TEST(ForwardSimulation, AControllerCanHoldAPosture) {
   }
 }
 
-// With the envelope as activation a step of it is a step of force: nothing of it may be seen
-// before.
+// With the envelope as activation, a step of excitation is a step of force: no effect may precede
+// it.
 TEST(ForwardSimulation, AJumpOfTheActivationActsFromItsTimeOn) {
   ArmSetup setup{.horizontal = true};
   setup.activation.law = muscle::ActivationLaw::envelope;
@@ -295,7 +295,7 @@ TEST(ForwardSimulation, AJumpOfTheActivationActsFromItsTimeOn) {
   EXPECT_GT(s.motion.values()(308, 0), 1.2005);
 }
 
-// 0.1 + 0.2 is not 0.3: jumps that differ by round-off are passed as one.
+// 0.1 + 0.2 is not 0.3: jumps that differ by round-off count as one.
 TEST(ForwardSimulation, JumpsAHairApartDoNoHarm) {
   for (const TendonMode mode : kModes) {
     SimulationInput in;

@@ -47,8 +47,8 @@ TEST(MuscleForceLaw, TheSlopeIsTheDerivativeOfTheForce) {
   }
 }
 
-// Independent of any equilibrium solver: with Thelen's tendon the force tells the tendon's length,
-// that the fiber's, and its active force must be what pulls.
+// Independent of any equilibrium solver: with Thelen's tendon, the force gives the tendon's length
+// and this the fiber's; the fiber's active force must equal the pull.
 TEST(MuscleForceLaw, FiberAndElasticTendonPullAlike) {
   const BuiltInArm arm;
   const auto law = muscle_force_law(arm.model, arm.muscles, {.elastic_tendon = true});

@@ -19,7 +19,7 @@ using muscle::TendonMode;
 constexpr TendonMode kTendonModes[] = {TendonMode::rigid, TendonMode::equilibrium,
                                        TendonMode::mass};
 
-/// Everything matters here: passive forces, pennation, shifted optimum, a load, gravity.
+/// Every effect takes part: passive forces, pennation, shifted optimum, a load, gravity.
 Arm<double> whole_arm(TendonMode mode) {
   ArmSetup setup{.held_mass_kg = 0.5};
   setup.laws = muscle::thelen_laws(mode);
@@ -102,14 +102,15 @@ TEST(Sensitivities, AgreeWithDifferences) {
         expect(s.activation[0](row, c), up.activation, down.activation, 0, 1.0, "activation");
       }
     }
-    // That there is something to compare.
+    // The sensitivities are not all zero.
     const Eigen::Index strength = 0;  // of BIC, 1060 N
     ASSERT_EQ(names[0], "BIC.max_isometric_force");
     EXPECT_GT(std::abs(s.angle(2, strength)) * 1059.0, 0.05);
   }
 }
 
-// Held, the torque of rigid muscles is proportional to their strengths: sum F dT/dF = T.
+// In a held posture the torque of rigid muscles is proportional to their strengths: sum F dT/dF =
+// T.
 TEST(Sensitivities, OfAHeldTorqueToTheStrengthsAddUpToTheTorque) {
   const Arm<double> arm = make_arm();
   SimulationInput input{.excitation = std::vector<Signal>(4, constant(0.2)), .device = {locked()}};
@@ -127,7 +128,7 @@ TEST(Sensitivities, OfAHeldTorqueToTheStrengthsAddUpToTheTorque) {
   EXPECT_EQ(s.angle.cwiseAbs().maxCoeff(), 0.0);
 }
 
-// What they are for: the parameters of a movement are found again from it.
+// The use of sensitivities: a movement's parameters are found again from it.
 TEST(Sensitivities, LeadBackToTheParametersOfAMovement) {
   const std::vector<std::string> names = {"BIC.max_isometric_force", "BIC.optimal_fiber_length",
                                           "TRI.max_isometric_force", "arm_inertia"};

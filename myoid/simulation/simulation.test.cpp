@@ -20,7 +20,7 @@ TEST(Device, IsokineticMovementComesToItsSpeedAndToRest) {
   EXPECT_EQ(locked().acceleration(7.0), 0.0);
 }
 
-// The books are wrong as soon as one entry is: each is off by 0.01 J of some 10 J in turn.
+// One wrong entry breaks the balance: each entry in turn is off by 0.01 J of some 10 J.
 TEST(EnergyBalance, SeesAnErrorInAnyEntry) {
   const Arm<double> arm = with_tendon_mode(make_arm(), muscle::TendonMode::mass);
   SimulationInput in;

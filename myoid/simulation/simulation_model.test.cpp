@@ -28,7 +28,7 @@ std::vector<Signal> bursting() {
   return {flexor, flexor, flexor, bursts(extend, 0.02)};
 }
 
-// The file's arm, its shoulder locked, and the closed form: two descriptions of one thing.
+// The file's arm with its shoulder locked, and the closed form: two descriptions of one arm.
 TEST(SimulationModel, TheArmsFileMovesAsItsClosedFormDoes) {
   for (const TendonMode mode : {TendonMode::rigid, TendonMode::equilibrium, TendonMode::mass}) {
     ArmSetup setup;
@@ -132,7 +132,7 @@ TEST(SimulationModel, ACoupledCoordinateMovesAsItsCouplerSays) {
   const Simulation s = simulate(model, {.excitation = bursting(), .device = devices}, start,
                                 {.end_s = 1.0, .output_rate_hz = 20.0, .energy = true});
   ASSERT_EQ(s.status, math::OdeStatus::done) << s.message;
-  // The coupler's forces do no work: energy closes only if they are what they must be.
+  // The coupler's forces do no work: the energy balance closes only if they are right.
   EXPECT_LT(energy_balance(s).worst, 1e-6) << energy_balance(s).where;
   const Eigen::VectorXd q = s.motion.column("shoulder_flexion");
   EXPECT_GT(q.maxCoeff() - q.minCoeff(), 0.2);
@@ -158,8 +158,7 @@ TEST(SimulationModel, WhatIsNotSimulatedIsRefusedOrSaid) {
   EXPECT_EQ(model.joints[3].stiffness_nm_per_rad, 2.0);
 }
 
-// Inverse dynamics, which counts the passive forces by a route of its own, asks of the muscles what
-// they exert.
+// Inverse dynamics counts the passive forces independently; its torque must equal the muscles'.
 TEST(SimulationModel, PassiveForcesOfTheFileAct) {
   model::BodyModel body = arm4();
   const int elbow = body.coordinate_index("elbow_flexion");

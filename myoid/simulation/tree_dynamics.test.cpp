@@ -28,7 +28,7 @@ RandomState random_state(Eigen::Index n, std::uint64_t seed) {
   return s;
 }
 
-/// Forward dynamics undoes inverse dynamics; the mass matrix is that found column by column.
+/// Forward dynamics inverts inverse dynamics; the mass matrix follows column by column.
 void expect_consistent(const model::BodyModel& body, std::uint64_t seed) {
   const auto n = static_cast<Eigen::Index>(body.coordinates.size());
   const RandomState s = random_state(n, seed);
@@ -59,7 +59,8 @@ void expect_consistent(const model::BodyModel& body, std::uint64_t seed) {
   EXPECT_LT((back - pushed - without).cwiseAbs().maxCoeff(),
             1e-9 * (1.0 + pushed.cwiseAbs().maxCoeff() + s.tau.cwiseAbs().maxCoeff()));
 
-  // Every other coordinate prescribed: what the devices exert is what inverse dynamics asks more.
+  // Every other coordinate is prescribed: the devices' forces are the difference to inverse
+  // dynamics.
   std::vector<char> some(body.coordinates.size(), 0);
   for (std::size_t k = 0; k < some.size(); k += 2) some[k] = 1;
   qddot.setConstant(2.0);

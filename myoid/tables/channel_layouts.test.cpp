@@ -11,8 +11,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-/// What every one of these files holds: BIC and TRI at 2000 Hz, the second sample 0.003 and 0.004
-/// V.
+/// Every one of these files holds BIC and TRI at 2000 Hz; the second sample is 0.003 and 0.004 V.
 void expect_the_emg(const std::string& text) {
   const CsvSeries file = parse_emg_table(text, "a.txt");
   ASSERT_EQ(file.data.channel_count(), 2) << text;

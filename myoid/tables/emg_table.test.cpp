@@ -15,7 +15,8 @@ TEST(EmgTable, APlainTableIsReadAsEver) {
 }
 
 TEST(EmgTable, ATimeColumnForEachChannelGivesAClockForEachRate) {
-  // As wireless systems export: EMG and acceleration in pairs of columns of different length.
+  // A table as wireless systems export it: EMG and acceleration in pairs of columns of different
+  // length.
   const CsvSeries s = parse_emg_table(
       "Label: Biceps: EMG 1 Sampling frequency: 2000 Unit: mV Domain: Time\n"
       "X [s],\"Biceps: EMG 1 [mV]\",X [s],\"Biceps: ACC.X 1 [g]\",X [s],\"Triceps: EMG 2 [mV]\"\n"
@@ -136,7 +137,7 @@ TEST(EmgTable, CommasBetweenCellsAndInsideNumbersAreRefused) {
 }
 
 TEST(EmgTable, AChannelBeforeTheFirstOfTwoTimeColumnsHasItsClock) {
-  // Found by fuzzing: it had none, and no rate either.
+  // Found by fuzzing: such a channel had neither a clock nor a rate.
   const CsvSeries s = parse_emg_table(
       "A [mV],X [s],\"EMG 1 [mV]\",X [s],\"EMG 2 [mV]\"\n7,0,1,0,2\n8,0.1,3,0.1,4\n", "a.csv");
   EXPECT_EQ(s.data.channel_count(), 3);

@@ -50,7 +50,7 @@ TEST_F(Orientations, RefuseWhatIsNoOrientation) {
   }
 }
 
-// Digits that are missing at the end of a file turn a sensor in silence: 0.6, 0.8 lost two of them.
+// Digits lost at the end of a file would turn a sensor without notice: 0.6, 0.8 lost two of them.
 TEST_F(Orientations, LeaveOutARowThatIsCutOff) {
   const OrientationSeries series =
       read("time\ta_imu\n0\t0.60,0.80,0,0.00\n0.01\t0.60,0,0,0.80\n0.02\t0.60,0,0,0.");

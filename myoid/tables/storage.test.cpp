@@ -161,7 +161,7 @@ TEST(ParseStorage, CommasBetweenCellsAreSeparatorsAndInsideThemDecimals) {
   const Storage decimals = parse_storage(head + "time\ta\tb\n0\t1,5\t2\n0,5\t3\t4,25\n", "f.sto");
   EXPECT_EQ(decimals.data.values()(1, 1), 4.25);
   EXPECT_EQ(parse_storage(head + "time a b\n0 1,5 2,5\n", "f.sto").data.values()(0, 1), 2.5);
-  // Both at once cannot be told apart.
+  // Both together are ambiguous.
   EXPECT_THROW((void)parse_storage(head + "time,a,b\n0,0,1,5,2,5\n", "f.sto"), ReadError);
 }
 

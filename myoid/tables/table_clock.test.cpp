@@ -98,7 +98,7 @@ TEST(ChannelLabels, UnitsAndRatesAreTakenOffTheName) {
   const TableColumn rated = take_label_apart("EMG 1 (1259Hz)");
   EXPECT_EQ(rated.name, "EMG 1");
   EXPECT_NEAR(rated.rate_hz, 34.0 / 0.027, 1e-9);
-  EXPECT_EQ(packet_rate(1500.0), 1500.0);  // none is within half a Hz
+  EXPECT_EQ(packet_rate(1500.0), 1500.0);  // no packet rate is within half a Hz
   EXPECT_EQ(rate_in_line("Sampling rate: 2000 Hz"), 2000.0);
   EXPECT_FALSE(take_label_apart("EMG (left)").unit);
 }

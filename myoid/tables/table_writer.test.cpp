@@ -18,7 +18,7 @@
 namespace myoid::recording {
 namespace {
 
-/// 30 000 rows of three channels: counts of 16 bits, as many as make several blocks.
+/// 30 000 rows of three channels with 16-bit counts, enough for several blocks.
 AnalogChannels counted() {
   AnalogCounts counts;
   AnalogCounts::Columns<std::int16_t> values(30'000, 3);
@@ -38,7 +38,7 @@ TEST(TableWriter, ALongStorageFileReadsBackToTheSameDoubles) {
   const Storage back = read_storage(folder / "long.sto");
   EXPECT_EQ(back.data.time_s(), channels.time_s());
   EXPECT_EQ(back.data.values(), channels.series().values());
-  // Each line is what the shortest texts of its numbers make.
+  // Each line consists of the shortest texts of its numbers.
   const std::string text = read_text_file(folder / "long.sto");
   const auto lines = split_lines(text);
   ASSERT_GT(lines.size(), 30'000U);

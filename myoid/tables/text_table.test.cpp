@@ -82,7 +82,8 @@ TEST(ReadRows, ALastRowThatIsCutOffIsLeftOutUnlessItIsCounted) {
   EXPECT_EQ(read_rows(TableText("0,1,2\n1,3\n"), rows, "f.csv").values.rows(), 1);
   rows.rows_said = 3.0;
   EXPECT_EQ(read_rows(TableText(text), rows, "f.csv").values.rows(), 3);
-  // Its last number has fewer digits than the one above: cut off, and then a row is missing.
+  // Its last number has fewer digits than the one above: the row is cut off, and then a row is
+  // missing.
   const TableNumbers cut = read_rows(TableText(text.substr(0, text.size() - 1)), rows, "f.csv");
   EXPECT_EQ(cut.values.rows(), 2);
   EXPECT_THAT(test::repair_lines(cut.repairs), HasSubstr("the header says 3 rows, there are 2"));
