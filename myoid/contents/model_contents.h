@@ -8,16 +8,16 @@
 
 namespace myoid {
 
-/// What is asked of a model beside its contents.
+/// Optional analyses of a model beside its contents.
 struct ModelQuestions {
   bool compare_compat = false;  ///< Muscles whose exact paths differ from OpenSim's.
   bool jumps = false;           ///< Where a length or a moment arm jumps.
   int postures = 1000;          ///< Random ones, of the comparison.
-  std::uint64_t seed = 1;       ///< Of the postures.
+  std::uint64_t seed = 1;       ///< Seed of the postures.
 };
 
-/// What a model holds, for people and programs: bodies, joints, coordinates with range and unit,
-/// muscles, markers, actuators, and what is not supported.
+/// Describes a model for people and programs: bodies, joints, coordinates with range and unit,
+/// muscles, markers, actuators, and unsupported parts.
 [[nodiscard]] nlohmann::ordered_json model_contents(const model::BodyModel& model,
                                                     const ModelQuestions& ask = {});
 

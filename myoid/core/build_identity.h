@@ -4,9 +4,9 @@
 
 namespace myoid {
 
-/// SHA-256 of the program or library that this code is in, as built: two builds that compute
-/// differently differ in it, where their version may not. Read once. The version where the system
-/// does not show the file.
+/// Returns the SHA-256 of the program or library that holds this code, read once; the version if
+/// the system does not show the file. Builds that compute differently differ in this hash, even if
+/// their version is the same.
 [[nodiscard]] const std::string& build_identity();
 
 }  // namespace myoid

@@ -6,9 +6,9 @@
 
 namespace myoid {
 
-/// Start, duration and rate of a clock, as far as its samples tell them: no samples have no start,
-/// and one sample has no rate. Every reader of files may return an empty series, so whoever
-/// describes a series asks here and not the first and last of its times.
+/// Start, duration and rate of a clock, as far as its samples define them. Without samples there is
+/// no start, with one sample no rate. Readers may return empty series, so that descriptions of
+/// series use this instead of the first and last time.
 struct ClockFacts {
   Eigen::Index samples = 0;
   std::optional<double> start_s;     ///< Time of the first sample.
@@ -17,8 +17,8 @@ struct ClockFacts {
   bool even = false;                 ///< No interval departs from the mean by more than 0.1 %.
 };
 
-/// Describes a clock. Times that are not finite, or a last time that is not behind the first, leave
-/// empty what cannot be computed of them.
+/// Describes a clock. Values stay empty if times are not finite or the last time is not after the
+/// first.
 [[nodiscard]] ClockFacts clock_facts(const Eigen::VectorXd& time_s);
 
 }  // namespace myoid

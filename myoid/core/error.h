@@ -7,8 +7,8 @@
 
 namespace myoid {
 
-/// The caller gave something that cannot be used: a value, a shape, a unit, a name.
-/// The message says what was found, what was expected and how to mend it.
+/// The caller gave an unusable value, shape, unit or name. The message says what was found, what
+/// was expected and how to mend it.
 class InvalidInput : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

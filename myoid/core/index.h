@@ -4,7 +4,7 @@
 
 namespace myoid {
 
-/// An index as Eigen and the models count (signed, never negative here) as an index of the standard
+/// Converts a signed index of Eigen or a model, never negative here, to an index of the standard
 /// containers: `bodies[at(k)]`.
 [[nodiscard]] constexpr std::size_t at(std::ptrdiff_t index) {
   return static_cast<std::size_t>(index);

@@ -8,10 +8,10 @@
 
 namespace myoid {
 
-/// Calls `body(range)` with ranges that together are 0 .. count - 1, `grain` numbers or more each,
-/// on as many threads as there may be: body must not care which numbers share a range. On one
-/// thread in order, without the scheduler, whose start takes longer than a small trial. What a
-/// body throws is thrown here.
+/// Calls `body(range)` with ranges that together are 0 .. count - 1, each of at least `grain`
+/// numbers, on as many threads as the program may use; body must not depend on the ranges. On one
+/// thread the ranges come in order and without the scheduler, whose start takes longer than a small
+/// trial. Exceptions of body are rethrown here.
 template <typename Index, typename Body>
 void parallel_ranges(Index count, Index grain, const Body& body) {
   using Range = oneapi::tbb::blocked_range<Index>;

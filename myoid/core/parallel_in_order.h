@@ -7,10 +7,10 @@
 
 namespace myoid {
 
-/// Calls `make(i, slot)` for i = 0 .. count - 1 on as many threads as there may be, and then
-/// `take(i, slot)` one after the other in order. A slot, 0 .. `slots` - 1, is free again once its
-/// number is taken: so many pieces are under way at most. On one thread all is done in order,
-/// without the scheduler. What make or take throws is thrown here.
+/// Calls `make(i, slot)` for i = 0 .. count - 1 on as many threads as the program may use, and
+/// `take(i, slot)` one by one in order. A slot, 0 .. `slots` - 1, is free again once its number is
+/// taken, so that at most `slots` pieces exist at a time. On one thread all calls are in order,
+/// without the scheduler. Exceptions of make or take are rethrown here.
 template <typename Make, typename Take>
 void parallel_in_order(std::size_t count, std::size_t slots, const Make& make, const Take& take) {
   namespace tbb = oneapi::tbb;

@@ -8,9 +8,10 @@
 
 namespace myoid {
 
-/// How a long stage reports and how it is stopped. The library itself prints nothing.
+/// Reports the progress of a long stage and stops it on request. The library itself prints nothing.
 struct Progress {
-  /// Called with the done share in 0..1 and what is being done; may be empty. Must be thread-safe.
+  /// Called with the finished share in 0..1 and the name of the work; may be empty. Must be
+  /// thread-safe.
   std::function<void(double share, std::string_view what)> report;
   std::stop_token stop;
 

@@ -13,11 +13,11 @@ namespace myoid {
 [[nodiscard]] std::string sha256(std::string_view bytes);
 
 struct InputFile {
-  std::string path;    ///< As the user wrote it.
-  std::string sha256;  ///< Of its content.
+  std::string path;    ///< As the user wrote the path.
+  std::string sha256;  ///< Hash of the content.
 };
 
-/// What makes a result reproducible: the head of every result file.
+/// Facts that make a result reproducible: the head of every result file.
 struct Provenance {
   std::string program = "myoid";
   std::string version{myoid::version()};

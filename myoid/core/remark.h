@@ -44,7 +44,7 @@ enum class RemarkCode {
   plate_sign,
   plate_pressure_outside,
   // Files.
-  general,  ///< Another matter, said in words.
+  general,  ///< Any other matter, described in words.
   reading,  ///< A reader took a file in one of several ways, or put something right.
   refused,  ///< A file or setting cannot be used.
   unit_doubtful,
@@ -88,19 +88,19 @@ struct Remark {
   Severity severity = Severity::warning;
   std::string where = {};  ///< Trial or file; empty: the whole study.
   /// Marker, EMG channel, "plate 1", coordinate; two of them as "A, B". Remarks of one code about
-  /// one thing are alike; a remark about nothing in particular stands alone.
+  /// one thing are alike; a remark without such a thing is like no other.
   std::string about = {};
   std::optional<Stretch> when = {};
   std::optional<double> value = {};        ///< The measured size, in the unit of the code's limit.
   std::string says = {};                   ///< A plain sentence without its full stop.
-  std::string remedy = {};                 ///< An instruction to the user, likewise.
-  std::vector<std::string> likewise = {};  ///< Other places with an alike remark (`grouped`).
+  std::string remedy = {};                 ///< An instruction to the user, without its full stop.
+  std::vector<std::string> likewise = {};  ///< Other places with a similar remark (`grouped`).
 };
 
 /// "marker 'C7' ...; fill it (likewise in slow, fast)": the remark in one line.
 [[nodiscard]] std::string sentence(const Remark& remark);
 
-/// The sentences of all remarks, or of those of one severity.
+/// Returns the sentences of all remarks, or of the remarks of one severity.
 [[nodiscard]] std::vector<std::string> sentences(const std::vector<Remark>& remarks,
                                                  std::optional<Severity> only = {});
 

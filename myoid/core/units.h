@@ -5,8 +5,8 @@
 
 namespace myoid {
 
-/// The SI units that quantities carry inside the library. Readers convert to these at the door;
-/// only the report and the writers convert back.
+/// SI units of quantities inside the library. Readers convert to these; only the report and the
+/// writers convert back.
 enum class Unit {
   dimensionless,
   second,

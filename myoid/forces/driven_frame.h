@@ -53,9 +53,10 @@ struct DrivenOptions {
                                          const kinematics::JointMotion& motion,
                                          const TimeSeries& forces);
 
-/// Accelerations that these forces make at the motion's postures and speeds [rad/s^2, m/s^2], a
-/// column for every coordinate: forward dynamics, whatever accelerations the motion has. Parallel
-/// over frames; the same for every number of threads. Throws as DrivenFrame and force_rows.
+/// Returns the accelerations under these forces at the motion's postures and speeds [rad/s^2,
+/// m/s^2], one column a coordinate: forward dynamics, which ignores the motion's own accelerations.
+/// Parallel over frames; the same for every number of threads. Throws as DrivenFrame and
+/// force_rows.
 [[nodiscard]] Eigen::MatrixXd driven_accelerations(const model::BodyModel& model,
                                                    const kinematics::JointMotion& motion,
                                                    const TimeSeries& forces,

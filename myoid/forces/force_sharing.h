@@ -21,7 +21,7 @@ namespace myoid::forces {
 /// torque T_k.
 struct SharingProblem {
   Eigen::MatrixXd moment_arm;     ///< Coordinates x muscles: r [m].
-  Eigen::VectorXd optimal_force;  ///< F^opt [N]: force at full activation, here and now.
+  Eigen::VectorXd optimal_force;  ///< F^opt [N]: force at full activation at this instant.
   Eigen::VectorXd torque;         ///< tau [N m]
   Eigen::VectorXd lower, upper;   ///< Of the activations.
   Eigen::VectorXd weight;         ///< w; empty: 1 for all.
@@ -65,11 +65,11 @@ struct ForceAtActivation {
 using MuscleForceLaw =
     std::function<ForceAtActivation(Eigen::Index frame, Eigen::Index muscle, double activation)>;
 
-/// The same problem with forces F_i(x_i) in the place of F_i^opt x_i: solved as a sequence of
-/// problems with the laws' tangents, until activations move by less than 1e-11. `problem.torque` is
-/// the whole torque. Where the laws are not straight the optimum is one of its neighborhood: the
-/// search begins at `start`. The certificate is that of the tangent problem at the solution, whose
-/// conditions are those of the problem itself.
+/// Solves the same problem with forces F_i(x_i) instead of F_i^opt x_i, as a sequence of problems
+/// with the laws' tangents, until activations change by less than 1e-11. `problem.torque` is the
+/// whole torque. For nonlinear laws the optimum is a local one: the search begins at `start`. The
+/// certificate belongs to the tangent problem at the solution, whose optimality conditions equal
+/// those of the problem itself.
 [[nodiscard]] SharingSolution solve_sharing(
     const SharingProblem& problem,
     const std::function<ForceAtActivation(Eigen::Index muscle, double activation)>& law,

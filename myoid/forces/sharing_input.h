@@ -42,7 +42,7 @@ struct SharingInput {
                                          const std::vector<std::string>& coordinates,
                                          const dynamics::ExternalLoads* loads);
 
-/// Force sharing on this input; the least activation is the model's, whatever `options` say.
+/// Shares forces on this input; the model gives the least activation, not `options`.
 [[nodiscard]] MuscleForces share(const SharingInput& input, SharingOptions options);
 
 }  // namespace myoid::forces

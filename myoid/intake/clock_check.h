@@ -14,7 +14,7 @@
 
 namespace myoid {
 
-/// A longer pause in a clock is refused: what a spline makes of it is no measurement.
+/// A longer pause in a clock cannot be bridged: a spline across it would invent data.
 inline constexpr double kLongestGap_s = kLimits.pause_s;
 
 /// A clock with a pause of more than kLongestGap_s.
@@ -24,20 +24,20 @@ class ClockPause : public ReadError {
              const std::string& message,
              std::vector<signals::ClockStretch> stretches)
       : ReadError(path, 0, message), stretches_(std::move(stretches)) {}
-  /// What lies between the pauses.
+  /// Returns the parts of the clock between the pauses.
   [[nodiscard]] const std::vector<signals::ClockStretch>& stretches() const { return stretches_; }
 
  private:
   std::vector<signals::ClockStretch> stretches_;
 };
 
-/// A warning about the shorter pauses of a file's clock, empty if there are none. Throws ReadError
-/// for a clock slower than a person's movement needs (less than 5 Hz: milliseconds or frames), and
+/// Returns a warning about the shorter pauses of a file's clock, empty if there are none. Throws
+/// ReadError for a clock too slow for human movement (less than 5 Hz: milliseconds or frames), and
 /// ClockPause for a pause of more than kLongestGap_s.
 [[nodiscard]] std::string check_clock(const std::filesystem::path& path,
                                       const Eigen::VectorXd& time_s);
 
-/// Throws ReadError where [motion] cutoff_hz is 0.45 of the rate of this file's clock or more.
+/// Throws ReadError if [motion] cutoff_hz is at least 0.45 of the rate of this file's clock.
 void check_cutoff(const Study& study,
                   const std::filesystem::path& path,
                   const Eigen::VectorXd& time_s);

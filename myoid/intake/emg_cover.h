@@ -11,33 +11,33 @@
 
 namespace myoid {
 
-/// Puts a warning into `input` where the motion that it holds goes on for more than 0.1 s without
-/// EMG, with how long and what becomes of it. Throws ReadError where the trial is shorter than half
-/// a second, or the EMG covers less than half of it.
+/// Adds a warning to `input` if more than 0.1 s of its motion has no EMG, with the missing time and
+/// the consequence. Throws ReadError if the trial is shorter than half a second, or the EMG covers
+/// less than half of it.
 void check_cover(const TrialSpec& trial, const Eigen::VectorXd& emg_s, TrialInput& input);
 
-/// Rows of a motion's clock at which there is EMG, as [first, last]: none more than half a sample
-/// of the motion beyond its ends. First above last if there are none.
+/// Rows [first, last] of a motion's clock with EMG, or up to half a sample of the motion beyond the
+/// EMG's ends. first > last if there are none.
 struct Rows {
   Eigen::Index first = 0, last = -1;
   [[nodiscard]] Eigen::Index count() const { return last - first + 1; }
 };
 [[nodiscard]] Rows rows_with_emg(const Eigen::VectorXd& motion_s, const Eigen::VectorXd& emg_s);
 
-/// How long EMG and motion of a trial last, each in a file of its own and without a window.
+/// Durations of a trial's EMG and motion, for files of their own without a window.
 struct TrialLengths {
   std::string trial;
-  double emg_s = 0.0, motion_s = 0.0;  ///< Both from the same begin.
+  double emg_s = 0.0, motion_s = 0.0;  ///< Counted from the same beginning.
   double motion_rate_hz = 0.0, emg_rate_hz = 0.0;
 };
-/// Empty where the two need not be alike: one file, a window, no motion, other begins, a maximal
-/// contraction or a static pose.
+/// Returns the durations; empty where they need not agree: one file, a window, no motion, different
+/// beginnings, a maximal contraction or a static pose.
 [[nodiscard]] std::vector<TrialLengths> lengths_of(const TrialSpec& trial, const TrialInput& input);
 
-/// EMG that lasts longer or shorter than the motion as a wrong rate makes it: 2, 3, 4, 5 or 10
-/// times or as part of it, within 2 %: an error where it covers only that part, or ends together
-/// with the motion within 0.5 % once the rate is corrected, as what one trigger stops does; else a
-/// warning. Likewise a warning where both differ by one and the same factor in every trial.
+/// Finds EMG whose duration differs from the motion's by a factor of 2, 3, 4, 5, 10 or a reciprocal
+/// of these, within 2 %: a wrong rate. It is an error if the EMG is the shorter one, or if both
+/// ends agree within 0.5 % at the corrected rate, as after a common trigger; otherwise a warning.
+/// It is also a warning if the ratio is the same in every trial.
 [[nodiscard]] std::vector<Remark> unlike_lengths(const std::vector<TrialLengths>& trials);
 
 }  // namespace myoid

@@ -17,17 +17,17 @@ namespace myoid {
 /// A marker farther than this from the center of pressure does not stand on the plate.
 inline constexpr double kFarFromPlate_m = kLimits.plate_far_m;
 
-/// What force plates do to the bodies that stand on them, in the model's ground (R_YG from the
-/// laboratory). Each plate acts with its force and its moment about the middle of its surface,
-/// which is the same as force, center of pressure and free moment, and has no pole where nobody
-/// stands on it. Where a plate does not bear the person (`recording::action_on_person`) it is 0;
-/// then everything is low-passed forwards and backwards at `cutoff_hz`, if given. The plates' sides
-/// are those that `recording::stand_plates` found.
+/// Returns the forces of plates on the bodies that stand on them, in the model's ground (R_YG from
+/// the laboratory). Each plate acts with its force and its moment about the middle of its surface.
+/// This equals force, center of pressure and free moment, but has no singularity without a load.
+/// Where a plate does not bear the person (`recording::action_on_person`), force and moment are 0;
+/// then all are low-passed forwards and backwards at `cutoff_hz`, if given.
+/// `recording::stand_plates` must have found the plates' sides.
 ///
-/// `bodies[k]` stands on plate k ("" on none); with an empty list each contact goes to the body
-/// whose marker is nearest to its center of pressure, with a note. Throws InvalidInput: a body that
-/// the model does not have, more bodies than plates, no plate at all, or a contact that no marker
-/// is near.
+/// `bodies[k]` stands on plate k ("" on none). With an empty list each contact goes to the body
+/// whose marker is nearest to its center of pressure, with a note. Throws InvalidInput for a body
+/// that the model does not have, more bodies than plates, no plate, or a contact without a marker
+/// near it.
 [[nodiscard]] dynamics::ExternalLoads plate_loads(
     const std::vector<recording::ForcePlate>& plates,
     const Mat3& R_YG,

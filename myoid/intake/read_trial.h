@@ -8,14 +8,14 @@
 
 namespace myoid {
 
-/// Parts of a trial between such pauses that are shorter are left out.
+/// Shorter parts of a trial between pauses are left out.
 inline constexpr double kShortestPart_s = 1.0;
 
-/// Reads one trial; its EMG and loads are put on the clock of its motion before anything else
-/// (`trial_clock`). Throws ReadError (file, line, found, expected, remedy) or InvalidInput: a
-/// missing EMG channel, angles that are degrees where radians are said, EMG and motion that do not
-/// cover one time, a pause of more than kLongestGap_s in a clock (ClockPause), a clock that is not
-/// in seconds, a cut-off above half the rate.
+/// Reads one trial and puts its EMG and loads on the clock of its motion first (`trial_clock`).
+/// Throws ReadError (file, line, found, expected, remedy) or InvalidInput: a missing EMG channel,
+/// degrees where the file says radians, EMG and motion at different times, a pause of more than
+/// kLongestGap_s in a clock (ClockPause), a clock that is not in seconds, a cut-off above half the
+/// rate.
 [[nodiscard]] TrialInput read_trial_input(const Study& study,
                                           const TrialSpec& trial,
                                           const model::BodyModel& model);
@@ -26,10 +26,10 @@ struct TrialPart {
   TrialInput input;
 };
 
-/// Reads one trial; one whose clock pauses for more than kLongestGap_s as several, "name.1",
-/// "name.2", ..., with a warning: nothing is filtered or interpolated across the pause. Parts of
-/// less than kShortestPart_s are left out. Throws as `read_trial_input`, also where nothing is left
-/// or the study calibrates coordinates in a window that not every part has.
+/// Reads one trial. A trial whose clock pauses for more than kLongestGap_s becomes several,
+/// "name.1", "name.2", ..., with a warning: nothing is filtered or interpolated across the pause.
+/// Parts of less than kShortestPart_s are left out. Throws as `read_trial_input`, also if no part
+/// is left or the study calibrates coordinates in a window, which not every part contains.
 [[nodiscard]] std::vector<TrialPart> read_trial_parts(const Study& study,
                                                       const TrialSpec& trial,
                                                       const model::BodyModel& model);

@@ -12,14 +12,15 @@ namespace myoid {
 
 /// The EMG of one trial.
 struct TrialActivation {
-  std::optional<signals::EmgStages> stages;  ///< If its EMG was raw.
-  TimeSeries activation;                     ///< Per EMG channel, 0..1; empty: no EMG.
+  std::optional<signals::EmgStages> stages;  ///< Stages of raw EMG; empty for other EMG.
+  TimeSeries activation;  ///< One channel for each EMG channel, 0..1; empty without EMG.
 };
 
 /// The scale of a study's EMG: one for all trials.
 struct EmgScale {
-  signals::Whitening whitening;                              ///< Of raw EMG.
-  std::vector<signals::ChannelNormalisation> normalisation;  ///< Empty if EMG came as activations.
+  signals::Whitening whitening;  ///< For raw EMG.
+  std::vector<signals::ChannelNormalisation>
+      normalisation;  ///< Empty if the EMG is given as activations.
 };
 
 /// The EMG of all trials, in the study's order.
@@ -37,25 +38,25 @@ inline constexpr double kActivationRate_hz = 200.0;
 /// Turns the EMG of all trials into activations: `study_envelopes`, then `normalise`.
 [[nodiscard]] StudyActivation study_activation(const Study& study, const EmgOfTrials& emg);
 
-/// Cleans, whitens (one filter for the study) and rectifies raw EMG; envelopes and activations stay
-/// as they came. Trials that are held back for validation have no part in the filter. The
+/// Cleans, whitens (one decision for the study) and rectifies raw EMG; given envelopes and
+/// activations stay unchanged. Trials held back for validation have no part in the filter. The
 /// activations are empty. Throws as `signals::clean_emg`.
 [[nodiscard]] StudyActivation study_envelopes(const Study& study, const EmgOfTrials& emg);
 
-/// The envelopes of the trials that have EMG, for a comparison of levels; without the trials that
-/// are held back for validation if `without_validation`.
+/// Returns the envelopes of the trials that have EMG, for a comparison of levels; with
+/// `without_validation`, omits the trials held back for validation.
 [[nodiscard]] std::vector<signals::TrialEnvelope> envelopes_of(const Study& study,
                                                                const EmgOfTrials& emg,
                                                                const StudyActivation& envelopes,
                                                                bool without_validation);
 
 /// Divides the envelopes by the study's greatest effort and thins them to kActivationRate_hz, for
-/// `TrialActivation::activation` and `EmgScale::normalisation`. Trials that are held back for
-/// validation have no part in the greatest effort. EMG that came as activation stays. Throws
-/// InvalidInput as `signals::find_normalisation`.
+/// `TrialActivation::activation` and `EmgScale::normalisation`. Trials held back for validation
+/// have no part in the greatest effort. Given activations stay unchanged. Throws InvalidInput as
+/// `signals::find_normalisation`.
 void normalise(const Study& study, const EmgOfTrials& emg, StudyActivation& envelopes);
 
-/// The activations of the same trials if their uses were those of `study`, from the clean EMG of
+/// Returns the activations of the same trials with the uses of `study`, from the clean EMG of
 /// `known`.
 [[nodiscard]] StudyActivation activation_with_uses(
     const Study& study, const EmgOfTrials& emg, const std::vector<const TrialActivation*>& known);

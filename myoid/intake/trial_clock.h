@@ -11,23 +11,23 @@
 
 namespace myoid {
 
-/// By how much people's EMG envelopes lead the motion that they drive, and what that varies by:
-/// 60 ± 20 ms of electromechanical delay and activation, and ± 50 ms by cocontraction and braking.
+/// Usual lead of EMG envelopes over the motion that they drive: 60 ± 20 ms of electromechanical
+/// delay and activation, and ± 50 ms from cocontraction and braking.
 inline constexpr double kUsualLead_s = 0.06;
 inline constexpr double kUsualLeadSd_s = 0.054;
 
-/// How the EMG of a trial stands to the clock of its motion.
+/// Relation of a trial's EMG clock to the clock of its motion.
 struct TrialClock {
   signals::ClockMap clock;
   std::string source;  ///< "as the study says", "5 edges of 'Sync' and 'Trig'", ...
 };
 
-/// The clock of the trial's EMG by the study's [sync] or the trial's own: numbers, instants or a
-/// signal that both recordings hold, or "estimate": the offset at which `envelopes` lead `movement`
-/// by kUsualLead_s, with that as its uncertainty. Empty where there is nothing to put right: no
-/// [sync], no motion, or EMG and motion of one file. `envelopes` is asked for with "estimate" only.
-/// Throws ReadError or InvalidInput where a trigger is not there, cannot be matched, or nothing can
-/// be told.
+/// Finds the clock of the trial's EMG by the study's [sync] or the trial's own: numbers, instants
+/// or a signal in both recordings, or "estimate": the offset at which `envelopes` lead `movement`
+/// by kUsualLead_s, with the uncertainty of that lead. Empty if there is nothing to correct: no
+/// [sync], no motion, or EMG and motion in one file. `envelopes` is called for "estimate" only.
+/// Throws ReadError or InvalidInput if a trigger is missing or cannot be matched, or if the
+/// estimate fails.
 [[nodiscard]] std::optional<TrialClock> trial_clock(
     const Study& study,
     const TrialSpec& trial,
@@ -35,10 +35,10 @@ struct TrialClock {
     const std::function<TimeSeries()>& envelopes,
     const std::function<void(const std::filesystem::path&)>& remember);
 
-/// What is in force for a trial; nullptr if nothing is.
+/// Returns the sync settings of a trial; nullptr if there are none.
 [[nodiscard]] const SyncSpec* sync_of(const Study& study, const TrialSpec& trial);
 
-/// The clock of the file of a trial's loads, if it is not that of the motion.
+/// Returns the clock of the file of a trial's loads, if it differs from the motion's.
 [[nodiscard]] std::optional<signals::ClockMap> loads_clock(const Study& study,
                                                            const TrialSpec& trial,
                                                            const std::filesystem::path& file);

@@ -10,14 +10,14 @@
 
 namespace myoid {
 
-/// How the study wants raw EMG to become envelopes.
+/// Returns the study's options for envelopes of raw EMG.
 [[nodiscard]] signals::EnvelopeOptions envelope_options(const Study& study);
 
-/// The EMG of a trial, the channels of the study's muscles alone, put on the clock of the motion
-/// that `input` already holds and cut to the trial's times, from 0.5 s before on: the delay reaches
-/// back. Notes, warnings and the clock go to `input`; `remember` is told of every further file.
-/// Throws ReadError for a missing channel, an envelope or activation that cannot be one, and EMG
-/// that covers less than half of the motion; as `check_clock` and `trial_clock`.
+/// Reads the EMG of a trial: only the channels of the study's muscles, on the clock of the motion
+/// in `input`, cut to the trial's times and 0.5 s before, which the delay needs. Notes, warnings
+/// and the clock go to `input`; `remember` receives every further file. Throws ReadError for a
+/// missing channel, an impossible envelope or activation, and EMG that covers less than half of the
+/// motion; also as `check_clock` and `trial_clock`.
 [[nodiscard]] TimeSeries read_trial_emg(
     const Study& study,
     const TrialSpec& trial,

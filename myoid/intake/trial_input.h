@@ -18,18 +18,18 @@
 
 namespace myoid {
 
-/// The files of one trial as values: SI, laboratory turned onto the model's up, markers renamed to
-/// the model's and mended.
+/// The files of one trial as values: in SI, turned onto the model's vertical, with markers renamed
+/// to the model's and mended.
 struct TrialInput {
   std::optional<recording::MarkerSeries> markers;
-  Vec3 up_L = Vec3::UnitY();         ///< Up in the laboratory of the markers, as recorded.
+  Vec3 up_L = Vec3::UnitY();         ///< Upward axis of the markers' laboratory, as recorded.
   std::optional<TimeSeries> motion;  ///< Coordinates [rad | m].
   std::optional<TimeSeries> emg;     ///< [V], or dimensionless for envelopes and activations.
   std::optional<TimeSeries> external_torque;  ///< [N m]
   std::optional<dynamics::ExternalLoads> loads;
-  std::optional<TrialClock> emg_clock;  ///< How the EMG was put on the clock of the motion.
+  std::optional<TrialClock> emg_clock;  ///< Steps that put the EMG on the clock of the motion.
   std::vector<Remark> remarks;          ///< Notes and warnings about the files.
-  std::vector<Remark> marker_faults;    ///< Of the markers as recorded, before mending.
+  std::vector<Remark> marker_faults;    ///< Faults of the markers as recorded, before mending.
   std::vector<InputFile> files;
 };
 
@@ -44,7 +44,7 @@ void add_repairs(const std::filesystem::path& path,
                  const std::vector<recording::Repair>& repairs,
                  std::vector<Remark>& remarks);
 
-/// "3 samples from its begin to 2 s; at least 10 are needed".
+/// Returns "3 samples from its begin to 2 s; at least 10 are needed".
 [[nodiscard]] std::string few_samples(const TrialSpec& trial, const TimeSeries& series);
 
 }  // namespace myoid

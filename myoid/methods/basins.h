@@ -9,8 +9,8 @@
 namespace myoid::identification {
 
 /// Searches from the given start and Sobol points of the box, in parallel. Two ends are one basin
-/// if no unknown differs by more than 0.04 spreads. `plain_samples` is the number of residuals of a
-/// cost that does not weight them, which their own variance then turns into chi-square; 0: it does.
+/// if no unknown differs by more than 0.04 spreads. `plain_samples` is the number of residuals of
+/// an unweighted cost, whose variance then scales the cost to chi-square; 0: the cost is weighted.
 /// Throws Interrupted.
 [[nodiscard]] BasinTable find_basins(const math::LocalSearch& search,
                                      const StartBox& box,
@@ -18,7 +18,7 @@ namespace myoid::identification {
                                      Eigen::Index plain_samples = 0,
                                      const Progress& progress = {});
 
-/// The minima of the estimator's own search, with these weights.
+/// Returns the minima of the estimator's own search, with these weights.
 [[nodiscard]] BasinTable find_basins(const Estimator& estimator,
                                      const Weighting& weighting,
                                      int starts);
@@ -26,8 +26,9 @@ namespace myoid::identification {
 /// Number of starts from which a reported fit looks for other minima.
 inline constexpr int kUsualLook = 24;
 
-/// Calls `report_other_minima` for a fit of method torque with these options: with its table where
-/// several starts were asked for, else with searches from `starts` points at its minimum's weights.
+/// Calls `report_other_minima` for a fit of method torque with these options: with the fit's table
+/// if several starts were asked for, otherwise with searches from `starts` points at the weights of
+/// its minimum.
 void look_around(const StudyData& data,
                  EstimatorOptions options,
                  IdentificationResult& result,
@@ -41,8 +42,8 @@ void report_other_minima(const BasinTable& table,
                          double cost,
                          IdentificationResult& result);
 
-/// The minima of the source paper's plain Gauss-Newton steps on one muscle in one branch. None
-/// where every number is held or the case is not fitted (PaperCase::obstacle).
+/// Returns the minima of the source paper's plain Gauss-Newton steps on one muscle in one branch.
+/// Empty if every number is held or the case is not fitted (PaperCase::obstacle).
 [[nodiscard]] BasinTable find_paper_basins(const StudyData& data,
                                            std::size_t muscle,
                                            bool shortening,

@@ -6,11 +6,12 @@
 namespace myoid::identification {
 
 struct PaperOptions {
-  int multistart = 0;  ///< Above 1: where the search ends from as many starts (start_box.h), in
-                       ///< IdentificationResult::basins. The estimates are the given start's.
+  int multistart =
+      0;  ///< If above 1, searches from as many starts (start_box.h) and keeps their ends in
+          ///< IdentificationResult::basins. The estimates stay the given start's.
   std::vector<std::string> muscles;  ///< Empty: all.
   bool shared_forces =
-      false;  ///< The forces are an optimizer's: no verdict is then better than `weak`.
+      false;  ///< An optimizer computed the forces: verdicts are then at best `weak`.
 };
 
 /// The source paper's estimator, as published: for every muscle, shortening (v <= 0) and

@@ -25,22 +25,23 @@ struct PaperCase {
 
   [[nodiscard]] Eigen::VectorXd start_vector() const;
   [[nodiscard]] double largest_force_n() const;
-  /// The reason why the case is not fitted: fewer than ten samples per unknown, or no force at all.
-  /// Empty: it is fitted.
+  /// Returns the reason why the case is not fitted: fewer than ten samples per unknown, or no
+  /// force. Empty if it is fitted.
   [[nodiscard]] std::string obstacle() const;
-  /// r_i = F_m(x) - F_i, without bounds; it refers to this case, which has to outlive it.
+  /// Returns r_i = F_m(x) - F_i without bounds. The problem refers to this case, which must outlive
+  /// it.
   [[nodiscard]] math::LeastSquaresProblem problem() const;
 };
 
-/// From all calibration trials, the EMG envelope taken for the activation without a delay. Held is
-/// what MuscleSetup::fixed names or the last of `StudyData::rules` about it frees not; a rule's
-/// value is where it starts. Throws InvalidInput if a trial has no forces.
+/// Builds the case from all calibration trials, with the EMG envelope as activation, without a
+/// delay. A number is held if MuscleSetup::fixed names it, unless the last of `StudyData::rules`
+/// about it frees it; a rule's value is the start. Throws InvalidInput if a trial has no forces.
 [[nodiscard]] PaperCase paper_case(const StudyData& data, std::size_t muscle, bool shortening);
 
-/// Plain Gauss-Newton steps, as published. Steps that run away, to where an unknown is a thousand
-/// times what it was at the start, are `no_descent`, whatever is flat out there; the width, which
-/// enters squared, comes back without its sign. A start where the force is not finite is
-/// `not_finite`. Throws Interrupted.
+/// Searches by plain Gauss-Newton steps, as published. Steps that take an unknown beyond a thousand
+/// times its start end as `no_descent`, even if the cost is flat there. The width, which enters
+/// squared, loses its sign. A start with a force that is not finite is `not_finite`. Throws
+/// Interrupted.
 [[nodiscard]] math::LeastSquaresResult search_as_published(const PaperCase& samples,
                                                            const Eigen::VectorXd& start,
                                                            const Progress& progress = {});

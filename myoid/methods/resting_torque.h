@@ -21,39 +21,39 @@ namespace myoid::identification {
 ///
 ///   T(q) = T(q_end) + W(q) - W(q_end),   W(q) = w_s sin q + w_c cos q
 struct RestingTorque {
-  double lowest_rad = 0.0, highest_rad = 0.0;  ///< The angles at which it was measured.
+  double lowest_rad = 0.0, highest_rad = 0.0;  ///< Range of the measured angles.
   Eigen::VectorXd coefficient_nm;              ///< c
-  /// w_s, w_c: the sine of the angle that comes nearest to the torque, which a weight makes. 0
-  /// where it leaves more than a tenth of the torque's variance, or is more than 25 N m.
+  /// w_s, w_c: coefficients of the sine of the angle that fits the torque best, as a weight has. 0
+  /// if the sine leaves more than a tenth of the torque's variance, or exceeds 25 N m.
   double weight_sin_nm = 0.0, weight_cos_nm = 0.0;
-  double viscosity_nms = 0.0;  ///< b; 0 where the joint was moved one way only, or not.
+  double viscosity_nms = 0.0;  ///< b; 0 if the joint was moved in one direction only, or not moved.
   double residual_nm = 0.0;    ///< Root mean square of the remainder.
 
-  /// Without the viscous part [N m].
+  /// Returns the torque without the viscous part [N m].
   [[nodiscard]] double at(double angle_rad) const;
   [[nodiscard]] Eigen::VectorXd at(const Eigen::VectorXd& angle_rad) const;
 };
 
-/// The greatest weight torque of an instrument, or of a limb that a model has wrong [N m]: 5 kg at
-/// half a metre.
+/// Greatest weight torque of an instrument, or of the error in a model's limb [N m]: 5 kg at half a
+/// metre.
 inline constexpr double kLargestWeight_nm = 25.0;
 
-/// Part of a resting torque that no weight explains, for samples of one trial: the torque less the
-/// sine of the angle that comes nearest to it, or less its mean where the joint hardly moves.
+/// Returns the part of a resting torque that no weight explains, for samples of one trial: the
+/// torque minus the best-fitting sine of the angle, or minus its mean if the joint hardly moves.
 [[nodiscard]] Eigen::VectorXd beside_weight(const Eigen::VectorXd& angle_rad,
                                             const Eigen::VectorXd& torque_nm);
 
-/// The same with the joint's name and the passive trials in which it was measured.
+/// A resting torque with the joint's name and its passive trials.
 struct RestingJoint {
   std::string joint;
   RestingTorque torque;
   std::vector<std::string> trials;
 };
 
-/// Least squares over n samples of one joint moved while at rest: angle [rad], speed [rad/s] and
-/// the torque that muscles would have had to provide [N m] (inverse dynamics less the torque of the
-/// surroundings). The degree is one for every 15 degrees of range, at most five, so that noise
-/// is not followed. Absent for fewer than 20 samples or values that are not finite.
+/// Fits n samples of one joint moved at rest by least squares: angle [rad], speed [rad/s] and the
+/// muscles' torque by inverse dynamics, without the torque of the surroundings [N m]. The degree is
+/// one for every 15 degrees of range, at most five, so that the fit does not follow noise. Empty
+/// for fewer than 20 samples or values that are not finite.
 [[nodiscard]] std::optional<RestingTorque> fit_resting_torque(const Eigen::VectorXd& angle_rad,
                                                               const Eigen::VectorXd& velocity_radps,
                                                               const Eigen::VectorXd& torque_nm);

@@ -17,37 +17,37 @@ struct SolverRun {
   int start = 0;
   math::Termination termination = math::Termination::no_descent;
   double cost = 0.0;
-  double distance = 0.0;  ///< To the best minimum of all runs (start_box.h).
-  int evaluations = 0;    ///< Of the whole residual.
+  double distance = 0.0;  ///< Distance to the best minimum of all runs (start_box.h).
+  int evaluations = 0;    ///< Evaluations of the whole residual.
   double seconds = 0.0;
 };
 
 struct SolverContest {
   std::vector<SolverRun> runs;
   double best_cost = 0.0;
-  BasinTable basins;  ///< Of Levenberg-Marquardt.
+  BasinTable basins;  ///< Minima found by Levenberg-Marquardt.
 };
 
 struct ContestOptions {
-  int starts = 3;                  ///< The given one and Sobol points of the box (start_box.h).
-  int direct_evaluations = 20000;  ///< At most, of the simplex and of annealing, per start.
-  int basin_starts = 31;           ///< For the table of basins.
-  std::uint64_t seed = 1;          ///< Of the annealing.
+  int starts = 3;  ///< Number of starts: the given one and Sobol points of the box (start_box.h).
+  int direct_evaluations = 20000;  ///< Limit per start for the simplex and annealing.
+  int basin_starts = 31;           ///< Number of starts for the table of basins.
+  std::uint64_t seed = 1;          ///< Seed of annealing.
   Progress progress;
 };
 
-/// The four solvers that the source paper weighs against each other, on the same cost, with the
-/// same weights (those of the usual fit) and bounds, from the same starts. Gauss-Newton takes full
-/// steps; annealing begins with steps as wide as the box of the starts. The estimator's own
-/// progress is not used. Throws Interrupted.
+/// Compares the four solvers that the source paper weighs, on the same cost, with the same weights
+/// (the usual fit's) and bounds, from the same starts. Gauss-Newton takes full steps; annealing
+/// begins with steps as wide as the box of the starts. The estimator's own progress is not used.
+/// Throws Interrupted.
 [[nodiscard]] SolverContest compare_solvers(const StudyData& data,
                                             const EstimatorOptions& estimator,
                                             const ContestOptions& options = {});
 
-/// The same on the problem that the source paper solves: 1/2 sum (F_t - F_m(x))^2 of one muscle in
+/// Compares the solvers on the source paper's problem: 1/2 sum (F_t - F_m(x))^2 of one muscle in
 /// one branch (paper_case.h), without weights, priors or bounds. Gauss-Newton is that of
-/// `identify_paper`. Costs are in N^2. No runs where the
-/// branch has fewer samples than unknowns, or all is held.
+/// `identify_paper`. Costs are in N^2. No runs if the branch has fewer samples than unknowns, or
+/// all numbers are held.
 [[nodiscard]] SolverContest compare_paper_solvers(const StudyData& data,
                                                   std::size_t muscle,
                                                   bool shortening,

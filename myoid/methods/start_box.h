@@ -10,21 +10,23 @@
 
 namespace myoid::identification {
 
-/// The box in which searches begin: about the given start, two spreads of the priors wide.
+/// The box of the searches' starts: two spreads of the priors to either side of the given start.
 struct StartBox {
   Eigen::VectorXd given;
-  Eigen::VectorXd spread;  ///< Of the prior; without one 0.3 of a logarithm, a tenth of a value.
+  Eigen::VectorXd spread;  ///< Spread of the prior; without a prior 0.3 for a logarithm, a tenth of
+                           ///< other values.
   Eigen::VectorXd lower;   ///< Two spreads below the given start, inside the bounds.
   Eigen::VectorXd upper;
 };
 [[nodiscard]] StartBox start_box(const Estimator& estimator);
-/// The box of the source paper's unknowns, each in its own unit and within its physical bounds.
+/// Returns the box of the source paper's unknowns, each in its own unit and within its physical
+/// bounds.
 [[nodiscard]] StartBox start_box(const PaperCase& samples, const MuscleSetup& setup);
 
-/// The given start and Sobol points of the box.
+/// Returns the given start and Sobol points of the box.
 [[nodiscard]] std::vector<Eigen::VectorXd> starts_in(const StartBox& box, int count);
 
-/// Root mean square of the unknowns' differences, in spreads.
+/// Returns the root mean square of the unknowns' differences, in spreads.
 [[nodiscard]] double distance(const Eigen::VectorXd& a,
                               const Eigen::VectorXd& b,
                               const StartBox& box);

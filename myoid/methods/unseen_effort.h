@@ -6,16 +6,15 @@
 
 namespace myoid::identification {
 
-/// The EMG channel whose greatest effort a fit has seen least of.
+/// The EMG channel whose effort exceeds the fitted effort most.
 struct UnseenEffort {
-  std::string channel;  ///< Empty: no channel works harder than in the trials that are fitted.
-  double ratio = 1.0;   ///< Greatest effort of the trials held back over that of those fitted.
+  std::string channel;  ///< Empty: no channel exceeds its effort in the fitted trials.
+  double ratio = 1.0;   ///< Greatest effort in held-back trials divided by that in fitted trials.
 };
 
 /// Compares the greatest efforts (mean of the activation over half a second, within the trial) of
-/// the trials that are held back with those of the trials that are fitted, and returns the channel
-/// with the greatest ratio. A prediction beyond the efforts of a fit rests on the law alone: force
-/// grows in proportion to activation.
+/// held-back and fitted trials, and returns the channel with the greatest ratio. A prediction
+/// beyond the fitted efforts depends on the law alone: force is proportional to activation.
 [[nodiscard]] UnseenEffort unseen_effort(const StudyData& data);
 
 }  // namespace myoid::identification

@@ -20,12 +20,12 @@ struct Explained {
   Eigen::Index samples = 0;
   double rms_nm = 0.0;
   double spread_nm = 0.0;
-  double torque_rms_nm = 0.0;  ///< What predicting none at all would err by.
+  double torque_rms_nm = 0.0;  ///< RMS error of predicting no torque.
 
   [[nodiscard]] double r2() const;
-  /// No torque at all would be nearer; or R2 below -1, the error being larger than that of an
-  /// unrelated torque of the same size, and half of the torque or more: what hardly changes has a
-  /// negative R2 soon.
+  /// True if no torque would be nearer, or if R2 is below -1 and the error at least half of the
+  /// torque. R2 below -1 means a larger error than that of an unrelated torque of the same size;
+  /// the second condition is there because a nearly constant torque easily has a negative R2.
   [[nodiscard]] bool is_wrong() const;
   /// "R2 0.93: 0.74 N m rms below 1.5 Hz, where the torque varies by 2.80".
   [[nodiscard]] std::string text() const;
@@ -34,13 +34,13 @@ struct Explained {
 /// The score of a trial's prediction below its `smooth_hz`.
 [[nodiscard]] identification::Score smoothed_score(const identification::TrialFit& fit);
 
-/// Of the trials that were fitted, or of those held back.
+/// Returns this for the trials that were fitted, or for the trials held back.
 [[nodiscard]] Explained explained(const identification::IdentificationResult& fit,
                                   bool calibration);
-/// Of the trials left out in turn.
+/// Returns this for the trials left out in turn.
 [[nodiscard]] Explained explained(const std::vector<identification::Fold>& folds);
 
-/// A trial left out that is predicted worse than the others by more than chance.
+/// A left-out trial that is predicted worse than the others by more than chance.
 struct OutlyingFold {
   std::string trial, joint;
   double rms_nm = 0.0, r2 = 0.0;
@@ -52,11 +52,12 @@ struct OutlyingFold {
 [[nodiscard]] std::vector<OutlyingFold> outlying_folds(
     const std::vector<identification::Fold>& folds);
 
-/// Does the fit make the torque, of the trials it was fitted to and of those held back? Have the
-/// muscles left the literature?
+/// Tests whether the fit makes the torque of the fitted trials and of those held back, and whether
+/// the muscles have left the literature.
 [[nodiscard]] std::vector<report::Gate> fit_gates(const identification::IdentificationResult& fit);
 
-/// Does it predict trials that took no part, better than the literature, and all of them alike?
+/// Tests whether the fit predicts left-out trials, better than the literature, and all of them
+/// alike.
 [[nodiscard]] std::vector<report::Gate> fold_gates(const std::vector<identification::Fold>& folds);
 
 }  // namespace myoid

@@ -10,16 +10,16 @@
 
 namespace myoid {
 
-/// May the numbers of this run be believed? Input, inverse kinematics, force sharing, EMG, fit and
-/// prediction, each with what was found, what is expected and why. The same list heads the report,
-/// goes to the terminal, and decides exit code 4.
+/// Returns the gates that tell whether the numbers of this run can be believed: input, inverse
+/// kinematics, force sharing, EMG, fit and prediction, each with the result, the expectation and
+/// the reason. The same list heads the report, goes to the terminal, and decides exit code 4.
 [[nodiscard]] std::vector<report::Gate> quality_gates(const StudyResult& result);
 
 /// The faults of all recordings as a table with their times and remedies, warnings first; the
 /// report begins with it.
 [[nodiscard]] report::Section recordings_section(const StudyResult& result);
 
-/// All faults of the recordings, those of the whole study last.
+/// Returns all faults of the recordings; faults of the whole study come last.
 [[nodiscard]] std::vector<Remark> all_faults(const StudyResult& result);
 
 /// True if a gate failed on which the motion rests (inverse kinematics, markers, angles): no

@@ -20,11 +20,11 @@ namespace myoid {
 struct TrialForces {
   TimeSeries generalized;                ///< Inverse dynamics, all coordinates.
   kinematics::MuscleKinematics muscles;  ///< Of the model's muscles.
-  TimeSeries muscle_torque;     ///< Of the study's coordinates: what the muscles provide [N m].
+  TimeSeries muscle_torque;     ///< Torque of the muscles, for the study's coordinates [N m].
   forces::MuscleForces shared;  ///< Of the model's muscles.
   std::optional<dynamics::UncarriedTime> uncarried;  ///< Where torques lack a ground reaction.
   std::vector<Remark> remarks;
-  std::string failure;  ///< Why it could not be computed; empty: it could.
+  std::string failure;  ///< Reason why the forces could not be computed; empty otherwise.
 };
 
 /// The forces of all trials, in the study's order.

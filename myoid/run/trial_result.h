@@ -23,7 +23,7 @@ struct TrialResult {
   std::vector<Remark> faults;   ///< findings: of its recordings as they came.
   std::vector<Remark> remarks;  ///< Of all stages: repairs and doubts, with file and line.
 
-  /// Why the trial could not be computed; empty: it could.
+  /// Returns the reason why the trial could not be computed; empty otherwise.
   [[nodiscard]] const std::string& failure() const {
     return motion.failure.empty() ? forces.failure : motion.failure;
   }
