@@ -10,8 +10,8 @@
 
 namespace myoid::recording {
 
-inline constexpr std::size_t kC3dBlock =
-    512;  ///< Bytes per block; header, parameters and data each begin with a block.
+/// Bytes per block; header, parameters and data each begin with a block.
+inline constexpr std::size_t kC3dBlock = 512;
 
 /// Reads and writes the numbers of a C3D file in the byte order and the kind of real of its
 /// processor.

@@ -66,8 +66,8 @@ struct C3dFile {
   std::vector<C3dGroup> groups;
 
   double point_rate_hz = 0.0;
-  std::int64_t first_frame =
-      1;  ///< Frame of the first sample, at (first_frame - 1) / point_rate_hz.
+  /// Frame of the first sample, at (first_frame - 1) / point_rate_hz.
+  std::int64_t first_frame = 1;
   std::vector<std::string> point_labels;  ///< Unique, UTF-8.
   std::string point_unit;                 ///< As written: "mm".
   Rows points;  ///< Frames x (4 points): x, y, z [point_unit] and a fourth word, -1 for "not

@@ -128,8 +128,8 @@ struct RecordHead {
   int id = 0;  ///< Below 0 for a group.
   bool locked = false;
   std::size_t body = 0;  ///< Byte where kind and values begin, or a group's description.
-  std::size_t next =
-      0;  ///< Byte where the next record begins, by the distance; 0: this is the last one.
+  /// Byte where the next record begins, by the distance; 0: this is the last one.
+  std::size_t next = 0;
 };
 
 /// Reads records; where a distance or a head is damaged, finds the next record.

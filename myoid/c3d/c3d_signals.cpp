@@ -15,8 +15,8 @@
 namespace myoid::recording {
 namespace {
 
-constexpr Eigen::Index kBlockRows =
-    64;  ///< Rows turned into columns at once, so that they stay in the cache.
+/// Rows turned into columns at once, so that they stay in the cache.
+constexpr Eigen::Index kBlockRows = 64;
 
 /// Returns the index behind a subject's prefix in a name, 0 if there is none.
 std::size_t bare_begin(const std::string& name) {

@@ -10,8 +10,8 @@ namespace myoid::recording {
 
 struct C3dFormat {
   C3dProcessor processor = C3dProcessor::intel;
-  bool integer =
-      false;  ///< Writes 16-bit samples instead of reals; coordinates have steps of `point_scale`.
+  /// Writes 16-bit samples instead of reals; coordinates have steps of `point_scale`.
+  bool integer = false;
 };
 
 /// Returns the bytes of a C3D file: header, parameters from block 2, data from the next whole

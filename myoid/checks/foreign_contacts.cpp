@@ -20,9 +20,8 @@ constexpr double kLeast_n = 20.0;
 constexpr double kMergedContact_s = 0.025;  ///< A shorter pause does not end a contact.
 constexpr double kLevel_m = 0.04;  ///< Feet at equal height within this both stand on the ground.
 constexpr double kStill_m_per_s = 0.25;
-constexpr double kFloorPush = 0.5;  ///< Cosine of 60 degrees, as `recording::is_floor`.
-constexpr double kTwoSteps_m =
-    0.5;  ///< Height of two steps of stairs: the other foot may stand so much lower.
+constexpr double kFloorPush = 0.5;   ///< Cosine of 60 degrees, as `recording::is_floor`.
+constexpr double kTwoSteps_m = 0.5;  ///< The other foot may be two steps of stairs lower.
 constexpr Eigen::Index kContactFrames = 1500;
 constexpr double kNoDistance = std::numeric_limits<double>::infinity();
 

@@ -36,8 +36,7 @@ struct AnalogCounts {
 
   std::variant<Columns<std::int16_t>, Columns<std::uint16_t>, Columns<float>> values;
   std::vector<CountScale> scales;
-  double first_sample =
-      0.0;  ///< Sample i is at (first_sample + i) / rate_hz if the records have no times.
+  double first_sample = 0.0;  ///< Without records sample i is at (first_sample + i) / rate_hz.
   double rate_hz = 1.0;
   std::optional<RecordClock> records;  ///< Times of the records, if the file states them.
 };

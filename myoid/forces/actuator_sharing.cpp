@@ -13,8 +13,7 @@
 namespace myoid::forces {
 namespace {
 
-constexpr double kSteepest =
-    1e8;  ///< Limits the slope of a control by its pull, which is infinite at 0 for p > 2.
+constexpr double kSteepest = 1e8;  ///< Limit of a control's slope, infinite at 0 for p > 2.
 
 /// The dual problem with its rows scaled to unit length.
 class Dual {

@@ -34,8 +34,8 @@ struct PlausibilityLimits {
   double lift_share = 0.75;
   // Dynamometers: cosine of the muscles' pull and the torque of the surroundings.
   double reversed = -0.5, certainly_reversed = -0.8;
-  double dynamometer_share =
-      0.1;  ///< A torque below this share of the muscles' strength is not checked.
+  /// A torque below this share of the muscles' strength is not checked.
+  double dynamometer_share = 0.1;
   double dynamometer_weights =
       4.0;  ///< A torque below this multiple of the limb's weight is not checked.
   // Markers.
@@ -57,8 +57,8 @@ struct PlausibilityLimits {
   double bears = 0.5;            ///< Share of the weight that the forces under the body carry.
   double bears_nothing = 0.05;   ///< Share of the weight below which the forces carry nothing.
   double unloaded_s = 0.1;
-  double falls =
-      0.5;  ///< Share of gravity: a body that accelerates faster downwards is in the air.
+  /// Share of gravity: a body that accelerates faster downwards is in the air.
+  double falls = 0.5;
 };
 inline constexpr PlausibilityLimits kLimits;
 

@@ -18,9 +18,8 @@ namespace {
 constexpr double kLongestTurn_rad = 0.5;  ///< Largest change of a coordinate in one step.
 /// The strongest barrier, in units of J [m^2]: as strong as markers 0.4 m off.
 constexpr double kFirstBarrier = 0.1;
-constexpr double kSame = 1e-9;  ///< A smaller step [rad or m] changes nothing.
-constexpr double kLastNewton =
-    1e-6;  ///< After a smaller Newton step [rad or m] the next one changes nothing.
+constexpr double kSame = 1e-9;        ///< A smaller step [rad or m] changes nothing.
+constexpr double kLastNewton = 1e-6;  ///< After a smaller step [rad or m] the next is none.
 
 bool turns(const model::Joint& joint, int coordinate) {
   return std::any_of(joint.rotation.begin(), joint.rotation.end(),

@@ -35,8 +35,7 @@ struct LeastSquaresOptions {
   double initial_radius = 3.0;    ///< Radius of the trust region at the start, in units of |D x|.
   double step_tolerance = 1e-12;  ///< Stop when |d| <= tol (|x| + tol), in scaled variables.
   double cost_tolerance = 1e-15;  ///< Stop when the cost falls by less than this share.
-  double gradient_tolerance =
-      1e-14;  ///< Stop when every |cos(J column, r)| of free variables is below.
+  double gradient_tolerance = 1e-14;  ///< Stop when all |cos(free J column, r)| are below.
   Progress progress;
 };
 

@@ -17,8 +17,8 @@ namespace myoid::math {
 struct LocalMinimum {
   Termination termination = Termination::no_descent;
   Eigen::VectorXd x;
-  double cost =
-      std::numeric_limits<double>::infinity();  ///< +inf if the start is outside the domain.
+  /// +inf: the start is outside the domain.
+  double cost = std::numeric_limits<double>::infinity();
   int evaluations = 0;
 };
 

@@ -14,8 +14,7 @@ struct NelderMeadOptions {
   double step_tolerance = 1e-9;
   double cost_tolerance = 1e-15;
   double first_edge = 0.1;  ///< Share of upper - lower; of |x_j| (or 1 at zero) without bounds.
-  int max_restarts =
-      10;  ///< Restarts with a new simplex where the last one shrank; 0 accepts the first.
+  int max_restarts = 10;    ///< New simplices after the first; 0 accepts the first.
   /// A restart that lowers the cost by less than this share confirms the point.
   double restart_tolerance = 1e-10;
   bool adaptive = true;  ///< Coefficients that depend on the dimension (Gao and Han 2012).

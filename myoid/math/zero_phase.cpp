@@ -10,8 +10,7 @@
 namespace myoid::math {
 namespace {
 
-constexpr Eigen::Index kLongestExtension =
-    100'000;  ///< In samples; limits the work for absurdly low cut-offs.
+constexpr Eigen::Index kLongestExtension = 100'000;  ///< In samples, for very low cut-offs.
 
 /// Returns the number of samples after which the slowest pole has decayed to 1e-8.
 Eigen::Index impulse_length(const std::vector<SecondOrderSection>& sections) {

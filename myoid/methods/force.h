@@ -8,8 +8,7 @@ namespace myoid::identification {
 
 struct ForceOptions {
   EstimatorOptions estimator;
-  bool shared_forces =
-      false;  ///< An optimizer computed the forces: verdicts are then at best `weak`.
+  bool shared_forces = false;                  ///< Computed by an optimizer: at best `weak`.
   bool detect_exact = false;                   ///< As in identify_torque_or_exact.
   std::vector<std::string> speed_may_be_free;  ///< As in identify_torque_or_exact.
 };

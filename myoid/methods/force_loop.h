@@ -48,8 +48,7 @@ struct InformedForces {
 struct ForceLoopOptions {
   ForceOptions force;  ///< Options of the fit in every round.
   InformedSharing sharing;
-  double delay_s =
-      0.0;  ///< Delay from EMG to activation in the first round; later rounds use the fitted delay.
+  double delay_s = 0.0;  ///< Of the EMG in the first round; then the fitted one.
   int max_rounds = 50;
   double tolerance = 1e-3;  ///< Greatest relative change of a parameter in the last round.
 };

@@ -6,12 +6,11 @@
 namespace myoid::identification {
 
 struct PaperOptions {
-  int multistart =
-      0;  ///< If above 1, searches from as many starts (start_box.h) and keeps their ends in
-          ///< IdentificationResult::basins. The estimates stay the given start's.
+  /// If above 1, searches from as many starts (start_box.h) and keeps their ends in
+  /// IdentificationResult::basins. The estimates stay the given start's.
+  int multistart = 0;
   std::vector<std::string> muscles;  ///< Empty: all.
-  bool shared_forces =
-      false;  ///< An optimizer computed the forces: verdicts are then at best `weak`.
+  bool shared_forces = false;        ///< Computed by an optimizer: at best `weak`.
 };
 
 /// The source paper's estimator, as published: for every muscle, shortening (v <= 0) and

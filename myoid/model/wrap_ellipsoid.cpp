@@ -13,8 +13,7 @@ namespace {
 /// The nearest point of the surface, x_i = a_i^2 p_i / (t + a_i^2), where t is the largest root of
 ///   g(t) = sum (a_i p_i / (t + a_i^2))^2 - 1.
 struct Nearest {
-  bool is_center =
-      false;  ///< p is the center; the end of the shortest axis stands for the nearest point.
+  bool is_center = false;  ///< p is the center: the end of the shortest axis instead.
   Eigen::Index shortest = 0;
   std::array<bool, 3> used{};
   double t = 0.0;

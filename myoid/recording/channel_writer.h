@@ -12,9 +12,8 @@ namespace myoid::recording {
 
 /// The statements of a file about its numbers beside the names of their columns.
 struct ChannelStatement {
-  std::string title;  ///< Title of a storage file.
-  bool in_degrees =
-      false;  ///< Angles are in degrees; the file does not say which columns are angles.
+  std::string title;               ///< Title of a storage file.
+  bool in_degrees = false;         ///< Angles are in degrees; which columns is not stated.
   std::vector<std::string> units;  ///< As written, one for each column; empty if unknown.
 };
 

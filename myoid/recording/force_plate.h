@@ -15,8 +15,7 @@ namespace myoid::recording {
 /// the true values.
 struct PlateSide {
   Vec3 out_L = Vec3::UnitZ();  ///< Normal of the surface towards the person.
-  bool is_floor =
-      true;  ///< The plate is within 60 degrees of horizontal; otherwise a wall or a handle.
+  bool is_floor = true;        ///< Within 60 degrees of horizontal; else wall or handle.
   double turn = 1.0;  ///< 1: the channels hold the force on the person; -1: the force on the plate;
                       ///< 0: they never change, and the plate is not used.
 };
@@ -59,8 +58,7 @@ struct PlateSetup {
   double to_m = 1.0;  ///< Factor of POINT:UNITS to meters.
 };
 
-inline constexpr double kLeastForce_n =
-    10.0;  ///< Smaller normal forces give no center of pressure.
+inline constexpr double kLeastForce_n = 10.0;  ///< A smaller force has no center.
 
 /// Reads the plates of types 1 to 4 that FORCE_PLATFORM describes:
 ///

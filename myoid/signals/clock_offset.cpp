@@ -26,11 +26,11 @@ constexpr double kLeastCorrelation = 0.6;
 constexpr double kMostSd_s = 0.1;
 constexpr int kBlocks = 8;
 constexpr Eigen::Index kMostEmg = 4;  ///< Principal components of the envelopes.
-constexpr Eigen::Index kMostMotion =
-    2;  ///< Principal components of the motion, each with its acceleration.
+/// Principal components of the motion, each with its acceleration.
+constexpr Eigen::Index kMostMotion = 2;
 constexpr int kMostRows = 1 + kMostEmg + 2 * kMostMotion;
-constexpr double kLeastSpeed_hz =
-    0.5;  ///< In slower movements posture correlates with EMG at any delay.
+/// In slower movements posture correlates with EMG at any delay.
+constexpr double kLeastSpeed_hz = 0.5;
 constexpr double kLeastMotion = 0.03;  ///< Standard deviation [rad or m]; less is no movement.
 
 /// Returns the first `most` principal components of the columns. `standardized`: every column has

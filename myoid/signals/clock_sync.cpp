@@ -186,8 +186,8 @@ ClockMap match_shape(const TimeSeries& file, const TimeSeries& study, double sea
   constexpr double kFine_hz = 1000.0;
   constexpr double kLeastCommon_s = 4.0;
   constexpr double kLeastCorrelation = 0.8;
-  constexpr double kUnique =
-      0.97;  ///< Share of the best correlation from which another shift counts as equally good.
+  /// Share of the best correlation from which another shift counts as equally good.
+  constexpr double kUnique = 0.97;
   const double begin_s = std::max(file.time_s()[0] - search_s, study.time_s()[0]);
   const double end_s = std::min(file.time_s()[file.sample_count() - 1] + search_s,
                                 study.time_s()[study.sample_count() - 1]);

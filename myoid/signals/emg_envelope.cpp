@@ -22,8 +22,8 @@ constexpr double kRest_s = 1.0;
 /// Least ratio of the greatest level to the quietest second for that second to be rest. Sustained
 /// efforts vary by less, and EMG that rises no higher above noise is useless.
 constexpr double kRises = 1.5;
-constexpr double kRectifiedSpread =
-    0.7555;  ///< sqrt(pi/2 - 1): coefficient of variation of rectified Gaussian noise.
+/// sqrt(pi/2 - 1): coefficient of variation of rectified Gaussian noise.
+constexpr double kRectifiedSpread = 0.7555;
 
 Eigen::Index window_samples(const TimeSeries& series, double window_s) {
   const auto wanted = static_cast<Eigen::Index>(std::lround(window_s * series.mean_rate_hz()));

@@ -34,16 +34,16 @@ struct QualityLimits {
   double over_reference = 1.1;  ///< A movement's effort over that of the maximal contraction.
   // Clocks.
   double uneven_share = 0.05;  ///< Standard deviation of the intervals over their mean.
-  double earliest_offset_s =
-      -0.1;  ///< Least lead of EMG over motion; in people the lead is 10 to 150 ms.
+  /// Least lead of EMG over motion; in people the lead is 10 to 150 ms.
+  double earliest_offset_s = -0.1;
   double latest_offset_s = 0.30;  ///< Greatest lead; heavy smoothing adds up to 300 ms.
   double drift_s = 0.05;          ///< Change of that lead from the first to the last third.
   // Force plates.
   double plate_offset_n = 10.0;  ///< Vertical force on an empty plate.
   double plate_loaded_n = 50.0;  ///< Vertical force from which the center of pressure is checked.
   double plate_margin_m = 0.02;  ///< Distance that it may be outside the corners.
-  double plate_outside_share =
-      0.01;  ///< Share of the loaded time for which it may be farther outside.
+  /// Share of the loaded time for which it may be farther outside.
+  double plate_outside_share = 0.01;
 };
 
 /// One row of the documented table.

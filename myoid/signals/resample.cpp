@@ -19,8 +19,8 @@ namespace {
 /// fifth of half the rate, (100 - 8) / (2.285 * 0.2 pi) / 2.
 constexpr double kReach = 32.0;
 constexpr double kBeta = 0.1102 * (100.0 - 8.7);
-constexpr double kCutoff =
-    0.9;  ///< Cut-off relative to half the new rate: the middle of the transition.
+/// Cut-off relative to half the new rate: the middle of the transition.
+constexpr double kCutoff = 0.9;
 constexpr double kTableStep = 1e-3;  ///< In samples of the new clock; linear between.
 constexpr double kSamePhase = 1e-7;  ///< In samples of the given clock.
 constexpr double kSlower = 0.99;  ///< A clock below this share of the given rate counts as slower.

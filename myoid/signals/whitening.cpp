@@ -19,19 +19,19 @@ namespace {
 
 constexpr double kShortSegment_s = 0.25;
 constexpr double kQuiet_s = 1.0;
-constexpr double kQuiet =
-    1.5;  ///< Ratio to the quietest second's power below which a segment is quiet.
+/// Ratio to the quietest second's power below which a segment is quiet.
+constexpr double kQuiet = 1.5;
 constexpr double kLoud =
     3.0;  ///< Ratio to the mean power of the quiet segments above which a segment is active.
 constexpr std::size_t kFewestSegments = 20;
 constexpr double kSmooth_hz = 10.0;   ///< Half width of the smoothing of a spectrum.
 constexpr double kMostGain = 1000.0;  ///< Of power; 30 dB.
 constexpr double kHalfLength_s = 0.016;
-constexpr double kWorthIt =
-    1.1;  ///< Least growth of the bandwidth, geometric mean over the channels.
+/// Least growth of the bandwidth, geometric mean over the channels.
+constexpr double kWorthIt = 1.1;
 constexpr double kSlowest_hz = 500.0;
-constexpr double kFaintNoise =
-    0.01;  ///< Share of the mean power density in the band, if the muscle never rests.
+/// Share of the mean power density in the band, if the muscle never rests.
+constexpr double kFaintNoise = 0.01;
 
 /// Periodograms of all segments of one channel, one column each.
 struct Segments {

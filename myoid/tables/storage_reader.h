@@ -19,8 +19,7 @@ struct Storage {
   std::string title;                          ///< First line of the header, if it is free text.
   std::map<std::string, std::string> header;  ///< key=value pairs.
   std::map<std::string, std::string> units;   ///< From lines "channel NAME [unit]".
-  bool in_degrees =
-      false;        ///< The header has `inDegrees=yes`, or the file is a .mot of the old SIMM kind.
+  bool in_degrees = false;  ///< By `inDegrees=yes`, or a .mot of the old SIMM kind.
   TimeSeries data;  ///< Channels without dimension; Vec3 columns are `name_1`, `name_2`, `name_3`.
   std::vector<Repair> repairs;
 };

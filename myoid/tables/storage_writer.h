@@ -10,8 +10,7 @@ namespace myoid::recording {
 
 struct StorageFormat {
   std::string title = "Storage";
-  bool angles_in_degrees =
-      false;          ///< Writes columns in radians as degrees and says so in the header.
+  bool angles_in_degrees = false;  ///< Writes radians as degrees; the header says so.
   bool in_si = true;  ///< The header states S.I. units; false if the units are unknown.
   std::vector<std::string> comments;  ///< Lines of free text in the header (provenance).
 };
