@@ -9,10 +9,10 @@
 
 namespace myoid::commands {
 
-/// The report of a finished run, made anew from its recordings.
+/// Options of the report of a finished run, which is computed again from its recordings.
 struct ReportOptions {
   Call call;
-  std::string folder;  ///< Of the run, with run.json.
+  std::string folder;  ///< Folder of the run, with run.json.
 };
 
 struct ReportResult {
@@ -20,7 +20,7 @@ struct ReportResult {
   Provenance provenance;
 };
 
-/// Runs the study of the folder as it was run. Throws ReadError where run.json does not tell how,
+/// Runs the study of the folder with the run's settings. Throws ReadError if run.json lacks them,
 /// or a recording has changed.
 [[nodiscard]] ReportResult report(const ReportOptions& options);
 

@@ -36,18 +36,18 @@ void warn_of_path_differences(const model::BodyModel& model,
                               const std::string& name,
                               Remarks& remarks);
 
-/// A motion file (.mot, .sto) as coordinates and two derivatives. `cutoff_hz` > 0 smooths. The
-/// whole file is smoothed and differentiated, then cut to the call's time: inside that time the
-/// numbers are those of the whole file. Warns of gaps of the clock.
+/// Reads a motion file (.mot, .sto) as coordinates with two derivatives. `cutoff_hz` > 0 smooths.
+/// The whole file is smoothed and differentiated, then cut to the call's time, so that the numbers
+/// do not depend on the cut. Warns of gaps of the clock.
 [[nodiscard]] kinematics::JointMotion load_motion(const model::BodyModel& model,
                                                   const std::filesystem::path& path,
                                                   double cutoff_hz,
                                                   const Call& call,
                                                   Remarks& remarks);
 
-/// The motion with the speeds and accelerations of these files, where they have the coordinate,
-/// instead of the spline's derivatives; an empty path changes nothing. Their times must be those of
-/// the motion's file. Throws ReadError otherwise.
+/// Replaces the spline's derivatives of a motion by the speeds and accelerations in these files,
+/// for the coordinates that they have; an empty path changes nothing. Throws ReadError unless their
+/// times equal those of the motion's file.
 [[nodiscard]] kinematics::JointMotion with_derivatives(kinematics::JointMotion motion,
                                                        const model::BodyModel& model,
                                                        const std::filesystem::path& speeds,

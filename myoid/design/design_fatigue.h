@@ -10,10 +10,11 @@ namespace myoid {
 
 /// Mean activation of each muscle over the persons who can do a movement, per half second.
 struct Effort {
-  std::vector<std::vector<double>> activation;  ///< Per muscle.
+  std::vector<std::vector<double>> activation;  ///< One list per muscle.
 };
 
-/// Returns the effort of a movement's performances; an empty one is of a person who cannot do it.
+/// Returns the effort of a movement's performances; an empty performance belongs to a person who
+/// cannot do the movement.
 [[nodiscard]] Effort effort_of(
     const std::vector<std::optional<identification::TrialData>>& performances,
     const std::vector<identification::MuscleSetup>& muscles,
@@ -23,7 +24,7 @@ struct Effort {
 [[nodiscard]] double fatigued_share(const Effort& effort,
                                     const muscle::FatigueRates<double>& rates);
 
-/// A rest before a movement, and the share of the most tired muscle that is fatigued at its end.
+/// A rest before a movement, and the fatigued share of the most tired muscle at the movement's end.
 struct PlannedRest {
   double before_s = 0.0;
   double fatigued_share = 0.0;

@@ -18,7 +18,7 @@ namespace myoid {
 struct Knowledge {
   Eigen::VectorXd mean;
   Eigen::MatrixXd covariance;
-  Eigen::MatrixXd precision;  ///< Its inverse.
+  Eigen::MatrixXd precision;  ///< Inverse covariance.
 };
 
 /// Returns the priors, replaced by estimate and covariance of an earlier run for the parameters

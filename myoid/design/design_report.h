@@ -5,8 +5,8 @@
 
 namespace myoid {
 
-/// The next recording: the plan, movement by movement, with the interval that may be expected
-/// after each, and every target before and after the whole plan.
+/// Returns the section on the next recording: the plan, movement by movement, with the interval
+/// expected after each, and every target before and after the whole plan.
 [[nodiscard]] report::Section next_recording_section(const DesignStudyResult& design);
 
 }  // namespace myoid

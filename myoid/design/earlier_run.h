@@ -10,7 +10,7 @@
 
 namespace myoid {
 
-/// The results of a finished run (its parameters.json, method torque), which are known before the
+/// The results of a finished run (its parameters.json, method torque): the knowledge before the
 /// next recording.
 struct EarlierRun {
   std::vector<std::string> parameters;  ///< "BIC.max_isometric_force"
@@ -24,10 +24,11 @@ struct EarlierRun {
   std::vector<identification::ParameterEstimate> estimates;
 };
 
-/// Throws ReadError if the folder holds no parameters.json with a fit by method torque.
+/// Reads the results in a folder. Throws ReadError if the folder holds no parameters.json with a
+/// fit by method torque.
 [[nodiscard]] EarlierRun read_earlier_run(const std::filesystem::path& folder);
 
-/// The same of a fit by method torque that is at hand.
+/// Returns the results of a fit by method torque.
 [[nodiscard]] EarlierRun earlier_run(const identification::IdentificationResult& fit);
 
 }  // namespace myoid

@@ -11,7 +11,7 @@
 
 namespace myoid {
 
-/// Something a person can be asked to do while being recorded.
+/// A kind of movement that a person can do for a recording.
 enum class MovementKind {
   swing,       ///< The joint is moved to and fro, a mass held.
   lowering,    ///< A mass is raised quickly and lowered slowly.
@@ -23,7 +23,7 @@ struct Movement {
   MovementKind kind = MovementKind::swing;
   bool horizontal = false;    ///< Plane of movement of the built-in arm.
   double held_mass_kg = 0.0;  ///< swing, lowering.
-  double lowest_rad = 0.0;    ///< Of the joint; both the same for isometric.
+  double lowest_rad = 0.0;    ///< Range of the joint; both ends are equal for isometric.
   double highest_rad = 0.0;
   double frequency_hz = 0.0;  ///< swing.
   double speed_radps = 0.0;   ///< isokinetic.
@@ -49,39 +49,42 @@ struct CatalogueOptions {
   std::string coordinate;   ///< Names the directions of effort.
 };
 
-/// All combinations over the coordinate's range [rad], less a tenth of it at each end: swings over
-/// the whole and either half of it, lowerings, isometric and isokinetic efforts both ways.
+/// Returns all combinations over the coordinate's range [rad] without a tenth of it at each end:
+/// swings over the whole and either half of it, lowerings, isometric and isokinetic efforts in both
+/// directions.
 [[nodiscard]] std::vector<Movement> movement_catalogue(double lowest_rad,
                                                        double highest_rad,
                                                        const CatalogueOptions& options = {});
 
-/// "flexion" or "extension" where the coordinate's name says so, else "positive" or "negative".
+/// Returns "flexion" or "extension" if the coordinate's name says so, else "positive" or
+/// "negative".
 [[nodiscard]] std::string direction_name(const std::string& coordinate, bool positive);
 
-/// A movement as far as it is the same for every person: on a clock that begins before the trial,
-/// so that EMG can reach back.
+/// The part of a movement that is the same for every person, on a clock that begins before the
+/// trial because of the EMG's delay.
 struct MovementCourse {
   Movement movement;
-  Eigen::VectorXd time_s;              ///< From -0.4 s; the trial begins at 0.
-  kinematics::LumpedMuscles muscles;   ///< Of the study's muscles.
-  Eigen::VectorXd required_torque_nm;  ///< swing, lowering; empty where a device measures.
-  Eigen::VectorXd effort;              ///< 0..1 of `level`: isometric, isokinetic; else empty.
+  Eigen::VectorXd time_s;             ///< From -0.4 s; the trial begins at 0.
+  kinematics::LumpedMuscles muscles;  ///< Kinematics of the study's muscles.
+  Eigen::VectorXd
+      required_torque_nm;  ///< For swing, lowering; empty where a device measures the torque.
+  Eigen::VectorXd effort;  ///< Share of `level`, 0..1, for isometric, isokinetic; else empty.
 };
 
-/// The study's model (`given`) in both planes of movement, with no muscles but the study's. Only
-/// the built-in arm is made anew for the other plane.
+/// The study's model (`given`) in both planes of movement, with only the study's muscles. The
+/// built-in arm has a model of its own for the other plane.
 struct MovementModels {
   model::BodyModel vertical, horizontal;
 };
 [[nodiscard]] MovementModels movement_models(const Study& study, const model::BodyModel& given);
 
-/// The course of a movement by the study's model: muscle paths and inverse dynamics of the
-/// coordinate's motion, the other coordinates at their default.
+/// Computes the course of a movement by the study's model: muscle paths and inverse dynamics of the
+/// coordinate's motion, with the other coordinates at their default.
 [[nodiscard]] MovementCourse movement_course(const Study& study,
                                              const MovementModels& models,
                                              const Movement& movement);
 
-/// How the virtual persons act.
+/// A virtual person's muscles and coordination.
 struct MovementPerson {
   std::vector<identification::MuscleValues> muscles;  ///< In the study's order.
   double emg_delay_s = 0.06;
@@ -91,10 +94,10 @@ struct MovementPerson {
   std::uint64_t seed = 1;
 };
 
-/// The trial as `person` would do it, ready for an estimator: the torque shared among the EMG
-/// channels with least sum of squares of activations about person-specific, slowly changing
-/// proportions. Muscles of one channel act as one. Empty if an activation above the person's
-/// greatest would be needed.
+/// Returns the trial as `person` would perform it, ready for an estimator. The torque is shared
+/// among the EMG channels with the least sum of squares of activations about person-specific,
+/// slowly changing proportions. Muscles of one channel act as one. Empty if an activation above the
+/// person's greatest would be needed.
 [[nodiscard]] std::optional<identification::TrialData> perform(
     const MovementCourse& course,
     const std::vector<identification::MuscleSetup>& muscles,

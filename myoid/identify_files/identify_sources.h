@@ -11,19 +11,20 @@ namespace myoid {
 /// coordinate, trial by trial.
 struct IdentifySources {
   std::vector<std::string> activations, lengths;
-  std::vector<std::string> velocities;  ///< None: by a spline through the lengths.
+  std::vector<std::string> velocities;  ///< Empty: rates of the spline through the lengths.
   std::vector<std::string> forces, moment_arms, torques;
-  std::vector<std::string> motions;  ///< Joint angles (.mot, .sto); none: no motion of the joints.
-  std::optional<double> motion_cutoff_hz;  ///< They are smoothed, -3 dB here; empty: not at all.
-  std::vector<std::string> coordinates;    ///< Columns of the torque files; none: their only one.
-  bool torque = true;                      ///< Fitted to torques; else to forces.
-  std::optional<double> start_s, end_s;    ///< [s]
+  std::vector<std::string> motions;  ///< Joint angles (.mot, .sto); empty: no motion of the joints.
+  std::optional<double>
+      motion_cutoff_hz;  ///< Cut-off (-3 dB) that smooths the angles; empty: not smoothed.
+  std::vector<std::string> coordinates;  ///< Columns of the torque files; empty: the only column.
+  bool torque = true;                    ///< Fitted to torques; else to forces.
+  std::optional<double> start_s, end_s;  ///< [s]
 };
 
 /// The files of one trial of `myoid identify`.
 struct IdentifyFiles {
   std::string activations, lengths;
-  std::string velocities;                ///< Empty: by a spline through the lengths.
+  std::string velocities;                ///< Empty: rates of the spline through the lengths.
   std::vector<std::string> moment_arms;  ///< By joint; empty: not given.
   std::string torques;                   ///< Empty: not given.
 };
@@ -31,11 +32,11 @@ struct IdentifyFiles {
 /// Throws InvalidInput where a kind of files does not match the number of trials.
 void require_counts(const IdentifySources& sources);
 
-/// The names of one trial's files.
+/// Returns the names of one trial's files.
 [[nodiscard]] IdentifyFiles files_of(const IdentifySources& sources, std::size_t trial);
 
-/// "walk" of the only file of lengths; "2 (walk)" of several. Files of one name get as many folders
-/// as tell them apart: "2 (fast/walk)".
+/// Returns "walk" for a single file of lengths, "2 (walk)" for one of several. Files of equal name
+/// get as many folders as distinguish them: "2 (fast/walk)".
 [[nodiscard]] std::string trial_label(const std::vector<std::string>& lengths, std::size_t number);
 
 }  // namespace myoid

@@ -36,8 +36,8 @@ struct PlausibilityLimits {
   double reversed = -0.5, certainly_reversed = -0.8;
   /// A torque below this share of the muscles' strength is not checked.
   double dynamometer_share = 0.1;
-  double dynamometer_weights =
-      4.0;  ///< A torque below this multiple of the limb's weight is not checked.
+  /// A torque below this multiple of the limb's weight is not checked.
+  double dynamometer_weights = 4.0;
   // Markers.
   double trunk_across = 0.5;   ///< Cosine between trunk and vertical, 60 degrees.
   double trunk_upright = 0.8;  ///< Cosine of 37 degrees.

@@ -21,8 +21,8 @@ constexpr double kShortSegment_s = 0.25;
 constexpr double kQuiet_s = 1.0;
 /// Ratio to the quietest second's power below which a segment is quiet.
 constexpr double kQuiet = 1.5;
-constexpr double kLoud =
-    3.0;  ///< Ratio to the mean power of the quiet segments above which a segment is active.
+/// Ratio to the mean power of the quiet segments above which a segment is active.
+constexpr double kLoud = 3.0;
 constexpr std::size_t kFewestSegments = 20;
 constexpr double kSmooth_hz = 10.0;   ///< Half width of the smoothing of a spectrum.
 constexpr double kMostGain = 1000.0;  ///< Of power; 30 dB.

@@ -39,7 +39,8 @@ class Wrapping {
       const double length = length_of(w_.stations);
       if (std::abs(length - last) < kSettled_m) return;
       last = length;
-      // The first object has no contact because the second has a point inside: their order changes.
+      // The first object has no contact because the second has a point inside: exchange their
+      // order.
       if (pass == 0 && passes > 1 && first == WrapAction::none && second == WrapAction::inside) {
         w_.order[0] = 1;
         w_.order[1] = 0;
@@ -130,7 +131,7 @@ class Wrapping {
   PathWorkspace& w_;
 };
 
-/// Velocity of a station: its body's there, and its own in the body.
+/// Returns the velocity of a station: the body's at that point plus the station's in the body.
 Vec3 velocity(const BodyModel& model,
               const MusclePath& path,
               const BodyState& state,

@@ -4,7 +4,8 @@
 
 namespace myoid::model {
 
-/// A path by the algorithm of OpenSim 4.5.2, with the defects that `model.compat` switches on.
+/// Computes a path by the algorithm of OpenSim 4.5.2, with the defects that `model.compat` switches
+/// on.
 void compute_opensim_path(const BodyModel& model,
                           const MusclePath& path,
                           const BodyState& state,

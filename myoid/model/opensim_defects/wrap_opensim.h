@@ -12,16 +12,16 @@ enum class WrapAction { none, inside, wrapped, mandatory };
 /// OpenSim's contact of one segment with one object, in the object's frame.
 struct OpenSimContact {
   WrapAction action = WrapAction::none;
-  bool has_points = false;  ///< Whether there is a contact to insert.
+  bool has_points = false;  ///< There is a contact to insert.
   Vec3 first_W = Vec3::Zero();
   Vec3 second_W = Vec3::Zero();
   double arc_length_m = 0.0;
 };
 
-/// The contact that OpenSim 4.5.2 computes for the segment p - q, with the defects that `compat`
-/// switches on (compat.h). `single`: the path has no other wrap object; with several, the tangent
-/// points on a cylinder slide until the helix meets the straight pieces within 0.1 degree, at most
-/// 100 times. Arguments of acos and roots are not limited: a NaN goes through to the length.
+/// Returns the contact that OpenSim 4.5.2 computes for the segment p - q, with the defects that
+/// `compat` switches on (compat.h). `single`: the path has no other wrap object; with several, the
+/// tangent points on a cylinder slide until the helix meets the straight pieces within 0.1 degree,
+/// at most 100 times. Arguments of acos and roots are not limited: a NaN propagates to the length.
 [[nodiscard]] OpenSimContact opensim_contact(const WrapObject& object,
                                              WrapMethod method,
                                              const Vec3& p_W,

@@ -39,7 +39,7 @@ struct CylinderTangents {
   Vec3 a, b;
 };
 
-/// In the plane across z through p: feet of the tangents from p to the cylinder.
+/// Returns the feet of the tangents from p to the cylinder in the plane across z through p.
 CylinderTangents tangents_from(const Vec3& p, double radius) {
   const Vec3 radial(p.x(), p.y(), 0.0);
   const double distance = radial.norm();
@@ -51,7 +51,8 @@ CylinderTangents tangents_from(const Vec3& p, double radius) {
   return {foot + aside * u, foot - aside * u};
 }
 
-/// Where the generator through r meets the plane; as r if it does not within 10 m.
+/// Finds the point where the generator through r meets the plane; r itself if they do not meet
+/// within 10 m.
 bool meets_plane(const Vec3& r, const Vec3& normal, double offset, Vec3& point) {
   constexpr double kHalf_m = 10.0;
   constexpr double kEpsilon = 1e-5;
@@ -65,8 +66,8 @@ bool meets_plane(const Vec3& r, const Vec3& normal, double offset, Vec3& point) 
   return true;
 }
 
-/// Length of the helix from first to second, adjusting both where asked; `long_way` as OpenSim
-/// decides it.
+/// Computes the length of the helix from first to second and adjusts both if asked; OpenSim's rule
+/// decides `long_way`.
 class Helix {
  public:
   Helix(double radius, bool long_way, const Compat& compat)
@@ -80,7 +81,7 @@ class Helix {
       const int pieces = static_cast<int>(length_ / kChord_m);
       if (!(length_ < 1e6) || pieces < 2) break;
       const double t = 1.0 / pieces;
-      // The second is corrected with what the first has become.
+      // The second point is corrected with the corrected first one.
       const bool first_moved = slide(p, point(first, t), first);
       const bool second_moved = slide(q, point(first, 1.0 - t), second);
       if (!first_moved && !second_moved) break;
@@ -106,12 +107,13 @@ class Helix {
     const double s = std::sin(angle);
     return {c * first.x() - s * first.y(), s * first.x() + c * first.y(), first.z() + t * rise_};
   }
-  /// Slides r along z so that the angle of end - r to the axis comes near that of r - on_helix.
+  /// Slides r along z so that the angles of end - r and r - on_helix to the axis become nearly
+  /// equal.
   static bool slide(const Vec3& end, const Vec3& on_helix, Vec3& r) {
     constexpr double kTangency_rad = 0.1 * kDegree;
     const double straight = unit_or_zero(r - end).z();
     const double curved = unit_or_zero(on_helix - r).z();
-    // Angles differ by more than their cosines do.
+    // Angles differ by more than their cosines.
     if (!(std::abs(straight - curved) > kTangency_rad) &&
         !(std::abs(std::acos(straight) - std::acos(curved)) > kTangency_rad))
       return false;
@@ -133,7 +135,7 @@ struct ChosenTangents {
   bool long_way = false;
 };
 
-/// The pair of tangent points on the side that counts.
+/// Returns the pair of tangent points on the side that counts.
 ChosenTangents choose_on_side(const Side& side,
                               const CylinderTangents& t1,
                               const CylinderTangents& t2,
@@ -205,8 +207,8 @@ ChosenTangents choose_nearest(const CylinderTangents& t1,
   return c;
 }
 
-/// Moves the tangent points, found across the axis, along their generators into the plane through
-/// p, q and the apex of the path over the cylinder.
+/// Moves the tangent points, which were found across the axis, along their generators into the
+/// plane through p, q and the apex of the path over the cylinder.
 void slide_to_plane(const Vec3& p, const Vec3& q, double radius, ChosenTangents& c) {
   const Vec3 foot1(0.0, 0.0, p.z());
   const Vec3 foot2(0.0, 0.0, q.z());
@@ -222,7 +224,7 @@ void slide_to_plane(const Vec3& p, const Vec3& q, double radius, ChosenTangents&
   const Vec3 apex = first_nearer != c.far_side ? apex1 : apex2;
   const Vec3 normal = unit_or_zero(p - apex).cross(unit_or_zero(q - apex)).normalized();
   const double offset = -p.dot(normal);
-  // A point moves only if its foot on the axis lies towards the other end.
+  // A point moves only if its foot on the axis is towards the other end.
   const auto foot_of = [&](const Vec3& r) { return q.z() != 0.0 ? Vec3(0.0, 0.0, r.z()) : foot1; };
   const double between = (foot1 - foot2).squaredNorm();
   Vec3 moved;

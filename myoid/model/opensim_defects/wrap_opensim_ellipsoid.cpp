@@ -20,7 +20,7 @@ using Mat4 = Eigen::Matrix4d;
 
 bool near_zero(double x) { return std::abs(x) <= kNearZero; }
 
-/// Nearest point of the ellipse x^2/a^2 + y^2/b^2 = 1 to (u, v), Eberly's iteration.
+/// Finds the point of the ellipse x^2/a^2 + y^2/b^2 = 1 nearest to (u, v) by Eberly's iteration.
 void nearest_on_ellipse(double a, double b, double u, double v, double& x, double& y) {
   const double a2 = a * a;
   const double b2 = b * b;
@@ -71,8 +71,8 @@ void nearest_on_ellipse(double a, double b, double u, double v, double& x, doubl
   y = b2 * v / Q;
 }
 
-/// Nearest point of the ellipsoid to p; within the plane where coordinate `plane` is p's, if given
-/// or if p lies on a plane of symmetry.
+/// Returns the point of the ellipsoid nearest to p, within the plane where coordinate `plane`
+/// equals p's if `plane` is given or p is on a plane of symmetry.
 Vec3 nearest(const Vec3& a, const Vec3& p, Eigen::Index plane = -1) {
   Vec3 c = p;
   if (plane < 0) {
@@ -249,7 +249,7 @@ Polyline polyline(const Vec3& r1,
   return line;
 }
 
-/// The point c that fixes the plane, and where the search for tangent points begins.
+/// The point c that defines the plane, and the start of the search for tangent points.
 struct PlanePoint {
   Vec3 c, start1, start2;
 };
@@ -366,7 +366,7 @@ OpenSimContact opensim_ellipsoid_contact(const EllipsoidShape& ellipsoid,
   const Vec3 r2 = tangent(q, q_level, point.start2);
   Polyline line = polyline(r1, r2, a, plane, false, factor);
   if (quadrant != 0 && line.has_inner) {
-    // A first or last chord that turns back tells that the way is round the far side.
+    // A first or last chord that turns back shows that the path goes round the far side.
     const double first = (p - r1).normalized().dot((line.after_first - r1).normalized());
     const double last = (q - r2).normalized().dot((line.before_last - r2).normalized());
     if (first > 0.0 || last > 0.0) line = polyline(r1, r2, a, plane, true, factor);

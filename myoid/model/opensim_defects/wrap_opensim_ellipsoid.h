@@ -4,9 +4,9 @@
 
 namespace myoid::model {
 
-/// OpenSim's contact with an ellipsoid: in the plane through p, q and a point of the surface, whose
-/// choice `method` names, tangent points by a damped iteration (to 1e-4) and the arc between them
-/// as a polyline of about 1 mm.
+/// Returns OpenSim's contact with an ellipsoid. The contact is in the plane through p, q and a
+/// point of the surface, whose choice `method` names. A damped iteration (to 1e-4) finds the
+/// tangent points, and the arc between them is a polyline of about 1 mm.
 [[nodiscard]] OpenSimContact opensim_ellipsoid_contact(const EllipsoidShape& ellipsoid,
                                                        Quadrant quadrant,
                                                        WrapMethod method,

@@ -37,7 +37,7 @@ OpenSimContact opensim_sphere_contact(const SphereShape& sphere,
   const Vec3 u = along.normalized();
   const Vec3 across = u.cross(q.normalized());
   if (across.norm() < 1e-5) {
-    // The line goes through the center: OpenSim's points are not a number, and never chosen.
+    // The line goes through the center: OpenSim's points are NaN and never chosen.
     result.action = WrapAction::wrapped;
     result.arc_length_m = std::numeric_limits<double>::quiet_NaN();
     return result;

@@ -6,7 +6,7 @@
 
 namespace myoid::model {
 
-/// Zero for the zero vector.
+/// Returns the direction of v, or zero for the zero vector.
 inline Vec3 unit_or_zero(const Vec3& v) {
   const double n = v.norm();
   return n > 0.0 ? Vec3(v / n) : Vec3::Zero();
@@ -24,7 +24,7 @@ struct Side {
   [[nodiscard]] bool has(const Vec3& p) const { return (p[axis] >= 0.0 ? 1 : -1) == sign; }
 };
 
-/// opensim_contact for one kind of surface each.
+/// Each computes opensim_contact for one kind of surface.
 [[nodiscard]] OpenSimContact opensim_cylinder_contact(const CylinderShape& cylinder,
                                                       const Side& side,
                                                       const Vec3& p_W,

@@ -34,7 +34,7 @@ double levenberg_marquardt_1(const Residual& residual) {
     if (norm == 0.0 || slope == 0.0) return x;
     diag = std::max(diag, std::abs(slope));
     for (double ratio = 0.0; ratio < 1e-4;) {
-      // The step whose scaled length is delta within a tenth, or the full one.
+      // The step with a scaled length of delta to within a tenth, or the full step.
       double step = f / slope;
       double scaled = std::abs(diag * step);
       double excess = scaled - delta;
@@ -99,8 +99,8 @@ double levenberg_marquardt_1(const Residual& residual) {
   }
 }
 
-/// Point of the circle of radius R about z in z = 0 that is nearest to the line from `begin`, as
-/// OpenSim finds it.
+/// The point of the circle of radius R about z in z = 0 nearest to the line from `begin`, by
+/// OpenSim's method.
 struct NearCircle {
   Vec3 on_line;
   double distance = 0.0;
