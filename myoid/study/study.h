@@ -43,7 +43,7 @@ struct HeldMassSpec {
 
 struct ModelSpec {
   std::optional<std::filesystem::path> file;  ///< .osim
-  std::string text;     ///< Of the model, instead of the file's: a study that is not on disk.
+  std::string text;     ///< Text of the model instead of a file, for a study that is not on disk.
   std::string builtin;  ///< "arm4" when there is no file.
   std::optional<double> upper_arm_length_m;  ///< Of the built-in arm.
   std::optional<double> forearm_length_m;    ///< Of the built-in arm: elbow to wrist.
@@ -57,12 +57,12 @@ struct ModelSpec {
 
 /// A load cell in an object that the person holds.
 struct LoadCellSpec {
-  std::vector<std::string> channels;     ///< Six, in the order of the matrix's columns.
+  std::vector<std::string> channels;     ///< Six channels, in the order of the matrix's columns.
   std::filesystem::path calibration;     ///< Six rows of six numbers: N and N m for each volt.
-  double sign = 1.0;                     ///< -1: the cell measures the opposite.
-  std::vector<double> zero_s{0.0, 1.0};  ///< Nothing acts on it in this time.
+  double sign = 1.0;                     ///< -1: the cell measures the opposite force.
+  std::vector<double> zero_s{0.0, 1.0};  ///< Time without load on the cell.
   std::optional<std::filesystem::path>
-      instrument;     ///< Model of the object, posed by its markers; none: the study's own model.
+      instrument;     ///< Model of the object, posed by its markers; empty: the study's model.
   std::string frame;  ///< Body of that model: the cell's axes and origin.
   std::string body;   ///< Body of the person that feels the load.
   std::optional<double> lowpass_hz;  ///< Empty: as the motion.
@@ -76,24 +76,24 @@ constexpr ChoiceNames choice_names(Smoothing) { return kSmoothingNames; }
 struct MotionSpec {
   Smoothing smoothing = Smoothing::automatic;
   double cutoff_hz = 6.0;  ///< -3 dB of the two passes together, when `smoothing` is cutoff.
-  double rate_hz = 100.0;  ///< Of the samples that are analysed.
+  double rate_hz = 100.0;  ///< Rate of the samples that are analysed.
   bool operator==(const MotionSpec&) const = default;
 };
 
 struct MarkerSpec {
-  std::map<std::string, std::string> rename;  ///< From the file's name to the model's.
-  std::map<std::string, double> weight;       ///< By the model's name; 1 where absent.
-  char up = 'a';           ///< Vertical axis: 'x', 'y', 'z'; 'a': as each file says.
-  bool undo_swaps = true;  ///< Labels that were exchanged are exchanged back.
-  bool fill_gaps = true;   ///< By splines, and from the segment's other markers.
+  std::map<std::string, std::string> rename;  ///< From the file's labels to the model's.
+  std::map<std::string, double> weight;  ///< Weights by the model's names; 1 for other markers.
+  char up = 'a';                         ///< Vertical axis: 'x', 'y', 'z'; 'a': as each file says.
+  bool undo_swaps = true;                ///< Undoes exchanged labels.
+  bool fill_gaps = true;  ///< Fills gaps by splines and from the segment's other markers.
   bool operator==(const MarkerSpec&) const = default;
 };
 
-/// Coordinates that are measured once, in a posture that is known, and then held.
+/// Coordinates that are measured once in a known posture and then held.
 struct CalibrationSpec {
   std::vector<double> window_s;   ///< Start and end in the trial.
-  std::vector<std::string> free;  ///< Found in the window, all others at their default ...
-  std::vector<std::string> hold;  ///< ... and these of them then locked at their median.
+  std::vector<std::string> free;  ///< Found in the window, with all others at their default.
+  std::vector<std::string> hold;  ///< Coordinates of `free` that are then locked at their median.
   bool operator==(const CalibrationSpec&) const = default;
 };
 
@@ -112,8 +112,8 @@ struct EmgSpec {
   EmgKind kind = EmgKind::raw;
   std::string unit;  ///< "uV", ...; empty: as the file says.
   bool rectify = true;
-  bool notch = true;      ///< Where mains hum is found.
-  bool whitening = true;  ///< Of raw EMG, where the recording allows.
+  bool notch = true;      ///< Removes mains hum where it is found.
+  bool whitening = true;  ///< Whitens raw EMG if the recording allows.
   double highpass_hz = 20.0;
   double lowpass_hz = 6.0;
   bool as_published = false;  ///< The uncorrected 6 Hz design of the source paper.
@@ -131,34 +131,34 @@ struct MuscleSpec {
   std::vector<std::string> osim;  ///< Muscles of the model that act as this one.
   std::string emg;                ///< EMG channel.
   std::optional<std::string>
-      same_as;  ///< Muscle whose channel is used, where there is no electrode.
+      same_as;  ///< For a muscle without an electrode: the muscle whose channel it uses.
   std::map<std::string, double> start;  ///< Starting values by parameter name, SI.
   std::vector<std::string> fixed;       ///< Parameters held at their start.
   bool operator==(const MuscleSpec&) const = default;
 };
 
-/// The trace that EMG and motion have in common, by which their clocks are joined.
+/// The common signal by which the clocks of EMG and motion are joined.
 enum class SyncMatch {
   rising,   ///< Rising edges of a channel.
   falling,  ///< Falling edges.
-  shape,    ///< The shape of the whole signal.
+  shape,    ///< Shape of the whole signal.
 };
 inline constexpr std::string_view kSyncMatchNames[] = {"rising", "falling", "shape"};
 constexpr ChoiceNames choice_names(SyncMatch) { return kSyncMatchNames; }
 
-/// The clock of a trial's EMG and of its loads against the clock of the motion. It acts where the
-/// EMG is in a file of its own. The electromechanical delay is a parameter of the muscles instead.
+/// Relation of the clocks of a trial's EMG and loads to the clock of the motion. Applies if the EMG
+/// has a file of its own. The electromechanical delay is a parameter of the muscles instead.
 struct SyncSpec {
   std::optional<double> offset_s;  ///< Added to the times of the EMG.
   std::optional<double> offset_sd_s;
-  double drift_ppm = 0.0;      ///< Of the file's seconds, from its time 0 on.
-  bool estimate = false;       ///< The offset is told from EMG and motion.
-  std::string emg_trigger;     ///< Channel or event of the EMG's file ...
-  std::string motion_trigger;  ///< ... and of the motion's, or "start".
+  double drift_ppm = 0.0;      ///< Of the file's clock, from its time 0 on.
+  bool estimate = false;       ///< The offset is estimated from EMG and motion.
+  std::string emg_trigger;     ///< Channel or event of the EMG's file.
+  std::string motion_trigger;  ///< Channel or event of the motion's file, or "start".
   std::optional<std::filesystem::path>
-      trigger_file;  ///< On the motion's clock; none: its own file.
+      trigger_file;  ///< File on the motion's clock; empty: the motion's own file.
   SyncMatch match = SyncMatch::rising;
-  double search_s = 0.6;        ///< How far "estimate" and "shape" look, either way.
+  double search_s = 0.6;        ///< Range of the search for "estimate" and "shape", to either side.
   double loads_offset_s = 0.0;  ///< Added to the times of the loads' file.
   double loads_drift_ppm = 0.0;
   bool operator==(const SyncSpec&) const = default;
@@ -167,8 +167,8 @@ struct SyncSpec {
 /// Force plates under the person.
 struct PlateSpec {
   std::filesystem::path file;        ///< .c3d
-  std::vector<std::string> bodies;   ///< By plate; empty: found from the markers.
-  double least_force_n = 10.0;       ///< Below it a plate bears nothing.
+  std::vector<std::string> bodies;   ///< Body on each plate; empty: found from the markers.
+  double least_force_n = 10.0;       ///< Smaller forces count as no load.
   std::optional<double> lowpass_hz;  ///< Empty: as the motion.
   bool operator==(const PlateSpec&) const = default;
 };
@@ -179,13 +179,13 @@ struct TrialSpec {
   std::optional<std::filesystem::path> motion;
   std::optional<std::filesystem::path> emg;
   std::optional<std::filesystem::path>
-      external_torque;  ///< <coordinate>_moment that the surroundings exert [N m].
+      external_torque;  ///< <coordinate>_moment of the surroundings [N m].
   std::optional<std::filesystem::path> external_loads;  ///< OpenSim's ExternalLoads (.xml).
-  std::optional<std::filesystem::path> load_cell;       ///< The recording with its channels.
+  std::optional<std::filesystem::path> load_cell;       ///< File of the load cell's channels.
   std::optional<PlateSpec> plates;
   Use use = Use::calibration;
   double held_mass_kg = 0.0;
-  std::string condition;  ///< Trials of one name are left out together by folds = "condition".
+  std::string condition;  ///< Trials of one condition are left out together by folds = "condition".
   std::optional<double> start_s, end_s;  ///< On the clock of the motion.
   std::optional<SyncSpec> sync;
   bool operator==(const TrialSpec&) const = default;

@@ -51,8 +51,8 @@ CylinderTangents tangents_from(const Vec3& p, double radius) {
   return {foot + aside * u, foot - aside * u};
 }
 
-/// Finds the point where the generator through r meets the plane; r itself if they do not meet
-/// within 10 m.
+/// Finds the point where the generator through r meets the plane; false, with `point` unchanged, if
+/// they do not meet within 10 m.
 bool meets_plane(const Vec3& r, const Vec3& normal, double offset, Vec3& point) {
   constexpr double kHalf_m = 10.0;
   constexpr double kEpsilon = 1e-5;
